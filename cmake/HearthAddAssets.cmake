@@ -4,14 +4,15 @@
 #   [PROFILE FILE]            as --profile
 #   [OPTIONS OPTION ...])     more of `hearth cook`, such as --visibility
 #
-# Cooks a pack before TARGET is built, or as a new target TARGET where there is none. It is cooked again when one of the files
-# changes that it was made of, textures among them, or the cookers do. Names may have blanks. With '#', '$', ':', quotes or
-# '\' in the name of a texture the build cooks every time, or misses that it has changed: CMake cannot tell of them.
+# Cooks a pack before TARGET is built, or as a new target TARGET if there is none. The pack is cooked again
+# when one of its input files changes, textures included, or the cookers change. Names may contain blanks.
+# With '#', '$', ':', quotes or '\' in the name of a texture the build cooks every time, or misses a change:
+# CMake cannot express a dependency on such a name.
 include_guard(GLOBAL)
-# that depfiles are understood, whatever the caller's project asks for
+# depfiles work, whatever policy the caller's project sets
 cmake_policy(VERSION 3.21...3.25)
 
-# Cookers use all cores and count on the memory of the machine: one cook at a time.
+# One cook at a time: cookers use all cores and much of the machine's memory.
 set_property(GLOBAL APPEND PROPERTY JOB_POOLS hearth_cook=1)
 
 function(hearth_add_assets target)
@@ -21,7 +22,7 @@ function(hearth_add_assets target)
       "OPTIONS OPTION ..., and nothing else: ${ARG_UNPARSED_ARGUMENTS} ${ARG_KEYWORDS_MISSING_VALUES}")
   endif()
 
-  # the cookers of this build, or those that are installed on this machine, whatever it builds for
+  # the cookers of this build, or cookers installed on the build machine (also in a cross build)
   set(hearth hearth)
   get_property(programs GLOBAL PROPERTY HEARTH_PROGRAMS)
   if(NOT TARGET hearth)
@@ -52,7 +53,7 @@ function(hearth_add_assets target)
     list(PREPEND ARG_OPTIONS --profile ${profile})
   endif()
 
-  # hearth leaves a pack alone that would be the same again. Ninja knows what that means; make would cook for ever.
+  # hearth leaves an unchanged pack untouched. Ninja handles that (restat); make would cook in every build.
   set(touch)
   if(CMAKE_GENERATOR MATCHES "Makefiles")
     set(touch COMMAND ${CMAKE_COMMAND} -E touch ${ARG_OUTPUT})
@@ -68,7 +69,7 @@ function(hearth_add_assets target)
     COMMENT "Cooking ${name}"
     VERBATIM)
 
-  # a target of its own for each pack of TARGET
+  # a target for each pack of TARGET
   if(NOT TARGET ${target})
     add_custom_target(${target} ALL)
   endif()

@@ -1,5 +1,6 @@
-# hearth_embed_text(TARGET HEADER NAMESPACE FILES ...): text files of the current folder become constants of a library or
-# program. HEADER declares them, "report.css" as `extern const std::string_view report_css;` in NAMESPACE.
+# hearth_embed_text(TARGET HEADER NAMESPACE FILES ...): embed text files of the current folder as constants of
+# a library or program. HEADER declares them, "report.css" as `extern const std::string_view report_css;` in
+# NAMESPACE.
 function(hearth_embed_text target header namespace)
   set(generated ${CMAKE_CURRENT_BINARY_DIR}/embedded_text.cpp)
   set(paths "")

@@ -1,14 +1,15 @@
-# What `cmake --install` puts where, in four components: the programs, the window, the runtime that games ship with, and what
-# is needed to build against it. No installed file holds a path: all may be moved together.
+# Rules of `cmake --install`, in four components: the programs, the viewer window, the runtime that games ship
+# with, and the files to build against it. No installed file contains an absolute path: the installation is
+# relocatable.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 get_property(programs GLOBAL PROPERTY HEARTH_PROGRAMS)
 get_property(exports GLOBAL PROPERTY HEARTH_EXPORTS)
-# All that is installed, for who does not build the tests.
+# Builds everything that is installed, without the tests.
 add_custom_target(hearth_installed DEPENDS ${programs} ${exports})
 
-# hearth-view apart: it needs a window system, and machines that cook have none.
+# hearth-view is a component of its own: it needs a window system, and machines that cook have none.
 set(window_programs ${programs})
 list(FILTER window_programs INCLUDE REGEX "^hearth-view$")
 list(REMOVE_ITEM programs ${window_programs})
@@ -16,11 +17,11 @@ if(programs)
   install(TARGETS ${programs} RUNTIME COMPONENT programs)
 endif()
 if(window_programs)
-  # built on demand, so that it may not be there
+  # built on demand, so it may not exist
   install(TARGETS ${window_programs} RUNTIME COMPONENT window OPTIONAL)
 endif()
 if(programs)
-  # what the command says of itself: see pipelines/command/CMakeLists.txt
+  # shell completions and manual pages of the command: see pipelines/command/CMakeLists.txt
   set(manual ${PROJECT_BINARY_DIR}/manual)
   foreach(section 1 5)
     install(DIRECTORY ${manual}/ DESTINATION ${CMAKE_INSTALL_MANDIR}/man${section} COMPONENT programs
@@ -40,7 +41,7 @@ install(TARGETS ${exports} EXPORT hearthTargets
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hearth)
 install(FILES runtime/c/hearth.h runtime/c/hearth.hpp runtime/c/hearth_helpers.h
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hearth COMPONENT development)
-# format_tables.h is of no library that is installed
+# format_tables.h belongs to no installed library
 install(DIRECTORY formats DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hearth COMPONENT development
   FILES_MATCHING PATTERN "*.h" PATTERN format_tables.h EXCLUDE)
 install(FILES formats/FORMAT.md runtime/c/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/development COMPONENT development)
@@ -60,7 +61,7 @@ install(FILES
     ${PROJECT_BINARY_DIR}/hearthConfigVersion.cmake
   DESTINATION ${config_folder} COMPONENT development)
 
-# pkg-config: paths from the folder of the file itself, so that all may be moved together
+# pkg-config: paths relative to the folder of the file itself, so that the installation is relocatable
 file(RELATIVE_PATH prefix_from_pkgconfig /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 string(REGEX REPLACE "/$" "" prefix_from_pkgconfig ${prefix_from_pkgconfig})
 foreach(module hearth hearth-helpers)

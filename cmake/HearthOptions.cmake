@@ -1,5 +1,5 @@
-# Compiler settings that hold for every target of the project.
-# A project that adds this one as a folder gets the cookers and the libraries, and asks for the rest.
+# Compiler settings of all targets of the project. A project that adds this one as a subdirectory gets the
+# cookers and the libraries; the rest is opt-in.
 option(HEARTH_BUILD_COOKERS "Build hearth and the cookers; off where games are built for other machines" ON)
 option(HEARTH_BUILD_TESTS "Build tests and benchmarks" ${PROJECT_IS_TOP_LEVEL})
 option(HEARTH_BUILD_SAMPLES "Build hearth-samples, the generator of sample sources" ${PROJECT_IS_TOP_LEVEL})
@@ -20,15 +20,16 @@ set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
-# The headers that sources share are parsed, and their templates compiled, once for eight of them. ./dev lint compiles each alone.
+# Unity build: shared headers are parsed, and their templates compiled, once for eight sources. ./dev lint
+# compiles each source alone.
 set(CMAKE_UNITY_BUILD ${HEARTH_JOIN_SOURCES})
 set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
 
 find_program(HEARTH_CCACHE ccache)
 if(HEARTH_CCACHE)
-  # Sources that read precompiled headers are cached all the same: ccache compares the contents of these headers. They name
-  # the build folder, so they are never shared between build folders.
+  # ccache also caches sources with precompiled headers: it compares the contents of these headers. They
+  # contain the path of the build folder, so cached objects are never shared between build folders.
   set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros CCACHE_BASEDIR= ${HEARTH_CCACHE})
   set(CMAKE_C_COMPILER_LAUNCHER ${HEARTH_CCACHE})
   if(HEARTH_PRECOMPILE AND CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
@@ -42,23 +43,23 @@ add_library(hearth_warnings INTERFACE)
 target_compile_options(hearth_warnings INTERFACE
   -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wnon-virtual-dtor -Woverloaded-virtual
   -Wcast-align -Wformat=2 -Wundef)
-# where it is a part of something else, a compiler of tomorrow that warns of more ends no build
+# as a subproject, new warnings of a future compiler must not break the build
 if(PROJECT_IS_TOP_LEVEL)
   target_compile_options(hearth_warnings INTERFACE -Werror)
 endif()
 
 if(HEARTH_JOIN_SOURCES AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-  # GCC takes a source that is joined with others for a header, and warns of its anonymous namespaces
+  # in a unity build GCC takes a joined source for a header, and warns about its anonymous namespaces
   target_compile_options(hearth_warnings INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Wno-subobject-linkage>)
 endif()
 
 add_library(hearth_settings INTERFACE)
-# One result on every machine: no contraction into fused multiply-adds, no reassociation.
-# Position-independent and with threads everywhere, so that all share their precompiled headers.
+# Same results on every machine: no contraction into fused multiply-adds, no reassociation.
+# Position-independent code and threads everywhere, so that all targets can share precompiled headers.
 target_compile_options(hearth_settings INTERFACE -ffp-contract=off -fvisibility=hidden -fPIC -pthread
   $<$<COMPILE_LANGUAGE:CXX>:-fvisibility-inlines-hidden>)
-# GCC's vectoriser of straight-line code drops the rounding of double{float(x)} (seen with 12.2), so a bound that is
-# stored as float would be checked against a value that it does not have. tests/cook/clusters/bounds_test.cpp shows it.
+# GCC's SLP vectoriser drops the rounding of double{float(x)} (seen with 12.2), so a bound that is stored as
+# float would be checked against a different value. tests/cook/clusters/bounds_test.cpp reproduces it.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   target_compile_options(hearth_settings INTERFACE -fno-tree-slp-vectorize)
 endif()
@@ -86,5 +87,6 @@ if(HEARTH_MOLD)
   target_link_options(hearth_settings INTERFACE -fuse-ld=mold)
 endif()
 
-# The code of tests runs once and is compiled often; the references that they share are libraries, and optimised as the rest.
+# Test code runs once and is compiled often, so -O1 is enough; reference implementations that tests share are
+# libraries, optimised as the rest.
 set(hearth_test_options $<$<CONFIG:Release>:-O1>)

@@ -1,6 +1,6 @@
-# Precompiled headers: the standard headers that most sources include are parsed once for each set of compiler flags. A source
-# still includes what it uses: ./dev test compiles each header alone, without them, and a build with
-# -DHEARTH_PRECOMPILE=OFF compiles the sources so.
+# Precompiled headers: the standard headers that most sources include are parsed once for each set of compiler
+# flags. A source still includes all headers that it uses: ./dev test compiles each header alone, without
+# precompiled headers, and a build with -DHEARTH_PRECOMPILE=OFF compiles the sources without them.
 set(hearth_precompiled_headers
   <algorithm> <array> <bit> <cmath> <cstddef> <cstdint> <cstdio> <cstring> <functional> <limits> <map> <memory> <numbers>
   <optional> <span> <string> <string_view> <utility> <vector>)
@@ -19,7 +19,8 @@ function(hearth_precompiled_library name)
   target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
 endfunction()
 
-# hearth_precompile(TARGET PRECOMPILED): TARGET reads the headers of PRECOMPILED, whose compiler flags it must share.
+# hearth_precompile(TARGET PRECOMPILED): TARGET uses the precompiled headers of PRECOMPILED, and must share
+# its compiler flags.
 function(hearth_precompile target precompiled)
   if(HEARTH_PRECOMPILE)
     target_precompile_headers(${target} REUSE_FROM ${precompiled})

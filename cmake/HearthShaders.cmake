@@ -1,8 +1,9 @@
-# GLSL -> SPIR-V 1.3 (Vulkan 1.1) at build time, checked by spirv-val, embedded as words. Nothing of the machine, no
-# path and no debug information, goes in.
+# Compiles GLSL to SPIR-V 1.3 (Vulkan 1.1) at build time, checks it with spirv-val, and embeds it as words.
+# Reproducible: no path and no debug information is included.
 
-# hearth_shader_library(NAME HEADER ... SHADERS ...): a static library with the words of the shaders, whose paths are relative
-# to the current folder; HEADER declares a span for each, by its file name, in namespace hearth::shaders.
+# hearth_shader_library(NAME HEADER ... SHADERS ...): a static library with the words of the shaders, whose
+# paths are relative to the current folder. HEADER declares a span for each, named after its file, in
+# namespace hearth::shaders.
 function(hearth_shader_library name)
   cmake_parse_arguments(ARG "" "HEADER" "SHADERS" ${ARGN})
   find_package(Vulkan REQUIRED COMPONENTS glslc)

@@ -1,4 +1,4 @@
-# Targets that say what they are for; `cmake --build` without a target builds the product.
+# Functions that define targets. `cmake --build` without a target builds the product.
 add_custom_target(hearth_product ALL COMMENT "hearth, the cookers, hearth-samples, hearth-render, hearth-compare, the libraries")
 add_custom_target(hearth_demo COMMENT "The programs that ./dev demo runs")
 add_custom_target(hearth_tests COMMENT "All test programs, and the programs that they run")
@@ -7,10 +7,10 @@ add_custom_target(hearth_threads_tests COMMENT "The tests that run under the thr
 add_custom_target(hearth_benches COMMENT "Benchmarks and measuring programs")
 add_dependencies(hearth_tests hearth_product)
 
-# hearth_library(NAME SOURCES ... LINKS ... PRIVATE_LINKS ... [NO_EXCEPTIONS] [COMPUTES]): a static library held to the
-# project's warnings. LINKS are the arrows of the architecture; PRIVATE_LINKS are third-party libraries that stay inside the
-# .cpp files. COMPUTES: its tests compute so much that it is optimised under the sanitizers too; the rest is not, since
-# compiling would take longer than it saves.
+# hearth_library(NAME SOURCES ... LINKS ... PRIVATE_LINKS ... [NO_EXCEPTIONS] [COMPUTES]): a static library
+# with the project's warnings. LINKS are the dependencies of the architecture; PRIVATE_LINKS are third-party
+# libraries that only the .cpp files use. COMPUTES: the library is optimised in sanitizer builds too, because
+# its tests compute much; the rest is not, since compiling would take longer than it saves.
 function(hearth_library name)
   cmake_parse_arguments(ARG "NO_EXCEPTIONS;COMPUTES" "" "SOURCES;LINKS;PRIVATE_LINKS" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})
@@ -29,20 +29,21 @@ endfunction()
 
 configure_file(${CMAKE_CURRENT_LIST_DIR}/program_version.cpp.in ${PROJECT_BINARY_DIR}/program_version.cpp @ONLY)
 
-# hearth_archive(NAME OBJECTS_OF ... EXPORTS_AS X INCLUDES DIRECTORY): a static library for those who use Hearth, hearth::X,
-# of all that the named libraries are compiled to, without the settings that hold inside the house. INCLUDES is where
-# its headers lie here.
+# hearth_archive(NAME OBJECTS_OF ... EXPORTS_AS X INCLUDES DIRECTORY): a static library for users of Hearth,
+# hearth::X, of all objects of the named libraries, without the project's own compiler settings. INCLUDES is
+# the folder of its headers in the source tree.
 function(hearth_archive name)
   cmake_parse_arguments(ARG "" "EXPORTS_AS;INCLUDES" "OBJECTS_OF" ${ARGN})
   list(TRANSFORM ARG_OBJECTS_OF REPLACE ".+" "$<TARGET_OBJECTS:\\0>")
   add_library(${name} STATIC ${ARG_OBJECTS_OF})
   set_target_properties(${name} PROPERTIES LINKER_LANGUAGE CXX)
-  # by the names of the linker: a target would be one of the caller's project, who need not have it
+  # by linker names: a target would have to exist in the user's project
   target_link_libraries(${name} INTERFACE zstd xxhash)
   hearth_export(${name} ${ARG_EXPORTS_AS} ${ARG_INCLUDES})
 endfunction()
 
-# hearth_export(NAME X INCLUDES): those who use Hearth know the library as hearth::X, installed or as a folder of theirs.
+# hearth_export(NAME X INCLUDES): export the library to users as hearth::X, both installed and as a
+# subdirectory.
 function(hearth_export name exports_as includes)
   add_library(hearth::${exports_as} ALIAS ${name})
   set_target_properties(${name} PROPERTIES EXPORT_NAME ${exports_as})
@@ -50,8 +51,9 @@ function(hearth_export name exports_as includes)
   set_property(GLOBAL APPEND PROPERTY HEARTH_EXPORTS ${name})
 endfunction()
 
-# hearth_executable(NAME SOURCES ... LINKS ... [ON_DEMAND]): a program in <build>/bin. Users get the programs called hearth-...,
-# unless they belong to tests/. ON_DEMAND: it is built when somebody names it, not with the product.
+# hearth_executable(NAME SOURCES ... LINKS ... [ON_DEMAND]): a program in <build>/bin. Programs called
+# hearth-... are installed, except those of tests/. ON_DEMAND: it is built only when named, not with the
+# product.
 function(hearth_executable name)
   cmake_parse_arguments(ARG "ON_DEMAND" "" "SOURCES;LINKS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES} ${PROJECT_BINARY_DIR}/program_version.cpp)

@@ -1,4 +1,4 @@
-# The tests: a few programs, and an entry of ctest for each subject.
+# Functions that define the tests: a few programs, and a ctest entry for each subject.
 find_package(GTest 1.12 REQUIRED)
 
 hearth_precompiled_library(hearth_precompiled_tests
@@ -6,13 +6,14 @@ hearth_precompiled_library(hearth_precompiled_tests
   LINKS GTest::gtest
   OPTIONS ${hearth_test_options})
 
-# hearth_test(NAME [COMPUTES] SOURCES ... LINKS ... [LABELS ...] [RUNS ...] [DEFINITIONS ...] [LAUNCHER ...] [TIMEOUT SECONDS]
-# [COST SECONDS]): an entry of ctest that runs the tests of SOURCES. All entries of a folder with the same labels are linked into one program,
-# FOLDER_LABELS_tests in <build>/tests; each runs in a process of its own.
+# hearth_test(NAME [COMPUTES] SOURCES ... LINKS ... [LABELS ...] [RUNS ...] [DEFINITIONS ...] [LAUNCHER ...]
+# [TIMEOUT SECONDS] [COST SECONDS]): a ctest entry that runs the tests of SOURCES. All entries of a folder
+# with the same labels are linked into one program, FOLDER_LABELS_tests in <build>/tests; each entry runs in
+# its own process.
 #   RUNS      programs of the project that the test starts, from the folder HEARTH_BIN
 #   LAUNCHER  a command that runs the test program
-#   COMPUTES  the test itself computes for minutes unless it is optimised: it is so under the sanitizers too
-#   COST      about how long it takes, where that is long: ctest starts the longest first
+#   COMPUTES  the test computes for minutes unless it is optimised: it is optimised in sanitizer builds too
+#   COST      approximate duration of a long test: ctest starts the longest first
 function(hearth_test name)
   cmake_parse_arguments(ARG "COMPUTES" "TIMEOUT;COST" "SOURCES;LINKS;LABELS;RUNS;DEFINITIONS;LAUNCHER" ${ARGN})
   file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR}/tests ${CMAKE_CURRENT_SOURCE_DIR})
@@ -43,7 +44,7 @@ function(hearth_test name)
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 600)
   endif()
-  # a test cooks what it tests, and leaves the cache of whoever runs it alone
+  # a test cooks its own inputs, and does not use the user's cache
   set_tests_properties(${name} PROPERTIES
     ENVIRONMENT "HEARTH_CACHE=off" LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT} COST "${ARG_COST}")
 endfunction()

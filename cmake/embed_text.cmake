@@ -1,4 +1,4 @@
-# Run by hearth_embed_text: writes the constants. Bytes, since string literals may not be as long as a file.
+# Script of hearth_embed_text: writes the constants as bytes, because a string literal has a length limit.
 set(text "// Generated.\n#include \"${HEADER}\"\n\nnamespace ${NAMESPACE}\n{\n\n")
 foreach(file ${FILES})
   get_filename_component(name ${file} NAME)

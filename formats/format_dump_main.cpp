@@ -1,4 +1,4 @@
-// format_dump: makes the tables of FORMAT.md again, in place.
+// format_dump: regenerates the tables of FORMAT.md in place.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/format_tables.h"
 

@@ -173,7 +173,7 @@ std::string fourCCText(uint32_t type)
     return text;
 }
 
-/// "u32[]" becomes "u32[3]".
+/// Return the type with its array size: "u32[]" becomes "u32[3]".
 std::string typeText(const Field& field)
 {
     std::string type(field.type);

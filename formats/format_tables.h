@@ -1,4 +1,4 @@
-// The tables of FORMAT.md, made from the structs and lists themselves.
+// Generates the tables of FORMAT.md from the structs and lists themselves.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,15 +10,15 @@
 namespace hearth::formats
 {
 
-/// The Markdown table of a block: a record's name ("NodeRecord"), an enum's ("LightType"), "chunks", "issues" or
-/// "limits"; nullopt where there is none of that name.
+/// Return the Markdown table of a block: a record's name ("NodeRecord"), an enum's ("LightType"), "chunks",
+/// "issues" or "limits"; nullopt for an unknown name.
 std::optional<std::string> formatTable(std::string_view name);
 
-/// Names of all blocks; each has its place in FORMAT.md.
+/// Return the names of all blocks; each has its place in FORMAT.md.
 std::vector<std::string_view> formatTableNames();
 
-/// `document` with the text between each `<!-- table NAME -->` and the next `<!-- end -->` made again. A block of a name
-/// that does not exist is left empty.
+/// Return `document` with the text between each `<!-- table NAME -->` and the next `<!-- end -->`
+/// regenerated. A block with an unknown name is left empty.
 std::string withFreshTables(std::string_view document);
 
 } // namespace hearth::formats

@@ -76,7 +76,7 @@ constexpr std::array kLimbs{
     Limb{kRightFoot, {0, -0.035f, -0.02f}, {0, -0.045f, 0.15f}, 0.055f, 0.042f, kLeather},
 };
 
-/// Rigid transform: first rotate, then move.
+/// Rigid transform: rotation, then translation.
 struct Frame
 {
     Float4 rotation{0, 0, 0, 1};
@@ -102,7 +102,7 @@ std::array<Frame, kJointCount> jointFrames(const Pose& pose)
     return frames;
 }
 
-/// The limbs of a pose in model space.
+/// Limbs of a pose in model space.
 struct Body
 {
     std::array<Limb, kLimbs.size()> limbs = kLimbs;
@@ -125,7 +125,7 @@ float distanceToLimb(const Limb& limb, Float3 p)
     return length(p - limb.from - axis * t) - lerp(limb.from_radius, limb.to_radius, t);
 }
 
-/// Signed distance to the skin: limbs of different parts flow into each other over 3 cm.
+/// Return the signed distance to the skin: limbs of different parts blend over 3 cm.
 float distanceToBody(const Body& body, Float3 p)
 {
     float distance = 1e3f;
@@ -134,7 +134,7 @@ float distanceToBody(const Body& body, Float3 p)
     return distance;
 }
 
-/// The four nearest joints, weighted so that only limbs within 6 cm of the nearest count.
+/// Set the four nearest joints, weighted so that only limbs within 6 cm of the nearest count.
 void setInfluences(const Body& body, TriangleMesh& mesh)
 {
     for (const Float3& p : mesh.positions)
@@ -191,7 +191,7 @@ TriangleMesh growSkin(const Pose& pose, float cell)
     return skin;
 }
 
-/// model_from_joint inverted: the frames are rigid.
+/// Return the inverse of model_from_joint, a rigid transform.
 Affine3 jointFromModel(const Frame& frame)
 {
     const Float4 inverse{-frame.rotation.x, -frame.rotation.y, -frame.rotation.z, frame.rotation.w};
@@ -226,7 +226,7 @@ Track rotationTrack(int node, const std::vector<float>& times, const std::vector
     return {node, TrackPath::rotation, TrackKind::linear, times, rotations};
 }
 
-/// Keys of a loop with the tangents of a Catmull-Rom spline: in-tangent, value, out-tangent.
+/// Return keys of a loop with the tangents of a Catmull-Rom spline: in-tangent, value, out-tangent.
 std::vector<Float4> withTangents(const std::vector<float>& times, const std::vector<Float4>& values)
 {
     const size_t last = values.size() - 1; // equals the first value: the clip loops

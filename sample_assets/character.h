@@ -1,4 +1,4 @@
-// A mannequin: a skeleton of seventeen joints, a skin grown over tapered capsules, and two clips.
+// Generates a mannequin: a skeleton of seventeen joints, a skin around tapered capsules, and two clips.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -29,8 +29,8 @@ enum Joint : uint32_t
     kJointCount,
 };
 
-/// Local rotations of all joints and the place of the hips. With no rotation the arms point along +-X and the
-/// character looks along +Z; left is +X.
+/// Local rotations of all joints and the position of the hips. Without rotation the arms point along +-X and
+/// the character looks along +Z; left is +X.
 struct Pose
 {
     Float3 hips{0, 0.93f, 0};
@@ -40,22 +40,22 @@ struct Pose
 };
 
 Pose standingPose();
-/// On a seat 0.42 m high, hands held towards something warm in front.
+/// Return a pose on a seat 0.42 m high, hands held towards something warm in front.
 Pose sittingPose();
 
 struct CharacterNodes
 {
-    int root;                            ///< give it a placement
+    int root;                            ///< root node; set its placement
     std::array<int, kJointCount> joints; ///< joint nodes
 };
 
-/// Adds nodes, skin, mesh and material; the skin is grown in `pose`, which is also the rest pose.
-/// `cell` is the size in metres of the grid that the skin is taken from: about 1.6 / cell^2 triangles.
+/// Add nodes, skin, mesh and material. The skin is generated in `pose`, which is also the rest pose. `cell`
+/// is the size in metres of the grid on which the skin is sampled: about 1.6 / cell^2 triangles.
 CharacterNodes addCharacter(Document& document, const Pose& pose, float cell);
 
-/// One second of walking on the spot; linear rotations, the hips' way is a cubic spline.
+/// Add one second of walking on the spot; linear rotations, the path of the hips is a cubic spline.
 void addWalkClip(Document& document, const CharacterNodes& nodes, const Pose& pose);
-/// Two seconds of waving with the right arm; cubic-spline rotations.
+/// Add two seconds of waving with the right arm; cubic-spline rotations.
 void addWaveClip(Document& document, const CharacterNodes& nodes, const Pose& pose);
 
 } // namespace hearth::samples

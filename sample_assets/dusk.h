@@ -1,4 +1,5 @@
-// The surroundings of the demo at dusk: a painted sky, hazy hills, and how bright everything is against them.
+// Generates the surroundings of the demo at dusk: a painted sky, hazy hills, and the brightness of everything
+// against them.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,17 +8,18 @@
 namespace hearth::samples
 {
 
-/// Direction towards the sun, which has almost set.
+/// Return the direction towards the setting sun.
 Float3 duskSunDirection();
 
-/// A hemisphere of sky around the origin, seen from within, with an afterglow where the sun is, and stars.
+/// Add a hemisphere of sky around the origin, visible from inside, with an afterglow at the sun, and stars.
 void addDuskSky(Document& document, float radius);
 
-/// Hills that fade into the sky with distance: the haze is an emissive picture along v.
+/// Add a material of hills that fade into the sky with distance: the haze is an emissive image along v.
 int addDuskHillMaterial(Document& document);
 
-/// Renderers light a scene with the sky of a day. At dusk surfaces send back this part of what they do by day, and
-/// the scene's own lights are made stronger by as much: only the sky's light gets weaker.
+/// Factor of all surfaces' reflectance at dusk. Renderers light a scene with a daylight sky. Surfaces reflect
+/// this fraction, and the scene's own lights are scaled up by its inverse: so only the sky's light gets
+/// weaker.
 inline constexpr float kDuskReflectance = 0.3f;
 void dimReflectance(Document& document);
 

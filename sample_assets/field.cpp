@@ -23,7 +23,7 @@ constexpr float kFieldSize = 256; // metres: a tile is 4 m wide
 constexpr uint32_t kTilesAcross = 64;
 constexpr uint32_t kTileColumns = 32; // x 16 quads: 1024 triangles
 constexpr uint32_t kTileRows = 16;
-// 8 x 8 tiles are one mesh: one of 1024 triangles is a single page, which can never leave the memory
+// 8 x 8 tiles are one mesh: a mesh of 1024 triangles would be a single page, which is always resident
 constexpr uint32_t kPlotsAcross = 8;
 constexpr uint32_t kPlotColumns = kTileColumns * kTilesAcross / kPlotsAcross;
 constexpr uint32_t kPlotRows = kTileRows * kTilesAcross / kPlotsAcross;
@@ -31,8 +31,8 @@ constexpr uint32_t kRocks = 40;
 constexpr uint32_t kTufts = 10000;
 constexpr Float2 kEye{0, 62}; // x z
 
-/// Neighbours are simplified each for itself and part by up to a pixel: the outermost quads hang down from the border,
-/// so that the sky is not seen through the gap.
+/// Make a plot of ground with a skirt. Neighbouring plots are simplified independently and separate by up to
+/// a pixel: the outermost quads hang down from the border and hide the gap.
 TriangleMesh makePlot(const HeightGrid& grid, uint32_t column, uint32_t row)
 {
     constexpr float kSkirt = 0.4f; // metres
@@ -81,7 +81,7 @@ void addInstances(Document& document, const std::string& name, TriangleMesh mesh
     addRoot(document, node);
 }
 
-/// Rock `index` stands left or right of the way that the camera takes, the larger ones farther away.
+/// Place rock `index` left or right of the camera's path, larger ones farther away.
 Placement rockPlacement(const HeightGrid& grid, uint32_t index)
 {
     const auto random = [&](uint32_t which) { return randomUnit(index * 8 + which, 811); };
@@ -109,7 +109,7 @@ void addRocks(Document& document, const HeightGrid& grid, uint64_t triangles, ui
     }
 }
 
-/// Tufts lie the closer together the nearer they are to the place where the camera starts.
+/// Place tufts of grass, denser near the camera's starting point.
 std::vector<Placement> meadow(const HeightGrid& grid)
 {
     constexpr float kRadius = 70;
@@ -131,7 +131,7 @@ std::vector<Placement> meadow(const HeightGrid& grid)
     return tufts;
 }
 
-/// A summer's day: blue over haze, with fair-weather clouds.
+/// Return the colour of a summer sky: blue over haze, with fair-weather clouds.
 Float4 daySkyColor(Float2 uv)
 {
     const float up = skyDirection(uv).y;

@@ -12,7 +12,7 @@ namespace hearth::samples
 namespace
 {
 
-/// From dull red over orange to pale yellow, as glowing bodies do.
+/// Return the colour of a glowing body, from dull red over orange to pale yellow.
 Float3 glowColor(float heat)
 {
     const float h = clamp01(heat);
@@ -34,7 +34,7 @@ Float4 barkColor(Float2 uv)
     return {c.x, c.y, c.z, 1};
 }
 
-/// 0 cold, 1 white hot; hot in the cracks and at v = 0.
+/// Return the heat of charred wood: 0 cold, 1 white hot; hot in the cracks and at v = 0.
 float charHeat(Float2 uv)
 {
     const TileNoise::Cell plate = TileNoise{11, 411}.cellular({uv.x, uv.y});
@@ -83,14 +83,14 @@ Float4 coalGlow(Float2 uv)
     return {c.x, c.y, c.z, 1};
 }
 
-/// How deep inside the flame: below 0 outside, 1 at the core.
+/// Return the depth inside the flame: below 0 outside, 1 at the core.
 float flameDepth(Float2 uv)
 {
     const float up = 1 - uv.y;
     const float sway = 0.22f * up * TileNoise{3, 431}.fbm({uv.x * 0.3f, uv.y * 0.5f}, 3) +
                        0.16f * up * TileNoise{6, 432}.fbm({uv.x, uv.y * 0.7f}, 3);
     const float across = std::abs(uv.x - 0.5f + sway);
-    // a drop: round below, long above, with tongues torn out of the upper part
+    // a drop: round at the bottom, long at the top, with tongues torn out of the upper part
     const float width = 0.42f * smoothstep(-0.04f, 0.16f, up) * (1 - up) * (1 + 0.4f * up);
     const float tongues = 0.30f * up * TileNoise{5, 433}.ridged({uv.x, uv.y * 0.45f}, 3);
     return (width - tongues * 0.45f - across) / 0.30f;
@@ -207,7 +207,7 @@ int addFlameMaterial(Document& document)
     Material material;
     material.name = "flames";
     const int image = add(document.images, paintColor("flame", 256, 512, flameColor));
-    material.base_color = {0, 0, 0, 1}; // it shines by itself; the picture brings only its outline
+    material.base_color = {0, 0, 0, 1}; // it is emissive; base colour adds only the outline (alpha)
     material.base_color_image = image;
     material.emissive_image = image;
     material.emissive = {1, 1, 1};

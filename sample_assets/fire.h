@@ -1,4 +1,4 @@
-// A campfire: a ring of stones is placed by the scene; here are its logs, its embers and its flames.
+// Generates a campfire: logs, embers and flames. The scene places the ring of stones.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,17 +7,18 @@
 namespace hearth::samples
 {
 
-/// A log of unit length along +Y from the origin, radius `radius`; UV u around, v along.
+/// Make a log of unit length along +Y from the origin, radius `radius`; UV u around, v along.
 TriangleMesh makeLog(float radius, uint32_t seed);
 
-/// Fresh bark all over (`burning` false), or charred with glowing cracks towards v = 0, the burning end.
+/// Add a log material: fresh bark all over (`burning` false), or charred with glowing cracks towards v = 0,
+/// the burning end.
 int addLogMaterial(Document& document, bool burning);
 
-/// A shallow mound of coals, 0.5 m in radius.
+/// Make a shallow mound of coals, 0.5 m in radius.
 TriangleMesh makeEmberBed();
 int addEmberMaterial(Document& document);
 
-/// Crossed flame cards around +Y, about 0.8 m high.
+/// Make crossed flame cards around +Y, about 0.8 m high.
 TriangleMesh makeFlames();
 int addFlameMaterial(Document& document);
 

@@ -14,7 +14,7 @@ namespace
 
 constexpr uint32_t kBladeCount = 17;
 
-/// Blade `index` as seen on the card: its middle line is a parabola, its width tapers to the tip.
+/// Blade `index` on the card: its centre line is a parabola, its width tapers to the tip.
 struct Blade
 {
     float root, lean, height, width, shade;
@@ -32,7 +32,7 @@ Float4 grassTexel(Float2 uv)
 {
     const float up = 1 - uv.y;
     Float4 color{0.06f, 0.09f, 0.022f,
-                 0}; // the colour of a blade where there is none, so that mips have no dark rim
+                 0}; // blade colour also between the blades, so that mips have no dark edges
     for (uint32_t index = 0; index < kBladeCount; ++index)
     {
         const Blade blade = bladeOf(index);
@@ -95,7 +95,7 @@ std::vector<Placement> scatterGrass(const HeightGrid& grid, uint32_t candidates,
                         (random(1) - 0.5f) * grid.shape.size * 0.98f};
         const float distance = std::sqrt(xz.x * xz.x + xz.y * xz.y);
         const float patches =
-            fbm({xz.x * 0.35f, 3, xz.y * 0.35f}, 3, 71); // the field that colours the ground
+            fbm({xz.x * 0.35f, 3, xz.y * 0.35f}, 3, 71); // same noise as the ground's colour
         const float wanted =
             smoothstep(0.25f, -0.2f, patches) * smoothstep(bare_radius, bare_radius + 2, distance);
         const Float3 normal = grid.normalAt(xz);

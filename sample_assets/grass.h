@@ -1,4 +1,4 @@
-// Grass: a tuft of crossed cards with an alpha-masked picture of blades, and where tufts grow.
+// Generates grass: a tuft of crossed cards with an alpha-masked image of blades, and the placement of tufts.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -14,12 +14,13 @@ struct TuftShape
     uint32_t rows = 4;    ///< quads up a card
 };
 
-/// Crossed, bent cards about 0.4 m high, each with two sides; normals lean upwards, so that a meadow is lit like the ground below it.
+/// Make crossed, bent cards about 0.4 m high, each with two sides. Normals lean upwards, so that a meadow is
+/// lit like the ground below it.
 TriangleMesh makeGrassTuft(const TuftShape& shape = {});
 
 int addGrassMaterial(Document& document);
 
-/// Tufts on gentle slopes of the terrain, in patches, outside the circle of `bare_radius` metres.
+/// Place tufts on gentle slopes of the terrain, in patches, outside the circle of `bare_radius` metres.
 std::vector<Placement> scatterGrass(const HeightGrid& grid, uint32_t candidates, float bare_radius,
                                     uint32_t seed);
 

@@ -157,7 +157,7 @@ void addLight(Document& document, Light light, const Placement& placement)
 
 void addLights(Document& document)
 {
-    // The sun stands just over the hills behind, the fire is the brightest thing nearby.
+    // The sun is just above the hills in the back, the fire is the brightest thing nearby.
     addLight(document,
              {.name = "low_sun",
               .kind = LightKind::directional,

@@ -1,4 +1,4 @@
-// The scene of ./dev demo: a campfire at dusk in front of a great boulder.
+// Generates the scene of ./dev demo: a campfire at dusk in front of a large boulder.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,7 +7,8 @@
 namespace hearth::samples
 {
 
-/// `hero_triangles`: of the great boulder. One camera "hearth", a low sun, the fire's point light.
+/// Make the scene. `hero_triangles`: triangles of the boulder. One camera "hearth", a low sun, the fire's
+/// point light.
 Document makeHearthScene(uint64_t hero_triangles, uint32_t texture_size);
 
 } // namespace hearth::samples

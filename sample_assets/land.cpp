@@ -17,7 +17,7 @@ namespace
 {
 
 constexpr float kLandSize = 512;
-constexpr float kSteeper = 2.8f; // than hills are elsewhere: 128 m are made use of
+constexpr float kSteeper = 2.8f; // steeper than hills elsewhere, to use the height of 128 m
 constexpr uint32_t kLandPlotsAcross = 8;
 constexpr uint32_t kRockShapes = 4;
 constexpr uint32_t kRocksOfShape = 30;
@@ -69,7 +69,7 @@ void addInstances(Document& document, const std::string& name, std::vector<Primi
     addRoot(document, node);
 }
 
-/// A place that is not too near to the border.
+/// Return a position that is not too near to the border.
 Float2 placeOf(uint32_t index, uint32_t seed)
 {
     return {(randomUnit(2 * index, seed) - 0.5f) * 0.9f * kLandSize,
@@ -105,7 +105,8 @@ int addPlain(Document& document, const char* name, Float3 color)
     return add(document.materials, material);
 }
 
-/// One room about the origin, its floor at height 0: the front has a door, the sides a window each.
+/// Make a house of one room around the origin, its floor at height 0: the front has a door, each side a
+/// window.
 std::vector<Primitive> makeHouse(Document& document)
 {
     const int plaster = addPlain(document, "plaster", {0.62f, 0.56f, 0.47f});
@@ -121,15 +122,15 @@ std::vector<Primitive> makeHouse(Document& document)
     constexpr float kMiddle = kWallHeight / 2;
     TriangleMesh walls, back, roof;
     append(roof, makeBox({0, -0.75f, 0}, {kHalfWidth + kWall, 0.75f, kHalfDepth + kWall},
-                         0.5f)); // stands in the slope
+                         0.5f)); // its foot is below the slope
     append(roof, makeBox({0, kWallHeight + kWall, 0}, {kHalfWidth + 0.75f, kWall, kHalfDepth + 0.75f}, 0.5f));
     append(back, makeBox({0, kMiddle, -kHalfDepth}, {kHalfWidth + kWall, kMiddle, kWall}, 0.5f));
-    // the front, left and right of a door of 2 x 3 m, and what is above it
+    // front wall left and right of a door of 2 x 3 m, and above the door
     for (const float side : {-1.0f, 1.0f})
         append(walls, makeBox({side * (kHalfWidth + kWall + 1) / 2, kMiddle, kHalfDepth},
                               {(kHalfWidth + kWall - 1) / 2, kMiddle, kWall}, 0.5f));
     append(walls, makeBox({0, (kWallHeight + 3) / 2, kHalfDepth}, {1, (kWallHeight - 3) / 2, kWall}, 0.5f));
-    // the sides, with windows from 1 to 3 m, 3 m wide
+    // side walls, with windows from 1 to 3 m, 3 m wide
     for (const float side : {-kHalfWidth, kHalfWidth})
     {
         constexpr float kInner = kHalfDepth - kWall;
@@ -152,7 +153,7 @@ void addHouses(Document& document, const HeightGrid& grid)
     for (uint32_t i = 0; i < kHouses; ++i)
     {
         const Float2 xz = placeOf(i, 921);
-        // on the highest ground below it: no hill stands in the room
+        // on the highest ground below it, so that no hill reaches into the room
         float height = grid.at(xz);
         for (const float x : {-6.5f, 0.0f, 6.5f})
             for (const float z : {-6.5f, 0.0f, 6.5f})

@@ -25,11 +25,11 @@ struct Boulder
 {
     std::array<CutPlane, 13> planes;
     Float3 strata_axis;
-    Float3 offset; ///< into the noise, so that each seed is another rock
+    Float3 offset; ///< offset into the noise, so that each seed is another rock
     int fine_octaves;
 };
 
-/// Point `index` of `count` spread over the sphere, moved a little by the seed.
+/// Return point `index` of `count` spread over the sphere, perturbed by the seed.
 Float3 spreadDirection(size_t index, size_t count, uint32_t seed)
 {
     const auto i = static_cast<uint32_t>(index);
@@ -49,14 +49,14 @@ Boulder makeBoulder(uint32_t seed, uint32_t grid)
                              0.68f + 0.3f * randomUnit(static_cast<uint32_t>(i) + 100, seed)};
     boulder.strata_axis = normalize({randomUnit(200, seed) - 0.5f, 1.4f, randomUnit(201, seed) - 0.5f});
     boulder.offset = Float3{randomUnit(202, seed), randomUnit(203, seed), randomUnit(204, seed)} * 64.0f;
-    // the finest octave should not be finer than the triangles: each octave halves a wavelength of 1/14
+    // the finest octave must not be finer than the triangles: each octave halves a wavelength of 1/14
     boulder.fine_octaves = 2;
     for (uint32_t resolved = 32; resolved * 2 <= grid; resolved *= 2)
         ++boulder.fine_octaves;
     return boulder;
 }
 
-/// Distance from the centre to the cut sphere, with rounded edges.
+/// Return the distance from the centre to the cut sphere, with rounded edges.
 float cutRadius(const Boulder& boulder, Float3 direction)
 {
     float radius = 1.08f;
@@ -74,7 +74,7 @@ Float3 boulderPoint(const Boulder& boulder, Float3 direction)
     const float radius = cutRadius(boulder, direction);
     const Float3 p = direction * radius + boulder.offset;
 
-    // Bend the domain first, so that neither ridges nor layers run straight.
+    // Warp the domain first, so that neither ridges nor layers run straight.
     const Float3 bend{fbm(p * 1.7f, 3, 11), fbm(p * 1.7f, 3, 12), fbm(p * 1.7f, 3, 13)};
     const Float3 q = p + bend * 0.35f;
     const float cracks = ridged(q * 2.3f, 4, 21);
@@ -89,8 +89,8 @@ Float3 boulderPoint(const Boulder& boulder, Float3 direction)
     return direction * (radius + displacement);
 }
 
-/// Even spacing over the sphere needs tan(c pi/4); this polynomial is within 2 % of it and exact at 0 and +-1,
-/// so that the six sides meet in the same bits.
+/// Warp a cube coordinate for even spacing over the sphere. Exact even spacing is tan(c pi/4); this
+/// polynomial is within 2 % of it and exact at 0 and +-1, so that the six sides meet in the same bits.
 float warpCube(float c)
 {
     return c * (0.75f + 0.25f * c * c);

@@ -1,4 +1,5 @@
-// A boulder: a sphere cut by random planes, roughened by ridges and fractal noise, and its textures.
+// Generates a boulder: a sphere cut by random planes, roughened by ridges and fractal noise, and its
+// textures.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,11 +8,13 @@
 namespace hearth::samples
 {
 
-/// A closed mesh of about `triangle_count` triangles (12 n^2 for some n), about 1 m in radius, standing around the
-/// origin. Six UV charts, one for each side of the cube that was blown up to a sphere; `uv_repeat` texture tiles a side.
+/// Make a closed mesh of about `triangle_count` triangles (12 n^2 for some n), about 1 m in radius, around
+/// the origin. Six UV charts, one for each side of the cube that is projected to the sphere; `uv_repeat`
+/// texture tiles a side.
 TriangleMesh makeRock(uint64_t triangle_count, uint32_t seed, float uv_repeat);
 
-/// Adds base colour, occlusion-roughness-metallic and normal image of `size` texels; returns the material.
+/// Add a material with base colour, occlusion-roughness-metallic and normal image of `size` texels; return
+/// its index.
 int addRockMaterial(Document& document, uint32_t size);
 
 } // namespace hearth::samples

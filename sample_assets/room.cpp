@@ -15,7 +15,7 @@ namespace
 constexpr uint32_t kTextureSize = 512;
 constexpr float kHalfWidth = 3.0f, kHalfDepth = 2.5f, kHeight = 2.8f;
 
-/// Eight boards along v, each with its own shade and grain.
+/// Floor board: eight along v, each with its own shade and grain.
 struct Board
 {
     float gap;   ///< 1 in the joints

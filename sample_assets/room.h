@@ -1,4 +1,4 @@
-// A furnished room: many materials, two point lights, a spot light and surfaces that shine.
+// Generates a furnished room: many materials, two point lights, a spot light and shiny surfaces.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,7 +7,7 @@
 namespace hearth::samples
 {
 
-/// 6 m x 5 m x 2.8 m around the origin, floor at height 0, one camera "room" inside.
+/// Make the room: 6 m x 5 m x 2.8 m around the origin, floor at height 0, one camera "room" inside.
 Document makeRoom();
 
 } // namespace hearth::samples

@@ -94,7 +94,8 @@ Document generateCharacter(const SampleOptions& options)
     return document;
 }
 
-/// A small rock under nodes that mirror, stretch and, nested, shear it: what culling by bounds likes to get wrong.
+/// Make a small rock under nodes that mirror, stretch and, nested, shear it: difficult cases for culling by
+/// bounds.
 Document generateTransforms(const SampleOptions& options)
 {
     Document document;

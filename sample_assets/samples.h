@@ -1,4 +1,4 @@
-// The kinds of sample that the generator knows.
+// Lists the kinds of samples, and generates them.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,8 +13,8 @@ namespace hearth::samples
 
 struct SampleOptions
 {
-    uint64_t triangles = 0;    ///< wanted in the main mesh; 0: the kind's own default
-    uint32_t texture_size = 0; ///< of the rock's images; 0: the kind's own default
+    uint64_t triangles = 0;    ///< target for the main mesh; 0: the kind's own default
+    uint32_t texture_size = 0; ///< size of the rock's images; 0: the kind's own default
 };
 
 struct SampleKind
@@ -26,7 +26,7 @@ struct SampleKind
 
 std::span<const SampleKind> sampleKinds();
 
-/// Make the sample of that name. errors: usage, naming the kinds there are.
+/// Make the sample of that name. errors: usage, naming the available kinds.
 Result<Document> generateSample(std::string_view kind, const SampleOptions& options);
 
 } // namespace hearth::samples

@@ -1,4 +1,4 @@
-// A painted sky: a hemisphere that is seen from within.
+// Generates a painted sky: a hemisphere visible from inside.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,10 +9,11 @@
 namespace hearth::samples
 {
 
-/// Direction of a place in the sky's picture: u once around from +X over -Z, v from the horizon (1) to the zenith (0).
+/// Return the direction of a point in the sky's image: u once around from +X over -Z, v from the horizon (1)
+/// to the zenith (0).
 Float3 skyDirection(Float2 uv);
 
-/// Adds a node "sky": the picture on a hemisphere of `radius` metres around the origin, shown as it is.
+/// Add a node "sky": the image on a hemisphere of `radius` metres around the origin, shown unlit.
 void addSky(Document& document, const std::string& name, float radius, const Picture& picture);
 
 } // namespace hearth::samples

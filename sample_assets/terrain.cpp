@@ -1,5 +1,6 @@
-// Erosion look: octaves count less where the coarser ones are already steep, so slopes are smooth and crests sharp
-// (after the idea in F. K. Musgrave et al., "The Synthesis and Rendering of Eroded Fractal Terrains", 1989).
+// Generates terrain with an erosion look: octaves count less where the coarser ones are already steep, so
+// slopes are smooth and crests sharp (after the idea in F. K. Musgrave et al., "The Synthesis and Rendering
+// of Eroded Fractal Terrains", 1989).
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "sample_assets/terrain.h"
 
@@ -15,7 +16,7 @@ namespace hearth::samples
 namespace
 {
 
-/// Height in units of the coarsest octave; about [-0.6, 0.6].
+/// Return a height in units of the coarsest octave; about [-0.6, 0.6].
 float erodedNoise(Float2 p, int octaves, uint32_t seed)
 {
     constexpr float kStep = 1e-2f; // for the slope of an octave, in its own cells
@@ -30,7 +31,8 @@ float erodedNoise(Float2 p, int octaves, uint32_t seed)
         slope.y += (gradientNoise({p.x, plane, p.y + kStep}, octave_seed) - n) / kStep;
         sum += amplitude * n / (1 + slope.x * slope.x + slope.y * slope.y);
         amplitude *= 0.5f;
-        p = {1.6f * p.x - 1.2f * p.y, 1.2f * p.x + 1.6f * p.y}; // doubles and turns, so that no axis shows
+        // scales by 2 and rotates, so that no axis is visible
+        p = {1.6f * p.x - 1.2f * p.y, 1.2f * p.x + 1.6f * p.y};
     }
     return sum;
 }

@@ -1,4 +1,5 @@
-// Ground: a tile of height field with a clearing in the middle, the hills around it, and their textures.
+// Generates ground: a tile of height field with a clearing in the middle, the hills around it, and their
+// textures.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -21,20 +22,22 @@ struct HeightGrid
     TerrainShape shape;
     std::vector<float> heights; ///< (cells + 1)^2, rows along +Z
 
-    /// Bilinear; the border's height outside.
+    /// Return the bilinear height; the border's height outside.
     float at(Float2 xz) const;
     Float3 normalAt(Float2 xz) const;
 };
 
 HeightGrid makeHeights(const TerrainShape& shape);
 
-/// The tile as a mesh; UVs cover the unit square once.
+/// Make a mesh of the tile; UVs cover the unit square once.
 TriangleMesh makeTerrain(const HeightGrid& grid);
 
-/// A ring of hills from `inner` to `outer` metres that hides the tile's end; v of the UVs grows from 0 to 1 outwards.
+/// Make a ring of hills from `inner` to `outer` metres that hides the end of the tile; v of the UVs grows
+/// from 0 to 1 outwards.
 TriangleMesh makeHills(float inner, float outer, uint32_t segments, uint32_t seed);
 
-/// Colours by slope and height; a bare patch of earth in the clearing. Returns the material.
+/// Add a material with colours by slope and height, and a bare patch of earth in the clearing; return its
+/// index.
 int addTerrainMaterial(Document& document, const HeightGrid& grid, uint32_t texture_size);
 
 } // namespace hearth::samples

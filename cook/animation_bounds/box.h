@@ -1,4 +1,4 @@
-// Boxes in double precision.
+// Intervals and axis-aligned boxes in double precision.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,7 +11,7 @@
 namespace hearth::motion
 {
 
-/// Closed; empty until a value is added.
+/// Closed interval; empty until a value is added.
 struct Interval
 {
     double low = std::numeric_limits<double>::infinity();
@@ -31,7 +31,7 @@ struct Interval
     bool contains(double value) const { return value >= low && value <= high; }
     double middle() const { return 0.5 * (low + high); }
     double half() const { return 0.5 * (high - low); }
-    /// Largest absolute value.
+    /// Return the largest absolute value.
     double magnitude() const { return std::max(std::abs(low), std::abs(high)); }
 };
 

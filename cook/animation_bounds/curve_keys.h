@@ -1,4 +1,4 @@
-// The keys of an animation channel as points and Bezier pieces of what they are keys of.
+// Reads the keys of an animation channel as values and cubic Bezier pieces.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,12 +11,12 @@
 namespace hearth::motion
 {
 
-/// Four numbers of a channel's value; those that it has not are 0.
+/// Components of a channel's value, up to four; missing ones are 0.
 using Value = formats::KeyValue;
-/// Control points of a cubic over parameters 0 to 1.
+/// Control points of a cubic over the parameters 0 to 1.
 using BezierPiece = std::array<Value, 4>;
 
-/// A channel's keys, `count` components from `first` on.
+/// Keys of a channel, restricted to `count` components from `first` on.
 class CurveKeys
 {
 public:
@@ -31,19 +31,19 @@ public:
 
     uint32_t count() const { return keys_.count(); }
 
-    /// Seconds.
+    /// Return the time of a key, seconds.
     double time(uint32_t key) const { return keys_.time(key); }
 
-    /// The last key that is not later than a time; the first where all are.
+    /// Return the last key that is not later than a time; the first key if all are later.
     uint32_t keyBefore(double time) const { return std::max(keys_.keyAfter(time), 1u) - 1; }
 
     Value at(uint32_t key) const { return keys_.value(key, first_, count_); }
 
-    /// Whether the value moves from the key to the next: not where the two are at one time.
+    /// True if the value changes from the key to the next one: false where both keys have the same time.
     bool hasPiece(uint32_t key) const { return key + 1 < count() && time(key + 1) > time(key); }
     bool hasSpline(uint32_t key) const { return isSpline() && hasPiece(key); }
 
-    /// The spline from a key to the next.
+    /// Return the spline from a key to the next one.
     BezierPiece piece(uint32_t key) const
     {
         const double third = (time(key + 1) - time(key)) / 3;

@@ -15,15 +15,16 @@ using namespace formats;
 namespace
 {
 
-// Control points of the eighth of a spline leave its hull by less than 1/64 of what those of the whole do.
+// Subdivisions of a vector spline: control points of an eighth exceed its hull by less than 1/64 of the
+// excess of the whole.
 constexpr int kVectorHalvings = 3;
 
-// Control points of a rotation's piece are this near to each other (cosine of 0.1 rad between quaternions), if 2^10
-// pieces are enough for it.
+// Cosine between quaternions, of 0.1 rad: control points of a rotation's piece are this near to each other,
+// if 2^10 pieces suffice.
 constexpr double kNearCosine = 0.995;
 constexpr int kMostRotationHalvings = 10;
 
-// Below this cosine a piece that is not divided further may go through 0.
+// Cosine below which a piece at the last subdivision may pass through 0.
 constexpr double kConeCosine = 0.5;
 
 Value mean(const Value& a, const Value& b)
@@ -31,7 +32,7 @@ Value mean(const Value& a, const Value& b)
     return {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2]), 0.5 * (a[3] + b[3])};
 }
 
-/// De Casteljau's halves.
+/// Split a piece in halves (de Casteljau).
 std::array<BezierPiece, 2> halves(const BezierPiece& b)
 {
     const Value ab = mean(b[0], b[1]), bc = mean(b[1], b[2]), cd = mean(b[2], b[3]);
@@ -65,7 +66,7 @@ void addAll(const CurveKeys& keys, const AddValue& add)
     }
 }
 
-/// The least cosine between two of the points; -1 where one is 0.
+/// Return the smallest cosine between two of the points; -1 where a point is 0.
 double leastCosine(const BezierPiece& piece)
 {
     double least = 1;

@@ -1,4 +1,4 @@
-// What an animation channel's value can be at any time: points whose convex hull holds it.
+// Bounds the values of an animation channel at any time by points whose convex hull contains them.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,21 +11,21 @@
 namespace hearth::motion
 {
 
-/// Add the box of three components of a translation or scale. Splines are held by their Bezier control points, which
-/// are subdivided until they lie close.
+/// Add the box of a translation or scale channel (three components). Splines are bounded by their Bezier
+/// control points, which are subdivided until they lie close to the curve.
 void addValues(const formats::MotionTables& tables, const formats::AnimationChannelRecord& channel,
                Box3d& box);
 
-/// Add the range of component `component`, a morph weight.
+/// Add the range of component `component` of a morph weight channel.
 void addValues(const formats::MotionTables& tables, const formats::AnimationChannelRecord& channel,
                uint32_t component, Interval& range);
 
-/// Quaternions of any length but 0. What they stand for is the cone of each piece's points: rotations between the keys
-/// are on arcs, so inside the cone.
+/// Quaternions of any length above 0 that bound rotations. Between two keys or control points, rotations lie
+/// in the cone of the points, because they follow arcs.
 struct RotationPoints
 {
     std::vector<formats::Quaternion> points;
-    bool unbounded = false; ///< a spline goes through 0: any rotation
+    bool unbounded = false; ///< a spline passes through 0: any rotation is possible
 };
 
 /// Add the points of a rotation channel.

@@ -23,7 +23,7 @@ Affine3d difference(const Affine3d& a, const Affine3d& b)
     return d;
 }
 
-/// The middle of the box, in twelve dimensions, around the matrices.
+/// Return the middle of the bounding box, in twelve dimensions, of the matrices.
 Affine3d middleOf(const std::vector<Affine3d>& matrices)
 {
     Affine3d middle;
@@ -38,8 +38,8 @@ Affine3d middleOf(const std::vector<Affine3d>& matrices)
     return middle;
 }
 
-/// A member of a set takes no two points farther apart than `norm`: where its slack allows more, the pivot's place and
-/// a ball around it say more.
+/// Limit the slack by `norm`: no member of a set has a larger operator norm. Where linear_slack exceeds it,
+/// replace the matrices by the constant image of the pivot, with a ball of that slack around it.
 void limitSlack(MatrixSet& set)
 {
     if (set.linear_slack <= set.norm)
@@ -53,10 +53,11 @@ void limitSlack(MatrixSet& set)
     set.hull_norm = 0;
 }
 
-/// The point that least squares of how far the matrices move it are smallest at, or the set's pivot.
+/// Return the point for which the matrices' squared displacements have the smallest sum, or the set's pivot.
 Double3 stillPoint(const MatrixSet& set)
 {
-    // sum of A^T (A x + b) = 0 for the matrices less the unit matrix, A their linear part and b the rest
+    // solve sum of A^T (A x + b) = 0 for the matrices minus the unit matrix, with linear part A and
+    // translation b
     Affine3d normal{};
     for (auto& row : normal.m)
         std::fill(std::begin(row), std::end(row), 0.0);
@@ -68,7 +69,7 @@ Double3 stillPoint(const MatrixSet& set)
                 for (size_t k = 0; k < 3; ++k)
                     normal.m[i][j] += d.m[k][i] * d.m[k][j];
     }
-    // turns about one axis leave a line where it is: the point of it that is nearest to the pivot
+    // regularise: rotations about one axis leave a line unmoved; choose its point nearest to the pivot
     double trace = 0;
     for (size_t i = 0; i < 3; ++i)
         trace += normal.m[i][i];
@@ -109,7 +110,7 @@ MatrixSet composed(const MatrixSet& second, const MatrixSet& first)
     set.norm = second.norm * first.norm;
     set.hull_norm = second.hull_norm * first.hull_norm;
     set.pivot = first.pivot;
-    double away = 0; // from the second pivot to where the first takes its own
+    double away = 0; // from the second pivot to the image of the first pivot
     for (const Affine3d& before : first.hull)
         away = std::max(away, length(transformPoint(before, first.pivot) - second.pivot));
     // D2 D1 x = C2 C1 x + E2 (C1 x) + D2 E1 x, for members D = C + E

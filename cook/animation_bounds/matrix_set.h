@@ -1,4 +1,4 @@
-// Sets of affine transforms that are closed under taking averages: what one joint can do as another one sees it.
+// Convex sets of affine transforms: bounds the motion of a joint relative to another joint.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,25 +9,26 @@
 namespace hearth::motion
 {
 
-/// All D = C + E with C in the convex hull of the matrices, and |E x| <= linear_slack * |x - pivot| + point_slack for
-/// all points x.
+/// Set of all transforms D = C + E with C in the convex hull of the matrices, and
+/// |E x| <= linear_slack * |x - pivot| + point_slack for all points x.
 struct MatrixSet
 {
     std::vector<Affine3d> hull;
-    double hull_norm = 1; ///< at least the operator norm of each matrix of the hull
-    double norm = 1;      ///< at least that of each transform that the set is to hold
+    double hull_norm = 1; ///< upper bound for the operator norm of each matrix of the hull
+    double norm = 1;      ///< upper bound for the operator norm of each transform that the set must contain
     Double3 pivot;
     double linear_slack = 0;
     double point_slack = 0;
 };
 
-/// The set of one.
+/// Return the set of one transform.
 MatrixSet only(const Affine3d& transform);
 
-/// Everything that one of `second` does to what one of `first` did. The pivot is that of `first`.
+/// Return the set of all products of a transform of `first`, then one of `second`. The pivot is the pivot of
+/// `first`.
 MatrixSet composed(const MatrixSet& second, const MatrixSet& first);
 
-/// A set of one matrix with slack that holds the set.
+/// Set of one matrix with slack, a superset of a MatrixSet.
 struct MatrixBall
 {
     Affine3d center;
@@ -35,16 +36,18 @@ struct MatrixBall
     double linear_slack = 0;
     double point_slack = 0;
 
-    /// How far at most any transform of the set takes a point from where the center takes it.
+    /// Return an upper bound for the distance between the images of a point under any transform of the set
+    /// and under the center.
     double slackAt(Double3 point) const { return linear_slack * length(point - pivot) + point_slack; }
 };
 MatrixBall ballAround(const MatrixSet& set);
 
-/// How far the transforms D of a set are from doing nothing: |D x - x| <= rotation * |x - pivot| + shift.
+/// Upper bound for the distance of a set's transforms D from the identity:
+/// |D x - x| <= rotation * |x - pivot| + shift.
 struct Departure
 {
     Double3 pivot;
-    double rotation = 0; ///< operator norm of D's linear part less the unit matrix
+    double rotation = 0; ///< operator norm of D's linear part minus the unit matrix
     double shift = 0;    ///< metres
 };
 Departure departureOf(const MatrixSet& set);

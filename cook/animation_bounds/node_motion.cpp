@@ -16,13 +16,14 @@ using namespace formats;
 namespace
 {
 
-// A scale below this share of the node's largest counts as 0.
+// Share of the node's largest scale below which a scale counts as 0.
 constexpr double kLeastScale = 1e-5;
 
-// Single precision in the tables and in a runtime's sampling may differ from this by a few roundings.
+// Relative margin for single precision in the tables and in a runtime's sampling: a few roundings.
 constexpr double kRoundingMargin = 1e-7;
 
-/// Points of an axis whose convex hull, up to `slack`, is the interval: one where the interval is short enough.
+/// Points on an axis whose convex hull, up to `slack`, is an interval: one point if the interval is short
+/// enough.
 struct Ends
 {
     std::array<double, 2> values{};
@@ -37,7 +38,7 @@ Ends endsOf(const Interval& interval, double tolerance)
     return {{interval.low, interval.high}, 2, 0};
 }
 
-/// Corners of a box, but axes within the tolerance have their middle for both ends.
+/// Corners of a box. Axes shorter than the tolerance are replaced by their middle.
 struct Corners
 {
     std::vector<Double3> points;
@@ -87,7 +88,7 @@ double hullNorm(std::span<const Matrix3> matrices)
     return norm;
 }
 
-/// Tolerance of rotations and scales: each takes half.
+/// Return the tolerance of the rotation: half of the linear tolerance if scales move, too, else all of it.
 double ofRotation(const NodeMotion& motion, Tolerance tolerance, double scale)
 {
     const bool scales_move = largest(half(motion.scales)) > kRoundingMargin * 10 * magnitude(motion.scales);
@@ -100,7 +101,7 @@ void grow(Box3d& box)
         axis.grow(kRoundingMargin * axis.magnitude());
 }
 
-/// What the channels move, before they are put together.
+/// Values of all channels of a node, before they are combined.
 struct Gathered
 {
     Box3d translations;
@@ -236,7 +237,7 @@ MatrixSet nodeFromParent(const NodeMotion& motion, Tolerance tolerance)
         for (const Double3 s : scales.points)
             for (const Double3 t : translations.points)
             {
-                // the transposed rotation is the inverse one
+                // the inverse of a rotation matrix is its transpose
                 Affine3d inverse{{{r[0][0] * s.x, r[1][0] * s.x, r[2][0] * s.x, 0},
                                   {r[0][1] * s.y, r[1][1] * s.y, r[2][1] * s.y, 0},
                                   {r[0][2] * s.z, r[1][2] * s.z, r[2][2] * s.z, 0}}};
@@ -251,7 +252,7 @@ MatrixSet nodeFromParent(const NodeMotion& motion, Tolerance tolerance)
     set.hull_norm = rotation_norm * scale;
     set.pivot = middle(motion.translations);
     set.linear_slack = rotations.slack * scale + rotation_norm * largest(scales.slack);
-    // away from the pivot by as much as the translation can be from its middle
+    // the translation can be as far from the pivot as half its box is large
     set.point_slack =
         set.linear_slack * length(half(motion.translations)) + scale * length(translations.slack);
     return set;

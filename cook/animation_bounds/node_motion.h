@@ -1,4 +1,4 @@
-// Where a node can be in its parent: over all clips at all times, their blends, and the rest pose.
+// Bounds the local transform of a node over all clips at all times, their blends, and the rest pose.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,47 +11,51 @@
 namespace hearth::motion
 {
 
-/// What a node's translation, rotation and scale can be, each by itself. They hold the convex hull (of rotations: the
-/// cone of their quaternions) of all keys and splines, so any blend of any number of poses.
+/// Bounds of a node's translation, rotation and scale, each by itself. They contain the convex hull (for
+/// rotations the cone of their quaternions) of all keys and splines, so they contain any blend of any number
+/// of poses.
 struct NodeMotion
 {
     Box3d translations;
     RotationSet rotations;
     Box3d scales;
-    std::optional<Affine3d> fixed; ///< a node with a matrix alone
+    /// set for a node with a matrix instead of translation, rotation and scale
+    std::optional<Affine3d> fixed;
 
-    /// Whether any scale is 0, or so near to it that dividing by it says nothing.
+    /// True if any scale can be 0, or so near to 0 that division by it gives no useful bound.
     bool canBeFlat() const;
 
-    /// Whether it can turn its inside out.
+    /// True if the node can mirror, so that triangles are turned inside out.
     bool canMirror() const;
 
-    /// At least the operator norm of the linear part at any time; of its inverse, unless it can be flat.
+    /// Return an upper bound for the operator norm of the linear part at any time; inverseNorm: of the
+    /// inverse, for a node that cannot be flat.
     double norm() const;
     double inverseNorm() const;
 };
 
-/// One for each node.
+/// Compute the motion of each node.
 std::vector<NodeMotion> nodeMotions(const formats::MotionTables& tables);
 
-/// How much a set may leave what it is to hold.
+/// Allowed distance between a set and the exact bounds.
 struct Tolerance
 {
-    double linear = 0; ///< of the linear part, in the operator norm
-    double shift = 0; ///< metres in the space that the transform leads to; for an inverse, that it comes from
+    double linear = 0; ///< of the linear part, operator norm
+    double shift = 0;  ///< metres in the target space of the transform; for an inverse, in its source space
 };
 
-/// Transforms from the node to its parent.
+/// Return the transforms from the node to its parent.
 MatrixSet parentFromNode(const NodeMotion& motion, Tolerance tolerance);
 
-/// Transforms from the parent to the node. The node cannot be flat.
+/// Return the transforms from the parent to the node. The node must not be flat.
 MatrixSet nodeFromParent(const NodeMotion& motion, Tolerance tolerance);
 
-/// At least the number of matrices in either set, perhaps beyond the range of an integer.
+/// Return an upper bound for the number of matrices in either set. It may exceed the range of integers.
 double hullSize(const NodeMotion& motion, Tolerance tolerance);
 
-/// Morph weights of a node: one range for each target, from 0 to 1 and wherever the clips and the rest pose take them.
-/// targets  as many as the mesh has
+/// Return the ranges of a node's morph weights, one for each target: from 0 to 1 and all values in clips and
+/// the rest pose.
+/// targets  number of targets of the mesh
 std::vector<Interval> morphWeightRanges(const formats::MotionTables& tables, uint32_t node, size_t targets);
 
 } // namespace hearth::motion

@@ -18,19 +18,20 @@ using namespace formats;
 namespace
 {
 
-// A clip is cut into at most so many spans, all clips together into about so many.
+// Maximum number of spans of a clip, and approximate number of all clips together.
 constexpr uint32_t kMostLeaves = 128;
 constexpr uint32_t kLeavesOfAllClips = 2048;
 constexpr uint32_t kLeastLeaves = 8;
 
-// Blends are cut down to this share of the way between two clips.
+// Smallest range of weights that blends are split into.
 constexpr double kLeastWeights = 1.0 / 64;
 
-// How many radians, between quaternions, a rotation counts as that can be any.
+// Remainder, as an angle between quaternions in radians, that an unknown rotation counts as.
 constexpr double kAnyRotation = std::numbers::pi / 2;
 
-// What a polynomial leaves out of a turn by so many radians in all, as a share of it, over their square. Measured: with
-// a hundred times more, boxes of the fox come out 1.9 times the tightest, with this 1.6, for the same work.
+// Error of polynomials for a rotation by x radians in all, as a share of x, divided by x^2. Measured: with a
+// value a hundred times larger, boxes of the fox are 1.9 times the tightest, with this one 1.6, for the same
+// work.
 constexpr double kBend = 0.005;
 
 double angleBetween(const Quaternion& a, const Quaternion& b)
@@ -38,7 +39,7 @@ double angleBetween(const Quaternion& a, const Quaternion& b)
     return std::acos(std::min(1.0, std::abs(dot(a, b))));
 }
 
-/// Seconds at which a channel has a key, in order.
+/// Return the times at which a channel has a key, seconds, sorted.
 std::vector<double> keyTimes(const MotionTables& tables, const AnimationRecord& animation)
 {
     std::vector<double> times;
@@ -54,7 +55,7 @@ std::vector<double> keyTimes(const MotionTables& tables, const AnimationRecord& 
     return times;
 }
 
-/// At the key that is nearest to the middle of a span, or there if all are near its ends.
+/// Return the key time nearest to the middle of a span, or the middle if no key is in the middle half.
 double cutOf(TimeSpan span, std::span<const double> key_times)
 {
     const double middle = 0.5 * (span.from + span.to), quarter = 0.25 * (span.to - span.from);
@@ -75,7 +76,7 @@ double cutOf(TimeSpan span, std::span<const double> key_times)
     return cut;
 }
 
-/// What a node does in a span of time: what polynomials say, and what they leave out.
+/// Amount of motion of a node in a time span: size of the polynomials' motion, and of their remainders.
 struct Motion
 {
     double smooth = 0;
@@ -96,7 +97,7 @@ void addMotion(const NodeSpan& span, Motion& motion)
     add(span.translation, 1 / (size + 1e-30));
 }
 
-/// (1 - w) from + w to.
+/// Return (1 - w) from + w to.
 VectorModel blended(const TimeCurve& from, const TimeCurve& to, Interval weights)
 {
     const double weight = weights.middle(), half = weights.half();
@@ -207,7 +208,7 @@ std::vector<PoseRegion> PoseRegions::all() const
 
 PoseRegion PoseRegions::sample(size_t number) const
 {
-    // the plastic number's sequence, in four dimensions spread evenly (M. Roberts, 2018)
+    // sequence of the plastic number, evenly spread in four dimensions (M. Roberts, 2018)
     const auto share = [&](double step)
     {
         const double at = 0.5 + step * static_cast<double>(number);
@@ -218,7 +219,7 @@ PoseRegion PoseRegions::sample(size_t number) const
     const auto count = static_cast<double>(clips_.size());
     const auto from = static_cast<uint32_t>(number % clips_.size());
     const auto to = static_cast<uint32_t>(share(0.856674884) * count);
-    // half of them of one clip alone
+    // half of the samples are in one clip alone
     const double weight = number % 2 == 0 ? 0.0 : share(0.733891856);
     return {from, leaf(from, share(0.628706728)), to, leaf(to, share(0.538597197)), weight, weight};
 }
@@ -242,7 +243,7 @@ std::optional<std::array<PoseRegion, 2>> PoseRegions::halves(const PoseRegion& r
     const double from_share = 1 - region.low_weight, to_share = region.high_weight;
     const double along_weights = 0.5 * (between + from_motion.smooth + to_motion.smooth) * weights;
     const double all = from_motion.smooth * from_share + to_motion.smooth * to_share + along_weights;
-    // what polynomials leave out grows with the third power
+    // the error of polynomials grows with the third power
     const double bend = std::min(1.0, kBend * all * all);
     const double of_from = can_cut_from ? (from_motion.rough + from_motion.smooth * bend) * from_share : -1;
     const double of_to = can_cut_to ? (to_motion.rough + to_motion.smooth * bend) * to_share : -1;

@@ -1,5 +1,6 @@
-// Parts of the space of all poses: two clips, a span of time in each, and a span of weights of their blend. In a small part
-// joints move together, which sets of each joint's poses by itself do not know.
+// Divides the space of all poses into regions: two clips, a time span in each, and a range of blend weights.
+// In a small region the motions of joints are correlated, which bounds of each joint by itself cannot
+// express.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,7 +14,7 @@
 namespace hearth::motion
 {
 
-/// Where a node is in its parent for a span of time.
+/// Local transform of a node during a time span.
 struct NodeSpan
 {
     TimeCurve translation;
@@ -21,16 +22,17 @@ struct NodeSpan
     TimeCurve scale;
 };
 
-/// Where a node is in its parent in a region of poses: x0 is the time in the first clip, x1 that in the second, x2 the
-/// weight, each from -1 to 1 over the region.
+/// Local transform of a node in a region of poses: x0 is the time in the first clip, x1 the time in the
+/// second clip, x2 the weight, each from -1 to 1 over the region.
 struct NodeModel
 {
     VectorModel translation;
-    TaylorModel<4> rotation; ///< of length 1 up to its remainder, up to its sign
+    TaylorModel<4> rotation; ///< of length 1 up to the remainder, with either sign
     VectorModel scale;
 };
 
-/// Two spans of time, by their place in the trees of two clips, and the weights of the second in the blend.
+/// Region of poses: two time spans, as indices into the span trees of two clips, and weights of the second
+/// clip.
 struct PoseRegion
 {
     uint32_t from_clip = 0;
@@ -41,52 +43,56 @@ struct PoseRegion
     double high_weight = 1;
 };
 
-/// Any number of threads may ask at once.
+/// Binary subdivision of the space of all poses. Thread-safe.
 class PoseRegions
 {
 public:
-    /// tables, nodes  outlive it
+    /// Construct from a scene's motion.
+    /// tables, nodes  must outlive this
     PoseRegions(const formats::MotionTables& tables, std::span<const NodeMotion> nodes);
 
-    /// Regions that hold all poses together: the clips, the rest pose as one more, and all blends of two.
+    /// Return regions that cover all poses: each clip, the rest pose as a further clip, and all blends of
+    /// two.
     std::vector<PoseRegion> all() const;
 
-    /// A region as small as they get, each `number` another one, spread over all clips, times and weights.
+    /// Return a smallest region. The results for different `number` are spread over all clips, times and
+    /// weights.
     PoseRegion sample(size_t number) const;
 
-    /// The two halves of a region, cut where it moves the most; nothing where it cannot be cut.
-    /// nodes  those whose motion counts
+    /// Split a region in two along the parameter with the most motion. Return nothing if the region cannot be
+    /// split.
+    /// nodes  nodes whose motion counts
     std::optional<std::array<PoseRegion, 2>> halves(const PoseRegion& region,
                                                     std::span<const uint32_t> nodes) const;
 
-    /// What a node does in a region.
+    /// Return the local transform of a node over a region.
     NodeModel modelOf(const PoseRegion& region, uint32_t node) const;
 
-    /// A pose of the node in the region, or near it: all nodes at the middle of the times and weights.
+    /// Return a pose of the node in the region, or near it: all nodes at the middle of the times and weights.
     formats::NodePose middleOf(const PoseRegion& region, uint32_t node) const;
 
-    /// Of a part of a clip.
+    /// Return the time span of a node of a clip's span tree.
     TimeSpan timeOf(uint32_t clip, uint32_t span) const { return clips_[clip].times[span]; }
 
-    /// Nodes with a matrix alone.
+    /// Return the transform of a node that has a matrix, nothing for other nodes.
     const std::optional<Affine3d>& fixed(uint32_t node) const { return nodes_[node].fixed; }
 
 private:
-    /// Filled when it is asked for.
+    /// Curves of all nodes in one span, computed on first use.
     struct Part
     {
         std::once_flag once;
         std::vector<NodeSpan> spans; ///< by node
     };
 
-    /// A clip's time in parts: 1 is all of it, 2 i and 2 i + 1 what i is cut into. Cuts are at keys where there are any
-    /// near the middle: between keys, curves are smooth.
+    /// Binary tree of a clip's time spans: part 1 is the whole clip, part i is split into 2 i and 2 i + 1.
+    /// Splits are at keys if there are any near the middle, because curves are smooth between keys.
     struct Clip
     {
-        const formats::AnimationRecord* animation = nullptr; ///< null: the rest pose
+        const formats::AnimationRecord* animation = nullptr; ///< null for the rest pose
         uint32_t leaves = 1;
-        std::vector<TimeSpan> times;   ///< by part; 0 is not used
-        std::unique_ptr<Part[]> parts; ///< as many
+        std::vector<TimeSpan> times;   ///< by part; entry 0 is not used
+        std::unique_ptr<Part[]> parts; ///< by part
     };
 
     Clip clipOf(const formats::AnimationRecord& animation) const;

@@ -24,7 +24,7 @@ inline formats::Quaternion scaled(const formats::Quaternion& q, double by)
     return {q[0] * by, q[1] * by, q[2] * by, q[3] * by};
 }
 
-/// Of length 1; no rotation where it is 0, as poses have it.
+/// Return the quaternion scaled to length 1; the identity if its length is 0, as in poses.
 inline formats::Quaternion normalizedOrNone(const formats::Quaternion& q)
 {
     const double l = length(q);
@@ -36,7 +36,7 @@ inline formats::Quaternion conjugate(const formats::Quaternion& q)
     return {-q[0], -q[1], -q[2], q[3]};
 }
 
-/// First b, then a.
+/// Return the product: rotation b, then a.
 inline formats::Quaternion multiply(const formats::Quaternion& a, const formats::Quaternion& b)
 {
     return {a[3] * b[0] + a[0] * b[3] + a[1] * b[2] - a[2] * b[1],

@@ -11,7 +11,7 @@ using namespace formats;
 
 RegionChain::RegionChain(std::span<const NodeRecord> nodes, uint32_t main, std::span<const uint32_t> joints)
 {
-    // the last is none: the world, which all trees hang on
+    // the last entry is none: the world, the common root of all trees
     std::vector<uint32_t> ancestors{main};
     while (ancestors.back() != kNone)
         ancestors.push_back(nodes[ancestors.back()].parent);
@@ -22,7 +22,7 @@ RegionChain::RegionChain(std::span<const NodeRecord> nodes, uint32_t main, std::
         link_of_node[reached] = static_cast<uint32_t>(links_.size());
         links_.push_back(link);
     };
-    size_t climbed = 0; // the highest ancestor with a link
+    size_t climbed = 0; // index of the highest ancestor with a link
     for (const uint32_t joint : joints)
     {
         std::vector<uint32_t> below;

@@ -28,23 +28,23 @@ constexpr std::array<std::array<int, 3>, kSlabCount> kSlabs{{{1, 0, 0},
                                                              {1, -1, 1},
                                                              {-1, 1, 1}}};
 
-// Rounding of a projection, far above what double precision leaves.
+// Margin for the rounding of a projection, far above the error of double precision.
 constexpr double kSlabMargin = 1e-9;
 
-// Two rotations with a smaller cosine between their quaternions count as half a turn apart: either arc may be the
+// Cosine between quaternions below which two rotations count as half a turn apart: either arc may be the
 // shorter one.
 constexpr double kLeastCosine = 1e-5;
 
-// Rotations whose quaternions are this near to one circle are bounded as turns about one axis.
+// Distance of quaternions from a common circle below which rotations are bounded as rotations about one axis.
 constexpr double kNearCircle = 0.02;
 
-// Largest half width of a cell: control points stand out by less than a third.
+// Maximum half width of a cell: control points then exceed the hull by less than a third.
 constexpr double kMostCellHalf = 0.4;
 
-// Where a projection reaches farther than this, the set is hardly smaller than that of all rotations.
+// Maximum extent of a projection. Larger sets are hardly smaller than the set of all rotations.
 constexpr double kMostReach = 4;
 
-// More pairs than this are not looked at one by one.
+// Maximum number of pairs that are tested one by one.
 constexpr size_t kMostPairs = 4'000'000;
 
 double along(const std::array<int, 3>& direction, Double3 u)
@@ -52,7 +52,7 @@ double along(const std::array<int, 3>& direction, Double3 u)
     return direction[0] * u.x + direction[1] * u.y + direction[2] * u.z;
 }
 
-/// The direction that the points, whatever their signs, lie around.
+/// Return the principal directions of the points, irrespective of their signs.
 Eigenvectors<4> spread(std::span<const Quaternion> points)
 {
     std::array<std::array<double, 4>, 4> sum{};
@@ -66,11 +66,12 @@ Eigenvectors<4> spread(std::span<const Quaternion> points)
     return eigenvectors(sum);
 }
 
-/// Whether all points, each with the sign that brings it nearer to `center`, lie less than a quarter turn of S3 apart,
-/// so that the shorter arc between any two of their blends stays in their cone.
+/// True if all points, each with the sign that brings it nearer to `center`, lie less than a quarter turn of
+/// S3 apart. The shorter arc between any two of their blends then stays in their cone.
 bool areInOneCone(std::span<const Quaternion> points, const Quaternion& center)
 {
-    constexpr double kEighthTurn = 0.7072; // cosine, rounded up: two such are less than a quarter apart
+    // cosine, rounded up: two such points are less than a quarter turn apart
+    constexpr double kEighthTurn = 0.7072;
     const auto cosine = [](const Quaternion& a, const Quaternion& b)
     { return dot(a, b) / (length(a) * length(b)); };
     double least = 1;
@@ -90,7 +91,7 @@ bool areInOneCone(std::span<const Quaternion> points, const Quaternion& center)
     return true;
 }
 
-/// Gnomonic coordinates from a frame.
+/// Return the gnomonic coordinates relative to a frame.
 Double3 projected(const Quaternion& frame, const Quaternion& q)
 {
     const Quaternion turned = multiply(conjugate(frame), q);
@@ -102,7 +103,7 @@ Double3 unit(const std::array<double, 3>& v)
     return {v[0], v[1], v[2]};
 }
 
-/// Principal axes of vectors.
+/// Return the principal axes of vectors.
 std::array<Double3, 3> principalAxes(std::span<const Double3> vectors)
 {
     Double3 mean;
@@ -145,7 +146,7 @@ Box3d boxOf(const RotationPatch& patch)
     return {patch.slabs[0], patch.slabs[1], patch.slabs[2]};
 }
 
-/// The points are in one cone around the frame.
+/// Return the patch of points that lie in one cone around the frame.
 RotationPatch patchAround(const Quaternion& frame, std::span<const Quaternion> points)
 {
     RotationPatch patch;
@@ -163,7 +164,8 @@ RotationPatch patchAround(const Quaternion& frame, std::span<const Quaternion> p
     return patch;
 }
 
-/// A frame in the middle of the points, which are in one cone around `center`: few rotations are then far from it.
+/// Return a frame in the middle of the points, to keep rotations near the frame. The points lie in one cone
+/// around `center`.
 Quaternion middleFrame(const Quaternion& center, std::span<const Quaternion> points)
 {
     const RotationPatch patch = patchAround(center, points);
@@ -171,10 +173,11 @@ Quaternion middleFrame(const Quaternion& center, std::span<const Quaternion> poi
     return normalizedOrNone(multiply(center, {u.x, u.y, u.z, 1}));
 }
 
-/// Half of a circle of S3 around `frame`, with the directions beside it as wide as the points need.
+/// Return a patch of half of a circle of S3 around `frame`, as wide in the other directions as the points
+/// need.
 RotationPatch halfCircle(const Quaternion& frame, const Quaternion& side, double beside)
 {
-    const Quaternion axis = multiply(conjugate(frame), side); // of a right angle: no real part
+    const Quaternion axis = multiply(conjugate(frame), side); // of a right angle: the real part is 0
     const Double3 a{axis[0], axis[1], axis[2]};
     const Double3 other = std::abs(a.x) < 0.6 ? Double3{1, 0, 0} : Double3{0, 1, 0};
     const Double3 b = cross(a, other) * (1 / length(cross(a, other)));
@@ -191,7 +194,7 @@ RotationPatch halfCircle(const Quaternion& frame, const Quaternion& side, double
     return patch;
 }
 
-/// How far at most a unit quaternion of the points is from the circle through two.
+/// Return the maximum distance of the points, as unit quaternions, from the circle through two.
 double distanceFromCircle(std::span<const Quaternion> points, const Quaternion& a, const Quaternion& b)
 {
     double distance = 0;
@@ -203,13 +206,13 @@ double distanceFromCircle(std::span<const Quaternion> points, const Quaternion& 
     return distance;
 }
 
-/// One axis of a patch's box, cut into cells. Nodes alternate between ends of cells and their middles.
+/// Axis of a patch's box, divided into cells. Nodes alternate between ends of cells and their middles.
 class AxisCells
 {
 public:
     AxisCells(const Interval& interval, double tolerance)
     {
-        // a quaternion that turns by an angle turns the matrix by 2 sin(angle)
+        // a quaternion that turns by an angle changes the matrix by 2 sin(angle)
         if (2 * interval.half() <= tolerance)
         {
             first_ = interval.middle();
@@ -222,18 +225,18 @@ public:
         half_ = interval.half() / cells_;
     }
 
-    /// Whole, but not always within the range of an integer.
+    /// Return the number of nodes: an integer, but possibly beyond the range of integers.
     double nodeCount() const { return 2 * cells_ + 1; }
     size_t nodes() const { return static_cast<size_t>(nodeCount()); }
     double at(size_t node) const { return first_ + static_cast<double>(node) * half_; }
-    /// Half of the cell that a node is the middle of; 0 for the end of one.
+    /// Return half the width of the cell around a middle node; 0 for an end node.
     double halfAt(size_t node) const { return node % 2 == 1 ? half_ : 0.0; }
-    /// How far the cells of a node reach from it.
+    /// Return the maximum distance between a node and a point of its cells.
     double reachAt(size_t node) const
     {
         return cells_ == 0 ? 0.5 * slack_ : node % 2 == 1 ? half_ : 2 * half_;
     }
-    /// Operator norm of what is left out where the axis is so short that its middle stands for it.
+    /// Return the operator norm of the error of an axis that is replaced by its middle.
     double slack() const { return slack_; }
 
 private:
@@ -262,8 +265,9 @@ Matrix3 matrixOf(const Quaternion& unit_quaternion)
              {t.m[2][0], t.m[2][1], t.m[2][2]}}};
 }
 
-/// Control points of a patch's matrices, which are rational functions of u: |q|^2 R and |q|^2 are of second degree in
-/// q = frame * (u, 1), so on each cell the matrices are in the convex hull of their Bernstein coefficients' quotients.
+/// Control points of a patch's matrices. The matrices are rational functions of u: |q|^2 R and |q|^2 are of
+/// second degree in q = frame * (u, 1), so on each cell the matrices are in the convex hull of their
+/// Bernstein coefficients' quotients.
 /// source  G. Farin, "NURBS: from projective geometry to practical use", 1999 (rational Bezier patches)
 class ControlPoints
 {
@@ -277,8 +281,9 @@ public:
         }
     }
 
-    /// u      a node of the lattice
-    /// halves half the width of the cell that u is the middle of, by axis; 0 where it is at an end
+    /// Return the control point of a node.
+    /// u       a node of the lattice
+    /// halves  half the width of the cell that u is the middle of, by axis; 0 where u is an end of a cell
     Matrix3 at(Double3 u, const std::array<double, 3>& halves) const
     {
         const Double3 v = fromAxes(patch_.axes, u);
@@ -303,7 +308,7 @@ private:
     std::array<Matrix3, 3> axis_matrices_;
 };
 
-/// Whether a box of the lattice reaches into all slabs.
+/// True if a box of the lattice overlaps all slabs.
 bool reachesInto(const RotationPatch& patch, Double3 center, Double3 extent)
 {
     for (size_t s = 0; s < kSlabCount; ++s)

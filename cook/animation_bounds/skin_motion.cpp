@@ -15,11 +15,12 @@ using namespace formats;
 namespace
 {
 
-// More matrices make bounds tighter, and slower to ask: with four times as many, boxes of moving clusters shrink by less
-// than a hundredth.
+// Maximum number of matrices of a joint's motion. More matrices give tighter bounds and slower queries: with
+// four times as many, boxes of moving clusters shrink by less than a hundredth.
 constexpr size_t kMostMatrices = 256;
 
-// Tolerance to start with, as a share of the size of what the joint moves; then it grows until the matrices are few.
+// Initial tolerance, as a share of the size of the points that the joint moves. It grows until the matrices
+// are few enough.
 constexpr double kFirstTolerance = 0.004;
 constexpr double kToleranceGrowth = 1.4;
 
@@ -31,7 +32,7 @@ JointMotion::JointMotion(MatrixSet set) : set_(std::move(set)), ball_(ballAround
     for (size_t axis = 0; axis < 3; ++axis)
         for (size_t i = 0; i < hull.size(); i += 2)
         {
-            // an odd one stands twice
+            // repeat the last matrix of an odd number
             const double(&a)[4] = hull[i].m[axis];
             const double(&b)[4] = hull[std::min(i + 1, hull.size() - 1)].m[axis];
             rows_[axis].push_back(
@@ -94,7 +95,7 @@ std::optional<std::vector<SkinMotion::Step>> SkinMotion::way(uint32_t main, uint
     const std::vector<uint32_t>& from = joints_[joint].nodes;
     if (!joints_[main].bind_from_joint)
         return std::nullopt;
-    // what both hang on moves them alike
+    // ignore common ancestors: they move both joints alike
     size_t shared = 0;
     while (shared < std::min(to.size(), from.size()) &&
            to[to.size() - 1 - shared] == from[from.size() - 1 - shared])
@@ -114,7 +115,7 @@ std::optional<std::vector<SkinMotion::Step>> SkinMotion::way(uint32_t main, uint
 std::vector<Tolerance> SkinMotion::tolerances(std::span<const Step> steps, uint32_t main,
                                               uint32_t joint) const
 {
-    // how far from each node's origin the points are that it moves, at rest
+    // lever of each node: distance of the points that it moves from the node's origin in the rest pose
     const Joint& from = joints_[joint];
     const Box3d& reach = from.reach;
     Double3 place = transformPoint(from.joint_from_bind, reach[0].empty() ? Double3{} : middle(reach));
@@ -132,7 +133,7 @@ std::vector<Tolerance> SkinMotion::tolerances(std::span<const Step> steps, uint3
         place = transformPoint(inverse.value_or(Affine3d{}), place);
         radius *= norms.back();
     }
-    // a metre of error behind each step is so many metres in the main bone
+    // convert an error of a metre behind each step to metres in the main bone
     std::vector<Tolerance> shares(steps.size());
     double onwards = operatorNorm(*joints_[main].bind_from_joint);
     for (size_t i = steps.size(); i-- > 0;)
@@ -167,7 +168,7 @@ std::unique_ptr<JointMotion> SkinMotion::measured(uint32_t main, uint32_t joint)
         tolerance *= kToleranceGrowth;
 
     MatrixSet set = only(from.joint_from_bind);
-    // turns about the joint leave its origin where it is
+    // rotations about the joint leave its origin unmoved
     set.pivot = from.bind_from_joint ? transformPoint(*from.bind_from_joint, {}) : Double3{};
     for (size_t i = 0; i < steps->size(); ++i)
     {

@@ -1,4 +1,4 @@
-// What the joints of a skin can do to each other in all poses: the transforms between their bind spaces.
+// Bounds the relative motion of a skin's joints in all poses: the transforms between their bind spaces.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -14,8 +14,8 @@
 namespace hearth::motion
 {
 
-/// What joint j does as the main bone b sees it: D = (palette[b])^-1 palette[j], from the bind pose to the bind pose as b
-/// carries it. All poses of all clips and their blends are in the set.
+/// Motion of joint j relative to the main bone b: D = (palette[b])^-1 palette[j], from the bind pose to the
+/// bind pose as carried by b. The set contains all poses of all clips and their blends.
 class JointMotion
 {
 public:
@@ -24,13 +24,13 @@ public:
     const MatrixSet& set() const { return set_; }
     const MatrixBall& ball() const { return ball_; }
 
-    /// Add `weight` times the box of where a point can come.
-    /// half  the point may be this far away, axis by axis
+    /// Add `weight` times the box of all positions that a point can have.
+    /// half  half size of the box around the point, axis by axis; 0 for a point alone
     void addPlaces(Double3 point, Double3 half, double weight, Box3d& box) const;
 
 private:
     using Lanes = double __attribute__((vector_size(2 * sizeof(double))));
-    /// The same row of two matrices: a point comes to x * p.x + y * p.y + z * p.z + w.
+    /// Same row of two matrices: a point's coordinate is x * p.x + y * p.y + z * p.z + w.
     struct RowPair
     {
         Lanes x, y, z, w;
@@ -41,47 +41,49 @@ private:
     std::array<std::vector<RowPair>, 3> rows_; ///< by axis
 };
 
-/// The motion of one skin. Any number of threads may ask at once. Two joints that are asked for the first time cost
-/// about a tenth of a millisecond, later nothing.
+/// Relative motion of all joints of one skin. Thread-safe. The first request for two joints costs about a
+/// tenth of a millisecond; later requests cost nothing.
 class SkinMotion
 {
 public:
-    /// reach  for each joint a box of the points, in the bind pose, that it moves: bounds are tightest for them; empty
-    ///        where it moves none
+    /// Construct from a scene's motion.
+    /// reach  for each joint the box of the points, in the bind pose, that it moves: bounds are tightest for
+    ///        these; empty where it moves none
     SkinMotion(const formats::MotionTables& tables, std::span<const NodeMotion> nodes, uint32_t skin,
                std::span<const Box3d> reach);
 
     uint32_t jointCount() const { return static_cast<uint32_t>(joints_.size()); }
 
-    /// Null where the motion has no bound: where `main`, or a node between it and what both hang on, can be scaled to
-    /// 0, or its inverse bind matrix has no inverse.
+    /// Return the motion of a joint relative to `main`. Null where the motion has no bound: `main`, or a node
+    /// between it and the common ancestor, can be scaled to 0, or its inverse bind matrix has no inverse.
     const JointMotion* relative(uint32_t main, uint32_t joint) const;
 
     const Affine3d& jointFromBind(uint32_t joint) const { return joints_[joint].joint_from_bind; }
-    /// Nothing where the inverse bind matrix has no inverse.
+    /// Return the inverse of jointFromBind; nothing where the inverse bind matrix has no inverse.
     const std::optional<Affine3d>& bindFromJoint(uint32_t joint) const
     {
         return joints_[joint].bind_from_joint;
     }
 
-    /// The nodes between a main bone and other joints.
+    /// Return the nodes between a main bone and other joints.
     RegionChain regionChain(uint32_t main, std::span<const uint32_t> joints) const;
 
-    /// Whether the joint can turn triangles inside out, or make them flat.
+    /// True if the joint can turn triangles inside out, or flatten them.
     bool canMirror(uint32_t joint) const;
 
-    /// How far the transform of the joint's motion relative to `main` is from doing nothing. Null as above.
+    /// Return the distance from the identity of the joint's motion relative to `main`. Nothing where
+    /// relative() is null.
     std::optional<Departure> departure(uint32_t main, uint32_t joint) const;
 
 private:
     struct Joint
     {
         Affine3d joint_from_bind;
-        std::optional<Affine3d> bind_from_joint; ///< nothing where it is flat
-        std::vector<uint32_t> nodes;             ///< its own first, then its ancestors
+        std::optional<Affine3d> bind_from_joint; ///< nothing if the matrix is singular
+        std::vector<uint32_t> nodes;             ///< its own node first, then the ancestors
         Box3d reach;
     };
-    /// A node on the way from one joint to another, and whether the way goes down to it.
+    /// Node on the path from one joint to another, and the direction of the path at it.
     struct Step
     {
         uint32_t node;
@@ -100,10 +102,11 @@ private:
 
     std::span<const formats::NodeRecord> records_;
     std::span<const NodeMotion> nodes_;
-    std::vector<Affine3d> parent_from_node_; ///< at rest
+    std::vector<Affine3d> parent_from_node_; ///< rest pose
     std::vector<Joint> joints_;
     mutable std::mutex mutex_;
-    mutable std::unordered_map<uint64_t, Entry> entries_; ///< under the mutex; entries stay where they are
+    /// guarded by the mutex; addresses of entries are stable
+    mutable std::unordered_map<uint64_t, Entry> entries_;
 };
 
 } // namespace hearth::motion

@@ -14,30 +14,31 @@ using namespace formats;
 namespace
 {
 
-// The squared sine of half the arc, 1/2 for quaternions at a right angle, which are half a turn apart.
+// Maximum squared sine of half the arc; 1/2 is for quaternions at a right angle, which are half a turn apart.
 constexpr double kMostSquare = 0.495;
 
-// Series end where their terms are smaller: those of values, and of bounds of third derivatives, which are of order 1.
+// Terms below which series end: for values, and for bounds of third derivatives, which are of order 1.
 constexpr double kValueTerm = 1e-14;
 constexpr double kBoundTerm = 1e-4;
 
-// What rounding comes to.
+// Upper bound for rounding errors.
 constexpr double kSlerpRounding = 1e-12;
 
-/// Derivatives by v and z up to third order in all: at[i][j] is d^(i+j) / dv^i dz^j.
+/// Derivatives by v and z up to third order in total: at[i][j] is d^(i+j) / dv^i dz^j.
 struct Derivatives
 {
     double at[4][4] = {};
 };
 
-/// Sums over k of c_k(v) z^k, and of the same divided by 2 k + 1, with c_0 = 1 and
+/// Sums over k of c_k(v) z^k, and the same divided by 2 k + 1, with c_0 = 1 and
 /// c_(k+1) = c_k ((k + 1/2)^2 - v) / ((k + 1/2) (k + 1)), for v in [0, 1/4] and z in [0, 1/2].
 struct Series
 {
     Derivatives cosines;
     Derivatives sines;
 };
-/// last_term  what is left out is at most three times as much
+/// Evaluate the series.
+/// last_term  the omitted rest is at most three times as large
 Series seriesAt(double v, double z, double last_term)
 {
     Series sum;
@@ -60,7 +61,7 @@ Series seriesAt(double v, double z, double last_term)
             falling *= k - j;
         }
         const double largest = std::max({c[0], -c[1], c[2], -c[3]});
-        // from then on each term is less than three quarters of the one before it
+        // from here on each term is less than three quarters of the previous one
         if (k > 3 && z * (k + 1) < 0.75 * (k - 2) && largest * falling * powers[3] < last_term)
             break;
         const double a = (k + 0.5) * (k + 0.5) - v, inverse = 1 / ((k + 0.5) * (k + 1));
@@ -74,7 +75,7 @@ Series seriesAt(double v, double z, double last_term)
     return sum;
 }
 
-/// At least the absolute values.
+/// Return upper bounds for the absolute values.
 Series boundsAt(double v, double z)
 {
     Series series = seriesAt(v, z, kBoundTerm);
@@ -85,14 +86,14 @@ Series boundsAt(double v, double z)
     return series;
 }
 
-/// A function of u, where v = u^2, and z: its derivatives up to second order, and bounds of those of third order.
+/// Function of u, with v = u^2, and z: derivatives up to second order, and bounds of third order derivatives.
 struct Expansion
 {
     double value, u, z, uu, uz, zz;
     double uuu, uuz, uzz, zzz;
 };
 
-/// cos(u arc) / cos(arc / 2), z the squared sine of half the arc.
+/// Return the expansion of cos(u arc) / cos(arc / 2); z is the squared sine of half the arc.
 Expansion cosines(double u, const Derivatives& s, double most_u, const Derivatives& most)
 {
     const double v = u * u, most_v = most_u * most_u;
@@ -108,7 +109,7 @@ Expansion cosines(double u, const Derivatives& s, double most_u, const Derivativ
             most.at[0][3]};
 }
 
-/// sin(u arc) / sin(arc / 2) = 2 u sum.
+/// Return the expansion of sin(u arc) / sin(arc / 2) = 2 u sum.
 Expansion sines(double u, const Derivatives& s, double most_u, const Derivatives& most)
 {
     const double v = u * u, most_v = most_u * most_u;
@@ -124,7 +125,7 @@ Expansion sines(double u, const Derivatives& s, double most_u, const Derivatives
             2 * most_u * most.at[0][3]};
 }
 
-/// The squared sine of half the arc as a function of the two times, without its constant.
+/// Squared sine of half the arc as a polynomial in the two times.
 struct Square
 {
     double middle;
@@ -140,13 +141,13 @@ struct Square
     }
 };
 
-/// `side` is the sign of `to`.
+/// Compute the squared sine. `side` is the sign of `to`.
 Square squareOf(const TimeCurve& from, const TimeCurve& to, double side)
 {
     const auto& a = from.terms;
     const auto& b = to.terms;
     const double left_out = std::abs(dot(a[2], b[1])) + std::abs(dot(a[1], b[2])) + std::abs(dot(a[2], b[2]));
-    // of fits that are no rotations it may be negative, of rotations it never is
+    // clamp: it is never negative for rotations, but may be for fits that are no rotations
     const double middle = 0.5 - 0.5 * side * dot(a[0], b[0]);
     return {std::max(middle, 0.0),
             {-0.5 * side * dot(a[1], b[0]), -0.5 * side * dot(a[0], b[1])},
@@ -156,7 +157,7 @@ Square squareOf(const TimeCurve& from, const TimeCurve& to, double side)
                 kSlerpRounding};
 }
 
-/// The expansion with u moving by half_u x2 and z as it does.
+/// Compose the expansion with u, which moves by half_u x2, and the polynomial z.
 TaylorModel<1> composed(const Expansion& f, double half_u, const Square& z)
 {
     const double l0 = z.linear[0], l1 = z.linear[1], linear = z.linearNorm(), away = z.away();
@@ -180,7 +181,7 @@ TaylorModel<1> composed(const Expansion& f, double half_u, const Square& z)
     return model;
 }
 
-/// Add the polynomial of the product, and what is left of it.
+/// Add the polynomial of the product, and its remainder.
 void addProduct(const TaylorModel<1>& factor, const TaylorModel<4>& of, TaylorModel<4>& sum)
 {
     for (const TermProduct& product : kProducts)
@@ -193,7 +194,7 @@ void addProduct(const TaylorModel<1>& factor, const TaylorModel<4>& of, TaylorMo
 constexpr size_t kFromTerms[3] = {0, kFirstLinear, termOf(0, 0)};
 constexpr size_t kToTerms[3] = {0, kFirstLinear + 1, termOf(1, 1)};
 
-/// The nearer end, and that an arc is never longer than a right angle.
+/// Return the nearer end. The arc is never longer than a right angle.
 TaylorModel<4> nearEnd(const TimeCurve& from, const TimeCurve& to, Interval weights)
 {
     const bool is_from = weights.high < 1 - weights.low;
@@ -215,8 +216,8 @@ TaylorModel<4> slerpModel(const TimeCurve& from, const TimeCurve& to, Interval w
     const double most_square = square.middle + square.away();
     if (!(most_square < kMostSquare))
         return nearEnd(from, to, weights);
-    // slerp = S (from + to) / 2 + D (to - from) / 2, at u = weight - 1/2: where the two are near each other, D is multiplied
-    // by little
+    // slerp = S (from + to) / 2 + D (to - from) / 2, at u = weight - 1/2: where the two are near each other,
+    // D has a small factor
     const double u = weights.middle() - 0.5, half_u = weights.half();
     const double most_u = std::abs(u) + half_u, least_u = std::max(0.0, std::abs(u) - half_u);
     // derivatives by v are largest where v is small
@@ -237,7 +238,7 @@ TaylorModel<4> slerpModel(const TimeCurve& from, const TimeCurve& to, Interval w
     TaylorModel<4> model;
     addProduct(s, sum, model);
     addProduct(d, difference, model);
-    // what multiplies either end, sin(t arc) / sin(arc), is largest where the arc is a right angle
+    // the factor of either end, sin(t arc) / sin(arc), is largest where the arc is a right angle
     model.remainder += std::sin((1 - weights.low) * std::numbers::pi / 2) * from.remainder +
                        std::sin(weights.high * std::numbers::pi / 2) * to.remainder;
     return model;

@@ -12,10 +12,10 @@ namespace hearth::motion
 namespace
 {
 
-// Enough for double precision at this size.
+// Number of Jacobi sweeps: enough for double precision at this size.
 constexpr int kSweeps = 10;
 
-/// Turn rows and columns p and q so that s[p][q] becomes 0; the rows of `vectors` turn with them.
+/// Rotate rows and columns p and q so that s[p][q] becomes 0, and the rows of `vectors` with them.
 template <size_t N>
 void rotate(std::array<std::array<double, N>, N>& s, std::array<std::array<double, N>, N>& vectors, size_t p,
             size_t q)
@@ -43,7 +43,7 @@ void rotate(std::array<std::array<double, N>, N>& s, std::array<std::array<doubl
     }
 }
 
-/// The largest eigenvalue of a symmetric matrix that has none below 0.
+/// Return the largest eigenvalue of a positive semidefinite matrix.
 /// source  O. K. Smith, "Eigenvalues of a symmetric 3 x 3 matrix", 1961
 double largestEigenvalue(const Matrix3& s)
 {

@@ -1,4 +1,4 @@
-// Small matrices: eigenvectors of symmetric ones, and the operator norm.
+// Eigenvectors of small symmetric matrices, and the operator norm.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,7 +11,7 @@ namespace hearth::motion
 
 using Matrix3 = std::array<std::array<double, 3>, 3>;
 
-/// Of a symmetric N x N matrix, by cyclic Jacobi rotations.
+/// Eigenvalues and eigenvectors of a symmetric N x N matrix, by cyclic Jacobi rotations.
 template <size_t N>
 struct Eigenvectors
 {
@@ -25,10 +25,11 @@ Eigenvectors<N> eigenvectors(std::array<std::array<double, N>, N> symmetric);
 extern template Eigenvectors<3> eigenvectors(std::array<std::array<double, 3>, 3>);
 extern template Eigenvectors<4> eigenvectors(std::array<std::array<double, 4>, 4>);
 
-/// At least the largest singular value of the matrix, and at most 1e-6 of it more.
+/// Return an upper bound for the largest singular value of the matrix, with a relative excess of at most
+/// 1e-6.
 double operatorNorm(const Matrix3& matrix);
 
-/// The same for the linear part.
+/// Return the same bound for the linear part.
 double operatorNorm(const Affine3d& transform);
 
 } // namespace hearth::motion

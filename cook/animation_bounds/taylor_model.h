@@ -1,6 +1,7 @@
-// Functions of three parameters, each from -1 to 1: a polynomial of second degree and how far the function is from it.
-// M. Berz, K. Makino, "Verified integration of ODEs and flows using differential algebraic methods on high-order Taylor
-// models", 1998; here of one order and with a ball as the remainder.
+// Taylor models: functions of three parameters, each from -1 to 1, as a polynomial of second degree with a
+// remainder, an upper bound for the distance between the function and the polynomial.
+// source  M. Berz, K. Makino, "Verified integration of ODEs and flows using differential algebraic methods on
+//         high-order Taylor models", 1998; here with a fixed order and with a ball as the remainder
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,18 +13,18 @@
 namespace hearth::motion
 {
 
-/// 1; x0, x1, x2; x0^2, x1^2, x2^2; x0 x1, x0 x2, x1 x2.
+/// Number of terms: 1; x0, x1, x2; x0^2, x1^2, x2^2; x0 x1, x0 x2, x1 x2.
 inline constexpr size_t kTerms = 10;
 inline constexpr size_t kFirstLinear = 1;
 inline constexpr size_t kFirstQuadratic = 4;
 
-/// The term of a product of two parameters, 0 to 2.
+/// Return the term of the product of two parameters, 0 to 2.
 constexpr size_t termOf(size_t a, size_t b)
 {
     return a == b ? kFirstQuadratic + a : kFirstQuadratic + 2 + a + b;
 }
 
-/// Products of terms that are of no more than second degree: the term `product` gets one times the other.
+/// Product of two terms, of at most second degree: the term `product` receives one times other.
 struct TermProduct
 {
     size_t one;
@@ -46,7 +47,7 @@ constexpr std::array<TermProduct, kTermProducts> termProducts()
 }
 inline constexpr std::array<TermProduct, kTermProducts> kProducts = termProducts();
 
-/// The same for the square of one: each pair stands once, as often as `times` says.
+/// Product of two terms in the square of a polynomial. Each pair occurs once, with the factor `times`.
 struct TermSquare
 {
     size_t one;
@@ -67,17 +68,17 @@ constexpr std::array<TermSquare, kTermSquares> termSquares()
 }
 inline constexpr std::array<TermSquare, kTermSquares> kSquares = termSquares();
 
-/// Of N numbers: a vector, or a 3 x 3 matrix row by row.
+/// Taylor model of N numbers: a vector, or a 3 x 3 matrix row by row.
 template <size_t N>
 struct TaylorModel
 {
     std::array<std::array<double, N>, kTerms> terms{};
-    double remainder = 0; ///< of a vector its length, of a matrix its operator norm
+    double remainder = 0; ///< Euclidean length for a vector, operator norm for a matrix
 };
 using VectorModel = TaylorModel<3>;
 using MatrixModel = TaylorModel<9>;
 
-/// Lengths of a model's terms, of matrices their Frobenius norms, summed by degree.
+/// Norms of a model's terms (for matrices the Frobenius norm), summed by degree.
 struct DegreeNorms
 {
     double constant = 0;
@@ -102,13 +103,14 @@ DegreeNorms degreeNorms(const TaylorModel<N>& model)
             lengths[4] + lengths[5] + lengths[6] + lengths[7] + lengths[8] + lengths[9]};
 }
 
-/// At most what a product's terms of third and fourth degree come to, which are left out.
+/// Return an upper bound for the omitted terms of third and fourth degree of a product.
 inline double leftOut(const DegreeNorms& a, const DegreeNorms& b)
 {
     return a.linear * b.quadratic + a.quadratic * (b.linear + b.quadratic);
 }
 
-/// The polynomial of the product of two, without a remainder: matrix times matrix, or matrix times vector.
+/// Return the polynomial of the product of two models, without a remainder: matrix times matrix, or matrix
+/// times vector.
 template <size_t N>
 TaylorModel<N> productTerms(const MatrixModel& a, const TaylorModel<N>& b)
 {
@@ -127,7 +129,7 @@ TaylorModel<N> productTerms(const MatrixModel& a, const TaylorModel<N>& b)
     return result;
 }
 
-/// What a polynomial of one number can be.
+/// Return the range of a polynomial with one component.
 inline Interval rangeOf(const std::array<double, kTerms>& terms)
 {
     Interval range{terms[0], terms[0]};

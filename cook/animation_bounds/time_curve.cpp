@@ -16,11 +16,11 @@ using namespace formats;
 namespace
 {
 
-// Splines are looked at in so many parts between two keys, half of them on either side of the span's middle: the slack of
-// a chord is 1/64 of the whole's.
+// Number of parts of a spline between two keys, half of them on either side of the span's middle: the slack
+// of a chord is 1/64 of the slack of the whole.
 constexpr uint32_t kSplineParts = 8;
 
-// What rounding moves a value by, as a share of its length.
+// Rounding error of a value, as a share of its length.
 constexpr double kCurveRounding = 1e-13;
 
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
@@ -30,16 +30,16 @@ Value added(const Value& a, const Value& b, double factor)
     return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2], a[3] + factor * b[3]};
 }
 
-/// A part of the curve, smooth, between two of the span's parameters.
+/// Smooth part of the curve between two of the span's parameters.
 struct Piece
 {
     double from = -1;
     double to = 1;
     Value start;
     Value end;
-    Value second{};          ///< derivative, if the parameter went from 0 to 1
-    double second_slack = 0; ///< how far it gets from that
-    double chord_slack = 0;  ///< how far the curve is from one that has such a derivative
+    Value second{};          ///< derivative over a parameter from 0 to 1
+    double second_slack = 0; ///< maximum distance of the second derivative from `second`
+    double chord_slack = 0;  ///< maximum distance of the curve from a curve with such a second derivative
 };
 
 /// Collects the pieces of a channel in a span.
@@ -49,7 +49,7 @@ public:
     Pieces(TimeSpan time, const CurveKeys& keys, bool is_rotation)
         : time_(time), keys_(keys), is_rotation_(is_rotation)
     {
-        // of several keys at the very start, which are a jump, all count
+        // include all of several keys at the very start: they are a jump
         uint32_t key = keys.time(0) >= time.from ? 0 : keys.keyBefore(time.from);
         if (keys.time(key) > time.from)
             addConstant(key, time.from, std::min(keys.time(key), time.to));
@@ -96,7 +96,7 @@ private:
         add({parameter(from), parameter(to), value, value});
     }
 
-    /// The way from a key to the next, as far as it is between two times.
+    /// Add the part between two times of the curve from a key to the next one.
     void addWay(uint32_t key, double from, double to)
     {
         const double start = keys_.time(key), seconds = keys_.time(key + 1) - start;
@@ -125,7 +125,8 @@ private:
     {
         piece.start = slerp(a, b, from);
         piece.end = slerp(a, b, to);
-        // at constant speed the second derivative is the place times the square of the angle, towards the middle of the sphere
+        // at constant speed the second derivative is the position times the square of the angle, towards the
+        // sphere's center
         const double angle = std::acos(std::min(1.0, std::abs(dot(a, b)))) * (to - from);
         piece.second = scaled(slerp(a, b, 0.5 * (from + to)), -angle * angle);
         piece.second_slack = 0.5 * angle * angle * angle;
@@ -140,18 +141,20 @@ private:
         Piece piece{from, to, b[0], b[3]};
         if (!is_rotation_)
         {
-            // linear from one end to the other
+            // the second derivative is linear between the ends
             piece.second = scaled(added(second[0], second[1], 1), 0.5);
             piece.second_slack = 0.5 * length(added(second[0], second[1], -1));
             add(piece);
             return;
         }
-        // the cubic is near its chord; both, projected to the sphere, are near the chord between the projected ends
+        // the cubic is near its chord; both, projected to the sphere, are near the chord between the
+        // projected ends
         const double from_chord = std::max(length(second[0]), length(second[1])) / 8;
         const double lengths[2] = {length(b[0]), length(b[3])};
         const double shorter = std::min(lengths[0], lengths[1]), longer = std::max(lengths[0], lengths[1]);
         const double cosine = dot(b[0], b[3]) / (lengths[0] * lengths[1]);
-        // of the chord, where the ends are less than a right angle apart: the triangle's height
+        // minimum length on the chord, where the ends are less than a right angle apart: the triangle's
+        // height
         const double least = shorter * std::sqrt(0.5 * (1 + cosine)) - from_chord;
         if (!(cosine > 0.5) || !(least > 0.2 * longer))
         {
@@ -162,17 +165,17 @@ private:
         piece.end = scaled(b[3], 1 / lengths[1]);
         const double chord = length(added(piece.end, piece.start, -1));
         piece.chord_slack = from_chord / least +
-                            // the share of the way differs where the ends' lengths do
+                            // difference of the parameters along the chord, if the ends' lengths differ
                             chord * (longer - shorter) / (4 * shorter) +
-                            // from the arc down to its chord
+                            // from the arc to its chord
                             1 - std::sqrt(std::max(0.0, 1 - 0.25 * chord * chord));
         add(piece);
     }
 
-    /// What is left of a piece between two of its parameters, 0 to 1.
+    /// Return the part of a piece between two parameters, 0 to 1.
     static BezierPiece clipped(const BezierPiece& b, double from, double to)
     {
-        // the blossom of a cubic at three parameters
+        // blossom of a cubic at three parameters
         const auto blossom = [&](double r, double s, double t)
         {
             Value value;
@@ -190,7 +193,7 @@ private:
 
     void add(Piece piece)
     {
-        // q and -q are one rotation: go on with the nearer one
+        // q and -q are the same rotation: continue with the nearer one
         if (is_rotation_ && !pieces_.empty() && dot(pieces_.back().end, piece.start) < 0)
             for (Value* const value : {&piece.start, &piece.end, &piece.second})
                 *value = scaled(*value, -1);
@@ -209,14 +212,14 @@ double differenceAt(const std::array<Value, 3>& terms, double s, const Value& va
     return length(added(added(added(terms[0], terms[1], s), terms[2], s * s), value, -1));
 }
 
-/// How far at most the pieces are from a quadratic.
+/// Return an upper bound for the distance between the pieces and a quadratic.
 double remainderOf(const std::array<Value, 3>& terms, const std::vector<Piece>& pieces)
 {
     double remainder = 0;
     for (const Piece& piece : pieces)
     {
         const double width = piece.to - piece.from;
-        // between its ends a function leaves its chord by an eighth of the second derivative
+        // between its ends a function deviates from its chord by at most an eighth of the second derivative
         const double bend =
             (length(added(piece.second, terms[2], -2 * width * width)) + piece.second_slack) / 8;
         remainder = std::max(remainder, std::max(differenceAt(terms, piece.from, piece.start),
@@ -226,7 +229,7 @@ double remainderOf(const std::array<Value, 3>& terms, const std::vector<Piece>& 
     return remainder;
 }
 
-/// Through the first and the last value and the one in the middle.
+/// Return the quadratic that interpolates the first, the middle and the last value.
 std::array<Value, 3> through(const std::vector<Piece>& pieces)
 {
     const Value start = pieces.front().start, end = pieces.back().end;
@@ -238,7 +241,7 @@ std::array<Value, 3> through(const std::vector<Piece>& pieces)
     return {middle, scaled(added(end, start, -1), 0.5), added(mean, middle, -1)};
 }
 
-/// Of values that jump: the middle of them.
+/// Return the middle of the values as a constant, for values that jump.
 std::array<Value, 3> around(const std::vector<Piece>& pieces)
 {
     Value low = pieces.front().start, high = low;

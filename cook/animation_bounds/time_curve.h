@@ -1,4 +1,4 @@
-// What an animation channel does in a span of time: a quadratic, and how far the channel is from it.
+// Approximates an animation channel during a time span by a quadratic with an error bound.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,7 +7,7 @@
 namespace hearth::motion
 {
 
-/// Seconds. What happens at its end, a step or a jump of keys, belongs to the span behind it, unless it is the last one.
+/// Time span, seconds. A step or jump of keys at its end belongs to the next span, unless it is the last one.
 struct TimeSpan
 {
     double from = 0;
@@ -15,22 +15,23 @@ struct TimeSpan
     bool last = true;
 };
 
-/// terms[0] + s terms[1] + s^2 terms[2] for s from -1 at the span's start to 1 at its end.
+/// Quadratic terms[0] + s terms[1] + s^2 terms[2], for s from -1 at the span's start to 1 at its end.
 struct TimeCurve
 {
     std::array<Value, 3> terms{};
-    double remainder = 0; ///< Euclidean length of the difference, at any time; infinite: nothing is known
+    /// upper bound for the Euclidean distance from the channel at any time; infinite if unknown
+    double remainder = 0;
 };
 
-/// Of a value that stays.
+/// Return the curve of a constant value.
 TimeCurve curveOf(const Value& value);
 
-/// Of a translation's or scale's channel.
+/// Fit the curve of a translation or scale channel.
 TimeCurve vectorCurve(TimeSpan time, const formats::MotionTables& tables,
                       const formats::AnimationChannelRecord& channel);
 
-/// Of a rotation's channel: the quaternion of length 1, with the sign that makes it continuous between jumps. Infinite
-/// where a spline may go through 0.
+/// Fit the curve of a rotation channel: the quaternion of length 1, with the sign that makes it continuous
+/// between jumps. The remainder is infinite where a spline may pass through 0.
 TimeCurve rotationCurve(TimeSpan time, const formats::MotionTables& tables,
                         const formats::AnimationChannelRecord& channel);
 

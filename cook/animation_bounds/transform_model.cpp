@@ -13,13 +13,14 @@ namespace hearth::motion
 namespace
 {
 
-// What rounding moves the result of a product by, as a share of its factors.
+// Rounding error of a product, as a share of its factors.
 constexpr double kTransformRounding = 1e-14;
 
-// Scales that are this near to 1 are rounded ones.
+// Distance from 1 below which a scale counts as a rounded 1.
 constexpr double kNearRigid = 1e-5;
 
-/// A linear part takes no vector farther than `norm`: where the remainder allows more, the polynomial says nothing.
+/// Limit the remainder by `norm`, the maximum operator norm: where it is larger, the polynomial carries no
+/// information.
 void limitRemainder(TransformModel& transform)
 {
     if (transform.linear.remainder < transform.norm)
@@ -34,7 +35,7 @@ RigidModel rigidOf(const TaylorModel<4>& rotation, double stretch)
     return {rotation, degreeNorms(rotation), stretch};
 }
 
-/// First b, then a.
+/// Return the product: b, then a.
 RigidModel productOf(const RigidModel& a, const RigidModel& b)
 {
     TaylorModel<4> rotation;
@@ -48,10 +49,10 @@ RigidModel productOf(const RigidModel& a, const RigidModel& b)
         sum[2] += p[3] * q[2] + p[0] * q[1] - p[1] * q[0] + p[2] * q[3];
         sum[3] += p[3] * q[3] - p[0] * q[0] - p[1] * q[1] - p[2] * q[2];
     }
-    // of quaternions of length 1: (a + e) (b + f) = a b + a f + e (b + f)
+    // for quaternions of length 1: (a + e) (b + f) = a b + a f + e (b + f)
     rotation.remainder = a.norms.all() * b.rotation.remainder + a.rotation.remainder +
                          leftOut(a.norms, b.norms) + kTransformRounding;
-    // and of rotations with a stretch: (A + E) (B + F) = A B + E B + (A + E) F
+    // for rotations with a stretch: (A + E) (B + F) = A B + E B + (A + E) F
     return rigidOf(rotation.remainder < 1 ? rotation : anyRotation(),
                    a.stretch + (1 + a.stretch) * b.stretch);
 }
@@ -112,7 +113,7 @@ double largest(const VectorModel& model)
         {axisRange(model, 0).magnitude(), axisRange(model, 1).magnitude(), axisRange(model, 2).magnitude()});
 }
 
-/// 1 / s axis by axis; nothing where s can be 0.
+/// Return 1 / s axis by axis; nothing where s can be 0.
 std::optional<VectorModel> reciprocal(const VectorModel& s)
 {
     VectorModel result;
@@ -145,7 +146,7 @@ std::optional<VectorModel> reciprocal(const VectorModel& s)
     return result;
 }
 
-/// How far from 1 a scale gets.
+/// Return the maximum distance of a scale from 1.
 double departureFromOne(const VectorModel& scale)
 {
     double away = 0;
@@ -172,7 +173,8 @@ TransformModel rotated(const TaylorModel<4>& rotation)
     return model;
 }
 
-/// Multiply a rotation by a diagonal matrix, of which `axisOf` names the number for an element of the product.
+/// Multiply a rotation by a diagonal matrix. `axis_of` returns the diagonal index for an element of the
+/// product.
 template <typename AxisOf>
 void scaleElements(TransformModel& model, const VectorModel& scale, const AxisOf& axis_of)
 {
@@ -217,11 +219,11 @@ VectorModel constantProduct(const MatrixModel& matrix, const std::array<double, 
     return result;
 }
 
-/// What the linear part does to a vector.
+/// Apply the linear part to a vector.
 VectorModel moved(const TransformModel& transform, const VectorModel& vector)
 {
     const DegreeNorms norms = degreeNorms(vector);
-    // most joints turn, and stay where they are
+    // special case for speed: most joints rotate, with a constant translation
     VectorModel result = norms.linear == 0 && norms.quadratic == 0
                              ? constantProduct(transform.linear, vector.terms[0])
                              : productTerms(transform.linear, vector);
@@ -273,7 +275,7 @@ std::optional<TransformModel> nodeFromParent(const NodeModel& node)
     scaleAfter(model, *inverse);
     const auto& translation = node.translation.terms;
     model.pivot = {translation[0][0], translation[0][1], translation[0][2]};
-    VectorModel away; // from where the node is to the pivot
+    VectorModel away; // from the node's origin to the pivot
     for (size_t term = 1; term < kTerms; ++term)
         for (size_t i = 0; i < 3; ++i)
             away.terms[term][i] = -translation[term][i];
@@ -307,7 +309,7 @@ void compose(const TransformModel& second, TransformModel& first, TransformModel
         result.norms = degreeNorms(result.linear);
         limitRemainder(result);
     }
-    VectorModel away = first.place; // from the second pivot
+    VectorModel away = first.place; // relative to the second pivot
     away.terms[0][0] -= second.pivot.x;
     away.terms[0][1] -= second.pivot.y;
     away.terms[0][2] -= second.pivot.z;

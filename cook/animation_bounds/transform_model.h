@@ -1,4 +1,4 @@
-// Transforms that depend on the parameters of a region of poses, and chains of them.
+// Affine transforms as Taylor models over the parameters of a pose region, and their composition.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,42 +10,45 @@
 namespace hearth::motion
 {
 
-/// A linear part that is a rotation, or nearly so. Quaternions say that with a quarter of the numbers' products, and what
-/// they leave out is an eighth of what products of matrices do.
+/// Linear part that is a rotation, or nearly so, as a quaternion. Quaternion products need a quarter of the
+/// multiplications of matrix products, and the error of their omitted terms is an eighth.
 struct RigidModel
 {
     TaylorModel<4> rotation;
-    DegreeNorms norms;  ///< of the rotation
-    double stretch = 0; ///< operator norm of what the linear part differs from a rotation by
+    DegreeNorms norms;  ///< norms of the rotation's terms
+    double stretch = 0; ///< operator norm of the difference between the linear part and a rotation
 };
 
-/// x comes to linear (x - pivot) + place.
+/// Transform that maps x to linear (x - pivot) + place.
 struct TransformModel
 {
     MatrixModel linear;
-    DegreeNorms norms; ///< at least the operator norms of linear's terms
+    DegreeNorms norms; ///< upper bounds for the operator norms of linear's terms
     std::optional<RigidModel> rigid;
     Double3 pivot;
     VectorModel place;
-    double norm = 1; ///< at least the operator norm of the linear part of each transform that is to be held
+    /// upper bound for the operator norm of the linear part of each transform that the model must contain
+    double norm = 1;
 
-    /// How far at most a transform takes a point from where the polynomials take it.
+    /// Return an upper bound for the distance between a point's image and the image by the polynomials.
     double slackAt(Double3 point) const { return linear.remainder * length(point - pivot) + place.remainder; }
 };
 
-/// One that does nothing.
+/// Return the identity.
 TransformModel unmoved();
 
-/// One that stays.
+/// Return a constant transform.
 TransformModel exactly(const Affine3d& transform);
 
-/// From a node to its parent. Where it is rigid, the linear part is not filled in: `compose` does without.
+/// Return the transform from a node to its parent. If it is rigid, `linear` is not filled in; `compose` does
+/// not need it.
 TransformModel parentFromNode(const NodeModel& node);
 
-/// From the parent to the node, in the same way; nothing where a scale can be 0.
+/// Return the transform from the parent to the node, filled in likewise; nothing if a scale can be 0.
 std::optional<TransformModel> nodeFromParent(const NodeModel& node);
 
-/// First `first`, then `second`, of which all is filled in, as it is of the result; of `first` where that takes it. The pivot is that of `first`.
+/// Compute result = `first`, then `second`. `second` must be filled in completely; `result` is. Fills in the
+/// linear part of `first` where it is needed. The pivot is the pivot of `first`.
 void compose(const TransformModel& second, TransformModel& first, TransformModel& result);
 
 } // namespace hearth::motion

@@ -19,7 +19,7 @@ namespace
 
 using tools::TomlNode;
 
-// A kilometre: whoever writes more means other units.
+// Maximum error, a kilometre: larger values are probably in other units.
 constexpr double kMostError = 1000;
 
 Error wrong(Issue issue, const std::string& file, const TomlNode& node, const std::string& key,

@@ -19,7 +19,7 @@ namespace
 
 using Times = std::vector<float>;
 
-/// Writes fields one behind the other; each stream begins at a word.
+/// Writes bit fields one behind the other; each stream begins at a word.
 class BitStream
 {
 public:
@@ -40,7 +40,7 @@ private:
     size_t offset_;
 };
 
-/// All times of the channels that move.
+/// Return all times of the channels that have several keys.
 Times commonTimes(const FittedClip& clip)
 {
     Times times;
@@ -69,7 +69,7 @@ uint32_t placeBits(const Times& table)
     return static_cast<uint32_t>(std::bit_width(table.size() - 1));
 }
 
-/// Whether the clip is smaller with one table of times than with a list for each channel.
+/// True if the clip is smaller with one time table than with a list for each channel.
 bool pays(const Times& table, const FittedClip& clip)
 {
     if (table.empty() || placeBits(table) > kMostKeyFieldBits)
@@ -131,7 +131,7 @@ private:
 
     void placeTimes(const FittedChannel& channel, AnimationChannelRecord& record)
     {
-        // one key holds at any time: any time does
+        // the value of a single key holds at all times, so any time will do
         if (channel.times.size() == 1 && table_place_)
             record.first_time = *table_place_;
         else if (table_place_ && isRunOf(table_, channel.times))
@@ -162,7 +162,7 @@ private:
     }
 
     ClipTables tables_;
-    Times table_; ///< of the whole clip
+    Times table_; ///< times of the whole clip
     std::optional<uint32_t> table_place_;
     std::map<std::vector<float>, uint32_t> places_;
 };

@@ -1,4 +1,4 @@
-// Where the keys of clips stand in the chunks ACHN, AKEY and AKBT.
+// Packs the keys of clips into the chunks ACHN, AKEY and AKBT.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,7 +9,7 @@
 namespace hearth::clips
 {
 
-/// Places count from the tables' own beginning.
+/// Tables of clips. Offsets are relative to the beginning of these tables.
 struct ClipTables
 {
     std::vector<formats::AnimationChannelRecord> channels;
@@ -20,8 +20,8 @@ struct ClipTables
     void append(const ClipTables& other);
 };
 
-/// Equal times and values are stored once. Times that are not all of a table's are places in one that the whole clip shares,
-/// where that takes fewer bits than times of their own.
+/// Pack a clip. Equal times and values are stored once. Channels that use only some of the clip's times store
+/// indices into one time table of the clip, if that takes fewer bits than separate times.
 ClipTables clipTables(const FittedClip& clip);
 
 } // namespace hearth::clips

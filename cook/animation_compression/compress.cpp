@@ -24,7 +24,7 @@ struct Compressed
     ClipStatistics statistics;
 };
 
-/// Channels may share times and values: those count once.
+/// Return the bytes of a source's clip. Times and values that channels share count once.
 uint64_t sourceBytes(const MotionTables& tables, const AnimationRecord& animation)
 {
     std::set<std::pair<uint32_t, size_t>> ranges;

@@ -1,4 +1,5 @@
-// Clips within a stated error in metres at the vertices. cook/animation_compression/README.md has the proof.
+// Compresses animation clips within a stated error in metres at the vertices.
+// cook/animation_compression/README.md has the proof.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,8 +11,8 @@
 namespace hearth::clips
 {
 
-/// Left to itself a clip may be off by this share of the model's size: two tenths of what posed vertices may differ from
-/// plain glTF skinning.
+/// Default error of a clip, as a share of the model's size: two tenths of the allowed difference between
+/// posed vertices and plain glTF skinning.
 inline constexpr double kDefaultShareOfSize = 2e-6;
 
 struct ClipStatistics
@@ -31,8 +32,8 @@ struct CompressedClips
     std::vector<ClipStatistics> statistics; ///< one for each animation
 };
 
-/// Clips stay as they are where the stated error is 0, and where they would not become smaller. Deterministic: the same for
-/// any number of threads.
+/// Compress all clips. Clips stay unchanged if the stated error is 0, or if they would not become smaller.
+/// Deterministic: the result does not depend on the number of threads.
 /// tables   all finite, of the source: no packed channels
 /// carried  every vertex that nodes move, in any order
 CompressedClips compressClips(const formats::MotionTables& tables, std::span<const Carried> carried,

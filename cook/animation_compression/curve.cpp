@@ -23,16 +23,17 @@ namespace
 
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
-// Two quaternions that are this near to a right angle: a rounding may send a rotation the other way round.
+// Cosine between two quaternions below which a rounding may change the shorter arc.
 constexpr double kAmbiguousCosine = 1e-9;
 
-// A rotation with all keys this near to one (a chord) never leaves that surrounding: the shorter arcs stay inside.
+// Chord between a value and all keys below which a rotation stays within that distance of the value: the
+// shorter arcs stay inside.
 constexpr double kNearChord = 0.2;
 
-// Straight pieces of one piece of a spline: with more of them the keys of the spline are smaller.
+// Maximum number of linear pieces of one piece of a spline: with more, the spline's own keys are smaller.
 constexpr uint32_t kMostPieces = 8;
 
-// Sums of a few roundings of numbers up to 1.
+// Upper bound for a few roundings of numbers up to 1.
 constexpr double kAngleRounding = 1e-14;
 
 KeyValue minus(const KeyValue& a, const KeyValue& b)
@@ -48,21 +49,22 @@ KeyValue mixed(const KeyValue& a, const KeyValue& b, double t)
     return value;
 }
 
-/// Between unit quaternions.
+/// Return the angle between unit quaternions.
 double angle(const KeyValue& a, const KeyValue& b)
 {
     return 2 * std::asin(std::min(0.5 * length(minus(a, b)), 1.0));
 }
 
-/// At least the chord between two arcs that are gone along at constant speed in the same time, each shorter than half a
-/// turn of the sphere: d = a - b has d'' = -theta^2 d + (phi^2 - theta^2) b, whose solution is that of the ends, at most
-/// max / cos(theta / 2), and that of the second term, at most (1 / cos(theta / 2) - 1) / theta^2 times it.
+/// Return an upper bound for the chord between two arcs that are traversed at constant speed in the same
+/// time, each shorter than half a turn of the sphere. d = a - b has d'' = -theta^2 d + (phi^2 - theta^2) b.
+/// The solution is the part from the ends, at most max / cos(theta / 2), plus the part from the second term,
+/// at most (1 / cos(theta / 2) - 1) / theta^2 times it.
 double arcDeviation(const KeyValue& a0, const KeyValue& a1, const KeyValue& b0, const KeyValue& b1)
 {
     const double theta = angle(a0, a1), phi = angle(b0, b1);
     const double ends = std::max(length(minus(a0, b0)), length(minus(a1, b1)));
     const double growth = 1 / std::cos(0.5 * theta);
-    // (1 / cos(x / 2) - 1) / x^2 grows from 1 / 8, but its quotient loses digits where x is small
+    // (1 / cos(x / 2) - 1) / x^2 grows from 1 / 8, but computing it cancels digits for small x
     constexpr double kSmallArc = 1e-3, kOfSmallArc = 0.1250001;
     const double of_speed = theta < kSmallArc ? kOfSmallArc : (growth - 1) / (theta * theta);
     return ends * growth + std::abs(phi - theta) * (phi + theta) * of_speed + kAngleRounding;
@@ -92,7 +94,7 @@ double rotationDeviation(const Curve& curve, size_t first, size_t last, const Ke
     return worst;
 }
 
-/// The difference of straight lines is largest at an end.
+/// Return the maximum distance: the difference of linear functions is largest at an end.
 double vectorDeviation(const Curve& curve, size_t first, size_t last, const KeyValue& start,
                        const KeyValue& end, double limit)
 {
@@ -119,7 +121,7 @@ double stepDeviation(const Curve& curve, size_t first, size_t last, const KeyVal
 
 // ---- splines
 
-/// A piece of a spline between two keys, by its share of the time.
+/// Piece of a spline between two keys, parameterised by the share of its time.
 struct Spline
 {
     KeyValue start, out, in, end; ///< tangents for the whole piece
@@ -142,8 +144,8 @@ struct Spline
         return value;
     }
 
-    /// At least the distance from the straight line between two shares of it: the second derivative is linear, so it
-    /// is largest at an end.
+    /// Return an upper bound for the distance from the line between two parameters: the second derivative is
+    /// linear, so it is largest at an end.
     double sagitta(double from, double to) const
     {
         const double most = std::max(length(secondDerivative(from)), length(secondDerivative(to)));
@@ -151,7 +153,8 @@ struct Spline
     }
 };
 
-/// At least the chord between the spline, brought to length 1, and the arc between two shares of it.
+/// Return an upper bound for the chord between the normalized spline and the arc between two of its
+/// parameters.
 double rotationRemainder(const Spline& spline, double from, double to)
 {
     const KeyValue start = spline.at(from), end = spline.at(to);
@@ -160,15 +163,15 @@ double rotationRemainder(const Spline& spline, double from, double to)
     if (!(shorter > 1e-3) || dot(start, end) < 0.5 * length(start) * length(end))
         return kUnknown;
     const double theta = angle(normalizedOrNone(start), normalizedOrNone(end));
-    // no point of the straight line is nearer to 0 than this
+    // minimum distance between the line and 0
     const double near = shorter * std::cos(0.5 * theta);
     const double sagitta = spline.sagitta(from, to);
     if (sagitta > 0.5 * near)
         return kUnknown;
     // |a/|a| - b/|b|| <= 2 |a - b| / (|a| + |b|)
     const double off_arc = 2 * sagitta / (2 * near - sagitta);
-    // the straight line goes along the arc at |start| |end| sin(theta) / |line|^2: ahead or behind by a quarter of what
-    // that varies
+    // the line's point moves along the arc at |start| |end| sin(theta) / |line|^2: ahead or behind by a
+    // quarter of the variation of that speed
     const double speed = length(start) * length(end) * std::sin(theta);
     const double off_time = 0.25 * speed * (1 / (near * near) - 1 / (longer * longer));
     return off_arc + off_time;
@@ -179,7 +182,7 @@ double remainder(AnimationPath path, const Spline& spline, double from, double t
     return path == AnimationPath::rotation ? rotationRemainder(spline, from, to) : spline.sagitta(from, to);
 }
 
-/// Appends what lies behind the piece's first key, its end included. False where it takes too many.
+/// Append the keys behind the piece's first key, its end included. False if that takes too many pieces.
 bool appendPieces(const Spline& spline, float start_time, float end_time, double tolerance, Curve& curve)
 {
     const double seconds = double{end_time} - double{start_time};
@@ -189,7 +192,7 @@ bool appendPieces(const Spline& spline, float start_time, float end_time, double
         for (uint32_t i = 1; i < pieces; ++i)
             times.push_back(static_cast<float>(start_time + seconds * i / pieces));
         times.push_back(end_time);
-        // the place between two keys that are next to each other has no number
+        // two adjacent floats have no time between them
         if (std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) != times.end())
             return false;
         const auto share = [&](float time) { return (double{time} - double{start_time}) / seconds; };

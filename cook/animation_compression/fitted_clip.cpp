@@ -16,20 +16,20 @@ using namespace formats;
 namespace
 {
 
-// What hangs on a node counts as at least this share of the model from its pivot: games attach things.
+// Minimum reach of a node, as a share of the model's size: games attach objects to nodes.
 constexpr double kLeastReach = 0.01;
 
-// Of what a channel may be off at most, as a chord of a rotation or as a share of the node's scale, where its reach is
-// small: bounds of larger ones say nothing.
+// Maximum error of a channel with a small reach, as a chord of a rotation or as a share of the node's scale:
+// bounds of larger errors carry no information.
 constexpr double kMostChord = 0.1;
 
-// Between quaternions that are one but for the roundings of bringing them to length 1.
+// Chord between quaternions that are equal up to the rounding of normalization.
 constexpr double kSameChord = 1e-15;
 
-// Sums and products of the bounds themselves.
+// Margin for rounding in sums and products of the bounds.
 constexpr double kSpentMargin = 1 + 1e-9;
 
-// Of a spline's tolerance, for what straight pieces leave of it.
+// Share of a spline's tolerance for its approximation by linear pieces.
 constexpr double kSplineShare = 0.25;
 
 AnimationPath pathOf(const AnimationChannelRecord& channel)
@@ -64,7 +64,7 @@ FittedChannel asSource(const MotionTables& tables, const AnimationChannelRecord&
     return fitted;
 }
 
-/// One value at all times.
+/// Return a channel with one value at all times.
 FittedChannel constant(const AnimationChannelRecord& channel, std::vector<float> value)
 {
     FittedChannel fitted;
@@ -76,7 +76,7 @@ FittedChannel constant(const AnimationChannelRecord& channel, std::vector<float>
     return fitted;
 }
 
-/// The weights that a channel has at all times, if they never change.
+/// Return the weights of a channel if they never change.
 std::optional<std::vector<float>> constantWeights(const MotionTables& tables,
                                                   const AnimationChannelRecord& channel)
 {
@@ -111,7 +111,8 @@ FittedChannel packed(const AnimationChannelRecord& channel, const Curve& curve, 
     return fitted;
 }
 
-/// About what the values of a packed channel take, with the places of its times where it has not all of them.
+/// Return the approximate size of a packed channel's values, with indices of its times if it does not have
+/// all of them.
 size_t sizeBits(const PackedCurve& packed, const AnimationChannelRecord& channel, const Curve& curve)
 {
     constexpr size_t kOfOneTime = 8, kOfBaseAndStep = 128;
@@ -125,15 +126,16 @@ KeyValue restValue(const NodePose& rest, AnimationPath path)
     return path == AnimationPath::rotation ? rest.rotation : KeyValue{vector.x, vector.y, vector.z, 0};
 }
 
-/// What a node allows and what it took of it.
+/// Error budget of a node.
 struct NodeState
 {
-    uint32_t chain = 0; ///< channels that need a part of the error, on the longest chain from the node down
-    double model_size = 0; ///< metres; of the model that the node is part of
-    double left = -1; ///< metres that the node and those below may be off; below 0: nothing moves up to here
-    double spent = 0; ///< metres by which vertices that hang on it may be off already
-    double stretch = 1; ///< at least the largest singular value of all nodes above
-    double scale = 1;   ///< at least that of the node itself
+    uint32_t chain = 0; ///< channels that need a share of the error, on the longest chain from the node down
+    double model_size = 0; ///< metres; size of the model that the node belongs to
+    /// metres of error that remain for the node and its descendants; below 0: no animated node up to here
+    double left = -1;
+    double spent = 0;   ///< metres of error that descendant vertices may already have
+    double stretch = 1; ///< upper bound for the largest singular value of the product of all ancestors
+    double scale = 1;   ///< upper bound for the largest singular value of the node itself
 };
 
 class ClipFitter
@@ -169,16 +171,17 @@ private:
     {
         AnimationChannelRecord record;
         KeyValue middle{};
-        double from_middle = 0; ///< how far it goes from there
+        double from_middle = 0; ///< maximum distance of the channel from `middle`
     };
 
-    /// Morph weights stay as they are, and a node with a matrix alone does not move.
+    /// True if the channel can be approximated: not for morph weights, nor for a node with a matrix, which
+    /// does not move.
     bool isMeasured(const AnimationChannelRecord& channel) const
     {
         return pathOf(channel) != AnimationPath::weights && tables_.nodes[channel.node].has_trs != 0;
     }
 
-    /// Of two channels that set the same, the later one is seen.
+    /// Add a channel. It replaces an earlier channel for the same property.
     void addChannel(const AnimationChannelRecord& record)
     {
         std::vector<Channel>& channels = channels_of_node_[record.node];
@@ -242,7 +245,7 @@ private:
         clip_.stated_error = std::max(clip_.stated_error, state.left);
     }
 
-    /// Metres in the world for a deviation of 1.
+    /// Return the error in metres in world space for a deviation of 1.
     double metresOf(const AnimationChannelRecord& channel, const NodeState& state) const
     {
         const double farthest = reach_.farthest[channel.node];
@@ -280,7 +283,8 @@ private:
         state.left = std::max(state.left - deviation * metres * kSpentMargin, 0.0);
     }
 
-    /// returns  how far what it adds to the clip is from the channel
+    /// Fit a channel and add it to the clip.
+    /// returns  upper bound for the distance of the result from the channel
     double fitChannel(const Channel& channel, double tolerance)
     {
         const AnimationChannelRecord& record = channel.record;

@@ -1,4 +1,4 @@
-// One clip, each channel of it as small as its share of the error allows.
+// Compresses one clip: each channel becomes as small as its share of the error allows.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,37 +10,38 @@
 namespace hearth::clips
 {
 
-/// What is stored of a channel: floats, or a packed curve.
+/// Compressed channel: floats, or a packed curve.
 struct FittedChannel
 {
-    formats::AnimationChannelRecord record{}; ///< without places in the chunks
+    formats::AnimationChannelRecord record{}; ///< without offsets into the chunks
     std::vector<float> times;
-    std::vector<float> values; ///< where it is not packed
-    PackedCurve packed;        ///< where it is
+    std::vector<float> values; ///< if it is not packed
+    PackedCurve packed;        ///< if it is packed
 };
 
 struct FittedClip
 {
-    std::vector<FittedChannel> channels; ///< channels that do as the rest pose does are left out
-    double stated_error =
-        0; ///< metres in the world: what was allowed; the largest of the models that the clip moves
-    double proven_error = 0; ///< at least how far any vertex is off, at any time
+    std::vector<FittedChannel> channels; ///< without the channels that equal the rest pose
+    /// allowed error, metres in world space; the largest of the models that the clip moves
+    double stated_error = 0;
+    double proven_error = 0; ///< upper bound for the error of any vertex at any time, metres in world space
 };
 
-/// The error that is stated: metres, or a share of the size of each model, which is what hangs on a node that the clip moves
-/// while no node above it moves.
+/// Stated error: metres, or a share of the size of each model. A model is a node that the clip moves, but
+/// whose ancestors it does not move, with its descendants.
 struct StatedError
 {
     double metres = 0;
     double share_of_size = 0;
 };
 
-/// A node's error moves what hangs on it by at most the node's reach times it, so the errors of a chain of nodes add up. Each
-/// channel gets an equal part of what those above it left over.
+/// Compress a clip. An error of a node moves its descendants' vertices by at most the node's reach times the
+/// error, so the errors of a chain of nodes add up. Each channel gets an equal share of the error that its
+/// ancestors have left.
 FittedClip fitClip(const formats::MotionTables& tables, const formats::AnimationRecord& animation,
                    const SceneReach& scene, const StatedError& stated);
 
-/// All channels as they are.
+/// Return all channels unchanged.
 FittedClip sourceClip(const formats::MotionTables& tables, const formats::AnimationRecord& animation);
 
 } // namespace hearth::clips

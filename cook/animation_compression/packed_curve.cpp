@@ -16,7 +16,7 @@ using namespace formats;
 namespace
 {
 
-/// The three numbers of a key that are stored.
+/// Three components of a key that are stored.
 struct Numbers
 {
     uint32_t largest = 0;
@@ -40,10 +40,11 @@ Numbers numbersOf(AnimationPath path, const KeyValue& value)
 struct Coded
 {
     PackedCurve packed;           ///< with all keys
-    std::vector<KeyValue> values; ///< what they are read as
+    std::vector<KeyValue> values; ///< decoded values
 };
 
-/// All keys with codes of `bits` bits for the number that moves most. Nothing where one needs more than there are.
+/// Quantise all keys, with `bits` bits for the component with the largest range. Nothing if a code needs too
+/// many bits.
 std::optional<Coded> coded(const Curve& curve, std::span<const Numbers> numbers, uint32_t bits)
 {
     std::array<double, 3> low, high;
@@ -84,8 +85,8 @@ std::optional<Coded> coded(const Curve& curve, std::span<const Numbers> numbers,
     return result;
 }
 
-/// Leaves out keys: from each that is kept as far as the straight piece stays within the tolerance, found by doubling and
-/// halving.
+/// Removes keys: from each kept key, the next one is as far away as a linear piece stays within the
+/// tolerance. Searches by doubling and bisection.
 class KeyReduction
 {
 public:
@@ -94,10 +95,10 @@ public:
     {
     }
 
-    /// Which keys stay; none where neighbours alone are beyond the tolerance.
+    /// Return the indices of the kept keys; empty if adjacent keys already exceed the tolerance.
     std::vector<size_t> keys()
     {
-        // steps hold until the end, straight pieces need their last key
+        // steps hold until the end; linear pieces need their last key
         const size_t end = curve_.steps ? values_.size() : values_.size() - 1;
         std::vector<size_t> kept;
         size_t at = 0;
@@ -119,7 +120,8 @@ public:
     double worst() const { return worst_; }
 
 private:
-    /// Where it holds by itself: before the first key, behind the last.
+    /// Measure a key whose value holds by itself: before the first key, and behind the last one. True if it
+    /// is within tolerance.
     bool keep(size_t key)
     {
         const double off = distance(curve_.path, curve_.values[key], values_[key]);
@@ -173,7 +175,8 @@ std::optional<PackedCurve> packedCurve(const Curve& curve, double tolerance)
             high = std::max(high, number);
         }
     }
-    // one bit less than steps as wide as the tolerance, up to three bits more: keys go where codes leave them room
+    // try six widths of codes around steps as wide as the tolerance: finer codes leave more tolerance for
+    // removing keys
     const double widest = std::log2((high - low) / tolerance + 1);
     const auto fewest = static_cast<uint32_t>(std::clamp(std::ceil(widest) - 2, 1.0, 24.0));
     std::optional<PackedCurve> best;

@@ -1,4 +1,4 @@
-// A curve with fewer keys in fewer bits, within a tolerance.
+// Reduces the keys and the bits of a curve within a tolerance.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,20 +9,20 @@
 namespace hearth::clips
 {
 
-/// What chunk AKBT has of a channel, before it has a place there. FORMAT.md, "Skins and animations".
+/// Data of a channel in chunk AKBT, before it has an offset there. FORMAT.md, "Skins and animations".
 struct PackedCurve
 {
     struct Key
     {
-        size_t of_curve = 0;  ///< its number there
-        uint32_t largest = 0; ///< the number of a rotation that is left out
+        size_t of_curve = 0;  ///< index of the key in the curve
+        uint32_t largest = 0; ///< index of the omitted component of a rotation
         std::array<uint32_t, 3> codes{};
     };
     std::vector<Key> keys;
-    std::array<float, 3> base{}; ///< value of the codes 0
+    std::array<float, 3> base{}; ///< value of code 0
     float step = 0;
     std::array<uint8_t, 3> bits{};
-    double deviation = 0; ///< at least the distance from the curve at any time
+    double deviation = 0; ///< upper bound for the distance from the curve at any time
 
     uint32_t keyBits(formats::AnimationPath path) const
     {
@@ -31,9 +31,10 @@ struct PackedCurve
     }
 };
 
-/// The smallest of a few ways to share the tolerance between steps of codes and keys that are left out. Deterministic.
+/// Return the smallest of a few divisions of the tolerance between quantisation and omitted keys.
+/// Deterministic.
 /// tolerance  above 0, as distance() measures
-/// returns    nothing where 24 bits are not enough, or no bound is known
+/// returns    nothing if 24 bits are not enough, or no bound is known
 std::optional<PackedCurve> packedCurve(const Curve& curve, double tolerance);
 
 } // namespace hearth::clips

@@ -1,4 +1,5 @@
-// How far from each node the vertices can be that it moves: what an error of the node comes to at them.
+// Bounds the distance of the vertices that a node moves from the node: the factor from the node's error to
+// theirs.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,31 +12,34 @@
 namespace hearth::clips
 {
 
-/// Vertices that stand still in a node's space: a mesh of the node, or what one joint moves of a skinned one.
+/// Vertices that are fixed in a node's space: a mesh of the node, or the vertices that one joint of a skin
+/// moves.
 struct Carried
 {
     uint32_t node = 0;
-    Affine3d node_from_points; ///< of a joint: the inverse bind matrix
-    motion::Box3d box;         ///< metres, holds the points; of morphing meshes with all weights of the clips
+    Affine3d node_from_points; ///< for a joint: the inverse bind matrix
+    motion::Box3d box; ///< metres, contains the points; for morphing meshes with all weights of the clips
 };
 
-/// What holds for all clips.
+/// Data of a scene that is common to all clips.
 struct SceneReach
 {
     std::vector<uint32_t> parents_first;
-    std::vector<double>
-        own; ///< of each node: the farthest vertex that it carries itself, metres; below 0 if none
-    std::vector<double>
-        size; ///< longest side of the box of all that hangs on a node, metres in the world's rest pose
+    /// by node: distance of the farthest vertex that the node itself carries, metres; below 0 if none
+    std::vector<double> own;
+    /// by node: longest side of the box around the vertices of it and its descendants, metres in the world's
+    /// rest pose
+    std::vector<double> size;
     double scene_size = 0;
 };
 SceneReach sceneReach(const formats::MotionTables& tables, std::span<const Carried> carried);
 
-/// What holds for one clip of the source, at all times. One for each node.
+/// Reach of all nodes in one clip of the source, at all times. One entry for each node.
 struct ClipReach
 {
-    std::vector<double> scale;    ///< at least the largest singular value of the node's transform
-    std::vector<double> farthest; ///< vertices that hang on it, in its space; below 0 if there are none
+    std::vector<double> scale; ///< upper bound for the largest singular value of the node's transform
+    /// distance of the farthest vertex of it or its descendants, in its space; below 0 if there are none
+    std::vector<double> farthest;
 };
 ClipReach clipReach(const formats::MotionTables& tables, const formats::AnimationRecord& animation,
                     const SceneReach& scene);

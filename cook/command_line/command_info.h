@@ -1,4 +1,4 @@
-// Commands and options as data, for manual pages, completion and messages about mistyped words.
+// Describes commands and options as data, for manual pages, completion and messages about mistyped words.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,8 +10,8 @@ namespace hearth::cli
 
 struct OptionInfo
 {
-    std::vector<std::string> names; ///< "-j", "--jobs"; of a positional its name: "SOURCE"
-    std::string value;              ///< "N"; empty: a flag, or a positional
+    std::vector<std::string> names; ///< "-j", "--jobs"; for a positional its name: "SOURCE"
+    std::string value;              ///< placeholder, as "N"; empty for a flag or positional
     std::vector<std::string> choices;
     std::string description;
     bool is_required = false;
@@ -22,7 +22,7 @@ struct CommandInfo
 {
     std::string name;
     std::string description;
-    std::vector<OptionInfo> positionals; ///< here and below: in the order in which they were added
+    std::vector<OptionInfo> positionals; ///< this list and the ones below: in order of addition
     std::vector<OptionInfo> options;
     std::string footer; ///< examples
     std::vector<CommandInfo> subcommands;

@@ -12,10 +12,10 @@ namespace hearth::cli
 namespace
 {
 
-/// Exit code of a program whose command line is wrong, whatever is wrong about it.
+/// Exit code of a program for every error of its command line.
 constexpr int kUsage = 2;
 
-/// Add a check. Help shows `type_name` in place of its description, unless that is empty.
+/// Add a check. Help shows `type_name` instead of the check's description, unless `type_name` is empty.
 void addCheck(CLI::Option& option, CLI::Validator check, const std::string& type_name)
 {
     if (!type_name.empty())
@@ -38,7 +38,8 @@ std::vector<std::string> namesOf(const CLI::Option& option)
     return names;
 }
 
-/// Choices of "TEXT:{text,json}", as Option::choices shows them, or "draft|default|high" of Option::typeName.
+/// Return the words of "TEXT:{text,json}" (as Option::choices shows them) or of "draft|default|high" (as
+/// given to Option::typeName).
 std::vector<std::string> choicesOf(const std::string& type)
 {
     if (const size_t open = type.find('{'); open != std::string::npos)
@@ -299,7 +300,8 @@ void CommandLine::setAction(std::function<void()> action)
     action_ = std::move(action);
 }
 
-/// Called when all options have their values. Throws CLI::ValidationError for what setCheck finds.
+/// Run the check of setCheck, then the action. CLI11 calls this when all options have their values.
+/// Throws CLI::ValidationError for a fault that the check returns.
 void CommandLine::finish() const
 {
     if (const std::string fault = fault_ ? fault_() : ""; !fault.empty())
@@ -323,7 +325,7 @@ std::optional<int> CommandLine::parse(int argc, const char* const* argv)
 
 ParseResult CommandLine::parseWords(std::vector<std::string> words)
 {
-    // the last word is taken first
+    // CLI11 parses the words from the back
     std::reverse(words.begin(), words.end());
     try
     {

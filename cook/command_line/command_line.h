@@ -1,5 +1,5 @@
-// Command lines of programs: options bound to variables, subcommands, help and errors. Wraps CLI11, whose
-// header takes seven seconds to compile.
+// Parses command lines: options bound to variables, subcommands, help and errors. Wraps CLI11, whose header
+// takes seven seconds to compile.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -23,38 +23,40 @@ class Option;
 namespace hearth::cli
 {
 
-/// Refers to an option of a CommandLine, as long as that lives. Copies refer to the same option.
+/// Reference to an option of a CommandLine, valid as long as the CommandLine lives. Copies refer to the same
+/// option.
 class Option
 {
 public:
     Option& required();
-    /// Show `name` in help for the value, as "FILE". Completion offers the words of "text|json".
+    /// Show `name`, as "FILE", for the value in help. For a name as "text|json", completion offers its words.
     Option& typeName(const std::string& name);
-    /// Accept these words, or numbers, only. Help shows `type_name`, or where that is empty all of them.
+    /// Accept only these words or numbers. Help shows `type_name`, or all choices if it is empty.
     Option& choices(const std::vector<std::string>& words, const std::string& type_name = "");
     Option& choices(std::span<const uint32_t> numbers, const std::string& type_name = "");
-    /// Accept numbers from `min` to `max` only. Help shows `type_name`, or where that is empty the range.
+    /// Accept only numbers from `min` to `max`. Help shows `type_name`, or the range if it is empty.
     Option& range(int min, int max, const std::string& type_name = "");
     Option& range(uint32_t min, uint32_t max, const std::string& type_name = "");
     Option& range(uint64_t min, uint64_t max, const std::string& type_name = "");
     Option& range(double min, double max, const std::string& type_name = "");
-    /// Accept numbers above 0 only.
+    /// Accept only numbers above 0.
     Option& positive(const std::string& type_name = "");
-    /// Refuse values for which `fault` returns what is wrong with them; it returns "" for all others.
+    /// Refuse values for which `fault` returns a message. It returns "" for valid values.
     Option& check(const std::function<std::string(const std::string& value)>& fault);
-    /// Refuse this option without `other`, or beside it.
+    /// Refuse this option without `other` (needs), or together with it (excludes).
     Option& needs(const Option& other);
     Option& excludes(const Option& other);
-    /// Take one value for each time that the option is given. Else a list takes all that follow.
+    /// Take one value for each occurrence of the option. Without this, a list takes all values that follow.
     Option& oneValueEach();
     /// Take exactly `count` values.
     Option& expected(int count);
-    /// Split values at `separator`, too: "1,2,3" are three.
+    /// Also split each value at `separator`: "1,2,3" gives three values.
     Option& delimiter(char separator);
-    /// Show in help what the variable holds now.
+    /// Show the variable's present value in help, as the default.
     Option& showDefault();
 
-    /// returns  how many values the command line has given, of a flag how often; 0: the option is not there
+    /// returns  the number of values on the command line, for a flag of its occurrences; 0: the option is
+    ///          absent
     size_t count() const;
 
 private:
@@ -64,20 +66,20 @@ private:
     CLI::Option* option_;
 };
 
-/// The end of CommandLine::parseWords.
+/// Result of CommandLine::parseWords.
 struct ParseResult
 {
-    bool wants_help = false; ///< -h or --help was given: print help() and end
-    std::string fault;       ///< what is wrong; empty: nothing
+    bool wants_help = false; ///< -h or --help was given: print help() and exit
+    std::string fault;       ///< error message; empty: no error
 };
 
-/// The options of a program, or of one of its subcommands. Variables that options are bound to must live until
-/// the command line is parsed; an option that is not given leaves its variable as it is. `names` are
-/// "-o,--output", or one word without dashes, as "SOURCE", for an argument that is given by its position.
+/// Options of a program, or of one of its subcommands. Variables that are bound to options must live until
+/// the command line is parsed; an absent option leaves its variable unchanged. `names` are "-o,--output", or
+/// one word without dashes, as "SOURCE", for a positional argument.
 class CommandLine
 {
 public:
-    /// name  of the program, for help; empty: as it was started
+    /// name  program name in help; empty: as the program was started
     explicit CommandLine(const std::string& description, const std::string& name = "");
     ~CommandLine();
     CommandLine(const CommandLine&) = delete;
@@ -92,12 +94,12 @@ public:
     Option addOption(const std::string& names, double& value, const std::string& description);
     Option addOption(const std::string& names, std::optional<uint32_t>& value,
                      const std::string& description);
-    /// Add an option with values, one at least.
+    /// Add an option with one or more values.
     Option addOption(const std::string& names, std::vector<std::string>& values,
                      const std::string& description);
     Option addOption(const std::string& names, std::vector<float>& values, const std::string& description);
     Option addOption(const std::string& names, std::vector<double>& values, const std::string& description);
-    /// Add an option that appends its values as one list for each time that it is given.
+    /// Add an option that appends one list of values for each occurrence.
     Option addOption(const std::string& names, std::vector<std::vector<double>>& lists,
                      const std::string& description);
 
@@ -109,34 +111,35 @@ public:
     /// Add an option without a value.
     Option addFlag(const std::string& names, bool& is_given, const std::string& description);
     Option addFlag(const std::string& names, const std::string& description);
-    /// Add an option that may have a value, as "--fatal=W1"; with the names "--fatal{all}" the value is "all"
-    /// where none is given.
+    /// Add an option with an optional value, as "--fatal=W1". With the names "--fatal{all}" the value is
+    /// "all" if none is given.
     Option addFlag(const std::string& names, std::string& value, const std::string& description);
 
-    /// The subcommand lives as long as this.
+    /// Add a subcommand, which lives as long as this object.
     CommandLine& addSubcommand(const std::string& name, const std::string& description);
     /// Make it an error to name no subcommand.
     void requireSubcommand();
-    /// Let the options of this stand after the names of its subcommands, too: of those that there are by now.
+    /// Accept the options of this command after the names of its subcommands, too: of the subcommands that
+    /// exist at this call.
     void shareOptions();
 
     /// Set the text below all options in help: examples and exit codes.
     void setFooter(const std::string& text);
-    /// Refuse command lines for which `fault`, called when all options have their values, returns what is
-    /// wrong; it returns "" for all others.
+    /// Refuse command lines for which `fault` returns a message. `fault` is called when all options have
+    /// their values; it returns "" for a valid command line.
     void setCheck(std::function<std::string()> fault);
-    /// Call `action` at the end of parsing, of a subcommand where it is the one that was named.
+    /// Call `action` at the end of parsing; the action of a subcommand only if that subcommand was named.
     void setAction(std::function<void()> action);
 
     /// Parse the arguments of main(). Help goes to stdout, errors go to stderr.
-    /// returns  the exit code, where the program must end: 0 after help, 2 after an error
+    /// returns  the exit code if the program must end: 0 after help, 2 after an error
     [[nodiscard]] std::optional<int> parse(int argc, const char* const* argv);
-    /// Parse words, without the name of the program, and print nothing.
+    /// Parse words that do not include the program's name, and print nothing.
     [[nodiscard]] ParseResult parseWords(std::vector<std::string> words);
 
-    /// The help of the subcommand that was named, or of the whole.
+    /// Return the help of the named subcommand, or of the program if none was named.
     std::string help() const;
-    /// Whether a subcommand was named.
+    /// True if a subcommand was named.
     bool hasSubcommand() const;
 
     CommandInfo info() const;

@@ -46,7 +46,7 @@ const char* typeName(const Json& json)
 
 // ---- reading
 
-/// Has the functions that the library's parser calls.
+/// Adapter from the library's SAX parser to JsonEvents.
 class ParserTarget
 {
 public:
@@ -77,7 +77,7 @@ private:
     std::optional<size_t> fault_;
 };
 
-/// Grows a value.
+/// Builder of a Json value from the parser's events.
 class Builder final : public JsonEvents
 {
 public:
@@ -121,7 +121,8 @@ private:
         return true;
     }
 
-    /// Where the value now is: it stays there until its container is closed.
+    /// Add the value to the open container and return its place, which is valid until that container is
+    /// closed.
     Json& place(Json value)
     {
         has_root_ = true;
@@ -140,7 +141,7 @@ private:
     bool has_root_ = false;
 };
 
-/// The index that a step of a JSON pointer names; nullopt where it names none.
+/// Return the array index of a step of a JSON pointer; nullopt if the step is no index.
 std::optional<size_t> indexOf(std::string_view step)
 {
     size_t index = 0;
@@ -148,7 +149,7 @@ std::optional<size_t> indexOf(std::string_view step)
     return error == std::errc() && end == step.data() + step.size() ? std::optional(index) : std::nullopt;
 }
 
-/// The key that a step of a JSON pointer names.
+/// Return the object key of a step of a JSON pointer.
 std::string keyOf(std::string_view step)
 {
     std::string key;
@@ -162,14 +163,14 @@ std::string keyOf(std::string_view step)
 
 } // namespace
 
-// ---- making
+// ---- construction
 
 Json::Json() noexcept = default;
 Json::Json(const Json& other) = default;
 Json::Json(Json&& other) noexcept : content_(std::exchange(other.content_, std::monostate())) {}
 Json& Json::operator=(const Json& other)
 {
-    Json copy(other); // which may be a part of this
+    Json copy(other); // `other` may be a part of this value
     content_.swap(copy.content_);
     return *this;
 }
@@ -252,7 +253,7 @@ void Json::setNumber(double value)
     content_ = value;
 }
 
-// ---- looking
+// ---- access
 
 bool Json::is_null() const
 {
@@ -459,7 +460,7 @@ std::string Json::value(std::string_view key, const char* otherwise) const
     return value(key, std::string(otherwise));
 }
 
-// ---- changing
+// ---- modification
 
 void Json::addMember(std::string_view key, Json value)
 {
@@ -477,20 +478,20 @@ void Json::update(const Json& other)
 {
     if (is_null())
         *this = object();
-    members(); // throws where this is none
+    members(); // throws if this is no object
     for (const Member& member : other.members())
         (*this)[member.key] = member.value;
 }
 
 void Json::erase(std::string_view key)
 {
-    members(); // throws where this is none
+    members(); // throws if this is no object
     std::erase_if(std::get<Object>(content_), [&](const Member& member) { return member.key == key; });
 }
 
 void Json::erase(size_t index)
 {
-    at(index); // throws where there is none
+    at(index); // throws if there is no such element
     elements().erase(elements().begin() + static_cast<std::ptrdiff_t>(index));
 }
 

@@ -1,6 +1,5 @@
-// A JSON value, and how it is read and written. The one file that includes a library for JSON is json.cpp:
-// all others build and read documents with this class, whose functions are called as those of that library,
-// nlohmann's.
+// JSON value with its parser and writer. Only json.cpp includes the JSON library (nlohmann's); all other
+// files use this class, whose functions have the names of that library's functions.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -22,14 +21,15 @@
 namespace hearth
 {
 
-/// A value is not there, or is of another type than was asked for. what() names the member or the types.
+/// Error for a value that is absent, or has another type than requested. what() names the member or the
+/// types.
 class JsonError : public std::runtime_error
 {
 public:
     using std::runtime_error::runtime_error;
 };
 
-/// A container that becomes an array, or an object where it maps texts to values.
+/// Container that becomes an array, or an object if it maps strings to values.
 template <typename T>
 concept JsonContainer = !std::convertible_to<const T&, std::string_view> && !std::same_as<T, class Json> &&
                         requires(const T& list) {
@@ -38,18 +38,18 @@ concept JsonContainer = !std::convertible_to<const T&, std::string_view> && !std
                             list.size();
                         };
 
-/// Null, a boolean, a number, a text, an array, or an object whose members keep the order in which they were
-/// added. Numbers are whole with a sign, whole without one, or double, and are written as such: Json(1) as 1,
-/// Json(1.0) as 1.0.
+/// JSON value: null, boolean, number, string, array, or object whose members keep the order of their
+/// insertion. Numbers are signed integers, unsigned integers or doubles, and are written as such: Json(1) as
+/// 1, Json(1.0) as 1.0.
 class Json
 {
 public:
     struct Member;
-    class Item; ///< of an initializer list: anything that becomes a Json
+    class Item; ///< element of an initializer list: anything convertible to Json
 
     Json() noexcept;
     Json(const Json& other);
-    Json(Json&& other) noexcept; ///< leaves null
+    Json(Json&& other) noexcept; ///< leaves `other` null
     Json& operator=(const Json& other);
     Json& operator=(Json&& other) noexcept;
     ~Json();
@@ -89,72 +89,72 @@ public:
                 push_back(Json(value));
         }
     }
-    /// An object where each item is an array of two, the first of them a text; else an array.
+    /// Make an object if each item is an array of two whose first element is a string; else an array.
     Json(std::initializer_list<Item> items);
 
     static Json array();
     static Json array(std::initializer_list<Item> items);
     static Json object();
 
-    /// nullopt where the text is not JSON (RFC 8259, in UTF-8), or is nested more than 1000 levels deep. Of
+    /// Parse JSON text (RFC 8259, UTF-8); nullopt if it is invalid or nested more than 1000 levels deep. Of
     /// members with equal keys the last one counts.
     static std::optional<Json> parse(std::string_view text);
 
-    /// On one line, or with `indent` times `fill` for each level. Bytes that are no UTF-8 become U+FFFD,
-    /// numbers that are not finite become null.
+    /// Write on one line, or with `indent` times `fill` for each level. Bytes that are not UTF-8 become
+    /// U+FFFD, numbers that are not finite become null.
     std::string dump(int indent = -1, char fill = ' ') const;
 
     bool is_null() const;
     bool is_boolean() const;
     bool is_number() const;
-    bool is_number_integer() const;  ///< whole, with a sign or without
-    bool is_number_unsigned() const; ///< as each whole number that is not negative and was parsed
+    bool is_number_integer() const;  ///< integer, signed or unsigned
+    bool is_number_unsigned() const; ///< unsigned integer, as every parsed non-negative integer
     bool is_string() const;
     bool is_array() const;
     bool is_object() const;
 
-    /// Elements of an array or members of an object, else 0.
+    /// Number of elements of an array or members of an object, else 0.
     size_t size() const;
     bool empty() const { return size() == 0; }
 
-    /// The elements of an array; none of null. Throws JsonError for all else.
+    /// Elements of an array; none for null. Throws JsonError for all else.
     const Json* begin() const;
     const Json* end() const;
     Json* begin();
     Json* end();
-    /// The members of an object; none of null. Throws JsonError for all else.
+    /// Members of an object; none for null. Throws JsonError for all else.
     std::span<const Member> items() const;
 
-    /// Element or member; throws JsonError where there is none.
+    /// Element or member; throws JsonError if there is none.
     const Json& at(size_t index) const;
     const Json& at(std::string_view key) const;
     Json& at(size_t index);
     const Json& operator[](size_t index) const { return at(index); }
     const Json& operator[](std::string_view key) const { return at(key); }
     Json& operator[](size_t index) { return at(index); }
-    /// Adds a member that is null where there is none; null becomes an object. Throws JsonError for all else.
+    /// Return the member, after adding a null one if it is absent; null becomes an object. Throws JsonError
+    /// for all else.
     Json& operator[](std::string_view key);
 
-    /// The member; null pointer where there is none, or this is no object.
+    /// Return the member; null pointer if it is absent, or this is no object.
     const Json* find(std::string_view key) const;
     bool contains(std::string_view key) const { return find(key) != nullptr; }
-    /// The value that a JSON pointer (RFC 6901) as "/meshes/0/name" leads to; null pointer where it leads
-    /// nowhere.
+    /// Return the value at a JSON pointer (RFC 6901), as "/meshes/0/name"; null pointer if there is none.
     const Json* resolve(std::string_view pointer) const;
 
-    const Json& back() const; ///< the last element; throws JsonError where there is none
+    const Json& back() const; ///< last element; throws JsonError if there is none
     Json& back();
-    /// Adds an element; null becomes an array. Throws JsonError for all else.
+    /// Append an element; null becomes an array. Throws JsonError for all else.
     void push_back(Json value);
-    /// Sets all members of `other` here; null becomes an object. Throws JsonError where one of the two is
-    /// none.
+    /// Set all members of `other` here; null becomes an object. Throws JsonError if one of the two is no
+    /// object.
     void update(const Json& other);
-    void erase(std::string_view key); ///< does nothing where there is no such member
-    void erase(size_t index);         ///< throws JsonError where there is no such element
+    void erase(std::string_view key); ///< does nothing if there is no such member
+    void erase(size_t index);         ///< throws JsonError if there is no such element
 
-    /// The value as a boolean, number, text, container of such, or Json. Throws JsonError where it is of
-    /// another type, or a double that a whole number is asked of is out of the range of 64 bits. Whole
-    /// numbers are converted as by a cast.
+    /// Convert the value to a boolean, number, string, container of such, or Json. Throws JsonError if it has
+    /// another type, or if an integer is requested and the double is out of the range of 64 bits. Integers
+    /// are converted as by a cast.
     template <typename T>
     T get() const;
     template <typename T>
@@ -162,13 +162,13 @@ public:
     {
         value = get<T>();
     }
-    /// The member as get() has it, or `otherwise` where there is none. Throws JsonError as get(), and where
-    /// this is no object.
+    /// Return the member as get() converts it, or `otherwise` if it is absent. Throws JsonError as get()
+    /// does, and if this is no object.
     template <typename T>
     T value(std::string_view key, T otherwise) const;
     std::string value(std::string_view key, const char* otherwise) const;
 
-    /// Numbers are equal by value, objects whatever the order of their members.
+    /// Compare numbers by value, and objects regardless of the order of their members.
     friend bool operator==(const Json& a, const Json& b);
 
 private:
@@ -180,13 +180,13 @@ private:
     void setInteger(int64_t value);
     void setUnsigned(uint64_t value);
     void setNumber(double value);
-    void addMember(std::string_view key, Json value); ///< the key is new
+    void addMember(std::string_view key, Json value); ///< precondition: the key is new
     const Json* memberOrNull(std::string_view key) const;
     const Array& elements() const;
     Array& elements();
     const Object& members() const;
     bool boolean() const;
-    uint64_t wholeBits() const; ///< of a negative number as by a cast
+    uint64_t wholeBits() const; ///< integer of 64 bits, a negative one as cast to unsigned
     double number() const;
     const std::string& text() const;
 
@@ -210,8 +210,8 @@ public:
     }
 
     const Json& peek() const { return value_; }
-    /// The elements of an initializer list are const: what is in it would be copied at each level of a
-    /// document.
+    /// Move the value out, although elements of an initializer list are const. Otherwise each level of a
+    /// document would copy all values below it.
     Json take() const { return std::move(value_); }
 
 private:
@@ -254,14 +254,13 @@ T Json::value(std::string_view key, T otherwise) const
     return member == nullptr ? std::move(otherwise) : member->get<T>();
 }
 
-/// Writes the value as dump() has it.
+/// Write the value as dump() does.
 std::ostream& operator<<(std::ostream& stream, const Json& json);
 
-/// `text` as a JSON string with its quotes; bytes that are no UTF-8 become U+FFFD.
+/// Return `text` as a JSON string with its quotes; bytes that are not UTF-8 become U+FFFD.
 std::string quoteJson(std::string_view text);
 
-/// The step of a JSON pointer that leads to a member: "/" and the key, with "~" and "/" written as "~0" and
-/// "~1".
+/// Return the step of a JSON pointer to a member: "/" and the key, with "~" and "/" escaped as "~0" and "~1".
 std::string pointerStep(std::string_view key);
 
 } // namespace hearth

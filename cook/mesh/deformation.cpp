@@ -18,7 +18,8 @@ namespace
 constexpr size_t kSetInfluences = 4;
 constexpr uint32_t kWeightCodes = 65535;
 
-/// Each joint once, the largest weight first, those without weight left out. returns how many there are
+/// Merge equal joints, drop those without weight, and sort by weight, largest first. returns the number of
+/// influences
 size_t sortInfluences(std::span<Influence> influences)
 {
     std::sort(influences.begin(), influences.end(),
@@ -46,7 +47,7 @@ double sumOf(std::span<const Influence> influences)
     return sum;
 }
 
-/// Codes that sum to kWeightCodes, none more than one from its weight's share. They fall as the weights do.
+/// Choose codes that sum to kWeightCodes, each within one of its weight's share. Codes descend as weights do.
 void chooseCodes(std::span<const Influence> influences, std::span<uint32_t> codes)
 {
     const double scale = kWeightCodes / sumOf(influences);
@@ -56,7 +57,7 @@ void chooseCodes(std::span<const Influence> influences, std::span<uint32_t> code
         codes[i] = std::min(left, static_cast<uint32_t>(influences[i].weight * scale));
         left -= codes[i];
     }
-    // fewer are left than there are influences: one for each of the first
+    // the remainder is smaller than the number of influences: the first ones get one each
     for (size_t i = 0; left > 0; i = (i + 1) % influences.size(), --left)
         ++codes[i];
 }
@@ -78,7 +79,8 @@ std::vector<Influence> influencesAt(const SourceMesh& mesh, size_t vertex)
     return influences;
 }
 
-/// One set where four influences are enough for all vertices, else as many as hold `most`.
+/// Return the number of influence sets: one if four influences suffice for all vertices, else enough for
+/// `most`.
 size_t neededSets(const SourceMesh& mesh, uint32_t most)
 {
     const size_t sets = std::min<size_t>(mesh.joint_sets.size(), most / kSetInfluences);
@@ -141,7 +143,7 @@ InfluenceLoss reduceInfluences(SourceMesh& mesh, uint32_t most)
 namespace
 {
 
-/// The least power of two whose multiples by codes reach all deltas.
+/// Compute the smallest power of two whose multiples by codes reach all deltas.
 float morphStep(std::span<const Float3> deltas)
 {
     float most = 0;

@@ -1,4 +1,4 @@
-// Gives the memory of arrays back that are done with before their owner is.
+// Frees the memory of arrays before their owner ends.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,7 +7,7 @@
 namespace hearth::mesh
 {
 
-/// Empties the vector and frees its memory; clear() and assigning {} keep it.
+/// Empty the vector and free its memory; clear() and assigning {} keep it.
 template <typename T>
 void freeMemory(std::vector<T>& values)
 {

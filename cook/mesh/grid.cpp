@@ -20,11 +20,12 @@ using Block = tbb::blocked_range<size_t>;
 constexpr size_t kGrain = 16384;
 
 constexpr int kBits = 16;
-/// Poses are compared with those of other programs to 1e-5 of the model's size.
+/// Deformed meshes get a finer grid: their poses are compared with those of other programs to 1e-5 of the
+/// model's size.
 constexpr int kDeformedBits = 18;
 constexpr int kMostExtraBits = 4;
 
-/// Largest power of two that is not above x; x positive.
+/// Return the largest power of two that is not above x; x positive.
 double powerOfTwoBelow(double x)
 {
     return std::ldexp(1.0, std::ilogb(x));
@@ -36,7 +37,8 @@ double largestPart(Float3 from, Float3 to)
         {std::abs(double{to.x} - from.x), std::abs(double{to.y} - from.y), std::abs(double{to.z} - from.z)});
 }
 
-/// Least of the edges' largest coordinate differences: a step no larger keeps the ends of every edge apart.
+/// Return the minimum, over the edges, of the largest coordinate difference: a step no larger keeps the ends
+/// of every edge apart.
 double shortestEdge(const SourceMesh& mesh)
 {
     const auto shortestOf = [&](const Block& triangles, double shortest)
@@ -57,7 +59,7 @@ double shortestEdge(const SourceMesh& mesh)
                                 [](double a, double b) { return std::min(a, b); });
 }
 
-/// 0 for a mesh without extent: its positions stay as they are.
+/// Compute the grid step; 0 for a mesh without extent, whose positions stay unchanged.
 double gridStep(const SourceMesh& mesh)
 {
     Box3 box;
@@ -84,14 +86,14 @@ double gridStep(const SourceMesh& mesh)
 
 float snap(double coordinate, double step)
 {
-    // + 0.0: the grid has one zero
+    // + 0.0: the grid has no negative zero
     return static_cast<float>(std::nearbyint(coordinate / step) * step + 0.0);
 }
 
 namespace
 {
 
-/// The square of how far it moves.
+/// Snap a position. Returns the squared distance that it moves.
 double snapPosition(Float3& position, double step)
 {
     double distance2 = 0;

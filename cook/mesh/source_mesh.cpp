@@ -16,7 +16,7 @@ namespace
 
 constexpr uint64_t kArrayAlignment = 16;
 
-/// Collects arrays, then lays them out as one chunk.
+/// Collects arrays and lays them out as one chunk.
 class ArrayPacker
 {
 public:
@@ -80,7 +80,7 @@ SourceMeshHeader headerOf(const SourceMesh& mesh)
     header.vertex_count = static_cast<uint32_t>(mesh.vertexCount());
     header.triangle_count = static_cast<uint32_t>(mesh.triangleCount());
     header.source_vertex_count = mesh.source_vertex_count;
-    // writeSourceMesh puts the name behind the arrays and fills the offset
+    // writeSourceMesh appends the name behind the arrays and sets its offset
     header.name = {0, static_cast<uint32_t>(mesh.name.size())};
     return header;
 }
@@ -108,7 +108,7 @@ T& grown(std::vector<T>& sets, uint32_t set)
     return sets[set];
 }
 
-// More sets than any exporter writes; a limit only for damaged parts.
+// More sets than any exporter writes; only a limit for damaged parts.
 constexpr uint32_t kMaxSets = 4096;
 
 bool readArray(std::span<const std::byte> bytes, const SourceMeshHeader& header, const SourceArray& array,
@@ -220,7 +220,7 @@ Result<SourceMesh> readSourceMesh(const ContainerReader& reader, uint32_t index)
     if (std::any_of(mesh.indices.begin(), mesh.indices.end(),
                     [&](uint32_t i) { return i >= header->vertex_count; }))
         return Error{Issue::index_out_of_range, reader.name(), where, ""};
-    reader.discard(*entry); // all is copied
+    reader.discard(*entry); // everything is copied
     return mesh;
 }
 

@@ -1,4 +1,5 @@
-// A triangle mesh in memory as import delivers it and the cookers read it, and its form in a part (chunk SMSH).
+// Triangle mesh in memory, as import delivers it and the cookers read it, and its serialized form in a part
+// (chunk SMSH).
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -21,7 +22,7 @@ struct Joints4
     uint16_t joint[4];
 };
 
-/// Deltas to the bind pose; an array is empty where the target does not change that attribute.
+/// Deltas to the bind pose; an array is empty if the target does not change that attribute.
 struct MorphTarget
 {
     std::vector<Float3> positions;
@@ -29,10 +30,10 @@ struct MorphTarget
     std::vector<Float3> tangents;
 };
 
-/// One mesh of the source: all its primitives together, one material for each triangle.
-/// Every attribute array is empty or has vertexCount() elements; all values are finite; indices are in range.
-/// The vertices are those of the bind pose: joints and morph targets have not moved them.
-/// Triangles without area are still there: the cookers drop and count them.
+/// Mesh of the source: all its primitives together, one material for each triangle. Every attribute array is
+/// empty or has vertexCount() elements; all values are finite; indices are in range. Vertices are in the bind
+/// pose: joints and morph targets are not applied. Triangles without area are still included: the cookers
+/// drop and count them.
 struct SourceMesh
 {
     std::string name;
@@ -44,7 +45,7 @@ struct SourceMesh
     std::vector<std::vector<Joints4>> joint_sets; ///< four influences a set; as many sets as weight_sets
     std::vector<std::vector<Float4>> weight_sets; ///< over all sets, a vertex's weights sum to 1
     std::vector<uint32_t> indices;                ///< three for each triangle
-    std::vector<uint32_t> triangle_materials;     ///< for each triangle a material, or formats::kNone
+    std::vector<uint32_t> triangle_materials;     ///< material of each triangle, or formats::kNone
     std::vector<MorphTarget> morph_targets;
     uint32_t face_count = 0;          ///< polygons of the source before triangulation
     uint32_t source_vertex_count = 0; ///< as the source counts them (glTF: its distinct POSITION accessors)
@@ -53,13 +54,14 @@ struct SourceMesh
     size_t triangleCount() const { return indices.size() / 3; }
 };
 
-/// Bits of formats::VertexAttributes for the arrays that are there.
+/// Return the bits of formats::VertexAttributes for the arrays that are not empty.
 uint32_t attributesOf(const SourceMesh& mesh);
 
 /// Write the mesh as chunk SMSH `index`.
 Status writeSourceMesh(formats::ContainerWriter& writer, uint32_t index, const SourceMesh& mesh);
 
-/// Read chunk SMSH `index` back. errors: chunk_missing, chunk_size, index_out_of_range and those of the container.
+/// Read chunk SMSH `index` back. errors: chunk_missing, chunk_size, index_out_of_range and those of the
+/// container.
 Result<SourceMesh> readSourceMesh(const formats::ContainerReader& reader, uint32_t index);
 
 } // namespace hearth::mesh

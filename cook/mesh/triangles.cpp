@@ -11,8 +11,8 @@ namespace hearth::mesh
 namespace
 {
 
-/// Whether the sum of the numbers is exactly zero. Adds them one by one to an expansion of non-overlapping parts
-/// (J. R. Shewchuk, "Adaptive precision floating-point arithmetic", 1997, Grow-Expansion).
+/// True if the sum of the numbers is exactly zero. Adds them one by one to an expansion of non-overlapping
+/// parts (J. R. Shewchuk, "Adaptive precision floating-point arithmetic", 1997, Grow-Expansion).
 template <size_t N>
 bool sumIsZero(const std::array<double, N>& numbers)
 {
@@ -38,14 +38,14 @@ bool sumIsZero(const std::array<double, N>& numbers)
     return part_count == 0;
 }
 
-/// Whether the signed area of the triangle in the plane of two coordinates is zero. The six products of two floats
-/// are exact doubles, and neither overflow nor vanish.
+/// True if the signed area of the triangle in the plane of two coordinates is zero. The six products of two
+/// floats are exact doubles, without overflow or underflow.
 bool areaIsZero(double ax, double ay, double bx, double by, double cx, double cy)
 {
     return sumIsZero<6>({ax * by, -ay * bx, bx * cy, -by * cx, cx * ay, -cy * ax});
 }
 
-/// Whether u1 * v2 - u2 * v1 is surely not zero although its inputs and itself are rounded.
+/// True if u1 * v2 - u2 * v1 is certainly not zero, despite the rounding of its inputs and result.
 bool surelyNotZero(double u1, double v2, double u2, double v1)
 {
     // at most 8 roundings of relative size 2^-53 on each product
@@ -71,7 +71,7 @@ std::vector<OpenEdge> openEdges(std::span<const uint32_t> positions)
 {
     struct Use
     {
-        uint64_t edge; ///< smaller position in the high half
+        uint64_t edge; ///< smaller position id in the high half
         int32_t direction;
     };
     std::vector<Use> uses;

@@ -1,4 +1,4 @@
-// Triangles that cover nothing, and edges that are open: exact answers by position.
+// Detects degenerate triangles and open edges, exactly and by position.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,11 +11,11 @@
 namespace hearth::mesh
 {
 
-/// Whether the three points lie on one line, exactly: such a triangle covers no sample from any view.
-/// Needle triangles with the smallest area stay. Points finite.
+/// True if the three points lie on one line, exactly: such a triangle covers no sample from any view. Needle
+/// triangles with the smallest area stay. Points finite.
 bool isDegenerate(Float3 a, Float3 b, Float3 c);
 
-/// An edge that the triangles use more often in one direction than in the other.
+/// Edge with unbalanced half-edges: the triangles use one direction more often than the other.
 struct OpenEdge
 {
     uint32_t from;
@@ -26,9 +26,9 @@ struct OpenEdge
     friend auto operator<=>(const OpenEdge&, const OpenEdge&) = default;
 };
 
-/// The boundary of the triangles as a chain: their open edges, sorted. Empty for a closed surface, whatever its genus
-/// and however many faces meet at an edge, as long as its faces are oriented alike.
-/// positions  three position indices for each triangle
+/// Return the boundary of the triangles as a chain: their open edges, sorted. Empty for a closed surface of
+/// any genus with any number of triangles at an edge, if its triangles are oriented consistently.
+/// positions  three position ids for each triangle
 std::vector<OpenEdge> openEdges(std::span<const uint32_t> positions);
 
 } // namespace hearth::mesh

@@ -22,13 +22,13 @@ uint64_t mix(uint64_t h)
     return h ^ (h >> 31);
 }
 
-/// Open-addressing set of element indices; hash and equality are the caller's.
+/// Open-addressing hash set of element indices; the caller provides hash and equality.
 class IndexSet
 {
 public:
     explicit IndexSet(size_t count) : slots_(std::bit_ceil(count * 2 + 1), kEmpty) {}
 
-    /// The element that equals `index`, which is `index` itself when it is new.
+    /// Return the element that equals `index`; `index` itself if it is new.
     template <typename Equal>
     uint32_t findOrInsert(uint32_t index, uint64_t hash, Equal equal)
     {
@@ -42,15 +42,15 @@ public:
         }
     }
 
-    /// Have the slot at hand that findOrInsert will look at first.
+    /// Prefetch the slot that findOrInsert reads first.
     void prefetch(uint64_t hash) const { __builtin_prefetch(&slots_[hash & (slots_.size() - 1)], 1); }
 
 private:
     std::vector<uint32_t> slots_;
 };
 
-/// Calls visit(index, hash) for all indices in order, with the slots of the next ones on their way: the set is larger
-/// than any cache, and its slots are everywhere.
+/// Call visit(index, hash) for all indices in order, prefetching the slots of the next ones: the set is
+/// larger than any cache, and accesses are scattered.
 template <typename HashOf, typename Visit>
 void forEachHashed(const IndexSet& set, size_t count, HashOf hashOf, Visit visit)
 {
@@ -69,7 +69,7 @@ void forEachHashed(const IndexSet& set, size_t count, HashOf hashOf, Visit visit
     }
 }
 
-/// One array of a mesh as rows of bytes.
+/// Array of a mesh as rows of bytes.
 struct Rows
 {
     const std::byte* data;

@@ -1,5 +1,5 @@
-// Which vertices share a position, and which are the same vertex twice.
-// Connectivity is by position; attribute seams stay, as several vertices at one position. See README.md.
+// Welds vertices: finds those that share a position and those that are equal in all attributes. Connectivity
+// is by position; attribute seams stay, as several vertices at one position. See cook/mesh/README.md.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,17 +12,19 @@
 namespace hearth::mesh
 {
 
+/// Result of welding vertices by position.
 struct Weld
 {
-    std::vector<uint32_t> position_of_vertex; ///< dense, in order of first use
+    std::vector<uint32_t> position_of_vertex; ///< position ids, dense, in order of first use
     uint32_t position_count = 0;
 };
 
-/// Vertices with the same three coordinates (bit for bit, but -0 equals +0) get the same position.
+/// Give vertices with the same three coordinates (bit for bit, but -0 equals +0) the same position id.
 /// positions  finite
 Weld weldPositions(std::span<const Float3> positions);
 
-/// For each vertex the first vertex that equals it in every array: attributes, joints, weights and morph targets.
+/// Return, for each vertex, the first vertex that equals it in every array: attributes, joints, weights and
+/// morph targets.
 std::vector<uint32_t> firstEqualVertices(const SourceMesh& mesh);
 
 } // namespace hearth::mesh

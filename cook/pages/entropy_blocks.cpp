@@ -3,7 +3,8 @@
 
 #include "formats/base/assert.h"
 
-// for the literal compression mode: else zstd does not code literals where it does not look for matches
+// for the literal compression mode: without it zstd does not code literals where it does not search for
+// matches
 #define ZSTD_STATIC_LINKING_ONLY
 #include <zstd.h>
 
@@ -17,21 +18,21 @@ namespace hearth::pages
 namespace
 {
 
-// Streams of differences have no matches worth their decoding: literals alone decode 1.5 times as fast.
+// Streams of differences have no matches worth their decoding time: literals alone decode 1.5 times as fast.
 constexpr int kZstdLevel = 1;
-constexpr int kNoMatches = ZSTD_TARGETLENGTH_MAX; ///< how soon the search gives up
+constexpr int kNoMatches = ZSTD_TARGETLENGTH_MAX; ///< step at which the search gives up
 
-// The table that matches would be found with: the smallest, for it is cleared for each page.
+// Smallest table for matches: it is cleared for each page.
 constexpr int kHashLog = ZSTD_HASHLOG_MIN;
 
-/// What a block costs that has nothing in it: its decoder sets up a code first, in the time of so many bits.
+/// Cost of an empty block in bits: its decoder first sets up a code.
 constexpr double kBitsOfBlock = 2000;
 
-/// What a byte with a code costs beside its bits, for the time that it takes to decode: 2.5 takes 2 % more bytes than 0.25,
-/// and zstd a third less time (`./dev bench clusters`, rock2m).
+/// Cost of a coded byte besides its bits, for its decoding time: 2.5 takes 2 % more bytes than 0.25, and zstd
+/// a third less time (`./dev bench clusters`, rock2m).
 constexpr double kBitsOfCodedByte = 2.5;
 
-/// timesLog2 of most counts: logarithms take time.
+/// Table of timesLog2 for small counts: logarithms are slow.
 const std::array<float, 1024> kSmallCounts = []
 {
     std::array<float, 1024> values{};
@@ -40,7 +41,7 @@ const std::array<float, 1024> kSmallCounts = []
     return values;
 }();
 
-/// About the bits that the bytes take with a code, and what it takes to say it.
+/// Estimate the bits of the coded bytes and of their code table.
 double codedBits(const Histogram& histogram)
 {
     double bits = 0;
@@ -115,7 +116,7 @@ void EntropyBlocks::add(std::span<const uint8_t> stream)
     histograms_.push_back(histogramOf(stream));
 }
 
-/// To the last block if their codes are cheaper together than apart.
+/// Append to the last block if a shared code is cheaper than two.
 void EntropyBlocks::addCoded(std::span<const uint8_t> stream, const Histogram& histogram)
 {
     Histogram both = histogram;

@@ -1,5 +1,5 @@
-// Streams of bytes as one zstd frame, cut into blocks so that streams that differ have codes of their own, and behind it
-// those that no code makes much shorter.
+// Compresses streams of bytes as one zstd frame, cut into blocks so that dissimilar streams have separate
+// codes. Streams that no code shortens much follow uncompressed.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -19,14 +19,14 @@ using Histogram = std::array<uint32_t, 256>;
 
 Histogram histogramOf(std::span<const uint8_t> bytes);
 
-/// count * log2(count); 0 for 0.
+/// Return count * log2(count); 0 for 0.
 double timesLog2(uint32_t count);
 
-/// About the bits that bytes with this histogram take, and the time of bits that it takes to decode them: coded, or as
-/// they are.
+/// Estimate the cost of bytes with this histogram, coded or raw: their bits, plus the decoding time expressed
+/// in bits.
 double storedBits(const Histogram& histogram);
 
-/// One page's streams after the other's.
+/// Compresses the streams of one page after the other.
 class EntropyBlocks
 {
 public:
@@ -37,8 +37,8 @@ public:
     /// Append a stream. Its bytes must stay until compress().
     void add(std::span<const uint8_t> stream);
 
-    /// A frame that names its content's size, and what stands behind it: their content is all streams, one behind the
-    /// other.
+    /// Return a frame that states its content size, and the raw bytes behind it: together they contain all
+    /// streams in order.
     std::vector<std::byte> compress();
 
 private:
@@ -51,11 +51,11 @@ private:
 
     std::unique_ptr<ZSTD_CCtx_s, FreeContext> context_;
     std::vector<std::span<const uint8_t>> streams_;
-    std::vector<Histogram> histograms_; ///< of each stream
-    std::vector<uint8_t> content_;      ///< that is coded
+    std::vector<Histogram> histograms_; ///< one for each stream
+    std::vector<uint8_t> content_;      ///< content to be coded
     std::vector<size_t> block_ends_;
     Histogram histogram_{}; ///< of the last block
-    double bits_ = 0;       ///< that it takes
+    double bits_ = 0;       ///< bits of the last block
 };
 
 } // namespace hearth::pages

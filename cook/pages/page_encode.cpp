@@ -20,10 +20,10 @@ namespace
 
 using namespace formats;
 
-/// More than twice the vertices of a page.
+/// Size of the vertex table: more than twice the vertices of a page.
 constexpr size_t kDictionarySize = 1 << 15;
 
-/// The vertices of the page's narrow clusters so far, by number from 1 on; the lanes of grids count from the origin,
+/// Vertices of the page's narrow clusters so far, by number from 1 on. Grid lanes are relative to the origin,
 /// modulo 2^16.
 class Slots
 {
@@ -50,12 +50,12 @@ public:
         return hash;
     }
 
-    /// Number of the first equal vertex, or 0.
+    /// Return the number of the first equal vertex, or 0.
     size_t find(const VertexRow& row, uint64_t hash) const { return table_[place(row, hash)]; }
 
     void append(const VertexRow& row) { rows_.push_back(row); }
 
-    /// From now on the vertex is found, unless one that is equal was there before.
+    /// Make the vertex findable, unless an equal one exists.
     void remember(size_t slot, uint64_t hash)
     {
         uint16_t& found = table_[place(rows_[slot], hash)];
@@ -64,7 +64,7 @@ public:
     }
 
 private:
-    /// Where in the table an equal vertex is, or would be.
+    /// Return the table index of an equal vertex, or of its insertion.
     size_t place(const VertexRow& row, uint64_t hash) const
     {
         size_t at = hash >> (64 - std::bit_width(kDictionarySize - 1));
@@ -78,13 +78,13 @@ private:
     std::vector<uint16_t> table_;
 };
 
-/// What a new vertex is foretold from, as slots.
+/// Edge that predicts a new vertex (parallelogram prediction), as slots.
 struct Edge
 {
     size_t first, second, opposite;
 };
 
-/// Which lanes are coded how, as masks.
+/// Coding of the lanes, as masks.
 struct LaneMasks
 {
     VertexRow grid{}, bytes{};
@@ -151,13 +151,13 @@ public:
     }
 
 private:
-    /// A cluster on its way through.
+    /// Cluster being encoded.
     struct Current
     {
-        size_t place; ///< in the page: even or odd
+        size_t place; ///< parity in the page: even or odd
         bool wide;
-        uint32_t words;      ///< of a vertex
-        uint32_t base_words; ///< in front of the vertices
+        uint32_t words;      ///< words of a vertex
+        uint32_t base_words; ///< words before the vertices
         size_t first_slot;
         std::array<VertexRow, kClusterMaxVertices> rows; ///< of its vertices, if it is narrow
         std::array<uint64_t, kClusterMaxVertices> hashes;
@@ -235,7 +235,7 @@ private:
         }
     }
 
-    /// Returns the triangle's code.
+    /// Add a triangle. Returns its code.
     uint32_t addTriangle(const WalkStep& step)
     {
         const auto [a, b, c] = step.corners;
@@ -272,7 +272,7 @@ private:
         opposite_left_ = current_.slotOf(step.corners[1]);
     }
 
-    /// Returns formats::kCorner*.
+    /// Add a corner. Returns formats::kCorner*.
     uint32_t addCorner(uint8_t vertex, const Edge& edge)
     {
         Current& c = current_;
@@ -380,8 +380,8 @@ private:
         return blocks_of_streams_.compress();
     }
 
-    std::optional<std::span<const uint8_t>>
-        codes_; ///< of the page as it was stored; those of the clusters that are left
+    /// Stream codes of the page as it was stored, for the clusters that remain.
+    std::optional<std::span<const uint8_t>> codes_;
     VertexLanes lanes_;
     LaneMasks masks_{VertexLanes{}};
     size_t blocks_ = 0; ///< vectors of a vertex

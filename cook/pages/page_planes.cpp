@@ -17,13 +17,13 @@ namespace
 
 constexpr size_t kNumberBits = 16;
 
-/// What an escape costs: its number, and the time of so many bits to put it in its place.
+/// Cost of an escape in bits: its number, and the time to insert it.
 constexpr double kBitsOfEscape = 16 + 24;
 
 using LowBitCosts = std::array<double, kMaxLowBitsOfFour + 1>;
 
-/// About the bits that a lane's numbers take with each number of low bits: those are stored as they are, the others have a
-/// code. Looks only at how long the numbers are: those of one length are about equally frequent.
+/// Estimate the bits of a lane's numbers for each number of low bits: low bits are stored raw, the others are
+/// coded. Depends only on the lengths of the numbers: those of one length are about equally frequent.
 LowBitCosts costsOfLowBits(std::span<const uint16_t> numbers, uint32_t main_bits, uint32_t most)
 {
     std::array<uint32_t, kNumberBits + 1> count_of_length{};
@@ -84,7 +84,7 @@ LaneForms PagePlanes::make(PageHeader& header)
     return forms;
 }
 
-/// From rows of lanes to lanes of vertices.
+/// Transpose the rows of vertices to lanes.
 void PagePlanes::spreadLanes()
 {
     const size_t vertices = rows_.size();
@@ -114,7 +114,7 @@ uint32_t PagePlanes::escapeOf(size_t lane) const
     return sharesMainByte(lanes_, lane) ? kEscapeOfFour : kEscape;
 }
 
-/// The cheapest of each lane; then as many as fill the bytes of the block.
+/// Choose the cheapest number of low bits of each lane, then add bits until they fill the bytes of the block.
 void PagePlanes::chooseLowBits(size_t block, LaneForms& forms) const
 {
     std::array<LowBitCosts, kLanesOfBlock> costs;
@@ -165,7 +165,7 @@ std::vector<uint8_t>& PagePlanes::nextPlane()
     return plane;
 }
 
-/// True where the last plane has something in it; else it is taken back.
+/// Remove the last plane if it is zero. Returns true if it stays.
 bool PagePlanes::dropZeros()
 {
     const std::vector<uint8_t>& plane = planes_[plane_count_ - 1];
@@ -191,7 +191,7 @@ void PagePlanes::addNumberPlanes(LaneForms& forms)
     }
 }
 
-/// Bytes, or halves of bytes where the lower ones are hardly worth a code.
+/// Add planes of bytes, or of nibbles where the lower ones are hardly worth a code.
 void PagePlanes::addBytePlanes(LaneForms& forms)
 {
     const size_t vertices = rows_.size();
@@ -252,7 +252,7 @@ void PagePlanes::addLowBits(size_t block, const LaneForms& forms)
     }
 }
 
-/// By sixteen vertices, in them by lane, in it by vertex.
+/// Collect the escapes in groups of sixteen vertices, within a group by lane, within a lane by vertex.
 void PagePlanes::collectEscapes(const LaneForms& forms)
 {
     constexpr size_t kGroup = 16;

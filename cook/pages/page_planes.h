@@ -1,4 +1,5 @@
-// What is left of a page's new vertices, as planes of bytes: how many bits of each lane are worth a code.
+// Splits the residuals of a page's new vertices into planes of bytes, and chooses the number of entropy-coded
+// bits of each lane.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -15,24 +16,24 @@ namespace hearth::pages
 
 inline constexpr size_t kMostBlocks = (formats::kMaxLanes + formats::kHalves - 1) / formats::kHalves;
 
-/// The lanes of a vertex in whole vectors.
+/// Lanes of a vertex in whole vectors.
 using VertexRow = std::array<formats::Halves, kMostBlocks>;
 
-/// The planes of one page after the other.
+/// Builds the planes of one page after the other.
 class PagePlanes
 {
 public:
     /// Begin a page.
     void clear(const formats::VertexLanes& lanes);
 
-    /// The residuals of a new vertex: numbers as formats::zigzag16 has them.
+    /// Add the residuals of a new vertex: numbers in the code of formats::zigzag16.
     void add(const VertexRow& residuals) { rows_.push_back(residuals); }
 
-    /// All vertices are there: choose the forms of their lanes and make the planes. Fills new_vertices and escapes of the
-    /// header.
+    /// Choose the forms of the lanes and build the planes, after all vertices were added. Sets new_vertices
+    /// and escapes of the header.
     formats::LaneForms make(formats::PageHeader& header);
 
-    /// In the order in which they stand in the page.
+    /// Return the planes in the order of the page.
     std::span<const std::vector<uint8_t>> planes() const { return {planes_.data(), plane_count_}; }
 
     std::span<const uint8_t> escapes() const { return escapes_; }
@@ -50,7 +51,7 @@ private:
 
     formats::VertexLanes lanes_;
     std::vector<VertexRow> rows_;
-    std::array<std::vector<uint16_t>, kMostBlocks * formats::kHalves> values_; ///< of each lane
+    std::array<std::vector<uint16_t>, kMostBlocks * formats::kHalves> values_; ///< for each lane
     std::vector<std::vector<uint8_t>> planes_; ///< the first plane_count_ are in use
     size_t plane_count_ = 0;
     std::vector<uint8_t> escapes_;

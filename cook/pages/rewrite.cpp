@@ -26,10 +26,11 @@ using namespace formats;
 namespace
 {
 
-/// Enough for many threads: decoded, four megabytes.
+/// Pages of a batch, enough for many threads: four megabytes decoded.
 constexpr uint32_t kBatchPages = 64;
 
-/// What lies between the triangles of a cluster and `end`, where the next one begins, is its morph section.
+/// Copy a cluster from a decoded page. The bytes between its triangles and `end`, where the next cluster
+/// begins, are its morph section.
 CodedCluster codedOf(std::span<const std::byte> page, const ClusterRecord& cluster, uint32_t layout,
                      size_t end)
 {
@@ -38,7 +39,7 @@ CodedCluster codedOf(std::span<const std::byte> page, const ClusterRecord& clust
     const auto take = [&](auto& values, size_t count)
     {
         if (count == 0)
-            return; // an empty vector has no place to copy to
+            return; // an empty vector has no memory to copy to
         values.resize(count);
         std::memcpy(values.data(), at, count * sizeof(values[0]));
         at += count * sizeof(values[0]);
@@ -52,11 +53,11 @@ CodedCluster codedOf(std::span<const std::byte> page, const ClusterRecord& clust
     return coded;
 }
 
-/// Pages on their way through, by one thread.
+/// Decodes, edits and encodes pages, for one thread.
 class PageEditor
 {
 public:
-    /// The page's stored bytes after the edit; nothing where they stay as they are.
+    /// Return the page's stored bytes after the edit; empty if they stay unchanged.
     Result<std::vector<std::byte>> edited(const PackView& view, uint32_t page, const VisibilityEdit& edit)
     {
         const PageRecord& record = view.pages()[page];
@@ -73,7 +74,7 @@ public:
         codes_.clear();
         for (const ClusterRecord& cluster : clusters)
         {
-            // the page could not be decoded to clusters that lie elsewhere
+            // cannot fail: the page was decoded with these clusters
             auto found = ClusterGeometry::at(decoded_, cluster, mesh);
             if (!found)
                 return Error{Issue::meaning_geometry, view.name(), "page " + std::to_string(page),
@@ -88,7 +89,7 @@ public:
     }
 
 private:
-    /// Stream codes of a page that could be decoded: the first behind the header.
+    /// Return the stream codes of a page that was decoded: the first stream behind the header.
     std::span<const uint8_t> walkOf(std::span<const std::byte> stored,
                                     std::span<const ClusterRecord> clusters)
     {
@@ -139,7 +140,7 @@ private:
     PageEncoder encoder_;
 };
 
-/// Append all pages, and say where they are.
+/// Append all pages, and set their offsets.
 Status writePages(ContainerWriter& writer, const PackView& view, const VisibilityEdit& edit,
                   std::vector<PageRecord>& pages)
 {
@@ -183,7 +184,7 @@ Status rewriteVisibility(const ContainerReader& part, const std::string& output_
     HEARTH_ASSIGN_OR_RETURN(ContainerWriter writer,
                             ContainerWriter::create(output_path, ContainerKind::part));
     std::vector<PageRecord> pages(view.pages().begin(), view.pages().end());
-    // the page table can only be written behind the pages, where the clusters part has it
+    // the page table can only be written after the pages, as in every clusters part
     bool pages_written = false, table_awaited = false;
     for (const ChunkEntry& entry : part.chunks())
     {

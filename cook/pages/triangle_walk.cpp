@@ -13,7 +13,7 @@ void TriangleWalk::linkEdges()
     for (uint32_t t = 0; t < indices_.size() / 3; ++t)
     {
         const auto [a, b, c] = cornersOf(t);
-        // of several triangles at one edge the first is met across it
+        // of several triangles at one edge the first is found across it
         const auto link = [&](uint8_t from, uint8_t to, uint32_t opposite)
         {
             uint16_t& other = across_[size_t{from} << 8 | to];
@@ -33,7 +33,7 @@ void TriangleWalk::visit(uint32_t triangle, const WalkStep& step)
     steps_[step_count_++] = step;
 }
 
-/// Go over an edge, to a triangle that is free.
+/// Go over an edge to a triangle that was not visited.
 void TriangleWalk::cross(uint8_t edge, uint8_t from, uint8_t to)
 {
     const uint32_t there = across(from, to);
@@ -41,11 +41,12 @@ void TriangleWalk::cross(uint8_t edge, uint8_t from, uint8_t to)
     visit(triangle, {edge, {from, to, indices_[3 * triangle + there % 4]}});
 }
 
-/// To the right as long as that goes, else to the left; then back to the last edge that was passed by on the left.
+/// Follow the strip: to the right as long as possible, else to the left; then back to the last edge that was
+/// left open on the left.
 void TriangleWalk::follow(uint32_t triangle)
 {
     WalkStep step{kEdgeNone, cornersOf(triangle)};
-    // so that the walk can go on to the right
+    // rotate the first triangle so that the walk can continue to the right
     for (int turn = 0; turn < 2 && !free(step.corners[2], step.corners[1]); ++turn)
         std::rotate(step.corners.begin(), step.corners.begin() + 1, step.corners.end());
     there_[step.corners[0]] = 1;
@@ -77,7 +78,7 @@ void TriangleWalk::follow(uint32_t triangle)
     }
 }
 
-/// The first of those with the most vertices that need not be stored.
+/// Return the first triangle among those with the most vertices that need not be stored.
 uint32_t TriangleWalk::bestStart() const
 {
     uint32_t best = 0;

@@ -1,4 +1,4 @@
-// Puts the triangles of a cluster in an order in which most share an edge with the one before.
+// Reorders the triangles of a cluster so that most share an edge with the one before.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,13 +12,13 @@
 namespace hearth::pages
 {
 
-/// Where a triangle starts: formats::kEdge*, or from nothing.
+/// Start of a triangle: formats::kEdge*, or kEdgeNone for a restart.
 inline constexpr uint8_t kEdgeNone = 4;
 
 struct WalkStep
 {
     uint8_t edge = kEdgeNone;
-    std::array<uint8_t, 3> corners; ///< the edge, then the corner that is added
+    std::array<uint8_t, 3> corners; ///< the edge, then the added corner
 };
 
 /// Walks the triangles of one cluster after the other.
@@ -27,14 +27,14 @@ class TriangleWalk
 public:
     TriangleWalk() : across_(size_t{1} << 16, kNothing) {}
 
-    /// Each triangle once, turned so that it begins with its edge. Valid until the next walk.
+    /// Return each triangle once, rotated so that it begins with its edge. Valid until the next walk.
     ///
     /// indices  three for each of at most kClusterMaxTriangles
-    /// known    of each vertex: not 0 where an earlier cluster has it; the walk begins there
+    /// known    for each vertex: not 0 if an earlier cluster has it; the walk begins there
     std::span<const WalkStep> walk(std::span<const uint8_t> indices, std::span<const uint16_t> known);
 
-    /// The walk that a stored page has gone already: its triangles, as they stand there, and its codes of them. Valid until
-    /// the next walk.
+    /// Return the walk of a stored page, from its triangles in their order and its codes. Valid until the
+    /// next walk.
     ///
     /// codes  of the cluster, in formats::codeBytes
     std::span<const WalkStep> again(std::span<const uint8_t> indices, std::span<const uint8_t> codes);
@@ -57,14 +57,15 @@ private:
     struct Kept
     {
         uint8_t from, to;
-        uint32_t step; ///< that could keep it
+        uint32_t step; ///< step that could keep it
     };
 
     std::span<const uint8_t> indices_;
-    /// 4 * triangle that has the edge from << 8 | to + its corner that is not on it
+    /// 4 * triangle that has the edge from << 8 | to + the number of its corner opposite that edge
     std::vector<uint16_t> across_;
-    std::array<uint8_t, formats::kClusterMaxTriangles + 1> visited_{}; ///< the last is that of no triangle
-    std::array<uint8_t, formats::kClusterMaxVertices> there_{};        ///< 1: placed, or known
+    /// The last is a sentinel for no triangle.
+    std::array<uint8_t, formats::kClusterMaxTriangles + 1> visited_{};
+    std::array<uint8_t, formats::kClusterMaxVertices> there_{}; ///< 1: placed, or known
     std::vector<Kept> kept_;
     std::array<WalkStep, formats::kClusterMaxTriangles> steps_;
     uint32_t step_count_ = 0;

@@ -11,7 +11,7 @@ void hemisphereDirections(uint32_t first, uint64_t seed, const Frame& frame, std
                           std::span<float> y, std::span<float> z)
 {
     HEARTH_ASSERT(x.size() == y.size() && y.size() == z.size());
-    const Frame f = frame; // what is written to may not change it: compilers see that they can use vectors
+    const Frame f = frame; // a local copy, which stores cannot alias: compilers see that they can vectorize
     float *const xs = x.data(), *const ys = y.data(), *const zs = z.data();
     const auto count = static_cast<uint32_t>(x.size());
     for (uint32_t i = 0; i < count; ++i)

@@ -1,5 +1,5 @@
-// From the unit square to what is sampled; areas keep their ratios, so that points that fill the square evenly fill
-// these evenly.
+// Maps the unit square to the hemisphere and to triangles. Ratios of areas are preserved, so that points that
+// are even in the square are even there, too.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,7 +13,7 @@ struct SineCosine
     float sine, cosine;
 };
 
-/// Of `turns` full turns, in [0, 1]: within 2e-7, the same on every machine.
+/// Compute sine and cosine of `turns` full turns, in [0, 1]: within 2e-7, the same on every machine.
 inline SineCosine sineCosineOfTurns(float turns)
 {
     const auto quarter = static_cast<int32_t>(turns * 4 + 0.5f); // the nearest one
@@ -26,7 +26,8 @@ inline SineCosine sineCosineOfTurns(float turns)
     return {(quarter & 2) != 0 ? -s : s, ((quarter + 1) & 2) != 0 ? -c : c};
 }
 
-/// Unit direction of the hemisphere about +z: equal areas of the square are equal solid angles. z = u.x.
+/// Map to a unit direction of the hemisphere about +z: equal areas of the square are equal solid angles.
+/// z = u.x.
 inline Float3 hemisphereDirection(Float2 u)
 {
     const float radius = std::sqrt((1 - u.x) * (1 + u.x));
@@ -34,20 +35,21 @@ inline Float3 hemisphereDirection(Float2 u)
     return {radius * azimuth.cosine, radius * azimuth.sine, u.x};
 }
 
-/// Weights of a triangle's corners 1 and 2: equal areas of the square are equal areas of the triangle.
+/// Map to weights of a triangle's corners 1 and 2: equal areas of the square are equal areas of the triangle.
 /// source  E. Heitz, "A low-distortion map between triangle and square", 2019
 inline Float2 trianglePoint(Float2 u)
 {
     return u.y > u.x ? Float2{u.x * 0.5f, u.y - u.x * 0.5f} : Float2{u.x - u.y * 0.5f, u.y * 0.5f};
 }
 
-/// Three axes at right angles, z given.
+/// Orthonormal basis.
 struct Frame
 {
     Float3 x, y, z;
     Float3 fromLocal(Float3 v) const { return x * v.x + y * v.y + z * v.z; }
 };
 
+/// Build an orthonormal basis with z = normal.
 /// source  T. Duff et al., "Building an orthonormal basis, revisited", 2017
 /// normal  unit
 inline Frame frameAround(Float3 normal)

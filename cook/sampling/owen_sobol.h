@@ -1,4 +1,5 @@
-// Points of the unit square that fill it evenly at every count, each seed its own way. See README.md.
+// Low-discrepancy points of the unit square at every count: Sobol' sequences with an Owen scramble for each
+// seed. See cook/sampling/README.md.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,8 +10,9 @@
 namespace hearth::sampling
 {
 
-/// One of 2^64 seeds that have nothing to do with each other, for each `index`: a sample's, a triangle's.
-/// source  G. L. Steele, D. Lea, C. H. Flood, "Fast splittable pseudorandom number generators", 2014: its finaliser
+/// Derive one of 2^64 independent seeds for each `index`, such as the index of a sample or a triangle.
+/// source  G. L. Steele, D. Lea, C. H. Flood, "Fast splittable pseudorandom number generators", 2014: its
+///         finaliser
 constexpr uint64_t seedOf(uint64_t seed, uint64_t index)
 {
     uint64_t x = seed + (index + 1) * 0x9E3779B97F4A7C15u;
@@ -28,7 +30,7 @@ constexpr uint32_t reversedBits(uint32_t x)
     return (x & 0x55555555u) << 1 | (x & 0xAAAAAAAAu) >> 1;
 }
 
-/// Coordinates as fractions of 2^32.
+/// Point of the unit square, with coordinates as fractions of 2^32.
 struct SquarePoint
 {
     uint32_t x = 0, y = 0;
@@ -38,8 +40,9 @@ struct SquarePoint
 namespace detail
 {
 
-/// The second Sobol' coordinate, its bits in reverse. Its generator matrix is Pascal's triangle modulo 2: as a polynomial
-/// over GF(2), the index at x + 1 for x. (1 + x)^16 = 1 + x^16, so that halves, quarters, ... do that.
+/// Compute the second Sobol' coordinate with its bits reversed. The generator matrix is Pascal's triangle
+/// modulo 2: for a polynomial over GF(2), the substitution of x + 1 for x in the index.
+/// (1 + x)^16 = 1 + x^16, so that halves, quarters, ... do that.
 constexpr uint32_t secondReversed(uint32_t index)
 {
     index ^= index >> 16 & 0x0000FFFFu;
@@ -49,9 +52,10 @@ constexpr uint32_t secondReversed(uint32_t index)
     return index ^ (index >> 1 & 0x55555555u);
 }
 
-/// A bit is flipped or not by what the lower ones are and by the seed: on reversed bits a nested uniform scramble.
-/// source  S. Laine, T. Karras, "Stratified sampling for stochastic transparency", 2011; rounds and constants as N. Vegdahl,
-///         "Building a better LK hash", 2021, found them: less bias than the original's
+/// Scramble reversed bits: each bit is flipped depending on the lower bits and the seed, which is a nested
+/// uniform scramble.
+/// source  S. Laine, T. Karras, "Stratified sampling for stochastic transparency", 2011; rounds and constants
+///         of N. Vegdahl, "Building a better LK hash", 2021: less bias than the original's
 constexpr uint32_t scrambledReversed(uint32_t x, uint32_t seed)
 {
     x ^= x * 0x3D20ADEAu;
@@ -64,7 +68,7 @@ constexpr uint32_t scrambledReversed(uint32_t x, uint32_t seed)
 
 } // namespace detail
 
-/// Point `index` of the Sobol' sequence in two dimensions, under the seed's own Owen scramble.
+/// Compute point `index` of the Sobol' sequence in two dimensions, under the seed's own Owen scramble.
 /// Of points k 2^m to (k + 1) 2^m - 1, every box of 2^-a x 2^-b with a + b = m holds exactly one.
 /// source  A. B. Owen, "Scrambled net variance for integrals of smooth functions", 1997: error N^-3/2
 constexpr SquarePoint owenSobol(uint32_t index, uint64_t seed)
@@ -74,7 +78,7 @@ constexpr SquarePoint owenSobol(uint32_t index, uint64_t seed)
             reversedBits(detail::scrambledReversed(detail::secondReversed(index), high))};
 }
 
-/// In (0, 1): the upper 23 bits and the middle of what they leave open, which a float holds exactly.
+/// Convert to a float in (0, 1): the upper 23 bits plus half a step, which a float holds exactly.
 constexpr float unitFloat(uint32_t fraction)
 {
     return static_cast<float>(static_cast<int32_t>(fraction >> 9)) * 0x1p-23f + 0x1p-24f;

@@ -21,22 +21,23 @@ using motion::Interval;
 namespace
 {
 
-// How many of the heaviest joints are tried as the main bone: a fourth has never been the best one (bench of the sample
-// character and the skinned assets).
+// Number of the heaviest joints that are tried as the main bone: a fourth has never been the best one (bench
+// of the sample character and the skinned assets).
 constexpr size_t kMostCandidates = 3;
 
-// Tightening boxes may cost so much, in influences of vertices of about 50 ns: all loose clusters of a mesh share it. With
-// half of it, boxes of the tube of 300 joints come out 4 times the tightest, with this 2.3.
+// Work for tightening the boxes of all loose clusters of a mesh, in influences of vertices of about 50 ns
+// each. With half of it, boxes of the tube of 300 joints are 4 times the tightest, with this 2.3.
 constexpr size_t kWorkOfMesh = 160'000'000;
 constexpr size_t kMostWork = 6'000'000; ///< of one cluster in the last round
 
-// A smaller share changes nothing: meshes of so many loose clusters keep their boxes, and cook in no time.
+// Minimum share of a cluster. A smaller share has no effect, so meshes with very many loose clusters keep
+// their boxes.
 constexpr size_t kLeastWork = 1'000'000;
 
-// What clusters leave of their shares is dealt out so many times.
+// Number of rounds in which work is distributed; later rounds distribute the unused work.
 constexpr size_t kRounds = 3;
 
-/// The joints that move a vertex, heaviest first.
+/// Return the joints that move a vertex, heaviest first.
 std::vector<uint32_t> influencingJoints(const DeformedCluster& cluster)
 {
     std::vector<std::pair<double, uint32_t>> sums;
@@ -60,7 +61,7 @@ std::vector<uint32_t> influencingJoints(const DeformedCluster& cluster)
     return joints;
 }
 
-/// Half the surface of a box: what a view sees of it on average.
+/// Return half the surface area of a box, proportional to its mean projected area.
 double area(const Box3d& box)
 {
     const Double3 h = half(box);
@@ -94,7 +95,7 @@ MainBone mainBone(std::span<const uint32_t> heaviest_first, const DeformedCluste
     return best;
 }
 
-/// On the axis where it is the most, all targets with a weight of 1 or -1.
+/// Return the largest displacement along an axis with all morph weights at 1 or -1.
 float morphReach(const DeformedCluster& cluster)
 {
     double reach = 0;
@@ -112,12 +113,12 @@ float morphReach(const DeformedCluster& cluster)
                       : std::nextafter(static_cast<float>(reach), std::numeric_limits<float>::infinity());
 }
 
-/// A cluster's main bone and box, before the loose ones are tightened.
+/// Main bone and box of a cluster, before loose boxes are tightened.
 struct Draft
 {
-    std::vector<uint32_t> joints; ///< that move it, heaviest first
+    std::vector<uint32_t> joints; ///< joints that move it, heaviest first
     MainBone main;
-    std::optional<BoxSearch> search; ///< of a loose one
+    std::optional<BoxSearch> search; ///< set for a loose box
 };
 
 Draft draftOf(const DeformedCluster& cluster, const Deformation& deformation)
@@ -135,7 +136,7 @@ Draft draftOf(const DeformedCluster& cluster, const Deformation& deformation)
     return draft;
 }
 
-/// Tighten loose boxes: all get the same share of the work, and what some leave goes to the others.
+/// Tighten loose boxes. All get the same share of the work; unused work goes to the others.
 void tighten(std::vector<Draft>& drafts)
 {
     size_t left = kWorkOfMesh;

@@ -1,4 +1,4 @@
-// A cluster's geometry in the bind pose, with what moves it.
+// Geometry of a cluster in the bind pose, with its joints and morph targets.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,10 +13,10 @@
 namespace hearth::skinning
 {
 
-/// One morph target of a cluster.
+/// Deltas of one morph target in a cluster.
 struct MorphDeltas
 {
-    uint32_t target = 0;           ///< of the mesh
+    uint32_t target = 0;           ///< index in the mesh
     std::vector<Float3> positions; ///< one for each vertex
 };
 
@@ -24,24 +24,24 @@ struct DeformedCluster
 {
     std::vector<Float3> positions;
     std::vector<uint32_t> indices;   ///< three for each triangle
-    uint32_t influences = 0;         ///< of each vertex; 0 without a skin
-    std::vector<uint16_t> joints;    ///< of the skin; `influences` for each vertex
-    std::vector<double> weights;     ///< as many; those of a vertex sum to 1
-    std::vector<MorphDeltas> morphs; ///< targets that move a vertex
+    uint32_t influences = 0;         ///< number of influences of each vertex; 0 without a skin
+    std::vector<uint16_t> joints;    ///< indices into the skin's joints; `influences` for each vertex
+    std::vector<double> weights;     ///< same layout; the weights of a vertex sum to 1
+    std::vector<MorphDeltas> morphs; ///< targets that move a vertex of the cluster
 };
 
-/// The weight of a joint at a vertex.
+/// Return the weight of a joint at a vertex.
 double weightOf(const DeformedCluster& cluster, size_t vertex, uint32_t joint);
 
-/// What moves the clusters of one mesh. All outlive it.
+/// Deformation of the clusters of one mesh. All members must outlive it.
 struct Deformation
 {
     const motion::SkinMotion* skin = nullptr;             ///< null without a skin
     std::span<const motion::Interval> morph_weights = {}; ///< by target
-    const motion::PoseRegions* regions = nullptr;         ///< to tighten boxes with; null where nothing moves
+    const motion::PoseRegions* regions = nullptr;         ///< for tightening boxes; null without animation
 };
 
-/// Where morph targets take a vertex in the bind pose.
+/// Box of the positions of a vertex in the bind pose, over all morph weights.
 struct MorphedVertex
 {
     Double3 middle;

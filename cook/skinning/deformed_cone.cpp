@@ -16,21 +16,21 @@ namespace hearth::skinning
 namespace
 {
 
-// As static clusters have them: the rasteriser snaps corners to 1/256 pixel, which can turn slivers that are seen
-// edge-on; and cones wider than about 84 degrees cull next to nothing.
+// Margins as for static clusters: the rasteriser snaps corners to 1/256 pixel, which can turn thin triangles
+// that are edge-on to the viewer; cones wider than about 84 degrees cull next to nothing.
 constexpr double kConeMargin = 1e-3;
 constexpr double kMinConeCosine = 0.1;
 
-/// A triangle in the main bone: a middle pose, and how far all poses are from it.
+/// Triangle in the space of the main bone: a middle pose, and the maximum deviation of all poses.
 struct DeformedTriangle
 {
     Double3 corner;      ///< in the middle pose
-    double corner_slack; ///< how far the corner comes from there
+    double corner_slack; ///< maximum distance of the corner from there
     Double3 normal;      ///< unit, in the middle pose
-    double turn;         ///< radians: how far the normal turns at most
+    double turn;         ///< maximum rotation of the normal, radians
 };
 
-/// Nothing where the triangle can face anywhere.
+/// Compute the triangle's bounds; nothing if it can face in any direction.
 std::optional<DeformedTriangle> triangleOf(const MiddlePose& pose, const uint32_t (&corners)[3])
 {
     const Double3 a = pose.place(corners[0]);
@@ -45,7 +45,7 @@ std::optional<DeformedTriangle> triangleOf(const MiddlePose& pose, const uint32_
     return DeformedTriangle{a, pose.slack(corners[0]), normal * (1 / area2), std::asin(normal_slack / area2)};
 }
 
-/// The unit vector along the sum of the normals, as it is stored.
+/// Return the code of the unit vector along the sum of the normals.
 std::optional<uint16_t> axisOf(std::span<const DeformedTriangle> triangles)
 {
     Double3 sum;
@@ -61,7 +61,7 @@ double angleBetween(Double3 a, Double3 b)
     return std::atan2(length(cross(a, b)), dot(a, b));
 }
 
-/// The largest value of v * n over normals n of the triangle.
+/// Return the largest value of v * n over normals n of the triangle.
 double mostAlong(const DeformedTriangle& triangle, Double3 v)
 {
     const double angle = angleBetween(v, triangle.normal);
@@ -104,7 +104,7 @@ StoredCone coneIn(uint32_t main, const DeformedCluster& cluster, const Deformati
         reach = std::max(reach, length(away) + triangle.corner_slack);
         back = std::max(back, (mostAlong(triangle, away) + triangle.corner_slack) / std::cos(angle));
     }
-    // room for the runtime's arithmetic
+    // margin for the runtime's single precision
     const double magnitude = length(widen(middle)) + reach + back;
     const double cutoff = std::ceil((std::sin(widest) + kConeMargin) * 65536);
     if (!(cutoff < formats::kNoCone))

@@ -1,4 +1,4 @@
-// The normal cone of a deformed cluster: it holds the triangles' normals in all poses.
+// Computes the normal cone of a deformed cluster. It contains the triangles' normals in all poses.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -8,7 +8,7 @@
 namespace hearth::skinning
 {
 
-/// As DeformedClusterRecord has it.
+/// Normal cone, encoded as in DeformedClusterRecord.
 struct StoredCone
 {
     uint16_t axis = 0;
@@ -16,8 +16,9 @@ struct StoredCone
     float back = 0;
 };
 
-/// main    all that moves the cluster has bounds as this joint sees it
-/// middle  of the cluster's box in the joint
+/// Compute the cone in the space of a joint.
+/// main    joint for which all other joints of the cluster have bounds
+/// middle  center of the cluster's box in the joint
 StoredCone coneIn(uint32_t main, const DeformedCluster& cluster, const Deformation& deformation,
                   std::span<const MorphedVertex> vertices, Float3 middle);
 

@@ -21,13 +21,14 @@ using motion::Box3d;
 namespace
 {
 
-// The joints with most of the mesh on them are tried as anchors, and the skin's first, which is mostly a root.
+// Number of joints with the largest weights that are tried as anchors, besides the skin's first joint, mostly
+// a root.
 constexpr size_t kMostAnchors = 6;
 
-// More steps shrink a sphere by less than 1 % of its radius.
+// Number of steps: more shrink a sphere by less than 1 % of its radius.
 constexpr int kSphereSteps = 12;
 
-// As the spheres of static groups: a runtime in single precision cannot see them inverted.
+// Margin as for the spheres of static groups: nesting stays monotone for a runtime in single precision.
 constexpr double kMonotoneSlack = 1.0 + 1.0 / 262144.0;
 
 struct WideSphere
@@ -36,7 +37,7 @@ struct WideSphere
     double radius = 0;
 };
 
-/// Where the vertices of a cluster are in all poses; nothing where there are no bounds.
+/// Bounding spheres of the vertices of a cluster in all poses; nothing if there are no bounds.
 using Reached = std::optional<std::vector<WideSphere>>;
 
 Reached reachedBy(const DeformedCluster& cluster, const Deformation& deformation, uint32_t anchor)
@@ -58,7 +59,8 @@ void add(Box3d& box, const WideSphere& sphere)
     motion::add(box, sphere.center + r);
 }
 
-/// Where the points that each joint moves come, seen from a candidate; half the diagonal of the box around all.
+/// Return half the diagonal of the box around all points that joints move, relative to a candidate for the
+/// anchor.
 double sizeSeenFrom(uint32_t anchor, const motion::SkinMotion& skin, std::span<const Box3d> reach)
 {
     Box3d box;
@@ -96,7 +98,8 @@ uint32_t anchorOf(std::span<const DeformedCluster> clusters, const motion::SkinM
     return candidates[static_cast<size_t>(std::min_element(sizes.begin(), sizes.end()) - sizes.begin())];
 }
 
-/// How far a sphere around a point has to reach, and which of the spheres asks for it.
+/// Return the radius of a sphere around a point that contains all spheres, and the index of the farthest
+/// sphere.
 std::pair<double, size_t> farthestFrom(Double3 center, std::span<const WideSphere> spheres)
 {
     std::pair<double, size_t> farthest{0, 0};
@@ -107,6 +110,7 @@ std::pair<double, size_t> farthestFrom(Double3 center, std::span<const WideSpher
     return farthest;
 }
 
+/// Return a bounding sphere of spheres.
 /// source  M. Badoiu, K. L. Clarkson, "Smaller core-sets for balls", 2003
 Sphere sphereAround(std::span<const WideSphere> spheres)
 {
@@ -131,7 +135,8 @@ Sphere sphereAround(std::span<const WideSphere> spheres)
     return {stored, roundUp(farthestFrom(widen(stored), spheres).first * kMonotoneSlack)};
 }
 
-/// Fine to coarse: the records stand coarse to fine, the groups of a set together.
+/// Compute nested spheres from fine to coarse: records are in the order coarse to fine, the groups of a set
+/// together.
 std::vector<Sphere> nestedSpheres(const MeshHierarchy& hierarchy, std::span<const Reached> reached)
 {
     std::vector<Sphere> spheres(hierarchy.groups.size());

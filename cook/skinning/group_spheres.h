@@ -1,4 +1,4 @@
-// Spheres of the groups of a deformed mesh, in one joint: its anchor.
+// Bounding spheres of the groups of a deformed mesh, in the space of one joint: its anchor.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -8,7 +8,7 @@
 namespace hearth::skinning
 {
 
-/// A mesh's hierarchy, as the clusters part has it; first_* are the numbers of the first group and cluster.
+/// Hierarchy of a mesh in the clusters part; first_* are the indices of its first group and cluster.
 struct MeshHierarchy
 {
     std::span<const formats::GroupRecord> groups;
@@ -17,6 +17,7 @@ struct MeshHierarchy
     uint32_t first_cluster = 0;
 };
 
+/// Bounds of a mesh in the space of its anchor joint.
 struct AnchoredBounds
 {
     uint32_t anchor = 0;
@@ -24,11 +25,12 @@ struct AnchoredBounds
     std::vector<Sphere> spheres; ///< one for each group
 };
 
-/// The spheres contain their groups' clusters in all poses, and the spheres of the groups that those were made from; the
-/// groups of a set share one. Of the joints that could be the anchor, it is the one with the smallest bounds.
+/// Compute the spheres. A sphere contains its group's clusters in all poses, and the spheres of the groups
+/// that these clusters were simplified from. Groups of a set share one sphere. The anchor is the candidate
+/// joint with the smallest bounds.
 ///
-/// clusters  one for each of the hierarchy's
-/// reach     of each joint, as SkinMotion has it; empty without a skin
+/// clusters  one for each cluster of the hierarchy
+/// reach     for each joint, as in SkinMotion; empty without a skin
 AnchoredBounds anchoredBounds(const MeshHierarchy& hierarchy, std::span<const DeformedCluster> clusters,
                               const Deformation& deformation, std::span<const motion::Box3d> reach);
 

@@ -1,4 +1,5 @@
-// A deformed cluster as one joint sees it: a pose in the middle of all, and how far all others are from it.
+// Positions of a deformed cluster in a middle pose, relative to a joint, with the maximum distance of all
+// other poses.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,22 +10,24 @@
 namespace hearth::skinning
 {
 
+/// Middle pose of a cluster in the space of a joint, with error bounds.
 class MiddlePose
 {
 public:
-    /// In joint `main`; nothing where a joint that moves the cluster has no bounds there.
-    /// cluster, vertices  outlive it
+    /// Compute the pose in joint `main`; nothing if a joint that moves the cluster has no bounds there.
+    /// cluster, vertices  must outlive it
     static std::optional<MiddlePose> in(uint32_t main, const DeformedCluster& cluster,
                                         const Deformation& deformation,
                                         std::span<const MorphedVertex> vertices);
 
+    /// Return the position of a vertex in the middle pose.
     Double3 place(size_t vertex) const { return places_[vertex]; }
 
-    /// How far at most a vertex comes from its place.
+    /// Return the maximum distance of a vertex from its middle position over all poses.
     double slack(size_t vertex) const;
 
-    /// How far at most the edge between two vertices comes from that between their places: what both do alike does not
-    /// count.
+    /// Return the maximum change of the edge vector between two vertices over all poses. Motion that is
+    /// common to both does not count.
     double edgeSlack(size_t a, size_t b) const;
 
 private:
@@ -38,7 +41,7 @@ private:
         : cluster_(&cluster), vertices_(vertices)
     {
     }
-    /// False where the joint has no bounds.
+    /// Add a joint. False if it has no bounds.
     bool addPart(const Deformation& deformation, uint32_t main, uint32_t joint);
     void addPlace(size_t vertex, double own_weight);
 

@@ -14,7 +14,7 @@ using namespace formats;
 namespace
 {
 
-// Codes of weights sum to it.
+// Sum of the weight codes of a vertex.
 constexpr double kWeightSum = 65535;
 
 Error fail(const PackView& part, Issue issue, uint32_t cluster, std::string detail)
@@ -55,7 +55,7 @@ DeformedCluster clusterOf(const ClusterGeometry& geometry)
     return cluster;
 }
 
-/// 1 up to rounding where the codes sum as they have to.
+/// Return the sum of the weights: 1 up to rounding if the codes are valid.
 double sumOfWeights(const DeformedCluster& cluster, size_t vertex)
 {
     double sum = 0;
@@ -104,7 +104,7 @@ Status readPage(const PackView& part, const MeshRecord& mesh, uint32_t page_numb
     return success();
 }
 
-/// Whether the pages of a mesh hold its clusters and no others.
+/// True if the pages of a mesh contain exactly its clusters.
 bool pagesFit(const PackView& part, const MeshRecord& mesh)
 {
     if (!insideTable(mesh.clusters, part.clusters().size()) || !insideTable(mesh.pages, part.pages().size()))

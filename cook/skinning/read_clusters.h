@@ -1,4 +1,4 @@
-// The clusters of a deformed mesh, out of the pages of a clusters part.
+// Decodes the clusters of a deformed mesh from the pages of a clusters part.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -8,10 +8,10 @@
 namespace hearth::skinning
 {
 
-/// All clusters of a mesh, in the order of the table.
+/// Read all clusters of a mesh, in the order of the table.
 /// joint_count  of the mesh's skin; 0 without one
-/// errors: those of PackView::decodePage; meaning_range, meaning_reference and meaning_geometry where tables, joints or
-/// indices point outside of what is there.
+/// errors: errors of PackView::decodePage; meaning_range, meaning_reference and meaning_geometry where
+/// tables, joints or indices are out of range.
 Result<std::vector<DeformedCluster>> readClusters(const formats::PackView& part, uint32_t mesh,
                                                   uint32_t joint_count);
 

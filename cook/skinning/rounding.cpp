@@ -10,7 +10,8 @@ namespace hearth::skinning
 namespace
 {
 
-// Some 30 roundings: transforms of a few joints, their products with weights, and the sum.
+// Relative margin for some 30 roundings: transforms of a few joints, their products with weights, and the
+// sum.
 constexpr double kSingleMargin = 2e-6;
 
 } // namespace

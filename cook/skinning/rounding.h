@@ -1,4 +1,4 @@
-// From bounds in double precision to what records hold.
+// Conservative rounding of bounds from double to single precision.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -8,10 +8,11 @@
 namespace hearth::skinning
 {
 
-/// `value` as a float that is not smaller; the largest finite float if it is beyond them.
+/// Return the smallest float that is not below `value`; the largest finite float if it is out of range.
 float roundUp(double value);
 
-/// The box as floats, with room for a runtime that skins in single precision: 2e-6 of its farthest coordinate.
+/// Round a box outwards, with a margin for a runtime that skins in single precision: 2e-6 of its farthest
+/// coordinate.
 Box3 roundedOut(const motion::Box3d& box);
 
 } // namespace hearth::skinning

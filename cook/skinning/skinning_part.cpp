@@ -28,7 +28,7 @@ struct Tables
     std::vector<DeformedGroupRecord> groups;
 };
 
-/// A mesh and the nodes that draw it.
+/// Mesh and the nodes that draw it.
 struct DrawnMesh
 {
     uint32_t mesh = 0;
@@ -41,8 +41,8 @@ bool isDeformed(const MeshRecord& mesh)
     return mesh.clusters.count != 0 && (mesh.skinned != 0 || mesh.morph_target_count != 0);
 }
 
-/// Deformed meshes with all nodes that draw them.
-/// errors: meaning_reference where a node has a mesh that is not there, or a mesh two skins or none.
+/// Return the deformed meshes with all nodes that draw them.
+/// errors: meaning_reference where a node has a missing mesh, or a mesh has two skins or none.
 Result<std::vector<DrawnMesh>> drawnMeshes(const PackView& scene, const PackView& part)
 {
     std::vector<DrawnMesh> meshes(part.meshes().size());
@@ -159,6 +159,7 @@ void appendTables(Tables& tables, const MeshRecord& mesh, const DrawnMesh& drawn
     }
 }
 
+/// Check the groups of a mesh.
 /// errors: meaning_range, meaning_reference where a group's clusters are not the mesh's.
 Status checkGroups(const PackView& part, const MeshRecord& mesh, uint32_t number)
 {
@@ -175,7 +176,7 @@ Status checkGroups(const PackView& part, const MeshRecord& mesh, uint32_t number
             group.clusters.count > end - group.clusters.first || group.set_offset > g)
             return fail(Issue::meaning_range, "the clusters of a group are not its own");
         for (uint32_t c = group.clusters.first; c < group.clusters.first + group.clusters.count; ++c)
-            // finer groups stand behind coarser ones
+            // finer groups follow coarser ones in the table
             if (const uint32_t refined = part.clusters()[c].refined_group;
                 refined != kNone &&
                 (refined <= mesh.groups.first + g || refined >= mesh.groups.first + mesh.groups.count))

@@ -18,28 +18,29 @@ using motion::TransformModel;
 namespace
 {
 
-// A box is good enough when no side is more than this share of it beyond what the cluster reaches in poses that were
-// looked at: 1.08^3 = 1.26 of the smallest box's volume.
+// Tolerance: a box is tight enough if no side exceeds the box of the sampled poses by more than this share:
+// 1.08^3 = 1.26 of the smallest box's volume.
 constexpr double kGoodEnough = 0.04;
 
-// Boxes of less than this times the volume of what was looked at stay as they are.
+// Volume relative to the box of the sampled poses below which a box is not tightened.
 constexpr double kLooseVolume = 1.5;
 
-// And those are tight enough: what is left goes to looser ones.
+// Volume relative to the box of the sampled poses at which tightening ends; remaining work goes to looser
+// boxes.
 constexpr double kTightVolume = 1.3;
 
-// Its volume is looked at after so many regions.
+// Number of regions between two checks of the volume.
 constexpr size_t kRegionsBetweenLooks = 200;
 
-// Poses that are looked at before.
+// Number of poses that are sampled before the search.
 constexpr size_t kSamples = 24;
 
-// A node's span costs as much as so many influences of vertices.
+// Cost of a node's time span, in influences of vertices.
 constexpr size_t kWorkOfNode = 25;
 
 using ActiveVertices = std::vector<uint16_t>;
 
-/// Where the vertices of a cluster are while poses stay in a region.
+/// Bounds of the positions of a cluster's vertices while poses stay in a region.
 class RegionPlaces
 {
 public:
@@ -56,7 +57,7 @@ public:
             addVertex(main, cluster, vertices[v], v);
     }
 
-    /// The nodes that move some of the vertices.
+    /// Return the nodes that move some of the vertices.
     std::vector<uint32_t> nodesOf(std::span<const uint16_t> vertices) const
     {
         std::vector<uint32_t> nodes = chain_.linksTo(jointsOf(vertices));
@@ -65,7 +66,7 @@ public:
         return nodes;
     }
 
-    /// Of placing all vertices.
+    /// Return the work of bounding all vertices.
     size_t workOfAll() const { return kWorkOfNode * nodesOf(all()).size() + influences_.size(); }
 
     ActiveVertices all() const
@@ -75,7 +76,7 @@ public:
         return vertices;
     }
 
-    /// Add where the vertices are in the middle of a region.
+    /// Add the positions of the vertices in the middle of a region to `reached`.
     void addMiddle(const PoseRegion& region, Box3d& reached)
     {
         if (!chain_.middle(regions_, region, middles_))
@@ -92,8 +93,8 @@ public:
         }
     }
 
-    /// Where vertices can be in a region, one box for each; false where there are no bounds.
-    /// reached  grows by places that vertices come to for sure
+    /// Compute one box for each vertex over a region; false if there are no bounds.
+    /// reached  grows by positions that vertices certainly have in some pose
     bool place(const PoseRegion& region, std::span<const uint16_t> vertices, Box3d& reached,
                std::vector<Box3d>& boxes, size_t& work)
     {
@@ -134,23 +135,23 @@ public:
     }
 
 private:
-    /// A joint that moves a vertex besides the main bone.
+    /// Joint that moves a vertex besides the main bone.
     struct Influence
     {
-        uint32_t joint; ///< of joints_
+        uint32_t joint; ///< index into joints_
         double weight;
-        Double3 place; ///< of the vertex, in the joint
+        Double3 place; ///< position of the vertex in the joint's space
     };
-    /// What the main bone does to a vertex.
+    /// Contribution of the main bone to a vertex.
     struct Own
     {
         Double3 place;
         double slack; ///< of morph targets
-        size_t first; ///< of its influences
+        size_t first; ///< index of its first influence
         size_t end;
     };
 
-    /// A polynomial for each number of a transform's rows.
+    /// Polynomials for the elements of an affine transform.
     using AffineTerms = std::array<std::array<std::array<double, motion::kTerms>, 4>, 3>;
 
     AffineTerms inMain(const TransformModel& model) const
@@ -194,7 +195,8 @@ private:
                                      affine[axis][2][term] * z + affine[axis][3][term] * weight;
     }
 
-    /// Add what a polynomial comes to at the two corners where its linear part is largest, less the slack.
+    /// Add the values of a polynomial, minus the slack, at the two corners where its linear part is largest
+    /// and smallest.
     static void addCorners(const std::array<double, motion::kTerms>& terms, double slack, Interval& reached)
     {
         const auto side = [&](size_t a) { return terms[motion::kFirstLinear + a] < 0 ? -1.0 : 1.0; };
@@ -207,7 +209,7 @@ private:
         reached.low = std::min(reached.low, even - linear + slack);
     }
 
-    /// Those of joints_ that move some of the vertices.
+    /// Return the indices of the joints_ that move some of the vertices.
     std::vector<uint32_t> jointsOf(std::span<const uint16_t> vertices) const
     {
         std::vector<bool> moves(joints_.size());
@@ -281,7 +283,7 @@ Box3d common(const Box3d& a, const Box3d& b)
     return box;
 }
 
-/// The largest share of a side by which `box` is outside of `reached`.
+/// Return the largest excess of `box` over `reached`, as a share of the side.
 double beyond(const Box3d& box, const Box3d& reached)
 {
     double share = 0;
@@ -294,7 +296,7 @@ double beyond(const Box3d& box, const Box3d& reached)
     return share;
 }
 
-/// What was looked at and a little more: vertices inside are good enough.
+/// Return the box of the sampled poses with the tolerance: vertices inside it need no further search.
 Box3d grown(const Box3d& reached)
 {
     Box3d box = reached;
@@ -305,13 +307,13 @@ Box3d grown(const Box3d& reached)
 
 double volume(const Box3d& box)
 {
-    // flat ones are a thousandth thick
+    // treat flat boxes as a thousandth of their size thick
     const Double3 h = half(box);
     const double least = 1e-3 * std::max({h.x, h.y, h.z});
     return std::max(h.x, least) * std::max(h.y, least) * std::max(h.z, least);
 }
 
-/// A region, and the vertices that may get beyond what was looked at there.
+/// Unresolved region, with the vertices that may leave the box of the sampled poses there.
 struct Open
 {
     PoseRegion region;
@@ -360,7 +362,7 @@ public:
                 for (const PoseRegion& half : *halves)
                     look({half, worst.vertices, worst.box, 0}, work);
             else
-                join(reached_, worst.box); // as if it were reached: nothing smaller can be had
+                join(reached_, worst.box); // treat it as reached: the region cannot be split further
         }
         return work;
     }
@@ -376,7 +378,8 @@ public:
     }
 
 private:
-    /// Look at each root once, unless that costs too much: many clips, or many clusters that share the work.
+    /// Examine each root once, unless that costs too much because of many clips or many clusters that share
+    /// the work.
     bool start(size_t most_work, size_t& work)
     {
         const std::vector<PoseRegion> all = regions_.all();
@@ -388,7 +391,7 @@ private:
         return true;
     }
 
-    /// Put a region among the open ones, unless all of its vertices stay where others were.
+    /// Queue a region, unless all of its vertices stay in the box of the sampled poses.
     void look(Open region, size_t& work)
     {
         if (places_.place(region.region, region.vertices, reached_, boxes_, work))
@@ -420,7 +423,7 @@ private:
     bool tight_ = false;
     size_t regions_since_look_ = 0;
     std::vector<Box3d> boxes_;
-    std::vector<Open> open_; ///< a heap, the worst in front
+    std::vector<Open> open_; ///< heap, the worst first
 };
 
 BoxSearch::BoxSearch(const Box3d& box, uint32_t main, const DeformedCluster& cluster,

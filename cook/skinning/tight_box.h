@@ -1,4 +1,5 @@
-// A tighter box of a cluster where joints that move together make much of what they could do apart impossible.
+// Tightens the box of a cluster by branch and bound over pose regions, in which the motions of joints are
+// correlated.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,13 +10,14 @@
 namespace hearth::skinning
 {
 
-/// The box of the cluster in joint `main` over all regions of poses: those in which a vertex may get farther out than in
-/// the poses that were looked at are cut in halves, the worst first, until none is left or the work is done. It holds in
-/// any case.
+/// Branch-and-bound search for the box of a cluster in joint `main` over all regions of poses. Splits regions
+/// in which a vertex may leave the box of the sampled poses, the worst first, until none is left or the work
+/// is spent. The box is a valid bound at any time.
 class BoxSearch
 {
 public:
-    /// box  that holds already
+    /// Start a search.
+    /// box                a valid bound
     /// cluster, vertices  are not needed afterwards
     BoxSearch(const motion::Box3d& box, uint32_t main, const DeformedCluster& cluster,
               const Deformation& deformation, std::span<const MorphedVertex> vertices);
@@ -23,18 +25,18 @@ public:
     BoxSearch& operator=(BoxSearch&&) noexcept;
     ~BoxSearch();
 
-    /// Whether the box is so much larger than what the cluster reaches in a few poses that tightening it may pay.
+    /// True if the box is so much larger than the box of a few poses that tightening it may pay.
     bool isLoose() const;
 
-    /// Look at regions; may be called again, with more work.
-    /// most_work  one for each influence of a vertex that is looked at, about 50 ns
-    /// returns    how much was done
+    /// Examine regions. May be called again, with more work.
+    /// most_work  limit: one unit for each influence of a vertex that is evaluated, about 50 ns
+    /// returns    the work done
     size_t run(size_t most_work);
 
-    /// Whether more work makes no difference.
+    /// True if more work makes no difference.
     bool done() const;
 
-    /// Inside of the one that held already.
+    /// Return the current box, inside the initial one.
     motion::Box3d box() const;
 
 private:

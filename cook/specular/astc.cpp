@@ -23,8 +23,8 @@ struct FreeContext
 };
 using Context = std::unique_ptr<astcenc_context, FreeContext>;
 
-/// For one thread: all blocks take a tenth of a second. The exhaustive search takes four times as long, and its errors are a tenth
-/// smaller.
+/// Create a context for one thread: all blocks take a tenth of a second. The exhaustive search takes four
+/// times as long, and its errors are a tenth smaller.
 Context contextFor(uint32_t block)
 {
     astcenc_config config{};
@@ -37,7 +37,7 @@ Context contextFor(uint32_t block)
     return Context(context);
 }
 
-/// Texel of the picture of each node.
+/// Compute the index of a node's texel in the image.
 size_t texelOf(size_t node)
 {
     const size_t aperture = node % kTableNodes, roughness = node / kTableNodes % kTableNodes,

@@ -11,10 +11,10 @@ namespace hearth::specular
 namespace
 {
 
-/// The widest angle between cone axis and normal: farther tilted cones are rare on real models, and nearly closed.
+/// Maximum angle between cone axis and normal: larger tilts are rare on real models, and nearly closed.
 constexpr double kMostTilt = std::numbers::pi / 3;
 
-/// Uniform in [0, 1). std::uniform_real_distribution is not the same in every library.
+/// Generate a uniform number in [0, 1). std::uniform_real_distribution is not the same in every library.
 double uniform(std::mt19937_64& random)
 {
     return static_cast<double>(random() >> 11) * 0x1p-53;

@@ -51,7 +51,7 @@ Refit refit(size_t configuration_count, uint64_t seed, Masking masking)
     const auto start = std::bit_cast<std::array<float, 8>>(shared::kSpecularFit);
     Constants constants{};
     std::copy(start.begin(), start.end(), constants.begin());
-    // the shader's code counts in floats: steps must be far above their rounding
+    // the shader's code computes in floats: steps must be far above their rounding
     ceres::NumericDiffOptions steps;
     steps.relative_step_size = 1e-2;
     ceres::Problem problem;

@@ -13,15 +13,15 @@ struct Refit
 {
     shared::SpecularFit constants;
     int iterations = 0;
-    double start_rms = 0; ///< of the constants in the header
+    double start_rms = 0; ///< with the constants in the header
     double rms = 0;
 };
 
-/// Least squares over exact values of random configurations, starting from the constants in the header. Ceres by one thread:
-/// the same constants for the same seed.
+/// Fit the constants to exact values of random configurations by least squares, starting from the constants
+/// in the header. Ceres runs on one thread: the same constants for the same seed.
 Refit refit(size_t configuration_count, uint64_t seed, Masking masking);
 
-/// The constants as the header has them.
+/// Format the constants as in the header.
 std::string constantsText(const shared::SpecularFit& fit);
 
 } // namespace hearth::specular

@@ -15,7 +15,8 @@ struct QuadraturePoint
     double weight;
 };
 
-/// The rule that is exact for polynomials of degree 2 count - 1 on [-1, 1]. count  1 or more
+/// Compute the rule that is exact for polynomials of degree 2 count - 1 on [-1, 1].
+/// count  1 or more
 inline std::vector<QuadraturePoint> gaussLegendre(int count)
 {
     std::vector<QuadraturePoint> points(static_cast<size_t>(count));

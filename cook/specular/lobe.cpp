@@ -1,7 +1,8 @@
-// A half-vector h has the slope (x, y) where h is along p = (x, y, 1). Mirroring the view there gives a direction in the
-// cone about d where 2 (V.p) (p.d) >= (V.d + cos half_angle) p.p: at a fixed y a quadratic inequality for x. So the
-// integral over slopes runs over intervals with closed ends, its outer one breaks only where these ends meet, and both are
-// integrated by Gauss-Legendre to six digits with a few hundred points, however narrow the lobe is.
+// Integrates a GGX lobe over a cone in slope space. A half-vector h along p = (x, y, 1) has the slope (x, y).
+// Mirroring the view at h gives a direction in the cone about d if
+// 2 (V.p) (p.d) >= (V.d + cos half_angle) p.p: at a fixed y a quadratic inequality for x. So the integral
+// over slopes runs over intervals with closed ends, and its outer integral breaks only where these ends meet.
+// Gauss-Legendre quadrature integrates both to six digits with a few hundred points, however narrow the lobe.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/specular/lobe.h"
 
@@ -28,7 +29,7 @@ struct Interval
     double high;
 };
 
-/// Disjoint and ascending; empty ones have low >= high.
+/// Disjoint intervals, ascending; empty ones have low >= high.
 using Intervals = std::array<Interval, 2>;
 
 Interval overlap(Interval a, Interval b)
@@ -36,7 +37,7 @@ Interval overlap(Interval a, Interval b)
     return {std::max(a.low, b.low), std::min(a.high, b.high)};
 }
 
-/// Where a x^2 + 2 b x + c >= 0.
+/// Solve a x^2 + 2 b x + c >= 0.
 Intervals notNegative(double a, double b, double c)
 {
     constexpr Interval kNothing{0, 0};
@@ -44,7 +45,7 @@ Intervals notNegative(double a, double b, double c)
     const double discriminant = b * b - a * c;
     if (discriminant <= 0)
         return {a > 0 || (a == 0 && c >= 0) ? kEverything : kNothing, kNothing};
-    // the form without a difference of near numbers
+    // the form without cancellation
     const double sum = -(b + std::copysign(std::sqrt(discriminant), b));
     const double first = c / sum;
     if (a == 0)
@@ -56,7 +57,7 @@ Intervals notNegative(double a, double b, double c)
     return {Interval{-kInfinity, between.low}, Interval{between.high, kInfinity}};
 }
 
-/// The lobe in slopes: y = alpha tan(tau), x = alpha tan(s) / cos(tau), which makes GGX's density
+/// Lobe in slope space: y = alpha tan(tau), x = alpha tan(s) / cos(tau), which turns GGX's density into
 /// cos(tau) cos(s)^2 / pi.
 class SlopeLobe
 {
@@ -75,20 +76,20 @@ public:
     double viewX() const { return view_x_; }
     double viewZ() const { return view_z_; }
 
-    /// Slopes whose mirror direction is above the horizon; |y| is at most 1 / viewZ().
+    /// Return the slopes whose mirror direction is above the horizon; |y| is at most 1 / viewZ().
     Interval aboveHorizon(double y) const
     {
         const double root = std::sqrt(std::max(1 - view_z_ * view_z_ * y * y, 0.0));
         return {(view_x_ - root) / view_z_, view_z_ * (1 - y * y) / (root - view_x_)};
     }
 
-    /// (V.h) / cos(theta_h) G2 / G1(V): the weight of a slope above the horizon.
+    /// Compute the weight of a slope above the horizon: (V.h) / cos(theta_h) G2 / G1(V).
     double weight(double x, double y) const
     {
         const double facing = view_x_ * x + view_z_;
         const double cosine = 2 * facing / (x * x + y * y + 1) - view_z_;
         if (!(facing > 0) || !(cosine > 0))
-            return 0; // the ends of an interval round
+            return 0; // ends of an interval are rounded
         const double cosine2 = cosine * cosine;
         const double stretched = std::sqrt(cosine2 + alpha_ * alpha_ * std::max(1 - cosine2, 0.0));
         if (masking_ == Masking::separable)
@@ -105,7 +106,7 @@ private:
     Masking masking_;
 };
 
-/// A cone in slopes.
+/// Cone in slope space.
 class SlopeCone
 {
 public:
@@ -125,7 +126,8 @@ public:
                            2 * view_z_ * across - level_ * (1 + y * y));
     }
 
-    /// The y at which its intervals appear, vanish or meet, and those at which its edge crosses the horizon.
+    /// Return each y at which intervals appear, vanish or meet, or at which the cone's edge crosses the
+    /// horizon.
     std::vector<double> breaks() const
     {
         std::vector<double> found;
@@ -196,8 +198,8 @@ public:
 private:
     double tauOf(double y) const { return std::atan(y / lobe_.alpha()); }
 
-    /// Over tau in [low, high]. Where intervals appear or vanish at its ends, they do as square roots: the sine's
-    /// flat ends make them smooth.
+    /// Integrate over tau in [low, high]. Intervals that appear or vanish at its ends do so as square roots:
+    /// substituting a sine, with its flat ends, makes them smooth.
     template <typename IntervalsAt>
     double piece(double low, double high, const IntervalsAt& intervalsAt) const
     {

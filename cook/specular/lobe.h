@@ -1,5 +1,5 @@
-// How much of a GGX lobe falls into a cone: the exact value, by deterministic quadrature.
-// README.md of this folder has the derivation.
+// Computes the share of a GGX lobe inside a cone: the exact value, by deterministic quadrature.
+// Derivation: cook/specular/README.md, "Exact".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,39 +11,40 @@
 namespace hearth::specular
 {
 
-/// E. Heitz, "Understanding the masking-shadowing function in microfacet-based BRDFs", JCGT 2014. The runtime's BRDF has the
-/// height-correlated one.
+/// Masking-shadowing function. E. Heitz, "Understanding the masking-shadowing function in microfacet-based
+/// BRDFs", JCGT 2014. The runtime's BRDF has the height-correlated one.
 using Masking = formats::SpecularMasking;
 
-/// A lobe in the frame of its normal N = (0, 0, 1): the view is V = (-sin theta_o, 0, cos theta_o), its mirror
-/// direction R = (sin theta_o, 0, cos theta_o).
+/// GGX lobe in the frame of its normal N = (0, 0, 1): the view is V = (-sin theta_o, 0, cos theta_o), its
+/// mirror direction R = (sin theta_o, 0, cos theta_o).
 struct Lobe
 {
     double roughness = 1; ///< above 0, to 1; GGX alpha is its square
-    double theta_o =
-        0; ///< angle between view and normal in radians, 0 to pi / 2 included: the limit of grazing views
+    /// Angle between view and normal in radians, 0 to pi / 2 included: the limit of grazing views.
+    double theta_o = 0;
     Masking masking = Masking::correlated;
 };
 
-/// The directions within half_angle of a unit axis.
+/// Cone of the directions within half_angle of a unit axis.
 struct Cone
 {
     Double3 axis{0, 0, 1};
     double half_angle = 0; ///< radians, 0 to pi
 };
 
-/// Points of the quadrature: of each piece of the outer integral, and of each interval of the inner one.
+/// Number of quadrature points, in each piece of the outer integral and in each interval of the inner one.
 struct Fineness
 {
     int outer = 32;
     int inner = 24;
 };
 
-/// S = int D G2 / (4 cos_o) dw over the cone above the horizon, as a share of the same integral over all directions above
-/// the horizon. In [0, 1]. Fresnel is left out.
+/// Compute S = int D G2 / (4 cos_o) dw over the cone above the horizon, as a share of the same integral over
+/// all directions above the horizon. In [0, 1]. Fresnel is left out.
 double occlusionOf(const Lobe& lobe, const Cone& cone, Fineness fineness = {});
 
-/// The same for many cones about one axis: the lobe is integrated once. out  as long as half_angles
+/// Compute the same for many cones about one axis, with one integration of the whole lobe.
+/// out  as long as half_angles
 void occlusionsOf(const Lobe& lobe, const Double3& axis, std::span<const double> half_angles,
                   std::span<double> out, Fineness fineness = {});
 

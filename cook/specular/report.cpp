@@ -23,7 +23,7 @@ namespace
 
 constexpr double kRightAngle = std::numbers::pi / 2;
 
-/// Nodes of theta_o of the four-dimensional table: 32 KiB.
+/// Nodes of theta_o in the four-dimensional table: 32 KiB.
 constexpr int kViewNodes = 8;
 
 constexpr double kTalksNormalLambda = 0.78;
@@ -50,7 +50,7 @@ ErrorFigures errorsOf(std::string name, const Values& values, const Values& exac
     return figures;
 }
 
-/// The ways, over one set of configurations.
+/// Evaluates all methods on one set of configurations.
 class Contest
 {
 public:
@@ -71,7 +71,7 @@ public:
         return of([&](const Configuration& c) { return exactOcclusion(c, settings_.masking); });
     }
 
-    /// A table of three dimensions with infinitely many nodes.
+    /// Evaluate a table of three dimensions with infinitely many nodes.
     Values idealTable(double normal_lambda) const
     {
         TableSettings settings = settings_;
@@ -85,7 +85,7 @@ public:
             });
     }
 
-    /// One with 16 each, linear between them; `rounded` to 8 bits or not.
+    /// Evaluate a table with 16 nodes in each dimension, linear between them; `rounded`: to 8 bits.
     Values table(double normal_lambda, SpecularSpacing spacing, bool rounded) const
     {
         const TableSettings settings{settings_.masking, normal_lambda, spacing};
@@ -100,7 +100,8 @@ public:
         return of([&](const Configuration& c) { return double{tableOcclusion(c, values, spacing)}; });
     }
 
-    /// theta_o is kept; the normal lies in the plane of reflection vector and axis, on the side of the axis.
+    /// Evaluate with the given theta_o; the normal lies in the plane of reflection vector and axis, on the
+    /// side of the axis.
     double viewKept(double half_angle, double roughness, double theta_o, double beta) const
     {
         const double tilt = theta_o - beta;
@@ -117,7 +118,7 @@ public:
             });
     }
 
-    /// The same between the sixteen nodes around each configuration.
+    /// Evaluate the same by interpolation between the sixteen nodes around each configuration.
     Values tableViewKept() const
     {
         return of([this](const Configuration& c) { return lookUpViewKept(c); });
@@ -196,7 +197,7 @@ void compareInterpolations(const Contest& contest, double lambda, std::vector<Er
     list.push_back(errorsOf("four dimensions", contest.tableViewKept(), contest.idealViewKept()));
 }
 
-/// The table itself as a texture: its nodes, and what is looked up in it.
+/// Compare the table as a texture: its nodes, and lookups in it.
 void compareAstc(const Contest& contest, const Values& exact, const TableSettings& settings,
                  Comparison& comparison)
 {
@@ -212,10 +213,11 @@ void compareAstc(const Contest& contest, const Values& exact, const TableSetting
     }
 }
 
-/// Some nodes of the table again, by a quadrature whose error is far below what is asked of the table.
+/// Compare some nodes of the table with a quadrature whose error is far below the error allowed for the
+/// table.
 void measureNodes(const TableSettings& settings, Comparison& comparison)
 {
-    constexpr uint32_t kStride = 37; // prime to 16: nodes of all kinds
+    constexpr uint32_t kStride = 37; // coprime to 16: nodes of all kinds
     const TableValues values = cookTable(settings);
     std::vector<double> errors((values.size() + kStride - 1) / kStride);
     tbb::parallel_for(

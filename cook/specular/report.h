@@ -1,4 +1,4 @@
-// Compares the ways to know the specular occlusion of a cone, each against the exact value.
+// Compares methods for the specular occlusion of a cone, each against the exact value.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -16,7 +16,7 @@ struct ErrorFigures
     std::string name;
     double rms = 0;
     double bias = 0; ///< mean of value - exact
-    double p95 = 0;  ///< of the magnitude
+    double p95 = 0;  ///< 95th percentile of the magnitude
     double largest = 0;
 };
 
@@ -24,20 +24,21 @@ struct Comparison
 {
     TableSettings settings;
     size_t configuration_count = 0;
-    std::vector<ErrorFigures> ways;           ///< against the exact value of the five numbers
+    std::vector<ErrorFigures> ways;           ///< methods, against the exact value of the five numbers
     std::vector<ErrorFigures> astc;           ///< nodes as read from ASTC textures, against the table
-    std::vector<ErrorFigures> interpolations; ///< of tables without rounding, against what they interpolate
-    double quadrature_rms = 0; ///< the table's nodes against a quadrature of four times as many points
+    std::vector<ErrorFigures> interpolations; ///< unrounded tables, against the interpolated function
+    /// Table's nodes against a quadrature of four times as many points along each axis.
+    double quadrature_rms = 0;
     double quadrature_largest = 0;
 };
 
-/// Deterministic; seconds for a thousand configurations.
+/// Compare all methods. Deterministic; takes seconds for a thousand configurations.
 Comparison compare(const TableSettings& settings, size_t configuration_count, uint64_t seed);
 
-/// For people.
+/// Format for people.
 std::string comparisonText(const Comparison& comparison);
 
-/// Schema "hearth.specular/1".
+/// Format as JSON, schema "hearth.specular/1".
 std::string comparisonJson(const Comparison& comparison, double cook_seconds);
 
 } // namespace hearth::specular

@@ -15,9 +15,10 @@ namespace
 {
 
 constexpr std::string_view kHeader = "aperture_rad,roughness,theta_o_rad,axis_x,axis_y,axis_z";
-// a right angle that was written with few digits
+// Tolerance for a right angle that was written with few digits.
 constexpr double kSlack_rad = 1e-5;
 
+/// Parse a row.
 /// row  six numbers; errors: table_rows
 Result<Configuration> configurationOf(std::span<const double> row, const std::string& name, size_t line)
 {

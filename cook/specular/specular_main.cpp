@@ -1,4 +1,4 @@
-// hearth-specular: cooks the table of specular occlusion, and measures it and the fit.
+// hearth-specular: cooks the table of specular occlusion, and measures the errors of the table and the fit.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
 #include "cook/specular/astc.h"
@@ -50,7 +50,7 @@ Status evaluate(const Arguments& arguments)
 {
     HEARTH_ASSIGN_OR_RETURN(const std::string text, readText(arguments.rows));
     HEARTH_ASSIGN_OR_RETURN(const std::vector<Configuration> configurations, readRows(text, arguments.rows));
-    // as a pack has it: rounded
+    // rounded, as in a pack
     const TableValues values = unpackTable(packTable(cookTable(arguments.settings), arguments.settings));
     return writeText(arguments.output, evaluateRows(configurations, values, arguments.settings.spacing));
 }
@@ -110,7 +110,7 @@ int run(const Arguments& arguments)
     return done.ok() ? 0 : reportFailure(done.error());
 }
 
-/// What the options do not say about each other; empty where all is well.
+/// Describe an error in the combination of options; empty if there is none.
 std::string faultOf(const Arguments& arguments)
 {
     if (!(arguments.settings.normal_lambda >= 0 && arguments.settings.normal_lambda <= 1))

@@ -42,8 +42,8 @@ TableValues cookTable(const TableSettings& settings)
                               assumedPlace(specularNodeRoughness(row % kNodes), beta, settings);
                           std::array<double, kNodes> shares{};
                           occlusionsOf(place.lobe, place.axis, half_angles, shares);
-                          double least =
-                              0; // a wider cone holds no less: what it does is the quadrature's error
+                          // a wider cone holds no less: a decrease is an error of the quadrature
+                          double least = 0;
                           for (uint32_t i = 0; i < kNodes; ++i)
                           {
                               least = std::max(least, shares[i]);

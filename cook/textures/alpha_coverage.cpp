@@ -9,10 +9,11 @@ namespace hearth::textures
 namespace
 {
 
-// Alphas closer than this count as equal: eight times finer than what 8 bits can tell apart at a scale of 32.
+// Bins of the histogram. Alphas in one bin count as equal: eight times finer than 8 bits resolve at a scale
+// of 32.
 constexpr size_t kBins = 65536;
 
-/// The smallest 8-bit alpha that passes, above 255 where none does.
+/// Return the smallest 8-bit alpha that passes, above 255 if none does.
 uint32_t leastPassing(float cutoff)
 {
     uint32_t alpha = 0;
@@ -49,7 +50,7 @@ float scaleForCoverage(const FloatImage& image, float cutoff, double coverage)
     for (const Float4& texel : image.texels)
         ++bins[binOf(texel.w)];
 
-    // stored alpha is rounded: what is half a step below the least value passes too
+    // stored alpha is rounded: values down to half a step below it pass, too
     const float threshold = (static_cast<float>(least) - 0.5f) / 255;
     size_t passing = 0;
     size_t unscaled = 0;
@@ -58,7 +59,7 @@ float scaleForCoverage(const FloatImage& image, float cutoff, double coverage)
     if (unscaled == wanted)
         return 1;
 
-    // from the most opaque texel down, stop where one bin more brings the count no nearer
+    // from the most opaque texel down, stop where one more bin brings the count no nearer
     size_t bin = kBins;
     while (bin > 1 && passing < wanted)
     {
@@ -68,7 +69,7 @@ float scaleForCoverage(const FloatImage& image, float cutoff, double coverage)
         passing = next;
         --bin;
     }
-    // the bin's lower end, so that all of it passes
+    // the bin's lower end, so that the whole bin passes
     const float edge = (static_cast<float>(bin) - 0.5f) / static_cast<float>(kBins - 1);
     return threshold / edge;
 }

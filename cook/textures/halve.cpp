@@ -12,7 +12,7 @@ namespace hearth::textures
 namespace
 {
 
-/// The texels that one texel of the result covers, and how much of each. At most 3 whole ones and parts of 2.
+/// Texels that one texel of the result covers, with the weight of each. At most three.
 struct Coverage
 {
     uint32_t first = 0;
@@ -20,7 +20,8 @@ struct Coverage
     std::array<float, 4> weights{};
 };
 
-/// Texel `target` of `target_size` covers [target, target + 1) * size / target_size. Exact in integers.
+/// Compute the coverage of texel `target` of `target_size`: [target, target + 1) * size / target_size. Exact
+/// in integers.
 Coverage coverageOf(uint32_t target, uint32_t target_size, uint32_t size)
 {
     const uint64_t start = uint64_t{target} * size;

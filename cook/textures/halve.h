@@ -1,6 +1,6 @@
-// Halves an image by exact areas: each texel of the result is the mean of the part of the image that it covers.
-// A box has no ringing, keeps the energy, and needs nothing beyond the image's edge, so that it does not matter
-// whether the texture is repeated. Sizes that are not even give fractional weights and lose no row or column.
+// Halves an image with an exact box filter: each texel of the result is the mean of the area that it covers.
+// A box has no ringing, keeps the energy, and needs nothing beyond the image's edge, so that the wrap mode of
+// the texture does not matter. Odd sizes give fractional weights and lose no row or column.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -27,10 +27,10 @@ struct FloatImage
     std::span<Float4> row(uint32_t y) { return std::span(texels).subspan(size_t{y} * width, width); }
 };
 
-/// Fills a row of the image that is halved; called from several threads.
+/// Fills a row of the source image; called from several threads.
 using RowReader = std::function<void(uint32_t y, std::span<Float4> out)>;
 
-/// The image of half the size, max(1, size / 2) on each side. Same result for any number of threads.
+/// Return the image of half the size, max(1, size / 2) on each side. Same result for any number of threads.
 FloatImage halve(uint32_t width, uint32_t height, const RowReader& readRow);
 
 } // namespace hearth::textures

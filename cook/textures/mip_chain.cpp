@@ -33,7 +33,7 @@ void encodeMip(Content content, const FloatImage& mip, float alpha_scale, std::s
                       });
 }
 
-/// Whether mips must keep the share of texels that pass the alpha test.
+/// True if mips must keep the share of texels that pass the alpha test.
 bool keepsCoverage(const ImageRecord& image)
 {
     return (image.flags & formats::kImageAlphaTested) != 0 &&
@@ -60,7 +60,8 @@ std::vector<std::byte> buildMipChain(const ImageRecord& image, std::vector<std::
     FloatImage mip;
     for (uint32_t level = 1; level < chain.mip_count; ++level)
     {
-        // the first mip is made from stored texels row by row: as floats the finest would be four times as large
+        // the first mip is made from stored texels row by row: as floats, the finest mip would be four times
+        // as large
         const auto readStored = [&](uint32_t y, std::span<Float4> out)
         { decodeRow(content, std::span(texels).subspan(y * row_bytes, row_bytes), out); };
         const auto readMip = [&](uint32_t y, std::span<Float4> out)

@@ -1,4 +1,4 @@
-// The mips of one image.
+// Builds the mip chain of one image.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,11 +11,11 @@
 namespace hearth::textures
 {
 
-/// Mips of an image down to one texel.
+/// Return the number of mips of an image down to one texel.
 uint32_t fullMipCount(uint32_t width, uint32_t height);
 
-/// All mips, finest first, tightly packed; the finest is `texels` as it is. Every mip stands for the finest one:
-/// nothing is rounded on the way. Same bytes for any number of threads.
+/// Build all mips, finest first, tightly packed; the finest is `texels` unchanged. Every mip represents the
+/// finest one: nothing is rounded in between. Same bytes for any number of threads.
 ///
 /// image    width, height, format, flags and alpha_cutoff are read; mip_count is not
 /// texels   width * height texels of that format (asserted)

@@ -1,5 +1,5 @@
-// The sRGB transfer function by tables (IEC 61966-2-1). Results are the same on every machine: the tables hold floats
-// rounded from doubles, whose last bits are the only thing that mathematical libraries disagree on.
+// sRGB transfer function by tables (IEC 61966-2-1). Results are the same on every machine: the tables hold
+// floats rounded from doubles, and mathematical libraries disagree only on the last bits of doubles.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,6 +10,7 @@
 namespace hearth::textures
 {
 
+/// Tables for both directions of the transfer function.
 class SrgbTables
 {
 public:
@@ -17,7 +18,7 @@ public:
 
     float linear(uint8_t stored) const { return linear_[stored]; }
 
-    /// The stored value whose encoding is nearest; values outside 0..1 and NaN go to the ends.
+    /// Return the stored value whose encoding is nearest; values outside 0..1 and NaN are clamped.
     uint8_t stored(float linear) const
     {
         if (!(linear > 0))
@@ -35,7 +36,7 @@ private:
 
     static constexpr size_t kBuckets = 4096; ///< fine enough that the search above takes two steps at most
     std::array<float, 256> linear_;
-    std::array<float, 256> upper_; ///< linear value from which on the next stored value is nearer
+    std::array<float, 256> upper_; ///< linear value above which the next stored value is nearer
     std::array<uint8_t, kBuckets> first_of_bucket_;
 };
 

@@ -13,11 +13,12 @@ namespace hearth::textures
 namespace
 {
 
-// Colours are weighted by alpha + this. Where all is cut away their mean is the plain one; beside the faintest alpha
-// that 8 bits store, what is cut away adds less than 1/4000.
+// Colours are weighted by alpha + this. If all texels are cut away, the result is their plain mean; beside
+// the faintest alpha that 8 bits store, cut-away texels add less than 1/4000.
 constexpr float kLeastWeight = 0x1p-20f;
 
-// Stored directions are good to half a step of 8 bits: a mean that is shorter than one has no direction.
+// Minimum length of a mean direction. Stored directions are accurate to half a step of 8 bits: a mean shorter
+// than one step has no direction.
 constexpr float kLeastDirection = 1.0f / 128;
 
 uint8_t unorm8(float value)
@@ -25,7 +26,7 @@ uint8_t unorm8(float value)
     return static_cast<uint8_t>(std::clamp(value, 0.0f, 1.0f) * 255 + 0.5f);
 }
 
-/// 0..255 means -1..1, as glTF has it.
+/// Decode a normal: 0..255 means -1..1, as in glTF.
 Float3 directionOf(const uint8_t* texel)
 {
     const auto component = [](uint8_t value) { return static_cast<float>(value) / 127.5f - 1; };

@@ -1,5 +1,5 @@
-// Stored texels to working texels and back. A working texel is linear and can be averaged: its mean over an area
-// stands for the area.
+// Converts stored texels to working texels and back. A working texel is linear and can be averaged: the mean
+// over an area represents the area.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,10 +13,10 @@
 namespace hearth::textures
 {
 
-/// What texels mean, which decides how they are averaged.
+/// Kind of texels, which decides how they are averaged.
 enum class Content : uint8_t
 {
-    color,   ///< sRGB: linear light, weighted by alpha so that what is cut away does not bleed in
+    color,   ///< sRGB: linear light, weighted by alpha so that cut-away texels do not bleed in
     data,    ///< four independent channels
     normals, ///< directions; their mean is made unit again
     light,   ///< RGBA16F
@@ -24,10 +24,10 @@ enum class Content : uint8_t
 
 Content contentOf(const formats::ImageRecord& image);
 
-/// One row of stored texels as working texels. `stored` has out.size() texels.
+/// Decode one row of stored texels to working texels. `stored` has out.size() texels.
 void decodeRow(Content content, std::span<const std::byte> stored, std::span<Float4> out);
 
-/// The reverse, rounded to nearest. `alpha_scale` multiplies alpha.
+/// Encode one row, rounded to nearest. `alpha_scale` multiplies alpha.
 void encodeRow(Content content, std::span<const Float4> texels, float alpha_scale, std::span<std::byte> out);
 
 } // namespace hearth::textures

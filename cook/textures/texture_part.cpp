@@ -18,7 +18,7 @@ using namespace formats;
 namespace
 {
 
-/// The texels of the finest mip.
+/// Read the texels of the finest mip.
 Result<std::vector<std::byte>> readTexels(const ContainerReader& part, const ImageRecord& image,
                                           uint32_t index)
 {
@@ -39,7 +39,7 @@ Result<std::vector<std::byte>> readTexels(const ContainerReader& part, const Ima
                                   data.bytes().begin() + static_cast<std::ptrdiff_t>(finest));
 }
 
-/// The finest mips that go, until no side is longer than `max_size`.
+/// Count the finest mips to leave out, until no side is longer than `max_size`.
 uint32_t mipsTooLarge(const ImageRecord& image, uint32_t max_size)
 {
     uint32_t count = 0;
@@ -48,7 +48,7 @@ uint32_t mipsTooLarge(const ImageRecord& image, uint32_t max_size)
     return count;
 }
 
-/// The image without its `count` finest mips.
+/// Return the record of the image without its `count` finest mips.
 ImageRecord withoutMips(ImageRecord image, uint32_t count)
 {
     const MipExtent extent = mipExtent(image, count);
@@ -58,7 +58,7 @@ ImageRecord withoutMips(ImageRecord image, uint32_t count)
     return image;
 }
 
-/// Empty where the name is not in the table.
+/// Return a name; empty if it is not in the table.
 std::string nameOf(std::string_view strings, const StringRef& name)
 {
     return insideTable({name.offset, name.length}, strings.size())
@@ -85,7 +85,7 @@ ImageStatistics statisticsOf(std::string_view strings, const ImageRecord& image,
     return statistics;
 }
 
-/// The materials of the import part that show each image.
+/// Add the materials of the import part that use each image.
 Status addUses(const ContainerReader& part, std::string_view strings, std::span<ImageStatistics> statistics)
 {
     HEARTH_ASSIGN_OR_RETURN(const Records<MaterialRecord> materials,
@@ -99,7 +99,7 @@ Status addUses(const ContainerReader& part, std::string_view strings, std::span<
     return success();
 }
 
-/// How much of the part that was written is each image's.
+/// Add the size of each image in the written part.
 Status addStoredBytes(const std::string& path, std::span<ImageStatistics> statistics)
 {
     HEARTH_ASSIGN_OR_RETURN(const ContainerReader part, ContainerReader::open(path, Check::structure));

@@ -1,4 +1,4 @@
-// The textures part: the images of an import part with all their mips.
+// Writes the textures part: the images of an import part with all their mips.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,14 +11,16 @@
 namespace hearth::textures
 {
 
-/// Texels of a side: what Vulkan devices on phones can use; larger sizes could also overflow the sizes of the data.
+/// Maximum texels of a side: the limit of Vulkan devices on phones; larger sizes could also overflow data
+/// sizes.
 inline constexpr uint32_t kLargestSize = 16384;
 
-/// Read the images of the import part at `import_path` and write them with mips to `output_path`: IMGR, whose names
-/// refer to the import part's string table, and an IMGD for each image. One image is in memory at a time.
+/// Read the images of the import part at `import_path` and write them with mips to `output_path`: IMGR, whose
+/// names refer to the import part's string table, and an IMGD for each image. One image is in memory at a
+/// time.
 ///
-/// max_size    texels: mips with a longer side are left out, so that the image is smaller; 0: none is. What is kept is what
-///             the whole chain would have there
+/// max_size    texels: mips with a longer side are left out, which makes the image smaller; 0: keep all. The
+///             remaining mips equal those of the whole chain
 /// statistics  null: none; else filled with one for each image
 /// errors: those of ContainerReader, meaning_value and chunk_size (damaged image records), cannot_write.
 Status cookTextures(const std::string& import_path, const std::string& output_path, uint32_t max_size = 0,

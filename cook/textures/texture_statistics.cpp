@@ -18,7 +18,8 @@ using namespace formats;
 namespace
 {
 
-/// Of one texel, channels of 0 to 255 * 255: colours times alpha, all else times 255.
+/// Sum the squared differences of one texel's channels, from 0 to 255 * 255: colours times alpha, others
+/// times 255.
 uint64_t squaredDifference(Content content, const uint8_t* a, const uint8_t* b)
 {
     uint64_t sum = 0;
@@ -48,7 +49,7 @@ const char* contentName(Content content)
     return "unknown";
 }
 
-/// Decibels below the whole range; null where nothing differs.
+/// Convert to decibels below the whole range; null if nothing differs.
 Json psnr(double rms)
 {
     return rms > 0 ? Json(-20 * std::log10(rms)) : Json(nullptr);
@@ -93,7 +94,7 @@ double mipError(const ImageRecord& image, std::span<const std::byte> mips, uint3
     for (uint32_t y = 0; y < image.height; ++y)
         for (uint32_t x = 0; x < image.width; ++x)
         {
-            // sizes that are not even are stretched as well, so that all of the smaller one is used
+            // odd sizes are stretched, too, so that all of the smaller mip is used
             const size_t smaller_x = size_t{x} * size.width / image.width;
             const size_t smaller_y = size_t{y} * size.height / image.height;
             sum += squaredDifference(content, finest + (size_t{y} * image.width + x) * 4,

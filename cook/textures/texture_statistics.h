@@ -1,4 +1,4 @@
-// What became of each image, as numbers for people and scripts.
+// Statistics of each cooked image, as numbers for people and scripts.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -14,10 +14,10 @@
 namespace hearth::textures
 {
 
-/// A material that shows an image.
+/// Use of an image by a material.
 struct UseStatistics
 {
-    std::string material; ///< its name, which may be empty
+    std::string material; ///< name of the material, may be empty
     std::string role;     ///< as formats::ImageUse::role
 };
 
@@ -27,22 +27,24 @@ struct ImageStatistics
     std::vector<UseStatistics> uses{};
     formats::ImageRecord image{};
     uint64_t bytes = 0;        ///< of all mips
-    uint64_t stored_bytes = 0; ///< as they lie in the file
-    /// RMS difference of the finest mip as it is stored from the image as it was imported; of the whole range of a
-    /// channel, over four channels. Nothing for light (RGBA16F) that was made smaller: its range has no end.
+    uint64_t stored_bytes = 0; ///< size in the file
+    /// RMS difference between the finest stored mip and the imported image, over four channels, as a share of
+    /// a channel's whole range. Empty for light (RGBA16F) that was made smaller: its range has no end.
     std::optional<double> error;
-    /// The same of the mip after it: what an image of half the size would lose. Nothing for light, and where there is none.
+    /// The same for the next mip: the loss of an image of half the size. Empty for light, and if there is no
+    /// such mip.
     std::optional<double> half_error;
 };
 
-/// RMS difference of mip `mip`, stretched over the finest, from that; see ImageStatistics. Colours count by their alpha: what is
-/// cut away is not seen. Exact sums, so the same for any order of texels.
+/// Compute the RMS difference between mip `mip`, stretched over the finest, and the finest; see
+/// ImageStatistics. Colours are weighted by their alpha: cut-away texels are not visible. Exact sums, so the
+/// same for any order of texels.
 ///
 /// image    with its mips; RGBA8
 /// mips     all of them, finest first, as buildMipChain gives them
 double mipError(const formats::ImageRecord& image, std::span<const std::byte> mips, uint32_t mip);
 
-/// Schema "hearth.textures/1". `source` is the name of what was read.
+/// Return JSON text with the schema "hearth.textures/1". `source` is the name of the input.
 std::string statisticsJson(const std::string& source, std::span<const ImageStatistics> images);
 
 } // namespace hearth::textures

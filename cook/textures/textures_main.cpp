@@ -1,4 +1,4 @@
-// hearth-textures: gives the images of an import part their mips.
+// hearth-textures: makes the mips of an import part's images.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
 #include "cook/textures/texture_part.h"

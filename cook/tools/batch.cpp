@@ -31,7 +31,8 @@ struct CloseFile
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
-/// Lead stdin or stdout nowhere, as of a cooker that runs alone; what it was, or null.
+/// Redirect stdin or stdout to /dev/null, as for a cooker that runs alone. Return the file that it was
+/// before; null on failure.
 File takeOver(int standard, const char* mode)
 {
     const int mine = ::fcntl(standard, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
@@ -54,7 +55,7 @@ std::optional<std::string> readLine(std::FILE* file)
     return line.empty() ? std::nullopt : std::optional(line);
 }
 
-/// nullopt where the line is no array of words.
+/// Parse a line that is a JSON array of strings; nullopt if it is none.
 std::optional<std::vector<std::string>> wordsOf(const std::string& line)
 {
     const Json json = Json::parse(line).value_or(Json());
@@ -83,7 +84,8 @@ double cpuSeconds()
     return seconds;
 }
 
-/// Linux forgets the peak so far when 5 is written here: proc(5).
+/// Reset the peak of the process's resident memory: Linux does so when 5 is written to this file, see
+/// proc(5).
 void forgetPeak()
 {
     if (const File file{std::fopen("/proc/self/clear_refs", "we")})
@@ -123,7 +125,7 @@ Json run(const char* name, std::vector<std::string> words, const Program& progra
 
 int runBatch(const char* name, const Program& program)
 {
-    // who asks for a batch has more command lines than cores
+    // one thread each: callers use a batch if they have more command lines than cores
     const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
     const File lines = takeOver(STDIN_FILENO, "r");
     const File ends = takeOver(STDOUT_FILENO, "w");

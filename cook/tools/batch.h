@@ -1,4 +1,4 @@
-// One process for many command lines: main() of a cooker, and its option --batch.
+// Runs many command lines in one process: main() of a cooker, with its option --batch.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,17 +7,19 @@
 namespace hearth::tools
 {
 
-/// Starts the end of a command line in a batch's output: a JSON text of RFC 7464. No message of Hearth holds it.
+/// Record separator of JSON text sequences (RFC 7464): starts the report of a command line in a batch's
+/// output. No message of Hearth contains it.
 inline constexpr char kRecordSeparator = '\x1E';
 
-/// Run `program`, which takes a command line and returns its exit code: once with the arguments of main(), or, where --batch
-/// is the only one, for each line of stdin until that ends. A line is a JSON array of words, without the program's name.
-/// Each runs as if alone, on one thread: its stdin and stdout are nowhere, its messages go to stderr. When it has ended,
-/// stdout gets kRecordSeparator, {"exit": 0, "seconds": 0.1, "cpu_seconds": 0.1, "peak_rss_bytes": 8000000} and a newline.
-/// The peak is the whole process's during that time. What throws is told as by runProgram.
+/// Run `program`, which takes a command line and returns its exit code: once with the arguments of main(),
+/// or, if --batch is the only argument, for each line of stdin. A line is a JSON array of strings, without
+/// the program's name. Each command line runs as if alone, on one thread: its stdin and stdout are /dev/null,
+/// its messages go to stderr. When it has ended, stdout gets kRecordSeparator, {"exit": 0, "seconds": 0.1,
+/// "cpu_seconds": 0.1, "peak_rss_bytes": 8000000} and a newline. The peak is the peak of the whole process
+/// during that time. Exceptions are reported as by runProgram.
 ///
-/// name     of the program, for messages
-/// returns  the exit code; of a batch 0, or 2 where a line is no such array
+/// name     program name, for messages
+/// returns  the exit code; for a batch 0, or 2 if a line is no such array
 int runCooker(const char* name, int argc, char** argv, const std::function<int(int, char**)>& program);
 
 } // namespace hearth::tools

@@ -25,10 +25,10 @@ namespace hearth::tools
 namespace
 {
 
-// wait() calls its caller this often, and looks whether a child has ended of which no file tells.
+// Interval at which wait() calls back, and polls for children whose end no file descriptor reports.
 constexpr int kLookInterval_ms = 100;
 
-// A child that writes more than this is broken; the rest is read and forgotten.
+// Most message bytes that are stored. A child that writes more is broken; the rest is read and discarded.
 constexpr size_t kMaxMessages = size_t{1} << 20;
 
 double secondsOf(const timeval& time)
@@ -36,10 +36,11 @@ double secondsOf(const timeval& time)
     return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6;
 }
 
-/// Attributes and file actions of posix_spawn, given back when they go.
+/// Attributes and file actions of posix_spawn; the destructor frees them.
 struct SpawnSetup
 {
-    /// work  a batch reads it, and tells of ends where it says its messages: what it said before belongs to that end
+    /// work  stdin of a batch; negative: no batch. A batch writes its reports to the pipe of its messages:
+    ///       messages before a report belong to that report's command line
     SpawnSetup(const sigset_t& signals, int messages_pipe, int work)
     {
         ::posix_spawnattr_init(&attributes);
@@ -98,7 +99,7 @@ ChildProcesses::~ChildProcesses()
 {
     for (Child& child : children_)
     {
-        // nothing to save: what a cooker has written so far is of no use
+        // nothing to save: partial output of a cooker is of no use
         ::kill(child.process, SIGKILL);
         ::waitpid(child.process, nullptr, 0);
         closeFile(child.end_file);
@@ -124,7 +125,7 @@ Result<size_t> ChildProcesses::start(const std::vector<std::string>& command, bo
     int ends[2];
     if (::pipe2(ends, O_CLOEXEC) != 0)
         return cannotStart(command[0], errno);
-    // not a pipe: writing to one whose reader has died is a signal
+    // a socket, not a pipe: writing to a pipe whose reader has died raises a signal
     int work[2] = {-1, -1};
     if (is_batch && ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, work) != 0)
     {
@@ -160,7 +161,7 @@ Result<size_t> ChildProcesses::start(const std::vector<std::string>& command, bo
         return cannotStart(command[0], error);
     }
     child.id = next_id_++;
-    // not by <sys/pidfd.h>: that of glibc 2.36 cannot be called from C++
+    // without <sys/pidfd.h>: the header of glibc 2.36 cannot be used from C++
     child.end_file = static_cast<int>(::syscall(SYS_pidfd_open, child.process, 0));
     child.messages_pipe = ends[0];
     child.work_socket = work[0];
@@ -169,7 +170,7 @@ Result<size_t> ChildProcesses::start(const std::vector<std::string>& command, bo
     return children_.back().id;
 }
 
-/// null where its end is known, and perhaps not yet told
+/// Find a running child; null if it has ended, whether wait() has reported that or not.
 ChildProcesses::Child* ChildProcesses::find(size_t id)
 {
     const auto found =
@@ -197,7 +198,7 @@ void ChildProcesses::close(size_t id)
         closeFile(child->work_socket);
 }
 
-/// What a report says becomes an end; what is none was a message.
+/// Turn a finished report into a ChildEnd. Text that is no report was a message.
 void ChildProcesses::takeReport(Child& child)
 {
     const std::string report = std::move(child.report);
@@ -256,7 +257,7 @@ void ChildProcesses::drain(Child& child)
             return;
         if (size == 0)
         {
-            // poll leaves out what is negative, and would not wait on a pipe that has ended
+            // poll ignores negative descriptors, and would not wait on a pipe that has ended
             closeFile(child.messages_pipe);
             return;
         }
@@ -264,7 +265,7 @@ void ChildProcesses::drain(Child& child)
     }
 }
 
-/// The processes that have ended become ends.
+/// Turn the processes that have ended into ChildEnds.
 void ChildProcesses::reap()
 {
     for (auto child = children_.begin(); child != children_.end();)

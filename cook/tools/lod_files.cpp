@@ -10,7 +10,7 @@ namespace hearth::tools
 namespace
 {
 
-// Three digits are more levels than anybody makes by hand.
+// Three digits suffice: nobody authors more levels.
 constexpr size_t kMaxDigits = 3;
 constexpr uint32_t kMaxLevel = 999;
 

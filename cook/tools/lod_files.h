@@ -1,4 +1,4 @@
-// Levels of detail that somebody made by hand: their names, and the option --lod N=FILE.
+// Parses the names of authored LODs (X_LOD1) and the option --lod N=FILE.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -16,27 +16,29 @@ namespace hearth::tools
 
 struct LodName
 {
-    std::string stem; ///< in small letters
+    std::string stem; ///< lower case
     uint32_t level = 0;
 };
 
-/// "Rock_LOD2" is level 2 of "rock"; nothing for other names. A number has three digits at most.
+/// Parse a name as "Rock_LOD2", which is level 2 of "rock"; nullopt for other names. The number has at most
+/// three digits.
 std::optional<LodName> parseLodName(std::string_view name);
 
-/// The number and the name that an authored level got from whoever made it.
+/// Number and name that its author gave to a level.
 struct LodLabel
 {
     std::optional<uint32_t> number;
-    std::string name; ///< of a file without folders, or of a node
+    std::string name; ///< file name without folders, or name of a node
 };
 
 struct LodFile
 {
-    uint32_t level = 1; ///< 1 is the first after the source
+    uint32_t level = 1; ///< 1 is the first level after the source
     std::string path;
 };
 
-/// "1=rock_low.glb", ...: by level, ascending. Numbers may be left out, but not be there twice.
+/// Parse options as "1=rock_low.glb", and sort them by level, ascending. Levels may have gaps, but no
+/// duplicates.
 /// errors: usage.
 Result<std::vector<LodFile>> parseLodFiles(std::span<const std::string> options);
 

@@ -1,4 +1,4 @@
-// How cookers open what an earlier one made.
+// Opens a part that an earlier cooker has written.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,6 +9,7 @@
 namespace hearth::tools
 {
 
+/// Open and read a part.
 /// errors: container_kind for a pack; those of ContainerReader::open and PackView::read
 Result<formats::PackView> openPart(const std::string& path);
 

@@ -39,7 +39,7 @@ std::string unescaped(std::string_view text)
 void ReadList::note(const std::string& path, std::optional<std::string> hash)
 {
     const auto [known, is_new] = files_.emplace(path, hash);
-    // a file that changed between two reads is not what either hash says
+    // if the file has changed between two reads, neither hash describes it
     if (!is_new && known->second != hash)
         known->second = std::nullopt;
 }

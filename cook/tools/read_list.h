@@ -1,4 +1,4 @@
-// What a program has read: the list that hearth-import --depfile writes.
+// List of the files that a program has read, as hearth-import --depfile writes it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -14,10 +14,12 @@
 namespace hearth::tools
 {
 
-/// Files by path, each with the SHA-256 of what was read; nullopt for one that was looked for and could not be read.
+/// Files by path, each with the SHA-256 of the content that was read; nullopt for a file that was probed and
+/// could not be read.
 ///
-/// As text a line a file, as sha256sum writes it: hash, two blanks, path; 64 times '-' for a file that was not there;
-/// a line whose path has a backslash or a line break starts with a backslash and has them as \\ and \n.
+/// The text form has a line per file, as sha256sum writes it: hash, two blanks, path; 64 times '-' for an
+/// absent file. A line whose path has a backslash or a line break starts with a backslash and escapes them as
+/// \\ and \n.
 class ReadList
 {
 public:
@@ -28,7 +30,7 @@ public:
     const std::map<std::string, std::optional<std::string>>& files() const { return files_; }
 
     std::string text() const;
-    /// nullopt where the text is not of that form
+    /// Parse the text form; nullopt if the text is malformed.
     static std::optional<ReadList> parse(std::string_view text);
 
 private:

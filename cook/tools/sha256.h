@@ -1,4 +1,4 @@
-// SHA-256 of bytes and files: what names contents in keys, caches and lists of what was read.
+// SHA-256 of bytes and files: identifies contents in keys, caches and lists of files read.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,14 +11,14 @@
 namespace hearth::tools
 {
 
-/// 64 lower-case hexadecimal digits.
+/// Return the SHA-256 as 64 lower-case hexadecimal digits.
 std::string sha256Of(std::span<const std::byte> bytes);
 std::string sha256Of(std::string_view text);
 
-/// Of a regular file's content, read piece by piece; nullopt where it cannot be read.
+/// Hash the content of a regular file, read piece by piece; nullopt if it cannot be read.
 std::optional<std::string> sha256OfFile(const std::string& path);
 
-/// Whether `text` is written as the functions above write it.
+/// True if `text` has the form that the functions above return.
 bool isSha256(std::string_view text);
 
 } // namespace hearth::tools

@@ -1,4 +1,4 @@
-// Reads TOML into plain data. The one file that includes a library for TOML is toml.cpp.
+// Reads TOML into plain data. Only toml.cpp includes the TOML library.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -16,39 +16,40 @@ enum class TomlKind : uint8_t
     table,
     array,
     text,
-    whole,  ///< a whole number
-    number, ///< any other number, also one that is infinite or none
+    whole,  ///< an integer
+    number, ///< any other number, also infinity and NaN
     flag,
-    time, ///< a date, a time or both; its value is not kept
+    time, ///< a date, a time or both; its value is not stored
 };
 
 /// A value of a TOML document.
 struct TomlNode
 {
     TomlKind kind = TomlKind::table;
-    uint32_t line = 0;   ///< where it begins, counted from 1; 0 where it was not read from a text
-    uint32_t column = 0; ///< the same
-    std::string key;     ///< of a member of a table, else empty
+    uint32_t line = 0;   ///< start of the value, from 1; 0 if it was not read from a text
+    uint32_t column = 0; ///< likewise
+    std::string key;     ///< for a member of a table, else empty
 
-    // the value, in the member of its kind
+    // value, stored in the member for its kind
     std::string text;
     int64_t whole = 0;
     double number = 0;
     bool flag = false;
-    std::vector<TomlNode>
-        children; ///< elements of an array in order, members of a table in the order of their keys
+    /// Elements of an array in order, or members of a table ordered by their keys.
+    std::vector<TomlNode> children;
 
     bool isTable() const { return kind == TomlKind::table; }
     bool isArray() const { return kind == TomlKind::array; }
     bool isText() const { return kind == TomlKind::text; }
     bool isWhole() const { return kind == TomlKind::whole; }
-    /// A number, whole or not; nullopt for all else, and for a whole number that no double has.
+    /// Return the value of an integer or other number; nullopt for all else, and for integers beyond 2^53,
+    /// which a double may not hold exactly.
     std::optional<double> asNumber() const;
-    /// The member of a table; null where there is none, or this is no table.
+    /// Return the member of a table; null if it is absent, or this is no table.
     const TomlNode* find(std::string_view name) const;
 };
 
-/// Why a text is no TOML.
+/// Error of the parser: its position and message.
 struct TomlFault
 {
     uint32_t line = 0;   ///< from 1
@@ -56,7 +57,7 @@ struct TomlFault
     std::string text;
 };
 
-/// The table that a whole text describes. Where it is no TOML: nullopt, and `fault` says why.
+/// Parse a TOML document into its root table. If it is invalid: nullopt, with the reason in `fault`.
 std::optional<TomlNode> parseToml(std::string_view text, TomlFault& fault);
 
 } // namespace hearth::tools

@@ -56,7 +56,7 @@ std::optional<Affine3d> inverted(const Affine3d& transform)
     for (size_t i = 0; i < 3; ++i)
         for (size_t j = 0; j < 3; ++j)
         {
-            // the cofactor of row j, column i
+            // cofactor of row j, column i
             const size_t r1 = (j + 1) % 3, r2 = (j + 2) % 3, c1 = (i + 1) % 3, c2 = (i + 2) % 3;
             inverse.m[i][j] = m[r1][c1] * m[r2][c2] - m[r1][c2] * m[r2][c1];
         }
@@ -86,7 +86,7 @@ namespace
 
 constexpr float kMaxFloat = std::numeric_limits<float>::max();
 
-/// The largest float that is not above a value; those that are finite alone.
+/// Return the largest float not above a finite value.
 float roundedDown(double value)
 {
     const auto nearest = static_cast<float>(std::clamp(value, -double{kMaxFloat}, double{kMaxFloat}));

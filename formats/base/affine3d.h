@@ -11,7 +11,7 @@
 namespace hearth
 {
 
-/// Affine, row-major 3x4, as Affine3. Named target_from_source.
+/// Affine transform, row-major 3x4, as Affine3. Named target_from_source.
 struct Affine3d
 {
     double m[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
@@ -22,19 +22,19 @@ Affine3d operator*(const Affine3d& a, const Affine3d& b);
 Double3 transformVector(const Affine3d& transform, Double3 vector);
 Double3 transformPoint(const Affine3d& transform, Double3 point);
 
-/// translation * rotation (unit quaternion x y z w) * scale.
+/// Return translation * rotation (unit quaternion x y z w) * scale.
 Affine3d affineFromTrs(Double3 translation, const std::array<double, 4>& rotation, Double3 scale);
 
-/// Nothing where the linear part is flat.
+/// Return the inverse; nullopt if the linear part is singular.
 std::optional<Affine3d> inverted(const Affine3d& transform);
 
 Affine3d widened(const Affine3& transform);
 
-/// The box around a box that a transform carries, rounded outwards; finite, also where it leaves what floats can say.
-/// An empty box stays empty.
+/// Return the bounding box of a transformed box, rounded outwards; finite, clamped to the range of floats. An
+/// empty box stays empty.
 Box3 transformBox(const Affine3d& transform, const Box3& box);
 
-/// In single precision, or nothing where a number does not fit.
+/// Convert to single precision; nullopt if a number does not fit.
 std::optional<Affine3> narrowed(const Affine3d& transform);
 
 } // namespace hearth

@@ -1,26 +1,27 @@
-// Contracts between parts of the program. Never used on the contents of a file: those are Results.
+// Asserts contracts between parts of the program. Never use them on the contents of a file: those are
+// Results.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
 namespace hearth
 {
-/// Prints the broken contract and aborts.
+/// Print the broken contract and abort.
 [[noreturn]] void assertionFailed(const char* condition, const char* file, int line);
 } // namespace hearth
 
-// Without folders: no path of the machine that built it is in a program that is given away.
+// Without folders, so that a distributed program contains no path of the build machine.
 #ifdef __FILE_NAME__
 #define HEARTH_FILE_NAME __FILE_NAME__
 #else
 #define HEARTH_FILE_NAME __FILE__
 #endif
 
-/// A broken contract is a defect of the caller; always checked, in every build.
+/// Check a contract in every build. A broken contract is a defect of the caller.
 #define HEARTH_ASSERT(condition)                                                                             \
     (static_cast<bool>(condition) ? static_cast<void>(0)                                                     \
                                   : ::hearth::assertionFailed(#condition, HEARTH_FILE_NAME, __LINE__))
 
-/// The same, for inner loops of the runtime: checked unless NDEBUG.
+/// Check a contract in inner loops of the runtime: disabled by NDEBUG.
 #ifdef NDEBUG
 #define HEARTH_RUNTIME_ASSERT(condition) static_cast<void>(0)
 #else

@@ -49,7 +49,7 @@ void AtomicFile::write(std::span<const std::byte> bytes)
 
 Status AtomicFile::finish()
 {
-    // mkstemp makes a private file; an output has the rights that the user's umask gives
+    // mkstemp makes a private file; an output gets the permissions of the user's umask
     const mode_t mask = ::umask(0);
     ::umask(mask);
     const int descriptor = ::fileno(file_.get());

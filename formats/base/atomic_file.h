@@ -1,4 +1,4 @@
-// Writes a plain file whole or not at all.
+// Writes a plain file atomically.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -14,8 +14,8 @@
 namespace hearth
 {
 
-/// Collects bytes in a temporary file beside `path`; finish() makes it appear under `path`. Without finish() nothing
-/// appears and the temporary file is removed. errors: cannot_write, naming the path.
+/// File that is written to a temporary file beside `path`; finish() renames it to `path`. Without finish()
+/// nothing appears and the temporary file is removed. errors: cannot_write, naming the path.
 class AtomicFile
 {
 public:
@@ -27,7 +27,7 @@ public:
     void write(std::span<const std::byte> bytes);
     void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
 
-    /// Flush to the disk and rename into place; tells of any write that failed.
+    /// Flush to the disk and rename into place; returns the error of any failed write.
     Status finish();
 
 private:
@@ -43,7 +43,8 @@ private:
     bool failed_ = false;
 };
 
-/// Write a file whole, or to standard output where `path` is "-". errors: cannot_write; read_failed for standard output
+/// Write a file atomically, or to standard output if `path` is "-". errors: cannot_write; read_failed for
+/// standard output
 Status writeText(const std::string& path, std::string_view text);
 
 } // namespace hearth

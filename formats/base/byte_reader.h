@@ -1,4 +1,4 @@
-// The only place where sizes read from a file meet arithmetic: every read is checked against what is left.
+// Reads binary data with bounds checks: the only place where sizes read from a file are used in arithmetic.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,7 +12,8 @@
 namespace hearth
 {
 
-/// Reads little-endian plain data from untrusted bytes. A read past the end returns nullopt and moves nothing.
+/// Reader of little-endian plain data from untrusted bytes. A read past the end returns nullopt and does not
+/// advance.
 class ByteReader
 {
 public:
@@ -57,7 +58,7 @@ private:
     size_t position_ = 0;
 };
 
-/// The part [offset, offset + count * stride) of `bytes`, or nullopt where it does not lie inside.
+/// Return the part [offset, offset + count * stride) of `bytes`, or nullopt if it does not lie inside.
 inline std::optional<std::span<const std::byte>>
 checkedPart(std::span<const std::byte> bytes, uint64_t offset, uint64_t count, uint64_t stride = 1)
 {

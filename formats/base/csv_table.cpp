@@ -20,7 +20,7 @@ std::string_view trimmed(std::string_view text)
     return text;
 }
 
-/// Takes the part of `rest` in front of `separator` away from it.
+/// Split the part before `separator` off `rest`.
 std::string_view next(std::string_view& rest, char separator)
 {
     const size_t end = std::min(rest.find(separator), rest.size());
@@ -29,7 +29,7 @@ std::string_view next(std::string_view& rest, char separator)
     return part;
 }
 
-/// Appends the numbers of a line. errors: table_rows
+/// Append the numbers of a line. errors: table_rows
 Status readRow(CsvTable& rows, std::string_view row, const std::string& name, size_t line)
 {
     size_t count = 0;
@@ -38,7 +38,7 @@ Status readRow(CsvTable& rows, std::string_view row, const std::string& name, si
         more = row.find(',') != std::string_view::npos;
         const std::string_view cell = trimmed(next(row, ','));
         if (count >= rows.columns)
-            continue; // counts on, for the message
+            continue; // keep counting, for the message
         double value = 0;
         const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
         if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value))
@@ -63,7 +63,7 @@ Error csvRowError(const std::string& name, size_t line, std::string detail)
 Result<CsvTable> readCsvTable(std::string_view text, std::string_view header, const std::string& name)
 {
     if (text.starts_with("\xEF\xBB\xBF"))
-        text.remove_prefix(3); // spreadsheets begin UTF-8 so
+        text.remove_prefix(3); // spreadsheets write a UTF-8 byte order mark
     std::string first;
     for (const char c : trimmed(next(text, '\n')))
         if (c != ' ' && c != '\t')

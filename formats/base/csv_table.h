@@ -1,4 +1,4 @@
-// Reads CSV files of numbers, for the cookers' options that check them from outside.
+// Reads CSV files of numbers, for cooker options that check results against external data.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,23 +13,23 @@
 namespace hearth
 {
 
-/// Finite numbers, row by row.
+/// Table of finite numbers, row by row.
 struct CsvTable
 {
     size_t columns = 0;
     std::vector<double> values; ///< [row_count x columns]
-    std::vector<size_t> lines;  ///< [row_count] of the file, from 1 on: for messages
+    std::vector<size_t> lines;  ///< [row_count] line numbers in the file, from 1 on: for messages
 
     size_t size() const { return lines.size(); }
     std::span<const double> row(size_t i) const { return std::span(values).subspan(i * columns, columns); }
 };
 
-/// Read text whose first line is `header`, column names divided by commas, and whose others have a number for each of
-/// them. Lines may end in CR LF, numbers may have spaces around them; empty lines are skipped.
+/// Read text whose first line is `header`, column names separated by commas. Every other line has one number
+/// for each column. Lines may end in CR LF, numbers may have spaces around them; empty lines are skipped.
 /// errors: table_rows, naming `name` and the line.
 Result<CsvTable> readCsvTable(std::string_view text, std::string_view header, const std::string& name);
 
-/// What is wrong with a line of such a file.
+/// Return the error of a line of a CSV file.
 Error csvRowError(const std::string& name, size_t line, std::string detail);
 
 } // namespace hearth

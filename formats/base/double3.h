@@ -1,4 +1,4 @@
-// Vectors in doubles, for what has to be surer than floats are.
+// Vectors in double precision, where floats are not exact enough.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 

@@ -1,4 +1,4 @@
-// Onto the disk, where that is asked for.
+// Flushes files to the disk, unless flushing is turned off.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,11 +9,12 @@
 namespace hearth
 {
 
-/// Says to a program, with value "off", that whoever started it flushes what it keeps of its outputs.
+/// Environment variable of child processes. Value "off": the parent process flushes the outputs that it
+/// keeps.
 inline constexpr const char* kFlushVariable = "HEARTH_FLUSH";
 
-/// Wait until the open file is on the disk, so that a file has its name and its content or neither, even where the power
-/// fails; done at once where kFlushVariable says so. false: errno says why not.
+/// Wait until the open file is on the disk, so that after a power failure a file has its name and its content
+/// or neither. Does nothing if kFlushVariable is "off". Returns false on failure, with errno set.
 inline bool flushFile(int file)
 {
     const char* wanted = std::getenv(kFlushVariable);

@@ -1,4 +1,4 @@
-// 16-bit floating point, as RGBA16F images store it: conversions with the rounding of IEEE 754 (nearest even).
+// 16-bit floating point (IEEE 754 half), as RGBA16F images store it: conversions round to nearest even.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,7 +10,8 @@ namespace hearth
 
 inline constexpr float kHalfMax = 65504.0f;
 
-/// The half nearest to `value`. Values outside the range become +-65504 and NaN becomes 0: a stored image is finite.
+/// Return the half nearest to `value`. Values outside the range become +-65504 and NaN becomes 0: a stored
+/// image is finite.
 constexpr uint16_t finiteHalf(float value)
 {
     const uint32_t bits = std::bit_cast<uint32_t>(value);

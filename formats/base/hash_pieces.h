@@ -1,4 +1,4 @@
-// The hash of bytes that are not in memory at once.
+// Hashes bytes that are not in memory at once.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,7 +10,7 @@
 namespace hearth
 {
 
-/// XXH3-64, as hashBytes(), of bytes that come one piece after the other; an empty one ends them.
+/// Return XXH3-64, as hashBytes(), of bytes that `next` returns piece by piece; an empty piece ends them.
 uint64_t hashPieces(const std::function<std::span<const std::byte>()>& next);
 
 } // namespace hearth

@@ -49,7 +49,7 @@ std::string formatMessage(const Error& error)
     text += std::to_string(static_cast<unsigned>(error.issue)) + "]";
     if (!info.hint.empty())
         text += " hint: " + std::string(info.hint);
-    // one message is one line, whatever a hostile file put into a name
+    // one message is one line, even if a hostile file puts control characters into a name
     const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
     std::replace_if(text.begin(), text.end(), is_control, ' ');
     return text;

@@ -1,6 +1,6 @@
-// The numbered list of everything that can be wrong with an input or a file: the one source for codes, exit codes,
-// hints and the checker. A number is never reused. E1xxx input files, E2xxx containers, E3xxx meaning of chunks,
-// E4xxx the machine, E5xxx plans and farms, E7xxx Hearth itself; W is a warning with the same numbering.
+// Lists every issue of an input or a file by number: the only source of codes, exit codes, hints and the
+// checker. A number is never reused. E1xxx input files, E2xxx containers, E3xxx meaning of chunks, E4xxx the
+// machine, E5xxx plans and farms, E7xxx Hearth itself; W is a warning with the same numbering.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,18 +11,18 @@
 namespace hearth
 {
 
-/// What an issue means for the process: the exit codes of sysexits.h that Hearth uses.
+/// Consequence of an issue for the process: the exit codes of sysexits.h that Hearth uses.
 enum class IssueClass : uint8_t
 {
-    warning,     ///< the work goes on
+    warning,     ///< the work continues
     usage,       ///< 2: the command line is wrong
     malformed,   ///< 65: the input's content is wrong
     missing,     ///< 66: an input does not exist or cannot be read
     internal,    ///< 70: a defect of Hearth
     cannotWrite, ///< 73: an output cannot be created
     io,          ///< 74: reading or writing failed half way
-    temporary,   ///< 75: another try may go better
-    config,      ///< 78: a profile or another file of settings is wrong
+    temporary,   ///< another try may succeed
+    config,      ///< a profile or another settings file is wrong
 };
 
 // X(name, code, class, summary, hint)
@@ -182,7 +182,7 @@ struct IssueInfo
     std::string_view hint;
 };
 
-/// All issues, in the order of the list above.
+/// Return all issues, in the order of the list above.
 std::span<const IssueInfo> allIssues();
 const IssueInfo& issueInfo(Issue issue);
 

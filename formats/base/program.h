@@ -1,4 +1,4 @@
-// How a program of Hearth ends when something fails or is thrown.
+// Ends a program of Hearth after an error or an exception.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -19,8 +19,8 @@ inline int reportFailure(const Error& error)
     return exitCode(error);
 }
 
-/// Return what `body` returns, its exit code. What it throws becomes a message and the exit code of that issue, where
-/// main() would abort: libraries throw, and so does memory that runs out.
+/// Run `body` and return its exit code. An exception becomes a message and the exit code of its issue, where
+/// main() would abort: libraries throw, and so does an allocation that fails.
 template <typename Body>
 int runProgram(const char* name, const Body& body)
 {

@@ -1,4 +1,4 @@
-// Results of work on data that may be wrong: a value, or one error that a user can act on.
+// Result of an operation on untrusted data: a value, or one error that a user can act on.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,23 +12,24 @@
 namespace hearth
 {
 
-/// One problem in an input, written so that the user can find and mend it.
+/// Problem in an input, described so that the user can find and fix it.
 struct Error
 {
-    Issue issue =
-        Issue::internal; ///< stable number; its severity, class and hint stand in formats/base/issues.h
-    std::string file;    ///< the file as the user named it; may be empty
-    std::string where;   ///< JSON pointer ("/meshes/0"), "line 12", "chunk MESH 3", or empty
-    std::string detail;  ///< what is wrong, with the offending values
+    /// Stable number; its severity, class and hint are in formats/base/issues.h.
+    Issue issue = Issue::internal;
+    std::string file;   ///< the file as the user named it; may be empty
+    std::string where;  ///< JSON pointer ("/meshes/0"), "line 12", "chunk MESH 3", or empty
+    std::string detail; ///< what is wrong, with the offending values
 };
 
-/// "file|where: error: detail [E1203] hint: ...": the one line of ECOSYSTEM section 4.
+/// Format an error as one line: "file|where: error: detail [E1203] hint: ...".
 std::string formatMessage(const Error& error);
 
-/// Process exit code for an error of this class: 65 malformed input, 66 missing, 70 internal, 73 cannot write...
+/// Return the process exit code for an error of this class: 65 malformed input, 66 missing, 70 internal, 73
+/// cannot write...
 int exitCode(const Error& error);
 
-/// A value or an Error. Deliberately without monadic calls: callers test and return.
+/// Value or Error. Deliberately without monadic calls: callers test and return.
 template <typename T>
 class [[nodiscard]] Result
 {
@@ -85,7 +86,7 @@ inline Status success()
 
 } // namespace hearth
 
-/// Leave the function with the error of `expression` (a Result or Status), if it has one.
+/// Return the error of `expression` (a Result or Status) from the function, if it has one.
 #define HEARTH_TRY(expression)                                                                               \
     do                                                                                                       \
     {                                                                                                        \
@@ -95,7 +96,7 @@ inline Status success()
 
 #define HEARTH_CONCAT_(a, b) a##b
 #define HEARTH_CONCAT(a, b) HEARTH_CONCAT_(a, b)
-/// `HEARTH_ASSIGN_OR_RETURN(auto x, f())`: x takes the value of f(), or the function returns f()'s error.
+/// Assign the value of a Result or return its error: `HEARTH_ASSIGN_OR_RETURN(auto x, f())`.
 #define HEARTH_ASSIGN_OR_RETURN(declaration, expression)                                                     \
     auto HEARTH_CONCAT(hearth_result_, __LINE__) = (expression);                                             \
     if (!HEARTH_CONCAT(hearth_result_, __LINE__).ok())                                                       \

@@ -1,4 +1,4 @@
-// How much a transform stretches at most: what InstanceRecord::scale_max promises.
+// Bounds the largest stretch of a transform, for InstanceRecord::scale_max.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,7 +7,7 @@
 namespace hearth
 {
 
-/// At least the largest singular value of the linear part, and at most 1e-6 of it more.
+/// Return an upper bound of the largest singular value of the linear part, at most 1e-6 of it too large.
 float scaleBound(const Affine3& transform);
 
 } // namespace hearth

@@ -1,4 +1,5 @@
-// Distance: R. Lowrance, R. Wagner, "An extension of the string-to-string correction problem", 1975 (restricted form).
+// Distance: R. Lowrance, R. Wagner, "An extension of the string-to-string correction problem", 1975
+// (restricted form).
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/base/suggest.h"
 
@@ -28,12 +29,12 @@ size_t editDistance(std::string_view a, std::string_view b)
 
 std::string nearestMatch(std::string_view word, std::span<const std::string> candidates)
 {
-    // long words are no typos of ours, and would cost time
+    // long words are not typos of option names, and would take long
     constexpr size_t kLongest = 64;
     std::string best;
     if (word.size() > kLongest)
         return best;
-    // one slip in three letters
+    // one typo in three letters
     size_t best_distance = std::max<size_t>(word.size() / 3, 1) + 1;
     for (const std::string& candidate : candidates)
     {

@@ -20,7 +20,8 @@ namespace
 constexpr std::string_view kStart = ".hearth-";
 constexpr const char* kLock = "/lock";
 
-/// A locked file in the new folder; it has its name only when it is locked. -1 where the file system has no locks.
+/// Create a locked file in the new folder. It gets its final name only after it is locked. -1 if the file
+/// system has no locks.
 int lockFolder(const std::string& folder)
 {
     const std::string unlocked = folder + kLock + ".new";
@@ -44,11 +45,11 @@ bool isAbandoned(const std::string& folder)
     return abandoned;
 }
 
-/// The lock goes last: a removal that is killed itself, or that a cooker without a parent writes into, leaves a folder
-/// that the next process knows.
+/// Remove a folder, its lock last. If the removal itself is killed, or an orphaned cooker still writes into
+/// the folder, the next process still recognises the folder.
 void removeFolder(const std::string& folder)
 {
-    // nothing more can be done about a folder that does not go, and the work itself is done
+    // nothing more can be done about a folder that cannot be removed, and the work itself is done
     std::error_code error;
     std::error_code ignored;
     for (auto at = std::filesystem::directory_iterator(folder, error);

@@ -1,4 +1,4 @@
-// A folder of this process alone, gone when it goes.
+// Temporary directory of this process, removed when it exits.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,8 +12,8 @@ namespace hearth
 class TempDirectory
 {
 public:
-    /// A new folder in `parent`, which must exist. Those in it that killed processes of this user have left are removed:
-    /// each holds a lock as long as its process lives.
+    /// Create a folder in `parent`, which must exist. Folders in `parent` left by killed processes of this
+    /// user are removed: each folder holds a lock as long as its process lives.
     /// errors: cannot_write, naming `for_output`.
     static Result<TempDirectory> create(const std::string& parent, const std::string& for_output);
 
@@ -23,7 +23,7 @@ public:
         other.lock_ = -1;
     }
     TempDirectory& operator=(TempDirectory&&) = delete;
-    /// Removes the folder with all that is in it.
+    /// Remove the folder and its contents.
     ~TempDirectory();
 
     const std::string& path() const { return path_; }
@@ -31,13 +31,13 @@ public:
 private:
     TempDirectory(std::string path, int lock) : path_(std::move(path)), lock_(lock) {}
     std::string path_;
-    int lock_ = -1; ///< of a file in it
+    int lock_ = -1; ///< lock of a file in the folder
 };
 
-/// The folder that a file lies in: "." for a bare name.
+/// Return the folder of a file: "." for a bare name.
 std::string parentFolder(const std::string& path);
 
-/// Where the user keeps temporary files: TMPDIR, or `otherwise` where that is not set.
+/// Return the user's folder for temporary files: TMPDIR, or `otherwise` if that is not set.
 std::string temporaryOr(const std::string& otherwise);
 
 } // namespace hearth

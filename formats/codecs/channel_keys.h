@@ -1,4 +1,4 @@
-// Reads the keys of an animation channel where they lie, one at a time: floats, or packed (FORMAT.md, "Skins and
+// Reads the keys of an animation channel in place, one at a time: floats or packed (FORMAT.md, "Skins and
 // animations").
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
@@ -14,13 +14,13 @@
 namespace hearth::formats
 {
 
-/// Up to four numbers of a channel's value; those that it has not are 0.
+/// Value of a key: up to four numbers; missing ones are 0.
 using KeyValue = std::array<double, 4>;
 
-/// Which number of a packed rotation is left out of the stream: it follows from the length 1.
+/// Bits of the index of the number that a packed rotation omits: it follows from the length 1.
 inline constexpr uint32_t kLargestBits = 2;
 
-/// `count` (at most 32) bits from bit `offset` on; bit 0 is the lowest of the first word.
+/// Read `count` (at most 32) bits from bit `offset` on; bit 0 is the lowest of the first word.
 inline uint32_t readBits(std::span<const uint32_t> words, uint64_t offset, uint32_t count)
 {
     if (count == 0)
@@ -38,7 +38,7 @@ inline bool isPacked(const AnimationChannelRecord& channel)
     return channel.encoding == static_cast<uint32_t>(KeyEncoding::packed);
 }
 
-/// Bits of one key of a packed channel.
+/// Return the number of bits of one key of a packed channel.
 inline uint32_t keyStride(const AnimationChannelRecord& channel)
 {
     const bool rotation = channel.path == static_cast<uint32_t>(AnimationPath::rotation);
@@ -46,7 +46,7 @@ inline uint32_t keyStride(const AnimationChannelRecord& channel)
            channel.value_bits[1] + channel.value_bits[2];
 }
 
-/// A rotation of length 1 out of three of its numbers; the one that is left out is not negative.
+/// Restore a unit rotation from three of its numbers; the omitted one is not negative.
 inline KeyValue rotationWithout(uint32_t largest, const std::array<double, 3>& others)
 {
     KeyValue rotation{};
@@ -60,7 +60,7 @@ inline KeyValue rotationWithout(uint32_t largest, const std::array<double, 3>& o
     return rotation;
 }
 
-/// Of a channel that has been checked.
+/// Key reader of a channel that has been checked.
 class ChannelKeys
 {
 public:
@@ -79,10 +79,10 @@ public:
     uint32_t count() const { return channel_.key_count; }
     Interpolation interpolation() const { return static_cast<Interpolation>(channel_.interpolation); }
 
-    /// Seconds.
+    /// Return the time of a key in seconds.
     float time(uint32_t key) const { return times_[timeIndex(key)]; }
 
-    /// The first key that is later than a time; count() where none is.
+    /// Return the first key later than a time; count() if there is none.
     uint32_t keyAfter(double time_s) const
     {
         uint32_t first = 0, count = channel_.key_count;
@@ -100,14 +100,15 @@ public:
         return first;
     }
 
-    /// The value of a key, `count` components from `first` on. Rotations come as they are stored, of any length.
+    /// Return the value of a key, `count` components from `first` on. Rotations are returned as stored, of
+    /// any length.
     KeyValue value(uint32_t key, uint32_t first, uint32_t count) const
     {
         return interpolation() == Interpolation::cubic_spline ? row(size_t{key} * 3 + 1, first, count)
                                                               : row(key, first, count);
     }
 
-    /// Tangents of a spline, for one second.
+    /// Return the tangents of a spline, per second.
     KeyValue inTangent(uint32_t key, uint32_t first, uint32_t count) const
     {
         return row(size_t{key} * 3, first, count);

@@ -1,5 +1,5 @@
-// The box and the normal cone of a cluster, from the whole numbers of its record. The culling shaders decode the same
-// words in formats/gpu_shared/decisions.h.
+// Decodes the bounding box and normal cone of a cluster from the integers of its record. The culling shaders
+// decode the same words in formats/gpu_shared/decisions.h.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -8,20 +8,21 @@
 namespace hearth::formats
 {
 
-/// Units of ClusterRecord::cone_back, in steps << extent_shift: 16 bits of them reach from the middle of a cluster to
+/// Unit of ClusterRecord::cone_back, in steps << extent_shift: 16 bits reach from the middle of a cluster to
 /// the apex of any cone.
 inline constexpr uint32_t kConeBackSteps = 16;
 
-/// Largest ClusterRecord::extent_shift: as far as two corners of the grid are apart.
+/// Largest ClusterRecord::extent_shift: covers the whole grid from corner to corner.
 inline constexpr uint32_t kMostExtentShift = 9;
 
-/// The layout of a cluster's vertices: that of its mesh, and whether its offsets need more than 16 bits.
+/// Return the vertex layout of a cluster: its mesh's layout, and kVertexWide if its offsets need more than 16
+/// bits.
 constexpr uint32_t layoutOf(const ClusterRecord& cluster, uint32_t mesh_layout)
 {
     return mesh_layout | (cluster.extent_shift > 0 ? uint32_t{kVertexWide} : 0u);
 }
 
-/// Steps from the base to the high corner of the box.
+/// Return the number of steps from the base to the high corner of the box.
 constexpr int64_t boxSteps(const ClusterRecord& cluster, int axis)
 {
     return int64_t{cluster.extent[axis]} << cluster.extent_shift;
@@ -38,19 +39,19 @@ inline Box3 boxOf(const ClusterRecord& cluster, float grid_step)
     return box;
 }
 
-/// Unit vector along the middle of the cluster's normals.
+/// Return the unit vector along the middle of the cluster's normals.
 inline Float3 coneAxis(const ClusterRecord& cluster)
 {
     return NormalCode<8>::decode(cluster.cone_axis);
 }
 
-/// Sine of the cone's half-angle.
+/// Return the sine of the cone's half-angle.
 constexpr float coneCutoff(const ClusterRecord& cluster)
 {
     return static_cast<float>(cluster.cone_cutoff) * 0x1p-16f;
 }
 
-/// How far behind the middle of the box the apex is.
+/// Return the distance of the apex behind the middle of the box.
 constexpr double coneBack(const ClusterRecord& cluster, float grid_step)
 {
     return static_cast<double>(uint64_t{cluster.cone_back} * kConeBackSteps << cluster.extent_shift) *

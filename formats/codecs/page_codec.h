@@ -1,5 +1,5 @@
-// The stored form of a geometry page (PageCodec::clusters): what writer and reader of it agree on. See FORMAT.md,
-// "Pages".
+// Defines the stored form of a geometry page (PageCodec::clusters) for its writer and reader. See FORMAT.md,
+// "Geometry pages".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -15,15 +15,18 @@
 namespace hearth::formats
 {
 
-/// A vertex of a narrow cluster in halves of words, and how each is told from vertices before it.
+/// Prediction of a lane. The vertices of a narrow cluster are split into lanes of 16 bits (halves of words),
+/// each predicted from earlier vertices.
 enum class LaneKind : uint8_t
 {
-    grid,  ///< 16 bits, from the point that completes the edge and the third corner to a parallelogram
-    word,  ///< 16 bits, from the edge's second vertex
-    bytes, ///< two numbers of 8 bits, from the edge's second vertex
+    /// 16 bits, predicted from the point that completes the edge and the third corner to a parallelogram
+    grid,
+    word,  ///< 16 bits, predicted from the edge's second vertex
+    bytes, ///< two numbers of 8 bits, predicted from the edge's second vertex
 };
 
-/// Of a vertex with all attributes, the largest layout; and the influences of a skin besides.
+/// Maximum number of lanes: kHeaderLanes for a vertex with all attributes (the largest layout), and the
+/// influences of a skin on top.
 inline constexpr uint32_t kHeaderLanes = 30;
 inline constexpr uint32_t kMaxLanes = kHeaderLanes + 16;
 
@@ -33,7 +36,7 @@ struct VertexLanes
     uint32_t count = 0;
 };
 
-/// The lanes of a narrow cluster's vertices, in the order in which they lie in memory.
+/// Return the lanes of a narrow cluster's vertices, in memory order.
 constexpr VertexLanes vertexLanes(uint32_t layout)
 {
     VertexLanes lanes;
@@ -59,32 +62,36 @@ constexpr VertexLanes vertexLanes(uint32_t layout)
     return lanes;
 }
 
-/// Whether the lane is a number whose word has another one in its other half: their main bits share bytes.
+/// True if the lane is a number whose word has another number in its other half: their main bits share bytes.
 constexpr bool sharesMainByte(const VertexLanes& lanes, size_t lane)
 {
     return lanes.kinds[lane] != LaneKind::bytes && lanes.kinds[lane ^ 1] != LaneKind::bytes;
 }
 
-/// At the start of the content of a page; behind it the streams, in this order:
-///     codes        for each cluster, 4 bits a triangle but the first, the first of them in the low ones, padded to a byte
-///     restarts     a byte for the first triangle of each cluster and for each with code kCodeRestart: of the clusters at
-///                  even places in the page, then of those at odd places
-///     reuses       a byte for each corner that is a vertex of the same cluster: the same
-///     references   two planes (low bytes, high bytes) of numbers: vertices that are one of an earlier cluster
-///     uv_bases     the words in front of the clusters' vertices
-///     wide         the vertices of wide clusters, as they are
-///     more_lanes   where a vertex has more than kHeaderLanes lanes: planes and low_bits of the others, as in the header,
-///                  kMaxLanes - kHeaderLanes bytes each
-///     morphs       what stands behind the clusters' triangles, in four planes: the first bytes of all words, then the
-///                  second ones, and so on
-///     escapes      two bytes for each number of a new vertex whose main bits are all set: the number. By sixteen
-///                  vertices, in them by lane, in it by vertex
-///     planes       of the new vertices, a byte each: the main bytes of numbers, then of lanes of two bytes; the second
-///                  bytes of those; then for each block of eight lanes the bytes of its low bits
-/// A lane of 16 bits is a number (zigzag16): its low bits lie in the field of its block, the fields of the block's lanes
-/// one behind the other. The bits above are its main byte; where both halves of a word are numbers, the four main bits of
-/// the second one lie above those of the first one in the main byte of the first one.
-/// A lane of two bytes is its main byte and its second byte, or (kPlaneNibbles) the upper halves of both, then the lower.
+/// Header of a page's content. The streams follow, in this order:
+///     codes        for each cluster, 4 bits a triangle except the first, low bits first, padded to a byte
+///     restarts     a byte for the first triangle of each cluster and for each with code kCodeRestart: first
+///                  of the clusters at even indices in the page, then of the clusters at odd indices
+///     reuses       a byte for each corner that is a vertex of the same cluster, in the order of restarts
+///     references   two planes (low bytes, high bytes) of numbers: vertices equal to one of an earlier
+///                  cluster
+///     uv_bases     the words before the clusters' vertices
+///     wide         the vertices of wide clusters, uncompressed
+///     more_lanes   if a vertex has more than kHeaderLanes lanes: planes and low_bits of the others, as in
+///                  the header, kMaxLanes - kHeaderLanes bytes each
+///     morphs       the words after the clusters' triangles, in four planes: the first bytes of all words,
+///                  then the second bytes, and so on
+///     escapes      two bytes for each number of a new vertex whose main bits are all set: the number. Sorted
+///                  by groups of sixteen vertices, then by lane, then by vertex
+///     planes       one byte of each new vertex: the main bytes of numbers, then of lanes of two bytes; the
+///                  second bytes of lanes of two bytes; then for each block of eight lanes the bytes of its
+///                  low bits
+/// A lane of 16 bits is a number (zigzag16). Its low bits are in the field of its block, where the fields of
+/// the block's lanes follow each other. The bits above are its main byte. If both halves of a word are
+/// numbers, the four main bits of the second number are stored above the four of the first in the first
+/// number's main byte.
+/// A lane of two bytes is its main byte and its second byte, or (kPlaneNibbles) the upper halves of both,
+/// then the lower.
 struct PageHeader
 {
     uint16_t restarts[2];
@@ -96,19 +103,20 @@ struct PageHeader
     uint8_t low_bits[kHeaderLanes];
 };
 
-/// How the numbers of each lane are stored.
+/// Storage of the numbers of each lane.
 struct LaneForms
 {
     std::array<uint8_t, kMaxLanes> planes{};   ///< as PageHeader::planes
     std::array<uint8_t, kMaxLanes> low_bits{}; ///< as PageHeader::low_bits
 };
 
-/// Bytes of stream more_lanes.
+/// Return the size in bytes of stream more_lanes.
 constexpr size_t moreLaneBytes(const VertexLanes& lanes)
 {
     return lanes.count > kHeaderLanes ? 2 * size_t{kMaxLanes - kHeaderLanes} : 0;
 }
 
+/// Read the storage of all lanes.
 /// more_lanes  moreLaneBytes bytes
 inline LaneForms readLaneForms(const PageHeader& header, std::span<const std::byte> more_lanes)
 {
@@ -124,22 +132,22 @@ inline LaneForms readLaneForms(const PageHeader& header, std::span<const std::by
 }
 
 inline constexpr uint32_t kEscape = 255;
-inline constexpr uint32_t kEscapeOfFour = 15; ///< where main bytes are shared
+inline constexpr uint32_t kEscapeOfFour = 15; ///< for shared main bytes
 
-inline constexpr uint8_t kPlaneMain = 1; ///< of LaneForms::planes: else all are 0
+inline constexpr uint8_t kPlaneMain = 1; ///< bits of LaneForms::planes: bytes of an absent plane are 0
 inline constexpr uint8_t kPlaneSecond = 2;
-inline constexpr uint8_t kPlaneNibbles = 4; ///< of a lane of two bytes
+inline constexpr uint8_t kPlaneNibbles = 4; ///< for a lane of two bytes
 inline constexpr uint32_t kLanesOfBlock = 8;
 
-/// Most bits below main bytes, and below four main bits.
+/// Maximum number of bits below main bytes, and below four main bits.
 inline constexpr uint32_t kMaxLowBits = 8;
 inline constexpr uint32_t kMaxLowBitsOfFour = 12;
 
-/// Where the low bits of a block's lanes lie.
+/// Bit positions of the low bits of a block's lanes.
 struct LowBitFields
 {
     std::array<uint32_t, kLanesOfBlock> first{};
-    uint32_t bits = 0; ///< of all
+    uint32_t bits = 0; ///< of all lanes
     uint32_t planes() const { return (bits + 7) / 8; }
 };
 
@@ -154,20 +162,21 @@ constexpr LowBitFields lowBitFields(const LaneForms& forms, size_t block)
     return fields;
 }
 
-// Triangles follow each other along shared edges. A triangle (a, b, c) has the edge (c, b) to its right and (a, c) to
-// its left; the next triangle starts with one of these two, or with one that was put aside, and adds a corner.
-// code = 3 * edge + corner
+// Codes of triangles. Triangles follow each other along shared edges. A triangle (a, b, c) has the edge (c,
+// b) to its right and (a, c) to its left. The next triangle starts with one of these two edges, or with an
+// edge on the stack, and adds a corner. code = 3 * edge + corner
 inline constexpr uint32_t kEdgeRight = 0;
-inline constexpr uint32_t kEdgeRightKeepLeft = 1; ///< and put the left one aside
+inline constexpr uint32_t kEdgeRightKeepLeft = 1; ///< and push the left edge on the stack
 inline constexpr uint32_t kEdgeLeft = 2;
-inline constexpr uint32_t kEdgeKept = 3; ///< the last one put aside
+inline constexpr uint32_t kEdgeKept = 3; ///< pop the edge from the stack
 inline constexpr uint32_t kCornerNew = 0;
-inline constexpr uint32_t kCornerReference = 1; ///< new here, but equal to a vertex of an earlier cluster
+/// New in this cluster, but equal to a vertex of an earlier cluster
+inline constexpr uint32_t kCornerReference = 1;
 inline constexpr uint32_t kCornerReuse = 2;
-inline constexpr uint32_t kCodeRestart =
-    15; ///< three corners: bits 0..1, 2..3 and 4..5 of a byte of restarts
+/// Three corners: bits 0..1, 2..3 and 4..5 of a byte of restarts
+inline constexpr uint32_t kCodeRestart = 15;
 
-/// Codes of a cluster: none for its first triangle, which is a restart.
+/// Return the number of codes of a cluster: none for its first triangle, which is a restart.
 constexpr uint32_t codeCount(uint32_t triangle_count)
 {
     return triangle_count == 0 ? 0 : triangle_count - 1;
@@ -177,7 +186,7 @@ constexpr size_t codeBytes(uint32_t triangle_count)
     return (codeCount(triangle_count) + size_t{1}) / 2;
 }
 
-/// Small numbers of either sign as small numbers.
+/// Map small numbers of either sign to small unsigned numbers.
 constexpr uint16_t zigzag16(uint16_t value)
 {
     return static_cast<uint16_t>(value << 1 ^ (value & 0x8000 ? 0xFFFF : 0));

@@ -18,10 +18,10 @@ namespace
 
 using namespace page;
 
-/// More than any page of 64 KiB comes to before its entropy coding.
+/// Upper bound of the content of a 64 KiB page before its entropy coding.
 constexpr size_t kMostContent = size_t{1} << 19;
 
-/// Vertices of a cluster that edges can name.
+/// Vertices of a cluster that edges can address.
 constexpr size_t kLocalIndices = 256;
 
 template <size_t Blocks>
@@ -41,7 +41,7 @@ Slot<Blocks> baseOf(const ClusterRecord& cluster, const VertexLanes& lanes, cons
     return base;
 }
 
-/// Clusters of a page, one after the other.
+/// Decoder of a page's clusters, in order.
 template <size_t Blocks>
 class ClusterDecoder
 {
@@ -108,7 +108,7 @@ private:
         return true;
     }
 
-    /// What stands behind the triangles of the last cluster, as far as `end`.
+    /// Write the words after the triangles of the last cluster, up to `end`.
     void writeMorphs(size_t end)
     {
         for (; at_ < end; at_ += streams_.morphs.size())
@@ -128,7 +128,7 @@ private:
     std::array<Connectivity, 2> connectivity_;
     VertexDecoder<Blocks> vertices_;
     std::span<std::byte> page_;
-    size_t at_ = 0; ///< what is written
+    size_t at_ = 0; ///< bytes written
 };
 
 template <size_t Blocks>
@@ -150,8 +150,8 @@ struct PageDecoder::Scratch
     std::vector<std::byte> content;
     std::vector<Halves> slots;
 
-    /// The content with kStreamSlack bytes behind it: the decompressed frame and what stands behind it. Empty if there is
-    /// no frame.
+    /// Return the content with kStreamSlack bytes after it: the decompressed frame and the bytes that follow
+    /// the frame. Empty if there is no frame.
     std::span<const std::byte> decompress(std::span<const std::byte> stored)
     {
         const unsigned long long size = ZSTD_getFrameContentSize(stored.data(), stored.size());

@@ -1,4 +1,4 @@
-// Decodes geometry pages from their stored form into what the GPU reads.
+// Decodes geometry pages from their stored form into the form that the GPU reads.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,7 +11,7 @@
 namespace hearth::formats
 {
 
-/// Memory that decoding needs, kept from page to page. One for each thread that decodes.
+/// Decoder of pages. It keeps its memory from page to page; use one for each thread.
 class PageDecoder
 {
 public:
@@ -20,10 +20,10 @@ public:
     PageDecoder& operator=(PageDecoder&&) noexcept;
     ~PageDecoder();
 
-    /// Decode a page of PageCodec::clusters. Safe for any bytes and any records: false where they do not fit each
-    /// other, and then nothing is said about what `out` holds. Writes nothing beside `out`.
+    /// Decode a page of PageCodec::clusters. Safe for any bytes and any records: returns false if they do not
+    /// match; the content of `out` is then undefined. Writes nothing outside `out`.
     ///
-    /// clusters     of the page, in order; their data fills the page without gaps
+    /// clusters     clusters of the page, in order; their data fills the page without gaps
     /// mesh_layout  MeshRecord::attributes, legal
     bool decode(std::span<const std::byte> stored, std::span<const ClusterRecord> clusters,
                 uint32_t mesh_layout, std::span<std::byte> out);

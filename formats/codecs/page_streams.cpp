@@ -10,7 +10,7 @@ namespace hearth::formats::page
 namespace
 {
 
-/// Whether planes are described as these lanes can have them.
+/// True if the planes are possible for these lanes.
 bool legalForms(const LaneForms& forms, const VertexLanes& lanes)
 {
     for (size_t lane = 0; lane < kMaxLanes; ++lane)
@@ -29,7 +29,7 @@ bool legalForms(const LaneForms& forms, const VertexLanes& lanes)
     return true;
 }
 
-/// Codes 12 to 14 are none.
+/// True if no code is 12 to 14, which are unused.
 bool legalCodes(std::span<const std::byte> codes)
 {
     const auto illegal = [](uint32_t code) { return ((code + 4) & 15u) < 3 ? 1u : 0u; };

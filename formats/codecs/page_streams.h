@@ -1,4 +1,5 @@
-// The streams of a geometry page's content (formats/codecs/page_codec.h), found and measured against the page's records.
+// Finds the streams of a geometry page's content (formats/codecs/page_codec.h), and checks their sizes
+// against the page's records.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -14,7 +15,7 @@ namespace hearth::formats::page
 
 inline constexpr size_t kClusterCorners = size_t{kClusterMaxTriangles} * 3;
 
-/// Bytes behind the content that a cluster may read in vain: two for each corner, and a vector.
+/// Bytes after the content that decoding a cluster may overread: two for each corner, and a vector.
 inline constexpr size_t kStreamSlack = 2 * kClusterCorners + 64;
 
 inline constexpr size_t kMostBlocks = (kMaxLanes + kLanesOfBlock - 1) / kLanesOfBlock;
@@ -35,29 +36,32 @@ struct Streams
     LaneForms forms;
     Stream codes, uv_bases, wide, escapes;
     std::array<Stream, 2> restarts, reuses;
-    std::array<const uint8_t*, 4> morphs{}; ///< the planes of the words behind triangles
-    const uint8_t* references = nullptr;    ///< low bytes; the high ones header.references behind them
-    std::array<const uint8_t*, kMaxLanes> main{}, second{}; ///< bytes of lanes; nullptr: all are 0
+    std::array<const uint8_t*, 4> morphs{}; ///< planes of the words after triangles
+    /// Low bytes; the high bytes follow header.references bytes later
+    const uint8_t* references = nullptr;
+    std::array<const uint8_t*, kMaxLanes> main{}, second{}; ///< bytes of lanes; nullptr: all bytes are 0
     std::array<std::array<const uint8_t*, kMostLowPlanes>, kMostBlocks> low_bits{};
 };
 
-/// What the page's clusters need.
+/// Sizes that the page's clusters require.
 struct PageShape
 {
     size_t codes = 0;
     size_t uv_base_bytes = 0;
     size_t wide_bytes = 0;
-    size_t morph_words = 0; ///< behind the triangles of clusters
-    size_t slots = 1;       ///< vertices of narrow clusters, and one
+    size_t morph_words = 0; ///< words after the triangles of clusters
+    size_t slots = 1;       ///< vertices of narrow clusters, plus one
 
-    /// False where the cluster begins before `end`, which is moved behind its triangles, or is too large.
+    /// Add a cluster, and move `end` behind its triangles. False if the cluster begins before `end`, or is
+    /// too large.
     bool add(const ClusterRecord& cluster, uint32_t mesh_layout, size_t& end);
 
-    /// What stands behind the last cluster. False where the page ends before `end`.
+    /// Add the words after the last cluster. False if the page ends before `end`.
     bool finish(size_t end, size_t page_size);
 };
 
-/// nullopt where the header says what is not legal, or the streams are not as long as the content.
+/// Split the content into streams. nullopt if the header is invalid, or the streams do not add up to the
+/// content.
 std::optional<Streams> splitContent(std::span<const std::byte> content, const PageShape& shape,
                                     const VertexLanes& lanes);
 

@@ -1,5 +1,5 @@
-// Decodes the triangles of a geometry page's clusters (formats/codecs/page_codec.h), two clusters at a time: each triangle waits
-// for the one before, and the processor has time for another one meanwhile.
+// Decodes the triangles of a geometry page's clusters (formats/codecs/page_codec.h), two clusters at a time.
+// Each triangle depends on the one before, so the processor works on the other cluster while it waits.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -8,44 +8,46 @@
 #include <algorithm>
 #include <cstring>
 
-// Safe without a check at every byte: streams have room for a cluster behind them, counts are checked when it is done.
+// Safe without a check at every byte: streams have room for a whole cluster after their end, and counts are
+// checked after each cluster.
 
 namespace hearth::formats::page
 {
 
-/// Three vertices of a cluster as the lowest bytes of a word.
+/// Pack three vertices of a cluster into the lowest bytes of a word.
 constexpr uint32_t threeBytes(uint32_t a, uint32_t b, uint32_t c)
 {
     return a | b << 8 | c << 16;
 }
 
-/// Bad codes take away more edges than were put aside.
+/// Size of the edge stack: invalid codes pop more edges than were pushed.
 inline constexpr size_t kKeptRoom = kClusterMaxTriangles + 1;
 
-/// Corners of the triangles of a cluster, and how its vertices come about.
+/// Corners of the triangles of a cluster, and the sources of its vertices.
 struct Connectivity
 {
-    std::array<uint8_t, kClusterCorners + 1> indices; ///< room for a word at the last triangle
-    /// For each new vertex an edge's two vertices and the third corner of the triangle beside it, in the lowest bytes.
+    std::array<uint8_t, kClusterCorners + 1> indices; ///< with room for a word at the last triangle
+    /// For each new vertex, an edge's two vertices and the third corner of the triangle next to it, in the
+    /// lowest bytes.
     std::array<uint32_t, kClusterCorners + 1> edges;
     std::array<uint8_t, kClusterCorners + 1> new_vertices;
-    std::array<uint8_t, kClusterCorners + 1> references; ///< vertices that are one of an earlier cluster
+    std::array<uint8_t, kClusterCorners + 1> references; ///< vertices equal to one of an earlier cluster
     uint32_t vertex_count = 0;
     uint32_t new_count = 0;
-    std::array<uint32_t, 2 * kKeptRoom + 1> kept{}; ///< edges put aside, while it is decoded
+    std::array<uint32_t, 2 * kKeptRoom + 1> kept{}; ///< stack of edges while the cluster is decoded
 
     uint32_t referenceCount() const { return vertex_count - new_count; }
 };
 
-/// What a code means, in numbers to calculate with: the next code cannot be foretold, and a wrong guess costs more than a
-/// triangle.
+/// Effect of a code, as numbers for branch-free arithmetic: the next code is unpredictable, and a
+/// mispredicted branch costs more than a triangle.
 struct Way
 {
-    int64_t from; ///< where it starts: -1 the last edge that was put aside, 0 the left one, 1 the right one
-    int64_t kept; ///< edges put aside, or taken away
-    uint64_t reused;    ///< 1: its corner is a vertex that is there
+    int64_t from;       ///< edge it starts from: -1 top of the stack, 0 the left one, 1 the right one
+    int64_t kept;       ///< number of edges pushed, or popped if negative
+    uint64_t reused;    ///< 1: its corner is an earlier vertex of the cluster
     uint32_t fresh;     ///< 1: its corner is a new vertex
-    uint32_t not_added; ///< all bits: `reused`; else none
+    uint32_t not_added; ///< all bits if `reused`, else none
 };
 
 inline constexpr std::array<Way, 16> kWays = []
@@ -66,10 +68,11 @@ inline constexpr std::array<Way, 16> kWays = []
 class TriangleDecoder
 {
 public:
-    /// False where a corner names a vertex that is not there yet, an edge was not put aside, or a stream ends too soon.
-    /// Moves the streams on.
+    /// Decode two clusters, and advance the streams. False if a corner names a vertex that does not exist
+    /// yet, an edge is popped from an empty stack, or a stream ends too soon.
     ///
-    /// triangle_counts  of a cluster at an even place of the page and of the next one; 0 where there is none
+    /// triangle_counts  counts of a cluster at an even index of the page and of the next one; 0 if there is
+    ///                  none
     static bool decode(Streams& streams, std::array<uint32_t, 2> triangle_counts,
                        std::array<Connectivity, 2>& out)
     {
@@ -139,7 +142,7 @@ private:
             {
                 const Way& way = kWays[code];
                 uint32_t* const kept = out_->kept.data() + kKeptRoom + kept_;
-                // the edge to the left and the corner opposite to it; those to the right lie one byte above
+                // the left edge and the corner opposite to it; the right ones are one byte above
                 const uint32_t left = __builtin_bswap32(triangle_);
                 kept[0] = left;
                 kept[1] = left >> 8;
@@ -173,7 +176,7 @@ private:
 
         [[gnu::always_inline]] void restart()
         {
-            // on a copy: what has its address taken would not stay in registers
+            // on a copy: a variable whose address is taken would not stay in a register
             State copy = *this;
             restart(copy);
             *this = copy;
@@ -184,7 +187,7 @@ private:
             const uint32_t kinds = *s.restarts_++;
             if ((kinds & kinds >> 1 & 0x15u) != 0 || kinds > 63)
                 s.bad_ = -1;
-            // before the first vertex of the cluster, its place holds the last one of the cluster before
+            // before the first vertex of the cluster, its slot holds the last vertex of the previous cluster
             const uint32_t before = s.newest_ == ~0u ? 0 : s.newest_ & 255u;
             const uint32_t a = s.corner(kWays[(kinds & 3u) % 3], threeBytes(before, before, before));
             const uint32_t b = s.corner(kWays[(kinds >> 2 & 3u) % 3], threeBytes(a, a, a));
@@ -197,10 +200,10 @@ private:
         const uint8_t* reuses_;
         Connectivity* out_;
         uint32_t triangle_ = 0; ///< its corners a, b, c in the lowest bytes, and a in the highest
-        uint32_t newest_ = ~0u; ///< vertex
+        uint32_t newest_ = ~0u; ///< newest vertex
         uint32_t new_count_ = 0;
-        int32_t bad_ = 0;  ///< below 0 once something was
-        int64_t kept_ = 0; ///< edges put aside; below 0 once a code was bad
+        int32_t bad_ = 0;  ///< negative once an input was invalid
+        int64_t kept_ = 0; ///< edges on the stack; negative once a code was invalid
     };
 };
 

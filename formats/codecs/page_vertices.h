@@ -1,4 +1,5 @@
-// Decodes the vertices of a geometry page's narrow clusters (formats/codecs/page_codec.h), in vectors of sixteen bytes.
+// Decodes the vertices of a geometry page's narrow clusters (formats/codecs/page_codec.h), with SIMD vectors
+// of sixteen bytes.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,11 +12,12 @@
 namespace hearth::formats::page
 {
 
-/// Lanes of a vertex in whole vectors.
+/// Lanes of a vertex, in whole vectors.
 template <size_t Blocks>
 using Slot = std::array<Halves, Blocks>;
 
-/// What is left of new vertices when they are foretold: from the planes of all their bytes, sixteen vertices at a time.
+/// Reader of the residuals of new vertices (vertex minus its prediction): from the planes of all their bytes,
+/// sixteen vertices at a time.
 template <size_t Blocks>
 class ResidualReader
 {
@@ -32,10 +34,10 @@ public:
         }
     }
 
-    /// Those of the next `count` vertices, 256 at most, which are in the planes.
+    /// Return the residuals of the next `count` vertices, at most 256; all are in the planes.
     std::span<const Slot<Blocks>> next(uint32_t count)
     {
-        // what the last group had too many
+        // keep the surplus of the last group
         std::copy(rows_.begin() + used_, rows_.begin() + ready_, rows_.begin());
         ready_ -= used_;
         used_ = count;
@@ -50,7 +52,7 @@ private:
     /// Eight lanes of sixteen vertices: the first eight vertices of each lane, and the others.
     using Group = std::array<std::array<Halves, kHalves>, 2>;
 
-    /// The low bits of sixteen vertices in halves of words, and one half more.
+    /// Low bits of sixteen vertices in halves of words, and one extra half.
     using Fields = std::array<std::array<Halves, kMostLowPlanes / 2 + 1>, 2>;
 
     enum class Form : uint8_t
@@ -62,11 +64,11 @@ private:
 
     struct LanePlan
     {
-        size_t lane = 0; ///< of the block
+        size_t lane = 0; ///< lane in the block
         Form form = Form::number;
         const uint8_t* main = nullptr;
         const uint8_t* second = nullptr;
-        uint32_t main_shift = 0; ///< of a number in its main byte
+        uint32_t main_shift = 0; ///< position of the number in its main byte
         uint8_t escape = kEscape;
         uint32_t low_bits = 0;
         uint32_t first_low_bit = 0;
@@ -202,16 +204,16 @@ private:
     std::array<size_t, Blocks> plan_counts_{};
     std::array<Group, Blocks> groups_{}; ///< lanes without a plan stay 0
     std::array<Slot<Blocks>, kClusterMaxVertices + kGroup> rows_;
-    uint32_t used_ = 0, ready_ = 0; ///< of the rows
-    uint32_t position_ = 0;         ///< vertices that are read
+    uint32_t used_ = 0, ready_ = 0; ///< rows used and rows decoded
+    uint32_t position_ = 0;         ///< vertices read
 };
 
-/// The vertices of narrow clusters, in slots, and of one cluster after the other in the page.
+/// Decoder of the vertices of narrow clusters into slots, one cluster of the page after the other.
 template <size_t Blocks>
 class VertexDecoder
 {
 public:
-    /// slots  that of no vertex, which is all zeros; one for each vertex; room behind them
+    /// slots  first the slot of no vertex, which is all zeros; then one for each vertex; with room after them
     VertexDecoder(Streams& streams, const VertexLanes& lanes, std::span<Halves> slots)
         : streams_(streams), residuals_(streams, lanes), slots_(reinterpret_cast<Slot<Blocks>*>(slots.data()))
     {
@@ -222,7 +224,7 @@ public:
         }
     }
 
-    /// Decode the cluster's vertices and write them, less the base, to `out`. Writes nothing behind `end`.
+    /// Decode the cluster's vertices and write them, less the base, to `out`. Writes nothing past `end`.
     bool decode(const Connectivity& connectivity, const Slot<Blocks>& base, std::byte* out,
                 size_t vertex_bytes, const std::byte* end)
     {
@@ -233,7 +235,7 @@ public:
         new_used_ += connectivity.new_count;
         const std::span<const Slot<Blocks>> residuals = residuals_.next(connectivity.new_count);
         Slot<Blocks>* const cluster = slots_ + slot_count_;
-        // what its first vertex is foretold from
+        // its first vertex is predicted from this one
         cluster[0] = cluster[-1];
         if (!copyReferences(std::span(connectivity.references).first(references)))
             return false;
@@ -264,7 +266,7 @@ private:
                 offset[i] = vertex[i] - base[i];
             return offset;
         };
-        // whole vectors run over into what is written later, but not beyond the cluster
+        // whole vectors overlap data that is written later, but do not pass the end of the cluster
         const size_t room = static_cast<size_t>(end - out);
         const size_t whole =
             room < sizeof(base) ? 0 : std::min(vertices.size(), (room - sizeof(base)) / vertex_bytes + 1);
@@ -282,7 +284,7 @@ private:
         }
     }
 
-    /// False where one is not a vertex of an earlier cluster.
+    /// False if a reference is not a vertex of an earlier cluster.
     bool copyReferences(std::span<const uint8_t> vertices)
     {
         const uint8_t* const low = streams_.references + references_used_;
@@ -300,8 +302,8 @@ private:
         return good;
     }
 
-    /// What the edge (a, b) and the corner opposite to it tell, and what is left. In an order in which the vertex before,
-    /// which a or b mostly is, is waited for last.
+    /// Add the residual to the prediction from the edge (a, b) and the corner opposite to it. The order of
+    /// operations uses the previous vertex, which is mostly a or b, last.
     Slot<Blocks> sum(const Slot<Blocks>& a, const Slot<Blocks>& b, const Slot<Blocks>& opposite,
                      const Slot<Blocks>& residual) const
     {
@@ -314,7 +316,7 @@ private:
     Streams& streams_;
     ResidualReader<Blocks> residuals_;
     Slot<Blocks>* slots_;
-    Slot<Blocks> grid_{}; ///< mask of the lanes that lie on grids
+    Slot<Blocks> grid_{}; ///< mask of the lanes with a grid prediction
     size_t slot_count_ = 1;
     uint32_t new_used_ = 0;
     uint32_t references_used_ = 0;

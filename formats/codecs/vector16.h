@@ -1,4 +1,5 @@
-// Sixteen bytes side by side, as bytes and as halves of words: what every x86-64 and ARM64 processor has.
+// SIMD vectors of sixteen bytes, as bytes and as halves of words, available on every x86-64 and ARM64
+// processor.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -42,7 +43,7 @@ inline bool anyBit(Halves halves)
     return (words[0] | words[1]) != 0;
 }
 
-/// Bytes of a and b in turns: the first halves of both, or the second.
+/// Interleave bytes of a and b: the first halves of both, or the second halves.
 inline Bytes interleaveLow(Bytes a, Bytes b)
 {
     return __builtin_shufflevector(a, b, 0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
@@ -52,7 +53,7 @@ inline Bytes interleaveHigh(Bytes a, Bytes b)
     return __builtin_shufflevector(a, b, 8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31);
 }
 
-/// Half j of row i changes places with half i of row j.
+/// Transpose: half j of row i changes places with half i of row j.
 inline void transpose(std::array<Halves, kHalves>& rows)
 {
     for (int round = 0; round < 3; ++round)

@@ -1,7 +1,8 @@
-// How a vertex lies in a geometry page: word offsets, and the codes of positions, normals, tangents, UVs and colours.
-// Octahedral map: Q. Meyer et al., "On floating-point normal vectors", 2010; its rounding: Z. Cigolle et al., "A survey
-// of efficient representations for independent unit vectors", 2014; frame of a normal: T. Duff et al., "Building an
-// orthonormal basis, revisited", 2017. The bit definitions are in FORMAT.md.
+// Defines the vertex layout of geometry pages: word offsets, and the codes of positions, normals, tangents,
+// UVs and colours. Octahedral map: Q. Meyer et al., "On floating-point normal vectors", 2010; its rounding:
+// Z. Cigolle et al., "A survey of efficient representations for independent unit vectors", 2014; frame of a
+// normal: T. Duff et al., "Building an orthonormal basis, revisited", 2017. The bit definitions are in
+// FORMAT.md.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -15,47 +16,49 @@
 // Only + - * / and sqrt on 32-bit floats are used, each rounded once: every machine gets the same bits.
 // runtime/shaders/scene/scene.glsl and resolve.glsl decode the same codes.
 //
-//   position     (base + offset) * grid_step: whole numbers of at most 24 bits times a power of two, exact as floats.
-//                The base is the cluster's, offsets are 3 x u16, x in the lowest bits, or 3 x u32 in a wide cluster.
-//   snorm B bits q in [-m, m], m = 2^(B-1) - 1, stands for q / m; -m - 1 is not a legal code
+//   position     (base + offset) * grid_step: integers of at most 24 bits times a power of two, exact as
+//                floats. The base is the cluster's, offsets are 3 x u16, x in the lowest bits, or 3 x u32 in
+//                a wide cluster.
+//   snorm B bits q in [-m, m], m = 2^(B-1) - 1, decodes to q / m; -m - 1 is not a legal code
 //   normal       octahedral: x and y, snorm8 or snorm16, x in the low half.
 //                z = 1 - |x| - |y|;  where z < 0: (x, y) becomes ((1 - |y|) * sign(x), (1 - |x|) * sign(y)),
 //                sign(0) = +1; the direction is normalize(x, y, z). All legal codes are directions.
 //   tangent      bit 0: the bitangent is flipped, bitangent = (flipped ? -1 : 1) * cross(normal, tangent);
-//                above it the angle about the decoded normal, 7 or 15 bits: its top two are a quarter turn, the rest
-//                say where between the two axes of the normal's frame, on the line from one to the other
-//   UV           floats, or (base + offset) * 2^-n, the base the cluster's, offsets 2 x u16, or 2 x u32 in a wide one
+//                above it the angle about the decoded normal, 7 or 15 bits: its top two bits are a quarter
+//                turn, the rest interpolate linearly between the two axes of the normal's frame
+//   UV           floats, or (base + offset) * 2^-n, the base the cluster's, offsets 2 x u16, or 2 x u32 in a
+//                wide cluster
 //   colour       4 x unorm8 or unorm16, linear RGBA: q / 255 or q / 65535
 //   visibility   visibility_code.h
-//   influences   4 or 8 joints of the skin as u16, two a word, then as many weights, unorm16: the weights fall, and their
-//                codes sum to exactly 65535; a joint without weight is 0
+//   influences   4 or 8 joints of the skin as u16, two a word, then as many weights, unorm16, in descending
+//                order; their codes sum to exactly 65535; a joint without weight is 0
 //
-// The morph section of a cluster, words:
-//   n            of the mesh's targets that move a vertex of the cluster
+// Morph section of a cluster, in words:
+//   n            number of the mesh's targets that move a vertex of the cluster
 //   n x          { the target's number, ascending; the step of its position deltas, f32 }
-//   n x          for each vertex three words x, y, z: the lower 20 bits are the position's delta, signed, in steps; the
-//                upper 12 the normal's, signed, in units of 1 / 1024
+//   n x          for each vertex three words x, y, z: the lower 20 bits are the position delta, signed, in
+//                steps; the upper 12 bits the normal delta, signed, in units of 1 / 1024
 
 namespace hearth::formats
 {
 
-/// Bits that say which attributes there are.
+/// Mask of the attribute bits.
 inline constexpr uint32_t kVertexAttributesAll = 255;
 
-/// Grid coordinates are whole numbers in [-kGridMost, kGridMost]: floats have all of them.
+/// Grid coordinates are integers in [-kGridMost, kGridMost]: floats represent all of them.
 inline constexpr int32_t kGridMost = 1 << 24;
 
-/// Most steps from a cluster's base to a vertex that a 16-bit offset reaches.
+/// Largest distance in steps from a cluster's base that a 16-bit offset reaches.
 inline constexpr int64_t kNarrowMost = 65535;
 
-/// n of UV set `set`, whose grid has steps of 2^-n; 0 for floats.
+/// Return n of UV set `set`, whose grid has steps of 2^-n; 0 for floats.
 constexpr uint32_t uvFractionBits(uint32_t layout, uint32_t set)
 {
     return layout >> (kVertexUvStepShift + 4 * set) & 15u;
 }
 
-/// Whether a mesh may say this of its vertices: bits without a meaning are 0, an absent attribute is not said to be coded
-/// in some way, and tangents and visibility stand beside normals.
+/// True if the layout is legal for a mesh: unused bits are 0, no coding bit is set for an absent attribute,
+/// and tangents and visibility require normals.
 constexpr bool legalLayout(uint32_t layout)
 {
     constexpr uint32_t kOfMeshes = kVertexAttributesAll | kVertexFineNormal | kVertexFineColor |
@@ -67,8 +70,8 @@ constexpr bool legalLayout(uint32_t layout)
            ((layout & kVertexColor) != 0 || (layout & kVertexFineColor) == 0);
 }
 
-/// First word of attribute `bit` in a vertex with this layout; `bit` is one of them, or kVertexInfluences. Positions are
-/// at 0, and a normal that has no word of its own is the upper half of word 1.
+/// Return the first word of attribute `bit` in a vertex with this layout; `bit` is an attribute bit, or
+/// kVertexInfluences. Positions are at 0; a normal without a word of its own is the upper half of word 1.
 constexpr uint32_t attributeWord(uint32_t layout, uint32_t bit)
 {
     const bool shares_word = bit == kVertexNormal && (layout & (kVertexFineNormal | kVertexWide)) == 0;
@@ -76,42 +79,42 @@ constexpr uint32_t attributeWord(uint32_t layout, uint32_t bit)
     return shares_word ? 1 : vertexWords(layout & before);
 }
 
-/// Word of UV set `set`'s base among the uvBaseWords in front of a cluster's vertices.
+/// Return the word of UV set `set`'s base among the uvBaseWords before a cluster's vertices.
 constexpr uint32_t uvBaseWord(uint32_t layout, uint32_t set)
 {
     return uvBaseWords(layout & (((kVertexUv0 << set) - 1) | ~kVertexAttributesAll));
 }
 
-/// Bytes of a cluster in its page, but for a morph section: UV bases, vertices, then three u8 indices for each triangle,
-/// padded with zeros to words.
+/// Return the bytes of a cluster in its page, without its morph section: UV bases, vertices, then three u8
+/// indices for each triangle, padded with zeros to words.
 constexpr uint32_t clusterBytes(uint32_t layout, uint32_t vertex_count, uint32_t triangle_count)
 {
     return 4 * (uvBaseWords(layout) + vertex_count * vertexWords(layout) + (triangle_count * 3 + 3) / 4);
 }
 
-/// The layout that needs the most bytes of all that have these attributes.
+/// Return the layout with these attributes that needs the most bytes.
 constexpr uint32_t largestLayout(uint32_t attributes)
 {
     uint32_t layout = (attributes & (kVertexAttributesAll | kVertexInfluenceBits)) | kVertexFineNormal |
                       kVertexFineColor | kVertexWide;
-    // beside two words, as floats have them, a grid has a base
+    // as floats, a UV takes two words, but a grid also has a base
     for (uint32_t set = 0; set < 4; ++set)
         if (attributes & kVertexUv0 << set)
             layout |= 1u << (kVertexUvStepShift + 4 * set);
     return layout;
 }
 
-/// Words of a morph section with `targets` targets.
+/// Return the number of words of a morph section with `targets` targets.
 constexpr size_t morphSectionWords(size_t targets, size_t vertex_count)
 {
     return 1 + targets * (2 + 3 * vertex_count);
 }
 
 inline constexpr int32_t kMorphPositionMost = (1 << 19) - 1;
-inline constexpr float kMorphNormalSteps =
-    1024; ///< in the difference of two normals that stand on each other
+/// Unit of normal deltas, in the difference of two orthogonal normals.
+inline constexpr float kMorphNormalSteps = 1024;
 
-/// Each in [-2^19, 2^19) and [-2^11, 2^11).
+/// Pack the deltas of a position, in [-2^19, 2^19), and of a normal, in [-2^11, 2^11).
 constexpr uint32_t packMorphDelta(int32_t position, int32_t normal)
 {
     return (static_cast<uint32_t>(position) & 0xFFFFFu) | static_cast<uint32_t>(normal) << 20;
@@ -138,25 +141,25 @@ constexpr int32_t highHalf(uint32_t word)
     return static_cast<int16_t>(word >> 16);
 }
 
-/// Nearest unorm code of q / most; values outside [0, 1] are clamped.
+/// Return the nearest unorm code of q / most; values outside [0, 1] are clamped.
 inline uint32_t quantizeUnorm(float value, float most)
 {
     return static_cast<uint32_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * most));
 }
 
-/// A coordinate on the grid; exact for |coordinate| <= kGridMost.
+/// Return the position of a grid coordinate; exact for |coordinate| <= kGridMost.
 inline float fromGrid(int32_t coordinate, float step)
 {
     return static_cast<float>(coordinate) * step;
 }
 
-/// 2^-n, n < 127.
+/// Return 2^-n, n < 127.
 constexpr float uvStep(uint32_t fraction_bits)
 {
     return std::bit_cast<float>((127 - fraction_bits) << 23);
 }
 
-/// The point of the square [-1, 1]^2 that stands for a direction of any length > 0.
+/// Return the point of the square [-1, 1]^2 for a direction of any length > 0.
 inline Float2 octahedralFromDirection(Float3 d)
 {
     const float sum = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
@@ -180,14 +183,15 @@ inline Float3 directionFromOctahedral(Float2 p)
 
 using FourFloats = float __attribute__((vector_size(16)));
 
-/// Of four points of the square, the squared length of directionFromOctahedral less `unit`, to the same bits.
+/// Return, for four points of the square, the squared distance of directionFromOctahedral to `unit`, to the
+/// same bits.
 inline FourFloats distance2ToOctahedral(FourFloats x, FourFloats y, Float3 unit)
 {
     using FourWords = uint32_t __attribute__((vector_size(16)));
     constexpr uint32_t kSign = 1u << 31;
     const auto magnitude = [](FourFloats v)
     { return std::bit_cast<FourFloats>(std::bit_cast<FourWords>(v) & ~kSign); };
-    // neither code is the zero below 0
+    // neither code is -0
     const auto towards = [](FourFloats v, FourFloats sign) {
         return std::bit_cast<FourFloats>(std::bit_cast<FourWords>(v) ^
                                          (std::bit_cast<FourWords>(sign) & kSign));
@@ -204,7 +208,7 @@ inline FourFloats distance2ToOctahedral(FourFloats x, FourFloats y, Float3 unit)
     return off_x * off_x + off_y * off_y + off_z * off_z;
 }
 
-/// Normal codes of B = 8 or 16 bits for x and for y: 2B bits, x in the low half.
+/// Normal code of B = 8 or 16 bits for x and for y: 2B bits, x in the low half.
 template <int B>
 struct NormalCode
 {
@@ -225,7 +229,8 @@ struct NormalCode
             {static_cast<float>(x(code)) / kMost, static_cast<float>(y(code)) / kMost});
     }
 
-    /// Of the four codes around the direction, the one with the least angle to it. `normal` finite and not zero.
+    /// Encode a normal: the code with the smallest angle of the four around the direction. `normal` is finite
+    /// and not zero.
     static uint32_t encode(Float3 normal)
     {
         const Float2 p = octahedralFromDirection(normal);
@@ -238,7 +243,7 @@ struct NormalCode
         const int32_t low_x = below(p.x);
         const int32_t low_y = below(p.y);
         const auto x0 = static_cast<float>(low_x), y0 = static_cast<float>(low_y);
-        // the chord: unlike the cosine, floats tell it for the smallest angles
+        // the chord: unlike the cosine, it resolves the smallest angles in floats
         const FourFloats distance2 =
             distance2ToOctahedral(FourFloats{x0, x0 + 1, x0, x0 + 1} / static_cast<float>(kMost),
                                   FourFloats{y0, y0, y0 + 1, y0 + 1} / static_cast<float>(kMost), unit);
@@ -249,7 +254,7 @@ struct NormalCode
     }
 };
 
-/// The code of a normal in 16 bits (2 x 8), or 32 (2 x 16) in a layout with kVertexFineNormal.
+/// Encode a normal in 16 bits (2 x 8), or 32 (2 x 16) in a layout with kVertexFineNormal.
 inline uint32_t encodeNormal(uint32_t layout, Float3 normal)
 {
     return (layout & kVertexFineNormal) ? NormalCode<16>::encode(normal) : NormalCode<8>::encode(normal);
@@ -264,13 +269,13 @@ constexpr bool legalNormal(uint32_t layout, uint32_t code)
                                         : code <= 0xFFFF && NormalCode<8>::legal(code);
 }
 
-/// Bits of the angle of a tangent.
+/// Return the number of bits of a tangent's angle.
 constexpr uint32_t tangentAngleBits(uint32_t layout)
 {
     return (layout & kVertexFineNormal) ? 15 : 7;
 }
 
-/// Two unit vectors that stand on a unit normal and on each other.
+/// Two unit vectors orthogonal to a unit normal and to each other.
 struct NormalFrame
 {
     Float3 first;
@@ -285,8 +290,8 @@ inline NormalFrame frameOf(Float3 n)
     return {{1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}};
 }
 
-/// `tangent` xyz finite, w < 0 where the bitangent is flipped; `normal` as it is decoded. What the tangent has along the
-/// normal is lost; one without any other part gets the frame's first vector.
+/// Encode a tangent. `tangent` xyz is finite, w < 0 if the bitangent is flipped; `normal` as decoded. The
+/// tangent's component along the normal is lost; a tangent along the normal gets the frame's first vector.
 inline uint32_t encodeTangent(uint32_t layout, Float4 tangent, Float3 normal)
 {
     const NormalFrame frame = frameOf(normal);
@@ -294,7 +299,7 @@ inline uint32_t encodeTangent(uint32_t layout, Float4 tangent, Float3 normal)
     const float u = dot(t, frame.first);
     const float v = dot(t, frame.second);
     const float sum = std::abs(u) + std::abs(v);
-    // quarter turns, then the way from one axis to the next
+    // quarter turns, then the fraction from one axis to the next
     float turn = 0;
     if (sum > 0)
         turn = v >= 0 ? (u >= 0 ? v / sum : 1 - u / sum) : (u < 0 ? 2 - v / sum : 3 + u / sum);
@@ -303,7 +308,7 @@ inline uint32_t encodeTangent(uint32_t layout, Float4 tangent, Float3 normal)
     return (angle & (4 * quarter - 1)) << 1 | (tangent.w < 0 ? 1u : 0u);
 }
 
-/// xyz unit, w = +1 or -1.
+/// Decode a tangent: xyz unit, w = +1 or -1.
 inline Float4 decodeTangent(uint32_t layout, uint32_t code, Float3 normal)
 {
     const uint32_t quarter = 1u << (tangentAngleBits(layout) - 2);
@@ -323,8 +328,8 @@ constexpr bool legalTangent(uint32_t layout, uint32_t code)
     return code >> (tangentAngleBits(layout) + 1) == 0;
 }
 
-/// The words of a colour: red in the lowest bits. The second is 0 and not stored unless the layout has
-/// kVertexFineColor.
+/// Return the words of a colour: red in the lowest bits. The second word is 0 and not stored unless the
+/// layout has kVertexFineColor.
 inline std::array<uint32_t, 2> encodeColor(uint32_t layout, Float4 color)
 {
     if (layout & kVertexFineColor)

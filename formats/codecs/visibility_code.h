@@ -1,4 +1,4 @@
-// Writes the code of what a vertex sees; formats/gpu_shared/visibility_cone.h has the code and reads it.
+// Encodes the visibility of a vertex; formats/gpu_shared/visibility_cone.h defines the code and decodes it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -8,7 +8,7 @@
 namespace hearth::formats
 {
 
-/// Code of the open hemisphere: decodes to exactly m0 = 2 pi and m1 = pi n.
+/// Code of the unoccluded hemisphere: decodes to exactly m0 = 2 pi and m1 = pi n.
 inline constexpr uint32_t kVisibilityOpen = 0x1FF;
 
 constexpr bool legalVisibility(uint32_t code)
@@ -16,13 +16,13 @@ constexpr bool legalVisibility(uint32_t code)
     return (code >> 16 & 0xFFu) != 0x80 && code >> 24 != 0x80;
 }
 
-/// The code nearest to the moments, in the space of `normal`, after what no visibility has is made feasible; m1 below the
-/// surface, or more than pi / 2 along it, is cut there.
-/// Where neither is cut, dot(n, m1) / pi is off by at most 1/1022, m1 / pi along either vector of the frame by 1/508, and
-/// |m1| / m0 by 1/254 from the nearest that there is with the new |m1|.
+/// Return the code nearest to the moments, in the space of `normal`. Infeasible moments are made feasible
+/// first. m1 below the surface, or more than pi / 2 along it, is clamped. Without clamping, dot(n, m1) / pi
+/// has an error of at most 1/1022, m1 / pi along either vector of the frame 1/508, and |m1| / m0 1/254 from
+/// the nearest feasible value with the new |m1|.
 ///
 /// m0, m1  finite
-/// normal  as its own code decodes: decodeNormal
+/// normal  as decodeNormal decodes its own code
 inline uint32_t encodeVisibility(float m0, Float3 m1, Float3 normal)
 {
     const shared::VisibilityMoments moments = shared::feasibleVisibility(m0, m1);

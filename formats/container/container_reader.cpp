@@ -20,7 +20,7 @@ namespace hearth::formats
 namespace
 {
 
-// A chunk that claims to unpack to more than this is a bomb, not an asset.
+// Maximum size of a decompressed chunk: a larger claim is a decompression bomb.
 constexpr uint64_t kMaxChunkSize = uint64_t{1} << 32;
 
 struct Mapping
@@ -39,14 +39,15 @@ std::pair<uint32_t, uint32_t> idOf(const ChunkEntry& entry)
     return {entry.type, entry.index};
 }
 
-/// Exactly one frame, which names its content size: `size`. Whether it unpacks is another question.
+/// True if `stored` is exactly one zstd frame that declares `size` as its content size. Does not decompress
+/// it.
 bool isFrameOf(std::span<const std::byte> stored, uint64_t size)
 {
     return ZSTD_getFrameContentSize(stored.data(), stored.size()) == size &&
            ZSTD_findFrameCompressedSize(stored.data(), stored.size()) == stored.size();
 }
 
-/// Whether decompress() takes it, found with a small buffer.
+/// True if decompress() succeeds, tested with a small buffer.
 bool decodesTo(std::span<const std::byte> stored, uint64_t size)
 {
     if (!isFrameOf(stored, size))
@@ -181,7 +182,7 @@ Status ContainerReader::checkStructure()
     if (!table->empty())
         std::memcpy(table_.data(), table->data(), table->size());
 
-    // Chunks lie in table order, one behind the other, with less than one alignment of zeros between.
+    // Chunks are in table order, contiguous, with less than one alignment of zeros between.
     uint64_t at = sizeof(FileHeader);
     for (const ChunkEntry& entry : table_)
     {
@@ -276,7 +277,7 @@ void ContainerReader::discard(const ChunkEntry& entry) const
     if (owner_ == nullptr)
         return;
     const std::span<const std::byte> bytes = stored(entry);
-    // whole pages of memory only: the first and the last belong to others as well
+    // whole pages of memory only: the first and the last page contain other data as well
     const auto page = static_cast<size_t>(::sysconf(_SC_PAGESIZE));
     const size_t before = (page - reinterpret_cast<uintptr_t>(bytes.data()) % page) % page;
     if (bytes.size() < before)

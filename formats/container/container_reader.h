@@ -1,4 +1,4 @@
-// Reads a container from untrusted bytes: everything is checked before a span is handed out.
+// Reads a container from untrusted bytes: all structure is checked before a span is returned.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,14 +13,14 @@
 namespace hearth::formats
 {
 
-/// How much of the file open() reads.
+/// Amount of checking in open().
 enum class Check
 {
-    everything, ///< every byte of the file is checked: header, table, padding, the hash of every chunk
+    everything, ///< every byte of the file: header, table, padding, the hash of every chunk
     structure,  ///< header, table and ranges; a chunk's hash is checked when it is read
 };
 
-/// The content of a chunk: bytes in the mapped file, or the decompressed copy that it owns. Cheap to copy.
+/// Content of a chunk: bytes in the mapped file, or a decompressed copy with shared ownership. Cheap to copy.
 class ChunkData
 {
 public:
@@ -36,7 +36,7 @@ private:
     std::shared_ptr<const void> owner_;
 };
 
-/// The records of a chunk; valid as long as it lives.
+/// Records of a chunk; spans are valid as long as it lives.
 template <typename T>
 class Records
 {
@@ -62,7 +62,7 @@ public:
     /// Map the file and check it. errors: input_missing, container_*, chunk_hash.
     static Result<ContainerReader> open(const std::string& path, Check check = Check::everything);
 
-    /// The same on bytes in memory, 64-byte aligned, that outlive the reader. `name` stands in messages.
+    /// Open bytes in memory, 64-byte aligned, that outlive the reader. `name` is used in messages.
     static Result<ContainerReader> fromBytes(std::span<const std::byte> bytes, std::string name,
                                              Check check = Check::everything);
 
@@ -71,26 +71,27 @@ public:
     const FileHeader& header() const { return header_; }
     std::span<const ChunkEntry> chunks() const { return table_; }
 
-    /// The entry of a chunk, or nullptr. Time O(log chunks).
+    /// Return the entry of a chunk, or nullptr. Time O(log chunks).
     const ChunkEntry* find(uint32_t type, uint32_t index = 0) const;
 
-    /// The stored bytes of a chunk as they lie in the file: still compressed, and hashed by open(Check::everything) only.
+    /// Return the stored bytes of a chunk: still compressed, and hashed only by open(Check::everything).
     std::span<const std::byte> stored(const ChunkEntry& entry) const;
 
-    /// What open(Check::everything) checks beyond the structure. errors: container_padding, chunk_hash.
+    /// Check what open(Check::everything) checks beyond the structure. errors: container_padding, chunk_hash.
     Status checkContents() const;
 
-    /// Decompressed content; empty if the chunk does not exist. errors: chunk_hash, chunk_codec.
+    /// Return the decompressed content; empty if the chunk does not exist. errors: chunk_hash, chunk_codec.
     Result<ChunkData> read(uint32_t type, uint32_t index = 0) const;
 
-    /// Give the memory of a chunk's stored bytes back to the system. They come from the file again when they are read.
+    /// Return the memory of a chunk's stored bytes to the system. A later access reads them from the file
+    /// again.
     void discard(const ChunkEntry& entry) const;
 
-    /// Whether the content can be decompressed to the size that the table says, without keeping it.
-    /// errors: chunk_hash, chunk_codec.
+    /// Check that the content decompresses to the size in the table, without keeping it. errors: chunk_hash,
+    /// chunk_codec.
     Status checkDecodes(const ChunkEntry& entry) const;
 
-    /// Content as records. errors: those of read, and chunk_size where it is not a whole number of T.
+    /// Return the content as records. errors: those of read, and chunk_size if it is not a whole number of T.
     template <typename T>
     Result<Records<T>> records(uint32_t type, uint32_t index = 0) const
     {
@@ -107,23 +108,23 @@ private:
 
     std::string name_;
     std::span<const std::byte> bytes_;
-    std::shared_ptr<const void> owner_; ///< the mapping of the file, or nothing
+    std::shared_ptr<const void> owner_; ///< mapping of the file, or null
     FileHeader header_{};
     std::vector<ChunkEntry> table_;
     std::vector<uint32_t> entries_by_id_; ///< entries sorted by type and index
     Check check_ = Check::everything;
 };
 
-/// "MESH 3": how messages name a chunk.
+/// Return the name of a chunk in messages: "MESH 3".
 std::string chunkName(uint32_t type, uint32_t index);
 
-/// XXH3-64, the hash of the format.
+/// Return the XXH3-64 hash, the hash of the format.
 uint64_t hashBytes(std::span<const std::byte> bytes);
 
-/// Whether all bytes are zero.
+/// True if all bytes are zero.
 bool allZero(std::span<const std::byte> bytes);
 
-/// Decompress one zstd frame whose size is known to be `size`; false where it is not.
+/// Decompress one zstd frame of known content size; false if it fails or the size differs.
 bool decompress(std::span<const std::byte> stored, std::span<std::byte> out);
 
 } // namespace hearth::formats

@@ -84,7 +84,7 @@ Result<ContainerWriter> ContainerWriter::create(const std::string& path, Contain
     auto state = std::make_unique<State>();
     state->path = path;
     state->kind = kind;
-    // not mkstemp: the file gets the rights that the user's umask gives
+    // not mkstemp: the file gets the permissions of the user's umask
     for (int attempt = 0; state->file < 0; ++attempt)
     {
         state->temporary_path = path + ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(attempt);

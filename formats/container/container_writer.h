@@ -1,4 +1,4 @@
-// Writes a container whole or not at all.
+// Writes a container file atomically.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -20,9 +20,9 @@ struct ChunkId
     uint32_t version = 1;
 };
 
-/// Writes chunks one after the other into a temporary file beside `path`; finish() makes it appear under `path`.
-/// Without finish() nothing appears and the temporary file is removed. Same calls, same bytes: the zstd level is
-/// fixed, padding is zero, nothing of the machine or the time goes in.
+/// Writer of chunks, in order, into a temporary file beside `path`; finish() renames it to `path`. Without
+/// finish() nothing appears and the temporary file is removed. Deterministic: the same calls give the same
+/// bytes. The zstd level is fixed, padding is zero, and no data of the machine or the time is written.
 /// errors: cannot_write, naming the path.
 class ContainerWriter
 {
@@ -49,16 +49,17 @@ public:
         return addChunk({.type = type, .index = index}, std::as_bytes(std::span(text)), 1, codec);
     }
 
-    /// Add a chunk as it is stored in another container, without packing it again. errors: chunk_hash where `stored`
-    /// is not what `entry` says.
+    /// Add a chunk as stored in another container, without compressing it again. errors: chunk_hash if
+    /// `stored` does not match `entry`.
     Status addStored(ChunkId id, const ChunkEntry& entry, std::span<const std::byte> stored);
 
-    /// A chunk too large to hold in memory: begin, append any number of times, end. Stored without a codec.
+    /// Add a chunk too large to hold in memory: begin, append any number of times, end. Stored without a
+    /// codec.
     Status beginChunk(ChunkId id, uint32_t element_size);
     Status append(std::span<const std::byte> bytes);
     Status endChunk();
 
-    /// Bytes appended to the chunk that beginChunk opened.
+    /// Return the number of bytes appended to the chunk that beginChunk opened.
     uint64_t chunkSize() const;
 
     /// Write table and header, flush to the disk, and rename into place.

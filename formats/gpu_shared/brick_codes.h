@@ -1,5 +1,5 @@
-// The codes of a brick's faces: light as R11G11B10F, albedo, normal. Written once for C++ and GLSL, to the same bits.
-// FORMAT.md, "Bricks", has the layouts.
+// Encodes and decodes the faces of bricks: radiance as R11G11B10F, albedo, normal. One source for C++ and
+// GLSL, to the same bits. FORMAT.md, "Bricks", has the layouts.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #ifndef HEARTH_SHARED_BRICK_CODES_H
 #define HEARTH_SHARED_BRICK_CODES_H
@@ -8,13 +8,14 @@
 
 HEARTH_SHARED_BEGIN
 
-// The unsigned floats have 5 bits of exponent, as halves, above 6 or 5 of mantissa: from 2^-20 or 2^-19 to what follows.
-// Below 2^-14 they are multiples of the least. Exponent 31 would be infinity or no number, and no code has it.
+// The unsigned floats have 5 bits of exponent, as halves, above 6 or 5 bits of mantissa. The smallest code
+// above 0 is 2^-20 or 2^-19, the largest is kMostRedGreen or kMostBlue. Codes below 2^-14 are denormals.
+// Exponent 31 would be infinity or NaN, and no code has it.
 HEARTH_CONSTANT float kMostRedGreen = 65024.0f;
 HEARTH_CONSTANT float kMostBlue = 64512.0f;
 
-/// The nearest unsigned float of 5 + mantissa_bits bits, of two the even one; 0 for what is negative or no number, the
-/// largest for what is larger.
+/// Return the nearest unsigned float of 5 + mantissa_bits bits, the even one of two. Negative values and NaN
+/// give 0, too large values the largest code.
 HEARTH_FUNCTION uint encodeUnsignedFloat(float value, uint mantissa_bits)
 {
     if (!(value > 0.0f))
@@ -43,7 +44,7 @@ HEARTH_FUNCTION uint encodeUnsignedFloat(float value, uint mantissa_bits)
     return code < most ? code : most;
 }
 
-/// What a code with an exponent below 31 stands for.
+/// Decode an unsigned float. The exponent of the code is below 31.
 HEARTH_FUNCTION float decodeUnsignedFloat(uint code, uint mantissa_bits)
 {
     uint mantissa = code & ((1u << mantissa_bits) - 1u);
@@ -53,8 +54,8 @@ HEARTH_FUNCTION float decodeUnsignedFloat(uint code, uint mantissa_bits)
     return floatOfBits((exponent + 112u) << 23 | mantissa << (23u - mantissa_bits));
 }
 
-/// R11G11B10F: r in bits 0 to 10, g in 11 to 21, b in 22 to 31.
-/// radiance  linear Rec.709; each colour is coded as encodeUnsignedFloat has it
+/// Encode radiance as R11G11B10F: r in bits 0 to 10, g in 11 to 21, b in 22 to 31.
+/// radiance  linear Rec.709; encodeUnsignedFloat encodes each colour
 HEARTH_FUNCTION uint encodeRadiance(Float3 radiance)
 {
     return encodeUnsignedFloat(radiance.x, 6u) | encodeUnsignedFloat(radiance.y, 6u) << 11 |
@@ -67,7 +68,7 @@ HEARTH_FUNCTION Float3 decodeRadiance(uint code)
                   decodeUnsignedFloat(code >> 22, 5u));
 }
 
-/// No exponent is that of infinity.
+/// True if no exponent of the code is 31 (infinity or NaN).
 HEARTH_FUNCTION bool legalRadiance(uint code)
 {
     return (code >> 6 & 31u) != 31u && (code >> 17 & 31u) != 31u && code >> 27 != 31u;
@@ -78,7 +79,8 @@ HEARTH_FUNCTION uint encodeUnorm10(float value)
     return value > 0.0f ? uint(min(value, 1.0f) * 1023.0f + 0.5f) : 0u;
 }
 
-/// Three unorms of 10 bits, r in bits 0 to 9, g in 10 to 19, b in 20 to 29; what is outside [0, 1] is cut there.
+/// Encode albedo as three unorms of 10 bits: r in bits 0 to 9, g in 10 to 19, b in 20 to 29. Values are
+/// clamped to [0, 1].
 HEARTH_FUNCTION uint encodeAlbedo(Float3 albedo)
 {
     return encodeUnorm10(albedo.x) | encodeUnorm10(albedo.y) << 10 | encodeUnorm10(albedo.z) << 20;
@@ -90,10 +92,10 @@ HEARTH_FUNCTION Float3 decodeAlbedo(uint code)
                   float(code >> 20 & 1023u) / 1023.0f);
 }
 
-/// The unit normal of a code of 2 x 8 bits, as the vertices' normals are coded: octahedral, x in the low byte.
+/// Decode the unit normal of a face from 2 x 8 bits, coded as vertex normals: octahedral, x in the low byte.
 HEARTH_FUNCTION Float3 decodeFaceNormal(uint code)
 {
-    // the sign of each byte comes down with the shift
+    // the arithmetic shift extends the sign of each byte
     HEARTH_PRECISE float x = float(int(code << 24) >> 24) / 127.0f;
     HEARTH_PRECISE float y = float(int(code << 16) >> 24) / 127.0f;
     HEARTH_PRECISE float z = 1.0f - abs(x) - abs(y);

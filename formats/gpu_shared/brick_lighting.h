@@ -1,12 +1,12 @@
-// How the faces of bricks are lit, and how a surface gathers light from them: one iteration of
-//     radiance = emission + albedo (direct + mean of what rays bring),
-// written once for C++ and GLSL. What rays bring is in brick_rays.h. cook/bricks/README.md, "Light", has the
-// reasons, bounds and what was measured.
+// Lights the faces of bricks and gathers global illumination from them. One iteration computes
+//     radiance = emission + albedo (direct + mean radiance along rays).
+// One source for C++ and GLSL. brick_rays.h traces the rays. cook/bricks/README.md has the reasons, bounds
+// and measurements.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 //
-// Directions and starts are the same in every frame, so that a rotation through all faces is one sweep of Jacobi's iteration
-// for a fixed linear system: it converges to one answer, nothing flickers, and a light that went out is forgotten by a factor
-// of the albedo each sweep. Nothing is blended over time.
+// Ray directions and origins are the same in every frame. So one rotation through all faces is one sweep of a
+// Jacobi iteration for a fixed linear system: it converges to one answer, nothing flickers, and a light that
+// went out fades by a factor of the albedo each sweep. There is no temporal blending.
 #ifndef HEARTH_SHARED_BRICK_LIGHTING_H
 #define HEARTH_SHARED_BRICK_LIGHTING_H
 
@@ -15,23 +15,23 @@
 
 HEARTH_SHARED_BEGIN
 
-/// No surface returns more: what is lit by nothing but itself must fade.
+/// Upper bound of a face's albedo: below 1, so that light without a source fades.
 HEARTH_CONSTANT float kBrickMostAlbedo = 0.95f;
 
-/// Voxels by which rays start off a slanted surface, along its normal and through the air: so far its stair-stepped neighbours
-/// do not hide it from light.
+/// Distance in voxels by which ray origins are lifted off a slanted surface, along its normal through the
+/// air. At this distance the surface's own stair-stepped voxels do not occlude it.
 HEARTH_CONSTANT float kBrickLift = 1.0f;
 
-/// Sine of the angle to the nearest axis from which on a surface counts as slanted; below, by its share. What lies along an
-/// axis has no steps, and rays that started off it would pass by what stands on it. 0.6 degrees, as finely as normals are
-/// stored.
+/// Sine of the angle to the nearest axis above which a surface counts as fully slanted; below,
+/// proportionally. An axis-aligned surface has no steps, and rays with a lifted origin would pass by objects
+/// that stand on it. 0.6 degrees, the precision of stored normals.
 HEARTH_CONSTANT float kBrickSlantSine = 0.01f;
 
-/// Voxels along the normal within which a surface's point finds the air before it.
+/// Voxels along the normal within which a ray from a surface point must reach the air.
 HEARTH_CONSTANT float kBrickMostBuried = 3.0f;
 
-/// A light has no size: what stands nearer than this, and half of a voxel, would be as bright as one likes. It counts as a part
-/// of the lamp and gets none of its light.
+/// Radius of a lamp in metres. A point light has no size, so irradiance grows without bound near it. Faces
+/// nearer than this plus half a voxel count as part of the lamp and get no light from it.
 HEARTH_CONSTANT float kBrickLampMetres = 0.1f;
 
 HEARTH_CONSTANT float kBrickPi = 3.14159265f;
@@ -40,9 +40,10 @@ HEARTH_CONSTANT float kBrickPi = 3.14159265f;
 HEARTH_CONSTANT uint kBrickLightDirectional = 0u;
 HEARTH_CONSTANT uint kBrickLightSpot = 2u;
 
-// ---- which faces a frame lights
+// ---- faces that a frame lights
 
-/// The bricks of a frame lie one after the other, and so do their faces: what a frame found is copied in one piece.
+/// Return the first brick of a frame's slice. The bricks of a frame are contiguous, and so are their faces:
+/// one copy moves the results.
 HEARTH_FUNCTION uint brickSliceBegin(uint brick_count, uint frame, uint period)
 {
     uint slice = frame % period;
@@ -55,20 +56,20 @@ HEARTH_FUNCTION uint brickSliceEnd(uint brick_count, uint frame, uint period)
            (frame % period < brick_count % period ? 1u : 0u);
 }
 
-// ---- where rays start
+// ---- origins of rays
 
-/// Where a face or a surface takes its light from.
+/// Position from which a face or a surface point gathers light.
 struct BrickStart
 {
-    Float3 place; ///< in the air, in voxels
+    Float3 place; ///< position in the air, in voxels
     Float3 normal;
-    uint buried; ///< 1: no air was found before a surface; it gets no light
-    /// What stands right before a surface, in a voxel that rays start behind: its mean radiance, and its opacity.
+    uint buried; ///< 1: no air within kBrickMostBuried; the point gets no light
+    /// Mean radiance of the solid voxel right in front of the surface, if rays start beyond that voxel.
     Float3 close;
-    float close_opacity; ///< [0, 1]; 0: nothing does
+    float close_opacity; ///< [0, 1]; 0: no such voxel
 };
 
-/// With nothing right before it.
+/// Return a start with no voxel close to it.
 HEARTH_FUNCTION BrickStart brickStartAt(Float3 place, Float3 normal)
 {
     BrickStart start;
@@ -80,23 +81,25 @@ HEARTH_FUNCTION BrickStart brickStartAt(Float3 place, Float3 normal)
     return start;
 }
 
-/// 0 for a surface whose normal lies along an axis, whose voxels are as flat as it is; 1 for one between the axes.
+/// Return 0 for a surface whose normal lies along an axis (its voxels are as flat as it is), 1 for a slanted
+/// one.
 HEARTH_FUNCTION float brickSlant(Float3 normal)
 {
     float along = max(max(abs(normal.x), abs(normal.y)), abs(normal.z));
     return min(sqrt(max(1.0f - along * along, 0.0f)) / kBrickSlantSine, 1.0f);
 }
 
-/// Where the surface is taken to be that a face shows, in voxels: in the face's middle where it lies along an axis, for the
-/// grid is laid so that walls end with their voxels, and in the voxel's where it is slanted.
-/// normal  that the face is lit by
+/// Return the assumed surface point of a face, in voxels. An axis-aligned surface lies in the middle of its
+/// face, because the grid is aligned so that walls end with their voxels. A slanted surface lies in the
+/// middle of its voxel.
+/// normal  normal that the face is lit by
 HEARTH_FUNCTION Float3 brickFaceSurface(uint x, uint y, uint z, uint face, Float3 normal)
 {
     return brickFaceMiddle(x, y, z, face) - brickFaceAxis(face) * (0.5f * brickSlant(normal));
 }
 
-/// Off a place in the air along the normal, by kBrickLift if the surface is slanted, or half of the way to what is before
-/// that.
+/// Lift a position in the air along the normal: by kBrickLift for a slanted surface, but at most half the
+/// distance to the next solid voxel.
 HEARTH_FUNCTION Float3 brickLifted(HEARTH_IN(BrickScene) scene, Float3 place, Float3 normal)
 {
     float lift = kBrickLift * brickSlant(normal);
@@ -105,7 +108,8 @@ HEARTH_FUNCTION Float3 brickLifted(HEARTH_IN(BrickScene) scene, Float3 place, Fl
     return place + normal * (ray.inside != 0u ? 0.5f * (ray.start_t + ray.t) : lift);
 }
 
-/// surface_normal  that the face stores
+/// Return the start of rays of a face.
+/// surface_normal  normal that the face stores
 HEARTH_FUNCTION BrickStart brickFaceStart(HEARTH_IN(BrickScene) scene, uint x, uint y, uint z, uint face,
                                           Float3 surface_normal)
 {
@@ -113,22 +117,23 @@ HEARTH_FUNCTION BrickStart brickFaceStart(HEARTH_IN(BrickScene) scene, uint x, u
     return brickStartAt(brickLifted(scene, brickFaceMiddle(x, y, z, face), normal), normal);
 }
 
-/// Whether the voxel that a ray is in is solid: a march that takes no step began in one.
+/// True if the ray's voxel is solid: a march without a step began in a solid voxel.
 HEARTH_FUNCTION bool brickIsInSolid(HEARTH_IN(BrickScene) scene, HEARTH_IN(BrickRay) ray)
 {
     BrickRay met = brickMarch(brickMasksOf(scene), ray);
     return met.inside != 0u && met.steps == ray.steps;
 }
 
-/// For a point of a surface, which mostly lies in a solid voxel: along its normal out of it.
+/// Return the start for a point of a surface, which mostly lies in a solid voxel: march along the normal into
+/// the air.
 /// place   in voxels
-/// normal  unit, of the side that is lit
+/// normal  unit, on the lit side
 HEARTH_FUNCTION BrickStart brickSurfaceStart(HEARTH_IN(BrickScene) scene, Float3 place, Float3 normal)
 {
     BrickRay ray = brickRayInVoxels(brickGridOf(brickMasksOf(scene)), place, normal, kBrickMostBuried);
     while (brickIsInSolid(scene, ray))
         ray = brickPass(brickMasksOf(scene), ray);
-    // where nothing was left, it is in the air already
+    // without a step, the point is already in the air
     float out_t = ray.steps > 0u ? ray.start_t + ray.t : 0.0f;
     BrickStart start = brickStartAt(place, normal);
     start.buried = out_t >= kBrickMostBuried ? 1u : 0u;
@@ -138,7 +143,7 @@ HEARTH_FUNCTION BrickStart brickSurfaceStart(HEARTH_IN(BrickScene) scene, Float3
     return start;
 }
 
-/// A start with what is in the solid voxel that the ray is in right before it.
+/// Return the start with the ray's solid voxel as the close voxel in front of it.
 HEARTH_FUNCTION BrickStart brickCloseTo(HEARTH_IN(BrickScene) scene, BrickStart start,
                                         HEARTH_IN(BrickRay) ray)
 {
@@ -159,16 +164,17 @@ HEARTH_FUNCTION BrickStart brickCloseTo(HEARTH_IN(BrickScene) scene, BrickStart 
     return start;
 }
 
-/// How much of a start's light comes from what is close to it, where rays bring `mean`: nothing where that is darker. Whether
-/// such a thing hides the surface a grid cannot tell; that it shines on it is sure.
+/// Return the fraction of a start's light that comes from its close voxel, where rays bring the radiance
+/// `mean`. The fraction is 0 if the close voxel is darker: a grid cannot tell if the voxel occludes the
+/// surface, but it does tell that the voxel emits light.
 HEARTH_FUNCTION float brickCloseShare(HEARTH_IN(BrickStart) start, Float3 mean)
 {
     float more = start.close.x + start.close.y + start.close.z - mean.x - mean.y - mean.z;
     return more > 0.0f ? start.close_opacity : 0.0f;
 }
 
-/// For a point of a surface that is seen: in the air before it; where other bricks stand there, as in the corners of rooms, in
-/// the air that it is seen through.
+/// Return the start for a visible surface point: in the air in front of it. Where other bricks stand there,
+/// as in the corners of rooms, the start lies in the air between the point and the eye.
 /// to_eye  unit
 HEARTH_FUNCTION BrickStart brickSeenStart(HEARTH_IN(BrickScene) scene, Float3 place, Float3 normal,
                                           Float3 to_eye)
@@ -180,7 +186,7 @@ HEARTH_FUNCTION BrickStart brickSeenStart(HEARTH_IN(BrickScene) scene, Float3 pl
         brickRayInVoxels(brickGridOf(brickMasksOf(scene)),
                          place - normal * (kBrickPlaneReach + kBrickFaceMargin), normal, kBrickMostBuried);
     BrickRay next = brickPass(brickMasksOf(scene), own);
-    // beyond that it was not its own voxel that was left
+    // beyond this distance the ray has left a voxel that is not the surface's own
     float own_way = brickIsInSolid(scene, own) ? next.start_t + next.t : 1.0f;
     float most = own_way + (1.0f - own_way + kBrickLift) * slant + 0.25f;
     if (start.buried == 0u && dot(way, way) <= most * most)
@@ -192,7 +198,8 @@ HEARTH_FUNCTION BrickStart brickSeenStart(HEARTH_IN(BrickScene) scene, Float3 pl
     return start;
 }
 
-/// Mean radiance that rays by the cosine bring to a start: irradiance over pi, of all but the lights.
+/// Return the mean radiance along cosine-distributed rays from a start: irradiance over pi of all light
+/// except lamps and suns.
 HEARTH_FUNCTION Float3 brickGather(HEARTH_IN(BrickScene) scene, HEARTH_IN(BrickSky) sky,
                                    HEARTH_IN(BrickStart) start, uint count, uint seed)
 {
@@ -226,14 +233,15 @@ HEARTH_FUNCTION bool brickSolid(HEARTH_IN(BrickScene) scene, int x, int y, int z
     return maskHas(brick.voxel_mask_low, brick.voxel_mask_high, brickBit(uint(x), uint(y), uint(z)));
 }
 
-/// From where a lamp shines through the bricks, in voxels: where it stands, if that is in the air. Lamps stand in their
-/// shades and beside their bulbs, which fill their voxel: then from the middle of the nearest voxel of air around, of two the
-/// lower one, and from where it stands where there is none. The same for all faces: a frame may find it once.
-/// lamp  in voxels
+/// Return the position from which a lamp shines through the bricks, in voxels: its own position if that is in
+/// the air. Lamps stand in their shades and beside their bulbs, which fill their voxel; then it is the middle
+/// of the nearest neighbouring voxel of air, of two the lower one. Without such a voxel the lamp's own
+/// position is returned. The result does not depend on the face, so a frame may compute it once.
+/// lamp  position in voxels
 HEARTH_FUNCTION Float3 brickLampPlace(HEARTH_IN(BrickScene) scene, Float3 lamp)
 {
     Float3 low = Float3(floor(lamp.x), floor(lamp.y), floor(lamp.z));
-    // so far off the grid all is air, and the numbers would not fit
+    // beyond this bound all is air, and the coordinates would overflow an int
     float most = max(max(abs(lamp.x), abs(lamp.y)), abs(lamp.z));
     if (most > 32768.0f || !brickSolid(scene, int(low.x), int(low.y), int(low.z)))
         return lamp;
@@ -256,16 +264,18 @@ HEARTH_FUNCTION Float3 brickLampPlace(HEARTH_IN(BrickScene) scene, Float3 lamp)
     return place;
 }
 
-/// What a light gives a face if nothing is in the way, and where it is looked for then.
+/// Unoccluded light of a lamp or sun at a face, and the shadow ray that tests it.
 struct BrickIncident
 {
-    Float3 arrived; ///< irradiance over pi; 0: the light need not be looked for
-    Float3 way;     ///< unit, from the start of rays
-    float far;      ///< to the light, in voxels
+    Float3 arrived; ///< irradiance over pi; 0: no shadow ray is needed
+    Float3 way;     ///< unit, direction of the shadow ray
+    float far;      ///< distance to the light, in voxels
 };
 
-/// surface  brickFaceSurface: distance and angle are taken there
-/// lamp    from where the light shines, in voxels: brickLampPlace, or where it stands. Suns have none
+/// Compute the unoccluded light of a face.
+/// surface  point of brickFaceSurface: distance and angle are measured there
+/// lamp     position from which the light shines, in voxels: brickLampPlace, or its own position. Ignored for
+///          suns
 HEARTH_FUNCTION BrickIncident brickIncident(HEARTH_IN(BrickGrid) grid, HEARTH_IN(BrickStart) start,
                                             Float3 surface, HEARTH_IN(Light) light, Float3 lamp)
 {
@@ -303,8 +313,8 @@ HEARTH_FUNCTION BrickIncident brickIncident(HEARTH_IN(BrickGrid) grid, HEARTH_IN
     return incident;
 }
 
-/// Irradiance over pi that a light gives a face through the bricks.
-/// surface  brickFaceSurface
+/// Return the irradiance over pi that a light gives a face through the bricks.
+/// surface  point of brickFaceSurface
 HEARTH_FUNCTION Float3 brickDirect(HEARTH_IN(BrickScene) scene, HEARTH_IN(BrickStart) start, Float3 surface,
                                    HEARTH_IN(Light) light)
 {
@@ -318,8 +328,8 @@ HEARTH_FUNCTION Float3 brickDirect(HEARTH_IN(BrickScene) scene, HEARTH_IN(BrickS
     return incident.arrived * brickRayThrough(scene, start.place, incident.way, incident.far);
 }
 
-/// The radiance that a face sends out.
-/// arrived  irradiance over pi, of lights and of rays
+/// Return the outgoing radiance of a face.
+/// arrived  over pi, of lights and of rays
 HEARTH_FUNCTION Float3 brickSentOut(Float3 emission, Float3 albedo, Float3 arrived)
 {
     return emission + Float3(min(albedo.x, kBrickMostAlbedo), min(albedo.y, kBrickMostAlbedo),

@@ -1,9 +1,9 @@
-// Marches rays through a grid of bricks, voxel by voxel where there is something, brick by brick and group by group where
-// there is nothing. Written once for C++ and GLSL, to the same bits. J. Amanatides, A. Woo, "A fast voxel traversal
-// algorithm for ray tracing", 1987; README.md of cook/bricks has what was measured.
+// Marches rays through a sparse grid of bricks: voxel by voxel in solid regions, brick by brick and group by
+// group in empty ones. One source for C++ and GLSL, to the same bits. J. Amanatides, A. Woo, "A fast voxel
+// traversal algorithm for ray tracing", 1987. cook/bricks/README.md has the measurements.
 //
 //     BrickRay ray = brickMarch(bricks, brickRay(grid, origin, direction, far));
-//     while (ray.inside)             // in a solid voxel: ray.brick, ray.bit, entered by ray.face after brickDistance(...)
+//     while (ray.inside) // in a solid voxel: ray.brick, ray.bit, entered by ray.face at brickDistance(...)
 //         ray = brickMarch(bricks, brickPass(bricks, ray));
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #ifndef HEARTH_SHARED_BRICK_MARCH_H
@@ -15,19 +15,21 @@
 #include <span>
 #endif
 
-// A ray is a voxel and the place along the ray where it enters it. It moves on by leaving a cell of 1, 4 or 16 voxels across
-// the nearest of the three planes that it heads for: that coordinate of the voxel becomes the plane's other side. The other
-// two wait until something smaller is looked at; then they are found from the place along the ray and kept between where they
-// were and the cell's far side. So each step moves one coordinate on, none ever moves back, and no two voxels with a common
-// edge let a ray through between them: there are at most as many steps as voxels that the ray crosses, whatever the rounding.
+// A ray is a voxel and the distance along the ray at which it enters that voxel. A step leaves a cell of 1, 4
+// or 16 voxels across the nearest of the three planes that the ray approaches: that coordinate of the voxel
+// becomes the other side of the plane. The other two coordinates stay old until a smaller cell is looked at.
+// They are then computed from the distance along the ray and clamped between their old values and the other
+// side of the cell. So each step advances one coordinate, no coordinate ever moves back, and no ray slips
+// between two voxels with a common edge. The number of steps is at most the number of voxels that the ray
+// crosses, whatever the rounding.
 //
-// A ray along a face belongs to the voxel above it, in x, y or z; one that starts on a face and heads into the voxel enters
-// it by that face, one that heads away does not meet it.
+// A ray along a face belongs to the voxel above the face, in x, y or z. A ray that starts on a face and
+// points into the voxel enters the voxel by that face; a ray that points away does not meet the voxel.
 
 HEARTH_SHARED_BEGIN
 
 #ifdef __cplusplus
-/// What a march reads; both tables as the checker accepts them.
+/// Tables that a march reads, valid as the pack checker accepts them.
 struct BrickMasks
 {
     BrickGrid grid;
@@ -47,7 +49,7 @@ inline const Brick& brickAt(const BrickMasks& masks, uint brick)
     return masks.bricks[brick];
 }
 #else
-// A shader has one grid, and defines these two over its buffers, in front of this header or behind it.
+// A shader has one grid, and defines these two functions over its buffers, before or after this header.
 #define BrickMasks BrickGrid
 BrickGroup brickGroupAt(BrickGrid grid, uint group);
 Brick brickAt(BrickGrid grid, uint brick);
@@ -57,29 +59,30 @@ BrickGrid brickGridOf(BrickGrid grid)
 }
 #endif
 
-/// Slower than this along an axis is not moving along it: no voxel is left so within any distance that a float holds.
+/// A direction component below this counts as 0: the ray leaves no voxel along that axis within any distance
+/// that a float holds.
 HEARTH_CONSTANT float kBrickParallel = 1e-30f;
 
-/// Far enough for rays without an end.
+/// Length of rays without an end.
 HEARTH_CONSTANT float kBrickFar = 3e38f;
 
-/// A ray and the voxel that it is in. Lengths in voxels, from the grid's origin.
+/// Ray and its current voxel. Lengths in voxels, positions from the grid's origin.
 struct BrickRay
 {
-    Float3 start;     ///< in the grid's box: its origin, or where it enters the box
-    float start_t;    ///< how far that is from its origin
-    Float3 direction; ///< of length 1, 0 along axes that it does not move along
-    float end;        ///< how far it goes from `start`: to the end of the grid at most
+    Float3 start;     ///< position in the grid's box: the ray's origin, or its entry into the box
+    float start_t;    ///< distance from the ray's origin to `start`
+    Float3 direction; ///< unit length; 0 along axes that the ray does not move along
+    float end;        ///< length from `start`, at most to the end of the grid
     Float3 inverse;   ///< 1 / direction
-    float t;          ///< where it enters the voxel, from `start`
-    int x;            ///< the voxel
+    float t;          ///< distance from `start` to the entry into the voxel
+    int x;            ///< voxel coordinates
     int y;
     int z;
-    uint face;  ///< of kVoxelFaces, by which it enters the voxel; kNoFace where it starts inside
-    uint brick; ///< of the solid voxel that brickMarch found, and its bit there
+    uint face;  ///< face of kVoxelFaces by which the ray enters the voxel; kNoFace where it starts inside
+    uint brick; ///< brick of the solid voxel that brickMarch found, and the voxel's bit there
     uint bit;
-    uint inside; ///< 0: it left the grid, or ended
-    uint steps;  ///< cells left so far
+    uint inside; ///< 0: the ray has left the grid, or ended
+    uint steps;  ///< number of cells left
 };
 
 HEARTH_FUNCTION float brickInverse(float along)
@@ -87,7 +90,8 @@ HEARTH_FUNCTION float brickInverse(float along)
     return along == 0.0f ? 1.0f / kBrickParallel : 1.0f / along;
 }
 
-/// The voxel of a place on an axis, from which the ray heads on: on a plane, that behind it.
+/// Return the voxel coordinate of a position on an axis in the ray's direction: on a plane, the voxel that
+/// the ray enters.
 HEARTH_FUNCTION int brickVoxelAt(float place, float inverse, uint voxels)
 {
     int voxel = int(place);
@@ -96,18 +100,18 @@ HEARTH_FUNCTION int brickVoxelAt(float place, float inverse, uint voxels)
     return voxel < int(voxels) ? voxel : int(voxels) - 1;
 }
 
-/// Whether the ray enters its voxel across the plane of an axis; never of one that it does not move along, where no place
-/// lies on the voxel's far side.
+/// True if the ray enters its voxel across the plane of an axis. False for an axis that it does not move
+/// along, because no position lies on the other side of the voxel there.
 HEARTH_FUNCTION bool brickEnters(float place, float along, int voxel)
 {
     return place == float(along > 0.0f ? voxel : voxel + 1);
 }
 
-/// A ray in voxels from the grid's origin.
+/// Return a ray in voxels from the grid's origin.
 ///
-/// origin     finite; where it lies outside the grid, the ray begins where it enters the box
-/// direction  of length 1, within rounding: what is measured along the ray is so many times too short else
-/// far        how far it goes, > 0; kBrickFar: to the end of the grid
+/// origin     finite; outside the grid, the ray begins at its entry into the box
+/// direction  unit length within rounding; a longer direction makes distances too short by the same factor
+/// far        length of the ray, > 0; kBrickFar: to the end of the grid
 /// returns    the ray in its first voxel, solid or not; `inside` is 0 where it misses the grid
 HEARTH_FUNCTION BrickRay brickRayInVoxels(HEARTH_IN(BrickGrid) grid, Float3 origin, Float3 direction,
                                           float far)
@@ -134,7 +138,7 @@ HEARTH_FUNCTION BrickRay brickRayInVoxels(HEARTH_IN(BrickGrid) grid, Float3 orig
         HEARTH_PRECISE float at_x = origin.x + enter * ray.direction.x;
         HEARTH_PRECISE float at_y = origin.y + enter * ray.direction.y;
         HEARTH_PRECISE float at_z = origin.z + enter * ray.direction.z;
-        // on the planes of the box that it enters through exactly
+        // exactly on the planes of the box through which the ray enters
         start_x = in_x < enter ? at_x : up_x ? 0.0f : most.x;
         start_y = in_y < enter ? at_y : up_y ? 0.0f : most.y;
         start_z = in_z < enter ? at_z : up_z ? 0.0f : most.z;
@@ -144,8 +148,8 @@ HEARTH_FUNCTION BrickRay brickRayInVoxels(HEARTH_IN(BrickGrid) grid, Float3 orig
     start_z = min(max(start_z, 0.0f), most.z);
     ray.start = Float3(start_x, start_y, start_z);
     ray.start_t = enter;
-    // by the same arithmetic as the planes of voxels: who is nearer than this has left the box nowhere. A ray that misses it
-    // stands now on a plane that it leaves through
+    // the same arithmetic as for the planes of voxels: at a smaller distance the ray has not left the box. A
+    // ray that misses the box now stands on a plane that it leaves through
     HEARTH_PRECISE float end_x = ((up_x ? most.x : 0.0f) - start_x) * ray.inverse.x;
     HEARTH_PRECISE float end_y = ((up_y ? most.y : 0.0f) - start_y) * ray.inverse.y;
     HEARTH_PRECISE float end_z = ((up_z ? most.z : 0.0f) - start_z) * ray.inverse.z;
@@ -157,7 +161,7 @@ HEARTH_FUNCTION BrickRay brickRayInVoxels(HEARTH_IN(BrickGrid) grid, Float3 orig
     ray.y = brickVoxelAt(start_y, ray.inverse.y, grid.voxels_y);
     ray.z = brickVoxelAt(start_z, ray.inverse.z, grid.voxels_z);
     ray.face = kNoFace;
-    // from outside, the box's plane alone: that another is met as well may be rounding
+    // from outside, only the entered plane of the box: a hit of another plane may be rounding
     if ((enter == 0.0f || in_z == enter) && brickEnters(start_z, ray.direction.z, ray.z))
         ray.face = up_z ? 4u : 5u;
     if ((enter == 0.0f || in_y == enter) && brickEnters(start_y, ray.direction.y, ray.y))
@@ -170,7 +174,8 @@ HEARTH_FUNCTION BrickRay brickRayInVoxels(HEARTH_IN(BrickGrid) grid, Float3 orig
     return ray;
 }
 
-/// The same for a ray in world space. far  metres
+/// Return a ray in world space.
+/// far  length in metres
 HEARTH_FUNCTION BrickRay brickRay(HEARTH_IN(BrickGrid) grid, Float3 origin, Float3 direction, float far)
 {
     HEARTH_PRECISE float x = (origin.x - grid.origin.x) / grid.voxel_size;
@@ -180,15 +185,15 @@ HEARTH_FUNCTION BrickRay brickRay(HEARTH_IN(BrickGrid) grid, Float3 origin, Floa
     return brickRayInVoxels(grid, Float3(x, y, z), direction, far_voxels);
 }
 
-/// Metres from the ray's origin to where it enters its voxel.
+/// Return the distance in metres from the ray's origin to its entry into the current voxel.
 HEARTH_FUNCTION float brickDistance(HEARTH_IN(BrickGrid) grid, HEARTH_IN(BrickRay) ray)
 {
     HEARTH_PRECISE float t = (ray.start_t + ray.t) * grid.voxel_size;
     return t;
 }
 
-/// Leave the cell of `edge` voxels each way (1, 4 or 16) that the voxel lies in. Only the coordinate that is crossed is set;
-/// the others stay where they were in the cell: brickCatchUp moves them.
+/// Leave the cell of `edge` voxels each way (1, 4 or 16) that the voxel lies in. Sets only the crossed
+/// coordinate; brickCatchUp moves the others, which keep their old values inside the cell.
 HEARTH_FUNCTION BrickRay brickLeave(BrickRay ray, int edge)
 {
     int up_x = ray.inverse.x > 0.0f ? -1 : 0;
@@ -208,14 +213,14 @@ HEARTH_FUNCTION BrickRay brickLeave(BrickRay ray, int edge)
     ray.y = over_y ? plane_y + ~up_y : ray.y;
     ray.z = over_z ? plane_z + ~up_z : ray.z;
     ray.face = over_x ? uint(1 + up_x) : over_y ? uint(3 + up_y) : uint(5 + up_z);
-    // rounding may put a plane a little before where the ray is
+    // rounding may put a plane a little before the current distance
     ray.t = max(ray.t, t);
     ++ray.steps;
     ray.inside = ray.t < ray.end ? 1u : 0u;
     return ray;
 }
 
-/// A coordinate that may have moved on inside its cell of `edge` voxels, to `place`.
+/// Return a coordinate that may have advanced inside its cell of `edge` voxels, to `place`.
 HEARTH_FUNCTION int brickReached(int voxel, int edge, float place, float inverse)
 {
     int base = voxel & -edge;
@@ -225,13 +230,13 @@ HEARTH_FUNCTION int brickReached(int voxel, int edge, float place, float inverse
     return reached < least ? least : reached > most ? most : reached;
 }
 
-/// The ray in the voxel where it enters its cell of `edge` voxels each way.
+/// Return the ray with its voxel advanced to the entry into its cell of `edge` voxels each way.
 HEARTH_FUNCTION BrickRay brickCatchUp(BrickRay ray, int edge)
 {
     HEARTH_PRECISE float place_x = ray.start.x + ray.t * ray.direction.x;
     HEARTH_PRECISE float place_y = ray.start.y + ray.t * ray.direction.y;
     HEARTH_PRECISE float place_z = ray.start.z + ray.t * ray.direction.z;
-    // not along the axis that was crossed: there the voxel is known
+    // not along the crossed axis: that coordinate is exact
     if (ray.face > 1u)
         ray.x = brickReached(ray.x, edge, place_x, ray.inverse.x);
     if (ray.face < 2u || ray.face > 3u)
@@ -241,15 +246,15 @@ HEARTH_FUNCTION BrickRay brickCatchUp(BrickRay ray, int edge)
     return ray;
 }
 
-/// The ray in the first solid voxel from where it is, its own voxel included; `inside` is 0 where there is none.
-/// A voxel counts as solid whatever its opacity.
+/// Return the ray in the first solid voxel from its current voxel on, the current one included; `inside` is 0
+/// if there is none. A voxel counts as solid whatever its opacity.
 HEARTH_FUNCTION BrickRay brickMarch(HEARTH_IN(BrickMasks) masks, BrickRay ray)
 {
     BrickGrid grid = brickGridOf(masks);
     uint groups_x = brickGroups(grid.voxels_x);
     uint groups_xy = groups_x * brickGroups(grid.voxels_y);
-    int known =
-        1; // edge of the cell that the ray's voxel is known to lie in: its place there may be an old one
+    // edge of the cell that is known to contain the voxel: the coordinates inside the cell may be old
+    int known = 1;
     while (ray.inside != 0u)
     {
         BrickGroup group = brickGroupAt(masks, uint(ray.x >> 4) + groups_x * uint(ray.y >> 4) +
@@ -296,7 +301,7 @@ HEARTH_FUNCTION BrickRay brickMarch(HEARTH_IN(BrickMasks) masks, BrickRay ray)
     return ray;
 }
 
-/// The ray in the voxel after its own: how light goes on through one that is not opaque.
+/// Return the ray in the next voxel, to continue behind a voxel that is not opaque.
 HEARTH_FUNCTION BrickRay brickPass(HEARTH_IN(BrickMasks), BrickRay ray)
 {
     return brickLeave(ray, 1);

@@ -1,9 +1,10 @@
-// Rays that carry light through bricks: which way they go, what the faces store that they meet, and what they bring.
-// Written once for C++ and GLSL. They march as in brick_march.h; where they start is in brick_lighting.h. cook/bricks/README.md,
-// "Light", has the reasons.
+// Traces rays of light through bricks: ray directions, the radiance that faces store, and the light along a
+// ray. One source for C++ and GLSL. brick_march.h does the traversal, brick_lighting.h chooses the origins.
+// cook/bricks/README.md has the reasons.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 //
-// Places are in voxels of the grid: (world - origin) / voxel_size. Directions are unit and the same in both.
+// Positions are in voxels of the grid: (world - origin) / voxel_size. Directions are unit vectors, the same
+// in world and grid space.
 #ifndef HEARTH_SHARED_BRICK_RAYS_H
 #define HEARTH_SHARED_BRICK_RAYS_H
 
@@ -12,14 +13,16 @@
 
 HEARTH_SHARED_BEGIN
 
-/// Light that is left of a ray below this does not count any more.
+/// Transmittance below which a ray ends.
 HEARTH_CONSTANT float kBrickLeastThrough = 0.00390625f;
 
-/// Voxels off a face where a ray is in the air beside it for certain: coordinates up to 2^14 round to 2^-11.
+/// Distance in voxels off a face at which a ray is certainly in the air beside it: coordinates up to 2^14
+/// round to 2^-11.
 HEARTH_CONSTANT float kBrickFaceMargin = 0.001953125f;
 
 // ---- random numbers and directions
 
+/// Hash an integer.
 /// source  C. Wellons, "Prospecting for hash functions", 2018: lowbias32
 HEARTH_FUNCTION uint brickHash(uint x)
 {
@@ -31,21 +34,23 @@ HEARTH_FUNCTION uint brickHash(uint x)
     return x;
 }
 
-/// Of a face of a voxel; the same whatever other voxels there are.
+/// Return the seed of a voxel's face. It does not depend on other voxels.
 HEARTH_FUNCTION uint brickFaceSeed(uint x, uint y, uint z, uint face)
 {
     return brickHash(x + brickHash(y + brickHash(z * 8u + face)));
 }
 
-/// In [0, 1): the upper 24 bits, which a float holds exactly.
+/// Return a number in [0, 1): the upper 24 bits, which a float holds exactly.
 HEARTH_FUNCTION float brickUnit(uint bits)
 {
     return float(bits >> 8) * 5.9604644775390625e-8f;
 }
 
-/// Ray `index` of `count`, by the cosine about the normal: a spiral of the golden angle that fills the disc below the
-/// hemisphere evenly at any count, turned and shifted by the seed. To the same bits in both languages.
-/// source  H. Vogel, "A better way to construct the sunflower head", 1979; sine and cosine as in cook/sampling/maps.h
+/// Return ray `index` of `count`, cosine-distributed about the normal: a golden-angle spiral that fills the
+/// disc below the hemisphere evenly at any count, rotated and shifted by the seed. To the same bits in both
+/// languages.
+/// source  H. Vogel, "A better way to construct the sunflower head", 1979; sine and cosine as in
+///         cook/sampling/maps.h
 HEARTH_FUNCTION Float3 brickRayDirection(Float3 normal, uint index, uint count, uint seed)
 {
     HEARTH_PRECISE float u = (float(index) + brickUnit(seed)) / float(count);
@@ -66,7 +71,7 @@ HEARTH_FUNCTION Float3 brickRayDirection(Float3 normal, uint index, uint count, 
     HEARTH_PRECISE float x = radius * cosine;
     HEARTH_PRECISE float y = radius * sine;
     HEARTH_PRECISE float z = sqrt(max(1.0f - u, 0.0f));
-    // source of the frame: T. Duff et al., "Building an orthonormal basis, revisited", 2017
+    // source of the tangent frame: T. Duff et al., "Building an orthonormal basis, revisited", 2017
     float side = normal.z < 0.0f ? -1.0f : 1.0f;
     HEARTH_PRECISE float p = -1.0f / (side + normal.z);
     HEARTH_PRECISE float q = normal.x * normal.y * p;
@@ -86,7 +91,7 @@ HEARTH_FUNCTION Float3 brickFaceAxis(uint face)
     return Float3(axis == 0u ? side : 0.0f, axis == 1u ? side : 0.0f, axis == 2u ? side : 0.0f);
 }
 
-/// The middle of a face, just off it.
+/// Return the middle of a face, just off the face.
 HEARTH_FUNCTION Float3 brickFaceMiddle(uint x, uint y, uint z, uint face)
 {
     HEARTH_PRECISE Float3 middle = Float3(float(x) + 0.5f, float(y) + 0.5f, float(z) + 0.5f) +
@@ -94,25 +99,27 @@ HEARTH_FUNCTION Float3 brickFaceMiddle(uint x, uint y, uint z, uint face)
     return middle;
 }
 
-/// The normal by which a face is lit: that of the surface, on the side that the face is on. Thin surfaces have faces on both.
+/// Return the normal by which a face is lit: the surface normal, flipped to the side of the face. Thin
+/// surfaces have faces on both sides.
 HEARTH_FUNCTION Float3 brickFaceNormal(Float3 surface_normal, uint face)
 {
     return dot(surface_normal, brickFaceAxis(face)) < 0.0f ? -surface_normal : surface_normal;
 }
 
-// ---- what a face stores
+// ---- radiance that a face stores
 
-/// The radiance of a face as the iteration keeps it: the code that others see, and what that code left off, in 1/1023 of its
-/// steps, 10 bits each with their sign. Steps of R11G11B10F are a 64th, a 32nd of blue, so that an iteration that read the
-/// codes alone would stop up to 0.5 / (1 - albedo) steps before its goal: a furnace of albedo .9 by 8 %, of blue by 16 %.
-/// With the rest it is off by 2^-16 of the value and does not notice. A rest of 0 is that of the code itself.
+/// Radiance of a face in the iteration: the code that rays read, and the rounding error of that code in
+/// 1/1022 of a code step, 10 bits signed for each colour. Steps of R11G11B10F are a 64th, for blue a 32nd, so
+/// an iteration on the codes alone would stop up to 0.5 / (1 - albedo) steps before its limit: a furnace of
+/// albedo .9 by 8 %, in blue by 16 %. With the rest the error is 2^-16 of the value, and the iteration
+/// converges. A rest of 0 is the code's own value.
 struct BrickLight
 {
-    uint code; ///< encodeRadiance: the nearest one
+    uint code; ///< nearest code, encodeRadiance
     uint rest;
 };
 
-/// How far the next code is, of a value that a code stands for.
+/// Return the distance from a code's value to the next code's value.
 HEARTH_FUNCTION float brickCodeStep(float value, uint mantissa_bits)
 {
     uint exponent = floatBits(value) >> 23;
@@ -122,7 +129,7 @@ HEARTH_FUNCTION float brickCodeStep(float value, uint mantissa_bits)
 HEARTH_FUNCTION uint brickRestOf(float value, float coded, uint mantissa_bits)
 {
     float steps = (value - coded) / brickCodeStep(coded, mantissa_bits);
-    // the largest code stands for all that is larger
+    // the largest code stands for all larger values
     return uint(int(floor(min(max(steps, -0.5f), 0.5f) * 1022.0f + 0.5f))) & 1023u;
 }
 
@@ -131,6 +138,7 @@ HEARTH_FUNCTION float brickWithRest(float coded, uint rest, uint mantissa_bits)
     return coded + float(int(rest << 22) >> 22) / 1022.0f * brickCodeStep(coded, mantissa_bits);
 }
 
+/// Encode radiance with its rest.
 /// radiance  not negative
 HEARTH_FUNCTION BrickLight encodeBrickLight(Float3 radiance)
 {
@@ -152,29 +160,29 @@ HEARTH_FUNCTION Float3 decodeBrickLight(BrickLight light)
 // ---- rays
 
 #ifdef __cplusplus
-/// What rays read beside the masks.
+/// Tables that rays read, with the masks.
 struct BrickScene
 {
     BrickMasks masks;
-    std::span<const uint8_t> opacity;  ///< of solid voxels
-    std::span<const BrickLight> light; ///< of faces
+    std::span<const uint8_t> opacity;  ///< one for each solid voxel
+    std::span<const BrickLight> light; ///< one for each face
 };
 inline const BrickMasks& brickMasksOf(const BrickScene& scene)
 {
     return scene.masks;
 }
-/// Of a solid voxel, [0, 1]; exactly 1 where it lets nothing through.
+/// Return the opacity of a solid voxel, [0, 1]; exactly 1 for an opaque one.
 inline float brickOpacityAt(const BrickScene& scene, uint voxel)
 {
     return static_cast<float>(scene.opacity[voxel]) / 255.0f;
 }
-/// What a face sends out.
+/// Return the outgoing radiance of a face.
 inline Float3 brickRadianceAt(const BrickScene& scene, uint face)
 {
     return decodeBrickLight(scene.light[face]);
 }
 #else
-// A shader defines these two over its buffers, in front of this header or behind it.
+// A shader defines these two functions over its buffers, before or after this header.
 #define BrickScene BrickGrid
 float brickOpacityAt(BrickGrid grid, uint voxel);
 vec3 brickRadianceAt(BrickGrid grid, uint face);
@@ -184,7 +192,7 @@ BrickGrid brickMasksOf(BrickGrid grid)
 }
 #endif
 
-/// Radiances of the sky, as in shared::Lighting.
+/// Radiance of the sky, as in shared::Lighting.
 struct BrickSky
 {
     Float3 zenith;
@@ -198,7 +206,8 @@ HEARTH_FUNCTION float brickSmooth(float from, float to, float x)
     return t * t * (3.0f - 2.0f * t);
 }
 
-/// The gradient whose cosine-weighted mean is skyIrradiance of sky.glsl: skyRadiance at roughness 0.2.
+/// Return the sky gradient whose cosine-weighted mean is skyIrradiance of sky.glsl: skyRadiance at roughness
+/// 0.2.
 HEARTH_FUNCTION Float3 brickSkyRadiance(HEARTH_IN(BrickSky) sky, Float3 direction)
 {
     Float3 above = sky.horizon + (sky.zenith - sky.horizon) * brickSmooth(-0.2f, 1.0f, direction.y);
@@ -208,11 +217,12 @@ HEARTH_FUNCTION Float3 brickSkyRadiance(HEARTH_IN(BrickSky) sky, Float3 directio
 struct BrickRayLight
 {
     Float3 radiance;
-    float sky; ///< share of the ray that passes all bricks, [0, 1]
+    float sky; ///< fraction of the ray that passes all bricks, [0, 1]
 };
 
-/// What a ray brings: light of the faces that it meets, of each as much as its voxel stops, and behind them all the sky's.
-/// ray  in the first solid voxel that it meets, as brickMarch finds it
+/// Return the light along a ray: the radiance of the faces that it meets, weighted by the opacity of their
+/// voxels, and behind them the sky's.
+/// ray  in its first solid voxel, as brickMarch finds it
 HEARTH_FUNCTION BrickRayLight brickLightAlong(HEARTH_IN(BrickScene) scene, HEARTH_IN(BrickSky) sky,
                                               BrickRay ray)
 {
@@ -237,7 +247,7 @@ HEARTH_FUNCTION BrickRayLight brickLightAlong(HEARTH_IN(BrickScene) scene, HEART
     return light;
 }
 
-/// The same from where it starts.
+/// Return the light along a ray from a position.
 /// place      in voxels
 /// direction  unit
 HEARTH_FUNCTION BrickRayLight brickRayLight(HEARTH_IN(BrickScene) scene, HEARTH_IN(BrickSky) sky,
@@ -248,7 +258,8 @@ HEARTH_FUNCTION BrickRayLight brickRayLight(HEARTH_IN(BrickScene) scene, HEARTH_
                                                                             place, direction, kBrickFar)));
 }
 
-/// The share of light that passes along a ray. far  in voxels
+/// Return the transmittance along a ray, [0, 1].
+/// far  length in voxels
 HEARTH_FUNCTION float brickRayThrough(HEARTH_IN(BrickScene) scene, Float3 place, Float3 direction, float far)
 {
     float through = 1.0f;

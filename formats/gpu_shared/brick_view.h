@@ -1,4 +1,4 @@
-// What a frame tells the passes over bricks, written once for C++ and GLSL (std140).
+// Uniform block of the passes over bricks (std140). One source for C++ and GLSL.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #ifndef HEARTH_SHARED_BRICK_VIEW_H
 #define HEARTH_SHARED_BRICK_VIEW_H
@@ -7,13 +7,13 @@
 
 HEARTH_SHARED_BEGIN
 
-/// Boxes of a frame in which emission is not what the pack says.
+/// Maximum number of boxes in a frame that scale emission.
 HEARTH_CONSTANT uint kMaxEmissionBoxes = 8;
 
-/// Faces of voxels whose middle lies in the box shine `factor` times as bright.
+/// Box that scales the emission of all faces of voxels with their middle inside by `factor`.
 struct EmissionBox
 {
-    Float3 least; ///< voxels from the grid's origin
+    Float3 least; ///< lower corner, voxels from the grid's origin
     float factor;
     Float3 most;
     float reserved;
@@ -23,17 +23,17 @@ struct BrickView
 {
     BrickGrid grid;
     uint face_count;
-    uint first_brick;  ///< of those whose faces the frame lights
-    uint share_bricks; ///< so many
-    uint share_faces;  ///< of these, one behind the other
+    uint first_brick;  ///< first of the bricks whose faces the frame lights
+    uint share_bricks; ///< number of these bricks
+    uint share_faces;  ///< number of their faces, which are contiguous
     uint emission_box_count;
-    uint light_rays; ///< of a face
+    uint light_rays; ///< rays of one face
     uint reserved0;
     uint reserved1;
     EmissionBox emission_boxes[kMaxEmissionBoxes];
 };
 
-/// Where a brick lies: its first voxel.
+/// Location of a brick: its first voxel.
 struct BrickPlace
 {
     uint xy; ///< x, y << 16

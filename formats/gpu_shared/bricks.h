@@ -1,9 +1,11 @@
-// Sparse bricks of voxels that stand for a scene's light: their records as files and buffers hold them, and the codes of a
-// face. Written once for C++ and GLSL. FORMAT.md, "Bricks", has the meaning; README.md of cook/bricks how they are made.
+// Sparse bricks of voxels for global illumination: the records of files and buffers, and their bit masks. One
+// source for C++ and GLSL. FORMAT.md, "Bricks", has the meaning; cook/bricks/README.md describes how they are
+// cooked.
 //
-// A group is 4 x 4 x 4 bricks, a brick 4 x 4 x 4 voxels. In both, cell (x, y, z) is bit x + 4 y + 16 z of a 64-bit mask,
-// whose lower half is the first word, and children lie in the order of their bits: child of a bit = first child + number of
-// lower bits that are set. So nothing is stored for what is empty, and no table of offsets is needed.
+// A group is 4 x 4 x 4 bricks, a brick 4 x 4 x 4 voxels. In both, cell (x, y, z) is bit x + 4 y + 16 z of a
+// 64-bit mask with the lower half in the first word. Children are stored in the order of their bits: child of
+// a bit = first child + number of set lower bits. So empty cells take no space, and no offset table is
+// needed.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #ifndef HEARTH_SHARED_BRICKS_H
 #define HEARTH_SHARED_BRICKS_H
@@ -15,11 +17,11 @@ HEARTH_SHARED_BEGIN
 HEARTH_CONSTANT uint kBrickVoxels = 4;      ///< along an edge of a brick
 HEARTH_CONSTANT uint kGroupBricks = 4;      ///< along an edge of a group
 HEARTH_CONSTANT uint kGroupVoxels = 16;     ///< along an edge of a group
-HEARTH_CONSTANT uint kNoFace = 0xFFFFFFFFu; ///< a voxel without a face there
-HEARTH_CONSTANT uint kVoxelFaces =
-    6; ///< x- x+ y- y+ z- z+: face f looks along axis f / 2, upwards where f is odd
+HEARTH_CONSTANT uint kNoFace = 0xFFFFFFFFu; ///< no face there
+/// Faces in the order x- x+ y- y+ z- z+: face f looks along axis f / 2, upwards where f is odd.
+HEARTH_CONSTANT uint kVoxelFaces = 6;
 
-/// 16 x 16 x 16 voxels of the grid, solid or empty.
+/// Group of 16 x 16 x 16 voxels, solid or empty.
 struct BrickGroup
 {
     uint brick_mask_low;
@@ -27,20 +29,22 @@ struct BrickGroup
     uint first_brick;
 };
 
-/// 4 x 4 x 4 voxels, one of which is solid at least.
+/// Brick of 4 x 4 x 4 voxels, at least one of them solid.
 struct Brick
 {
     uint voxel_mask_low;
     uint voxel_mask_high;
-    uint face_masks[12]; ///< for each face of kVoxelFaces two words: the voxels that have it
-    uint first_voxel;    ///< of its solid voxels, in the order of their bits: index into the opacities
-    uint first_face;     ///< of its faces: those of x- in the order of their bits, then those of x+, ...
+    uint face_masks[12]; ///< two words for each face of kVoxelFaces: mask of the voxels that have that face
+    /// Index of its first solid voxel's opacity; solid voxels follow in the order of their bits
+    uint first_voxel;
+    /// Index of its first face: the faces x- in the order of their bits, then the faces x+, ...
+    uint first_face;
 };
 
-/// Where the voxels are, and how many.
+/// Position and size of the voxel grid.
 struct BrickGrid
 {
-    Float3 origin;    ///< least corner of voxel (0, 0, 0), world space, metres
+    Float3 origin;    ///< lower corner of voxel (0, 0, 0), world space, metres
     float voxel_size; ///< metres
     uint voxels_x;
     uint voxels_y;
@@ -48,16 +52,18 @@ struct BrickGrid
     uint reserved;
 };
 
-/// Surfaces so near to a plane between voxels, in voxels, lie in it: in the voxels behind it.
+/// Distance in voxels within which a surface near a plane between voxels counts as in the plane: it belongs
+/// to the voxels behind it.
 HEARTH_CONSTANT float kBrickPlaneReach = 0.015625f;
 
-/// Groups along an axis of so many voxels.
+/// Return the number of groups along an axis of this many voxels.
 HEARTH_FUNCTION uint brickGroups(uint voxels)
 {
     return (voxels + (kGroupVoxels - 1u)) / kGroupVoxels;
 }
 
-/// Bit of cell (x, y, z) of a group or brick: of a brick's place in voxels / 4, of a voxel's. Only their last two bits count.
+/// Return the bit of cell (x, y, z) in a group (coordinates in bricks) or in a brick (coordinates in voxels).
+/// Uses only the last two bits of each coordinate.
 HEARTH_FUNCTION uint brickBit(uint x, uint y, uint z)
 {
     return (x & 3u) | (y & 3u) << 2 | (z & 3u) << 4;
@@ -73,20 +79,20 @@ HEARTH_FUNCTION uint maskCount(uint low, uint high)
     return uint(bitCount(low)) + uint(bitCount(high));
 }
 
-/// How many bits below `bit` are set.
+/// Return the number of set bits below `bit`.
 HEARTH_FUNCTION uint maskCountBelow(uint low, uint high, uint bit)
 {
     uint below = (1u << (bit & 31u)) - 1u;
     return bit < 32u ? uint(bitCount(low & below)) : uint(bitCount(low)) + uint(bitCount(high & below));
 }
 
-/// Index into the opacities of the solid voxel at a bit.
+/// Return the index into the opacities of the solid voxel at a bit.
 HEARTH_FUNCTION uint brickVoxel(HEARTH_IN(Brick) brick, uint bit)
 {
     return brick.first_voxel + maskCountBelow(brick.voxel_mask_low, brick.voxel_mask_high, bit);
 }
 
-/// Index into the tables of faces of face `face` (of kVoxelFaces) of the voxel at a bit, or kNoFace.
+/// Return the index into the face tables of face `face` (of kVoxelFaces) of the voxel at a bit, or kNoFace.
 HEARTH_FUNCTION uint brickFace(HEARTH_IN(Brick) brick, uint bit, uint face)
 {
     if (face >= kVoxelFaces || !maskHas(brick.face_masks[2u * face], brick.face_masks[2u * face + 1u], bit))

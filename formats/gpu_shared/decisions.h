@@ -1,6 +1,6 @@
-// Which clusters are drawn: the frustum, normal-cone and level-of-detail tests, written once. The shaders run them,
-// the CPU twin and the reference culling run the same lines, and on IEEE hardware every bit agrees: only + - * and
-// sqrt, in a fixed order, nothing contracted. Sources: RUNTIME 2.1, 2.4, 2.5 (design notes).
+// Decides which clusters are drawn: frustum culling, normal-cone (backface) culling and level of detail. One
+// source for the shaders, their CPU reference and the reference culling; on IEEE hardware all bits agree. The
+// code uses only + - * and sqrt, in a fixed order, without contraction. See runtime/gpu/README.md.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #ifndef HEARTH_SHARED_DECISIONS_H
 #define HEARTH_SHARED_DECISIONS_H
@@ -9,21 +9,22 @@
 
 HEARTH_SHARED_BEGIN
 
-/// 2^-20 = eight units in the last place: more than the handful of roundings between a stored bound and the vertex
-/// that it stands for can add up to, so that a test that is right in real numbers stays right in floats.
+/// 2^-20, eight units in the last place: more than the sum of the few roundings between a stored bound and
+/// the vertex that it bounds. So a test that is right in real numbers stays right in floats.
 HEARTH_CONSTANT float kRoundingSlack = 9.5367431640625e-7f;
 
-/// Rasterisers snap vertices to 1/256 pixel, which can turn a sliver that faces just away; and the checker allows a
-/// cone to miss a tenth of this (formats::kConeSlack). In sines of an angle.
+/// Margin of normal cones, as the sine of an angle. Rasterisers snap vertices to 1/256 pixel, which can turn
+/// a sliver that barely faces away to the front. The checker allows a cone an error of a tenth of this
+/// (formats::kConeSlack).
 HEARTH_CONSTANT float kConeMargin = 1e-3f;
 
-/// How far the checker lets an apex stand in front of a plane: formats::kApexSlack.
+/// Distance that the checker lets a cone's apex stand in front of a triangle's plane: formats::kApexSlack.
 HEARTH_CONSTANT float kApexMargin = 1e-4f;
 
-/// Page requests tell errors apart down to this one, in pixels: a threshold may be 0 or negative.
+/// Lower bound of the threshold in pixels for page requests: a threshold may be 0 or negative.
 HEARTH_CONSTANT float kLeastRequestThreshold = 0.015625f;
 
-/// Errors above are infinite: the group is a root, nothing coarser exists.
+/// Largest finite error. Errors above are infinite: the group is a root, without a coarser version.
 HEARTH_CONSTANT float kLargestError = 1e38f;
 
 HEARTH_FUNCTION float dot3(Float3 a, Float3 b)
@@ -48,7 +49,7 @@ HEARTH_FUNCTION Float3 row3(Float4 row)
     return Float3(row.x, row.y, row.z);
 }
 
-/// A point of the object in world axes, relative to the eye.
+/// Return a point in object space relative to the eye, in world axes.
 HEARTH_FUNCTION Float3 relativePoint(HEARTH_IN(Instance) instance, Float3 eye, Float3 point)
 {
     HEARTH_PRECISE float x =
@@ -60,7 +61,7 @@ HEARTH_FUNCTION Float3 relativePoint(HEARTH_IN(Instance) instance, Float3 eye, F
     return Float3(x, y, z);
 }
 
-/// Clip-space position of a point relative to the eye.
+/// Return the clip-space position of a point relative to the eye.
 HEARTH_FUNCTION Float4 clipPosition(HEARTH_IN(FrameView) view, Float3 relative)
 {
     HEARTH_PRECISE float x = dot3(row3(view.clip_x), relative);
@@ -69,8 +70,8 @@ HEARTH_FUNCTION Float4 clipPosition(HEARTH_IN(FrameView) view, Float3 relative)
     return Float4(x, y, view.z_near, w);
 }
 
-/// True where the box, moved by the instance, lies wholly outside one plane of the frustum.
-/// Exact for any affine matrix: the half extents become |A| h.
+/// True if the box, transformed by the instance, lies wholly outside one plane of the frustum. Exact for any
+/// affine matrix: the half extents become |A| h.
 HEARTH_FUNCTION bool boxOutsideFrustum(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
                                        Float3 box_min, Float3 box_max)
 {
@@ -82,7 +83,7 @@ HEARTH_FUNCTION bool boxOutsideFrustum(HEARTH_IN(FrameView) view, HEARTH_IN(Inst
     Float3 row_z = abs3(row3(instance.world_from_object_z));
     HEARTH_PRECISE Float3 extent =
         Float3(dot3(row_x, half_size), dot3(row_y, half_size), dot3(row_z, half_size));
-    // how large the terms were that rounding errors are relative to
+    // magnitude of the terms that rounding errors are relative to
     HEARTH_PRECISE Float3 reach = abs3(center) + half_size;
     HEARTH_PRECISE Float3 magnitude =
         Float3(dot3(row_x, reach) + abs(instance.world_from_object_x.w - view.eye.x),
@@ -100,7 +101,8 @@ HEARTH_FUNCTION bool boxOutsideFrustum(HEARTH_IN(FrameView) view, HEARTH_IN(Inst
     return false;
 }
 
-/// How much errors count at a distance. All parts of the sum are positive: it is right but for the last bits.
+/// Return the factor of the LOD curve at a distance. All terms of the sum are positive, so only the last bits
+/// are inexact.
 HEARTH_FUNCTION float lodFactor(HEARTH_IN(FrameView) view, float distance)
 {
     Float4 segment = view.lod_curve[0];
@@ -112,13 +114,14 @@ HEARTH_FUNCTION float lodFactor(HEARTH_IN(FrameView) view, float distance)
     return factor;
 }
 
-/// An error on the screen, E = pixels_m / distance, without the division.
+/// Error on the screen, E = pixels_m / distance, without the division.
 struct ScreenError
 {
     float pixels_m; ///< pixels times metres
     float distance; ///< metres
 };
 
+/// Project the error of a group to the screen:
 ///     E = scale * error * lod_scale * lodFactor(d) / d,  d = max(|center - eye| - scale * radius, z_near)
 HEARTH_FUNCTION ScreenError screenError(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
                                         Float3 sphere_center, float sphere_radius, float error)
@@ -134,8 +137,8 @@ HEARTH_FUNCTION ScreenError screenError(HEARTH_IN(FrameView) view, HEARTH_IN(Ins
     return result;
 }
 
-/// True where the error of a group, projected to the screen, is above the threshold. Both sides of every seam call
-/// this with the same bits, so a group is replaced as a whole or not at all.
+/// True if the screen error of a group is above the threshold. Both sides of every seam call this with the
+/// same bits, so a group is replaced as a whole or not at all.
 HEARTH_FUNCTION bool errorExceeds(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
                                   Float3 sphere_center, float sphere_radius, float error)
 {
@@ -146,9 +149,9 @@ HEARTH_FUNCTION bool errorExceeds(HEARTH_IN(FrameView) view, HEARTH_IN(Instance)
     return on_screen.pixels_m > allowed_pixels_m;
 }
 
-/// True where what a group was made into is too coarse, and the group is there to be drawn instead. An absent group
-/// counts as one without error: errors still never decrease towards the root where the resident pages are closed
-/// (pack::PageGraph), so that the cut draws each surface once.
+/// True if the simplified version of a group is too coarse, and the group is resident. An absent group counts
+/// as one without error: errors still never decrease towards the root as long as the resident pages are
+/// closed (pack::PageGraph), so the cut draws each surface once.
 HEARTH_FUNCTION bool groupRefines(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
                                   HEARTH_IN(Group) group)
 {
@@ -156,7 +159,8 @@ HEARTH_FUNCTION bool groupRefines(HEARTH_IN(FrameView) view, HEARTH_IN(Instance)
            errorExceeds(view, instance, group.sphere_center, group.sphere_radius, group.error);
 }
 
-/// The cut rule of formats::GroupRecord. `refined` is not looked at unless `has_refined`.
+/// True if the cluster is in the cut, by the cut rule of formats::GroupRecord. `refined` is ignored unless
+/// `has_refined`.
 HEARTH_FUNCTION bool clusterInCut(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
                                   HEARTH_IN(Group) own, bool has_refined, HEARTH_IN(Group) refined)
 {
@@ -188,11 +192,11 @@ HEARTH_FUNCTION Float3 clusterBoxMax(HEARTH_IN(Cluster) cluster, float grid_step
     return corner;
 }
 
-/// The axis of a normal cone, 127 times as long as its octahedral code's point: whole numbers.
+/// Return the axis of a normal cone, scaled by 127 from its octahedral point: whole numbers.
 /// axis  two signed bytes, in the low half
 HEARTH_FUNCTION Float3 coneRay(uint axis)
 {
-    // the sign of each byte comes down with the shift
+    // the arithmetic shift extends the sign of each byte
     float x = float(int(axis << 24) >> 24);
     float y = float(int(axis << 16) >> 24);
     HEARTH_PRECISE float z = 127.0f - abs(x) - abs(y);
@@ -203,14 +207,15 @@ HEARTH_FUNCTION Float3 coneRay(uint axis)
     return Float3(folded_x, folded_y, z);
 }
 
-/// Where the eye is in the space of what a matrix carries.
+/// Eye in the space that a matrix maps from.
 struct ObjectEye
 {
     Float3 position;
-    float slack; ///< how far it may be off through rounding
+    float slack; ///< bound of its rounding error
 };
 
-/// offset  of the eye from where the matrix carries the origin, world axes
+/// Transform the eye to object space.
+/// offset  eye minus the matrix's translation, world axes
 HEARTH_FUNCTION ObjectEye objectEye(HEARTH_IN(InstanceInverse) inverse, Float3 offset)
 {
     Float3 row_x = row3(inverse.object_from_world_x);
@@ -225,10 +230,10 @@ HEARTH_FUNCTION ObjectEye objectEye(HEARTH_IN(InstanceInverse) inverse, Float3 o
     return eye;
 }
 
-/// True where every triangle in the box faces away from the eye. In object space, where any affine matrix,
-/// mirrored or sheared, leaves the facing as it is. Not for double-sided materials.
-/// cone  the code of the axis in the low half, above it the sine of the half-angle in 1/65536; 65535: no cone
-/// back  how far behind the middle of the box the apex is, against the axis
+/// True if every triangle in the box faces away from the eye. The test runs in object space, where any affine
+/// matrix, mirrored or sheared, leaves the facing unchanged. Not for double-sided materials.
+/// cone  axis code in the low half, above it the sine of the half-angle in 1/65536; 65535: no cone
+/// back  distance from the middle of the box to the apex, against the axis
 HEARTH_FUNCTION bool boxFacesAway(HEARTH_IN(ObjectEye) eye, uint cone, float back, Float3 box_min,
                                   Float3 box_max)
 {
@@ -238,7 +243,7 @@ HEARTH_FUNCTION bool boxFacesAway(HEARTH_IN(ObjectEye) eye, uint cone, float bac
     HEARTH_PRECISE Float3 center = (box_min + box_max) * 0.5f;
     HEARTH_PRECISE Float3 half_size = (box_max - box_min) * 0.5f;
 
-    // everything times the length of the ray: no division, whose last bits differ between devices
+    // all terms times the length of the ray: no division, because its last bits differ between devices
     Float3 ray = coneRay(cone);
     HEARTH_PRECISE float ray2 = dot3(ray, ray);
     HEARTH_PRECISE float ray_length = sqrt(ray2);
@@ -252,7 +257,7 @@ HEARTH_FUNCTION bool boxFacesAway(HEARTH_IN(ObjectEye) eye, uint cone, float bac
     return dot3(to_apex, ray) >= needed;
 }
 
-/// The same of a cluster of a rigid instance.
+/// True if every triangle of a cluster of a rigid instance faces away.
 HEARTH_FUNCTION bool coneFacesAway(HEARTH_IN(InstanceState) state, HEARTH_IN(Cluster) cluster)
 {
     ObjectEye eye;
@@ -264,14 +269,14 @@ HEARTH_FUNCTION bool coneFacesAway(HEARTH_IN(InstanceState) state, HEARTH_IN(Clu
                         clusterBoxMax(cluster, state.grid_step));
 }
 
-/// Whether a view of casters is not meant for an instance.
+/// True if a shadow caster view leaves out the instance.
 HEARTH_FUNCTION bool instanceLeftOut(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance)
 {
     uint left_out = (instance.flags & kInstanceMoves) != 0u ? kCullMoving : kCullResting;
     return (view.flags & left_out) != 0u;
 }
 
-/// The instance pass: where the eye is in object space, and whether anything of the mesh can be seen.
+/// Cull an instance: compute the eye in object space, and test the bounds of the whole mesh.
 HEARTH_FUNCTION InstanceState decideInstance(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
                                              HEARTH_IN(InstanceInverse) inverse, HEARTH_IN(MeshBounds) bounds)
 {
@@ -298,9 +303,9 @@ HEARTH_FUNCTION InstanceState decideInstance(HEARTH_IN(FrameView) view, HEARTH_I
     return state;
 }
 
-/// How much the page of a group is wanted, resident or not: 0 where what the group was made into is good enough, else
-/// the more, the larger its error is beside the threshold. The bits of both as floats are subtracted: about
-/// 2^23 log2(E / threshold), without a division. Roots, which are always there, are not asked for.
+/// Return the priority of a group's page, resident or not. 0 if the group's simplified version is good
+/// enough, else higher for a larger ratio of error to threshold: the bits of both as floats are subtracted,
+/// about 2^23 log2(E / threshold), without a division. Roots are always resident and not requested.
 HEARTH_FUNCTION uint groupRequest(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
                                   HEARTH_IN(Group) group)
 {
@@ -317,7 +322,7 @@ HEARTH_FUNCTION uint groupRequest(HEARTH_IN(FrameView) view, HEARTH_IN(Instance)
     return error_bits > least_bits ? error_bits - least_bits : 1u;
 }
 
-/// Whether the frustum test leaves a cluster to be drawn.
+/// True if the cluster passes the frustum test.
 HEARTH_FUNCTION bool clusterInFrustum(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
                                       HEARTH_IN(InstanceState) state, HEARTH_IN(Cluster) cluster)
 {
@@ -326,7 +331,7 @@ HEARTH_FUNCTION bool clusterInFrustum(HEARTH_IN(FrameView) view, HEARTH_IN(Insta
                               clusterBoxMax(cluster, state.grid_step));
 }
 
-/// The cluster pass: whether a cluster of an instance that is looked at is drawn, if nothing hides it.
+/// Cull a cluster of a visible instance. True if it is drawn unless occluded.
 HEARTH_FUNCTION bool decideCluster(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
                                    HEARTH_IN(InstanceState) state, HEARTH_IN(Cluster) cluster,
                                    HEARTH_IN(Group) own, HEARTH_IN(Group) refined, bool double_sided)

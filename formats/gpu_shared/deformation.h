@@ -1,10 +1,12 @@
-// Where clusters of deformed meshes are in a pose, for culling: written once, as decisions.h. And how a scene with such
-// meshes keeps its poses on the device: rows of four words in one buffer, the last slice of its geometry pool.
+// Culls clusters of deformed (skinned or morphed) meshes in a pose; one source for C++ and GLSL, as
+// decisions.h. Defines the pose buffer of a scene: rows of four words in one buffer, the last slice of the
+// geometry pool.
 //
-//     header | a word for each instance | poses | clusters | joints of clusters | palettes | morph weights | scratch
+//     header | a word for each instance | poses | clusters | joints of clusters | palettes | morph weights |
+//     scratch
 //
-// An instance's palette counts from the instance's origin, the translation of its row in the table of instances, so
-// that a character far from the world's origin does not fall apart. RUNTIME 2.5 (design notes).
+// An instance's palette is relative to the instance's origin (the translation of its row in the table of
+// instances), so a character far from the world's origin keeps its precision. See runtime/gpu/README.md.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #ifndef HEARTH_SHARED_DEFORMATION_H
 #define HEARTH_SHARED_DEFORMATION_H
@@ -13,88 +15,93 @@
 
 HEARTH_SHARED_BEGIN
 
-/// The slice of the geometry pool that holds the poses, in scenes that have any.
+/// Slice of the geometry pool that holds the poses, in scenes with deformed meshes.
 HEARTH_CONSTANT uint kDeformationSlice = 3;
 
-/// At the start of the buffer. Slots are those of the visible list.
+/// Header at the start of the buffer. Slots are slots of the visible list.
 struct DeformationHeader
 {
-    uint instance_word; ///< for each instance the row of its Pose; 0: it is rigid
-    uint scratch_word;  ///< where the skinned vertices are: block i of the i-th deformed cluster of the frame
+    /// First word of a table with the row of each instance's Pose; 0: the instance is rigid
+    uint instance_word;
+    /// First word of the skinned vertices: block i belongs to the i-th deformed cluster of the frame
+    uint scratch_word;
     uint block_words;
     uint block_count;
     uint early_first; ///< slots of deformed clusters of the first phase: [early_first, early_end)
     uint early_end;
-    uint late_first; ///< of the second
+    uint late_first; ///< the same for the second phase
     uint late_end;
     uint groups_x; ///< VkDispatchIndirectCommand of the skinning pass
     uint groups_y;
     uint groups_z;
-    uint group_count; ///< clusters of the last phase that are skinned into the scratch
+    uint group_count; ///< number of clusters of the last phase that are skinned into the scratch
 };
 
-/// Deformed clusters of a frame's visible list, of both phases.
+/// Return the number of deformed clusters in a frame's visible list, of both phases.
 HEARTH_FUNCTION uint deformedSlots(HEARTH_IN(DeformationHeader) header)
 {
     return (header.early_end - header.early_first) + (header.late_end - header.late_first);
 }
 
-/// The pose of an instance.
+/// Pose of an instance.
 struct Pose
 {
     uint palette_row;
-    uint morph_word;  ///< the weight of each morph target
-    uint cluster_row; ///< of cluster 0 of the pack, if it were of this mesh; may wrap around
+    uint morph_word;  ///< weights of the morph targets
+    uint cluster_row; ///< row of cluster 0 of the pack, as if it belonged to this mesh; may wrap around
     uint flags;       ///< bits kPose*
-    Float3
-        free_center;   ///< of a free pose: a sphere that holds the whole instance, from the instance's origin
-    float free_radius; ///< times the instance's scale_max
-    float free_stretch; ///< of bind boxes around their middles: the largest absolute morph weight, 1 at least
+    /// Bounding sphere of the whole instance in a free pose: centre, from the instance's origin.
+    Float3 free_center;
+    float free_radius; ///< in units of the instance's scale_max
+    /// Factor of bind boxes around their middles: the largest absolute morph weight, at least 1
+    float free_stretch;
     uint unused_x;
     uint unused_y;
     uint unused_z;
 };
 
-/// Of Pose::flags. The pose is not one of the clips or between two of them: bounds of clips say nothing.
+/// Bit of Pose::flags: the pose is neither a key of a clip nor between two keys, so the bounds of clips do
+/// not apply.
 HEARTH_CONSTANT uint kPoseFree = 1;
 
-/// How a joint carries what is bound to it.
+/// Transformation of one joint.
 struct PaletteRow
 {
-    Float4 world_from_bind_x; ///< w: from the instance's origin
+    Float4 world_from_bind_x; ///< w: translation from the instance's origin
     Float4 world_from_bind_y;
     Float4 world_from_bind_z;
-    Float4 bind_from_world_x; ///< inverse of the linear part; its w is 0 where normal cones cannot be tested
+    /// Inverse of the linear part; w of this row is 0 where normal cones cannot be tested
+    Float4 bind_from_world_x;
     Float4 bind_from_world_y;
     Float4 bind_from_world_z;
 };
 
-/// What culling needs to know of a cluster, from the chunks CLUS and DCLU.
+/// Culling data of a deformed cluster, from the chunks CLUS and DCLU.
 struct DeformedCluster
 {
-    Float3 box_min; ///< where `joint` carries it: all poses of the clips
+    Float3 box_min; ///< bounding box over all poses of the clips, in the space of `joint`
     uint joint;
     Float3 box_max;
     uint cone;       ///< as Cluster::cone
-    Float3 bind_min; ///< bind pose, with morph weights from -1 to 1
+    Float3 bind_min; ///< bounding box in the bind pose, with morph weights from -1 to 1
     float cone_back;
     Float3 bind_max;
-    uint first_joint; ///< word
+    uint first_joint; ///< first word of its joints
     uint group;
     uint refined_group;
     uint joint_count;
     uint triangle_count;
 };
 
-/// In rows of the buffer.
+/// Sizes in rows of the buffer.
 HEARTH_CONSTANT uint kPaletteRows = 6;
 HEARTH_CONSTANT uint kDeformedClusterRows = 5;
 HEARTH_CONSTANT uint kPoseRows = 3;
 
-/// Half the side of a box that holds everything.
+/// Half the side of a box that contains everything.
 HEARTH_CONSTANT float kUnbounded = 1e15f;
 
-/// A view from a place that counts from the instance's origin, as its palette does.
+/// Return the view relative to the instance's origin, as the instance's palette is.
 HEARTH_FUNCTION FrameView viewFromOrigin(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance)
 {
     FrameView moved = view;
@@ -115,7 +122,7 @@ HEARTH_FUNCTION OcclusionView occlusionFromOrigin(HEARTH_IN(OcclusionView) view,
     return moved;
 }
 
-/// A box that something carries: where a cluster is, from the instance's origin.
+/// Transformed bounding box of a cluster, from the instance's origin.
 struct CarriedBox
 {
     Instance carrier;
@@ -132,7 +139,8 @@ HEARTH_FUNCTION Instance carrierOf(HEARTH_IN(Instance) instance, HEARTH_IN(Palet
     return carrier;
 }
 
-/// In a pose of the clips. joint  that of the cluster
+/// Return the box of a cluster in a pose of the clips.
+/// joint  palette row of the cluster's joint
 HEARTH_FUNCTION CarriedBox boxInClips(HEARTH_IN(Instance) instance, HEARTH_IN(PaletteRow) joint,
                                       HEARTH_IN(DeformedCluster) cluster)
 {
@@ -143,7 +151,7 @@ HEARTH_FUNCTION CarriedBox boxInClips(HEARTH_IN(Instance) instance, HEARTH_IN(Pa
     return box;
 }
 
-/// In a free pose: to be grown by each joint that moves the cluster.
+/// Return an empty box for a free pose. Call grownBy for each joint that moves the cluster.
 HEARTH_FUNCTION CarriedBox emptyFreeBox(HEARTH_IN(Instance) instance)
 {
     CarriedBox box;
@@ -156,9 +164,10 @@ HEARTH_FUNCTION CarriedBox emptyFreeBox(HEARTH_IN(Instance) instance)
     return box;
 }
 
-/// A vertex lies between the places to which each of its joints alone would carry it: so does the cluster in the box
-/// around the boxes, whatever the weights. Where morph targets have the box larger than the vertices, it is larger by no more
-/// than its half: stretched by a weight it holds what that weight does.
+/// Grow a box by the bind box as one joint transforms it. A skinned vertex is a convex combination of its
+/// positions under each single joint, so the union of the boxes contains the cluster whatever the weights.
+/// Morph targets enlarge the bind box beyond the vertices by at most half of its size, so the box scaled by a
+/// weight contains that weight's displacement.
 HEARTH_FUNCTION CarriedBox grownBy(HEARTH_IN(CarriedBox) box, HEARTH_IN(PaletteRow) joint, Float3 bind_min,
                                    Float3 bind_max, float stretch)
 {
@@ -170,7 +179,7 @@ HEARTH_FUNCTION CarriedBox grownBy(HEARTH_IN(CarriedBox) box, HEARTH_IN(PaletteR
     HEARTH_PRECISE Float3 at = Float3(dot3(row_x, center) + joint.world_from_bind_x.w,
                                       dot3(row_y, center) + joint.world_from_bind_y.w,
                                       dot3(row_z, center) + joint.world_from_bind_z.w);
-    // how large the terms were that rounding errors are relative to
+    // magnitude of the terms that rounding errors are relative to
     HEARTH_PRECISE Float3 reach = abs3(center) + half_size;
     HEARTH_PRECISE Float3 magnitude = Float3(dot3(abs3(row_x), reach) + abs(joint.world_from_bind_x.w),
                                              dot3(abs3(row_y), reach) + abs(joint.world_from_bind_y.w),
@@ -187,8 +196,8 @@ HEARTH_FUNCTION CarriedBox grownBy(HEARTH_IN(CarriedBox) box, HEARTH_IN(PaletteR
     return grown;
 }
 
-/// The group as the cut looks at it. In a free pose the spheres of the cooker say nothing: all groups stand where the
-/// instance does, and only their errors tell them apart.
+/// Return the group as the cut tests it. In a free pose the cooked spheres are invalid: all groups get the
+/// bounding sphere of the instance, and only their errors differ.
 HEARTH_FUNCTION Group groupInPose(HEARTH_IN(Group) group, HEARTH_IN(Pose) pose)
 {
     Group placed = group;
@@ -200,7 +209,7 @@ HEARTH_FUNCTION Group groupInPose(HEARTH_IN(Group) group, HEARTH_IN(Pose) pose)
     return placed;
 }
 
-/// The cut rule, in any pose. `refined` is that of the cluster, or its own group where it has none.
+/// Apply the cut rule in any pose. `refined` is the cluster's refined group, or its own group if it has none.
 HEARTH_FUNCTION bool deformedInCut(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
                                    HEARTH_IN(Pose) pose, HEARTH_IN(DeformedCluster) cluster,
                                    HEARTH_IN(Group) own, HEARTH_IN(Group) refined)
@@ -209,7 +218,7 @@ HEARTH_FUNCTION bool deformedInCut(HEARTH_IN(FrameView) view, HEARTH_IN(Instance
                         groupInPose(refined, pose));
 }
 
-/// Whether the frustum test leaves a cluster to be drawn.
+/// True if the cluster passes the frustum test.
 HEARTH_FUNCTION bool deformedInFrustum(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
                                        HEARTH_IN(CarriedBox) box)
 {
@@ -217,7 +226,8 @@ HEARTH_FUNCTION bool deformedInFrustum(HEARTH_IN(FrameView) view, HEARTH_IN(Inst
            !boxOutsideFrustum(viewFromOrigin(view, instance), box.carrier, box.box_min, box.box_max);
 }
 
-/// Whether every triangle faces away, in a pose of the clips. joint  that of the cluster
+/// True if every triangle faces away, in a pose of the clips.
+/// joint  palette row of the cluster's joint
 HEARTH_FUNCTION bool deformedFacesAway(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
                                        HEARTH_IN(Pose) pose, HEARTH_IN(PaletteRow) joint,
                                        HEARTH_IN(DeformedCluster) cluster)

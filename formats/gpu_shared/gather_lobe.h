@@ -1,5 +1,5 @@
-// The lobes in which a surface gathers light for its mirror images: the directions that a GGX lobe spreads to. Written once
-// for C++ and GLSL. See runtime/gpu/README.md, "The light of bricks".
+// Samples directions of a GGX lobe, for gathered reflections. One source for C++ and GLSL. See
+// runtime/gpu/README.md.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #ifndef HEARTH_SHARED_GATHER_LOBE_H
 #define HEARTH_SHARED_GATHER_LOBE_H
@@ -8,8 +8,8 @@
 
 HEARTH_SHARED_BEGIN
 
-/// A direction that light comes from, unit, and how much it counts among those of its lobe: 0 from below the surface, where
-/// nothing is marched.
+/// Sample of a lobe: a unit direction to the light, and its weight in the lobe. The weight is 0 below the
+/// surface, and no ray is traced.
 struct GatherLobeRay
 {
     Float3 direction;
@@ -21,7 +21,7 @@ HEARTH_FUNCTION Float3 gatherUnit(Float3 v)
     return v * (1.0f / sqrt(dot(v, v)));
 }
 
-/// Lambda of Smith's masking: facets that a direction does not see for each that it sees.
+/// Return Lambda of Smith's masking function: hidden microfacets for each one visible from a direction.
 /// cosine  to the normal
 HEARTH_FUNCTION float gatherHidden(float cosine, float alpha)
 {
@@ -29,15 +29,16 @@ HEARTH_FUNCTION float gatherHidden(float cosine, float alpha)
     return 0.5f * (sqrt(1.0f + alpha * alpha * max(1.0f - cosine2, 0.0f) / cosine2) - 1.0f);
 }
 
-/// Direction `index` of `count` of a GGX lobe: by the normals of microfacets that the eye sees, each with the share of its
-/// light that the others let in. The mean by the weights is the lobe's, without Fresnel's factor.
+/// Return direction `index` of `count` of a GGX lobe, by sampling visible microfacet normals. The weight is
+/// the fraction of light that other microfacets do not shadow. The weighted mean is the lobe's, without the
+/// Fresnel factor.
 /// source  J. Dupuy, A. Benyoub, "Sampling visible GGX normals with spherical caps", 2023; weights: E. Heitz,
 ///         "Understanding the masking-shadowing function in microfacet-based BRDFs", 2014
 ///
-/// to_eye     unit; on the surface's back it counts as along the surface
+/// to_eye     unit; on the back of the surface it is taken along the surface
 /// normal     unit
 /// roughness  perceptual, > 0
-/// seed       as of brickRayDirection
+/// seed       as for brickRayDirection
 HEARTH_FUNCTION GatherLobeRay gatherLobeRay(Float3 to_eye, Float3 normal, float roughness, uint index,
                                             uint count, uint seed)
 {
@@ -51,7 +52,7 @@ HEARTH_FUNCTION GatherLobeRay gatherLobeRay(Float3 to_eye, Float3 normal, float 
     Float3 second = Float3(q, side + normal.y * normal.y * p, -normal.y);
     Float3 eye =
         gatherUnit(Float3(dot(first, to_eye), dot(second, to_eye), max(dot(normal, to_eye), least_cosine)));
-    // even over the disc, and so over the cap of the sphere that the eye sees in stretched space
+    // uniform over the disc, and so over the spherical cap that the eye sees in stretched space
     Float3 disc = brickRayDirection(Float3(0.0f, 0.0f, 1.0f), index, count, seed);
     float u = disc.x * disc.x + disc.y * disc.y;
     Float3 seen = gatherUnit(Float3(alpha * eye.x, alpha * eye.y, eye.z));

@@ -1,6 +1,6 @@
-// Lets one header be C++ and GLSL: the types and words in which formats/gpu_shared is written.
-// Only what both languages understand may be used there: no swizzles, no references, no library beyond what is named here.
-// Bits agree where only + - * / and sqrt are used; angles are as exact as each library has them.
+// Makes one header valid as C++ and GLSL: the types and macros of formats/gpu_shared. Headers there may use
+// only features of both languages: no swizzles, no references, no library beyond the functions here. Bits
+// agree where only + - * / and sqrt are used; the precision of angles is each library's.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #ifndef HEARTH_SHARED_LANGUAGE_H
 #define HEARTH_SHARED_LANGUAGE_H
@@ -38,12 +38,12 @@ inline float min(float a, float b)
 {
     return b < a ? b : a;
 }
-/// The angle of the point (x, y).
+/// Return the angle of the point (x, y), in radians.
 inline float arcTangent(float y, float x)
 {
     return std::atan2(y, x);
 }
-/// The bits of a float: those of positive floats order as their values do.
+/// Return the bits of a float. The bits of positive floats order as their values do.
 inline uint floatBits(float value)
 {
     return std::bit_cast<uint>(value);
@@ -52,7 +52,7 @@ inline float floatOfBits(uint bits)
 {
     return std::bit_cast<float>(bits);
 }
-/// How many bits are set.
+/// Return the number of set bits.
 inline int bitCount(uint bits)
 {
     return std::popcount(bits);

@@ -1,9 +1,11 @@
-// What is hidden behind what was drawn: a pyramid of farthest depths, and where a box lies in it. Written once, as
-// decisions.h. N. Greene, M. Kass, G. Miller, "Hierarchical Z-buffer visibility", 1993; RUNTIME 2.3 (design notes).
+// Occlusion culling by a hierarchical Z-buffer: a pyramid of farthest depths, and the texels that cover a
+// box. One source for C++ and GLSL, as decisions.h. N. Greene, M. Kass, G. Miller, "Hierarchical Z-buffer
+// visibility", 1993. See runtime/gpu/README.md.
 //
-// Texel x of level k holds the least depth (reversed: the farthest) of pixels [x << k, (x + 1) << k), those beyond the
-// picture's edge left out. So any size is reduced exactly, and a pixel is found by shifts. Level 0 is the depth buffer
-// itself; the buffer of the pyramid starts with level 1 and ends with the one that is a single texel.
+// Texel x of level k holds the smallest depth (reversed: the farthest) of pixels [x << k, (x + 1) << k);
+// pixels beyond the edge of the frame are left out. So any size is reduced exactly, and shifts find the texel
+// of a pixel. Level 0 is the depth buffer itself. The buffer of the pyramid starts with level 1 and ends with
+// the level of a single texel.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #ifndef HEARTH_SHARED_OCCLUSION_H
 #define HEARTH_SHARED_OCCLUSION_H
@@ -12,10 +14,12 @@
 
 HEARTH_SHARED_BEGIN
 
-/// Pixels by which a box is taken larger: vertices snap to 1/256, and pixel coordinates up to 16384 round to 1/512.
+/// Pixels by which a box is enlarged: vertices snap to 1/256, and pixel coordinates up to 16384 round to
+/// 1/512.
 HEARTH_CONSTANT float kPixelMargin = 0.015625f;
 
-/// A rasteriser's depth is rounded a few times: by so much may it come out nearer than that of the nearest corner.
+/// Relative margin of depth. A rasteriser rounds depth a few times, so it may come out nearer than the
+/// nearest corner's by this much.
 HEARTH_CONSTANT float kDepthMargin = 1.52587890625e-5f;
 
 HEARTH_FUNCTION uint pyramidSize(uint pixels, uint level)
@@ -23,7 +27,7 @@ HEARTH_FUNCTION uint pyramidSize(uint pixels, uint level)
     return (pixels + (1u << level) - 1u) >> level;
 }
 
-/// Levels of the pyramid of a picture, from 1.
+/// Return the number of pyramid levels of a frame, from level 1 on.
 HEARTH_FUNCTION uint pyramidLevels(uint width, uint height)
 {
     uint level = 1u;
@@ -32,7 +36,7 @@ HEARTH_FUNCTION uint pyramidLevels(uint width, uint height)
     return level;
 }
 
-/// Index of the first texel of a level; of the one behind the last, the size of the pyramid.
+/// Return the index of the first texel of a level. For the level after the last one: the size of the pyramid.
 HEARTH_FUNCTION uint pyramidOffset(uint width, uint height, uint level)
 {
     uint offset = 0u;
@@ -41,11 +45,11 @@ HEARTH_FUNCTION uint pyramidOffset(uint width, uint height, uint level)
     return offset;
 }
 
-/// A box is looked for in the finest level where it covers at most so many texels more than one each way: more find
-/// more that is hidden, and cost more. README.md of runtime/gpu, "Occlusion", has what was measured.
+/// Texels beyond one that a box may cover each way: it is tested in the finest level where it covers no more.
+/// Larger values find more occlusion and cost more. runtime/gpu/README.md, "Occlusion", has the measurements.
 HEARTH_CONSTANT uint kPyramidSteps = 7;
 
-/// The texels of a pyramid that cover a box on the screen: (x0, y0) to (x1, y1) of one level.
+/// Texels of a pyramid that cover a box on the screen: (x0, y0) to (x1, y1) of one level.
 struct PyramidBox
 {
     uint x0;
@@ -53,8 +57,8 @@ struct PyramidBox
     uint x1;
     uint y1;
     uint offset; ///< texel (0, 0) of the level
-    uint stride; ///< texels of a row
-    float depth; ///< no point of the box is nearer
+    uint stride; ///< texels in a row
+    float depth; ///< upper bound of the depth of the box (reversed: the nearest point)
     uint known;  ///< 0: the box reaches the near plane or lies off the screen
 };
 
@@ -79,11 +83,11 @@ HEARTH_FUNCTION PyramidBox pyramidBox(HEARTH_IN(OcclusionView) view, HEARTH_IN(I
     Float3 row_x = row3(instance.world_from_object_x);
     Float3 row_y = row3(instance.world_from_object_y);
     Float3 row_z = row3(instance.world_from_object_z);
-    // the box's half edges in world axes
+    // half edges of the box in world axes
     HEARTH_PRECISE Float3 edge_x = Float3(row_x.x, row_y.x, row_z.x) * half_size.x;
     HEARTH_PRECISE Float3 edge_y = Float3(row_x.y, row_y.y, row_z.y) * half_size.y;
     HEARTH_PRECISE Float3 edge_z = Float3(row_x.z, row_y.z, row_z.z) * half_size.z;
-    // how large the terms were that rounding errors are relative to
+    // magnitude of the terms that rounding errors are relative to
     HEARTH_PRECISE Float3 reach = abs3(center) + half_size;
     HEARTH_PRECISE Float3 slack =
         Float3(dot3(abs3(row_x), reach) + abs(instance.world_from_object_x.w - view.eye.x),

@@ -1,5 +1,6 @@
-// What the GPU reads and writes, written once for C++ and GLSL (std430; std140 for the uniform blocks). The first
-// three are the records of formats/records/mesh.h and formats/records/scene.h byte for byte, so that a pack's tables are uploaded as they are.
+// Buffers that the GPU reads and writes (std430; std140 for the uniform blocks). One source for C++ and GLSL.
+// The first three structs are the records of formats/records/mesh.h and formats/records/scene.h byte for
+// byte, so a pack's tables are uploaded unchanged.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #ifndef HEARTH_SHARED_RECORDS_H
 #define HEARTH_SHARED_RECORDS_H
@@ -8,7 +9,7 @@
 
 HEARTH_SHARED_BEGIN
 
-/// formats::InstanceRecord. Rows of the 3x4 matrix: xyz the linear part, w the translation in metres.
+/// formats::InstanceRecord. Rows of the 3x4 matrix: xyz is the linear part, w the translation in metres.
 struct Instance
 {
     Float4 world_from_object_x;
@@ -20,7 +21,7 @@ struct Instance
     float scale_max;
 };
 
-/// formats::GroupRecord. A pack has 0 in `absent`, so that its table says that everything is resident.
+/// formats::GroupRecord. A pack has 0 in `absent`: its table means that everything is resident.
 struct Group
 {
     Float3 sphere_center;
@@ -34,7 +35,8 @@ struct Group
     float position_error;
     float normal_error;
     float uv_error;
-    uint absent; ///< 1: its set is not wholly in the geometry pool, what it was made into stands in for it
+    /// 1: its page set is not wholly in the geometry pool, and its simplified version is drawn instead
+    uint absent;
     uint reserved0;
     uint reserved1;
 };
@@ -65,8 +67,8 @@ struct MeshBounds
     uint reserved;
 };
 
-/// Inverse of the linear part of an instance's matrix, for the normal-cone test in object space.
-/// The w of the first row is 1, or 0 where the matrix has no inverse: such an instance is never cone-culled.
+/// Inverse of the linear part of an instance's matrix, for the normal-cone test in object space. The w of the
+/// first row is 1, or 0 where the matrix has no inverse: such an instance is never cone-culled.
 struct InstanceInverse
 {
     Float4 object_from_world_x;
@@ -74,18 +76,18 @@ struct InstanceInverse
     Float4 object_from_world_z;
 };
 
-/// What the instance pass finds out for a frame and the cluster pass uses.
+/// Result of the instance pass for one frame, read by the cluster pass.
 struct InstanceState
 {
     Float3 eye_object;
-    float eye_slack; ///< how far eye_object may be off through rounding, object space
+    float eye_slack; ///< bound of the rounding error of eye_object, object space
     uint visible;    ///< kInstance*
-    uint cone_valid; ///< 0: the instance has no inverse and eye_object means nothing
-    float grid_step; ///< of its mesh
+    uint cone_valid; ///< 0: the instance has no inverse and eye_object is invalid
+    float grid_step; ///< quantisation step of its mesh
     uint reserved;
 };
 
-/// Clusters order[first .. first + count) of one instance, all drawn by the same bin; one workgroup.
+/// Clusters order[first .. first + count) of one instance, all drawn by the same bin. One workgroup.
 struct WorkItem
 {
     uint instance;
@@ -94,7 +96,7 @@ struct WorkItem
     uint flags; ///< bits kItem*
 };
 
-/// Groups [first, first + count) of the mesh of one instance; one workgroup of the page requests.
+/// Groups [first, first + count) of the mesh of one instance. One workgroup of the page requests.
 struct GroupItem
 {
     uint instance;
@@ -102,32 +104,34 @@ struct GroupItem
     uint count; ///< 1 to kWorkItemClusters
 };
 
-/// What the cluster pass found in a work item, and after the scan where its clusters go.
+/// Result of the cluster pass for a work item, and after the scan the position of its clusters in the output.
 struct WorkResult
 {
     uint mask_low;  ///< bit i: cluster order[first + i] is drawn
     uint mask_high; ///< the same for 32 + i
-    uint offset;    ///< clusters drawn by the items before it in its scan block
-    uint later_low; ///< bit i: what was drawn last frame hides the cluster, the late phase looks again
+    uint offset;    ///< number of clusters drawn by earlier items of its scan block
+    /// Bit i: the last frame's depth occludes the cluster, and the late phase tests it again
+    uint later_low;
     uint later_high;
 };
 
-/// One slot of the visible list; a slot's number is the upper 25 bits of the visibility buffer.
+/// Slot of the visible list. The slot number is the upper 25 bits of the visibility buffer.
 struct VisibleCluster
 {
     uint instance;
     uint cluster;
 };
 
-/// Items [first_item, first_item + item_count) of the work list are drawn by one indirect draw with one pipeline.
+/// Items [first_item, first_item + item_count) of the work list, drawn by one indirect draw with one
+/// pipeline.
 struct Bin
 {
     uint first_item;
     uint item_count;
 };
 
-/// The indirect draw of a bin (VkDrawIndirectCommand), and the first slot of the visible list that it draws:
-/// drawIndirectFirstInstance is not required of the device, so the first instance is always 0.
+/// Indirect draw of a bin (VkDrawIndirectCommand), and its first slot of the visible list. The first instance
+/// is always 0, because drawIndirectFirstInstance is not required of the device.
 struct BinDraw
 {
     uint vertex_count;
@@ -144,15 +148,15 @@ struct BinDraw
 struct FrameCounters
 {
     uint drawn_clusters;   ///< clusters that passed all tests
-    uint dropped_clusters; ///< of these, the last ones for which the visible list had no slot
-    uint early_clusters;   ///< of these, the first ones, which the early phase found
+    uint dropped_clusters; ///< number of drawn clusters without a slot in the visible list; the last ones
+    uint early_clusters;   ///< number of drawn clusters that the early phase found; the first ones
     uint reserved;
 };
 
-/// What drawing needs of a cluster.
+/// Data of a cluster for drawing.
 struct ClusterDraw
 {
-    uint address;       ///< of its first vertex, in words of the geometry pool; the UV bases stand before it
+    uint address;       ///< first vertex, in words of the geometry pool; the UV bases are stored before it
     uint counts;        ///< vertices | triangles << 9 | level << 17 | kDrawMorphs
     uint vertex_layout; ///< formats::VertexAttributes
     uint material;      ///< 1 + row of the material table; 0 is the sky
@@ -162,14 +166,14 @@ struct ClusterDraw
     float grid_step;
 };
 
-/// Of ClusterDraw::counts: morph targets stand behind the triangles.
+/// Bit of ClusterDraw::counts: morph targets are stored after the triangles.
 HEARTH_CONSTANT uint kDrawMorphs = 0x80000000u;
 
-/// Knots of the LOD curve (lod_curve.h).
+/// Number of knots of the LOD curve (lod_curve.h).
 HEARTH_CONSTANT uint kLodKnots = 8;
 
-/// Camera and switches of one frame. All positions that reach the screen are relative to the eye, in world axes,
-/// so that coordinates far from the origin keep their precision: clip = (x . p, y . p, z_near, w . p).
+/// Camera and flags of one frame. All positions that reach the screen are relative to the eye, in world axes,
+/// so coordinates far from the origin keep their precision: clip = (x . p, y . p, z_near, w . p).
 struct FrameView
 {
     Float4 clip_x; ///< w unused, here and below
@@ -179,17 +183,17 @@ struct FrameView
     Float3 eye;       ///< world
     float z_near;     ///< metres; the far plane is infinite, depth = z_near / distance
     float lod_scale;  ///< pixels that one metre covers at a distance of one metre
-    float threshold;  ///< error in pixels that is not worth refining; negative: refine everything
+    float threshold;  ///< error in pixels below which a group is not refined; negative: refine everything
     uint flags;       ///< bits kCull*
     uint instance_count;
     float width; ///< pixels
     float height;
     uint reserved0;
     uint reserved1;
-    Float4 lod_curve[8]; ///< from distance x on the factor goes from y to z, by w a metre
+    Float4 lod_curve[8]; ///< from distance x on the factor goes from y to z, with slope w per metre
 };
 
-/// From where and at what size a depth pyramid was drawn (occlusion.h).
+/// View that a depth pyramid was rendered from (occlusion.h).
 struct OcclusionView
 {
     Float4 clip_x; ///< as FrameView
@@ -199,19 +203,20 @@ struct OcclusionView
     float z_near;
     uint width; ///< pixels
     uint height;
-    uint level_count; ///< 0: nothing is known and nothing hidden
+    uint level_count; ///< 0: there is no pyramid and nothing is occluded
     uint reserved;
 };
 
 HEARTH_CONSTANT uint kWorkItemClusters = 64;
-/// Work items that one workgroup of the scan adds up.
+/// Work items that one workgroup of the scan sums.
 HEARTH_CONSTANT uint kScanBlockItems = 1024;
-/// Workgroups of a dispatch in x; more go to y (65535 is what every device has in each).
+/// Workgroups of a dispatch in x; the rest go to y (65535 is guaranteed in each).
 HEARTH_CONSTANT uint kDispatchRow = 32768;
 /// Vertices of one instance of a cluster draw: 128 triangles without indices.
 HEARTH_CONSTANT uint kClusterVertices = 384;
-/// The geometry pool is cut into slices of 128 MiB, the storage buffer range that every device has.
-HEARTH_CONSTANT uint kPoolSliceBits = 25; ///< of a word address
+/// Bits of a word address inside a slice. The geometry pool is cut into slices of 128 MiB, the storage buffer
+/// range that every device supports.
+HEARTH_CONSTANT uint kPoolSliceBits = 25;
 HEARTH_CONSTANT uint kPoolSlices = 4;
 HEARTH_CONSTANT uint kItemDoubleSided = 1; ///< skip the normal cone
 
@@ -220,25 +225,28 @@ HEARTH_CONSTANT uint kCullFrustum = 2;
 HEARTH_CONSTANT uint kCullCone = 4;
 HEARTH_CONSTANT uint kCullOcclusion = 8;
 HEARTH_CONSTANT uint kCullEverything = 15;
-/// Views of casters only: leave out instances that have moved since they were loaded, or those that have not.
+/// Bits of shadow caster views: leave out instances that have moved since loading, or instances that have
+/// not.
 HEARTH_CONSTANT uint kCullMoving = 16;
 HEARTH_CONSTANT uint kCullResting = 32;
 
-/// Of Instance::flags, beside formats::InstanceFlags: the instance has moved since it was loaded.
+/// Bit of Instance::flags, beside formats::InstanceFlags: the instance has moved since loading.
 HEARTH_CONSTANT uint kInstanceMoves = 0x80000000u;
-/// It is mirrored where it was not when it was loaded, or the other way round: its bin draws the wrong side of its triangles
-/// unless their corners are taken in the other order.
+/// Bit of Instance::flags: the handedness of the matrix has changed since loading. Its bin would draw the
+/// wrong side of its triangles, so their corners are taken in reverse order.
 HEARTH_CONSTANT uint kInstanceTurned = 0x40000000u;
 
-/// What culling a frame without the occlusion test is one of; with it, two follow each other.
+/// Culling phase. A frame without the occlusion test has the phase kPhaseWhole; with it, the early and late
+/// phases follow each other.
 HEARTH_CONSTANT uint kPhaseWhole = 0;
-HEARTH_CONSTANT uint kPhaseEarly = 1; ///< what the last frame's depth does not hide
-HEARTH_CONSTANT uint kPhaseLate = 2;  ///< of the rest, what the depth of the early clusters does not hide
+HEARTH_CONSTANT uint kPhaseEarly = 1; ///< clusters that the last frame's depth does not occlude
+/// of the rest, clusters that the depth of the early clusters does not occlude
+HEARTH_CONSTANT uint kPhaseLate = 2;
 
-HEARTH_CONSTANT uint kInstanceHidden = 0;   ///< nothing of it can be seen
-HEARTH_CONSTANT uint kInstanceVisible = 1;  ///< its clusters are looked at
-HEARTH_CONSTANT uint kInstanceDeferred = 2; ///< hidden by the last frame's depth: the late phase decides
-HEARTH_CONSTANT uint kInstanceLate = 3;     ///< was deferred, and its clusters are looked at now
+HEARTH_CONSTANT uint kInstanceHidden = 0;   ///< culled
+HEARTH_CONSTANT uint kInstanceVisible = 1;  ///< its clusters are tested
+HEARTH_CONSTANT uint kInstanceDeferred = 2; ///< occluded by the last frame's depth: the late phase decides
+HEARTH_CONSTANT uint kInstanceLate = 3;     ///< was deferred, and its clusters are tested in the late phase
 
 /// Visibility buffer: slot << kTriangleBits | triangle.
 HEARTH_CONSTANT uint kTriangleBits = 7;

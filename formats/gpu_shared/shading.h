@@ -1,4 +1,4 @@
-// What the shading pass reads: materials and lights as blocks (std140), written once for C++ and GLSL.
+// Materials and lights as the shading pass reads them: uniform blocks (std140). One source for C++ and GLSL.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #ifndef HEARTH_SHARED_SHADING_H
 #define HEARTH_SHARED_SHADING_H
@@ -26,27 +26,27 @@ struct Material
     float occlusion_strength;
     uint flags;         ///< formats::MaterialFlags
     uint alpha_mode;    ///< formats::AlphaMode
-    uint textures;      ///< bit i: texture i is there
+    uint textures;      ///< bit i: texture i is present
     uint uv_sets;       ///< four bits each
     Float4 uv_rows[10]; ///< two rows for each texture; uv = (row0 . (u, v, 1), row1 . (u, v, 1))
 };
 
-/// formats::LightRecord made ready: direction and cone as the falloff needs them.
+/// formats::LightRecord with direction and cone prepared for the falloff.
 struct Light
 {
     Float3 position;  ///< world
     uint type;        ///< formats::LightType
-    Float3 direction; ///< unit, the way the light shines
+    Float3 direction; ///< unit, direction of the light's rays
     float range;      ///< metres; 0: unlimited
     Float3 intensity; ///< linear colour times candela or lux, after exposure
-    uint shadow_row;  ///< of its projection in the ShadowBlock, or kNoShadow (shadow.h)
+    uint shadow_row;  ///< row of its projection in the ShadowBlock, or kNoShadow (shadow.h)
     float cone_scale; ///< spot: saturate(dot(direction, from light) * cone_scale + cone_offset)^2
     float cone_offset;
     float reserved1;
     float reserved2;
 };
 
-/// Lights beyond this number are not drawn, and the renderer says so. 8 KiB: they stay in the cache.
+/// Maximum number of drawn lights; the renderer reports lights beyond. 8 KiB: they stay in the cache.
 HEARTH_CONSTANT uint kMaxLights = 128;
 
 struct Lighting
@@ -60,16 +60,17 @@ struct Lighting
     Light lights[kMaxLights];
 };
 
-/// The light that every scene gets beside its own: a sky of three colours (radiance), and one sun where the scene has
-/// no lights. Sun and sky together make a white surface about 0.9 of display white in the light and 0.25 in the shade: form
-/// is seen on white scans and dark fabrics alike.
+/// Default lighting of every scene beside its own lights: a sky of three colours (radiance), and one sun
+/// where the scene has no lights. Sun and sky together make a white surface about 0.9 of display white in the
+/// light and 0.25 in the shade, so shape is visible on white scans and dark fabrics alike.
 HEARTH_CONSTANT Float3 kSkyZenith = Float3(0.30f, 0.36f, 0.46f);
 HEARTH_CONSTANT Float3 kSkyHorizon = Float3(0.42f, 0.43f, 0.45f);
 HEARTH_CONSTANT Float3 kSkyGround = Float3(0.14f, 0.132f, 0.125f);
 HEARTH_CONSTANT Float3 kSunIlluminance = Float3(2.3f, 2.16f, 1.98f); ///< lux after exposure
-HEARTH_CONSTANT Float3 kSunDirection = Float3(0.5f, -0.8f, -0.6f);   ///< the way it shines; of any length
+HEARTH_CONSTANT Float3 kSunDirection = Float3(0.5f, -0.8f, -0.6f);   ///< direction of its rays; any length
 
-/// The exposure rule: lights that send more than this to the middle of the scene, in lux, are dimmed to it together.
+/// Exposure rule: if the lights give the middle of the scene more than this, in lux, all are dimmed by one
+/// factor to reach it.
 HEARTH_CONSTANT float kKeyIlluminance = 2.2f;
 
 HEARTH_CONSTANT uint kViewFinal = 0;
@@ -84,22 +85,22 @@ HEARTH_CONSTANT uint kViewCones = 8;
 HEARTH_CONSTANT uint kViewOverdraw = 9;
 HEARTH_CONSTANT uint kViewShadowMaps = 10;
 HEARTH_CONSTANT uint kViewBones = 11; ///< main bones of clusters; grey: rigid
-// what is seen of the sky, as it is shaded; dark red: the mesh does not say
+// sky occlusion as shaded; dark red: the mesh has no visibility data
 HEARTH_CONSTANT uint kViewAmbientOcclusion = 12;
 HEARTH_CONSTANT uint kViewBentNormal = 13;        ///< axis of the visibility cone
 HEARTH_CONSTANT uint kViewAperture = 14;          ///< its half-angle, white: 90 degrees
 HEARTH_CONSTANT uint kViewSpecularOcclusion = 15; ///< from the eye, by the material's roughness
-// of scenes with bricks
-HEARTH_CONSTANT uint kViewBricks = 16;        ///< the voxels that a pixel's ray meets first, by their albedo
-HEARTH_CONSTANT uint kViewBrickLighting = 17; ///< the same by what they send out; red: nothing is known
-HEARTH_CONSTANT uint kViewGathered = 18;      ///< the light of bricks alone, on white surfaces
+// views of scenes with bricks
+HEARTH_CONSTANT uint kViewBricks = 16;        ///< the voxels that a pixel's ray meets first, by albedo
+HEARTH_CONSTANT uint kViewBrickLighting = 17; ///< the same by outgoing radiance; red: not lit yet
+HEARTH_CONSTANT uint kViewGathered = 18;      ///< light of bricks alone, on white surfaces
 
-/// How the sky's mirror image is occluded. The numbers are those of the settings.
+/// Method of specular occlusion of the sky. The numbers are the values of the setting.
 HEARTH_CONSTANT uint kSpecularOcclusionFit = 0;
-HEARTH_CONSTANT uint kSpecularOcclusionTable = 1; ///< the pack's; where it has none, the fit
+HEARTH_CONSTANT uint kSpecularOcclusionTable = 1; ///< table of the pack; the fit where the pack has none
 HEARTH_CONSTANT uint kSpecularOcclusionOff = 2;
 
-/// Both settings as shaders get them.
+/// Pack both settings for shaders.
 /// ambient   kAmbientOcclusion* (ambient_occlusion.h)
 /// specular  kSpecularOcclusion*
 /// spacing   kSpecularSpacing* of the table (specular_occlusion.h)
@@ -108,13 +109,14 @@ HEARTH_FUNCTION uint skyOcclusionBits(uint ambient, uint specular, uint spacing)
     return ambient | specular << 8 | spacing << 16;
 }
 
-/// What one fragment adds to the overdraw view, linear: brown at first; red is full at 4, green at 8, all at 16.
+/// Linear colour that one fragment adds to the overdraw view: brown at first; red is full at 4, green at 8,
+/// all at 16.
 HEARTH_CONSTANT Float3 kOverdrawStep = Float3(0.25f, 0.125f, 0.0625f);
 
 HEARTH_SHARED_END
 
 #ifdef __cplusplus
-// sizes as std140 lays them out
+// sizes in std140 layout
 static_assert(sizeof(hearth::shared::Material) == 224);
 static_assert(sizeof(hearth::shared::Light) == 64);
 static_assert(sizeof(hearth::shared::Lighting) == 48 + 64 * hearth::shared::kMaxLights);

@@ -1,8 +1,9 @@
-// How much of a GGX lobe a visibility cone lets through, written once for C++ and GLSL: by a fit without a texture, and
-// where to look in the table of chunk SPOC. README.md of cook/specular has the derivation and what was measured.
+// Specular occlusion: the fraction of a GGX lobe that a visibility cone lets through, by a fit without a
+// texture, or by a lookup in the table of chunk SPOC. One source for C++ and GLSL. cook/specular/README.md
+// has the derivation and measurements.
 //
-// Both give the share S of the horizon-clipped lobe (Fresnel left out) that falls into the cone: what a surface
-// reflects is S times the cone's scale times its usual image-based specular light.
+// Both methods return the fraction S of the horizon-clipped lobe (without Fresnel) that falls into the cone.
+// A surface reflects S times the cone's scale times its usual image-based specular light.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #ifndef HEARTH_SHARED_SPECULAR_OCCLUSION_H
 #define HEARTH_SHARED_SPECULAR_OCCLUSION_H
@@ -11,13 +12,13 @@
 
 HEARTH_SHARED_BEGIN
 
-/// The table has so many nodes each way: aperture, roughness, cosine between reflection vector and cone axis.
+/// Nodes of the table on each axis: aperture, roughness, cosine between reflection vector and cone axis.
 HEARTH_CONSTANT uint kSpecularNodes = 16;
 
-/// Roughness of the table's first node; below, the lobe is taken as wide as here. The last node is 1.
+/// Roughness of the table's first node; a smaller roughness is clamped to it. The last node is 1.
 HEARTH_CONSTANT float kSpecularLeastRoughness = 0.089f;
 
-/// How nodes lie on the axis of beta, the angle between reflection vector and cone axis.
+/// Spacing of nodes on the axis of beta, the angle between reflection vector and cone axis.
 HEARTH_CONSTANT uint kSpecularSpacingCosine = 0;   ///< uniform in cos(beta)
 HEARTH_CONSTANT uint kSpecularSpacingHalfSine = 1; ///< uniform in 1 - sin(beta / 2): dense around the lobe
 
@@ -26,10 +27,10 @@ HEARTH_FUNCTION float specularClamp(float value, float low, float high)
     return min(max(value, low), high);
 }
 
-/// Where the table is looked up: each in [0, 1], node i at i / 15. x aperture, y roughness, z beta; 1 is a full
-/// hemisphere, roughness 1, the axis along the reflection vector. Texel x is next to texel x + 1 in memory, y is 16
-/// texels farther, z 256.
-/// cos_aperture  of the cone's half-angle, 0 to 1
+/// Return the coordinates of a table lookup, each in [0, 1], node i at i / 15. x is aperture, y roughness, z
+/// beta; 1 is a full hemisphere, roughness 1, and the axis along the reflection vector. Texel x is next to
+/// texel x + 1 in memory, y is 16 texels farther, z 256.
+/// cos_aperture  cosine of the cone's half-angle, 0 to 1
 /// spacing       kSpecularSpacing*, of the table
 HEARTH_FUNCTION Float3 specularTablePlace(float cos_aperture, float roughness, float cos_beta, uint spacing)
 {
@@ -40,16 +41,18 @@ HEARTH_FUNCTION Float3 specularTablePlace(float cos_aperture, float roughness, f
     return Float3(specularClamp(aperture, 0.0f, 1.0f), specularClamp(rough, 0.0f, 1.0f), beta);
 }
 
-/// The same for a texture of 16 x 16 x 16 texels that is filtered linearly and clamped: its nodes are texel centres.
+/// Return texture coordinates of a lookup in 16 x 16 x 16 texels, filtered linearly and clamped: nodes are
+/// texel centres.
 HEARTH_FUNCTION Float3 specularTableTexture(Float3 place)
 {
     return Float3(place.x * 0.9375f + 0.03125f, place.y * 0.9375f + 0.03125f, place.z * 0.9375f + 0.03125f);
 }
 
-/// Share of a lobe that falls into a cone, exact at normal incidence without shadowing: slopes of half-vectors are the
-/// stereographic image of the directions, and GGX's slopes are that of an evenly covered sphere, so that a cone becomes a
-/// cap of this sphere. In angles: sin^2((u(beta + a) - u(beta - a)) / 2), u(x) = atan2(sin(x / 2), width cos(x / 2)).
-/// cos_beta  between the middles of lobe and cone
+/// Return the fraction of a lobe that falls into a cone, exact at normal incidence without shadowing. Slopes
+/// of half-vectors are the stereographic image of the directions, and GGX's slopes are the image of a
+/// uniformly covered sphere, so a cone becomes a cap of this sphere. In angles: sin^2((u(beta + a) - u(beta -
+/// a)) / 2), u(x) = atan2(sin(x / 2), width cos(x / 2)).
+/// cos_beta  cosine between the middles of lobe and cone
 /// width     GGX alpha of the lobe
 HEARTH_FUNCTION float specularCap(float cos_half_angle, float cos_beta, float width)
 {
@@ -61,21 +64,22 @@ HEARTH_FUNCTION float specularCap(float cos_half_angle, float cos_beta, float wi
     return 0.5f - 0.5f * turned / sqrt(max((middle - spread) * (middle + spread), 1e-12f));
 }
 
-/// What hearth-specular --fit found. alpha is that of GGX, grazing is 1 - n_dot_v.
+/// Coefficients found by hearth-specular --fit. alpha is GGX's, grazing is 1 - n_dot_v.
 struct SpecularFit
 {
     float width_alpha; ///< width of the lobe / alpha = 1 + ...
     float width_grazing;
     float width_both;
-    float
-        turn; ///< how far the lobe's middle goes from the reflection vector to the normal, / alpha = turn + ...
+    /// Shift of the lobe's middle from the reflection vector to the normal, / alpha = turn + ...
+    float turn;
     float turn_alpha;
     float turn_grazing;
     float turn_both;
-    float loss; ///< what the horizon takes of a cone that reaches below it, / alpha
+    float loss; ///< part of a cone that reaches below the horizon and is lost, / alpha
 };
 
-/// Of 20000 configurations, height-correlated masking. rms .020 there; the table's, through its three inputs, is .073.
+/// Fit to 20000 configurations with height-correlated masking. rms error .020 there; of the table, through
+/// its three inputs, .073.
 HEARTH_CONSTANT SpecularFit kSpecularFit =
     SpecularFit(-0.4416f, 0.1565f, -0.0127f, -0.5816f, 2.0072f, 2.1856f, -2.8820f, 0.3663f);
 
@@ -92,7 +96,7 @@ HEARTH_FUNCTION float specularOcclusionBy(HEARTH_IN(SpecularFit) fit, float cos_
     float turn =
         alpha * (fit.turn + fit.turn_alpha * alpha + (fit.turn_grazing + fit.turn_both * alpha) * grazing);
 
-    // the lobe's middle lies between R and N; its cosines with axis and normal
+    // the lobe's middle lies between R and N; its cosines with axis and normal follow
     float to_normal = specularClamp(turn, 0.0f, 1.0f);
     float to_mirror = 1.0f - to_normal;
     float shrink =
@@ -108,10 +112,11 @@ HEARTH_FUNCTION float specularOcclusionBy(HEARTH_IN(SpecularFit) fit, float cos_
     return specularClamp(inside / above * (1.0f - fit.loss * alpha * below), 0.0f, 1.0f);
 }
 
-/// S for a cone of any direction, without a table, a texture or a transcendental function.
-/// cos_aperture  of the cone's half-angle, 0 to 1
+/// Return S for a cone of any direction, without a table, a texture or a transcendental function.
+/// cos_aperture  cosine of the cone's half-angle, 0 to 1
 /// roughness     0 to 1; GGX alpha is its square
-/// n_dot_v, n_dot_axis, r_dot_axis  cosines between the normal, the view, the cone's axis and the reflection vector
+/// n_dot_v, n_dot_axis, r_dot_axis  cosines between the normal, the view, the cone's axis and the reflection
+///                                  vector
 HEARTH_FUNCTION float specularOcclusionFit(float cos_aperture, float roughness, float n_dot_v,
                                            float n_dot_axis, float r_dot_axis)
 {

@@ -1,6 +1,7 @@
-// What of the hemisphere a vertex or a point of a surface sees: the code of its two moments, and the cone that has the same
-// moments. Written once for C++ and GLSL. The fit is the closed form of two moments of a cone: m0 = 2 pi s (1 - c) and
-// m1 = pi s (1 - c^2) d with c the cosine of its half-angle, d its axis, s the share of light that it lets through.
+// Visibility of the hemisphere at a surface point, for ambient occlusion and bent normals: the code of its
+// two moments, and the cone with the same moments. One source for C++ and GLSL. The cone is the closed form
+// for two moments: m0 = 2 pi s (1 - c) and m1 = pi s (1 - c^2) d with c the cosine of its half-angle, d its
+// axis, s the fraction of light that it lets through.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #ifndef HEARTH_SHARED_VISIBILITY_CONE_H
 #define HEARTH_SHARED_VISIBILITY_CONE_H
@@ -11,16 +12,18 @@ HEARTH_SHARED_BEGIN
 
 HEARTH_CONSTANT float kVisibilityPi = 3.14159265f;
 
-/// With V(w) in [0, 1] the visibility in direction w: m0 = int V dw, in [0, 2 pi], and m1 = int V w dw, of length at most
-/// m0 (1 - m0 / (4 pi)). Both are linear in V: they may be averaged and interpolated. The ambient occlusion of a surface
-/// with the normal n that V is 0 below of is dot(n, m1) / pi, with no cone in between.
+/// Moments of visibility. With V(w) in [0, 1] the visibility in direction w: m0 = int V dw, in [0, 2 pi], and
+/// m1 = int V w dw, of length at most m0 (1 - m0 / (4 pi)). Both are linear in V: they may be averaged and
+/// interpolated. If V is 0 below the horizon of the normal n, the ambient occlusion of the surface is dot(n,
+/// m1) / pi, without a cone.
 struct VisibilityMoments
 {
     float m0;
     Float3 m1;
 };
 
-/// Light from directions within `aperture` of the axis arrives with the factor `scale`, other light not at all.
+/// Cone of visible directions. Light from directions within `aperture` of the axis is multiplied by `scale`,
+/// other light is occluded.
 struct VisibilityCone
 {
     Float3 axis;        ///< unit
@@ -29,16 +32,17 @@ struct VisibilityCone
     float scale;        ///< [0, 1]
 };
 
-// The code of a vertex, with the length x = min(|m1| / pi, 1) that its first three numbers stand for:
-//   bits 1 to 7 of byte 1   7 bits q: rho = |m1| / m0 is mix(x / 2, (1 + sqrt(1 - x)) / 2, q / 127), the least and the
-//                           greatest that there are with this x; m0 = pi x / rho, 0 where x is 0
+// Code of a vertex. The length x = min(|m1| / pi, 1) follows from the first three numbers:
+//   bits 1 to 7 of byte 1   7 bits q: rho = |m1| / m0 is mix(x / 2, (1 + sqrt(1 - x)) / 2, q / 127), the
+//                           smallest and largest rho with this x; m0 = pi x / rho, 0 where x is 0
 //   byte 0, bit 0 of byte 1 9 bits, byte 0 the upper ones: dot(n, m1) / pi = q / 511, the ambient occlusion
-//   bytes 2 and 3           8 bits q, signed, not -128: m1 / pi along the first and the second vector of the normal's
-//                           frame is q / 254
-// rho and not m0 is coded because the cosine of the cone's half-angle is 2 rho - 1: its error is small for narrow cones too,
-// where m0 is small.
+//   bytes 2 and 3           8 bits q, signed, not -128: m1 / pi along the first and the second vector of the
+//                           normal's frame is q / 254
+// The code stores rho instead of m0 because the cosine of the cone's half-angle is 2 rho - 1: its error is
+// small for narrow cones too, where m0 is small.
 
-/// What a code of rho stands for where |m1| / pi is x; place in [0, 1].
+/// Decode rho where |m1| / pi is x.
+/// place  code of rho scaled to [0, 1]
 HEARTH_FUNCTION float visibilityRatio(float x, float place)
 {
     float least = 0.5f * x;
@@ -46,13 +50,14 @@ HEARTH_FUNCTION float visibilityRatio(float x, float place)
     return least + (greatest - least) * place;
 }
 
-/// x of a code: |m1| / pi, at most 1.
+/// Return x of a code: |m1| / pi, at most 1.
 HEARTH_FUNCTION float visibilityLength(Float3 m1_over_pi)
 {
     return min(sqrt(dot(m1_over_pi, m1_over_pi)), 1.0f);
 }
 
-/// The moments in the frame of the normal: x and y along its first and second vector, z along the normal.
+/// Decode the moments in the frame of the normal: x and y along its first and second vector, z along the
+/// normal.
 HEARTH_FUNCTION VisibilityMoments decodeVisibilityInFrame(uint code)
 {
     Float3 p = Float3(float(int(code << 8) >> 24) / 254.0f, float(int(code) >> 24) / 254.0f,
@@ -65,7 +70,8 @@ HEARTH_FUNCTION VisibilityMoments decodeVisibilityInFrame(uint code)
     return moments;
 }
 
-/// The moments in the space of the normal. `normal` unit, as the vertex's code is decoded; its frame is that of tangents.
+/// Decode the moments in the space of the normal.
+/// normal  unit, as decoded from the vertex's code; its frame is the one of tangents
 HEARTH_FUNCTION VisibilityMoments decodeVisibility(uint code, Float3 normal)
 {
     VisibilityMoments moments = decodeVisibilityInFrame(code);
@@ -78,7 +84,8 @@ HEARTH_FUNCTION VisibilityMoments decodeVisibility(uint code, Float3 normal)
     return moments;
 }
 
-/// The nearest moments along the same direction that a visibility in [0, 1] on a hemisphere has: noise and fits overshoot.
+/// Return the nearest moments along the same direction that a visibility in [0, 1] on a hemisphere can have:
+/// noise and fits overshoot.
 HEARTH_FUNCTION VisibilityMoments feasibleVisibility(float m0, Float3 m1)
 {
     VisibilityMoments moments;
@@ -89,9 +96,9 @@ HEARTH_FUNCTION VisibilityMoments feasibleVisibility(float m0, Float3 m1)
     return moments;
 }
 
-/// The cone with these moments; where it would be wider than a hemisphere, as below what hangs overhead, the hemisphere
-/// that keeps m1, and with it the ambient occlusion. Moments that no visibility has are made feasible first.
-/// Without any light, axis = normal and scale = 0.
+/// Return the cone with these moments. Where it would be wider than a hemisphere, as below an overhang,
+/// return the hemisphere that keeps m1, and with it the ambient occlusion. Infeasible moments are made
+/// feasible first. Without any light, axis = normal and scale = 0.
 HEARTH_FUNCTION VisibilityCone visibilityCone(float m0, Float3 m1, Float3 normal)
 {
     VisibilityMoments moments = feasibleVisibility(m0, m1);
@@ -100,7 +107,7 @@ HEARTH_FUNCTION VisibilityCone visibilityCone(float m0, Float3 m1, Float3 normal
     cone.axis = normal;
     cone.cos_aperture = 0.0f;
     cone.scale = 0.0f;
-    // below, the quotients are not those of numbers any more
+    // below this the quotients are numerically meaningless
     if (size > 1e-12f && moments.m0 > 1e-12f)
     {
         float ratio = min(size / moments.m0, 1.0f);

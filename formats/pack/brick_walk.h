@@ -1,4 +1,4 @@
-// Walks over the bricks of a grid, with the place of each: what neither their records nor those of groups say.
+// Walks over the bricks of a grid with the voxel coordinates of each, which no record stores.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,7 +9,7 @@
 namespace hearth::formats
 {
 
-/// A voxel, or the least one of a brick.
+/// Coordinates of a voxel, or of the lowest voxel of a brick.
 struct VoxelPlace
 {
     uint32_t x;
@@ -17,13 +17,13 @@ struct VoxelPlace
     uint32_t z;
 };
 
-/// The cell at a bit, `size` voxels each way, of the group or brick whose least voxel is at `first`.
+/// Return the cell at a bit, `size` voxels each way, of the group or brick whose lowest voxel is `first`.
 constexpr VoxelPlace placeOfBit(VoxelPlace first, uint32_t bit, uint32_t size)
 {
     return {first.x + (bit & 3u) * size, first.y + (bit >> 2 & 3u) * size, first.z + (bit >> 4) * size};
 }
 
-/// Calls `use(group, first)` for every group of a grid of so many voxels, in the order of chunk BRKG.
+/// Call `use(group, first)` for every group of a grid with this many voxels, in the order of chunk BRKG.
 template <typename Use>
 void forBrickGroups(const uint32_t (&voxels)[3], Use use)
 {
@@ -34,7 +34,8 @@ void forBrickGroups(const uint32_t (&voxels)[3], Use use)
                 use(group++, VoxelPlace{x, y, z});
 }
 
-/// Calls `use(brick, first)` for every brick, in the order of chunk BRKB; `groups` as the checker accepts them.
+/// Call `use(brick, first)` for every brick, in the order of chunk BRKB. `groups` are valid as the checker
+/// accepts them.
 template <typename Use>
 void forBricks(const BrickGridRecord& grid, std::span<const BrickGroupRecord> groups, Use use)
 {

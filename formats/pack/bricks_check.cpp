@@ -24,7 +24,7 @@ Status checkNoGrid(const PackView& view)
     return none ? success() : fail(view, Issue::meaning_range, kGrid, 0, "there are bricks without a grid");
 }
 
-/// Counts are those of the tables, and within the limits.
+/// Check that the counts match the tables, and are within the limits.
 Status checkCounts(const PackView& view, const BrickGridRecord& grid)
 {
     const struct
@@ -78,7 +78,7 @@ Status checkGrid(const PackView& view, const BrickGridRecord& grid)
     return checkCounts(view, grid);
 }
 
-/// The bricks of the groups follow each other and are all there are.
+/// Check that the bricks of the groups follow each other and cover the table.
 Status checkGroups(const PackView& view)
 {
     Cursor bricks(view, kGroup, kBrick, view.bricks().size());
@@ -96,7 +96,7 @@ uint64_t wholeMask(uint32_t low, uint32_t high)
     return uint64_t{high} << 32 | low;
 }
 
-/// The voxels of a brick that lie in the grid.
+/// Return the mask of a brick's voxels that lie in the grid.
 uint64_t maskInGrid(const BrickGridRecord& grid, VoxelPlace first)
 {
     uint64_t mask = 0;

@@ -1,4 +1,4 @@
-// What the files of the meaning checker share. Not for use outside formats/.
+// Shared helpers of the pack checker. Not for use outside formats/.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,7 +9,7 @@
 namespace hearth::formats::check
 {
 
-/// The error of record `index` of a table: where = "node 3".
+/// Return the error of record `index` of a table: where = "node 3".
 inline Error fail(const PackView& view, Issue issue, const char* kind, size_t index, std::string detail)
 {
     return {issue, view.name(), std::string(kind) + " " + std::to_string(index), std::move(detail)};
@@ -40,13 +40,13 @@ inline bool finite(const Affine3& t)
     return finite(t.m[0]) && finite(t.m[1]) && finite(t.m[2]);
 }
 
-/// Whether `low` is nowhere above `high`, and both are finite.
+/// True if `low` is nowhere above `high`, and both are finite.
 inline bool validBox(Float3 low, Float3 high)
 {
     return finite(low) && finite(high) && low.x <= high.x && low.y <= high.y && low.z <= high.z;
 }
 
-/// Finite and inside [low, high].
+/// True if the value is finite and inside [low, high].
 inline bool inside(float value, float low, float high)
 {
     return value >= low && value <= high;
@@ -73,7 +73,7 @@ bool reservedZero(const uint32_t (&words)[N])
     return std::all_of(std::begin(words), std::end(words), [](uint32_t word) { return word == 0; });
 }
 
-/// Moves along a table whose records are claimed, one range after the other, by the records of another table.
+/// Cursor over a table. The records of another table must claim its records as consecutive ranges.
 class Cursor
 {
 public:
@@ -82,7 +82,8 @@ public:
     {
     }
 
-    /// errors: meaning_range where the range leaves the table, meaning_order where it does not follow the last.
+    /// Claim a range. errors: meaning_range if it leaves the table, meaning_order if it does not follow the
+    /// last range.
     Status take(size_t owner, Range range)
     {
         if (!insideTable(range, size_))
@@ -97,10 +98,10 @@ public:
         return success();
     }
 
-    /// The first record that is not claimed yet.
+    /// Return the first unclaimed record.
     size_t at() const { return at_; }
 
-    /// errors: meaning_range where records are left that nothing claimed.
+    /// Check that all records are claimed. errors: meaning_range
     Status finish() const
     {
         if (at_ == size_)
@@ -116,21 +117,21 @@ private:
     size_t at_ = 0;
 };
 
-/// Whether the bulk of a pack is read: texels, geometry pages, and the zeros around these.
+/// Option to read or skip the bulk of a pack: texels, geometry pages, and the padding around them.
 enum class Bulk
 {
     read,
     left,
 };
 
-/// For each mesh, how many joints its skin has; a part that has no nodes does not say.
+/// Return the number of joints of each mesh's skin. Unknown in a part without nodes.
 std::vector<uint32_t> jointCounts(const PackView& view);
 
-/// A decoded page, of a view whose tables have been checked; `joint_count` of its mesh's skin.
+/// Check a decoded page. The tables of the view have been checked; `joint_count` is of its mesh's skin.
 Status checkPage(const PackView& view, uint32_t page_index, std::span<const std::byte> page,
                  uint32_t joint_count);
 
-// The phases of checkPack, in its order.
+// Phases of checkPack, in order.
 Status checkTexts(const PackView& view);
 Status checkMaterials(const PackView& view);
 Status checkImages(const PackView& view, Bulk bulk);

@@ -1,4 +1,4 @@
-// What the normal cone of a cluster asks of its triangles. Not for use outside formats/.
+// Tests triangles against the normal cone of a cluster. Not for use outside formats/.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,8 +9,8 @@
 namespace hearth::formats::check
 {
 
-/// In squares, with what is the cluster's worked out before: no root and no division for a triangle. Rounding moves neither
-/// bound by more than 1e-11, of a sine and of what kApexSlack is measured in.
+/// Normal cone of a cluster, prepared for the tests. All tests compare squares, so a triangle needs no root
+/// and no division. Rounding moves neither bound by more than 1e-11, in units of a sine and of kApexSlack.
 class ConeCheck
 {
 public:
@@ -26,6 +26,7 @@ public:
         most_in_front2_ = most_in_front * most_in_front;
     }
 
+    /// True if a normal lies in the cone.
     /// normal   of any length > 0, whose square is length2
     bool holds(Double3 normal, double length2) const
     {
@@ -33,7 +34,7 @@ public:
         return along > 0 && along * along >= least_cosine2_ * length2;
     }
 
-    /// Whether the apex is not in front of the plane through `corner`; `normal` as above.
+    /// True if the apex is not in front of the plane through `corner`; `normal` as above.
     bool isBehind(Double3 normal, double length2, Double3 corner) const
     {
         const double in_front = dot(normal, apex_ - corner);
@@ -41,10 +42,10 @@ public:
     }
 
 private:
-    Double3 axis_; ///< of about unit length
+    Double3 axis_; ///< about unit length
     Double3 apex_;
-    double
-        least_cosine2_; ///< times the squared length of the axis; below 0 where the cone is a half space and more
+    /// Times the squared length of the axis; below 0 for a cone wider than a half space.
+    double least_cosine2_;
     double most_in_front2_; ///< square of a distance
 };
 

@@ -1,4 +1,4 @@
-// Meaning of the tables of deformed meshes.
+// Checks the tables of deformed meshes.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/pack/check_tools.h"
 #include "formats/pack/pack_check.h"
@@ -9,7 +9,7 @@ namespace hearth::formats::check
 namespace
 {
 
-/// Meshes that a node draws and that skins or morph targets deform, ascending.
+/// Return the meshes, ascending, that a node draws and that skins or morph targets deform.
 std::vector<uint32_t> deformedMeshes(const PackView& view)
 {
     std::vector<bool> drawn(view.meshes().size());
@@ -48,7 +48,8 @@ Status checkDeformedMesh(const PackView& view, size_t i)
     return success();
 }
 
-/// joints  of the skin; 0 without one
+/// Check a cluster.
+/// joints  joints of the skin; 0 without one
 Status checkCluster(const PackView& view, size_t i, uint32_t joints)
 {
     constexpr const char* kKind = "deformed cluster";
@@ -72,7 +73,7 @@ Status checkCluster(const PackView& view, size_t i, uint32_t joints)
     return success();
 }
 
-/// Every node that draws a mesh with a skin draws it with this one.
+/// Check that all nodes draw a skinned mesh with the same skin.
 Status checkSkinsOfNodes(const PackView& view)
 {
     std::vector<uint32_t> skin_of_mesh(view.meshes().size(), kNone);

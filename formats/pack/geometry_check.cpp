@@ -1,4 +1,4 @@
-// Meaning of geometry pages: every page is decoded and each cluster held against the bounds that its record claims.
+// Checks geometry pages: decodes every page and tests each cluster against the bounds in its record.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/pack/check_tools.h"
 #include "formats/pack/cone_check.h"
@@ -12,7 +12,7 @@ namespace hearth::formats::check
 namespace
 {
 
-/// The weights fall and sum to 1; joints are the skin's, and joint 0 where there is no weight.
+/// True if the weights descend and sum to 1, all joints belong to the skin, and a joint without weight is 0.
 bool legalInfluences(const ClusterGeometry& geometry, uint32_t vertex, uint32_t joint_count)
 {
     const std::array<uint32_t, 8> joints = geometry.joints(vertex);
@@ -28,14 +28,15 @@ bool legalInfluences(const ClusterGeometry& geometry, uint32_t vertex, uint32_t 
     return sum == 65535;
 }
 
-/// Finds the first vertex of a cluster that is wrong, and the first thing that is wrong with it, one thing after the other:
-/// where its words lie is the same for all vertices.
+/// Search for the first wrong vertex of a cluster, and the first rule that it breaks. Rules are tested one
+/// after the other over all vertices, because all vertices have the same word layout.
 class FirstWrong
 {
 public:
     explicit FirstWrong(uint32_t vertex_count) : vertex_(vertex_count) {}
 
-    /// legal  of a vertex; things are asked for in the order of their importance
+    /// Test a rule on all vertices before the first wrong one. Call in the order of importance.
+    /// legal  predicate on a vertex number
     template <typename Legal>
     void look(Issue issue, const char* what, const Legal& legal)
     {
@@ -56,7 +57,7 @@ public:
     }
 
 private:
-    uint32_t vertex_; ///< those before it are right so far
+    uint32_t vertex_; ///< first wrong vertex so far
     Issue issue_{};
     const char* what_ = nullptr;
 };
@@ -113,7 +114,7 @@ Status checkVertices(const PackView& view, size_t i, const ClusterGeometry& geom
     return wrong.status(view, i);
 }
 
-/// Targets ascend, each moves a vertex; steps are powers of two.
+/// Check that targets ascend, that each moves a vertex, and that steps are powers of two.
 Status checkMorphs(const PackView& view, size_t i, const MeshRecord& mesh, const ClusterGeometry& geometry)
 {
     const auto wrong = [&](uint32_t morph, const char* what)
@@ -173,11 +174,11 @@ Status checkTriangles(const PackView& view, size_t i, float grid_step, const Clu
     return success();
 }
 
-/// Of things that are looked at in any order, the first one that is wrong. Any number of threads may add to it.
+/// First error of items that are checked in any order. Thread-safe.
 class FirstError
 {
 public:
-    /// Whether a thing before this one is known to be wrong, so that this one does not matter.
+    /// True if an item before this one is known to be wrong, so this one does not matter.
     bool isBefore(uint32_t thing) const { return first_.load(std::memory_order_relaxed) < thing; }
 
     void add(uint32_t thing, Error error)
@@ -208,7 +209,8 @@ std::vector<uint32_t> jointCounts(const PackView& view)
     return counts;
 }
 
-/// Clusters lie in the page in their order; what is between them, behind them and behind their indices is zero.
+/// Check a page. Clusters are stored in order; the gaps between them, the end of the page and the padding
+/// after indices are zero.
 Status checkPage(const PackView& view, uint32_t page_index, std::span<const std::byte> page,
                  uint32_t joint_count)
 {

@@ -1,4 +1,4 @@
-// Meaning of meshes, levels, groups and clusters, and of the page table; geometry is in geometry_check.cpp.
+// Checks meshes, levels, groups and clusters, and the page table; geometry_check.cpp checks geometry.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/pack/check_tools.h"
 #include "formats/pack/pack_check.h"
@@ -17,7 +17,7 @@ bool boxContains(Float3 low, Float3 high, const Box3& box)
     return true;
 }
 
-/// The corners of its box are points of the grid that floats have.
+/// True if the corners of the cluster's box are grid points that floats represent.
 bool onGrid(const ClusterRecord& cluster)
 {
     for (int axis = 0; axis < 3; ++axis)
@@ -67,7 +67,8 @@ Status checkMesh(const PackView& view, size_t i)
     return success();
 }
 
-/// Levels stand finest first and their clusters coarsest first: the last level's come first.
+/// Check that levels are ordered finest first and their clusters coarsest first: the last level's clusters
+/// come first.
 Status checkLevels(const PackView& view, const MeshRecord& mesh)
 {
     uint32_t next = mesh.clusters.first;
@@ -124,7 +125,8 @@ Status checkGroup(const PackView& view, uint32_t mesh_index, uint32_t i)
     return success();
 }
 
-/// A group behind the first of its set: the cut replaces all of a set at once only if they are alike.
+/// Check a group after the first of its set: the cut replaces all groups of a set at once only if they are
+/// alike.
 Status checkSet(const PackView& view, const MeshRecord& mesh, uint32_t i)
 {
     const GroupRecord& group = view.groups()[i];
@@ -166,7 +168,8 @@ Status checkClusterValues(const PackView& view, const MeshRecord& mesh, size_t i
     return success();
 }
 
-/// A cluster and the group it was made from: the cut rule draws each surface once only if this holds.
+/// Check a cluster against the group it was made from: otherwise the cut rule does not draw each surface
+/// exactly once.
 Status checkRefinement(const PackView& view, const MeshRecord& mesh, size_t i)
 {
     const ClusterRecord& cluster = view.clusters()[i];
@@ -216,7 +219,7 @@ Status checkLevelErrors(const PackView& view, const MeshRecord& mesh)
     return success();
 }
 
-/// A group has a finite error if and only if something replaces it, or its set.
+/// Check that a group has a finite error if and only if something replaces it, or its set.
 Status checkRoots(const PackView& view)
 {
     std::vector<bool> replaced(view.groups().size(), false);
@@ -254,7 +257,7 @@ Status checkPage(const PackView& view, uint32_t mesh_index, uint32_t i)
     return success();
 }
 
-/// Pages lie in chunk PAGE one behind the other, each at a multiple of 64, zeros between and behind.
+/// Check that pages are contiguous in chunk PAGE, each at a multiple of 64, with zeros between and after.
 Status checkPageBytes(const PackView& view, Bulk bulk)
 {
     const std::span<const std::byte> bytes = view.pageBytes();
@@ -282,7 +285,7 @@ Status checkPageBytes(const PackView& view, Bulk bulk)
     return success();
 }
 
-/// The pages of each set of groups, by the number of its first.
+/// Return the pages of each set of groups, by the index of the set's first group.
 std::vector<std::vector<uint32_t>> pagesOfSets(const PackView& view)
 {
     std::vector<std::vector<uint32_t>> pages_of_set(view.groups().size());
@@ -295,12 +298,12 @@ std::vector<std::vector<uint32_t>> pagesOfSets(const PackView& view)
     return pages_of_set;
 }
 
-/// The parents of a page are the pages of the clusters that were made from its groups, or their sets: each once,
+/// Check the parents of each page: the pages of the clusters made from its groups, or their sets; each once,
 /// ascending.
 Status checkParents(const PackView& view)
 {
     const std::vector<std::vector<uint32_t>> pages_of_set = pagesOfSets(view);
-    // clusters stand in page order, so that a page's parents are found in ascending order
+    // clusters are in page order, so that a page's parents are found in ascending order
     std::vector<std::vector<uint32_t>> implied(view.pages().size());
     for (const ClusterRecord& cluster : view.clusters())
     {

@@ -1,4 +1,4 @@
-// The materials that show an image, and the role it has in each.
+// Lists the materials that use an image, and the image's role in each.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -15,13 +15,12 @@ namespace hearth::formats
 
 struct ImageUse
 {
-    uint32_t material = 0; ///< index of the table
-    /// As glTF calls it: "baseColor", "metallicRoughness", "normal", "occlusion" or "emissive".
+    uint32_t material = 0; ///< index in the table
+    /// Role as named by glTF: "baseColor", "metallicRoughness", "normal", "occlusion" or "emissive".
     std::string_view role;
 };
 
-/// The uses of each image, in the order of the materials. References to images that are not there are
-/// passed over.
+/// Return the uses of each image, in the order of the materials. References to missing images are skipped.
 std::vector<std::vector<ImageUse>> imageUses(std::span<const MaterialRecord> materials, size_t image_count);
 
 } // namespace hearth::formats

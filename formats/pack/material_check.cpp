@@ -1,4 +1,4 @@
-// Meaning of materials and images, skins and animations.
+// Checks materials and images, skins and animations.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/codecs/channel_keys.h"
 #include "formats/pack/check_tools.h"
@@ -85,7 +85,7 @@ Status checkJoint(const PackView& view, size_t i)
     return success();
 }
 
-/// Whether the times of a channel never decrease, for any channel in constant time.
+/// Test that the times of a channel never decrease, in constant time for any channel.
 class TimeOrder
 {
 public:
@@ -100,8 +100,8 @@ public:
     }
 
 private:
-    std::vector<uint32_t>
-        steps_back_; ///< [i + 1]: keys up to and with i that are less than the one before them
+    /// [i + 1]: number of keys up to and including i that are less than the key before them
+    std::vector<uint32_t> steps_back_;
 };
 
 bool isSpline(const AnimationChannelRecord& channel)
@@ -124,7 +124,8 @@ Status checkFloatKeys(const PackView& view, size_t i)
     return success();
 }
 
-/// next_word  where the streams of the channels before end; moved behind that of this one
+/// Check the packed keys of a channel.
+/// next_word  end of the streams of earlier channels; moved to the end of this channel's streams
 Status checkPackedKeys(const PackView& view, size_t i, uint64_t& next_word)
 {
     const AnimationChannelRecord& channel = view.channels()[i];
@@ -134,7 +135,7 @@ Status checkPackedKeys(const PackView& view, size_t i, uint64_t& next_word)
     if (std::any_of(std::begin(channel.value_bits), std::end(channel.value_bits), tooWide) ||
         tooWide(channel.time_bits))
         return fail(view, Issue::meaning_value, "channel", i, "a code of its keys has more than 24 bits");
-    // each stream behind the one before: what is checked is never longer than the chunk
+    // each stream after the one before: this bounds the checking time by the size of the chunk
     if (channel.first_word < next_word)
         return fail(view, Issue::meaning_order, "channel", i, "its packed keys are not behind those before");
     const uint64_t words = (uint64_t{channel.key_count} * keyStride(channel) + 31) / 32;
@@ -157,7 +158,7 @@ Status checkPackedKeys(const PackView& view, size_t i, uint64_t& next_word)
     return success();
 }
 
-/// Of keys that are inside their chunks.
+/// Check the times of keys that are inside their chunks.
 Status checkTimes(const PackView& view, const TimeOrder& order, size_t i)
 {
     const AnimationChannelRecord& channel = view.channels()[i];
@@ -173,6 +174,7 @@ Status checkTimes(const PackView& view, const TimeOrder& order, size_t i)
     return success();
 }
 
+/// Check a channel.
 /// next_word  as for checkPackedKeys
 Status checkChannel(const PackView& view, const TimeOrder& order, size_t i, uint64_t& next_word)
 {
@@ -196,7 +198,7 @@ Status checkChannel(const PackView& view, const TimeOrder& order, size_t i, uint
     return checkTimes(view, order, i);
 }
 
-/// A clip may go on after its last key: what does not move any more needs none.
+/// Check an animation. A clip may continue after its last key: a node at rest needs no keys.
 Status checkAnimation(const PackView& view, size_t i)
 {
     const AnimationRecord& animation = view.animations()[i];

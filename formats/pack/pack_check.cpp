@@ -12,7 +12,8 @@ namespace check
 namespace
 {
 
-/// Length of the UTF-8 character that starts at `text[0]`, or 0 where there is none (also surrogates, overlong forms).
+/// Return the length of the UTF-8 character at `text[0]`, or 0 if it is invalid (also surrogates, overlong
+/// forms).
 size_t characterLength(std::string_view text)
 {
     const auto byte = [&](size_t i) { return static_cast<unsigned char>(text[i]); };
@@ -43,7 +44,7 @@ Status checkUtf8(const PackView& view, uint32_t chunk, std::string_view text)
     return success();
 }
 
-/// A name lies inside the string table and does not cut a character in two.
+/// Check that names lie inside the string table and split no character.
 template <typename Record>
 Status checkNames(const PackView& view, const char* kind, std::span<const Record> records)
 {
@@ -124,7 +125,8 @@ Status checkBricks(const PackView& view)
 namespace
 {
 
-/// check_hierarchy  of meshes, pages and what belongs to them
+/// Check a pack.
+/// check_hierarchy  checks meshes, pages and their tables
 template <typename CheckHierarchy>
 Status checkPackBy(const PackView& view, check::Bulk bulk, const CheckHierarchy& check_hierarchy)
 {

@@ -58,10 +58,10 @@ Result<PackView> PackView::read(ContainerReader reader, PageBytes page_bytes)
 namespace
 {
 
-// Tables shrink by 2 to 5 in real packs. One that claims far more would fill the memory out of a small file.
+// Tables compress by 2 to 5 in real packs. A table with a far higher ratio is a decompression bomb.
 constexpr uint64_t kMaxTableRatio = 256;
 constexpr uint64_t kSmallTable = uint64_t{1} << 20;
-// those of bricks may be all alike, as where nothing glows: they are as large as their limits allow, from any file
+// the tables of bricks may be uniform, as where nothing emits light: any ratio is allowed up to their limits
 constexpr uint64_t kSmallBrickTable = uint64_t{1} << 26;
 // far above any real table, and low enough that indices and sums of ranges fit 32 bits
 constexpr uint64_t kMaxTableSize = uint64_t{1} << 32;
@@ -71,7 +71,7 @@ constexpr uint64_t plausibleSize(uint32_t type)
     return isBrickChunk(type) ? kSmallBrickTable : kSmallTable;
 }
 
-/// errors: chunk_version, chunk_size for tables that no writer makes.
+/// Check the version and size of a table. errors: chunk_version, chunk_size for tables that no writer makes.
 Status checkEntry(const ContainerReader& reader, const ChunkEntry& entry)
 {
     const ChunkInfo* info = chunkInfo(entry.type);
@@ -150,7 +150,7 @@ Status PackView::readTables(PageBytes page_bytes)
         HEARTH_ASSIGN_OR_RETURN(page_bytes_, reader_.read(kChunkPages));
     }
     else if (pages != nullptr)
-        page_bytes_ = ChunkData(reader_.stored(*pages), nullptr); // the reader keeps what it lies in
+        page_bytes_ = ChunkData(reader_.stored(*pages), nullptr); // the reader owns the memory
     return success();
 }
 
@@ -167,7 +167,7 @@ Result<ChunkData> PackView::imageData(uint32_t image) const
     return reader_.read(kChunkImageData, image);
 }
 
-/// The bytes of a page as they lie in the file, their hash checked; `size` is what it shall decode to.
+/// Return the stored bytes of a page, their hash checked; `size` is the size after decoding.
 Result<std::span<const std::byte>> PackView::storedPage(uint32_t page, size_t size) const
 {
     const std::string where = "page " + std::to_string(page);
@@ -216,8 +216,9 @@ Status PackView::decodeStored(std::span<const std::byte> stored, uint32_t page,
     return success();
 }
 
-/// In memory of the thread, until the next call. What is handed out is what was checked, also where the file changes
-/// meanwhile, and memory of a device, which is slow to read, is not read.
+/// Decode and check a page in memory of the thread, valid until the next call. The caller gets exactly the
+/// checked bytes, even if the file changes meanwhile, and memory of a device, which is slow to read, is never
+/// read.
 Result<std::span<const std::byte>> PackView::decodeChecked(uint32_t page, size_t size) const
 {
     HEARTH_ASSIGN_OR_RETURN(const std::span<const std::byte> stored, storedPage(page, size));

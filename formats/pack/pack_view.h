@@ -1,5 +1,6 @@
-// All tables of a part or pack as typed spans, and access to its texels and geometry pages.
-// A view is safe on any container, but says nothing about meaning: checkPack and checkTables (formats/pack/pack_check.h) do.
+// Gives access to all tables of a part or pack as typed spans, and to its texels and geometry pages. A view
+// is safe on any container, but does not check meaning: checkPack and checkTables (formats/pack/pack_check.h)
+// do.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -20,7 +21,7 @@
 namespace hearth::formats
 {
 
-/// The records of `range`, or nothing where it does not lie inside the table.
+/// Return the records of `range`, or an empty span if it does not lie inside the table.
 template <typename T>
 std::span<const T> recordsOf(std::span<const T> table, Range range)
 {
@@ -29,13 +30,13 @@ std::span<const T> recordsOf(std::span<const T> table, Range range)
     return table.subspan(range.first, range.count);
 }
 
-/// Whether [first, first + count) lies inside a table of `size` records.
+/// True if [first, first + count) lies inside a table of `size` records.
 constexpr bool insideTable(Range range, size_t size)
 {
     return range.first <= size && range.count <= size - range.first;
 }
 
-/// Bytes of a texel; 0 for a format that does not exist.
+/// Return the bytes of a texel; 0 for a format that does not exist.
 constexpr uint32_t texelBytes(uint32_t format)
 {
     switch (static_cast<TexelFormat>(format))
@@ -55,14 +56,14 @@ struct MipExtent
     uint32_t height;
 };
 
-/// Size of mip `mip` in texels; mip < 32.
+/// Return the size of mip `mip` in texels; mip < 32.
 constexpr MipExtent mipExtent(const ImageRecord& image, uint32_t mip)
 {
     return {std::max(1u, image.width >> mip), std::max(1u, image.height >> mip)};
 }
 
-/// First byte of mip `mip` in the image's data; `mip` = mip_count gives the size of all. Cannot overflow for images
-/// of at most 2^28 texels a side.
+/// Return the first byte of mip `mip` in the image's data; `mip` = mip_count gives the total size. Cannot
+/// overflow for images of at most 2^28 texels a side.
 constexpr uint64_t mipOffset(const ImageRecord& image, uint32_t mip)
 {
     uint64_t offset = 0;
@@ -71,19 +72,20 @@ constexpr uint64_t mipOffset(const ImageRecord& image, uint32_t mip)
     return offset;
 }
 
-/// Error of a cluster: that of the group it was made from, 0 at level 0. The group is in the table.
+/// Return the error of a cluster: the error of its refined group, 0 at level 0. The group must be in the
+/// table.
 inline float errorOf(const ClusterRecord& cluster, std::span<const GroupRecord> groups)
 {
     return cluster.refined_group == kNone ? 0 : groups[cluster.refined_group].error;
 }
 
-/// A cluster's vertices and triangles in a decoded page, which must outlive it. Vertex and triangle numbers are the
-/// caller's contract; the indices in the data are as the file has them.
+/// Vertices and triangles of a cluster in a decoded page, which must outlive it. Vertex and triangle numbers
+/// must be in range (contract of the caller); the indices in the data are as in the file, unchecked.
 class ClusterGeometry
 {
 public:
-    /// nullopt where the cluster's data does not lie inside the page, its layout does not exist, or it has more morph
-    /// targets than its mesh.
+    /// Find a cluster in a page. nullopt if its data does not lie inside the page, its layout does not exist,
+    /// or it has more morph targets than its mesh.
     static std::optional<ClusterGeometry> at(std::span<const std::byte> page, const ClusterRecord& cluster,
                                              const MeshRecord& mesh);
 
@@ -92,7 +94,7 @@ public:
     uint32_t layout() const { return layout_; }
     bool has(uint32_t attribute) const { return (layout_ & attribute) != 0; }
 
-    /// UV bases, vertices and indices, the zeros behind them, and the morph section.
+    /// Return UV bases, vertices and indices, their zero padding, and the morph section.
     std::span<const std::byte> bytes() const { return data_; }
 
     uint32_t word(uint32_t vertex, uint32_t word) const
@@ -110,7 +112,7 @@ public:
                 std::to_integer<uint32_t>(index[2])};
     }
 
-    /// Steps from the cluster's base.
+    /// Return the offset from the cluster's base, in grid steps.
     std::array<uint32_t, 3> gridOffset(uint32_t vertex) const
     {
         if (has(kVertexWide))
@@ -126,7 +128,7 @@ public:
         return position;
     }
 
-    /// Each of these needs has(its attribute).
+    /// Require has(attribute), like the accessors below.
     uint32_t normalCode(uint32_t vertex) const
     {
         const uint32_t value = word(vertex, wordOf(kVertexNormal));
@@ -139,7 +141,7 @@ public:
     {
         return decodeTangent(layout_, word(vertex, wordOf(kVertexTangent)), normal(vertex));
     }
-    /// Grid point of a UV; the set is not one of floats.
+    /// Return the grid point of a UV; the set must not be stored as floats.
     std::array<int32_t, 2> uvPoint(uint32_t vertex, uint32_t set) const
     {
         HEARTH_RUNTIME_ASSERT(uvFractionBits(layout_, set) != 0);
@@ -171,16 +173,17 @@ public:
         return shared::decodeVisibility(visibilityCode(vertex), normal(vertex));
     }
 
-    /// Influences of each vertex: 0, 4 or 8. Those without weight come last, and name joint 0.
+    /// Return the number of influences of each vertex: 0, 4 or 8. Those without weight come last, and refer
+    /// to joint 0.
     uint32_t influenceCount() const { return influencesOf(layout_); }
-    /// Joints of the mesh's skin, the largest weight first; the first influenceCount() are the vertex's.
+    /// Return joints of the mesh's skin, the largest weight first; only the first influenceCount() are valid.
     std::array<uint32_t, 8> joints(uint32_t vertex) const { return influenceHalves(vertex, 0); }
-    /// Codes that sum to 65535.
+    /// Return the codes of the weights, which add up to 65535.
     std::array<uint32_t, 8> weightCodes(uint32_t vertex) const
     {
         return influenceHalves(vertex, influenceCount() / 2);
     }
-    /// weightCodes / 65535.
+    /// Return weightCodes / 65535.
     std::array<float, 8> weights(uint32_t vertex) const
     {
         const std::array<uint32_t, 8> codes = weightCodes(vertex);
@@ -190,11 +193,12 @@ public:
         return weights;
     }
 
-    /// Morph targets of the mesh that move a vertex of the cluster; `i` below counts them.
+    /// Return the number of the mesh's morph targets that move a vertex of the cluster; `i` below counts
+    /// them.
     uint32_t morphCount() const { return morph_count_; }
     uint32_t morphTarget(uint32_t i) const { return wordAt(morphWord(1 + 2 * size_t{i})); }
     float morphStep(uint32_t i) const { return std::bit_cast<float>(wordAt(morphWord(2 + 2 * size_t{i}))); }
-    /// What a weight of 1 adds to position and normal.
+    /// Return the change of position and normal for a weight of 1.
     Float3 morphPosition(uint32_t i, uint32_t vertex) const
     {
         const float step = morphStep(i);
@@ -245,7 +249,7 @@ private:
         HEARTH_RUNTIME_ASSERT(has(attribute));
         return attributeWord(layout_, attribute);
     }
-    /// Wraps around where a file makes no sense.
+    /// Wraps around for inconsistent files.
     static int32_t sum(uint32_t base, uint32_t offset) { return static_cast<int32_t>(base + offset); }
 
     std::span<const std::byte> data_;
@@ -256,38 +260,40 @@ private:
     uint32_t vertex_count_ = 0;
     uint32_t triangle_count_ = 0;
     uint32_t morph_count_ = 0;
-    size_t morph_first_ = 0; ///< word of the morph section
+    size_t morph_first_ = 0; ///< first word of the morph section
 };
 
-/// What PackView::read does with chunk PAGE of a container whose chunks have not been hashed.
+/// Treatment of chunk PAGE by PackView::read, if the container's chunks have not been hashed.
 enum class PageBytes
 {
     hashed,
-    left, ///< none of its bytes is read: a page that is decoded has a hash of its own
+    left, ///< none of its bytes is read: each decoded page has its own hash
 };
 
-/// The tables of one container. A chunk that is not there is an empty table. Spans hold as long as the view lives.
+/// Tables of one container. A missing chunk is an empty table. Spans are valid as long as the view lives.
 class PackView
 {
 public:
-    /// Read and decompress the tables. errors: those of ContainerReader::records; chunk_codec for compressed PAGE.
+    /// Read and decompress the tables. errors: those of ContainerReader::records; chunk_codec for compressed
+    /// PAGE.
     static Result<PackView> read(ContainerReader reader, PageBytes page_bytes = PageBytes::hashed);
 
-    /// From now on pages are checked when they are decoded, also by copies of the view: each is what checkPack accepts, or an
-    /// error. The tables have been checked, by checkTables or what else checks meshes and pages.
+    /// Check pages when they are decoded from now on, also in copies of the view: decodePage returns an error
+    /// unless checkPack accepts the page. The tables must have been checked, by checkTables or another check
+    /// of meshes and pages.
     void checkPagesWhenRead();
 
     const ContainerReader& container() const { return reader_; }
     const std::string& name() const { return reader_.name(); }
 
-    /// META: JSON text.
+    /// Return chunk META: JSON text.
     std::string_view meta() const { return textOf(meta_); }
-    /// STRS, all of it.
+    /// Return the whole chunk STRS.
     std::string_view strings() const { return textOf(strings_); }
-    /// A name; empty where it points outside the string table.
+    /// Return a name; empty if it lies outside the string table.
     std::string_view text(StringRef ref) const;
 
-    /// None in parts.
+    /// Return the assets; none in parts.
     std::span<const AssetRecord> assets() const { return assets_.span(); }
     std::span<const NodeRecord> nodes() const { return nodes_.span(); }
     std::span<const InstanceRecord> instances() const { return instances_.span(); }
@@ -313,9 +319,9 @@ public:
     std::span<const DeformedMeshRecord> deformedMeshes() const { return deformed_meshes_.span(); }
     std::span<const DeformedClusterRecord> deformedClusters() const { return deformed_clusters_.span(); }
     std::span<const uint32_t> clusterJoints() const { return cluster_joints_.span(); }
-    /// None or one.
+    /// Return one table or none.
     std::span<const SpecularTableRecord> specularTables() const { return specular_tables_.span(); }
-    /// None or one.
+    /// Return one grid or none.
     std::span<const BrickGridRecord> brickGrid() const { return brick_grid_.span(); }
     std::span<const BrickGroupRecord> brickGroups() const { return brick_groups_.span(); }
     std::span<const BrickRecord> bricks() const { return bricks_.span(); }
@@ -325,21 +331,23 @@ public:
     std::span<const uint32_t> brickEmission() const { return brick_emission_.span(); }
     std::span<const uint32_t> brickLighting() const { return brick_lighting_.span(); }
 
-    /// Chunk PAGE, as it lies in the file.
+    /// Return chunk PAGE, as stored in the file.
     std::span<const std::byte> pageBytes() const { return page_bytes_.bytes(); }
 
-    /// The texels of an image, all mips, finest first. errors: chunk_missing, and those of ContainerReader::read.
+    /// Return the texels of an image, all mips, finest first. errors: chunk_missing, and those of
+    /// ContainerReader::read.
     Result<ChunkData> imageData(uint32_t image) const;
 
-    /// Decode a page into `out`, whose size is the page's. Any number of threads may do so at once. Where pages are checked when
-    /// they are read, `out` is only written, from front to back, and is left alone where there is an error.
-    /// errors: meaning_reference, meaning_range, meaning_value, page_hash, chunk_codec; what is wrong with its meaning.
+    /// Decode a page into `out`, whose size is the page's. Thread-safe. If pages are checked when they are
+    /// read, `out` is only written, from front to back, and not written at all after an error.
+    /// errors: meaning_reference, meaning_range, meaning_value, page_hash, chunk_codec; and the errors of its
+    /// meaning.
     Status decodePage(uint32_t page, std::span<std::byte> out) const;
 
-    /// The same into memory of its own.
+    /// Decode a page into a new buffer.
     Result<std::vector<std::byte>> decodePage(uint32_t page) const;
 
-    /// What decodePage would say of a page. Only where pages are checked when they are read.
+    /// Return the error that decodePage would return. Only if pages are checked when they are read.
     Status checkPage(uint32_t page) const;
 
 private:
@@ -391,7 +399,8 @@ private:
     Records<uint32_t> brick_emission_;
     Records<uint32_t> brick_lighting_;
     ChunkData page_bytes_;
-    /// For each mesh, what the check of a page needs to know of its skin; none where decoding checks no meaning.
+    /// For each mesh, the number of joints of its skin, for page checks; nullopt if decoding checks no
+    /// meaning.
     std::optional<std::vector<uint32_t>> joint_counts_;
 };
 

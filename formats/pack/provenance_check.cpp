@@ -1,4 +1,4 @@
-// Meaning of chunks about where things come from.
+// Checks the chunks about the origin of contents.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/base/affine3d.h"
 #include "formats/pack/check_tools.h"
@@ -18,7 +18,7 @@ bool isInRange(Range range, uint32_t index)
     return index >= range.first && index - range.first < range.count;
 }
 
-/// Whether `inner` lies in the asset's box, but for kSphereSlack of the coordinates.
+/// True if `inner` lies in the asset's box, within kSphereSlack of the coordinates.
 bool isInBox(const AssetRecord& asset, const Box3& inner)
 {
     for (int axis = 0; axis < 3; ++axis)
@@ -31,8 +31,8 @@ bool isInBox(const AssetRecord& asset, const Box3& inner)
     return true;
 }
 
-/// An instance of the asset draws one of its meshes, at one of its nodes. Where a deformed mesh is at rest, its joints
-/// say: of these the box is not checked.
+/// Check that an instance of the asset draws one of its meshes, at one of its nodes. The box of a deformed
+/// mesh is not checked, because its position at rest depends on its joints.
 Status checkInstanceOfAsset(const PackView& view, size_t i, const InstanceRecord& instance)
 {
     const AssetRecord& asset = view.assets()[i];

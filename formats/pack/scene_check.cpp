@@ -1,4 +1,4 @@
-// Meaning of nodes, instances, cameras, lights and shadow spheres.
+// Checks nodes, instances, cameras, lights and shadow spheres.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/pack/check_tools.h"
 #include "formats/pack/pack_check.h"
@@ -11,7 +11,7 @@ namespace hearth::formats::check
 namespace
 {
 
-// pi / 2 and pi rounded up to a float, and one unit in the last place for a writer's conversion from degrees
+// pi / 2 and pi rounded up to a float, plus one unit in the last place for a writer's conversion from degrees
 constexpr float kRightAngle = 1.5707965f;
 constexpr float kStraightAngle = 3.1415930f;
 
@@ -47,7 +47,7 @@ Status checkMeshOfNode(const PackView& view, size_t i)
     if (!noneOrBelow(node.mesh, view.meshes().size()))
         return fail(view, Issue::meaning_reference, "node", i, "mesh " + std::to_string(node.mesh));
     const uint32_t targets = node.mesh == kNone ? 0 : view.meshes()[node.mesh].morph_target_count;
-    // a weight for each of them also keeps the number of targets plausible
+    // one weight for each target also keeps the number of targets plausible
     if (node.morph_weights.count != targets)
         return fail(view, Issue::meaning_value, "node", i,
                     std::to_string(node.morph_weights.count) + " morph weights for " +
@@ -55,7 +55,7 @@ Status checkMeshOfNode(const PackView& view, size_t i)
     return success();
 }
 
-/// From every node the way up ends at a root. Each node is walked over once.
+/// Check that the path up from every node ends at a root. Each node is visited once.
 Status checkTree(const PackView& view)
 {
     const std::span<const NodeRecord> nodes = view.nodes();
@@ -76,13 +76,15 @@ Status checkTree(const PackView& view)
     return success();
 }
 
-/// A lower bound, tight to a part in a thousand or better, of the largest factor by which a transform stretches.
+/// Return a lower bound of the largest factor by which a transform stretches, tight to a part in a thousand
+/// or better.
 double stretch(const Affine3& t)
 {
     double best = 0;
     for (int axis = 0; axis < 3; ++axis)
     {
-        // power iteration on A^T A; every step gives a lower bound, so a slow one only makes the check milder
+        // power iteration on A^T A; every step gives a lower bound, so slow convergence only makes the check
+        // less strict
         double v[3] = {axis == 0 ? 1.0 : 0.1, axis == 1 ? 1.0 : 0.2, axis == 2 ? 1.0 : 0.3};
         for (int step = 0; step < 8; ++step)
         {
@@ -103,7 +105,7 @@ double stretch(const Affine3& t)
     return best;
 }
 
-/// +1, -1, or 0 where the determinant is too close to zero for floats to agree on its sign.
+/// Return +1, -1, or 0 if the determinant is too close to zero for its sign to be reliable in floats.
 int orientation(const Affine3& t)
 {
     const auto row = [&](int i) { return std::array<double, 3>{t.m[i][0], t.m[i][1], t.m[i][2]}; };

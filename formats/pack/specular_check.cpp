@@ -9,7 +9,7 @@ namespace
 
 constexpr const char* kKind = "specular table";
 
-/// A wider cone lets through no less.
+/// True if a wider cone never lets through less.
 bool growsWithAperture(const SpecularTableRecord& table)
 {
     for (uint32_t i = 0; i < kSpecularTexels; ++i)

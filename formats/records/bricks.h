@@ -1,4 +1,5 @@
-// Chunks of the brick grid: which voxels of a scene are solid, and what light their faces give back. See FORMAT.md, "Bricks".
+// Chunks of the brick grid: the solid voxels of a scene, and the light that their faces reflect and emit. See
+// FORMAT.md, "Bricks".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,8 +13,8 @@ namespace hearth::formats
 {
 
 inline constexpr uint32_t kChunkBrickGrid = fourCC("BRKS"); ///< BrickGridRecord[], one at most
-inline constexpr uint32_t kChunkBrickGroups =
-    fourCC("BRKG"); ///< BrickGroupRecord[], all of the grid, x fastest, then y, z
+/// BrickGroupRecord[], all of the grid, x fastest, then y, z
+inline constexpr uint32_t kChunkBrickGroups = fourCC("BRKG");
 inline constexpr uint32_t kChunkBricks = fourCC("BRKB");        ///< BrickRecord[]
 inline constexpr uint32_t kChunkBrickOpacity = fourCC("BRKO");  ///< u8[], one for each solid voxel
 inline constexpr uint32_t kChunkBrickAlbedo = fourCC("BRKA");   ///< u32[], one for each face
@@ -21,7 +22,7 @@ inline constexpr uint32_t kChunkBrickNormals = fourCC("BRKN");  ///< u16[], one 
 inline constexpr uint32_t kChunkBrickEmission = fourCC("BRKE"); ///< u32[], one for each face, R11G11B10F
 inline constexpr uint32_t kChunkBrickLighting = fourCC("BRKL"); ///< u32[], one for each face, R11G11B10F
 
-/// All of them, in the order in which files have them.
+/// All chunk types of the brick grid, in file order.
 inline constexpr std::array kBrickChunks{kChunkBrickGrid,     kChunkBrickGroups,  kChunkBricks,
                                          kChunkBrickOpacity,  kChunkBrickAlbedo,  kChunkBrickNormals,
                                          kChunkBrickEmission, kChunkBrickLighting};
@@ -30,14 +31,16 @@ constexpr bool isBrickChunk(uint32_t type)
     return std::find(kBrickChunks.begin(), kBrickChunks.end(), type) != kBrickChunks.end();
 }
 
-/// A grid has at most so many voxels along each axis: their places are exact in floats, their groups fit 32 bits.
+/// Maximum number of voxels along each axis: positions stay exact in floats, and numbers of groups fit 32
+/// bits.
 inline constexpr uint32_t kMaxGridVoxels = 1u << 14;
-/// So many groups, solid voxels and faces at most: a table of theirs is never larger than 64 MiB.
+/// Maximum number of groups, solid voxels and faces: each table is at most 64 MiB.
 inline constexpr uint32_t kMaxBrickGroups = 1u << 22;
 inline constexpr uint32_t kMaxBrickVoxels = 1u << 26;
 inline constexpr uint32_t kMaxBrickFaces = 1u << 24;
 
-/// Voxel (x, y, z) is the box from origin + voxel_size * (x, y, z) to origin + voxel_size * (x + 1, y + 1, z + 1).
+/// Voxel (x, y, z) is the box from origin + voxel_size * (x, y, z) to origin + voxel_size * (x + 1, y + 1, z
+/// + 1).
 struct BrickGridRecord
 {
     Float3 origin;
@@ -53,20 +56,20 @@ struct BrickGridRecord
 using BrickGroupRecord = shared::BrickGroup;
 using BrickRecord = shared::Brick;
 
-/// How texts name a face of shared::kVoxelFaces; "none" for kNoFace.
+/// Return the name of a face of shared::kVoxelFaces; "none" for kNoFace.
 constexpr std::string_view brickFaceName(uint32_t face)
 {
     constexpr std::string_view kNames[] = {"x-", "x+", "y-", "y+", "z-", "z+"};
     return face < shared::kVoxelFaces ? kNames[face] : "none";
 }
 
-/// The grid as marches take it.
+/// Return the grid as the march functions take it.
 constexpr shared::BrickGrid brickGridOf(const BrickGridRecord& record)
 {
     return {record.origin, record.voxel_size, record.voxels[0], record.voxels[1], record.voxels[2], 0};
 }
 
-/// Groups of a grid of so many voxels along its axes, each at most kMaxGridVoxels.
+/// Return the number of groups of a grid with this many voxels along its axes, each at most kMaxGridVoxels.
 constexpr uint32_t brickGroupCount(const uint32_t (&voxels)[3])
 {
     uint32_t count = 1;

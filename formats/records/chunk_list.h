@@ -1,4 +1,4 @@
-// Every chunk type that exists, in one list: readers, FORMAT.md and the tests take it from here.
+// Lists every chunk type: readers, FORMAT.md and the tests use this list.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -18,7 +18,7 @@ namespace hearth::formats
 struct ChunkInfo
 {
     uint32_t type;
-    uint32_t version; ///< newest that this code reads
+    uint32_t version; ///< newest version that this code reads
     std::string_view content;
     bool one_per_index; ///< many chunks of the type, one for each mesh or image
     std::string_view meaning;
@@ -75,7 +75,7 @@ inline constexpr std::array kChunkList{
     ChunkInfo{kChunkBrickLighting, 1, "u32[]", false, "of each face"},
 };
 
-/// The list's line for a type, or nullptr: readers skip types that they do not know.
+/// Return the list entry of a type, or nullptr: readers skip unknown types.
 constexpr const ChunkInfo* chunkInfo(uint32_t type)
 {
     const auto found = std::find_if(kChunkList.begin(), kChunkList.end(),
@@ -83,7 +83,7 @@ constexpr const ChunkInfo* chunkInfo(uint32_t type)
     return found == kChunkList.end() ? nullptr : &*found;
 }
 
-/// The version that writers give a chunk: 1 for types that are not in the list.
+/// Return the version that writers give a chunk: 1 for types that are not in the list.
 constexpr uint32_t chunkVersion(uint32_t type)
 {
     const ChunkInfo* info = chunkInfo(type);

@@ -11,7 +11,7 @@
 namespace hearth::formats
 {
 
-/// Four characters as a number that reads in order in a hex dump.
+/// Pack four characters into a number that reads in order in a hex dump.
 constexpr uint32_t fourCC(const char (&text)[5])
 {
     return static_cast<uint32_t>(static_cast<unsigned char>(text[0])) |
@@ -20,7 +20,7 @@ constexpr uint32_t fourCC(const char (&text)[5])
            static_cast<uint32_t>(static_cast<unsigned char>(text[3])) << 24;
 }
 
-/// The control characters catch a transfer in text mode, as in PNG and KTX2.
+/// Magic bytes of a file. The control characters detect a transfer in text mode, as in PNG and KTX2.
 inline constexpr uint8_t kMagic[16] = {'H', 'R',  'T',  'H',  0xAB, 'P',  'A', 'C',
                                        'K', 0xBB, '\r', '\n', 0x1A, '\n', 0,   0};
 inline constexpr uint32_t kVersionMajor = 2;
@@ -30,8 +30,8 @@ inline constexpr uint64_t kChunkAlignment = 64;
 
 enum class ContainerKind : uint32_t
 {
-    part = fourCC("PART"), ///< what one cooker hands to the next
-    pack = fourCC("PACK"), ///< what the runtime loads
+    part = fourCC("PART"), ///< result of one cooker, input of the next
+    pack = fourCC("PACK"), ///< asset that the runtime loads
 };
 
 enum class Codec : uint32_t
@@ -72,7 +72,7 @@ struct ChunkEntry
     uint32_t reserved[3];
 };
 
-/// A piece of the string table: bytes [offset, offset + length) of chunk STRS, UTF-8, no terminator.
+/// Part of the string table: bytes [offset, offset + length) of chunk STRS, UTF-8, no terminator.
 struct StringRef
 {
     static constexpr std::string_view kTypeName = "StringRef";

@@ -1,6 +1,7 @@
-// Chunks of meshes that skins and morph targets deform: where their clusters can be in all poses. See FORMAT.md, "Deformed
-// meshes". Poses are those of animation.h; the palette of an instance has a matrix for each joint of its skin, which
-// carries the bind pose to the world, or without a skin the transform of its node alone.
+// Chunks of meshes that skins and morph targets deform: bounds of their clusters over all poses. See
+// FORMAT.md, "Deformed meshes". Poses are computed by formats/scene/animation.h. The palette of an instance
+// has one matrix for each joint of its skin, from the bind pose to the world; without a skin, only the
+// transform of its node.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -14,9 +15,10 @@ inline constexpr uint32_t kChunkDeformedClusters = fourCC("DCLU"); ///< Deformed
 inline constexpr uint32_t kChunkClusterJoints = fourCC("DJNT");    ///< u32[]: joints that move a cluster
 inline constexpr uint32_t kChunkDeformedGroups = fourCC("DGRP");   ///< DeformedGroupRecord[]
 
-/// A mesh with joints and weights or with morph targets, ascending by mesh. Bounds hold for all clips of its scene at all
-/// times, for blends of any two of them and for the rest pose, with morph weights from 0 to 1.
-/// "In joint j" is the bind pose where row j of the palette carries it: a point p there is at palette[j] * p.
+/// Mesh with joints and weights or with morph targets; records ascend by mesh. Bounds hold for all clips of
+/// its scene at all times, for blends of any two clips and for the rest pose, with morph weights from 0 to 1.
+/// "In joint j" means the bind pose transformed by row j of the palette: a point p in joint j is at
+/// palette[j] * p.
 struct DeformedMeshRecord
 {
     uint32_t mesh;
@@ -28,7 +30,8 @@ struct DeformedMeshRecord
     Float3 box_max;
 };
 
-/// Where a cluster can be. The apex of the normal cone stands cone_back behind the middle of the box, against the axis.
+/// Bounds of a cluster over all poses. The apex of the normal cone is cone_back behind the middle of the box,
+/// against the axis.
 struct DeformedClusterRecord
 {
     Float3 box_min;
@@ -42,7 +45,7 @@ struct DeformedClusterRecord
     float morph_reach;
 };
 
-/// Parts only: the sphere of group `group` of a deformed mesh, for chunk GRUP of the pack.
+/// Parts only: bounding sphere of group `group` of a deformed mesh, for chunk GRUP of the pack.
 struct DeformedGroupRecord
 {
     Float3 sphere_center;

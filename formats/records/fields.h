@@ -1,4 +1,5 @@
-// Describes the layout of a record as data, so that FORMAT.md and the static checks come from the struct itself.
+// Describes the layout of a record as data, so that FORMAT.md and the static checks are derived from the
+// struct itself.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -58,11 +59,11 @@ constexpr std::string_view fieldTypeName()
         return T::kTypeName;
 }
 
-/// Specialised for every record by HEARTH_RECORD.
+/// Fields of a record. HEARTH_RECORD specialises it for every record.
 template <typename T>
 struct FieldsOf;
 
-/// True when the fields follow each other without a gap and fill the whole struct: no hidden padding in a file.
+/// True if the fields follow each other without a gap and fill the whole struct: no hidden padding in a file.
 template <size_t N>
 constexpr bool gapless(const std::array<Field, N>& fields, size_t size)
 {
@@ -85,7 +86,8 @@ constexpr bool gapless(const std::array<Field, N>& fields, size_t size)
             sizeof(record::member), note                                                                     \
     }
 
-/// Use at global scope, after the struct: HEARTH_RECORD(hearth::X, size, HEARTH_FIELD(...), ...).
+/// Define FieldsOf of a record. Use at global scope, after the struct: HEARTH_RECORD(hearth::X, size,
+/// HEARTH_FIELD(...), ...).
 #define HEARTH_RECORD(record, byte_size, ...)                                                                \
     template <>                                                                                              \
     struct hearth::FieldsOf<record>                                                                          \

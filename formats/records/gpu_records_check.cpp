@@ -1,4 +1,5 @@
-// Holds the records of formats/gpu_shared/records.h against those of the file format: same offsets, same sizes.
+// Checks that the records of formats/gpu_shared/records.h have the offsets and sizes of the file format's
+// records.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/records.h"
 #include "formats/records/mesh.h"
@@ -45,7 +46,7 @@ HEARTH_SAME_OFFSET(Cluster, page, ClusterRecord, page);
 #undef HEARTH_SAME_OFFSET
 
 static_assert(hearth::shared::kNoGroup == hearth::formats::kNone);
-// sizes as std430 and std140 lay them out
+// sizes in std430 and std140 layout
 static_assert(sizeof(hearth::shared::MeshBounds) == 32);
 static_assert(sizeof(hearth::shared::InstanceInverse) == 48);
 static_assert(sizeof(hearth::shared::InstanceState) == 32);

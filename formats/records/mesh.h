@@ -1,5 +1,5 @@
-// Chunks of the mesh hierarchy and its geometry pages, as packed, and of the source meshes that parts carry.
-// See FORMAT.md, "Hierarchy"; the cut rule stands beside GroupRecord.
+// Chunks of the mesh hierarchy and its geometry pages, as packed, and of the source meshes in parts. See
+// FORMAT.md, "Hierarchy"; the cut rule is at GroupRecord.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -15,8 +15,8 @@ inline constexpr uint32_t kChunkLevels = fourCC("LEVL");       ///< LevelRecord[
 inline constexpr uint32_t kChunkGroups = fourCC("GRUP");       ///< GroupRecord[]
 inline constexpr uint32_t kChunkClusters = fourCC("CLUS");     ///< ClusterRecord[]
 inline constexpr uint32_t kChunkPageTable = fourCC("PGTB");    ///< PageRecord[]
-inline constexpr uint32_t kChunkPageParents = fourCC("PGPA");  ///< u32[]: what a page needs
-inline constexpr uint32_t kChunkPages = fourCC("PAGE");        ///< the pages, each aligned to 64 bytes
+inline constexpr uint32_t kChunkPageParents = fourCC("PGPA");  ///< u32[]: pages that a page refines
+inline constexpr uint32_t kChunkPages = fourCC("PAGE");        ///< pages, each aligned to 64 bytes
 inline constexpr uint32_t kChunkSourceMesh = fourCC("SMSH");   ///< mesh `index` as imported
 inline constexpr uint32_t kChunkAuthoredLods = fourCC("ALOD"); ///< AuthoredLodRecord[]
 
@@ -24,39 +24,39 @@ inline constexpr uint32_t kClusterMaxTriangles = 128;
 inline constexpr uint32_t kClusterMaxVertices = 256;
 inline constexpr uint32_t kPageMaxBytes = 65536;
 
-/// Which attributes a mesh's vertices have, and how each is coded: the layout of a vertex. A vertex is 32-bit words in
-/// this order: position, normal, tangent, UV sets, colour, visibility, joints, weights; the codes are those of
+/// Vertex layout of a mesh: its attributes, and how each is coded. A vertex is 32-bit words in this order:
+/// position, normal, tangent, UV sets, colour, visibility, joints, weights. The codes are defined in
 /// vertex_codec.h and visibility_code.h.
 enum VertexAttributes : uint32_t
 {
     kVertexNormal = 1,
-    kVertexTangent = 2, ///< only beside a normal
+    kVertexTangent = 2, ///< only with a normal
     kVertexUv0 = 4,
     kVertexUv1 = 8,
     kVertexUv2 = 16,
     kVertexUv3 = 32,
     kVertexColor = 64,
-    kVertexVisibility = 128, ///< what of the hemisphere the vertex sees; only beside a normal
+    kVertexVisibility = 128, ///< visibility of the hemisphere; only with a normal
 
     kVertexFineNormal = 256, ///< normal 2 x 16 bits instead of 2 x 8, tangent 15 bits instead of 7
     kVertexFineColor = 512,  ///< 4 x 16 bits instead of 4 x 8
-    kVertexWide = 8192,      ///< of a cluster, never of a mesh: offsets on grids are 32 bits instead of 16
+    kVertexWide = 8192,      ///< of a cluster, never of a mesh: grid offsets have 32 bits instead of 16
 
     kVertexInfluences = 1 << 14,     ///< four joints of the mesh's skin, and their weights
-    kVertexMoreInfluences = 1 << 15, ///< eight instead of four; only beside kVertexInfluences
+    kVertexMoreInfluences = 1 << 15, ///< eight instead of four; only with kVertexInfluences
 };
 
 inline constexpr uint32_t kVertexInfluenceBits = kVertexInfluences | kVertexMoreInfluences;
 
 inline constexpr uint32_t kVertexUvs = kVertexUv0 | kVertexUv1 | kVertexUv2 | kVertexUv3;
 
-/// From this bit on, four bits for each UV set: n, where the steps of its grid are 2^-n; 0 for floats or no set.
+/// First bit of four bits for each UV set: n, where the steps of its grid are 2^-n; 0 for floats or no set.
 inline constexpr uint32_t kVertexUvStepShift = 16;
 
-/// The UV sets that have a grid, as bits kVertexUv0 to kVertexUv3.
+/// Return the UV sets that have a grid, as bits kVertexUv0 to kVertexUv3.
 constexpr uint32_t gridUvs(uint32_t layout)
 {
-    // the lowest bit of each four: whether one of them is set
+    // reduce each four bits to their lowest: set if any of the four is
     uint32_t steps = layout >> kVertexUvStepShift;
     steps |= steps >> 2;
     steps = (steps | steps >> 1) & 0x1111u;
@@ -66,7 +66,7 @@ constexpr uint32_t gridUvs(uint32_t layout)
     return (steps & 15u) * kVertexUv0;
 }
 
-/// Influences of one vertex with this layout: a joint and a weight of 16 bits each.
+/// Return the number of influences of one vertex with this layout: a joint and a weight of 16 bits each.
 constexpr uint32_t influencesOf(uint32_t layout)
 {
     if ((layout & kVertexInfluences) == 0)
@@ -74,7 +74,7 @@ constexpr uint32_t influencesOf(uint32_t layout)
     return (layout & kVertexMoreInfluences) != 0 ? 8 : 4;
 }
 
-/// Words of one vertex with this layout.
+/// Return the number of words of one vertex with this layout.
 constexpr uint32_t vertexWords(uint32_t layout)
 {
     const bool own_normal_word = (layout & (kVertexFineNormal | kVertexWide)) != 0;
@@ -89,7 +89,8 @@ constexpr uint32_t vertexWords(uint32_t layout)
     return words + influencesOf(layout);
 }
 
-/// Words in front of a cluster's vertices: u and v of the grid point that each UV set on a grid counts from.
+/// Return the number of words before a cluster's vertices: for each UV set on a grid, u and v of the base
+/// grid point.
 constexpr uint32_t uvBaseWords(uint32_t layout)
 {
     return 2 * static_cast<uint32_t>(std::popcount(layout & kVertexUvs & gridUvs(layout)));
@@ -116,7 +117,7 @@ struct MeshRecord
     float grid_error;
 };
 
-/// Levels stand finest first: the first level of a mesh is the source.
+/// Level of detail. Levels are stored finest first: the first level of a mesh is the source.
 struct LevelRecord
 {
     Range clusters;
@@ -125,12 +126,13 @@ struct LevelRecord
 };
 
 /// Clusters that are simplified together and replaced together.
-/// Where a level was made by hand, all groups of the level below are replaced together: they are a set. The groups of a
-/// set follow each other and share sphere, error and level; clusters that were made from the set name its first group.
+/// If the next level is an authored LOD, all groups of the finer level are replaced together: they are a set.
+/// The groups of a set follow each other and share sphere, error and level; clusters made from the set refer
+/// to its first group.
 /// The cut: with E(g) the projected error of a group, draw cluster x if and only if
 ///     (x.refined_group == none or E(refined_group) <= threshold) and E(group) > threshold,
-/// where E of a root group (error = infinity) is infinite. Errors and spheres are monotone: for every cluster x,
-/// error(refined_group) <= error(group), and the sphere of refined_group lies inside the sphere of group.
+/// where E of a root group (error = infinity) is infinite. Errors and spheres are monotone: for every cluster
+/// x, error(refined_group) <= error(group), and the sphere of refined_group lies inside the sphere of group.
 struct GroupRecord
 {
     Float3 sphere_center;
@@ -146,9 +148,9 @@ struct GroupRecord
     uint32_t reserved[3];
 };
 
-/// What culling and drawing need to know of a cluster; 48 bytes, read by the GPU as it is (formats/gpu_shared/records.h).
-/// Its box is base .. base + (extent << extent_shift), in steps of the mesh's grid. Its normal cone has its apex
-/// 16 cone_back << extent_shift steps behind the middle of the box, against the axis.
+/// Culling and drawing data of a cluster; 48 bytes, read by the GPU unchanged (formats/gpu_shared/records.h).
+/// Its box is base .. base + (extent << extent_shift), in steps of the mesh's grid. The apex of its normal
+/// cone is 16 cone_back << extent_shift steps behind the middle of the box, against the axis.
 struct ClusterRecord
 {
     int32_t base[3];
@@ -171,17 +173,17 @@ struct ClusterRecord
 /// cone_cutoff of a cone that never culls.
 inline constexpr uint16_t kNoCone = 65535;
 
-/// How a page is stored.
+/// Storage of a page.
 enum class PageCodec : uint32_t
 {
-    none = 0,     ///< as it is decoded
-    zstd = 1,     ///< the same, as one zstd frame
-    clusters = 2, ///< what tells triangles and vertices from those before: page_codec.h
+    none = 0,     ///< decoded form
+    zstd = 1,     ///< decoded form as one zstd frame
+    clusters = 2, ///< triangles and vertices as differences from earlier ones: formats/codecs/page_codec.h
 };
 
-/// One page: clusters of whole groups, in the order of the cluster table. Each cluster's data starts at its
-/// page_word: uvBaseWords words, vertex_count vertices, then 3 u8 vertex indices for each triangle, padded to 4 bytes
-/// with zeros; in a mesh with morph targets, then the cluster's morph section (vertex_codec.h).
+/// Page: clusters of whole groups, in the order of the cluster table. Each cluster's data starts at its
+/// page_word: uvBaseWords words, vertex_count vertices, then 3 u8 vertex indices for each triangle, padded to
+/// 4 bytes with zeros; in a mesh with morph targets, then the cluster's morph section (vertex_codec.h).
 struct PageRecord
 {
     uint64_t offset;
@@ -211,8 +213,8 @@ enum class SourceSemantic : uint32_t
     morph_tangent = 11,    ///< f32 x 3 deltas, set = target
 };
 
-/// Mesh `lod` is mesh `mesh` with less detail, made by hand, in the same object space; it is not drawn by itself.
-/// Records of one mesh follow each other, finest first; meshes ascending.
+/// Authored LOD: mesh `lod` is mesh `mesh` with less detail, in the same object space. It is not drawn by
+/// itself. Records of one mesh follow each other, finest first; meshes ascending.
 struct AuthoredLodRecord
 {
     uint32_t mesh;
@@ -221,7 +223,8 @@ struct AuthoredLodRecord
     StringRef name;
 };
 
-/// Chunk SMSH: SourceMeshHeader, then array_count SourceArrays, then the data, each array 16-aligned.
+/// Header of chunk SMSH: SourceMeshHeader, then array_count SourceArrays, then the data, each array
+/// 16-aligned.
 struct SourceMeshHeader
 {
     uint32_t array_count;

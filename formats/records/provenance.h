@@ -1,5 +1,5 @@
-// Chunks that say where the things of a pack come from: for people and tools. A runtime draws without them.
-// See FORMAT.md, "Provenance".
+// Chunks that record the origin of a pack's contents, for people and tools. A runtime draws without them. See
+// FORMAT.md, "Provenance".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,7 +12,7 @@ namespace hearth::formats
 
 inline constexpr uint32_t kChunkAuthoredLevels = fourCC("ALVL"); ///< AuthoredLevelRecord[]
 
-/// A level of a mesh that was made by hand. Sorted by mesh, then level; no level is there twice.
+/// Authored level of a mesh. Sorted by mesh, then level; no level appears twice.
 struct AuthoredLevelRecord
 {
     uint32_t mesh;
@@ -21,10 +21,10 @@ struct AuthoredLevelRecord
     StringRef name;
 };
 
-inline constexpr uint32_t kChunkAssets =
-    fourCC("ASST"); ///< AssetRecord[]: one for each source, in their order
+/// AssetRecord[]: one for each source, in source order
+inline constexpr uint32_t kChunkAssets = fourCC("ASST");
 
-/// A source of the pack: its records, and where it stands at rest.
+/// Source of the pack: its records, and its bounding box at rest.
 struct AssetRecord
 {
     StringRef name;
@@ -35,7 +35,7 @@ struct AssetRecord
     Float3 box_max;
 };
 
-/// Returns the largest side of the box in metres; 0 where the asset draws nothing.
+/// Return the largest side of the box in metres; 0 if the asset draws nothing.
 inline float largestSide(const AssetRecord& asset)
 {
     const Float3 sides = asset.box_max - asset.box_min;

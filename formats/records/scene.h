@@ -1,4 +1,5 @@
-// Chunks of the scene: nodes, instances, cameras, punctual lights, shadow spheres, materials, images, skins and animations.
+// Chunks of the scene: nodes, instances, cameras, punctual lights, shadow spheres, materials, images, skins
+// and animations.
 // Units: metres, radians, candela / lux, linear Rec.709; right-handed, +Y up. See FORMAT.md.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
@@ -28,7 +29,7 @@ inline constexpr uint32_t kChunkKeys = fourCC("AKEY");          ///< f32[]: time
 inline constexpr uint32_t kChunkKeyBits = fourCC("AKBT");       ///< u32[]: packed keys
 inline constexpr uint32_t kChunkMorphWeights = fourCC("MWGT");  ///< f32[]: rest weights of morph targets
 
-/// Nodes keep their order and index of the source. A parent may stand after its child; there are no cycles.
+/// Nodes keep their order and index of the source. A parent may come after its child; there are no cycles.
 struct NodeRecord
 {
     StringRef name;
@@ -45,10 +46,10 @@ struct NodeRecord
 
 enum InstanceFlags : uint32_t
 {
-    kInstanceMirrored = 1, ///< determinant of world_from_object < 0: triangles turn the other way
+    kInstanceMirrored = 1, ///< determinant of world_from_object < 0: triangles have reversed winding
 };
 
-/// One drawn copy of a mesh in the rest pose.
+/// Drawn copy of a mesh in the rest pose.
 struct InstanceRecord
 {
     Affine3 world_from_object;
@@ -85,7 +86,7 @@ enum class LightType : uint32_t
     spot = 2,
 };
 
-/// KHR_lights_punctual. The light shines along its local -Z.
+/// Punctual light, as in KHR_lights_punctual. It shines along its local -Z.
 struct LightRecord
 {
     StringRef name;
@@ -100,7 +101,7 @@ struct LightRecord
     Affine3 world_from_light;
 };
 
-/// A part of the scene whose shadows an artist wants sharp: a map of its own, fitted to the sphere.
+/// Part of the scene with sharp shadows: it gets a shadow map of its own, fitted to the sphere.
 struct ShadowSphereRecord
 {
     uint32_t node;
@@ -111,7 +112,7 @@ struct ShadowSphereRecord
     uint32_t reserved;
 };
 
-/// Maps of shadow spheres have so many texels each way, a power of two.
+/// Size in texels each way of a shadow sphere's map, a power of two.
 inline constexpr uint32_t kMinShadowTexels = 64;
 inline constexpr uint32_t kMaxShadowTexels = 8192;
 
@@ -151,7 +152,7 @@ enum MaterialFlags : uint32_t
     kMaterialUnlit = 2,
 };
 
-/// The metallic-roughness material of glTF 2.0.
+/// Metallic-roughness material of glTF 2.0.
 struct MaterialRecord
 {
     StringRef name;
@@ -180,12 +181,12 @@ enum class TexelFormat : uint32_t
 
 enum ImageFlags : uint32_t
 {
-    kImagePlaceholder = 1, ///< stands for an image that was missing or could not be decoded
+    kImagePlaceholder = 1, ///< replaces an image that was missing or could not be decoded
     kImageNormalMap = 2,   ///< mips are averaged as directions
     kImageAlphaTested = 4, ///< mips keep the covered area at the alpha cutoff
 };
 
-/// Rows top to bottom, tightly packed. Mip i is max(1, size >> i), each mip follows the finer one.
+/// Image. Rows top to bottom, tightly packed. Mip i is max(1, size >> i), each mip follows the finer one.
 struct ImageRecord
 {
     StringRef name;
@@ -241,11 +242,12 @@ enum class KeyEncoding : uint32_t
     packed = 1,
 };
 
-/// More bits than a float has digits gain nothing.
+/// Maximum number of bits of a packed key field: more bits than a float's mantissa gain nothing.
 inline constexpr uint32_t kMostKeyFieldBits = 24;
 
-/// Floats: key_count times, and key_count * components values, times three (in-tangent, value, out-tangent) for a
-/// cubic spline. Packed: see FORMAT.md; channel_keys.h reads both.
+/// Channel of an animation. Floats: key_count times, and key_count * components values, times three
+/// (in-tangent, value, out-tangent) for a cubic spline. Packed: see FORMAT.md. formats/codecs/channel_keys.h
+/// reads both.
 struct AnimationChannelRecord
 {
     uint32_t node;

@@ -1,5 +1,5 @@
-// Chunk of the specular-occlusion table: how much of a GGX lobe a visibility cone lets through. See FORMAT.md, "Specular
-// occlusion"; formats/gpu_shared/specular_occlusion.h says where it is looked up.
+// Chunk of the specular-occlusion table: the fraction of a GGX lobe that a visibility cone lets through. See
+// FORMAT.md, "Specular occlusion"; formats/gpu_shared/specular_occlusion.h computes the lookup.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,7 +11,7 @@ namespace hearth::formats
 
 inline constexpr uint32_t kChunkSpecular = fourCC("SPOC"); ///< SpecularTableRecord[], one at most
 
-/// Smith's masking-shadowing function.
+/// Form of Smith's masking-shadowing function.
 enum class SpecularMasking : uint32_t
 {
     separable = 0,
@@ -27,10 +27,10 @@ enum class SpecularSpacing : uint32_t
 inline constexpr uint32_t kSpecularTexels =
     shared::kSpecularNodes * shared::kSpecularNodes * shared::kSpecularNodes;
 
-/// The table takes the normal to lie in the plane of the reflection vector and the cone's axis. With beta the angle between
-/// these two, it takes the angle between view and normal to be
+/// Table of specular occlusion. It assumes that the normal lies in the plane of the reflection vector and the
+/// cone's axis. With beta the angle between these two, the assumed angle between view and normal is
 ///     theta_o = (1 - normal_lambda) * beta / 2 + normal_lambda * min(beta, pi / 2)
-/// on the side of the axis: with 0 the normal halves beta, with 1 it is the axis, as far as it can be.
+/// on the side of the axis: with 0 the normal halves beta, with 1 it is as close to the axis as possible.
 struct SpecularTableRecord
 {
     uint32_t aperture_nodes;
@@ -44,7 +44,7 @@ struct SpecularTableRecord
     uint8_t values[kSpecularTexels];
 };
 
-/// What node i of each axis stands for: half-angle / 90 degrees, roughness, cosine of beta.
+/// Return the value at node i of each axis: half-angle / 90 degrees, roughness, cosine of beta.
 constexpr double specularNodeAperture(uint32_t i)
 {
     return static_cast<double>(i) / (shared::kSpecularNodes - 1);

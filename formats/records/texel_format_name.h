@@ -1,4 +1,4 @@
-// What formats of texels are called where people and scripts read them.
+// Names texel formats for people and scripts.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,6 +9,7 @@
 namespace hearth::formats
 {
 
+/// Return the name of a texel format.
 /// format  a TexelFormat; others are "unknown"
 inline const char* texelFormatName(uint32_t format)
 {

@@ -1,4 +1,4 @@
-// Which texel a coordinate beyond an image's edge means.
+// Wraps texel coordinates beyond the edge of an image.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,9 +10,10 @@
 namespace hearth::formats
 {
 
-/// Texture coordinates beyond it lie where floats have no texels any more.
+/// Largest texture coordinate: beyond it, floats are too coarse to address texels.
 inline constexpr float kFarthestUv = 1e6f;
 
+/// Return the texel inside the image.
 /// wrap  as in TextureRef: a value of Wrap
 constexpr int64_t wrappedTexel(int64_t texel, int64_t size, uint8_t wrap)
 {

@@ -38,7 +38,7 @@ NodePose poseOf(const NodeRecord& node)
     return {widen(node.translation), normalizedOr(rotation, {0, 0, 0, 1}), widen(node.scale)};
 }
 
-/// Between which keys of a channel a time lies.
+/// Keys of a channel around a time.
 struct KeyInterval
 {
     uint32_t first = 0;
@@ -49,7 +49,7 @@ struct KeyInterval
 
 KeyInterval intervalAt(const ChannelKeys& keys, double time)
 {
-    // of keys at one time, which are a jump, the last holds
+    // of several keys at one time, which are a jump, the last one wins
     const uint32_t second = keys.keyAfter(time);
     if (second == 0)
         return {};
@@ -60,7 +60,7 @@ KeyInterval intervalAt(const ChannelKeys& keys, double time)
     return {second - 1, second, (time - start) / seconds, seconds};
 }
 
-/// Components [first, first + count) in an interval. Rotations come without length 1.
+/// Return components [first, first + count) in an interval. Rotations are not normalised.
 KeyValue valueAt(const ChannelKeys& keys, const KeyInterval& interval, uint32_t first, uint32_t count)
 {
     const KeyValue start = keys.value(interval.first, first, count);
@@ -77,7 +77,7 @@ KeyValue valueAt(const ChannelKeys& keys, const KeyInterval& interval, uint32_t 
     }
     const KeyValue out = keys.outTangent(interval.first, first, count);
     const KeyValue in = keys.inTangent(interval.second, first, count);
-    // Hermite's basis; out-tangent of the first key, in-tangent of the second, each for one second
+    // Hermite basis; out-tangent of the first key, in-tangent of the second, both per second
     const double t2 = t * t, t3 = t2 * t;
     for (size_t i = 0; i < value.size(); ++i)
         value[i] = (2 * t3 - 3 * t2 + 1) * start[i] + (t3 - 2 * t2 + t) * interval.seconds * out[i] +
@@ -160,7 +160,7 @@ Quaternion slerp(const Quaternion& from, const Quaternion& to, double weight)
     const double side = cosine < 0 ? -1 : 1;
     cosine = std::min(cosine * side, 1.0);
     double of_from = 1 - weight, of_to = weight;
-    // on shorter arcs the chord is the arc, and the quotient of sines loses digits
+    // on shorter arcs the chord equals the arc, and the quotient of sines loses digits
     constexpr double kShortArc = 1 - 1e-10;
     if (cosine < kShortArc)
     {

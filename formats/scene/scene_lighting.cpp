@@ -10,7 +10,7 @@ namespace hearth::shared
 namespace
 {
 
-/// The sun of scenes without lights.
+/// Return the sun of scenes without lights.
 Light defaultSun()
 {
     Light sun{};
@@ -25,8 +25,8 @@ float luminance(Float3 c)
     return dot(c, {0.2126f, 0.7152f, 0.0722f});
 }
 
-/// Estimated illuminance in the middle of the scene. A lamp counts from no nearer than a quarter of the scene's
-/// radius: what matters is what it does to most of the picture, not to the shade around its own bulb.
+/// Estimate the illuminance in the middle of the scene. The distance of a lamp is at least a quarter of the
+/// scene's radius: its effect on most of the frame matters, not its effect on the lampshade around it.
 float illuminanceAt(const Box3& bounds, const Light& light)
 {
     if (light.type == static_cast<uint32_t>(formats::LightType::directional))

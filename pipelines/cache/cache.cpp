@@ -14,7 +14,8 @@ namespace hearth::cache
 namespace
 {
 
-// A disk that loses a block harms one thing or two; a server that answers with garbage each time is no cache.
+// A failing disk damages one entry or two. A server that answers with garbage each time is useless as a
+// cache.
 constexpr size_t kMaxDamage = 8;
 
 } // namespace
@@ -61,7 +62,7 @@ std::optional<Fields> Cache::entryOf(Slot& slot, const std::string& key)
 {
     if (slot.level->isFar() && before_far_is_asked_)
         std::exchange(before_far_is_asked_, nullptr)();
-    // asking ahead may have ended it
+    // prefetching may have disabled the level
     if (slot.is_left_alone || !slot.is_read)
         return std::nullopt;
     WantedEntry wanted{key, std::nullopt};
@@ -153,7 +154,7 @@ void Cache::askAhead(std::span<const std::string> keys)
     }
 }
 
-/// What of it the level has whole.
+/// Fetch the missing contents from one level and check their hashes. Return the contents that arrived intact.
 std::vector<const WantedContent*> Cache::fetchFrom(Slot& slot, std::span<WantedContent> wanted)
 {
     std::vector<WantedContent*> missing;

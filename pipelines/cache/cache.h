@@ -1,4 +1,4 @@
-// The levels of a cache as one: read through, written through, and never believed without a hash.
+// Multi-level cache: reads through and writes through its levels and verifies each hash.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -15,44 +15,49 @@
 namespace hearth::cache
 {
 
-/// Two entries of one key as one, what the first says coming first.
+/// Merges two entries of one key; fields of `first` precede fields of `second`.
 using Merge = std::function<Fields(const Fields& first, const Fields& second)>;
 
-/// No call fails: what cannot be had is not there, and what cannot be kept is not kept. A level with which something goes
-/// wrong is told of once and left alone from then on; what is damaged in it is told of once, and removed if it may be. From
-/// a far level that hands out one damaged thing after the other no more is taken.
+/// Multi-level content-addressed cache. No call fails: a failed read is a cache miss, and a failed write
+/// stores nothing. A level that reports an error is warned about once and not used again. Damaged data is
+/// warned about once, and removed where the level allows it. A remote level that delivers kMaxDamage damaged
+/// entries or contents is not read any more.
 class Cache
 {
 public:
     /// levels  nearest first
-    /// warn    is told what went wrong (cache_failed)
+    /// warn    receives each problem (cache_failed)
     Cache(std::vector<std::unique_ptr<Level>> levels, std::function<void(const Error&)> warn);
 
     bool isEmpty() const { return levels_.empty(); }
     bool isWritable() const;
 
-    /// The fields that were put under the key; found in a far level, they are put into the nearer ones.
+    /// Return the fields stored under the key. A hit in a remote level is copied to the nearer levels.
     std::optional<Fields> entry(const std::string& key);
     void putEntry(const std::string& key, const Fields& fields);
 
-    /// An entry to which different cooks add: level by level, until one `serves`. The nearer ones get theirs merged with it.
+    /// Return an entry that several cooks add to: the first, level by level, for which `serves` is true.
+    /// Nearer levels get their own fields merged with it.
     std::optional<Fields> entry(const std::string& key, const std::function<bool(const Fields&)>& serves,
                                 const Merge& merge);
-    /// Put fields merged with what the level has, level by level.
+    /// Store the fields, merged with the fields of each level.
     void putEntry(const std::string& key, const Fields& fields, const Merge& merge);
 
-    /// Ask the far levels at once for those entries that no nearer one has. Their answers hold until the key is put.
+    /// Request from the remote levels, all at once, the entries that no nearer level has. Their answers are
+    /// used until the key is written.
     void askAhead(std::span<const std::string> keys);
-    /// `ask` is called before a far level is asked for an entry, once: whoever knows what else will be asked for can ask
-    /// ahead. Where near levels have everything, nobody works out what that is.
+    /// Set a function that is called once, before the first entry is requested from a remote level. It can
+    /// prefetch the other entries that will be needed; where near levels have everything, that list is never
+    /// computed.
     void beforeFarIsAsked(std::function<void()> ask) { before_far_is_asked_ = std::move(ask); }
 
-    /// Make the contents appear at their paths, each different, where nothing is; `is_there` says which of them are.
+    /// Put the contents at their paths; the paths differ, and no file is there yet. `is_there` tells which
+    /// contents were found.
     void fetch(std::span<WantedContent> wanted);
     bool fetch(const std::string& hash, const std::string& path, Use use);
     void put(const std::string& hash, const std::string& path, Use use);
 
-    /// Whether the entry under the key was met damaged, in any level.
+    /// True if the entry under the key was found damaged in any level.
     bool wasDamaged(const std::string& key) const { return damaged_.contains(key); }
 
 private:
@@ -62,7 +67,8 @@ private:
         bool is_left_alone = false;
         bool is_read = true;
         size_t damage_count = 0;
-        std::map<std::string, std::optional<std::string>> told_ahead; ///< texts of entries, by key
+        /// texts of entries by key; nullopt: the level has none
+        std::map<std::string, std::optional<std::string>> told_ahead;
     };
     void leaveAlone(Slot& slot, const Error& error);
     void putFailed(Slot& slot, const Error& error);

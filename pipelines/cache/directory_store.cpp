@@ -19,7 +19,8 @@ namespace hearth::cache
 namespace
 {
 
-// A use is noted in the file's time, once a day: what is used daily is never the oldest, and a cook writes nothing.
+// The file's modification time records its last use, at most once a day: data used daily is never the oldest,
+// and most cooks write nothing.
 constexpr time_t kNoteUseEvery_s = 24 * 60 * 60;
 
 class File
@@ -59,7 +60,7 @@ bool writeAll(int file, const char* bytes, size_t size)
 
 bool copyBytes(int from, int to)
 {
-    // shares blocks, on btrfs and xfs; elsewhere it does nothing
+    // copy-on-write copy (reflink) on btrfs and xfs; has no effect elsewhere
     if (::ioctl(to, FICLONE, from) == 0)
         return true;
     std::string piece(size_t{1} << 20, '\0');
@@ -157,8 +158,8 @@ Status FolderLevel::entries(std::span<WantedEntry> wanted)
     return success();
 }
 
-/// A name that nobody else has. No file reserves it: ext4 passes over inodes that were freed in the last minutes, and the
-/// search among thousands of them was half the time of a cook of small sources.
+/// Return a file name that is unique on all machines. No file reserves it: ext4 skips inodes freed in the
+/// last minutes, and its search among thousands of them took half of the time of a cook of small sources.
 std::string FolderLevel::temporaryName()
 {
     if (own_name_.empty())
@@ -177,7 +178,7 @@ Status FolderLevel::appear(const std::string& path, const std::function<bool(con
         return failed(folder_, path, "cannot write");
     const bool appeared = fill(made) && ::rename(made.c_str(), path.c_str()) == 0;
     const int error = errno;
-    // also where it has appeared: a rename between two names of one file does nothing
+    // also after success: rename() between two hard links of one file does nothing
     ::unlink(made.c_str());
     errno = error;
     return appeared ? success() : failed(folder_, path, "cannot write");
@@ -199,7 +200,7 @@ Result<bool> FolderLevel::fetchOne(const WantedContent& wanted)
     const std::string content = contentPath(wanted.hash);
     if (wanted.use == Use::read_only && ::link(content.c_str(), wanted.path.c_str()) == 0)
         return true;
-    // another file system, or one without links, or a file with as many names as it may have
+    // fallback: another file system, no support for hard links, or too many links
     if (copyFile(content, wanted.path))
         return true;
     if (errno == ENOENT || errno == ENOTDIR)
@@ -224,7 +225,7 @@ Status FolderLevel::put(const std::string& hash, const std::string& path, Use us
     if (::stat(path.c_str(), &file) != 0)
         return failed(folder_, path, "cannot read");
     const std::string content = contentPath(hash);
-    // a file of another size was torn: it is replaced
+    // a file of another size is a torn write: replace it
     if (::stat(content.c_str(), &there) == 0 && there.st_size == file.st_size)
         return success();
     HEARTH_TRY(appear(content,

@@ -1,4 +1,5 @@
-// A cache in a folder: ac/xx/KEY and cas/xx/SHA256, safe for any number of processes and machines that share it.
+// Cache in a directory: ac/xx/KEY and cas/xx/SHA256, safe for any number of processes and machines that share
+// it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,8 +12,9 @@
 namespace hearth::cache
 {
 
-/// Every file is written under a name of its own in tmp/ and renamed: whoever reads sees all of it or nothing. Nothing is
-/// flushed to the disk: a machine that loses power may leave torn files, which their hashes give away.
+/// Cache in a directory. Every file is written under a unique name in tmp/ and renamed, so that readers see
+/// all of it or nothing. Nothing is flushed to the disk: a power failure may leave torn files, which their
+/// hashes reveal.
 class FolderLevel : public Level
 {
 public:
@@ -28,7 +30,7 @@ public:
     void removeEntry(const std::string& key) override;
     void removeContent(const std::string& hash) override;
 
-    /// Bytes that this process has added.
+    /// Number of bytes that this process has added.
     uint64_t bytesAdded() const { return bytes_added_; }
 
 private:
@@ -38,20 +40,21 @@ private:
     Result<std::optional<std::string>> entry(const std::string& key);
     Result<bool> fetchOne(const WantedContent& wanted);
     std::string temporaryName();
-    /// Make a file by `fill(temporary path)` and put it at `path`.
+    /// Create a file with `fill(temporary path)` and rename it to `path`.
     Status appear(const std::string& path, const std::function<bool(const std::string&)>& fill);
 
     std::string folder_;
     bool writable_;
     uint64_t bytes_added_ = 0;
-    std::string own_name_; ///< that no other process has, on any machine
+    std::string own_name_; ///< unique among the processes of all machines
     uint64_t temporary_count_ = 0;
 };
 
-/// A copy that shares blocks where the file system can (reflink). `to` does not exist. false: errno says why
+/// Copy a file, as a copy-on-write copy (reflink) where the file system allows it. `to` does not exist.
+/// returns  false on error, with errno set
 bool copyFile(const std::string& from, const std::string& to);
 
-/// Whole content of a small file; nullopt where it cannot be read, and errno says why.
+/// Read a small file. nullopt on error, with errno set.
 std::optional<std::string> readText(const std::string& path);
 
 } // namespace hearth::cache

@@ -1,4 +1,4 @@
-// An entry of the cache as a file: its fields under a line that vouches for them.
+// Text of a cache entry: its fields after a line with their checksum.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,10 +7,10 @@
 namespace hearth::cache
 {
 
-/// First line: "hearth.entry/1", a blank, SHA-256 of the rest.
+/// Serialize an entry. First line: "hearth.entry/1", a blank, SHA-256 of the rest.
 std::string entryText(const Fields& fields);
 
-/// nullopt where the text is torn or damaged
+/// Parse an entry; nullopt where the text is torn or damaged.
 std::optional<Fields> entryFields(std::string_view text);
 
 } // namespace hearth::cache

@@ -1,4 +1,4 @@
-// Text of named fields, in which the cache and the cook keep what they know: simple enough to be read in a microsecond.
+// Lists of named fields as text, the format of cache entries, records and journals: parses in a microsecond.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,20 +11,20 @@
 namespace hearth::cache
 {
 
-/// In an entry: SHA-256 of a content that belongs to it.
+/// Name of the fields of an entry that hold the SHA-256 of a content of the result.
 inline constexpr std::string_view kContentField = "content";
 
-/// Name and value, both any bytes; names may repeat, the order counts.
+/// List of names and values, both any bytes. Names may repeat, and the order counts.
 using Fields = std::vector<std::pair<std::string, std::string>>;
 
-/// A line a field: name, a tab, value; backslash, tab and line break are written as \\ \t \n.
+/// Serialize fields, one a line: name, a tab, value. Backslash, tab and line break are written as \\ \t \n.
 /// Different fields give different texts.
 std::string textOf(const Fields& fields);
 
-/// nullopt where the text is not one that textOf makes
+/// Parse a text that textOf wrote; nullopt where it is malformed.
 std::optional<Fields> fieldsOf(std::string_view text);
 
-/// The value of the first field of that name; empty where there is none.
+/// Return the value of the first field of that name; empty where there is none.
 std::string_view valueOf(const Fields& fields, std::string_view name);
 
 } // namespace hearth::cache

@@ -19,16 +19,19 @@ namespace hearth::cache
 namespace
 {
 
-// So many hide a millisecond of latency well enough (README, measured), and are no burden to a server.
+// 16 concurrent requests hide a millisecond of latency (measured, see pipelines/cache/README.md) without
+// burdening a server.
 constexpr size_t kConnections = 16;
-// The page that comes with an error is read, so that its connection can go on; a longer one costs the connection.
+// The body of an error response is read, so that its connection can be reused; a longer one closes the
+// connection.
 constexpr uint64_t kMaxErrorPage = 64 * 1024;
-// How often a wait looks whether it is still worth it.
+// Interval at which a wait checks for stalls and signals.
 constexpr int kLook_ms = 100;
 
 // ---- the library
 
-// Not linked: hearth starts in 2.9 ms of a processor's time; with libcurl and the 30 libraries that it needs, in 6.5.
+// Loaded with dlopen, not linked: hearth starts in 2.9 ms of CPU time, or in 6.5 ms with libcurl and the 30
+// libraries that it needs.
 constexpr const char* kLibrary = "libcurl.so.4";
 
 struct Curl
@@ -56,7 +59,7 @@ bool find(void* library, const char* name, Function& function)
     return function != nullptr;
 }
 
-/// nullptr where it cannot be used; dlerror() says why. It stays in memory.
+/// Load libcurl, which then stays in memory; nullptr on failure, with dlerror() set.
 const Curl* loadCurl()
 {
     static Curl curl;
@@ -80,16 +83,16 @@ const Curl* loadCurl()
     return &curl;
 }
 
-// ---- one request on its way
+// ---- one request
 
 struct Flight
 {
     CURL* easy = nullptr;
-    HttpRequest* request = nullptr; ///< nullptr: free
+    HttpRequest* request = nullptr; ///< nullptr: the slot is free
     int file = -1;
-    uint64_t bytes = 0;  ///< that came or went
-    bool is_cut = false; ///< more came than is wanted
-    int file_error = 0;  ///< errno of what went wrong with the file
+    uint64_t bytes = 0;  ///< received or sent
+    bool is_cut = false; ///< the response exceeds the limit
+    int file_error = 0;  ///< errno of a failed file operation
     size_t text_sent = 0;
     const Curl* curl = nullptr;
     std::array<char, CURL_ERROR_SIZE> error_text{};
@@ -133,7 +136,7 @@ bool writeAll(Flight& flight, const char* data, size_t size)
     return true;
 }
 
-/// libcurl's write function.
+/// Write function for libcurl.
 size_t receive(char* data, size_t one, size_t count, void* user)
 {
     auto& flight = *static_cast<Flight*>(user);
@@ -155,7 +158,7 @@ size_t receive(char* data, size_t one, size_t count, void* user)
     return size;
 }
 
-/// libcurl's read function.
+/// Read function for libcurl.
 size_t send(char* data, size_t one, size_t count, void* user)
 {
     auto& flight = *static_cast<Flight*>(user);
@@ -181,7 +184,7 @@ size_t send(char* data, size_t one, size_t count, void* user)
     return size;
 }
 
-/// libcurl's seek function: a request is sent again where the server has closed a connection that it kept open.
+/// Seek function for libcurl, which resends a request when the server has closed a kept-alive connection.
 int rewind(void* user, curl_off_t offset, int origin)
 {
     auto& flight = *static_cast<Flight*>(user);
@@ -192,7 +195,7 @@ int rewind(void* user, curl_off_t offset, int origin)
                                                                                : CURL_SEEKFUNC_FAIL;
 }
 
-/// While cookers run, signals that end the process are blocked until somebody looks.
+/// True if a termination signal is pending: while cookers run, signals that end the process are blocked.
 bool isEndAskedFor()
 {
     sigset_t pending;
@@ -203,7 +206,7 @@ bool isEndAskedFor()
 
 } // namespace
 
-// ---- all of them
+// ---- all requests
 
 struct HttpClient::Connections
 {
@@ -278,7 +281,7 @@ Status HttpClient::Connections::start(Flight& flight, HttpRequest& request)
     curl.set(flight.easy, CURLOPT_HTTP_VERSION, static_cast<long>(CURL_HTTP_VERSION_1_1));
     curl.set(flight.easy, CURLOPT_USERAGENT, "hearth");
     curl.set(flight.easy, CURLOPT_CONNECTTIMEOUT_MS, static_cast<long>(pace.connect_s * 1000));
-    // a name server that does not answer must not keep the process from its end
+    // a name server that does not answer must not delay the end of the process
     curl.set(flight.easy, CURLOPT_QUICK_EXIT, 1L);
     curl.set(flight.easy, CURLOPT_ERRORBUFFER, flight.error_text.data());
     curl.set(flight.easy, CURLOPT_PRIVATE, &flight);
@@ -297,7 +300,7 @@ Status HttpClient::Connections::start(Flight& flight, HttpRequest& request)
     return success();
 }
 
-/// The request has its answer, or never will.
+/// Finish a request that has been answered or has failed.
 Status HttpClient::Connections::land(Flight& flight, CURLcode end)
 {
     curl.remove(multi, flight.easy);

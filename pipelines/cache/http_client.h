@@ -1,4 +1,4 @@
-// Requests to a server of a cache, many at once: libcurl behind an interface, loaded when it is first needed.
+// HTTP client for cache servers: many concurrent requests by libcurl, which is loaded at first use.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -15,13 +15,13 @@ namespace hearth::cache
 
 inline constexpr long kHttpOk = 200;
 
-/// A GET or PUT of a text or of a file.
+/// HTTP GET or PUT of a text or of a file.
 struct HttpRequest
 {
     enum class Kind
     {
-        get_text, ///< `text` is what came; after a status other than 200 it means nothing
-        get_file, ///< a new file at `path`, which is there where the status is 200
+        get_text, ///< GET; `text` is the response body, undefined after a status other than 200
+        get_file, ///< GET; writes a new file at `path` if the status is 200
         put_text,
         put_file,
     };
@@ -29,11 +29,11 @@ struct HttpRequest
     std::string url;
     std::string text;
     std::string path;
-    uint64_t max_bytes = UINT64_MAX; ///< what a get may bring; the rest is cut off
-    long status = 0;                 ///< of the answer; 0: there is none
+    uint64_t max_bytes = UINT64_MAX; ///< limit for the response body; a larger one is cut off
+    long status = 0;                 ///< HTTP status of the response; 0: none
 };
 
-/// Connections to a server, which are kept open from request to request.
+/// HTTP client that keeps its connections open from request to request.
 class HttpClient
 {
 public:
@@ -45,11 +45,12 @@ public:
     HttpClient& operator=(const HttpClient&) = delete;
     ~HttpClient();
 
-    /// Send them all, at most kConnections at once, and wait for the answers, whatever status they have. Neither redirects
-    /// nor cookies are followed; proxies are those of the environment (http_proxy, no_proxy).
-    /// errors  cache_failed: the server cannot be reached, breaks off, or is too slow; a file cannot be written; a signal
-    ///         that is blocked asks this process to end. Requests that were answered before have their status, and no file
-    ///         is left of the others.
+    /// Send all requests, at most kConnections at once, and wait for the responses, whatever their status.
+    /// Redirects are not followed, and cookies are not kept; proxies are those of the environment
+    /// (http_proxy, no_proxy).
+    /// errors  cache_failed: the server cannot be reached, breaks off, or is too slow; a file cannot be
+    ///         written; a blocked signal that ends this process is pending. Requests that were answered
+    ///         before have their status, and no file of the others remains.
     Status run(std::span<HttpRequest> requests);
 
 private:

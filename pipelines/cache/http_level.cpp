@@ -7,7 +7,8 @@ namespace hearth::cache
 namespace
 {
 
-// The lists of what an import found are the longest entries: 16 times some hundred bytes for each of its files.
+// The longest entries are the lists of files that an import found: 16 times some hundred bytes for each of
+// its files.
 constexpr uint64_t kMaxEntry_bytes = 64 << 20;
 
 bool isThere(const HttpRequest& request)
@@ -15,7 +16,7 @@ bool isThere(const HttpRequest& request)
     return request.status == kHttpOk;
 }
 
-/// Not found, or gone.
+/// True if the server does not have the file (404 Not Found, 410 Gone).
 bool isNotThere(const HttpRequest& request)
 {
     return request.status == 404 || request.status == 410;

@@ -1,4 +1,5 @@
-// A cache on a server: ac/KEY and cas/SHA256 by GET and PUT, as bazel-remote has them, or nginx over a folder.
+// Cache on an HTTP server: ac/KEY and cas/SHA256 by GET and PUT, as bazel-remote has them, or nginx over a
+// directory.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,15 +12,17 @@
 namespace hearth::cache
 {
 
-/// A URL as messages may show it: without user and password.
+/// Return the URL without user and password, for messages.
 std::string withoutUser(const std::string& url);
 
-/// Nothing is loaded and nobody asked before the first question. A server that refuses a PUT (read only, full, too large) is
-/// asked to keep nothing more; one that cannot be reached, breaks off or is too slow is an error.
+/// Cache on an HTTP server. libcurl is loaded, and the server contacted, at the first request. After a
+/// refused PUT (read only, full, too large) nothing more is written to the server. A server that cannot be
+/// reached, breaks off or is too slow is an error.
 class HttpLevel : public Level
 {
 public:
-    /// url  http(s)://[user:password@]host[:port]/path, without a '/' at its end; messages do without user and password
+    /// url  http(s)://[user:password@]host[:port]/path, without a '/' at its end; messages omit user and
+    ///      password
     HttpLevel(std::string url, bool writable, const Pace& pace = {});
     ~HttpLevel() override;
 
@@ -30,7 +33,7 @@ public:
     Status putEntry(const std::string& key, const std::string& text) override;
     Status fetch(std::span<WantedContent> wanted) override;
     Status put(const std::string& hash, const std::string& path, Use use) override;
-    /// What is damaged is replaced when it has been made again: servers that allow to remove are few.
+    /// Do nothing: damaged data is overwritten by the next PUT. Few servers allow DELETE.
     void removeEntry(const std::string&) override {}
     void removeContent(const std::string&) override {}
 
@@ -43,7 +46,7 @@ private:
     std::string name_;
     bool writable_;
     Pace pace_;
-    std::unique_ptr<HttpClient> client_; ///< from the first question on
+    std::unique_ptr<HttpClient> client_; ///< null before the first request
 };
 
 } // namespace hearth::cache

@@ -12,53 +12,53 @@
 namespace hearth::cache
 {
 
-/// What becomes of a file that a level hands out.
+/// Access to a file that a level provides or takes.
 enum class Use
 {
-    read_only, ///< it is read and deleted: it may be the level's own file under another name
-    given_away ///< others may write into it: it shares nothing with the level but unchanged blocks
+    read_only, ///< read, then deleted: may be a hard link to the level's own file
+    given_away ///< may be written: shares only unchanged blocks with the level (copy or reflink)
 };
 
 struct WantedEntry
 {
     std::string key;
-    std::optional<std::string> text; ///< the answer; nullopt: not there
+    std::optional<std::string> text; ///< result; nullopt: not in the cache
 };
 
 struct WantedContent
 {
     std::string hash;
-    std::string path; ///< where it shall appear; nothing is there
+    std::string path; ///< destination, where no file is yet
     Use use = Use::read_only;
-    uint64_t bytes = UINT64_MAX; ///< that it has; at most, where that is not known
-    bool is_there = false;       ///< the answer: it lies at `path`
+    uint64_t bytes = UINT64_MAX; ///< size, or an upper bound where the size is not known
+    bool is_there = false;       ///< result: the content is at `path`
 };
 
-/// Keys and hashes are 64 lower-case hexadecimal digits. A level need not check what it hands out: Cache does.
-/// Whatever goes wrong is an Error (cache_failed), and nobody's loss but time.
+/// Interface of a cache level. Keys and hashes are 64 lower-case hexadecimal digits. A level need not verify
+/// its data: Cache does. Every problem is an Error (cache_failed) that costs time only.
 class Level
 {
 public:
     virtual ~Level() = default;
 
-    /// As messages name it.
+    /// Return the name for messages.
     virtual const std::string& name() const = 0;
-    /// A level that is not so any more after a failed put may still be read.
+    /// True if the level accepts writes. After a failed put it may be false while reads still work.
     virtual bool isWritable() const = 0;
-    /// Whether many questions at once cost little more than one.
+    /// True if the level is remote: many concurrent requests cost little more than one.
     virtual bool isFar() const = 0;
 
-    /// Answer the questions that have no answer yet; after an error, some of them may have one.
+    /// Look up the entries that have no text yet; after an error, some of them may have one.
     virtual Status entries(std::span<WantedEntry> wanted) = 0;
     virtual Status putEntry(const std::string& key, const std::string& text) = 0;
 
     /// Put contents at their paths; after an error, some of them may be there.
     virtual Status fetch(std::span<WantedContent> wanted) = 0;
-    /// Keep the content of the file at `path`, which nobody writes to any more.
-    /// use   what becomes of that file after
+    /// Store the content of the file at `path`, which is no longer written to.
+    /// use   access to that file afterwards
     virtual Status put(const std::string& hash, const std::string& path, Use use) = 0;
 
-    /// What was handed out was damaged: better gone.
+    /// Remove an entry or a content that was found damaged.
     virtual void removeEntry(const std::string& key) = 0;
     virtual void removeContent(const std::string& hash) = 0;
 };

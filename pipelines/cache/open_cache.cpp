@@ -14,7 +14,7 @@ namespace
 
 constexpr std::string_view kFolderScheme = "dir:";
 
-/// Of a URL that starts with http:// or https://.
+/// True if a URL that starts with http:// or https:// names a host.
 bool namesHost(const std::string& url)
 {
     const size_t start = url.find("//") + 2;
@@ -65,7 +65,7 @@ std::string variable(const char* name)
     return value == nullptr ? "" : value;
 }
 
-/// Empty where the user has no home.
+/// Return the user's cache directory; empty where the user has no home.
 std::string usersFolder()
 {
     if (const std::string caches = variable("XDG_CACHE_HOME"); !caches.empty())
@@ -74,7 +74,7 @@ std::string usersFolder()
     return home.empty() ? "" : home + "/.cache/hearth";
 }
 
-/// As HEARTH_CACHE_MODE says: machines of one team differ in what they may do, not in where the caches are.
+/// Apply HEARTH_CACHE_MODE: machines of a team share cache locations but differ in their permissions.
 Status obeyMode(std::vector<LevelSpec>& specs)
 {
     const std::string mode = variable("HEARTH_CACHE_MODE");

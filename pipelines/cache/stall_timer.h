@@ -1,4 +1,4 @@
-// When a server has kept a cook waiting for so long that the cook is better off without it.
+// Stall detection for cache servers: tells when a server has become slower than cooking without it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -8,25 +8,25 @@
 namespace hearth::cache
 {
 
-/// What a server has to do to be worth its waiting. An action that is found need not run, which would take a tenth of a
-/// second at least, and minutes for a large mesh.
+/// Minimum speed of a server that is worth waiting for. A cache hit saves running an action, which takes a
+/// tenth of a second at least, and minutes for a large mesh.
 struct Pace
 {
-    double behind_s = 5;     ///< that a server may lie behind: a hiccup, or a disk that has to spin up
-    double request_s = 0.25; ///< a request
-    double bytes_per_s = 256 * 1024; ///< of contents: what a poor line to an office carries
-    double connect_s = 3;            ///< until a connection stands
+    double behind_s = 5;             ///< maximum lag: covers a hiccup, or a disk that has to spin up
+    double request_s = 0.25;         ///< allowance for each request
+    double bytes_per_s = 256 * 1024; ///< of contents: throughput of a poor line to an office
+    double connect_s = 3;            ///< connection timeout
 };
 
-/// Counts how far a server lies behind its pace. To have been fast buys nothing: a server that stops is given up after
-/// `behind_s`, whatever it did before.
+/// Measures how far a server lags behind its minimum speed. Earlier speed earns no credit: a server that
+/// stops responding is given up after `behind_s`.
 class Patience
 {
 public:
     explicit Patience(const Pace& pace) : pace_(pace) {}
 
-    /// Seconds were waited, in which so many requests were answered and bytes came or went.
-    /// returns  false where it is at an end
+    /// Account for a wait of `seconds`, in which `requests` were answered and `bytes` received or sent.
+    /// returns  false if the server has stalled
     bool spend(double seconds, uint64_t requests, uint64_t bytes)
     {
         const double earned =

@@ -30,7 +30,7 @@ struct Stored
     fs::file_time_type used;
 };
 
-/// The files of ac/ or cas/, by name.
+/// List the files of ac/ or cas/, sorted by name.
 std::vector<Stored> storedIn(const std::string& folder)
 {
     std::vector<Stored> files;
@@ -56,7 +56,7 @@ void remove(const std::string& path)
     fs::remove(path, ignored);
 }
 
-/// The contents that an entry's result lies in.
+/// Return the hashes of the contents that an entry refers to.
 std::vector<std::string> contentsOf(const Fields& fields)
 {
     std::vector<std::string> hashes;
@@ -104,7 +104,8 @@ Occupancy collectGarbage(const std::string& folder, uint64_t limit_bytes)
     for (const Stored& content : contents)
         unnamed.emplace(content.name, &content);
 
-    // an entry holds its contents: from the last used on, entries stay while there is room for what they hold
+    // an entry keeps its contents alive: from the most recently used on, entries stay while there is room for
+    // their contents
     std::stable_sort(entries.begin(), entries.end(),
                      [](const Stored& a, const Stored& b) { return a.used > b.used; });
     Occupancy left;
@@ -172,7 +173,7 @@ void noteAdded(const std::string& folder, uint64_t bytes, uint64_t limit_bytes)
 {
     if (bytes == 0)
         return;
-    // a hint, no truth: two cooks that write it at once lose some bytes until garbage is collected
+    // only a hint: two cooks that write it at once lose some bytes until garbage is collected
     const std::string path = folder + "/size";
     const std::string text = readText(path).value_or("");
     uint64_t size = 0;
@@ -182,7 +183,7 @@ void noteAdded(const std::string& folder, uint64_t bytes, uint64_t limit_bytes)
         size += bytes;
     if (size > limit_bytes)
         size = collectGarbage(folder, limit_bytes / 10 * 9).bytes;
-    // without it the next cook counts
+    // if this fails, the next cook counts all files
     static_cast<void>(writeText(path, std::to_string(size) + "\n").ok());
 }
 

@@ -1,4 +1,4 @@
-// Looking after a cache in a folder: how full it is, what may go, what is damaged.
+// Maintenance of a cache directory: size, garbage collection, verification.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,23 +13,24 @@ struct Occupancy
 {
     uint64_t entries = 0;
     uint64_t contents = 0;
-    uint64_t bytes = 0; ///< of both
+    uint64_t bytes = 0; ///< of entries and contents
 };
 
-/// An empty cache where there is no folder.
+/// Measure a cache directory; all zero where there is none.
 Occupancy occupancyOf(const std::string& folder);
 
-/// Remove what was used least recently until at most `limit_bytes` are left, contents that no entry names, and what
-/// interrupted writers left. What is younger than an hour stays where no entry names it: its writer may still be at work.
-/// returns  what is left
+/// Collect garbage: remove the least recently used entries until at most `limit_bytes` are left, contents
+/// that no entry refers to, and temporary files of interrupted writers. Contents and temporary files younger
+/// than an hour stay even if no entry refers to them: their writer may still be at work.
+/// returns  size of the remaining cache
 Occupancy collectGarbage(const std::string& folder, uint64_t limit_bytes);
 
-/// Read every byte; what is damaged, or names what is not there, is removed.
-/// returns  the damaged, as "entry KEY" and "content HASH"
+/// Verify every byte. Damaged files, and entries whose contents are missing, are removed.
+/// returns  the damaged files, as "entry KEY" and "content HASH"
 std::vector<std::string> verifyFolder(const std::string& folder);
 
-/// Tell that a cook has added so much, and collect garbage where the folder has got too full by that: to nine tenths of the
-/// limit, so that not every cook has to.
+/// Record that a cook has added `bytes`. If the directory exceeds its limit then, collect garbage down to
+/// nine tenths of the limit, so that not every cook has to.
 void noteAdded(const std::string& folder, uint64_t bytes, uint64_t limit_bytes);
 
 } // namespace hearth::cache

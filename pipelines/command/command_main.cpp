@@ -1,4 +1,5 @@
-// hearth: the command that users type. Reads the command line; each verb is a file of its own.
+// hearth, the command-line tool: parses the command line and runs the chosen verb. Each verb has a file of
+// its own.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/base/program.h"
 #include "pipelines/command/cook/common_options.h"
@@ -13,7 +14,7 @@ namespace
 using namespace hearth;
 using namespace hearth::command;
 
-/// Help of the command, whose footer has the exit codes, or of the verb that was named.
+/// Return the help of the command, followed by the exit codes if a verb was named (else its footer has them).
 std::string helpOf(const cli::CommandLine& app)
 {
     return app.hasSubcommand() ? app.help() + "\n" + exitCodeTable() : app.help();

@@ -27,18 +27,18 @@ namespace
 namespace fs = std::filesystem;
 using State = Check::State;
 
-// A cook of the demo scene writes a tenth of it; less than this is gone soon.
+// Least free disk space: ten times what a cook of the demo scene writes.
 constexpr uint64_t kLittleSpace = uint64_t{1} << 30;
-// What one large mesh takes to cook.
+// Memory that cooking one large mesh takes.
 constexpr uint64_t kLittleMemory = uint64_t{2} << 30;
-// Before the version, in every program of Hearth (cmake/program_version.cpp.in).
+// Text before the version in the binary of every program of Hearth (cmake/program_version.cpp.in).
 constexpr std::string_view kVersionMark = "hearth program version ";
 
-/// The version that a program was built as; empty: it is none of Hearth's.
+/// Read the version from a program's binary; empty: it is no program of Hearth.
 std::string versionOf(const std::string& program)
 {
     const std::string bytes = cache::readText(program).value_or("");
-    // this program has the mark itself, as the text of this search
+    // this program contains the mark too, as the constant of this search
     for (size_t at = bytes.find(kVersionMark); at != std::string::npos; at = bytes.find(kVersionMark, at + 1))
     {
         const size_t start = at + kVersionMark.size();
@@ -72,7 +72,7 @@ Check checkPrograms(const std::string& folder)
     return {"programs", State::ok, fmt::format("all of " HEARTH_VERSION ", in {}", folder), ""};
 }
 
-/// The nearest folder that is there.
+/// Return the nearest existing folder, at or above `folder`.
 std::string existingFolder(std::string folder)
 {
     std::error_code error;
@@ -95,7 +95,7 @@ Check checkSpace(const std::string& what, const std::string& folder)
     return {"space", State::ok, text, ""};
 }
 
-/// By trying: rights alone do not say it.
+/// True if a file can be created in the folder. Tries it, because permissions alone do not tell.
 bool canWriteInto(const std::string& folder)
 {
     std::string path = existingFolder(folder) + "/.hearth-doctor-XXXXXX";
@@ -124,7 +124,7 @@ Check checkCache(const cache::LevelSpec& spec)
     return {"cache", State::ok, text, ""};
 }
 
-/// By asking it for what no cook has made.
+/// Test a cache server by asking it for a key that no cook has.
 Check checkServer(const cache::LevelSpec& spec)
 {
     cache::HttpLevel server(spec.place, false);
@@ -161,7 +161,7 @@ std::string shellQuoted(std::string text)
     return "'" + text + "'";
 }
 
-/// Whether a command ends well; `line` becomes the last one that it prints.
+/// True if a command exits with 0; `line` becomes the last line that it prints.
 bool runs(const std::string& command, std::string& line)
 {
     std::FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");

@@ -1,4 +1,4 @@
-// hearth doctor: whether this machine has what Hearth needs.
+// hearth doctor: checks that this machine has what Hearth needs.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -22,15 +22,16 @@ struct Check
     std::string name; ///< "programs", "cache", "device", ...
     State state = State::ok;
     std::string text;
-    std::string remedy; ///< what to do; empty where all is well
+    std::string remedy; ///< what to do; empty if the state is ok
 };
 
-/// caches  or what is wrong with how they were named
+/// Run all checks.
+/// caches  caches of the configuration, or the error in how they were named
 std::vector<Check> examine(const Result<std::vector<cache::LevelSpec>>& caches);
 
 bool isWell(const std::vector<Check>& checks);
 std::string checksText(const std::vector<Check>& checks);
-/// Schema hearth.doctor/1.
+/// Return the checks as JSON, schema hearth.doctor/1.
 std::string checksJson(const std::vector<Check>& checks);
 
 } // namespace hearth::command

@@ -12,7 +12,7 @@ namespace
 {
 
 constexpr uint64_t kMiB = uint64_t{1} << 20;
-// hearth beside its cookers: programs and libraries that it hashes are read in pieces
+// memory of hearth itself beside its cookers: programs and libraries to be hashed are read in pieces
 constexpr uint64_t kOwnMemory = 64 * kMiB;
 
 std::string joined(const std::vector<std::string>& words)
@@ -23,7 +23,7 @@ std::string joined(const std::vector<std::string>& words)
     return text;
 }
 
-/// What every command of the job is told beside its own.
+/// Return the arguments that all commands of the job share.
 std::string commonWords(const FarmJob& job)
 {
     std::string text;
@@ -34,13 +34,13 @@ std::string commonWords(const FarmJob& job)
     return text;
 }
 
-/// The start of the command line of a shard, up to "--shard ".
+/// Return the start of the command line of a shard, up to "--shard ".
 std::string shardCommandStart(const FarmJob& job)
 {
     return joined({job.hearth, "run", job.plan_file}) + commonWords(job) + " --shard ";
 }
 
-/// Text in the value of a variable of Ninja.
+/// Escape text for the value of a Ninja variable.
 std::string inNinja(const std::string& text)
 {
     std::string escaped;
@@ -49,7 +49,7 @@ std::string inNinja(const std::string& text)
     return escaped;
 }
 
-/// A path in a build line of Ninja.
+/// Escape a path for a build line of Ninja.
 std::string ninjaPath(const std::string& path)
 {
     std::string escaped;
@@ -63,7 +63,7 @@ std::string megabytes(uint64_t bytes)
     return fmt::format("{}M", (bytes + kMiB - 1) / kMiB);
 }
 
-/// The lines that a Slurm job begins with.
+/// Return the first lines of a Slurm job.
 std::string slurmHead(const char* name, uint64_t memory_bytes, const SlurmOptions& options)
 {
     std::string text =
@@ -170,7 +170,7 @@ uint64_t shardMemory(const graph::Graph& graph)
 
 uint64_t mergeMemory(const graph::Graph& graph)
 {
-    // what a shard has not left is cooked by the merge
+    // the merge cooks the results that shards have not delivered
     return std::max(mostMemory(graph, true), mostMemory(graph, false));
 }
 

@@ -1,4 +1,4 @@
-// A plan as work for batch systems: command lines, a build file for Ninja, a script for Slurm.
+// Converts a plan into jobs for batch systems: command lines, a build file for Ninja, a script for Slurm.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,41 +11,44 @@
 namespace hearth::farm
 {
 
-/// What every machine is told. Paths are absolute, so that it is no matter where a command is started.
+/// Arguments that all commands of a farm job share. Paths are absolute, so that commands can be started from
+/// any folder.
 struct FarmJob
 {
-    std::string hearth; ///< the program
+    std::string hearth; ///< path of the hearth executable
     std::string plan_file;
-    std::string pack;                ///< that the merge writes
-    std::string directory;           ///< of the sources; empty: as the plan says
-    std::vector<std::string> caches; ///< of --cache
+    std::string pack;                ///< output of the merge
+    std::string directory;           ///< folder of the sources; empty: as the plan says
+    std::vector<std::string> caches; ///< values of --cache
     size_t shard_count = 1;
 };
 
-/// A word of a command line as a POSIX shell reads it.
+/// Quote a word of a command line for a POSIX shell.
 std::string shellQuoted(const std::string& word);
 
-/// A command line for each shard, for GNU parallel, xargs, OpenCue's cuecmd and others that take lists of them.
+/// Return a command line for each shard, for GNU parallel, xargs, OpenCue's cuecmd and other programs that
+/// take lists of them.
 std::string shardCommands(const FarmJob& job);
-/// What is to be done after all of them, in a line without a break.
+/// Return the command line to run after all shards, without a line break.
 std::string mergeCommand(const FarmJob& job);
 
-/// A file for Ninja that runs each shard through `launcher` ("srun -Q -n1"; empty: none), checks what it has left, and merges.
-/// Records of shards are written to the folder PLAN.shards.
+/// Return a build file for Ninja that runs each shard through `launcher` ("srun -Q -n1"; empty: none), checks
+/// its results, and merges. Records of shards are written to the folder PLAN.shards.
 std::string ninjaFile(const FarmJob& job, const std::string& launcher);
 
 struct SlurmOptions
 {
-    std::string partition;     ///< empty: the cluster's own
-    uint64_t memory_bytes = 0; ///< of a shard
+    std::string partition;     ///< empty: the cluster's default
+    uint64_t memory_bytes = 0; ///< for each shard
     uint64_t merge_memory_bytes = 0;
-    unsigned retries = 2; ///< of a shard that asks for another try
+    unsigned retries = 2; ///< retries of a shard that ends with code 75
 };
 
-/// A shell script that submits the shards as an array, and the merge after them, however they end.
+/// Return a shell script that submits the shards as a job array, and after them the merge, however they end.
 std::string slurmScript(const FarmJob& job, const SlurmOptions& options);
 
-/// The most that one cooker is thought to take, of actions of sources or of those of the pack; and what hearth takes.
+/// Return the estimated peak memory of hearth and of one cooker, over the actions of sources (shardMemory) or
+/// of all actions (mergeMemory).
 uint64_t shardMemory(const graph::Graph& graph);
 uint64_t mergeMemory(const graph::Graph& graph);
 

@@ -12,11 +12,12 @@ namespace hearth::farm
 namespace
 {
 
-// What a cooker takes changes with its release and with the content of its source: as much as the estimates of sizes allow for.
+// Memory needs change with the cooker's release and with the content of the source; the margin equals that of
+// the estimates by file size.
 constexpr double kMemoryMargin = 4.0 / 3;
 
-/// May throw: what is not there, or of another type.
-/// returns  false where no machine has so much time or memory
+/// Add the measurement of one stage. Throws where a member is missing or of another type.
+/// returns  false where the time or memory is beyond any machine
 bool addStage(const Json& stage, const std::string& source, Measured& measured)
 {
     const auto state = stage.at("state").get<std::string>();
@@ -30,7 +31,7 @@ bool addStage(const Json& stage, const std::string& source, Measured& measured)
     return true;
 }
 
-/// May throw, and returns as addStage.
+/// Add all stages of a report. Throws and returns as addStage does.
 bool addStages(const Json& report, Measured& measured)
 {
     for (const Json& asset : report.at("assets"))

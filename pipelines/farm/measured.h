@@ -1,4 +1,4 @@
-// What cookers took in an earlier cook: a better guess of what they will take than the sizes of files.
+// Measured time and memory of cookers in an earlier cook: better estimates than file sizes give.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -14,20 +14,21 @@
 namespace hearth::farm
 {
 
-/// By the name of the source (empty: what is of all sources) and by the cooker.
+/// Measurements by the name of the source (empty: actions of all sources together) and by cooker.
 using Measured = std::map<std::pair<std::string, std::string>, graph::Estimate>;
 
-/// Of cookers that made something, in the cook of the report or in the one that the cache has their result of.
+/// Read the measurements of a report: of cookers that made something, in that cook or in the one from which
+/// the cache has their result.
 ///
-/// report  as `hearth cook --report` or `hearth merge --report` writes JSON
+/// report  JSON of `hearth cook --report` or `hearth merge --report`
 /// errors  json_syntax, which names `file`
 Result<Measured> measuredOf(std::string_view report, const std::string& file);
 
-/// Let it stand for the estimates of the same cookers and sources; others stay as they are.
+/// Replace the estimates of measured cookers and sources; others stay as they are.
 /// sources  of the graph, as the user typed them
 void estimateBy(const Measured& measured, const std::vector<std::string>& sources, graph::Graph& graph);
 
-/// How many of the sources were measured.
+/// Return the number of sources that were measured.
 size_t countMeasured(const Measured& measured, const std::vector<std::string>& sources);
 
 } // namespace hearth::farm

@@ -18,7 +18,7 @@ std::string programOf(const std::string& programs, const std::string& cooker)
     return programs + "/hearth-" + cooker;
 }
 
-/// Sources whose actions are cooked, and what is made of all of them where all are.
+/// True if the action belongs to one of the sources, or to all sources together where all are listed.
 bool isMeant(const graph::Graph& graph, const graph::Action& action, const std::vector<size_t>& sources)
 {
     return std::binary_search(sources.begin(), sources.end(), action.source) ||
@@ -40,7 +40,7 @@ Status checkCooker(const Plan& plan, const graph::Action& action, const std::str
     return success();
 }
 
-/// What a cooker was known to find beside its inputs.
+/// Check that the files which a cooker was known to find are unchanged.
 Status checkFound(const graph::Action& action, const graph::Record& found, graph::ActionCache& actions)
 {
     const graph::Record now = actions.refreshed(action, found);
@@ -85,7 +85,7 @@ Result<Plan> makePlan(const Request& request, const std::string& folder, const S
         }
         if (!action.finds_files)
             continue;
-        // what it will find is known where this state of it has been cooked before
+        // the found files are known where this state of the source has been cooked before
         const auto record = actions.recordOf(action, std::vector<std::string>(action.inputs.size()));
         if (!record)
             continue;

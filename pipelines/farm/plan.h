@@ -1,4 +1,5 @@
-// A cook as a file that machines can be given: what is cooked, from which contents, by which cookers, and where.
+// Plan of a distributed cook, as a file for machines: sources with their hashes, cookers with their versions,
+// and shards.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -19,50 +20,53 @@
 namespace hearth::farm
 {
 
-// Of an estimate: more memory or time than any machine has. The executor adds estimates up.
+// Upper limits of an estimate, beyond any machine. The executor adds estimates up.
 inline constexpr uint64_t kMostBytes = uint64_t{1} << 50;
 inline constexpr double kMostSeconds = 1e9;
 
 struct Plan
 {
     Request request;
-    graph::CookSettings settings; ///< of the request
-    std::string folder;           ///< absolute; relative paths start there
-    graph::Graph graph;           ///< of the settings, estimates as they were planned
-    std::string
-        processor; ///< graph::processorClass() of who planned, where an action depends on it; else empty
+    graph::CookSettings settings; ///< made from `request`
+    std::string folder;           ///< absolute; base of relative paths
+    graph::Graph graph;           ///< graph of the settings, with the estimates of planning time
+    /// graph::processorClass() of the planning machine, where an action depends on it; else empty
+    std::string processor;
     std::map<std::string, std::string> version_of_cooker; ///< graph::cookerVersion
-    std::map<std::string, std::string> hash_of_file;      ///< SHA-256 of every declared input, by its path
-    std::map<size_t, graph::Record>
-        found_of_action; ///< what was known to be found by cookers: "found ROLE/NAME"
-    Shards shards;       ///< each source is in one
+    std::map<std::string, std::string> hash_of_file;      ///< SHA-256 of each declared input, by path
+    /// files known to be found by cookers, by action: "found ROLE/NAME"
+    std::map<size_t, graph::Record> found_of_action;
+    Shards shards; ///< each source is in exactly one shard
 };
 
-/// How sources shall be shared out.
+/// Options for the distribution of sources to shards.
 struct Sharing
 {
-    std::optional<size_t> shard_count; ///< nothing: as shardCountFor says
-    Measured measured;                 ///< goes over estimates
+    std::optional<size_t> shard_count; ///< nullopt: shardCountFor()
+    Measured measured;                 ///< overrides estimates
 };
 
+/// Make a plan.
 /// programs  folder of the cookers
-/// errors    what the request asks for is wrong; input_missing, for the first input that cannot be read; plan_build, where
-///           a cooker is missing
+/// errors    those of the request's settings; input_missing, for the first input that cannot be read;
+///           plan_build, where a cooker is missing
 Result<Plan> makePlan(const Request& request, const std::string& folder, const Sharing& sharing,
                       const std::string& programs, graph::ActionCache& actions, graph::FileHashes& hashes);
 
-/// Whether what is here is what was planned, as far as these sources need it: cookers, processor, contents of files.
+/// Check that this machine matches the plan, as far as these sources need it: cookers, processor, contents of
+/// files.
 /// errors  plan_build, plan_processor, plan_stale, input_missing
 Status checkPlan(const Plan& plan, const std::vector<size_t>& sources, const std::string& programs,
                  graph::ActionCache& actions, graph::FileHashes& hashes);
 
-/// Schema "hearth.plan/1": the graph as graph::planJson writes it, and what a farm needs beside it. The same plan gives the
-/// same bytes.
+/// Serialize a plan, schema "hearth.plan/1": the graph as graph::planJson writes it, and the members for
+/// farms. Equal plans give equal bytes.
 std::string planText(const Plan& plan);
 
-/// Take nothing on trust: every member is known, of its type and in range, and the graph is the one that `hearth cook` would
-/// make of the request, word by word. So whoever wrote the plan, no program runs but Hearth's cookers, with such command
-/// lines as `hearth cook` gives them; they write where their executor says.
+/// Parse a plan from an untrusted source. Every member must be known, of its type and in range, and the graph
+/// must be the one that `hearth cook` would make of the request, word by word. So even a forged plan can run
+/// no program but Hearth's cookers, with command lines that `hearth cook` could give them; the executor
+/// chooses where they write.
 /// errors  json_syntax, plan_syntax; they name `file`
 Result<Plan> parsePlan(std::string_view text, const std::string& file);
 

@@ -26,7 +26,7 @@ Json foundJson(const Plan& plan)
     return list;
 }
 
-/// The members of a plan that are more than its graph.
+/// Read the members of a plan beside its graph.
 void readMembers(const Json& json, Plan& plan)
 {
     const Json& cook = json.at("cook");
@@ -45,7 +45,7 @@ void readMembers(const Json& json, Plan& plan)
                 std::string(graph::kFound) + name, hash.get<std::string>());
 }
 
-/// May throw, as readMembers: what is not there, or of another type.
+/// Read the estimates. Throws, as readMembers does, where a member is missing or of another type.
 void readEstimates(const Json& actions, graph::Graph& graph)
 {
     for (size_t i = 0; i < graph.actions.size(); ++i)
@@ -56,7 +56,7 @@ void readEstimates(const Json& actions, graph::Graph& graph)
     }
 }
 
-/// Where a value is not allowed, as a JSON pointer; empty where all are.
+/// Return the JSON pointer of a value that is not allowed; empty where all are allowed.
 std::string wrongPlace(const Plan& plan)
 {
     const auto isPath = [](const std::string& path)
@@ -104,7 +104,7 @@ std::string wrongPlace(const Plan& plan)
     return "";
 }
 
-/// Each source is in one shard, in order.
+/// True if each source is in exactly one shard, in ascending order.
 bool areShards(const Shards& shards, size_t source_count)
 {
     std::vector<size_t> sources;
@@ -138,7 +138,7 @@ std::optional<std::string> firstDifferenceOfArrays(const Json& a, const Json& b,
             return difference;
     if (a.size() == b.size())
         return std::nullopt;
-    // "-" is the element behind the last one
+    // "-" is the JSON pointer of the element after the last one
     return place + "/" + (a.size() < b.size() ? "-" : std::to_string(a.size() - 1));
 }
 
@@ -159,8 +159,8 @@ std::optional<std::string> firstDifferenceOfObjects(const Json& a, const Json& b
     return std::nullopt;
 }
 
-/// The first place where two documents differ, as a JSON pointer, whatever the order of members; nullopt where they are
-/// the same.
+/// Return the JSON pointer of the first difference between two documents, ignoring the order of members;
+/// nullopt where they are equal.
 std::optional<std::string> firstDifference(const Json& a, const Json& b, const std::string& place)
 {
     if (a.is_array() && b.is_array())
@@ -194,7 +194,7 @@ Result<Plan> parsePlan(std::string_view text, const std::string& file)
     const auto wrong = [&](const std::string& where, const std::string& what) {
         return Error{Issue::plan_syntax, file, where, what};
     };
-    // text would end there for whoever is handed it
+    // C strings would end there
     if (text.find("\\u0000") != std::string_view::npos)
         return wrong("", "has a text with a zero in it");
     const std::optional<Json> parsed = Json::parse(text);
@@ -204,7 +204,7 @@ Result<Plan> parsePlan(std::string_view text, const std::string& file)
     if (json.is_object() && json.contains("actions") && !json.contains("shards"))
         return wrong("", "has no shards: it shows a cook, and is none to be run");
     Plan plan;
-    // the reader throws where a member is missing or of another type; what it says is of no help to users
+    // the JSON reader throws where a member is missing or of another type; its message does not help users
     try
     {
         readMembers(json, plan);
@@ -233,7 +233,7 @@ Result<Plan> parsePlan(std::string_view text, const std::string& file)
         return wrong(place, "has a value that is not allowed");
     if (!areShards(plan.shards, plan.graph.source_count))
         return wrong("/shards", "do not have each source once");
-    // what has been understood is all that it says
+    // serializing the parsed plan must give the same document: nothing was ignored
     if (const auto place = firstDifference(Json::parse(planText(plan)).value(), json, ""))
         return wrong(*place,
                      "is not what the cook would have there: it was edited, or made by another version");

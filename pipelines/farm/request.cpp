@@ -11,7 +11,7 @@ namespace hearth::farm
 namespace
 {
 
-/// Texts that a cooker is told as words of their own.
+/// Return the texts of a setting that a cooker gets as separate words.
 std::vector<std::string> wordsOf(const std::pair<std::string, profiles::Value>& setting)
 {
     const profiles::Kind kind = profiles::findSetting(profiles::profileSettings(), setting.first)->kind;

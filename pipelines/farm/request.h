@@ -1,4 +1,4 @@
-// What a plan is asked for: sources, and the settings of each by value, wherever they were written.
+// Request for a distributed cook: sources, and the settings of each by value, wherever they were set.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,7 +11,7 @@
 namespace hearth::farm
 {
 
-/// What a plan calls the pack, whose name only the merge is told.
+/// Name of the pack in a plan; only the merge gets the real name.
 inline constexpr const char* kPackName = "pack.hearth";
 
 /// Settings as "clusters.influences=4", each at most once; see profiles::parseAssignment.
@@ -20,12 +20,13 @@ using Assignments = std::vector<std::string>;
 struct Request
 {
     std::vector<std::string> sources;
-    std::vector<std::vector<std::string>> lods_of_source; ///< [sources.size()]: levels of detail, as "N=FILE"
+    std::vector<std::vector<std::string>> lods_of_source; ///< [sources.size()]: authored LODs, as "N=FILE"
     std::vector<Assignments> settings_of_source;          ///< [sources.size()]
     Assignments settings_of_pack;
 };
 
-/// What the cookers are told: as `hearth cook` tells them, so that whoever wrote a request, no cooker is told anything else.
+/// Return the settings of the cook with its cooker arguments, exactly as `hearth cook` makes them: a forged
+/// request cannot pass other arguments.
 /// errors  usage, profile_key, profile_value
 Result<graph::CookSettings> settingsOf(const Request& request);
 

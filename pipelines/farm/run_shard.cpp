@@ -22,7 +22,8 @@ std::string machineName()
     return ::gethostname(name, sizeof(name) - 1) == 0 ? name : "";
 }
 
-/// One exit code where all failures have the same; one that a retry may mend asks for that.
+/// Return the common exit code of all failures, kSomeFailed where they differ, and kTryAgain where a retry
+/// may help.
 int exitCodeOf(const std::vector<graph::Failure>& failures)
 {
     if (failures.empty())
@@ -36,8 +37,8 @@ int exitCodeOf(const std::vector<graph::Failure>& failures)
                                                                         : kSomeFailed;
 }
 
-/// Run what the cache does not have; false where a signal ended that.
-/// all_is_kept  whether every result is in the cache now
+/// Run the shard's actions that the cache does not have; false where a signal ended that.
+/// all_is_kept  true if the cache has every result now
 bool cookActions(const Plan& plan, size_t shard, const Kitchen& kitchen, const ShardOptions& options,
                  const graph::ExecutorEvents& events, ShardRecord& record,
                  std::vector<graph::Failure>& failures, bool& all_is_kept)
@@ -106,7 +107,7 @@ std::optional<ShardRecord> runShard(const Plan& plan, const std::string& plan_ha
         kitchen.cache.putEntry(recordKey(plan_hash, shard), recordFields(record));
     };
     putRecord();
-    // also where it was the record that could not be kept
+    // also if the record itself could not be stored
     if (failures.empty() && (!all_is_kept || !kitchen.cache.isWritable()))
     {
         fail({Issue::results_lost, options.plan_file, place, ""});

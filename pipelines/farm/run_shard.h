@@ -1,4 +1,4 @@
-// Cooks one shard of a plan, into the cache.
+// Cooks one shard of a plan and stores its results in the cache.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,17 +11,17 @@
 namespace hearth::farm
 {
 
-/// "another try may go better": batch systems put a job that ends with it back into the queue.
+/// Exit code for "a retry may succeed" (EX_TEMPFAIL): batch systems requeue a job that ends with it.
 inline constexpr int kTryAgain = 75;
 
 struct ShardOptions
 {
     graph::CrewLimits limits;
     std::string programs;  ///< folder of the cookers
-    std::string plan_file; ///< as messages name it
+    std::string plan_file; ///< name for messages
 };
 
-/// What a process knows of the results and files that are there.
+/// Handles of the caches of a process: contents, results of actions, hashes of files.
 struct Kitchen
 {
     cache::Cache& cache;
@@ -29,12 +29,13 @@ struct Kitchen
     graph::FileHashes& hashes;
 };
 
-/// Cook what the cache does not have of the shard, from what was planned and nothing else, and leave a record in the cache. It
-/// may be run any number of times, on several machines at once.
+/// Cook the actions of a shard that the cache does not have, exactly as planned, and put a record into the
+/// cache. Safe to run any number of times, on several machines at once.
 ///
-/// events    what fails is told by events.failed, too; failures that are no action's are of source `source_count`
-/// returns   the record, whose exit code is 0 where every result is in the cache, whole; nullopt where a signal ended it: then
-///           there is no record of this run
+/// events    events.failed also reports failures of the shard; a failure that belongs to no action has source
+///           `source_count`
+/// returns   the record; its exit code is 0 if every result is in the cache, intact; nullopt where a signal
+///           ended it: then there is no record of this run
 std::optional<ShardRecord> runShard(const Plan& plan, const std::string& plan_hash, size_t shard,
                                     const Kitchen& kitchen, const ShardOptions& options,
                                     const graph::ExecutorEvents& events);

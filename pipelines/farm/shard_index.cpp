@@ -16,7 +16,7 @@ namespace
 struct Variable
 {
     const char* index;
-    // of the range, where the batch system tells it
+    // variables of the range, where the batch system sets them
     const char* first = nullptr;
     const char* last = nullptr;
     const char* step = nullptr;
@@ -76,7 +76,7 @@ Result<size_t> ofVariable(const Variable& variable, const std::string& value, si
         return wrong(fmt::format("{} is {}, but the plan has {} shards: it must count from 0", variable.index,
                                  *index, count));
     }
-    // part of an array, as one that is submitted again: who is who is not known
+    // part of an array, such as one that is submitted again: the shards cannot be told apart
     if (*last < *first || *last - *first + 1 != count || numberIn(variable.step).value_or(1) != 1 ||
         *index < *first || *index > *last)
         return wrong(fmt::format("{} is {} of {} to {}, but the plan has {} shards: say --shard I/{}",

@@ -31,7 +31,7 @@ std::string milliseconds(double seconds)
     return fmt::format("{:.0f}", seconds * 1e3);
 }
 
-/// false where a field is not one of an action
+/// Read one field of an action; false where the field is invalid.
 bool takeField(const std::string& name, const std::string& value, ShardAction& action)
 {
     const std::optional<uint64_t> number = wholeNumber(value);
@@ -61,7 +61,7 @@ bool takeField(const std::string& name, const std::string& value, ShardAction& a
     return true;
 }
 
-/// Whether the cache has a content, whole.
+/// True if the cache has the content, intact.
 bool isWhole(const std::string& hash, cache::Cache& cache, const std::string& scratch)
 {
     const std::string path = scratch + "/content";
@@ -76,7 +76,7 @@ bool areWhole(const graph::KeptResult& result, cache::Cache& cache, const std::s
                        [&](const graph::KeptOutput& output) { return isWhole(output.hash, cache, scratch); });
 }
 
-/// All actions of the shard, each with all that it makes.
+/// True if the record has all actions of the shard, each with all its outputs.
 bool namesAll(const ShardRecord& record, const Plan& plan, size_t shard)
 {
     std::vector<size_t> action_of;

@@ -1,4 +1,4 @@
-// What a shard says of itself when it ends: kept in the cache, where everyone who merges or watches finds it.
+// Record of a finished shard: stored in the cache, where merging and monitoring processes find it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -15,9 +15,9 @@ namespace hearth::farm
 
 struct ShardAction
 {
-    size_t action = 0; ///< of the plan's graph
+    size_t action = 0; ///< index in the plan's graph
     graph::Ending ending = graph::Ending::unknown;
-    graph::KeptResult result; ///< outputs, seconds and memory; outputs none where it failed
+    graph::KeptResult result; ///< outputs, seconds and memory; no outputs where it failed
 };
 
 struct ShardRecord
@@ -29,41 +29,43 @@ struct ShardRecord
     std::vector<ShardAction> actions;
 };
 
-/// Actions that ended so.
+/// Return the number of actions with that outcome.
 size_t countOf(const ShardRecord& record, graph::Ending ending);
 
+/// Return the cache key of a shard's record: each run of the same shard of the same plan writes the same
+/// entry.
 /// plan_hash  SHA-256 of the plan's text
-/// The key under which the record lies: whoever runs the same shard of the same plan writes the same place.
 std::string recordKey(const std::string& plan_hash, size_t shard);
 
 cache::Fields recordFields(const ShardRecord& record);
-/// nullopt where the fields are not those of a record
+/// Parse a record; nullopt where the fields are not those of a record.
 std::optional<ShardRecord> recordOf(const cache::Fields& fields);
 
-/// Schema "hearth.shard/1", for people and programs that watch.
+/// Serialize a record as JSON, schema "hearth.shard/1", for people and monitoring programs.
 std::string recordJson(const ShardRecord& record, const Plan& plan, size_t shard);
 
-/// What is known of a shard without believing anybody.
+/// Verified state of a shard.
 struct ShardState
 {
     enum class Kind
     {
-        no_record, ///< it has not ended, or nobody has started it
-        failed,    ///< its record says so
-        lost, ///< its record names results that are not in the cache, or not whole, or not all that it should
+        no_record, ///< not ended, or not started
+        failed,    ///< its record reports a failure
+        lost,  ///< results of its record are missing from the cache or damaged, or the record is incomplete
         whole, ///< all its results are in the cache, byte for byte
     };
     Kind kind = Kind::no_record;
     ShardRecord record; ///< empty where there is none
 };
 
-/// Every result that the record names is read and hashed.
-/// scratch  folder for what is read; nothing stays in it
+/// Verify a shard: read and hash every result of its record.
+/// scratch  folder for temporary files; nothing remains in it
 ShardState stateOf(const Plan& plan, const std::string& plan_hash, size_t shard, cache::Cache& cache,
                    const std::string& scratch);
 
-/// Actions of sources whose results cannot be had from the cache, by index, ascending: looked up by what is to be cooked, not by
-/// what shards say, read and hashed. What is made of what is missing counts as missing.
+/// Return the actions of sources whose results are not available from the cache, by index, ascending. Actions
+/// are looked up by their current inputs, without trusting records of shards, and results are read and
+/// hashed. An action that depends on a missing result counts as missing.
 std::vector<size_t> missingResults(const graph::Graph& graph, cache::Cache& cache,
                                    graph::ActionCache& actions, const std::string& scratch);
 

@@ -1,4 +1,4 @@
-// A cook as data: actions that each run one cooker over files and make others.
+// Action graph of a cook: each action runs one cooker, which reads files and writes others.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,7 +12,7 @@ namespace hearth::graph
 
 inline constexpr size_t kNoAction = SIZE_MAX;
 
-/// One word of a cooker's command line. Paths are left open: an executor chooses where files lie.
+/// One word of a cooker's command line. Paths are left open: the executor chooses where files are.
 struct Word
 {
     enum class Kind : uint8_t
@@ -22,19 +22,19 @@ struct Word
         output,
     };
     Kind kind = Kind::text;
-    std::string text; ///< the word; for a file what stands before its path ("1=" of "1=rock_low.glb")
-    size_t index = 0; ///< of the input or output
+    std::string text; ///< the word; for a file the text before its path ("1=" of "1=rock_low.glb")
+    size_t index = 0; ///< index of the input or output
 };
 
-/// A file that an action reads: what an action before it makes, or a file of the user.
+/// Input of an action: the first output of an earlier action, or a user file.
 struct Input
 {
-    std::string role;          ///< what it is to the cooker: "source", "lod 1", "part of clusters"
-    size_t action = kNoAction; ///< whose first output it is
-    std::string path;          ///< as the user typed it, where no action makes it
+    std::string role;          ///< role for the cooker: "source", "lod 1", "part of clusters"
+    size_t action = kNoAction; ///< index of the action whose first output it is
+    std::string path;          ///< as the user typed it, for user files
 };
 
-/// What an action is thought to need; only the order of work depends on it.
+/// Estimated resource use of an action. It affects the order of work only.
 struct Estimate
 {
     uint64_t memory_bytes = 0; ///< peak
@@ -43,19 +43,20 @@ struct Estimate
 
 struct Action
 {
-    std::string cooker;  ///< "import" is hearth-import
-    size_t source = 0;   ///< index of the cook's source; their number for what is not of one
-    std::string subject; ///< what messages call its output: the source, or the pack
+    std::string cooker;  ///< name without prefix: "import" is hearth-import
+    size_t source = 0;   ///< index of the cook's source; source_count for actions that belong to no source
+    std::string subject; ///< name of the output in messages: the source, or the pack
     std::vector<Word> words;
     std::vector<Input> inputs;
-    /// Names of files: no two alike among the actions of one source. At least one; the first is what others read.
+    /// File names, unique among the actions of one source. At least one; other actions read the first.
     std::vector<std::string> outputs;
-    bool finds_files = false;          ///< reads files that only it can name, and lists them with --depfile
-    bool depends_on_processor = false; ///< its bytes are the same on processors of one class only
+    bool finds_files = false; ///< reads files that are not declared inputs, and lists them with --depfile
+    bool depends_on_processor = false; ///< output bytes are equal only on processors of one class
     Estimate estimate;
 };
 
-/// Each action stands after those that it reads from; the last one makes the pack.
+/// Directed acyclic graph of actions. Each action comes after the actions that it reads from; the last one
+/// makes the pack.
 struct Graph
 {
     std::vector<Action> actions;
@@ -69,7 +70,7 @@ struct ActionPaths
     std::vector<std::string> outputs;
 };
 
-/// The command line, its cooker in folder `programs`.
+/// Return the command line of an action, with the cooker in folder `programs`.
 std::vector<std::string> commandOf(const Action& action, const std::string& programs,
                                    const ActionPaths& paths);
 

@@ -15,13 +15,14 @@ namespace hearth::graph
 namespace
 {
 
-// A source that is switched between states finds each again; more are not worth their reading.
+// Number of findings kept for an action: a source that is switched between states finds each again; more
+// would not be worth the time to read them.
 constexpr size_t kMaxFindings = 16;
 constexpr const char* kFindings = "findings";
-// Stands for the subject at the start of a kept warning: another cook may call it by another path.
+// Placeholder for the subject at the start of a cached warning: another cook may name it by another path.
 constexpr char kSubject = '\1';
 
-/// The part of a record that is found, not declared.
+/// Return the found files of a record, without its declared fields.
 Record foundOf(const Record& record)
 {
     Record found;
@@ -63,7 +64,7 @@ cache::Fields fieldsOf(const Action& action, const KeptResult& result)
     return fields;
 }
 
-/// Two lists of findings as one.
+/// Merge two lists of findings.
 cache::Fields mergedFindings(const cache::Fields& first, const cache::Fields& second)
 {
     cache::Fields merged = first;
@@ -80,7 +81,7 @@ uint64_t numberOf(std::string_view text)
     return number;
 }
 
-/// nullopt where the entry is not one of such an action.
+/// Parse the result of an action; nullopt where the entry does not belong to such an action.
 std::optional<KeptResult> resultOf(const Action& action, const cache::Fields& fields)
 {
     KeptResult result;
@@ -137,7 +138,7 @@ std::optional<Record> ActionCache::recordOf(const Action& action, const std::vec
     return graph::recordOf(action, version, hashes);
 }
 
-/// Where a file lies that a field of a record names; empty where the action has no input of its role.
+/// Return the path of a found file from its field name; empty where the action has no input of that role.
 std::string ActionCache::pathOfFound(const Action& action, const std::string& found)
 {
     const size_t slash = found.find('/', kFound.size());
@@ -172,7 +173,7 @@ Record ActionCache::refreshed(const Action& action, const Record& record)
     return now;
 }
 
-/// With that of the findings which holds now; nullopt where none does.
+/// Append the findings whose hashes hold now to the record; nullopt where none do.
 std::optional<Record> ActionCache::wholeRecord(const Action& action, const Record& record,
                                                const cache::Fields& findings)
 {
@@ -216,7 +217,7 @@ std::optional<Record> ActionCache::recordAfter(const Action& action, const Recor
     Record found;
     for (const auto& [path, hash] : reads.files())
     {
-        // what was read must be what is there: a file that changed meanwhile belongs to no key
+        // the file must still have the content that was read, else nothing is cached
         if (hashes_.hashOf(path) != hash)
             return std::nullopt;
         const auto is_declared = [&](const Input& input) { return input.path == path; };
@@ -231,7 +232,7 @@ std::optional<Record> ActionCache::recordAfter(const Action& action, const Recor
         found.emplace_back(std::string(kFound) + input->role + "/" + name,
                            hash.value_or(std::string(kAbsent)));
     }
-    // what it found in an earlier run is no matter
+    // findings of an earlier run do not matter
     Record whole = declaredOf(record);
     whole.insert(whole.end(), found.begin(), found.end());
     return whole;
@@ -242,7 +243,7 @@ void ActionCache::keep(const Action& action, const Record& record, const KeptRes
     cache_.putEntry(resultKey(record), fieldsOf(action, result));
     if (!action.finds_files)
         return;
-    // last: who finds the list finds the result
+    // last, so that a reader of the list also finds the result
     cache_.putEntry(findingsKey(declaredOf(record)), {{kFindings, cache::textOf(foundOf(record))}},
                     mergedFindings);
 }

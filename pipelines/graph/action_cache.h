@@ -1,4 +1,4 @@
-// Results of actions in a cache: found by what an action would read now, kept with what it has read.
+// Action cache: stores results of actions, and finds them by the files that an action would read now.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -21,11 +21,11 @@ struct KeptOutput
     uint64_t bytes = 0;
 };
 
-/// What an action made, and how that went.
+/// Cached result of an action, with its warnings and resource use.
 struct KeptResult
 {
-    std::vector<KeptOutput> outputs;   ///< in the order of the action's
-    std::vector<std::string> warnings; ///< lines, in words of the user
+    std::vector<KeptOutput> outputs;   ///< in the order of the action's outputs
+    std::vector<std::string> warnings; ///< lines, with paths as the user typed them
     double seconds = 0;
     double cpu_seconds = 0;
     uint64_t peak_rss_bytes = 0;
@@ -39,31 +39,35 @@ public:
     {
     }
 
-    /// The record of an action without what it finds by itself; nullopt where a file of the user or the cooker cannot be
-    /// read, so that nothing can be kept.
-    /// part_hashes  of the first outputs of the actions that it reads, by input; what is the user's is empty
+    /// Return the record of an action without found files; nullopt where a user file or the cooker cannot be
+    /// read, so that no result can be cached.
+    /// part_hashes  for each input, SHA-256 of the first output of the action that makes it; empty for user
+    ///              files
     std::optional<Record> recordOf(const Action& action, const std::vector<std::string>& part_hashes);
 
     struct Found
     {
-        Record record; ///< with what the action finds, where that is known
+        Record record; ///< with found files, where they are known
         std::optional<KeptResult> result;
-        bool is_damaged = false; ///< there was one, but not whole
+        bool is_damaged = false; ///< the cache had a result, but a damaged one
     };
     Found find(const Action& action, const Record& record);
-    /// Of an action that finds files: its record with what it finds now, as far as that is known; nullopt where it is not.
+    /// Return the record of an action that finds files, with the hashes of these files now; nullopt where no
+    /// list of found files holds.
     std::optional<Record> recordByFindings(const Action& action, const Record& record);
 
-    /// The record with what the action has found; nullopt where it cannot be kept, because a file has changed meanwhile.
+    /// Return the record with the files that the action has found; nullopt where the result cannot be cached,
+    /// because a file has changed meanwhile.
     std::optional<Record> recordAfter(const Action& action, const Record& record,
                                       const tools::ReadList& reads);
-    /// record  as recordAfter gives it, or recordOf for an action that finds no files
+    /// Store a result.
+    /// record  from recordAfter, or from recordOf for an action that finds no files
     void keep(const Action& action, const Record& record, const KeptResult& result);
 
-    /// What the files are now that a record of before says were found.
+    /// Return the record with the current hashes of its found files.
     Record refreshed(const Action& action, const Record& record);
 
-    /// Paths of the files that a record of the action says were found, or looked for in vain.
+    /// Return the paths of the found files of a record, including files that were missing.
     std::vector<std::string> filesLookedFor(const Action& action, const Record& record);
 
 private:

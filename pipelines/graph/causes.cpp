@@ -11,8 +11,8 @@ namespace hearth::graph
 namespace
 {
 
-/// "--quality" -> "high"; "" where an option has no value, or a file for one. "--set", "clusters.influences=4" is
-/// "clusters.influences" -> "4".
+/// Options of a command line with their values: "--quality" -> "high"; "" where an option has no value, or a
+/// file for one. "--set", "clusters.influences=4" is "clusters.influences" -> "4".
 using Options = std::map<std::string, std::string>;
 
 constexpr std::string_view kText = "text ";
@@ -58,7 +58,7 @@ void addOptionCauses(const Record& before, const Record& now, std::vector<std::s
             causes.push_back(fmt::format("parameter {}: no longer given", called(option, value)));
 }
 
-/// Fields of one name in the record, in order.
+/// Return the input and found files of a record with their values, by field name.
 std::map<std::string, std::string> filesOf(const Record& record)
 {
     std::map<std::string, std::string> files;
@@ -68,7 +68,7 @@ std::map<std::string, std::string> filesOf(const Record& record)
     return files;
 }
 
-/// What a person calls the file of a field: its name, or what made it.
+/// Return the user's name for the file of a field: its path, or the action that made it.
 std::string calledBy(const Action& action, const Graph& graph, const std::string& field)
 {
     if (field.starts_with(kFound))
@@ -88,7 +88,7 @@ std::string fileCause(const std::string& name, const std::string& before, const 
         return name + ": is there now";
     if (now == kAbsent)
         return name + ": is not there any more";
-    // the user's files have their names behind the hash
+    // for user files the hash is followed by the name
     const size_t hash_size = std::min(before.find(' '), before.size());
     const bool same_content =
         before.substr(0, hash_size) == now.substr(0, std::min(now.find(' '), now.size()));
@@ -109,12 +109,12 @@ void addFileCauses(const Action& action, const Graph& graph, const Record& befor
             causes.push_back(calledBy(action, graph, field) + ": is read now");
     }
     for (const auto& [field, value] : old_files)
-        // what only the run will find is no cause
+        // files that only the run will find are no cause
         if (!new_files.contains(field) && !field.starts_with(kFound))
             causes.push_back(calledBy(action, graph, field) + ": is not read any more");
 }
 
-/// The sources of a cook, each once, in order.
+/// Return the sources of a cook, in order.
 std::vector<std::string> sourcesOf(const Graph& graph)
 {
     std::vector<std::string> sources(graph.source_count);
@@ -124,7 +124,7 @@ std::vector<std::string> sourcesOf(const Graph& graph)
     return sources;
 }
 
-/// For what reads from all sources: added, removed, reordered.
+/// Add causes for an action that reads all sources: sources added, removed, reordered.
 void addSourceCauses(const Graph& before, const Graph& now, std::vector<std::string>& causes)
 {
     const std::vector<std::string> old_sources = sourcesOf(before);

@@ -1,4 +1,4 @@
-// Why an action has to run: what differs from the last cook, in words.
+// Explains why an action must run: the differences from the last cook, as text.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,20 +11,23 @@
 namespace hearth::graph
 {
 
-/// What is known of an action whose result is not in the cache.
+/// State of an action whose result is not in the cache.
 struct Situation
 {
-    Record record; ///< now, with what the last cook found, as it is now; empty: an input cannot be read
+    /// current record, with current hashes of the files that the last cook found; empty: an input cannot be
+    /// read
+    Record record;
     bool is_forced = false;             ///< --force
-    bool is_damaged = false;            ///< its result is there, but not whole
-    std::vector<std::string> waits_for; ///< cookers that run before it, so that its record cannot be known
+    bool is_damaged = false;            ///< the cache has a result, but a damaged one
+    std::vector<std::string> waits_for; ///< cookers that run before it, so that its record is not known yet
 };
 
-/// The action of the last cook that stands where this one does; nullptr where there is none.
+/// Return the corresponding action of the last cook; nullptr where there is none.
 const JournalAction* lastOf(const Action& action, const Graph& graph, const Journal& journal);
 
-/// One line or more: "parameter --quality: default -> high", "house.glb: its content has changed", ...
-/// journal  of the last cook into the same pack; none: there was none
+/// Return the causes, one a line, at least one: "parameter --quality: default -> high", "house.glb: its
+/// content has changed", ...
+/// journal  of the last cook into the same pack; nullopt: none
 std::vector<std::string> causesOf(const Action& action, const Graph& graph, const Situation& situation,
                                   const std::optional<Journal>& journal);
 

@@ -13,7 +13,7 @@ namespace hearth::graph
 namespace
 {
 
-/// The flags of hearth-visibility.
+/// Return the command-line flags of hearth-visibility.
 std::vector<std::string> visibilityFlags(const VisibilityOptions& options)
 {
     std::vector<std::string> flags{"--quality", options.quality, "--occluders", options.occluders};
@@ -55,13 +55,13 @@ void addOutput(Action& action, const std::string& flag, const std::string& name)
     action.outputs.push_back(name);
 }
 
-/// What an action before makes, as an input.
+/// Return an input that is the first output of an earlier action.
 Input partOf(const Graph& graph, size_t action)
 {
     return {"part of " + graph.actions[action].cooker, action, ""};
 }
 
-/// The same where parts of several sources are told apart by their place.
+/// Return partOf with the source's index in its role, for actions that read parts of several sources.
 Input partOfSource(const Graph& graph, size_t action)
 {
     Input part = partOf(graph, action);
@@ -69,8 +69,8 @@ Input partOfSource(const Graph& graph, size_t action)
     return part;
 }
 
-/// Appends the source's actions; returns those whose parts the link reads, in this order: import, clusters, textures,
-/// skinning. errors: those of parseLodFiles.
+/// Append the source's actions and return the indices of the actions whose parts the link reads, in this
+/// order: import, clusters (visibility, where enabled), textures, skinning. errors: those of parseLodFiles.
 Result<std::vector<size_t>> addSource(Graph& graph, size_t index, const CookSettings& settings)
 {
     const std::string& source = settings.sources[index];
@@ -80,7 +80,7 @@ Result<std::vector<size_t>> addSource(Graph& graph, size_t index, const CookSett
                             tools::parseLodFiles(settings.lods_of_source.empty()
                                                      ? std::vector<std::string>()
                                                      : settings.lods_of_source[index]));
-    /// Runs hearth-`kind` over the parts of actions before.
+    /// Add an action that runs hearth-`kind` over the parts of earlier actions.
     const auto add = [&](const std::string& kind, const std::vector<size_t>& inputs)
     {
         Action action = actionOf(kind, index, source);
@@ -110,7 +110,8 @@ Result<std::vector<size_t>> addSource(Graph& graph, size_t index, const CookSett
     addOutput(actions[import_action], "--stats", kImportStatistics);
     addOutput(actions[textures], "--stats", kTexturesStatistics);
     addOutput(actions[clusters], "--stats", kClustersStatistics);
-    // what levels by hand would take, and below the noise of rays, take as long as a third of the work itself
+    // the comparison with discrete LODs and the noise estimate for rays would take a third as long as the
+    // work itself
     addFlags(actions[clusters], {"--no-manual-lods"});
     const size_t skinning = add("skinning", {import_action, clusters});
     if (!told.visibility)
@@ -125,7 +126,8 @@ Result<std::vector<size_t>> addSource(Graph& graph, size_t index, const CookSett
     return std::vector{import_action, visibility, textures, skinning};
 }
 
-/// The table that shading needs beside visibilities; no source has a say in it.
+/// Add the action that makes the specular table, which shading with visibility needs; it depends on no
+/// source.
 size_t addSpecular(Graph& graph, const CookSettings& settings)
 {
     Action specular = actionOf("specular", settings.sources.size(), settings.output);
@@ -134,7 +136,7 @@ size_t addSpecular(Graph& graph, const CookSettings& settings)
     return graph.actions.size() - 1;
 }
 
-/// The grid of all sources' scenes.
+/// Add the action that makes the grid of bricks of all sources' scenes.
 size_t addBricks(Graph& graph, const CookSettings& settings)
 {
     Action bricks = actionOf("bricks", settings.sources.size(), settings.output);
@@ -158,6 +160,7 @@ size_t addBricks(Graph& graph, const CookSettings& settings)
     return graph.actions.size() - 1;
 }
 
+/// Add the link action.
 /// inputs  actions whose parts the link reads, in this order
 void addLink(Graph& graph, const std::vector<size_t>& inputs, const CookSettings& settings)
 {

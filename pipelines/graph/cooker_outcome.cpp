@@ -12,13 +12,13 @@ namespace hearth::graph
 namespace
 {
 
-/// The exit codes by which a cooker says what is wrong; any other is a defect.
+/// True for the exit codes by which a cooker reports an error; any other nonzero code is a defect.
 bool isClearCode(int code)
 {
     return code == 2 || code == 65 || code == 66 || code == 70 || code == 73 || code == 74;
 }
 
-/// A child that did not end as cookers do; its last words help to find the defect.
+/// Describe the crash of a child; its last line of output helps to find the defect.
 Failure crashed(const Action& action, const tools::ChildEnd& end, const std::vector<std::string>& lines)
 {
     std::string how = "hearth-" + action.cooker;

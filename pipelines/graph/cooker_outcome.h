@@ -1,4 +1,4 @@
-// How a cooker ended, in words of the user.
+// Interprets how a cooker process ended, with messages in the user's terms.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -17,18 +17,18 @@ struct Failure
 {
     int exit_code = 0;
     std::string error; ///< the error line
-    size_t source = 0; ///< index; their number for what is not of one
-    /// Whether a cooker has said it; else nobody has, and it is still to be told.
+    size_t source = 0; ///< index; source_count for actions that belong to no source
+    /// True if a cooker has printed the error; else it is still to be reported.
     bool is_told = false;
-    /// Whether another try may go better: the cooker was killed, by whom it does not say.
+    /// True if a retry may succeed: the cooker was killed, and the killer is not known.
     bool is_temporary = false;
 };
 
 Failure failureOf(const Error& error, size_t source);
 
-/// What is wrong where a cooker did not end well: its own error line, or E7001 with the subject and its last words where it
-/// said nothing clear. nullopt where it ended well.
-/// lines  that it has written to stderr
+/// Return the failure of a cooker: its own error line, or E7001 with the subject and its last line of output
+/// where it printed no error. nullopt after success.
+/// lines  that it wrote to stderr
 std::optional<Failure> failureOf(const Action& action, const tools::ChildEnd& end,
                                  const std::vector<std::string>& lines);
 

@@ -15,10 +15,10 @@ std::string cookerVersion(const std::string& executable, FileHashes& hashes)
     const std::optional<std::string> program = hashes.hashOf(executable);
     if (!program)
         return "";
-    // by content, whatever their folders are called
+    // by content: folder names do not matter
     std::vector<std::string> libraries;
     for (const std::string& library : librariesOf(executable))
-        // it names contents, and is updated more often than all others together
+        // it only computes hashes, and is updated more often than all others together
         if (library.find("/libcrypto.so") == std::string::npos)
             libraries.push_back(hashes.hashOf(library).value_or(""));
     std::sort(libraries.begin(), libraries.end());

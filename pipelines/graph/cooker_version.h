@@ -1,4 +1,4 @@
-// What tells one build of a cooker from another.
+// Version of a cooker's build, for cache keys.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,14 +9,15 @@
 namespace hearth::graph
 {
 
-/// SHA-256 over the executable and the shared libraries that it is linked with: nobody can forget to raise a number, and
-/// an update of zstd or Embree counts as a change of what uses it. The price is that cooks by different builds of the same
-/// sources share nothing.
+/// Hash the executable and the shared libraries that it is linked with (SHA-256). Unlike a version number,
+/// nobody can forget to raise it, and an update of zstd or Embree counts as a change of the cookers that use
+/// it. The price is that cooks by different builds of the same sources share nothing.
 ///
-/// returns empty where there is no such executable
+/// returns  empty where there is no such executable
 std::string cookerVersion(const std::string& executable, FileHashes& hashes);
 
-/// The class of this processor, as far as the bytes of ray-traced parts depend on it: Embree takes the widest of these.
+/// Return the class of this processor, as far as the bytes of ray-traced parts depend on it: Embree uses the
+/// widest of these vector extensions.
 const char* processorClass();
 
 } // namespace hearth::graph

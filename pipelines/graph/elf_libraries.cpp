@@ -19,7 +19,7 @@ namespace hearth::graph
 namespace
 {
 
-// no table of an executable that is in use is larger
+// no table of an executable in use is larger
 constexpr uint64_t kMostBytes = uint64_t{64} << 20;
 
 class ElfFile
@@ -56,7 +56,7 @@ struct Dynamic
     std::string run_path;
 };
 
-/// Where an address of the loaded program lies in the file.
+/// Return the file offset of an address of the loaded program.
 std::optional<uint64_t> offsetOf(uint64_t address, const std::vector<Elf64_Phdr>& segments)
 {
     for (const Elf64_Phdr& segment : segments)

@@ -1,4 +1,4 @@
-// The shared libraries that a program is linked with.
+// Lists the shared libraries that a program is linked with.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -8,9 +8,10 @@
 namespace hearth::graph
 {
 
-/// Paths of all libraries that the loader would map for the executable, those of libraries included; sorted. They are looked
-/// for where the loader does: LD_LIBRARY_PATH, the file's RUNPATH, the system's folders (in place of the loader's own list of
-/// the same). What is not found is left out; a file that is no 64-bit ELF has none.
+/// Return the paths of all libraries that the loader would map for the executable, transitively; sorted. They
+/// are searched where the loader searches: LD_LIBRARY_PATH, the file's RUNPATH, the system's folders (in
+/// place of the loader's own list of these). Libraries that are not found are left out; a file that is not a
+/// 64-bit ELF file has none.
 /// source   System V gABI, "Dynamic Linking"; ld.so(8)
 std::vector<std::string> librariesOf(const std::string& executable);
 

@@ -15,16 +15,16 @@ namespace
 struct Cost
 {
     std::string_view cooker;
-    uint64_t base_bytes;    ///< of an empty source: program, libraries, threads
-    double bytes_per_byte;  ///< of source
-    double seconds_per_mib; ///< of source, on two cores
+    uint64_t base_bytes;    ///< for an empty source: program, libraries, threads
+    double bytes_per_byte;  ///< peak memory per byte of source
+    double seconds_per_mib; ///< seconds per MiB of source, on two cores
 };
 
 constexpr uint64_t kMiB = uint64_t{1} << 20;
 
-// Measured with --report on GLBs of 15 MB (a rock of 400 000 triangles) and 81 MB (the demo scene): the larger of both for
-// a byte of source, a third more for the next release. Two cores; visibility at quality draft. Bricks of the generated room,
-// a GLB of 2 MB, at 0.1 m with three bounces.
+// Measured with --report on GLBs of 15 MB (a rock of 400 000 triangles) and 81 MB (the demo scene): the
+// larger figure per byte of source, plus a third for the next release. Two cores; visibility at quality
+// draft. Bricks: the generated room, a GLB of 2 MB, at 0.1 m with three bounces.
 constexpr std::array kCosts{
     Cost{"import", 16 * kMiB, 6, 0.03},      Cost{"clusters", 16 * kMiB, 8, 0.2},
     Cost{"textures", 16 * kMiB, 4.5, 0.04},  Cost{"skinning", 8 * kMiB, 0.9, 0.002},
@@ -55,7 +55,7 @@ Estimate estimateOf(const std::string& cooker, uint64_t source_bytes)
 
 void addEstimates(Graph& graph)
 {
-    // the last is of what belongs to no source, and reads what was made of all
+    // the last element sums all sources, for actions that belong to no source
     std::vector<uint64_t> bytes_of_source(graph.source_count + 1);
     for (const Action& action : graph.actions)
         for (const Input& input : action.inputs)

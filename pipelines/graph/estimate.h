@@ -1,4 +1,4 @@
-// What actions are thought to need, so that a cook fits its memory.
+// Estimates the memory and time of actions, so that a cook fits its memory limit.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,7 +7,8 @@
 namespace hearth::graph
 {
 
-/// By the cooker and the sizes of the sources on the disk; a source that cannot be looked at counts as empty.
+/// Estimate every action from its cooker and the file sizes of its source; an unreadable source counts as
+/// empty.
 void addEstimates(Graph& graph);
 
 } // namespace hearth::graph

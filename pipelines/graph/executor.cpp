@@ -25,7 +25,7 @@ std::optional<uint64_t> sizeOf(const std::string& path)
     return error ? std::nullopt : std::optional<uint64_t>(size);
 }
 
-/// What a child says names files in private folders; the user knows the source.
+/// Replace paths in temporary folders by the subject, which the user knows.
 std::string inUsersWords(std::string text, const std::vector<std::string>& paths, const std::string& subject)
 {
     for (const std::string& path : paths)
@@ -83,20 +83,20 @@ bool Executor::isPack(size_t action) const
     return options_.makes_pack && action + 1 == graph_.actions.size();
 }
 
-/// Where the action's cooker writes.
+/// Return the paths that the action's cooker writes to.
 std::vector<std::string> Executor::pathsOf(size_t action) const
 {
     std::vector<std::string> paths;
     for (const std::string& output : graph_.actions[action].outputs)
-        // the pack lies where a rename can put it in place
+        // the pack is on the file system of its destination, so that a rename can move it
         paths.push_back(isPack(action)
                             ? beside_->path() + "/" + output
                             : fmt::format("{}/{}.{}", parts_->path(), graph_.actions[action].source, output));
     return paths;
 }
 
-/// Where an output lies whose content is known: a name that is the same in every cook, since a cooker may write down what
-/// its input is called. What is the same is there once.
+/// Return the path of an output with known content. The name is the same in every cook, since a cooker may
+/// write the name of its input into its output. Equal contents share one file.
 std::string Executor::pathOf(size_t action, size_t output) const
 {
     return isPack(action) ? pathsOf(action)[output]
@@ -109,7 +109,7 @@ bool Executor::materialize(size_t action)
     return !outcomes_[action].paths.empty();
 }
 
-/// What is not there yet is asked for at once: a cache on a server answers many questions in the time of one.
+/// Fetch all missing outputs in one call: a cache on a server answers many requests in the time of one.
 void Executor::materialize(std::span<const size_t> actions)
 {
     std::vector<size_t> missing;
@@ -118,13 +118,13 @@ void Executor::materialize(std::span<const size_t> actions)
     if (missing.empty() || cache_ == nullptr || makeFolders())
         return;
     std::vector<cache::WantedContent> wanted;
-    std::set<std::string> paths_wanted; // what is the same is there once
+    std::set<std::string> paths_wanted; // equal contents share one file
     for (const size_t action : missing)
         for (size_t i = 0; i < outcomes_[action].result.outputs.size(); ++i)
         {
             const KeptOutput& output = outcomes_[action].result.outputs[i];
             const std::string path = pathOf(action, i);
-            // the pack becomes the user's, who may write into it
+            // the pack becomes a user file, which may be written to
             const cache::Use use = isPack(action) ? cache::Use::given_away : cache::Use::read_only;
             if (!sizeOf(path) && paths_wanted.insert(path).second)
                 wanted.push_back({output.hash, path, use, output.bytes});
@@ -169,7 +169,7 @@ std::optional<std::string> Executor::readOutput(size_t action, size_t output)
     return cache::readText(path);
 }
 
-/// Have the files that the action reads; what the cache has lost is made again first.
+/// Make sure that the action's input files exist; an input that the cache has lost is made again first.
 bool Executor::haveInputs(size_t action)
 {
     std::vector<size_t> makers;
@@ -183,13 +183,13 @@ bool Executor::haveInputs(size_t action)
         if (!outcomes_[maker].paths.empty() || haveAgain(maker))
             continue;
         have = false;
-        // what is made again may differ
+        // the remade input may differ
         states_[action] = State::waiting;
     }
     return have;
 }
 
-/// What the action reads of what actions before it made.
+/// Return the bytes of the action's inputs that earlier actions made.
 uint64_t Executor::partBytes(size_t action) const
 {
     uint64_t bytes = 0;
@@ -220,7 +220,7 @@ std::optional<Failure> Executor::start(size_t index)
     return std::nullopt;
 }
 
-/// One step of an action that waits or must run; whether anything has changed.
+/// Advance an action that waits or must run by one step. True if its state has changed.
 bool Executor::advance(size_t index)
 {
     const Action& action = graph_.actions[index];
@@ -294,7 +294,7 @@ void Executor::fail(size_t action, const Failure& failure)
     failures_.push_back(failure);
 }
 
-/// The outputs are there, and become the outcome's; else a defect of the cooker.
+/// Check that the outputs exist, and take them into the outcome; else report a defect of the cooker.
 std::optional<Failure> Executor::checkOutputs(size_t index)
 {
     ActionOutcome& outcome = outcomes_[index];
@@ -380,7 +380,8 @@ void Executor::takeEnd(const CrewEnd& crew_end)
         events_.failed(*failure);
 }
 
-/// Have the pack as a file where it is not there already; false where it must be linked again first.
+/// Make sure that the pack exists as a file, unless the destination has it already. False where it must be
+/// linked again first.
 bool Executor::finishPack(const std::optional<std::string>& hash_there)
 {
     const size_t last = graph_.actions.size() - 1;
@@ -394,7 +395,8 @@ bool Executor::finishPack(const std::optional<std::string>& hash_there)
     return true;
 }
 
-/// Have an action's result as files; where the cache has lost it, the action must run, and false is returned.
+/// Make sure that an action's outputs exist as files. False where the cache has lost them; the action must
+/// run then.
 bool Executor::haveAgain(size_t action)
 {
     if (materialize(action))
@@ -405,7 +407,7 @@ bool Executor::haveAgain(size_t action)
     return false;
 }
 
-/// Have every result as files, so that each is known to be whole; false where some must be made again first.
+/// Make sure that every result exists as files and is intact. False where some must be made again first.
 bool Executor::finishParts()
 {
     bool have = true;
@@ -421,7 +423,7 @@ bool Executor::run(const std::optional<std::string>& hash_there)
     {
         if (const auto failure = startWhatCan())
         {
-            // a child or a folder that cannot be made: nothing else would go better
+            // a process or folder cannot be created: nothing else would succeed
             failures_.push_back(*failure);
             if (events_.failed)
                 events_.failed(*failure);

@@ -1,4 +1,5 @@
-// Runs what must run of a graph as child processes of this machine, and takes the rest from the cache.
+// Executes a graph on this machine: takes results from the cache and runs the other actions as child
+// processes.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -19,11 +20,12 @@ namespace hearth::graph
 struct ExecutorOptions
 {
     CrewLimits limits;
-    bool keeps_going = true;  ///< after a failure, with what does not depend on it
-    bool lists_files = false; ///< has cookers list what they find without a cache, too: for filesLookedFor()
+    bool keeps_going = true;  ///< after a failure, run the actions that do not depend on it
+    bool lists_files = false; ///< pass --depfile to cookers even without a cache: for filesLookedFor()
     std::string programs;     ///< folder of the cookers
-    std::string output;       ///< the pack: temporary files are made beside it, or in TMPDIR
-    /// The last action makes the pack. Else all that is made is for the cache alone, and `output` only what messages call it.
+    std::string output;       ///< path of the pack; temporary files are made beside it, or in TMPDIR
+    /// True if the last action makes the pack. Else all results go to the cache only, and `output` is just
+    /// its name in messages.
     bool makes_pack = true;
 };
 
@@ -33,52 +35,58 @@ struct ActionOutcome
     KeptResult result;
     std::vector<std::string> causes;
     Record record;
-    /// Where the outputs lie while the executor lives; empty: in the cache only.
+    /// Paths of the outputs while the executor lives; empty: in the cache only.
     std::vector<std::string> paths;
-    bool is_kept = false; ///< the result is in the cache, as far as that has not failed since
+    bool is_kept = false; ///< the result is in the cache, as far as no write has failed since
 };
 
-/// What it tells while it works; each may be empty.
+/// Callbacks for progress; each may be empty.
 struct ExecutorEvents
 {
     std::function<void(const Action& action, const ActionOutcome& outcome,
                        const std::vector<std::string>& command)>
         starting;
-    /// messages  what the cooker said, or the kept warnings of a result from the cache; paths in words of the user
+    /// messages  output of the cooker, or the cached warnings of a result from the cache; paths as the user
+    ///           typed them
     std::function<void(const Action& action, const ActionOutcome& outcome,
                        const std::vector<std::string>& messages)>
         ended;
     std::function<void(const Failure& failure)> failed;
-    /// Cookers run: called once a second or more often.
+    /// Called once a second or more often while cookers run.
     std::function<void()> waiting;
 };
 
-/// While it lives, SIGINT, SIGTERM and SIGHUP end run() instead of the process; its temporary files go with it.
+/// Runs a graph. While it lives, SIGINT, SIGTERM and SIGHUP end run() instead of the process, so that its
+/// temporary files are removed.
 class Executor
 {
 public:
-    /// cache, actions  null: every action runs, and nothing is kept
+    /// cache, actions  null: every action runs, and nothing is cached
     Executor(const Graph& graph, Resolver& resolver, cache::Cache* cache, ActionCache* actions,
              ExecutorOptions options, ExecutorEvents events);
 
-    /// Make the pack, unless a file of that hash is there already; without a pack, have every result whole in the cache.
+    /// Make the pack, unless the destination already has that hash. Without a pack, make sure that the cache
+    /// has every result, intact.
     /// returns  false where a signal ended it
     bool run(const std::optional<std::string>& hash_there);
 
     const std::vector<ActionOutcome>& outcomes() const { return outcomes_; }
-    /// What failed, in the order in which it did.
+    /// Failures, in order of time.
     const std::vector<Failure>& failures() const { return failures_; }
-    /// The whole pack, to be moved into its place; empty where it has failed, or is there already.
+    /// Path of the complete pack, to be moved to its destination; empty where it has failed or is already
+    /// there.
     const std::string& packPath() const { return pack_path_; }
 
-    /// Paths of the files that an action has read, or has looked for in vain, without being told of them. Of one that
-    /// failed those that it got to.
+    /// Paths of files the action opened or probed that are not declared inputs. For a failed action, the
+    /// files that it got to.
     std::vector<std::string> filesLookedFor(size_t action) const;
 
-    /// Have the outputs of an action that was taken from the cache as files; false where the cache has lost them.
+    /// Fetch the outputs of an action that was taken from the cache as files; false where the cache has lost
+    /// them.
     bool materialize(size_t action);
 
-    /// One output of an action that ended well, of which nothing else is fetched; nullopt where the cache has lost it.
+    /// Return one output of an action that succeeded, and fetch no other; nullopt where the cache has lost
+    /// it.
     std::optional<std::string> readOutput(size_t action, size_t output);
 
 private:
@@ -117,14 +125,15 @@ private:
     ExecutorOptions options_;
     ExecutorEvents events_;
 
-    // before the folders, so that it goes after them: signals wait until they are gone
+    // declared before the folders, so that it is destroyed after them: signals wait until they are gone
     Crew crew_;
-    std::optional<TempDirectory> beside_; ///< the pack, where a rename can put it in place
+    /// beside the pack's destination, so that a rename can put it in place
+    std::optional<TempDirectory> beside_;
     std::optional<TempDirectory> parts_;
 
     std::vector<State> states_;
     std::vector<ActionOutcome> outcomes_;
-    std::vector<bool> has_begun_; ///< of the actions: events_.starting was told
+    std::vector<bool> has_begun_; ///< for each action: events_.starting was called
     std::vector<Failure> failures_;
     std::string pack_path_;
 };

@@ -18,7 +18,7 @@ namespace
 
 constexpr int64_t kTooYoung_s = 2;
 
-/// Empty where there is no regular file.
+/// Return the file's identity and times as text; empty where there is no regular file.
 std::string looksOf(const struct stat& info)
 {
     if (!S_ISREG(info.st_mode))
@@ -47,7 +47,7 @@ void FileHashes::save(const std::string& path) const
     for (const auto& [file, known] : seen_)
         if (!known.looks.empty())
             fields.emplace_back(file, known.hash + " " + known.looks);
-    // what it says is true or does no harm: an error is no matter
+    // an error does no harm: a stale file is correct or is not used
     if (const std::string text = cache::entryText(fields); text != loaded_text_)
         static_cast<void>(writeText(path, text).ok());
 }
@@ -60,7 +60,7 @@ std::optional<std::string> FileHashes::hashOf(const std::string& path)
     std::optional<std::string>& hash = hash_of_path_[key];
     struct stat info = {};
     timespec now = {};
-    // before the file is looked at: what happens after is younger
+    // before stat(), so that later changes are younger
     ::clock_gettime(CLOCK_REALTIME, &now);
     if (::stat(key.c_str(), &info) != 0)
         return hash;

@@ -1,4 +1,4 @@
-// Hashes of the user's files, remembered as long as the files look untouched.
+// Cache of file hashes: a file whose metadata is unchanged is not read again.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,36 +10,38 @@
 namespace hearth::graph
 {
 
-/// A file's hash is believed again where its device, inode, size and times of content and of status (mtime, ctime, in
-/// nanoseconds) are as before. The status time cannot be set back by a program, and a file is not remembered before it is
-/// two seconds old: an edit in the same tick of its clock, one second at most on file systems in use, cannot hide.
+/// Hashes files and remembers the hashes. A remembered hash is valid while device, inode, size and the times
+/// of content and status (mtime, ctime, in nanoseconds) are unchanged. A program cannot set the status time
+/// back, and a hash is not remembered before the file is two seconds old: an edit within one tick of the file
+/// system's clock, at most one second on file systems in use, cannot go unnoticed.
 class FileHashes
 {
 public:
-    /// folder  that relative paths start from
+    /// folder  base of relative paths
     explicit FileHashes(const std::string& folder) : folder_(folder + "/") {}
 
-    /// Take what save() wrote; a file that cannot be read or is damaged says nothing.
+    /// Load the file that save() wrote; an unreadable or damaged file counts as empty.
     void load(const std::string& path);
-    /// Write what has been asked for since, and nothing else; errors do no harm but time. Nothing is written where it would
-    /// say what load() read.
+    /// Save the hashes that were asked for since load(), and no others. Errors cost only time. An unchanged
+    /// file is not written again.
     void save(const std::string& path) const;
 
-    /// SHA-256 of the content; nullopt where there is no regular file that can be read. Asked twice, it reads once: a cook
-    /// sees one state of each file. Not for several threads.
+    /// Return the SHA-256 of the content; nullopt where there is no readable regular file. A file is read
+    /// once: a cook sees one state of each file. Not thread-safe.
     std::optional<std::string> hashOf(const std::string& path);
 
-    /// Files that had to be read.
+    /// Number of files that had to be read.
     size_t filesRead() const { return files_read_; }
 
 private:
     struct Known
     {
-        std::string looks; ///< what a file looks like from outside, as text
+        std::string looks; ///< metadata of the file, as text
         std::string hash;
     };
     std::map<std::string, Known> remembered_; ///< by absolute path
-    std::map<std::string, Known> seen_;       ///< since, by absolute path; no looks: not to be remembered
+    /// hashes asked for since load(), by absolute path; empty `looks`: not to be saved
+    std::map<std::string, Known> seen_;
     std::map<std::string, std::optional<std::string>> hash_of_path_;
     std::string folder_;
     std::string loaded_text_;

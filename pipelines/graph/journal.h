@@ -1,4 +1,4 @@
-// What is remembered of the last cook into a pack, so that the next one can say why it runs what it runs.
+// Journal of the last cook into a pack, from which the next cook explains why actions run.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,40 +13,41 @@
 namespace hearth::graph
 {
 
-/// What became of an action.
+/// Outcome of an action.
 enum class Ending
 {
-    unknown,  ///< the cook ended before
-    cooked,   ///< it has run
-    kept,     ///< its result was in the cache
+    unknown,  ///< the cook ended before it ran
+    cooked,   ///< its cooker ran
+    kept,     ///< cache hit
     failed,   ///< its cooker failed
-    left_out, ///< what it reads from failed
+    left_out, ///< skipped: an action that it depends on failed
 };
 
 struct JournalAction
 {
     Ending ending = Ending::unknown;
-    std::vector<std::string> causes; ///< why it ran
+    std::vector<std::string> causes; ///< reasons why it ran
     Record record;                   ///< empty where an input could not be read
 };
 
 struct Journal
 {
-    std::string folder;       ///< that relative paths start from
+    std::string folder;       ///< working folder, the base of relative paths
     std::string output;       ///< absolute
-    std::string output_cause; ///< why the pack was put in its place; empty where it was not
+    std::string output_cause; ///< reason why the pack was replaced; empty where it was not
     Graph graph;
-    std::vector<JournalAction> actions; ///< of the graph
+    std::vector<JournalAction> actions; ///< [graph.actions.size()]
 };
 
 std::string journalText(const Journal& journal);
-/// nullopt where the text is damaged or of another version
+/// Parse a journal; nullopt where the text is damaged or of another version.
 std::optional<Journal> parseJournal(std::string_view text);
 
-/// The file for a pack in a cache's folder, without its ending: <folder>/cooks/SHA256 of the absolute path.
+/// Return the path of a pack's journal in a cache's folder, without extension: <folder>/cooks/SHA256 of the
+/// pack's absolute path.
 std::string journalPath(const std::string& cache_folder, const std::string& output);
 
-/// The path from the root, through the working folder; links stay.
+/// Return the path from the root, by way of the working folder; links are not resolved.
 std::string absolutePath(const std::string& path);
 std::string workingFolder();
 

@@ -72,7 +72,7 @@ Action actionOf(const Json& json)
     return action;
 }
 
-/// Every index is in range, and each action stands after those that it reads from.
+/// True if every index is in range and each action comes after the actions that it reads from.
 bool holdsTogether(const Graph& graph)
 {
     for (size_t i = 0; i < graph.actions.size(); ++i)
@@ -108,7 +108,7 @@ Result<Graph> parsePlan(std::string_view text, const std::string& file)
         return Error{Issue::json_syntax, file, "", ""};
     const Json& json = *parsed;
     const Error no_plan{Issue::internal, file, "", "is not a plan of this version"};
-    // the reader throws where a member is missing or of another type
+    // the JSON reader throws where a member is missing or of another type
     try
     {
         Graph graph;

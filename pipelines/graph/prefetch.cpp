@@ -13,10 +13,10 @@ struct Question
     Record record;
 };
 
-/// Hash of the first output, by action; nullopt where it is not known.
+/// Hash of the first output of each action; nullopt where it is not known.
 using PartHashes = std::vector<std::optional<std::string>>;
 
-/// The hashes of what the action reads; nullopt where one is not known.
+/// Return the hashes of the action's inputs; nullopt where one is not known.
 std::optional<std::vector<std::string>> hashesOfInputs(const Action& action, const PartHashes& hash_of_action)
 {
     std::vector<std::string> hashes;
@@ -29,7 +29,7 @@ std::optional<std::vector<std::string>> hashesOfInputs(const Action& action, con
     return hashes;
 }
 
-/// Those of the actions that can be asked for now; they are taken out of `left`.
+/// Return the actions that can be looked up now, and remove them from `left`.
 std::vector<Question> nextWave(const Graph& graph, ActionCache& actions, const PartHashes& hash_of_action,
                                std::vector<size_t>& left)
 {

@@ -1,4 +1,5 @@
-// Asks a cache on a server for a whole graph, wave by wave, where each question alone would cost a trip there and back.
+// Prefetches the cache entries of a whole graph from a server, in waves: a round trip for each entry alone
+// would be slow.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,9 +8,9 @@
 namespace hearth::graph
 {
 
-/// For cache::Cache::beforeFarIsAsked. In each wave are the actions whose parts are known by then: those that read the
-/// user's files, those that read what these made, and so on. Actions that have no result in the cache end it for what reads
-/// them, so that nothing is asked for in vain but what must run.
+/// Prefetch, for cache::Cache::beforeFarIsAsked. Each wave has the actions whose input hashes are known by
+/// then: first those that read user files, then those that read their outputs, and so on. The actions behind
+/// a cache miss are not looked up, so that the only requests in vain are for actions that must run.
 void askAhead(const Graph& graph, cache::Cache& cache, ActionCache& actions);
 
 } // namespace hearth::graph

@@ -9,14 +9,17 @@ namespace hearth::graph
 namespace
 {
 
-// Small: starting a process (2 to 8 ms) is a good part of its time, and a second thread would hardly shorten it.
+// An action is small if starting a process (2 to 8 ms) is a good part of its time, and a second thread would
+// hardly shorten it.
 constexpr double kSmallSeconds = 0.1;
-// What an action makes of its source may be large where the source was not: parts of that size are read in that time.
+// Size limit for the input parts of a small action: parts may be large where the source was not. Parts of
+// that size are read within kSmallSeconds.
 constexpr uint64_t kSmallPartBytes = uint64_t{1} << 20;
-// Fewer actions than these start their cooker each for itself: a crowd is what is worth a process that stays.
+// Below this number of small actions of a cooker, each starts a process of its own; from it on, a batch
+// process is worth keeping.
 constexpr std::ptrdiff_t kCrowd = 8;
-// What stands behind the first in a batch bridges the time until this process has looked at its end, and no more: another
-// process may come free.
+// Maximum queue of a batch behind its running action. It bridges the time until this process has handled a
+// result; a longer queue would keep actions from a process that becomes free.
 constexpr size_t kBehind = 4;
 
 } // namespace
@@ -48,7 +51,7 @@ bool Crew::isIdle() const
     return busy() == 0;
 }
 
-/// The batch where a small action is run soonest; none: a new one.
+/// Return the batch with the shortest queue for a small action; nullopt: start a new one.
 std::optional<size_t> Crew::batchFor(size_t action) const
 {
     auto best = processes_.end();
@@ -61,7 +64,8 @@ std::optional<size_t> Crew::batchFor(size_t action) const
     return best->first;
 }
 
-/// batch  that the action would be run in; none: a process that is not there yet
+/// True if the action fits the memory limit.
+/// batch  in which the action would run; nullopt: a new process
 bool Crew::hasRoom(size_t action, std::optional<size_t> batch) const
 {
     uint64_t others = 0;
@@ -70,7 +74,7 @@ bool Crew::hasRoom(size_t action, std::optional<size_t> batch) const
         if (id == batch)
             its = std::max(its, process.memory_bytes);
         else
-            // what idles goes where there is need
+            // idle batches are ended when memory is short
             others += process.actions.empty() ? 0 : process.memory_bytes;
     return others == 0 || others + its <= limits_.memory_bytes;
 }
@@ -89,7 +93,7 @@ bool Crew::canStart(size_t action, uint64_t part_bytes) const
     return (ahead > 0 ? ahead <= kBehind : at_work < limits_.all) && hasRoom(action, batch);
 }
 
-/// What idles gives back what it holds.
+/// End idle batch processes, except `but`, to free their memory.
 void Crew::retireIdle(std::optional<size_t> but)
 {
     for (auto process = processes_.begin(); process != processes_.end();)

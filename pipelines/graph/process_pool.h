@@ -1,4 +1,5 @@
-// The processes that run actions: a large action has one to itself, small ones of one cooker share one.
+// Pool of child processes that run actions: a large action has a process of its own, small actions of one
+// cooker share a batch process.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -17,45 +18,47 @@ namespace hearth::graph
 
 struct CrewLimits
 {
-    unsigned large = 2; ///< processes that each run a large action, at once; they take all cores themselves
-    unsigned all = 2;   ///< processes at work at once; one that runs small actions takes one core
-    uint64_t memory_bytes = 0; ///< that they may take together, by estimates; one always works
+    unsigned large = 2;        ///< concurrent processes for large actions, which use all cores themselves
+    unsigned all = 2;          ///< concurrent processes at work; a batch of small actions uses one core
+    uint64_t memory_bytes = 0; ///< limit for the sum of estimated memory; one process always runs
 };
 
-/// How an action's process, or its place in one, ended.
+/// End of an action.
 struct CrewEnd
 {
-    size_t action = kNoAction; ///< none where a process ended that had nothing to do
+    size_t action = kNoAction; ///< kNoAction where an idle process ended
     tools::ChildEnd end;
-    /// Actions that stood behind it in a process that has died: they were not begun, and wait to be started again.
+    /// Actions that were queued in a process that has died: they were not begun and must be started again.
     std::vector<size_t> not_begun;
 };
 
-/// While it lives, signals are as with tools::ChildProcesses.
+/// Process pool. Signals are handled as in tools::ChildProcesses while it lives.
 class Crew
 {
 public:
     Crew(const Graph& graph, const CrewLimits& limits);
 
-    /// part_bytes  that the action reads of what actions before it made
+    /// True if the action may start now.
+    /// part_bytes  size of its inputs that earlier actions made
     bool canStart(size_t action, uint64_t part_bytes) const;
 
-    /// Run what canStart() has allowed. errors: child_failed.
+    /// Start an action that canStart() has allowed. errors: child_failed.
     Status start(size_t action, uint64_t part_bytes, const std::vector<std::string>& command);
 
-    /// Whether nothing runs.
+    /// True if nothing runs.
     bool isIdle() const;
 
-    /// Wait until an action ends; nullopt where a signal asks this process to end. Something runs.
-    /// waiting  as that of tools::ChildProcesses::wait()
+    /// Wait until an action ends; nullopt where a signal asks this process to end. Precondition: something
+    /// runs.
+    /// waiting  as in tools::ChildProcesses::wait()
     std::optional<CrewEnd> wait(const std::function<void()>& waiting = {});
 
 private:
     struct Process
     {
-        std::string cooker;         ///< of a batch; empty: one action alone
-        std::deque<size_t> actions; ///< the first is run, the others stand behind it
-        uint64_t memory_bytes = 0;  ///< of the largest that it was given
+        std::string cooker;         ///< cooker of a batch; empty: a process for one action
+        std::deque<size_t> actions; ///< the first is running, the others are queued
+        uint64_t memory_bytes = 0;  ///< estimate of its largest action so far
     };
 
     bool isSmall(size_t action, uint64_t part_bytes) const;
@@ -67,9 +70,9 @@ private:
 
     const Graph& graph_;
     CrewLimits limits_;
-    std::vector<bool> is_small_; ///< of the actions, by estimate
+    std::vector<bool> is_small_; ///< for each action, by its estimate
     tools::ChildProcesses children_;
-    std::map<size_t, Process> processes_; ///< by the ids of their children
+    std::map<size_t, Process> processes_; ///< by child id
 };
 
 } // namespace hearth::graph

@@ -8,7 +8,8 @@
 namespace hearth::graph
 {
 
-/// The record with the files that the last run found, as they are now: so that it can be compared with that run's.
+/// Return the record with the current hashes of the files that the last run found, so that it can be compared
+/// with the record of that run.
 Record Resolver::comparable(size_t action, const std::optional<Record>& record)
 {
     if (!record)

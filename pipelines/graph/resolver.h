@@ -1,4 +1,4 @@
-// Decides what must run: looks an action up in the cache, and says why where it is not there.
+// Decides which actions must run: looks an action up in the cache, and explains a cache miss.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -15,9 +15,9 @@ namespace hearth::graph
 
 struct Resolved
 {
-    std::optional<Record> record;     ///< nothing: the result cannot be kept
-    std::optional<KeptResult> result; ///< nothing: the action must run
-    std::vector<std::string> causes;  ///< why, where it must
+    std::optional<Record> record;     ///< nullopt: the result cannot be cached
+    std::optional<KeptResult> result; ///< nullopt: the action must run
+    std::vector<std::string> causes;  ///< reasons to run it
 };
 
 using JournalSource = std::function<const std::optional<Journal>&()>;
@@ -26,17 +26,18 @@ class Resolver
 {
 public:
     /// cache    null: every action runs
-    /// journal  of the last cook into the same pack; asked for where something must run
+    /// journal  of the last cook into the same pack; called only if an action must run
     Resolver(const Graph& graph, cache::Cache* cache, ActionCache* actions, JournalSource journal,
              bool is_forced)
         : graph_(graph), cache_(cache), actions_(actions), journal_(std::move(journal)), is_forced_(is_forced)
     {
     }
 
-    /// part_hashes  of each input that an action makes
+    /// Look an action up.
+    /// part_hashes  SHA-256 of each input that an action makes
     Resolved resolve(size_t action, const std::vector<std::string>& part_hashes);
 
-    /// The causes of an action that reads what others will have to make.
+    /// Return the causes of an action that reads outputs which other actions have yet to make.
     std::vector<std::string> causesAfter(size_t action, const std::vector<std::string>& cookers) const;
 
 private:
@@ -49,7 +50,7 @@ private:
     bool is_forced_;
 };
 
-/// What a cook would do now.
+/// Result of a dry run.
 struct Forecast
 {
     struct Entry
@@ -57,8 +58,8 @@ struct Forecast
         bool runs = false;
         std::vector<std::string> causes;
     };
-    std::vector<Entry> actions;       ///< of the graph
-    std::optional<KeptOutput> result; ///< the pack, where nothing runs
+    std::vector<Entry> actions;       ///< [graph.actions.size()]
+    std::optional<KeptOutput> result; ///< the pack, if nothing has to run
 };
 Forecast forecast(const Graph& graph, Resolver& resolver);
 

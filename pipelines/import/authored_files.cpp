@@ -16,11 +16,11 @@ using namespace formats;
 namespace
 {
 
-/// For who never asked for levels: files become levels by their names alone.
+/// Hint for users who did not ask for levels: files become levels by their names alone.
 constexpr const char* kStandAlone =
     "if these files are no levels of one mesh, let them stand alone: hearth.toml, [[rule]], import.lods = []";
 
-/// The instance that stands for all: one mesh in one place. errors: lod_file.
+/// Return the only instance: one mesh in one place. errors: lod_file.
 Result<InstanceRecord> onlyInstance(std::span<const InstanceRecord> instances, const std::string& file)
 {
     if (instances.size() == 1)
@@ -30,7 +30,7 @@ Result<InstanceRecord> onlyInstance(std::span<const InstanceRecord> instances, c
                              instances.size(), kStandAlone)};
 }
 
-/// What the joints of the instance's skin are called; none where it has no skin.
+/// Return the names of the joints of the instance's skin; empty without a skin.
 template <typename NameOf>
 std::vector<std::string> jointNames(std::span<const NodeRecord> nodes, std::span<const SkinRecord> skins,
                                     std::span<const JointRecord> joints, const InstanceRecord& instance,
@@ -44,7 +44,7 @@ std::vector<std::string> jointNames(std::span<const NodeRecord> nodes, std::span
     return names;
 }
 
-/// Append the images of a part as they are.
+/// Append the images of a part unchanged.
 Status copyImages(const PackView& from, PartBuilder& part)
 {
     for (uint32_t i = 0; i < from.images().size(); ++i)
@@ -77,11 +77,11 @@ void copyMaterials(const PackView& from, uint32_t first_image, PartBuilder& part
     }
 }
 
-/// What a level of detail is held against.
+/// Finest mesh, which a level of detail must match.
 struct Base
 {
     InstanceRecord instance;
-    std::vector<std::string> joints; ///< names; none without a skin
+    std::vector<std::string> joints; ///< names; empty without a skin
 };
 
 Status addLevel(const PackView& from, const tools::LodFile& file, const Base& base, PartBuilder& part)
@@ -91,7 +91,7 @@ Status addLevel(const PackView& from, const tools::LodFile& file, const Base& ba
     HEARTH_ASSIGN_OR_RETURN(mesh::SourceMesh mesh, mesh::readSourceMesh(from.container(), instance.mesh));
     const auto drop = [&](const char* why)
     {
-        // the part keeps the message: no word of where this machine has its files
+        // the part stores the message, so it must not contain folders of this machine
         part.warn(Issue::dropped, "", fmt::format("level of detail {} {}: it is not kept", name, why));
     };
     const auto nameOf = [&](StringRef name) { return from.text(name); };

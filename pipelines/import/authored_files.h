@@ -1,4 +1,4 @@
-// Levels of detail from files of their own, as hearth-import --lod names them.
+// Adds authored levels of detail from files, as listed by hearth-import --lod.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,11 +12,11 @@
 namespace hearth::import
 {
 
-/// Add each file's mesh, with its materials and images, as the next level of the one mesh that the part draws so far.
-/// The files are read like sources, one after the other, by way of a part in `folder`.
+/// Add each file's mesh, with its materials and images, as the next level of the one mesh that the part draws
+/// so far. The files are read as sources, one after the other, through a temporary part in `folder`.
 ///
 /// files    by level, finest first
-/// errors   lod_file where the part or a file does not draw one mesh in one place, and those of readSource
+/// errors   lod_file if the part or a file does not draw one mesh in one place, and those of readSource
 Status addAuthoredFiles(std::span<const tools::LodFile> files, const std::string& folder,
                         const ImportOptions& options, PartBuilder& part);
 

@@ -1,4 +1,4 @@
-// A lone image as a scene: an unlit card, one metre high, that faces +Z.
+// Imports a single image as a scene: an unlit card, one metre high, that faces +Z.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/image_card.h"
 
@@ -32,7 +32,7 @@ mesh::SourceMesh cardMesh(float aspect, const std::string& name)
 bool hasAlpha(const DecodedImage& image)
 {
     if (image.is_float)
-        return false; // environment maps: the light outside of a window of an EXR is nothing to see through
+        return false; // an environment map: alpha outside of an EXR's window does not mean transparency
     for (size_t at = 3; at < image.texels.size(); at += 4)
         if (image.texels[at] != std::byte{0xFF})
             return true;

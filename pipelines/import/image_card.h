@@ -1,4 +1,4 @@
-// Imports a lone image as a card.
+// Imports a single image as a card.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,7 +12,7 @@
 namespace hearth::import
 {
 
-/// A lone image becomes an unlit card, one metre high, so that it can be cooked and looked at by itself.
+/// Import a single image as an unlit card, one metre high, so that it can be cooked and viewed by itself.
 Status importImage(const std::string& path, std::span<const std::byte> bytes, const ImportOptions& options,
                    PartBuilder& part);
 

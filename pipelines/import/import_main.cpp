@@ -90,7 +90,7 @@ Status run(const Arguments& arguments)
     const Status read = readAll(arguments, lods, reads, part);
     printWarnings(part);
     const Status finished = read.ok() ? finish(arguments, stated_error, part) : read;
-    // of a failure too: who mends it changes one of these
+    // written after a failure too: a repair changes one of these files
     const Status listed = arguments.depfile.empty() ? success() : writeText(arguments.depfile, reads.text());
     return finished.ok() ? listed : finished;
 }

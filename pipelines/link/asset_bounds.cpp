@@ -16,7 +16,7 @@ using namespace formats;
 namespace
 {
 
-/// Where the nodes of a source stand at rest.
+/// Transforms of the nodes of a source at rest.
 class RestPose
 {
 public:
@@ -27,7 +27,8 @@ public:
         poseNodes(tables_, restPose(tables_), parentsFirst(tables_.nodes), world_from_node_);
     }
 
-    /// Returns where the joints of a skin carry what is bound to them; none where there is no such skin.
+    /// Return the skinning matrices of a skin at rest (world_from_bind of each joint); empty if there is no
+    /// such skin.
     std::vector<Affine3d> palette(uint32_t skin) const
     {
         if (skin >= tables_.skins.size())
@@ -50,7 +51,8 @@ const DeformedMeshRecord* findDeformed(const PackView& skinning_part, uint32_t m
     return found == records.end() ? nullptr : &*found;
 }
 
-/// Returns the largest morph weight of an instance at rest: its share of what weights from -1 to 1 reach.
+/// Return the largest absolute morph weight of an instance at rest, which scales the reach of weights from -1
+/// to 1.
 float morphShare(const PackView& import_part, const InstanceRecord& instance)
 {
     float share = 0;
@@ -61,7 +63,8 @@ float morphShare(const PackView& import_part, const InstanceRecord& instance)
     return share;
 }
 
-/// The finest clusters of a deformed mesh, each where all joints that move it carry its box: vertices blend these.
+/// Return the bounds of a deformed mesh: the boxes of its finest clusters, each transformed by all joints
+/// that move it, since vertices blend these transforms.
 Box3 deformedBounds(const PackView& clusters_part, const PackView& skinning_part, const MeshRecord& mesh,
                     const DeformedMeshRecord& deformed, std::span<const Affine3d> world_from_bind,
                     float morph_share)
@@ -79,7 +82,7 @@ Box3 deformedBounds(const PackView& clusters_part, const PackView& skinning_part
         box.max += {reach, reach, reach};
         const auto add = [&](uint32_t joint)
         {
-            // of a joint whose place does not fit into floats, nothing is drawn
+            // nothing is drawn with a joint whose transform does not fit into floats
             if (joint < world_from_bind.size() && narrowed(world_from_bind[joint]))
                 bounds.add(transformBox(world_from_bind[joint], box));
         };

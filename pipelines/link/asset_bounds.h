@@ -1,4 +1,4 @@
-// Where a source stands: the box that chunk ASST states.
+// Computes the bounding box of a source for chunk ASST.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,10 +7,11 @@
 namespace hearth::link
 {
 
-/// Returns the box, in world space and at rest, of all that the source draws, from the boxes of its meshes; of deformed meshes
-/// from those of their finest clusters, where the joints that move these stand. Rounded outwards; empty where nothing is drawn.
-/// The parts need not be checked: records that refer to nothing are passed over.
-/// errors: those of formats::checkMotion where a mesh is deformed.
+/// Return the bounding box, in world space and at rest, of everything that the source draws: from the boxes
+/// of its meshes, and for deformed meshes from the boxes of their finest clusters, transformed by the joints
+/// that move them. Rounded outwards; empty if nothing is drawn. The parts need not be checked: records with
+/// invalid references are skipped.
+/// errors: those of formats::checkMotion if a mesh is deformed.
 Result<Box3> boundsAtRest(const formats::PackView& import_part, const formats::PackView& clusters_part,
                           const formats::PackView& skinning_part);
 

@@ -24,7 +24,8 @@ using namespace formats;
 namespace
 {
 
-// Pages of a part are copied in pieces of this size, so that a large part does not have to fit into memory.
+// Size of the pieces in which pages of a part are copied, so that a large part does not have to fit into
+// memory.
 constexpr size_t kCopyBytes = size_t{1} << 20;
 
 struct Source
@@ -41,7 +42,7 @@ struct Source
 
 Result<PackView> openPart(const std::string& path)
 {
-    // every chunk is hashed when it is read or copied: no need to read the file once more before that
+    // every chunk is hashed when it is read or copied: the file need not be hashed as a whole before
     HEARTH_ASSIGN_OR_RETURN(ContainerReader reader, ContainerReader::open(path, Check::structure));
     if (reader.kind() != ContainerKind::part)
         return Error{Issue::container_kind, path, "", "this is a pack, not a part"};
@@ -56,7 +57,7 @@ uint64_t countChunks(const ContainerReader& reader, uint32_t type)
     return count;
 }
 
-/// The cookers keep the numbers of meshes and images: where they differ, a part is of another source.
+/// Check that the parts are of the same source: the cookers keep the numbers of meshes and images.
 Status checkTogether(const Source& source)
 {
     const auto differ = [](const PackView& part, const char* what, uint64_t has, uint64_t expected)
@@ -95,7 +96,7 @@ Result<Source> openSource(const SourceParts& parts)
     return source;
 }
 
-/// The next table start after `count` more records; false where 32-bit indices end.
+/// Advance the start of a table by `count` records; return false if the table grows past 32-bit indices.
 bool advance(uint32_t& offset, uint64_t count)
 {
     if (count >= kNone - uint64_t{offset})
@@ -109,7 +110,7 @@ uint64_t alignedPageBytes(const PackView& clusters_part)
     return (clusters_part.pageBytes().size() + kChunkAlignment - 1) / kChunkAlignment * kChunkAlignment;
 }
 
-/// Where the source after `source` begins.
+/// Compute the offsets of the source after `source`. Return false if a table grows past 32-bit indices.
 bool advancePast(const Source& source, Offsets& next)
 {
     const PackView& scene = source.import_part;
@@ -132,7 +133,7 @@ bool advancePast(const Source& source, Offsets& next)
            advance(next.cluster_joints, deformed.clusterJoints().size());
 }
 
-/// Give every source its place in the merged tables, and its name one behind all other strings.
+/// Compute the offsets of every source in the merged tables; the sources' names follow all other strings.
 Status placeSources(std::vector<Source>& sources, const std::string& output)
 {
     const Error too_large{Issue::input_too_large, output, "",
@@ -200,7 +201,7 @@ Status writeAssets(ContainerWriter& writer, std::span<const Source> sources)
     return writer.addRecords<AssetRecord>(kChunkAssets, assets);
 }
 
-/// One table of all sources.
+/// Write one table, merged from all sources.
 template <typename T>
 Status writeTable(ContainerWriter& writer, std::span<const Source> sources, uint32_t type,
                   PackView Source::*part, std::span<const T> (PackView::*table)() const)
@@ -215,7 +216,7 @@ Status writeTable(ContainerWriter& writer, std::span<const Source> sources, uint
     return writer.addRecords<T>(type, merged);
 }
 
-/// The packed keys of all sources; no chunk where there are none.
+/// Write the packed keys of all sources; no chunk if there are none.
 Status writeKeyBits(ContainerWriter& writer, std::span<const Source> sources)
 {
     std::vector<uint32_t> merged;
@@ -244,7 +245,7 @@ Status writeScene(ContainerWriter& writer, std::span<const Source> sources)
     return write(kChunkMorphWeights, &PackView::morphWeights);
 }
 
-/// The groups of all sources; those of deformed meshes with the spheres that hold in all poses.
+/// Write the groups of all sources; groups of deformed meshes get the spheres that hold in all poses.
 Status writeGroups(ContainerWriter& writer, std::span<const Source> sources)
 {
     std::vector<GroupRecord> merged;
@@ -277,7 +278,7 @@ Status writeMeshes(ContainerWriter& writer, std::span<const Source> sources)
     return write(kChunkPageParents, &PackView::pageParents);
 }
 
-/// Which levels were made by hand; no chunk where none was.
+/// Write the list of authored levels; no chunk if there are none.
 Status writeAuthoredLevels(ContainerWriter& writer, std::span<const Source> sources)
 {
     const auto hasSome = [](const Source& source) { return !source.clusters_part.authoredLevels().empty(); };
@@ -287,7 +288,7 @@ Status writeAuthoredLevels(ContainerWriter& writer, std::span<const Source> sour
                       &PackView::authoredLevels);
 }
 
-/// Bounds of deformed meshes; no chunks where no source has any.
+/// Write the bounds of deformed meshes; no chunks if no source has any.
 Status writeDeformedMeshes(ContainerWriter& writer, std::span<const Source> sources)
 {
     const auto write = [&]<typename T>(uint32_t type, std::span<const T> (PackView::*table)() const)
@@ -298,7 +299,7 @@ Status writeDeformedMeshes(ContainerWriter& writer, std::span<const Source> sour
         return success();
     HEARTH_TRY(write(kChunkDeformedMeshes, &PackView::deformedMeshes));
     HEARTH_TRY(write(kChunkDeformedClusters, &PackView::deformedClusters));
-    // joints are counted in their skin: nothing to move
+    // joint numbers are relative to their skin: no rebase
     std::vector<uint32_t> joints;
     for (const Source& source : sources)
         joints.insert(joints.end(), source.skinning_part.clusterJoints().begin(),
@@ -321,7 +322,7 @@ Status writePages(ContainerWriter& writer, std::span<const Source> sources)
     return writer.endChunk();
 }
 
-/// Copy the chunks of a type as they are stored, their index moved by `offset`.
+/// Copy the chunks of a type as they are stored, with `offset` added to their index.
 Status copyChunks(ContainerWriter& writer, const PackView& part, uint32_t type, uint32_t offset)
 {
     for (const ChunkEntry& entry : part.container().chunks())
@@ -332,7 +333,7 @@ Status copyChunks(ContainerWriter& writer, const PackView& part, uint32_t type, 
     return success();
 }
 
-/// The one table that all parts have; empty where there are no parts.
+/// Return the one table that all parts have; empty if there are no parts.
 Result<std::vector<SpecularTableRecord>> readSpecular(std::span<const std::string> paths)
 {
     std::vector<SpecularTableRecord> tables;
@@ -353,7 +354,7 @@ Result<std::vector<SpecularTableRecord>> readSpecular(std::span<const std::strin
     return tables;
 }
 
-/// The part with the pack's bricks; none where `path` is empty.
+/// Open the part with the pack's bricks; nullopt if `path` is empty.
 Result<std::optional<PackView>> openBricks(const std::string& path)
 {
     if (path.empty())
@@ -362,7 +363,7 @@ Result<std::optional<PackView>> openBricks(const std::string& path)
     if (part.brickGrid().empty())
         return Error{Issue::chunk_missing, path, chunkName(kChunkBrickGrid, 0),
                      "this is not a bricks part: it has no grid"};
-    HEARTH_TRY(checkBricks(part)); // here the message names the part
+    HEARTH_TRY(checkBricks(part)); // a failure here names the part
     return std::optional<PackView>(std::move(part));
 }
 
@@ -394,7 +395,7 @@ Status writePack(const std::string& path, std::span<const Source> sources,
     return writer.finish();
 }
 
-/// The pack as the runtime will see it, before anyone else does.
+/// Check the pack as the runtime will read it, before it appears under its name.
 Status checkWritten(const std::string& path)
 {
     HEARTH_ASSIGN_OR_RETURN(ContainerReader reader, ContainerReader::open(path));
@@ -430,7 +431,7 @@ Status linkPack(std::span<const SourceParts> sources, const std::string& output,
     ::unlink(unchecked.c_str());
     Error error = std::move(status).error();
     if (error.file == unchecked)
-        error.file = output; // the name that the user gave
+        error.file = output; // the name that the user passed
     return error;
 }
 

@@ -10,7 +10,7 @@
 namespace hearth::link
 {
 
-/// What the cookers made of one source: paths of parts.
+/// Paths of the parts that the cookers made of one source.
 struct SourceParts
 {
     std::string import_part;
@@ -19,14 +19,15 @@ struct SourceParts
     std::string skinning_part;
 };
 
-/// Write the pack of all sources, their scenes side by side: the records of each source follow those of the one
-/// before it, with their indices moved. One source is the merge of one. Texels and pages are copied as they are
+/// Write the pack of all sources, their scenes side by side: the records of each source follow the previous
+/// source's, with rebased indices. One source is the merge of one. Texels and pages are copied as they are
 /// stored, a piece at a time. Groups of deformed meshes get the spheres of the skinning part.
-/// bricks_part  path of the part whose grid of bricks the pack gets; none where it is empty
-/// specular_parts  those with a table of specular occlusion, of which a pack has one: all must have the same. May be empty
+/// specular_parts  parts with a table of specular occlusion. A pack has one table: all parts must have the
+///                 same. May be empty
+/// bricks_part     path of the part whose grid of bricks the pack gets; empty: no bricks
 /// The pack is checked as a whole before it appears under `output`; on an error nothing appears.
-/// errors: those of reading the parts; meaning_reference where parts do not belong together, or tables differ; input_too_large where
-/// the tables grow past 32-bit indices; cannot_write; those of checkPack.
+/// errors: those of reading the parts; meaning_reference where parts do not belong together, or tables
+/// differ; input_too_large where the tables grow past 32-bit indices; cannot_write; those of checkPack.
 Status linkPack(std::span<const SourceParts> sources, const std::string& output,
                 std::span<const std::string> specular_parts = {}, const std::string& bricks_part = {});
 

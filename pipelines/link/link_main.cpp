@@ -1,4 +1,5 @@
-// hearth-link: merges import, clusters, textures and skinning parts into a pack, with a table of specular occlusion and a grid of bricks.
+// hearth-link: merges import, clusters, textures and skinning parts into a pack, with a table of specular
+// occlusion and a grid of bricks.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
 #include "formats/base/program.h"

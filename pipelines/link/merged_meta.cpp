@@ -16,7 +16,7 @@ const Json& memberOf(const Json& object, const char* key)
     return found == nullptr ? nothing : *found;
 }
 
-/// The name of the asset itself: import lists it first.
+/// Return the name of the asset itself: import lists it first.
 Json assetName(const Json& import_meta)
 {
     const Json& sources = memberOf(import_meta, "sources");

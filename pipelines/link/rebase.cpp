@@ -11,8 +11,8 @@ using namespace formats;
 namespace
 {
 
-// note: a damaged part can make these sums wrap. That is harmless here: nothing is looked up with them before
-// checkPack has seen the whole pack.
+// Add an offset to an index. A damaged part can make these sums wrap. That is harmless: nothing is looked up
+// with them before checkPack has checked the whole pack.
 void shift(uint32_t& index, uint32_t by)
 {
     if (index != kNone)

@@ -1,4 +1,4 @@
-// Moves the indices of a part's records to where the part's tables begin in the merged pack.
+// Rebases the indices of a part's records to the start of the part's tables in the merged pack.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,7 +10,7 @@
 namespace hearth::link
 {
 
-/// Where the records of one source begin in the merged tables.
+/// Start of each table of one source in the merged tables.
 struct Offsets
 {
     uint32_t strings = 0;      ///< bytes; of the import part, which the textures part refers to as well

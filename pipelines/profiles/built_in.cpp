@@ -7,7 +7,8 @@ namespace hearth::profiles
 namespace
 {
 
-// What a device can hold and draw, not what a scene needs: whether visibility and bricks are baked is for the project to say.
+// Settings for what a class of devices can hold and draw. Whether visibility and bricks are baked depends on
+// the scene, so the project decides that.
 constexpr std::string_view kText =
     R"(# Phones of the upper half: 2048 texels are one to a pixel at arm's length.
 [profile.mobile-high]

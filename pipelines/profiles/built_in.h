@@ -1,4 +1,4 @@
-// The profiles that Hearth comes with.
+// Built-in profiles.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,10 +7,10 @@
 namespace hearth::profiles
 {
 
-/// A file of settings with the profiles "mobile-high", "mobile-low" and "desktop".
+/// Return the built-in profiles "mobile-high", "mobile-low" and "desktop" as a file of settings.
 const ConfigFile& builtIn();
 
-/// Its text.
+/// Return the text of that file.
 std::string_view builtInText();
 
 } // namespace hearth::profiles

@@ -20,7 +20,7 @@ Value placed(std::string text, const TomlNode& node, const Place& place, const s
     return {std::move(text), fmt::format("{}:{}{}", place.file, node.line, of)};
 }
 
-/// Settings of `known` whose keys start with `prefix` ("clusters."), from a table.
+/// Read the settings of `known` whose keys start with `prefix` ("clusters.") from a table.
 Status readGroup(const TomlNode& node, const Place& place, std::span<const Setting> known,
                  const std::string& prefix, const std::string& of, Values& values)
 {
@@ -48,7 +48,8 @@ Result<std::string> nameAt(const TomlNode& node, const Place& place)
     return node.text;
 }
 
-/// The groups of profileSettings() that a table may have; a rule has those of sources only.
+/// Return the groups of profileSettings() that a table may have; a rule may have groups of source settings
+/// only.
 Keys groupsOf(bool of_rule)
 {
     Keys groups;
@@ -175,7 +176,7 @@ Result<ConfigFile> configOf(const TomlNode& root, const std::string& path, bool 
     return file;
 }
 
-/// The table of a whole text. errors: profile_syntax.
+/// Parse the root table of a text. errors: profile_syntax.
 Result<TomlNode> parsed(std::string_view text, const std::string& path)
 {
     tools::TomlFault fault;

@@ -33,7 +33,8 @@ Result<std::string> textOfFile(const std::string& path, const char* what)
     return *text;
 }
 
-/// "hearth.toml", "../../hearth.toml"; empty where there is none.
+/// Return the path of the nearest project file, such as "hearth.toml" or "../../hearth.toml"; empty where
+/// there is none.
 std::string nearestProjectFile()
 {
     std::error_code error;
@@ -163,7 +164,7 @@ const ConfigFile& Configuration::fileAt(size_t level) const
     return level < files_.size() ? files_[level] : builtIn();
 }
 
-/// Of the nearest file that has a profile of that name.
+/// Return the level of the nearest file that has a profile of that name.
 std::optional<size_t> Configuration::levelOf(const std::string& name, size_t from) const
 {
     for (size_t level = from; level <= files_.size(); ++level)
@@ -173,14 +174,14 @@ std::optional<size_t> Configuration::levelOf(const std::string& name, size_t fro
     return std::nullopt;
 }
 
-/// Append the profile to the chain, and before it what it inherits.
+/// Append the profile and the profiles that it inherits from to the chain, the profile itself first.
 Status Configuration::addProfile(const Profile& profile, size_t level, const std::string& file,
                                  std::vector<const Profile*>& chain)
 {
     chain.push_back(&profile);
     if (profile.inherits.empty())
         return success();
-    // a profile that inherits from its own name is a change to the one behind it
+    // a profile that inherits from its own name overrides the next one of that name
     const std::optional<size_t> found =
         levelOf(profile.inherits, profile.inherits == profile.name ? level + 1 : 0);
     if (!found)
@@ -211,13 +212,13 @@ Status Configuration::chooseProfile()
     if (chosen == nullptr)
         return success();
     profile_name_ = textsOf(*chosen).front();
-    // stands for the profile, so that its name is looked up as an inherited one is
+    // placeholder that inherits from the profile, so that its name is looked up like an inherited one
     Profile wanted;
     wanted.inherits = profile_name_;
     std::string file = chosen->origin;
     if (isFileName(profile_name_))
     {
-        // what a file names lies beside it
+        // relative paths in a file start from the folder of that file
         std::string path = profile_name_;
         for (const ConfigFile& config : files_)
             if (chosen->origin.starts_with(config.path + ":") && !fs::path(path).is_absolute())

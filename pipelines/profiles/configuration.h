@@ -1,4 +1,5 @@
-// The settings that hold here: of the command line, the environment, the project, the user, and those built in.
+// Resolves the settings of a cook from the command line, the environment, the project's file, the user's file
+// and the built-in profiles.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,52 +13,55 @@
 namespace hearth::profiles
 {
 
-/// Reads a variable of the environment; nullopt where it is not set, or empty.
+/// Function that reads a variable of the environment; nullopt where it is not set, or empty.
 using Environment = std::function<std::optional<std::string>(const char* name)>;
 std::optional<std::string> processEnvironment(const char* name);
 
-/// The first of a setting's switches that is set; nullptr where none is.
+/// Return the first of a setting's switches that is set; nullptr where none is.
 const Switch* switchSet(const Setting& setting, const Environment& environment = processEnvironment);
 
-/// What the command line says.
+/// Settings of the command line.
 struct Given
 {
-    std::string
-        config_file; ///< --config: a project's file, or "off" for no file at all; empty: see Configuration::load
-    Values command;  ///< of commandSettings()
-    Values settings; ///< of profileSettings(), for all sources
+    /// --config: path of a project's file, or "off" for no file at all; empty: see Configuration::load
+    std::string config_file;
+    Values command;  ///< values of commandSettings()
+    Values settings; ///< values of profileSettings(), for all sources
 };
 
 class Configuration
 {
 public:
-    /// Read what there is. The project's file is --config, else HEARTH_CONFIG, else hearth.toml in the working folder or the
-    /// nearest one above; the user's is hearth/config.toml in XDG_CONFIG_HOME or ~/.config. "off" for the first two: neither
-    /// is read. Then choose the profile: that of the command line, of HEARTH_PROFILE, of [defaults] of the project, of the
-    /// user's, or none.
+    /// Load the configuration. The project's file is --config, else HEARTH_CONFIG, else hearth.toml in the
+    /// working folder or the nearest one above; the user's is hearth/config.toml in XDG_CONFIG_HOME or
+    /// ~/.config. "off" for --config or HEARTH_CONFIG: neither file is read. Then choose the profile: the one
+    /// of the command line, of HEARTH_PROFILE, of [defaults] in the project's file, in the user's file, or
+    /// none.
     ///
     /// errors  input_missing, profile_syntax, profile_key, profile_value, profile_unknown, profile_circle
     static Result<Configuration> load(Given given, const Environment& environment = processEnvironment);
 
-    /// Of commandSettings(); nullptr where nobody has set it.
+    /// Return the value of a setting of commandSettings(); nullptr where it is not set.
     const Value* command(std::string_view key) const;
 
-    /// All that somebody has set for a source: its profile with what that inherits, the rules that match it, later ones over
-    /// earlier ones, and the command line over all. Of settings of the pack: the same without rules.
+    /// Return all values that are set for a source: its profile with inherited values, then the matching
+    /// rules, later ones over earlier ones, then the command line. ofPack: the same without rules, for
+    /// settings of the pack.
     ///
     /// source  as the user typed it; rules match its path from the folder of the project's file
     Values ofSource(const std::string& source) const;
     Values ofPack() const;
 
-    /// The name of the chosen profile; empty: none.
+    /// Return the name of the chosen profile; empty: none.
     const std::string& profileName() const { return profile_name_; }
-    /// The files that were read, nearest first.
+    /// Return the files that were read, nearest first.
     const std::vector<ConfigFile>& files() const { return files_; }
-    /// The one that may have rules; nullptr where there is none.
+    /// Return the project's file, the only one that may have rules; nullptr where there is none.
     const ConfigFile* projectFile() const;
-    /// The folder of the project's file, absolute, with a slash at its end; empty where there is none.
+    /// Return the folder of the project's file, absolute, with a slash at its end; empty where there is none.
     const std::string& projectFolder() const { return project_folder_; }
-    /// The path of a source from that folder, by which rules match it; empty where it lies elsewhere.
+    /// Return the path of a source from the project folder, by which rules match it; empty where it is not
+    /// below that folder.
     std::string pathInProject(const std::string& source) const;
 
 private:
@@ -71,11 +75,11 @@ private:
 
     Given given_;
     Values environment_;
-    std::vector<ConfigFile> files_;      ///< the project's, the user's
-    std::string project_folder_;         ///< absolute, with its slash; empty: there is no project
+    std::vector<ConfigFile> files_;      ///< project's file, user's file
+    std::string project_folder_;         ///< absolute, with a slash at its end; empty: there is no project
     std::optional<size_t> project_file_; ///< index of files_
     std::string profile_name_;
-    std::optional<Profile> own_file_; ///< of a profile that is a file of its own
+    std::optional<Profile> own_file_; ///< chosen profile, if it is a file of its own
     Values of_profile_;
 };
 

@@ -16,7 +16,7 @@ const Value* find(const Values& values, std::string_view key)
     return found == values.end() ? nullptr : &found->second;
 }
 
-/// The value was checked when it was read.
+/// Parse a number, which was checked when the value was read.
 template <typename Number>
 Number numberOf(const Value& value)
 {
@@ -31,7 +31,7 @@ bool isOn(const Values& values, std::string_view key)
     return value != nullptr && value->text == "true";
 }
 
-/// "--set KEY=VALUE" for all keys of a group.
+/// Append "--set KEY=VALUE" for all keys of a group.
 void addGroup(const Values& values, std::string_view group, std::vector<std::string>& words)
 {
     for (const auto& [key, value] : values)

@@ -1,4 +1,4 @@
-// What cookers are told of the settings that hold.
+// Converts settings into command-line arguments of cookers.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,11 +10,12 @@
 namespace hearth::profiles
 {
 
-/// What the cookers of a source are told: nothing of what nobody has set, so that a default that is written down changes no
-/// key but its own. errors: profile_value where visibility.power stands without visibility.distance.
+/// Return the command-line arguments for a source's cookers. Unset settings are omitted, so changing a
+/// default only re-keys that setting. errors: profile_value where visibility.power is set without
+/// visibility.distance.
 Result<graph::SourceSettings> toldOfSource(const Values& values);
 
-/// Nothing where bricks are not enabled.
+/// Return the options of hearth-bricks; nullopt where bricks are not enabled.
 std::optional<graph::BrickOptions> toldOfBricks(const Values& values);
 
 } // namespace hearth::profiles

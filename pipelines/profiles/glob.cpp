@@ -29,7 +29,7 @@ bool matchesPath(std::string_view pattern, std::string_view path)
 {
     const std::vector<std::string_view> wanted = namesOf(pattern);
     const std::vector<std::string_view> names = namesOf(path);
-    // after a mismatch, the last ** takes one folder more: earlier ones need not be tried again
+    // after a mismatch, the last ** takes one folder more; earlier ones need not be tried again
     size_t w = 0;
     size_t n = 0;
     size_t any = std::string_view::npos;

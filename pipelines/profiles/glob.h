@@ -1,4 +1,4 @@
-// Patterns for paths.
+// Glob patterns for paths.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -8,12 +8,13 @@
 namespace hearth::profiles
 {
 
-/// Whether all of `path` matches, folder by folder: * stands for any characters of one name, ? for one, a folder ** for any
-/// number of folders, none included; everything else for itself. "props/**/*.glb" matches "props/a.glb" and "props/x/y/a.glb".
-/// Time is at most the product of both lengths.
+/// True if the pattern matches all of `path`, folder by folder: * matches any characters of one name, ?
+/// matches one, a folder ** matches any number of folders, including none; other characters match themselves.
+/// "props/**/*.glb" matches "props/a.glb" and "props/x/y/a.glb". Time is at most proportional to the product
+/// of both lengths.
 bool matchesPath(std::string_view pattern, std::string_view path);
 
-/// Whether a text has * or ?.
+/// True if a text has * or ?.
 bool isPattern(std::string_view text);
 
 } // namespace hearth::profiles

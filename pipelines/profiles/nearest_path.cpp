@@ -14,10 +14,10 @@ namespace hearth::profiles
 namespace
 {
 
-// Each costs some microseconds, and a message cannot be late.
+// Limit of paths that are tried: each takes some microseconds, and an error message must not be delayed.
 constexpr size_t kMaxPaths = 2000;
 
-/// Starts of the names of a path, the first at 0.
+/// Return the offsets at which the names of a path start, the first at 0.
 std::vector<size_t> nameStarts(std::string_view path)
 {
     std::vector<size_t> starts{0};
@@ -26,7 +26,7 @@ std::vector<size_t> nameStarts(std::string_view path)
     return starts;
 }
 
-/// ".glb" of "props/chair.glb"; empty where the name has none.
+/// Return the extension, ".glb" of "props/chair.glb"; empty where the name has none.
 std::string_view endingOf(std::string_view path)
 {
     const std::string_view name = path.substr(nameStarts(path).back());
@@ -39,7 +39,7 @@ bool isGltf(std::string_view ending)
     return ending == ".glb" || ending == ".gltf";
 }
 
-/// The pattern with the ending of the path, or one for all of glTF.
+/// Return the pattern with the extension of the path, or with one for all of glTF.
 std::string withEndingOf(const std::string& pattern, const std::string& path)
 {
     const std::string_view old = endingOf(pattern);
@@ -50,7 +50,7 @@ std::string withEndingOf(const std::string& pattern, const std::string& path)
            std::string(isGltf(old) && isGltf(ending) ? ".gl*" : ending);
 }
 
-/// Whether one of the pattern's names stands for itself: without any it would match in every folder.
+/// True if one of the pattern's names has no wildcards; without any it would match in every folder.
 bool hasFixedName(std::string_view pattern)
 {
     for (const size_t start : nameStarts(pattern))
@@ -59,7 +59,7 @@ bool hasFixedName(std::string_view pattern)
     return false;
 }
 
-/// The pattern as rules have it: '/' between folders, and no "./" or "/" before the first.
+/// Return the pattern in the form that rules use: '/' between folders, and no "./" or "/" before the first.
 std::string normalized(std::string pattern)
 {
     std::replace(pattern.begin(), pattern.end(), '\\', '/');
@@ -68,7 +68,7 @@ std::string normalized(std::string pattern)
     return pattern.substr(std::min(pattern.find_first_not_of('/'), pattern.size()));
 }
 
-/// How much must change before a pattern matches: less is better, first by folders, then by the ending, then
+/// Cost of the changes after which a pattern matches, compared first by folders, then by the extension, then
 /// by letters.
 using Cost = std::tuple<size_t, bool, size_t>;
 constexpr Cost kTooMuch{SIZE_MAX, true, SIZE_MAX};

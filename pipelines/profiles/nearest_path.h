@@ -1,4 +1,4 @@
-// Suggests the path that a pattern was meant to match where it matches none.
+// Suggests the path that a pattern was meant to match, for patterns that match none.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,13 +12,13 @@ namespace hearth::profiles
 struct NearestPath
 {
     std::string path;
-    std::string pattern; ///< like the given one, and matches the path; empty: none is alike
+    std::string pattern; ///< corrected pattern, which matches the path; empty: no similar pattern does
 };
 
-/// The path that a pattern misses by least, of those that it does not match. A pattern is alike that starts
-/// in another folder ("assets/props/**" for "props/**"), has slashes for backslashes, or the path's ending:
-/// ".gl*" where glTF is meant.
-/// returns  nothing where there are no paths. Of very many only the first are looked at.
+/// Find the path that a pattern misses by least. Similar patterns start in another folder ("assets/props/**"
+/// for "props/**"), have slashes for backslashes, or the path's extension (".gl*" where glTF is meant).
+/// paths    that the pattern does not match; only the first 2000 are tried
+/// returns  nullopt where there are no paths
 std::optional<NearestPath> nearestPath(const std::string& pattern, std::span<const std::string> paths);
 
 } // namespace hearth::profiles

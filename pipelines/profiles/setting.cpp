@@ -17,7 +17,7 @@ namespace
 
 constexpr double kMostWhole = std::numeric_limits<int32_t>::max();
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
-// those of the cookers: tests hold them against what the cookers accept
+// the limits of the cookers; tests compare them with the values that the cookers accept
 constexpr double kMostWeight = double{clusters::kLargestErrorWeight};
 constexpr double kMostAnimationError = 1000;
 constexpr double kMostTexels = textures::kLargestSize;
@@ -120,7 +120,7 @@ Setting levelsOf(const std::string& key)
                   "1", 1, kMostWeight)});
 }
 
-/// What holds for all meshes, or in a rule for some.
+/// Return the settings for all meshes, or for the meshes of a rule.
 std::vector<Setting> meshSettings(const std::string& prefix)
 {
     return {

@@ -19,7 +19,7 @@ using tools::TomlNode;
 namespace
 {
 
-// One word of a command line may have 128 KiB on Linux: it holds a setting with its key.
+// A word of a command line may have 128 KiB on Linux; it holds a setting with its key.
 constexpr size_t kLongestValue = 100'000;
 
 std::string quotedToml(std::string_view text)
@@ -152,7 +152,7 @@ Result<std::string> tablesText(const TomlNode& node, const Setting& setting, con
     return fmt::format("[{}]", fmt::join(tables, ","));
 }
 
-/// The node's value, in the one form. errors: profile_key, profile_value.
+/// Return the node's value in canonical form. errors: profile_key, profile_value.
 Result<std::string> textOf(const TomlNode& node, const Setting& setting, const Place& place)
 {
     switch (setting.kind)

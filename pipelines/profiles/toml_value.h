@@ -1,4 +1,4 @@
-// What TOML says of a setting: checked, and written in one form. For the files of this folder alone.
+// Validates TOML values of settings and writes them in canonical form. Only for the files of this folder.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,12 +13,12 @@
 namespace hearth::profiles
 {
 
-/// Where in a file a node stands, for messages.
+/// Location of a node in a file, for messages.
 struct Place
 {
     const std::string& file;
     std::string key;
-    bool has_lines = true; ///< what stands on a command line has none
+    bool has_lines = true; ///< false for values of the command line
 
     Place at(std::string_view name) const;
     Place at(size_t index) const;
@@ -29,11 +29,11 @@ struct Place
 
 using Keys = std::vector<std::string>;
 
-/// The error of a key that is none of those that are known, with the nearest of them.
+/// Return the error for an unknown key, with the nearest known key.
 Error unknownKey(const Place& place, const tools::TomlNode& node, std::string_view key, const Keys& known);
 
-/// The node's value as Value::text has it. What the cooker itself says of it counts, too: values of several members may not
-/// go together.
+/// Return the node's value in the form of Value::text. The cooker's own parser checks it too: values of
+/// several members may conflict.
 /// errors  profile_key, profile_value
 Result<std::string> checkedTextOf(const tools::TomlNode& node, const Setting& setting, const Place& place);
 

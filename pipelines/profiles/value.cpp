@@ -27,7 +27,7 @@ Result<Value> checkedValue(const TomlNode& node, const Setting& setting, const s
     return Value{std::move(text), origin};
 }
 
-/// Of a word that is written as in a file; what is no TOML is out of every range.
+/// Parse a word in TOML syntax; a word that is not TOML is out of range.
 Result<Value> valueOfToml(const std::string& word, const Setting& setting, const std::string& origin)
 {
     tools::TomlFault fault;
@@ -46,7 +46,7 @@ TomlNode textNode(const std::string& text)
     return node;
 }
 
-/// The node that a value is the text of.
+/// Parse the text of a value.
 TomlNode nodeOf(const Value& value)
 {
     tools::TomlFault fault;
@@ -121,7 +121,7 @@ Result<std::pair<std::string, Value>> parseAssignment(const std::string& text)
         return Error{Issue::profile_value, "--set " + text, "", "write KEY=VALUE"};
     const std::string value = text.substr(key.size() + 1);
     const std::string origin = "--set " + text;
-    // a text may stand without quotation marks, or with them
+    // a text may be written with or without quotation marks
     const bool is_toml = isWord(setting->kind) && !value.empty() &&
                          std::string_view("\"'[").find(value.front()) != std::string_view::npos;
     HEARTH_ASSIGN_OR_RETURN(Value checked, is_toml ? valueOfToml(value, *setting, origin)

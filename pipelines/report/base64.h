@@ -1,4 +1,4 @@
-// Bytes as text, for data URIs.
+// Base64 encoding, for data URIs.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 

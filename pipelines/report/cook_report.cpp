@@ -83,7 +83,7 @@ Json stageJson(const CookReport& cook, size_t index)
     return json;
 }
 
-/// What a cooker wrote beside its part; null where it did not.
+/// Return the statistics that a cooker wrote beside its part; null where there are none.
 Json statisticsOf(const CookReport& cook, size_t index)
 {
     const auto text = cook.statistics.find(index);
@@ -91,7 +91,7 @@ Json statisticsOf(const CookReport& cook, size_t index)
     return json.is_object() ? json : Json();
 }
 
-/// A list of an object, or an empty one.
+/// Return a list of an object, or an empty one.
 Json listOf(const Json& object, const char* key)
 {
     const Json* list = object.find(key);
@@ -104,7 +104,7 @@ uint64_t numberOf(const Json& object, const char* key)
     return number != nullptr && number->is_number_unsigned() ? number->get<uint64_t>() : 0;
 }
 
-/// All actions of a source.
+/// Actions of a source.
 struct Asset
 {
     size_t source = 0;
@@ -135,7 +135,8 @@ const char* stateOf(const CookReport& cook, const Asset& asset)
     return asset.actions.empty() ? "not cooked" : "cached";
 }
 
-/// The files that the import has read besides the source, with what it was called there; those that it has missed.
+/// Return the files that the import read besides the source, under the names that the source uses, and the
+/// files that it missed.
 Json dependenciesOf(const CookReport& cook, const Asset& asset, const Json& import_report)
 {
     Json dependencies = Json::array();
@@ -149,7 +150,8 @@ Json dependenciesOf(const CookReport& cook, const Asset& asset, const Json& impo
     return dependencies;
 }
 
-/// What came before each cooker's own messages is how they are told of in the pack: the import's have their parts already.
+/// Return the messages about an asset. The import's warnings are taken from its report, which has them
+/// already split into members.
 Json messagesOf(const CookReport& cook, const Asset& asset, const Json& import_report)
 {
     Json messages = listOf(import_report, "messages");
@@ -202,7 +204,7 @@ Json assetJson(const CookReport& cook, const Asset& asset)
         if (!record.empty())
         {
             json["key"] = graph::resultKey(record);
-            // the hash, and behind a space the name
+            // the hash, a space, and the name
             const std::string_view source = cache::valueOf(record, "input source");
             json["sha256"] = source.substr(0, source.find(' '));
         }
@@ -248,7 +250,7 @@ Json assetJson(const CookReport& cook, const Asset& asset)
     return json;
 }
 
-/// What each failure is, and what could not be made because of it.
+/// Return the failures, each with the actions that could not run because of it.
 Json failuresJson(const CookReport& cook)
 {
     Json failures = Json::array();
@@ -258,7 +260,7 @@ Json failuresJson(const CookReport& cook)
         Json failure{{"subject", action.subject}, {"stage", action.cooker}};
         failure.update(messageJson(line));
         failure["not_made"] = Json::array();
-        // actions stand after those that they read from
+        // actions come after the actions that they read from
         std::vector<bool> depends(cook.graph->actions.size(), false);
         depends[index] = true;
         for (size_t i = index + 1; i < depends.size(); ++i)
@@ -282,7 +284,7 @@ Json failuresJson(const CookReport& cook)
     return failures;
 }
 
-/// Bytes of the pack by what they are for.
+/// Return the bytes of the pack by purpose.
 Json sizesJson(const std::map<std::string, uint64_t>& bytes_of_chunks)
 {
     static const std::map<std::string, const char*> kind_of_chunk{
@@ -337,7 +339,7 @@ Json totalsJson(const CookReport& cook, const Json& assets)
     return totals;
 }
 
-/// The assets' lists as one, each item with its source.
+/// Join the lists of all assets into one; each item gets its source.
 Json gathered(const Json& assets, const char* key)
 {
     Json all = Json::array();

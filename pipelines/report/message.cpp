@@ -16,7 +16,7 @@ constexpr std::string_view kHint = "] hint: ";
 Message parseMessage(std::string_view line)
 {
     Message message;
-    // the first of both is the message's own: its text may quote another
+    // the first severity is the message's own: its text may quote another message
     const auto placeOf = [&](const std::string& severity)
     { return line.starts_with(severity + ": ") ? 0 : line.find(": " + severity + ": "); };
     const size_t error = placeOf("error");
@@ -34,7 +34,7 @@ Message parseMessage(std::string_view line)
     message.file = place.substr(0, bar);
     message.pointer = bar == std::string_view::npos ? "" : place.substr(bar + 1);
 
-    // the text may have brackets of its own: the code is in the last ones before the hint
+    // the text may contain brackets: the code is in the last ones before the hint
     const size_t hint = line.rfind(kHint);
     if (hint != std::string_view::npos)
         message.hint = line.substr(hint + kHint.size());

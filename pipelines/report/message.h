@@ -1,4 +1,4 @@
-// Messages of cookers as their parts.
+// Parser for messages of cookers.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -8,7 +8,7 @@
 namespace hearth::report
 {
 
-/// "FILE|POINTER: error: TEXT [E1203] hint: HINT", as formatMessage writes it.
+/// Message of the form "FILE|POINTER: error: TEXT [E1203] hint: HINT", as formatMessage writes it.
 struct Message
 {
     std::string file;
@@ -19,7 +19,7 @@ struct Message
     std::string hint;
 };
 
-/// What is not there is empty; a line that is no message is all text.
+/// Parse a message. Missing members are empty; a line that is not a message becomes `text`.
 Message parseMessage(std::string_view line);
 
 } // namespace hearth::report

@@ -11,7 +11,7 @@ namespace hearth::report
 namespace
 {
 
-/// JSON that the end of a script element, or the begin of a comment, cannot occur in.
+/// Escape JSON, so that it contains neither the end of a script element nor the start of a comment.
 std::string inScript(std::string_view json)
 {
     std::string text;
@@ -36,7 +36,7 @@ std::string reportPage(const std::string& data, const std::string& pictures)
     std::string page(page_files::report_html);
     const auto put = [&](std::string_view mark, const std::string& text)
     { page.replace(page.find(mark), mark.size(), text); };
-    // from the end, so that no mark can be found in what has been put
+    // in reverse order, so that placeholders in the inserted data are not replaced
     put("@SCRIPT@", script);
     put("@PICTURES@", inScript(pictures));
     put("@DATA@", inScript(data));

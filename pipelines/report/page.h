@@ -1,4 +1,4 @@
-// The page of a report: one file of HTML with all that it needs inside, so that it opens anywhere and asks for nothing.
+// HTML page of a report: one self-contained file that loads nothing else.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,6 +7,7 @@
 namespace hearth::report
 {
 
+/// Make the page.
 /// data, pictures  JSON, of page_data.h
 std::string reportPage(const std::string& data, const std::string& pictures);
 

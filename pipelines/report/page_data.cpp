@@ -15,7 +15,7 @@ namespace hearth::report
 namespace
 {
 
-// More names of files that one asset reads are only counted: a page is no listing.
+// Maximum of listed dependencies of an asset; the page shows only the number of the others.
 constexpr size_t kMostDependencies = 100;
 
 Json elementsOf(const Json& object, const char* key)
@@ -24,7 +24,7 @@ Json elementsOf(const Json& object, const char* key)
     return list != nullptr && list->is_array() ? *list : Json::array();
 }
 
-/// stage, state, seconds, bytes, start or null, lane, cpu seconds, peak, why
+/// Return a row: stage, state, seconds, bytes, start or null, lane, cpu seconds, peak, causes
 Json stageRow(const Json& stage)
 {
     return Json::array({stage.at("stage"), stage.value("state", ""), stage.value("seconds", 0.0),
@@ -33,7 +33,7 @@ Json stageRow(const Json& stage)
                         stage.value("peak_rss_bytes", uint64_t{0}), stage.value("why", Json::array())});
 }
 
-/// clusters, triangles, largest and mean error, then the largest of positions, normals and UVs
+/// Return a row: clusters, triangles, largest and mean error, then the largest of positions, normals and UVs
 Json levelRow(const Json& level)
 {
     const auto largest = [&](const char* key) { return level.value(key, Json::object()).value("max", 0.0); };
@@ -42,7 +42,7 @@ Json levelRow(const Json& level)
                         largest("uv_error")});
 }
 
-/// name, asset, triangles, vertices, bytes, clusters, pages, levels
+/// Return a row: name, asset, triangles, vertices, bytes, clusters, pages, levels
 Json meshRow(const Json& mesh, size_t asset)
 {
     const Json source = mesh.value("source", Json::object());
@@ -61,7 +61,7 @@ Json psnrOf(const Json& texture, const char* key)
     return error.is_object() ? error.value("psnr_db", Json()) : Json();
 }
 
-/// Material and role of each use.
+/// Return material and role of each use.
 Json usesRow(const Json& texture)
 {
     Json uses = Json::array();
@@ -70,8 +70,9 @@ Json usesRow(const Json& texture)
     return uses;
 }
 
-/// name, asset, width, height, mips, format, content, bytes in the file, bytes in memory, RMS and PSNR of what is stored, PSNR
-/// of half the size, whether that was measured, whether it is a placeholder, uses
+/// Return a row: name, asset, width, height, mips, format, content, bytes in the file, bytes in memory, RMS
+/// and PSNR of the stored texture, PSNR of half the size, whether that was measured, whether it is a
+/// placeholder, uses
 Json textureRow(const Json& texture, size_t asset)
 {
     return Json::array({texture.value("name", ""), asset, texture.value("width", 0),
@@ -106,7 +107,7 @@ std::string codeOf(const IssueInfo& info)
     return (info.kind == IssueClass::warning ? "W" : "E") + std::to_string(static_cast<unsigned>(info.issue));
 }
 
-/// What hearth explain says of the codes that occur.
+/// Return the explanations of `hearth explain` for all codes of the report.
 Json explanations(const Json& report)
 {
     std::set<std::string> codes;
@@ -120,7 +121,7 @@ Json explanations(const Json& report)
     return texts;
 }
 
-/// The settings that make each cooker cheaper: key, option of hearth cook, and how.
+/// Return the settings that make each cooker cheaper: key, option of hearth cook, and advice.
 Json savings()
 {
     Json of_cooker = Json::object();
@@ -168,7 +169,7 @@ std::string pageData(const std::string& report_text)
         for (const Json& texture : elementsOf(assets[i], "textures"))
             data["textures"].push_back(textureRow(texture, i));
     }
-    // of what belongs to no asset
+    // stages that belong to no asset
     for (const char* cooker : {"specular", "bricks", "link"})
         if (report.contains(cooker))
             data["stages"].push_back(stageRow(report[cooker]));
@@ -184,7 +185,7 @@ std::vector<MeshOfPack> importantMeshes(const std::string& report_text)
     {
         MeshOfPack mesh;
         uint64_t bytes;
-        bool is_largest; ///< of its asset
+        bool is_largest; ///< largest mesh of its asset
     };
     std::vector<Ranked> ranked;
     for (const Json& asset : elementsOf(report, "assets"))

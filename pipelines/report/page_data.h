@@ -1,4 +1,5 @@
-// What the page of a report shows, as the script in it reads it: less than the report, and in rows where there are many.
+// Data of a report's page, in the form that its script reads: a subset of the report, with long lists as
+// rows.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,15 +11,16 @@
 namespace hearth::report
 {
 
-/// report   JSON, as below
-/// returns  JSON. Throws JsonError where the report is not as its schema says.
+/// Convert a report into the data of its page.
+/// report   JSON of schema hearth.report/1
+/// returns  JSON. Throws JsonError where the report violates its schema.
 std::string pageData(const std::string& report);
 
-/// The meshes of the report that are worth a picture, first those that matter most: the largest of each asset, by size, then all
-/// others by size.
+/// Return the meshes that deserve an image, most important first: the largest of each asset, by size, then
+/// all others by size.
 std::vector<MeshOfPack> importantMeshes(const std::string& report);
 
-/// JSON: the pictures as data URIs, and what was left out.
+/// Return the images as JSON with data URIs, and the number of meshes without one.
 std::string picturesData(const Pictures& pictures);
 
 } // namespace hearth::report

@@ -1,4 +1,4 @@
-// The files of page/, as the build puts them into the library.
+// Files of page/, which the build embeds into the library.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 

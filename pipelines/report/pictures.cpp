@@ -24,20 +24,22 @@ namespace
 
 using Clock = std::chrono::steady_clock;
 
-// Of a process, whose start and upload of the scene take seconds: few enough that the limit of time is kept.
+// Meshes for each process. Starting a process and uploading the scene take seconds; the number is small
+// enough to keep the time limit.
 constexpr size_t kMeshesOfRun = 12;
 
-// Packs larger than this are streamed, so that their report needs no more memory than their cook did. Pictures do not wait for
-// all pages then, and may be coarser than they would be. What is drawn without streaming is 512 MiB, decoded: three times
-// what the file of 84 million triangles has of it.
+// Packs larger than this are streamed, so that their report needs no more memory than their cook did. Images
+// are then taken before all pages have arrived, and may be coarser. Packs that are not streamed are drawn
+// with a geometry budget of 512 MiB, decoded: three times the geometry in the file of 84 million triangles.
 constexpr uint64_t kLargePack = uint64_t{64} << 20;
 constexpr const char* kGeometryBudget = "512M";
 
-// The scene fills half the width of a page. The cells of a sheet are as small as its assets are many.
+// Sizes of the scene's image, which fills half the width of a page, and of a contact sheet, whose cells
+// shrink with the number of assets.
 constexpr const char* kSceneSize = "480x270";
 constexpr const char* kSheetSize = "960x540";
 
-/// Read and remove.
+/// Read and remove a file.
 std::optional<std::string> takeFile(const std::string& path)
 {
     std::ifstream file(path, std::ios::binary);
@@ -49,7 +51,7 @@ std::optional<std::string> takeFile(const std::string& path)
     return content;
 }
 
-/// Draws with hearth-render into a folder of its own.
+/// Draws images with hearth-render into a temporary folder.
 class Painter
 {
 public:
@@ -64,15 +66,15 @@ public:
         return true;
     }
 
-    /// How many pictures there will be.
+    /// Set the number of expected images.
     void expect(size_t count)
     {
         count_ = count;
         tell();
     }
 
-    /// Of each mesh, or of the scene where there are none, a picture in each view; nothing where that fails, and why() says
-    /// why.
+    /// Draw each mesh, or the scene where there are none, in each view. Return nothing on failure; why() has
+    /// the reason then.
     std::vector<std::vector<std::string>> draw(const std::vector<std::string>& views, const char* size,
                                                const std::vector<uint32_t>& meshes)
     {
@@ -119,11 +121,11 @@ public:
     }
 
     const std::string& why() const { return why_; }
-    /// Of the scene, as hearth-render chose.
+    /// True if hearth-render drew a contact sheet of the scene.
     bool hasDrawnSheet() const { return has_drawn_sheet_; }
 
 private:
-    /// What lies in the folder counts as drawn.
+    /// Report progress; files in the folder count as drawn.
     void tell() const
     {
         if (!told_)
@@ -159,7 +161,7 @@ private:
     std::string pack_;
     PicturesDrawn told_;
     size_t count_ = 0;
-    size_t taken_ = 0; ///< out of the folder
+    size_t taken_ = 0; ///< images taken out of the folder
     std::optional<TempDirectory> folder_;
     std::string why_;
     bool has_drawn_sheet_ = false;
@@ -172,7 +174,7 @@ Result<formats::PackView> openPack(const std::string& path)
     return formats::PackView::read(std::move(reader));
 }
 
-/// Those of the list that the pack has, and draws somewhere.
+/// Return the meshes of the list that the pack has and draws somewhere.
 std::vector<uint32_t> drawable(const formats::PackView& pack, const std::vector<MeshOfPack>& meshes)
 {
     std::set<uint32_t> drawn;
@@ -235,7 +237,7 @@ Pictures takePictures(const std::string& pack_path, const std::vector<MeshOfPack
         scene = painter.draw(pictures.views, kSheetSize, {});
     if (scene.empty())
     {
-        // what cannot draw the scene cannot draw its meshes
+        // a device that cannot draw the scene cannot draw its meshes
         pictures.why_left_out = painter.why();
         return pictures;
     }

@@ -1,4 +1,4 @@
-// Pictures of what was cooked: hearth-render run as a child, on whatever Vulkan device there is.
+// Images of a cooked pack: runs hearth-render as a child process, on any Vulkan device.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -17,29 +17,31 @@ struct MeshOfPack
     std::string name;
 };
 
-/// What pictures may take; meshes beyond that have none.
+/// Limits for images; meshes beyond them have none.
 struct PictureLimits
 {
-    size_t meshes = 24;          ///< a page of them; more are read by nobody
-    double seconds = 120;        ///< no more are begun after it
-    uint64_t bytes = 8ull << 20; ///< of all files, so that the page stays well below 20 MB
+    size_t meshes = 24;          ///< number of meshes; nobody looks at more
+    double seconds = 120;        ///< no image is begun after this time
+    uint64_t bytes = 8ull << 20; ///< size of all files, so that the page stays well below 20 MB
 };
 
 struct Pictures
 {
-    std::vector<std::string> views; ///< of each list below: "final", ...
+    std::vector<std::string> views; ///< views of each list below: "final", ...
     std::vector<std::string> scene; ///< JPEG of the whole scene; empty where it could not be drawn
-    bool is_sheet = false;          ///< these are contact sheets: the assets stand in one place
-    std::map<uint32_t, std::vector<std::string>> meshes; ///< the same of meshes, each alone
-    size_t left_out = 0;                                 ///< meshes that have none
+    bool is_sheet = false;          ///< the scene images are contact sheets: the assets are at one place
+    std::map<uint32_t, std::vector<std::string>> meshes; ///< JPEG of each mesh alone, by mesh index
+    size_t left_out = 0;                                 ///< number of meshes without images
     std::string why_left_out;
 };
 
-/// Told before the first picture is drawn, and once a second or more often while they are.
+/// Progress callback, called before the first image is drawn and then at least once a second.
 using PicturesDrawn = std::function<void(size_t drawn, size_t count)>;
 
-/// meshes  most important first; what the pack does not have under that number and name, or nowhere draws, is passed over
-/// told    empty: is not
+/// Take the images of a pack.
+/// meshes  most important first; meshes that the pack does not have under that index and name, or never
+///         draws, are skipped
+/// told    progress callback; may be empty
 Pictures takePictures(const std::string& pack, const std::vector<MeshOfPack>& meshes,
                       const PicturesDrawn& told = {}, const PictureLimits& limits = {});
 

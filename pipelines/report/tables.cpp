@@ -31,13 +31,13 @@ std::string escapedXml(std::string_view text)
             escaped += "&quot;";
             break;
         default:
-            // XML 1.0 has no way to write control characters
+            // XML 1.0 cannot represent control characters
             escaped += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
         }
     return escaped;
 }
 
-/// A field of CSV; what a spreadsheet would take for a formula is told to be text.
+/// Quote a field of CSV; a text that a spreadsheet would take for a formula is marked as text.
 std::string field(std::string text)
 {
     if (!text.empty() && std::string_view("=+-@").find(text.front()) != std::string_view::npos)
@@ -57,7 +57,7 @@ std::string textOf(const Json& message)
                        message.value("code", ""));
 }
 
-/// The errors of one subject, as the content of its test case.
+/// Return the errors of one subject, as the content of its test case.
 std::string failuresXml(const Json& failures, const std::string& subject)
 {
     std::string xml;

@@ -1,4 +1,4 @@
-// The report for programs that know other formats: continuous integration, spreadsheets.
+// Report in formats of other programs: continuous integration, spreadsheets.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,12 +7,12 @@
 namespace hearth::report
 {
 
-// Both read JSON, and throw JsonError where the report is not as its schema says.
+// Both functions read JSON, and throw JsonError where the report violates its schema.
 
-/// JUnit's XML: a test case for each asset, and one for what belongs to none.
+/// Convert to JUnit XML: a test case for each asset, and one for failures that belong to no asset.
 std::string junitXml(const std::string& report);
 
-/// CSV as of RFC 4180: the names of the columns, then a row for each asset.
+/// Convert to CSV (RFC 4180): the names of the columns, then a row for each asset.
 std::string assetTable(const std::string& report);
 
 } // namespace hearth::report

@@ -32,7 +32,7 @@ Status writeReport(const std::string& json, const std::string& path, const std::
     }
     catch (const JsonError& error)
     {
-        // a member of another type than the schema gives it
+        // a member of another type than the schema requires
         return Error{Issue::json_syntax, name, "",
                      std::string("is no report of hearth cook: ") + error.what()};
     }

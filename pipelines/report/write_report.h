@@ -1,4 +1,4 @@
-// The report of a cook in the forms that people and machines read.
+// Writes the report of a cook in formats for people and machines.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,12 +10,12 @@
 namespace hearth::report
 {
 
-/// Write a report where it is wanted: as a page where `path` ends in .html, as JUnit's XML for .xml, as a table for .csv, and
-/// else as the JSON that it is.
+/// Write a report in the format of its file extension: a page for .html, JUnit XML for .xml, a table for
+/// .csv, else JSON.
 ///
 /// json     of schema hearth.report/1
-/// pack     that was cooked, for the page's pictures; empty: none
-/// told     of the page's pictures; empty: is not
+/// pack     cooked pack, for the page's images; empty: none
+/// told     progress of the page's images; may be empty
 /// errors   json_syntax, naming `name`; cannot_write; read_failed for standard output
 Status writeReport(const std::string& json, const std::string& path, const std::string& pack,
                    const std::string& name = "report", const PicturesDrawn& told = {});

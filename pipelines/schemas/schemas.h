@@ -1,4 +1,4 @@
-// The JSON Schemas of what Hearth writes: the files hearth.NAME.VERSION.json beside this one.
+// JSON Schemas of Hearth's output formats: the files hearth.NAME.VERSION.json of this folder.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -14,7 +14,7 @@ struct Schema
     std::string_view text; ///< JSON Schema, draft 2020-12
 };
 
-/// In order of their names.
+/// Return all schemas, in order of their names.
 std::span<const Schema> all();
 
 } // namespace hearth::schemas

@@ -1,4 +1,4 @@
-// Checks packs on all cores: what formats/ checks, which starts no threads.
+// Runs the pack checks of formats/, which start no threads, on all cores.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,7 +7,7 @@
 namespace hearth::verify
 {
 
-/// formats::checkPack, with the same answer.
+/// Check a pack as formats::checkPack does, with the same result.
 Status verifyPack(const formats::PackView& view);
 
 } // namespace hearth::verify

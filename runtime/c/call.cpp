@@ -42,7 +42,8 @@ hearth_result resultOf(const Error& error)
     }
 }
 
-/// Issue::usage is the command line's: its hint is of no help to a program.
+/// Text of an error without the hint of Issue::usage, which is about the command line and no help to a
+/// program.
 std::string textOf(const char* function, const Error& error)
 {
     if (error.issue != Issue::usage)
@@ -78,7 +79,7 @@ void write(MessageRoom message, const char* text, size_t length)
     message.text[kept] = '\0';
 }
 
-/// The text that `make` returns, or that of the result where there is no memory for it.
+/// Return the text that `make` returns, or the string of the result if there is no memory for it.
 template <typename Make>
 void writeText(MessageRoom message, hearth_result result, const Make& make) noexcept
 try

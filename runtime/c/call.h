@@ -1,4 +1,4 @@
-// The boundary to C: what a call returns, where its message goes, and nothing that is thrown passes.
+// C boundary: converts errors to results and messages, and stops exceptions.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,33 +12,34 @@
 namespace hearth::c
 {
 
-/// Room for the message of a call that fails; zero-terminated, cut off where it is too short.
+/// Buffer for the message of a failed call; zero-terminated, truncated if it is too short.
 struct MessageRoom
 {
-    char* text = nullptr; ///< or none
+    char* text = nullptr; ///< or null
     size_t size = 0;
 };
 
-/// The error of a call that breaks a rule of hearth.h.
+/// Make the error of a call that breaks a rule of hearth.h.
 Error usage(std::string detail);
 
-/// Write the message of an error, and return the result that stands for it. `function` names the call that is wrong.
+/// Write the message of an error, and return its result code. `function` names the failed call.
 hearth_result fail(MessageRoom message, const char* function, const Error& error);
 
-/// Objects of one kind that were made from a handle and are alive.
+/// Living objects of one kind that were made from a handle.
 struct LiveObjects
 {
     uint32_t count;
-    const char* one;     ///< their kind in the singular
-    const char* several; ///< and in the plural
+    const char* one;     ///< name of the kind, singular
+    const char* several; ///< name of the kind, plural
 };
 
-/// HEARTH_ERROR_IN_USE, where there are any; else HEARTH_OK. The message counts them: "2 scenes and 1 player are alive".
-/// owner  what they were made from: "pack"
+/// Return HEARTH_ERROR_IN_USE if any object is alive, else HEARTH_OK. The message counts the objects: "2
+/// scenes and 1 player are alive".
+/// owner  kind of the handle that they were made from: "pack"
 hearth_result checkUnused(MessageRoom message, const char* function, const char* owner,
                           std::initializer_list<LiveObjects> objects) noexcept;
 
-/// Run a call: `body` returns a Status, and changes nothing where it fails.
+/// Run a call: `body` returns a Status, and changes nothing if it fails.
 template <typename Body>
 hearth_result call(MessageRoom message, const char* function, const Body& body) noexcept
 try
@@ -55,7 +56,7 @@ catch (const std::exception& exception)
     return fail(message, function, {Issue::internal, "", "", exception.what()});
 }
 
-/// errors: usage, where a struct of the caller is missing or of another version.
+/// errors: usage if a struct of the caller is missing or of another version.
 Status checkStruct(const char* name, const uint32_t* struct_size, size_t expected_size);
 
 template <typename Struct>

@@ -66,7 +66,7 @@ Status check(const hearth_renderer& renderer, const hearth_frame& frame)
     return success();
 }
 
-/// That the scene and the targets can be recorded into, now. The scene is not NULL.
+/// Check that the scene and the targets can be recorded into now. The scene is not NULL.
 Status checkCall(const hearth_scene& scene, const hearth_targets* targets, VkCommandBuffer commands,
                  const hearth_frame* frame)
 {
@@ -93,7 +93,7 @@ Status checkOwner(const hearth_scene& scene, const hearth_targets& targets)
     return success();
 }
 
-/// That a frame of the scene may begin.
+/// Check that a frame of the scene may begin.
 Status checkBegun(const hearth_scene& scene)
 {
     if (scene.scene->stream != nullptr && !scene.to_be_recorded)
@@ -126,7 +126,7 @@ Result<shared::FrameView> makeView(const hearth_scene& scene, const gpu::FrameTa
     return view;
 }
 
-/// Into scene.moves.
+/// Fill scene.moves.
 Status makeMoves(hearth_scene& scene, const hearth_frame& frame)
 {
     scene.moves.clear();
@@ -142,7 +142,7 @@ Status makeMoves(hearth_scene& scene, const hearth_frame& frame)
     return success();
 }
 
-/// Into scene.poses, which refer to the caller's.
+/// Fill scene.poses, which refer to the caller's data.
 Status makePoses(hearth_scene& scene, const hearth_frame& frame)
 {
     scene.poses.clear();
@@ -162,7 +162,7 @@ Status makePoses(hearth_scene& scene, const hearth_frame& frame)
     return success();
 }
 
-/// The moves, poses, lights and shadow spheres are those of the frame's first part.
+/// Uses the moves, poses, lights and shadow spheres of the frame's first part.
 Result<gpu::FrameInput> makeInput(const hearth_scene& scene, const gpu::FrameTargets& targets,
                                   const hearth_frame& frame)
 {
@@ -182,15 +182,15 @@ Result<gpu::FrameInput> makeInput(const hearth_scene& scene, const gpu::FrameTar
                            .timestamps = frame.timestamps};
 }
 
-/// Which calls record a frame: one, or three in this order.
+/// Progress of a frame: recorded by one call, or by three in this order.
 enum PartsRecorded : uint32_t
 {
-    kNothing = 0, ///< or the whole of a frame
+    kNothing = 0, ///< or a whole frame
     kCulled = 1,
     kVisible = 2,
 };
 
-/// What a frame brings along, before any of it is recorded.
+/// Take the per-frame inputs, before any part of the frame is recorded.
 Status beginFrame(hearth_scene& scene, const hearth_frame& frame)
 {
     HEARTH_TRY(checkBegun(scene));
@@ -208,7 +208,7 @@ Status checkOrder(const hearth_scene& scene, const hearth_targets* targets, Part
     return success();
 }
 
-/// `record` is the renderer's function for what comes between.
+/// Run one record call; `record` is the renderer's function for it.
 template <typename Record>
 hearth_result recordParts(const char* function, PartsRecorded before, PartsRecorded after,
                           const Record& record, hearth_scene* scene, hearth_targets* targets,

@@ -1,4 +1,4 @@
-// What stands behind the handles of hearth.h.
+// Objects behind the handles of hearth.h.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -28,7 +28,7 @@ struct hearth_player
 
     hearth_pack& pack;
     hearth::pack::PosePlayer player;
-    std::vector<hearth_move> moves; ///< as the player has them
+    std::vector<hearth_move> moves; ///< same moves as the player's, converted
     std::vector<hearth_pose> poses;
 };
 
@@ -50,24 +50,26 @@ struct hearth_scene
     hearth_pack* pack;
     std::shared_ptr<hearth::gpu::Scene> scene; ///< the only owner
 
-    /// The frame that was begun; of a streamed scene only.
+    /// Frame that was begun; streamed scenes only.
     uint64_t serial = 0, completed_serial = 0;
     bool to_be_recorded = false;
 
-    /// Where a frame is recorded in parts: how many of them, and with which targets.
+    /// Number of parts recorded so far of a frame that is recorded in parts, and its targets.
     uint32_t parts_recorded = 0;
     const hearth_targets* parts_targets = nullptr;
 
-    std::vector<hearth::gpu::InstanceMove> moves; ///< of the frame that is recorded; kept for its memory
-    std::vector<hearth::gpu::InstancePose> poses; ///< the same
-    std::vector<hearth::gpu::ShadowSphere> shadow_spheres; ///< the same
-    std::vector<hearth::gpu::LightChange> lights;          ///< the same
-    std::vector<hearth::gpu::EmissionScale> emissions;     ///< the same
+    /// of the frame that is recorded; a member to reuse its memory
+    std::vector<hearth::gpu::InstanceMove> moves;
+    std::vector<hearth::gpu::InstancePose> poses;          ///< as moves
+    std::vector<hearth::gpu::ShadowSphere> shadow_spheres; ///< as moves
+    std::vector<hearth::gpu::LightChange> lights;          ///< as moves
+    std::vector<hearth::gpu::EmissionScale> emissions;     ///< as moves
 };
 
 struct hearth_targets
 {
     hearth_renderer* renderer;
     hearth::gpu::FrameTargets targets;
-    std::weak_ptr<const hearth::gpu::Scene> scene{}; ///< to which they belong, once a frame is recorded
+    /// scene that the targets belong to, once a frame is recorded
+    std::weak_ptr<const hearth::gpu::Scene> scene{};
 };

@@ -1,4 +1,5 @@
-// hearth.h for C++20: handles that destroy what they own, and messages as strings. Nothing else; all rules are hearth.h's.
+// C++20 wrapper of hearth.h: owning handles, and messages as strings. Nothing else; the rules of hearth.h
+// hold.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,7 +13,7 @@
 namespace hearth
 {
 
-/// Owns a handle of hearth.h. What was made from it must be gone when it is destroyed: declare it first.
+/// Owning handle of hearth.h. Everything made from it must be destroyed before it, so declare it first.
 template <typename T, hearth_result (*kDestroy)(T*)>
 class Handle
 {
@@ -31,20 +32,20 @@ public:
     T* get() const { return handle_; }
     explicit operator bool() const { return handle_ != nullptr; }
 
-    /// To the caller, who destroys it.
+    /// Release ownership to the caller, who destroys the handle.
     T* release() { return std::exchange(handle_, nullptr); }
 
     void reset(T* handle = nullptr)
     {
         [[maybe_unused]] const hearth_result destroyed = kDestroy(std::exchange(handle_, handle));
-        assert(destroyed == HEARTH_OK); // HEARTH_ERROR_IN_USE: it is leaked
+        assert(destroyed == HEARTH_OK); // HEARTH_ERROR_IN_USE: the handle leaks
     }
 
 private:
     T* handle_ = nullptr;
 };
 
-/// Calls `function(message, message_size)`, and puts the message of a failure into `message` where there is one.
+/// Call `function(message, message_size)`, and store the message of a failure in `message` if it is not null.
 template <typename Function>
 hearth_result callWithMessage(std::string* message, const Function& function)
 {
@@ -55,7 +56,7 @@ hearth_result callWithMessage(std::string* message, const Function& function)
     return result;
 }
 
-/// The functions `open` and `create` leave their target as it was where they fail.
+/// Pack file. The functions `open` and `create` leave their target as it was if they fail.
 class Pack : public Handle<hearth_pack, hearth_pack_close>
 {
 public:
@@ -106,7 +107,7 @@ public:
                                { return hearth_pack_get_count(get(), table, &count, text, size); });
     }
 
-    /// The name holds while the pack is open.
+    /// The name is valid while the pack is open.
     [[nodiscard]] hearth_result getName(uint32_t table, uint32_t index, std::string_view& name,
                                         std::string* message = nullptr) const
     {
@@ -154,7 +155,9 @@ public:
         return result;
     }
 
-    /// from  none: at rest;  to  a second clip, or none;  weight  of the second
+    /// from    none: at rest
+    /// to      a second clip, or none
+    /// weight  of the second clip
     [[nodiscard]] hearth_result goTo(const hearth_clip* from, const hearth_clip* to = nullptr,
                                      double weight = 0, std::string* message = nullptr)
     {

@@ -56,10 +56,10 @@ struct hearth_device
     DEVICE_FUNCTIONS(MEMBER)
 #undef MEMBER
     VkInstance instance;
-    VkPhysicalDevice physical_device; /* and, below, what it says of itself */
+    VkPhysicalDevice physical_device; /* its queried properties follow */
     VkPhysicalDeviceProperties properties;
     uint32_t queue_family;
-    int has_anisotropy; /* and it is enabled */
+    int has_anisotropy; /* and enabled */
     VkDevice device;
     VkQueue queue;
     VkCommandPool pool;
@@ -132,7 +132,7 @@ static hearth_result create_instance(hearth_device* device)
     return HEARTH_OK;
 }
 
-/* Whether `text` contains `part`, in any case. */
+/* True if `text` contains `part`, in any case. */
 static int contains(const char* text, const char* part)
 {
     for (;; ++text)
@@ -147,7 +147,7 @@ static int contains(const char* text, const char* part)
     }
 }
 
-/* Likely speed of a kind of device; 0 is the least. */
+/* Rank of a device type by likely speed; 0 is the slowest. */
 static int rank(VkPhysicalDeviceType type)
 {
     switch (type)
@@ -165,7 +165,7 @@ static int rank(VkPhysicalDeviceType type)
     }
 }
 
-/* Finds a queue family that draws and computes; returns 0 where there is none. */
+/* Find a queue family for graphics and compute; returns 0 if there is none. */
 static int find_family(const hearth_device* device, VkPhysicalDevice physical_device, uint32_t* family)
 {
     const VkQueueFlags needed = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
@@ -213,7 +213,7 @@ static hearth_result create_device(hearth_device* device)
     VkDeviceCreateInfo info = {VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
     VkResult result;
     device->vkGetPhysicalDeviceFeatures(device->physical_device, &supported);
-    /* lavapipe's is slow, and wrong where the block of a pixel sees two triangles */
+    /* lavapipe's anisotropic filter is slow, and wrong where a 2x2 block sees two triangles */
     device->has_anisotropy =
         supported.samplerAnisotropy && device->properties.deviceType != VK_PHYSICAL_DEVICE_TYPE_CPU;
     enabled.samplerAnisotropy = device->has_anisotropy ? VK_TRUE : VK_FALSE;
@@ -397,9 +397,9 @@ hearth_result hearth_device_discard(hearth_device* device)
     return result == VK_SUCCESS ? HEARTH_OK : failed(device, result, "reset a command buffer");
 }
 
-/* ---- Pictures ---- */
+/* ---- Images and cameras ---- */
 
-/* Memory that the device copies to and the CPU reads. */
+/* Readback memory: the device copies to it, the CPU reads it. */
 typedef struct readback
 {
     VkBuffer buffer;
@@ -407,7 +407,7 @@ typedef struct readback
     const void* mapped;
 } readback;
 
-/* Finds a type of memory with these properties; returns 0 where there is none. */
+/* Find a memory type with these properties; returns 0 if there is none. */
 static int find_memory_type(const hearth_device* device, uint32_t allowed, VkMemoryPropertyFlags wanted,
                             uint32_t* type)
 {
@@ -529,7 +529,8 @@ hearth_camera hearth_fit_camera(const float box_min[3], const float box_max[3], 
         camera.target[axis] = is_empty ? 0 : box_min[axis] + half;
         square += half * half;
     }
-    /* the sphere around the box touches the sides of the picture; a box without extent has a distance too */
+    /* the bounding sphere of the box touches the sides of the frame; the minimum covers a box without
+     * extent */
     distance = margin * sqrtf(square) / sinf(half_angle);
     distance = distance > 1e-6f ? distance : 1e-6f;
     for (axis = 0; axis < 3; ++axis)

@@ -1,4 +1,4 @@
-// What a frame of a C caller says of lights.
+// Lights and emission scales of a C caller's frame, converted and checked.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,10 +7,10 @@
 namespace hearth::c
 {
 
-/// Into scene.lights. errors: usage.
+/// Fill scene.lights. errors: usage.
 Status makeLights(hearth_scene& scene, const hearth_frame& frame);
 
-/// Into scene.emissions. errors: usage.
+/// Fill scene.emissions. errors: usage.
 Status makeEmissions(hearth_scene& scene, const hearth_frame& frame);
 
 } // namespace hearth::c

@@ -9,7 +9,7 @@ using namespace hearth::c;
 namespace
 {
 
-/// Pages are decoded in place, tables read through typed spans.
+/// True if the alignment suffices to decode pages in place and read tables through typed spans.
 bool isAligned(const void* bytes)
 {
     return reinterpret_cast<uintptr_t>(bytes) % formats::kChunkAlignment == 0;

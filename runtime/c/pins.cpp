@@ -1,4 +1,4 @@
-// The numbers of hearth.h are those of the runtime: a change of either does not compile.
+// Static assertions that the constants and defaults of hearth.h equal those of the runtime.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/c/handles.h"
 
@@ -94,7 +94,7 @@ static_assert(offsetof(hearth_frame_counters, early_clusters) == offsetof(FrameC
 
 static_assert(sizeof(hearth_transform) == sizeof(Affine3d) && alignof(hearth_transform) == alignof(Affine3d));
 
-// the defaults
+// defaults
 constexpr hearth_scene_options kSceneDefaults = HEARTH_SCENE_OPTIONS_INIT;
 static_assert(kSceneDefaults.max_visible_clusters == (1u << 22) && kSceneDefaults.max_loads == 32 &&
               kSceneDefaults.frames_in_flight == 3 &&

@@ -43,7 +43,7 @@ Status goTo(hearth_player& player, const hearth_clip* from, const hearth_clip* t
     return success();
 }
 
-/// What the player says, in the types of hearth.h.
+/// Convert the player's moves and poses to the types of hearth.h.
 void refresh(hearth_player& player)
 {
     player.moves.clear();

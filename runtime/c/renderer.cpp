@@ -13,7 +13,7 @@ namespace
 constexpr uint32_t kFeatures =
     HEARTH_FEATURE_SAMPLER_ANISOTROPY | HEARTH_FEATURE_OVERDRAW | HEARTH_FEATURE_DEBUG_LABELS;
 
-/// The description of version 1.0 ends here.
+/// Size of the description in version 1.0.
 constexpr size_t kDescriptionBytes10 = offsetof(hearth_renderer_description, memory);
 
 bool understands(uint32_t version)
@@ -21,7 +21,7 @@ bool understands(uint32_t version)
     return version >> 16 == HEARTH_API_VERSION >> 16 && (version & 0xFFFFu) <= (HEARTH_API_VERSION & 0xFFFFu);
 }
 
-/// What the caller has, of whatever version, and the defaults of what it does not have.
+/// Return the description of a caller of any version, with defaults for missing members.
 Result<hearth_renderer_description> complete(const hearth_renderer_description* given)
 {
     if (given == nullptr || given->struct_size != kDescriptionBytes10)

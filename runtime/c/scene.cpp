@@ -134,7 +134,7 @@ hearth_result hearth_scene_destroy(hearth_scene* scene)
     if (scene == nullptr)
         return HEARTH_OK;
     const std::unique_ptr<hearth_scene> dying(scene);
-    scene->scene.reset(); // reads the pack
+    scene->scene.reset(); // uses the pack, so it goes first
     --scene->renderer->scene_count;
     --scene->pack->scene_count;
     return HEARTH_OK;

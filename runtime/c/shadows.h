@@ -1,4 +1,4 @@
-// Shadows of the C API: what its structures say, checked and handed on.
+// Shadow options and spheres of the C API, checked and converted.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,10 +7,10 @@
 namespace hearth::c
 {
 
-/// Options in their ranges become the renderer's. errors: usage.
+/// Convert options that are in range to the renderer's. errors: usage.
 Result<gpu::ShadowOptions> shadowOptions(const hearth_shadow_options& options);
 
-/// The spheres of a frame, into scene.shadow_spheres. errors: usage.
+/// Fill scene.shadow_spheres with the spheres of a frame. errors: usage.
 Status makeShadowSpheres(hearth_scene& scene, const hearth_frame& frame);
 
 } // namespace hearth::c

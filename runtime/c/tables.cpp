@@ -19,7 +19,7 @@ static_assert(kRecordNames.size() == HEARTH_TABLE_ANIMATIONS + 1);
 static_assert(HEARTH_CAMERA_PERSPECTIVE == static_cast<int>(formats::CameraType::perspective));
 static_assert(HEARTH_CAMERA_ORTHOGRAPHIC == static_cast<int>(formats::CameraType::orthographic));
 
-/// Returns `use` of the table's records, which is a number or a string. `table` is one of HEARTH_TABLE_*.
+/// Return `use` of the table's records: a number or a string. `table` is one of HEARTH_TABLE_*.
 template <typename Use>
 auto withRecords(const formats::PackView& view, uint32_t table, const Use& use)
 {
@@ -72,7 +72,7 @@ uint32_t countOf(const hearth_pack& pack, uint32_t table)
                        [](const auto& records) { return static_cast<uint32_t>(records.size()); });
 }
 
-/// Checks that the pack is there and has the record. `table` is one of HEARTH_TABLE_*.
+/// Check that the pack is not NULL and has the record. `table` is one of HEARTH_TABLE_*.
 Status checkRecord(const hearth_pack* pack, uint32_t table, uint32_t index)
 {
     HEARTH_TRY(checkTable(pack, table));
@@ -95,7 +95,7 @@ void copyVector(Float3 from, float (&to)[3])
     to[2] = from.z;
 }
 
-/// The camera as a frame takes it: what hearth-render draws as --scene-camera.
+/// Convert to the camera of a frame, as hearth-render draws --scene-camera.
 hearth_camera viewOf(const formats::CameraRecord& record)
 {
     const Affine3& world_from_camera = record.world_from_camera;

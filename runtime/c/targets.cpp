@@ -7,7 +7,7 @@ using namespace hearth::c;
 namespace
 {
 
-/// note: what the dependencies of runtime/gpu/passes/frame_passes.cpp do.
+/// note: must match the dependencies in runtime/gpu/passes/frame_passes.cpp.
 hearth_image imageOf(const gpu::Image& image)
 {
     return {

@@ -17,7 +17,8 @@ Float4 row(Float3 a, float w = 0)
     return {a.x, a.y, a.z, w};
 }
 
-/// Any unit vector across `forward` for cameras that look along their own up vector.
+/// Return the right vector of a camera, or any unit vector perpendicular to `forward` for cameras that look
+/// along their up vector.
 Float3 rightOf(Float3 forward, Float3 up)
 {
     const Float3 right = cross(forward, up);
@@ -53,7 +54,8 @@ FrameView makeFrameView(const Camera& camera, uint32_t width, uint32_t height, f
     view.eye = camera.position;
     view.z_near = camera.z_near;
     view.lod_scale = 0.5f * static_cast<float>(height) * focal;
-    // an error of exactly 0 never exceeds a threshold of 0: only a negative one refines planes to their source
+    // an error of exactly 0 never exceeds a threshold of 0: only a negative threshold refines planes to their
+    // source triangles
     view.threshold = error_pixels > 0 ? error_pixels : -1.0f;
     view.flags = flags;
     view.instance_count = instance_count;

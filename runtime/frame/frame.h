@@ -1,4 +1,5 @@
-// C++ only: fills the shared records of a frame and of a scene from a camera and the tables of a pack.
+// Fills the GPU records of a frame and of a scene (FrameView, OcclusionView, ...) from a camera and the
+// tables of a pack. C++ only.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -19,19 +20,19 @@ struct Camera
     float z_near = 0.01f;   ///< metres
 };
 
-/// The frame's constants. `error_pixels` is the projected error that need not be refined; 0 asks for the source
-/// triangles, also where a coarser level has no error at all. Errors count alike at all distances: setLodCurve
-/// (lod_curve.h) changes that.
+/// Return the constants of a frame. `error_pixels` is the projected LOD error that need not be refined; 0
+/// selects the source triangles, even where a coarser level has no error. Errors count equally at all
+/// distances: setLodCurve (lod_curve.h) changes that.
 FrameView makeFrameView(const Camera& camera, uint32_t width, uint32_t height, float error_pixels,
                         uint32_t instance_count, uint32_t flags = kCullEverything);
 
-/// The view of the depth pyramid that such a frame leaves.
+/// Return the view of the depth pyramid that a frame with this view leaves.
 OcclusionView makeOcclusionView(const FrameView& view);
 
-/// Inverse of the linear part, computed in double.
+/// Return the inverse of the linear part, computed in double.
 InstanceInverse makeInstanceInverse(const formats::InstanceRecord& instance);
 
-/// Box over all clusters of each mesh: simplified vertices may leave the box of the source.
+/// Return the bounding box of all clusters of each mesh: simplified vertices may leave the box of the source.
 std::vector<MeshBounds> makeMeshBounds(std::span<const formats::MeshRecord> meshes,
                                        std::span<const formats::ClusterRecord> clusters);
 

@@ -11,7 +11,8 @@ namespace hearth::shared
 namespace
 {
 
-// Between neighbours: the rounding of the larger one must stay below what groups' errors grow by (2^-18).
+// Maximum ratio of neighbouring factors: the rounding of the larger one must stay below the growth of group
+// errors towards the root (2^-18).
 constexpr float kSteepest = 8.0f;
 
 std::string faultOf(std::span<const LodKnot> curve)
@@ -31,7 +32,8 @@ std::string faultOf(std::span<const LodKnot> curve)
             return knot + " is no farther away than the one before it";
         if (factor > kSteepest * factor_before || factor_before > kSteepest * factor)
             return knot + " differs from the one before it by more than 8 times";
-        // the factor over the distance must not grow: on a line between knots, where it does not from end to end
+        // the factor over the distance must not grow; on a line between knots it does not grow if it does not
+        // from end to end
         if (double{factor} * double{distance_before} > double{factor_before} * double{distance})
             return knot + " grows faster than the distance";
     }
@@ -52,7 +54,7 @@ Status setLodCurve(FrameView& view, std::span<const LodKnot> curve)
         const bool there = i < curve.size();
         const bool last = i + 1 >= curve.size();
         const LodKnot& knot = curve[there ? i : curve.size() - 1];
-        // x: where the segment starts, y and z: the factor there and at its end, w: 1 / its length
+        // x: start of the segment, y and z: factor at its start and end, w: 1 / its length
         view.lod_curve[i] = {there ? knot.distance : std::numeric_limits<float>::max(), knot.factor,
                              last ? knot.factor : curve[i + 1].factor,
                              last ? 0.0f : 1.0f / (curve[i + 1].distance - knot.distance)};

@@ -1,4 +1,4 @@
-// C++ only: how much the error of a group counts at a distance.
+// LOD curve: weight of a group's error by distance. C++ only.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,19 +10,20 @@
 namespace hearth::shared
 {
 
-/// A knot of a curve that is linear between its knots and constant beyond the first and the last.
+/// Knot of a piecewise linear curve that is constant before the first and after the last knot.
 struct LodKnot
 {
-    float distance; ///< metres from the eye, 0 or more, less than that of the next knot
-    float factor;   ///< on the projected error: above 1 is finer. Within 8 times the next one's
+    float distance; ///< metres from the eye, 0 or more, less than the next knot's
+    /// factor on the projected error: above 1 is finer. At most 8 times the next one's, and vice versa
+    float factor;
 };
 
-/// At most so many knots.
+/// Maximum number of knots.
 inline constexpr size_t kMaxLodKnots = kLodKnots;
 
-/// Make the errors of a frame count `curve(distance)` times. An empty curve is 1 everywhere.
-/// A factor may grow with the distance, but never faster than it: else an error would count more seen from
-/// farther away, a group could be refined whose coarser neighbour above is not, and the cut would overlap itself.
+/// Multiply the errors of a frame by `curve(distance)`. An empty curve is 1 everywhere. A factor may grow
+/// with the distance, but never faster than the distance itself: else an error would weigh more from farther
+/// away, a group could be refined while its coarser neighbour above is not, and the cut would overlap itself.
 /// errors: usage, naming the knot.
 Status setLodCurve(FrameView& view, std::span<const LodKnot> curve);
 

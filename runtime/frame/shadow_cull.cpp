@@ -13,7 +13,8 @@ namespace hearth::shared
 namespace
 {
 
-/// The plane through the edge of a map, inside where the light's coordinate is more than `least`, or less with side -1.
+/// Return the plane through an edge of a map. Inside is where the light's coordinate is more than `least`, or
+/// less with side -1.
 Float4 sidePlane(const ShadowLight& light, Double3 eye, Float3 axis, double least, double side)
 {
     const Double3 along = widen(light.direction);
@@ -40,7 +41,7 @@ FrameView makeCasterView(const FrameView& view, const ShadowLight& light, const 
     casters.planes[2] = sidePlane(light, eye, light.down, coordinate(0, map.scale_y, map.offset_y), 1);
     casters.planes[3] =
         sidePlane(light, eye, light.down, coordinate(map.size, map.scale_y, map.offset_y), -1);
-    // a sun has no nearest distance: a plane that everything lies on
+    // a sun has no near plane: use a plane with all points inside
     const Double3 near_normal = widen(light.direction) * double{light.perspective};
     const Float3 n = narrow(near_normal);
     casters.planes[4] = {
@@ -54,7 +55,7 @@ FrameView makeCasterView(const FrameView& view, const ShadowLight& light, const 
 EyeCell eyeCell(const FrameView& view, float texel_m, float error_bias)
 {
     HEARTH_ASSERT(texel_m > 0 && error_bias >= 1);
-    // beyond a kilometre cells gain nothing, below a millimetre neither
+    // cells above a kilometre or below a millimetre gain nothing
     constexpr float kSmallestExponent = -10;
     constexpr float kLargestExponent = 10;
     constexpr float kHalfDiagonal = 0.8660255f; // of a cube of side 1

@@ -1,5 +1,5 @@
-// C++ only: which clusters are drawn into a shadow map. The same tests as for a picture (decisions.h), with other
-// planes and a coarser cut.
+// Selects the clusters that are drawn into a shadow map, by the same tests as for the camera's image
+// (decisions.h), with other planes and a coarser cut. C++ only.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -8,29 +8,30 @@
 namespace hearth::shared
 {
 
-/// The view that finds the casters of a map: what lies between its sides and before a spot. The cut is that of the
-/// picture, with errors counted less, seen from the camera and not from the light: else a surface would be cast by
-/// one of its levels far from the one that is shown, and shadow itself. Normal cones and hidden clusters are not
-/// looked at: what faces away from the camera casts as well.
+/// Return the view that selects the shadow casters of a map: clusters between its sides and in front of a
+/// spot light. The cut is that of the camera's image with less weight for errors, seen from the camera and
+/// not from the light. Otherwise a surface would be cast by a level far from the displayed one, and shadow
+/// itself. Normal cones and occlusion are not tested: a cluster that faces away from the camera casts shadows
+/// as well.
 ///
-/// view            of the picture; its clip rows stay as they are and mean nothing to a map
-/// error_bias      BiasLODError, 1 or more: by how many times a shadow may be coarser than the picture
+/// view            of the camera's image; its clip rows are kept and have no meaning for a map
+/// error_bias      BiasLODError, 1 or more: factor by which a shadow may be coarser than the image
 FrameView makeCasterView(const FrameView& view, const ShadowLight& light, const ShadowMap& map,
                          float error_bias);
 
-/// Where the eye of the casters' views stands in place of the picture's: in the middle of a cell of a grid, so that maps can
-/// be kept while the eye moves within it.
+/// Position of the eye for LOD selection of casters, in place of the camera: the centre of a grid cell, so
+/// that shadow maps can be cached while the camera moves within the cell.
 struct EyeCell
 {
     Float3 eye;      ///< world
-    float shift = 0; ///< farthest that the cell's middle is from anything in it, metres
+    float shift = 0; ///< maximum distance of the centre from any point of the cell, metres
 };
 
-/// The largest cells, with a power of two as their side, that make the casters' error grow by no more than half a texel: what
-/// is drawn coarser for it is not seen in the map.
+/// Return the largest cell, with a power of two as its side, that makes the casters' error grow by no more
+/// than half a texel, which is not visible in the map.
 ///
 /// texel_m         metres that the finest texel covers; above 0
-/// error_bias      as makeCasterView
+/// error_bias      as in makeCasterView
 EyeCell eyeCell(const FrameView& view, float texel_m, float error_bias);
 
 } // namespace hearth::shared

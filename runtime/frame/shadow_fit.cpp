@@ -14,19 +14,21 @@ namespace hearth::shared
 namespace
 {
 
-// Floats above have less than 1/16: a map whose texels are numbered higher would lose where in a texel a point lies.
+// Maximum texel coordinate. Larger floats have a resolution below 1/16 and would lose the position within a
+// texel.
 constexpr double kLargestTexel = 1 << 20;
 
-// At 80 degrees a map spends a sixth of its texels each way on the inner 45 degrees; beyond, next to none are left.
+// Maximum half-angle of a spot map, 80 degrees: there a map spends a sixth of its texels each way on the
+// inner 45 degrees; beyond, next to none are left.
 constexpr float kWidestConeRad = 1.396263f;
 
-// The box of the scene is met by vertices that are rounded elsewhere.
+// Slack for vertices that are rounded differently from the box of the scene.
 constexpr double kRangeSlack = 1e-4;
 
 void setAxes(ShadowLight& light, Float3 direction)
 {
     const Double3 along = widen(direction) * (1 / length(widen(direction)));
-    // any axes across will do, as long as equal directions have the same
+    // any perpendicular axes will do, as long as equal directions have the same
     const Double3 aside = std::abs(along.y) < 0.9 ? Double3{0, 1, 0} : Double3{1, 0, 0};
     const Double3 across = cross(along, aside);
     const Double3 right = across * (1 / length(across));
@@ -35,7 +37,8 @@ void setAxes(ShadowLight& light, Float3 direction)
     light.down = narrow(cross(along, right));
 }
 
-/// Texels that a sphere may fill each way; what coordinates are rounded by stays out as well, 1/16 at each side.
+/// Return the number of texels that a sphere may fill each way; the rounding of coordinates is excluded as
+/// well, 1/16 at each side.
 double usableTexels(ShadowMapSize size)
 {
     return size.texels - 2 * (size.kernel + 1.0) - 0.125;
@@ -56,14 +59,14 @@ ShadowMap emptyMap(ShadowMapSize size)
     return map;
 }
 
-/// An interval of one of the light's coordinates.
+/// Interval of one of the light's coordinates.
 struct Span
 {
     double low, high;
 };
 
-/// Bounds of x / z over a disc before z = 0, within the cone: by the tangents from the origin. M. Mara, M. McGuire,
-/// "2D polyhedral bounds of a clipped, perspective-projected 3D sphere", 2013.
+/// Return the bounds of x / z over a disc in front of z = 0, within the cone, from the tangents through the
+/// origin. M. Mara, M. McGuire, "2D polyhedral bounds of a clipped, perspective-projected 3D sphere", 2013.
 Span discBounds(double x, double z, double radius, double cone_tangent)
 {
     Span span{-cone_tangent, cone_tangent};
@@ -71,7 +74,7 @@ Span discBounds(double x, double z, double radius, double cone_tangent)
     if (reach2 <= 0)
         return span;
     const double reach = std::sqrt(reach2);
-    // directions of the tangents; one that points back leaves its side open
+    // directions of the tangents; a tangent that points backwards leaves its side unbounded
     const double low_z = z * reach + x * radius;
     const double high_z = z * reach - x * radius;
     if (low_z > 0)
@@ -81,7 +84,7 @@ Span discBounds(double x, double z, double radius, double cone_tangent)
     return span;
 }
 
-/// Scale and offset of one axis.
+/// Compute scale and offset of one axis.
 void cropTo(Span span, double cone_tangent, ShadowMapSize size, float& scale, float& offset)
 {
     const double finest = kLargestTexel / cone_tangent;
@@ -99,8 +102,9 @@ ShadowMap crop(Span x, Span y, double cone_tangent, ShadowMapSize size)
     return map;
 }
 
-/// Sphere around the slice [near, far] of a pyramid: on its axis, through the corners of one end or of both.
-/// corner_tangent2  squared tangent between the axis and an edge
+/// Return the sphere around the slice [near, far] of a view frustum: on its axis, through the corners of one
+/// end or of both.
+/// corner_tangent2  squared tangent of the angle between the axis and an edge
 Sphere sphereOfSlice(Double3 eye, Double3 forward, double near, double far, double corner_tangent2)
 {
     const double center = std::min(far, 0.5 * (near + far) * (1 + corner_tangent2));
@@ -118,7 +122,7 @@ ShadowLight makeSunShadow(Float3 direction, const Box3& scene)
     light.origin = scene.center();
     const Double3 half = (widen(scene.max) - widen(scene.min)) * 0.5;
     const Double3 along = widen(light.direction);
-    // of a scene without extent along the light, every depth will do
+    // a scene without extent along the light has one depth, for which any scale will do
     const double half_range =
         (std::abs(along.x) * half.x + std::abs(along.y) * half.y + std::abs(along.z) * half.z) *
             (1 + kRangeSlack) +
@@ -153,9 +157,9 @@ ShadowMap fitSunMap(const ShadowLight& light, const Sphere& sphere, ShadowMapSiz
     const double x = dot(widen(light.right), center);
     const double y = dot(widen(light.down), center);
     const double reach = std::max(std::abs(x), std::abs(y)) + double{sphere.radius};
-    // one texel for what snapping moves the centre by, half of it to each side
+    // one texel for the snapping of the centre, half of it to each side
     double scale = (usableTexels(size) - 1) / (2 * double{sphere.radius});
-    // by halves: the scale of a sphere that moves stays the same nearly always
+    // by halves: a sphere that moves nearly always keeps its scale
     while (scale * reach > kLargestTexel)
         scale *= 0.5;
     map.scale_x = map.scale_y = map.density = static_cast<float>(scale);
@@ -198,7 +202,7 @@ std::optional<ShadowMap> fitSpotMap(const ShadowLight& light, float cone_tangent
 
 void sortByDensity(std::span<ShadowMap> maps)
 {
-    // by insertion: lights have few maps, and std::stable_sort may allocate
+    // insertion sort: lights have few maps, and std::stable_sort may allocate
     for (auto map = maps.begin(); map != maps.end(); ++map)
         std::rotate(std::upper_bound(maps.begin(), map, *map,
                                      [](const ShadowMap& a, const ShadowMap& b)
@@ -217,7 +221,7 @@ const ShadowMap* mapHolding(const ShadowLight& light, std::span<const ShadowMap>
 void splitSpheres(const FrameView& view, const SplitRange& range, std::span<Sphere> spheres)
 {
     HEARTH_ASSERT(range.near > 0 && range.far > range.near && range.blend >= 0 && range.blend <= 1);
-    // from the size and not from the clip rows, whose lengths are rounded otherwise with every direction
+    // from the size, not from the clip rows, whose lengths round differently for each direction
     const double up_tangent = 0.5 * double{view.height} / double{view.lod_scale};
     const double side_tangent = 0.5 * double{view.width} / double{view.lod_scale};
     const double corner_tangent2 = up_tangent * up_tangent + side_tangent * side_tangent;

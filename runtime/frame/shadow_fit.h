@@ -1,5 +1,5 @@
-// C++ only: fits shadow maps to spheres, which artists place or which split the view. Spheres of either kind, of suns and
-// of spots, are one list that is sorted by texel density: cascades without an order of their own.
+// Fits shadow maps to spheres, which artists place or which split the view. Spheres of both kinds, of suns
+// and spots, form one list sorted by texel density: cascades without a fixed order. C++ only.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -14,65 +14,70 @@ namespace hearth::shared
 
 struct ShadowMapSize
 {
-    uint32_t texels = 1024; ///< each way; a power of two up to 8192, and at least 4 * (kernel + 1)
+    uint32_t texels = 1024; ///< width and height; a power of two up to 8192, and at least 4 * (kernel + 1)
     uint32_t kernel = 1;    ///< texels that the filter reads on each side: 1 is 3 x 3
 };
 
-/// The projection of a sun over a scene, which has one as long as its box stays: what moves is the maps.
+/// Return the projection of a sun over a scene. It stays the same as long as the scene's box does; only the
+/// maps move.
 ///
-/// direction  the way it shines; of any length but 0
-/// scene      box of all casters and receivers, world, not empty. Casters that leave it cast from where it begins
+/// direction  direction of the light's rays; of any length but 0
+/// scene      box of all casters and receivers, world, not empty. Casters that leave it cast from its
+///            boundary
 ShadowLight makeSunShadow(Float3 direction, const Box3& scene);
 
-/// The projection of a spot light.
+/// Return the projection of a spot light.
 ///
-/// near       metres, above 0: what is nearer to the light casts no shadow
+/// near       metres, above 0: nearer geometry casts no shadow
 ShadowLight makeSpotShadow(Float3 position, Float3 direction, float near);
 
-/// The map of a sun that holds a sphere. Moves in whole texels: vertices of casters keep their place within their texel,
-/// to the bit, wherever the centre goes while the radius stays. Spheres so small that floats could not tell a sixteenth of
-/// their texels apart get a coarser map.
+/// Return the map of a sun that covers a sphere. It moves in whole texels: vertices of casters keep their
+/// position within their texel, bit for bit, wherever the centre goes while the radius stays. Spheres so
+/// small that floats could not resolve a sixteenth of their texels get a coarser map.
 ///
 /// sphere     world; radius above 0
 ShadowMap fitSunMap(const ShadowLight& light, const Sphere& sphere, ShadowMapSize size);
 
-/// The tangent of half the angle of a map of a whole cone. Wider cones than 80 degrees to each side have no shadow beyond.
+/// Return the tangent of the half-angle of a map of a whole cone. Cones wider than 80 degrees to each side
+/// have no shadow beyond that.
 float coneTangent(float outer_cone_rad);
 
-/// The map of the whole cone, which every spot has for what no sphere holds.
+/// Return the map of the whole cone, which every spot has for points outside of all spheres.
 ShadowMap wholeConeMap(float cone_tangent, ShadowMapSize size);
 
-/// The part of the cone that holds a sphere: nothing where it lies behind the light or beside the cone, and the map of
-/// the whole cone where the light lies in the sphere. Takes the exact bounds of the sphere's image. As for suns, tiny
-/// spheres get a coarser map.
+/// Return the map of the part of the cone that covers a sphere: nullopt where the sphere is behind the light
+/// or beside the cone, and the map of the whole cone where the light is inside the sphere. The bounds of the
+/// projected sphere are exact. As for suns, tiny spheres get a coarser map.
 ///
 /// sphere     world; radius above 0
 std::optional<ShadowMap> fitSpotMap(const ShadowLight& light, float cone_tangent, const Sphere& sphere,
                                     ShadowMapSize size);
 
-/// The densest map first; what is as dense keeps its order. At any point the densities of the maps of one light are in
-/// this order, also for a spot, whose texels grow alike in all its maps.
+/// Sort maps by texel density, densest first; maps of equal density keep their order. The densities of the
+/// maps of one light have this order at every point, also for a spot, whose texels grow alike in all its
+/// maps.
 void sortByDensity(std::span<ShadowMap> maps);
 
-/// The best map at a point: the first one that holds it; null where there is none.
+/// Return the best map at a point: the first one that covers it; null where there is none.
 ///
 /// point      relative to light.origin, world axes
 const ShadowMap* mapHolding(const ShadowLight& light, std::span<const ShadowMap> maps, Float3 point);
 
-/// What of a view gets shadows by default.
+/// Range of view depths with shadows, and its split scheme.
 struct SplitRange
 {
     float near = 0.1f; ///< metres
     float far = 100;
-    float blend = 0.8f; ///< 0: splits of equal length, 1: each so many times as long as the one before
+    /// 0: uniform splits, 1: logarithmic splits, each longer than the one before by the same factor
+    float blend = 0.8f;
 };
 
-/// Spheres around the slices of a camera's view, the nearest first: the fallback where no artist placed any. Their radii
-/// depend on the lens alone, neither on place nor direction. F. Zhang et al., "Parallel-split shadow maps for
-/// large-scale virtual environments", 2006.
+/// Compute spheres around slices of a camera's view, nearest first: the fallback where no artist placed any.
+/// Their radii depend on the lens alone, not on position or direction. F. Zhang et al., "Parallel-split
+/// shadow maps for large-scale virtual environments", 2006.
 ///
-/// view       its eye, direction and lens are looked at
-/// spheres    filled; as many slices
+/// view       only its eye, direction and lens are used
+/// spheres    output; its size is the number of slices
 void splitSpheres(const FrameView& view, const SplitRange& range, std::span<Sphere> spheres);
 
 } // namespace hearth::shared

@@ -1,4 +1,5 @@
-// The parts of a frame that can be recorded one by one, and what a caller must know to put something between them.
+// Parts of a frame that can be recorded one by one, and the image states a caller needs to put work between
+// them.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,8 +8,8 @@
 namespace hearth::gpu
 {
 
-/// In this order. They order their own work: on one queue nothing is needed between them, be they in one command buffer or
-/// in several.
+/// Parts of a frame, in recording order. They synchronize with each other: on one queue no barrier is needed
+/// between them, in one command buffer or in several.
 enum class FramePart
 {
     cull,       ///< Renderer::recordCull
@@ -16,7 +17,7 @@ enum class FramePart
     materials,  ///< Renderer::recordMaterials
 };
 
-/// Of an image, as a barrier names it.
+/// Layout, stages and accesses of an image, as a barrier names them.
 struct ImageState
 {
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
@@ -24,10 +25,12 @@ struct ImageState
     VkAccessFlags access = 0;
 };
 
-/// How a part finds and leaves an image of FrameTargets. Stages 0: the part does not touch it.
+/// Image states before and after a part, for the images of FrameTargets. Stages 0: the part does not touch
+/// the image.
 struct ImageUse
 {
-    /// The part waits for such uses by itself; others need a barrier of the caller. Layout UNDEFINED: what was there is lost.
+    /// The part waits for such uses by itself; other uses need a barrier of the caller. Layout UNDEFINED: the
+    /// content is lost.
     ImageState before;
     ImageState after; ///< visible to these accesses; others need a barrier of the caller
 };
@@ -37,7 +40,7 @@ struct PartImages
     ImageUse visibility, color;
 };
 
-/// What a part does with the images.
+/// Return the image states of a part.
 constexpr PartImages imagesOf(FramePart part)
 {
     constexpr VkPipelineStageFlags kReaders =

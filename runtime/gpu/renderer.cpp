@@ -15,13 +15,13 @@ void writeTimestamp(const Device& device, VkCommandBuffer commands, VkQueryPool 
         device.vk.vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, pool, which);
 }
 
-/// Whether it is culled and drawn in two phases.
+/// True if the frame is culled and drawn in two phases.
 bool inPhases(const FrameInput& input)
 {
     return (input.view.flags & shared::kCullOcclusion) != 0;
 }
 
-/// What changes with the frame, before it is recorded.
+/// Pass the moves and changes of the frame to the shadow cache, before the frame is recorded.
 void trackShadows(const Scene& scene, std::span<const InstanceMove> moves)
 {
     if (scene.shadows != nullptr)
@@ -96,7 +96,7 @@ Result<std::unique_ptr<Scene>> Renderer::upload(const formats::PackView& pack, V
     return scene;
 }
 
-/// What scenes with deformed meshes need beside.
+/// Create the pipelines for scenes with deformed meshes.
 Status Renderer::prepareDeformed()
 {
     if (!skinning_)
@@ -199,8 +199,8 @@ void Renderer::recordPrefetch(VkCommandBuffer commands, const Scene& scene, cons
     recordRequests(commands, scene);
 }
 
-/// Each map that must be drawn is a view of its own, culled in the work buffers of the frame; then those are the
-/// picture's again.
+/// Draw each shadow map that is stale as a view of its own, culled in the work buffers of the frame;
+/// afterwards the buffers have the frame's own view again.
 void Renderer::recordShadows(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
                              const shared::FrameView& view, std::span<const ShadowSphere> spheres) const
 {
@@ -217,7 +217,7 @@ void Renderer::recordShadows(VkCommandBuffer commands, const Scene& scene, const
         cull_.recordView(device_, commands, scene, targets, view);
 }
 
-/// A share of the faces, where the picture shows what they send out.
+/// Update a share of the brick faces, if the frame shows their light.
 void Renderer::recordBrickLight(VkCommandBuffer commands, const Scene& scene, const FrameInput& input) const
 {
     if (!input.shading.bricks_light && !showsBricks(input.shading.shown))
@@ -226,7 +226,7 @@ void Renderer::recordBrickLight(VkCommandBuffer commands, const Scene& scene, co
     brick_light_->record(device_, commands, scene, !input.lights.empty(), input.emission);
 }
 
-/// After a culling phase of the picture.
+/// Record after each culling phase of the frame.
 void Renderer::recordSkinning(VkCommandBuffer commands, const Scene& scene, uint32_t phase) const
 {
     if (scene.deformation == nullptr)
@@ -235,7 +235,7 @@ void Renderer::recordSkinning(VkCommandBuffer commands, const Scene& scene, uint
     skinning_->record(device_, commands, scene, phase);
 }
 
-/// After the first culling phase.
+/// Record after the first culling phase.
 void Renderer::recordRequests(VkCommandBuffer commands, const Scene& scene) const
 {
     page_requests_.record(device_, commands, scene);
@@ -248,7 +248,7 @@ void Renderer::beginPass(VkCommandBuffer commands, const FrameTargets& targets,
     const VkRect2D area{{0, 0}, targets.extent()};
     VkClearValue clear[2] = {};
     clear[kVisibility].color.uint32[0] = shared::kNothingVisible;
-    clear[kDepth].depthStencil.depth = 0; // infinitely far away
+    clear[kDepth].depthStencil.depth = 0; // at infinity
     VkRenderPassBeginInfo begin{};
     begin.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
     begin.renderPass = render_pass;
@@ -263,8 +263,8 @@ void Renderer::beginPass(VkCommandBuffer commands, const FrameTargets& targets,
     device_.vk.vkCmdSetScissor(commands, 0, 1, &area);
 }
 
-/// What the last frame's depth does not hide, and with the pyramid of that what it hid wrongly. Nothing where the frame has
-/// one phase.
+/// Record the early phase: draw the clusters that the last frame's depth does not occlude, build the pyramid,
+/// then cull the rest against it. Does nothing if the frame has one phase.
 void Renderer::recordEarly(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
                            const FrameInput& input) const
 {
@@ -293,7 +293,7 @@ void Renderer::recordEarly(VkCommandBuffer commands, const Scene& scene, FrameTa
     writeTimestamp(device_, commands, input.timestamps, kTimestampLateCull);
 }
 
-/// In the first subpass.
+/// Record in the first subpass.
 void Renderer::drawVisibility(VkCommandBuffer commands, const Scene& scene, const FrameInput& input) const
 {
     const DebugLabel label(device_, commands, "visibility");
@@ -301,7 +301,7 @@ void Renderer::drawVisibility(VkCommandBuffer commands, const Scene& scene, cons
                        inPhases(input) ? shared::kPhaseLate : shared::kPhaseWhole);
 }
 
-/// The other two subpasses are there to be compatible, and store nothing.
+/// End the render pass. The other two subpasses exist for compatibility and store nothing.
 void Renderer::endAtVisibility(VkCommandBuffer commands) const
 {
     device_.vk.vkCmdNextSubpass(commands, VK_SUBPASS_CONTENTS_INLINE);
@@ -309,7 +309,7 @@ void Renderer::endAtVisibility(VkCommandBuffer commands) const
     device_.vk.vkCmdEndRenderPass(commands);
 }
 
-/// What both phases have drawn; the late one nothing where culling had only one.
+/// Draw the clusters of both phases; the late draws are empty if culling had one phase.
 void Renderer::recordOverdraw(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets) const
 {
     HEARTH_ASSERT(overdraw_);
@@ -320,7 +320,7 @@ void Renderer::recordOverdraw(VkCommandBuffer commands, const Scene& scene, cons
         overdraw_->record(device_, commands, layouts_, scene, phase);
 }
 
-/// From the first subpass, whatever it has drawn, to the end of the render pass.
+/// Record from after the first subpass to the end of the render pass.
 void Renderer::recordPicture(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
                              const FrameInput& input) const
 {

@@ -1,5 +1,6 @@
-// The renderer: pipelines made once, scenes uploaded, frames recorded into the caller's command buffer.
-// It never submits, waits, or allocates while recording a frame; it has no globals. README.md says what it requires.
+// Vulkan renderer: creates pipelines once, uploads scenes, records frames into the caller's command buffer.
+// Never submits, waits, or allocates while recording a frame; has no globals. See README.md for its
+// requirements.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -23,17 +24,17 @@
 namespace hearth::gpu
 {
 
-/// Where the time of a frame goes: a timestamp is written at the begin and after each pass.
+/// Timestamps of a frame: one at the beginning and one after each pass.
 enum FrameTimestamp : uint32_t
 {
     kTimestampBegin,
-    kTimestampShadows,         ///< with the light of bricks' faces; no time without both
-    kTimestampCull,            ///< with the skinning of what is found, as the late one
-    kTimestampEarlyVisibility, ///< this one and the two after it take no time without occlusion culling
+    kTimestampShadows,         ///< includes the update of brick faces (GI); no time without both
+    kTimestampCull,            ///< includes the skinning of the clusters found; so does the late phase
+    kTimestampEarlyVisibility, ///< this pass and the two after it take no time without occlusion culling
     kTimestampPyramid,
     kTimestampLateCull,
     kTimestampVisibility,
-    kTimestampMaterialTiles, ///< with the gathering of bricks' light; no time without both
+    kTimestampMaterialTiles, ///< includes gathering (GI); no time without both
     kTimestampMaterialDepth,
     kTimestampShading,
     kTimestampCount,
@@ -43,16 +44,17 @@ struct FrameInput
 {
     shared::FrameView view; ///< from shared::makeFrameView, with the size of the targets
     ShadingView shading{};
-    std::span<const InstanceMove> moves{}; ///< from this frame on; read while recording
-    /// Of deformed instances, which start at rest: from this frame on; read while recording. What checkPose refuses is left
-    /// out.
+    std::span<const InstanceMove> moves{}; ///< valid from this frame on; read while recording
+    /// Poses of deformed instances, which start at rest. Valid from this frame on; read while recording.
+    /// Poses that checkPose rejects are ignored.
     std::span<const InstancePose> poses{};
-    /// Of a scene with shadows, where they are finer, beside the spheres of its pack: all of this frame, read while
-    /// recording.
+    /// Spheres of finer shadows for a scene with shadows, beside the spheres of its pack. All spheres of this
+    /// frame; read while recording.
     std::span<const ShadowSphere> shadow_spheres{};
-    /// From this frame on; read while recording.
+    /// Valid from this frame on; read while recording.
     std::span<const LightChange> lights{};
-    /// Of a scene with bricks, what their faces send out: all of this frame, read while recording.
+    /// Emission scales of brick faces for a scene with bricks. All scales of this frame; read while
+    /// recording.
     std::span<const EmissionScale> emission{};
     VkQueryPool timestamps = VK_NULL_HANDLE; ///< kTimestampCount queries, reset by the frame; or none
 };
@@ -60,8 +62,8 @@ struct FrameInput
 class Renderer
 {
 public:
-    /// The described objects outlive the renderer, which outlives its scenes and targets.
-    /// errors: device, device_failed.
+    /// The described objects outlive the renderer, which outlives its scenes and targets. errors: device,
+    /// device_failed.
     static Result<std::unique_ptr<Renderer>> create(const DeviceDescription& description);
 
     const Device& device() const { return device_; }
@@ -69,23 +71,26 @@ public:
     /// errors: device_limit, device_failed.
     Result<FrameTargets> createTargets(VkExtent2D extent) const;
 
-    /// See uploadScene. Also makes the pipelines that the scene's materials and shadows need and no scene before had.
+    /// Upload a scene, see uploadScene. Also creates the pipelines that its materials and shadows need and no
+    /// scene before needed.
     Result<std::unique_ptr<Scene>> upload(const formats::PackView& pack, VkCommandBuffer commands,
                                           const SceneOptions& options = {});
 
-    /// The pipelines of the overdraw view, to be made before a frame that shows it. errors: device_failed.
+    /// Create the pipelines of the overdraw view. Call before a frame that shows it. errors: device_failed.
     Status prepareOverdraw();
 
     /// Record culling and drawing of one frame, outside a render pass. Clobbers compute and graphics state.
-    /// Afterwards targets.visibility() and targets.color() can be copied from. Frames with occlusion culling leave
-    /// their depth pyramid to the next one with these targets, which must be submitted after them. A frame of a streamed
-    /// scene is that which SceneStream::beginFrame began; its threshold is scaled as the stream says.
+    /// Afterwards targets.visibility() and targets.color() can be copied from. A frame with occlusion culling
+    /// leaves its depth pyramid to the next frame with these targets, which must be submitted after it. For a
+    /// streamed scene the frame is the one that SceneStream::beginFrame began; the stream scales its
+    /// threshold.
     void record(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
                 const FrameInput& input) const;
 
-    /// The same in parts, for callers that put something between them: all three in this order, with the same arguments,
-    /// each outside a render pass. imagesOf (frame_parts.h) says how they find and leave the images. With few materials `record`
-    /// draws in one render pass what these draw in two: on a tile-based GPU the visibility buffer leaves the tile once more.
+    /// Record a frame in parts, so that the caller can put work between them: all three in this order, with
+    /// the same arguments, each outside a render pass. imagesOf (frame_parts.h) returns the image states
+    /// before and after each part. With few materials `record` draws in one render pass, these functions draw
+    /// in two: on a tile-based GPU the visibility buffer leaves the tile once more.
     void recordCull(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
                     const FrameInput& input) const;
     void recordVisibility(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
@@ -93,8 +98,8 @@ public:
     void recordMaterials(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
                          const FrameInput& input) const;
 
-    /// The same without drawing: asks for what a frame with this view asks for. For a streamed scene, in place of record.
-    /// Clobbers compute state, and leaves the depth pyramid as it is.
+    /// Record page requests for a view without drawing. For a streamed scene, in place of record. Clobbers
+    /// compute state, and leaves the depth pyramid as it is.
     void recordPrefetch(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
                         const shared::FrameView& view, std::span<const InstanceMove> moves = {},
                         std::span<const InstancePose> poses = {}) const;
@@ -122,10 +127,10 @@ private:
     CullPass cull_;
     PageRequestPass page_requests_;
     PyramidPass pyramid_;
-    std::optional<ShadowPass> shadows_;         ///< once a scene has them
-    std::optional<BrickLightPass> brick_light_; ///< once a scene has bricks
-    std::optional<GatherPass> gather_;          ///< the same
-    std::optional<SkinningPass> skinning_;      ///< once a scene has deformed meshes
+    std::optional<ShadowPass> shadows_;         ///< set once a scene has shadows
+    std::optional<BrickLightPass> brick_light_; ///< set once a scene has bricks
+    std::optional<GatherPass> gather_;          ///< set once a scene has bricks
+    std::optional<SkinningPass> skinning_;      ///< set once a scene has deformed meshes
     BinPass visibility_;
     std::optional<BinPass> overdraw_;
     MaterialTilesPass material_tiles_;

@@ -1,4 +1,4 @@
-// Brings the ends of page reads from whatever thread they happen on to the one that draws.
+// Queue of finished page reads: any thread pushes, the render thread takes.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -16,18 +16,18 @@ struct Completion
     bool ok = false;
 };
 
-/// A lock is held for a push or a swap of two vectors, never while anything is read or decoded.
+/// Thread-safe queue. The lock is held for a push or a swap of two vectors, never during a read or decode.
 class CompletionQueue
 {
 public:
-    /// most  completions that are in the queue at once; nothing is allocated after this
+    /// most  maximum of queued completions; later calls allocate nothing
     explicit CompletionQueue(size_t most);
 
-    /// From any thread. What was written before is seen by the thread that takes the completion.
+    /// Push a completion, from any thread. Writes before the push are visible to the thread that takes it.
     void push(Completion completion);
 
-    /// From one thread: what has been pushed since, by rising page, so that the order in which threads came does not
-    /// show. Holds until the next call.
+    /// Take the completions pushed since the last call, from one thread. They are sorted by page, so that
+    /// thread timing does not affect the result. The span is valid until the next call.
     std::span<const Completion> take();
 
 private:

@@ -23,7 +23,7 @@ std::vector<uint8_t> residentGroups(const PackView& view, std::span<const uint8_
     HEARTH_ASSERT(resident_pages.size() == view.pages().size());
     const auto groups = view.groups();
     std::vector<uint8_t> resident(groups.size());
-    // the first group of a set gathers from all of them
+    // the first group of a set collects the state of all
     for (size_t g = 0; g < groups.size(); ++g)
     {
         uint8_t& first = resident[g - groups[g].set_offset];
@@ -41,7 +41,7 @@ bool inCut(const PackView& view, const ClusterRecord& cluster, float error_objec
     const bool fine_enough = cluster.refined_group == kNone ||
                              residentError(view, cluster.refined_group, resident_groups) <= error_object;
     const float coarser = residentError(view, cluster.group, resident_groups);
-    // a root stays, whatever is asked: nothing replaces it
+    // a root stays at any error: nothing replaces it
     return fine_enough && (coarser > error_object || coarser == std::numeric_limits<float>::infinity());
 }
 

@@ -1,4 +1,4 @@
-// How much coarser than asked to draw, so that what is wanted fits the budget.
+// Feedback controller that coarsens drawing until the wanted pages fit the streaming budget.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -8,20 +8,21 @@
 namespace hearth::pack
 {
 
-/// A factor on the threshold of the cut, 1 .. kMost. It grows by an eighth of the excess of wanted over budgeted bytes
-/// at each update, by an eighth at most, and shrinks as slowly when less than kRoom of the budget is wanted. Between the
-/// two it rests, so that it does not swing about the budget. Bytes fall with about the square of the threshold: an
-/// eighth at a time stays well below what would overshoot, even where feedback is some frames late.
-/// Where what is wanted jumps from below kRoom to above the budget (levels that switch as a whole), it rests above the
-/// jump for as long as the same is wanted.
+/// Factor on the threshold of the cut, 1 .. kMost. At each update it grows by an eighth of the excess of
+/// wanted over budgeted bytes, by an eighth at most, and it shrinks as slowly when less than kRoom of the
+/// budget is wanted. Between the two it rests, so that it does not oscillate. Bytes fall with about the
+/// square of the threshold: steps of an eighth do not overshoot, even if feedback is some frames late.
+///
+/// If the wanted bytes jump from below kRoom to above the budget (levels that switch as a whole), the factor
+/// rests above the jump until the wanted bytes change.
 class ErrorScale
 {
 public:
-    static constexpr float kMost = 1024; ///< past ten halvings of detail, waiting for room does not help
+    static constexpr float kMost = 1024; ///< after ten halvings of detail, coarsening further does not help
     static constexpr float kGain = 0.125f;
     static constexpr float kRoom = 0.875f;
-    static constexpr uint32_t kFeedback =
-        16; ///< updates until a change has come back as other bytes, at most
+    /// maximum number of updates until a change affects the wanted bytes
+    static constexpr uint32_t kFeedback = 16;
 
     float value() const { return value_; }
 
@@ -44,7 +45,7 @@ private:
         value_ = value;
     }
 
-    /// Other bytes than when it came to rest, so that what did not fit may fit now.
+    /// True if other bytes are wanted than when the factor came to rest: pages that did not fit may fit now.
     bool wantsOther(uint64_t wanted_bytes)
     {
         if (rested_ <= kFeedback)
@@ -56,8 +57,8 @@ private:
     }
 
     float value_ = 1;
-    float too_fine_ = 0;  ///< the last value at which more was wanted than fits
-    uint32_t rested_ = 0; ///< updates since the value changed
+    float too_fine_ = 0;  ///< last value at which the wanted bytes exceeded the budget
+    uint32_t rested_ = 0; ///< updates since the last change of the value
     uint64_t rest_wanted_ = 0;
 };
 

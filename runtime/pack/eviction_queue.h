@@ -1,4 +1,4 @@
-// The pages that may be evicted, by what they are worth: a binary heap that knows where each page stands in it.
+// Priority queue of pages that may be evicted, by worth: a binary heap with an index of positions.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,8 +11,8 @@
 namespace hearth::pack
 {
 
-/// Least worth first; of equal worth the greatest page number, which is the finest, first. insert, erase and update
-/// take O(log n); nothing allocates after construction.
+/// Eviction order: lowest worth first; of equal worth the largest page number, which is the finest page,
+/// first. insert, erase and update take O(log n); nothing allocates after construction.
 class EvictionQueue
 {
 public:
@@ -23,11 +23,11 @@ public:
 
     bool empty() const { return heap_.empty(); }
     bool contains(uint32_t page) const { return place_[page] != kNowhere; }
-    /// The queue is not empty.
+    /// Return the page to evict first, or its worth. Precondition: the queue is not empty.
     uint32_t least() const { return heap_.front(); }
     uint64_t leastWorth() const { return worth_[heap_.front()]; }
 
-    /// The page is not in the queue.
+    /// Precondition: the page is not in the queue.
     void insert(uint32_t page, uint64_t worth)
     {
         HEARTH_RUNTIME_ASSERT(!contains(page));
@@ -37,7 +37,7 @@ public:
         rise(place_[page]);
     }
 
-    /// The page is in the queue.
+    /// Precondition: the page is in the queue.
     void erase(uint32_t page)
     {
         HEARTH_RUNTIME_ASSERT(contains(page));
@@ -51,7 +51,7 @@ public:
         settle(place);
     }
 
-    /// The page is in the queue.
+    /// Precondition: the page is in the queue.
     void update(uint32_t page, uint64_t worth)
     {
         HEARTH_RUNTIME_ASSERT(contains(page));
@@ -104,8 +104,8 @@ private:
     }
 
     std::vector<uint32_t> heap_;
-    std::vector<uint32_t> place_; ///< of each page in heap_
-    std::vector<uint64_t> worth_; ///< of each page in heap_
+    std::vector<uint32_t> place_; ///< for each page its index in heap_, or kNowhere
+    std::vector<uint64_t> worth_; ///< for each page its worth
 };
 
 } // namespace hearth::pack

@@ -20,7 +20,8 @@ uint32_t firstOfSet(const PackView& view, uint32_t group)
     return group - view.groups()[group].set_offset;
 }
 
-/// The pages of each set of groups, ascending, by the number of its first group; a group that is alone is a set.
+/// Return the pages of each set of groups, ascending, by the index of its first group; a single group is a
+/// set.
 PagesOfSets pagesOfSets(const PackView& view)
 {
     PagesOfSets pages_of_set(view.groups().size());
@@ -39,10 +40,11 @@ void sortUnique(auto& items)
     items.erase(std::unique(items.begin(), items.end()), items.end());
 }
 
-/// What refines a set of several pages needs all of them: the clusters of the set are drawn all or none.
+/// Make the pages that refine a set of several pages need all pages of the set: the clusters of a set are
+/// drawn all or none.
 void needWholeSets(const PackView& view, const PagesOfSets& pages_of_set, std::vector<PageNode>& nodes)
 {
-    // (finer, coarser) by first groups: few pairs, where sets are large
+    // pairs (finer, coarser) of first groups: few, where sets are large
     std::vector<std::pair<uint32_t, uint32_t>> refinements;
     for (const ClusterRecord& cluster : view.clusters())
     {
@@ -98,7 +100,7 @@ PageGraph::PageGraph(std::span<const PageNode> nodes) : is_pinned_(nodes.size(),
 
 void PageGraph::pin(std::span<const PageNode> nodes)
 {
-    // what a page needs stands before it
+    // the pages that a page needs come before it
     for (uint32_t page = pageCount(); page-- > 0;)
     {
         if (nodes[page].holds_root)

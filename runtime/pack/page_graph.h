@@ -1,4 +1,5 @@
-// What streaming knows of the pages of a pack: how large they are and which need which. See README.md, "Streaming".
+// Dependency graph of the pages of a pack, with their sizes, for streaming. See runtime/pack/README.md,
+// "Streaming".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,30 +11,32 @@
 namespace hearth::pack
 {
 
-/// A page, as one writes it down to make a graph of.
+/// Input record of one page for the construction of a graph.
 struct PageNode
 {
-    uint32_t size_bytes = 0; ///< decoded
-    bool holds_root = false; ///< it has a group that nothing coarser replaces
-    /// Pages, all before this one, each once, without which it must not be resident.
+    uint32_t size_bytes = 0; ///< decoded size
+    bool holds_root = false; ///< true if it has a root group, which no coarser group replaces
+    /// Dependencies: pages without which this page must not be resident; all before this one, each once.
     std::vector<uint32_t> needs;
-    /// Pages, all behind this one, each once, that are requested with it.
+    /// Companions: pages that are requested together with this one; all after it, each once.
     std::vector<uint32_t> companions;
 };
 
-/// The pages and what they need. A set of pages is closed if it has, with each page, all that this page needs; only
-/// closed sets may be resident, since only then does the cut cover each surface once.
+/// Page sizes and dependencies. A set of pages is closed if it has, with each page, all pages that this page
+/// needs. Only closed sets may be resident, since only then the cut covers each surface once.
 class PageGraph
 {
 public:
-    /// The order of the nodes is asserted.
+    /// Build the graph; the order of the nodes is asserted.
     explicit PageGraph(std::span<const PageNode> nodes);
 
-    /// The pages of a view that has passed the checker. A page needs its parents. Of a set of groups (GroupRecord) that
-    /// spans several pages, what refines it needs all of them, and they are the companions of its first.
+    /// Build the graph of a view that has passed the checker. A page needs its parents. If a set of groups
+    /// (GroupRecord) spans several pages, each page that refines the set needs all of its pages, and these
+    /// are companions of the set's first page.
     static PageGraph of(const formats::PackView& view);
 
-    /// The same pages, where each that is not pinned takes a slot of `slot_bytes`, >= its size (asserted).
+    /// Return the same graph in which each page that is not pinned takes a slot of `slot_bytes`, >= its size
+    /// (asserted).
     PageGraph inSlots(uint32_t slot_bytes) const;
 
     uint32_t pageCount() const { return static_cast<uint32_t>(sizes_bytes_.size()); }
@@ -41,7 +44,8 @@ public:
     std::span<const uint32_t> needs(uint32_t page) const { return needs_.of(page); }
     std::span<const uint32_t> companions(uint32_t page) const { return companions_.of(page); }
 
-    /// The pages that are always resident, ascending: those with roots and what they need.
+    /// Return the pages that are always resident, ascending: the pages with roots and the pages that they
+    /// need.
     std::span<const uint32_t> pinned() const { return pinned_; }
     bool isPinned(uint32_t page) const { return is_pinned_[page]; }
     uint64_t pinnedBytes() const { return pinned_bytes_; }

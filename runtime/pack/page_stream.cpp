@@ -13,7 +13,7 @@ using formats::kNone;
 namespace
 {
 
-/// 0 .. count - 1, the first on top.
+/// Return a stack of 0 .. count - 1, with 0 on top.
 std::vector<uint32_t> stackOf(uint32_t count)
 {
     std::vector<uint32_t> stack(count);

@@ -1,5 +1,5 @@
-// Streaming without a graphics device: ties the policy (residency.h) to reads, to slots of the geometry pool and to the
-// staging memory between them. See README.md, "Streaming".
+// Page streaming without a graphics device: connects the policy (residency.h) with reads, slots of the
+// geometry pool, and the staging memory between them. See runtime/pack/README.md, "Streaming".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,13 +13,13 @@
 namespace hearth::pack
 {
 
-/// To be called once when a read has ended, from any thread; the destination is not touched afterwards.
+/// Callback for the end of a read: call it once, from any thread. The destination is not written afterwards.
 class ReadDone
 {
 public:
     ReadDone(CompletionQueue& queue, uint32_t page) : queue_(&queue), page_(page) {}
 
-    /// ok  the destination holds the decoded page
+    /// ok  true if the destination holds the decoded page
     void operator()(bool ok) const { queue_->push({page_, ok}); }
 
 private:
@@ -27,20 +27,22 @@ private:
     uint32_t page_;
 };
 
-/// Starts to read a page: decoded into `destination`, whose size is the page's (PackView::decodePage does), then `done`. May
-/// do so at once or later, on any thread, reads in any order; all have ended, or never will, before the stream does. Called
-/// from beginFrame and schedule.
+/// Function that starts to read a page: it decodes the page into `destination`, whose size is the page's
+/// (PackView::decodePage does), then calls `done`. It may do so at once or later, on any thread, for several
+/// pages in any order. All reads must have ended, or never call `done`, before the stream is destroyed.
+/// Called from beginFrame and schedule.
 using PageReader = std::function<void(uint32_t page, std::span<std::byte> destination, ReadDone done)>;
 
 struct PageStreamOptions
 {
     ResidencyOptions residency;
-    uint32_t slot_count = 0; ///< of the pool; the budget holds the pinned pages and no more than these
-    uint32_t slot_bytes = 0; ///< as the graph was made with (PageGraph::inSlots)
+    /// slots of the pool; the budget covers the pinned pages plus at most these slots
+    uint32_t slot_count = 0;
+    uint32_t slot_bytes = 0; ///< slot size of the graph (PageGraph::inSlots)
     PageReader read;
 };
 
-/// A page that has been read: copy it from its place in the staging memory to its slot.
+/// Copy of a decoded page from its staging slot to its pool slot.
 struct PageUpload
 {
     uint32_t page = 0;
@@ -48,57 +50,60 @@ struct PageUpload
     uint32_t staging_slot = 0;
 };
 
-/// What a frame does before it culls; holds until the next beginFrame.
+/// Changes to apply at the start of a frame, before culling; valid until the next beginFrame.
 struct StreamChanges
 {
     std::span<const PageUpload> uploads;
-    std::span<const ResidentGroups::Change> groups; ///< each once
-    std::span<const uint32_t> failed;               ///< pages that cannot be read, each once per try
+    std::span<const ResidentGroups::Change> groups; ///< each group once
+    std::span<const uint32_t> failed;               ///< pages that cannot be read, once for each attempt
 };
 
 struct StreamStatistics
 {
     uint64_t budget_bytes = 0;
-    uint64_t bytes_in_use = 0;   ///< of the budget: pinned pages, and slots that are not free
+    uint64_t bytes_in_use = 0;   ///< budget in use: pinned pages, and slots that are not free
     uint64_t bytes_resident = 0; ///< decoded bytes of the resident pages
     uint64_t bytes_streamed = 0; ///< decoded bytes of all pages read so far
     uint32_t pages_resident = 0;
-    uint32_t failures = 0; ///< so far
+    uint32_t failures = 0; ///< number so far
     float error_scale = 1;
 };
 
-/// Driven frame by frame from one thread; only `ReadDone` may be called from others. Equal reads that end in equal frames
-/// give equal answers. Starts no thread, and allocates nothing once each list has been at its longest.
+/// Page stream, called frame by frame from one thread; only `ReadDone` may be called from other threads.
+/// Deterministic: equal reads that end in the same frames give equal results. Starts no thread, and allocates
+/// nothing once each list has reached its maximum length.
 ///
-///     beginFrame                 copy what has been read, change the tables
+///     beginFrame                 copy decoded pages, change the tables
 ///     request, request, ...      from feedback of an earlier frame
-///     schedule                   starts reads
+///     schedule                   start reads
 class PageStream
 {
 public:
-    /// view     of a checked pack, outlives the stream
+    /// Create a stream.
+    /// view     of a checked pack that outlives the stream
     /// graph    of the view, in slots
-    /// staging  a multiple of slot_bytes, at least one slot; decoded pages are written there
+    /// staging  destination of decoded pages; a multiple of slot_bytes, at least one slot
     /// errors: streaming_budget.
     static Result<PageStream> create(const formats::PackView& view, PageGraph graph,
                                      const PageStreamOptions& options, std::span<std::byte> staging);
 
-    /// As Residency::beginFrame. All changes are recorded into frame `serial`, whose copies read the staging memory until
-    /// it has completed.
+    /// Begin a frame, as Residency::beginFrame does. All changes are recorded into frame `serial`, whose
+    /// copies read the staging memory until it has completed.
     StreamChanges beginFrame(uint64_t serial, uint64_t completed_serial);
 
-    /// As Residency::request.
+    /// Request a page, as Residency::request does.
     void request(uint32_t page, float priority);
 
-    /// Ends a round of requests, which frame `feedback_serial` made, and starts reads. Left out where no frame has
-    /// completed that made requests.
+    /// End a round of requests, which come from frame `feedback_serial`, and start reads. Skipped while no
+    /// frame that made requests has completed.
     void schedule(uint64_t feedback_serial);
 
-    /// The last frame that drew all that it wanted and could get: nothing was under way, nothing had to come or go, and
-    /// the error scale stayed. 0: none yet. A view that was first drawn in frame n has converged once this is >= n.
+    /// Return the serial of the last frame that drew all pages that it wanted and could get: no read or
+    /// change was pending, and the error scale was constant. 0: none yet. A view that was first drawn in
+    /// frame n has converged once this is >= n.
     uint64_t settledSerial() const { return settled_serial_; }
 
-    /// Reads that have started and whose end no frame has seen yet.
+    /// Return the number of reads that have started and whose end no frame has seen yet.
     uint32_t readsInFlight() const { return reads_in_flight_; }
 
     void retryFailed() { residency_.retryFailed(); }
@@ -127,16 +132,16 @@ private:
     std::span<std::byte> staging_;
     Residency residency_;
     ResidentGroups groups_;
-    std::unique_ptr<CompletionQueue> queue_; // readers know its address
+    std::unique_ptr<CompletionQueue> queue_; // readers keep its address
 
     std::vector<uint32_t> slot_of_page_, staging_of_page_; ///< kNone: none
     std::vector<uint32_t> free_slots_, free_staging_;
-    std::vector<Copying> copying_;  ///< by serial
-    std::vector<uint32_t> waiting_; ///< pages to be read once staging memory is free, in order
+    std::vector<Copying> copying_;  ///< ordered by serial
+    std::vector<uint32_t> waiting_; ///< pages to read as soon as staging memory is free, in order
     std::vector<PageUpload> uploads_;
     uint32_t reads_in_flight_ = 0;
     uint64_t serial_ = 0;
-    uint64_t changed_serial_ = 0; ///< the last frame in which anything changed
+    uint64_t changed_serial_ = 0; ///< last frame with a change
     uint64_t settled_serial_ = 0;
     StreamStatistics statistics_;
 };

@@ -10,7 +10,7 @@ namespace hearth::pack
 namespace
 {
 
-/// For each node, 1 where a clip moves it or what it hangs from.
+/// Return for each node 1 where a clip moves the node or one of its ancestors.
 std::vector<uint8_t> findAnimatedNodes(const formats::MotionTables& tables,
                                        std::span<const uint32_t> parents_first)
 {
@@ -50,7 +50,7 @@ PosePlayer::PosePlayer(const formats::PackView& pack)
     take(rest_);
 }
 
-/// What instancing puts between the node and its instance: nothing where they stand at the same place.
+/// Return the transform of instancing between a node and its instance: identity where they coincide.
 Affine3d PosePlayer::nodeFromObject(const formats::InstanceRecord& instance) const
 {
     const Affine3d& world_from_node = world_from_node_[instance.node];
@@ -136,7 +136,7 @@ void PosePlayer::poseDeformed(const Deformed& deformed, const formats::ScenePose
             static_cast<float>(pose.morph_weights[deformed.morph_weights.first + target]);
 }
 
-/// Where the place does not fit into floats, the instance stays.
+/// Place a rigid instance. If its transform does not fit into floats, the instance stays where it was.
 void PosePlayer::placeRigid(size_t rigid)
 {
     MovedInstance& place = places_[rigid];

@@ -1,5 +1,6 @@
-// Plays the clips of a pack: where its rigid instances go, and the palettes of its deformed ones. Thin: one clip or a
-// blend of two, for the whole scene; formats/scene/animation.h says what a pose is. No Vulkan.
+// Plays the animation clips of a pack: transforms of rigid instances, and joint palettes of deformed ones.
+// One clip or a blend of two, for the whole scene; formats/scene/animation.h defines poses. Independent of
+// Vulkan.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,29 +14,32 @@
 namespace hearth::pack
 {
 
-/// A moment of a clip. Before its first and after its last key a clip rests: whoever wants it to repeat wraps the time.
+/// Time in a clip. Before its first and after its last key the pose is constant; a caller that wants a loop
+/// wraps the time.
 struct ClipTime
 {
-    uint32_t animation = 0; ///< of the pack
+    uint32_t animation = 0; ///< index in the pack
     double seconds = 0;
 };
 
-/// A rigid instance that a clip has moved.
+/// Transform of a rigid instance that a clip has moved.
 struct MovedInstance
 {
     uint32_t instance = 0;
     Affine3 world_from_object;
 };
 
-/// An instance of a mesh with joints or morph targets.
+/// Instance of a mesh with joints or morph targets, in its pose.
 struct PosedInstance
 {
     uint32_t instance = 0;
-    std::span<const Affine3d> world_from_bind; ///< for each joint of the skin; without a skin of the node
-    std::span<const float> morph_weights;      ///< for each morph target of the mesh
+    /// for each joint of the skin; without a skin, one transform of the node
+    std::span<const Affine3d> world_from_bind;
+    std::span<const float> morph_weights; ///< for each morph target of the mesh
 };
 
-/// For one pack, which has been checked and outlives it. Starts at rest. Allocates only when it is made.
+/// Animation player for one checked pack, which must outlive it. Starts in the rest pose. Only the
+/// constructor allocates.
 class PosePlayer
 {
 public:
@@ -46,13 +50,14 @@ public:
     /// weight  0: `from`, 1: `to`
     void blend(ClipTime from, ClipTime to, double weight);
 
-    /// Rigid instances that now stand elsewhere than before the last call of the three above. Valid until the next.
+    /// Return the rigid instances whose transform changed in the last call of rest, play or blend. Valid
+    /// until the next such call.
     std::span<const MovedInstance> moved() const { return {moved_.data(), moved_count_}; }
 
-    /// All rigid instances that clips move, and where they stand now.
+    /// Return all rigid instances that clips move, with their current transforms.
     std::span<const MovedInstance> places() const { return places_; }
 
-    /// All deformed instances, ascending. Valid until the next call of the three.
+    /// Return all deformed instances, ascending. Valid until the next call of rest, play or blend.
     std::span<const PosedInstance> posed() const { return posed_; }
 
 private:
@@ -64,13 +69,13 @@ private:
     struct Deformed
     {
         uint32_t instance;
-        uint32_t skin; ///< or none
+        uint32_t skin; ///< index, or none
         uint32_t node;
         Affine3d node_from_object;
-        formats::Range morph_weights; ///< of the pose
-        size_t first_joint;           ///< of palettes_
+        formats::Range morph_weights; ///< range in the weights of the pose
+        size_t first_joint;           ///< index in palettes_
         uint32_t joint_count;
-        size_t first_weight; ///< of weights_
+        size_t first_weight; ///< index in weights_
         uint32_t target_count;
     };
     Affine3d nodeFromObject(const formats::InstanceRecord& instance) const;
@@ -90,16 +95,16 @@ private:
     std::vector<Deformed> deformed_;
     std::vector<Affine3d> palettes_;
     std::vector<float> weights_;
-    std::vector<MovedInstance> places_; ///< of rigid_
+    std::vector<MovedInstance> places_; ///< [rigid_.size()]
     std::vector<MovedInstance> moved_;
     size_t moved_count_ = 0;
     std::vector<PosedInstance> posed_;
 };
 
-/// What the chunk DMSH says of a mesh; null where it is rigid.
+/// Find the record of the chunk DMSH for a mesh; null where the mesh is rigid.
 const formats::DeformedMeshRecord* findDeformedMesh(const formats::PackView& pack, uint32_t mesh);
 
-/// The clip of this name, or else of this number. Nothing where there is none.
+/// Find a clip by name, else by index; nullopt where there is none.
 std::optional<uint32_t> findAnimation(const formats::PackView& pack, std::string_view name);
 
 } // namespace hearth::pack

@@ -13,7 +13,8 @@ namespace hearth::pack
 namespace
 {
 
-// between them the bits of positive floats order as their values do, and halve by counting down the exponent
+// bounds between which the bits of positive floats order as their values do, and counting down the exponent
+// halves them
 constexpr float kLeastPriority = std::numeric_limits<float>::min();
 constexpr float kMostPriority = std::numeric_limits<float>::max();
 constexpr uint32_t kMantissaBits = 23;
@@ -93,7 +94,7 @@ void Residency::publishLoaded()
 {
     published_.clear();
     discarded_.clear();
-    // what a page needs stands before it
+    // the pages that a page needs come before it
     std::sort(loaded_.begin(), loaded_.end());
     size_t waiting = 0;
     for (const uint32_t page : loaded_)
@@ -126,8 +127,8 @@ void Residency::request(uint32_t page, float priority)
     requested = std::max(requested, std::clamp(priority, kLeastPriority, kMostPriority));
 }
 
-/// The requests of the round, greatest priority first, then by number. Companions of companions are not in it: where
-/// sets follow each other, they would bring in the whole mesh.
+/// Sort the requests of the round, greatest priority first, then by page. Companions of companions are not
+/// included: where sets follow each other, they would bring in the whole mesh.
 void Residency::orderRequests()
 {
     requests_.clear();
@@ -142,8 +143,9 @@ void Residency::orderRequests()
     std::sort(requests_.begin(), requests_.end());
 }
 
-/// From the greatest priority down, so that each page is met first with the priority that counts. What a page needs
-/// comes before it: its priority is at least as great, its number less.
+/// Collect the wanted pages from the greatest priority down, so that each page is first met with the priority
+/// that counts. The pages that a page needs come before it: their priority is at least as great, their index
+/// is smaller.
 void Residency::collectWanted()
 {
     wanted_.clear();
@@ -157,7 +159,7 @@ void Residency::collectWanted()
     }
 }
 
-/// The page and all that it needs, but what is wanted already.
+/// Add a page and all pages that it needs to the wanted list, except pages that are in it already.
 void Residency::want(uint32_t page, float priority)
 {
     const auto reach = [&](uint32_t reached)
@@ -190,7 +192,8 @@ std::span<const uint32_t> Residency::schedule()
     return started_;
 }
 
-/// Pages that cannot be had until failures are retried do not count: drawing coarser would not bring them.
+/// Update the error scale from the bytes of wanted pages. Pages that cannot be loaded until failures are
+/// retried do not count: drawing coarser would not bring them.
 void Residency::measureDemand()
 {
     uint64_t bytes = graph_.pinnedBytes();
@@ -211,8 +214,8 @@ void Residency::startLoads()
 {
     started_.clear();
     uint64_t free = options_.budget_bytes - bytes_in_use_;
-    uint64_t unpromised =
-        free + bytes_going_; // free now or soon, less what pages before in this order will take
+    /// free now or soon, less the memory for pages that come before in this order
+    uint64_t unpromised = free + bytes_going_;
     uint32_t loads_left = options_.max_loads - loads_in_flight_;
     for (const uint32_t page : wanted_)
     {
@@ -229,7 +232,7 @@ void Residency::startLoads()
         --loads_left;
         if (bytes <= free)
             start(page);
-        // a page that waits for memory keeps what is free
+        // reserve free memory for a page that waits for more
         free -= std::min(free, bytes);
     }
 }
@@ -240,7 +243,7 @@ bool Residency::canStart(uint32_t page) const
            needsAre(page, State::resident, State::loaded, State::loading);
 }
 
-/// Whether all that a page needs is in one of these states.
+/// True if all pages that a page needs are in one of these states.
 bool Residency::needsAre(uint32_t page, auto... states) const
 {
     const auto needs = graph_.needs(page);
@@ -290,8 +293,8 @@ void Residency::retryFailed()
 
 // --- eviction
 
-/// Let pages leave until they give `bytes` together, the least worth first, and return what they give; or none of them,
-/// if those that `page` may push out do not give as much.
+/// Evict pages, least worth first, until they free `bytes`, and return the freed bytes. Evict none if the
+/// pages that `page` may displace do not free enough.
 uint64_t Residency::makeRoom(uint32_t page, uint64_t bytes)
 {
     const uint64_t limit = worthOf(pages_[page].priority / options_.hysteresis, round_);
@@ -319,7 +322,7 @@ void Residency::leave(uint32_t page)
     unclaimNeeded(page);
 }
 
-/// Undo the last leave.
+/// Undo the last eviction.
 void Residency::stay(uint32_t page)
 {
     claimNeeded(page);
@@ -350,8 +353,8 @@ void Residency::offerForEviction(uint32_t page)
         evictable_.insert(page, worthOf(offered.priority, offered.round));
 }
 
-/// Orders pages by their last priority, halved for each round since: to double it all at each round is the same, and
-/// needs no change of what is stored.
+/// Return the eviction key of a page: its last priority, halved for each round since. Doubling new priorities
+/// in each round instead is equivalent, and leaves stored keys unchanged.
 uint64_t Residency::worthOf(float priority, uint64_t round)
 {
     return std::bit_cast<uint32_t>(priority) + (round << kMantissaBits);

@@ -18,7 +18,7 @@ ResidentGroups::ResidentGroups(const formats::PackView& view)
         ++missing_of_set_[first_of_set_[group]];
         ++begins_[view.groups()[group].page];
     }
-    // each begins where it ends, and moves forward as its groups are written from the back
+    // each offset begins at the end of its list, and moves to its start as groups are written from the back
     std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
     for (auto group = static_cast<uint32_t>(groups_.size()); group-- > 0;)
         groups_[--begins_[view.groups()[group].page]] = group;

@@ -1,4 +1,4 @@
-// Which groups are resident, kept up to date page by page: the rule of residentGroups (cut.h).
+// Set of resident groups, updated page by page: the rule of residentGroups (cut.h).
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,15 +10,16 @@
 namespace hearth::pack
 {
 
-/// A group is resident if it and the rest of its set are. Changes are told group by group, each at most once between
-/// two calls of clearChanges, if no page that was added since is removed (a stream never does that in one frame).
+/// Resident groups. A group is resident if it and the rest of its set are. Changes are reported group by
+/// group, each at most once between two calls of clearChanges, if no page that was added since is removed (a
+/// stream never does that in one frame).
 class ResidentGroups
 {
 public:
-    /// None is resident. The view's meaning has been checked.
+    /// Construct with no resident group. Precondition: the view's meaning has been checked.
     explicit ResidentGroups(const formats::PackView& view);
 
-    /// The page was not resident, and is now; or the other way round.
+    /// Mark a page as resident, or as not resident. Precondition: its state was the opposite.
     void add(uint32_t page);
     void remove(uint32_t page);
 
@@ -39,10 +40,11 @@ private:
     }
     void changeSet(uint32_t first, bool resident);
 
-    std::vector<uint32_t> begins_;         ///< for each page, where its groups begin; then their number
-    std::vector<uint32_t> groups_;         ///< by page
-    std::vector<uint32_t> first_of_set_;   ///< for each group
-    std::vector<uint32_t> missing_of_set_; ///< for the first group of a set: groups of it that are not there
+    std::vector<uint32_t> begins_;       ///< for each page, start of its list in groups_; then the total
+    std::vector<uint32_t> groups_;       ///< groups, sorted by page
+    std::vector<uint32_t> first_of_set_; ///< first group of its set, for each group
+    /// for the first group of each set: number of its groups that are not present
+    std::vector<uint32_t> missing_of_set_;
     std::vector<Change> changes_;
 };
 

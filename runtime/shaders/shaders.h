@@ -1,4 +1,4 @@
-// The compiled shaders, SPIR-V 1.3; each is named after its file.
+// Compiled shaders (SPIR-V 1.3), each named after its file.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 

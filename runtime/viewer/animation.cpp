@@ -10,7 +10,7 @@ namespace hearth::viewer
 namespace
 {
 
-/// "'Walk', 'Run', 2".
+/// Format a list of clips: "'Walk', 'Run', 2".
 std::string listClips(const formats::PackView& pack)
 {
     std::string text;
@@ -47,13 +47,13 @@ Status parseSeconds(const char* option, std::string_view text, Seconds& seconds)
     return success();
 }
 
-/// "NAME,SECONDS,WEIGHT".
+/// Parse "NAME,SECONDS,WEIGHT".
 Status parseBlend(std::string_view text, AnimationSettings& settings)
 {
     const auto wrong = [&] {
         return usageError("--blend: " + quoted(text) + " is not NAME,SECONDS,WEIGHT with a weight of 0 to 1");
     };
-    // names may have commas
+    // names may contain commas
     const size_t second = text.rfind(',');
     const size_t first =
         second == std::string_view::npos || second == 0 ? second : text.rfind(',', second - 1);

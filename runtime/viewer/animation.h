@@ -1,4 +1,4 @@
-// Clips as the command line asks for them, played frame by frame.
+// Clips chosen on the command line, played frame by frame.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -16,32 +16,32 @@ namespace hearth::viewer
 
 struct AnimationSettings
 {
-    std::optional<std::string> clip{};    ///< by its name or number; none: the scene is at rest
+    std::optional<std::string> clip{};    ///< name or index; none: the scene is at rest
     std::optional<double> seconds{};      ///< of the clip; none: its start
-    std::optional<std::string> blended{}; ///< a second one
+    std::optional<std::string> blended{}; ///< second clip
     double blended_seconds = 0;
     double weight = 0;       ///< of the second clip, 0 to 1
-    double step_seconds = 0; ///< that both go on by from frame to frame
+    double step_seconds = 0; ///< step of both clips from frame to frame
 };
 
-/// The options --animation and --time; the settings outlive the command line.
+/// Add the options --animation and --time; the settings outlive the command line.
 void addClipOptions(CommandLine& command_line, AnimationSettings& settings);
-/// Those, --time-step and --blend.
+/// Add --animation, --time, --time-step and --blend.
 void addAnimationOptions(CommandLine& command_line, AnimationSettings& settings);
 
-/// The moment of --animation and --time; nothing where no clip is named.
-/// errors: usage, where the pack has no such clip.
+/// Return the clip and time of --animation and --time; none if no clip is named. errors: usage if the pack
+/// has no such clip.
 Result<std::optional<pack::ClipTime>> findClip(const AnimationSettings& settings,
                                                const formats::PackView& pack);
 
-/// What a scene's next frame must be told to show the pose of a player.
+/// Moves and poses that a scene's next frame needs to show the pose of a player.
 class FramePose
 {
 public:
-    /// errors: those of gpu::moveInstance.
+    /// Read the pose of a player. errors: same as gpu::moveInstance.
     Status take(const pack::PosePlayer& player, const gpu::Scene& scene);
 
-    /// Valid until the next pose is taken, and what the player says until its next pose.
+    /// Valid until the next pose is taken; refers to the player's data until the player's next pose.
     std::span<const gpu::InstanceMove> moves() const { return moves_; }
     std::span<const gpu::InstancePose> poses() const { return poses_; }
 
@@ -50,20 +50,20 @@ private:
     std::vector<gpu::InstancePose> poses_;
 };
 
-/// Plays what the settings say, of one pack, which outlives it.
+/// Plays the clips of the settings, for one pack, which outlives it.
 class Animation
 {
 public:
-    /// errors: usage, where the pack has no such clip.
+    /// errors: usage if the pack has no such clip.
     static Result<Animation> create(const AnimationSettings& settings, const formats::PackView& pack);
 
-    /// Goes to the pose of a frame, counted from 0.
+    /// Go to the pose of a frame, counted from 0.
     void goTo(size_t frame);
 
     const pack::PosePlayer& player() const { return player_; }
 
-    /// What the scene's next frame must be told to show the pose. Valid until the next call of either.
-    /// errors: those of gpu::moveInstance.
+    /// Compute the moves and poses of the scene's next frame. Valid until the next call of goTo or update.
+    /// errors: same as gpu::moveInstance.
     Status update(const gpu::Scene& scene);
     std::span<const gpu::InstanceMove> moves() const { return pose_.moves(); }
     std::span<const gpu::InstancePose> poses() const { return pose_.poses(); }

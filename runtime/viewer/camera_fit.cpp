@@ -14,7 +14,7 @@ constexpr float kFieldOfView = 0.6f; // 34 degrees: a portrait lens, little dist
 constexpr float kMargin = 1.08f;
 constexpr Float3 kFrom{0.55f, 0.42f, 0.8f};
 
-// Where there are more, the boxes of whole instances must do.
+// Scenes with more clusters use the boxes of whole instances.
 constexpr size_t kMostClusterBoxes = size_t{1} << 18;
 
 size_t countClusters(const formats::PackView& pack, formats::Range instances)
@@ -25,7 +25,7 @@ size_t countClusters(const formats::PackView& pack, formats::Range instances)
     return count;
 }
 
-/// Calls `visit` with the corners of boxes in world space.
+/// Call `visit` with the corners of the boxes in world space.
 template <typename Visitor>
 void forEachCorner(std::span<const gpu::PlacedBox> boxes, const Visitor& visit)
 {
@@ -36,7 +36,7 @@ void forEachCorner(std::span<const gpu::PlacedBox> boxes, const Visitor& visit)
                                   (corner & 4) ? box.max.z : box.min.z}));
 }
 
-/// bounds  of what is in the boxes
+/// bounds  bounds of the boxes
 shared::Camera frameBoxes(std::span<const gpu::PlacedBox> boxes, const Box3& bounds, float aspect)
 {
     shared::Camera camera;
@@ -54,7 +54,7 @@ shared::Camera frameBoxes(std::span<const gpu::PlacedBox> boxes, const Box3& bou
     const float tan_y = std::tan(0.5f * kFieldOfView);
     const float tan_x = tan_y * aspect;
 
-    // The nearest eye from which nothing sticks out: shift the view so that left and right, then top and bottom,
+    // Find the nearest eye that sees everything: shift the view so that left and right, then top and bottom,
     // bind at once. Each side plane of the frustum gives one bound; p . side <= eye . side for all points.
     const Float3 center = bounds.center();
     float left = 0, rightmost = 0, bottom = 0, top = 0;
@@ -97,7 +97,7 @@ shared::Camera fitCamera(const formats::PackView& pack, const pack::PosePlayer& 
 shared::Camera fitCamera(const formats::PackView& pack, const pack::PosePlayer& player,
                          formats::Range instances, float aspect)
 {
-    // the corners of the finest clusters' boxes lie closer to round things than those of whole instances
+    // the corners of the finest clusters' boxes fit round shapes tighter than the boxes of whole instances
     const bool by_clusters = countClusters(pack, instances) <= kMostClusterBoxes;
     return frameBoxes(by_clusters ? gpu::clusterBoxes(pack, player, instances)
                                   : gpu::instanceBoxes(pack, player, instances),

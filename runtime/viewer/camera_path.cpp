@@ -83,7 +83,7 @@ std::string numberedFile(const std::string& path, size_t frame)
 {
     char number[24];
     std::snprintf(number, sizeof(number), "-%04zu", frame);
-    const size_t name = path.find_last_of('/') + 1; // 0 where there is no folder
+    const size_t name = path.find_last_of('/') + 1; // 0 without a folder
     const size_t dot = path.find_last_of('.');
     const size_t at = dot == std::string::npos || dot <= name ? path.size() : dot;
     return path.substr(0, at) + number + path.substr(at);

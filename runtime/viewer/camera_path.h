@@ -1,4 +1,4 @@
-// Cameras of a sequence of frames, from a text file.
+// Camera paths from text files: one camera per frame.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,17 +13,18 @@
 namespace hearth::viewer
 {
 
-/// PX,PY,PZ,TX,TY,TZ,FOV: eye and target in metres, apart, and the full vertical angle, 1 to 170 degrees. Nothing where
-/// the text is not that.
+/// Parse PX,PY,PZ,TX,TY,TZ,FOV: eye and target in metres, different points, and the full vertical angle, 1 to
+/// 170 degrees. None if the text is malformed.
 std::optional<shared::Camera> parseCamera(std::string_view text);
 
-/// What parseCamera takes, to the last bit of eye and target. Cameras are level there.
+/// Format a camera for parseCamera, exact to the last bit of eye and target. Such cameras are level.
 std::string formatCamera(const shared::Camera& camera);
 
-/// One camera a line; empty lines and those that start with # are skipped. errors: input_missing, camera_path.
+/// Read one camera per line; skips empty lines and lines that start with #. errors: input_missing,
+/// camera_path.
 Result<std::vector<shared::Camera>> readCameraPath(const std::string& path);
 
-/// The file for frame `frame` of a sequence: "a.png" becomes "a-0012.png".
+/// File name of frame `frame` of a sequence: "a.png" becomes "a-0012.png".
 std::string numberedFile(const std::string& path, size_t frame);
 
 } // namespace hearth::viewer

@@ -10,7 +10,7 @@ namespace hearth::viewer
 namespace
 {
 
-/// What is bound to the name, or nullptr.
+/// Return the value bound to the name, or nullptr.
 template <typename Options>
 auto find(const Options& options, std::string_view name) -> decltype(&options.front().second)
 {

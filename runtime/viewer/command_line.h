@@ -1,4 +1,4 @@
-// Reads a command line: one file, switches, and options with a value.
+// Command line parser: one file, switches, and options with a value.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -15,15 +15,15 @@
 namespace hearth::viewer
 {
 
-/// Knows the options of one program, each bound to where its value goes.
+/// Options of one program, each bound to its destination.
 class CommandLine
 {
 public:
     using Parse = std::function<Status(std::string_view value)>;
 
-    /// `--name value`, or `--name=value`. A later one replaces an earlier one.
+    /// Add `--name value` or `--name=value`. A repeated option replaces the earlier value.
     void addValue(std::string_view name, Parse parse) { values_.emplace_back(name, std::move(parse)); }
-    /// The same, taken as it stands.
+    /// Add an option whose value is taken verbatim.
     void addText(std::string_view name, std::string& text);
     void addSwitch(std::string_view name, std::function<void()> set)
     {
@@ -34,7 +34,7 @@ public:
         addSwitch(name, [&flag] { flag = true; });
     }
 
-    /// file  the argument that is no option; stays as it is where there is none
+    /// file  the argument that is no option; unchanged if there is none
     /// errors: usage, naming the argument.
     Status parse(std::span<const char* const> arguments, std::string& file) const;
 
@@ -43,13 +43,14 @@ private:
     std::vector<std::pair<std::string_view, std::function<void()>>> switches_;
 };
 
-/// The error of a command line.
+/// Make the error of a command line.
 Error usageError(const std::string& detail);
 
-/// The one line of an error, on stderr.
+/// Print an error as one line on stderr.
 void printError(const Error& error);
 
-/// What a program does with its command line: help on stdout, or `run(options)`. The exit code; an error is one line on stderr.
+/// Parse the command line of a program, then print help on stdout or call `run(options)`. Returns the exit
+/// code; prints an error as one line on stderr.
 template <typename Options, typename Run>
 int runCommand(const Result<Options>& options, const std::string& help, const Run& run)
 {
@@ -65,7 +66,7 @@ int runCommand(const Result<Options>& options, const std::string& help, const Ru
     return exitCode(status.error());
 }
 
-/// In quotation marks.
+/// Return the text in quotation marks.
 std::string quoted(std::string_view text);
 
 } // namespace hearth::viewer

@@ -12,21 +12,23 @@ namespace hearth::viewer
 namespace
 {
 
-// The origin may lie this far outside of an asset's box, as a share of its largest side. Models that float above the floor, or
-// whose pivot is a hinge, count as unplaced too; a neighbour that was placed stands a whole side away.
+// Distance of the origin from an asset's box, as a share of its largest side, up to which the asset counts as
+// unplaced. Covers models that float above the floor, or whose pivot is a hinge; a neighbour that was placed
+// is a whole side away.
 constexpr float kOriginSlack = 0.25f;
 
 constexpr uint32_t kGap = 4;        // pixels between cells, and around them
 constexpr uint32_t kLetterRoom = 3; // rows of a label besides its letters, in pixels of letters
-constexpr uint32_t kMinCell = 8;    // pixels: nobody recognizes a smaller picture
+constexpr uint32_t kMinCell = 8;    // pixels: nobody recognizes a smaller image
 
-// Pixels of a cell's width for one of a letter's: 17 letters have room.
+// Pixels of a cell's width per pixel of a letter: 17 letters have room.
 constexpr uint32_t kCellForLetter = 104;
 
 constexpr std::byte kPaper{26};
 constexpr std::byte kInk{214};
 
-// Assets that hide each other share this much of the smaller one's side along each axis; tiles that meet share nothing.
+// Overlap of two unplaced assets, as a share of the smaller one's side along each axis; tiles that meet share
+// nothing.
 constexpr float kHiddenShare = 0.5f;
 
 bool standsAroundOrigin(const formats::AssetRecord& asset)
@@ -71,7 +73,7 @@ SheetLayout layOut(uint32_t width, uint32_t height, uint32_t columns, uint32_t r
     return layout;
 }
 
-/// Returns the name; one that is too long ends in dots.
+/// Return the name, truncated with dots if it is too long.
 std::string shortened(const std::string& name, size_t max_letters)
 {
     constexpr std::string_view kDots = "..";
@@ -80,7 +82,7 @@ std::string shortened(const std::string& name, size_t max_letters)
     return std::string(firstLetters(name, max_letters - kDots.size())).append(kDots);
 }
 
-/// Returns the name and the size of the asset, "rock 2.1 m"; the name alone where little of it would be left.
+/// Return the name and the size of the asset, "rock 2.1 m"; the name alone if little of it would be left.
 std::string labelText(const std::string& name, float side, size_t max_letters)
 {
     constexpr size_t kMinName = 6;
@@ -115,7 +117,7 @@ bool standInOnePlace(const formats::PackView& pack)
         const auto overlaps = static_cast<size_t>(std::count_if(around.begin(), around.end(),
                                                                 [&](const formats::AssetRecord& other)
                                                                 { return overlapHeavily(asset, other); }));
-        // itself among them
+        // counts itself
         heaped += overlaps >= 2 && (overlaps - 1) * 2 >= around.size() - 1 ? 1 : 0;
     }
     return heaped >= 2 && heaped * 4 >= drawnAssets(pack).size() * 3;

@@ -1,5 +1,5 @@
-// A contact sheet: the assets of a pack side by side, each in a cell of its own with its name and size below, where a camera
-// on the scene would show them on top of each other.
+// Contact sheet: the assets of a pack side by side, each in a cell with its name and size below. For packs
+// whose assets would otherwise be drawn on top of each other.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,52 +13,53 @@
 namespace hearth::viewer
 {
 
-/// Returns the numbers of the assets that draw something, in their order.
+/// Return the indices of the assets that draw something, in order.
 std::vector<uint32_t> drawnAssets(const formats::PackView& pack);
 
-/// Returns whether the assets were never placed, so that they hide each other: three quarters of those that draw something,
-/// and two at least, have boxes around the origin of the world that overlap heavily with half of the others there. Props
-/// that stand side by side do not, nor those in a house, nor tiles that meet.
+/// True if the assets were never placed, so they occlude each other: three quarters of the assets that draw
+/// something, and at least two, have boxes around the world's origin that overlap heavily with half of the
+/// others there. False for props side by side, props in a house, and tiles that meet.
 bool standInOnePlace(const formats::PackView& pack);
 
-/// Where the cells of a sheet are, in pixels from its top left corner: row by row, in the order of the assets.
+/// Layout of the cells of a sheet, in pixels from its top left corner: row by row, in the order of the
+/// assets.
 struct SheetLayout
 {
     uint32_t width = 0, height = 0; ///< of the sheet
     uint32_t columns = 0, rows = 0;
-    uint32_t cell_width = 0, cell_height = 0; ///< of the picture in a cell
+    uint32_t cell_width = 0, cell_height = 0; ///< of the image in a cell
     uint32_t letter_scale = 1;                ///< of the names below
 
     uint32_t cellX(size_t cell) const;
     uint32_t cellY(size_t cell) const;
 };
 
-/// Returns the layout whose pictures are largest; cell_width is 0 where there is no room for so many.
+/// Return the layout with the largest images; cell_width is 0 if there is no room for that many cells.
 SheetLayout layOutSheet(uint32_t width, uint32_t height, size_t cells);
 
-/// What a sheet shows.
+/// Content of a sheet.
 struct Sheet
 {
-    std::vector<uint32_t> assets; ///< of each cell
+    std::vector<uint32_t> assets; ///< asset of each cell
     std::vector<std::string> names;
-    std::vector<float> sides; ///< largest of each, metres
+    std::vector<float> sides; ///< largest side of each asset, metres
     SheetLayout layout;
 };
 
-/// Returns the sheet of all assets that draw something.
-/// errors: usage, where none does, or a picture of that size has no room for them.
+/// Return the sheet of all assets that draw something. errors: usage if none does, or if an image of that
+/// size has no room for them.
 Result<Sheet> makeSheet(const formats::PackView& pack, uint32_t width, uint32_t height);
 
-/// A sheet that is filled cell by cell.
+/// Sheet image that is filled cell by cell.
 class SheetPicture
 {
 public:
     explicit SheetPicture(const Sheet& sheet);
 
-    /// rgba  of the picture in the cell: RGBA8, cell_width x cell_height
+    /// rgba  image of the cell: RGBA8, cell_width x cell_height
     void place(size_t cell, std::span<const std::byte> rgba);
 
-    /// RGBA8, width x height of the layout.
+    /// Return the image: RGBA8, width x height of the layout.
     std::span<const std::byte> pixels() const { return pixels_; }
 
 private:

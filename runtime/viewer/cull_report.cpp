@@ -11,7 +11,7 @@ namespace
 
 using Outcomes = std::array<uint64_t, shared::kOutcomeCount>;
 
-/// early, drawn  what the visible list has, of clusters or of triangles
+/// early, drawn  clusters or triangles of the visible list
 CullCounts countsOf(const Outcomes& outcomes, uint64_t early, uint64_t drawn)
 {
     CullCounts counts;

@@ -67,7 +67,7 @@ const char* const kDrawHelp =
 namespace
 {
 
-/// "a, b, c".
+/// Join names: "a, b, c".
 template <typename T>
 std::string list(std::span<const Named<T>> choices)
 {
@@ -77,7 +77,7 @@ std::string list(std::span<const Named<T>> choices)
     return text;
 }
 
-/// The value of that name, or nullptr.
+/// Return the value of that name, or nullptr.
 template <typename T>
 const T* find(std::span<const Named<T>> choices, std::string_view name)
 {

@@ -1,4 +1,4 @@
-// What every program that draws a pack can be told on its command line.
+// Command-line options shared by the programs that draw a pack.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -23,29 +23,29 @@ struct DrawOptions
     std::optional<shared::Camera> camera; ///< none: the scene's camera, or fit the scene
     std::optional<uint32_t> scene_camera; ///< index of a camera of the pack
     FrameSettings settings;               ///< checked
-    ShadowSettings shadows;               ///< none unless asked for
+    ShadowSettings shadows;               ///< off by default
     uint64_t geometry_budget = 0;         ///< bytes; 0: all geometry is resident
     std::string device;
     bool validate = false;
     bool verbose = false;
 };
 
-/// The lines of --help that tell of them.
+/// Help lines of these options.
 extern const char* const kDrawHelp;
 
-/// The options outlive the command line, which writes to them.
+/// Add the options; they outlive the command line, which writes to them.
 void addDrawOptions(CommandLine& command_line, DrawOptions& options);
 
-/// What can only be said once all options are read. errors: usage.
+/// Checks that need all options. errors: usage.
 Status checkDrawOptions(const DrawOptions& options);
 
-/// What depends on the pack. errors: usage.
+/// Checks that need the pack. errors: usage.
 Status checkPack(const DrawOptions& options, const formats::PackView& pack);
 
-/// 1 to 10000 frames. errors: usage, naming the option --frames.
+/// Parse 1 to 10000 frames. errors: usage, naming the option --frames.
 Status parseFrames(std::string_view text, uint32_t& frames);
 
-/// Where the options put the camera, in a scene that stands as the player has it. errors: usage, where the pack has no such
+/// Return the camera of the options, in a scene in the player's pose. errors: usage if the pack has no such
 /// camera.
 Result<shared::Camera> chooseCamera(const DrawOptions& options, const formats::PackView& pack,
                                     const pack::PosePlayer& player);

@@ -46,7 +46,7 @@ Status writeFile(const std::string& path, std::span<const std::byte> bytes)
     const int file = ::mkstemp(temporary.data());
     if (file < 0)
         return Error{Issue::cannot_write, path, "", std::string("cannot create: ") + std::strerror(errno)};
-    // mkstemp makes a private file; an output has the rights that the user's umask gives
+    // mkstemp makes a private file; an output should have the permissions that the user's umask gives
     const mode_t mask = ::umask(0);
     ::umask(mask);
     const bool written = writeAll(file, bytes) && ::fchmod(file, 0666 & ~mask) == 0 && ::fsync(file) == 0;

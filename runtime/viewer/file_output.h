@@ -1,4 +1,4 @@
-// Files that appear whole or not at all.
+// Atomic file output, and PNG and JPEG encoding.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -16,13 +16,15 @@ namespace hearth::viewer
 /// Write to a temporary file beside `path` and rename it into place. errors: cannot_write.
 Status writeFile(const std::string& path, std::span<const std::byte> bytes);
 
-/// `rgba` as a PNG file in memory. errors: internal.
+/// Encode `rgba` as a PNG file in memory. errors: internal.
 Result<std::vector<std::byte>> encodePng(std::span<const std::byte> rgba, uint32_t width, uint32_t height);
 
-/// The same as a JPEG file, of a quality that keeps the colours of single pixels apart. errors: internal.
+/// Encode `rgba` as a JPEG file, at a quality that keeps the colours of single pixels apart. errors:
+/// internal.
 Result<std::vector<std::byte>> encodeJpeg(std::span<const std::byte> rgba, uint32_t width, uint32_t height);
 
-/// Half the size in both directions, each pixel the mean of four in linear light. RGBA8 sRGB; width and height even.
+/// Halve the size in both directions, each pixel the mean of four in linear light. RGBA8 sRGB; width and
+/// height even.
 std::vector<std::byte> downsampleSrgb(std::span<const std::byte> rgba, uint32_t width, uint32_t height);
 
 } // namespace hearth::viewer

@@ -20,7 +20,7 @@ std::string number(double value)
     return text;
 }
 
-/// Six digits, whatever the magnitude.
+/// Format with six digits, whatever the magnitude.
 std::string shortNumber(double value)
 {
     char text[32];
@@ -48,7 +48,7 @@ std::array<std::pair<const char*, uint64_t>, 5> namedCounts(const FrameCounts& c
              {"shaded_area_pixels", counts.shaded_area}}};
 }
 
-/// A JSON array.
+/// Format as a JSON array.
 std::string formatFrames(std::span<const FrameCounts> frames)
 {
     std::string text;
@@ -63,7 +63,7 @@ std::string formatFrames(std::span<const FrameCounts> frames)
     return text + "]";
 }
 
-/// A JSON object: where each asset is on the sheet.
+/// Format the position of each asset on the sheet as a JSON object.
 std::string formatSheet(const Sheet& sheet)
 {
     const SheetLayout& layout = sheet.layout;
@@ -107,7 +107,7 @@ Result<uint64_t> readShadedArea(VulkanHost& host, const gpu::Renderer& renderer,
     HEARTH_ASSERT(bytes.size() >= draws.size() * sizeof(shared::TileDraw));
     std::memcpy(draws.data(), bytes.data(), draws.size() * sizeof(shared::TileDraw));
     const uint64_t whole_picture = uint64_t{extent.width} * extent.height;
-    uint64_t pixels = tiles ? 0 : whole_picture; // the sky has no indirect draw then
+    uint64_t pixels = tiles ? 0 : whole_picture; // tiles: the sky has no indirect draw
     for (const shared::TileDraw& draw : draws)
         pixels += draw.instance_count * (draw.first_vertex == 0 ? whole_picture
                                                                 : uint64_t{shared::kMaterialTilePixels} *

@@ -1,4 +1,4 @@
-// What a frame drew: counts from the GPU's own buffers, times of the passes, and the files that tools read.
+// Frame statistics: counts from the GPU's own buffers, times of the passes, and the files for tools.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -14,36 +14,36 @@
 namespace hearth::viewer
 {
 
-/// The visible list of the last frame of a scene.
+/// Visible list of the last frame of a scene.
 struct VisibleList
 {
     shared::FrameCounters counters{};
-    std::vector<shared::VisibleCluster> slots; ///< those that were drawn
+    std::vector<shared::VisibleCluster> slots; ///< slots that were drawn
 };
 Result<VisibleList> readVisibleList(VulkanHost& host, const gpu::Renderer& renderer, const gpu::Scene& scene);
 
-/// Area of what the last frame of a scene drew to shade it, in pixels: each material, and the sky, in all of its tiles or
-/// in the whole picture.
+/// Return the area that the last frame of a scene drew to shade it, in pixels: each material, and the sky, in
+/// all of its tiles or in the whole frame.
 Result<uint64_t> readShadedArea(VulkanHost& host, const gpu::Renderer& renderer, const gpu::Scene& scene,
                                 VkExtent2D extent, gpu::ShadedArea area);
 
-/// Deformed clusters that the last frame of a scene with characters drew.
+/// Deformed clusters drawn by the last frame of a scene with characters.
 struct SkinningCounts
 {
     uint32_t clusters = 0;
-    uint32_t in_scratch = 0; ///< of these, skinned once; the others wherever they were needed
+    uint32_t in_scratch = 0; ///< of these, pre-skinned once; the others were skinned on demand
 };
 Result<SkinningCounts> readSkinning(VulkanHost& host, const gpu::Renderer& renderer, const gpu::Scene& scene);
 
-/// The light of bricks in the last frame of a scene that has them.
+/// Brick statistics (GI) of the last frame of a scene with bricks.
 struct BrickCounts
 {
-    uint64_t bytes = 0; ///< of their buffers on the device
+    uint64_t bytes = 0; ///< of the bricks' buffers on the device
     uint32_t bricks = 0, faces = 0;
-    uint32_t lit_faces = 0; ///< of these, by the frame
-    uint32_t period = 0;    ///< frames that light all of them
-    uint32_t rays = 0;      ///< of a face that is lit
-    uint32_t tiles = 0;     ///< for which light was gathered
+    uint32_t lit_faces = 0; ///< faces lit by the frame
+    uint32_t period = 0;    ///< frames that light all faces once
+    uint32_t rays = 0;      ///< per face that is lit
+    uint32_t tiles = 0;     ///< tiles for which light was gathered
 };
 BrickCounts countBricks(const gpu::Scene& scene, const gpu::FrameTargets& targets);
 
@@ -57,18 +57,18 @@ struct FrameCounts
 struct FrameReport
 {
     std::string device;
-    uint32_t width = 0, height = 0; ///< of a frame; of a sheet, of one in a cell
+    uint32_t width = 0, height = 0; ///< of a frame; on a sheet, of a cell's image
     std::optional<Sheet> sheet;
     float error_pixels = 0;
     uint64_t scene_bytes = 0, target_bytes = 0;
     uint32_t dropped_lights = 0;
     std::vector<FrameCounts> frames;        ///< at least one
-    std::vector<StreamCounts> streaming;    ///< the same frames; empty where all is resident
-    std::vector<ShadowCounts> shadows;      ///< the same frames; empty where there are none
-    std::optional<SkinningCounts> skinning; ///< of the last frame; none where there are no characters
-    std::optional<BrickCounts> bricks;      ///< the same; none where there are none
-    std::array<double, gpu::kTimestampCount>
-        milliseconds{}; ///< of the pass that ends with the timestamp; [0] is the frame
+    std::vector<StreamCounts> streaming;    ///< per frame; empty if all geometry is resident
+    std::vector<ShadowCounts> shadows;      ///< per frame; empty without shadows
+    std::optional<SkinningCounts> skinning; ///< of the last frame; none without characters
+    std::optional<BrickCounts> bricks;      ///< of the last frame; none without bricks
+    /// Time of the pass that ends with the timestamp; [0] is the whole frame.
+    std::array<double, gpu::kTimestampCount> milliseconds{};
 };
 
 /// Medians over frames of the times between timestamps.
@@ -76,10 +76,10 @@ std::array<double, gpu::kTimestampCount> medianPassTimes(const std::vector<std::
 
 uint64_t countTriangles(const formats::PackView& pack, std::span<const shared::VisibleCluster> slots);
 
-/// JSON text; "schema" names its form.
+/// Format as JSON text; "schema" names the version of its form.
 std::string formatReport(const FrameReport& report, const formats::PackView& pack);
 
-/// The form that hearth-render --help describes.
+/// Format in the layout that hearth-render --help describes.
 std::vector<std::byte> formatVisibility(const VisibleList& list, std::span<const std::byte> pixels,
                                         uint32_t width, uint32_t height);
 

@@ -1,4 +1,4 @@
-// What a person sets about a picture, wherever the camera stands.
+// View settings that do not depend on the camera.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -14,17 +14,17 @@ namespace hearth::viewer
 
 struct FrameSettings
 {
-    float error_pixels = 1;                 ///< largest error on the screen; 0: the source triangles
-    std::vector<shared::LodKnot> lod_curve; ///< one that shared::setLodCurve takes
+    float error_pixels = 1;                 ///< largest screen-space error; 0: the source triangles
+    std::vector<shared::LodKnot> lod_curve; ///< valid for shared::setLodCurve
     uint32_t view = shared::kViewFinal;     ///< shared::kView*
     gpu::ShadedArea shaded_area = gpu::ShadedArea::automatic;
     uint32_t cull_flags = shared::kCullEverything;
     uint32_t ambient_occlusion = shared::kAmbientOcclusionExact; ///< shared::kAmbientOcclusion*
     uint32_t specular_occlusion = shared::kSpecularOcclusionFit; ///< shared::kSpecularOcclusion*
-    bool bricks_light = true;                                    ///< of packs with bricks
+    bool bricks_light = true;                                    ///< GI, for packs with bricks
 };
 
-/// A value and what people call it.
+/// Value and its name for people.
 template <typename T>
 struct Named
 {
@@ -32,15 +32,15 @@ struct Named
     T value;
 };
 
-/// All views, the picture first.
+/// Return all views, the final one first.
 std::span<const Named<uint32_t>> viewNames();
 std::span<const Named<gpu::ShadedArea>> shadedAreaNames();
 std::span<const Named<uint32_t>> ambientOcclusionNames();
 std::span<const Named<uint32_t>> specularOcclusionNames();
-/// Flag by flag.
+/// Return the culling tests, one per flag.
 std::span<const Named<uint32_t>> cullTestNames();
 
-/// A frame of the camera. The depth view shows what is as far away as the target in middle grey.
+/// Make the input of a frame of the camera. The depth view shows the distance of the target as middle grey.
 gpu::FrameInput makeFrame(const FrameSettings& settings, const shared::Camera& camera,
                           uint32_t instance_count, VkExtent2D extent);
 

@@ -1,4 +1,4 @@
-// Pages of a pack for a stream.
+// Page reads for streaming.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,8 +7,9 @@
 namespace hearth::viewer
 {
 
-/// Decode a page into `destination`, whose size is the page's; on any thread. False where it cannot be read or is not what its
-/// pack promises (pack::Pack), which is told on stderr: what it refines stays coarse.
+/// Decode a page into `destination`, whose size is the page's; on any thread. Returns false and prints a
+/// warning on stderr if the page cannot be read or contradicts its pack (pack::Pack); the clusters that it
+/// refines stay coarse.
 bool readPage(const formats::PackView& pack, uint32_t page, std::span<std::byte> destination);
 
 } // namespace hearth::viewer

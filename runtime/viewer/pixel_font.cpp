@@ -11,7 +11,7 @@ namespace
 
 constexpr uint32_t kLetterWidth = 5;
 
-/// Rows from top to bottom, with a space between two.
+/// Glyph: rows from top to bottom, separated by spaces.
 struct Letter
 {
     char character;
@@ -76,7 +76,7 @@ const Letter& letterOf(char character)
     return found == std::end(kLetters) ? kUnknown : *found;
 }
 
-/// Bytes that go on with a character of UTF-8.
+/// True for continuation bytes of a UTF-8 character.
 bool isContinuation(char byte)
 {
     return (static_cast<unsigned char>(byte) & 0xC0) == 0x80;

@@ -1,4 +1,4 @@
-// Letters for labels in pictures: 5 x 7 pixels each, in capitals.
+// Bitmap font for labels in images: 5 x 7 pixels per letter, capitals only.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,7 +13,7 @@ namespace hearth::viewer
 inline constexpr uint32_t kLetterHeight = 7;
 inline constexpr uint32_t kLetterAdvance = 6; ///< from one letter to the next
 
-/// An RGBA8 picture in memory, rows from top to bottom.
+/// RGBA8 image in memory, rows from top to bottom.
 struct Raster
 {
     std::span<std::byte> rgba;
@@ -21,16 +21,16 @@ struct Raster
     uint32_t height = 0;
 };
 
-/// Draws a line of UTF-8 text, each pixel of a letter as `scale` x `scale` pixels of one grey. Small letters become capitals; a
-/// character without a letter becomes a box. Pixels outside the picture are left out.
+/// Draw a line of UTF-8 text, each pixel of a letter as `scale` x `scale` pixels of one grey. Small letters
+/// become capitals; a character without a letter becomes a box. Pixels outside of the image are left out.
 /// x, y  of the top left corner
 void drawText(const Raster& raster, uint32_t x, uint32_t y, uint32_t scale, std::string_view text,
               std::byte grey);
 
-/// Returns how many letters drawText makes of a text.
+/// Return the number of letters that drawText draws for a text.
 size_t countLetters(std::string_view text);
 
-/// Returns the start of a text that has so many letters at most, and never a part of a character.
+/// Return the longest start of a text with at most `count` letters; never splits a character.
 std::string_view firstLetters(std::string_view text, size_t count);
 
 } // namespace hearth::viewer

@@ -1,4 +1,4 @@
-// The one place that includes stb_image_write.
+// Implementation of PNG and JPEG encoding; the only file that includes stb_image_write.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/file_output.h"
 
@@ -16,7 +16,7 @@ namespace hearth::viewer
 namespace
 {
 
-/// What stb calls with each piece of a file; `context` is the std::vector<std::byte> that it goes to.
+/// Append a piece of a file; stb's write callback. `context` is the std::vector<std::byte> of the file.
 void append(void* context, void* data, int size)
 {
     const auto* bytes = static_cast<const std::byte*>(data);
@@ -24,7 +24,7 @@ void append(void* context, void* data, int size)
     out.insert(out.end(), bytes, bytes + size);
 }
 
-// From there on stb keeps all of the colours' resolution; the views of clusters and levels need it.
+// Lowest quality at which stb keeps the full resolution of colours; the views of clusters and levels need it.
 constexpr int kJpegQuality = 91;
 
 } // namespace

@@ -12,7 +12,7 @@ namespace hearth::viewer
 Status writeNoise(VulkanHost& host, const gpu::Device& device, gpu::FrameTargets& targets,
                   const shared::OcclusionView& view, uint32_t seed)
 {
-    // what one vkCmdUpdateBuffer may carry
+    // limit of one vkCmdUpdateBuffer
     constexpr size_t kMostTexels = 65536 / sizeof(float);
     // depths are reciprocals of distances: limits from 1 to 2^-12 reach from the near plane to far away
     constexpr uint32_t kLimits = 13;

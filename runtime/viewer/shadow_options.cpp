@@ -52,7 +52,7 @@ bool setBias(std::string_view text, float& bias)
     return true;
 }
 
-/// "texels=2048"; false where the name or the value is none.
+/// Parse "texels=2048"; false if the name or the value is invalid.
 bool setOne(std::string_view setting, ShadowSettings& settings)
 {
     gpu::ShadowOptions& options = settings.options;
@@ -76,7 +76,7 @@ bool setOne(std::string_view setting, ShadowSettings& settings)
     return name == "far" && setLength(value, options.split_range.far, settings.fit_far);
 }
 
-/// How far a box is from a point, and how far its farthest corner.
+/// Return the distances of a point to a box and to its farthest corner.
 std::pair<float, float> distancesTo(const Box3& box, Float3 point)
 {
     const auto nearest = [](float at, float low, float high) {

@@ -1,4 +1,4 @@
-// Shadows as the command line asks for them.
+// Shadow options of the command line.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -19,14 +19,15 @@ struct ShadowSettings
     std::vector<gpu::ShadowSphere> spheres;
 };
 
-/// "off", "on", or settings of shadows that are on: "texels=2048,bias=4". errors: usage.
+/// Parse "off", "on", or settings of shadows that are on: "texels=2048,bias=4". errors: usage.
 Status parseShadows(std::string_view text, ShadowSettings& settings);
 
-/// One more sphere beside those of the pack: "X,Y,Z,RADIUS", and where it is not for all lights, ",LIGHT". errors: usage.
+/// Parse one more sphere beside those of the pack: "X,Y,Z,RADIUS", and for a single light ",LIGHT". errors:
+/// usage.
 Status parseShadowSphere(std::string_view text, ShadowSettings& settings);
 
-/// The options for these cameras, at least one, where the scene does not move. Of a camera in the scene the splits begin at a
-/// thousandth of where they end.
+/// Fit the options to these cameras, at least one, in a static scene. For a camera inside the scene the
+/// splits begin at a thousandth of their far end.
 gpu::ShadowOptions fitShadows(const ShadowSettings& settings, const formats::PackView& pack,
                               std::span<const shared::Camera> cameras);
 

@@ -9,7 +9,7 @@ namespace hearth::viewer
 namespace
 {
 
-/// The members of a JSON object.
+/// Format the members of a JSON object.
 std::string formatMembers(const ShadowCounts& counts)
 {
     std::string text;
@@ -33,7 +33,7 @@ Result<ShadowCounts> countShadows(VulkanHost& host, const gpu::Renderer& rendere
     HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes,
                             host.read(renderer.device(), shadows.casters()));
     ShadowCounts counts{.maps = shadows.statistics(), .map_bytes = shadows.allocatedBytes()};
-    // nothing moves here, so that no map has a second layer
+    // nothing moves here, so no map has a second layer
     for (const shared::ShadowMap& map : std::span(shadows.plan().block.maps).first(counts.maps.maps))
     {
         shared::FrameCounters layer;

@@ -10,7 +10,7 @@ namespace hearth::viewer
 namespace
 {
 
-// Cameras of fitCamera look down: what is high above lies behind them.
+// Distance by which hidden parts move up. Cameras of fitCamera look down, so they are behind the camera.
 constexpr float kAway = 1e9f; // metres
 
 bool isIn(const formats::Range& part, uint32_t instance)

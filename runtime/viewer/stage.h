@@ -1,4 +1,4 @@
-// Parts of a scene looked at one by one: each where it stands, framed, and all else out of the way.
+// Stage: shows parts of a scene one by one, each at its place with a fitted camera, all else moved away.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -18,35 +18,36 @@ namespace hearth::viewer
 class Stage
 {
 public:
-    /// Shows each mesh by its first instance.
-    /// errors: usage, where the pack has no such mesh, or nothing that draws it.
+    /// Show each mesh by its first instance. errors: usage if the pack has no such mesh, or no instance of
+    /// it.
     static Result<Stage> ofMeshes(const formats::PackView& pack, const pack::PosePlayer& player,
                                   std::span<const uint32_t> meshes, float aspect);
 
-    /// Shows each of these ranges of instances, as those of an asset.
+    /// Show each of these ranges of instances, such as the instances of an asset.
     static Stage ofInstances(const formats::PackView& pack, const pack::PosePlayer& player,
                              std::span<const formats::Range> parts, float aspect);
 
-    /// One for each part.
+    /// Cameras, one per part.
     const std::vector<shared::Camera>& cameras() const { return cameras_; }
 
-    /// The scene was loaded anew: all instances stand in their places.
+    /// Reset after the scene was reloaded: all instances are in their places.
     void reset() { std::fill(away_.begin(), away_.end(), uint8_t{0}); }
 
-    /// Returns what the scene's next frame must be told to show part `number` alone, and the part of the call before no more;
-    /// of rigid instances.
-    /// clip_moves  of a clip that plays: they hold for what is shown
-    /// errors: those of gpu::moveInstance.
+    /// Return the moves with which the scene's next frame shows part `number` alone and hides the part of the
+    /// last call; rigid instances only.
+    /// clip_moves  moves of a playing clip: applied to the shown part
+    /// errors: same as gpu::moveInstance.
     Result<std::vector<gpu::InstanceMove>> show(const gpu::Scene& scene, size_t number,
                                                 std::span<const gpu::InstanceMove> clip_moves = {});
 
-    /// The poses of deformed instances, with all but those of that part out of the way. Valid until the next call.
+    /// Return the poses of deformed instances, with all parts but that one moved away. Valid until the next
+    /// call.
     std::span<const gpu::InstancePose> poses(const pack::PosePlayer& player, size_t number);
 
 private:
     Stage(const formats::PackView& pack, const pack::PosePlayer& player);
 
-    std::vector<formats::Range> parts_; ///< instances of each
+    std::vector<formats::Range> parts_; ///< instances of each part
     std::vector<shared::Camera> cameras_;
     std::vector<uint8_t> is_deformed_; ///< [instance]
     std::vector<uint8_t> away_;        ///< [instance] moved away by show()

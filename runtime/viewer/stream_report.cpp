@@ -10,7 +10,7 @@ namespace hearth::viewer
 namespace
 {
 
-/// The members of a JSON object.
+/// Format the members of a JSON object.
 std::string formatMembers(const StreamCounts& counts)
 {
     const pack::StreamStatistics& s = counts.statistics;

@@ -1,4 +1,4 @@
-// Numbers in the text of options and small files.
+// Number parsing for options and small files.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,7 +11,7 @@
 namespace hearth::viewer
 {
 
-/// The whole text as a finite number.
+/// Parse the whole text as a finite number.
 template <typename T>
 std::optional<T> parseNumber(std::string_view text)
 {

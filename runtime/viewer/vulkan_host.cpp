@@ -80,7 +80,7 @@ std::string lowerCase(std::string text)
     return text;
 }
 
-/// Which kind of device is likely to be faster.
+/// Rank of a device type: higher is likely to be faster.
 int rankOf(VkPhysicalDeviceType type)
 {
     switch (type)
@@ -98,7 +98,7 @@ int rankOf(VkPhysicalDeviceType type)
     }
 }
 
-/// A queue family that draws and computes, and presents to the surface where there is one; or none.
+/// Find a queue family that draws and computes, and presents to the surface if there is one.
 bool findQueueFamily(const HostTable& vk, VkPhysicalDevice device, VkSurfaceKHR surface, uint32_t& family)
 {
     uint32_t count = 0;
@@ -281,8 +281,8 @@ Status VulkanHost::createDevice()
 {
     VkPhysicalDeviceFeatures supported;
     vk_->vkGetPhysicalDeviceFeatures(physical_device_, &supported);
-    // lavapipe 22.3 filters anisotropically by the differences inside a 2x2 block, not by the gradients it is given:
-    // wrong where the block sees two triangles, and a hundred times slower
+    // lavapipe 22.3 filters anisotropically by the differences inside a 2x2 block, not by the explicit
+    // gradients: wrong where the block sees two triangles, and a hundred times slower
     sampler_anisotropy_ = supported.samplerAnisotropy == VK_TRUE && !software_;
     VkPhysicalDeviceFeatures enabled{};
     enabled.samplerAnisotropy = sampler_anisotropy_ ? VK_TRUE : VK_FALSE;

@@ -1,5 +1,6 @@
-// A Vulkan instance, device and queue, with a window or without: what a game would own and hand to the renderer.
-// The loader is opened at run time, so that a machine without Vulkan gets a message and not a linker error.
+// Vulkan instance, device and queue, with a window or without: the objects that a game would own and pass to
+// the renderer. Opens the loader at run time, so that a machine without Vulkan gets a message and not a
+// linker error.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -15,18 +16,18 @@
 namespace hearth::viewer
 {
 
-/// What whoever owns a window says of it.
+/// Callbacks of the window's owner.
 struct HostWindow
 {
     std::vector<const char*> instance_extensions;
-    std::function<Result<VkSurfaceKHR>(VkInstance)> create_surface; ///< the surface becomes the host's
+    std::function<Result<VkSurfaceKHR>(VkInstance)> create_surface; ///< the host owns the surface
 };
 
 struct HostOptions
 {
-    std::string device_name; ///< part of the device's name, any case; empty: the fastest kind there is
+    std::string device_name; ///< part of the device's name, any case; empty: the fastest kind available
     bool validate = false;   ///< core and synchronization validation, collected in messages()
-    const HostWindow* window = nullptr; ///< where the queue shall present to one: with VK_KHR_swapchain
+    const HostWindow* window = nullptr; ///< window to present to, with VK_KHR_swapchain; or null
 };
 
 /// Vulkan entry points that the host needs beside those of the renderer.
@@ -35,40 +36,40 @@ struct HostTable;
 class VulkanHost
 {
 public:
-    /// errors: device, where there is no Vulkan, no such device, none that presents to the window, or no validation layer;
-    /// those of HostWindow::create_surface.
+    /// errors: device if there is no Vulkan, no such device, none that presents to the window, or no
+    /// validation layer; errors of HostWindow::create_surface.
     static Result<std::unique_ptr<VulkanHost>> create(const HostOptions& options);
     ~VulkanHost();
 
     gpu::DeviceDescription description() const;
     const std::string& deviceName() const { return device_name_; }
-    /// A software implementation, as lavapipe.
+    /// True for a software implementation such as lavapipe.
     bool software() const { return software_; }
     VkQueue queue() const { return queue_; }
     uint32_t queueFamily() const { return queue_family_; }
     VkSurfaceKHR surface() const { return surface_; } ///< of the window
 
-    /// Let `record` fill a command buffer, submit it and wait until it has run. Stops at the error of `record`.
+    /// Record with `record`, submit and wait until the commands have run. Stops at the error of `record`.
     Status run(const std::function<Status(VkCommandBuffer)>& record);
 
-    /// Bytes of a buffer, which has usage TRANSFER_SRC.
+    /// Read a buffer, which has usage TRANSFER_SRC.
     Result<std::vector<std::byte>> read(const gpu::Device& device, const gpu::Buffer& buffer);
-    /// Texels of an image in layout TRANSFER_SRC_OPTIMAL, tightly packed, rows top to bottom.
+    /// Read an image in layout TRANSFER_SRC_OPTIMAL, tightly packed, rows from top to bottom.
     Result<std::vector<std::byte>> read(const gpu::Device& device, const gpu::Image& image,
                                         uint32_t texel_bytes);
 
-    /// A layer of an array of D32 in layout SHADER_READ_ONLY_OPTIMAL, where it stays, with usage TRANSFER_SRC; rows top to
-    /// bottom.
+    /// Read a layer of a D32 array in layout SHADER_READ_ONLY_OPTIMAL, which it keeps, with usage
+    /// TRANSFER_SRC; rows from top to bottom.
     Result<std::vector<float>> readDepth(const gpu::Device& device, const gpu::Image& image, uint32_t layer);
 
-    /// A pool of `count` timestamps, which lives as long as the host.
+    /// Create a pool of `count` timestamps, which lives as long as the host.
     Result<VkQueryPool> createTimestamps(uint32_t count);
-    /// Milliseconds since the first of them.
+    /// Read timestamps as milliseconds since the first of them.
     Result<std::vector<double>> readTimestamps(VkQueryPool pool, uint32_t count);
 
-    /// What the validation layers said, one message each. Empty is the only good answer.
+    /// Messages of the validation layers. Must be empty.
     const std::vector<std::string>& messages() const { return messages_; }
-    /// Each on stderr. errors: internal, where there are any.
+    /// Print each message on stderr. errors: internal if there are any.
     Status printMessages() const;
     void clearMessages() { messages_.clear(); }
 

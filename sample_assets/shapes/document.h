@@ -1,5 +1,6 @@
-// A small model of a glTF document: what the generators produce and the GLB writer writes.
-// Plain data, indices into the arrays of Document; see sample_assets/README.md for the order in which to read this folder.
+// Minimal model of a glTF document, produced by the generators and written by the GLB writer. Plain data;
+// indices refer to the arrays of Document. sample_assets/README.md has the order in which to read this
+// folder.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,7 +14,7 @@
 namespace hearth::samples
 {
 
-/// "No such thing" in every index of a document.
+/// "None" in every index of a document.
 inline constexpr int kNoIndex = -1;
 
 /// A triangle mesh with one material. An attribute array is empty or as long as `positions`.
@@ -49,7 +50,7 @@ struct Material
     float alpha_cutoff = 0; ///< above 0: alpha mode MASK
     float detail_scale = 1; ///< KHR_texture_transform of the normal texture where it is not 1
     bool double_sided = false;
-    bool unlit = false; ///< KHR_materials_unlit: base colour is what is seen
+    bool unlit = false; ///< KHR_materials_unlit: base colour is shown unlit
     int base_color_image = kNoIndex;
     int metallic_roughness_image = kNoIndex; ///< G roughness, B metallic; also R occlusion if has_occlusion
     int normal_image = kNoIndex;
@@ -135,7 +136,8 @@ enum class TrackKind
     cubic_spline,
 };
 
-/// Values are x y z (w): one for each time, or in-tangent, value, out-tangent for a cubic spline.
+/// Animation track. Values are x y z (w): one for each time, or in-tangent, value, out-tangent for a cubic
+/// spline.
 struct Track
 {
     int node = kNoIndex;

@@ -31,12 +31,12 @@ Json toJson(Float4 v)
     return Json::array({v.x, v.y, v.z, v.w});
 }
 
-/// The JSON and the binary chunk while they grow.
+/// JSON and binary chunk under construction.
 struct Glb
 {
     Json json;
     std::vector<std::byte> binary;
-    std::set<std::string> extensions; ///< used; none is required to draw something sensible
+    std::set<std::string> extensions; ///< extensions used; none is required to draw something sensible
 
     int addView(std::span<const std::byte> bytes, int target = 0)
     {
@@ -210,7 +210,7 @@ void addLights(Glb& glb, const Document& document)
     glb.use(glb.json, "KHR_lights_punctual", {{"lights", std::move(lights)}});
 }
 
-/// EXT_mesh_gpu_instancing: one accessor each for the translations, rotations and scales.
+/// Return the EXT_mesh_gpu_instancing object: one accessor each for translations, rotations and scales.
 Json instancingJson(Glb& glb, std::span<const Placement> instances)
 {
     std::vector<Float3> translations, scales;
@@ -322,7 +322,8 @@ void appendWord(std::vector<std::byte>& bytes, size_t value)
     bytes.insert(bytes.end(), raw, raw + 4);
 }
 
-/// Header, JSON chunk padded with spaces, binary chunk padded with zeros (glTF 2.0, section 4.4).
+/// Assemble a file: header, JSON chunk padded with spaces, binary chunk padded with zeros (glTF 2.0, section
+/// 4.4).
 GlbFile assemble(std::string text, std::vector<std::byte> binary)
 {
     text.resize((text.size() + 3) / 4 * 4, ' ');
@@ -340,7 +341,8 @@ GlbFile assemble(std::string text, std::vector<std::byte> binary)
     return {std::move(file), std::move(binary)};
 }
 
-/// What the meshes' arrays take as binary, at most: room made once, where each doubling would copy gigabytes.
+/// Return an upper bound of the meshes' size in the binary chunk, to reserve it once: growth by doubling
+/// would copy gigabytes.
 size_t meshBytes(const Document& document)
 {
     constexpr size_t kPadding = 4, kArrays = 7;

@@ -1,5 +1,5 @@
-// Writes a Document as one GLB file.
-// glTF 2.0 specification, Khronos Group; extensions named where they are used.
+// Writes a Document as one GLB file. glTF 2.0 specification, Khronos Group; extensions are named at their
+// use.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,18 +11,18 @@
 namespace hearth::samples
 {
 
-/// The bytes of a GLB file, in two pieces: a scene of gigabytes is not copied together.
+/// GLB file in two parts, because concatenation would copy a scene of gigabytes.
 struct GlbFile
 {
     std::vector<std::byte> head;   ///< header, JSON chunk, header of the binary chunk
-    std::vector<std::byte> binary; ///< that chunk's bytes
+    std::vector<std::byte> binary; ///< its content
 };
 
-/// The document as a GLB file. Same document, same bytes.
-/// Indices of `document` must be in range, and attribute arrays of equal length (asserted).
+/// Encode the document as a GLB file. Deterministic: the same document gives the same bytes. Indices of
+/// `document` must be in range, and attribute arrays of equal length (asserted).
 GlbFile encodeGlb(const Document& document);
 
-/// Write the file under `path`, whole or not at all. errors: cannot_write.
+/// Write the file to `path` atomically. errors: cannot_write.
 Status writeFile(const std::string& path, const GlbFile& glb);
 
 } // namespace hearth::samples

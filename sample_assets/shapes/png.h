@@ -1,4 +1,4 @@
-// PNG encoding.
+// Encodes PNG files.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,7 +9,7 @@
 namespace hearth::samples
 {
 
-/// The image as a PNG file: RGB where every texel is opaque, else RGBA. Same image, same bytes.
+/// Encode the image as a PNG file: RGB if every texel is opaque, else RGBA. Deterministic.
 std::vector<std::byte> encodePng(const Image& image);
 
 } // namespace hearth::samples

@@ -1,6 +1,6 @@
-// The few functions of mathematics that the generators need beyond formats/base/math.h.
-// Sine and cosine are our own: the C library picks its code by the machine, and the samples must have the same bytes
-// everywhere. Only + - * / and sqrt are used below, which are exact to the last bit by IEEE 754.
+// Mathematical functions that the generators need beyond formats/base/math.h. Sine and cosine are implemented
+// here: the C library chooses its code by processor, and samples must have the same bytes everywhere. Only +
+// - * / and sqrt are used below, which IEEE 754 defines exactly to the last bit.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -14,7 +14,7 @@ namespace hearth::samples
 
 inline constexpr float kPi = 3.14159265f;
 
-/// Sine by its Taylor series after reduction to [-pi/2, pi/2]; error below 1e-11 for |x| < 1e4.
+/// Return the sine by its Taylor series after reduction to [-pi/2, pi/2]; error below 1e-11 for |x| < 1e4.
 inline double sineOf(double x)
 {
     constexpr double pi = 3.14159265358979323846;
@@ -51,14 +51,14 @@ inline Float3 lerp(Float3 a, Float3 b, float t)
     return a + (b - a) * t;
 }
 
-/// 0 below `from`, 1 above `to`, smooth between; `from` may be greater than `to`.
+/// Return 0 below `from`, 1 above `to`, smooth between; `from` may be greater than `to`.
 inline float smoothstep(float from, float to, float x)
 {
     const float t = clamp01((x - from) / (to - from));
     return t * t * (3.0f - 2.0f * t);
 }
 
-/// The smaller of a and b, rounded over a range of `width` where they are close.
+/// Return the smaller of a and b, rounded over a range of `width` where they are close.
 inline float smoothMin(float a, float b, float width)
 {
     const float h = std::max(width - std::abs(a - b), 0.0f) / width;
@@ -70,14 +70,14 @@ inline Float3 normalize(Float3 v)
     return normalizeOr(v, {0, 1, 0});
 }
 
-/// Unit quaternion that turns by `angle_rad` about the unit `axis`.
+/// Return the unit quaternion that rotates by `angle_rad` about the unit `axis`.
 inline Float4 rotationAbout(Float3 axis, float angle_rad)
 {
     const float s = sine(angle_rad * 0.5f);
     return {axis.x * s, axis.y * s, axis.z * s, cosine(angle_rad * 0.5f)};
 }
 
-/// First b, then a.
+/// Return the rotation b, then a.
 inline Float4 multiply(Float4 a, Float4 b)
 {
     return {a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
@@ -91,7 +91,7 @@ inline Float3 rotate(Float4 q, Float3 v)
     return v + t * q.w + cross(u, t);
 }
 
-/// Turns the unit vector `from` onto the unit vector `to`; they must not be opposite.
+/// Return the rotation from unit vector `from` to unit vector `to`; they must not be opposite.
 inline Float4 rotationBetween(Float3 from, Float3 to)
 {
     const Float3 axis = cross(from, to);
@@ -100,7 +100,7 @@ inline Float4 rotationBetween(Float3 from, Float3 to)
     return {q.x / length, q.y / length, q.z / length, q.w / length};
 }
 
-/// Rotation of an object at `eye` whose -Z axis looks at `target` and whose +Y axis stays upright.
+/// Return the rotation of an object at `eye` whose -Z axis looks at `target` and whose +Y axis stays upright.
 inline Float4 rotationLookingAt(Float3 eye, Float3 target)
 {
     const Float3 back = normalize(eye - target);

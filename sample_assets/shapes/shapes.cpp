@@ -14,7 +14,7 @@ namespace hearth::samples
 namespace
 {
 
-/// For each vertex the first vertex, in a fixed order, with the same position.
+/// Return for each vertex the first vertex, in a fixed order, with the same position.
 std::vector<uint32_t> firstVertexOfPosition(const std::vector<Float3>& positions)
 {
     std::vector<uint32_t> order(positions.size());
@@ -88,7 +88,7 @@ TriangleMesh makeBox(Float3 center, Float3 half, float uv_per_metre)
                              position[u_axis] += u * half[u_axis];
                              position[v_axis] += v * half[v_axis];
                              texture_uv = Float2{u * half[u_axis], v * half[v_axis]} * uv_per_metre;
-                             if (v_axis != 1) // keep "up" of the picture along +Y
+                             if (v_axis != 1) // keep "up" of the image along +Y
                                  std::swap(texture_uv.x, texture_uv.y);
                              texture_uv.y = -texture_uv.y;
                          });

@@ -50,7 +50,7 @@ Float3 gradient(const std::function<float(Float3)>& distance, Float3 p, float st
            (2 * step);
 }
 
-/// The mean of the points where the cell's twelve edges cross the zero; false where none does.
+/// Compute the mean of the points where the cell's twelve edges cross zero; false if none does.
 bool cellVertex(const Grid& grid, size_t x, size_t y, size_t z, Float3& vertex)
 {
     Float3 sum;
@@ -78,7 +78,7 @@ bool cellVertex(const Grid& grid, size_t x, size_t y, size_t z, Float3& vertex)
 
 constexpr uint32_t kNoVertex = 0xFFFFFFFFu;
 
-/// Two triangles for the grid edge from (x, y, z) along `axis`, between the four cells around it.
+/// Add two triangles for the grid edge from (x, y, z) along `axis`, between the four cells around it.
 void addQuad(const Grid& grid, const std::vector<uint32_t>& vertex_of_cell, size_t axis, size_t at,
              std::vector<uint32_t>& indices)
 {
@@ -88,7 +88,7 @@ void addQuad(const Grid& grid, const std::vector<uint32_t>& vertex_of_cell, size
     const size_t u = grid.stride((axis + 1) % 3), v = grid.stride((axis + 2) % 3);
     const uint32_t quad[4] = {vertex_of_cell[at - u - v], vertex_of_cell[at - v], vertex_of_cell[at],
                               vertex_of_cell[at - u]};
-    if (inside_first) // the surface looks along the axis
+    if (inside_first) // the surface faces along the axis
         indices.insert(indices.end(), {quad[0], quad[1], quad[2], quad[0], quad[2], quad[3]});
     else
         indices.insert(indices.end(), {quad[0], quad[2], quad[1], quad[0], quad[3], quad[2]});
@@ -123,7 +123,7 @@ TriangleMesh surfaceOf(const std::function<float(Float3)>& distance, const Box3&
                 {
                     Float3& p = mesh.positions[v];
                     const float step = 0.1f * cell;
-                    for (int iteration = 0; iteration < 2; ++iteration) // Newton towards the zero
+                    for (int iteration = 0; iteration < 2; ++iteration) // Newton's method towards zero
                     {
                         const Float3 slope = gradient(distance, p, step);
                         p -= slope * (distance(p) / std::max(dot(slope, slope), 0.25f));

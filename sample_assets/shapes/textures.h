@@ -1,4 +1,4 @@
-// Procedural pictures: a height or a colour for each texel, and what is derived from them.
+// Generates procedural images from a height or a colour for each texel.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,20 +10,21 @@
 namespace hearth::samples
 {
 
-/// A function of the unit square, sampled at texel centres, (0, 0) top left.
+/// Function of the unit square, sampled at texel centres, (0, 0) top left.
 using Picture = std::function<Float4(Float2 uv)>;
 using HeightField = std::function<float(Float2 uv)>;
 
-/// sRGB encoding (IEC 61966-2-1) of a linear value, as a byte.
+/// Encode a linear value as sRGB (IEC 61966-2-1), as a byte.
 uint8_t encodeSrgb(float linear);
 
-/// Image of linear colours, stored as sRGB; alpha is stored as it is.
+/// Paint an image of linear colours, stored as sRGB; alpha is stored unchanged.
 Image paintColor(std::string name, uint32_t width, uint32_t height, const Picture& picture);
 
-/// Image of plain data.
+/// Paint an image of plain data.
 Image paintData(std::string name, uint32_t width, uint32_t height, const Picture& picture);
 
-/// Tangent-space normal map of a height field that repeats. `depth`: height 1 in units of the image's width.
+/// Paint the tangent-space normal map of a height field that tiles. `depth`: height 1 in units of the image's
+/// width.
 Image paintNormals(std::string name, uint32_t size, float depth, const HeightField& height);
 
 } // namespace hearth::samples

@@ -1,4 +1,4 @@
-// A grid of bricks in memory, as its chunks have it (FORMAT.md, "Bricks").
+// Brick grid in memory, in the layout of its chunks (FORMAT.md, "Bricks").
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -16,17 +16,17 @@ struct BrickTables
     formats::BrickGridRecord grid{};
     std::vector<formats::BrickGroupRecord> groups;
     std::vector<formats::BrickRecord> bricks;
-    std::vector<uint8_t> opacity; ///< of each solid voxel
-    std::vector<uint32_t> albedo; ///< of each face, here and below
+    std::vector<uint8_t> opacity; ///< one per solid voxel
+    std::vector<uint32_t> albedo; ///< one per face, like the arrays below
     std::vector<uint16_t> normals;
     std::vector<uint32_t> emission;
     std::vector<uint32_t> lighting; ///< outgoing radiance, emission included
 
-    /// What marches read.
+    /// Return the masks that ray marching reads.
     shared::BrickMasks masks() const { return {formats::brickGridOf(grid), groups, bricks}; }
 };
 
-/// What a voxel grid costs on the GPU, bytes.
+/// GPU memory of a voxel grid, bytes by table.
 struct BrickBytes
 {
     uint64_t groups = 0;

@@ -1,4 +1,4 @@
-// A grid of bricks as the tables of a pack or a part hold it.
+// View of a brick grid in the tables of a pack, a part or BrickTables.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,7 +11,7 @@
 namespace hearth::bricks
 {
 
-/// All as the checker accepts them: every index in range.
+/// Spans of a grid that the checker has accepted: every index is in range.
 struct BrickView
 {
     shared::BrickMasks masks;
@@ -22,7 +22,7 @@ struct BrickView
     std::span<const uint32_t> lighting;
 };
 
-/// Of a file that has a grid. The view must outlive it.
+/// Make a view of a file that has a grid. `view` must outlive the result.
 inline BrickView brickViewOf(const formats::PackView& view)
 {
     return {{formats::brickGridOf(view.brickGrid()[0]), view.brickGroups(), view.bricks()},
@@ -33,7 +33,7 @@ inline BrickView brickViewOf(const formats::PackView& view)
             view.brickLighting()};
 }
 
-/// The tables must outlive the view.
+/// Make a view of tables. `tables` must outlive the result.
 inline BrickView brickViewOf(const BrickTables& tables)
 {
     return {tables.masks(), tables.opacity, tables.albedo, tables.normals, tables.emission, tables.lighting};

@@ -1,4 +1,4 @@
-// Which voxel and side each face of a grid belongs to: what the tables only say the other way round.
+// Lists the voxel and the side of each face of a grid. The tables store only the inverse mapping.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,11 +11,11 @@ namespace hearth::bricks
 
 struct FacePlace
 {
-    uint16_t x, y, z; ///< voxel
-    uint16_t side;    ///< of kVoxelFaces
+    uint16_t x, y, z; ///< voxel coordinates
+    uint16_t side;    ///< 0 to kVoxelFaces - 1
 };
 
-/// Of all faces, in their order.
+/// Return the voxel and side of all faces, in face order.
 std::vector<FacePlace> facePlaces(const shared::BrickMasks& masks);
 
 } // namespace hearth::bricks

@@ -1,4 +1,4 @@
-// Where the voxels of a grid lie.
+// Placement of a voxel grid in world space.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,14 +12,14 @@ namespace hearth::bricks
 
 using Cell = std::array<uint32_t, 3>;
 
-/// Voxel (x, y, z) is the box from origin + voxel_size * (x, y, z) on.
+/// Placement of a grid: voxel (x, y, z) begins at origin + voxel_size * (x, y, z).
 struct GridFrame
 {
     Float3 origin;        ///< world space, metres
     float voxel_size = 1; ///< metres, > 0
-    Cell voxels{};        ///< along each axis, 1 to formats::kMaxGridVoxels
+    Cell voxels{};        ///< count along each axis, 1 to formats::kMaxGridVoxels
 
-    /// Groups along each axis; the last ones may reach out of the grid.
+    /// Return the number of groups along each axis. The last groups may extend beyond the grid.
     Cell groups() const
     {
         Cell count;
@@ -30,7 +30,7 @@ struct GridFrame
     uint64_t groupCount() const { return uint64_t{groups()[0]} * groups()[1] * groups()[2]; }
 };
 
-/// From object space to voxels, counted from the grid's origin.
+/// Transform from object space to voxel coordinates relative to the grid's origin.
 inline Affine3d voxelsFromObject(const GridFrame& frame, const Affine3& world_from_object)
 {
     const double size = frame.voxel_size;

@@ -15,7 +15,8 @@ constexpr std::array<double, 11> kSeries{1, 1.25, 1.6, 2, 2.5, 3.2, 4, 5, 6.4, 8
 
 constexpr double kMostVoxels = formats::kMaxGridVoxels;
 
-// Extents that say 512 m and 0.1 m voxels mean 5120 of them, whatever the last bits say.
+// Relative tolerance for counting voxels: an extent of 512 m with 0.1 m voxels means 5120 voxels despite
+// rounding.
 constexpr double kRounding = 1e-4;
 
 std::string text(double value)
@@ -25,13 +26,14 @@ std::string text(double value)
     return out;
 }
 
-/// The least number of the series, from 10^-6 on, that is `size` at least.
+/// Return the smallest number of the series that is at least `size`, from 10^-6 on.
 double roundedUp(double size)
 {
     for (int exponent = -6; exponent < 9; ++exponent)
         for (const double step : kSeries)
         {
-            // by powers that are whole numbers: 0.1 and 1.6 are then the doubles nearest to them
+            // multiply or divide by powers that are whole numbers, so that 0.1 and 1.6 are the doubles
+            // nearest to them
             double power = 1;
             for (int i = 0; i < std::abs(exponent); ++i)
                 power *= 10;
@@ -54,10 +56,11 @@ struct Axis
     double voxels;
 };
 
-/// Along one axis of an extent that nobody asked for.
+/// Place the voxels along one axis, where no extent is set.
 Axis around(double min, double max, double size)
 {
-    // planes of the grid are exact in voxels, so that what lies in one has room behind it on both sides
+    // use multiples of the voxel size as planes, so that a surface in a plane has room behind it on both
+    // sides
     const double first = std::ceil(min / size - kRounding) - 1;
     const double last = std::floor(max / size + kRounding) + 1;
     return {first * size, last - first};

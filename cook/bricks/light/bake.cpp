@@ -18,7 +18,8 @@ using namespace shared;
 namespace
 {
 
-/// How far to either side of a triangle its voxel is looked for, in voxels: it may lie in a plane between two.
+/// Offset to either side of a triangle at which its voxel is looked up, in voxels: the triangle may lie in a
+/// plane between two.
 constexpr float kBeside = 0.01f;
 
 class Baker
@@ -92,7 +93,7 @@ private:
         return radiance * throughHoles(place, direction, far) + radianceOfHoles(place, direction, far);
     }
 
-    /// What surfaces with holes let through: they fill no voxel wholly.
+    /// Return the transmittance of surfaces with holes along a ray. Such surfaces fill no voxel completely.
     float throughHoles(Float3 place, Float3 direction, float far) const
     {
         float through = 1;
@@ -131,8 +132,9 @@ private:
         }
     }
 
-    /// Of the faces of its voxel that look to the triangle's side, by how much they do; of the voxel just before or behind the
-    /// triangle. Nothing where the grid has dropped them.
+    /// Return the outgoing radiance at a hit: the mean over the faces of its voxel on the triangle's side,
+    /// weighted by how much they face it. Uses the voxel just before or just behind the triangle. Returns 0
+    /// where the grid has dropped both.
     Float3 radianceOf(const RayScene::Hit& hit) const
     {
         for (const float beside : {-kBeside, kBeside})

@@ -1,8 +1,10 @@
-// The start value of the faces' light: what they send out with the scene's own lights, by rays against the real triangles.
+// Bakes the initial lighting of brick faces: outgoing radiance under the scene's own lights, by ray tracing
+// the triangles.
 //
-// Marched rays know voxels only; these meet the triangles of the cut that the grid was made from, and light from narrow gaps
-// and thin things is right. What a ray meets sends out what the face of its voxel there does, so that each sweep over all
-// faces adds a bounce and no texture is looked at again. A frame on the GPU starts from this and comes to its own answer.
+// Marched rays know only voxels. These rays meet the triangles of the LOD cut that the grid was made from, so
+// light through narrow gaps and on thin objects is correct. The radiance at a hit is the outgoing radiance of
+// the face of its voxel: each sweep over all faces adds one bounce and needs no texture. Frames on the GPU
+// start from this lighting and converge to their own solution.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,14 +15,15 @@ namespace hearth::bricks
 
 struct BakeSettings
 {
-    uint32_t bounces =
-        4;              ///< of light that lights, the sky and what shines send; 0: what is lit by them alone
-    uint32_t rays = 64; ///< of each face, at least 1
+    /// indirect bounces of light from lamps, sky and emissive surfaces; 0: direct light only
+    uint32_t bounces = 4;
+    uint32_t rays = 64; ///< per face, at least 1
 };
 
-/// Set the grid's lighting. Of surfaces with holes rays know the opacity of their voxels. The same for any number of threads.
+/// Set the grid's lighting. Surfaces with holes are represented by the opacity of their voxels. The result
+/// does not depend on the number of threads.
 /// grid  made from the scene
-/// errors: those of decoding pages
+/// errors: errors of decoding pages
 Status bakeLight(const StaticScene& scene, const BakeSettings& settings, CookedGrid& grid);
 
 } // namespace hearth::bricks

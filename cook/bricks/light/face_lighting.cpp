@@ -15,7 +15,7 @@ using namespace shared;
 namespace
 {
 
-/// Rays that march side by side, about: of whole faces.
+/// Approximate number of rays that march side by side, rounded to whole faces.
 constexpr uint32_t kRaysAtOnce = 256;
 
 } // namespace
@@ -86,7 +86,7 @@ void FaceLighting::light(const Lighting& lighting, uint32_t rays, size_t first, 
     for (size_t face = first; face < end; ++face)
     {
         const BrickStart& start = starts[face - first];
-        // as brickGather does
+        // same sum as brickGather
         Float3 sum;
         for (size_t i = 0; i < rays; ++i)
             sum += brickLightAlong(scene, sky, marched[(face - first) * rays + i]).radiance;

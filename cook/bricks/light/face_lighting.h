@@ -1,4 +1,5 @@
-// Lights the faces of bricks, frame by frame, as the passes on the GPU do: the same code, formats/gpu_shared/brick_lighting.h.
+// Lights the brick faces frame by frame on the CPU, with the code of the GPU passes
+// (formats/gpu_shared/brick_lighting.h).
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,50 +13,53 @@
 namespace hearth::bricks
 {
 
-/// A frame lights the bricks of one of `period` slices, in order, by what the faces sent out before it.
+/// Work of one frame: it lights the bricks of one of `period` slices, in order, from the previous radiance of
+/// the faces.
 struct FrameShare
 {
-    uint32_t period = 1; ///< frames in which all are lit once, at least 1
-    uint32_t rays = 16;  ///< of each face, at least 1
+    uint32_t period = 1; ///< frames until all faces are lit once, at least 1
+    uint32_t rays = 16;  ///< per face, at least 1
 };
 
+/// Lighting of all faces, iterated frame by frame.
 class FaceLighting
 {
 public:
-    /// Begins with the stored lighting. The tables must outlive it.
+    /// Start from the stored lighting. The tables must outlive this.
     explicit FaceLighting(const BrickView& bricks);
 
-    /// One frame. The same to the bit for any number of threads.
-    /// lighting  its lights in world space, after exposure
+    /// Light one frame. The result has the same bits for any number of threads.
+    /// lighting  lights in world space, after exposure
     void light(const shared::Lighting& lighting, const FrameShare& share);
 
-    /// Frames until all have been lit `sweeps` times.
+    /// Light frames until all faces have been lit `sweeps` times.
     void sweep(const shared::Lighting& lighting, uint32_t rays, uint32_t sweeps);
 
-    /// Of each face, what it sends out.
+    /// Return the outgoing radiance of each face.
     std::span<const shared::BrickLight> faces() const { return faces_; }
 
-    /// The codes alone: chunk BRKL.
+    /// Return the codes alone: chunk BRKL.
     std::vector<uint32_t> codes() const;
 
-    /// What rays read.
+    /// Return the scene that rays read.
     shared::BrickScene scene() const { return {bricks_.masks, bricks_.opacity, faces_}; }
 
 private:
-    /// Some faces by so many rays each, into next_.
+    /// Light the faces first to end - 1 into next_, with so many rays each.
     void light(const shared::Lighting& lighting, uint32_t rays, size_t first, size_t end);
 
     BrickView bricks_;
     MarchTable table_;
     std::vector<FacePlace> places_;
     std::vector<shared::BrickLight> faces_;
-    std::vector<shared::BrickLight> next_; ///< of the faces that this frame lights
+    std::vector<shared::BrickLight> next_; ///< results of the current frame
     uint32_t frame_ = 0;
 };
 
-/// How many sweeps after a light went out what it caused is below `share` of what it was everywhere, in (0, 1): each sweep
-/// leaves at most the albedo of it, and rounding adds a ten-thousandth of that at the most.
-/// most_albedo  of any face, in [0, 1]; what is above kBrickMostAlbedo counts as that
+/// Return the number of sweeps after which light from a removed lamp is below `share`, in (0, 1), of its
+/// value everywhere. Each sweep leaves at most the albedo of it; rounding adds at most a ten-thousandth of
+/// that.
+/// most_albedo  largest albedo of all faces, in [0, 1]; clamped to kBrickMostAlbedo
 uint32_t sweepsToForget(float most_albedo, float share);
 
 } // namespace hearth::bricks

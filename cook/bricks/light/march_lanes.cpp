@@ -13,10 +13,10 @@ using namespace shared;
 namespace
 {
 
-/// Rays side by side: enough that the processor always finds one that waits for nothing, few enough for its nearest cache.
+/// Rays side by side: enough to hide latency, few enough for the first-level cache.
 constexpr uint32_t kLanes = 16;
 
-/// With fewer rays left than this, one after the other is faster.
+/// Number of active rays below which marching one after the other is faster.
 constexpr uint32_t kLeastLanes = 6;
 
 uint64_t joinedMask(uint32_t low, uint32_t high)
@@ -24,15 +24,15 @@ uint64_t joinedMask(uint32_t low, uint32_t high)
     return uint64_t{high} << 32 | low;
 }
 
-/// One coordinate of all rays. Those that move down are seen in a mirror at 0: their voxel is ~voxel, their floats have the
-/// other sign, and all rays move up. What is computed of them has the same bits but for that sign.
+/// One coordinate of all rays. Rays that move down are mirrored at 0: the voxel is ~voxel and floats change
+/// their sign, so all rays move up. Results have the same bits except for that sign.
 struct Axis
 {
     alignas(64) float start[kLanes];
     float direction[kLanes];
     float inverse[kLanes];
     int32_t voxel[kLanes];
-    int32_t mirror[kLanes]; ///< -1: it is one, 0: it is none
+    int32_t mirror[kLanes]; ///< -1: mirrored, 0: not
 
     void take(uint32_t lane, float ray_start, float ray_direction, float ray_inverse, int ray_voxel)
     {
@@ -47,7 +47,7 @@ struct Axis
     int32_t voxelIn(uint32_t lane) const { return voxel[lane] ^ mirror[lane]; }
 };
 
-/// Rays and where they are. A lane whose ray has ended rests until it gets another.
+/// Rays in flight with their state. A lane whose ray has ended rests until it gets another ray.
 class Lanes
 {
 public:
@@ -77,7 +77,7 @@ public:
     }
 
 private:
-    /// Gives a lane the next ray that is in the grid, or rest.
+    /// Give a lane the next ray that is inside the grid, or let it rest.
     void next(uint32_t lane)
     {
         while (next_ < rays_.size() && rays_[next_].inside == 0)
@@ -85,7 +85,7 @@ private:
         rests_[lane] = next_ < rays_.size() ? 0 : -1;
         if (next_ == rays_.size())
         {
-            // its ray may have left the grid
+            // reset, because the lane's last ray may have left the grid
             x_.voxel[lane] = x_.mirror[lane] = 0;
             y_.voxel[lane] = y_.mirror[lane] = 0;
             z_.voxel[lane] = z_.mirror[lane] = 0;
@@ -103,7 +103,7 @@ private:
         ++live_;
     }
 
-    /// The size of the empty cell about each ray's voxel, or that it is solid.
+    /// Find the size of the empty cell around each ray's voxel, or that the voxel is solid.
     void look()
     {
         for (uint32_t lane = 0; lane < kLanes; ++lane)
@@ -124,8 +124,8 @@ private:
         }
     }
 
-    /// brickLeave and brickCatchUp. Catching up after each step instead of when it matters changes nothing: a place along a
-    /// ray never moves back, not by rounding either.
+    /// Step as brickLeave and brickCatchUp do. Catching up after each step, instead of when it matters, does
+    /// not change the result: a position along a ray never moves back, not by rounding either.
     void leave()
     {
         for (uint32_t lane = 0; lane < kLanes; ++lane)
@@ -196,17 +196,17 @@ private:
 
     const MarchTable& table_;
     std::span<BrickRay> rays_;
-    size_t next_ = 0;   ///< of rays_
-    uint32_t live_ = 0; ///< lanes that do not rest
+    size_t next_ = 0;   ///< index into rays_
+    uint32_t live_ = 0; ///< number of lanes that do not rest
     Axis x_{}, y_{}, z_{};
     float t_[kLanes]{};
     float end_[kLanes]{};
-    int32_t axis_[kLanes]{}; ///< that its voxel was entered along, -1 for none
+    int32_t axis_[kLanes]{}; ///< axis along which the voxel was entered, -1 for none
     uint32_t steps_[kLanes]{};
-    int32_t solid_[kLanes]{}; ///< -1: its voxel is
-    int32_t rests_[kLanes]{}; ///< -1: it has no ray
+    int32_t solid_[kLanes]{}; ///< -1: the voxel is solid
+    int32_t rests_[kLanes]{}; ///< -1: the lane has no ray
     int32_t ended_[kLanes]{};
-    int32_t edge_[kLanes]{}; ///< voxels, of the cell that it leaves
+    int32_t edge_[kLanes]{}; ///< size of the cell that the ray leaves, voxels
     uint32_t group_[kLanes]{};
     uint32_t brick_bit_[kLanes]{};
     uint32_t voxel_bit_[kLanes]{};

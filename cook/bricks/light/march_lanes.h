@@ -1,5 +1,6 @@
-// Marches many rays side by side on the CPU: what brickMarch of formats/gpu_shared/brick_march.h finds, to the same bits, in half
-// of the time. cook/bricks/README.md, "The march", says why and has what was measured.
+// Marches packets of rays side by side on the CPU. Finds the same as brickMarch of
+// formats/gpu_shared/brick_march.h, with the same bits, in half of the time. See cook/bricks/README.md, "Ray
+// marching", for the reasons and measurements.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,26 +13,26 @@
 namespace hearth::bricks
 {
 
-/// The masks of a grid, laid out so that no bits are counted on the way to a voxel: 4 to 16 bytes a group, and 512 for each
-/// group that has bricks.
+/// Masks of a grid in a layout where finding a voxel needs no bit counting: 4 to 16 bytes a group, and 512
+/// for each group that has bricks.
 class MarchTable
 {
 public:
-    /// The tables of `bricks` must outlive it.
+    /// Build the table. The tables of `bricks` must outlive it.
     explicit MarchTable(const shared::BrickMasks& bricks);
 
     const shared::BrickMasks& bricks() const { return bricks_; }
 
-    /// What groupAt says of groups without bricks.
+    /// Result of groupAt for groups without bricks.
     static constexpr uint32_t kEmptyGroup = 0;
 
-    /// Where the masks of a group's 64 places for bricks begin, in the order of their bits.
+    /// Return the index of the first of the 64 brick masks of a group, in bit order.
     /// place  of group (x, y, z): x | y << shiftY() | z << shiftZ()
     uint32_t groupAt(uint32_t place) const { return groups_[place]; }
     int shiftY() const { return shift_y_; }
     int shiftZ() const { return shift_z_; }
 
-    /// The solid voxels of a place for a brick: none where there is no brick, nor in kEmptyGroup.
+    /// Return the solid voxels of a brick as a mask: 0 where there is no brick, and in kEmptyGroup.
     /// place  groupAt + bit of the brick in its group
     uint64_t voxelsAt(uint32_t place) const { return voxels_[place]; }
 
@@ -43,11 +44,11 @@ private:
     std::vector<uint64_t> voxels_;
 };
 
-/// Each ray becomes what brickMarch makes of it. Of rays that end in no solid voxel `inside`, `t`, `face` and `steps` alone are
-/// the same; their other numbers mean nothing there either.
+/// March each ray as brickMarch does. For rays that end in no solid voxel only `inside`, `t`, `face` and
+/// `steps` are the same; the other members are meaningless in both.
 ///
-/// rays  as brickRay, brickRayInVoxels or brickPass leave them; 256 at once take little more than half of the time of
-///       brickMarch, 64 two thirds
+/// rays  as brickRay, brickRayInVoxels or brickPass leave them; 256 at once take little more than half of the
+///       time of brickMarch, 64 two thirds
 void marchRays(const MarchTable& table, std::span<shared::BrickRay> rays);
 
 } // namespace hearth::bricks

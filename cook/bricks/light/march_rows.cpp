@@ -21,7 +21,8 @@ namespace
 
 constexpr std::string_view kHeader = "origin_x,origin_y,origin_z,direction_x,direction_y,direction_z";
 
-/// Of six numbers; nothing where the direction has no length, or the origin is too far away for floats.
+/// Make a ray from six numbers. Return nothing if the direction has no length or the origin exceeds the range
+/// of floats.
 std::optional<MarchRay> rayOf(std::span<const double> row)
 {
     const double size = std::hypot(row[3], row[4], row[5]);
@@ -43,7 +44,7 @@ Result<std::string> readText(const std::string& path)
     return text;
 }
 
-/// A pack or a part with bricks, which are checked.
+/// Open and check a pack or a part with bricks.
 Result<formats::PackView> openBricks(const std::string& path)
 {
     HEARTH_ASSIGN_OR_RETURN(formats::ContainerReader reader, formats::ContainerReader::open(path));

@@ -1,4 +1,4 @@
-// Marches rows of rays through a grid of bricks, for checking from outside.
+// Marches rays from a CSV file through a brick grid, for external checks.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -15,21 +15,24 @@ namespace hearth::bricks
 struct MarchRay
 {
     Float3 origin;    ///< metres, world space
-    Float3 direction; ///< unit
+    Float3 direction; ///< unit length
 };
 
-/// Read text whose first line is origin_x,origin_y,origin_z,direction_x,direction_y,direction_z and whose others have six
-/// numbers each. Directions of any length above 0 are made unit.
+/// Read CSV text. The first line is origin_x,origin_y,origin_z,direction_x,direction_y,direction_z; all
+/// others have six numbers each. Directions of any length above 0 are normalized.
 /// errors: table_rows, naming `name` and the line.
 Result<std::vector<MarchRay>> readRays(std::string_view text, const std::string& name);
 
-/// "hit,x,y,z,face,t" and a line for each ray, in their order: 1, the first solid voxel, the face by which the ray enters it
-/// (x- to z+; none where it starts inside) and the metres to there, in as many digits as floats need; or "0,,,,,".
+/// March the rays and return CSV text: "hit,x,y,z,face,t" and a line for each ray, in their order. A hit is
+/// 1, the first solid voxel, the face by which the ray enters it (x- to z+; none where it starts inside) and
+/// the distance in metres, with enough digits to restore a float. A miss is "0,,,,,".
 std::string marchRows(const shared::BrickMasks& bricks, const std::vector<MarchRay>& rays);
 
-/// Both, with files: `input` is a pack or a part with bricks, `output` may be - for standard output.
-/// errors: chunk_missing where the input has no bricks; those of opening and checking it; input_missing; those of readRays;
-/// cannot_write.
+/// Read rays from a file, march them and write the results.
+/// input   a pack or a part with bricks
+/// output  path, or - for standard output
+/// errors: chunk_missing where the input has no bricks; errors of opening and checking it; input_missing;
+/// errors of readRays; cannot_write.
 Status marchFile(const std::string& input, const std::string& rays, const std::string& output);
 
 } // namespace hearth::bricks

@@ -44,7 +44,7 @@ RTCRay rayFrom(Float3 place, Float3 direction, float far)
     return ray;
 }
 
-/// Three corners of each triangle of a cluster, in voxels.
+/// Append the three corners of each triangle of a cluster, in voxels.
 void addTriangles(const ClusterGeometry& geometry, const Affine3d& voxels_from_object,
                   std::vector<Float3>& corners)
 {
@@ -100,7 +100,7 @@ Result<RayScene> RayScene::build(const StaticScene& scene, std::span<const Place
     state->device = rtcNewDevice(nullptr);
     HEARTH_ASSERT(state->device != nullptr);
     state->scene = rtcNewScene(state->device);
-    // no ray passes between two triangles with a common edge: a sealed room must stay dark
+    // let no ray pass between two triangles with a common edge: a sealed room must stay dark
     rtcSetSceneFlags(state->scene, RTC_SCENE_FLAG_ROBUST);
     if (!corners.empty())
     {

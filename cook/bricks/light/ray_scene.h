@@ -1,4 +1,4 @@
-// The opaque triangles of a cut, in voxels, as Embree sees them.
+// Embree scene of the opaque triangles of a LOD cut, in voxel coordinates.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,18 +11,19 @@
 namespace hearth::bricks
 {
 
-/// Built once, then read from many threads. Places and distances are in voxels of the frame.
+/// Ray tracing scene. Build once, then use from many threads. Positions and distances are in voxels of the
+/// frame.
 class RayScene
 {
 public:
     struct Hit
     {
         Float3 place;
-        Float3 normal; ///< unit, of the triangle, towards where the ray came from
+        Float3 normal; ///< unit, of the triangle, on the side of the ray's origin
     };
 
-    /// Of clusters whose materials have no holes. Both faces of a triangle stop rays.
-    /// errors: those of decoding pages
+    /// Build from the clusters whose materials have no holes. Triangles block rays from both sides.
+    /// errors: errors of decoding pages
     static Result<RayScene> build(const StaticScene& scene, std::span<const PlacedCluster> placed,
                                   const GridFrame& frame);
 
@@ -33,7 +34,7 @@ public:
     std::optional<Hit> nearest(Float3 place, Float3 direction) const;
     bool occluded(Float3 place, Float3 direction, float far) const;
 
-    /// Whether clusters were left out, for the holes in their materials.
+    /// True if clusters were excluded because their materials have holes.
     bool hasHoles() const;
 
 private:

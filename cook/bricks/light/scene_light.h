@@ -1,4 +1,4 @@
-// The lights and the sky of a scene as the runtime has them, from what is in its parts.
+// Collects the lights and the sky of a scene from its parts, as the runtime does.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -8,9 +8,10 @@
 namespace hearth::bricks
 {
 
-/// The lights of all sources, in order, as many as the runtime draws; one sun where there is none; the sky that every scene
-/// has; and the exposure by its rule (runtime/gpu/README.md). What moves is not in the scene's box here: where it reaches
-/// farther than all that stands still, the runtime's exposure differs, and its frames make up for that.
+/// Return the lights of all sources, in order, as many as the runtime draws; one sun if there is none; the
+/// default sky; and the exposure by the runtime's rule (runtime/gpu/README.md). The scene's box has no
+/// animated or deformed instances here. If these reach beyond the static ones, the runtime's exposure
+/// differs, and its frames correct the lighting.
 shared::Lighting lightingOf(const StaticScene& scene);
 
 } // namespace hearth::bricks

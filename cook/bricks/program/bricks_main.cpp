@@ -1,4 +1,4 @@
-// hearth-bricks: makes the bricks of one or more sources, or marches rays through those of a file.
+// hearth-bricks: cooks the bricks of one or more sources, or marches rays through the bricks of a file.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/light/bake.h"
 #include "cook/bricks/light/march_rows.h"
@@ -20,7 +20,7 @@ using namespace hearth::bricks;
 
 struct Arguments
 {
-    std::vector<std::string> inputs; ///< parts, or with `rays` the file that is marched through
+    std::vector<std::string> inputs; ///< parts, or with `rays` the file to march through
     std::string output;
     std::string rays;
     std::string statistics;
@@ -45,7 +45,7 @@ Result<std::vector<SourceParts>> openSources(const std::vector<std::string>& pat
     return sources;
 }
 
-/// One line of what was left out or dropped, for those who did not ask for it.
+/// Print one line on excluded instances and one on dropped bricks.
 void warn(const GridStatistics& statistics, const std::string& output)
 {
     const auto print = [&](const std::string& detail) {
@@ -100,7 +100,7 @@ Double3 point(const std::vector<double>& values)
     return {values[0], values[1], values[2]};
 }
 
-/// Options that do not go together; empty where all is well.
+/// Return the error message for options that exclude each other; empty if the options are valid.
 std::string faultOf(const Arguments& arguments)
 {
     if (!arguments.rays.empty() && arguments.inputs.size() != 1)

@@ -12,7 +12,7 @@ namespace hearth::bricks
 namespace
 {
 
-/// Of each brick.
+/// Return the distance of each brick to the nearest focus point.
 std::vector<double> distancesOf(const SolidGrid& grid, std::span<const Float3> foci)
 {
     std::vector<double> distances;
@@ -40,7 +40,7 @@ FacedGrid faced(SolidGrid solid, std::span<const Float3> seen_points)
     return grid;
 }
 
-/// The grid with the bricks that are kept, and their faces.
+/// Return the grid with the selected bricks and their faces.
 FacedGrid filtered(const FacedGrid& whole, const std::vector<bool>& kept)
 {
     FacedGrid some{{whole.solid.frame, {}, {}, {}}, {}, whole.seen, {}};

@@ -1,4 +1,4 @@
-// Keeps a grid within its memory: the bricks that matter least go first.
+// Keeps a grid within its memory budget by dropping the bricks farthest from all focus points.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,21 +7,23 @@
 namespace hearth::bricks
 {
 
-/// What did not fit.
+/// Bricks that did not fit the memory budget.
 struct Dropped
 {
     uint64_t bricks = 0;
     uint64_t voxels = 0;
-    uint64_t tiles = 0; ///< of 32 x 32 x 32 voxels, that were not even looked at, and count nowhere else
-    double from_distance = 0; ///< metres from the nearest focus: everything farther away was dropped
+    /// of 32 x 32 x 32 voxels; skipped before voxelisation, so not counted in bricks or voxels
+    uint64_t tiles = 0;
+    double from_distance = 0; ///< metres from the nearest focus point: everything farther away was dropped
 
     bool any() const { return bricks + tiles > 0; }
 };
 
-/// A grid whose faces are known.
+/// Grid with its visible faces.
 struct FacedGrid
 {
     SolidGrid solid;
+    /// Mask for each solid voxel; bit f: side f is a face.
     std::vector<uint8_t> faces;
     SeenSpaces seen;
     Dropped dropped;
@@ -29,13 +31,13 @@ struct FacedGrid
     BrickBytes bytes() const;
 };
 
-/// Find spaces and faces of a grid whose opacities hideSheets has set; where its tables would take more than `memory`
-/// bytes, drop the bricks that are farthest from all foci. What is left keeps its faces, and gets none where it now ends: to
-/// what looks from there it is dark, and the insides of walls stay closed.
+/// Find the spaces and faces of a grid whose opacities hideSheets has set. Drop the bricks farthest from all
+/// focus points if the tables need more than `memory` bytes. The remaining bricks keep their faces and get no
+/// new ones where the grid now ends: these sides stay dark, and the interiors of walls stay closed.
 ///
-/// memory       at least what the groups take
-/// seen_points  places that are seen, world space
-/// foci         what matters, world space, one at least
+/// memory       bytes, at least what the groups take
+/// seen_points  visible positions (cameras and seeds), world space
+/// foci         focus points, world space, at least one
 FacedGrid withinBudget(SolidGrid solid, std::span<const Float3> seen_points, std::span<const Float3> foci,
                        uint64_t memory);
 

@@ -17,7 +17,7 @@ uint64_t hiddenSamples(const Polygon& piece, const Cell& cell, int axis)
 {
     const int u_axis = uAxis(axis), v_axis = vAxis(axis);
     const double u0 = cell[static_cast<size_t>(u_axis)], v0 = cell[static_cast<size_t>(v_axis)];
-    // the first sample at or above a place
+    // index of the first sample at or above a coordinate
     const auto firstFrom = [](double place)
     { return static_cast<int>(std::clamp(std::ceil(place * kRow - 0.5), 0.0, kRow)); };
     const std::array<double, 2> rows = piece.span(v_axis);

@@ -1,6 +1,6 @@
-// How much of a voxel's cross-section the surfaces in it hide, seen along each axis: 8 x 8 samples, each hidden or not.
-// Samples know what lies behind what: two sheets one behind the other hide no more than one, as areas would have it; and
-// pieces that meet leave no sample between them uncovered, so that a wall hides exactly all.
+// Computes the coverage of a voxel along each axis with 8 x 8 samples, each covered or not. Samples handle
+// overlap, which areas do not: two sheets behind each other cover no more than one. Pieces with a common edge
+// leave no sample between them uncovered, so a wall has full coverage.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,9 +9,10 @@
 namespace hearth::bricks
 {
 
-inline constexpr uint32_t kSampleRow = 8; ///< samples along an edge of a voxel
+inline constexpr uint32_t kSampleRow = 8; ///< coverage samples along an edge of a voxel
 
-/// For each axis, sample (u, v) is bit u + 8 v, where u and v are the two axes after it, and lies in the middle of its cell.
+/// Coverage mask for each axis. Sample (u, v) is bit u + 8 v, where u and v are the two axes after the axis
+/// in cyclic order. Samples lie in the middle of their cells.
 using CrossSections = std::array<uint64_t, 3>;
 
 constexpr int uAxis(int axis)
@@ -23,12 +24,12 @@ constexpr int vAxis(int axis)
     return axis == 0 ? 2 : axis - 1;
 }
 
-/// The samples of a voxel that a piece inside of it hides along an axis. Of pieces with a common edge each sample on it
-/// belongs to one.
+/// Return the samples of voxel `cell` that a piece inside it covers along an axis. A sample on a common edge
+/// of two pieces belongs to exactly one of them.
 uint64_t hiddenSamples(const Polygon& piece, const Cell& cell, int axis);
 
-/// Whether the voxel and its two neighbours along an axis hide everything together: then what goes through it along the
-/// axis meets a surface somewhere there, however the surface is slanted between the three.
+/// True if the voxel and its two neighbours along an axis have full coverage together. Every line along the
+/// axis then meets a surface in one of the three, however the surface slants between them.
 inline bool hidesAll(uint64_t before, uint64_t own, uint64_t after)
 {
     return (before | own | after) == ~uint64_t{0};

@@ -1,4 +1,4 @@
-// Visits all solid voxels of a grid, on all cores.
+// Visits all solid voxels of a grid in parallel.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,7 +9,7 @@
 namespace hearth::bricks
 {
 
-/// visit(index of the voxel, its cell), for many at once
+/// Call visit(index of the voxel, its cell) for each solid voxel, in parallel.
 template <typename Visit>
 void forEachVoxel(const SolidGrid& grid, const Visit& visit)
 {

@@ -1,4 +1,5 @@
-// What matters most in a scene: bricks far from it go first where the memory is not enough.
+// Distances to the focus points of a scene. Bricks far from them are dropped first if the memory budget is
+// exceeded.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,9 +11,9 @@
 namespace hearth::bricks
 {
 
-/// Metres from a box of cells to the nearest focus.
-/// foci  world space, one at least
-/// low, high  in voxels; the same for a point
+/// Return the distance in metres from a box of cells to the nearest focus point.
+/// foci       world space, at least one
+/// low, high  corners of the box, in voxels; equal for a point
 inline double focusDistance(const GridFrame& frame, std::span<const Float3> foci, Double3 low, Double3 high)
 {
     const auto outside = [](double low_end, double high_end, double at) {
@@ -28,7 +29,8 @@ inline double focusDistance(const GridFrame& frame, std::span<const Float3> foci
     return nearest * frame.voxel_size;
 }
 
-/// From the middle of a brick whose least cell this is.
+/// Return the distance in metres from the middle of a brick to the nearest focus point.
+/// brick  lowest cell of the brick
 inline double brickDistance(const GridFrame& frame, std::span<const Float3> foci, const Cell& brick)
 {
     const Double3 middle{brick[0] + 2.0, brick[1] + 2.0, brick[2] + 2.0};

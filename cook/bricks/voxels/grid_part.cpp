@@ -20,7 +20,7 @@ double secondsSince(std::chrono::steady_clock::time_point start)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// What matters most: where cameras and seeds are; without any, the middle of what stands still.
+/// Return the focus points: cameras and seeds; without any, the middle of the static instances.
 std::vector<Float3> fociOf(const StaticScene& scene, const GridSettings& settings)
 {
     std::vector<Float3> foci = scene.cameras;
@@ -54,7 +54,7 @@ CookedGrid cooked(const StaticScene& scene, const Voxelised& voxelised, const Fa
     return cooked;
 }
 
-/// Cook at one size of voxels. keep_all  nothing where bricks would have to be dropped
+/// Cook at one voxel size. Return nothing if keep_all is set and bricks would have to be dropped.
 Result<std::optional<CookedGrid>> cookAt(const StaticScene& scene, const GridSettings& settings, double size,
                                          bool keep_all)
 {
@@ -83,7 +83,7 @@ Result<std::optional<CookedGrid>> cookAt(const StaticScene& scene, const GridSet
     return std::optional(std::move(grid));
 }
 
-/// A table of the grid beside the talk's, with the sizes as the talk has them.
+/// Row of the memory table: a table of the grid beside the table of the SIGGRAPH talk, with the talk's sizes.
 struct Row
 {
     const char* talks;

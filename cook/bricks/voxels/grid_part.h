@@ -1,4 +1,4 @@
-// From the parts of one or more sources to the part with their grid of bricks. See cook/bricks/README.md.
+// Cooks the part with the brick grid from the parts of one or more sources. See cook/bricks/README.md.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,11 +11,11 @@
 namespace hearth::bricks
 {
 
-/// What became of a scene.
+/// Statistics of a cooked grid, for the report.
 struct GridStatistics
 {
     GridFrame frame;
-    double error = 0; ///< metres in the world that the clusters may be off
+    double error = 0; ///< metres in world space: LOD error allowed for the clusters
     LeftOut left_out;
     uint64_t instances = 0;
     VoxeliseCounts counts;
@@ -24,7 +24,7 @@ struct GridStatistics
     uint64_t opaque_voxels = 0;
     uint64_t faces = 0;
     uint64_t sealed_spaces = 0;
-    uint64_t sealed_sides = 0; ///< of voxels towards them, which are no faces
+    uint64_t sealed_sides = 0; ///< voxel sides towards sealed spaces; they are no faces
     Dropped dropped;
     BrickBytes bytes;
     double voxelise_seconds = 0;
@@ -37,18 +37,18 @@ struct CookedGrid
     GridStatistics statistics;
 };
 
-/// Cook the grid. The same for any number of threads.
-/// errors: usage for settings that make no sense; those of voxelise
+/// Cook the grid. The result does not depend on the number of threads.
+/// errors: usage for settings that make no sense; errors of voxelise
 Result<CookedGrid> cookGrid(const StaticScene& scene, const GridSettings& settings);
 
 /// Write a part with the grid.
 Status writeGridPart(const std::string& path, const CookedGrid& grid);
 
-/// The statistics as JSON text: schema "hearth.bricks/1".
+/// Return the statistics as JSON text: schema "hearth.bricks/1".
 std::string statisticsJson(const GridStatistics& statistics);
 
-/// The tables of the grid beside those that the talk lists for 512 x 512 x 128 m ("Seamless rendering on mobile", SIGGRAPH
-/// 2024, Advances in Real-Time Rendering in Games).
+/// Return a table of the grid's memory beside the figures published for 512 x 512 x 128 m in "Seamless
+/// rendering on mobile", SIGGRAPH 2024, Advances in Real-Time Rendering in Games.
 std::string memoryText(const GridStatistics& statistics);
 
 } // namespace hearth::bricks

@@ -13,7 +13,8 @@ using namespace formats;
 namespace
 {
 
-// Texels a voxel: with two, what is between them in a voxel is no wider than a texel of the voxel's own size.
+// Texels per voxel for colours. With two, features between samples are no wider than a texel of the voxel's
+// size.
 constexpr double kTexelsOfLook = 2;
 constexpr double kTexelsOfHoles = kSampleRow;
 
@@ -32,7 +33,8 @@ Float2 mixed(const std::array<Float2, 3>& values, const std::array<float, 3>& we
     return values[0] * weights[0] + values[1] * weights[1] + values[2] * weights[2];
 }
 
-/// Texels of the finest mip along a voxel's edge, as a mean over the directions of the triangle.
+/// Return the number of texels of the finest mip along a voxel's edge, averaged over the directions of the
+/// triangle.
 double texelsOfVoxel(const Texture& texture, const TextureRef& reference, const std::array<Float2, 3>& uvs,
                      double voxel_area)
 {

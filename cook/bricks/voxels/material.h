@@ -1,4 +1,4 @@
-// What a material's surface gives back, gives off and hides, at points of a triangle.
+// Evaluates albedo, emission and opacity of a material at points of a triangle.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,19 +11,20 @@
 namespace hearth::bricks
 {
 
-/// A point of a surface.
+/// Material values at one point of a surface.
 struct Look
 {
-    Float3
-        albedo; ///< base colour, linear Rec.709, 0 to 1; a metal's too: what it mirrors is light all the same
+    /// base colour, linear Rec.709, 0 to 1; also of metals, because their reflections count as diffuse light
+    /// here
+    Float3 albedo;
     Float3 emission;  ///< radiance, linear Rec.709
-    float hidden = 1; ///< of what lies behind: 0 in the holes of a mask, alpha of what is blended
+    float hidden = 1; ///< opacity: 0 in the holes of a mask, alpha of blended materials
 };
 
 struct MaterialUse
 {
     formats::MaterialRecord record;
-    std::shared_ptr<const Texture> base_color; ///< may be null, here and below
+    std::shared_ptr<const Texture> base_color; ///< may be null, like `emissive`
     std::shared_ptr<const Texture> emissive;
 
     bool doubleSided() const { return (record.flags & formats::kMaterialDoubleSided) != 0; }
@@ -32,36 +33,37 @@ struct MaterialUse
     bool hasHoles() const { return alphaMode() != formats::AlphaMode::opaque; }
 };
 
-/// What a material without a number is: glTF's default.
+/// Return glTF's default material, for triangles without a material index.
 MaterialUse defaultMaterial();
 
-/// The materials of a source, with the images of its textures part.
-/// errors: meaning_reference for an image that is not there
+/// Read the materials of a source, with the images of its textures part.
+/// errors: meaning_reference for a missing image
 Result<std::vector<MaterialUse>> materialsOf(const formats::PackView& scene,
                                              const formats::PackView& textures);
 
-/// The attributes of one triangle's corners.
+/// Vertex attributes of one triangle's corners.
 struct TriangleLook
 {
-    std::array<Float2, 3> base_color_uv; ///< before the texture's transform, here and below
+    std::array<Float2, 3> base_color_uv; ///< before the texture's transform, like `emissive_uv`
     std::array<Float2, 3> emissive_uv;
     std::array<Float4, 3> color{Float4{1, 1, 1, 1}, Float4{1, 1, 1, 1}, Float4{1, 1, 1, 1}};
 };
 
-/// A triangle in voxels and its material: looks at it wherever a voxel has a piece of it.
+/// Triangle in voxel coordinates with its material. Evaluates the material at any point of the triangle.
 class TriangleSurface
 {
 public:
-    /// material  outlives it
-    /// corners   in voxels; the triangle has an area
+    /// Construct from a material and a triangle.
+    /// material, corners, look  must outlive this
+    /// corners                  in voxels, with an area above 0
     TriangleSurface(const MaterialUse& material, const Polygon& corners, const TriangleLook& look);
 
-    /// Whether it looks the same everywhere.
+    /// True if the material values are the same at all points.
     bool plain() const { return plain_; }
 
-    /// p  a point of the triangle
+    /// Return the material values at point p of the triangle.
     Look at(const Double3& p) const;
-    /// Look::hidden alone, by a mip fine enough for the samples of a cross-section.
+    /// Return the opacity alone, from a mip fine enough for coverage samples.
     float hiddenAt(const Double3& p) const;
 
 private:
@@ -73,7 +75,7 @@ private:
     const Polygon& corners_;
     const TriangleLook& look_;
     bool plain_ = true;
-    int axis_ = 0; ///< along which the triangle is seen largest
+    int axis_ = 0; ///< axis along which the triangle's projection is largest
     double area_ = 0;
     uint32_t base_color_mip_ = 0;
     uint32_t alpha_mip_ = 0;

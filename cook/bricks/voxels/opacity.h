@@ -1,12 +1,12 @@
-// How much light each solid voxel stops.
+// Computes the opacity of each solid voxel from its coverage masks.
 //
-// A closed surface must stop all, though a slanted one fills no voxel that it merely cuts a corner of; grass must not. So:
-// where a voxel and its two neighbours along an axis hide the whole cross-section together, a sheet goes through the three,
-// and each of them is opaque. A plane that leans most towards that axis crosses three voxels of a column at most, and no way
-// from its one side to the other leads past the middle ones (the test has the reason). Else a voxel stops what it hides itself,
-// along the axis on which that is most.
+// A closed surface must block all light, although a slanted one only cuts a corner off some voxels; grass
+// must not. Therefore a voxel is opaque if it and its two neighbours along an axis have full coverage
+// together: a sheet passes through the three. A plane crosses at most three voxels of a column along the axis
+// that it faces most, and no path from one side to the other avoids the middle voxels (proof in the test).
+// Otherwise the opacity of a voxel is its own largest coverage over the three axes.
 //
-// That alone leaves gaps at sharp edges. What closes them for sure is separateSpaces (open_space.h).
+// Gaps remain at sharp edges. separateSpaces (open_space.h) closes them.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -17,7 +17,7 @@ namespace hearth::bricks
 
 inline constexpr uint8_t kOpaque = 255;
 
-/// Set all opacities, to 1 at least.
+/// Set all opacities, to at least 1.
 void hideSheets(SolidGrid& grid);
 
 } // namespace hearth::bricks

@@ -13,7 +13,7 @@ namespace hearth::bricks
 namespace
 {
 
-// Cells of a mask whose coordinate along an axis is 0.
+// Mask of the cells whose coordinate along an axis is 0.
 constexpr std::array<uint64_t, 3> kLowSide{0x1111111111111111u, 0x000F000F000F000Fu, 0x000000000000FFFFu};
 // Bits from a cell to the next one along an axis.
 constexpr std::array<uint32_t, 3> kStep{1, 4, 16};
@@ -23,7 +23,7 @@ constexpr uint64_t highSide(uint32_t axis)
     return kLowSide[axis] << 3 * kStep[axis];
 }
 
-/// Those of `open` that `start` reaches.
+/// Flood fill: return the cells of `open` that are reachable from `start`.
 uint64_t flooded(uint64_t start, uint64_t open)
 {
     for (uint64_t reached = start;;)
@@ -42,7 +42,7 @@ uint64_t flooded(uint64_t start, uint64_t open)
 
 OpenSpace::OpenSpace(const SolidGrid& grid)
 {
-    parts_.push_back(0); // what is outside
+    parts_.push_back(0); // the outside
     const auto add = [&](uint64_t open)
     {
         Parts parts{static_cast<uint32_t>(parts_.size()), 0};
@@ -94,7 +94,7 @@ uint32_t OpenSpace::at(const SolidGrid& grid, const Cell& cell) const
     return kNowhere;
 }
 
-/// The bricks of a group among themselves.
+/// Join the bricks within a group.
 void OpenSpace::joinInside(const SolidGrid& grid, const Cell& group)
 {
     const Cell count = grid.frame.groups();
@@ -107,7 +107,7 @@ void OpenSpace::joinInside(const SolidGrid& grid, const Cell& group)
                 joinBricks(first + bit, first + bit + kStep[axis], axis);
 }
 
-/// A group and the next one along an axis.
+/// Join a group with the next one along an axis.
 void OpenSpace::joinGroups(const SolidGrid& grid, const Cell& group, uint32_t axis)
 {
     const Cell count = grid.frame.groups();
@@ -126,7 +126,7 @@ void OpenSpace::joinGroups(const SolidGrid& grid, const Cell& group, uint32_t ax
                        axis);
 }
 
-/// Two bricks, numbers of parts_of_brick_, of which the second follows the first along an axis.
+/// Join two bricks, given by their indices in parts_of_brick_. The second follows the first along an axis.
 void OpenSpace::joinBricks(uint32_t first, uint32_t second, uint32_t axis)
 {
     const Parts& a = parts_of_brick_[first];
@@ -137,7 +137,8 @@ void OpenSpace::joinBricks(uint32_t first, uint32_t second, uint32_t axis)
                 join(i, j);
 }
 
-/// Everything at the sides of the grid's groups, which the last voxels of the grid may lie within.
+/// Join everything at the boundary of the grid's groups with the outside. The last voxels of the grid may lie
+/// within it.
 void OpenSpace::joinOutside(const SolidGrid& grid)
 {
     const Cell count = grid.frame.groups();
@@ -176,7 +177,7 @@ uint32_t OpenSpace::root(uint32_t node)
     return node;
 }
 
-/// The lesser root stays one, so that the result does not depend on the order.
+/// Join two sets. The smaller root stays root, so the result does not depend on the order.
 void OpenSpace::join(uint32_t a, uint32_t b)
 {
     a = root(a);
@@ -184,7 +185,7 @@ void OpenSpace::join(uint32_t a, uint32_t b)
     parents_[std::max(a, b)] = std::min(a, b);
 }
 
-/// Turn roots to the numbers of spaces: a root stands before all that it is the root of.
+/// Replace roots by space numbers. A root precedes all nodes of its set.
 void OpenSpace::number()
 {
     for (uint32_t node = 0; node < parents_.size(); ++node)
@@ -251,7 +252,7 @@ std::vector<uint32_t> separateSpaces(SolidGrid& grid, const OpenSpace& spaces)
         uint32_t voxel;
     };
     std::vector<Place> queue;
-    /// Give the voxel the one space around it, or make it opaque where there are several.
+    /// Assign the voxel to the one space around it, or make it opaque if there are several.
     const auto settle = [&](const Place& place)
     {
         uint32_t space = kNowhere;
@@ -274,7 +275,7 @@ std::vector<uint32_t> separateSpaces(SolidGrid& grid, const OpenSpace& spaces)
         space_of_voxel[place.voxel] = space;
         queue.push_back(place);
     };
-    // the order is that of the voxels, then of the queue: the same on every machine
+    // process voxels in their order, then the queue: the result is deterministic
     grid.forEachBrick(
         [&](uint32_t brick, const Cell& at)
         {

@@ -1,5 +1,5 @@
-// The empty voxels of a grid, as the spaces that they form: what is outside, rooms, the insides of walls and rocks.
-// Cells are joined across common faces, whole groups and bricks at once where they are empty.
+// Finds the connected spaces of empty voxels: the outside, rooms, and the interiors of walls and rocks.
+// Connectivity is across common faces. Empty groups and bricks are joined as a whole.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,14 +13,14 @@ namespace hearth::bricks
 class OpenSpace
 {
 public:
-    static constexpr uint32_t kOutside = 0; ///< the space that everything beyond the grid belongs to
+    static constexpr uint32_t kOutside = 0; ///< the space of everything beyond the grid
 
     explicit OpenSpace(const SolidGrid& grid);
 
-    /// The space of an empty cell; kOutside for one that is not in the grid.
+    /// Return the space of an empty cell; kOutside for a cell outside the grid.
     uint32_t at(const SolidGrid& grid, const Cell& cell) const;
 
-    /// Spaces are numbered from kOutside on.
+    /// Return the number of spaces. They are numbered from kOutside on.
     uint32_t count() const { return count_; }
 
 private:
@@ -32,10 +32,11 @@ private:
     uint32_t root(uint32_t node);
     void join(uint32_t a, uint32_t b);
 
-    /// Empty parts of a brick, each a mask of its cells. A brick or group without solid voxels is one part.
+    /// Connected empty parts of a brick, each a mask of its cells. A brick or group without solid voxels is
+    /// one part.
     struct Parts
     {
-        uint32_t first = 0; ///< of parts_
+        uint32_t first = 0; ///< index into parts_
         uint32_t count = 0;
     };
     const Parts& partsAt(uint32_t group, uint32_t bit) const
@@ -44,33 +45,35 @@ private:
                                                                    : bricks_of_group_[group] + bit];
     }
 
-    std::vector<uint32_t>
-        bricks_of_group_;               ///< first of 64 in parts_of_brick_; kNowhere where the group is empty
-    std::vector<uint32_t> group_parts_; ///< of an empty group, in parts_of_brick_
+    /// first of 64 entries in parts_of_brick_; kNowhere for an empty group
+    std::vector<uint32_t> bricks_of_group_;
+    std::vector<uint32_t> group_parts_; ///< entry of an empty group in parts_of_brick_
     std::vector<Parts> parts_of_brick_;
-    std::vector<uint64_t> parts_;   ///< masks; part i is node i, the first of all stands for what is outside
-    std::vector<uint32_t> parents_; ///< while joining: of each node; then its space
+    std::vector<uint64_t> parts_;   ///< cell masks; part i is node i of the union-find, node 0 is the outside
+    std::vector<uint32_t> parents_; ///< while joining the parent of each node, afterwards its space
     uint32_t count_ = 0;
 };
 
-/// What of a grid can be seen from somewhere.
+/// Visibility of the spaces of a grid.
 struct SeenSpaces
 {
-    std::vector<bool> seen;    ///< of each space
-    uint32_t sealed = 0;       ///< spaces that are not
-    uint64_t sealed_sides = 0; ///< sides of solid voxels towards them: no faces
+    std::vector<bool> seen;    ///< by space
+    uint32_t sealed = 0;       ///< number of spaces that are not visible
+    uint64_t sealed_sides = 0; ///< sides of solid voxels towards sealed spaces; they are no faces
 };
 
-/// A space is seen if it is outside, if a camera or seed is in it, or if at least half of the voxel sides around it show the
-/// front of a surface: a room does, the inside of a wall or a rock shows backs.
-/// points  world space
+/// Find the visible spaces. A space is visible if it is outside, if a camera or seed is in it, or if at least
+/// half of the voxel sides around it show front faces. Rooms show front faces; the interiors of walls and
+/// rocks show back faces.
+/// points  cameras and seeds, world space
 SeenSpaces seenSpaces(const SolidGrid& grid, const OpenSpace& spaces, std::span<const Float3> points);
 
-/// Make opaque what else would let light from one space into another: of the voxels that are not opaque, each belongs to
-/// the space that reaches it through such voxels, and those in which two meet become opaque. After it no way through empty
-/// and partly opaque voxels leads from space to space.
+/// Separate spaces that are connected through partly opaque voxels. Each voxel that is not opaque belongs to
+/// the space from which a path through such voxels reaches it. Voxels where two spaces meet become opaque.
+/// Afterwards no path through empty and partly opaque voxels connects two spaces.
 ///
-/// returns  for each solid voxel its space; kNowhere for those that are opaque, or that only opaque ones surround
+/// returns  the space of each solid voxel; kNowhere for opaque voxels and for voxels that only opaque ones
+///          surround
 std::vector<uint32_t> separateSpaces(SolidGrid& grid, const OpenSpace& spaces);
 
 } // namespace hearth::bricks

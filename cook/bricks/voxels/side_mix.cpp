@@ -31,7 +31,7 @@ bool shows(const SolidVoxel* voxel, uint32_t face)
     return voxel != nullptr && (voxel->looked_at >> face & 1) != 0;
 }
 
-/// By how much a side's own light counts, and that of the same side of the voxel behind it.
+/// Weights of a side's own light and of the light of the same side of the voxel behind it.
 struct Shares
 {
     float own = 1, behind = 0;
@@ -50,7 +50,7 @@ Shares sharesOf(const SolidGrid& grid, const Cell& cell, const SolidVoxel& voxel
     }
     const uint64_t behind = hiddenBy(next, axis) & ~own;
     const uint64_t before = hiddenBy(voxelAt(grid, across(cell, face)), axis) & ~own & ~behind;
-    // what a voxel before this one hides is not seen here
+    // samples that the voxel in front covers are not visible here
     const int seen = kSamples - std::popcount(before);
     if (seen == 0)
         return {};

@@ -1,8 +1,9 @@
-// What a side of a voxel shows as a whole, where the surfaces in it are not all that is seen there.
+// Blends the material of a voxel's sides with the material of the voxel behind them.
 //
-// Rays know a voxel's opacity and take the light of its face as often as that says. A lamp two hands wide in a voxel of half a
-// metre must not shine as if it filled it: the face's light is that of its surfaces where they are, and of what lies behind
-// them in the next voxel elsewhere, for where the voxel is opaque that is not met any more.
+// Rays weigh the light of a face by the opacity of its voxel. A lamp of 0.2 m in an opaque voxel of 0.5 m
+// must not shine as if it filled the voxel. The light of a face is therefore the light of its own surfaces
+// where they cover the side, and the light of the next voxel's surfaces elsewhere, because rays end in an
+// opaque voxel and do not reach the next one.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,9 +12,10 @@
 namespace hearth::bricks
 {
 
-/// Mix albedo and emission of all sides that a front is seen through. Opacities must be set. Emission is then such that what
-/// rays find along an axis, opacity times light, is what the samples of that axis give off. Albedo is the mean of the surfaces
-/// that are seen: a room of one albedo has it on all its faces, and no light is lost beside their rims.
+/// Blend albedo and emission of all sides that show a front face. Opacities must be set. Emission is scaled
+/// such that opacity times light, as rays find it along an axis, equals the emission of that axis' coverage
+/// samples. Albedo is the mean of the visible surfaces: a room with one albedo has it on all faces, and no
+/// light is lost at edges.
 void mixSides(SolidGrid& grid);
 
 } // namespace hearth::bricks

@@ -1,4 +1,4 @@
-// The solid voxels of a grid and what their sides look like, before it is known which of them are seen.
+// Solid voxels of a grid with the material of all six sides, before visible faces are known.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -15,28 +15,30 @@ namespace hearth::bricks
 inline constexpr uint32_t kNowhere = 0xFFFFFFFFu;
 inline constexpr uint32_t kFaces = shared::kVoxelFaces;
 
-/// Axis of a face, and whether it looks upwards along it.
+/// Return the axis of a face.
 constexpr int axisOf(uint32_t face)
 {
     return static_cast<int>(face / 2);
 }
+/// True if the face's normal points in the positive direction of its axis.
 constexpr bool looksUp(uint32_t face)
 {
     return face % 2 != 0;
 }
 
-/// Codes of formats/gpu_shared/brick_codes.h for each of the six sides, as if all were faces.
+/// Material codes (formats/gpu_shared/brick_codes.h) for each of the six sides, as if all were faces.
 struct SolidVoxel
 {
     std::array<uint32_t, kFaces> albedo;
     std::array<uint32_t, kFaces> emission;
     std::array<uint16_t, kFaces> normal;
-    uint8_t looked_at; ///< bit f: the front of a surface is seen through face f
-    uint8_t opacity;   ///< > 0; as hideSheets and separateSpaces leave it
+    uint8_t looked_at; ///< bit f: a front face of a surface is visible through side f
+    uint8_t opacity;   ///< > 0; set by hideSheets, then by separateSpaces
     CrossSections hidden;
 };
 
-/// Cells of 4 x 4 x 4, a bit each, and where the first of those that are set stands; as formats/records/bricks.h orders them.
+/// Block of 4 x 4 x 4 cells, one bit each, and the index of its first set cell. Bit order as in
+/// formats/records/bricks.h.
 struct MaskedCells
 {
     uint64_t mask = 0;
@@ -49,7 +51,7 @@ struct MaskedCells
     }
 };
 
-/// Bit of a voxel in its brick, or with shift 2 of a brick in its group.
+/// Return the bit of a voxel in its brick, or with shift 2 the bit of a brick in its group.
 constexpr uint32_t bitOf(const Cell& cell, uint32_t shift = 0)
 {
     return (cell[0] >> shift & 3u) | (cell[1] >> shift & 3u) << 2 | (cell[2] >> shift & 3u) << 4;
@@ -58,7 +60,7 @@ constexpr uint32_t bitOf(const Cell& cell, uint32_t shift = 0)
 struct SolidGrid
 {
     GridFrame frame;
-    std::vector<MaskedCells> groups; ///< all of the grid, x fastest
+    std::vector<MaskedCells> groups; ///< all groups of the grid, x fastest
     std::vector<MaskedCells> bricks;
     std::vector<SolidVoxel> voxels;
 
@@ -67,14 +69,14 @@ struct SolidGrid
         const Cell count = frame.groups();
         return (cell[0] >> 4) + count[0] * ((cell[1] >> 4) + count[1] * (cell[2] >> 4));
     }
-    /// kNowhere where it is empty.
+    /// Return the index of a cell's brick, kNowhere where it is empty.
     uint32_t brickAt(const Cell& cell) const
     {
         const MaskedCells& group = groups[groupOf(cell)];
         const uint32_t bit = bitOf(cell, 2);
         return group.has(bit) ? group.at(bit) : kNowhere;
     }
-    /// Number of a solid voxel, kNowhere for an empty one; the cell lies in the grid.
+    /// Return the index of a solid voxel, kNowhere for an empty one. The cell must lie in the grid.
     uint32_t voxelAt(const Cell& cell) const
     {
         const uint32_t brick = brickAt(cell);
@@ -83,7 +85,7 @@ struct SolidGrid
         return bricks[brick].at(bitOf(cell));
     }
 
-    /// Call visit(brick, least cell of the brick) for all bricks in their order.
+    /// Call visit(brick, lowest cell of the brick) for all bricks in their order.
     template <typename Visit>
     void forEachBrick(const Visit& visit) const
     {
@@ -101,7 +103,7 @@ struct SolidGrid
         }
     }
 
-    /// The least cell of each brick.
+    /// Return the lowest cell of each brick.
     std::vector<Cell> brickCells() const
     {
         std::vector<Cell> cells(bricks.size());
@@ -110,13 +112,15 @@ struct SolidGrid
     }
 };
 
-/// Cell of a bit of a brick whose least cell this is.
+/// Return the cell of a bit in a brick.
+/// brick  lowest cell of the brick
 constexpr Cell cellOf(const Cell& brick, uint32_t bit)
 {
     return {brick[0] + (bit & 3), brick[1] + (bit >> 2 & 3), brick[2] + (bit >> 4)};
 }
 
-/// The cell across a face, which may lie outside: then a coordinate is no less than the grid's, since below 0 it wraps.
+/// Return the cell across a face. It may lie outside the grid: a coordinate is then at least the grid's size,
+/// because values below 0 wrap.
 constexpr Cell across(Cell cell, uint32_t face)
 {
     cell[face / 2] += looksUp(face) ? 1u : ~0u;

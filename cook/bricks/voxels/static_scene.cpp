@@ -13,14 +13,14 @@ using namespace formats;
 namespace
 {
 
-/// For each node whether a clip moves it or one above it.
+/// Return for each node whether a clip moves it or one of its ancestors.
 std::vector<bool> movedNodes(const PackView& scene)
 {
     std::vector<bool> moved(scene.nodes().size());
     for (const AnimationChannelRecord& channel : scene.channels())
         if (channel.node < moved.size())
             moved[channel.node] = true;
-    // parents may stand behind their children
+    // repeat, because parents may follow their children in the table
     for (bool changed = true; changed;)
     {
         changed = false;
@@ -60,7 +60,7 @@ Status checkTogether(const SourceParts& source, const std::vector<MaterialUse>& 
     return success();
 }
 
-/// Whether nothing of the mesh is lit.
+/// True if all materials of the mesh are unlit.
 bool isUnlit(const StaticScene& scene, uint32_t source, const MeshRecord& mesh)
 {
     const auto clusters = recordsOf(scene.sources[source].clusters.clusters(), mesh.clusters);
@@ -98,7 +98,7 @@ Status addInstances(StaticScene& scene, uint32_t source)
     return success();
 }
 
-/// The clusters of a mesh that the runtime draws at an error in object space.
+/// Call visit(index, cluster) for each cluster of a mesh in the LOD cut at an error in object space.
 template <typename Visit>
 void forEachOfCut(const PackView& part, const MeshRecord& mesh, float error, const Visit& visit)
 {
@@ -147,7 +147,7 @@ std::vector<PlacedCluster> clustersOfCut(const StaticScene& scene, float error)
     {
         const StaticInstance& instance = scene.instances[i];
         const PackView& part = scene.sources[instance.source].clusters;
-        // what has no size in the world is off by nothing, and has no area
+        // skip instances of size 0: they have no error and no area
         if (!(instance.scale_max > 0))
             continue;
         forEachOfCut(part, part.meshes()[instance.mesh], error / instance.scale_max,
@@ -176,7 +176,7 @@ VoxelBox voxelBoxOf(const StaticScene& scene, const PlacedCluster& placed, const
     }
     const Double3 middle = transformPoint(voxels_from_object, (low + high) * 0.5);
     const Double3 half = (high - low) * 0.5;
-    // corners move by half a step of the grid when they are rounded, and a box's sides by what doubles leave out
+    // margin: rounding moves corners by half a step of the snapping grid, and sides by the error of doubles
     const auto reach = [&](const double(&row)[4])
     { return std::abs(row[0]) * half.x + std::abs(row[1]) * half.y + std::abs(row[2]) * half.z + 1 / kSnap; };
     const Double3 reached{reach(voxels_from_object.m[0]), reach(voxels_from_object.m[1]),

@@ -1,4 +1,4 @@
-// What of the sources stands still, and which clusters of it a grid is made from.
+// Collects the static instances of the sources, and the clusters that a grid is made from.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,7 +12,7 @@
 namespace hearth::bricks
 {
 
-/// The parts of one source.
+/// Parts of one source.
 struct SourceParts
 {
     formats::PackView scene; ///< import part: nodes, instances, materials, cameras
@@ -25,24 +25,24 @@ struct StaticInstance
     uint32_t source;
     uint32_t mesh;
     Affine3 world_from_object;
-    float scale_max; ///< as InstanceRecord
-    bool mirrored;   ///< its triangles turn the other way
+    float scale_max; ///< as in InstanceRecord
+    bool mirrored;   ///< the transform inverts the winding of triangles
     Box3 box;        ///< world space
 };
 
-/// How many instances take no part, and why.
+/// Numbers of instances that are excluded, by reason.
 struct LeftOut
 {
-    uint32_t animated = 0; ///< a clip moves them, or a node above them
-    uint32_t deformed = 0; ///< joints or morph targets move their vertices
-    uint32_t unlit = 0;    ///< light does not show on them: painted skies, mostly
+    uint32_t animated = 0; ///< animated by a clip, directly or through an ancestor
+    uint32_t deformed = 0; ///< with joints or morph targets
+    uint32_t unlit = 0;    ///< unlit, mostly painted skies
 };
 
-/// The scenes of all sources in one world.
+/// Scenes of all sources in one world.
 struct StaticScene
 {
     std::span<const SourceParts> sources;
-    std::vector<std::vector<MaterialUse>> materials; ///< of each source
+    std::vector<std::vector<MaterialUse>> materials; ///< by source
     std::vector<StaticInstance> instances;
     std::vector<Float3> cameras;
     LeftOut left_out;
@@ -54,26 +54,27 @@ private:
     MaterialUse default_material_ = defaultMaterial();
 };
 
-/// The sources must outlive the scene.
-/// errors: those of checkHierarchy; meaning_reference where parts are not of one source, or an index points nowhere
+/// Collect the static scene. The sources must outlive it.
+/// errors: errors of checkHierarchy; meaning_reference where parts are not of one source, or an index is out
+/// of range
 Result<StaticScene> staticScene(std::span<const SourceParts> sources);
 
-/// A cluster of an instance.
+/// Cluster of an instance.
 struct PlacedCluster
 {
     uint32_t source;
     uint32_t page;
-    uint32_t cluster; ///< chunk CLUS
+    uint32_t cluster; ///< index in chunk CLUS
     uint32_t instance;
 
     friend auto operator<=>(const PlacedCluster&, const PlacedCluster&) = default;
 };
 
-/// The clusters of the cut that the runtime would draw at an error, of all instances but for what is unlit, sorted.
-/// error  metres in the world, >= 0; no instance's cut is off by more
+/// Return the clusters of the LOD cut at an error, of all instances, without unlit clusters, sorted.
+/// error  metres in world space, >= 0; an upper bound for the cut of each instance
 std::vector<PlacedCluster> clustersOfCut(const StaticScene& scene, float error);
 
-/// Voxels that a cluster can reach, in floating point: its box, and what rounding to the grid adds.
+/// Bounding box of a cluster in voxels, in floating point, extended by the rounding to the grid.
 struct VoxelBox
 {
     Double3 min, max;

@@ -14,7 +14,8 @@ using namespace formats;
 namespace
 {
 
-/// IEC 61966-2-1. Floats rounded from doubles: the last bits of pow, which libraries disagree on, do not come through.
+/// Return the sRGB decoding table (IEC 61966-2-1). Rounding doubles to floats hides the last bits of pow,
+/// which differ between libraries.
 const std::array<float, 256>& linearFromSrgb()
 {
     static const std::array<float, 256> table = []
@@ -97,7 +98,7 @@ const Texture::Texels& Texture::mip(uint32_t mip) const
     return *mips_[mip];
 }
 
-/// Under the lock.
+/// Read a mip. The caller holds the lock.
 Texture::Texels Texture::read(uint32_t mip) const
 {
     const Result<ChunkData> data = part_->imageData(image_);

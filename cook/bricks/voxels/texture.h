@@ -1,4 +1,4 @@
-// What an image shows at a place, at the mip that a voxel needs; mips are read when the first asks for them.
+// Samples an image at the mip that a voxel needs. Mips are decoded on first use.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,25 +12,25 @@
 namespace hearth::bricks
 {
 
-/// An image of a textures part. Any number of threads may look at once. The view must outlive it.
+/// Image of a textures part. Thread-safe. The view must outlive it.
 class Texture
 {
 public:
     Texture(const formats::PackView& part, uint32_t image);
 
-    /// The coarsest mip with at least `texels` texels along a length on which the finest has `finest`; the finest where none
-    /// has as many.
+    /// Return the coarsest mip with at least `texels` texels along a length on which the finest mip has
+    /// `finest`; the finest mip if none has as many.
     uint32_t mipFor(double finest, double texels) const;
 
-    /// Linear RGBA, bilinear between texels.
-    /// reference  a use of this image: how coordinates go on outside [0, 1]
+    /// Sample linear RGBA, with bilinear filtering.
+    /// reference  use of this image, with its wrap modes
     /// uv         after the reference's transform
     Float4 at(const formats::TextureRef& reference, Float2 uv, uint32_t mip) const;
 
     double width() const { return record_.width; }
     double height() const { return record_.height; }
 
-    /// The first error of reading a mip, which at() gives 0 for.
+    /// Return the first error of reading a mip. at() returns 0 for such a mip.
     Status status() const;
 
 private:
@@ -44,11 +44,11 @@ private:
     formats::ImageRecord record_;
     mutable std::mutex mutex_;
     mutable Status status_ = success();
-    mutable std::array<std::atomic<const Texels*>, 32> ready_{}; ///< set once, when `mips_` has it
+    mutable std::array<std::atomic<const Texels*>, 32> ready_{}; ///< set once, after `mips_` has the mip
     mutable std::array<std::unique_ptr<const Texels>, 32> mips_;
 };
 
-/// `uv` as the reference transforms it.
+/// Apply the reference's UV transform to `uv`.
 Float2 transformed(const formats::TextureRef& reference, Float2 uv);
 
 } // namespace hearth::bricks

@@ -13,8 +13,9 @@ using namespace formats;
 namespace
 {
 
-/// Thresholds of the samples of a cross-section, each of the 64 steps once: blended surfaces hide as many samples as their
-/// alpha says, evenly spread (B. E. Bayer, "An optimum method for two-level rendition of continuous-tone pictures", 1973).
+/// Return the dither threshold of a coverage sample. Each of the 64 steps occurs once, so blended surfaces
+/// cover as many samples as their alpha says, evenly spread (B. E. Bayer, "An optimum method for two-level
+/// rendition of continuous-tone pictures", 1973).
 float thresholdOf(uint32_t u, uint32_t v)
 {
     uint32_t order = 0;
@@ -26,7 +27,8 @@ float thresholdOf(uint32_t u, uint32_t v)
     return (static_cast<float>(order) + 0.5f) / 64.0f;
 }
 
-/// The point of a triangle's plane that is seen at a sample along an axis; the plane is not seen edge-on.
+/// Return the point of a triangle's plane at a coverage sample along an axis. The plane is not parallel to
+/// the axis.
 Double3 pointAt(const Polygon& piece, const Double3& normal, const Cell& cell, int axis, uint32_t bit)
 {
     const int u_axis = uAxis(axis), v_axis = vAxis(axis);
@@ -44,7 +46,8 @@ Double3 pointAt(const Polygon& piece, const Double3& normal, const Cell& cell, i
     return at;
 }
 
-/// Mean over the piece: of the middles of the triangles that fan out from its first corner, by their areas.
+/// Return the mean over the piece: fan triangles around the first corner, sampled at their centroids,
+/// weighted by area.
 Look meanLook(const Polygon& piece, const TriangleSurface& surface)
 {
     if (surface.plain())
@@ -176,7 +179,7 @@ void Tile::add(const ClusterGeometry& geometry, const MaterialUse& material,
     }
 }
 
-/// False for what is not finite, too.
+/// True if the bounding boxes overlap. False for triangles with infinite or NaN corners, too.
 bool Tile::reaches(const Polygon& triangle) const
 {
     for (int axis = 0; axis < 3; ++axis)
@@ -213,7 +216,7 @@ void Tile::add(const Polygon& triangle, const TriangleLook& look, const Material
                  });
 }
 
-/// Whether the piece hides anything.
+/// Add a piece to a sum. True if its opacity is above 0.
 bool Tile::addPiece(VoxelSum& sum, const Cell& cell, const Polygon& piece, const TriangleSurface& surface,
                     const MaterialUse& material, double front)
 {
@@ -249,7 +252,7 @@ TileVoxels Tile::finish() const
 {
     TileVoxels tile;
     tile.pieces = pieces_;
-    const auto index = [&](const Cell& cell) // counted from the tile
+    const auto index = [&](const Cell& cell) // relative to the tile
     { return index_[cell[0] + kTileVoxels * (cell[1] + size_t{kTileVoxels} * cell[2])]; };
     const auto corner = [](uint32_t bits, uint32_t per_row, uint32_t edge) {
         return Cell{bits % per_row * edge, bits / per_row % per_row * edge,

@@ -1,4 +1,4 @@
-// The voxels of one tile of the grid, while surfaces are added.
+// Accumulates the voxels of one tile of the grid while surfaces are added.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -8,15 +8,16 @@
 namespace hearth::bricks
 {
 
-/// Along an edge of a tile: two groups. Larger ones have sums that no cache holds, smaller ones decode pages more often.
+/// Voxels along an edge of a tile: two groups. Sums of larger tiles do not fit in a cache; smaller tiles
+/// decode pages more often.
 inline constexpr uint32_t kTileVoxels = 32;
 
-/// What became of a tile: groups with something in them, their bricks and voxels in the order of their bits.
+/// Result of a tile: its groups with solid voxels, their bricks and voxels in bit order.
 struct TileVoxels
 {
     struct Group
     {
-        Cell cell; ///< least of the group
+        Cell cell; ///< lowest cell of the group
         MaskedCells bricks;
     };
     std::vector<Group> groups;
@@ -25,29 +26,30 @@ struct TileVoxels
     uint64_t pieces = 0;
 };
 
-/// Tiles along each axis of a grid.
+/// Return the number of tiles along each axis of a grid.
 Cell tilesOf(const GridFrame& frame);
 
-/// Tile number `tile` of them, x fastest.
+/// Return the coordinates of a tile from its index, x fastest.
 Cell tileAt(const GridFrame& frame, uint32_t tile);
 
-/// All tiles, in any order, as one grid.
+/// Merge tiles, in any order, into one grid.
 SolidGrid mergedTiles(const GridFrame& frame, std::span<const TileVoxels> tiles);
 
 class Tile
 {
 public:
-    /// at  in tiles
+    /// Construct an empty tile.
+    /// at  coordinates in tiles
     Tile(const GridFrame& frame, const Cell& at);
 
-    /// Add what of a cluster lies in the tile.
-    /// mirrored  whether `voxels_from_object` turns triangles round
+    /// Add the part of a cluster that lies in the tile.
+    /// mirrored  true if `voxels_from_object` inverts the winding of triangles
     void add(const formats::ClusterGeometry& geometry, const MaterialUse& material,
              const Affine3d& voxels_from_object, bool mirrored);
 
-    /// Add what of a triangle lies in the tile.
+    /// Add the part of a triangle that lies in the tile.
     /// triangle  three snapped corners, in voxels of the grid
-    /// front     1 where the front's normal is that of the corners' order, else -1
+    /// front     1 if the front's normal follows the order of the corners, else -1
     void add(const Polygon& triangle, const TriangleLook& look, const MaterialUse& material, double front);
 
     TileVoxels finish() const;
@@ -60,9 +62,9 @@ private:
 
     GridFrame frame_;
     CellBox box_;
-    std::vector<uint32_t> index_; ///< of a voxel's sum, for all voxels of the tile; x fastest
+    std::vector<uint32_t> index_; ///< index of each voxel's sum, for all voxels of the tile, x fastest
     std::vector<VoxelSum> sums_;
-    std::vector<Double3> places_; ///< of the vertices of the cluster that is being added
+    std::vector<Double3> places_; ///< positions of the vertices of the current cluster
     uint64_t pieces_ = 0;
 };
 

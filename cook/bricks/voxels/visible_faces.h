@@ -1,4 +1,4 @@
-// Which sides of solid voxels are faces, and the grid's tables by them.
+// Selects the sides of solid voxels that are faces, and builds the grid's tables.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -8,15 +8,16 @@
 namespace hearth::bricks
 {
 
-/// For each solid voxel a bit for each face that it has: those across which an empty voxel of a seen space lies, or one
-/// that is not opaque and that light from a seen space reaches.
+/// Find the visible faces: for each solid voxel a mask with one bit per side. A side is a face if the cell
+/// across it is an empty voxel of a visible space, or a voxel that is not opaque and belongs to a visible
+/// space.
 ///
-/// space_of_voxel  of separateSpaces
+/// space_of_voxel  result of separateSpaces
 std::vector<uint8_t> visibleFaces(const SolidGrid& grid, const OpenSpace& spaces, const SeenSpaces& seen,
                                   std::span<const uint32_t> space_of_voxel);
 
-/// The tables, faces lit by what they give off themselves.
-/// faces  of visibleFaces
+/// Build the tables. The initial lighting of faces is their emission.
+/// faces  result of visibleFaces
 BrickTables tablesOf(const SolidGrid& grid, std::span<const uint8_t> faces);
 
 } // namespace hearth::bricks

@@ -7,7 +7,8 @@ namespace hearth::bricks
 namespace
 {
 
-/// Where the edge meets the plane, which lies strictly between its ends; the same for both directions of the edge.
+/// Return the intersection of an edge with a plane strictly between its ends. Exactly the same for both
+/// directions of the edge.
 Double3 cut(const Double3& p, const Double3& q, int axis, double plane)
 {
     const bool up = coordinate(p, axis) < coordinate(q, axis);

@@ -1,11 +1,13 @@
-// Cuts triangles to the voxels that they cross. What closes a surface closes it in voxels: no way leads from voxel to
-// voxel across common faces through a closed surface without meeting one that a piece was given to.
+// Clips triangles to the voxels that they cross. Closed surfaces stay closed in voxels: no path across common
+// faces of voxels passes through a closed surface without meeting a voxel that has a piece.
 //
-// That holds because corners lie on a grid (kSnap), and because the point where an edge is cut is a function of the edge and
-// the plane alone: neighbours are cut in the same points, whatever their own order, direction or tile.
+// This holds because corners are snapped to a grid (kSnap), and because the point where a plane cuts an edge
+// is a function of the edge and the plane alone: neighbouring triangles are cut at the same points, whatever
+// their order, direction or tile.
 //
-// A piece that lies in a plane between voxels belongs to the voxel behind it, against its normal: walls on the planes of the
-// grid leave the room in front of them as large as it is. Where the grid ends there, it belongs to the voxel in front.
+// A piece in a plane between voxels belongs to the voxel behind it, against its normal: walls on planes of
+// the grid do not shrink the room in front of them. At the boundary of the grid it belongs to the voxel in
+// front.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -18,12 +20,13 @@
 namespace hearth::bricks
 {
 
-/// Corners of triangles are rounded to so many steps a voxel.
+/// Steps per voxel to which corners of triangles are rounded.
 inline constexpr double kSnap = 65536;
 
-/// Corners so near to a plane between voxels, in voxels, are put into it. Walls are built on planes, but meshes keep them to a
-/// hundred-thousandth of their size: a ceiling that is lower by that would fill the voxels of the room under it. A quarter
-/// of a voxel is what clusters may be off in any case.
+/// Distance from a plane between voxels, in voxels, within which corners are snapped into the plane. Walls
+/// are built on planes, but meshes keep them only to a hundred-thousandth of their size: a ceiling that is
+/// lower by that much would fill the voxels of the room under it. The allowed LOD error of clusters is a
+/// quarter of a voxel in any case.
 inline constexpr double kPlaneReach = double{shared::kBrickPlaneReach};
 
 inline Double3 snapped(Double3 p)
@@ -41,11 +44,12 @@ inline double coordinate(const Double3& p, int axis)
     return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
 }
 
-/// A convex polygon: what is left of a triangle between two planes of each axis.
+/// Convex polygon: the part of a triangle between two planes of each axis.
 struct Polygon
 {
-    /// A triangle has five corners after the first axis. Later ones count on no more than that a cut through n edges leaves
-    /// 2 n corners: what is rounded need not be convex to the last bit.
+    /// Maximum number of corners. A triangle has at most five corners after the first axis. For later axes
+    /// the bound is that a cut through n edges gives at most 2 n corners, because a rounded polygon need not
+    /// be exactly convex.
     static constexpr uint32_t kMost = 20;
     std::array<Double3, kMost> points;
     uint32_t count = 0;
@@ -63,26 +67,26 @@ struct Polygon
     }
 };
 
-/// Twice the area, along the normal.
+/// Return the normal vector with twice the area as its length.
 Double3 doubleArea(const Polygon& polygon);
 
-/// Set `part` to what lies between the planes low and low + 1 of an axis. It is another polygon.
+/// Set `part` to the part between the planes low and low + 1 of an axis. It must be a different object.
 void clipToSlab(const Polygon& polygon, int axis, double low, Polygon& part);
 
-/// A box of voxels, `end` excluded.
+/// Box of voxels, `end` excluded.
 struct CellBox
 {
     Cell begin;
     Cell end;
 };
 
-/// Numbers of the voxels along an axis that the polygon has a part in, last included.
+/// Return the range of voxels along an axis that the polygon has a part in, last included.
 ///
-/// along_normal  the normal's part along the axis
-/// size          voxels of the grid along the axis: one that lies in the grid's own side stays inside
+/// along_normal  the normal's component along the axis
+/// size          voxels of the grid along the axis: a polygon in a boundary plane of the grid stays inside
 inline std::array<int64_t, 2> slabsOf(const Polygon& polygon, int axis, double along_normal, uint32_t size)
 {
-    // triangles may reach farther than whole numbers do
+    // clamp before the conversion: triangles may reach beyond the range of integers
     const auto near = [&](double place) { return std::clamp(place, -1.0, size + 1.0); };
     const std::array<double, 2> ends = polygon.span(axis);
     const auto first = static_cast<int64_t>(std::floor(near(ends[0])));
@@ -94,10 +98,10 @@ inline std::array<int64_t, 2> slabsOf(const Polygon& polygon, int axis, double a
     return {kept, kept};
 }
 
-/// Call visit(cell, piece) for each voxel of `box` that a piece of the triangle with an area lies in.
+/// Call visit(cell, piece) for each voxel of `box` that contains a piece of the triangle with an area.
 ///
 /// triangle  snapped, in voxels, three points
-/// normal    of any length > 0, to the side that is the front
+/// normal    of any length > 0, towards the front side
 /// grid      voxels of the whole grid; the box lies inside
 template <typename Visit>
 void forEachPiece(const Polygon& triangle, const Double3& normal, const Cell& grid, const CellBox& box,
@@ -111,7 +115,7 @@ void forEachPiece(const Polygon& triangle, const Double3& normal, const Cell& gr
         slabs[1] = std::min(slabs[1], int64_t{box.end[static_cast<size_t>(axis)]} - 1);
         return slabs;
     };
-    /// The part in a slab: the polygon itself, as for most triangles, or what is cut from it.
+    /// Return the part in a slab: the polygon itself for most triangles, else the clipped polygon in `room`.
     const auto part = [](const Polygon& polygon, int axis, const std::array<int64_t, 2>& slabs, int64_t slab,
                          Polygon& room) -> const Polygon&
     {

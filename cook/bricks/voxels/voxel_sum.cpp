@@ -18,7 +18,7 @@ Double3 sideNormal(uint32_t face)
 
 uint16_t normalCode(const Double3& normal, uint32_t face)
 {
-    // so that what cancels out does not turn on the last bits
+    // use the side's normal where the sum cancels out, so that the result does not depend on rounding
     const double size = length(normal);
     const Double3 chosen = size > 1e-12 ? normal * (1 / size) : sideNormal(face);
     return static_cast<uint16_t>(formats::NormalCode<8>::encode(narrow(chosen)));

@@ -1,4 +1,4 @@
-// Sums over the pieces of surface in one voxel, and what its sides look like by them.
+// Accumulates the material of the surface pieces in one voxel, and encodes its sides.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -8,7 +8,7 @@
 namespace hearth::bricks
 {
 
-/// A look at a voxel's surfaces from one side, each weighed by the area that it shows there.
+/// Sums over the surfaces visible through one side of a voxel, weighted by their projected area.
 struct SideSum
 {
     double weight = 0; ///< voxels squared
@@ -20,20 +20,20 @@ struct SideSum
 struct VoxelSum
 {
     std::array<SideSum, kFaces> sides;
-    double area = 0; ///< of everything, whatever it faces
-    Double3 albedo;  ///< weighed by it
+    double area = 0; ///< total area of all pieces, voxels squared
+    Double3 albedo;  ///< weighted by area
     Double3 normal;
     CrossSections hidden{};
 
     /// Add a piece.
-    /// double_area  twice its area along its front's normal
-    /// look         mean over the piece; look.hidden is the share of it that is there
+    /// double_area  vector along the front's normal, twice the area long
+    /// look         mean over the piece; look.hidden is its opacity
     void add(const Double3& double_area, const Look& look, bool double_sided);
 };
 
-/// The codes of a voxel. A side that no front is seen through looks as the mean of all surfaces, gives off no light, and
-/// has the normal of what is seen from behind there, or its own: the backs of single-sided surfaces are not drawn either,
-/// but light does not pass them. `opacity` is left 0.
+/// Encode a voxel. A side without a visible front face gets the mean albedo of all surfaces, no emission, and
+/// the normal of the surfaces whose back faces it shows, or else its own normal. Back faces of single-sided
+/// surfaces are not drawn, but they block light. `opacity` stays 0.
 SolidVoxel voxelOf(const VoxelSum& sum);
 
 } // namespace hearth::bricks

@@ -16,10 +16,10 @@ using namespace formats;
 namespace
 {
 
-// Tiles between two looks at whether the memory is full: enough for many threads.
+// Tiles between two checks of the memory budget: enough for many threads.
 constexpr size_t kBatch = 256;
 
-/// A cluster in one of the tiles that it reaches.
+/// Cluster in one of the tiles that its bounds overlap.
 struct Item
 {
     uint32_t tile;
@@ -35,7 +35,7 @@ std::vector<Affine3d> transformsOf(const StaticScene& scene, const GridFrame& fr
     return transforms;
 }
 
-/// Which clusters each tile has to look at, tile by tile.
+/// Return the clusters of each tile, sorted by tile.
 std::vector<Item> itemsOf(const StaticScene& scene, std::span<const PlacedCluster> placed,
                           const GridFrame& frame, const std::vector<Affine3d>& transforms)
 {
@@ -50,11 +50,11 @@ std::vector<Item> itemsOf(const StaticScene& scene, std::span<const PlacedCluste
         {
             const auto a = static_cast<size_t>(axis);
             const double size = frame.voxels[a];
-            // a box that is not finite reaches nothing
+            // skip boxes that are not finite
             reaches = reaches && coordinate(box.max, axis) >= 0 && coordinate(box.min, axis) <= size;
             const auto tileOf = [&](double voxel)
             { return static_cast<uint32_t>(std::clamp(voxel, 0.0, size - 1)) / kTileVoxels; };
-            // what lies in a plane between tiles belongs to one or the other
+            // include both tiles for surfaces in the plane between them
             first[a] = reaches ? tileOf(coordinate(box.min, axis) - 1) : 0;
             last[a] = reaches ? tileOf(coordinate(box.max, axis)) : 0;
         }
@@ -69,12 +69,12 @@ std::vector<Item> itemsOf(const StaticScene& scene, std::span<const PlacedCluste
     return items;
 }
 
-/// The items of one tile.
+/// Items of one tile.
 struct TileRange
 {
     uint32_t tile;
     std::span<const Item> items;
-    double distance = 0; ///< metres from the nearest focus
+    double distance = 0; ///< metres from the nearest focus point
 };
 
 std::vector<TileRange> tileRanges(std::span<const Item> items)
@@ -106,7 +106,7 @@ std::vector<TileRange> nearestFirst(std::vector<TileRange> ranges, const GridFra
     return ranges;
 }
 
-/// What the bricks that lie nearer than something need without any face.
+/// Sums the memory, without faces, of the bricks within a distance of the focus points.
 class NearBricks
 {
 public:
@@ -131,7 +131,8 @@ public:
         }
     }
 
-    /// distance  no less than before
+    /// Return the bytes of the bricks nearer than a distance, and of the groups.
+    /// distance  must not decrease between calls
     uint64_t bytesWithin(double distance)
     {
         std::erase_if(beyond_,
@@ -156,7 +157,7 @@ private:
     std::vector<Brick> beyond_;
 };
 
-/// The sums of one tile.
+/// Voxelise one tile.
 Result<TileVoxels> voxeliseTile(const StaticScene& scene, std::span<const PlacedCluster> placed,
                                 const TileRange& range, const GridFrame& frame,
                                 const std::vector<Affine3d>& transforms)

@@ -1,4 +1,4 @@
-// From a scene's clusters to the solid voxels of a grid.
+// Voxelises the clusters of a scene: computes the solid voxels of a grid.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,28 +10,30 @@ namespace hearth::bricks
 
 struct VoxeliseCounts
 {
-    uint64_t clusters = 0;  ///< of the cut, each once for every instance
-    uint64_t triangles = 0; ///< of them
-    uint64_t pieces = 0;    ///< that they were cut to
+    uint64_t clusters = 0;  ///< of the cut, counted once for each instance
+    uint64_t triangles = 0; ///< in these clusters
+    uint64_t pieces = 0;    ///< polygons that the triangles were clipped to
 };
 
 struct Voxelised
 {
-    SolidGrid grid; ///< opacities still 0
+    SolidGrid grid; ///< opacities are still 0
     VoxeliseCounts counts;
-    uint64_t tiles_skipped = 0; ///< that are so far away that their bricks would be dropped for certain
+    uint64_t tiles_skipped = 0; ///< tiles so far away that their bricks would certainly be dropped
 };
 
-/// All voxels that a cut's triangles have an area in; in masked or blended materials, something that hides. Tile by tile:
-/// a page is decoded where a tile needs it, so that memory follows the voxels, not the scene. The same bytes for any number
-/// of threads: each tile sums in the order of `placed`.
+/// Find all voxels in which a triangle of the cut has an area, for masked or blended materials with an
+/// opacity above 0. Works tile by tile and decodes a page when a tile needs it, so memory grows with the
+/// voxels, not with the scene. The bytes do not depend on the number of threads: each tile sums in the order
+/// of `placed`.
 ///
-/// Tiles are taken from the nearest focus on; once the bricks that are nearer than all tiles left need more than `memory` bytes
-/// with no face at all, these are skipped: a size of voxels that is far too fine takes no more memory here than there.
+/// Processes tiles from the nearest focus point on. Stops and skips the remaining tiles once the bricks
+/// nearer than all of them need more than `memory` bytes even without faces. So a far too small voxel size
+/// does not exhaust memory.
 ///
 /// placed  sorted
-/// foci    world space, one at least
-/// errors: those of decodePage and of reading textures; meaning_geometry
+/// foci    focus points, world space, at least one
+/// errors: errors of decodePage and of reading textures; meaning_geometry
 Result<Voxelised> voxelise(const StaticScene& scene, std::span<const PlacedCluster> placed,
                            const GridFrame& frame, std::span<const Float3> foci, uint64_t memory);
 

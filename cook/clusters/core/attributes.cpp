@@ -49,7 +49,8 @@ void setNormal(mesh::SourceMesh& vertices, uint32_t vertex, Float3 sum)
         tangent = {upright.x / left, upright.y / left, upright.z / left, tangent.w};
 }
 
-/// New weights for some joints: the vertex keeps those of joints that are not among them, and the main joint gets the rest.
+/// Assign new weights to some joints. The vertex keeps its other joints, and the main joint gets the
+/// remainder to 1.
 void setJoints(mesh::SourceMesh& vertices, uint32_t vertex, uint32_t main_joint,
                std::vector<mesh::Influence> influences)
 {
@@ -72,7 +73,7 @@ void setJoints(mesh::SourceMesh& vertices, uint32_t vertex, uint32_t main_joint,
             sum += weight;
         }
     influences.push_back({static_cast<uint16_t>(main_joint), std::max(1 - sum, 0.0)});
-    // not even the main joint is left where extrapolated weights cancel
+    // extrapolated weights can cancel, so that not even the main joint remains
     if (sum > 0 || influences.back().weight > 0)
         mesh::setInfluences(vertices, vertex, influences);
 }

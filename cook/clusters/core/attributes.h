@@ -1,4 +1,4 @@
-// The attributes that steer the simplification, side by side: differences are lengths.
+// Packs the attributes that steer simplification into weighted rows: differences between rows are lengths.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,22 +11,22 @@
 namespace hearth::clusters
 {
 
-/// A joint, or a morph target, and the length that a weight of 1 stands for.
+/// Joint or morph target, and the length that a weight of 1 stands for.
 struct DeformationWeight
 {
     uint32_t index;
     float length;
 };
 
-/// Which attributes there are, and the length that one unit of each stands for; 0: it is not there.
+/// Attributes that count, with the length that one unit of each stands for; 0: the mesh lacks the attribute.
 struct AttributeWeights
 {
     float normal = 0;
-    float uv = 0; ///< of the first set
+    float uv = 0; ///< first UV set
     float color = 0;
-    std::vector<DeformationWeight> joints; ///< all but the main joint, or those that count most
-    uint32_t main_joint = 0;               ///< its weight is what the others leave
-    std::vector<DeformationWeight> morphs; ///< those that move most
+    std::vector<DeformationWeight> joints; ///< all but the main joint, or the most important ones
+    uint32_t main_joint = 0;               ///< its weight is the remainder to 1
+    std::vector<DeformationWeight> morphs; ///< targets with the largest displacements
 
     uint32_t count() const
     {
@@ -36,12 +36,12 @@ struct AttributeWeights
     uint32_t rows() const { return (count() + uint32_t{kLanes} - 1) / uint32_t{kLanes}; }
 };
 
-/// Write a vertex's attributes, weighted, to rows() rows; what is left over is 0.
+/// Write a vertex's weighted attributes to rows() rows; unused lanes are 0.
 void packAttributes(const mesh::SourceMesh& vertices, uint32_t vertex, const AttributeWeights& weights,
                     Lanes* rows);
 
-/// Set a vertex's attributes to what the rows say, as far as they are legal values: normals of length 1, colours in
-/// [0, 1], tangents upright on their normals, weights that sum to 1. Morph targets stay as they are.
+/// Set a vertex's attributes from the rows, clamped to legal values: normals of length 1, colours in [0, 1],
+/// tangents orthogonal to their normals, weights that sum to 1. Morph targets stay unchanged.
 void unpackAttributes(const Lanes* rows, const AttributeWeights& weights, mesh::SourceMesh& vertices,
                       uint32_t vertex);
 

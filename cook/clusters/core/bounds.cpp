@@ -21,8 +21,7 @@ namespace
 // More steps shrink the sphere by less than 1 % of its radius.
 constexpr int kSphereSteps = 12;
 
-// The rasteriser snaps corners to 1/256 pixel, which can turn slivers that are seen edge-on (design notes,
-// RUNTIME 2.4).
+// The rasteriser snaps corners to 1/256 pixel, which can flip slivers that are seen edge-on.
 constexpr double kConeMargin = 1e-3;
 
 // Wider cones than about 84 degrees cull next to nothing.
@@ -34,7 +33,7 @@ struct WideSphere
     double radius = 0;
 };
 
-/// Grow the sphere just enough for a point.
+/// Grow the sphere just enough to contain a point.
 void growTo(WideSphere& sphere, Double3 point)
 {
     const Double3 away = point - sphere.center;
@@ -71,7 +70,7 @@ WideSphere ritterSphere(std::span<const Float3> points)
     return sphere;
 }
 
-/// The center as it will be stored, and the radius that it then needs.
+/// Return the sphere with its center rounded to floats and the radius that this center needs.
 Sphere storedSphere(Double3 center, std::span<const Float3> points)
 {
     const Float3 stored = narrow(center);
@@ -85,14 +84,15 @@ Sphere storedSphere(Double3 center, std::span<const Float3> points)
     return {stored, roundUp(std::sqrt(radius2))};
 }
 
-/// Points relative to a sphere around them, four side by side: floats are good enough to look for a better center.
+/// Return the points relative to a sphere around them, four side by side. Floats suffice to search for a
+/// better center.
 std::vector<LaneVector> relativeTo(const WideSphere& sphere, std::span<const Float3> points)
 {
     const double scale = sphere.radius > 0 ? 1 / sphere.radius : 0;
     std::vector<LaneVector> blocks((points.size() + kLanes - 1) / kLanes);
     for (size_t i = 0; i < blocks.size() * kLanes; ++i)
     {
-        // lanes that are left over repeat the last point
+        // unused lanes repeat the last point
         const Float3 place = narrow((widen(points[std::min(i, points.size() - 1)]) - sphere.center) * scale);
         LaneVector& block = blocks[i / kLanes];
         block.x[i % kLanes] = place.x;
@@ -173,8 +173,8 @@ struct PlanePair
     PairVector point;
 };
 
-/// Planes of the triangles; the last one twice where their number is odd. Empty if one has no normal in double
-/// arithmetic.
+/// Compute the planes of the triangles, the last one twice if their number is odd. Empty if a triangle has no
+/// normal in double precision.
 std::vector<PlanePair> planesOf(std::span<const Float3> places)
 {
     std::vector<PlanePair> planes((places.size() / 3 + 1) / 2);
@@ -193,7 +193,7 @@ std::vector<PlanePair> planesOf(std::span<const Float3> places)
     return planes;
 }
 
-/// Normals, four side by side: floats are good enough to look for an axis. Lanes that are left over repeat the last.
+/// Return the normals, four side by side; unused lanes repeat the last. Floats suffice to search for an axis.
 std::vector<LaneVector> normalsOf(std::span<const PlanePair> planes)
 {
     std::vector<LaneVector> blocks((planes.size() + 1) / 2);
@@ -214,7 +214,7 @@ std::vector<LaneVector> normalsOf(std::span<const PlanePair> planes)
 struct LeastCosine
 {
     float cosine = 1;
-    Float3 normal; ///< the one farthest from the axis
+    Float3 normal; ///< the normal farthest from the axis
 };
 
 LeastCosine leastCosine(Float3 axis, std::span<const LaneVector> normals)
@@ -238,7 +238,8 @@ LeastCosine leastCosine(Float3 axis, std::span<const LaneVector> normals)
     return {least[lane], {block.x[lane], block.y[lane], block.z[lane]}};
 }
 
-/// An axis near the one with the narrowest cone: the mean normal, then steps towards the farthest normal.
+/// Find an axis near that of the narrowest cone: start at the mean normal, then step towards the farthest
+/// normal.
 Float3 coneAxis(std::span<const LaneVector> normals)
 {
     LaneVector sums{};
@@ -340,7 +341,7 @@ NormalCone coneOfTriangles(std::span<const Float3> places, Float3 middle)
 {
     NormalCone cone;
     const std::vector<PlanePair> planes = planesOf(places);
-    // a triangle too thin for a normal in double could face anywhere
+    // a triangle too thin for a normal in double precision could face anywhere
     if (planes.empty())
         return cone;
     const Float3 near_axis = coneAxis(normalsOf(planes));
@@ -360,7 +361,7 @@ NormalCone coneOfTriangles(std::span<const Float3> places, Float3 middle)
         const PairVector away = middles - plane.point;
         const Pair cosine = dot(axes, plane.normal);
         const Pair reach2 = dot(away, away);
-        // says nothing where the cosine is not above 0, but then there is no cone
+        // meaningless where the cosine is not positive, but then there is no cone
         const Pair back = dot(away, plane.normal) / cosine;
         cosines = cosine < cosines ? cosine : cosines;
         reaches2 = reach2 > reaches2 ? reach2 : reaches2;
@@ -371,7 +372,7 @@ NormalCone coneOfTriangles(std::span<const Float3> places, Float3 middle)
     if (cosine <= kMinConeCosine)
         return cone;
     const double reach = std::sqrt(std::max(reaches2[0], reaches2[1]));
-    // room for the runtime's arithmetic
+    // margin for the runtime's arithmetic
     const double magnitude = length(widen(middle)) + reach + back;
     cone.back = back + 1e-5 * (reach + back) + magnitude * 4e-7 / cosine;
     cone.cutoff = std::min(1.0, std::sqrt(std::max(0.0, 1 - cosine * cosine)) + kConeMargin);

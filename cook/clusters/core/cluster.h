@@ -1,4 +1,4 @@
-// What the builder's stages hand to each other: the cleaned mesh and clusters that are not records yet.
+// Data that the stages of the builder exchange: the prepared mesh, and clusters before they become records.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -17,9 +17,9 @@
 namespace hearth::clusters
 {
 
-/// The triangles that are kept, and the vertices of all levels. A vertex is an index into the arrays of `vertices`: first
-/// those of the source (the first of equal ones), then those that the levels made. A position stands for all vertices
-/// at one place.
+/// Prepared mesh: the triangles that remain and the vertices of all levels. A vertex is an index into the
+/// arrays of `vertices`: first those of the source (the first of equal ones), then those that simplification
+/// made. A position id stands for all vertices at the same position.
 struct PreparedMesh
 {
     mesh::SourceMesh vertices; ///< on the grid; without indices and materials
@@ -27,26 +27,28 @@ struct PreparedMesh
     uint32_t attributes = 0;
     uint32_t degenerate_count = 0;
     uint32_t position_count = 0;
-    bool bends_gently = false;                ///< 8 bits are too few for its normals
+    bool bends_gently = false;                ///< normals need more than 8 bits
     std::vector<uint32_t> corners;            ///< three vertices for each triangle
     std::vector<uint32_t> materials;          ///< for each triangle
-    std::vector<uint32_t> position_of_vertex; ///< for each vertex
-    const MeshMotion* motion = nullptr;       ///< of a deformed mesh; null: nothing moves it
+    std::vector<uint32_t> position_of_vertex; ///< position id of each vertex
+    const MeshMotion* motion = nullptr;       ///< motion of a deformed mesh; null: nothing moves it
     mesh::InfluenceLoss influence_loss;
     std::optional<double> influence_displacement; ///< as in BuildCounts
-    std::vector<float> morph_steps;               ///< of each morph target's deltas; a power of two
+    std::vector<float> morph_steps;               ///< step of each morph target's deltas; a power of two
 
     size_t triangleCount() const { return corners.size() / 3; }
     bool deforms() const { return !vertices.joint_sets.empty() || !vertices.morph_targets.empty(); }
 };
 
-/// First id of the vertices that a simplification makes, while its level is not finished: kMadeVertex + k is the k-th of them.
+/// First id of the vertices that a simplification makes while its level is unfinished:
+/// kMadeVertex + k is the k-th.
 inline constexpr uint32_t kMadeVertex = 0x80000000u;
 
-/// Most vertices of a cluster: fewer than the format's limit where the morph targets of two would not fit into a page.
+/// Return the maximum vertices of a cluster: below the format's limit where the morph targets of two clusters
+/// would not fit into a page.
 uint32_t clusterVertexLimit(const PreparedMesh& mesh);
 
-/// So many triangles as whole clusters hold, or all where they are less than one.
+/// Round a number of triangles down to full clusters, or return it unchanged if it is less than one cluster.
 inline size_t fullClusters(size_t triangles)
 {
     return triangles < formats::kClusterMaxTriangles
@@ -54,7 +56,7 @@ inline size_t fullClusters(size_t triangles)
                : triangles / formats::kClusterMaxTriangles * formats::kClusterMaxTriangles;
 }
 
-/// A cluster's triangles: three u8 indices into its own list of vertices.
+/// Triangles of a cluster: three u8 indices into its own list of vertices.
 struct ClusterShape
 {
     uint32_t first_vertex = 0; ///< in ClusterStore::vertices
@@ -64,13 +66,14 @@ struct ClusterShape
     uint32_t material = 0;
 };
 
+/// Clusters with their vertices, indices and errors in shared arrays.
 struct ClusterStore
 {
     std::vector<ClusterShape> shapes;
-    std::vector<uint32_t> vertices; ///< of the prepared mesh
+    std::vector<uint32_t> vertices; ///< vertex ids of the prepared mesh
     std::vector<uint8_t> indices;
-    std::vector<float>
-        errors; ///< for each triangle, object space: bounds the distance to the source, both ways
+    /// Error of each triangle, object space: bounds the distance to the source in both directions.
+    std::vector<float> errors;
 
     std::span<const uint32_t> verticesOf(const ClusterShape& shape) const
     {
@@ -86,7 +89,7 @@ struct ClusterStore
         return std::span(errors).subspan(shape.first_index / 3, shape.triangle_count);
     }
 
-    /// Append all clusters of `other`, in their order.
+    /// Append all clusters of `other`, in order.
     void append(const ClusterStore& other);
 
     /// Append a copy of one cluster of `other`.
@@ -99,9 +102,9 @@ void appendVertex(mesh::SourceMesh& to, const mesh::SourceMesh& from, uint32_t v
 /// Append all vertices of `from`, which has the same attributes.
 void appendVertices(mesh::SourceMesh& to, const mesh::SourceMesh& from);
 
-/// Move to the grid, weld, drop triangles without area and those that the grid takes an edge from, merge equal vertices.
-/// What deforms the mesh comes to what its pages can hold: `influences` (4 or 8) of each vertex at most, in codes, and
-/// morph deltas in steps.
+/// Move a mesh to the grid, weld it, drop triangles without area and triangles that lose an edge on the grid,
+/// and merge equal vertices. Deformation data is reduced to what pages can hold: at most `influences` (4 or
+/// 8) for each vertex, as codes, and quantized morph deltas.
 PreparedMesh prepareMesh(mesh::SourceMesh source, uint32_t influences = 8,
                          const MeshMotion* motion = nullptr);
 

@@ -13,17 +13,19 @@ namespace hearth::clusters
 namespace
 {
 
-// More rows cost more than they tell: a group's vertices have seldom more joints, and the rest is measured all the same.
+// More rows cost more than they gain: a group's vertices seldom have more joints, and the error measures all
+// of them anyway.
 constexpr size_t kMaxJoints = 12;
 constexpr size_t kMostMorphs = 4;
 
-// Joints that no clip moves against each other count as if they did by this part of the group: a game may pose them.
+// Joints without relative motion in any clip count as if they moved by this part of the group: a game may
+// pose them.
 constexpr double kLeastLength = 0.1;
 
-// Joints whose motion has no bound count as if they turned over.
+// Joints with unbounded motion count as if they turned over.
 constexpr double kUnboundedTurn = 2;
 
-/// The joints of a group's vertices with the sums of their weights, those with the most first.
+/// Return the joints of a group's vertices with the sums of their weights, largest sum first.
 std::vector<std::pair<double, uint32_t>> jointSums(const mesh::SourceMesh& vertices,
                                                    std::span<const uint32_t> group)
 {
@@ -45,7 +47,8 @@ std::vector<std::pair<double, uint32_t>> jointSums(const mesh::SourceMesh& verti
     return ordered;
 }
 
-/// How far at most a joint takes the group's places from where the main joint has them: a mean over the places.
+/// Bound the distance that a joint moves the group's positions relative to the main joint, as a mean over the
+/// positions.
 double lengthOf(const PreparedMesh& mesh, const GroupMesh& group, uint32_t main, uint32_t joint)
 {
     if (mesh.motion == nullptr || mesh.motion->skin == nullptr)

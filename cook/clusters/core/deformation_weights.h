@@ -1,4 +1,4 @@
-// How much joints and morph targets count when a group is simplified.
+// Weighs joints and morph targets for the simplification of a group.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,10 +7,10 @@
 namespace hearth::clusters
 {
 
-/// Choose the joints and morph targets of group.weights. A joint's weight counts by how far the joint moves the group's
-/// vertices against the main joint, that with the most weight.
+/// Choose the joints and morph targets of group.weights. A joint's weight counts by the distance that the
+/// joint moves the group's vertices relative to the main joint, the one with the most weight.
 ///
-/// group   its vertices and their local places are there
+/// group   with its vertices and local positions
 void weighDeformation(const PreparedMesh& mesh, GroupMesh& group);
 
 } // namespace hearth::clusters

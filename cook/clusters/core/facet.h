@@ -1,4 +1,4 @@
-// Distances from a point to several triangles at once.
+// Computes distances from a point to several triangles at once.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,7 +13,7 @@
 namespace hearth::clusters
 {
 
-/// A triangle with what the distance to it needs: 16 numbers, four rows of four.
+/// Triangle with precomputed terms for point-triangle distance: 16 numbers, four rows of four.
 struct Facet
 {
     Float3 a;
@@ -41,7 +41,7 @@ inline Facet makeFacet(Float3 a, Float3 b, Float3 c)
     return f;
 }
 
-/// Facets side by side.
+/// Triangles side by side, one in each lane.
 struct FacetBlock
 {
     LaneVector a, ab, ac;
@@ -49,7 +49,7 @@ struct FacetBlock
 
     struct Coordinates
     {
-        Lanes v, w; ///< the point's projection is a + v ab + w ac; 0 in needles
+        Lanes v, w; ///< the projection of the point is a + v ab + w ac; 0 in needles
     };
 
     Coordinates project(LaneVector point) const
@@ -66,8 +66,9 @@ struct FacetBlock
         Lanes distance2;
     };
 
-    /// A point of each facet that is near to the given one: the nearest where that projects into the facet; elsewhere two
-    /// steps along the edges come close to it, at half the cost of comparing the three edges.
+    /// Find a point of each triangle near the given point. It is the nearest point where the given one
+    /// projects into the triangle. Elsewhere two steps along the edges come close to it, at half the cost of
+    /// comparing three edges.
     Nearest nearest(Float3 point) const
     {
         const LaneVector ap = allLanes(point) - a;
@@ -80,12 +81,13 @@ struct FacetBlock
         return {v, w, dot(away, away)};
     }
 
-    /// Squared distances of a point, never too small: each is the distance to some point of the facet.
+    /// Return the squared distances of a point. Never too small: each is the distance to some point of the
+    /// triangle.
     Lanes distance2(Float3 point) const { return nearest(point).distance2; }
 };
 
-/// From numbers facet by facet to facets number by number.
-/// row  of four numbers
+/// Transpose a row of four numbers from triangle-major to number-major order.
+/// row  index of the row
 inline std::array<Lanes, kLanes> transposedRow(const std::array<const Facet*, kLanes>& facets, size_t row)
 {
     std::array<Lanes, kLanes> of_facets;

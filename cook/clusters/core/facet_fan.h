@@ -1,4 +1,4 @@
-// A few facets of a surface, ready for finding the nearest point on them again and again.
+// A few triangles of a surface, prepared for repeated nearest-point queries.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -16,14 +16,15 @@
 namespace hearth::clusters
 {
 
+/// No triangle.
 inline constexpr uint32_t kNoFacet = 0xFFFFFFFFu;
 
-/// A point of a facet: (1 - v - w) * corner 0 + v * corner 1 + w * corner 2.
+/// Point of a triangle: (1 - v - w) * corner 0 + v * corner 1 + w * corner 2.
 struct FacetPoint
 {
     uint32_t facet = kNoFacet;
     float v = 0, w = 0;
-    float distance2 = 0; ///< from what lies there
+    float distance2 = 0; ///< squared distance from the position that was projected
 
     std::array<float, 3> parts() const { return {1 - v - w, v, w}; }
 };
@@ -34,16 +35,18 @@ inline Float3 placeOf(const FacetPoint& point, std::span<const Facet> facets)
     return facet.a + facet.ab * point.v + facet.ac * point.w;
 }
 
+/// Triangles of a surface in SIMD blocks, for nearest-point queries.
 class FacetFan
 {
 public:
-    /// facets  of the surface
-    /// fan     numbers of some of them, at least one; must outlive the use of the fan
+    /// Load some triangles of a surface.
+    /// facets  triangles of the surface
+    /// fan     ids of some of them, at least one; must outlive the use of the fan
     void load(std::span<const Facet> facets, std::span<const uint32_t> fan)
     {
         fan_ = fan;
         blocks_.clear();
-        // behind the last, that again
+        // unused lanes repeat the last triangle
         for (size_t first = 0; first < fan.size(); first += kLanes)
         {
             std::array<const Facet*, kLanes> block;
@@ -53,7 +56,7 @@ public:
         }
     }
 
-    /// The nearest point on all of the facets, as FacetBlock::nearest has it.
+    /// Find the nearest point on all of the triangles, by FacetBlock::nearest.
     FacetPoint nearest(Float3 place) const
     {
         Lanes least = allLanes(std::numeric_limits<float>::infinity());
@@ -76,7 +79,7 @@ public:
         return {fan_[std::min(found, fan_.size() - 1)], v[lane], w[lane], least[lane]};
     }
 
-    /// Calls visit(point) with the nearest point on each of the facets.
+    /// Call visit(point) with the nearest point on each of the triangles.
     template <typename Visit>
     void forEachNearest(Float3 place, Visit visit) const
     {

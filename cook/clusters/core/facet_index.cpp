@@ -31,7 +31,7 @@ void FacetIndex::makeBoxes()
 
 std::vector<FacetIndex::BoxBlock> FacetIndex::blocksOf(std::span<const Box3> boxes)
 {
-    // lanes that are left over are empty boxes
+    // unused lanes are empty boxes
     std::vector<BoxBlock> blocks((boxes.size() + kLanes - 1) / kLanes,
                                  {allLanes(Box3{}.min), allLanes(Box3{}.max)});
     for (size_t i = 0; i < boxes.size(); ++i)

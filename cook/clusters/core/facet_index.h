@@ -1,4 +1,4 @@
-// Which triangles of a group come near a box.
+// Finds the triangles of a group that touch a box.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,14 +12,14 @@
 namespace hearth::clusters
 {
 
-/// Boxes of the facets, four side by side, under boxes of runs of sixteen. A group's triangles come cluster by cluster,
-/// so that runs are compact; and a group asks so rarely that a better tree would cost more than it saves, and that
-/// nothing is made before it is asked for.
+/// Bounding boxes of triangles, four side by side, below boxes of runs of sixteen. A group's triangles come
+/// cluster by cluster, so runs are compact. A group asks so rarely that a better tree would cost more than it
+/// saves; the boxes are built at the first query.
 class FacetIndex
 {
 public:
-    /// positions  three for each facet
-    /// places     of the positions, finite
+    /// positions  position ids, three for each triangle
+    /// places     position of each id, finite
     FacetIndex(std::span<const uint32_t> positions, std::span<const Float3> places)
         : positions_(positions), places_(places)
     {
@@ -27,7 +27,7 @@ public:
 
     Facet facet(uint32_t f) const { return makeFacet(cornerOf(f, 0), cornerOf(f, 1), cornerOf(f, 2)); }
 
-    /// The facets whose boxes touch the given one, ascending, into `found`.
+    /// Write the triangles whose boxes touch the given one to `found`, ascending.
     void query(const Box3& box, std::vector<uint32_t>& found);
 
 private:
@@ -44,7 +44,7 @@ private:
 
     std::span<const uint32_t> positions_;
     std::span<const Float3> places_;
-    std::vector<BoxBlock> boxes_; ///< none before the first query
+    std::vector<BoxBlock> boxes_; ///< empty before the first query
     std::vector<BoxBlock> run_boxes_;
 };
 

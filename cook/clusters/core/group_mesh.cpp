@@ -16,7 +16,7 @@ namespace hearth::clusters
 namespace
 {
 
-// Flatter groups count as if their normals changed by so much over a unit of length.
+// Flatter groups count as if their normals changed by this much over a unit of length.
 constexpr float kLeastNormalChange = 1.5f;
 
 /// Numbers keys 0, 1, ... in order of first use.
@@ -25,7 +25,7 @@ class KeyNumbers
 public:
     explicit KeyNumbers(size_t most) : slots_(std::bit_ceil(most * 2 + 1)), mask_(slots_.size() - 1) {}
 
-    /// The key's number; equal to `next` when the key is new.
+    /// Return the key's number; equal to `next` if the key is new.
     uint32_t numberOf(uint64_t key, uint32_t next)
     {
         size_t slot = ((key * 0x9E3779B97F4A7C15u) >> 32) & mask_;
@@ -49,7 +49,8 @@ private:
     size_t mask_;
 };
 
-/// What placePositions and gatherAttributes will read of it: on large meshes it is far away.
+/// Prefetch the data that placePositions and gatherAttributes read: on large meshes it is not in the
+/// cache.
 void prefetchVertex(const mesh::SourceMesh& vertices, uint32_t vertex)
 {
     __builtin_prefetch(&vertices.positions[vertex]);
@@ -59,7 +60,7 @@ void prefetchVertex(const mesh::SourceMesh& vertices, uint32_t vertex)
         __builtin_prefetch(&vertices.uvs[0][vertex]);
 }
 
-/// Returns the material of each wedge.
+/// Gather the triangles of the members. Returns the material of each wedge.
 std::vector<uint32_t> gatherTriangles(GroupMesh& group, const PreparedMesh& mesh, const ClusterStore& store,
                                       std::span<const uint32_t> members, std::span<const uint8_t> locked)
 {
@@ -129,7 +130,8 @@ void placePositions(GroupMesh& group, std::span<const Float3> source_positions)
     }
 }
 
-/// Local length of one unit of UV: square root of the ratio of the areas on the surface and in the texture.
+/// Compute the local length of one unit of UV: square root of the ratio of the areas on the surface and in
+/// the texture.
 float uvScale(const GroupMesh& group, std::span<const Float2> uvs)
 {
     double surface = 0;
@@ -147,12 +149,12 @@ float uvScale(const GroupMesh& group, std::span<const Float2> uvs)
                             (double{ub.y} - ua.y) * (double{uc.x} - ua.x));
     }
     const double scale = texture > 0 ? std::sqrt(surface / texture) : 0.0;
-    // UVs so large or small that their differences are no longer useful numbers do not steer the simplification
+    // UVs with extreme scales have no useful differences and do not steer the simplification
     return std::isfinite(scale) && scale < 1e6 && scale > 1e-6 ? static_cast<float>(scale) : 0.0f;
 }
 
-/// Whether two vertices have the same attributes but for normal and tangent: a hard edge may lie between them, but no
-/// border of a texture, and they move alike.
+/// True if two vertices have the same attributes except normal and tangent. A hard edge may lie between them,
+/// but no texture seam, and they deform alike.
 bool sameChart(const mesh::SourceMesh& source, uint32_t a, uint32_t b)
 {
     for (const auto& uvs : source.uvs)
@@ -168,7 +170,7 @@ bool sameChart(const mesh::SourceMesh& source, uint32_t a, uint32_t b)
     return source.colors.empty() || source.colors[a] == source.colors[b];
 }
 
-/// Name each chart at a position by its first wedge.
+/// Identify each chart at a position by its first wedge.
 void nameCharts(GroupMesh& group, const mesh::SourceMesh& source, std::span<const uint32_t> material_of_wedge)
 {
     constexpr uint32_t kNoWedge = 0xFFFFFFFFu;
@@ -186,8 +188,8 @@ void nameCharts(GroupMesh& group, const mesh::SourceMesh& source, std::span<cons
     }
 }
 
-/// How much the normals change over the surface: radians, or what is like them, for each local unit of length. A mean,
-/// not a mean square: a few sharp places shall not make the normals of all others cheap.
+/// Compute the mean change of normals over the surface, about in radians for each local unit of length. A
+/// mean, not a mean square: a few sharp places must not make the normals of all others cheap.
 float normalChange(const GroupMesh& group, std::span<const Float3> normals)
 {
     double changes = 0;

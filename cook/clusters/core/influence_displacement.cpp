@@ -15,12 +15,12 @@ namespace
 struct JointChange
 {
     uint16_t joint;
-    double all = 0;  ///< its weight before
-    double kept = 0; ///< and now
+    double all = 0;  ///< weight before
+    double kept = 0; ///< weight now
     double difference() const { return all - kept; }
 };
 
-/// Of one vertex, each joint once.
+/// Joints of one vertex, each once, with their weights before and now.
 class JointChanges
 {
 public:
@@ -72,7 +72,7 @@ private:
     std::vector<JointChange> changes_;
 };
 
-/// Axis by axis how far morph targets take the vertex from its place.
+/// Bound the displacement by morph targets on each axis.
 Double3 morphReach(const mesh::SourceMesh& mesh, size_t vertex, const MeshMotion& motion)
 {
     Double3 reach;
@@ -86,21 +86,22 @@ Double3 morphReach(const mesh::SourceMesh& mesh, size_t vertex, const MeshMotion
     return reach;
 }
 
-/// Bounds of single vertices.
+/// Bounds the displacement of single vertices.
 class VertexDisplacement
 {
 public:
     enum class Search : uint8_t
     {
         quick,
-        tight, ///< at the price of a walk over the hulls of the joints' motions
+        tight, ///< visits the hulls of the joints' relative motions, which takes longer
     };
 
     VertexDisplacement(const mesh::SourceMesh& mesh, const MeshMotion& motion) : mesh_(mesh), motion_(motion)
     {
     }
 
-    /// Weight goes from joints that lost some to those that gained, on the shortest ways first: any plan gives a bound.
+    /// Bound the displacement of a vertex. Weight goes from joints that lost some to joints that gained,
+    /// shortest distances first: any transport plan gives a bound.
     std::optional<double> operator()(const JointChanges& changes, size_t vertex, Search search)
     {
         struct Way
@@ -136,7 +137,8 @@ public:
     }
 
 private:
-    /// How far apart at most two joints put the vertex; over a third one where neither sees the other.
+    /// Bound the distance between the positions that two joints give the vertex; over a third joint if
+    /// neither bounds it relative to the other.
     std::optional<double> apart(std::span<const JointChange> joints, uint32_t a, uint32_t b, size_t vertex,
                                 Search search)
     {
@@ -155,7 +157,8 @@ private:
         return least;
     }
 
-    /// How far from the vertex `joint` puts it, as `main` sees it. Distance is convex: it is largest at a corner of the hull.
+    /// Bound the distance that `joint` moves the vertex relative to `main`. Distance is convex: its maximum
+    /// is at a corner of the hull.
     std::optional<double> seen(uint32_t main, uint32_t joint, size_t vertex, Search search)
     {
         const std::optional<motion::Departure>& departure = departureOf(main, joint);

@@ -1,4 +1,4 @@
-// How far vertices stray from where all their influences would carry them, once some of these are left out.
+// Bounds the displacement of vertices that dropped influences cause.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,17 +10,19 @@
 namespace hearth::clusters
 {
 
-/// Bounds the distance between where `all` and where `kept` put a vertex, for those that lost a joint: over all poses of the
-/// scene's clips, their blends and the rest pose, with the motion's morph weights. In metres of the mesh's own space: times
-/// the largest singular value of an instance's palette it holds in the world.
+/// Bound the distance between the positions that `all` and `kept` give a vertex, over the vertices that lost
+/// a joint: over all poses of the scene's clips, their blends and the rest pose, with the motion's morph
+/// weights. In metres of the mesh's own space; in the world, multiply by the largest singular value of an
+/// instance's palette.
 ///
-/// Kept joints gain what others lose: a weight w that goes from joint i to joint j moves the vertex x by w |M_i x - M_j x|, which
-/// cook/animation_bounds bounds: M_j |D x - x| with what i does as j sees it.
+/// Kept joints gain the weight of dropped ones: a weight w that goes from joint i to joint j moves the vertex
+/// x by w |M_i x - M_j x|. cook/animation_bounds bounds it as M_j |D x - x| with D the motion of i relative
+/// to j.
 ///
 /// all     joints of the skin and weights of any sum > 0; other arrays are not read
-/// kept    the same vertices with weights that sum to 1, their places and morph deltas
+/// kept    the same vertices with weights that sum to 1, their positions and morph deltas
 /// motion  of a skin, made for all vertices of `all` and `kept`
-/// returns metres; nothing where joints do not see each other: where they can be scaled to 0
+/// returns metres; nothing if joints have no bounded relative motion: if they can be scaled to 0
 std::optional<double> influenceDisplacement(const mesh::SourceMesh& all, const mesh::SourceMesh& kept,
                                             const MeshMotion& motion);
 

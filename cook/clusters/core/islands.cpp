@@ -10,7 +10,8 @@ namespace hearth::clusters
 namespace
 {
 
-// A quarter of a cluster: tearing a larger island costs fewer vertices than keeping it whole wastes triangles.
+// A quarter of a cluster: splitting a larger island costs fewer vertices than keeping it whole wastes
+// triangles.
 constexpr uint32_t kSmallIsland = 32;
 
 } // namespace

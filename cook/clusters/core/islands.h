@@ -1,4 +1,4 @@
-// Connected pieces of a mesh by position, and what small ones mean for splitting.
+// Finds connected pieces (islands) of a mesh, and keeps small ones together for splitting.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,7 +12,7 @@
 namespace hearth::clusters
 {
 
-/// Disjoint sets over [0, count): union by smaller index, path halving.
+/// Disjoint sets (union-find) over [0, count): union by smaller index, path halving.
 class DisjointSets
 {
 public:
@@ -24,19 +24,19 @@ private:
     std::vector<uint32_t> parent_;
 };
 
-/// The least position (or vertex: whatever the corners are) of each triangle's island.
+/// Return the smallest position (or vertex, depending on the corners) of each triangle's island.
 /// corners  three for each triangle, all below corner_limit
 std::vector<uint32_t> islandOfTriangles(std::span<const uint32_t> corners, size_t corner_limit);
 
-/// Where the splitter takes triangles to be: at their own centers; but triangles of an island of at most 32 triangles
-/// all move to the island's center, so that a leaf, a pebble or a small chart is not torn apart between clusters.
-/// Islands are by vertex here: what shares no vertex costs nothing to separate.
+/// Set the centers that the splitter uses. Triangles of an island of at most 32 triangles move to the
+/// island's center, so that a leaf, a pebble or a small chart is not torn apart between clusters. Islands are
+/// by vertex here: pieces that share no vertex cost nothing to separate.
 ///
 /// centers   of the triangles, changed in place
 /// vertices  three for each triangle, all below vertex_count
 void gatherSmallIslands(std::span<Float3> centers, std::span<const uint32_t> vertices, size_t vertex_count);
 
-/// The center of a triangle, without overflow for any finite corners.
+/// Return the center of a triangle, without overflow for any finite corners.
 inline Float3 triangleCenter(Float3 a, Float3 b, Float3 c)
 {
     constexpr float kThird = 1.0f / 3.0f;

@@ -1,4 +1,4 @@
-// Arithmetic on four numbers side by side.
+// SIMD arithmetic on four numbers side by side.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -18,7 +18,7 @@ inline float inverseOr0(float x)
     return x > 0 ? 1.0f / x : 0.0f;
 }
 
-/// Four numbers that are computed side by side: what every x86-64 and ARM64 processor has.
+/// Vector of four floats: the width that every x86-64 and ARM64 processor has.
 inline constexpr size_t kLanes = 4;
 using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
 using LaneMask = int32_t __attribute__((vector_size(kLanes * sizeof(int32_t))));
@@ -52,13 +52,13 @@ inline float greatestLane(Lanes x)
 {
     return std::max(std::max(x[0], x[1]), std::max(x[2], x[3]));
 }
-/// NaN becomes 0.
+/// Clamp to [0, 1]; NaN becomes 0.
 inline Lanes clampToUnit(Lanes x)
 {
     return minimum(maximum(x, allLanes(0)), allLanes(1));
 }
 
-/// Rows to columns.
+/// Transpose a 4 x 4 matrix of rows.
 inline std::array<Lanes, kLanes> transposed(const std::array<Lanes, kLanes>& r)
 {
     const Lanes low01 = __builtin_shufflevector(r[0], r[1], 0, 4, 1, 5);
@@ -95,7 +95,7 @@ inline LaneVector allLanes(Float3 p)
 {
     return {allLanes(p.x), allLanes(p.y), allLanes(p.z)};
 }
-/// x, y, z and 0.
+/// Return the sums of x, of y and of z over the lanes, and 0.
 inline Lanes sumsOfLanes(LaneVector v)
 {
     const std::array<Lanes, kLanes> columns = transposed({v.x, v.y, v.z, Lanes{}});

@@ -1,4 +1,5 @@
-// What moves a deformed mesh, over all poses of its scene: joints as cook/animation_bounds bounds them, and morph weights.
+// Motion of a deformed mesh over all poses of its scene: joints as bounded by cook/animation_bounds, and
+// morph weights.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,10 +10,11 @@
 namespace hearth::clusters
 {
 
+/// Joint motion and morph weights of one mesh.
 struct MeshMotion
 {
-    const motion::SkinMotion* skin = nullptr; ///< null: joints never move against each other
-    std::vector<float> most_morph_weights; ///< of each target the largest absolute weight; missing ones are 1
+    const motion::SkinMotion* skin = nullptr; ///< null: joints never move relative to each other
+    std::vector<float> most_morph_weights;    ///< largest absolute weight of each target; missing ones are 1
 };
 
 } // namespace hearth::clusters

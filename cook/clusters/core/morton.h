@@ -1,4 +1,4 @@
-// A position along the Z-order curve: near numbers are near places.
+// Morton codes: numbers along the Z-order curve, on which near numbers are near positions.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 

@@ -1,4 +1,4 @@
-// Comparing sets of numbers by the sums of their hashes.
+// Compares sets of numbers by the sums of their hashes.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,7 +7,8 @@
 namespace hearth::clusters
 {
 
-/// Sums of such numbers, modulo 2^64, are equal for equal multisets only, but for a chance of 2^-64.
+/// Hash a number. Sums of hashes, modulo 2^64, are equal only for equal multisets, with an error chance of
+/// 2^-64.
 inline uint64_t hashOf(uint64_t number)
 {
     number = (number + 1) * 0x9E3779B97F4A7C15u;

@@ -15,7 +15,7 @@ namespace hearth::clusters
 namespace
 {
 
-// Differences of UVs beyond this, in lengths of the group's mesh, are all alike: their squares stay numbers.
+// UV differences beyond this, in local lengths, count the same: their squares stay finite.
 constexpr float kFarthestUv = 1e6f;
 
 float dot(Float2 a, Float2 b)
@@ -23,7 +23,7 @@ float dot(Float2 a, Float2 b)
     return a.x * b.x + a.y * b.y;
 }
 
-/// NaN becomes the limit as well.
+/// Clamp a length; NaN becomes the limit as well.
 float limited(float length)
 {
     return length > -kFarthestUv && length < kFarthestUv ? length : kFarthestUv;
@@ -62,7 +62,7 @@ public:
     }
 
 private:
-    /// What the new surface has in place of a wedge's attributes, less these.
+    /// Return the new surface's attributes minus the wedge's.
     Difference differenceAt(uint32_t wedge, const FacetPoint& point) const
     {
         const uint32_t vertex = group_.vertex_of_wedge[wedge];
@@ -81,7 +81,7 @@ private:
         return difference;
     }
 
-    /// The new surface's value at a point, of those that the vertices have.
+    /// Interpolate a vertex attribute of the new surface at a point.
     template <typename Value>
     Value valueAt(const FacetPoint& point, const std::vector<Value>& of_mesh,
                   const std::vector<Value>& of_made) const
@@ -101,7 +101,8 @@ private:
         return simplified_.pruned && (gone(triangle * 3) || gone(triangle * 3 + 1) || gone(triangle * 3 + 2));
     }
 
-    /// The mean square of what is linear on a triangle is that of its corners and their sum, by 12.
+    /// Integrate linear functions: the mean square over a triangle is the sum of the squares of the corner
+    /// values and of their sum, divided by 12.
     AttributeError meanOfDifferences() const
     {
         double area = 0, normal2 = 0, uv2 = 0;
@@ -155,7 +156,7 @@ AttributeStep measureAttributes(const GroupMesh& group, const NewSurface& after)
 
 double angleOfChord(double chord)
 {
-    // the sine of half the angle, halved twice: then five terms of the series of asin are exact to 1e-7
+    // halve the half-angle twice: then five terms of the series of asin are exact to 1e-7
     const auto halve = [](double sine) { return sine / std::sqrt(2 * (1 + std::sqrt(1 - sine * sine))); };
     const double x = halve(halve(std::min(chord / 2, 1.0)));
     const double x2 = x * x;

@@ -1,4 +1,5 @@
-// How far normals and UVs lie from those that they stand for, as measured. See cook/clusters/README.md, "Normals and UVs".
+// Measures the errors of normals and UVs after simplification. See
+// cook/clusters/README.md, "Normals and UVs".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -14,38 +15,39 @@
 namespace hearth::clusters
 {
 
-/// Root mean squares over a surface. They are measured at vertices: no bounds.
+/// Root mean square errors over a surface. They are measured at vertices: not bounds.
 struct AttributeError
 {
     float normal = 0; ///< radians
-    float uv = 0;     ///< of the first set, object space: the difference as a length on the surface
+    float uv = 0;     ///< first UV set, object space: the difference as a length on the surface
 };
 
-/// What one simplification adds.
+/// Attribute error that one simplification adds.
 struct AttributeStep
 {
     AttributeError error;
     float edge_length = 0; ///< object space, root mean square over the new triangles
 };
 
-/// A simplified group with its vertices: kMadeVertex + i is number i of `made`, others are the mesh's.
+/// Simplified group with its vertices: kMadeVertex + i is vertex i of `made`, others are the mesh's.
 struct NewSurface
 {
     const Simplified& simplified;
     const Surface& surface;
-    std::span<const FacetPoint> points; ///< for each wedge, if it went or moved: where it lies on the surface
+    /// For each wedge that was removed or moved, its point on the surface.
+    std::span<const FacetPoint> points;
     const mesh::SourceMesh& mesh;
     const mesh::SourceMesh& made;
     std::span<const uint32_t> vertex_of_wedge;
 };
 
-/// Compare the attributes of the group's vertices with those at the nearest points of the
-/// new surface around where their positions went. Differences count as linear over the group's triangles; what was
-/// pruned is left out.
+/// Compare the attributes of the group's vertices with those at the nearest points of the new surface around
+/// their positions' targets. Differences count as linear over the group's triangles; pruned triangles are
+/// left out.
 AttributeStep measureAttributes(const GroupMesh& group, const NewSurface& after);
 
-/// The angle between two unit vectors whose difference has this length, from 0 to pi; without functions that round
-/// differently from one machine to the next.
+/// Return the angle between two unit vectors from the length of their difference, from 0 to pi. Avoids
+/// functions that round differently from one machine to the next.
 double angleOfChord(double chord);
 
 } // namespace hearth::clusters

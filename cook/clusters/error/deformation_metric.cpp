@@ -12,10 +12,10 @@ namespace hearth::clusters
 namespace
 {
 
-/// Joints of a vertex at most: two sets.
+/// Maximum joints of a vertex: two sets.
 constexpr size_t kMostInfluences = 8;
 
-/// Of the triangles of two points.
+/// Maximum joints of the triangles of two points.
 constexpr size_t kMaxPairJoints = 6 * kMostInfluences;
 
 double partOf(const Float4& weights, size_t i)
@@ -23,15 +23,15 @@ double partOf(const Float4& weights, size_t i)
     return double{i == 0 ? weights.x : i == 1 ? weights.y : i == 2 ? weights.z : weights.w};
 }
 
-/// By how much two points differ in what one joint moves.
+/// Difference of two points in one joint's terms.
 struct JointDifference
 {
     uint32_t joint;
     double weight = 0;
-    Double3 moved; ///< of weight * place
+    Double3 moved; ///< of weight * position
 };
 
-/// The differences for all joints that move a vertex of either point's triangle.
+/// Differences for all joints of the vertices of either point's triangle.
 class JointDifferences
 {
 public:
@@ -72,7 +72,7 @@ Double3 placeOf(const DeformedPoint& point)
     return place;
 }
 
-/// Sum over the triangle's vertices of part * weight of `joint` * delta of `target`.
+/// Return the sum over the triangle's vertices of part * weight of `joint` * delta of `target`.
 Double3 movedDelta(const DeformedPoint& point, uint32_t joint, size_t target)
 {
     Double3 sum;

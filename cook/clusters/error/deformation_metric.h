@@ -1,4 +1,5 @@
-// How far apart points of two surfaces can come in any pose of a deformed mesh. See cook/clusters/README.md, "Deformed meshes".
+// Bounds distances between points of two surfaces over all poses of a deformed mesh. See
+// cook/clusters/README.md, "Deformed meshes".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -16,7 +17,7 @@
 namespace hearth::clusters
 {
 
-/// What deforms the vertices of one surface.
+/// Deformation data of the vertices of one surface.
 class DeformedSurface
 {
 public:
@@ -27,8 +28,8 @@ public:
     };
 
     /// Append a vertex.
-    /// place    in units of `scale`
-    /// source   has its joints, weights and morph deltas as number `vertex`
+    /// place   position in units of `scale`
+    /// source  its vertex `vertex` has the joints, weights and morph deltas
     void add(Float3 place, const mesh::SourceMesh& source, uint32_t vertex, double scale);
 
     Double3 place(uint32_t vertex) const { return places_[vertex]; }
@@ -46,39 +47,42 @@ private:
     std::vector<Double3> places_;
     std::vector<Influence> influences_;
     std::vector<size_t> first_influence_{0};
-    std::vector<Double3> deltas_; ///< of each vertex, one for each target
+    std::vector<Double3> deltas_; ///< for each vertex, one for each target
     size_t delta_count_ = 0;
 };
 
-/// A point of a surface: in a triangle, by its three vertices.
+/// Point of a surface: barycentric coordinates in a triangle of three vertices.
 struct DeformedPoint
 {
     const DeformedSurface* surface;
     std::array<uint32_t, 3> vertices;
-    std::array<double, 3> parts; ///< sum 1
+    std::array<double, 3> parts; ///< sum to 1
 };
 
-/// Bounds distances over all poses; keeps what it has asked of the motion. A skinned point is the sum over joints of M_j h_j with h_j = w_j (x, 1), so it is linear in what vertices
-/// have, and with D_j = M_b^-1 M_j for a main bone b two points differ by at most the norm of M_b times
-///     |dx| + sum over j of (rotation_j |d(w_j (x - pivot_j))| + shift_j |dw_j|),
-/// where |D_j x - x| <= rotation_j |x - pivot_j| + shift_j in all poses; each morph target adds |d delta| and
-/// rotation_j |d(w_j delta)| times its largest weight. It is convex along straight lines on both surfaces.
+/// Bounds distances over all poses; caches the joint motions that it has queried.
+///
+/// A skinned point is the sum over joints of M_j h_j with h_j = w_j (x, 1), so it is linear in the data of
+/// the vertices. With D_j = M_b^-1 M_j for a main joint b, two points differ by at most the norm of M_b times
+/// |dx| + sum over j of (rotation_j |d(w_j (x - pivot_j))| + shift_j |dw_j|), where |D_j x - x| <= rotation_j
+/// |x - pivot_j| + shift_j in all poses. Each morph target adds |d delta| and rotation_j |d(w_j delta)| times
+/// its largest weight. The bound is convex along straight lines on both surfaces.
 class DeformationMetric
 {
 public:
-    /// center, scale  of the surfaces' places: object = center + scale * place
+    /// center, scale  of the surfaces' local positions: object = center + scale * local
     DeformationMetric(Double3 center, double scale, const MeshMotion& motion);
 
-    /// A joint against which the motion of all joints of these triangles has a bound: of those of the point's triangle that
-    /// have one the one with the most weight there, else any of the skin; nothing where there is none.
+    /// Find a joint relative to which the motion of all joints of these triangles is bounded: among those of
+    /// the point's triangle the one with the most weight there, else any of the skin; nothing if there is
+    /// none.
     std::optional<uint32_t> mainJoint(const DeformedPoint& point, std::span<const DeformedPoint> others);
 
-    /// In units of the places, for a scale of 1 of the main joint's transform. All joints of both points have a bound
-    /// against the main joint.
+    /// Return the bound of the distance in local units, for a scale of 1 of the main joint's transform. All
+    /// joints of both points must be bounded relative to the main joint.
     double between(const DeformedPoint& a, const DeformedPoint& b, uint32_t main);
 
 private:
-    /// motion::Departure in units of the places.
+    /// motion::Departure in local units.
     struct Departure
     {
         enum class State : uint8_t

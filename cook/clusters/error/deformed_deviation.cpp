@@ -18,21 +18,22 @@ namespace hearth::clusters
 namespace
 {
 
-// Rounding of a distance between points in [-1, 1]^3, of places and of weights: a few times 2^-23, with room.
+// Rounding of a distance between points in [-1, 1]^3, of positions and of weights: a few times 2^-23, with
+// margin.
 constexpr float kPosedRounding = 4e-6f;
 
-// As boundDeviation: a list of so many likely facets, and what may be added to an error that is carried on.
+// As in boundDeviation: size of a list of likely triangles, and slack on an error that is carried on.
 constexpr size_t kMaxPosedLikely = 5 * kLanes;
 constexpr float kPosedCarriedSlack = kSlack - 1;
 
-/// One of the two surfaces.
+/// Surface before or after the simplification.
 struct Side
 {
-    std::span<const uint32_t> positions; ///< three for each facet
-    std::span<const uint32_t> wedges;    ///< the same
-    std::span<const Float3> places;      ///< of positions
+    std::span<const uint32_t> positions; ///< position ids, three for each triangle
+    std::span<const uint32_t> wedges;    ///< three for each triangle
+    std::span<const Float3> places;      ///< position of each position id
     DeformedSurface vertices;            ///< by wedge
-    NumberLists facets_at;               ///< facets at each position
+    NumberLists facets_at;               ///< triangles at each position
     FacetIndex index;
 
     size_t facetCount() const { return positions.size() / 3; }
@@ -54,7 +55,7 @@ std::array<double, 3> partsOf(double v, double w)
     return {1 - v - w, v, w};
 }
 
-/// The metric between a piece of one triangle and a few facets of the other surface.
+/// Metric between a piece of one triangle and a few triangles of the other surface.
 class FacetMetric final : public SurfaceMetric
 {
 public:
@@ -63,7 +64,7 @@ public:
     {
     }
 
-    /// False where no joint bounds the motion of all others.
+    /// Load the candidate triangles. False if no joint bounds the motion of all others.
     bool load(std::span<const uint32_t> facets) override
     {
         facets_.assign(facets.begin(), facets.end());
@@ -105,10 +106,10 @@ private:
     uint32_t main_ = 0;
 };
 
-/// A triangle that is held against the other surface.
+/// Triangle to compare with the other surface.
 struct Task
 {
-    float moved; ///< how far its farthest corner lies from where it went: the largest bound rules others out
+    float moved; ///< largest distance of a corner to its target: the largest bound rules others out
     uint32_t triangle;
     bool before;
 };
@@ -186,7 +187,8 @@ private:
         return far;
     }
 
-    /// What is as it was keeps its error; all others are to be measured, those that moved farthest first.
+    /// Keep the errors of unchanged triangles, and return the others as tasks, those that moved farthest
+    /// first.
     std::vector<Task> findTasks()
     {
         std::vector<uint8_t> kept(before_.facetCount(), 0);
@@ -248,7 +250,8 @@ private:
                 likely_.push_back(facet);
     }
 
-    /// How far any point of the triangle can come from the other surface. Leaves the facets that serve in served_.
+    /// Bound the distance of any point of the triangle to the other surface. Leaves the triangles that the
+    /// bound was taken from in served_.
     float bound(const Side& from, uint32_t triangle, Side& to, float carried)
     {
         FacetMetric metric(metric_, from, triangle, to);
@@ -261,14 +264,14 @@ private:
 
     const GroupMesh& group_;
     const Simplified& simplified_;
-    std::vector<uint32_t> positions_before_; ///< three for each triangle
+    std::vector<uint32_t> positions_before_; ///< three position ids for each triangle
     Side before_;
     Side after_;
     DeformationMetric metric_;
     NearestBound nearest_;
-    std::vector<uint32_t> likely_; ///< facets of the other surface, each once
+    std::vector<uint32_t> likely_; ///< triangles of the other surface, each once
     std::vector<uint32_t> served_;
-    float worst_ = 0;           ///< the largest total so far
+    float worst_ = 0;           ///< largest total up to now
     std::vector<float> errors_; ///< for each triangle after
 };
 
@@ -284,7 +287,7 @@ Deviation boundDeformedDeviation(const GroupMesh& group, const Simplified& simpl
 namespace
 {
 
-/// How far at most the triangles of one surface are from the other one.
+/// Bound the distance of the triangles of one surface to the other one.
 double oneWay(const Side& from, const Side& to, DeformationMetric& metric)
 {
     const SurfaceTree tree({to.places, to.positions});

@@ -17,20 +17,20 @@ namespace hearth::clusters
 namespace
 {
 
-// Rounding of a distance between points in [-1, 1]^3: a few times 2^-23, with room.
+// Rounding of a distance between points in [-1, 1]^3: a few times 2^-23, with margin.
 constexpr float kRounding = 2e-6f;
 
-// A search that the surfaces' order starts takes so many likely facets.
+// Maximum likely triangles of a search, and those that are guessed from the triangles' order.
 constexpr size_t kMaxLikely = 5 * kLanes;
 constexpr size_t kNeighbours = 2 * kLanes;
 
 // A distance below this part of a triangle's size is mostly rounding.
 constexpr float kFlat = 1e-4f;
 
-// Of an error that is carried on, this part may be added to a distance without a closer look.
+// Part of a carried error that may be added to a distance without a closer search.
 constexpr float kSlackOfCarried = kSlack - 1;
 
-/// A short list of facets, each once.
+/// Short list of triangles, each once.
 class Likely
 {
 public:
@@ -48,7 +48,7 @@ public:
             add(facet);
     }
 
-    /// Those around the corner where a side starts.
+    /// Add the triangles around the corner where a half-edge starts.
     void addAround(std::span<const uint32_t> twins, uint32_t start)
     {
         uint32_t side = start;
@@ -74,12 +74,12 @@ public:
     std::span<const uint32_t> facets() const { return facets_; }
 
 private:
-    std::vector<uint32_t> list_of_facet_; ///< number of the last list that it was in
+    std::vector<uint32_t> list_of_facet_; ///< number of the last list that contained each triangle
     uint32_t list_ = 0;
     std::vector<uint32_t> facets_;
 };
 
-/// An upper bound of what a triangle adds up to: the error that is carried, and its distance.
+/// Upper bound of a triangle's total: its carried error plus its distance.
 struct Total
 {
     float upper;
@@ -94,7 +94,7 @@ struct Total
     }
 };
 
-/// Bounds the triangles from before that are gone or changed, and those that are new.
+/// Bounds the triangles before that were removed or changed, and the new ones.
 class GroupMeasure
 {
 public:
@@ -124,7 +124,7 @@ public:
         settleLargest();
         for (uint32_t t = 0; t < errors_.size(); ++t)
         {
-            // what is larger comes from triangles that were searched
+            // larger sums come from triangles that were searched
             give(t, std::min(sums_[t], worst_));
             errors_[t] += kRounding;
         }
@@ -157,8 +157,8 @@ private:
 
     uint8_t moved(size_t corner) const { return moved_[positions_before_[corner]]; }
 
-    /// Calls visit(total) for all that changed, as the map has it, and that are not below `least`, which is at least 0.
-    /// Few are: that is the one branch.
+    /// Call visit(total) for all changed triangles whose total by the map is at least `least` (>= 0). Few
+    /// are: that is the only branch.
     template <typename Visit>
     void forEachTotal(const float& least, Visit visit) const
     {
@@ -181,7 +181,8 @@ private:
         }
     }
 
-    /// Largest first: once one needs no closer look, neither do the others. The largest of all rules most of them out.
+    /// Search the largest totals first: once one needs no search, neither do the others. The largest of all
+    /// rules most of them out.
     void settleLargest()
     {
         Total largest{0, 0, false};
@@ -220,7 +221,7 @@ private:
         total.before ? searchBefore(total.triangle) : searchAfter(total.triangle);
     }
 
-    /// On a plane there is nothing to search for: all distances are rounding.
+    /// True if all distances are rounding, as on a plane, where a search is useless.
     bool isRounding(const Total& total) const
     {
         const Corners corners =
@@ -275,10 +276,11 @@ private:
         worst_ = std::max(worst_, carried + distance);
     }
 
-    /// Nothing is gained below the largest total that there is.
+    /// Return the tolerance of a search: nothing is gained below the largest total so far.
     Allowance allowance(float carried) const { return {worst_ - carried, carried * kSlackOfCarried}; }
 
-    /// New triangles that were near an old one in the clusters' order: a fair guess for those of islands that are gone.
+    /// Add new triangles that are close to an old one in the clusters' order: a fair guess for islands that
+    /// were removed.
     void addNeighboursInOrder(size_t source)
     {
         const auto& left = simplified_.source_triangle;
@@ -293,17 +295,17 @@ private:
     const GroupMesh& group_;
     const Simplified& simplified_;
     const Surface& after_;
-    std::vector<uint32_t> positions_before_; ///< three for each triangle
+    std::vector<uint32_t> positions_before_; ///< three position ids for each triangle
     std::vector<uint8_t> moved_;             ///< for each position: it is not where it was
-    std::vector<uint8_t> changed_;           ///< for each triangle before: it is not there any more as it was
+    std::vector<uint8_t> changed_;           ///< for each triangle before: it was removed or changed
     SurfaceMap map_;
     FacetIndex index_before_;
     FacetIndex index_after_;
-    std::vector<float> sums_; ///< for each triangle after, of those
+    std::vector<float> sums_; ///< for each triangle after, SurfaceMap::sumsOver
     Likely likely_before_;
     Likely likely_after_;
     NearestBound nearest_;
-    float worst_ = 0;           ///< the largest total so far, as far as it was searched
+    float worst_ = 0;           ///< largest total so far, among those that were searched
     std::vector<float> errors_; ///< for each triangle after
 };
 

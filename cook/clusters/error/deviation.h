@@ -1,4 +1,4 @@
-// How far a simplified group lies from the source, as a bound. See cook/clusters/README.md, "Error".
+// Bounds the distance of a simplified group to the source. See cook/clusters/README.md, "Error".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -14,19 +14,21 @@
 namespace hearth::clusters
 {
 
+/// Bound of the distance of a simplified group to the source.
 struct Deviation
 {
-    /// For each triangle of the simplified group, in units of the group's mesh: no point of it is farther from the
-    /// source, and no point of the source for which it stands is farther from it.
+    /// Error of each triangle of the simplified group, in local units: no point of it is farther from the
+    /// source, and no point of the source that it represents is farther from it.
     std::vector<float> errors;
-    uint64_t loose_pieces = 0; ///< pieces whose bound was taken before the search for a better one ended
+    uint64_t loose_pieces = 0; ///< pieces whose search ended early, so that their bounds are not tight
 };
 
-/// Carry the errors of the group's triangles on to those that replace them: a triangle's error is the largest, over the
-/// triangles beside it on the other surface, of their error and the distance between the two, both ways. The largest of
-/// all is searched for until 10 % more are certain; smaller ones may be looser.
+/// Carry the errors of the group's triangles on to those that replace them. A triangle's error is the
+/// largest, over the triangles beside it on the other surface, of their error and the distance between the
+/// two, in both directions. The largest total is searched until its bound is within 10 %; smaller ones may be
+/// looser.
 /// after   the simplified group's surface
-/// points  where the group's positions lie on it, of those that went or moved
+/// points  points of `after` to which the group's removed or moved positions map
 Deviation boundDeviation(const GroupMesh& group, const Simplified& simplified, const Surface& after,
                          std::span<const FacetPoint> points);
 

@@ -39,7 +39,7 @@ void ErrorsBelow::add(const GroupErrors& errors, uint32_t triangles)
 
 GroupErrors ErrorsBelow::plus(const Replacement& replacement, const Config& config) const
 {
-    // what each level loses is finer than what the next one does: such waves add up by their squares
+    // each level loses finer waves than the next one: such waves add up by their squares
     const double count = std::max(triangles_, 1.0);
     const AttributeError& step = replacement.attributes.error;
     const double normal = std::sqrt(normal2_ / count + square(double{step.normal}));

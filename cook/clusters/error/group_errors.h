@@ -1,4 +1,5 @@
-// What drawing in place of a group is off by: the error of the cut, and its parts. See cook/clusters/README.md, "Normals and UVs".
+// Errors of drawing the replacement of a group: the error that chooses the cut, and its parts. See
+// cook/clusters/README.md, "Normals and UVs".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,39 +11,39 @@
 namespace hearth::clusters
 {
 
-/// Object space. None falls from a group to those above it, but for the parts of roots.
+/// Errors in object space. No value falls from a group to its parents, except the parts at roots.
 struct GroupErrors
 {
-    float lod = 0;      ///< as it counts for the cut; infinity for a root
-    float position = 0; ///< a bound of the distance to the source
+    float lod = 0;      ///< error that chooses the cut; infinity for a root
+    float position = 0; ///< bound of the distance to the source
     AttributeError attributes;
 };
 
-/// Nothing replaces a root: the error is infinite, its parts are 0.
+/// Return the errors of a root: nothing replaces it, so the error is infinite and its parts are 0.
 GroupErrors rootErrors();
 
-/// What a replacement is off by.
+/// Errors of a replacement.
 struct Replacement
 {
-    float distance = 0;       ///< to the source: those below are part of it
-    AttributeStep attributes; ///< against what it replaces, or the source
-    float weight = 1;         ///< on the error of the cut
+    float distance = 0;       ///< to the source: includes the distances of the levels below
+    AttributeStep attributes; ///< relative to what it replaces, or to the source
+    float weight = 1;         ///< factor on the error that chooses the cut
 };
 
-/// The errors of what a group is made of.
+/// Accumulated errors of the clusters that a group consists of.
 class ErrorsBelow
 {
 public:
-    /// position  error of the source itself
+    /// position  position error of the source itself
     explicit ErrorsBelow(float position) : largest_{position, position, {}} {}
 
     void add(const GroupErrors& errors, uint32_t triangles);
 
-    /// The errors of what replaces it all, whose attributes were compared with what it replaces. An empty replacement
-    /// is what was there.
+    /// Return the errors of a replacement whose attributes were compared with what it replaces. An empty
+    /// replacement leaves the errors unchanged.
     GroupErrors plus(const Replacement& replacement, const Config& config) const;
 
-    /// The same for one whose attributes were compared with the source's.
+    /// Return the errors of a replacement whose attributes were compared with the source's.
     GroupErrors orOf(const Replacement& replacement, const Config& config) const;
 
 private:
@@ -50,7 +51,8 @@ private:
                            const Config& config) const;
 
     GroupErrors largest_;
-    double normal2_ = 0; ///< sums over the triangles
+    /// Sums over the triangles.
+    double normal2_ = 0;
     double uv2_ = 0;
     double triangles_ = 0;
 };

@@ -17,7 +17,7 @@ using namespace formats;
 namespace
 {
 
-/// Any unit vector that stands upright on the normal.
+/// Return any unit vector orthogonal to the normal.
 Float4 anyTangent(Float3 normal)
 {
     const Float3 axis = std::abs(normal.x) < 0.5f ? Float3{1, 0, 0} : Float3{0, 1, 0};
@@ -25,7 +25,7 @@ Float4 anyTangent(Float3 normal)
     return {tangent.x, tangent.y, tangent.z, 1};
 }
 
-/// The array with `count` values, or none where the source has none.
+/// Make the array hold `count` values, or none if the source has none.
 template <typename T>
 void fit(std::vector<T>& values, bool wanted, size_t count, T otherwise)
 {
@@ -35,7 +35,7 @@ void fit(std::vector<T>& values, bool wanted, size_t count, T otherwise)
         values.assign(count, otherwise);
 }
 
-/// Give the level the attributes that the source has.
+/// Give the authored LOD the attributes that the source has.
 void fitAttributes(const mesh::SourceMesh& source, mesh::SourceMesh& level)
 {
     const size_t count = level.vertexCount();
@@ -64,7 +64,7 @@ void fitAttributes(const mesh::SourceMesh& source, mesh::SourceMesh& level)
     }
 }
 
-/// The triangles of prepared.materials[first ..) whose material, which numbers them, is below `end`.
+/// Take the triangles of prepared.materials[first ..) whose material, which is their number, is below `end`.
 AuthoredLevel takeTriangles(const PreparedMesh& prepared, size_t& first, size_t end,
                             std::span<const uint32_t> materials)
 {
@@ -88,7 +88,7 @@ JoinedMesh joinAuthored(mesh::SourceMesh source, std::span<const mesh::SourceMes
         joined.mesh = prepareMesh(std::move(source), influences, motion);
         return joined;
     }
-    // triangles are numbered in place of their materials, so that it shows which of them are kept
+    // materials are replaced by triangle numbers, to see which triangles remain
     std::vector<uint32_t> materials = std::move(source.triangle_materials);
     std::vector<size_t> ends{source.triangleCount()};
     for (mesh::SourceMesh level : authored)
@@ -126,7 +126,7 @@ JoinedMesh joinAuthored(mesh::SourceMesh source, std::span<const mesh::SourceMes
 namespace
 {
 
-// So many middles give a root mean square to a per cent; each costs some microseconds.
+// This many centers give a root mean square to a per cent; each costs some microseconds.
 constexpr size_t kLeastMiddles = 65536;
 
 using CornerWeights = std::array<float, 3>;
@@ -139,7 +139,7 @@ Value valueAt(const std::vector<Value>& values, std::span<const uint32_t> corner
            values[corners[2]] * weights[2];
 }
 
-/// The point of a triangle that is nearest to a place.
+/// Return the point of a triangle that is nearest to a position.
 CornerWeights nearestPoint(std::span<const Float3> positions, std::span<const uint32_t> corners, Float3 place)
 {
     const Facet facet = makeFacet(positions[corners[0]] - place, positions[corners[1]] - place,
@@ -210,7 +210,7 @@ AttributeStep measureAttributes(const PreparedMesh& mesh, std::span<const uint32
     AttributeStep step;
     if (surface > 0)
         step.error.normal = static_cast<float>(angleOfChord(std::sqrt(normal2 / surface)));
-    // the mean square is uv2 / surface, the square of a UV unit's length surface / texture
+    // the mean square is uv2 / surface; the square of a UV unit's length is surface / texture
     if (texture > 0 && !std::isnan(uv2))
         step.error.uv = roundUp(std::sqrt(uv2 / texture));
     step.edge_length = edgeLength(vertices.positions, level.corners);
@@ -219,7 +219,7 @@ AttributeStep measureAttributes(const PreparedMesh& mesh, std::span<const uint32
 
 void linkPagesOfSets(Hierarchy& hierarchy)
 {
-    // the pages of each set, by the number of its first group
+    // pages of each set, by the number of its first group
     std::vector<std::vector<uint32_t>> pages_of_set(hierarchy.groups.size());
     for (uint32_t g = 0; g < hierarchy.groups.size(); ++g)
     {
@@ -232,7 +232,7 @@ void linkPagesOfSets(Hierarchy& hierarchy)
     {
         if (cluster.refined_group == kNone)
             continue;
-        // clusters stand in page order: each list comes out ascending
+        // clusters are in page order: each list comes out ascending
         for (const uint32_t finer : pages_of_set[cluster.refined_group])
             if (finer != cluster.page && (parents[finer].empty() || parents[finer].back() != cluster.page))
                 parents[finer].push_back(cluster.page);

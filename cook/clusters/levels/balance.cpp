@@ -25,13 +25,13 @@ CostStop stopAt(double cost, const GroupGoal& goal)
             std::max(part(kMostOfShare), goal.triangles)};
 }
 
-/// A group that was tried.
+/// Trial simplification of a group.
 struct Trial
 {
     GroupGoal goal;
-    std::vector<CollapseStep> steps; ///< down to the least that may be left
+    std::vector<CollapseStep> steps; ///< down to the minimum number of triangles
 
-    /// As simplifyGroup does it.
+    /// Return the triangles that simplifyGroup would leave at a cost.
     size_t keptAt(double cost) const
     {
         const CostStop stop = stopAt(cost, goal);
@@ -46,7 +46,7 @@ struct Trial
     }
 };
 
-/// The lowest cost of a collapse with which the groups together come down to their goals.
+/// Return the lowest collapse cost at which the groups together reach their goals.
 double balancedCost(std::span<const Trial> trials)
 {
     std::vector<double> costs;

@@ -1,4 +1,5 @@
-// What a collapse may cost in the groups of a level, so that all of them lose alike: see cook/clusters/README.md, "Balance".
+// Balances the collapse costs of the groups of a level, so that all lose equally. See
+// cook/clusters/README.md, "Balance".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -8,7 +9,7 @@
 namespace hearth::clusters
 {
 
-/// A level before its groups are simplified.
+/// Level before its groups are simplified.
 struct LevelView
 {
     const PreparedMesh& mesh;
@@ -18,12 +19,12 @@ struct LevelView
     const Config& config;
 };
 
-/// A group may keep from so much of its share up to so much of it.
+/// Range of its share of triangles that a group may keep.
 inline constexpr double kLeastOfShare = 0.6;
 inline constexpr double kMostOfShare = 1.5;
 
-/// Let groups stop where collapses begin to cost the same in all of them, at a cost that leaves what their goals come to
-/// together. Groups whose curves ask them to keep different parts are balanced apart. Takes a third of the time of
+/// Let groups stop where collapses begin to cost the same in all of them, at a cost that leaves the sum of
+/// their goals. Groups with different `keep` are balanced separately. Takes a third of the time of
 /// simplifying them.
 void balanceGoals(const LevelView& level, std::span<GroupGoal> goals);
 

@@ -13,11 +13,11 @@ namespace
 
 using formats::kClusterMaxTriangles;
 
-// A target counts as met from here on; what users are promised is 3 %.
+// A target counts as met within this; users are promised 3 %.
 constexpr double kTargetSlack = 0.01;
 
-// Of more groups a cut takes finer ones where there is more to lose. Of few, each is so large a part of the mesh that it
-// cannot: there the groups themselves have to keep more or less.
+// With more groups, a cut takes finer ones where there is more to lose. With few, each is so large a part of
+// the mesh that a cut cannot: the groups themselves have to keep more or less.
 constexpr size_t kMostBalancedGroups = 12;
 
 struct GroupShare
@@ -41,8 +41,8 @@ GroupShare shareOf(const Reduction& reduction, uint32_t level, const ClusterStor
     return share;
 }
 
-/// Full clusters, up or down, so that over many groups the sum is that of the exact counts; where that would leave a
-/// group as it is, the exact count.
+/// Round up or down to full clusters, so that over many groups the sum is that of the exact counts. If that
+/// would leave a group unchanged, return the exact count.
 size_t nearestClusters(double triangles, size_t of)
 {
     const auto clusters = static_cast<size_t>(std::lround(triangles / kClusterMaxTriangles));
@@ -50,12 +50,13 @@ size_t nearestClusters(double triangles, size_t of)
     return rounded >= 1 && rounded < of ? rounded : std::max<size_t>(1, static_cast<size_t>(triangles));
 }
 
-/// The factor on every group's `keep` with which the groups together keep `wanted` triangles, no group all of its own.
+/// Return the factor on every group's `keep` with which the groups together keep
+/// `wanted` triangles, and each at most `largest_part` of its own.
 double spreadFactor(std::span<const GroupShare> shares, double wanted, double largest_part)
 {
     double low = 0;
     double high = 1 / double{kSmallestKeep};
-    // far beyond the resolution of a triangle in 2^31
+    // far finer than one triangle in 2^31
     constexpr int kHalvings = 60;
     for (int i = 0; i < kHalvings; ++i)
     {
@@ -79,7 +80,7 @@ GroupGoal goalOf(const GroupShare& share, double part)
     return goal;
 }
 
-/// The next target that is coarser than what there is, or nullptr.
+/// Return the next target that is coarser than the current level, or nullptr.
 const LevelTarget* targetAhead(const Reduction& reduction, uint32_t level, uint64_t drawn_below,
                                uint64_t triangles)
 {
@@ -90,7 +91,7 @@ const LevelTarget* targetAhead(const Reduction& reduction, uint32_t level, uint6
     return possible ? &*found : nullptr;
 }
 
-/// Goals whose sum is that of their exact values.
+/// Plan goals whose sum is that of their exact values.
 void planExactly(LevelPlan& plan, std::span<const GroupShare> shares, double factor, double largest_part)
 {
     double exact = 0;
@@ -138,7 +139,7 @@ LevelPlan planLevel(const Reduction& reduction, uint32_t level, const ClusterSto
     const auto remaining = static_cast<double>(target->triangles - drawn_below);
     const double part = std::pow(remaining / static_cast<double>(triangles), 1.0 / steps);
     const double wanted = part * static_cast<double>(triangles);
-    // no group stands still while others can do its share
+    // no group stands still while others can take its share
     const double largest_part = std::max(part, double{kLargestKeep});
     const double factor = spreadFactor(shares, wanted, largest_part);
     planExactly(plan, shares, factor, largest_part);
@@ -171,13 +172,13 @@ bool correctPlan(LevelPlan& plan, std::span<const size_t> kept, std::vector<uint
 {
     const auto wanted = static_cast<double>(plan.wanted);
     double sum = 0;
-    double stiff = 0;    // kept by groups that cannot go where they should
+    double stiff = 0;    // kept by groups that cannot reach their goals
     double flexible = 0; // kept by the others
     changed.assign(kept.size(), 0);
     for (size_t g = 0; g < kept.size(); ++g)
     {
         sum += static_cast<double>(kept[g]);
-        // a collapse takes two triangles, more where faces lie on each other
+        // a collapse removes two triangles, more where triangles coincide
         changed[g] = kept[g] <= plan.goals[g].triangles + 4 ? 1 : 0;
         (changed[g] != 0 ? flexible : stiff) += static_cast<double>(kept[g]);
     }

@@ -23,10 +23,11 @@ using namespace formats;
 namespace
 {
 
-/// Contains the members' geometry and the spheres of all groups that they were made from.
+/// Return a sphere that contains the members' geometry and the spheres of all groups that they were made
+/// from.
 Sphere groupSphere(const Build& build, const Level& level, std::span<const uint32_t> members)
 {
-    // the finer spheres hold the points of the finer groups, and with them all of the members' points
+    // the finer spheres contain the points of the finer groups, and so all of the members' points
     std::vector<Sphere> spheres;
     uint32_t last_refined = kNone;
     for (const uint32_t member : members)
@@ -57,7 +58,8 @@ ErrorsBelow errorsOf(const Build& build, const Level& level, std::span<const uin
     return errors;
 }
 
-/// Pass a stuck group on unchanged, if it has not been tried too often, or a level that was made by hand replaces it.
+/// Pass a stuck group on unchanged if it has retries left or an authored LOD will replace it; else leave it
+/// as a root.
 void passOn(const Build& build, const Level& level, std::span<const uint32_t> members, BuiltGroup& group)
 {
     const auto tries =
@@ -90,14 +92,14 @@ GroupErrors errorsOfReduced(const Build& build, const Level& level, std::span<co
         .plus({reduced.distance, reduced.attributes, goal.error_weight}, build.config);
 }
 
-/// Whether a cut could not tell the group from the source on the grid.
+/// True if the group cannot be distinguished from the source on the grid.
 bool losesNothing(const PreparedMesh& mesh, const GroupErrors& errors)
 {
     constexpr float kOfGrid = 1.5f;
     return errors.lod <= kOfGrid * mesh.grid.error;
 }
 
-/// Simplify a group, or decide what to do with one that is stuck: pass it on, or leave it as a root.
+/// Simplify a group, or handle a stuck one: pass it on, or leave it as a root.
 BuiltGroup buildGroup(const Build& build, const Level& level, std::span<const uint32_t> members,
                       std::span<const uint8_t> locked, const GroupGoal& goal)
 {
@@ -124,7 +126,7 @@ BuiltGroup buildGroup(const Build& build, const Level& level, std::span<const ui
             errors = of_smaller;
         }
     }
-    // an error beyond the floats cannot be stored: what it belongs to is a root
+    // an error beyond the float range cannot be stored: its group becomes a root
     if (!reduced.progressed ||
         std::max(errors.lod, errors.attributes.uv) >= std::numeric_limits<float>::max())
     {
@@ -138,7 +140,7 @@ BuiltGroup buildGroup(const Build& build, const Level& level, std::span<const ui
     return group;
 }
 
-/// Triangles that are drawn in place of each group of the level, or that it has itself where it is a root.
+/// Return, for each group of the level, the triangles of its replacement, or its own if it is a root.
 std::vector<size_t> keptTriangles(const Level& level)
 {
     std::vector<size_t> kept;
@@ -152,11 +154,11 @@ std::vector<size_t> keptTriangles(const Level& level)
     return kept;
 }
 
-/// Build the level's groups as the merge coefficient asks; where a target is not met because some groups could not do
-/// their share, the others do more.
+/// Build the level's groups by the plan. If a target is missed because some groups cannot do their share, the
+/// others do more.
 void buildGroups(const Build& build, Level& level, std::span<const uint8_t> locked, LevelPlan plan)
 {
-    // what the first correction asks is met but for what groups cannot do; each costs the level once more
+    // the first correction mostly suffices; each one builds the level again
     constexpr int kMaxCorrections = 3;
     std::vector<uint8_t> wanted(level.groups.count(), 1);
     level.built.resize(level.groups.count());
@@ -174,7 +176,7 @@ void buildGroups(const Build& build, Level& level, std::span<const uint8_t> lock
     }
 }
 
-/// Positions of roots can never move again: what lies beside them is drawn together with them.
+/// Pin the positions of roots, which can never move again: their neighbours are drawn together with them.
 void pinRoots(const PreparedMesh& mesh, const Level& level, std::vector<uint8_t>& pinned)
 {
     for (uint32_t g = 0; g < level.groups.count(); ++g)
@@ -184,7 +186,7 @@ void pinRoots(const PreparedMesh& mesh, const Level& level, std::vector<uint8_t>
                     pinned[mesh.position_of_vertex[vertex]] = 1;
 }
 
-/// Take over the vertices that a group has made: its clusters name them as the mesh does from then on.
+/// Move the vertices that a group has made to the mesh and renumber its clusters' vertices.
 void takeVertices(PreparedMesh& mesh, Reduced& outcome, ClusterStore& clusters)
 {
     const auto first_vertex = static_cast<uint32_t>(mesh.vertices.vertexCount());
@@ -199,7 +201,7 @@ void takeVertices(PreparedMesh& mesh, Reduced& outcome, ClusterStore& clusters)
     mesh::freeMemory(outcome.made_positions);
 }
 
-/// Collect what replaces the level's groups.
+/// Collect the replacements of the level's groups.
 Level nextLevel(PreparedMesh& mesh, Level& level)
 {
     Level next;
@@ -226,7 +228,7 @@ Level nextLevel(PreparedMesh& mesh, Level& level)
     return next;
 }
 
-/// A sphere around those of all groups and the vertices of the authored level.
+/// Return a sphere around those of all groups and the vertices of the authored LOD.
 Sphere setSphere(const Build& build, const Level& level, const AuthoredLevel& authored)
 {
     std::vector<Sphere> spheres;
@@ -243,21 +245,21 @@ Sphere setSphere(const Build& build, const Level& level, const AuthoredLevel& au
     return {sphere.center, roundUp(sphere.radius * kMonotoneSlack)};
 }
 
-/// Replace all groups of the level at once by the next authored level, and return that.
+/// Replace all groups of the level at once by the next authored LOD, and return that level.
 Level switchToAuthored(Build& build, Level& level, const LevelPlan& plan,
                        std::span<const uint32_t> source_corners)
 {
     const AuthoredLevel& authored = build.authored.front();
     const auto& positions = build.mesh.vertices.positions;
     const auto all = std::span<const uint32_t>(level.groups.members);
-    // what is nearer than the level below makes no difference
+    // distances below the error of the level below make no difference
     const float carried = *std::max_element(level.store.errors.begin(), level.store.errors.end());
     const SurfaceBound bound =
         boundSurfaces({positions, source_corners}, {positions, authored.corners}, double{carried});
     const double upper = build.mesh.deforms()
                              ? boundDeformedSurfaces(build.mesh, source_corners, authored.corners)
                              : bound.upper;
-    // without a bound the level is as good as never drawn
+    // without a bound the level is practically never drawn
     constexpr double kMost = 1e30;
     const float distance = roundUp(std::min(upper + double{build.mesh.grid.error}, kMost));
     float weight = 1;
@@ -290,7 +292,7 @@ Level switchToAuthored(Build& build, Level& level, const LevelPlan& plan,
     return next;
 }
 
-/// Whether the level that the plan makes would have no more triangles than the next authored one.
+/// True if the planned level would have no more triangles than the next authored LOD.
 bool authoredIsNext(const Build& build, const LevelPlan& plan)
 {
     uint64_t planned = 0;
@@ -299,7 +301,7 @@ bool authoredIsNext(const Build& build, const LevelPlan& plan)
     return !build.authored.empty() && planned <= build.authored.front().triangleCount();
 }
 
-/// What replaces the level's groups: what they are simplified to, or a level that was made by hand.
+/// Return the level that replaces the groups: their simplification, or an authored LOD.
 Level replaceGroups(Build& build, Level& level, std::span<const uint8_t> locked,
                     std::span<const uint32_t> source_corners)
 {
@@ -319,7 +321,7 @@ Level replaceGroups(Build& build, Level& level, std::span<const uint8_t> locked,
 
 void buildLevels(Build& build)
 {
-    // authored levels are measured against the source, and take its place in the mesh
+    // authored LODs are measured against the source, and replace it in the mesh
     const std::vector<uint32_t> source_corners =
         build.authored.empty() ? std::vector<uint32_t>{} : build.mesh.corners;
     std::vector<uint8_t> pinned(build.mesh.position_count, 0);

@@ -1,4 +1,4 @@
-// The levels of a hierarchy while they are built, and what builds them.
+// Builds the levels of a hierarchy; holds them while they are built.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -16,39 +16,40 @@
 namespace hearth::clusters
 {
 
-/// A group of a level that is built. Groups of all levels are numbered on, finest level first.
+/// Group of a level under construction. Groups of all levels have consecutive numbers, finest level first.
 struct BuiltGroup
 {
     Sphere sphere;
     GroupErrors errors;
-    ClusterStore clusters; ///< what replaces it, until the next level has taken it
+    ClusterStore clusters; ///< replacement of the group, until the next level takes it
     bool stuck = false;
     bool retried = false;
     uint32_t set_offset = 0; ///< formats::GroupRecord::set_offset
-    Reduced outcome;         ///< for the counts
+    Reduced outcome;         ///< for the counters
 
     bool isRoot() const { return std::isinf(errors.lod); }
 };
 
+/// Level of the hierarchy under construction.
 struct Level
 {
     ClusterStore store;
     std::vector<uint32_t> refined_group; ///< for each cluster, number of the group it was made from, or kNone
-    std::vector<uint8_t> retries;        ///< for each cluster, how often it was passed on unchanged
+    std::vector<uint8_t> retries;        ///< for each cluster, number of times it was passed on unchanged
     Groups groups;
     uint32_t first_group = 0; ///< number of its first group
     uint64_t drawn_below = 0; ///< triangles of the roots of finer levels
     std::vector<BuiltGroup> built;
 };
 
-/// The levels so far, and lookups by group number.
+/// Levels so far, and lookups by group number.
 struct Build
 {
     PreparedMesh mesh;
     const Config& config;
     std::vector<Level> levels;
-    std::span<const AuthoredLevel> authored; ///< those that are to come
-    std::vector<uint32_t> level_of_authored; ///< by number of the authored mesh; kNone: not used
+    std::span<const AuthoredLevel> authored; ///< authored LODs that are still to come
+    std::vector<uint32_t> level_of_authored; ///< level of each authored mesh; kNone: not used
 
     const BuiltGroup& group(uint32_t number) const
     {
@@ -60,7 +61,7 @@ struct Build
     }
 };
 
-/// Group, simplify and split level after level until nothing is left to simplify.
+/// Group, simplify and split level after level until nothing can be simplified further.
 void buildLevels(Build& build);
 
 } // namespace hearth::clusters

@@ -64,8 +64,8 @@ std::vector<uint8_t> degenerateTriangles(const mesh::SourceMesh& source)
     return degenerate;
 }
 
-/// Whether normals bend, but along three edges of four by less than six degrees: then one that is off by 0.7 degrees, as
-/// codes of 8 bits are, shows. Creases do not hide it on the sheets between them.
+/// True if normals bend, but along three edges of four by less than six degrees: then an error of 0.7
+/// degrees, as codes of 8 bits have, is visible. Creases do not hide it on the sheets between them.
 bool bendsGently(const mesh::SourceMesh& source, std::span<const uint32_t> corners)
 {
     constexpr float kFlat2 = 1e-6f;
@@ -92,7 +92,7 @@ void forEachArray(mesh::SourceMesh& to, const mesh::SourceMesh& from, Visit visi
     for (size_t set = 0; set < mesh::kUvSetCount; ++set)
         visit(to.uvs[set], from.uvs[set]);
     visit(to.colors, from.colors);
-    // a mesh that has no vertices yet has no sets either
+    // a mesh without vertices has no sets yet
     to.joint_sets.resize(std::max(to.joint_sets.size(), from.joint_sets.size()));
     to.weight_sets.resize(to.joint_sets.size());
     for (size_t set = 0; set < from.joint_sets.size(); ++set)
@@ -122,7 +122,7 @@ void appendVertex(mesh::SourceMesh& to, const mesh::SourceMesh& from, uint32_t v
 
 void appendVertices(mesh::SourceMesh& to, const mesh::SourceMesh& from)
 {
-    // one without vertices does not say how many sets and targets there are
+    // a mesh without vertices has no sets and targets
     if (from.positions.empty())
         return;
     forEachArray(to, from,
@@ -148,7 +148,7 @@ PreparedMesh prepareMesh(mesh::SourceMesh source, uint32_t influences, const Mes
 {
     PreparedMesh prepared;
     prepared.motion = motion;
-    mesh::SourceMesh all; // of joints and weights alone
+    mesh::SourceMesh all; // only joints and weights
     if (source.joint_sets.size() * 4 > influences)
     {
         all.joint_sets = source.joint_sets;
@@ -168,7 +168,7 @@ PreparedMesh prepareMesh(mesh::SourceMesh source, uint32_t influences, const Mes
     std::vector<uint32_t> first_equal;
     tbb::parallel_invoke([&] { weld = mesh::weldPositions(source.positions); },
                          [&] { first_equal = mesh::firstEqualVertices(source); });
-    // the arrays of the source take what is kept
+    // the arrays of the source are reused for the result
     prepared.corners = std::move(source.indices);
     prepared.materials = std::move(source.triangle_materials);
     size_t kept = 0;
@@ -177,7 +177,7 @@ PreparedMesh prepareMesh(mesh::SourceMesh source, uint32_t influences, const Mes
         const uint32_t a = first_equal[prepared.corners[t * 3]];
         const uint32_t b = first_equal[prepared.corners[t * 3 + 1]];
         const uint32_t c = first_equal[prepared.corners[t * 3 + 2]];
-        // what has become flat on the grid stays: only without it would its neighbours come apart
+        // triangles that became flat on the grid stay: removing them would disconnect their neighbours
         if (degenerate[t] != 0 || source.positions[a] == source.positions[b] ||
             source.positions[b] == source.positions[c] || source.positions[c] == source.positions[a])
         {

@@ -13,7 +13,7 @@ using namespace formats;
 namespace
 {
 
-/// Where the groups of the build stand in the file: coarse to fine, in spatial order within a level.
+/// Return the file index of each group of the build: coarse to fine, in spatial order within a level.
 std::vector<uint32_t> recordNumbers(const Build& build)
 {
     std::vector<uint32_t> record_of_group;
@@ -25,7 +25,7 @@ std::vector<uint32_t> recordNumbers(const Build& build)
     return record_of_group;
 }
 
-/// The records of level l, and the shapes of its clusters in their order.
+/// Append the records of level l, and the shapes of its clusters in the same order.
 void addLevelRecords(const Build& build, uint32_t l, std::span<const uint32_t> record_of_group,
                      Hierarchy& hierarchy, std::vector<ClusterShape>& shapes, uint32_t vertex_offset,
                      uint32_t index_offset)

@@ -1,4 +1,4 @@
-// From levels to what the file holds.
+// Converts levels to the records and pages of the file.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,7 +7,7 @@
 namespace hearth::clusters
 {
 
-/// Turn the levels into records and pages: coarse to fine. The levels give their geometry away.
+/// Turn the levels into records and pages, coarse to fine. Consumes the levels' geometry.
 void writeRecords(Build& build, Hierarchy& hierarchy);
 
 } // namespace hearth::clusters

@@ -20,8 +20,8 @@ namespace hearth::clusters
 namespace
 {
 
-/// What moves vertices at one place alike, as wedges on both sides of a border of a texture have it, stays equal: else it
-/// would tear in some pose.
+/// Keeps the influences of coincident vertices equal, like those of wedges on both sides of a texture seam:
+/// else the seam would open in some pose.
 class SharedInfluences
 {
 public:
@@ -30,7 +30,8 @@ public:
     {
     }
 
-    /// Give a vertex that was made for a wedge the influences of one that was made before it, if there is one.
+    /// Copy the influences of an earlier made vertex at the same position to a made vertex, if they moved
+    /// alike.
     void share(uint32_t wedge, uint32_t vertex)
     {
         auto& others = made_at_[group_.position_of_wedge[wedge]];
@@ -66,10 +67,10 @@ private:
     const mesh::SourceMesh& source_;
     const GroupMesh& group_;
     mesh::SourceMesh& made_;
-    std::vector<std::vector<Made>> made_at_; ///< those that differ, by position
+    std::vector<std::vector<Made>> made_at_; ///< distinct ones, by position
 };
 
-/// The vertex of each wedge that is left; those of remade positions are made.
+/// Return the vertex of each remaining wedge; those of remade positions are new.
 std::vector<uint32_t> makeVertices(const PreparedMesh& mesh, const GroupMesh& group,
                                    const Simplified& simplified, Reduced& reduced)
 {
@@ -100,7 +101,7 @@ std::vector<uint32_t> makeVertices(const PreparedMesh& mesh, const GroupMesh& gr
     return vertices;
 }
 
-/// Cut what is left into clusters, material by material in order of their numbers.
+/// Split the remaining triangles into clusters, material by material in ascending order.
 ClusterStore splitSimplified(const GroupMesh& group, const Simplified& simplified,
                              std::span<const uint32_t> vertex_of_wedge, std::span<const float> errors,
                              uint32_t vertex_limit)
@@ -145,7 +146,7 @@ Reduced reduceGroup(const PreparedMesh& mesh, const ClusterStore& store, std::sp
 {
     Reduced reduced;
     const GroupMesh group = gatherGroup(mesh, store, members, locked, config);
-    // one cluster less than there are
+    // one cluster less than before
     const size_t most_triangles = goal.exact || members.size() == 1
                                       ? group.triangleCount()
                                       : (members.size() - 1) * formats::kClusterMaxTriangles;

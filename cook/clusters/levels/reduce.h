@@ -1,4 +1,4 @@
-// What becomes of one group: clusters with fewer triangles, and the error of drawing them instead.
+// Reduces one group to clusters with fewer triangles, and bounds the error of drawing them instead.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,15 +13,16 @@
 namespace hearth::clusters
 {
 
+/// Result of reducing a group.
 struct Reduced
 {
-    bool progressed = false;              ///< false: the group is stuck and the rest says nothing
+    bool progressed = false;              ///< false: the group is stuck and the other members are not set
     ClusterStore clusters;                ///< vertices from kMadeVertex on are new ones
     mesh::SourceMesh made;                ///< attributes of made vertices
-    std::vector<uint32_t> made_positions; ///< position of each, numbered from 0
+    std::vector<uint32_t> made_positions; ///< position id of each made vertex, from 0
     uint32_t made_position_count = 0;
     float distance = 0;       ///< object space: largest error of the clusters' triangles
-    AttributeStep attributes; ///< of the clusters against the group's
+    AttributeStep attributes; ///< of the clusters relative to the group's
     bool permissive = false;
     bool pruned = false;
     bool merged = false;

@@ -101,7 +101,8 @@ Status checkMonotone(const Hierarchy& h)
     return success();
 }
 
-/// Groups of a set are alike, and all that their level has: what was made by hand fits beside none of them.
+/// Check that the groups of a set are equal, and are all groups of their level: an authored LOD fits beside
+/// none of them.
 Status checkSets(const Hierarchy& h)
 {
     for (size_t g = 0; g < h.groups.size(); ++g)
@@ -198,7 +199,7 @@ Status checkCone(const ClusterRecord& cluster, float grid_step, size_t c, Float3
     return success();
 }
 
-/// Exact, but for the high corner of a box that is stored in more than single steps.
+/// True if the box is exact, except for the high corner of a box with a shift.
 bool isBoxOf(const ClusterRecord& cluster, float grid_step, const Box3& vertices)
 {
     const Box3 box = boxOf(cluster, grid_step);
@@ -257,7 +258,7 @@ Status checkGeometry(const Hierarchy& h, const DecodedHierarchy& decoded)
     return success();
 }
 
-/// A triangle with all that it has, by a hash that does not depend on which corner comes first.
+/// Triangle with all its attributes, as a hash that does not depend on which corner comes first.
 struct TriangleKey
 {
     std::array<uint64_t, 3> corners;
@@ -282,7 +283,7 @@ void addDelta(std::vector<uint32_t>& words, Float3 delta)
         words.push_back(std::bit_cast<uint32_t>(part + 0.0f));
 }
 
-/// What a vertex of the source is after its coding, whichever cluster it comes to lie in.
+/// Hash a vertex of the source after its coding, independent of the cluster that contains it.
 uint64_t sourceVertexHash(const mesh::SourceMesh& source, uint32_t layout, double grid_step, uint32_t v)
 {
     std::vector<uint32_t> words;
@@ -323,7 +324,7 @@ uint64_t sourceVertexHash(const mesh::SourceMesh& source, uint32_t layout, doubl
     return hashWords(words);
 }
 
-/// The same of a vertex of a cluster.
+/// Hash a vertex of a cluster in the same way.
 uint64_t vertexHash(const ClusterGeometry& geometry, const ClusterRecord& cluster, uint32_t v,
                     size_t morph_targets)
 {
@@ -361,7 +362,7 @@ uint64_t vertexHash(const ClusterGeometry& geometry, const ClusterRecord& cluste
     return hashWords(words);
 }
 
-/// The source on the grid that it shares with its authored levels.
+/// Return the source on the grid that it shares with its authored LODs.
 mesh::SourceMesh onGrid(const mesh::SourceMesh& source, std::span<const mesh::SourceMesh> authored,
                         uint32_t layout)
 {
@@ -377,7 +378,7 @@ mesh::SourceMesh onGrid(const mesh::SourceMesh& source, std::span<const mesh::So
     joined.positions.resize(source.vertexCount());
     if (influencesOf(layout) != 0)
         mesh::reduceInfluences(joined, influencesOf(layout));
-    // where levels of their own have larger deltas, the steps are coarser
+    // where authored LODs have larger deltas, the steps are coarser
     if (authored.empty())
         mesh::snapMorphTargets(joined);
     else
@@ -390,7 +391,7 @@ Status checkFinestLevel(const mesh::SourceMesh& source, std::span<const mesh::So
 {
     const mesh::SourceMesh on_grid = onGrid(source, authored, h.mesh.attributes);
     std::vector<uint64_t> hashes(source.vertexCount());
-    // a mesh of triangles without area has no grid, and no cluster that would have a vertex on it
+    // a mesh of triangles without area has no grid, and no clusters
     for (uint32_t v = 0; h.mesh.grid_step > 0 && v < hashes.size(); ++v)
         hashes[v] = sourceVertexHash(on_grid, h.mesh.attributes, h.mesh.grid_step, v);
     std::vector<TriangleKey> wanted;

@@ -1,4 +1,4 @@
-// Checks everything that a hierarchy promises; slow and obvious, for tests.
+// Validates all invariants of a hierarchy; slow and simple, for tests.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,14 +12,15 @@
 namespace hearth::clusters
 {
 
-/// The triangles of all clusters, read back from the pages.
+/// Triangles of all clusters, decoded from the pages.
 struct DecodedHierarchy
 {
     std::vector<std::vector<std::byte>> pages; ///< decoded
-    std::vector<Float3> positions;             ///< distinct places
+    std::vector<Float3> positions;             ///< distinct positions
     struct Cluster
     {
-        std::vector<uint32_t> positions; ///< three for each triangle, into DecodedHierarchy::positions
+        /// Three position ids for each triangle, into DecodedHierarchy::positions.
+        std::vector<uint32_t> positions;
     };
     std::vector<Cluster> clusters;
 };
@@ -27,13 +28,13 @@ struct DecodedHierarchy
 /// errors: page_hash, chunk_codec, meaning_geometry.
 Result<DecodedHierarchy> decodeHierarchy(const Hierarchy& hierarchy);
 
-/// The clusters that are drawn when exactly the groups with replaced[g] != 0 are replaced.
+/// Return the clusters that are drawn when exactly the groups with replaced[g] != 0 are replaced.
 /// replaced  monotone: a group may only be replaced if the groups that its clusters were made from are
 std::vector<uint32_t> clustersOfCut(const Hierarchy& hierarchy, std::span<const uint8_t> replaced);
 
-/// Tables in range and in order; level 0 holds each source triangle that has an area once, with its attributes and
-/// material; errors and spheres monotone; boxes, spheres and cones contain; pages as formats/records/mesh.h says.
-/// errors: meaning_*, page_hash, chunk_codec.
+/// Check that tables are in range and in order; that level 0 has each source triangle with an area once, with
+/// its attributes and material; that errors and spheres are monotone; that boxes, spheres and cones contain;
+/// and pages as in formats/records/mesh.h. errors: meaning_*, page_hash, chunk_codec.
 Status validateHierarchy(const mesh::SourceMesh& source, const Hierarchy& hierarchy,
                          std::span<const mesh::SourceMesh> authored = {});
 

@@ -22,7 +22,7 @@ using namespace formats;
 
 constexpr uint32_t kUvSets = 4;
 
-/// Least and greatest of values, in steps of a grid.
+/// Range of values, in steps of a grid.
 struct StepRange
 {
     double low = std::numeric_limits<double>::infinity();
@@ -35,14 +35,14 @@ struct StepRange
     }
 };
 
-/// The nearest point of the grid of steps 2^-n. Exact: a float times a power of two.
+/// Return the nearest point of the grid of steps 2^-n. Exact: a float times a power of two.
 int32_t uvPoint(float coordinate, uint32_t fraction_bits)
 {
     const auto steps_in_unit = static_cast<float>(1u << fraction_bits);
     return static_cast<int32_t>(std::nearbyint(coordinate * steps_in_unit));
 }
 
-/// Whether the grid reaches all UVs of the set.
+/// True if all UVs of the set are in the range of the grid.
 bool fitsGrid(const std::vector<Float2>& uvs, uint32_t fraction_bits)
 {
     const double most = std::ldexp(static_cast<double>(kGridMost), -static_cast<int>(fraction_bits));
@@ -50,7 +50,8 @@ bool fitsGrid(const std::vector<Float2>& uvs, uint32_t fraction_bits)
                        [&](Float2 uv) { return std::abs(uv.x) < most && std::abs(uv.y) < most; });
 }
 
-/// Whether 8 bits hold every colour of the source to a sixteenth of their step, as they do those that came from 8 bits.
+/// True unless 8 bits hold every colour of the source to a sixteenth of their step, as for colours that came
+/// from 8 bits.
 bool needsFineColors(const PreparedMesh& mesh)
 {
     const auto coarse = [](float part)
@@ -67,7 +68,7 @@ bool needsFineColors(const PreparedMesh& mesh)
                        });
 }
 
-/// Vertices of a cluster on their way to words, and the words of those that are different.
+/// Encodes the vertices of a cluster to words, and merges equal ones.
 class ClusterCoder
 {
 public:
@@ -80,7 +81,7 @@ public:
     {
     }
 
-    /// True where the UVs of the cluster lie farther apart than 16 bits count.
+    /// True if the UVs of the cluster span more than 16 bits.
     bool spreadsUvs()
     {
         for (uint32_t set = 0; set < kUvSets; ++set)
@@ -124,7 +125,7 @@ public:
     }
 
 private:
-    /// Number of the vertex among those at `words`, where it is put unless an equal one is there.
+    /// Write the vertex at `words` unless an equal one is there. Returns its number.
     size_t findOrAppend(const ClusterRecord& record, uint32_t vertex, uint32_t* words)
     {
         uint32_t* const added = words + count_ * vertex_words_;
@@ -202,7 +203,7 @@ private:
         }
     }
 
-    /// The targets that move a vertex of the cluster.
+    /// Find the targets that move a vertex of the cluster.
     void findTargets()
     {
         for (uint32_t target = 0; target < source_.morph_targets.size(); ++target)
@@ -234,7 +235,7 @@ private:
         return words;
     }
 
-    /// The deltas of one of the cluster's vertices, by target.
+    /// Return the deltas of one of the cluster's vertices, by target.
     std::span<uint32_t> deltasOf(size_t number)
     {
         return std::span(deltas_).subspan(number * 3 * targets_.size(), 3 * targets_.size());
@@ -266,7 +267,7 @@ private:
         return section;
     }
 
-    /// Returns what is behind it.
+    /// Write UVs. Returns the position behind them.
     uint32_t* writeUv(uint32_t set, Float2 uv, uint32_t* words) const
     {
         const uint32_t bits = uvFractionBits(layout_, set);
@@ -290,16 +291,16 @@ private:
 
     const PreparedMesh& mesh_;
     const mesh::SourceMesh& source_;
-    double steps_; ///< of the grid in a unit; a power of two
+    double steps_; ///< steps of the grid in a unit; a power of two
     std::span<const uint32_t> vertices_;
     uint32_t layout_;
     size_t vertex_words_ = 0;
     std::array<std::array<int32_t, 2>, kUvSets> uv_base_{};
     bool spread_ = false;
-    std::array<uint16_t, 512> slots_{}; ///< 1 + number of a vertex, found by its hash; 0: free
+    std::array<uint16_t, 512> slots_{}; ///< 1 + number of a vertex, by its hash; 0: free
     size_t count_ = 0;
     std::vector<uint32_t> targets_; ///< morph targets that move a vertex of the cluster
-    std::vector<uint32_t> deltas_;  ///< for each vertex and each of them
+    std::vector<uint32_t> deltas_;  ///< for each vertex and each of these targets
 };
 
 } // namespace

@@ -1,4 +1,4 @@
-// The vertices of a cluster as its page holds them: codes instead of floats, equal ones merged.
+// Encodes the vertices of a cluster for its page: codes instead of floats, equal ones merged.
 // See cook/clusters/README.md, "Vertices".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
@@ -14,10 +14,10 @@ namespace hearth::clusters
 
 using pages::CodedCluster;
 
-/// How the vertices of a mesh are coded: as coarse as Config allows and the values do.
+/// Choose the coding of a mesh's vertices: as coarse as Config allows and the values permit.
 uint32_t chooseLayout(const PreparedMesh& mesh, const Config& config);
 
-/// Code a cluster, and fill in its record's box, cone and counts. Vertices whose codes are equal become one.
+/// Encode a cluster, and set its record's box, cone and counts. Vertices with equal codes are merged.
 CodedCluster codeCluster(const PreparedMesh& mesh, const ClusterStore& store, const ClusterShape& shape,
                          uint32_t layout, formats::ClusterRecord& record);
 

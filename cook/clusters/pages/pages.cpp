@@ -25,7 +25,8 @@ uint32_t bytesOf(const CodedCluster& cluster)
         4 * (cluster.words.size() + (cluster.indices.size() + 3) / 4 + cluster.morphs.size()));
 }
 
-/// Writes the clusters of one group after the other. Only what is not in a page yet is held: a few pages, whatever the mesh.
+/// Writes the clusters of one group after the other. Holds only clusters that are not in a stored page yet: a
+/// few pages, for any mesh size.
 class PageWriter
 {
 public:
@@ -54,12 +55,13 @@ public:
     }
 
 private:
-    /// Enough for many threads: about forty pages.
+    /// Clusters of a batch, enough for many threads: about forty pages.
     static constexpr uint32_t kBatchClusters = 2048;
 
     const CodedCluster& codedOf(uint32_t cluster) const { return coded_[cluster - first_coded_]; }
 
-    /// Pages take less than what they decode to. Memory that is not written to costs nothing, but a copy would.
+    /// Reserve the decoded size, which bounds the stored size. Untouched memory costs nothing, but a copy
+    /// would.
     void reserveBytes()
     {
         size_t bytes = 0;
@@ -81,7 +83,7 @@ private:
                           });
     }
 
-    /// Give a group its page, and each of its clusters its place in the page.
+    /// Assign a group to a page, and each of its clusters to a position in the page.
     void placeGroup(GroupRecord& group)
     {
         const uint32_t end = group.clusters.first + group.clusters.count;
@@ -106,7 +108,7 @@ private:
         }
     }
 
-    /// Encode and append the pages before `end` that are not stored yet, and drop their clusters.
+    /// Encode and append the pages before `end` that are not stored yet, and release their clusters.
     void storePages(size_t end)
     {
         std::vector<std::vector<std::byte>> stored(end - stored_pages_);
@@ -142,13 +144,14 @@ private:
     const ClusterStore& store_;
     std::span<const ClusterShape> shapes_;
     Hierarchy& hierarchy_;
-    std::vector<CodedCluster> coded_; ///< from first_coded_ on
+    std::vector<CodedCluster> coded_; ///< clusters from first_coded_ on
     size_t first_coded_ = 0;
     size_t stored_pages_ = 0;
     tbb::enumerable_thread_specific<pages::PageEncoder> encoders_;
 };
 
-/// The pages that must be there before each page: those of the clusters that were made from its groups.
+/// Link each page to its parents, which must be resident before it: the pages of the clusters that were made
+/// from its groups.
 void linkPages(Hierarchy& hierarchy)
 {
     std::vector<std::vector<uint32_t>> parents(hierarchy.pages.size());
@@ -157,7 +160,7 @@ void linkPages(Hierarchy& hierarchy)
         if (cluster.refined_group == kNone)
             continue;
         const uint32_t finer = hierarchy.groups[cluster.refined_group].page;
-        // clusters stand in page order: each list comes out ascending
+        // clusters are in page order: each list comes out ascending
         if (finer != cluster.page && (parents[finer].empty() || parents[finer].back() != cluster.page))
             parents[finer].push_back(cluster.page);
     }

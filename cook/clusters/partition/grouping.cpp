@@ -19,11 +19,12 @@ namespace
 
 using formats::kNone;
 
-// A shared position that was locked a level ago weighs this many others: the dense lines that locking leaves must
-// come to lie inside a group, or they stay for ever.
+// A shared position that was locked on the previous level weighs this many others: the dense lines that
+// locking leaves must end up inside a group, or they stay forever.
 constexpr float kLockedWeight = 5.0f;
 
-// Positions in more clusters than this (the tip of a fan) link only clusters that follow each other in its list.
+// Positions in more clusters than this (the tip of a fan) only link clusters that are consecutive in its
+// list.
 constexpr size_t kMaxLinked = 12;
 
 struct Link
@@ -32,7 +33,7 @@ struct Link
     float weight;
 };
 
-/// Lists of items for each key, as offsets and items.
+/// Items by key, as offsets and items (compressed sparse rows).
 struct Lists
 {
     std::vector<uint32_t> items;
@@ -44,7 +45,7 @@ struct Lists
     }
 };
 
-/// The positions of each cluster, each once.
+/// Return the positions of each cluster, each once.
 Lists positionsOfClusters(const PreparedMesh& mesh, const ClusterStore& store)
 {
     Lists lists;
@@ -65,7 +66,7 @@ Lists positionsOfClusters(const PreparedMesh& mesh, const ClusterStore& store)
     return lists;
 }
 
-/// The other way round: the clusters that use each position, ascending.
+/// Return the clusters that use each position, ascending (the transpose).
 Lists clustersOfPositions(const Lists& positions, size_t position_count)
 {
     Lists lists;
@@ -81,7 +82,7 @@ Lists clustersOfPositions(const Lists& positions, size_t position_count)
     return lists;
 }
 
-/// Neighbours of each cluster with the weight of the shared border.
+/// Return the neighbours of each cluster with the weight of the shared border.
 std::vector<std::vector<Link>> linkClusters(const Lists& positions, const Lists& users,
                                             std::span<const uint8_t> locked)
 {
@@ -125,7 +126,7 @@ std::vector<std::vector<Link>> linkClusters(const Lists& positions, const Lists&
     return links;
 }
 
-/// A group while groups still merge. A group that went into another names it in `merged_into`.
+/// Group while groups still merge. A group that was merged into another refers to it by `merged_into`.
 struct Growing
 {
     std::vector<uint32_t> members;
@@ -154,7 +155,7 @@ public:
         }
     }
 
-    /// Grow the smallest group again and again until all have the target size or no neighbour that fits.
+    /// Grow the smallest group repeatedly until all have the target size or no neighbour that fits.
     void mergeNeighbours()
     {
         struct Entry
@@ -182,7 +183,7 @@ public:
         }
     }
 
-    /// Merge small groups that follow each other in `order`.
+    /// Merge small groups that are consecutive in `order`.
     void mergeInOrder(std::span<const uint32_t> order)
     {
         uint32_t open = kNone;
@@ -224,7 +225,7 @@ private:
         return group;
     }
 
-    /// Bring links up to date: merged groups replaced by what they went into, one link for each neighbour.
+    /// Update links: replace merged groups by the groups that contain them, one link for each neighbour.
     void refreshLinks(uint32_t group)
     {
         std::vector<Link>& links = groups_[group].links;
@@ -255,7 +256,7 @@ private:
         {
             if (!fits(group, link.other))
                 continue;
-            // a border counts for more on a small neighbour, which has little of it
+            // a shared border counts more for a small neighbour, which has little border
             const float score = link.weight / std::sqrt(static_cast<float>(sizeOf(link.other)));
             if (score > best_score || (score == best_score && link.other < best))
             {
@@ -291,13 +292,13 @@ Box3 boxOfCluster(const PreparedMesh& mesh, const ClusterStore& store, const Clu
     return box;
 }
 
-/// The middle without overflow for any finite box.
+/// Return the center without overflow for any finite box.
 Float3 middle(const Box3& box)
 {
     return box.min * 0.5f + box.max * 0.5f;
 }
 
-/// Groups along the Morton curve by the middles of their boxes.
+/// Sort groups along the Morton curve by the centers of their boxes.
 std::vector<uint32_t> spatialOrder(const Merger& merger, std::span<const Box3> cluster_boxes)
 {
     struct Key

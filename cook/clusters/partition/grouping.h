@@ -1,4 +1,5 @@
-// Groups of neighbouring clusters, to be simplified together. See cook/clusters/README.md, "Grouping".
+// Partitions clusters into groups of neighbours, to be simplified together. See cook/clusters/README.md,
+// "Grouping".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -25,18 +26,19 @@ struct Groups
     }
 };
 
-/// Partition clusters into groups that share many positions. Always merges the smallest group with the neighbour that
-/// it shares the longest border with for its size; borders that were locked on the level before count more, so that
-/// they come to lie inside. What has no neighbour is merged by distance. A group's geometry fits one page.
+/// Partition clusters into groups that share many positions. Repeatedly merges the smallest group with the
+/// neighbour that it shares the longest border with, relative to its size. Borders that were locked on the
+/// previous level count more, so that they end up inside a group. Groups without neighbours are merged by
+/// distance. A group's geometry fits in one page.
 ///
 /// store     all its clusters are grouped; at least one
-/// locked    [position_count] positions that were locked on the level before
+/// locked    [position_count] positions that were locked on the previous level
 /// returns   groups in spatial order (Morton), members ascending
-/// source    growing the smallest group first is the idea of meshoptimizer's meshopt_partitionClusters
+/// source    growing the smallest group first follows meshoptimizer's meshopt_partitionClusters
 Groups groupClusters(const PreparedMesh& mesh, const ClusterStore& store, std::span<const uint8_t> locked,
                      const Config& config);
 
-/// Positions that several groups share, or that `pinned` names: [position_count], 1 where no group may move it.
+/// Return locks, [position_count]: 1 for each position that several groups share or that is in `pinned`.
 std::vector<uint8_t> lockSharedPositions(const PreparedMesh& mesh, const ClusterStore& store,
                                          const Groups& groups, std::span<const uint8_t> pinned);
 

@@ -1,5 +1,6 @@
-// Surface-area cost as for ray-tracing hierarchies: J. D. MacDonald, K. S. Booth, "Heuristics for ray tracing using
-// space subdivision", 1990; bins: I. Wald, "On fast construction of SAH-based bounding volume hierarchies", 2007.
+// Surface-area heuristic as for ray-tracing hierarchies: J. D. MacDonald, K. S. Booth, "Heuristics for ray
+// tracing using space subdivision", 1990; bins: I. Wald, "On fast construction of SAH-based bounding volume
+// hierarchies", 2007.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/partition/split.h"
 
@@ -25,11 +26,11 @@ using formats::kClusterMaxVertices;
 
 constexpr size_t kBinCount = 32;
 
-// Nodes above this are cut at the median of their longest side: where the top cuts go does not change the clusters
-// measurably, and a histogram of one axis costs a third of the full search.
+// Nodes above this are cut at the median of their longest side: the position of the top cuts does not change
+// the clusters measurably, and a histogram of one axis costs a third of the full search.
 constexpr size_t kMedianOnly = 4096;
 
-// Nodes up to this size are taken to be alike all over in how many vertices their triangles share.
+// Nodes up to this size are assumed to share vertices uniformly.
 constexpr size_t kEvenNode = 2048;
 
 struct Cut
@@ -38,16 +39,16 @@ struct Cut
     size_t left_count = 0;
 };
 
-/// Gives the vertices of a cluster their numbers 0, 1, ... in order of first use.
+/// Numbers the vertices of a cluster 0, 1, ... in order of first use.
 class VertexNumbers
 {
 public:
     explicit VertexNumbers(uint32_t limit) : limit_(limit) {}
 
-    /// Number of `vertex`, or kClusterMaxVertices if it would be one too many.
+    /// Return the number of `vertex`, or kClusterMaxVertices if it exceeds the limit.
     uint32_t numberOf(uint32_t vertex)
     {
-        // whether it is new cannot be foretold: it is put behind the last in any case
+        // appended in any case, because a branch on its novelty would be unpredictable
         vertices_[count_] = vertex;
         uint32_t slot = (vertex * 0x9E3779B1u) >> 22;
         while (vertices_[std::min(numbers_[slot], count_)] != vertex)
@@ -61,7 +62,7 @@ public:
     std::span<const uint32_t> vertices() const { return std::span(vertices_).first(count_); }
 
 private:
-    static constexpr uint32_t kSlotCount = 1024; ///< four times what can be in it
+    static constexpr uint32_t kSlotCount = 1024; ///< four times the number of entries
     static constexpr uint32_t kFree = 0xFFFFFFFFu;
 
     static constexpr std::array<uint32_t, kSlotCount> allFree()
@@ -72,7 +73,7 @@ private:
     }
 
     std::array<uint32_t, kSlotCount> numbers_ = allFree();
-    std::array<uint32_t, kClusterMaxVertices + 1> vertices_; ///< and one that may be too many
+    std::array<uint32_t, kClusterMaxVertices + 1> vertices_; ///< one more than the limit
     uint32_t limit_;
     uint32_t count_ = 0;
 };
@@ -105,7 +106,7 @@ bool appendLeaf(std::span<const SplitItem> items, const SplitTriangles& triangle
     return true;
 }
 
-/// A box in the first three lanes.
+/// Box in the first three lanes.
 struct LaneBox
 {
     Lanes min = allLanes(std::numeric_limits<float>::infinity());
@@ -123,7 +124,7 @@ struct LaneBox
     }
 };
 
-/// An item's center in the first three lanes.
+/// Return an item's center in the first three lanes.
 Lanes centerLanes(const SplitItem& item)
 {
     return Lanes{item.center.x, item.center.y, item.center.z, 0};
@@ -137,8 +138,8 @@ LaneBox boxOf(std::span<const SplitItem> items)
     return box;
 }
 
-/// Half the surface of a box that is not empty. Where floats have no number for its sides it is none, and no cut is
-/// better than that at the median.
+/// Return half the surface of a box that is not empty. If its sides overflow floats, no cut is better than
+/// the median.
 double halfArea(const LaneBox& box)
 {
     const Lanes sides = box.max - box.min;
@@ -146,7 +147,7 @@ double halfArea(const LaneBox& box)
     return x * y + y * z + z * x;
 }
 
-/// Maps coordinates to bins of each axis, safely for any finite range: halves do not overflow.
+/// Maps coordinates to bins of each axis, safely for any finite range: halving avoids overflow.
 class Binning
 {
 public:
@@ -176,7 +177,7 @@ private:
     Lanes scale_{};
 };
 
-/// The multiple of `capacity` nearest to `count` that leaves something on both sides.
+/// Return the multiple of `capacity` nearest to `count` that leaves items on both sides.
 size_t roundToFull(size_t count, size_t total, size_t capacity)
 {
     const size_t last = (total - 1) / capacity * capacity;
@@ -197,7 +198,7 @@ struct Bins
     BinCounts counts{};
 };
 
-/// The cheapest bin border along one axis. Counts are rounded to full clusters before they are weighed.
+/// Find the cheapest bin border along one axis. Counts are rounded to full clusters before they are weighted.
 AxisCost bestCutOfAxis(const Bins& bins, size_t axis, size_t item_count, size_t capacity)
 {
     std::array<double, kBinCount> right_area{};
@@ -234,7 +235,7 @@ public:
     {
     }
 
-    /// Cut at a multiple of `capacity`. Returns how many items are on the left; they come first.
+    /// Cut at a multiple of `capacity`. Returns the number of items on the left; they come first.
     size_t operator()(std::span<SplitItem> items, size_t capacity)
     {
         const Binning binning(boxOf(items));
@@ -282,14 +283,15 @@ private:
         return bins;
     }
 
-    /// Move the items that are first along the axis to the front. Only those in one bin must be compared for that: that of
-    /// the last on the left.
+    /// Move the items that are first along the axis to the front. Only the bin that contains the cut needs
+    /// comparisons.
     void apply(std::span<SplitItem> items, Cut cut, const Binning& binning, const BinCounts& counts)
     {
         size_t bin = 0, before = 0;
         for (; before + counts[bin] < cut.left_count; ++bin)
             before += counts[bin];
-        // without branches, which could not be foretold: each item goes to all three places, and one of them is kept
+        // without branches, which would be unpredictable: each item is written to all three destinations, and
+        // one is kept
         size_t left = 0, right = 0, middle = items.size();
         for (const SplitItem item : items)
         {
@@ -307,7 +309,7 @@ private:
         std::copy_n(aside_.get(), right, items.end() - static_cast<ptrdiff_t>(right));
     }
 
-    /// The same by comparing. Ties go by triangle: one result on every machine.
+    /// Partition by comparison. Ties are ordered by triangle: one result on every machine.
     static void moveToFront(std::span<SplitItem> items, size_t axis, size_t count)
     {
         const auto order = [&](const SplitItem& a, const SplitItem& b)
@@ -318,10 +320,10 @@ private:
         std::nth_element(items.begin(), items.begin() + static_cast<ptrdiff_t>(count), items.end(), order);
     }
 
-    std::unique_ptr<SplitItem[]> aside_; ///< items of the right half and of the bin that is cut
+    std::unique_ptr<SplitItem[]> aside_; ///< items of the right half and of the bin that contains the cut
 };
 
-/// Triangles that a cluster of these items can have on average before its vertices run out.
+/// Return the average triangles of a cluster of these items before it reaches the vertex limit.
 size_t clusterCapacity(std::span<const SplitItem> items, const SplitTriangles& triangles)
 {
     std::vector<uint32_t> vertices;
@@ -334,8 +336,8 @@ size_t clusterCapacity(std::span<const SplitItem> items, const SplitTriangles& t
     return std::clamp<size_t>(triangles.vertex_limit * items.size() / unique, 1, kClusterMaxTriangles);
 }
 
-/// Cut `root` into clusters of up to `capacity` triangles, depth first without recursion. A cluster with too many
-/// vertices is halved, or ends the work with false.
+/// Cut `root` into clusters of up to `capacity` triangles, depth first without recursion. A cluster with too
+/// many vertices is halved, or, without `halve`, ends the function with false.
 bool splitNode(std::span<SplitItem> root, size_t capacity, bool halve, const SplitTriangles& triangles,
                NodeCutter& cutNode, ClusterStore& out)
 {
@@ -360,8 +362,8 @@ bool splitNode(std::span<SplitItem> root, size_t capacity, bool halve, const Spl
     return true;
 }
 
-/// Cut a node whose clusters share vertices about evenly: into full clusters if their vertices suffice, else again
-/// into smaller ones of the size for which they do.
+/// Cut a node whose clusters share vertices uniformly: into full clusters if their vertices fit, else into
+/// smaller ones of the size that fits.
 void splitEvenNode(std::span<SplitItem> items, const SplitTriangles& triangles, NodeCutter& cutNode,
                    ClusterStore& out)
 {
@@ -377,7 +379,8 @@ void splitEvenNode(std::span<SplitItem> items, const SplitTriangles& triangles, 
     splitNode(items, clusterCapacity(items, triangles), true, triangles, cutNode, out);
 }
 
-/// The top of the tree, a wave of nodes at a time, until they are small enough to be split one per task.
+/// Split the top of the tree, one level of nodes at a time, until they are small enough to be split one per
+/// task.
 std::vector<std::span<SplitItem>> splitTop(std::span<SplitItem> items)
 {
     std::vector<std::span<SplitItem>> nodes{items};
@@ -406,7 +409,7 @@ std::vector<std::span<SplitItem>> splitTop(std::span<SplitItem> items)
     return nodes;
 }
 
-/// The triangles ordered by material, with their centers.
+/// Return the triangles ordered by material, with their centers.
 std::vector<SplitItem> itemsOf(const PreparedMesh& mesh)
 {
     std::vector<Float3> centers(mesh.triangleCount());

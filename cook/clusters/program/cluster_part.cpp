@@ -19,7 +19,7 @@ namespace
 
 using namespace formats;
 
-/// Tables of all meshes, and the pages as they go into the file.
+/// Tables of all meshes; the pages go to the file directly.
 struct Tables
 {
     std::string strings;
@@ -42,7 +42,7 @@ void move(Range& range, size_t offset)
     range.first += static_cast<uint32_t>(offset);
 }
 
-/// Append a mesh's tables; its indices, which start at 0, move behind those that are there.
+/// Append a mesh's tables; its indices, which start at 0, are offset behind the existing ones.
 void appendTables(Tables& tables, Hierarchy hierarchy, uint64_t page_offset, const std::string& name)
 {
     const auto mesh_index = static_cast<uint32_t>(tables.meshes.size());
@@ -126,15 +126,15 @@ Result<std::vector<std::string>> materialNames(const ContainerReader& part)
 namespace
 {
 
-/// A level that was made by hand: the mesh that it is, and what people know it by.
+/// Authored LOD: its mesh, and its number and name for users.
 struct AuthoredLod
 {
     uint32_t mesh;
-    uint32_t number; ///< kNone: it has none
+    uint32_t number; ///< kNone: no number
     std::string name;
 };
 
-/// The authored levels of each mesh, finest first.
+/// Authored LODs of each mesh, finest first.
 struct LodLists
 {
     std::vector<std::vector<AuthoredLod>> of_mesh;
@@ -164,7 +164,7 @@ Result<LodLists> readLodLists(const ContainerReader& part, uint32_t mesh_count)
     return lists;
 }
 
-/// Say which levels of a mesh were made by hand; `level_of_lod` as Hierarchy::authored_levels.
+/// Append records of the levels that authored LODs became; `level_of_lod` as Hierarchy::authored_levels.
 void appendAuthoredLevels(Tables& tables, uint32_t mesh, std::span<const uint32_t> level_of_lod,
                           std::span<const AuthoredLod> lods)
 {
@@ -174,7 +174,7 @@ void appendAuthoredLevels(Tables& tables, uint32_t mesh, std::span<const uint32_
                 {mesh, level_of_lod[i], lods[i].number, addText(tables, lods[i].name)});
 }
 
-/// A mesh that is a level of others is part of theirs, and has no hierarchy itself.
+/// Build a mesh. A mesh that is an authored LOD of another is part of that one, and has no hierarchy itself.
 Result<BuiltMesh> buildMesh(const ContainerReader& part, const LodLists& lods, const PartMotion& motion,
                             uint32_t index, const MeshConfigurer& configure)
 {
@@ -198,8 +198,9 @@ Result<BuiltMesh> buildMesh(const ContainerReader& part, const LodLists& lods, c
     return built;
 }
 
-/// The meshes from `first` on that are built side by side, and at least one: a fifth of the work on a large mesh is that of
-/// one thread. Building takes about three times the bytes of the source meshes.
+/// Return the end of the batch of meshes, from `first` on, that are built side by side; at least one. A fifth
+/// of the work on a large mesh is single-threaded. Building takes about three times the bytes of the source
+/// meshes.
 uint32_t endOfBatch(const ContainerReader& part, uint32_t first, uint32_t mesh_count)
 {
     constexpr uint64_t kBatchBytes = uint64_t{256} << 20;
@@ -215,7 +216,7 @@ uint32_t endOfBatch(const ContainerReader& part, uint32_t first, uint32_t mesh_c
     return end;
 }
 
-/// Build the meshes of a batch; each has its result or its error.
+/// Build the meshes of a batch; each has a result or an error.
 std::vector<Result<BuiltMesh>> buildBatch(const ContainerReader& part, const LodLists& lods,
                                           const PartMotion& motion, Range meshes,
                                           const MeshConfigurer& configure)

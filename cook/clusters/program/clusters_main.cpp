@@ -1,4 +1,5 @@
-// hearth-clusters: reads an import part, or a source, and writes the clusters part.
+// hearth-clusters: builds the cluster hierarchies of an import part, or a source, and writes the clusters
+// part.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/program/cluster_part.h"
 #include "cook/clusters/program/debug_mesh.h"
@@ -87,7 +88,7 @@ void printWarnings(const Arguments& arguments, std::span<const clusters::MeshSta
                          " groups of clusters cannot be simplified further and are drawn at any distance");
 }
 
-/// Errors: usage where the options ask for what the part does not have.
+/// Errors: usage if the options refer to something that the part does not have.
 Status checkArguments(const Arguments& arguments, const formats::ContainerReader& part)
 {
     if (arguments.debug_output.empty())
@@ -216,7 +217,7 @@ int program(int argc, char** argv)
 int main(int argc, char** argv)
 {
 #ifdef __GLIBC__
-    // large arrays go back to the system when they are freed, whatever was allocated behind them
+    // return large arrays to the system when they are freed, whatever was allocated behind them
     ::mallopt(M_MMAP_THRESHOLD, 1 << 22);
 #endif
     return hearth::tools::runCooker("hearth-clusters", argc, argv, program);

@@ -25,10 +25,10 @@ bool endsAs(const std::string& path, std::string_view extension)
                       [&](char a, char b) { return a == lower(b); });
 }
 
-/// A cluster's triangles with vertices of its own, numbered from 0.
+/// Triangles of a cluster with separate vertices, numbered from 0.
 struct LooseCluster
 {
-    std::vector<uint32_t> positions; ///< for each vertex, into DecodedHierarchy::positions
+    std::vector<uint32_t> positions; ///< for each vertex, index into DecodedHierarchy::positions
     std::vector<uint32_t> corners;   ///< three vertices for each triangle
 };
 
@@ -46,7 +46,7 @@ LooseCluster loosen(const DecodedHierarchy::Cluster& cluster)
     return loose;
 }
 
-/// Bright and well spread, and the same in every run.
+/// Return a bright colour, well distributed, and the same in every run.
 std::array<std::byte, 3> colorOf(uint32_t cluster)
 {
     // finaliser of MurmurHash3: neighbouring numbers give unlike colours
@@ -109,7 +109,7 @@ void writeObj(const Hierarchy& hierarchy, const DecodedHierarchy& decoded, uint3
         std::string text = fmt::format("g cluster_{}_of_group_{}\n", c, hierarchy.clusters[c].group);
         for (const uint32_t position : loose.positions)
         {
-            // nine digits bring every float back
+            // nine digits restore every float
             const Float3 p = decoded.positions[position];
             text += fmt::format("v {:.9g} {:.9g} {:.9g}\n", p.x, p.y, p.z);
         }

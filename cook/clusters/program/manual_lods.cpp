@@ -21,11 +21,11 @@ using namespace formats;
 namespace
 {
 
-// 19 takes 16 % less on the rock of the benchmarks and 25 % less on the terrain, at five times the time: more than building
-// their hierarchies.
+// Level 19 takes 16 % less on the rock of the benchmarks and 25 % less on the terrain, at five times the
+// time: more than building their hierarchies.
 constexpr int kChainZstdLevel = 9;
 
-// Tables are packed as ContainerWriter packs them.
+// Level of ContainerWriter for tables.
 constexpr int kTableZstdLevel = ZSTD_CLEVEL_DEFAULT;
 
 constexpr uint64_t kMostVerticesOf16Bits = 65536;
@@ -38,7 +38,7 @@ uint64_t zstdSize(std::span<const std::byte> bytes, int level)
     return size;
 }
 
-/// The errors at which cuts change, ascending, and the triangles that are drawn from each on.
+/// Errors at which cuts change, ascending, and the triangles that are drawn from each on.
 class CutSizes
 {
 public:
@@ -65,7 +65,7 @@ public:
         }
     }
 
-    /// The least error whose cut has at most so many triangles; infinity where there is none.
+    /// Return the smallest error whose cut has at most this many triangles; infinity if there is none.
     float errorFor(uint64_t triangles) const
     {
         const auto found =
@@ -74,12 +74,13 @@ public:
     }
 
 private:
-    std::vector<float> errors_; ///< the last is infinity: nothing is drawn
+    std::vector<float> errors_; ///< the last is infinity: nothing is drawn there
     std::vector<uint64_t> sizes_;
 };
 
-/// Words of a vertex with places on grids in full: 3 of the position, then the normal's code, the tangent, two of each UV
-/// set, two of the colour, the visibility, eight of the influences. What a mesh lacks is 0.
+/// Word offsets of a vertex with full-width grid coordinates: 3 of the position, then the normal's code, the
+/// tangent, two of each UV set, two of the colour, the visibility, eight of the influences. Missing
+/// attributes are 0.
 constexpr size_t kPositionWord = 0, kNormalWord = 3, kTangentWord = 4, kUvWord = 5, kColorWord = 13,
                  kVisibilityWord = 15, kInfluenceWord = 16;
 using FullVertex = std::array<uint32_t, 24>;
@@ -123,7 +124,7 @@ FullVertex fullVertex(const ClusterRecord& cluster, const ClusterGeometry& geome
     return full;
 }
 
-/// One mesh of the chain: vertices in the order of their first use.
+/// Mesh of the chain: vertices in the order of their first use.
 class WholeMesh
 {
 public:
@@ -146,7 +147,7 @@ public:
 
     ManualLod counts() const { return {indices_.size() / 3, vertices_.size()}; }
 
-    /// As a game draws it: places on grids as 16 bits, in steps that the mesh fits.
+    /// Return the vertices as a game stores them: grid coordinates as 16 bits, in steps that fit the mesh.
     std::vector<std::byte> vertexBytes(uint32_t layout) const
     {
         std::vector<std::byte> bytes;
@@ -197,7 +198,7 @@ public:
     }
 
 private:
-    /// Of the values of one coordinate over the mesh.
+    /// Range of the values of one coordinate over the mesh.
     struct GridRange
     {
         int64_t least = std::numeric_limits<int64_t>::max();
@@ -224,7 +225,7 @@ private:
                 range.greatest = std::max(range.greatest, int64_t{static_cast<int32_t>(vertex[word])});
             }
         }
-        // all axes of a position, and u and v of a set, share their step
+        // all axes of a position, and u and v of a set, share a step
         const auto share = [&](size_t first, size_t count)
         {
             uint32_t shift = 0;
@@ -246,7 +247,7 @@ private:
     std::vector<uint32_t> indices_;
 };
 
-/// The clusters that `isDrawn` picks, as one mesh.
+/// Collect the clusters that `isDrawn` selects as one mesh.
 template <typename IsDrawn>
 WholeMesh wholeMesh(const Hierarchy& hierarchy, const IsDrawn& isDrawn)
 {

@@ -1,5 +1,5 @@
-// What levels of detail by hand would take: a chain of whole meshes, to hold the hierarchy's bytes against.
-// See cook/clusters/README.md, "Against levels by hand".
+// Measures discrete LODs: a chain of whole meshes, as a baseline for the hierarchy's bytes.
+// See cook/clusters/README.md, "Against discrete LODs".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,28 +12,29 @@
 namespace hearth::clusters
 {
 
-/// Levels of a chain: all triangles, at most a half, a quarter, an eighth and a sixteenth of them.
+/// Length of the chain: all triangles, at most a half, a quarter, an eighth and a sixteenth of them.
 inline constexpr uint32_t kManualLodCount = 5;
 
 struct ManualLod
 {
     uint64_t triangles = 0;
-    uint64_t vertices = 0; ///< distinct ones
+    uint64_t vertices = 0; ///< distinct vertices
 };
 
 struct ManualLods
 {
-    std::vector<ManualLod> lods; ///< finest first; fewer than five where the hierarchy ends before
-    uint64_t bytes = 0;          ///< vertices and indices as they are drawn
-    uint64_t bytes_zstd = 0;     ///< the same, each mesh's vertices and its indices as a zstd frame
+    std::vector<ManualLod> lods; ///< finest first; fewer than five if the hierarchy ends before
+    uint64_t bytes = 0;          ///< vertices and indices in memory
+    uint64_t bytes_zstd = 0;     ///< vertices and indices of each mesh, each compressed as a zstd frame
 };
 
-/// Count the chain whose meshes are cuts of the hierarchy: each the finest that has few enough triangles. A vertex takes
-/// the bytes that it has in a narrow cluster of the hierarchy, morph targets aside, an index 16 bits, or 32 in meshes of more than 65536
-/// vertices. Time and memory as for a few copies of the mesh.
+/// Measure the chain whose meshes are cuts of the hierarchy: each the finest that has few enough triangles. A
+/// vertex takes the bytes of a vertex in a narrow cluster of the hierarchy, without morph targets. An index
+/// takes 16 bits, or 32 in meshes of more than 65536 vertices. Time and memory as for a few copies of the
+/// mesh.
 ManualLods measureManualLods(const Hierarchy& hierarchy);
 
-/// Bytes of the hierarchy in a file, for comparison: its pages and its tables, which are packed by zstd.
+/// Return the bytes of the hierarchy in a file, for comparison: its pages and its tables, compressed by zstd.
 uint64_t storedBytes(const Hierarchy& hierarchy);
 
 } // namespace hearth::clusters

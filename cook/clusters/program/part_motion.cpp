@@ -11,7 +11,8 @@ using namespace formats;
 namespace
 {
 
-/// For each joint the box of the vertices that it moves; empty where the mesh names a joint that is not there.
+/// Return the bounding box of the vertices of each joint; empty if the mesh refers to a joint that does not
+/// exist.
 std::vector<motion::Box3d> reachOf(const mesh::SourceMesh& mesh, uint32_t joint_count)
 {
     std::vector<motion::Box3d> reach(joint_count);

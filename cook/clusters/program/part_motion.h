@@ -1,4 +1,4 @@
-// How the meshes of an import part move over all poses of its scene.
+// Motion of the meshes of an import part over all poses of its scene.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,22 +11,22 @@
 namespace hearth::clusters
 {
 
-/// The motion of one mesh, as long as the PartMotion lives.
+/// Motion of one mesh; valid as long as the PartMotion lives.
 struct OwnedMotion
 {
     std::unique_ptr<motion::SkinMotion> skin;
     MeshMotion motion;
 };
 
-/// Bounds of all nodes of a part. Any number of threads may ask at once.
+/// Motion bounds of all nodes of a part. Thread-safe for reading.
 class PartMotion
 {
 public:
     /// errors: those of PackView::read.
     static Result<PartMotion> read(const formats::ContainerReader& part);
 
-    /// The motion of mesh `index`, which is `mesh`: of the nodes that have it. errors: meaning_reference where it names
-    /// joints that its skin has not.
+    /// Return the motion of mesh `index`, which is `mesh`, over the nodes that use it. errors:
+    /// meaning_reference if it refers to joints that its skin has not.
     Result<OwnedMotion> of(uint32_t index, const mesh::SourceMesh& mesh) const;
 
 private:

@@ -20,7 +20,7 @@ namespace
 
 using tools::TomlNode;
 
-/// Where in the file a value stands, for messages.
+/// Location of a value in the file, for messages.
 struct Place
 {
     const std::string& file;
@@ -40,7 +40,7 @@ struct Place
 
 using Keys = std::vector<std::string>;
 
-/// Errors: profile_value where the node is no table, profile_key where it has a key beside `known`.
+/// Errors: profile_value if the node is no table, profile_key if it has a key that is not in `known`.
 Result<const TomlNode*> tableAt(const TomlNode& node, const Place& place, const Keys& known)
 {
     if (!node.isTable())
@@ -65,7 +65,7 @@ Result<const TomlNode*> arrayAt(const TomlNode& node, const Place& place)
     return &node;
 }
 
-/// The member's number, or `otherwise` where it is not there. errors: profile_value.
+/// Return the member's number, or `otherwise` if it is missing. errors: profile_value.
 Result<float> numberAt(const TomlNode& table, std::string_view name, const Place& place, float low,
                        float high, float otherwise)
 {
@@ -138,7 +138,7 @@ Result<std::vector<LevelTarget>> targetsAt(const TomlNode& node, const Place& pl
     return targets;
 }
 
-/// The member's number, if it is there. errors: profile_value.
+/// Return the member's number, if it exists. errors: profile_value.
 Result<std::optional<float>> weightAt(const TomlNode& table, std::string_view name, const Place& place)
 {
     constexpr float kMost = 1e6f;
@@ -148,7 +148,7 @@ Result<std::optional<float>> weightAt(const TomlNode& table, std::string_view na
     return std::optional(weight);
 }
 
-/// A key with two legal numbers.
+/// Read a key with two legal numbers.
 Result<std::optional<uint32_t>> choiceAt(const TomlNode& table, const char* key, int64_t one, int64_t other,
                                          const Place& place)
 {
@@ -170,7 +170,7 @@ Result<MeshSettings> settingsAt(const TomlNode& table, const Place& place)
     return settings;
 }
 
-/// The keys of settingsAt beside others.
+/// Append the keys of settingsAt.
 Keys withSettings(Keys keys)
 {
     keys.insert(keys.end(), {"normal_bits", "normal_error_weight", "uv_error_weight", "influences"});
@@ -207,7 +207,7 @@ Result<MaterialRule> materialRuleAt(const TomlNode& node, const Place& place)
     return rule;
 }
 
-/// One rule for each table of the array `name`, if that is there.
+/// Read one rule for each table of the array `name`, if it exists.
 template <typename Rule>
 Status readRules(const TomlNode& table, std::string_view name, const Place& place,
                  Result<Rule> (*readRule)(const TomlNode&, const Place&), std::vector<Rule>& rules)
@@ -226,7 +226,7 @@ Status readRules(const TomlNode& table, std::string_view name, const Place& plac
 
 Result<Profile> profileOf(const TomlNode& root, const std::string& path)
 {
-    // the other tables are for other cookers, and hearth reads what a profile inherits
+    // the other tables are for other cookers, and hearth resolves `inherits`
     HEARTH_TRY(tableAt(root, {path, ""},
                        {"animation", "bricks", "clusters", "import", "inherits", "textures", "visibility"}));
     Profile profile;
@@ -308,7 +308,7 @@ Config configOf(const Profile& profile, std::string_view mesh_name,
 
 bool matchesPattern(std::string_view pattern, std::string_view text)
 {
-    // after a mismatch, the last * takes one character more: earlier ones need not be tried again
+    // after a mismatch, the last * takes one character more: earlier ones need no retry
     size_t p = 0;
     size_t t = 0;
     size_t star = std::string_view::npos;

@@ -1,4 +1,4 @@
-// What a user asks of the cluster builder: a TOML file. See cook/clusters/README.md, "Profiles".
+// User settings of the cluster builder: a TOML profile. See cook/clusters/README.md, "Profiles".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -14,7 +14,7 @@
 namespace hearth::clusters
 {
 
-/// Members of Config; nothing where the file does not set them.
+/// Settings for members of Config; nothing if the file does not set them.
 struct MeshSettings
 {
     std::optional<uint32_t> normal_bits;
@@ -23,7 +23,7 @@ struct MeshSettings
     std::optional<uint32_t> influences;
 };
 
-/// For meshes whose name matches; what it does not set stays as it is for all.
+/// Rule for meshes whose name matches; settings that it does not set keep the values for all meshes.
 struct MeshRule
 {
     std::string name; ///< a pattern
@@ -32,13 +32,14 @@ struct MeshRule
     MeshSettings settings;
 };
 
-/// For materials whose name matches, in any mesh.
+/// Rule for materials whose name matches, in any mesh.
 struct MaterialRule
 {
     std::string name; ///< a pattern
     LevelCurve levels;
 };
 
+/// Parsed profile.
 struct Profile
 {
     LevelCurve levels{LevelStep{}};
@@ -47,20 +48,20 @@ struct Profile
     std::vector<MaterialRule> materials;
 };
 
-/// Read a profile. Strict: a key that is not known is an error, and so is a value out of its range.
-/// errors: input_missing, profile_syntax, profile_key, profile_value; they name the line and the key.
+/// Read a profile. Strict: unknown keys and values out of range are errors. errors: input_missing,
+/// profile_syntax, profile_key, profile_value, with line and key.
 Result<Profile> readProfile(const std::string& path);
 
-/// The same of TOML text; `name` is what messages call it.
-/// errors: profile_syntax, profile_key, profile_value.
+/// Parse a profile from TOML text; `name` is its name in messages. errors: profile_syntax, profile_key,
+/// profile_value.
 Result<Profile> parseProfile(std::string_view text, const std::string& name);
 
-/// What the profile says of one mesh: the first rule that matches its name, what that leaves open as for all, and for
-/// each material the first rule that matches its own.
+/// Resolve the profile for one mesh: the first rule that matches its name, for unset settings those of all
+/// meshes, and for each material the first rule that matches its name.
 Config configOf(const Profile& profile, std::string_view mesh_name,
                 std::span<const std::string> material_names);
 
-/// Whether all of `text` matches: * stands for any characters, ? for one, everything else for itself.
+/// True if all of `text` matches: * stands for any characters, ? for one, everything else for itself.
 bool matchesPattern(std::string_view pattern, std::string_view text);
 
 } // namespace hearth::clusters

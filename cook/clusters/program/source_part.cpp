@@ -34,7 +34,8 @@ SourcePart opened(const std::string& path)
     return {std::move(reader).value(), 0};
 }
 
-/// Whether the file starts as a container; a file that cannot be read is left to hearth-import, whose message says why.
+/// True if the file starts like a container. A file that cannot be read is left to hearth-import, whose
+/// message gives the reason.
 bool isContainer(const std::string& path)
 {
     struct Close
@@ -42,13 +43,13 @@ bool isContainer(const std::string& path)
         void operator()(std::FILE* file) const { std::fclose(file); }
     };
     const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "rb"));
-    // the first four bytes: a damaged container is for the container's reader to refuse
+    // only the first four bytes: a damaged container is left to the container's reader
     std::array<uint8_t, 4> start{};
     return file && std::fread(start.data(), start.size(), 1, file.get()) == 1 &&
            std::equal(start.begin(), start.end(), kMagic);
 }
 
-/// Pass on what hearth-import said, in words of the source, and how it ended.
+/// Pass on the messages of hearth-import, with the source's path in place of the part's, and its exit code.
 int passOn(const tools::ChildEnd& end, const std::string& source, const std::string& part)
 {
     std::string messages = end.messages;
@@ -68,7 +69,7 @@ int passOn(const tools::ChildEnd& end, const std::string& source, const std::str
 SourcePart importSource(const std::string& source, const ImportArguments& arguments,
                         const std::string& output)
 {
-    // first, so that it goes last: signals wait until the folder is gone
+    // declared first, so destroyed last: signals wait until the directory is removed
     tools::ChildProcesses children;
     const auto folder = TempDirectory::create(temporaryOr(parentFolder(output)), output);
     if (!folder.ok())

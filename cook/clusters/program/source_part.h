@@ -1,4 +1,4 @@
-// What hearth-clusters reads: an import part, or a source that hearth-import reads first.
+// Opens the input of hearth-clusters: an import part, or a source that hearth-import reads first.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -14,21 +14,22 @@ namespace hearth::clusters
 struct SourcePart
 {
     std::optional<formats::ContainerReader> part; ///< nothing on failure
-    int exit_code = 0;                            ///< of the process, on failure
+    int exit_code = 0;                            ///< exit code of the process, on failure
 };
 
-/// What hearth-import is told, where it runs; an import part has been told before.
+/// Arguments for hearth-import, if it runs; an import part has had its own.
 struct ImportArguments
 {
     std::span<const std::string> lods;     ///< "N=FILE"
     std::string profile;                   ///< empty: none
-    std::span<const std::string> settings; ///< of --set, where there is no profile
+    std::span<const std::string> settings; ///< of --set, if there is no profile
 };
 
-/// Open an import part; a file that is no container goes through the program hearth-import beside this one, into a
-/// folder that is gone when this returns: what is open stays readable. Problems are told on stderr.
+/// Open an import part. Any other file goes through the program hearth-import beside this one, into a
+/// temporary directory that is removed when this returns; the opened part stays readable. Reports errors on
+/// stderr.
 ///
-/// output  names the folder for temporary files where TMPDIR does not
+/// output  its folder is used for temporary files if TMPDIR is not set
 SourcePart openSourcePart(const std::string& path, const ImportArguments& arguments,
                           const std::string& output);
 

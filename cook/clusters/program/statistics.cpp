@@ -14,7 +14,7 @@ using namespace formats;
 namespace
 {
 
-/// Of the groups that the level's clusters were made from; 0 at level 0.
+/// Compute the errors of the groups that the level's clusters were made from; 0 at level 0.
 ErrorStatistics errorStatistics(const Hierarchy& hierarchy, const LevelRecord& level,
                                 float GroupRecord::*error)
 {
@@ -46,7 +46,7 @@ LevelStatistics levelStatistics(const Hierarchy& hierarchy, const LevelRecord& l
     return statistics;
 }
 
-/// What is drawn at a level: its clusters, and the roots of finer levels.
+/// Count the triangles that are drawn at a level: its clusters, and the roots of finer levels.
 TargetStatistics targetStatistics(const Hierarchy& hierarchy, const LevelTarget& target)
 {
     TargetStatistics statistics{target.level, target.triangles, std::nullopt};
@@ -119,7 +119,7 @@ Json manualLodsJson(const ManualLodStatistics& manual)
             {"hierarchy_of_bytes_zstd", ratio(manual.hierarchy_bytes, manual.chain.bytes_zstd)}};
 }
 
-/// All meshes together, those that were measured.
+/// Sum over all meshes that were measured.
 Json totalsJson(std::span<const MeshStatistics> meshes)
 {
     uint64_t triangles = 0;

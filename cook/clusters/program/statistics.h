@@ -1,4 +1,4 @@
-// What became of each mesh, as numbers for people and scripts.
+// Statistics of each cooked mesh, for people and scripts.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -14,34 +14,34 @@
 namespace hearth::clusters
 {
 
-/// Of the clusters of a level.
+/// Errors of the clusters of a level.
 struct ErrorStatistics
 {
     double max = 0;
-    double mean = 0; ///< over the triangles
+    double mean = 0; ///< mean over the triangles
 };
 
 struct LevelStatistics
 {
     uint32_t clusters = 0;
     uint64_t triangles = 0;
-    double fill = 0;          ///< triangles, of those that as many full clusters would have
-    ErrorStatistics error;    ///< object space: what chooses the cut
+    double fill = 0;          ///< triangles relative to full clusters
+    ErrorStatistics error;    ///< object space: the error that chooses the cut
     ErrorStatistics position; ///< object space
     ErrorStatistics normal;   ///< radians
     ErrorStatistics uv;       ///< object space
 };
 
-/// What became of a LevelTarget.
+/// Result of a LevelTarget.
 struct TargetStatistics
 {
     uint32_t level = 0;
     uint64_t wanted = 0;
-    std::optional<uint64_t> triangles; ///< nothing where the hierarchy has no such level
-    bool met() const;                  ///< within 3 %, what users are promised
+    std::optional<uint64_t> triangles; ///< nothing if the hierarchy has no such level
+    bool met() const;                  ///< within 3 %, as users are promised
 };
 
-/// The hierarchy against levels by hand.
+/// Comparison of the hierarchy with discrete LODs.
 struct ManualLodStatistics
 {
     ManualLods chain;
@@ -59,21 +59,21 @@ struct MeshStatistics
     uint32_t clusters = 0;
     uint32_t pages = 0;
     uint64_t page_bytes = 0;        ///< decoded
-    uint64_t stored_page_bytes = 0; ///< as they lie in the file
+    uint64_t stored_page_bytes = 0; ///< as stored in the file
     std::vector<LevelStatistics> levels;
     std::vector<TargetStatistics> targets;
     std::vector<uint32_t> authored_levels; ///< as in Hierarchy
     BuildCounts counts;
-    std::optional<ManualLodStatistics> manual_lods; ///< takes time, so only on request
-    std::optional<double>
-        seconds; ///< that building took; what differs from run to run is only there on request
+    std::optional<ManualLodStatistics> manual_lods; ///< slow to compute, so only on request
+    /// Wall-clock time of the build; differs from run to run, so only on request.
+    std::optional<double> seconds;
 };
 
-/// `config` is what the hierarchy was built with.
+/// Collect the statistics of a hierarchy that was built with `config`.
 MeshStatistics statisticsOf(const Hierarchy& hierarchy, const Config& config, uint32_t index,
                             std::string name);
 
-/// Schema "hearth.clusters/1". `source` is the name of what was read.
+/// Format the statistics as JSON, schema "hearth.clusters/1". `source` is the name of the input.
 std::string statisticsJson(const std::string& source, std::span<const MeshStatistics> meshes);
 
 } // namespace hearth::clusters

@@ -14,11 +14,11 @@ namespace hearth::clusters
 namespace
 {
 
-// Cells from the whole group down to this part of it are tried.
+// Cell sizes range from the whole group down to this part of it.
 constexpr int kSteps = 12;
 constexpr float kFinestCell = 1.0f / 256;
 
-using Cell = std::array<int32_t, 4>; ///< and whether it is one of an open border
+using Cell = std::array<int32_t, 4>; ///< and 1 if it is a cell of an open border
 
 struct Members
 {
@@ -57,8 +57,9 @@ public:
 private:
     Float3 place(uint32_t position) const { return simplified_.placement.places[position]; }
 
-    /// Where each position goes: the locked one in its cell that is nearest, else the one nearest to the cell's mean.
-    /// Positions of open borders stay among themselves, so that what is open lies on the source's borders.
+    /// Choose the target of each position: the nearest locked one in its cell, else the one nearest to the
+    /// cell's mean. Positions of open borders merge only with each other, so that open edges lie on the
+    /// source's borders.
     void findGoals(float cell_size)
     {
         std::map<Cell, Members> cells;
@@ -100,10 +101,10 @@ private:
         return goal_[group_.position_of_wedge[simplified_.corners[corner]]];
     }
 
-    /// Those with three different corners, but for pairs that cancel.
+    /// Return the triangles with three different corners, except pairs that cancel.
     std::vector<uint32_t> keptTriangles() const
     {
-        // how many triangles run one way, those left of them, for each set of three positions
+        // triangles with one orientation for each set of three positions, less those that cancel
         std::map<std::array<uint32_t, 3>, std::vector<uint32_t>> by_corners;
         for (uint32_t t = 0; t < simplified_.triangleCount(); ++t)
         {
@@ -152,7 +153,7 @@ private:
                 target = goal_[target];
     }
 
-    /// The wedge itself, or that with the nearest attributes.
+    /// Return the wedge itself, or the one with the nearest attributes.
     uint32_t likeliest(uint32_t wedge, const std::vector<uint32_t>& wedges) const
     {
         return *std::min_element(
@@ -167,8 +168,8 @@ private:
     const GroupMesh& group_;
     Simplified& simplified_;
     std::vector<uint8_t> open_;
-    std::vector<uint32_t> used_; ///< positions that triangles are left at
-    std::vector<uint32_t> goal_; ///< of the used positions
+    std::vector<uint32_t> used_; ///< positions that still have triangles
+    std::vector<uint32_t> goal_; ///< target of each used position
 };
 
 } // namespace

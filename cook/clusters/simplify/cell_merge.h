@@ -1,4 +1,4 @@
-// The last resort of simplification: positions that lie in one cell become one, whatever connects them.
+// Last resort of simplification: merges positions by grid cells, whatever connects them (vertex clustering).
 // See cook/clusters/README.md, "Simplifying".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
@@ -10,9 +10,9 @@
 namespace hearth::clusters
 {
 
-/// Merge positions by cells of a grid, the finest that leaves at most `target_triangles`, or as many as locked positions
-/// force. Positions near a locked one go there. Sheets and shells may touch and close; no edge comes open: triangles go
-/// only where two of their corners meet, or in pairs that run against each other.
+/// Merge positions by cells of the finest grid that leaves at most `target_triangles`, or as many as locked
+/// positions force. Positions near a locked one move to it. Sheets and shells may touch and close, but no
+/// edge opens: triangles are removed only if two of their corners meet, or in pairs of opposite orientation.
 /// J. Rossignac, P. Borrel, "Multi-resolution 3D approximations for rendering complex scenes", 1993
 void mergeByCells(const GroupMesh& group, size_t target_triangles, Simplified& simplified);
 

@@ -1,4 +1,4 @@
-// What may be collapsed, the cheapest first.
+// Priority queue of collapses, cheapest first.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,14 +10,14 @@
 namespace hearth::clusters
 {
 
-/// A collapse of one position to another.
+/// Collapse of one position to another.
 class HeapEntry
 {
 public:
     /// cost     at least 0
-    /// version  as the caller counts them
+    /// version  counted by the caller
     HeapEntry(float cost, uint32_t position, uint32_t target, uint32_t version)
-        : // + 0.0: there is one zero
+        : // + 0.0: no negative zero
           order_(uint64_t{std::bit_cast<uint32_t>(cost + 0.0f)} << 32 | position),
           target_(target),
           version_(version)
@@ -29,17 +29,17 @@ public:
     uint32_t target() const { return target_; }
     uint32_t version() const { return version_; }
 
-    /// By cost, then by position.
+    /// Compare by cost, then by position.
     bool operator<(const HeapEntry& b) const { return order_ < b.order_; }
 
 private:
-    uint64_t order_; ///< floats that are not negative are ordered as their bits
+    uint64_t order_; ///< non-negative floats are ordered as their bits
     uint32_t target_;
     uint32_t version_;
 };
 
-/// A binary heap. The cheaper of two children is found by counting, not by a branch, which could not be foretold: that
-/// is where the heaps of the standard library spend their time.
+/// Binary heap. Selects the cheaper of two children by counting, not by a branch, which would be
+/// unpredictable: that is where the heaps of the standard library spend their time.
 class CollapseHeap
 {
 public:
@@ -61,7 +61,7 @@ public:
         const size_t count = entries_.size();
         if (count == 0)
             return cheapest;
-        // the hole sinks to the bottom, from where the last entry hardly ever rises
+        // the hole sinks to the bottom, from where the last entry rarely rises
         size_t hole = 0;
         for (size_t child = 1; child + 1 < count; child = hole * 2 + 1)
         {
@@ -79,7 +79,7 @@ public:
     }
 
 private:
-    /// Put an entry where it belongs between a hole and the front.
+    /// Insert an entry on the path from a hole to the front.
     void rise(size_t hole, const HeapEntry& entry)
     {
         for (size_t parent; hole > 0 && entry < entries_[parent = (hole - 1) / 2]; hole = parent)

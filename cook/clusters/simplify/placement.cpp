@@ -1,5 +1,5 @@
-// Elimination of the attributes from the quadric: H. Hoppe, "New quadric metric for simplifying meshes with appearance
-// attributes", 1999.
+// Elimination of the attributes from the quadric: H. Hoppe, "New quadric metric for simplifying meshes with
+// appearance attributes", 1999.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/simplify/placement.h"
 
@@ -15,12 +15,12 @@ namespace hearth::clusters
 namespace
 {
 
-// The farthest a position goes, in parts of its longest edge.
+// Maximum distance that a position moves, in parts of its longest edge.
 constexpr float kFarthest = 1.0f;
 
 constexpr int kMaxHalvings = 2;
 
-/// Solves A x = -b for a symmetric positive definite A.
+/// Solve A x = -b for a symmetric positive definite A.
 std::optional<Float3> solve(const PositionQuadric& q)
 {
     const double a00 = q.diagonal_c[0], a11 = q.diagonal_c[1], a22 = q.diagonal_c[2];
@@ -87,7 +87,8 @@ private:
         result_.remade[position] = 1;
     }
 
-    /// Returns false at an open border: it keeps its place, the next mesh may lie against it.
+    /// Collect the wedges of a position. False at an open border: its position stays, the next mesh may lie
+    /// against it.
     bool gatherWedges(uint32_t position)
     {
         if (mesh_.gatherFan(position))
@@ -107,7 +108,7 @@ private:
         float longest2 = 0;
         for (const Corner corner : mesh_.star(position))
         {
-            // around a closed star, each neighbour comes next once
+            // around a closed star, each neighbour is the next corner once
             const Float3 along =
                 result_.places[mesh_.positionAt(nextCorner(corner))] - group_.positions[position];
             longest2 = std::max(longest2, dot(along, along));
@@ -115,7 +116,8 @@ private:
         return std::sqrt(longest2);
     }
 
-    /// What the quadric is when the wedge takes the attributes that are best wherever it goes.
+    /// Reduce the quadric to the position alone, with the wedge's attributes optimal at each position (Schur
+    /// complement).
     void eliminateAttributes(uint32_t wedge, PositionQuadric& quadric) const
     {
         const Lanes inverse = allLanes(inverseOr0(quadrics_.wedge_weight[wedge]));
@@ -162,7 +164,7 @@ private:
     StarMesh& mesh_;
     const Quadrics& quadrics_;
     Placement result_;
-    std::vector<uint32_t> wedges_; ///< at the position that is placed
+    std::vector<uint32_t> wedges_; ///< wedges of the current position
 };
 
 } // namespace

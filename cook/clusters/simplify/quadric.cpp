@@ -7,7 +7,8 @@ namespace hearth::clusters
 namespace
 {
 
-/// Gradient of a function on a triangle with the given differences along its two edges from corner 0.
+/// Basis of the gradient of a linear function on a triangle, from its differences along the two edges at
+/// corner 0.
 struct GradientBasis
 {
     Float3 of_e1;

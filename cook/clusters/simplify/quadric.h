@@ -1,6 +1,7 @@
-// Quadric error of a position and the attributes around it, relative to the vertex that it belongs to.
-// M. Garland, P. Heckbert, "Surface simplification using quadric error metrics", 1997; attributes as in H. Hoppe,
-// "New quadric metric for simplifying meshes with appearance attributes", 1999. See cook/clusters/README.md, "Simplifying".
+// Quadric error of a position and of the attributes around it, relative to the vertex. M. Garland, P.
+// Heckbert, "Surface simplification using quadric error metrics", 1997; attributes as in H. Hoppe, "New
+// quadric metric for simplifying meshes with appearance attributes", 1999. See cook/clusters/README.md,
+// "Simplifying".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -15,14 +16,15 @@
 namespace hearth::clusters
 {
 
-/// E(x) = x^T A x + 2 b.x + c, where x is the offset from the vertex's own place: near zero, so that floats suffice.
+/// Quadric E(x) = x^T A x + 2 b.x + c with x the offset from the vertex's own position: near zero, so floats
+/// suffice.
 struct PositionQuadric
 {
     Lanes diagonal_c{}; ///< a00, a11, a22, c
     Lanes mixed{};      ///< a01, a02, a12
     Lanes b{};
 
-    /// A plane through the vertex itself: b and c get nothing.
+    /// Add a plane through the vertex itself: b and c stay unchanged.
     void addPlane(Float3 unit_normal, float weight)
     {
         const Lanes n{unit_normal.x, unit_normal.y, unit_normal.z, 0};
@@ -31,7 +33,7 @@ struct PositionQuadric
         mixed += __builtin_shufflevector(n, n, 0, 0, 1, 3) * __builtin_shufflevector(weighted, n, 1, 2, 2, 3);
     }
 
-    /// Add one of the same vertex.
+    /// Add a quadric of the same vertex.
     void add(const PositionQuadric& other)
     {
         diagonal_c += other.diagonal_c;
@@ -55,7 +57,7 @@ struct PositionQuadric
         return sumOfLanes(xyz * (timesA(x) + b + b)) + diagonal_c[3];
     }
 
-    /// At four offsets.
+    /// Evaluate at four offsets.
     Lanes at(LaneVector x) const
     {
         const auto all = [](float value) { return allLanes(value); };
@@ -67,7 +69,7 @@ struct PositionQuadric
         return x.x * of_x + x.y * of_y + x.z * of_z + all(diagonal_c[3]);
     }
 
-    /// Add `other` when its vertex moves by `t` to this one.
+    /// Add the quadric of another vertex that moves by `t` to this one.
     void addMoved(const PositionQuadric& other, Float3 t)
     {
         const float c = other.at(t);
@@ -77,7 +79,7 @@ struct PositionQuadric
     }
 };
 
-/// The A of several planes, lane by lane.
+/// Matrix A of several planes, lane by lane.
 struct PlaneSums
 {
     Lanes a00{}, a11{}, a22{}, a01{}, a02{}, a12{};
@@ -101,23 +103,23 @@ struct PlaneSums
     }
 };
 
-/// Four attributes of one wedge: the area-weighted sums of their linear functions (gradient . x + offset) over the
-/// triangles that the wedge stands for, relative to the wedge's own place and values.
+/// Four attributes of a wedge: the area-weighted sums of their linear functions (gradient . x + offset) over
+/// the triangles of the wedge, relative to the wedge's own position and values.
 struct AttributeGradients
 {
     LaneVector gradient{};
     Lanes offset{};
 };
 
-/// All quadrics of a group. Each position has one PositionQuadric, which takes in what the attributes contribute to
-/// A, b and c; each wedge has an area weight and attribute_rows gradients.
+/// Quadrics of a group. Each position has one PositionQuadric, which includes the attributes' contributions
+/// to A, b and c; each wedge has an area weight and attribute_rows gradients.
 struct Quadrics
 {
     std::vector<PositionQuadric> position;
     std::vector<float> wedge_weight;
     std::vector<AttributeGradients> gradients;
 
-    /// What the attributes of a wedge add to the error, lane by lane, when it moves by `t`.
+    /// Return the error that the attributes of a wedge add when it moves by `t`, lane by lane.
     Lanes attributeError(const GroupMesh& group, WedgeMove move, LaneVector t) const
     {
         const float weight = wedge_weight[move.from];
@@ -133,8 +135,8 @@ struct Quadrics
         return error;
     }
 
-    /// Errors of collapses from a position with one wedge to four ends.
-    /// t  how far away they are
+    /// Return the errors of collapses from a position with one wedge to four ends.
+    /// t  offsets of the ends
     Lanes errorsOfFour(const GroupMesh& group, uint32_t position_from, uint32_t wedge,
                        const std::array<uint32_t, kLanes>& to, LaneVector t) const
     {
@@ -160,7 +162,7 @@ struct Quadrics
         return error;
     }
 
-    /// What the best possible attributes at its goal would take off the error of a wedge.
+    /// Return the most that optimal attributes at its target could subtract from the error of a wedge.
     Lanes mostGain(const GroupMesh& group, uint32_t wedge, LaneVector t) const
     {
         const AttributeGradients* g = gradients.data() + size_t{wedge} * group.attribute_rows;
@@ -173,11 +175,11 @@ struct Quadrics
         return squares * inverseOr0(wedge_weight[wedge]);
     }
 
-    /// Add the quadrics of a position to those of another that it goes to, with its wedges.
+    /// Add the quadrics of a position to those of its collapse target, with its wedges.
     void move(const GroupMesh& group, uint32_t from, uint32_t to, std::span<const WedgeMove> moves);
 };
 
-/// Squared distance of two wedges' attributes.
+/// Return the squared distance of two wedges' attributes.
 inline float attributeDistance2(const GroupMesh& group, uint32_t a, uint32_t b)
 {
     const Lanes* attributes_a = group.attributesOf(a);
@@ -191,20 +193,23 @@ inline float attributeDistance2(const GroupMesh& group, uint32_t a, uint32_t b)
     return sumOfLanes(squares);
 }
 
-// Weight of the distances to the positions themselves against those to the planes: makes one place the best where the
-// surface is flat, as uncertain normals would (P. Trettner, L. Kobbelt, "Fast and robust QEF minimization using
-// probabilistic quadrics", 2020).
+// Weight of the distance to the position itself against the distances to planes. It makes one position
+// optimal where the surface is flat, like uncertain normals would (P. Trettner, L. Kobbelt, "Fast and robust
+// QEF minimization using probabilistic quadrics", 2020).
 inline constexpr float kSpread = 1e-5f;
 
-/// The planes and attributes of all triangles; what locked positions have is never asked for and left out.
+/// Compute the quadrics of all triangles and attributes; those of locked positions are never used and left
+/// out.
 Quadrics initialQuadrics(const GroupMesh& group);
 
-/// What holds an edge in place: the plane through it that stands upright on a triangle beside it.
-/// along  from one end of the edge to the other;  side: from there to the triangle's third corner
+/// Compute the quadric that holds an edge in place: the plane through it perpendicular to a triangle beside
+/// it.
+/// along  from one end of the edge to the other
+/// side   from the same end to the triangle's third corner
 PositionQuadric edgeQuadric(Float3 along, Float3 side, float factor);
 
-// An open border has no surface on its other side that would hold it: a large weight against the planes of the surface
-// keeps its shape. Seams are held by both sides, and get as much again.
+// An open border has no surface on its other side to hold it: a large weight against the planes of the
+// surface keeps its shape. Seams are held by both sides, and get the same weight again.
 inline constexpr float kBorderWeight = 10.0f;
 inline constexpr float kSeamWeight = 1.0f;
 

@@ -23,14 +23,15 @@ namespace
 
 constexpr uint32_t kNoPosition = 0xFFFFFFFFu;
 
-// Strict collapses that end within this of the target are good enough.
+// Collapses without jumps that end within this factor of the target are good enough.
 constexpr double kNearTarget = 1.1;
 
 struct Candidate
 {
     float cost;
     uint32_t target;
-    bool exact; ///< else the cost is a lower bound, for as long as the wedges without a way have no goals
+    /// Else the cost is a lower bound, until the wedges without an edge along the collapse have targets.
+    bool exact;
 
     bool operator<(const Candidate& b) const { return cost != b.cost ? cost < b.cost : target < b.target; }
 };
@@ -57,8 +58,8 @@ public:
 
     size_t triangleCount() const { return mesh_.aliveCount(); }
 
-    /// Collapse until so many triangles are left or nothing more can go. `permissive` is for a second time: only the
-    /// positions that wedges held back have anything new to offer.
+    /// Collapse until `target_triangles` are left or no collapse is valid. `permissive` is for a second pass:
+    /// it only reconsiders positions whose wedges blocked a collapse.
     void collapseUntil(size_t target_triangles, bool permissive)
     {
         begin(permissive);
@@ -66,7 +67,8 @@ public:
             step();
     }
 
-    /// The same for a cost. Returns the triangles that it went for; nothing where nothing more can go before that is known.
+    /// Collapse until the cost is reached. Returns the target number of triangles; nothing if collapses run
+    /// out before it is known.
     std::optional<size_t> collapseUntil(const CostStop& stop)
     {
         begin(false);
@@ -114,7 +116,7 @@ private:
             if (target_[p] == p && group_.locked[p] == 0 && (!permissive || wedge_blocked_[p] != 0))
                 evaluate(p);
     }
-    /// Of what is in front of the heap, in object space: no later step costs less.
+    /// Return the cost of the next collapse, in object space: no later one costs less.
     double nextCost() const
     {
         const double scale2 = group_.scale * group_.scale;
@@ -149,12 +151,12 @@ private:
     WedgeMap wedges_; ///< of the gathered position
     Quadrics quadrics_;
     std::vector<uint32_t> version_;      ///< heap entries with another version are stale
-    std::vector<uint32_t> best_target_;  ///< of the entry in the heap, or kNoPosition
-    std::vector<uint8_t> outdated_;      ///< 1 where the cost in the heap is that of before a collapse
-    std::vector<uint32_t> target_;       ///< of removed positions, the next one
-    std::vector<uint8_t> edges_held_;    ///< 1 where holdEdges was
-    std::vector<uint8_t> wedge_blocked_; ///< 1 where wedges without a way ruled out a collapse
-    std::vector<uint8_t> grown_;         ///< 1 for positions that others went to
+    std::vector<uint32_t> best_target_;  ///< target of the heap entry, or kNoPosition
+    std::vector<uint8_t> outdated_;      ///< 1 if the cost in the heap dates from before a collapse
+    std::vector<uint32_t> target_;       ///< next position for removed ones
+    std::vector<uint8_t> edges_held_;    ///< 1 if holdEdges was called
+    std::vector<uint8_t> wedge_blocked_; ///< 1 if wedges without an edge along it blocked a collapse
+    std::vector<uint8_t> grown_;         ///< 1 for positions that others collapsed to
     CollapseHeap heap_;
     Growth growth_;
 
@@ -163,8 +165,8 @@ private:
     std::vector<uint32_t> around_;
 };
 
-/// Planes that hold open borders, edges of more than two triangles, and seams at the gathered position. Each end of an
-/// edge takes its own, when it is first asked where it could go.
+/// Add planes that hold open borders, edges of more than two triangles, and seams at the gathered position.
+/// Each end of an edge adds its own when its collapses are first evaluated.
 void Collapser::holdEdges(uint32_t position)
 {
     edges_held_[position] = 1;
@@ -188,8 +190,8 @@ void Collapser::holdEdges(uint32_t position)
     }
 }
 
-/// Quadric error of the collapse that wedges_ describes. Wedges without a way count with the least error that any
-/// attributes could give them.
+/// Return the quadric error of the collapse that wedges_ describes. Wedges without an edge along it count
+/// with the smallest error of any attributes.
 float Collapser::cost(uint32_t from, uint32_t to) const
 {
     const Float3 t = group_.positions[to] - group_.positions[from];
@@ -204,7 +206,7 @@ float Collapser::cost(uint32_t from, uint32_t to) const
     return std::max(quadrics_.position[from].at(t) + sumOfLanes(attribute_error), 0.0f);
 }
 
-/// Calls `visit` with each collapse of the gathered fan, with the last up to four times.
+/// Call `visit` with each collapse of the gathered fan, with the last one up to four times.
 template <typename Visit>
 void Collapser::forEachOfFan(uint32_t position, Visit visit) const
 {
@@ -214,7 +216,7 @@ void Collapser::forEachOfFan(uint32_t position, Visit visit) const
     const auto fan = mesh_.fan();
     for (size_t first = 0; first < fan.size(); first += kLanes)
     {
-        // behind the last, that again
+        // unused lanes repeat the last end
         const auto end = [&](size_t i) { return fan[std::min(first + i, fan.size() - 1)]; };
         const std::array<FanEnd, kLanes> ends{end(0), end(1), end(2), end(3)};
         const auto to = [&](size_t i) { return group_.positions[ends[i].position] - place; };
@@ -232,8 +234,8 @@ void Collapser::forEachOfFan(uint32_t position, Visit visit) const
     }
 }
 
-/// All collapses of the gathered position that respect borders and wedges, into candidates_.
-/// along_seams  where one of them keeps two wedges on their way, those that keep fewer are left out
+/// Collect all collapses of the gathered position that respect borders and wedges in candidates_.
+/// along_seams  if a candidate keeps two wedges along it, leave out those that keep fewer
 void Collapser::gatherCandidates(uint32_t position, bool along_seams)
 {
     candidates_.clear();
@@ -249,7 +251,7 @@ void Collapser::gatherCandidates(uint32_t position, bool along_seams)
         return;
     if (edges_held_[position] == 0)
         holdEdges(position);
-    // an edge is the way of two charts at most
+    // an edge connects two charts at most
     if (!wedges_.permissive && mesh_.layers() == 1 && wedges_.moreChartsThanTwo())
     {
         wedge_blocked_[position] = 1;
@@ -281,7 +283,7 @@ void Collapser::push(uint32_t position, Candidate candidate)
     heap_.push({candidate.cost, position, candidate.target, version_[position]});
 }
 
-/// Take the cheapest candidate out of the list; nullopt if it is empty.
+/// Remove the cheapest candidate from the list and return it; nullopt if the list is empty.
 std::optional<Candidate> Collapser::nextCandidate(uint32_t position)
 {
     while (!candidates_.empty())
@@ -302,7 +304,7 @@ std::optional<Candidate> Collapser::nextCandidate(uint32_t position)
     return std::nullopt;
 }
 
-/// Put the cheapest collapse of the gathered position into the heap; whether it is valid is seen when it comes out.
+/// Push the cheapest collapse of the gathered position to the heap; its validity is tested when it is popped.
 void Collapser::evaluateGathered(uint32_t position)
 {
     ++version_[position];
@@ -323,7 +325,7 @@ void Collapser::evaluateGathered(uint32_t position)
         push(position, *candidate);
 }
 
-/// The same with the cheapest valid collapse.
+/// Push the cheapest valid collapse of the gathered position to the heap.
 void Collapser::evaluateValid(uint32_t position, float popped_cost)
 {
     ++version_[position];
@@ -339,7 +341,7 @@ void Collapser::evaluateValid(uint32_t position, float popped_cost)
         }
 }
 
-/// All triangles are asked, because hardly ever one turns over, and which ones go cannot be foretold.
+/// Tests all triangles: few flip, and a branch on the removed ones would be unpredictable.
 bool Collapser::turnsOver(uint32_t from, uint32_t to)
 {
     uint32_t turned = 0;
@@ -355,8 +357,9 @@ bool Collapser::turnsOver(uint32_t from, uint32_t to)
     return turned != 0;
 }
 
-/// After a collapse to `center`. Its own cost has risen, most likely, and is asked for again when it comes out of the
-/// heap, like that of those that wanted to go where nothing is any more. Those that had nowhere to go may have now.
+/// Update the positions around `center` after a collapse to it. Its own cost has probably risen and is
+/// evaluated again when popped, like that of positions whose target is gone. Positions without a candidate
+/// may have one now.
 void Collapser::noteAround(uint32_t center)
 {
     outdated_[center] = 1;
@@ -395,7 +398,7 @@ void Collapser::step()
         return;
     }
     wedges_.mapRest(entry.target());
-    if (group_.locked[entry.target()] == 0) // nobody asks for those of locked positions
+    if (group_.locked[entry.target()] == 0) // quadrics of locked positions are not used
         quadrics_.move(group_, entry.position(), entry.target(), wedges_.moves());
     mesh_.collapse(entry.position(), entry.target(), wedges_.moves());
     target_[entry.position()] = entry.target();

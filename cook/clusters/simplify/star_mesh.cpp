@@ -1,4 +1,5 @@
-// Link condition: T. K. Dey, H. Edelsbrunner, S. Guha, D. V. Nekhayev, "Topology preserving edge contraction", 1999.
+// Link condition: T. K. Dey, H. Edelsbrunner, S. Guha, D. V. Nekhayev, "Topology preserving edge
+// contraction", 1999.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/simplify/star_mesh.h"
 
@@ -36,7 +37,7 @@ StarMesh::StarMesh(const GroupMesh& group)
         star.first = first;
         first += star.alive;
     }
-    // a collapse appends the star that it makes: about six triangles for two that go
+    // a collapse appends the new star: about six triangles for two that are removed
     star_items_.reserve(group.corners.size() * 3);
     star_items_.resize(group.corners.size());
     for (uint32_t t = 0; t < alive_.size(); ++t)
@@ -98,7 +99,7 @@ bool StarMesh::gatherFan(uint32_t center)
     if (fan_.size() < corners.size())
         fan_.resize(corners.size() * 2);
     fan_wedge_ = wedge_of_corner_[corners.front()];
-    // the wedges that triangles run to are those that triangles come from: then the sums of their hashes are equal
+    // if the outgoing and incoming wedges are equal as sets, so are the sums of their hashes
     uint64_t difference = 0;
     bool plain = true;
     FanEnd* end = fan_.data();
@@ -152,7 +153,7 @@ void StarMesh::gather(uint32_t center)
         layers_ = std::min(layers_, std::max(spoke.out_count, spoke.in_count));
 }
 
-/// The same around a plain fan: no branch but the last depends on what the stars are like.
+/// Test the link condition around a plain fan, without branches that depend on the stars except the last.
 bool StarMesh::linkHoldsInFan(uint32_t from, uint32_t to)
 {
     const uint32_t size = fan_size_;
@@ -167,7 +168,7 @@ bool StarMesh::linkHoldsInFan(uint32_t from, uint32_t to)
         tip_out = next == to ? previous : tip_out;
         tip_in = previous == to ? next : tip_in;
     }
-    // the tips are the only common neighbours
+    // the tips must be the only common neighbours
     uint32_t others = 0;
     for (const Corner corner : star_to)
         for (const uint32_t p :
@@ -176,7 +177,7 @@ bool StarMesh::linkHoldsInFan(uint32_t from, uint32_t to)
                       static_cast<uint32_t>(p != tip_in);
     if (others != 0 || star_to.size() <= 2 || size <= 2 || degree(tip_out) <= 1 || degree(tip_in) <= 1)
         return false;
-    // the third triangle of a fan of three may meet one that is there already
+    // the third triangle of a fan of three may coincide with an existing one
     return size > 3 ||
            std::none_of(star_to.begin(), star_to.end(),
                         [&](Corner corner)
@@ -204,7 +205,7 @@ bool StarMesh::linkHolds(uint32_t from, uint32_t to)
     if (common == 0 || common == star_from.size() || common == star_to.size())
         return false;
 
-    // the tips of the common triangles are the only common neighbours
+    // the tips of the common triangles must be the only common neighbours
     for (const Corner corner : star_to)
         for (const Corner far : {nextCorner(corner), previousCorner(corner)})
             if (const uint32_t p = position_of_corner_[far]; gathered(p) && !isTip(p))
@@ -213,7 +214,7 @@ bool StarMesh::linkHolds(uint32_t from, uint32_t to)
         if (degree(tip) <= 1)
             return false;
 
-    // a moved triangle with its far edge between two tips may meet one that is there already
+    // a moved triangle whose far edge joins two tips may coincide with an existing one
     for (const Corner corner : star_from)
     {
         const uint32_t a = position_of_corner_[nextCorner(corner)];
@@ -229,7 +230,7 @@ bool StarMesh::linkHolds(uint32_t from, uint32_t to)
 
 void StarMesh::collapse(uint32_t from, uint32_t to, std::span<const WedgeMove> moves)
 {
-    // which triangles go cannot be foretold: they are listed without a branch
+    // collected without a branch, which would be unpredictable
     const auto star_from = star(from);
     removed_.resize(star_from.size());
     size_t removed_count = 0;

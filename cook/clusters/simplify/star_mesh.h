@@ -1,4 +1,5 @@
-// The connectivity of a group while it is simplified: triangles, the stars of positions, half-edge collapses.
+// Connectivity of a group while it is simplified: triangles, stars (triangles around a position), half-edge
+// collapses.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,29 +14,29 @@
 namespace hearth::clusters
 {
 
-/// A neighbour of a position and how the triangles between them run.
+/// Neighbour of a position, with the half-edges between them.
 struct Spoke
 {
     uint32_t position;
-    uint32_t out_count = 0; ///< triangles with the edge center -> position
-    uint32_t in_count = 0;  ///< triangles with the edge position -> center
-    WedgeMove out{};        ///< wedges of center and position in the last of each
+    uint32_t out_count = 0; ///< triangles with the half-edge center -> position
+    uint32_t in_count = 0;  ///< triangles with the half-edge position -> center
+    WedgeMove out{};        ///< wedges of center and position in the last of these triangles
     WedgeMove in{};
 
     bool regular(uint32_t layers) const { return out_count == layers && in_count == layers; }
-    /// Whether two wedges of the center have a way along it.
+    /// True if two wedges of the center have an edge along the spoke: it is a seam.
     bool onSeam() const { return out_count > 0 && in_count > 0 && out.from != in.from; }
     uint32_t triangleCount() const { return out_count + in_count; }
 };
 
-/// A neighbour of a position in a plain fan, and its wedge there.
+/// Neighbour of a position in a plain fan, with the neighbour's wedge.
 struct FanEnd
 {
     uint32_t position;
     uint32_t wedge;
 };
 
-/// A corner k of triangle t is named 4 t + k: steps around a triangle then need no division.
+/// Corner id: corner k of triangle t is 4 t + k, so steps around a triangle need no division.
 using Corner = uint32_t;
 
 inline uint32_t triangleOf(Corner corner)
@@ -51,6 +52,7 @@ inline Corner previousCorner(Corner corner)
     return (corner & 3) == 0 ? corner + 2 : corner - 1;
 }
 
+/// Triangle mesh with stars for half-edge collapses.
 class StarMesh
 {
 public:
@@ -68,52 +70,55 @@ public:
     uint32_t positionAt(Corner corner) const { return position_of_corner_[corner]; }
     uint32_t wedgeAt(Corner corner) const { return wedge_of_corner_[corner]; }
 
-    /// How many triangles are around a position.
+    /// Return the number of triangles around a position.
     uint32_t degree(uint32_t position) const { return stars_[position].alive; }
 
-    /// Their corners at the position.
+    /// Return the corners, at the position, of the triangles around it.
     std::span<const Corner> star(uint32_t position);
 
-    /// Collect the fan of a position, if it is plain: closed, each edge between two triangles that run against each
-    /// other, no seam at the position or along its edges. Most are, and this is faster than the ring.
+    /// Collect the fan of a position if it is plain: closed, manifold (each edge between two triangles of
+    /// opposite direction), without seams at the position or along its edges. Most are, and this is faster
+    /// than the ring. False if it is not plain.
     bool gatherFan(uint32_t center);
-    bool plain() const { return fan_size_ != 0; } ///< whether a fan is gathered, not a ring
+    bool plain() const { return fan_size_ != 0; } ///< true if a fan is gathered, not a ring
     std::span<const FanEnd> fan() const { return std::span(fan_).first(fan_size_); }
     uint32_t fanWedge() const { return fan_wedge_; }
 
-    /// Collect the ring of a position: its neighbours, each once, and the wedges that its triangles use there.
+    /// Collect the ring of a position: its neighbours, each once, and the wedges of its triangles there.
     void gather(uint32_t center);
     std::span<const Spoke> ring() const { return ring_; }
     std::span<const uint32_t> wedges() const { return wedges_; }
 
-    /// The gathered spoke to a position, or nullptr.
+    /// Return the gathered spoke to a position, or nullptr.
     const Spoke* spokeTo(uint32_t position) const
     {
         const uint32_t place = mark_[position] - mark_value_;
         return place < ring_.size() ? &ring_[place] : nullptr;
     }
 
-    /// The gathered end at a position, or nullptr.
+    /// Return the gathered end at a position, or nullptr.
     const FanEnd* endAt(uint32_t position) const
     {
         const uint32_t place = mark_[position] - mark_value_;
         return place < fan_size_ ? &fan_[place] : nullptr;
     }
 
-    /// How many sheets lie on each other around the gathered position: 1 but for faces that the source has twice.
+    /// Return the number of coincident sheets around the gathered position: 1 except for triangles that the
+    /// source has twice.
     uint32_t layers() const { return layers_; }
 
-    /// Whether a collapse of the gathered position along the spoke would leave an end without triangles.
+    /// True if collapsing the gathered position along the spoke would leave an end without triangles.
     bool emptiesStar(uint32_t center, const Spoke& spoke) const
     {
         return spoke.triangleCount() == degree(center) || spoke.triangleCount() == degree(spoke.position);
     }
 
-    /// Whether the gathered position can go to another without gluing sheets together (link condition), without a
-    /// triangle falling onto another, and without emptying a star.
+    /// True if the gathered position can collapse to another without joining sheets (link condition), without
+    /// a triangle coinciding with another, and without emptying a star.
     bool linkHolds(uint32_t from, uint32_t to);
 
-    /// Triangles with both positions go; those with `from` alone get `to` and its wedges.
+    /// Collapse a position: triangles with both positions are removed; triangles with `from` alone get `to`
+    /// and its wedges.
     void collapse(uint32_t from, uint32_t to, std::span<const WedgeMove> moves);
 
     void remove(uint32_t triangle);
@@ -124,7 +129,7 @@ private:
     struct Star
     {
         uint32_t first = 0;
-        uint32_t count = 0; ///< with triangles that are gone
+        uint32_t count = 0; ///< including removed triangles
         uint32_t alive = 0;
     };
 
@@ -148,20 +153,20 @@ private:
     std::vector<uint32_t> wedge_of_corner_;
     std::vector<uint8_t> alive_; ///< for each triangle, 1 or 0
     size_t alive_count_;
-    std::vector<Star> stars_; ///< pieces of star_items_, which may name triangles that are gone
+    std::vector<Star> stars_; ///< ranges of star_items_, which may include removed triangles
     std::vector<Corner> star_items_;
 
     std::vector<uint64_t> hash_of_wedge_;
-    std::vector<FanEnd> fan_; ///< of the gathered position, or ring_; with room for more
+    std::vector<FanEnd> fan_; ///< of the gathered position, or ring_; larger than needed
     uint32_t fan_size_ = 0;
     uint32_t fan_wedge_ = 0;
     std::vector<Spoke> ring_;
     std::vector<uint32_t> wedges_;
     uint32_t layers_ = 1;
-    std::vector<uint32_t> mark_; ///< mark_value_ + place in fan_ or ring_, for the positions in it
+    std::vector<uint32_t> mark_; ///< mark_value_ + index in fan_ or ring_, for the positions in it
     uint32_t mark_value_ = 0;
     std::vector<uint32_t> tips_;
-    std::vector<uint32_t> removed_; ///< triangles of a collapse
+    std::vector<uint32_t> removed_; ///< triangles that a collapse removes
 };
 
 } // namespace hearth::clusters

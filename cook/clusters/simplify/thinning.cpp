@@ -13,7 +13,7 @@ namespace hearth::clusters
 namespace
 {
 
-// Twice the area is as much as half of the islands need; more would show.
+// Twice the area compensates for half of the islands; more would be visible.
 constexpr float kMostGrowth = 1.6f;
 
 // Less growth than this is not worth new vertices.
@@ -64,7 +64,7 @@ uint32_t reversedBits(uint32_t x)
     return reversed;
 }
 
-/// Those that go first in front.
+/// Sort the islands: those to remove first come first.
 void orderForRemoval(std::vector<Island>& islands)
 {
     for (uint32_t i = 0; i < islands.size(); ++i)
@@ -77,7 +77,7 @@ void orderForRemoval(std::vector<Island>& islands)
               });
 }
 
-/// 0 for those that do not grow.
+/// Return the area of an island; 0 for islands that do not grow.
 double areaOf(const GroupMesh& group, const StarMesh& mesh, const Island& island)
 {
     double area = 0;

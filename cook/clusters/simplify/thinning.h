@@ -1,4 +1,4 @@
-// What becomes of loose islands (leaves, pebbles, soup) that are too many: some go, the others grow.
+// Thins out loose islands (leaves, pebbles, soup): removes some and grows the others.
 // See cook/clusters/README.md, "Simplifying".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
@@ -16,24 +16,26 @@ namespace hearth::clusters
 /// Larger islands keep their size: they are objects, not foliage.
 inline constexpr size_t kMaxGrownTriangles = 16;
 
-/// Islands that stay grow about their middle, so that the area of all that may go stays the same: a tree keeps its
-/// density when half of its leaves are gone.
+/// Growth of the remaining islands about their centers, which keeps the area of all removable islands
+/// constant: a tree keeps its density when half of its leaves are removed.
 struct Growth
 {
-    float factor = 1; ///< of lengths
+    float factor = 1; ///< factor on lengths
     std::vector<uint32_t> positions;
-    std::vector<Float3> centers; ///< for each of the positions, the middle of its island
+    std::vector<Float3> centers; ///< center of the island, for each of the positions
 };
 
+/// Result of thinIslands.
 struct Thinning
 {
     bool pruned = false;
     Growth growth;
 };
 
-/// Remove whole islands that touch no locked position until `target_triangles` are left: small ones before those twice
-/// as large, and among equals every other one along their order in space. Keeps at least one triangle.
-/// target_of_position  gets kPruned for the positions of what goes
+/// Remove whole islands that touch no locked position until `target_triangles` are left: small ones before
+/// those twice as large, and among equals every other one along their order in space. Keeps at least one
+/// triangle.
+/// target_of_position  set to kPruned for removed positions
 Thinning thinIslands(const GroupMesh& group, StarMesh& mesh, size_t target_triangles,
                      std::vector<uint32_t>& target_of_position);
 

@@ -1,4 +1,4 @@
-// Whether a triangle survives the move of a corner.
+// Tests if a triangle flips when a corner moves.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,13 +10,13 @@
 namespace hearth::clusters
 {
 
-// A move may turn a triangle by up to 75 degrees.
+// A move may rotate a triangle by up to 75 degrees.
 inline constexpr float kMinTurnCosine = 0.25f;
 
-// Height of a triangle against its longest side below which its area is mostly rounding.
+// Ratio of a triangle's height to its longest side below which its area is mostly rounding.
 inline constexpr float kNeedle = 1e-4f;
 
-/// Whether the triangle (corner, a, b) turns over, or loses its area, when its corner moves.
+/// True if the triangle (corner, a, b) flips, or loses its area, when its corner moves.
 inline bool turnsTriangle(Float3 a, Float3 b, Float3 old_corner, Float3 new_corner)
 {
     const Float3 new_a = a - new_corner;
@@ -26,7 +26,7 @@ inline bool turnsTriangle(Float3 a, Float3 b, Float3 old_corner, Float3 new_corn
     const float old_area2 = dot(old_normal, old_normal);
     const float new_area2 = dot(new_normal, new_normal);
     const float longest2 = std::max(dot(new_a, new_a), dot(new_b, new_b));
-    // without branches: of the triangles around a collapse, those that go have no area
+    // without branches: triangles that a collapse removes have no area
     const bool gone = !(new_area2 > 0);
     const bool needle = !(new_area2 > kNeedle * kNeedle * longest2 * longest2);
     const bool smaller = new_area2 < old_area2;

@@ -38,7 +38,7 @@ bool WedgeMap::mapWedges(const Spoke& spoke)
                                      [&](uint32_t wedge) { return moveOfChart(wedge) != nullptr; });
 }
 
-/// The same where several sheets lie on each other.
+/// Map the wedges where several sheets coincide.
 bool WedgeMap::mapLayers(uint32_t from, uint32_t to)
 {
     moves_.clear();
@@ -60,7 +60,7 @@ bool WedgeMap::mapLayers(uint32_t from, uint32_t to)
     return permissive || moves_.size() == mesh_.wedges().size();
 }
 
-/// The move of a wedge of the same chart, or nullptr.
+/// Return the move of a wedge of the same chart, or nullptr.
 const WedgeMove* WedgeMap::moveOfChart(uint32_t wedge) const
 {
     const auto found = std::find_if(moves_.begin(), moves_.end(),

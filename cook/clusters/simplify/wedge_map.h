@@ -1,4 +1,5 @@
-// Which wedges of its target the wedges of a position take when it collapses. See cook/clusters/README.md, "Simplifying".
+// Maps the wedges of a collapsed position to wedges of its target. See cook/clusters/README.md,
+// "Simplifying".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,22 +14,23 @@
 namespace hearth::clusters
 {
 
-/// For the position that is gathered in a star mesh.
+/// Wedge map of the position that is gathered in a star mesh.
 class WedgeMap
 {
 public:
     WedgeMap(const GroupMesh& group, StarMesh& mesh) : group_(group), mesh_(mesh) {}
 
-    bool permissive = false; ///< wedges may be left without a way
+    bool permissive = false; ///< wedges may have no edge along the collapse
 
-    /// Find where the wedges go if the position collapses along the spoke; false if one of them has no way that keeps
-    /// the attributes together.
+    /// Map the wedges for a collapse of the position along the spoke; false if one of them has no edge along
+    /// it that keeps the attributes continuous.
     bool mapAlong(uint32_t from, const Spoke& spoke);
 
-    /// The same for any neighbour, and false for other positions.
+    /// Map the wedges for a collapse to any neighbour; false for other positions.
     bool mapTo(uint32_t from, uint32_t to);
 
-    /// Let wedges without a way take the nearest attributes, in the chart that wedges of their own chart go to, if any.
+    /// Map wedges without an edge to the nearest attributes, in the chart that wedges of their own chart map
+    /// to, if any.
     void mapRest(uint32_t to);
 
     std::span<const WedgeMove> moves() const { return moves_; }
@@ -38,7 +40,7 @@ public:
     }
     bool complete() const { return mesh_.plain() || moves_.size() == mesh_.wedges().size(); }
 
-    /// Whether the wedges of the position are of three charts or more.
+    /// True if the wedges of the position belong to three charts or more.
     bool moreChartsThanTwo() const;
 
 private:

@@ -28,7 +28,7 @@ bool LoopFill::close()
 {
     if (!overflow_)
     {
-        // number 0 is not needed any more
+        // the sentinel 0 is not needed any more
         std::copy(crossings_.begin() + 1, crossings_.begin() + static_cast<ptrdiff_t>(count_),
                   crossings_.begin());
         --count_;
@@ -47,20 +47,21 @@ bool LoopFill::close()
     return false;
 }
 
-/// Whether the way goes on around the corner at its left after a crossing; else around that at its right, or it comes
-/// back.
+/// True if the path continues around the left corner after a crossing. Else it continues around the right
+/// one, or comes back.
 bool LoopFill::turnsLeft(size_t i) const
 {
     return crossings_[(i + 1) % count_].leaving == previousSide(crossings_[i].entering);
 }
 
-/// The side of the facet that is entered which starts at the corner to the left or right of where it is entered.
+/// Return the half-edge, in the entered triangle, that starts at the corner to the left or right of the
+/// crossing.
 uint32_t LoopFill::cornerAt(const Crossing& crossing, bool left) const
 {
     return left ? crossing.entering : nextSide(crossing.entering);
 }
 
-/// Cut where the way comes back over a side.
+/// Cut where the path comes back over a half-edge.
 void LoopFill::reduce()
 {
     size_t kept = 0;
@@ -69,7 +70,7 @@ void LoopFill::reduce()
             addChord(crossings_[--kept], 1 - crossings_[i].t);
         else
             crossings_[kept++] = crossings_[i];
-    // and where its end meets its beginning
+    // also where the path's end meets its beginning
     size_t first = 0;
     for (; kept > first + 1 && crossings_[kept - 1].entering == crossings_[first].leaving; ++first)
         addChord(crossings_[--kept], 1 - crossings_[first].t);
@@ -78,7 +79,7 @@ void LoopFill::reduce()
     count_ = kept - first;
 }
 
-/// If the way goes once around one corner, that is all that it goes around.
+/// Finish a path that goes once around a single corner.
 bool LoopFill::closeRing()
 {
     const bool left = turnsLeft(0);
@@ -97,7 +98,7 @@ bool LoopFill::closeRing()
     return true;
 }
 
-/// Draw the way over a corner that it goes around for the most part, so that it becomes shorter.
+/// Push the path over a corner that it mostly goes around, so that it becomes shorter.
 bool LoopFill::pushOver()
 {
     for (size_t start = 0; start < count_; ++start)
@@ -110,7 +111,7 @@ bool LoopFill::pushOver()
             ++run;
         if (run + 1 > count_)
             continue;
-        // the sides to cross on the other way around the corner
+        // half-edges to cross when going around the corner the other way
         const uint32_t goal = crossings_[(start + run) % count_].entering / 3;
         std::array<uint32_t, kMaxCrossings> sides;
         size_t found = 0;
@@ -134,8 +135,8 @@ bool LoopFill::pushOver()
     return false;
 }
 
-/// After as many crossings as `run` the way turns to the left or to the right, around one corner; it shall cross the
-/// given sides instead, at that corner.
+/// Replace the first `run` + 1 crossings, between which the path turns left or right around one corner, by
+/// crossings of the given half-edges at that corner.
 void LoopFill::replaceRun(size_t run, bool left, std::span<const uint32_t> sides)
 {
     inner_.push_back(cornerAt(crossings_[0], left));

@@ -1,4 +1,5 @@
-// Whether a closed way over a surface's facets can be drawn together to a point.
+// Decides if a closed traced path over a triangulated surface can be contracted to a point, and records the
+// cuts.
 // See cook/clusters/README.md, "Error".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
@@ -14,20 +15,21 @@
 namespace hearth::clusters
 {
 
-/// Where a disc is cut along a side of a facet, so that its pieces lie in one facet each.
+/// Cut of a disc along a half-edge, so that each piece of the disc lies in one triangle.
 struct Chord
 {
     uint32_t side;
-    float length; ///< signed, in parts of the side
+    float length; ///< signed, in parts of the half-edge
 };
 
-/// A disc's border goes along a closed way from facet to facet. Where the way comes back over a side, the disc is cut
-/// between the two crossings. What is left may go around corners of facets: then these become points of the disc, and
-/// it is cut from there to each of the crossings.
+/// Fills a closed traced path with a disc. The disc's border follows the path from triangle to triangle.
+/// Where the path comes back over a half-edge, the disc is cut between the two crossings. The rest may go
+/// around corners of triangles: these corners become points of the disc, and it is cut from there to each of
+/// the crossings.
 class LoopFill
 {
 public:
-    /// twins  of the surface's sides
+    /// twins  opposite half-edges of the surface
     explicit LoopFill(std::span<const uint32_t> twins) : twins_(twins), chords_(4 * kMaxCrossings) {}
 
     void begin()
@@ -38,8 +40,8 @@ public:
         inner_.clear();
     }
 
-    /// The way leaves a facet at t of one of its sides, which has a twin. Whether it comes back over the side that it
-    /// came over last cannot be foretold: both is prepared.
+    /// Cross from a triangle to the next one at t of a half-edge with an opposite. Prepares both cases
+    /// without a branch, because a return over the half-edge that was crossed last is unpredictable.
     void cross(uint32_t leaving, uint32_t entering, float t)
     {
         const Crossing& last = crossings_[count_ - 1];
@@ -52,24 +54,24 @@ public:
             makeRoom();
     }
 
-    /// Forget the way and its chords.
+    /// Discard the path and its chords.
     void drop() { chord_count_ = begun_; }
 
-    /// The way has come back to where it began. Returns false if it cannot be filled: then there are no chords of it.
+    /// Close the path. Returns false if it cannot be filled: then it has no chords.
     bool close();
 
-    /// The corners of facets around which the way went: for each a side that starts there.
+    /// Return the corners of triangles that the path went around, each as a half-edge that starts there.
     std::span<const uint32_t> inner() const { return inner_; }
 
-    /// Of all ways that could be filled.
+    /// Return the chords of all paths that could be filled.
     std::span<const Chord> chords() const { return std::span(chords_).first(chord_count_); }
 
 private:
     struct Crossing
     {
         uint32_t leaving = kNoSide;
-        uint32_t entering = kNoSide; ///< its twin
-        float t = 0;                 ///< along the one that is left
+        uint32_t entering = kNoSide; ///< opposite half-edge of `leaving`
+        float t = 0;                 ///< along `leaving`
     };
     static constexpr size_t kMaxCrossings = 64;
 
@@ -83,10 +85,11 @@ private:
     void replaceRun(size_t run, bool left, std::span<const uint32_t> sides);
 
     std::span<const uint32_t> twins_;
-    std::vector<Chord> chords_; ///< and room for more
+    std::vector<Chord> chords_; ///< the first chord_count_ are in use
     size_t chord_count_ = 0;
-    size_t begun_ = 0;                              ///< chords of earlier ways
-    std::array<Crossing, kMaxCrossings> crossings_; ///< what is left of the way; number 0 is none
+    size_t begun_ = 0; ///< chords of earlier paths
+    /// Remaining crossings of the path; number 0 is a sentinel.
+    std::array<Crossing, kMaxCrossings> crossings_;
     size_t count_ = 1;
     bool overflow_ = false;
     std::vector<uint32_t> inner_;

@@ -12,14 +12,15 @@ namespace hearth::clusters
 namespace
 {
 
-// A triangle this close in parts of its own size is not searched further: on a plane all distances are rounding. Parts
-// of 512 would do, but that beside an open border it would be all that is known of a plane.
+// A triangle this close, in parts of its own size, is not searched further: on a plane all distances are
+// rounding. Parts of 512 would do, except beside an open border, where this tolerance would be the whole
+// error of a plane.
 constexpr float kFinest2 = 1.0f / (8192.0f * 8192.0f);
 
-// Facets within this part of a triangle's size are looked at first.
+// Triangles within this part of a triangle's size are searched first.
 constexpr float kTouching = 0.1f;
 
-// The first tries take so many likely facets and points.
+// Likely triangles and points of the first attempts.
 constexpr size_t kFewLikely = 2 * kLanes;
 constexpr size_t kFewPoints = 6;
 constexpr size_t kQuickPoints = 16;
@@ -27,7 +28,7 @@ constexpr size_t kQuickPoints = 16;
 // Rounding of planes' distances between points in [-1, 1]^3.
 constexpr float kSideMargin = 1e-5f;
 
-// A triangle is searched in at most so many parts before its bound is taken as it is.
+// A triangle is searched in at most this many parts; then its bound is taken as it is.
 constexpr size_t kMaxParts = 64;
 constexpr size_t kMaxMetricParts = 16;
 
@@ -53,7 +54,7 @@ constexpr std::array<Float2, 3> kWhole{Float2{0, 0}, Float2{1, 0}, Float2{0, 1}}
 
 } // namespace
 
-/// Halves the longest edge.
+/// Halve the longest edge.
 std::pair<NearestBound::Piece, NearestBound::Piece> NearestBound::halve(const Piece& piece)
 {
     const Corners& c = piece.corners;
@@ -93,7 +94,7 @@ float NearestBound::bound(const Corners& triangle, FacetIndex& index, std::span<
     {
         const Piece piece = stack_.back();
         stack_.pop_back();
-        // the facets that touch the piece do for most; the rest needs all that could be the nearest
+        // the triangles that touch the piece suffice for most; otherwise search all that could be the nearest
         Bound bound = boundPiece(piece, index, allowed2(), size * kTouching);
         if (!bound.closed && metric == nullptr)
             bound = boundPiece(piece, index, allowed2(), std::sqrt(bound.found2) * 1.01f);
@@ -133,7 +134,7 @@ Bound NearestBound::boundByLikely(const Corners& triangle, FacetIndex& index,
     return bounder_.bound(triangle, candidates_.blocks(), allowed2(), 0, kQuickPoints, metric_);
 }
 
-/// False where the metric has no bound.
+/// Load the candidate triangles. False if the metric has no bound.
 bool NearestBound::load(const FacetIndex& index, std::span<const uint32_t> facets)
 {
     facets_.clear();
@@ -143,7 +144,8 @@ bool NearestBound::load(const FacetIndex& index, std::span<const uint32_t> facet
     return metric_ == nullptr || metric_->load(facets);
 }
 
-/// Of the loaded facets those that the last bound was taken from; without a metric it does not say.
+/// Record the loaded triangles that the last bound was taken from: all of them without a metric, which does
+/// not track them.
 void NearestBound::addUsed(std::span<const uint32_t> facets)
 {
     for (size_t i = 0; i < facets.size(); ++i)
@@ -157,8 +159,8 @@ float NearestBound::allowed2() const
     return std::max(allowed * allowed, floor2_);
 }
 
-/// Bound the distance to the facets within `radius`; if there are none, to those within a larger one. Where there
-/// are more than fit, those with the nearest centers serve.
+/// Bound the distance to the triangles within `radius`; if there are none, to those within a larger one. If
+/// there are too many, those with the nearest centers serve.
 Bound NearestBound::boundPiece(const Piece& piece, FacetIndex& index, float allowed2, float radius)
 {
     index.query(boxAround(piece.corners, radius), found_);
@@ -172,7 +174,7 @@ Bound NearestBound::boundPiece(const Piece& piece, FacetIndex& index, float allo
         radius = 0;
     }
     else if (metric_ != nullptr)
-        radius = kInfinity; // what facets farther away could save is not searched for
+        radius = kInfinity; // do not search for savings by triangles farther away
     if (metric_ != nullptr)
         metric_->setPiece(piece.plane);
     if (!load(index, found_))
@@ -180,8 +182,8 @@ Bound NearestBound::boundPiece(const Piece& piece, FacetIndex& index, float allo
     return bounder_.bound(piece.corners, candidates_.blocks(), allowed2, radius, kMaxPoints, metric_);
 }
 
-/// Drop facets that lie beyond an edge of the piece by more than `radius`: the index knows them by their boxes only.
-/// Keeps all if none would be left.
+/// Drop triangles that lie beyond an edge of the piece by more than `radius`: the index tests only their
+/// boxes. Keeps all if none would remain.
 void NearestBound::dropBesides(const Corners& piece, FacetIndex& index, float radius)
 {
     const Float3 normal = cross(piece[1] - piece[0], piece[2] - piece[0]);

@@ -1,4 +1,5 @@
-// How far a triangle is from the nearest facets of a surface, as a bound. See cook/clusters/README.md, "Error".
+// Bounds the distance of a triangle to the nearest triangles of a surface. See cook/clusters/README.md,
+// "Error".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,46 +14,47 @@
 namespace hearth::clusters
 {
 
-/// What a bound need not go below.
+/// Tolerance below which a bound need not be improved.
 struct Allowance
 {
-    float enough = 0; ///< within this, nothing nearer is searched for
-    float slack = 0;  ///< nor if the bound exceeds what is there by 10 % and this
+    float enough = 0; ///< a bound within this distance suffices
+    float slack = 0;  ///< a bound that exceeds a real distance by at most 10 % and this suffices
 };
 
-/// A metric between the triangle that is bound and the surface's facets, which are at least as far apart in it as in space.
+/// Metric between the bounded triangle and the surface's triangles, never less than the Euclidean distance.
 class SurfaceMetric : public PointMetric
 {
 public:
-    /// The facets that the candidates are from now on. False where the metric has no bound among them.
+    /// Set the candidate triangles. False if the metric has no bound among them.
     virtual bool load(std::span<const uint32_t> facets) = 0;
 
-    /// The corners of the piece that is bound next, in multiples of the triangle's edges from corner 0.
+    /// Set the corners of the next piece to bound, in multiples of the triangle's edges from corner 0.
     virtual void setPiece(const std::array<Float2, 3>& corners) = 0;
 };
 
-/// Bounds the distances of triangles to a surface. The largest distance of a triangle to one facet is at a corner,
-/// because the distance to a convex set is convex: triangles that lie across several facets are cut where the nearest
-/// one changes until the pieces' bounds are good enough.
+/// Bounds the distances of triangles to a surface by branch and bound. The largest distance of a triangle to
+/// one other triangle is at a corner, because the distance to a convex set is convex. Triangles that lie
+/// across several others are cut where the nearest one changes, until the bounds of the pieces are good
+/// enough.
 class NearestBound
 {
 public:
-    /// An upper bound of the distance of any point of the triangle to the surface.
-    /// likely  facets that probably lie beside it, likeliest first: if they bound it well enough, no others are
+    /// Return an upper bound of the distance of any point of the triangle to the surface.
+    /// likely  triangles that are probably near, likeliest first: if they bound it well enough, no others are
     ///         searched; may be empty
-    /// metric  instead of the distance; then only facets that lie close to the triangle are searched, and the bound may
-    ///         be infinite. null: the distance
+    /// metric  instead of the distance; then only triangles close to the given one are searched, and the
+    ///         bound may be infinite. null: the distance
     float bound(const Corners& triangle, FacetIndex& index, std::span<const uint32_t> likely,
                 Allowance allowance, SurfaceMetric* metric = nullptr);
 
-    /// The facets that the last bound was taken from; some may be there twice.
+    /// Return the triangles that the last bound was taken from; may contain duplicates.
     std::span<const uint32_t> used() const { return used_; }
 
-    /// Pieces whose bound was taken before the search for a better one ended.
+    /// Return the number of pieces whose search ended early, so that their bounds are not tight.
     uint64_t loosePieces() const { return loose_pieces_; }
 
 private:
-    /// Of the triangle, with where its corners are in the whole one.
+    /// Piece of the triangle, with its corners' coordinates in the whole triangle.
     struct Piece
     {
         Corners corners;
@@ -69,7 +71,7 @@ private:
 
     Allowance allowance_;
     float floor2_ = 0;
-    float sure2_ = 0; ///< some point of the triangle is as far away
+    float sure2_ = 0; ///< lower bound: some point of the triangle is this far away
     uint64_t loose_pieces_ = 0;
     std::vector<std::pair<float, uint32_t>> by_distance_;
     SurfaceMetric* metric_ = nullptr;

@@ -10,13 +10,13 @@ namespace hearth::clusters
 namespace
 {
 
-/// Twice the signed area of a triangle in the plane.
+/// Return twice the signed area of a triangle in the plane.
 float area2(Float2 a, Float2 b, Float2 c)
 {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// Where a coordinate that runs from x to y becomes negative, in [0, 1].
+/// Return the parameter in [0, 1] where a coordinate that runs from x to y becomes negative.
 Lanes leavesAt(Lanes x, Lanes y)
 {
     const Lanes start = maximum(x, allLanes(0));
@@ -42,7 +42,7 @@ Bound Bounder::bound(const Corners& piece, std::span<const FacetBlock> blocks, f
                             addPoint(piece[2], {0, 1})};
     while (stack_size > 0)
     {
-        // a true distance beyond what these facets can prove ends the search among them
+        // a real distance beyond the range of these triangles ends the search among them
         if (lower2_ > std::max(allowed2, radius2_ * kSlack2))
             return {kInfinity, lower2_, std::min(lower2_, radius2_), false};
         const Part part = stack_[--stack_size];
@@ -73,7 +73,7 @@ Bound Bounder::bound(const Corners& piece, std::span<const FacetBlock> blocks, f
     return {upper2, lower2_, std::min(lower2_, radius2_), upper2 <= tolerance2()};
 }
 
-/// Closer than this need not be searched for.
+/// Return the squared distance below which bounds need not be improved.
 float Bounder::tolerance2() const
 {
     return std::max(allowed2_, std::min(lower2_, radius2_) * kSlack2);
@@ -95,7 +95,7 @@ uint8_t Bounder::addPoint(Float3 place, Float2 plane)
     return static_cast<uint8_t>(point_count_++);
 }
 
-/// Squared distance within which one candidate holds all the named points.
+/// Return the squared distance within which one candidate is near all the given points.
 template <size_t N>
 float Bounder::common(const std::array<uint8_t, N>& names) const
 {
@@ -110,7 +110,7 @@ float Bounder::common(const std::array<uint8_t, N>& names) const
     return leastLane(least);
 }
 
-/// The first candidate that holds all of a part's points within what is common to them.
+/// Return the first candidate with the smallest common distance to a part's points.
 size_t Bounder::best(const Part& part) const
 {
     const float least = common(part);
@@ -125,7 +125,7 @@ size_t Bounder::best(const Part& part) const
     return 0;
 }
 
-/// The corners of candidates that project into the piece.
+/// Find the corners of candidates that project into the piece.
 void Bounder::findCorners()
 {
     corners_found_ = true;
@@ -158,7 +158,7 @@ void Bounder::keepInside(Lanes x, Lanes y)
         if (!(inside[lane] > 0) || corner_count_ == corners_.size())
             continue;
         const Float2 corner{x[lane], y[lane]};
-        // each corner comes once for each of its facets
+        // each corner comes once for each of its triangles
         const bool known = std::any_of(corners_.begin(), corners_.begin() + corner_count_,
                                        [&](Float2 other) {
                                            return std::abs(other.x - corner.x) < kCornerMargin &&
@@ -175,7 +175,7 @@ Float3 Bounder::placeAt(Float2 plane) const
            (points_[2].place - points_[0].place) * plane.y;
 }
 
-/// A new point at a candidate's corner over the part, or kNoPoint.
+/// Add a point at a candidate's corner over the part; kNoPoint if there is none.
 uint8_t Bounder::cornerInside(const Part& part)
 {
     const Float2 a = points_[part[0]].plane, b = points_[part[1]].plane, c = points_[part[2]].plane;
@@ -189,7 +189,7 @@ uint8_t Bounder::cornerInside(const Part& part)
     return kNoPoint;
 }
 
-/// The edge whose ends agree least on a candidate.
+/// Return the edge whose ends have the largest common distance to a candidate.
 size_t Bounder::worstEdge(const Part& part) const
 {
     size_t edge = 0;
@@ -211,7 +211,8 @@ size_t Bounder::worstEdge(const Part& part) const
     return edge;
 }
 
-/// A new point between two, where the edge has left every candidate that it starts on; the middle if none serves.
+/// Add a point between two, where the edge has left every candidate that it starts on; at the middle if that
+/// fails.
 uint8_t Bounder::cutEdge(uint8_t p, uint8_t q)
 {
     const Lanes near2 = allLanes(tolerance2());

@@ -1,4 +1,5 @@
-// Bounds how far a piece of a triangle is from a few other triangles. See cook/clusters/README.md, "Error".
+// Bounds the distance of a piece of a triangle to a few other triangles. See cook/clusters/README.md,
+// "Error".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -21,11 +22,11 @@ inline constexpr size_t kMaxBlocks = 8;
 inline constexpr size_t kMaxCandidates = kLanes * kMaxBlocks;
 inline constexpr size_t kMaxPoints = 28;
 
-// Pieces are cut until they are this close to the largest distance that the group has anyway.
+// Pieces are cut until their bounds are within this factor of the group's largest distance.
 inline constexpr float kSlack = 1.1f;
 inline constexpr float kSlack2 = kSlack * kSlack;
 
-/// The facets that a piece is held against, at most kMaxCandidates.
+/// Candidate triangles for the bound of a piece, at most kMaxCandidates.
 class Candidates
 {
 public:
@@ -35,7 +36,7 @@ public:
         block_count_ = (facets.size() + kLanes - 1) / kLanes;
         for (size_t b = 0; b < block_count_; ++b)
         {
-            // lanes that are left over repeat the first facet
+            // unused lanes repeat the first triangle
             std::array<const Facet*, kLanes> lanes;
             for (size_t lane = 0; lane < kLanes; ++lane)
                 lanes[lane] = &facets[b * kLanes + lane < facets.size() ? b * kLanes + lane : 0];
@@ -50,54 +51,57 @@ private:
     size_t block_count_ = 0;
 };
 
-/// How far apart points of two surfaces are where more than their places counts.
+/// Distance between points of two surfaces that depends on more than their positions.
 class PointMetric
 {
 public:
     virtual ~PointMetric() = default;
 
-    /// Squared distances of a point of the piece from points of a block's candidates; the distance is convex along straight
-    /// lines on both surfaces.
-    /// plane  of the point: multiples of the piece's edges from corner 0
+    /// Return the squared distances of a point of the piece to points of a block's candidates. The distance
+    /// is convex along straight lines on both surfaces.
+    /// plane  coordinates of the point: multiples of the piece's edges from corner 0
     virtual Lanes distance2(Float2 plane, size_t block, const FacetBlock::Nearest& nearest) const = 0;
 };
 
+/// Bounds of the distance between a piece and its candidates, squared.
 struct Bound
 {
-    float upper2; ///< the whole piece is within this of the candidates, squared
-    float found2; ///< some point of it is so far from these candidates
-    float sure2;  ///< and so far from all facets
-    bool closed;  ///< upper2 is as good as is worth searching for
+    float upper2; ///< the whole piece is within this distance of the candidates, squared
+    float found2; ///< some point of the piece is this far from these candidates, squared
+    float sure2;  ///< some point of the piece is this far from all triangles, squared
+    bool closed;  ///< upper2 is within the tolerance
 };
 
-/// Bounds the distance of one piece of a triangle to a few facets.
+/// Bounds the distance of one piece of a triangle to a few triangles.
 class Bounder
 {
 public:
-    /// Cut the piece where the nearest candidate changes, until every part is within allowed2 of one candidate (or
-    /// within 10 % of a distance that is there), or the points run out. Parts are cut at corners of candidates that
-    /// lie over them, else where an edge leaves the candidate that it starts on: on a plane that is the common
-    /// refinement of both surfaces.
+    /// Cut the piece where the nearest candidate changes, until every part is within allowed2 of one
+    /// candidate (or within 10 % of a real distance), or the points run out. Parts are cut at corners of
+    /// candidates that lie over them, else where an edge leaves the candidate that it starts on: on a plane
+    /// this is the common refinement of both surfaces.
     ///
-    /// blocks    all facets that are within `radius` of the piece, and perhaps others
-    /// metric    instead of the distance, between a point and the nearest one of each candidate; null: the distance
+    /// blocks    all triangles that are within `radius` of the piece, and perhaps others
+    /// metric    instead of the distance, between a point and the nearest one of each candidate; null: the
+    ///           distance
     Bound bound(const Corners& piece, std::span<const FacetBlock> blocks, float allowed2, float radius,
                 size_t max_points = kMaxPoints, const PointMetric* metric = nullptr);
 
-    /// Whether the last bound by a metric was taken from the candidate.
+    /// True if the last bound by a metric was taken from the candidate.
     bool hasServed(size_t candidate) const { return (served_ >> candidate & 1) != 0; }
 
 private:
     using Part = std::array<uint8_t, 3>;
     static constexpr uint8_t kNoPoint = 0xFF;
 
-    /// Corners this near to an edge of the piece are left to its cuts.
+    /// Corners this near to an edge of the piece are left to the cuts of edges.
     static constexpr float kCornerMargin = 0.01f;
 
-    /// Part of an edge that is worth cutting off.
+    /// Shortest part of an edge that is worth cutting off.
     static constexpr float kShortest = 0.01f;
 
-    /// A point of the piece: where it is in the piece's plane, and its squared distance to each candidate.
+    /// Point of the piece, with its coordinates in the piece's plane and its squared distance to each
+    /// candidate.
     struct Probe
     {
         Float3 place;
@@ -122,7 +126,7 @@ private:
     uint64_t served_ = 0; ///< a bit for each candidate
     float allowed2_ = 0;
     float radius2_ = 0;
-    float lower2_ = 0; ///< largest distance of a point to the candidates; true up to radius2_
+    float lower2_ = 0; ///< largest distance of a point to the candidates; valid up to radius2_
     std::array<Probe, kMaxPoints> points_;
     size_t point_count_ = 0;
     std::array<Part, 3 * kMaxPoints> stack_;

@@ -23,18 +23,18 @@ uint32_t sumOf(Numbers x)
     return (x[0] + x[1]) + (x[2] + x[3]);
 }
 
-/// Sides from larger numbers to one position: most positions have about three. All are compared at once, because no
-/// branch on what one finds could be foretold.
+/// Half-edges that arrive at one position from larger ids: most positions have about three. Compares all at
+/// once, because a branch on each comparison would be unpredictable.
 struct Arriving
 {
     static constexpr size_t kPlaces = 2 * kLanes;
-    std::array<uint32_t, kPlaces> start; ///< kNoSide where there is none
+    std::array<uint32_t, kPlaces> start; ///< kNoSide in unused slots
     std::array<uint32_t, kPlaces> side;
 
     struct Found
     {
         uint32_t count;
-        uint32_t side; ///< if it is one
+        uint32_t side; ///< valid if the count is one
     };
     Found find(uint32_t position) const
     {
@@ -90,7 +90,7 @@ private:
                 uint32_t& count = count_at_[end];
                 if (count < Arriving::kPlaces)
                 {
-                    // one that rises does not count: the next takes its place
+                    // a half-edge to a larger id does not count: the next one overwrites it
                     arriving_[end].start[count] = start;
                     arriving_[end].side[count] = side;
                 }
@@ -99,7 +99,7 @@ private:
                 count += start > end ? 1 : 0;
             }
         rising_.resize(rising_count);
-        // and behind the last is none
+        // terminate each list
         for (size_t position = 0; position < count_at_.size(); ++position)
             if (const uint32_t count = count_at_[position]; count < Arriving::kPlaces)
                 arriving_[position].start[count] = kNoSide;
@@ -136,12 +136,12 @@ private:
     }
 
     std::span<const uint32_t> positions_;
-    std::vector<uint32_t> count_at_; ///< for each position, of sides from larger numbers
+    std::vector<uint32_t> count_at_; ///< half-edges that arrive from larger ids, for each position
     std::vector<Arriving> arriving_;
-    std::vector<uint32_t> rising_; ///< sides to a larger number
-    std::vector<uint32_t> others_; ///< sides to a smaller number that found no place
+    std::vector<uint32_t> rising_; ///< half-edges to a larger id
+    std::vector<uint32_t> others_; ///< half-edges to a smaller id that did not fit
     std::vector<uint32_t> twins_;
-    bool several_ = false; ///< between the same positions, the same way round
+    bool several_ = false; ///< several half-edges run in the same direction between the same positions
 };
 
 } // namespace

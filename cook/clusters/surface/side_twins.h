@@ -1,4 +1,4 @@
-// Which sides of a surface's facets meet.
+// Pairs the half-edges of a triangulated surface with their opposites.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,7 +10,7 @@
 namespace hearth::clusters
 {
 
-/// Side number s belongs to facet s / 3 and runs from its corner s % 3 to the next one.
+/// Half-edge number s belongs to triangle s / 3 and runs from its corner s % 3 to the next one.
 inline uint32_t nextSide(uint32_t side)
 {
     return side % 3 == 2 ? side - 2 : side + 1;
@@ -22,10 +22,10 @@ inline uint32_t previousSide(uint32_t side)
 
 inline constexpr uint32_t kNoSide = 0xFFFFFFFFu;
 
-/// For each side the one that runs the other way between the same positions, or kNoSide: at a border, and where more
-/// than two sides lie between two positions.
+/// Return the opposite half-edge of each half-edge: the one that runs the other way between the same
+/// positions. kNoSide at a border, and where more than two half-edges lie between two positions.
 ///
-/// positions  three for each facet, below `position_count`
+/// positions  position ids, three for each triangle, below `position_count`
 std::vector<uint32_t> sideTwins(std::span<const uint32_t> positions, size_t position_count);
 
 } // namespace hearth::clusters

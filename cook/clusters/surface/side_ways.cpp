@@ -13,14 +13,14 @@ namespace hearth::clusters
 namespace
 {
 
-// A way that takes more crossings is given up, and one that must look at so many facets.
+// Maximum crossings of a traced path, and maximum triangles of its search.
 constexpr size_t kMostSteps = 24;
 constexpr size_t kMostFacets = 64;
 
-/// Where a segment a to b comes near to another.
+/// Closest approach of two segments.
 struct Meeting
 {
-    float t; ///< along it
+    float t; ///< along the segment from a to b
     float far;
 };
 
@@ -29,9 +29,9 @@ Meeting meet(Float3 p, Float3 q, Float3 a, Float3 b)
     const Float3 pq = q - p, ab = b - a, ap = p - a;
     const float both = dot(pq, ab), inverse_pq2 = 1 / dot(pq, pq), inverse_ab2 = 1 / dot(ab, ab);
     const float t_at_p = dot(ap, ab) * inverse_ab2, t_on_way = both * inverse_ab2;
-    // across the second: differences that stay exact where the two are nearly parallel
+    // perpendicular to the second segment: differences that stay exact where the two are nearly parallel
     const Float3 across = ap - ab * t_at_p, across_on_way = pq - ab * t_on_way;
-    // not a number becomes 0
+    // NaN becomes 0
     const auto unit = [](float x) { return std::min(x > 0 ? x : 0.0f, 1.0f); };
     float s = unit(-dot(across, across_on_way) / dot(across_on_way, across_on_way));
     const float t = unit(t_at_p + t_on_way * s);
@@ -51,7 +51,7 @@ SideWays::SideWays(const GroupMesh& group, const Simplified& simplified,
       images_(group.positions.size()),
       way_of_side_(positions_before.size(), kNoSide)
 {
-    ways_.reserve(positions_before.size()); // no way moves while others are searched
+    ways_.reserve(positions_before.size()); // references to paths stay valid while others are traced
     crossings_.reserve(positions_before.size() * 2 / 3);
     findImages(group, simplified, points);
 }
@@ -147,7 +147,7 @@ void SideWays::cross(uint32_t side, Way& way)
     way.far = std::max(way.far, meeting.far);
 }
 
-/// Straight on along a line, as seen from above the facets at its ends.
+/// Follow a straight line, as seen from above the triangles at its ends.
 bool SideWays::walk(const Image& start, const Image& end, Way& way)
 {
     const auto makeLine = [&]
@@ -162,7 +162,7 @@ bool SideWays::walk(const Image& start, const Image& end, Way& way)
     const auto leadsToEnd = [&](uint32_t side)
     { return twins_[side] != kNoSide && holds(twins_[side] / 3, end); };
 
-    // the facet to start in, and the side to leave it by
+    // find the triangle to start in, and the half-edge to leave it by
     uint32_t exit = kNoSide;
     std::array<float, 3> sides{};
     if (start.isVertex())
@@ -225,7 +225,7 @@ bool SideWays::walk(const Image& start, const Image& end, Way& way)
         {
             const float tip = sideOf(last);
             const float left = sides[(exit + 1) % 3], right = sides[exit % 3];
-            // behind the tip, if that is to the right: between the tip and what is left
+            // if the tip is to the right, leave between the tip and the left corner
             exit = tip < 0 ? last : next;
             sides[entered % 3] = left;
             sides[next % 3] = right;
@@ -235,13 +235,13 @@ bool SideWays::walk(const Image& start, const Image& end, Way& way)
     return false;
 }
 
-/// A way over the fewest sides.
+/// Find a path over the fewest half-edges, by breadth-first search.
 bool SideWays::crossFewest(const Image& start, const Image& end, Way& way)
 {
     struct Reached
     {
         uint32_t facet;
-        uint32_t side; ///< that led there
+        uint32_t side; ///< half-edge that was crossed to get there
         size_t before;
     };
     std::vector<Reached> reached;

@@ -1,5 +1,5 @@
-// The ways that the sides of a surface's facets take over the surface that a simplification leaves.
-// See cook/clusters/README.md, "Error".
+// Traces the half-edges (triangle edges) of a surface over the simplified surface. See
+// cook/clusters/README.md, "Error".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -17,54 +17,56 @@
 namespace hearth::clusters
 {
 
-/// A point in a facet: (1 - v - w) * corner 0 + v * corner 1 + w * corner 2.
+/// Point in a triangle by barycentric coordinates: (1 - v - w) * corner 0 + v * corner 1 + w * corner 2.
 struct InFacet
 {
     float v = 0, w = 0;
 };
 
-/// Corner k of a facet.
+/// Return corner k of a triangle as a point.
 inline InFacet cornerPoint(uint32_t k)
 {
     return {k == 1 ? 1.0f : 0.0f, k == 2 ? 1.0f : 0.0f};
 }
 
-/// Where a position lies on the surface after: at a position of that surface, which is in all facets around it, or
-/// within a facet.
+/// Point of the simplified surface that a position maps to: one of its positions, which belongs to all
+/// triangles around it, or a point within a triangle.
 struct Image
 {
     uint32_t facet = kNoFacet;
-    uint32_t vertex = kNoFacet; ///< the position
+    uint32_t vertex = kNoFacet; ///< position id
     InFacet at;
-    float far = 0; ///< distance of the two
+    float far = 0; ///< distance between the position and the point
 
     bool isVertex() const { return vertex != kNoFacet; }
     bool isThere() const { return facet != kNoFacet; }
 };
 
-/// Where a way goes from facet to facet.
+/// Crossing of a traced path from triangle to triangle.
 struct Crossing
 {
-    std::array<uint32_t, 2> sides; ///< of the facet before, and its twin of the facet behind
-    float t;                       ///< from the start (0) to the end (1) of the side that is left
-    float far;                     ///< distance from the point that goes there
+    /// Half-edge of the triangle before, and its opposite in the triangle behind.
+    std::array<uint32_t, 2> sides;
+    float t;   ///< from the start (0) to the end (1) of the half-edge that is left
+    float far; ///< distance from the point of the traced half-edge that maps there
 
     uint32_t leaving() const { return sides[0]; }
     uint32_t entering() const { return sides[1]; }
 };
 
-/// From the image of where a side starts to that of where it ends.
+/// Traced path of a half-edge: from the point that its start maps to, to that of its end.
 struct Way
 {
     uint32_t side = 0;
-    uint32_t first = 0;        ///< crossing
-    uint32_t count = 0;        ///< of crossings
-    uint32_t from = 0, to = 0; ///< facets
-    float far = -1;            ///< the largest of the crossings' distances; less than 0: no way was found
+    uint32_t first = 0;        ///< first crossing
+    uint32_t count = 0;        ///< number of crossings
+    uint32_t from = 0, to = 0; ///< triangles
+    float far = -1;            ///< largest distance of the crossings; less than 0: no path was found
 
     bool isFound() const { return far >= 0; }
 };
 
+/// Traces half-edges of the surface before over the surface after.
 class SideWays
 {
 public:
@@ -73,16 +75,16 @@ public:
 
     const Image& imageOf(uint32_t position) const { return images_[position]; }
 
-    /// The image in a facet that it lies in.
+    /// Return the coordinates of a mapped position in a triangle that contains it.
     InFacet pointIn(uint32_t facet, const Image& image) const
     {
         return image.isVertex() ? cornerPoint(cornerAt(facet, image.vertex) - facet * 3) : image.at;
     }
 
-    /// Search the way of a side; once for each.
+    /// Trace the path of a half-edge; call once for each.
     void findWay(uint32_t side);
 
-    /// Of a side whose way was searched.
+    /// Return the path of a half-edge that was traced.
     const Way& wayOf(uint32_t side) const { return ways_[way_of_side_[side]]; }
 
     std::span<const Crossing> crossingsOf(const Way& way) const
@@ -90,12 +92,13 @@ public:
         return std::span(crossings_).subspan(way.first, way.count);
     }
 
-    /// Those that were searched.
+    /// Return all traced paths.
     std::span<const Way> ways() const { return ways_; }
 
     std::span<const uint32_t> twins() const { return twins_; }
 
-    /// The sides to cross from a facet to another one around the same position, the shorter way; none if there is none.
+    /// Return the half-edges to cross from a triangle to another one around the same position, by the
+    /// shorter turn; empty if there is none.
     std::span<const uint32_t> turn(uint32_t vertex, uint32_t from, uint32_t to);
 
 private:
@@ -108,7 +111,7 @@ private:
     Float3 placeOf(const Image& image) const;
     bool holds(uint32_t facet, const Image& image) const;
 
-    /// The corner of a facet that lies at a position, or kNoSide.
+    /// Return the corner of a triangle that lies at a position, or kNoSide.
     uint32_t cornerAt(uint32_t facet, uint32_t position) const
     {
         const uint32_t* corners = &after_.positions[size_t{facet} * 3];
@@ -118,8 +121,8 @@ private:
                                         : kNoSide;
     }
 
-    /// Twice the areas, seen from above, that corners have with the straight line that a walk follows: positive to its
-    /// left.
+    /// Line that a traced path follows. sideOf(position) is twice the signed area that a corner
+    /// spans with the line, seen from above: positive to its left.
     struct Line
     {
         Float3 origin, left;
@@ -129,14 +132,14 @@ private:
     std::span<const uint32_t> positions_;
     std::span<const Float3> places_;
     const Surface& after_;
-    std::vector<uint32_t> twins_; ///< of sides after
+    std::vector<uint32_t> twins_; ///< opposite half-edges of the surface after
     std::vector<Image> images_;
-    std::vector<uint32_t> way_of_side_; ///< of sides before
+    std::vector<uint32_t> way_of_side_; ///< of the half-edges before
     std::vector<Way> ways_;
     std::vector<Crossing> crossings_;
     std::vector<uint32_t> turn_;
 
-    // of the side whose way is searched
+    // of the half-edge that is traced
     Float3 from_, to_;
     Line line_;
 };

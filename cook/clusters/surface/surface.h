@@ -1,4 +1,4 @@
-// One of the two surfaces that a simplification stands between, with what finding things on it needs.
+// Surface before or after a simplification, with its search structures.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,11 +13,11 @@
 namespace hearth::clusters
 {
 
-/// Lists of numbers, one behind the other.
+/// Lists of numbers in one array (compressed sparse rows).
 class NumberLists
 {
 public:
-    /// Number i / N goes to list keys[i], or to none if that is not below `list_count`.
+    /// Append i / N to list keys[i], or to none if that is not below `list_count`.
     template <uint32_t N>
     static NumberLists byKey(size_t list_count, std::span<const uint32_t> keys)
     {
@@ -46,16 +46,17 @@ private:
     std::vector<uint32_t> items_;
 };
 
+/// Triangulated surface of a group; all arrays are in local units.
 struct Surface
 {
-    std::vector<uint32_t> positions; ///< three for each facet
-    std::vector<Float3> places;      ///< of the same corners
+    std::vector<uint32_t> positions; ///< position ids, three for each triangle
+    std::vector<Float3> places;      ///< positions of the same corners
     std::vector<Facet> facets;
     std::vector<Float3> place_of_position;
-    NumberLists facets_at; ///< facets at each position
+    NumberLists facets_at; ///< triangles at each position
 
-    /// positions          three for each facet
-    /// place_of_position  of all positions
+    /// positions          position ids, three for each triangle
+    /// place_of_position  position of every position id
     Surface(std::vector<uint32_t> corner_positions, std::span<const Float3> all_places)
         : positions(std::move(corner_positions)),
           places(placesOf(positions, all_places)),
@@ -65,7 +66,7 @@ struct Surface
     {
     }
 
-    /// The same facets where positions lie elsewhere.
+    /// Move the positions; the triangles stay the same.
     void setPlaces(std::span<const Float3> all_places)
     {
         places = placesOf(positions, all_places);

@@ -15,39 +15,39 @@ namespace hearth::clusters
 namespace
 {
 
-// Bounds are searched for until they are this close to what is there.
+// The search ends when bounds are within this factor of a real distance.
 constexpr double kSearchSlack = 1.1;
 
-// A triangle is searched in at most so many pieces. On surfaces that lie apart by a thousandth of their size, one
-// triangle that spans all of the other surface takes about a million.
+// A triangle is searched in at most this many pieces. On surfaces that lie apart by a thousandth of their
+// size, one triangle that spans all of the other surface takes about a million.
 constexpr size_t kMaxPieces = size_t{1} << 22;
 
-// Triangles that are searched side by side know the distances that were found before, not those of each other: so the
-// result does not depend on the threads.
+// Triangles of a block are searched in parallel. They use the distances of earlier blocks, not of each other,
+// so the result does not depend on the threads.
 constexpr size_t kBlock = 4096;
 
-// Points that are looked at before, to know what a large distance is: corners, and so many centers where the triangles
-// are fewer, at most 1024 a triangle.
+// Points that are measured first, to find a large distance early: corners, and this many centers where the
+// triangles are fewer, at most 1024 a triangle.
 constexpr size_t kFirstPoints = 65536;
 constexpr size_t kMaxHalvings = 10;
 
-// Corners that are looked at one after the other: each knows what is near the one before.
+// Corners that are measured in sequence: each starts at the nearest triangle of the one before.
 constexpr size_t kRun = 256;
 
-// Rounding of a distance, as part of the coordinates: a few times 2^-53, with room.
+// Rounding of a distance, in parts of the coordinates: a few times 2^-53, with margin.
 constexpr double kBoundRounding = 1e-14;
 
 constexpr uint32_t kNoTriangle = 0xFFFFFFFFu;
 
-/// A part of a triangle: a triangle itself.
+/// Piece of a triangle: a triangle itself.
 struct Piece
 {
     Corners3 corners;
-    uint32_t near = 0;             ///< a triangle of the other surface that lies beside it
-    uint32_t cut_by = kNoTriangle; ///< the one that it was cut along
+    uint32_t near = 0;             ///< a nearby triangle of the other surface
+    uint32_t cut_by = kNoTriangle; ///< the triangle that it was cut along
 };
 
-/// What one triangle found.
+/// Result of one triangle.
 struct Found
 {
     double upper = 0;
@@ -60,7 +60,7 @@ Double3 centerOf(const Corners3& c)
     return (c[0] + c[1] + c[2]) * (1.0 / 3);
 }
 
-/// The whole piece lies within it of its center.
+/// Return the radius around the center that contains the whole piece.
 double radiusOf(const Corners3& c, Double3 center)
 {
     double radius2 = 0;
@@ -69,14 +69,15 @@ double radiusOf(const Corners3& c, Double3 center)
     return std::sqrt(radius2);
 }
 
-/// No point of the piece is farther from the triangle than its corners: the distance to a convex set is convex.
+/// Return the largest distance of the piece to a triangle. It is at a corner: the distance to a convex set is
+/// convex.
 double farthestCorner(const Corners3& piece, const Corners3& triangle)
 {
     return std::sqrt(std::max(
         {distance2(piece[0], triangle), distance2(piece[1], triangle), distance2(piece[2], triangle)}));
 }
 
-/// Append the halves of the longest edge.
+/// Append the two halves, cut at the longest edge.
 void halve(const Piece& piece, std::vector<Piece>& pieces)
 {
     const Corners3& c = piece.corners;
@@ -99,7 +100,7 @@ void halve(const Piece& piece, std::vector<Piece>& pieces)
 
 using Polygon = std::vector<Double3>; ///< flat and convex
 
-/// Cut along the line where `height`, which grows linearly, is 0.
+/// Cut a polygon along the line where `height`, a linear function, is 0.
 template <typename Height>
 void cut(const Polygon& polygon, const Height& height, Polygon& below, Polygon& above)
 {
@@ -129,8 +130,9 @@ void addFan(const Polygon& polygon, uint32_t near, uint32_t cut_by, std::vector<
         pieces.push_back({{polygon[0], polygon[i - 1], polygon[i]}, near, cut_by});
 }
 
-/// Cut a piece along the border of a triangle that it lies over, in the direction of its plane: on a plane, that makes
-/// the common refinement of both surfaces, where halves would never lie over one triangle alone.
+/// Cut a piece along the border of the triangle that it lies over, perpendicular to that triangle's plane. On
+/// a plane this yields the common refinement of both surfaces, where halves would never lie over one triangle
+/// alone.
 void cutAlong(const Piece& piece, const Corners3& border, std::vector<Piece>& pieces)
 {
     Polygon inside(piece.corners.begin(), piece.corners.end());
@@ -148,17 +150,17 @@ void cutAlong(const Piece& piece, const Corners3& border, std::vector<Piece>& pi
     addFan(inside, piece.near, piece.near, pieces);
 }
 
-/// Whether cutting along a triangle gains more than halving does.
+/// True if cutting along a triangle gains more than halving.
 bool worthCutting(const Piece& piece, double radius, const Corners3& triangle)
 {
     return piece.cut_by != piece.near && radius <= 2 * radiusOf(triangle, centerOf(triangle));
 }
 
-/// Bound the distance of one triangle's points to a surface. Branch and bound: a piece is done where it lies within
-/// the allowed distance of one triangle, or so close around its center that no point of it can be farther; else it
-/// is cut.
+/// Bound the distance of one triangle's points to a surface. Branch and bound: a piece is done when it lies
+/// within the allowed distance of one triangle, or so close around its center that no point of it can be
+/// farther; else it is cut.
 ///
-/// known   a distance that is there elsewhere, or that is good enough
+/// known   a distance that occurs elsewhere, or that is good enough
 Found boundTriangle(const Corners3& triangle, const SurfaceTree& other, double known)
 {
     Found found;
@@ -173,7 +175,7 @@ Found boundTriangle(const Corners3& triangle, const SurfaceTree& other, double k
         const SurfaceTree::Nearest nearest = other.nearest(center, stop * stop, piece.near);
         const double distance = std::sqrt(nearest.distance2);
         piece.near = nearest.triangle;
-        // a search that stopped says only that the center is within the allowed distance
+        // a search that stopped early only proves that the center is within the allowed distance
         if (distance > stop)
             found.sure = std::max(found.sure, distance);
         const Corners3 near = other.triangle(nearest.triangle);
@@ -192,7 +194,7 @@ Found boundTriangle(const Corners3& triangle, const SurfaceTree& other, double k
     return found;
 }
 
-/// The largest distance of the surface's corners: where surfaces lie farthest apart, there is one more often than not.
+/// Return the largest distance of the surface's corners: mostly the farthest point of a surface is a corner.
 double distanceOfCorners(const SurfaceView& from, const SurfaceTree& to)
 {
     std::vector<uint32_t> corners(from.triangles.begin(), from.triangles.end());
@@ -214,7 +216,8 @@ double distanceOfCorners(const SurfaceView& from, const SurfaceTree& to)
     return std::sqrt(*std::max_element(farthest2.begin(), farthest2.end()));
 }
 
-/// The largest distance of the centers of the surface's triangles, where they are few of those of their parts.
+/// Return the largest distance of the centers of the surface's triangles; if triangles are few, of their
+/// parts.
 double distanceOfCenters(const SurfaceTree& from, size_t triangle_count, const SurfaceTree& to)
 {
     size_t halvings = 0;
@@ -284,7 +287,7 @@ SurfaceBound boundSurfaces(const SurfaceView& a, const SurfaceView& b, double en
 {
     HEARTH_ASSERT(!a.triangles.empty() && !b.triangles.empty() && enough >= 0);
     const double coordinates = std::max(largestCoordinate(a), largestCoordinate(b));
-    // distances below this cannot be told from 0 in floats, in which the surfaces are given
+    // smaller distances cannot be distinguished from 0 in the float positions of the surfaces
     const double least = std::max(enough, coordinates * 1e-6);
     const SurfaceTree tree_a(a);
     const SurfaceTree tree_b(b);

@@ -16,11 +16,11 @@ namespace hearth::clusters
 namespace
 {
 
-// What is left over at a vertex is a mean over the triangles around: that alone is right where all of them are off by as
-// much, and falls short elsewhere.
+// The residual at a vertex is a mean over the triangles around it: right where all of them have the same
+// residual, too small elsewhere. So steps are longer.
 constexpr float kOverrelaxation = 1.3f;
 
-// How far the foot of an upright line may be off, in parts of a facet's edges.
+// Tolerance of the foot of a perpendicular, in parts of a triangle's edges.
 constexpr float kUpright = 1e-3f;
 
 class SurfaceFit
@@ -68,7 +68,8 @@ public:
     }
 
 private:
-    /// The rest between the middle of a triangle and where it lies goes to the corners of the facet there.
+    /// Distribute the residual between the middle of a triangle and its point on the new surface to the
+    /// corners of the triangle there.
     void addMiddle(uint32_t triangle)
     {
         const uint32_t* before = &group_.corners[size_t{triangle} * 3];
@@ -89,14 +90,14 @@ private:
         if (dot(away, away) <= exact_distance2_)
             for (size_t k = 0; k < 3; ++k)
                 exact_weights_[positions[k]] += area * parts[k];
-        // at a seam both sides would have to change alike, and the middle may lie on the other one
+        // at a seam both sides would have to change equally, and the middle may lie on the other side
         if ((points_.on_seam[positions[0]] | points_.on_seam[positions[1]] | points_.on_seam[positions[2]]) ==
             0)
             addAttributes(before, after, parts, area);
     }
 
-    /// Whether the line to a point leaves the facet upright. On the rim of the fan it does not: there other facets may be
-    /// nearer.
+    /// True if the line to a point is perpendicular to the triangle. On the rim of the fan it is not: other
+    /// triangles may be nearer there.
     bool isUpright(const FacetPoint& point, Float3 away) const
     {
         const Facet& facet = after_.facets[point.facet];
@@ -167,12 +168,12 @@ private:
 
     const GroupMesh& group_;
     Placement& placement_;
-    std::span<const uint32_t> corners_; ///< wedges of the new surface's facets
+    std::span<const uint32_t> corners_; ///< wedges of the new surface's triangles
     Surface& after_;
     SurfacePoints& points_;
     std::vector<Lanes> place_rests_;       ///< sum for each position, and its weight
-    std::vector<float> exact_weights_;     ///< what of the weight is on the new surface already
-    float exact_distance2_;                ///< the grid's resolution
+    std::vector<float> exact_weights_;     ///< part of the weight that is already on the new surface
+    float exact_distance2_;                ///< resolution of the grid
     std::vector<Lanes> attribute_rests_;   ///< rows of each wedge
     std::vector<float> attribute_weights_; ///< for each wedge
 };

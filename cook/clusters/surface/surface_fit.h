@@ -1,4 +1,5 @@
-// What collapses and quadrics leave, fitted to the surface that it stands for. See cook/clusters/README.md, "Fitting".
+// Fits a simplified surface to the original by a step of least squares. See cook/clusters/README.md,
+// "Fitting".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,9 +11,9 @@
 namespace hearth::clusters
 {
 
-/// Move the remade positions, on the mesh's grid, and change their attributes, so that the triangles of the group lie
-/// nearer to the new surface in the sense of least squares. No triangle turns over.
-/// after, points  of `simplified`; they go with it
+/// Move the remade positions, on the mesh's grid, and change their attributes, so that the triangles of the
+/// group lie nearer to the new surface in the sense of least squares. No triangle flips.
+/// after, points  of `simplified`; updated with it
 void fitToGroup(const GroupMesh& group, Simplified& simplified, Surface& after, SurfacePoints& points);
 
 } // namespace hearth::clusters

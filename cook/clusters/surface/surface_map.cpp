@@ -14,7 +14,7 @@ namespace
 
 constexpr float kNotMapped = -1;
 
-// A facet is covered a whole number of times: this is far more than what rounding leaves of it.
+// A triangle is covered a whole number of times: this tolerance is well above rounding.
 constexpr float kRoundingOfLengths = 0.25f;
 
 float distanceTo(const Corners& triangle, Float3 place)
@@ -23,7 +23,7 @@ float distanceTo(const Corners& triangle, Float3 place)
     return std::sqrt(makeBlock({&facet, &facet, &facet, &facet}).distance2(place)[0]);
 }
 
-/// The point on a side at t from its start (0) to its end (1).
+/// Return the point on a half-edge at t from its start (0) to its end (1).
 InFacet onSide(uint32_t side, float t)
 {
     switch (side % 3)
@@ -58,8 +58,8 @@ SurfaceMap::SurfaceMap(const GroupMesh& group, const Simplified& simplified,
     findCovered();
 }
 
-/// Those of the sides of wanted triangles, each once. They are listed first: which of two twins comes first cannot be
-/// foretold.
+/// Trace the half-edges of wanted triangles, each edge once. They are listed first, because a branch on the
+/// order of two opposite half-edges would be unpredictable.
 void SurfaceMap::findWays(std::span<const uint8_t> wanted)
 {
     std::vector<uint32_t> sides(positions_.size());
@@ -75,10 +75,10 @@ void SurfaceMap::findWays(std::span<const uint8_t> wanted)
         ways_.findWay(side);
 }
 
-/// Follows the ways of the three sides.
+/// Map a triangle by following the traced paths of its three half-edges.
 bool SurfaceMap::mapTriangle(uint32_t t)
 {
-    /// Of one side; a side's way is that of its twin backwards.
+    /// Traced path of one half-edge; the path of a half-edge is that of its opposite backwards.
     struct Followed
     {
         const Way* way;
@@ -122,7 +122,7 @@ bool SurfaceMap::mapTriangle(uint32_t t)
 
 void SurfaceMap::follow(const Way& way, bool backwards)
 {
-    // forwards or backwards without a branch, which could not be foretold
+    // forwards or backwards without a branch, which would be unpredictable
     const auto crossings = ways_.crossingsOf(way);
     const size_t back = backwards ? 1 : 0;
     const float start = static_cast<float>(back), direction = 1 - 2 * start;
@@ -134,7 +134,7 @@ void SurfaceMap::follow(const Way& way, bool backwards)
     }
 }
 
-/// From facet to facet on the spot.
+/// Cross from triangle to triangle around a position.
 bool SurfaceMap::turn(uint32_t t, const Image& image, uint32_t from, uint32_t to)
 {
     const auto sides = ways_.turn(image.vertex, from, to);
@@ -183,9 +183,9 @@ std::vector<float> SurfaceMap::sumsOver(std::span<const float> carried) const
     return sums;
 }
 
-/// The pieces in a facet together end at its sides, unless the way of a side that has a mapped triangle on one hand only
-/// comes through. Then they cover all of it equally often, and that is how often they cover any of its sides; but for
-/// those that such a way runs along.
+/// Find the covered triangles. The pieces in a triangle together end at its half-edges, unless the path of a
+/// half-edge with only one mapped triangle beside it passes through. Then they cover all of the triangle
+/// equally often, as often as they cover any of its half-edges, except those that such a path runs along.
 void SurfaceMap::findCovered()
 {
     const auto twins = ways_.twins();
@@ -206,7 +206,8 @@ void SurfaceMap::findCovered()
         covered_[f] = open_[f] == 0 && (telling_[f * 3] | telling_[f * 3 + 1] | telling_[f * 3 + 2]) != 0;
 }
 
-/// Only one triangle is mapped beside a side: nothing is known of facets that its way goes through.
+/// Mark the triangles that the path of a half-edge passes through as unknown: only one triangle beside it is
+/// mapped.
 void SurfaceMap::openAlong(uint32_t side)
 {
     const Way& way = ways_.wayOf(side);

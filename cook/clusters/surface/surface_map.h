@@ -1,4 +1,5 @@
-// A continuous map from the surface before a simplification to that after it. See cook/clusters/README.md, "Error".
+// Continuous map from the surface before a simplification to the surface after it. See
+// cook/clusters/README.md, "Error".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -16,15 +17,15 @@
 namespace hearth::clusters
 {
 
-/// Each triangle before is cut into pieces that lie in one facet after each. Their corners are corners of triangles,
-/// crossings of their sides' ways and points that lie at positions after. No point of a piece is farther from where it
-/// lies than the farthest of the piece's corners.
+/// Maps each triangle before, cut into pieces that lie in one triangle after each. Their corners are corners
+/// of triangles, crossings of the traced paths of their half-edges, and points that lie at positions after.
+/// No point of a piece is farther from its mapped point than the farthest of the piece's corners.
 class SurfaceMap
 {
 public:
-    /// positions_before  three for each triangle before
-    /// points            where positions lie on the surface after
-    /// wanted            for each triangle before: whether it is mapped; others are still there as they were
+    /// positions_before  position ids, three for each triangle before
+    /// points            points of the surface after that positions map to
+    /// wanted            for each triangle before: 1 to map it; others are still present unchanged
     SurfaceMap(const GroupMesh& group, const Simplified& simplified,
                std::span<const uint32_t> positions_before, const Surface& after,
                std::span<const FacetPoint> points, std::span<const uint8_t> wanted);
@@ -33,18 +34,18 @@ public:
 
     bool maps(size_t triangle) const { return far_[triangle] >= 0; }
 
-    /// No point of a triangle before that is mapped is farther from where it lies.
+    /// Return the largest distance of a point of a mapped triangle before to its mapped point.
     float farOf(size_t triangle) const { return far_[triangle]; }
 
-    /// Whether each point of a facet after is that of some triangle before.
+    /// True if each point of a triangle after is the mapped point of some triangle before.
     bool covers(size_t facet) const { return covered_[facet] != 0; }
 
-    /// For each facet after the largest sum of what a mapped triangle carries and how far a corner of its pieces there
-    /// is.
+    /// Return, for each triangle after, the largest sum of the value that a mapped triangle carries and the
+    /// distance of a corner of its pieces there.
     /// carried  for each triangle before
     std::vector<float> sumsOver(std::span<const float> carried) const;
 
-    /// Calls visit(facet) for those that a mapped triangle's border comes through.
+    /// Call visit(triangle) for the triangles that a mapped triangle's border passes through.
     template <typename Visit>
     void forEachFacetOf(uint32_t triangle, Visit visit) const
     {
@@ -58,7 +59,7 @@ public:
     }
 
 private:
-    /// A corner of a triangle's pieces that lies at a position after, in all facets around it.
+    /// Corner of a triangle's pieces that lies at a position after, in all triangles around it.
     struct Inner
     {
         uint32_t triangle;
@@ -66,7 +67,8 @@ private:
         float far;
     };
 
-    /// A facet that the border of a triangle passes through on the spot, where a corner lies at a position after.
+    /// Triangle that the border of another one passes through at a single point, where a corner lies at a
+    /// position after.
     struct Passed
     {
         uint32_t triangle;
@@ -86,14 +88,15 @@ private:
     const GroupMesh& group_;
     std::span<const uint32_t> positions_;
     const Surface& after_;
-    std::vector<uint32_t> twins_; ///< of sides before
+    std::vector<uint32_t> twins_; ///< opposite half-edges before
     SideWays ways_;
     LoopFill fill_;
     std::vector<float> far_; ///< for each triangle before; less than 0 if it is not mapped
     std::vector<Inner> inner_;
     std::vector<Passed> passed_;
-    std::vector<uint8_t> telling_; ///< for each side after: it is covered once, and says so of its facet
-    std::vector<uint8_t> open_;    ///< for each facet after: parts may be covered more often than others
+    /// 1 for each half-edge after that is covered once and decides for its triangle.
+    std::vector<uint8_t> telling_;
+    std::vector<uint8_t> open_; ///< for each triangle after: parts may be covered more often than others
     std::vector<uint8_t> covered_;
 };
 

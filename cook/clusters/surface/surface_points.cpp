@@ -55,11 +55,11 @@ public:
 private:
     static constexpr uint32_t kNone = 0xFFFFFFFFu;
 
-    /// Items by a key, in chains.
+    /// Linked lists of items by key.
     class Chains
     {
     public:
-        /// keyOf(item) is kNone for those that are in no chain
+        /// keyOf(item) is kNone for items of no list
         template <typename KeyOf>
         Chains(size_t key_count, size_t item_count, KeyOf keyOf)
             : head_(key_count, kNone), behind_(item_count)
@@ -104,7 +104,7 @@ private:
         return goal0 != kNone ? goal0 : goal1 != kNone ? goal1 : goals_[group_.position_of_wedge[wedges[2]]];
     }
 
-    /// Most middles of triangles that are left lie above what they have become.
+    /// Take the triangle's own remainder if its middle lies above it, as most do.
     void takeOwnFacet(uint32_t triangle, uint32_t number)
     {
         const Facet& facet = after_.facets[number];
@@ -145,12 +145,12 @@ private:
         FacetPoint& nearest = points_.of_position[group_.position_of_wedge[wedge]];
         if (nearest.facet == kNoFacet)
             nearest = fan_.nearest(group_.positions[group_.position_of_wedge[wedge]]);
-        // inside a chart all of the fan goes on from facet to facet
+        // inside a chart the fan is continuous
         points_.of_wedge[wedge] = on_seam ? likeliestPoint(wedge) : nearest;
     }
 
-    /// The nearest point on each of the facets, and of these the nearest one with regard to the attributes as well: at a
-    /// seam, that is on the wedge's own side.
+    /// Return the nearest point on each of the triangles, and of these the nearest one in position and
+    /// attributes: at a seam this is on the wedge's own side.
     FacetPoint likeliestPoint(uint32_t wedge) const
     {
         FacetPoint best;
@@ -159,7 +159,7 @@ private:
                             [&](const FacetPoint& point)
                             {
                                 const float cost = point.distance2 + attributeDistance2(wedge, point);
-                                // the first stands for those whose distances are no numbers
+                                // the first serves if distances are NaN
                                 if (cost < least || best.facet == kNoFacet)
                                 {
                                     least = std::min(least, cost);
@@ -190,8 +190,8 @@ private:
     const Simplified& simplified_;
     const Surface& after_;
     SurfacePoints points_;
-    std::vector<uint32_t> goals_; ///< for each position that went or moved, where it went; others: kNone
-    FacetFan fan_;                ///< around one position
+    std::vector<uint32_t> goals_; ///< target of each position that was removed or moved; others: kNone
+    FacetFan fan_;                ///< triangles around one position
 };
 
 } // namespace

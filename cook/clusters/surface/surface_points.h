@@ -1,4 +1,4 @@
-// Where on the surface that a simplification leaves the positions and vertices lie that it took away or moved.
+// Projects removed or moved positions and vertices to the simplified surface.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,18 +12,18 @@
 namespace hearth::clusters
 {
 
-/// Those of positions and wedges are among the facets around where the position went; none for positions that are as
-/// they were, and for those that were pruned.
+/// Points of positions and wedges are among the triangles around the target of the position; none for
+/// unchanged positions and for pruned ones.
 struct SurfacePoints
 {
-    std::vector<FacetPoint> of_position; ///< the nearest
-    std::vector<FacetPoint>
-        of_wedge; ///< the same, but at a seam the nearest with regard to the attributes as well
-    /// Near the middle of each triangle: in what is left of the triangle, if the middle lies over that, else among the
-    /// facets around where its first changed corner went. Empty where islands went or grew, or positions were merged by
-    /// cells: what is left there is not meant to lie like that.
+    std::vector<FacetPoint> of_position; ///< nearest point
+    /// Nearest point; at a seam the nearest one that takes attributes into account as well.
+    std::vector<FacetPoint> of_wedge;
+    /// Point near the middle of each triangle: in the remainder of the triangle, if the middle lies over
+    /// that, else among the triangles around the target of its first changed corner. Empty if islands were
+    /// pruned or grown, or positions were merged by cells: the rest is not meant to lie like that.
     std::vector<FacetPoint> of_middle;
-    std::vector<uint8_t> on_seam; ///< for each position: several wedges are left at it
+    std::vector<uint8_t> on_seam; ///< for each position: several wedges remain at it
 };
 
 SurfacePoints findPoints(const GroupMesh& group, const Simplified& simplified, const Surface& after);

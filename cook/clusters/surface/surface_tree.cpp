@@ -1,4 +1,5 @@
-// The nearest point of a triangle: C. Ericson, "Real-Time Collision Detection", 2005, 5.1.5; needles fall back to edges.
+// Nearest point of a triangle: C. Ericson, "Real-Time Collision Detection", 2005, 5.1.5; needles fall back to
+// edges.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/surface/surface_tree.h"
 
@@ -15,7 +16,7 @@ namespace
 
 constexpr uint32_t kLeafTriangles = 4;
 
-// Depth of a tree that halves 2^32 triangles, with the sibling of each node on the way.
+// Depth of a tree that halves 2^32 triangles, with the sibling of each node on the path.
 constexpr size_t kMaxStack = 64;
 
 double edgeDistance2(Double3 point, Double3 a, Double3 b)
@@ -76,7 +77,8 @@ Corners3 SurfaceTree::triangle(uint32_t index) const
     return {corner(0), corner(1), corner(2)};
 }
 
-/// Halve the triangles along the longest side of their centers' box; recursion is as deep as the tree, 32 at most.
+/// Halve the triangles along the longest side of their centers' box. Recursion is as deep as the tree, 32 at
+/// most.
 void SurfaceTree::build(uint32_t first, uint32_t count)
 {
     const auto center = [&](uint32_t t, int axis)

@@ -1,4 +1,4 @@
-// The nearest triangle of a whole surface: a tree of boxes.
+// Bounding volume hierarchy of a surface for nearest-triangle queries.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,12 +11,15 @@
 namespace hearth::clusters
 {
 
-/// In double precision: what is measured is compared with numbers ten thousand times smaller than coordinates.
+/// Corners in double precision: results are compared with numbers ten thousand times smaller than
+/// coordinates.
 using Corners3 = std::array<Double3, 3>;
 
-/// Squared distance of a point to a triangle, needles included: never too small but for rounding.
+/// Return the squared distance of a point to a triangle, needles included. Never too small except for
+/// rounding.
 double distance2(Double3 point, const Corners3& triangle);
 
+/// Bounding volume hierarchy over the triangles of a surface.
 class SurfaceTree
 {
 public:
@@ -28,14 +31,16 @@ public:
         double distance2 = 0;
     };
 
-    /// The triangle nearest to a point; or, as soon as one is found, any whose squared distance is at most `enough2`.
+    /// Find the triangle nearest to a point; or, as soon as one is found, any whose squared distance is at
+    /// most `enough2`.
     /// hint  a triangle that is probably near
     Nearest nearest(Double3 point, double enough2, uint32_t hint) const;
 
     Corners3 triangle(uint32_t index) const;
 
 private:
-    /// A leaf has `count` triangles; a node has its first child behind it and its second at `second`.
+    /// Node of the tree. A leaf has `count` triangles; an inner node's first child follows it, its second is
+    /// at `second`.
     struct Node
     {
         Box3 box;

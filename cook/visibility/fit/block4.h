@@ -1,4 +1,4 @@
-// Four numbers at once: the right-hand sides of the fit go through the solver together.
+// Block of four numbers: the solver processes the four right-hand sides of the fit together.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,7 +9,7 @@
 namespace hearth::visibility
 {
 
-/// m0 and the three parts of m1.
+/// Values of m0 and the three components of m1.
 struct alignas(32) Block4
 {
     double v[4] = {0, 0, 0, 0};

@@ -21,10 +21,10 @@ namespace
 
 constexpr double kPi = std::numbers::pi;
 
-// Narrower cones are seen by no shading, and at 0 all derivatives vanish.
+// Narrower cones have no visible effect on shading, and at 0 all derivatives vanish.
 constexpr double kLeastAperture = 1e-3;
 
-// A quarter of a thousandth of full visibility's norm is far below what any noise leaves.
+// Stops the solver where errors are a quarter of a thousandth of full visibility's norm, far below any noise.
 constexpr double kFunctionTolerance = 1e-10;
 
 template <typename T>
@@ -43,7 +43,7 @@ std::array<T, 9> basisOf(const T& x, const T& y, const T& z)
             (x * x - y * y) * (band2 / 2)};
 }
 
-/// c_lm = z_l sqrt(4 pi / (2 l + 1)) Y_lm(axis), with the zonal z_l of a cone about +z.
+/// Compute c_lm = z_l sqrt(4 pi / (2 l + 1)) Y_lm(axis), with the zonal harmonics z_l of a cone about +z.
 template <typename T>
 std::array<T, 9> coneHarmonics(const T* axis, const T& aperture, const T& scale)
 {

@@ -1,4 +1,4 @@
-// Cones fitted to nine spherical harmonics instead of the four moments: an option, to show what it brings.
+// Fits cones to nine spherical harmonics instead of the four moments: an option, to measure what it gains.
 // See cook/visibility/README.md, "Refined cones".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
@@ -12,13 +12,13 @@
 namespace hearth::visibility
 {
 
-/// Real spherical harmonics, orthonormal, l * l + l + m in the order of (l, m): of bands 0, 1 and 2.
+/// Real spherical harmonics of the bands 0, 1 and 2, orthonormal; (l, m) has the index l * l + l + m.
 using Sh9 = std::array<double, 9>;
 
-/// Y_lm of a unit direction.
+/// Evaluate Y_lm in a unit direction.
 Sh9 sphericalHarmonics(Double3 direction);
 
-/// Visible with `scale` within the half-angle `aperture_rad` about the axis, else hidden.
+/// Visibility cone: `scale` within the half-angle `aperture_rad` about the axis, 0 outside.
 struct ConeFit
 {
     Double3 axis{0, 0, 1};   ///< unit
@@ -26,24 +26,24 @@ struct ConeFit
     double scale = 0;        ///< in [0, 1]
 };
 
-/// The harmonics of the cone, integrated over all directions.
+/// Compute the harmonics of the cone, integrated over all directions.
 Sh9 harmonicsOf(const ConeFit& cone);
 
 struct RefinedCone
 {
     ConeFit cone;
-    double start_distance2 = 0; ///< squared distance of the start's harmonics to those asked for
-    double distance2 = 0;       ///< and of the result's; not greater
+    double start_distance2 = 0; ///< squared distance of the start's harmonics from the target
+    double distance2 = 0;       ///< squared distance of the result's harmonics; not greater
 };
 
-/// The cone whose harmonics are nearest to `visibility`, by Levenberg-Marquardt from `start`, and from its aperture
-/// and scale about `normal`: with two openings there are several minima. Both sides have three bands: against the
-/// cone itself a narrow cone would fit as a wide one.
+/// Find the cone whose harmonics are nearest to `visibility`, by Levenberg-Marquardt from `start`, and from
+/// its aperture and scale about `normal`: with two openings there are several minima. Both sides are
+/// truncated to three bands; compared with the cone itself, a narrow cone would be fitted as a wide one.
 RefinedCone refineCone(const Sh9& visibility, const ConeFit& start, Double3 normal);
 
 struct RefineStatistics
 {
-    double start_rms = 0; ///< of the distances, over all cones
+    double start_rms = 0; ///< rms distance of the starts, over all cones
     double rms = 0;
 };
 
@@ -53,7 +53,7 @@ struct RefinedCones
     RefineStatistics statistics;
 };
 
-/// All cones of a mesh, in parallel; the same bits for any number of threads.
+/// Refine all cones of a mesh in parallel; the same bits for any number of threads.
 /// starts, normals  one for each of `visibility`
 RefinedCones refineCones(std::span<const Sh9> visibility, std::span<const ConeFit> starts,
                          std::span<const Float3> normals);

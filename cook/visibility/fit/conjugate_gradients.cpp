@@ -17,10 +17,10 @@ namespace hearth::visibility
 namespace
 {
 
-// Rows whose sums are made one after another. Sums of blocks are added in their order.
+// Rows that one task sums in sequence. The sums of blocks are added in the order of the blocks.
 constexpr size_t kRowsPerTask = 2048;
 
-/// The sum over all rows of what `term(row, sum)` adds.
+/// Sum over all rows: `term(row, sum)` adds the term of a row.
 template <typename Term>
 Block4 sumOver(size_t rows, const Term& term)
 {
@@ -49,8 +49,8 @@ Block4 rowTimes(const SparseMatrix& matrix, size_t row, const std::vector<Block4
     return sum;
 }
 
-/// The tridiagonal matrix that conjugate gradients have found: its eigenvalues lie among those of the preconditioned matrix,
-/// the extreme ones soon near its extreme ones.
+/// Tridiagonal Lanczos matrix of the iterations. Its eigenvalues lie within the range of the preconditioned
+/// matrix's eigenvalues, and its extreme ones soon approach the extreme ones there.
 class Lanczos
 {
 public:
@@ -74,7 +74,7 @@ public:
     }
 
 private:
-    /// How many eigenvalues are below x: signs of the pivots of T - x (Sturm).
+    /// Count the eigenvalues below x, by the signs of the pivots of T - x (Sturm sequence).
     size_t countBelow(double x) const
     {
         size_t count = 0;
@@ -89,7 +89,7 @@ private:
         return count;
     }
 
-    /// The number-th from below, by bisection to a thousandth.
+    /// Compute the number-th smallest eigenvalue, by bisection to a thousandth.
     double eigenvalue(size_t number, double high) const
     {
         double low = 0;
@@ -102,7 +102,7 @@ private:
     }
 
     std::vector<double> diagonal_;
-    std::vector<double> square_; ///< of the entries beside the diagonal
+    std::vector<double> square_; ///< squares of the entries beside the diagonal
     double carried_ = 0;
 };
 
@@ -150,7 +150,7 @@ SolveStatistics solve(const SparseMatrix& matrix, const std::vector<Block4>& b, 
         Block4 step;
         for (size_t k = 0; k < 4; ++k)
         {
-            active[k] = active[k] && pq.v[k] > 0; // what is left over is rounding: nothing to gain
+            active[k] = active[k] && pq.v[k] > 0; // the remainder is rounding: nothing to gain
             step.v[k] = active[k] ? rz.v[k] / pq.v[k] : 0;
         }
         tbb::parallel_for(size_t{0}, rows,

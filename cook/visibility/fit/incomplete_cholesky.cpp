@@ -11,15 +11,16 @@ namespace hearth::visibility
 namespace
 {
 
-// Rows that one thread factorizes and solves for.
+// Rows of a block, which one thread factorizes and solves.
 constexpr size_t kRowsPerBlock = 2048;
 
-// Of the diagonal, what each pivot is at least: where much is left out that matters they become small, then negative, and
-// what follows grows without bound.
+// Minimum pivot, as a share of the diagonal: where large entries are left out, pivots become small, then
+// negative, and later entries grow without bound.
 constexpr double kLeastPivot = 0.02;
 
-// What is added to the diagonal of a block then, at first; twice as much each time, until it is enough: entries are at most the
-// root of their diagonals' product, so that as many times the diagonal as a row has entries always is.
+// First increase of a block's diagonal after a pivot that is too small; doubled until it is enough. Entries
+// are at most the root of their diagonals' product, so the diagonal times the number of entries in a row is
+// always enough.
 constexpr double kFirstShift = 0.01;
 
 } // namespace
@@ -59,7 +60,7 @@ bool IncompleteCholesky::factorizeRow(uint32_t row, double shift)
     Row& of_row = rows_[row];
     const std::vector<uint32_t>& columns = matrix_.columns;
     const double whole = matrix_.values[of_row.diagonal];
-    // L D first: entry i needs those before it
+    // L D first: entry i needs the entries before it
     for (uint32_t i = of_row.first; i < of_row.diagonal; ++i)
     {
         const Row& other = rows_[columns[i]];

@@ -15,12 +15,13 @@ namespace hearth::visibility
 namespace
 {
 
-// Samples that are looked up one after another; each starts where the one before was found.
+// Samples that are looked up in sequence; each search starts at the triangle that the previous one found.
 constexpr size_t kVerticesPerTask = 256;
 
+// Default of LevelMesh::reach (stored as 0), as a share of the diagonal of the samples' box.
 constexpr double kReach = 0.05;
 
-/// Of the samples: where they are, and which way their triangles face.
+/// Positions of the samples, with the directions that their triangles face.
 struct SamplePoints
 {
     std::vector<Float3> positions;
@@ -54,7 +55,7 @@ SamplePoints pointsOf(const MeshView& mesh, std::span<const SurfaceSample> sampl
     return points;
 }
 
-/// The chosen samples on the proxy of a coarser level.
+/// Map the chosen samples of the finest level to a level's proxy.
 std::vector<SurfaceSample> transfer(const SamplePoints& points, const SampleChoice& choice,
                                     const Proxy& proxy, double reach)
 {
@@ -79,7 +80,7 @@ std::vector<SurfaceSample> transfer(const SamplePoints& points, const SampleChoi
     return result;
 }
 
-/// What the proxy's vertices must be so that those of the level are what the finer level's are.
+/// Fixed values of proxy vertices that keep shared vertices equal to those of the finer level.
 struct Held
 {
     std::vector<uint8_t> is_held;
@@ -109,7 +110,7 @@ LevelFit fitLevel(const LevelMesh& level, const Proxy& proxy, std::span<const Su
     FitResult fit = fitVertices(proxy, samples, values, settings, {held.is_held, held.moments});
     LevelFit result{valuesOfSource(proxy, fit.moments, level.mesh.normals), fit.statistics, proxy.statistics,
                     static_cast<uint32_t>(samples.size())};
-    // several vertices of a level may be one vertex of its proxy, of which the finer level had two
+    // several vertices of a level may share one proxy vertex where the finer level had two
     for (size_t v = 0; v < level.finer_vertex.size(); ++v)
         if (level.finer_vertex[v] != kNowhere)
             result.moments[v] = finer[level.finer_vertex[v]];

@@ -1,4 +1,4 @@
-// Visibility for every level of a cluster hierarchy: each is fitted anew to the samples of the finest one.
+// Fits visibility for every level of a cluster hierarchy, each to the samples of the finest level.
 // See cook/visibility/README.md, "Levels".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
@@ -10,15 +10,16 @@
 namespace hearth::visibility
 {
 
-/// The triangles that a uniform cut through the hierarchy draws.
+/// Triangles that a uniform cut through the hierarchy draws.
 struct LevelMesh
 {
     MeshView mesh;
-    /// For each vertex the vertex of the level below (the one before this, finer) that it must not differ from, or
-    /// kNowhere. Empty for the finest. Cuts that mix the two levels meet in such vertices.
+    /// For each vertex, the vertex of the next finer level (the previous element) whose value it must copy,
+    /// or kNowhere. Empty for the finest. Cuts that mix the two levels meet in these vertices.
     std::span<const uint32_t> finer_vertex;
-    /// How far samples are looked for on this level: larger than its error, less than what would be another side of
-    /// the object. Units of the positions; 0: a twentieth of the diagonal of the samples' box.
+    /// Maximum distance between a sample and this level's surface: larger than the level's error, smaller
+    /// than the distance of another side of the object. Units of the positions; 0: a twentieth of the
+    /// diagonal of the samples' box.
     float reach = 0;
 };
 
@@ -26,12 +27,14 @@ struct LevelFitSettings
 {
     ProxySettings proxy;
     FitSettings fit;
-    /// Of a level at most, so that all levels together take little time: four times what the finest has by default.
+    /// Maximum on a coarser level, so that all levels together take little time: four times the finest
+    /// level's default.
     uint32_t samples_per_vertex = 32;
-    /// Jumps of gradients weigh alpha times the square of the level's vertices by the finest's: that is the same
-    /// penalty of curvature in metres on each level, so that they approach one function, and with one alpha the
-    /// coarse ones would be blurred until copies of vertices were nearer to the truth. Not less than this share of
-    /// alpha: with the samples that a vertex has, noise would come through.
+    /// Minimum factor of alpha on a coarser level. The factor is the square of the level's number of vertices
+    /// by the finest level's: the same penalty of curvature in metres on each level, so that levels approach
+    /// one function. With one alpha for all levels, coarse ones would be so blurred that copies of vertices
+    /// were nearer to the truth. With a smaller factor than this, noise would come through at the samples
+    /// that a vertex has.
     double least_alpha = 0.03;
 };
 
@@ -40,25 +43,27 @@ struct LevelFit
     std::vector<Moments> moments; ///< for each vertex of the level's mesh
     FitStatistics statistics;     ///< `held` counts vertices of the proxy
     ProxyStatistics proxy;
-    uint32_t samples = 0; ///< that were used; statistics.lost_samples of them lie nowhere on this level
+    uint32_t samples = 0; ///< used samples; statistics.lost_samples of them lie nowhere on this level
 };
 
-/// The finest level first. Held vertices have the bits of the level below; so, from level to level, cuts have no
-/// jumps. Samples of coarser levels are an even choice by area along the order of the samples, which should be one
-/// that keeps neighbours together (Morton's), each moved to the nearest point that faces its way.
+/// Fit all levels, finest first. Held vertices have the bits of the next finer level, so that mixed cuts have
+/// no jumps. Coarser levels use an even choice of samples by area, in the order of the samples, which should
+/// keep neighbours together (Morton order). Each sample is moved to the nearest point that faces the same
+/// way.
 /// samples  on the triangles of levels[0]
 /// values   one for each sample
 std::vector<LevelFit> fitLevels(std::span<const LevelMesh> levels, std::span<const SurfaceSample> samples,
                                 std::span<const Moments> values, const LevelFitSettings& settings = {});
 
-/// An even choice: `count` steps of equal area along the samples, and for each the sample that its middle falls on;
-/// how often a sample is chosen is its new area. All samples as they are, if they are no more.
-/// returns  indices, ascending, and the area of each
+/// Subset of samples: indices, ascending, and the area of each.
 struct SampleChoice
 {
     std::vector<uint32_t> samples;
     std::vector<float> areas;
 };
+/// Choose samples evenly: `count` steps of equal area along the samples, and for each step the sample at its
+/// middle. The area of a chosen sample is the number of its steps times the area of a step. Returns all
+/// samples unchanged if there are no more than `count`.
 SampleChoice chooseSamples(std::span<const SurfaceSample> samples, size_t count);
 
 } // namespace hearth::visibility

@@ -1,5 +1,6 @@
-// Least squares vertex baking: L. Kavan, A. W. Bargteil, P.-P. Sloan, "Least squares vertex baking", 2011. Differs:
-// the regulariser as one row for each edge, weighted by (A1 + A2)^2, and the mass sampled like the right-hand side.
+// Assembles the linear system of least squares vertex baking: L. Kavan, A. W. Bargteil, P.-P. Sloan, "Least
+// squares vertex baking", 2011. Differs: the regulariser is one row for each edge, weighted by (A1 + A2)^2,
+// and the mass is sampled like the right-hand side.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/visibility/fit/normal_equations.h"
 
@@ -15,9 +16,9 @@ namespace hearth::visibility
 namespace
 {
 
-// Of the determinant that a triangle's mass would have if it were sampled everywhere. With less, corners would follow
-// the noise of samples that lie in a row, and the solver would take hundreds of iterations for models of loose
-// triangles.
+// Share of the determinant that a triangle's mass would have if it were sampled everywhere; a triangle below
+// it is undersampled and gets a membrane. Without that, corners would follow the noise of samples that lie in
+// a row, and the solver would take hundreds of iterations for models of loose triangles.
 constexpr double kPoor = 0.3;
 
 double areaOf(std::span<const Float3> positions, const uint32_t* corners)
@@ -26,16 +27,16 @@ double areaOf(std::span<const Float3> positions, const uint32_t* corners)
     return length(cross(widen(positions[corners[1]]) - a, widen(positions[corners[2]]) - a)) / 2;
 }
 
-/// What the samples of one triangle add up to.
+/// Sums over the samples of one triangle.
 struct TriangleSums
 {
-    double mass[6] = {0, 0, 0, 0, 0, 0}; ///< corners 00, 11, 22, 01, 12, 20
+    double mass[6] = {0, 0, 0, 0, 0, 0}; ///< of pairs of corners: 00, 11, 22, 01, 12, 20
     Block4 right[3];
-    double area = 0;                                                 ///< of the samples
-    double whole = 0;                                                ///< as if all of them counted
-    double corner_areas[3] = {0, 0, 0}, corner_whole[3] = {0, 0, 0}; ///< shared out to the corners
+    double area = 0;                                                 ///< of the samples, times their weights
+    double whole = 0;                                                ///< of the samples, with weights of 1
+    double corner_areas[3] = {0, 0, 0}, corner_whole[3] = {0, 0, 0}; ///< split among the corners
 
-    /// How much of the triangle counts.
+    /// Share of the triangle's area that counts.
     double share() const { return whole > 0 ? area / whole : 1; }
 };
 
@@ -66,12 +67,13 @@ std::vector<TriangleSums> sumSamples(size_t triangle_count, std::span<const Surf
     return sums;
 }
 
-/// Which entries the matrix has: vertices of one triangle, and those opposite to each other across an edge.
+/// Create the entries of the matrix: pairs of vertices of one triangle, and of vertices opposite to each
+/// other across an edge.
 SparseMatrix patternOf(const Proxy& proxy)
 {
     const size_t rows = proxy.positions.size();
     std::vector<uint32_t> next(rows + 1, 0);
-    // every pair twice, once for each row; pairs along an edge come from each triangle that has it
+    // every pair twice, once for each row; pairs along an edge once for each triangle of the edge
     const auto forPairs = [&](const auto& use)
     {
         for (size_t t = 0; t < proxy.indices.size(); t += 3)
@@ -118,15 +120,15 @@ double& entry(SparseMatrix& matrix, uint32_t row, uint32_t column)
 {
     const auto begin = matrix.columns.begin() + matrix.row_start[row];
     const auto end = matrix.columns.begin() + matrix.row_start[row + 1];
-    const auto found = std::find(begin, end, column); // a dozen: faster than by halves
+    const auto found = std::find(begin, end, column); // about a dozen entries: faster than a binary search
     return matrix.values[static_cast<size_t>(found - matrix.columns.begin())];
 }
 
 void addSymmetric(SparseMatrix& matrix, uint32_t a, uint32_t b, double value)
 {
     entry(matrix, a, b) += value;
-    entry(matrix, b, a) +=
-        value; // twice on the diagonal, where a triangle names a vertex twice: both products are its
+    // twice on the diagonal, where a triangle names a vertex twice: both products belong there
+    entry(matrix, b, a) += value;
 }
 
 void addMass(NormalEquations& system, const Proxy& proxy, const std::vector<TriangleSums>& sums)
@@ -145,7 +147,7 @@ void addMass(NormalEquations& system, const Proxy& proxy, const std::vector<Tria
     }
 }
 
-/// What is to be multiplied with a row so that no square of it is more than `stiffness` times its vertex' area.
+/// Compute the factor of a row that limits each squared coefficient to `stiffness` times its vertex's area.
 double softening(const std::array<double, 4>& jump, const std::array<uint32_t, 4>& vertices,
                  std::span<const double> areas, double stiffness)
 {
@@ -156,7 +158,7 @@ double softening(const std::array<double, 4>& jump, const std::array<uint32_t, 4
     return factor;
 }
 
-/// A third of the area of its triangles.
+/// Compute for each vertex a third of the area of its triangles.
 std::vector<double> areasOfVertices(const Proxy& proxy)
 {
     std::vector<double> areas(proxy.positions.size(), 0);
@@ -169,7 +171,7 @@ std::vector<double> areasOfVertices(const Proxy& proxy)
     return areas;
 }
 
-/// How much of what lies around each vertex counts.
+/// Compute the share of the area around each vertex that counts.
 std::vector<double> sharesOfVertices(const Proxy& proxy, const std::vector<TriangleSums>& sums)
 {
     std::vector<double> area(proxy.positions.size(), 0), whole(area.size(), 0);
@@ -184,8 +186,9 @@ std::vector<double> sharesOfVertices(const Proxy& proxy, const std::vector<Trian
     return area;
 }
 
-/// Jumps count no more than what lies around their vertices: a vertex that hardly counts would have nothing but jumps, which
-/// take hundreds of iterations, and would pass on what it has.
+/// Add the jumps of gradients, scaled by the smallest share of area that counts around their vertices.
+/// Without the scale, a vertex with almost no counting area would depend on jumps alone, which takes hundreds
+/// of iterations and spreads its value.
 void addJumps(NormalEquations& system, const Proxy& proxy, std::span<const double> areas,
               std::span<const double> shares, double alpha, double stiffness)
 {
@@ -208,9 +211,9 @@ void addJumps(NormalEquations& system, const Proxy& proxy, std::span<const doubl
     }
 }
 
-/// 1 where the samples say nothing about differences within the triangle, 0 where they say enough: by their mass'
-/// determinant over that of the mass of the whole area, which is (A / 12)^3 times that of ((2, 1, 1), (1, 2, 1), (1,
-/// 1, 2)).
+/// Return 1 where the samples say nothing about differences within the triangle, 0 where they say enough: by
+/// the determinant of their mass over the determinant of the whole area's mass, which is (A / 12)^3 times the
+/// determinant of ((2, 1, 1), (1, 2, 1), (1, 1, 2)).
 double poverty(const TriangleSums& sums, double area)
 {
     const double* m = sums.mass;
@@ -220,7 +223,7 @@ double poverty(const TriangleSums& sums, double area)
     return whole > 0 ? std::clamp(1 - determinant / (kPoor * whole), 0.0, 1.0) : 0;
 }
 
-/// share * area * poverty times the sum over the sides of the triangle of (u_i - u_j)^2.
+/// Add share * area * poverty times the sum of (u_i - u_j)^2 over the edges of each triangle.
 void addMembrane(NormalEquations& system, const Proxy& proxy, const std::vector<TriangleSums>& sums,
                  double share)
 {
@@ -275,7 +278,8 @@ std::array<double, 4> gradientJump(std::span<const Float3> positions, const Inte
     const double double_k = length(cross(along, to_k)), double_l = length(cross(along, to_l));
     if (!(length2 > 0) || !(double_k > 0) || !(double_l > 0))
         return {0, 0, 0, 0};
-    // u_k minus u at the foot of k on the edge, by the height 2 A / L; the gradients agree along the edge
+    // u_k minus u at the foot of k on the edge, divided by the height 2 A / L; the gradients agree along the
+    // edge
     const double weight = (double_k + double_l) / 2 * std::sqrt(length2);
     const double k = weight / double_k, l = weight / double_l;
     const double foot_k = dot(to_k, along) / length2, foot_l = dot(to_l, along) / length2;

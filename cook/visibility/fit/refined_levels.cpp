@@ -19,10 +19,10 @@ namespace
 
 constexpr double kPi = std::numbers::pi;
 
-// Of the open hemisphere's m0: above, the closed form is the hemisphere and nothing can be nearer.
+// Share of the open hemisphere's m0; above it the closed form is the hemisphere, and nothing can be nearer.
 constexpr float kOpen = 0.9999f;
 
-/// All that is known of a vertex: m0, m1, and xx, yy, xy, xz, yz; zz is what is left of m0.
+/// First and second moments of a vertex: m0, m1, and xx, yy, xy, xz, yz; zz is the rest of m0.
 using Seen = std::array<float, 9>;
 
 Sh9 harmonicsOf(const Seen& seen)
@@ -43,7 +43,7 @@ Sh9 harmonicsOf(const Seen& seen)
             band2 * (xx - yy) / 2};
 }
 
-/// m0 = 2 pi s (1 - c), m1 = pi s (1 - c^2) d.
+/// Compute m0 = 2 pi s (1 - c), m1 = pi s (1 - c^2) d.
 Moments momentsOf(const ConeFit& cone)
 {
     const double c = std::cos(cone.aperture_rad), size = kPi * cone.scale * (1 - c * c);
@@ -52,7 +52,7 @@ Moments momentsOf(const ConeFit& cone)
              static_cast<float>(size * cone.axis.z)}};
 }
 
-/// Vertices that are to be refined, those with equal numbers behind each other.
+/// Return the vertices to refine, with vertices of equal moments next to each other.
 std::vector<uint32_t> inGroups(const LevelMesh& level, std::span<const Seen> seen)
 {
     std::vector<uint32_t> order;
@@ -67,7 +67,7 @@ std::vector<uint32_t> inGroups(const LevelMesh& level, std::span<const Seen> see
     return order;
 }
 
-/// Distances are added to the statistics as squares.
+/// Refine the cones of one level. Adds squares of distances to the statistics.
 void refine(const LevelMesh& level, std::span<const Seen> seen, std::vector<Moments>& moments,
             RefineGain& gain)
 {

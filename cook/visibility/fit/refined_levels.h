@@ -1,4 +1,5 @@
-// Cones refined at the vertices of all levels, stored as the moments that have them. See cook/visibility/README.md, "Refined cones".
+// Refines the cones at the vertices of all levels, stored as moments. See cook/visibility/README.md, "Refined
+// cones".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,16 +12,16 @@ namespace hearth::visibility
 
 struct RefineGain
 {
-    uint64_t cones = 0;          ///< different ones
-    RefineStatistics statistics; ///< over them: distances to the harmonics that were fitted
+    uint64_t cones = 0;          ///< without duplicates
+    RefineStatistics statistics; ///< distances from the fitted harmonics, over all cones
 };
 
-/// Fit second moments like first ones, and give each vertex, instead of its moments, those of the cone whose nine harmonics
-/// are nearest. Vertices that had the same moments have the same afterwards, and held ones have those of the level below.
-/// The same bits for any number of threads.
+/// Fit second moments like first ones, and replace each vertex's moments by those of the cone whose nine
+/// harmonics are nearest. Vertices with equal moments still have equal moments afterwards, and held vertices
+/// have those of the next finer level. The same bits for any number of threads.
 ///
-/// samples, second  of the samples that `fits` were made with, and what they saw
-/// fits             fitLevels' of the first moments, with the same settings; changed
+/// samples, second  samples that `fits` were made with, and their second moments
+/// fits             result of fitLevels for the first moments, with the same settings; changed
 RefineGain refineLevels(std::span<const LevelMesh> levels, std::span<const SurfaceSample> samples,
                         std::span<const SecondMoments> second, const LevelFitSettings& settings,
                         std::vector<LevelFit>& fits);

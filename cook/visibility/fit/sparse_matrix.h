@@ -1,4 +1,4 @@
-// The matrix of the fit.
+// Sparse matrix of the vertex fit.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,17 +11,17 @@
 namespace hearth::visibility
 {
 
-/// Symmetric, positive semidefinite, in compressed rows: columns ascend in each row, the diagonal is there and
-/// positive.
+/// Symmetric positive semidefinite matrix in compressed sparse row (CSR) form. Columns ascend in each row;
+/// entries of the diagonal exist and are positive.
 struct SparseMatrix
 {
-    std::vector<uint32_t> row_start; ///< of each row, and the end
+    std::vector<uint32_t> row_start; ///< first entry of each row, then the number of entries
     std::vector<uint32_t> columns;
     std::vector<double> values;
 
     size_t rowCount() const { return row_start.size() - 1; }
 
-    /// The first entry of a row whose column is not before `column`; the row's end, if there is none.
+    /// Find the first entry of a row whose column is not less than `column`; the row's end if there is none.
     uint32_t entryFrom(size_t row, uint32_t column) const
     {
         const uint32_t* begin = columns.data() + row_start[row];

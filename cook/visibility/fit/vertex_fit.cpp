@@ -13,7 +13,7 @@ namespace hearth::visibility
 namespace
 {
 
-/// What each vertex is before the system is solved: whether it is solved for, and with what the solver starts.
+/// State of each vertex before the system is solved: true if it is fixed, and the start value of the solver.
 struct Start
 {
     std::vector<uint8_t> fixed;
@@ -21,8 +21,8 @@ struct Start
     uint32_t unseen = 0;
 };
 
-/// The mean of the samples around each vertex; where there are none, that of its island. An island without any, and
-/// without a held vertex, is taken for open.
+/// Compute the start values: the mean of the samples around each vertex; without samples, the mean of its
+/// island (connected component). An island without samples and without a held vertex is taken for open.
 Start startOf(const Proxy& proxy, const NormalEquations& system, const HeldVertices& held)
 {
     const size_t count = proxy.positions.size();
@@ -36,7 +36,7 @@ Start startOf(const Proxy& proxy, const NormalEquations& system, const HeldVerti
         island_sums[island].addScaled(system.right[v], 1);
         island_mass[island] += system.mass[v];
     }
-    // held vertices say how an island is that no sample lies on
+    // held vertices determine an island without samples
     for (size_t v = 0; v < count; ++v)
         if (isHeld(v) && island_mass[system.island[v]] <= 0)
         {
@@ -65,8 +65,8 @@ Start startOf(const Proxy& proxy, const NormalEquations& system, const HeldVerti
     return start;
 }
 
-/// Bring fixed values to the right-hand side; their own rows become x = 0. Vertices that nothing is known about, and
-/// nothing connects, keep what they start with.
+/// Move fixed values to the right-hand side; their own rows become x = 0. Vertices without data and without
+/// connections keep their start values.
 void eliminate(NormalEquations& system, Start& start)
 {
     SparseMatrix& matrix = system.matrix;

@@ -1,4 +1,4 @@
-// Values at the vertices whose interpolation is nearest to what samples on the surface saw.
+// Fits the values at vertices whose interpolation is nearest to the values of samples on the surface.
 // See cook/visibility/README.md, "The fit".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
@@ -15,10 +15,10 @@ namespace hearth::visibility
 struct FitStatistics
 {
     uint32_t vertices = 0;     ///< of the proxy
-    uint32_t held = 0;         ///< of them, with a value given
-    uint32_t unseen = 0;       ///< of them, on pieces of the surface without any sample: the open hemisphere
-    uint32_t lost_samples = 0; ///< that lie on no triangle
-    uint32_t clamped = 0;      ///< vertices whose fit was not the visibility of anything
+    uint32_t held = 0;         ///< vertices with a given value
+    uint32_t unseen = 0;       ///< vertices of connected components without samples: the open hemisphere
+    uint32_t lost_samples = 0; ///< samples on no triangle
+    uint32_t clamped = 0;      ///< vertices whose fit was no valid visibility
     uint64_t entries = 0;      ///< of the matrix
     SolveStatistics solve;
 };
@@ -29,15 +29,15 @@ struct FitResult
     FitStatistics statistics;
 };
 
-/// Values that are known already: `moments` where `is_held`. Empty, or one for each vertex of the proxy.
+/// Known values: `moments` where `is_held`. Empty, or one for each vertex of the proxy.
 struct HeldVertices
 {
     std::span<const uint8_t> is_held;
     std::span<const Moments> moments;
 };
 
-/// Fit, and bring each vertex' moments back to what its normal allows (moment_clamp.h). Held vertices keep their
-/// bits. Constants come back as they are; all results are finite. The same bits for any number of threads.
+/// Fit, and clamp each vertex's moments to what its normal allows (moment_clamp.h). Held vertices keep their
+/// bits. Constants are reproduced exactly; all results are finite. The same bits for any number of threads.
 /// samples  on the proxy: samplesOnProxy()
 /// values   one for each sample
 /// source   L. Kavan, A. W. Bargteil, P.-P. Sloan, "Least squares vertex baking", 2011

@@ -1,4 +1,4 @@
-// The nearest point of a triangle: C. Ericson, "Real-Time Collision Detection", 2005, 5.1.5.
+// Closest point on a triangle: C. Ericson, "Real-Time Collision Detection", 2005, 5.1.5.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/visibility/mesh/closest_point.h"
 
@@ -12,7 +12,7 @@ namespace
 
 constexpr uint32_t kLeafTriangles = 4;
 
-// Depth of a tree that halves 2^32 triangles, with the sibling of each node on the way.
+// Depth of a tree that halves 2^32 triangles, plus one sibling for each node on the path.
 constexpr size_t kMaxStack = 64;
 
 double boxDistance2(Double3 p, const Box3& box)
@@ -23,7 +23,8 @@ double boxDistance2(Double3 p, const Box3& box)
     return x * x + y * y + z * z;
 }
 
-/// a / (a + b), where both are at least 0 but for rounding; an edge without length is its first end.
+/// Return a / (a + b), for a and b at least 0 apart from rounding errors. An edge of length 0 gives 0, its
+/// first end.
 double share(double a, double b)
 {
     return a > 0 && a + b > 0 ? std::min(a / (a + b), 1.0) : 0.0;
@@ -35,7 +36,7 @@ struct Weights
     double v;
 };
 
-/// Of the point of the triangle nearest to p, relative to corner a.
+/// Compute the weights of corners b and c at the point of the triangle closest to p.
 Weights nearestWeights(Double3 ab, Double3 ac, Double3 ap)
 {
     const double d1 = dot(ab, ap), d2 = dot(ac, ap);
@@ -84,7 +85,8 @@ ClosestPoint::ClosestPoint(const MeshView& mesh, size_t triangle_count)
         facet_of_triangle_[facets_[i].triangle] = i;
 }
 
-/// Halve the triangles along the longest side of their centers' box; recursion is as deep as the tree, 32 at most.
+/// Split the triangles at the median, along the longest side of the box of their centers. The recursion is as
+/// deep as the tree, at most 32.
 void ClosestPoint::build(uint32_t first, uint32_t count)
 {
     const auto center = [](const Facet& facet, int axis)

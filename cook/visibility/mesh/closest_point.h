@@ -1,4 +1,5 @@
-// The nearest point of a surface that faces the way of a normal: a tree of boxes.
+// Finds the closest point of a surface that faces the direction of a normal, with a bounding volume hierarchy
+// (BVH).
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,11 +12,12 @@
 namespace hearth::visibility
 {
 
+/// Bounding volume hierarchy of axis-aligned boxes for closest-point queries.
 class ClosestPoint
 {
 public:
-    /// Keeps no reference to the view.
-    /// triangle_count  only the first triangles of the mesh are there to be found
+    /// Build the hierarchy. Keeps no reference to the view.
+    /// triangle_count  number of leading triangles of the mesh that are searched
     ClosestPoint(const MeshView& mesh, size_t triangle_count);
 
     struct Found
@@ -26,14 +28,15 @@ public:
         double distance2 = 0;
     };
 
-    /// The nearest point, no farther than sqrt(`limit2`), on a triangle whose plane faces `normal` (dot > 0);
-    /// triangles without area face nothing. Triangle kNowhere if there is none.
-    /// normal  need not have length 1; 0: all triangles will do
-    /// hint    a triangle that is probably near, or kNowhere: the answer is as good without, but for ties
+    /// Find the closest point, at most sqrt(`limit2`) away, on a triangle whose plane faces `normal`
+    /// (dot > 0). Triangles without area face nothing. The triangle is kNowhere if there is none.
+    /// normal  need not have length 1; 0: accept all triangles
+    /// hint    triangle that is probably near, or kNowhere; affects the result only for ties
     Found find(Float3 point, Float3 normal, double limit2, uint32_t hint) const;
 
 private:
-    /// A leaf has `count` triangles; a node has its first child behind it and its second at `second`.
+    /// Leaf with `count` triangles, or inner node with count 0: its first child follows it, its second child
+    /// is at `second`.
     struct Node
     {
         Box3 box;
@@ -50,7 +53,7 @@ private:
     void build(uint32_t first, uint32_t count);
     void visit(Double3 point, Double3 normal, const Facet& facet, Found& best) const;
 
-    std::vector<Facet> facets_; ///< leaf by leaf
+    std::vector<Facet> facets_; ///< in the order of the leaves
     std::vector<uint32_t> facet_of_triangle_;
     std::vector<Node> nodes_;
 };

@@ -9,16 +9,16 @@ namespace hearth::visibility
 namespace
 {
 
-/// A side of a triangle, in the list of its lesser vertex.
+/// Edge of a triangle, in the list of its lower vertex.
 struct Side
 {
     uint32_t other;
-    uint32_t corner; ///< 3 * triangle + the corner opposite
+    uint32_t corner; ///< 3 * triangle + index of the opposite corner
 };
 
 struct Sides
 {
-    std::vector<uint32_t> first; ///< of each vertex, and the end
+    std::vector<uint32_t> first; ///< start of each vertex's list, then the total
     std::vector<Side> sides;
 };
 

@@ -1,4 +1,4 @@
-// Triangles as the stages of the fit hand them to each other, and points on them that stand for area.
+// Triangle mesh as passed between the stages of the fit, and sample points that represent area on it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,7 +10,7 @@
 namespace hearth::visibility
 {
 
-/// No triangle, no vertex.
+/// Invalid index: no triangle, no vertex.
 inline constexpr uint32_t kNowhere = 0xFFFFFFFFu;
 
 struct MeshView
@@ -22,15 +22,15 @@ struct MeshView
     size_t triangleCount() const { return indices.size() / 3; }
 };
 
-/// The point (1 - u - v) corner0 + u corner1 + v corner2 of a triangle.
+/// Sample point (1 - u - v) corner0 + u corner1 + v corner2 of a triangle.
 struct SurfaceSample
 {
     uint32_t triangle = kNowhere;
     float u = 0;
     float v = 0;
-    float area = 0; ///< that the sample stands for, in the squared units of the positions; not negative
+    float area = 0; ///< represented by the sample, in squared units of the positions; not negative
 
-    float weight = 1; ///< how much of its area counts, positive: less for what nobody looks at
+    float weight = 1; ///< share of the area that counts, positive: small for samples that are never visible
 
     friend bool operator==(const SurfaceSample&, const SurfaceSample&) = default;
 };

@@ -12,7 +12,7 @@ namespace hearth::visibility
 namespace
 {
 
-// Of 2 pi: what a fit leaves where everything is open is not counted as out of bounds.
+// Tolerance as a share of 2 pi: rounding of a fit where everything is open is not counted as out of bounds.
 constexpr double kRounding = 1e-6;
 
 } // namespace
@@ -40,7 +40,7 @@ bool clampMoments(Moments& moments, Float3 normal)
     const Double3 moved = m1 - widen(moments.m1);
     const bool changed =
         std::abs(m0 - double{moments.m0}) > kMost * kRounding || length(moved) > kMost * kRounding;
-    // in floats as they were where nothing was to be done
+    // values that were not clamped keep their bits
     moments = {static_cast<float>(m0), narrow(m1)};
     return changed;
 }

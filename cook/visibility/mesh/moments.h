@@ -1,5 +1,5 @@
-// What of the hemisphere a point sees, as two moments: they are linear in the visibility, so that sums, fits and
-// interpolation of them mean something, which angles of cones do not.
+// Visible part of the hemisphere at a point, as two moments. They are linear in the visibility, so they can
+// be summed, fitted and interpolated; angles of cones cannot.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -8,9 +8,9 @@
 namespace hearth::visibility
 {
 
-/// With V(w) in [0, 1] the visibility in direction w: m0 = int V dw, in [0, 2 pi] above a surface, and m1 = int V w dw, of
-/// length at most m0 (1 - m0 / (4 pi)). The open hemisphere about n has 2 pi and pi n. The ambient occlusion of a surface
-/// with the normal n that V is 0 below of is dot(n, m1) / pi.
+/// Moments of the visibility V(w) in [0, 1] in direction w: m0 = int V dw, in [0, 2 pi] above a surface, and
+/// m1 = int V w dw, of length at most m0 (1 - m0 / (4 pi)). The open hemisphere about n has 2 pi and pi n. On
+/// a surface with the normal n, where V is 0 below the surface, ambient occlusion is dot(n, m1) / pi.
 struct Moments
 {
     float m0 = 0;

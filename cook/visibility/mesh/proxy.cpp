@@ -18,11 +18,12 @@ namespace hearth::visibility
 namespace
 {
 
-// How far a vertex may lie from the rest of the surface, in thinnesses of the longest edge of its triangles, to be
-// taken for a point of it: a corner of a sliver that was dropped lies within one of its other two.
+// Maximum distance of a vertex from the rest of the surface at which it is bound to a point there, in units
+// of thinness times the longest edge of its triangles. A corner of a dropped sliver lies within one unit of
+// the other two corners.
 constexpr double kBeside = 10;
 
-// Samples that are looked up one after another; each starts where the one before was found.
+// Samples that are looked up in sequence; each search starts at the triangle that the previous one found.
 constexpr size_t kSamplesPerTask = 256;
 
 constexpr double kEverywhere = std::numeric_limits<double>::infinity();
@@ -39,10 +40,10 @@ double sizeOf(std::span<const Float3> positions)
     return size;
 }
 
-/// The source with its vertices welded: the same arrays, of which only the first of equal ones are named.
+/// Source with welded vertices: the same arrays, but indices refer only to the first of equal vertices.
 struct Welded
 {
-    std::vector<uint32_t> first; ///< for each vertex
+    std::vector<uint32_t> first; ///< first equal vertex, for each vertex
     std::vector<uint32_t> indices;
 };
 
@@ -73,7 +74,7 @@ bool hasArea(const MeshView& mesh, size_t triangle)
                         widen(p[corner[2]]) - widen(p[corner[0]]))) > 0;
 }
 
-/// Builds a proxy from the triangles that were cleaned. Vertices are those of the source until compact().
+/// Builds a proxy from cleaned triangles. Vertex indices are the source's until compact().
 class Builder
 {
 public:
@@ -103,10 +104,10 @@ public:
     }
 
 private:
-    /// What a vertex of the source is before the proxy's own numbers.
+    /// Return the vertex that a source vertex is merged into, in the numbering of the source.
     uint32_t imageOf(uint32_t vertex) const { return clean_.vertex_of_vertex[welded_.first[vertex]]; }
 
-    /// For each vertex the longest edge of the triangles with area that it had but that are gone.
+    /// Compute for each vertex the longest edge of its removed triangles, apart from those without area.
     std::vector<double> reachOfVertices() const
     {
         std::vector<double> reach(source_.positions.size(), 0);
@@ -124,7 +125,7 @@ private:
         return reach;
     }
 
-    /// Vertices that have lost all their triangles to points of the others where these are near.
+    /// Bind vertices without a remaining triangle to points of remaining triangles, if these are near.
     void bindBeside(const std::vector<double>& reach)
     {
         const MeshView smooth{source_.positions, source_.normals, clean_.indices};
@@ -139,7 +140,7 @@ private:
         }
     }
 
-    /// What no triangle with area names is anywhere: to the nearest point, however far.
+    /// Bind vertices that belong to no triangle with area to the nearest point, at any distance.
     void bindRest()
     {
         const MeshView all{source_.positions, source_.normals, clean_.indices};
@@ -167,7 +168,7 @@ private:
                              {(1 - found.u) - found.v, found.u, found.v}};
     }
 
-    /// Triangles that are gone, but of which a vertex is neither on another nor beside one.
+    /// Keep removed triangles that have a vertex which is neither on another triangle nor bound to one.
     void keepLoose()
     {
         proxy_.triangle_of_source = clean_.kept_of_source;
@@ -258,7 +259,7 @@ Proxy makeProxy(const MeshView& source, const ProxySettings& settings)
 namespace
 {
 
-/// A sample on a triangle of the proxy whose corners are those of its own, perhaps in another order.
+/// Return a sample of a proxy triangle that has the corners `own`, perhaps in another order.
 SurfaceSample turned(const SurfaceSample& sample, const std::array<uint32_t, 3>& own, uint32_t triangle,
                      const uint32_t* corners)
 {
@@ -333,7 +334,7 @@ std::vector<Moments> valuesOfSource(const Proxy& proxy, std::span<const Moments>
             result[v] = openHemisphere(source_normals[v]);
             continue;
         }
-        // not as a sum: 1 * x + 0 * x would change a sign of zero
+        // no sum: 1 * x + 0 * x could change the sign of zero
         if (binding.weights[0] == 1)
         {
             result[v] = values[binding.vertices[0]];

@@ -17,19 +17,20 @@ namespace
 
 using CornerIndices = std::array<uint32_t, 3>;
 
-// A flip or a collapse makes work for the neighbours; of meshes seen, the worst were done after four rounds.
+// A flip or a collapse can make neighbours thin; the worst of the tested meshes needed four rounds.
 constexpr int kRounds = 16;
 
-// An edge of a thin triangle, by its longest: shorter ones are collapsed. In thinnesses: a corner that is as far
-// along the longest edge from its end would leave a thin triangle behind if it were flipped.
+// Maximum length of an edge of a thin triangle that is collapsed, by the longest edge, in units of thinness:
+// a corner this close to an end of the longest edge would leave a thin triangle behind if that edge were
+// flipped.
 constexpr double kShort = 4;
 
 struct Shape
 {
-    double ratio;    ///< height by longest edge
-    double shortest; ///< by the longest
-    int opposite;    ///< corner that is opposite to the longest edge
-    int short_side;  ///< corner that is opposite to the shortest edge
+    double ratio;    ///< height / longest edge
+    double shortest; ///< shortest edge / longest edge
+    int opposite;    ///< corner opposite to the longest edge
+    int short_side;  ///< corner opposite to the shortest edge
 };
 
 Shape shapeOf(std::span<const Float3> positions, const CornerIndices& corners)
@@ -55,7 +56,7 @@ bool isDegenerate(const CornerIndices& c)
     return c[0] == c[1] || c[1] == c[2] || c[2] == c[0];
 }
 
-/// The triangles while they change; those that are gone have the same corner three times.
+/// Triangles during cleaning. A triangle with two equal corners counts as removed.
 class Cleaner
 {
 public:
@@ -86,10 +87,10 @@ public:
     }
 
 private:
-    /// live_: the triangles with three different corners, one of each set of three.
+    /// Collect live_: the triangles with three different corners, one for each set of three.
     void gather()
     {
-        // vertices go to lower ones, which here already know where they went
+        // vertices collapse into lower ones, which this loop has already resolved
         for (uint32_t& vertex : result_.vertex_of_vertex)
             vertex = result_.vertex_of_vertex[vertex];
         for (CornerIndices& corners : corners_)
@@ -131,7 +132,7 @@ private:
         std::sort(live_.begin(), live_.end());
     }
 
-    /// One round of collapses and flips that do not meet; false if there was none.
+    /// Run one round of collapses and flips that share no vertex. Return false if nothing changed.
     bool improve()
     {
         ++round_;
@@ -154,6 +155,7 @@ private:
         return changed;
     }
 
+    /// Reserve vertices for this round. False if one of them is already reserved.
     bool takeAll(std::initializer_list<uint32_t> vertices)
     {
         for (const uint32_t vertex : vertices)
@@ -176,7 +178,7 @@ private:
         return true;
     }
 
-    /// The edges of the live triangles as they are at the start of the round.
+    /// Collect the edges of the live triangles at the start of the round.
     void findEdges()
     {
         std::vector<uint32_t> indices;
@@ -186,7 +188,7 @@ private:
         edges_ = interiorEdges(indices, positions_.size());
     }
 
-    /// The triangle across the edge that is opposite to a corner, and its third corner.
+    /// Return the triangle across the edge (a, b), and its third corner.
     std::pair<uint32_t, uint32_t> across(uint32_t triangle, uint32_t a, uint32_t b) const
     {
         const auto [low, high] = std::minmax(a, b);
@@ -248,10 +250,10 @@ private:
     std::vector<CornerIndices> corners_;
     std::vector<bool> flipped_;
     std::vector<uint32_t> live_;
-    std::vector<uint32_t> twin_; ///< the live triangle with the same corners, of all that have three
+    std::vector<uint32_t> twin_; ///< live triangle with the same corners; kNowhere if degenerate
     uint32_t duplicates_ = 0;
-    std::vector<InteriorEdge> edges_; ///< their triangles count the live ones
-    std::vector<uint32_t> busy_;      ///< the last round that a vertex took part in
+    std::vector<InteriorEdge> edges_; ///< their triangles index live_
+    std::vector<uint32_t> busy_;      ///< last round that changed each vertex
     uint32_t round_ = 0;
     CleanTriangles result_;
 };

@@ -1,5 +1,5 @@
-// A hash grid in six dimensions: three of the position, three of the normal. A vertex lies in one cell and looks into
-// all that its tolerances touch, mostly that one.
+// Welds vertices with a hash grid in six dimensions: three of the position, three of the normal. A vertex is
+// stored in one cell and searches all cells within its tolerances, mostly that one.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/visibility/mesh/vertex_weld.h"
 
@@ -15,7 +15,8 @@ namespace
 
 constexpr uint32_t kNone = 0xFFFFFFFFu;
 
-// In tolerances: larger cells are looked into less often beside the own one, but hold more that is too far away.
+// Cell size in tolerances: larger cells need fewer searches in neighbours, but hold more vertices that are
+// too far away.
 constexpr double kCell = 5;
 
 using Cell = std::array<int64_t, 6>;
@@ -55,8 +56,8 @@ public:
         {
             first_[vertex] = vertex;
             const Cell own = cellAt(vertex, 0);
-            // what equals another in every bit is one with it and need not be looked at again: a thousand triangles
-            // that meet in one vertex each with its own copy are no work
+            // an exact duplicate is merged and not searched for again: a thousand triangles that meet in one
+            // vertex, each with its own copy, cost no time
             if (const uint32_t equal = equalIn(own, vertex); equal != kNone)
             {
                 unite(vertex, equal);
@@ -81,14 +82,14 @@ private:
 
     double toleranceOf(size_t axis) const { return axis < 3 ? position_tolerance_ : normal_tolerance_; }
 
-    /// The cell of a vertex that is moved by `tolerances` in every axis.
+    /// Return the cell of a vertex that is moved by `tolerances` in every axis.
     Cell cellAt(uint32_t vertex, double tolerances) const
     {
         Cell cell;
         for (size_t axis = 0; axis < 6; ++axis)
         {
             const double x = coordinate(vertex, axis), tolerance = toleranceOf(axis);
-            // without a tolerance the coordinate itself is the cell; + 0.0: of the two zeros one
+            // without a tolerance, the cell is the coordinate itself; + 0.0 turns -0 into 0
             cell[axis] =
                 tolerance > 0
                     ? static_cast<int64_t>(std::floor((x + tolerances * tolerance) / (kCell * tolerance)))
@@ -117,7 +118,7 @@ private:
 
     void uniteWithNeighbours(uint32_t vertex)
     {
-        // a little more than the tolerance: sums round
+        // slightly more than the tolerance, because sums are rounded
         const Cell low = cellAt(vertex, -1.001), high = cellAt(vertex, 1.001);
         for (Cell cell = low;;)
         {
@@ -158,8 +159,8 @@ private:
     double position_tolerance_;
     double normal_tolerance_;
     std::vector<uint32_t> first_;
-    std::vector<uint32_t> next_;  ///< in the list of the cell
-    std::vector<uint32_t> heads_; ///< of the lists; cells may share one
+    std::vector<uint32_t> next_;  ///< next vertex in the cell's list
+    std::vector<uint32_t> heads_; ///< first vertex of each list; cells may share a list
 };
 
 } // namespace

@@ -1,4 +1,4 @@
-// Which vertices are one point of the surface to light: the same place, facing the same way.
+// Welds vertices that are the same point for lighting: equal position and equal normal within tolerances.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,10 +11,10 @@
 namespace hearth::visibility
 {
 
-/// Vertices whose positions are no farther apart than `position_tolerance` and whose normals no farther than
-/// `normal_tolerance`, in each axis, are one, and so are those that a chain of such pairs connects: the answer knows
-/// no order, and no border of a cell can part two of them.
-/// returns  for each vertex the first of those that are one with it
+/// Merge vertices whose positions differ by at most `position_tolerance` and whose normals differ by at most
+/// `normal_tolerance` in each axis, and all vertices that a chain of such pairs connects. The result depends
+/// neither on the order of pairs nor on borders of cells.
+/// returns  for each vertex the first vertex that it is merged with
 std::vector<uint32_t> weldVertices(std::span<const Float3> positions, std::span<const Float3> normals,
                                    double position_tolerance, double normal_tolerance);
 

@@ -1,4 +1,5 @@
-// hearth-visibility: reads an import part and its clusters part, and writes the clusters part with what its vertices see.
+// hearth-visibility: reads an import part and its clusters part, and writes the clusters part with visibility
+// at its vertices.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
 #include "cook/tools/batch.h"
@@ -26,7 +27,7 @@ using visibility::BakeSettings;
 
 constexpr int kInterrupted = 130;
 
-// Of the picture: small enough for a report that has it inside.
+// Size of the occlusion image in pixels: small enough to embed in a report.
 constexpr uint32_t kWidth = 640, kHeight = 480;
 
 volatile std::sig_atomic_t interrupted = 0;
@@ -53,7 +54,7 @@ struct Arguments
     std::string picture;
     std::string quality = "default";
     std::string occluders = "scene";
-    double samples_per_vertex = 0; ///< 0, here and below: as the quality has it
+    double samples_per_vertex = 0; ///< here and below, 0: value of the quality preset
     uint32_t rays_per_sample = 0;
     float distance = 0;
     float power = 0;
@@ -79,7 +80,7 @@ struct Arguments
     }
 };
 
-/// One line on a terminal, written over and over; nothing in a log.
+/// Progress on one line of a terminal, overwritten each time; nothing in a log.
 class ProgressLine
 {
 public:
@@ -118,7 +119,7 @@ Status writeStatistics(const Arguments& arguments, const std::vector<visibility:
     return writeText(arguments.statistics, visibility::statisticsJson(source, arguments.settings(), meshes));
 }
 
-/// Of the part that was written.
+/// Write the occlusion image of the written part.
 Status writePicture(const Arguments& arguments, const formats::PackView& import_part)
 {
     HEARTH_ASSIGN_OR_RETURN(const formats::PackView baked, tools::openPart(arguments.output));
@@ -129,7 +130,7 @@ Status writePicture(const Arguments& arguments, const formats::PackView& import_
     return file.finish();
 }
 
-/// The exit code.
+/// Cook the part. Returns the exit code.
 Result<int> cook(const Arguments& arguments)
 {
     HEARTH_ASSIGN_OR_RETURN(const formats::PackView import_part, tools::openPart(arguments.import_part));

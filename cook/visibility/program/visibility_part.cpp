@@ -23,14 +23,15 @@ using namespace formats;
 namespace
 {
 
-// Of a mesh that stands in a scene often, so many instances tell what is around it.
+// Maximum number of instances of a mesh whose surroundings are averaged.
 constexpr size_t kMostInstances = 8;
 
-// Of what a vertex has on average. Each sample counts for the three vertices of its triangle, so that three times as many lie
-// around a vertex, of which a quarter go where area wants them. cook/visibility/README.md, "Noise".
+// Minimum number of samples around a vertex, relative to the average number per vertex. Each sample counts
+// for the three vertices of its triangle, so that three times the average lie around a vertex; a quarter of
+// them are distributed by area. See cook/visibility/README.md, "Noise".
 constexpr double kLeastOfVertex = 2.25;
 
-// Not 0, so that what is buried everywhere has a fit.
+// Not 0, so that surfaces with only interior samples have a fit.
 constexpr float kBuriedWeight = 1e-3f;
 
 double secondsSince(std::chrono::steady_clock::time_point start)
@@ -48,7 +49,7 @@ bool isBaked(const MeshRecord& mesh)
     return mesh.clusters.count > 0 && (mesh.attributes & kVertexVisibility) != 0;
 }
 
-/// The rest poses of all meshes, and whether the two parts belong together.
+/// Collect the world transforms of each mesh's instances, and check that the two parts belong together.
 /// errors: meaning_reference for an instance of a mesh that is not there
 Result<std::vector<std::vector<Affine3>>> transformsOf(const PackView& scene, const PackView& part)
 {
@@ -59,7 +60,7 @@ Result<std::vector<std::vector<Affine3>>> transformsOf(const PackView& scene, co
         if (instance.mesh >= transforms.size())
             return Error{Issue::meaning_reference, scene.name(), "instance " + std::to_string(i),
                          "mesh " + std::to_string(instance.mesh)};
-        // what is flat in the world has no inside to take rays to
+        // an instance that is flat in the world has no inverse, which rays need
         if (inverted(widened(instance.world_from_object)))
             transforms[instance.mesh].push_back(instance.world_from_object);
     }
@@ -76,7 +77,7 @@ public:
         codes_.resize(part.clusters().size());
     }
 
-    /// nothing where the observer said to stop
+    /// returns  nothing if the observer returned false
     Result<std::optional<std::vector<MeshStatistics>>> run()
     {
         HEARTH_ASSIGN_OR_RETURN(transforms_, transformsOf(scene_, part_));
@@ -105,11 +106,11 @@ public:
         return std::optional(std::move(statistics));
     }
 
-    /// For each cluster the codes of its vertices; empty where it has none.
+    /// Visibility codes of the vertices of each cluster; empty for a cluster without visibility.
     const std::vector<std::vector<uint32_t>>& codes() const { return codes_; }
 
 private:
-    /// What moves is in nobody's way but its own.
+    /// Collect the occluders of the scene. Deformed meshes occlude only themselves.
     Status gather(Occluders& world)
     {
         for (uint32_t mesh = 0; mesh < part_.meshes().size(); ++mesh)
@@ -162,7 +163,7 @@ private:
 
     std::vector<SurfaceSample> samplesOf(const LevelArrays& finest) const
     {
-        // vertices that clusters share stand in the arrays once for each
+        // vertices that clusters share are in the arrays once for each cluster
         const std::vector<uint32_t> first = proxyVertices(finest.mesh().mesh, settings_.fit.proxy);
         std::vector<uint32_t> corners;
         corners.reserve(finest.indices.size());
@@ -176,7 +177,7 @@ private:
         return surfaceSamples(finest.positions, corners, settings);
     }
 
-    /// One mesh, as it is or in each of its poses.
+    /// Create the placements of a mesh alone: one without a pose, or one for each of its poses.
     Result<std::vector<Place>> alonePlaces(const MeshPages& pages, const LevelArrays& finest,
                                            MeshStatistics& statistics, std::deque<Occluders>& itself)
     {
@@ -207,7 +208,7 @@ private:
         return places;
     }
 
-    /// A power of two of them, so that they can share a sample's rays evenly.
+    /// Choose a power of two of the instances, so that they can share each sample's rays evenly.
     std::vector<Place> chosen(const Occluders& world, const std::vector<Affine3>& transforms,
                               MeshStatistics& statistics) const
     {
@@ -221,14 +222,14 @@ private:
         return some;
     }
 
-    /// Instances take their share of every sample's rays; poses have all of them each.
+    /// Trace the rays. Instances share each sample's rays; poses have all of them each.
     std::optional<SampledMoments> trace(const LevelArrays& finest, std::span<const SurfaceSample> samples,
                                         std::span<const Place> places, MeshStatistics& statistics)
     {
         RaySettings rays = settings_.rays;
         if (statistics.instances > 0)
             rays.rays_per_sample /= static_cast<uint32_t>(places.size());
-        rays.seed += statistics.mesh; // meshes that lie on each other have no noise in common
+        rays.seed += statistics.mesh; // meshes at the same place have independent noise
         auto seen = sampledMoments(finest.mesh().mesh, samples, places, rays, settings_.refine_cones,
                                    [&](size_t place, uint64_t done, uint64_t total)
                                    { return report(place, places.size(), done, total); });
@@ -276,7 +277,7 @@ private:
             statistics.ao_error = noiseOf(levels.front(), samples, seen.moments);
     }
 
-    /// Clusters that several cuts draw have equal codes in all of them.
+    /// Encode the moments of a level. Clusters that several cuts draw have equal codes in all of them.
     void encode(const LevelArrays& level, std::span<const Moments> moments)
     {
         for (size_t i = 0; i < level.parts.size(); ++i)
@@ -291,8 +292,8 @@ private:
         }
     }
 
-    /// Fits to each other sample alone differ by twice the noise of both together: that of their rays, and of where they
-    /// happen to lie.
+    /// Estimate the noise of ambient occlusion. Two fits, each to every other sample, differ by twice the
+    /// noise of the fit to both: the noise of their rays, and of the samples' positions.
     double noiseOf(const LevelArrays& finest, std::span<const SurfaceSample> samples,
                    std::span<const Moments> moments) const
     {
@@ -304,7 +305,7 @@ private:
             for (size_t s = half; s < samples.size(); s += 2)
             {
                 some.push_back(samples[s]);
-                some.back().area *= 2; // they stand for the whole surface
+                some.back().area *= 2; // each half represents the whole surface
                 values.push_back(moments[s]);
             }
             const LevelMesh mesh = finest.mesh();

@@ -1,4 +1,4 @@
-// Which points of a material with an alpha mask are there.
+// Evaluates the alpha test of a material at a point.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,7 +10,7 @@
 namespace hearth::visibility
 {
 
-/// The alpha of an image's finest mip, 8 bits a texel.
+/// Alpha channel of an image's finest mip, 8 bits a texel.
 struct AlphaImage
 {
     uint32_t width = 0;
@@ -18,17 +18,19 @@ struct AlphaImage
     std::vector<uint8_t> texels;
 };
 
+/// Read the alpha channel of an image's finest mip.
 /// errors: those of PackView::imageData
 Result<AlphaImage> alphaOf(const formats::PackView& part, uint32_t image);
 
-/// A look into the texture as the renderer's near levels have it: bilinear in the finest mip.
+/// Alpha test like the renderer's at near levels: a bilinear lookup in the finest mip.
 class AlphaMask
 {
 public:
-    /// image  nullptr: without a texture, the material's own alpha decides
+    /// image  nullptr: no texture, the material's own alpha decides
     AlphaMask(const formats::MaterialRecord& material, std::shared_ptr<const AlphaImage> image);
 
-    /// Whether the surface is there where its texture has these coordinates, before the material's transform of them.
+    /// True if the surface is opaque at these texture coordinates, which the material's UV transform is still
+    /// applied to.
     bool blocks(Float2 uv) const;
 
     uint32_t uvSet() const { return texture_.uv_set; }

@@ -16,11 +16,11 @@ namespace hearth::visibility
 namespace
 {
 
-// Of the hemisphere: what sees more is no candidate.
+// Share of the hemisphere: a sample that sees more is no candidate.
 constexpr float kAllButNothing = 0.1f;
 
 constexpr uint32_t kRays = 32;
-// That may go on sideways in the gap: of a cover at a tenth of the reach, a tenth do.
+// Rays that may escape sideways through the gap: below a cover at a tenth of the reach, a tenth do.
 constexpr uint32_t kMayPass = 6;
 
 bool isCovered(RTCScene scene, const SamplePoint& point, float reach, uint64_t seed)

@@ -1,4 +1,4 @@
-// Samples that nobody looks at, as those of a floor below a rug.
+// Finds interior samples, which are never visible, such as those of a floor below a rug.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,12 +10,14 @@
 namespace hearth::visibility
 {
 
-/// Whether something covers a point closely: of its rays, of which all but a few met something, most did within `reach`.
-/// The same for any number of threads.
+/// Find points that something covers closely: almost all of a point's rays hit something, and most of them
+/// hit within `reach`. The same for any number of threads.
 ///
-/// moments  of each point: those that see more than a tenth of their hemisphere are not buried, and cost nothing
+/// moments  of each point: those that see more than a tenth of their hemisphere are not interior, and cost
+///          nothing
 /// reach    metres, for each point
-/// seed     of the rays; a sequence for each point
+/// seed     of the rays; each point has a sequence of its own
+/// returns  1 for each interior point, else 0
 std::vector<uint8_t> buriedPoints(const Occluders& occluders, std::span<const SamplePoint> points,
                                   std::span<const Moments> moments, std::span<const float> reach,
                                   uint64_t seed);

@@ -15,7 +15,7 @@ namespace hearth::visibility
 namespace
 {
 
-/// What a filter has to know of the mesh that was hit; does not move while Embree has its address.
+/// Filter settings of a mesh. Must not move while Embree holds its address.
 struct Passage
 {
     BackFaces back_faces;
@@ -24,7 +24,7 @@ struct Passage
     bool isOpen() const { return back_faces == BackFaces::let_through || mask; }
 };
 
-/// Embree asks whether hits are hits: for one ray or for several side by side.
+/// Reject hits in Embree's filter callback, for a single ray or several side by side.
 void rejectHits(const RTCFilterFunctionNArguments* arguments)
 {
     const auto& passage = *static_cast<const Passage*>(arguments->geometryUserPtr);
@@ -35,7 +35,7 @@ void rejectHits(const RTCFilterFunctionNArguments* arguments)
             continue;
         const RTCRay ray = rtcGetRayFromRayN(arguments->ray, count, i);
         const RTCHit hit = rtcGetHitFromHitN(arguments->hit, count, i);
-        // both in the space of the mesh, where fronts are what they are, mirrored instances or not
+        // both in the space of the mesh, where front faces are the same in mirrored instances
         const bool from_behind = ray.dir_x * hit.Ng_x + ray.dir_y * hit.Ng_y + ray.dir_z * hit.Ng_z > 0;
         if ((from_behind && passage.back_faces == BackFaces::let_through) ||
             (passage.mask && !passage.mask(hit.primID, hit.u, hit.v)))
@@ -43,7 +43,7 @@ void rejectHits(const RTCFilterFunctionNArguments* arguments)
     }
 }
 
-/// Embree's objects are counted references.
+/// Deleter for Embree's reference-counted objects.
 struct Release
 {
     void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
@@ -56,7 +56,7 @@ using Held = std::unique_ptr<std::remove_pointer_t<T>, Release>;
 struct PlacedMesh
 {
     Held<RTCGeometry> triangles;
-    Held<RTCScene> scene; ///< of the triangles, for instances; made when there is one
+    Held<RTCScene> scene; ///< holds the triangles for instances; created for the first one
     std::unique_ptr<Passage> passage;
 };
 
@@ -68,11 +68,12 @@ struct Place
 
 void commit(RTCScene scene)
 {
-    // Splitting triangles makes rays 2 % faster on a rock and no faster among thin slanted pipes, for four to twelve
-    // times the time to build, which is a tenth of that of the rays then.
+    // High build quality, which splits triangles, makes rays 2 % faster on a rock and no faster among thin
+    // slanted pipes. It takes four to twelve times as long to build, which is then a tenth of the time of the
+    // rays.
     rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
-    // With several threads the tree may depend on who was first, and so may hits where boxes touch. (To tell the device to
-    // use one thread would tell all of TBB.)
+    // With several threads the tree may depend on their timing, and so may hits where boxes touch. (Limiting
+    // the device to one thread would limit all of TBB.)
     tbb::task_arena(1).execute([scene] { rtcCommitScene(scene); });
 }
 

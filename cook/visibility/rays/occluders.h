@@ -1,4 +1,4 @@
-// What is in the way of rays: meshes and instances of them, as Embree sees them.
+// Occluders of rays: meshes and their instances in an Embree scene.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,32 +9,33 @@
 #include <memory>
 #include <span>
 
-struct RTCSceneTy; ///< Embree's
+struct RTCSceneTy; ///< Embree's scene
 
 namespace hearth::visibility
 {
 
-/// What rays do that meet the back of a triangle: the side from which its corners run clockwise.
+/// Effect of the back of a triangle on rays: the side from which its corners run clockwise.
 enum class BackFaces
 {
-    block,       ///< as do the fronts: what is inside of a solid sees nothing
-    let_through, ///< for meshes whose backs the renderer culls, so that what is under an open floor sees the sky
+    block,       ///< like the front: samples inside a solid see nothing
+    let_through, ///< for meshes with back-face culling: samples below an open floor see the sky
 };
 
-/// Whether a masked triangle is there at the point with the weights u and v of its corners 1 and 2: a look into the
-/// material's texture. Called from many threads; has to answer the same each time.
+/// True if a masked triangle is opaque at the point with the weights u and v of its corners 1 and 2, by the
+/// material's texture. Called from many threads; must return the same value each time.
 using Mask = std::function<bool(uint32_t triangle, float u, float v)>;
 
 struct OccluderMesh
 {
     std::span<const Float3> positions; ///< finite
-    std::span<const uint32_t> corners; ///< three positions' indices for each triangle, in range (asserted)
+    std::span<const uint32_t> corners; ///< three position indices for each triangle, in range (asserted)
     BackFaces back_faces = BackFaces::block;
-    /// None: all of it is there. Rays ask at each hit, so that triangles without a mask are better off in another mesh.
+    /// Empty: the whole mesh is opaque. Rays call it at each hit, so put triangles without a mask into
+    /// another mesh.
     Mask mask = {};
 };
 
-/// Built once, then read from many threads. The same for any number of threads.
+/// Ray tracing scene: built once, then read from many threads. The same for any number of threads.
 class Occluders
 {
 public:
@@ -47,16 +48,18 @@ public:
     Occluders(Occluders&&) noexcept;
     Occluders& operator=(Occluders&&) noexcept;
 
-    /// Copies what the spans show. In the world it is as often as it has instances.
+    /// Copy a mesh. The world contains it once for each call of place().
     Mesh add(const OccluderMesh& mesh);
 
-    /// world_from_mesh  invertible. Where it is exactly the identity rays meet the mesh itself, which is faster
+    /// Add an instance of a mesh.
+    /// world_from_mesh  invertible; if it is exactly the identity, rays hit the mesh without an instance,
+    ///                  which is faster
     void place(Mesh mesh, const Affine3& world_from_mesh = {});
 
-    /// Build what rays search. To be called once, after all meshes have their places.
+    /// Build the acceleration structure. Call once, after all instances are placed.
     void finish();
 
-    /// After finish(). For the parts of this folder that trace rays.
+    /// Return the Embree scene, for the code of this folder that traces rays. Only after finish().
     RTCSceneTy* scene() const;
 
 private:

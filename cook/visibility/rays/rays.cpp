@@ -23,16 +23,17 @@ namespace hearth::visibility
 namespace
 {
 
-// Rays that Embree gets at once. Of single rays, packets of 16 and streams of 64 to 16384, streams of 1024 and more were
-// fastest, 1.6 times as fast as single rays (hearth_measure_visibility); these take 96 KiB.
+// Rays passed to Embree at once. Among single rays, packets of 16 and streams of 64 to 16384, streams of 1024
+// and more were fastest, 1.6 times as fast as single rays (hearth_measure_visibility); this size takes 96
+// KiB.
 constexpr uint32_t kStreamRays = 2048;
 
 constexpr double kHemisphere = 2 * std::numbers::pi; ///< steradians
 
-// Rays between two looks at progress: some milliseconds.
+// Rays between two progress reports: some milliseconds.
 constexpr uint64_t kTaskRays = 32768;
 
-/// Numbers too small to be normal are 0 in this thread while it lives, as Embree wants it for speed.
+/// Flushes denormals to zero on this thread during its lifetime, as Embree wants it for speed.
 class FlushToZero
 {
 public:
@@ -46,7 +47,7 @@ private:
     unsigned before_;
 };
 
-/// Rays that are in the way or not.
+/// Query for any hit, for binary visibility.
 struct AnyHit
 {
     using Ray = RTCRay;
@@ -60,7 +61,7 @@ struct AnyHit
     double hidden(const Ray& ray) const { return ray.tfar < 0 ? 1 : 0; }
 };
 
-/// Rays that know how far they came.
+/// Query for the nearest hit, for visibility that depends on distance.
 struct NearestHit
 {
     using Ray = RTCRayHit;
@@ -88,16 +89,16 @@ struct NearestHit
     double distance, power;
 };
 
-/// The hidden part is estimated, and the open part of the whole hemisphere's integral is corrected by what this pattern of
-/// rays makes of that: cook/visibility/README.md, "Constants stay constants".
-/// hidden, all  sums of a function over the rays: times 1 - V, and as it is
-/// whole        the function's integral over the hemisphere
+/// Estimate the integral of V times a function over the hemisphere. Estimates the occluded part and corrects
+/// the open part by the known error of this ray pattern: cook/visibility/README.md, "Exact constants".
+/// hidden, all  sums of the function over the rays: times 1 - V, and unweighted
+/// whole        exact integral of the function over the hemisphere
 double integralOf(double hidden, double all, double whole, double hidden_share, double per_ray)
 {
     return (all * hidden_share - hidden) * per_ray + whole * (1 - hidden_share);
 }
 
-/// Of one point, over its rays w: 1 - V, (1 - V) w and w.
+/// Sums over the rays w of one point: 1 - V, (1 - V) w and w.
 struct FirstSums
 {
     using Result = Moments;
@@ -127,7 +128,7 @@ struct FirstSums
     Double3 directions;
 };
 
-/// And (1 - V) w w^T and w w^T.
+/// FirstSums, and the sums of (1 - V) w w^T and w w^T.
 struct SecondSums
 {
     using Result = HigherMoments;
@@ -160,7 +161,7 @@ struct SecondSums
     std::array<double, 6> hidden_products{}, all_products{};
 };
 
-/// Traces the rays of some points, a stream at a time.
+/// Traces the rays of some points, one stream at a time.
 template <typename Query, typename Sums>
 class Tracer
 {
@@ -196,7 +197,7 @@ public:
 private:
     using Ray = typename Query::Ray;
 
-    /// Rays of the stream that are one point's.
+    /// Rays of one point in the stream.
     struct Fan
     {
         uint32_t point, first, count;
@@ -254,10 +255,10 @@ private:
     std::array<float, kStreamRays> x_, y_, z_;
     std::vector<Fan> fans_;
     std::vector<Sums> sums_;
-    uint32_t filled_ = 0; ///< rays of the stream
+    uint32_t filled_ = 0; ///< rays in the stream
 };
 
-/// Counts rays of all threads and hands the count on.
+/// Counts the rays of all threads and reports progress.
 class Counter
 {
 public:
@@ -270,7 +271,7 @@ public:
         const uint64_t done = done_.fetch_add(rays) + rays;
         if (!progress_)
             return;
-        // whoever finds another thread telling goes on, but for the last one
+        // skip the report while another thread reports, except for the last one
         std::unique_lock lock(mutex_, std::defer_lock);
         if (done == total_)
             lock.lock();
@@ -293,7 +294,7 @@ bool traceAll(const Occluders& occluders, std::span<const SamplePoint> points, c
               const RayProgress& progress, std::span<typename Sums::Result> moments)
 {
     Counter counter(progress, uint64_t{points.size()} * settings.rays_per_sample);
-    // of whole streams, where both are powers of two
+    // whole streams, if both are powers of two
     const size_t points_per_task = std::max<uint64_t>(1, kTaskRays / settings.rays_per_sample);
     tbb::parallel_for(tbb::blocked_range<size_t>(0, points.size(), points_per_task),
                       [&](const tbb::blocked_range<size_t>& range)

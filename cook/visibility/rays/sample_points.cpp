@@ -14,22 +14,23 @@ namespace hearth::visibility
 namespace
 {
 
-constexpr double kUnit = 0x1p-24; ///< rounding moves a number by this share of itself at most
+constexpr double kUnit = 0x1p-24; ///< maximum relative error of rounding to a float
 
-// The sample's position, the corners that it lies between and the ray's origin are rounded to floats, and the latter two
-// while they are; and one more for all products of these.
+// The sample's position, the corners that it lies between and the ray's origin are rounded to floats: three
+// roundings, and one more for all products of them.
 constexpr double kWorldRoundings = 4;
 
-// Embree takes origins into an instance's space with the inverse that it has computed: three products and sums, those
-// for the translation, and those of the inverse itself.
+// Embree transforms origins into an instance's space with its own inverse matrix: three products and sums,
+// the translation, and the roundings of the inverse itself.
 constexpr double kInstanceRoundings = 10;
 
-// Of the distance of a plane from a ray's origin, dot(cross(e1, e2), v0 - origin): by the difference, the product, and the
-// cross product, whose terms may cancel (J. R. Shewchuk's bounds, 1997, to first order). sqrt 3: from axes to lengths.
+// Roundings in the distance of a plane from a ray's origin, dot(cross(e1, e2), v0 - origin): by the
+// difference, the product, and the cross product, whose terms may cancel (J. R. Shewchuk's bounds, 1997, to
+// first order). Includes sqrt 3, from axes to lengths.
 constexpr double kPlaneRoundings = 8;
 constexpr double kCrossRoundings = 6;
 
-// Thinner triangles have no normal to speak of: they would lift their samples out of sight.
+// Thinner triangles have no reliable normal: they would lift their samples out of sight.
 constexpr double kMostThinness = 1000;
 
 Double3 absolute(Double3 a)
@@ -37,7 +38,7 @@ Double3 absolute(Double3 a)
     return {std::abs(a.x), std::abs(a.y), std::abs(a.z)};
 }
 
-/// What an instance's transform does to points, normals and errors.
+/// Transform of an instance, applied to points, normals and error bounds.
 class Placing
 {
 public:
@@ -59,7 +60,8 @@ public:
 
     Double3 point(Double3 p) const { return transformPoint(world_from_mesh_, p); }
 
-    /// Not unit: planes at a distance of 1 in the mesh are 1 / its length apart in the world.
+    /// Transform a normal, to a length other than 1: planes 1 apart in the mesh are 1 / length apart in the
+    /// world.
     Double3 normal(Double3 n) const
     {
         const auto& m = mesh_from_world_.m;
@@ -67,7 +69,7 @@ public:
                 m[0][2] * n.x + m[1][2] * n.y + m[2][2] * n.z};
     }
 
-    /// How far off along each axis a point may be that rays start from.
+    /// Bound the error of a ray origin along each axis.
     Double3 error(Double3 point) const
     {
         Double3 error = absolute(point) * (kWorldRoundings * kUnit);
@@ -75,7 +77,7 @@ public:
             return error;
         const Double3 translation{world_from_mesh_.m[0][3], world_from_mesh_.m[1][3],
                                   world_from_mesh_.m[2][3]};
-        // the inverse's own errors go there and back once more
+        // errors of the inverse itself are transformed back and forth once more
         const Double3 once = transformVector(there_and_back_, absolute(point) + absolute(translation));
         const Double3 twice = transformVector(there_and_back_, once);
         return error + twice * (kInstanceRoundings * kUnit);
@@ -88,7 +90,7 @@ private:
     bool is_identity_;
 };
 
-/// By how much Embree may misjudge on which side of a triangle's plane a point on the triangle lies.
+/// Bound Embree's error in the distance of a point on a triangle from the triangle's plane.
 double planeError(Double3 e1, Double3 e2, double twice_area)
 {
     const double a = length(e1), b = length(e2), c = length(e1 - e2);

@@ -15,10 +15,10 @@ namespace hearth::visibility
 namespace
 {
 
-/// Rows of a matrix that takes directions from the world to the space of the mesh.
+/// Rows of a matrix that transforms directions from the world to the space of the mesh.
 using Turn = std::array<Float3, 3>;
 
-/// As normals go the other way: the transposed matrix.
+/// Return the transposed matrix, which transforms normals from the world to the mesh.
 Turn turnOf(const Affine3& world_from_mesh)
 {
     const auto& m = world_from_mesh.m;
@@ -26,8 +26,8 @@ Turn turnOf(const Affine3& world_from_mesh)
             Float3{m[0][2], m[1][2], m[2][2]}};
 }
 
-// Of the longest edge of a sample's triangle: what covers it from nearer by hides parts of it that its corners cannot tell from
-// the rest.
+// Reach of a cover, as a share of the longest edge of a sample's triangle. A nearer cover occludes parts of
+// the triangle that its corners cannot distinguish from the rest.
 constexpr float kClose = 0.02f;
 
 std::vector<float> reachOf(std::span<const Float3> positions, std::span<const uint32_t> corners,
@@ -53,7 +53,7 @@ std::array<Float3, 3> frameOf(std::span<const Float3> positions, const uint32_t*
     return {first, cross(normal, first), normal};
 }
 
-/// The rotation that takes a triangle of a pose to where it is without one.
+/// Compute the rotation that takes a triangle in a pose to its orientation without a pose.
 Turn turnBack(std::span<const Float3> posed, std::span<const Float3> positions, const uint32_t* corners)
 {
     const std::array<Float3, 3> from = frameOf(posed, corners), to = frameOf(positions, corners);
@@ -72,7 +72,7 @@ Float3 turned(const Turn& turn, Float3 v)
             turn[2].x * v.x + turn[2].y * v.y + turn[2].z * v.z};
 }
 
-/// Its length stays, whatever the matrix does to lengths.
+/// Add transformed moments. The length of m1 is preserved, whatever the matrix does to lengths.
 void add(Moments& sum, const Moments& seen, const Turn& turn, float share)
 {
     const Float3 m1 = turned(turn, seen.m1);
@@ -82,7 +82,7 @@ void add(Moments& sum, const Moments& seen, const Turn& turn, float share)
         sum.m1 = sum.m1 + m1 * (length(seen.m1) / size) * share;
 }
 
-/// T M T^T; the trace stays.
+/// Add T M T^T with the trace preserved.
 void add(SecondMoments& sum, const SecondMoments& seen, const Turn& turn, float share)
 {
     const std::array<Float3, 3> rows{Float3{seen.xx, seen.xy, seen.xz}, Float3{seen.xy, seen.yy, seen.yz},

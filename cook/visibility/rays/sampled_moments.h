@@ -1,4 +1,4 @@
-// What the samples of a mesh see, averaged over the places that it stands in.
+// Averages the moments of a mesh's samples over the placements of the mesh: its instances or its poses.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,30 +12,30 @@
 namespace hearth::visibility
 {
 
-/// How a mesh stands among occluders.
+/// Placement of a mesh among occluders.
 struct Place
 {
     const Occluders* occluders = nullptr; ///< finished
     Affine3 world_from_mesh;
-    /// Positions of the mesh in a pose, in its own space; empty: as it is. What is seen then is turned back with each
-    /// triangle.
+    /// Positions of the mesh in a pose, in its own space; empty: no pose. Moments in a pose are rotated back
+    /// with each triangle.
     std::vector<Float3> posed;
 };
 
 struct SampledMoments
 {
     std::vector<Moments> moments;      ///< one for each sample, in the space of the mesh
-    std::vector<SecondMoments> second; ///< only where asked for
-    std::vector<uint8_t> buried;       ///< 1: closely covered in all places, so that nobody looks at it
+    std::vector<SecondMoments> second; ///< empty unless requested
+    std::vector<uint8_t> buried;       ///< 1: interior, closely covered in all places and never visible
     uint64_t rays = 0;
 };
 
-/// Told rays done of a place; returns whether to go on.
+/// Progress callback: finished rays of a place. Returns false to stop.
 using PlaceProgress = std::function<bool(size_t place, uint64_t rays_done, uint64_t rays_total)>;
 
-/// The mean over the places, each of which takes settings.rays_per_sample rays of each sample, one after another of its
+/// Compute the mean over the places. Each place takes the next settings.rays_per_sample rays of each sample's
 /// sequence.
-/// returns  nothing where `progress` said to stop
+/// returns  nothing if `progress` returned false
 std::optional<SampledMoments> sampledMoments(const MeshView& mesh, std::span<const SurfaceSample> samples,
                                              std::span<const Place> places, RaySettings settings,
                                              bool with_second, const PlaceProgress& progress);

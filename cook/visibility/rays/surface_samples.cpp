@@ -18,7 +18,7 @@ namespace hearth::visibility
 namespace
 {
 
-// Of all samples, what least numbers of vertices may take; the rest goes by area.
+// Maximum share of all samples for the minimum counts of vertices; the rest is distributed by area.
 constexpr double kMostForVertices = 0.9;
 
 using Corners = std::array<Float3, 3>;
@@ -34,7 +34,7 @@ double areaOf(const Corners& c)
     return length(cross(widen(c[1]) - widen(c[0]), widen(c[2]) - widen(c[0]))) / 2;
 }
 
-/// Cells of 2^21 a side that cover all positions, along the Z-order curve.
+/// Z-order (Morton) curve through a grid of 2^21 cells a side that covers all positions.
 class MortonCurve
 {
 public:
@@ -57,7 +57,7 @@ public:
     }
 
 private:
-    /// Two zero bits behind each of the lower 21 bits.
+    /// Insert two zero bits after each of the lower 21 bits.
     static uint64_t spreadBits(double cell)
     {
         auto x = static_cast<uint64_t>(std::clamp(cell, 0.0, 2097151.0));
@@ -72,7 +72,8 @@ private:
     double cells_per_metre_ = 0;
 };
 
-/// Item with its place on the curve; equal places go by item, so that the order is one on every run.
+/// Item with its code on the curve; equal codes are ordered by item, so that the order is the same in every
+/// run.
 struct OnCurve
 {
     uint64_t code;
@@ -80,7 +81,7 @@ struct OnCurve
     friend auto operator<=>(const OnCurve&, const OnCurve&) = default;
 };
 
-/// What each triangle with area gets at least. `total`: of all samples.
+/// Compute the minimum number of samples of each triangle with area. `total`: number of all samples.
 std::vector<double> leastCounts(std::span<const uint32_t> corners, std::span<const double> areas,
                                 const SurfaceSampleSettings& settings, size_t vertex_count, double total)
 {
@@ -106,12 +107,13 @@ std::vector<double> leastCounts(std::span<const uint32_t> corners, std::span<con
     return least;
 }
 
-/// Samples for a square metre, so that triangles with their least number at least come to `total` in all.
+/// Compute the samples per square metre for which all counts, raised to the triangles' minimums, sum to
+/// `total`.
 double densityFor(std::span<const double> areas, std::span<const double> least, double total)
 {
     struct Triangle
     {
-        double density; ///< from which on area counts
+        double density; ///< density above which the area decides
         size_t index;
     };
     std::vector<Triangle> sorted;
@@ -128,7 +130,8 @@ double densityFor(std::span<const double> areas, std::span<const double> least, 
     double samples_left = total;
     for (const Triangle& triangle : sorted)
     {
-        // that with the greatest need for its area gets its share, or else its least number and is out
+        // the triangle with the greatest need for its area gets its share by area, or else its minimum and is
+        // done
         if (samples_left <= 0 || samples_left >= triangle.density * area_left)
             break;
         samples_left -= least[triangle.index];
@@ -137,7 +140,7 @@ double densityFor(std::span<const double> areas, std::span<const double> least, 
     return samples_left > 0 && area_left > 0 ? samples_left / area_left : 0;
 }
 
-/// Along the curve, so that what one triangle is given too much its neighbour gets less.
+/// Count samples along the curve: if rounding gives a triangle too many, its neighbour gets fewer.
 std::vector<uint32_t> countSamples(std::span<const double> areas, std::span<const double> least,
                                    std::span<const OnCurve> order, double total)
 {
@@ -170,7 +173,7 @@ std::vector<SurfaceSample> surfaceSamples(std::span<const Float3> positions,
     const size_t triangle_count = corners.size() / 3;
     const MortonCurve curve(positions);
 
-    // Counts by area, in the order of the curve.
+    // Count by area, in the order of the curve.
     std::vector<double> areas(triangle_count);
     std::vector<OnCurve> order(triangle_count);
     tbb::parallel_for(size_t{0}, triangle_count,
@@ -185,7 +188,7 @@ std::vector<SurfaceSample> surfaceSamples(std::span<const Float3> positions,
     const std::vector<double> least = leastCounts(corners, areas, settings, positions.size(), total);
     const std::vector<uint32_t> counts = countSamples(areas, least, order, total);
 
-    // Each triangle's own net of points.
+    // Generate a low-discrepancy net of points in each triangle.
     std::vector<size_t> first(triangle_count + 1);
     for (size_t t = 0; t < triangle_count; ++t)
         first[t + 1] = first[t] + counts[t];

@@ -16,10 +16,10 @@ using namespace formats;
 namespace
 {
 
-// LevelMesh::reach of 0, in diagonals.
+// Default of LevelMesh::reach (stored as 0), in diagonals.
 constexpr float kUsualReach = 0.05f;
 
-/// A vertex as its place and normal: bit-identical ones look alike in any cut.
+/// Vertex as position and normal: bit-identical vertices look alike in any cut.
 struct VertexKey
 {
     Float3 position;
@@ -85,14 +85,14 @@ LevelArrays cutAt(const MeshPages& pages, uint32_t level)
     for (uint32_t c = mesh.clusters.first; c < mesh.clusters.first + mesh.clusters.count; ++c)
         if (isDrawnAt(pages.part(), pages.part().clusters()[c], level))
             addCluster(arrays, pages, c, level == 0);
-    // far from the root the usual reach is more than the coarse surface can lie off
+    // far from the root, the default reach exceeds the deviation of the coarse surface
     const float off = 2 * pages.part().levels()[mesh.levels.first + level].max_error;
     if (off > kUsualReach * length(mesh.box_max - mesh.box_min))
         arrays.reach = off;
     return arrays;
 }
 
-/// Cuts that mix levels meet in vertices that both have.
+/// Link vertices to equal ones of the finer level: cuts that mix levels meet in vertices of both.
 void holdToFiner(LevelArrays& level, const VertexOfKey& finer)
 {
     level.finer_vertex.reserve(level.positions.size());
@@ -130,7 +130,7 @@ ClusterGeometry MeshPages::cluster(uint32_t number) const
 {
     const ClusterRecord& record = part_->clusters()[number];
     const auto geometry = ClusterGeometry::at(pages_[record.page - record_->pages.first], record, *record_);
-    HEARTH_ASSERT(geometry.has_value()); // checkHierarchy has looked
+    HEARTH_ASSERT(geometry.has_value()); // checked by checkHierarchy
     return *geometry;
 }
 

@@ -1,4 +1,4 @@
-// The meshes that uniform cuts through a hierarchy draw, out of the pages of a clusters part.
+// Extracts the meshes that uniform cuts through a cluster hierarchy draw from the pages of a clusters part.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,11 +10,12 @@
 namespace hearth::visibility
 {
 
-/// The decoded pages of one mesh. The view must outlive it.
+/// Decoded pages of one mesh. The view must outlive it.
 class MeshPages
 {
 public:
-    /// errors: those of PackView::decodePage and formats::checkHierarchy's of tables; meaning_geometry
+    /// Decode the pages of a mesh.
+    /// errors: those of PackView::decodePage, those of formats::checkHierarchy for tables; meaning_geometry
     static Result<MeshPages> read(const formats::PackView& part, uint32_t mesh);
 
     const formats::PackView& part() const { return *part_; }
@@ -27,17 +28,17 @@ private:
     std::vector<std::vector<std::byte>> pages_;
 };
 
-/// The clusters of one level, and those of finer levels that nothing replaces. Vertices stand cluster by cluster: where
-/// clusters meet, each has its own.
+/// Clusters of one level, and clusters of finer levels that nothing replaces. Vertices are stored cluster by
+/// cluster: where clusters meet, each has its own copy.
 struct LevelArrays
 {
     struct Part
     {
-        uint32_t cluster; ///< chunk CLUS
+        uint32_t cluster; ///< index in chunk CLUS
         uint32_t first_vertex;
     };
     std::vector<Float3> positions;
-    std::vector<Float3> normals; ///< as their codes decode
+    std::vector<Float3> normals; ///< decoded from their codes
     std::vector<uint32_t> indices;
     std::vector<uint32_t> triangle_materials; ///< level 0 only
     std::vector<uint32_t> finer_vertex;       ///< as LevelMesh::finer_vertex
@@ -47,10 +48,10 @@ struct LevelArrays
     LevelMesh mesh() const { return {{positions, normals, indices}, finer_vertex, reach}; }
 };
 
-/// The finest level of a mesh; normals only where its vertices have them.
+/// Extract the finest level of a mesh. Fills normals only if its vertices have them.
 LevelArrays finestOf(const MeshPages& pages);
 
-/// All levels of a mesh whose vertices have normals, finest first.
+/// Extract all levels of a mesh whose vertices have normals, finest first.
 std::vector<LevelArrays> levelsOf(const MeshPages& pages);
 
 } // namespace hearth::visibility

@@ -18,13 +18,13 @@ using namespace formats;
 namespace
 {
 
-constexpr uint32_t kFine = 2; ///< samples of a pixel along each axis
+constexpr uint32_t kFine = 2; ///< samples per pixel along each axis
 
-constexpr float kMargin = 1.04f; ///< of what is seen, by the picture
+constexpr float kMargin = 1.04f; ///< size of the image, relative to the objects in it
 
 constexpr float kBackground = 0.1f;
 
-/// A point as the picture sees it: x to the right and y down in samples, z away from the viewer; and its occlusion.
+/// Vertex in image space: x to the right and y down in samples, z away from the viewer; and its occlusion.
 struct Seen
 {
     float x, y, z, occlusion;
@@ -41,7 +41,7 @@ public:
     {
     }
 
-    /// The picture shall show all of the box.
+    /// Choose the projection such that the image contains the whole box.
     void fit(const Box3& box)
     {
         Box3 seen;
@@ -105,16 +105,17 @@ public:
     }
 
 private:
-    /// To the right, up and towards the viewer, who stands in front (+z), to the right and above.
+    /// Rotate to axes that point right, up, and towards the viewer, who stands in front (+z), to the right
+    /// and above.
     static Float3 turned(Float3 p)
     {
-        constexpr float kRight = 0.6f, kFront = 0.8f;    // the way to the viewer, seen from above
+        constexpr float kRight = 0.6f, kFront = 0.8f;    // direction to the viewer, seen from above
         constexpr float kUp = 0.5f, kLevel = 0.8660254f; // 30 degrees
         const float towards = kRight * p.x + kFront * p.z;
         return {kFront * p.x - kRight * p.z, kLevel * p.y - kUp * towards, kUp * p.y + kLevel * towards};
     }
 
-    /// Of samples that the range of three coordinates can cover.
+    /// Return the range of samples that a triangle with these three coordinates can cover.
     static std::pair<uint32_t, uint32_t> range(float a, float b, float c, uint32_t size)
     {
         const auto clamped = [&](float x)
@@ -135,7 +136,7 @@ bool isShown(const PackView& baked, uint32_t mesh)
            (baked.meshes()[mesh].attributes & kVertexVisibility) != 0;
 }
 
-/// Of each vertex of LevelArrays.
+/// Decode the ambient occlusion of each vertex of LevelArrays.
 std::vector<float> occlusionOf(const MeshPages& pages, const LevelArrays& level)
 {
     std::vector<float> occlusion;

@@ -1,4 +1,4 @@
-// A picture of what was baked: the scene's ambient occlusion, for reports.
+// Renders an image of a scene's baked ambient occlusion, for reports.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,15 +13,15 @@ namespace hearth::visibility
 struct GreyPicture
 {
     uint32_t width = 0, height = 0;
-    std::vector<uint8_t>
-        texels; ///< row by row from the top, 255 times the occlusion: as light, it would be paler
+    /// Row by row from the top; 255 times the occlusion, not encoded as sRGB, which would be paler.
+    std::vector<uint8_t> texels;
 
     friend bool operator==(const GreyPicture&, const GreyPicture&) = default;
 };
 
-/// The finest level of all instances in their rest poses, from the front, the right and above, all of it in the picture,
-/// without perspective. White is what sees all of its hemisphere; the background is dark. Four samples a pixel.
-/// Time O(triangles of all instances + texels of their boxes).
+/// Render the finest level of all instances in their rest poses with an orthographic camera from the front,
+/// right and above, such that all of it is in the image. Vertices that see all of their hemisphere are white;
+/// the background is dark. Four samples a pixel. Time O(triangles of all instances + texels of their boxes).
 ///
 /// scene  the import part, for the instances
 /// baked  a clusters part of the same source; meshes without visibility are left out
@@ -29,7 +29,7 @@ struct GreyPicture
 Result<GreyPicture> occlusionPicture(const formats::PackView& scene, const formats::PackView& baked,
                                      uint32_t width, uint32_t height);
 
-/// The picture as a PNG file.
+/// Encode the image as a PNG file.
 std::vector<std::byte> encodePng(const GreyPicture& picture);
 
 } // namespace hearth::visibility

@@ -13,7 +13,7 @@ using namespace formats;
 namespace
 {
 
-/// "0.25", no longer than it takes to read it back as a float.
+/// Format seconds, such as "0.25", with the fewest digits that read back as the same float.
 std::string textOf(double seconds)
 {
     char buffer[32];
@@ -46,7 +46,7 @@ Error noClip(const PackView& scene, const std::string& name)
                                : "there is none of this name: there are " + names};
 }
 
-/// The first instance's node, else any that has the mesh.
+/// Find the node of the mesh's first instance, else any node that has the mesh.
 uint32_t nodeOf(const PackView& scene, uint32_t mesh)
 {
     for (const InstanceRecord& instance : scene.instances())

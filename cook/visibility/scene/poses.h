@@ -1,4 +1,4 @@
-// Poses that deformed meshes are baked in, other than the bind pose.
+// Poses, other than the bind pose, in which deformed meshes are baked.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,16 +13,17 @@
 namespace hearth::visibility
 {
 
-/// Times of a clip, as a user names them: "walk@0.2,0.7", or "walk" alone, which is its kPosesOfClip times.
+/// Times of a clip in a user's notation: "walk@0.2,0.7", or "walk" alone for kPosesOfClip times.
 struct ClipTimes
 {
-    std::string clip;            ///< its name, or its index where it has none
-    std::vector<double> seconds; ///< from its start; empty: evenly over it
+    std::string clip;            ///< name, or index of a clip without a name
+    std::vector<double> seconds; ///< from the clip's start; empty: evenly distributed
 };
 
-inline constexpr size_t kPosesOfClip = 4; ///< the middles of its four quarters
+inline constexpr size_t kPosesOfClip = 4; ///< the middles of the clip's four quarters
 
-/// errors: none but nullopt where what follows the @ is no list of times, none of them negative
+/// Parse the notation of ClipTimes.
+/// errors: nullopt if the text after the @ is no list of times, or one of them is negative
 std::optional<ClipTimes> parseClipTimes(std::string_view text);
 
 struct NamedPose
@@ -31,11 +32,12 @@ struct NamedPose
     formats::ScenePose pose;
 };
 
-/// errors: meaning_reference where the scene has no such clip
+/// Sample the poses of clips.
+/// errors: meaning_reference if the scene has no such clip
 Result<std::vector<NamedPose>> posesOf(const formats::PackView& scene, const std::vector<ClipTimes>& clips);
 
-/// Where the vertices of a mesh's finest level are in a pose: as its first instance has them, in the world if the mesh has a
-/// skin, else in its own space. Empty where no node has the mesh.
+/// Compute the vertex positions of a mesh's finest level in a pose, as its first instance has them: in the
+/// world if the mesh has a skin, else in its own space. Empty if no node has the mesh.
 std::vector<Float3> posedPositions(const formats::PackView& scene, const MeshPages& pages,
                                    const LevelArrays& finest, uint32_t mesh, const formats::ScenePose& pose);
 

@@ -11,10 +11,10 @@ using namespace formats;
 namespace
 {
 
-/// The triangles of one material with a mask, or all those without.
+/// Corner indices of the triangles of each material with a mask; key kNone: of all triangles without a mask.
 using TrianglesOfMaterial = std::map<uint32_t, std::vector<uint32_t>>;
 
-/// UVs of a set at all vertices of the level; those without the set have 0.
+/// Collect the UVs of a set at all vertices of the level; vertices without the set get 0.
 std::vector<Float2> uvsOf(const MeshPages& pages, const LevelArrays& level, uint32_t set)
 {
     std::vector<Float2> uvs(level.positions.size());
@@ -28,6 +28,7 @@ std::vector<Float2> uvsOf(const MeshPages& pages, const LevelArrays& level, uint
     return uvs;
 }
 
+/// Create the mask of triangles.
 /// uvs  at the corners, three for each triangle
 Mask maskOver(std::shared_ptr<const AlphaMask> mask, std::vector<Float2> uvs)
 {

@@ -1,4 +1,4 @@
-// What of a mesh is in the way of rays: its finest level, with the holes that alpha masks cut.
+// Adds meshes of a scene to the occluders: the finest level, with the holes that alpha masks cut.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,18 +12,18 @@
 namespace hearth::visibility
 {
 
-/// The masks of a scene's materials.
+/// Alpha masks of a scene's materials.
 class SceneMasks
 {
 public:
-    /// scene  the import part: materials and images. The view must outlive it
+    /// scene  the import part: materials and images; must outlive this
     explicit SceneMasks(const formats::PackView& scene) : scene_(&scene), images_(scene.images().size()) {}
 
-    /// The mask of a material, nullptr if it has none; images are read once.
-    /// errors: those of alphaOf; meaning_reference for an image that is not there
+    /// Return the mask of a material, nullptr if it has none; images are read once.
+    /// errors: those of alphaOf; meaning_reference for a missing image
     Result<std::shared_ptr<const AlphaMask>> of(uint32_t material);
 
-    /// Whether a material lets all rays through: what is blended dims, but hides nothing.
+    /// True if a material lets all rays through: blended surfaces dim light, but do not occlude.
     bool letsThrough(uint32_t material) const;
 
 private:

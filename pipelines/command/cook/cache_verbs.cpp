@@ -20,7 +20,7 @@ std::string lineOf(const cache::LevelSpec& spec, const cache::Occupancy& occupan
                        spec.writable ? "" : ", read only");
 }
 
-// A server answers for keys, and lists none.
+// A server answers requests for keys, but lists no entries.
 std::string lineOfServer(const cache::LevelSpec& spec)
 {
     return cache::withoutUser(spec.place) + ": a server, which looks after itself\n";

@@ -1,4 +1,4 @@
-// hearth cache: how full the caches are, and their upkeep.
+// hearth cache: prints the sizes of caches, collects their garbage and verifies their contents.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,7 +13,8 @@ namespace hearth::command
 
 std::string cacheStat(std::span<const cache::LevelSpec> caches);
 
-/// limit_bytes  instead of each cache's own limit
+/// Remove the least recently used entries of the writable caches, down to their limits.
+/// limit_bytes  replaces each cache's own limit
 std::string cacheGc(std::span<const cache::LevelSpec> caches, std::optional<uint64_t> limit_bytes);
 
 struct CacheVerification
@@ -22,7 +23,7 @@ struct CacheVerification
     bool is_whole = true;
 };
 
-/// Read every byte of the caches that may be written, and remove what is damaged.
+/// Read every byte of the writable caches, and remove damaged entries.
 CacheVerification cacheVerify(std::span<const cache::LevelSpec> caches);
 
 } // namespace hearth::command

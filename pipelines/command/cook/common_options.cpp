@@ -23,14 +23,15 @@ struct CommonOptions
     std::string log_format = "text";
 };
 
-/// One process has one command line.
+/// Options of the process, which has one command line.
 CommonOptions& common()
 {
     static CommonOptions options;
     return options;
 }
 
-/// Of the command line, the environment or a file; of a file that is wrong the verbs tell that need it.
+/// Read the color setting from the command line, the environment or a configuration file. Errors of a file
+/// are ignored here: the verbs that need the file report them.
 ColorWish colorWish()
 {
     const Result<profiles::Given> given = common().settings.given();
@@ -64,7 +65,7 @@ Status applyCommonOptions()
     const std::string& directory = common().directory;
     if (!directory.empty() && ::chdir(directory.c_str()) != 0)
         return Error{Issue::input_missing, directory, "", "is no folder that can be entered"};
-    // files of settings are looked for from there
+    // after chdir: hearth.toml is searched from the working folder
     setColor(colorWish());
     return success();
 }
@@ -80,7 +81,7 @@ Result<profiles::Configuration> loadConfiguration(profiles::Given given)
 std::vector<std::string> cachesOf(const profiles::Configuration& configuration)
 {
     const profiles::Value* caches = configuration.command("cache");
-    // what the environment says is read where caches are opened: it may be "off"
+    // HEARTH_CACHE is read where caches are opened: it may be "off"
     return caches == nullptr || caches->origin == "HEARTH_CACHE" ? std::vector<std::string>()
                                                                  : profiles::textsOf(*caches);
 }

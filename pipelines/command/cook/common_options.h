@@ -1,4 +1,4 @@
-// Options of every verb: -C, --config, --color, --log-format.
+// Defines the options of every verb: -C, --config, --color, --log-format.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,23 +12,25 @@
 namespace hearth::command
 {
 
-/// Add them to the command; its verbs take them, too.
+/// Add the common options to the command; its verbs accept them, too.
 void addCommonOptions(cli::CommandLine& app);
 
-/// Do what they say, before the verb does its work. errors: input_missing where there is no folder of -C.
+/// Apply the common options, before the verb does its work. errors: input_missing if the folder of -C does
+/// not exist.
 Status applyCommonOptions();
 
-/// The configuration with what the command line says, --config included. errors: those of Configuration::load.
+/// Load the configuration with the settings of the command line, --config included. errors: those of
+/// Configuration::load.
 Result<profiles::Configuration> loadConfiguration(profiles::Given given);
 
-/// The caches of the configuration; none: as cache::cacheSpecs decides.
+/// Return the caches of the configuration; none: cache::cacheSpecs decides.
 std::vector<std::string> cachesOf(const profiles::Configuration& configuration);
 
-/// The same, read. errors: usage.
+/// Parse the caches of the configuration. errors: usage.
 Result<std::vector<cache::LevelSpec>> levelsOf(const profiles::Configuration& configuration);
 
-/// The words of a command line, each "@FILE" replaced by the lines of that file; empty lines and those that start with # are
-/// left out. A file that starts with @ is named as ./@FILE. errors: input_missing.
+/// Replace each word "@FILE" of a command line by the lines of that file, without empty lines and lines that
+/// start with #. A file whose name starts with @ is written as ./@FILE. errors: input_missing.
 Result<std::vector<std::string>> withArgumentFiles(const std::vector<std::string>& words);
 
 } // namespace hearth::command

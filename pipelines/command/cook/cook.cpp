@@ -44,7 +44,7 @@ namespace
 
 constexpr int kSomeFailed = 1;
 
-/// How the cook ended; what the report knows of it besides is in the recorder.
+/// Outcome of a cook: the report that the CookRecorder fills.
 using CookOutcome = report::CookReport;
 
 // ---- messages
@@ -57,15 +57,16 @@ bool isFatalWarning(const std::string& line, const CookOptions& options)
     return codes.empty() || std::find(codes.begin(), codes.end(), partsOf(line).code) != codes.end();
 }
 
-/// People are told how a cook went as a whole; programs are told each thing once.
+/// True if the cook ends with a summary. Summaries are for people; programs get each message once.
 bool hasSummary(const CookOptions& options)
 {
     return options.verbosity != Verbosity::quiet && messageForm() == MessageForm::text;
 }
 
-/// Pass on a child's messages: errors always, the noise of libraries only when everything is asked for.
-/// were_told  the cook before has told the same: warnings are only counted, unless everything is asked for
-/// returns    how many warnings among them count as errors
+/// Print a child's messages and count its warnings. Prints errors always, warnings unless quiet, all others
+/// only with Verbosity::all.
+/// were_told  the previous cook has printed the same: warnings are only counted, except with Verbosity::all
+/// returns    the number of warnings that count as errors
 size_t passOn(const std::vector<std::string>& lines, bool were_told, const CookOptions& options,
               CookSummary& summary)
 {
@@ -87,8 +88,8 @@ size_t passOn(const std::vector<std::string>& lines, bool were_told, const CookO
     return fatal_count;
 }
 
-/// Returns whether the last cook into the pack had the same result of an action, and so has printed its warnings.
-/// memory  of the cook; null: none
+/// True if the last cook into the pack had the same result for an action, and so has printed its warnings.
+/// memory  state of previous cooks; null: none
 bool wasTold(const graph::Action& action, const graph::ActionOutcome& outcome, const graph::Graph& graph,
              CookMemory* memory)
 {
@@ -112,7 +113,7 @@ ProgressStyle styleOf(const CookOptions& options)
     return options.verbosity == Verbosity::quiet ? ProgressStyle::none : progressStyle(options.progress);
 }
 
-/// What the events of a cook go to.
+/// Receivers of the events of a cook.
 struct Listeners
 {
     EventLog* log = nullptr; ///< null: none
@@ -122,8 +123,8 @@ struct Listeners
     CookSummary summary;
 };
 
-/// The listeners live as long as the events.
-/// memory  of the cook; null: none
+/// Make executor events that feed the listeners and the recorder, which must outlive the events.
+/// memory  state of previous cooks; null: none
 graph::ExecutorEvents eventsFor(const graph::Graph& graph, const CookOptions& options, CookMemory* memory,
                                 Listeners& listeners, CookRecorder& recorder)
 {
@@ -171,14 +172,14 @@ graph::ExecutorEvents eventsFor(const graph::Graph& graph, const CookOptions& op
             log->error(failure.error);
         if (!failure.is_told)
             print(failure.error);
-        // of one source alone a failure stands near the end
+        // in a cook of one source the failure is near the end anyway
         if (graph.source_count > 1)
             listeners.summary.addFailure(failure.error);
     };
     return events;
 }
 
-/// Warn of sources that are of another scale than the others, by the pack that was linked.
+/// Warn of sources whose scale differs from the others', by the linked pack.
 void passOnOutliers(const graph::Graph& graph, const graph::Executor& executor, const CookOptions& options,
                     CookMemory* memory, Listeners& listeners, CookRecorder& recorder)
 {
@@ -191,7 +192,8 @@ void passOnOutliers(const graph::Graph& graph, const graph::Executor& executor, 
     }
 }
 
-/// Which sources could not be cooked, where others could: what depends on them is no failure of its own.
+/// Print how many sources have failed, if the cook has several. Actions that depend on a failed one are no
+/// failures of their own.
 void printLeftOut(const graph::Graph& graph, const graph::Executor& executor, const CookOptions& options)
 {
     const auto failed = static_cast<size_t>(
@@ -202,8 +204,8 @@ void printLeftOut(const graph::Graph& graph, const graph::Executor& executor, co
                           failed, graph.source_count));
 }
 
-/// Name those of the files of cooked folders that nobody has read. Only of a cook that went well: a source
-/// that fails may not have come to its textures.
+/// Print which files of cooked folders no cooker has read. Only for a cook that succeeded: the import of a
+/// failed source may not have reached its textures.
 void printLeftOutFiles(const std::vector<std::string>& files, const CookOptions& options,
                        std::vector<std::string> read)
 {
@@ -245,7 +247,8 @@ Status checkOutput(const CookOptions& options)
     return success();
 }
 
-/// last  of the cook before, whose records stand for those that this one did not get to
+/// Make the journal of this cook.
+/// last  journal of the previous cook: supplies the records of actions that this cook did not reach
 graph::Journal journalOf(const graph::Graph& graph, const graph::Executor& executor,
                          const CookOptions& options, const std::string& output_cause,
                          const std::optional<graph::Journal>& last)
@@ -275,7 +278,8 @@ void fail(const Error& error, CookOutcome& outcome)
     outcome.error = formatMessage(error);
 }
 
-/// The results are kept, and warn again in the next cook; the pack does not appear.
+/// Fail because warnings count as errors. The results stay in the cache and warn again in the next cook; the
+/// pack is not written.
 void failByWarnings(size_t count, const CookOptions& options, CookOutcome& outcome)
 {
     outcome.exit_code = kSomeFailed;
@@ -284,7 +288,7 @@ void failByWarnings(size_t count, const CookOptions& options, CookOutcome& outco
     print(outcome.error);
 }
 
-/// What failed, as the outcome: one exit code where all have the same.
+/// Store the failures in the outcome: their exit code if all have the same one, else kSomeFailed.
 void takeFailures(const std::vector<Failure>& failures, CookOutcome& outcome)
 {
     outcome.error = failures.front().error;
@@ -294,13 +298,13 @@ void takeFailures(const std::vector<Failure>& failures, CookOutcome& outcome)
             outcome.exit_code = kSomeFailed;
 }
 
-/// Why the pack is put in its place, where no action ran for it.
+/// Return the reason why the pack is put into place although no action has made it.
 std::string outputCause(const std::optional<std::string>& hash_there)
 {
     return hash_there ? "it was not what had been cooked: changed since, or damaged" : "it was not there";
 }
 
-/// Onto the disk, before it takes the place of what was there.
+/// Flush a file to the disk, before it replaces the old pack.
 bool flush(const std::string& path)
 {
     const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
@@ -329,8 +333,9 @@ bool haveSameContent(const std::string& a, const std::string& b)
            sha256OfFile(a) == sha256OfFile(b);
 }
 
-/// Move the pack into place, unless what is there already is the same: builds go by its time.
-/// hash_there  nothing where there is no pack, or no cache that would have had it hashed
+/// Move the pack into place, unless the same pack is there already: build tools compare its time.
+/// hash_there  hash of the old pack; nullopt if there is none, or no cache: without a cache the old pack is
+///             not hashed
 bool placePack(const graph::Executor& executor, const std::optional<std::string>& hash_there,
                const CookOptions& options, CookOutcome& outcome)
 {
@@ -347,7 +352,8 @@ bool placePack(const graph::Executor& executor, const std::optional<std::string>
     return false;
 }
 
-/// Cook, with what is known of cooks before (null: nothing).
+/// Run the actions of the graph, and put the pack into place.
+/// memory  state of previous cooks; null: none
 void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions& options, EventLog* log,
                CookRecorder& recorder)
 {
@@ -390,7 +396,7 @@ void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions&
     }
     else if (listeners.fatal_warnings > 0)
         failByWarnings(listeners.fatal_warnings, options, outcome);
-    // before the pack: who finds a new pack finds what it is made of
+    // before the pack: whoever finds a new pack finds its depfile, too
     else if (writeDepfile(graph, executor, options, outcome) &&
              placePack(executor, hash_there, options, outcome))
     {
@@ -402,7 +408,7 @@ void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions&
     if (memory == nullptr)
         return;
     const auto has_run = [](const graph::ActionOutcome& end) { return end.ending != Ending::kept; };
-    // an interrupted cook is as good as none: the next one's causes are still those of this one
+    // an interrupted cook is not recorded: the next cook has the same causes
     if (!interrupted && (!output_cause.empty() ||
                          std::any_of(executor.outcomes().begin(), executor.outcomes().end(), has_run)))
         memory->write(journalOf(graph, executor, options, output_cause, memory->journal()));
@@ -410,7 +416,8 @@ void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions&
         print(fmt::format("{:<11}{}: {}", "pack", options.output, output_cause));
 }
 
-/// graph  is filled, and outlives the recorder
+/// Check the output, make the graph, open the caches and cook.
+/// graph  receives the graph; must outlive the recorder
 void cookInto(const CookOptions& options, EventLog* log, std::optional<graph::Graph>& graph,
               CookRecorder& recorder)
 {
@@ -440,7 +447,8 @@ void cookInto(const CookOptions& options, EventLog* log, std::optional<graph::Gr
     (*memory)->finish();
 }
 
-/// The exit code, where reports can be written.
+/// Write the reports. Return the exit code of the cook; if it is 0, that of the first report that cannot be
+/// written.
 int writeReports(const CookOptions& options, CookOutcome& outcome)
 {
     if (outcome.exit_code == 0)
@@ -499,7 +507,7 @@ int cook(const CookOptions& chosen, std::vector<std::string>* looked_for)
     int exit_code = outcome.exit_code;
     if (!options.report_files.empty() && exit_code != kInterrupted)
         exit_code = writeReports(options, outcome);
-    // with the time of the reports, whose pictures may take longer than the cook
+    // includes the time of the reports, whose images may take longer than the cook
     const double seconds = recorder.seconds();
     if (log)
         log->done(exit_code, seconds);

@@ -1,4 +1,4 @@
-// hearth cook: runs the cookers over sources and links what they make into one pack.
+// hearth cook: runs the cookers on sources, and links their results into one pack.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -18,33 +18,34 @@ using graph::VisibilityOptions;
 
 struct CookOptions : graph::CookSettings, Effort
 {
-    std::vector<std::string> lods;   ///< of --lod, "N=FILE": levels of detail of the only source
-    bool fail_fast = false;          ///< end at the first failure; else cook what does not depend on it
-    std::vector<std::string> caches; ///< of --cache, nearest first; none: as cache::cacheSpecs says
+    std::vector<std::string> lods;   ///< values of --lod, "N=FILE": authored LODs of the only source
+    bool fail_fast = false;          ///< stop at the first failure; else cook all that does not depend on it
+    std::vector<std::string> caches; ///< values of --cache, nearest first; none: cache::cacheSpecs decides
     bool no_cache = false;
-    bool force = false;                  ///< run everything, whatever the cache has
-    bool explain = false;                ///< say why each cooker runs
-    bool dry_run = false;                ///< only say what would run
-    bool dry_run_checks = false;         ///< end with 1 where something would run
-    std::string dry_run_format = "text"; ///< or "json": the plan
-    /// Warnings that count as errors, as "W1302"; nothing: none does, an empty list: all do.
+    bool force = false;                  ///< run every cooker, whatever the cache has
+    bool explain = false;                ///< print why each cooker runs
+    bool dry_run = false;                ///< only print what would run
+    bool dry_run_checks = false;         ///< exit with 1 if something would run
+    std::string dry_run_format = "text"; ///< "text", or "json": the plan
+    /// Warnings that count as errors, as "W1302"; nullopt: none, an empty list: all.
     std::optional<std::vector<std::string>> fatal_warnings;
-    std::string depfile; ///< what was read, as depfileOf writes it; empty: none
-    /// Written whatever the end: .html is the page, .xml JUnit's, .csv a table, all else JSON.
+    std::string depfile; ///< file for the list of files read, see depfileOf; empty: none
+    /// Reports, written whatever the outcome: .html is the page, .xml JUnit's, .csv a table, all else JSON.
     std::vector<std::string> report_files;
     std::string events_file;  ///< empty: none
-    bool lists_files = false; ///< has cookers list what they look for, without a cache too
-    /// Words of the user that the sources come from: files of folders that nobody reads are named. None: they
-    /// are not.
+    bool lists_files = false; ///< have cookers list the files that they look for, even without a cache
+    /// Words of the command line that the sources come from. Files of folders among them that no cooker reads
+    /// are printed. Empty: they are not.
     std::vector<std::string> source_words;
-    /// Warnings of the settings, as lines: told before anything runs.
+    /// Warning lines about the settings, printed before anything runs.
     std::vector<std::string> setting_warnings;
 };
 
-/// Cook all sources into one pack, their scenes side by side: run what the cache has no result of. The output appears whole
-/// or not at all; on failure or interruption an output that was there before is as it was, and nothing else is left behind.
-/// looked_for  gets the files that it has read, or has looked for in vain; null: does not
-/// returns     the exit code; every problem has been told on stderr
+/// Cook all sources into one pack, their scenes side by side: run the actions whose result is not in the
+/// cache (incremental build). The output appears whole or not at all. After a failure or an interruption an
+/// old output is unchanged, and nothing else is left behind.
+/// looked_for  receives the files that were read or probed; null: not needed
+/// returns     the exit code; every problem has been printed on stderr
 int cook(const CookOptions& options, std::vector<std::string>* looked_for = nullptr);
 
 } // namespace hearth::command

@@ -1,4 +1,4 @@
-// hearth cook --report: notes what happens while a cook runs, and writes what became of it.
+// Records the events and results of a running cook, for hearth cook --report.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,6 +12,7 @@
 namespace hearth::command
 {
 
+/// Recorder of a cook: fills its report from the events of the executor.
 class CookRecorder
 {
 public:
@@ -20,16 +21,16 @@ public:
     void begin(const graph::Graph& graph);
     void starting(const graph::Action& action);
     void ended(const graph::Action& action, const graph::ActionOutcome& outcome);
-    /// What failed is the action that ended last, or none.
+    /// Assign the failure to the action that ended last, if that action has failed.
     void failed(const graph::Failure& failure);
-    /// While the executor still has its files.
+    /// Copy the outcomes and small outputs of all actions, while the executor still has its files.
     void takeOutcomes(graph::Executor& executor);
-    /// What was read or looked for; the same.
+    /// Copy the paths that were read or probed, while the executor still has its files.
     void takeFiles(const graph::Executor& executor);
 
     double seconds() const;
     report::CookReport& report() { return report_; }
-    /// Paths of files, there or not.
+    /// Paths of files that were read or probed, whether they exist or not.
     const std::vector<std::string>& lookedFor() const { return looked_for_; }
 
 private:
@@ -42,10 +43,11 @@ private:
     size_t last_failed_ = graph::kNoAction;
 };
 
-/// The bytes of a pack by the types of its chunks, those of bricks together as "bricks"; empty where there is none.
+/// Return the stored bytes of a pack by the types of its chunks, all chunks of bricks together as "bricks";
+/// empty if the pack cannot be read.
 std::map<std::string, uint64_t> bytesOfChunks(const std::string& pack);
 
-/// The moment as ISO 8601 in UTC, to the second.
+/// Return the present time as ISO 8601 in UTC, to the second.
 std::string utcNow();
 
 } // namespace hearth::command

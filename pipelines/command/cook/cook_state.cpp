@@ -72,7 +72,7 @@ const std::optional<graph::Journal>& CookMemory::journal()
 
 void CookMemory::write(const graph::Journal& journal)
 {
-    // only words are lost where it cannot be written
+    // if it cannot be written, only explanations of the next cook are lost
     std::error_code error;
     if (journal_path_.empty())
         return;

@@ -1,4 +1,5 @@
-// What a cook knows of cooks before it: the cache, the hashes of files, and how the last cook into the same pack went.
+// State that a cook has of previous cooks: the cache, the hashes of files, and the journal of the last cook
+// into the same pack.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -18,19 +19,21 @@
 namespace hearth::command
 {
 
+/// Caches, hashes of files and journal of the cooks into one pack.
 class CookMemory
 {
 public:
-    /// output    the pack
-    /// folder    that relative paths of sources start from
-    /// warn      is told what goes wrong with a cache
+    /// Open the caches, and the state of cooks into a pack.
+    /// output  path of the pack
+    /// folder  base of the sources' relative paths
+    /// warn    receives the errors of a cache
     static std::unique_ptr<CookMemory> over(const std::vector<cache::LevelSpec>& caches,
                                             const std::string& output, const std::string& folder,
                                             const std::function<void(const Error&)>& warn);
 
-    /// The same of what was typed.
-    /// caches    of --cache; see cache::cacheSpecs
-    /// errors    usage
+    /// Same, from values of --cache.
+    /// caches  values of --cache; see cache::cacheSpecs
+    /// errors: usage
     static Result<std::unique_ptr<CookMemory>> open(const std::vector<std::string>& caches,
                                                     const std::string& output, const std::string& folder,
                                                     const std::function<void(const Error&)>& warn);
@@ -39,30 +42,31 @@ public:
     graph::ActionCache& actions() { return *actions_; }
     graph::FileHashes& hashes() { return hashes_; }
 
-    /// Where a cache on a server has to be asked, ask at once for all that the graph will ask for. The graph stays.
+    /// Prefetch: when a cache server has to be asked for the first time, ask it at once for everything that
+    /// the graph will ask for. `graph` must stay alive.
     void expect(const graph::Graph& graph);
 
-    /// Of the last cook; read when it is first asked for.
+    /// Return the journal of the last cook, which is read at the first call.
     const std::optional<graph::Journal>& journal();
-    /// Remember this cook instead.
+    /// Store the journal of this cook instead.
     void write(const graph::Journal& journal);
 
-    /// Remember the hashes of files, and keep the caches within their limits.
+    /// Store the hashes of files, and keep the caches within their limits.
     void finish();
 
 private:
     explicit CookMemory(const std::string& folder) : hashes_(folder) {}
 
-    std::vector<std::pair<const cache::FolderLevel*, uint64_t>> folders_; ///< and how much they may hold
+    std::vector<std::pair<const cache::FolderLevel*, uint64_t>> folders_; ///< with their limits in bytes
     std::unique_ptr<cache::Cache> cache_;
     graph::FileHashes hashes_;
     std::unique_ptr<graph::ActionCache> actions_;
-    std::string journal_path_; ///< without its ending; empty: no cache may be written
+    std::string journal_path_; ///< without its extension; empty: no cache is writable
     bool journal_is_read_ = false;
     std::optional<graph::Journal> journal_;
 };
 
-/// The journals of all packs that the caches know of.
+/// Return the journals of all packs that the caches have, sorted by output.
 std::vector<graph::Journal> allJournals(const std::vector<cache::LevelSpec>& caches);
 
 } // namespace hearth::command

@@ -20,7 +20,8 @@ size_t sumOf(const std::map<std::string, size_t>& counts)
                            [](size_t sum, const auto& count) { return sum + count.second; });
 }
 
-/// "an image is missing; a placeholder is drawn" of "W1302"; empty of a code that is none of ours.
+/// Return the meaning of a code: "an image is missing; a placeholder is drawn" for "W1302"; empty for an
+/// unknown code.
 std::string_view meaningOf(const std::string& code)
 {
     const auto issues = allIssues();

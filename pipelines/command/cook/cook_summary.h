@@ -1,4 +1,4 @@
-// The end of a cook's messages: what must not be overlooked among hundreds of lines, once more.
+// Summary at the end of a cook's messages: repeats what could be overlooked among hundreds of lines.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,28 +10,28 @@
 namespace hearth::command
 {
 
+/// Failures of a cook, and numbers of its warnings by code.
 class CookSummary
 {
 public:
-    /// Count a line that warns.
-    /// is_folded  the cook before has told it, and this one does not: an unchanged source has it still
+    /// Count a warning line.
+    /// is_folded  not printed, because the previous cook has printed it: it belongs to an unchanged source
     void addWarning(const std::string& line, bool is_folded);
 
-    /// Note an error line that has just been told.
+    /// Add an error line that has just been printed.
     void addFailure(const std::string& line);
 
-    /// The lines for the end: all failures again, unless they are the last that was told; then how many
-    /// warnings there are of each code, those that were told and those that were folded. Empty where nothing
-    /// is to be said.
+    /// Return the lines of the summary: all failures again, unless nothing was printed after them; then the
+    /// number of warnings by code, printed and folded ones apart. Empty if there is nothing to say.
     std::vector<std::string> lines() const;
 
 private:
-    using Counts = std::map<std::string, size_t>; ///< by code, "W1302"
+    using Counts = std::map<std::string, size_t>; ///< count by code, "W1302"
 
     Counts told_;
     Counts folded_;
     std::vector<std::string> failures_;
-    size_t lines_at_first_failure_ = 0; ///< told before it, and with it
+    size_t lines_at_first_failure_ = 0; ///< number of lines printed until then, including that failure
 };
 
 } // namespace hearth::command

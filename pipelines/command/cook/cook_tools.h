@@ -1,4 +1,4 @@
-// What the verbs that run cookers share: how they tell of stages, and how much memory they take.
+// Helpers of the verbs that run cookers: messages about stages, and limits on processes and memory.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -14,22 +14,23 @@ namespace hearth::command
 
 inline constexpr int kInterrupted = 130;
 
-/// A line on stderr.
+/// Print a line on stderr.
 void print(const std::string& line);
 
-/// An error or a warning on stderr. returns  its exit code
+/// Print an error or a warning on stderr. returns  its exit code
 int tell(const Error& error);
 
-/// Pass on a child's messages: errors always, the noise of libraries only when everything is asked for.
+/// Print a child's messages: errors always, warnings unless quiet, all others only with Verbosity::all.
 void passOn(const std::vector<std::string>& lines, Verbosity verbosity);
 
-/// As print(), in grey where stderr shows colours.
+/// Print a line on stderr, in grey if stderr shows colours.
 void printFaint(const std::string& line);
 
-/// A line of a cooker that has run.
+/// Print a line about a cooker that has run.
 void printStage(const graph::Action& action, const graph::ActionOutcome& outcome);
 
-/// What cookers may take together; 0: two at once, of small sources one a core, and three quarters of the machine's memory.
+/// Return the limits of all cookers together. jobs 0: two at once, of small sources one per core;
+/// memory_bytes 0: three quarters of the machine's memory.
 graph::CrewLimits limitsOf(unsigned jobs, uint64_t memory_bytes);
 
 } // namespace hearth::command

@@ -15,7 +15,7 @@ namespace
 std::string escaped(const std::string& path)
 {
     std::string text;
-    size_t backslashes = 0; // that stand before the character
+    size_t backslashes = 0; // directly before the character
     for (const char c : path)
     {
         if (c == ' ' || c == '\t')
@@ -30,7 +30,7 @@ std::string escaped(const std::string& path)
     return text;
 }
 
-/// Files by where they really lie, so that each is there once, whatever it is called.
+/// Set of files by canonical path, so that each is listed once, whatever its spelling.
 class Files
 {
 public:
@@ -41,7 +41,7 @@ public:
         if (known_.insert(error ? path : real.string()).second)
             paths_.push_back(path);
     }
-    /// Those that have been added since the last call.
+    /// Return the files that were added since the last call.
     std::vector<std::string> takeNew() { return std::exchange(paths_, {}); }
 
 private:

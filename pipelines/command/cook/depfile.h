@@ -1,4 +1,4 @@
-// hearth cook --depfile: what a cook has read, as make and ninja are told by compilers.
+// hearth cook --depfile: writes the files that a cook has read as a dependency file for make and ninja.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,15 +11,16 @@
 namespace hearth::command
 {
 
-/// A rule as `gcc -MD -MP` writes it: `output` is made from the files that were named and from those that were found. Of
-/// these each has an empty rule too, so that make goes on where a texture is gone that nothing refers to any more.
-/// Escaped as make reads it (blanks, '#', '$', ':'); what else make takes for its own (';', '|', '=') it has no escape for.
-/// errors: usage, where a name has a line break, which make cannot read
-/// source   "Types of Prerequisites" and "Rule Syntax" of the manual of GNU make; mkdeps.c of GCC for backslashes
+/// Write a rule as `gcc -MD -MP` does: `output` depends on the files `named` and `found`. Each found file has
+/// an empty rule too, so that make goes on if a texture is gone that nothing refers to any more. Blanks, '#',
+/// '$' and ':' are escaped for make, which has no escape for its other special characters (';', '|', '=').
+/// errors: usage if a name has a line break, which make cannot read
+/// source   "Types of Prerequisites" and "Rule Syntax" of the manual of GNU make; mkdeps.c of GCC for
+///          backslashes
 Result<std::string> depfileText(const std::string& output, const std::vector<std::string>& named,
                                 const std::vector<std::string>& found);
 
-/// What all actions of a cook that went well have read, as depfileText.
+/// Write the dependencies of a cook that succeeded: everything that its actions have read, as depfileText.
 Result<std::string> depfileOf(const graph::Graph& graph, const graph::Executor& executor,
                               const std::string& output);
 

@@ -15,7 +15,7 @@ namespace hearth::command
 namespace
 {
 
-/// A line for each action that runs: cooker, subject, causes; empty where nothing does.
+/// Return a line for each action that would run: cooker, subject, causes; empty if none would.
 std::string forecastText(const graph::Graph& graph, const graph::Forecast& forecast)
 {
     std::string text;

@@ -1,4 +1,4 @@
-// hearth cook --dry-run: what a cook would run, and why.
+// hearth cook --dry-run: prints what a cook would run, and why.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,12 +10,12 @@
 namespace hearth::command
 {
 
-/// Print what would run to stdout, and write nothing.
-/// returns  the exit code; 1 where a cooker would run, or the pack would be put in its place, and options.dry_run_checks.
-///          Problems have been told on stderr
+/// Print to stdout what would run, and write nothing.
+/// returns  the exit code; with options.dry_run_checks 1 if a cooker would run, or the pack would be put into
+///          place. Problems have been printed on stderr
 int dryRun(const CookOptions& options);
 
-/// Why the pack would be put in its place, where nothing runs; empty where it is as it should be.
+/// Return the reason why the pack would be put into place although nothing runs; empty if it is up to date.
 std::string packCause(const graph::Forecast& forecast, const std::optional<std::string>& hash_there);
 
 } // namespace hearth::command

@@ -22,7 +22,7 @@ constexpr std::string_view kBuiltIn = "default";
 struct Row
 {
     const Setting* setting = nullptr;
-    std::optional<Value> value; ///< none: the default holds
+    std::optional<Value> value; ///< nullopt: the default applies
 };
 
 std::vector<Row> rowsOf(const Configuration& configuration, const std::string& source)
@@ -58,7 +58,7 @@ std::string settingsText(const Configuration& configuration, const std::string& 
     const std::vector<Row> rows = rowsOf(configuration, source);
     size_t key_width = 0;
     size_t value_width = 0;
-    // what is longer than this is not waited for
+    // columns do not grow for longer values
     constexpr size_t kWidest = 40;
     for (const Row& row : rows)
     {

@@ -1,4 +1,4 @@
-// hearth config: every setting, what it is, and where that was set.
+// hearth config: lists every setting with its value and origin.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,12 +9,12 @@
 namespace hearth::command
 {
 
-/// A line for each setting. What nobody has set stands in brackets.
-/// source  whose rules hold, too; empty: those of all
+/// Return a line for each setting. Defaults are in brackets.
+/// source  whose rules apply, too; empty: settings of all sources
 std::string settingsText(const profiles::Configuration& configuration, const std::string& source,
                          bool shows_origin);
 
-/// The same as JSON, with origins: schema hearth.settings/1.
+/// Return the same as JSON, with origins: schema hearth.settings/1.
 std::string settingsJson(const profiles::Configuration& configuration, const std::string& source);
 
 } // namespace hearth::command

@@ -1,4 +1,4 @@
-// Progress while the pictures of a report are drawn, which may take longer than the cook.
+// Progress while the images of a report are rendered, which may take longer than the cook.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,20 +11,21 @@
 namespace hearth::command
 {
 
-/// A bar, or lines: one at the start, one every ten seconds, and one at the end. Nothing where nothing is
-/// drawn.
+/// Progress bar, or lines: one at the start, one every ten seconds, and one at the end. Prints nothing if
+/// nothing is rendered.
 class PictureProgress
 {
 public:
-    /// print  gets each line, without its end
+    /// print  receives each line, without its line break
     PictureProgress(ProgressStyle style, PrintLine print,
                     MonotonicClock clock = std::chrono::steady_clock::now);
 
-    /// To be called before the first picture, and once a second or more often while they are drawn.
-    /// drawn  of `count` pictures
+    /// Show the progress. Call it before the first image, and once a second or more often while images are
+    /// rendered.
+    /// drawn  number of finished images, of `count`
     void show(size_t drawn, size_t count);
 
-    /// No more are drawn.
+    /// Finish: no more images are rendered.
     void end();
 
 private:
@@ -33,9 +34,9 @@ private:
     ProgressStyle style_;
     PrintLine print_;
     LineTimer timer_;
-    std::optional<ProgressBar> bar_; ///< as soon as the first is drawn
+    std::optional<ProgressBar> bar_; ///< from the first call of show() on
     size_t drawn_ = 0;
-    size_t count_ = 0; ///< 0: none is drawn
+    size_t count_ = 0; ///< 0: no image is rendered
 };
 
 } // namespace hearth::command

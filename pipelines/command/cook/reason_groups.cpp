@@ -12,8 +12,8 @@ namespace hearth::command
 namespace
 {
 
-/// "its content has changed" of "a.glb: its content has changed", "what import made of it: ..." of "what
-/// import made of a.glb: ...".
+/// Remove the action's own source from a cause: "its content has changed" from "a.glb: its content has
+/// changed", "what import made of it: ..." from "what import made of a.glb: ...".
 std::string withoutSubject(const std::string& cause, const std::string& subject)
 {
     const std::string own = subject + ": ";

@@ -1,4 +1,4 @@
-// Actions and why they run, those with the same reason as one line.
+// Groups actions by the reason why they run, for one line per reason.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,14 +13,14 @@ namespace hearth::command
 class ReasonGroups
 {
 public:
-    /// ending  stands behind the subject, with a blank before it; empty: nothing does
-    /// causes  why the action runs; one that names the action's own source is the same as that of another
-    ///         source
+    /// Add an action.
+    /// ending  text behind the subject, with a blank before it; may be empty
+    /// causes  reasons why the action runs. A cause that names the action's own source equals the same cause
+    ///         of another source
     void add(const graph::Action& action, const std::string& ending, const std::vector<std::string>& causes);
 
-    /// A line for the actions of one cooker with the same ending and causes, in the order in which the first
-    /// of them came:
-    /// "  import     a.glb: a.glb: its content has changed", of several
+    /// Return a line for each combination of cooker, ending and causes, in the order of their first actions:
+    /// "  import     a.glb: a.glb: its content has changed", for several
     /// "  import     12 sources (a.glb, b.glb, c.glb and 9 more): its content has changed".
     std::string text() const;
 
@@ -28,7 +28,7 @@ private:
     struct Group
     {
         std::string cooker;
-        std::string reason;     ///< the ending, and the causes behind ": ", without the name of a source
+        std::string reason;     ///< ending, and causes behind ": ", without the name of a source
         std::string own_reason; ///< the same in the words of the first source
         std::vector<std::string> subjects;
     };

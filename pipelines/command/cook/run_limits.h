@@ -1,4 +1,4 @@
-// How verbs that run cookers go about it: options that change no byte of what they make.
+// Limits on running cookers, and the verbosity of their verbs: options that do not change the output.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,12 +10,14 @@
 namespace hearth::command
 {
 
+/// Limits on running cookers, and the verbosity of their verb.
 struct Effort
 {
-    /// Cookers at once; 0: two, and of small sources as many as there are cores. With large ones they are parallel
-    /// themselves: two are enough to hide their serial parts, and each more costs the memory of another mesh.
+    /// Number of cookers at once; 0: two, and of small sources as many as there are cores. Cookers of large
+    /// sources are parallel themselves: two are enough to hide their serial parts, and each more costs the
+    /// memory of another mesh.
     unsigned jobs = 0;
-    /// What the cookers may take together, by their estimates; 0: three quarters of the machine's memory.
+    /// Memory of all cookers together, by their estimates; 0: three quarters of the machine's memory.
     uint64_t memory_bytes = 0;
     Verbosity verbosity = Verbosity::normal;
     std::string progress = "auto"; ///< see progressStyle

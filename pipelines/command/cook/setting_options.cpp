@@ -34,12 +34,12 @@ std::string fault(const Setting& setting, const std::string& text)
     const auto value = profiles::valueOf(setting, {text}, "");
     if (value.ok())
         return "";
-    // of words it quotes the one that is wrong itself
+    // for lists, the error already quotes the wrong word
     const std::string quoted = "'" + text + "' ";
     return value.error().detail.starts_with(quoted) ? value.error().detail : quoted + value.error().detail;
 }
 
-/// "--jobs" of "-j,--jobs".
+/// Return the long name: "--jobs" of "-j,--jobs".
 std::string longName(std::string_view option)
 {
     return std::string(option.substr(option.find("--")));
@@ -57,7 +57,7 @@ Verbosity verbosityOf(const std::string& word)
     return word == "quiet" ? Verbosity::quiet : word == "verbose" ? Verbosity::all : Verbosity::normal;
 }
 
-/// An option that changes nothing is a mistake: its visibility or bricks are not baked.
+/// Refuse options of visibility or bricks if these are not baked: an option without effect is a mistake.
 Status checkInUse(const profiles::Values& values, bool has_visibility, bool has_bricks)
 {
     for (const auto& [key, value] : values)
@@ -72,7 +72,7 @@ Status checkInUse(const profiles::Values& values, bool has_visibility, bool has_
     return success();
 }
 
-/// Without the levels of detail, which stand beside the sources.
+/// Return the settings of a scope as KEY=VALUE, without import.lods: a request has LODs beside its sources.
 farm::Assignments assignmentsOf(const profiles::Values& values, profiles::Scope scope)
 {
     farm::Assignments assignments;
@@ -194,7 +194,7 @@ Effort effortOf(const profiles::Configuration& configuration)
 namespace
 {
 
-/// Choose the sources among the files, and the levels of detail of each; --lod goes over names and rules.
+/// Split the files into sources and their LODs. --lod overrides names and rules.
 /// errors: usage, profile_value
 Status takeSources(const profiles::Configuration& configuration, std::vector<std::string> files,
                    CookOptions& options)
@@ -246,7 +246,7 @@ Status configure(const profiles::Configuration& configuration, CookOptions& opti
 
 Result<farm::Request> requestOf(const profiles::Configuration& configuration, CookOptions& options)
 {
-    // what is wrong is told with the place where it was written
+    // configure() reports errors with the place where the setting was written
     HEARTH_TRY(configure(configuration, options));
     farm::Request request;
     request.sources = options.sources;

@@ -1,4 +1,5 @@
-// The options that set what files and the environment can set as well: of the command, and of how sources are cooked down.
+// Command-line options of settings that files and the environment can set as well: settings of the command,
+// and of cooking.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -16,21 +17,22 @@
 namespace hearth::command
 {
 
+/// Options of one verb for settings, and the values that they got.
 class SettingOptions
 {
 public:
-    // It lives as long as the verb.
+    // Must live as long as the verb's command line.
 
-    /// Add those of the command's settings with these keys.
+    /// Add options for the settings of the command with these keys.
     void addOfCommand(cli::CommandLine& verb, const std::vector<std::string>& keys);
-    /// Add -q, and -v where `all` says what that prints: the command's setting "log".
+    /// Add -q, and -v if its help text `all` is not empty: the command's setting "log".
     void addLog(cli::CommandLine& verb, const std::string& all);
-    /// Add those of the settings of profiles, and --set.
+    /// Add options for the settings of profiles, and --set.
     void addOfProfiles(cli::CommandLine& verb);
 
-    /// What the command line says. errors: usage.
+    /// Return the settings on the command line. errors: usage.
     Result<profiles::Given> given() const;
-    /// With that over all else. errors: usage, and those of Configuration::load
+    /// Load the configuration, which these settings override. errors: usage, and those of Configuration::load
     Result<profiles::Configuration> configuration() const;
 
 private:
@@ -45,27 +47,29 @@ private:
     void add(cli::CommandLine& verb, const profiles::Setting& setting);
     static Result<profiles::Value> valueOf(const Entry& entry);
 
-    // not moved while the command line refers to them
+    // entries must not move while the command line refers to them
     std::map<std::string, Entry> entries_;
     std::vector<std::string> assignments_;
     bool is_quiet_ = false;
     bool is_verbose_ = false;
 };
 
-/// The work of a verb that is told what holds, once the command line is read; the settings live as long as the work.
+/// Return the work of a verb that needs the configuration, which is loaded when the work runs. `settings`
+/// must outlive the work.
 Work withConfiguration(const SettingOptions& settings,
                        const std::function<int(const profiles::Configuration&)>& work);
 
 Effort effortOf(const profiles::Configuration& configuration);
 
-/// Have the sources cooked as the configuration says: what folders and patterns stand for, which files are levels of detail of
-/// others, settings of each source and of the pack, and the options of the command that the command line leaves open.
+/// Apply the configuration to `options`: expand folders and patterns, find which files are LODs of others,
+/// set the settings of each source and of the pack, and the options of the command that the command line
+/// leaves open.
 /// errors: no_source, usage, profile_value
 Status configure(const profiles::Configuration& configuration, CookOptions& options);
 
-/// The same as data that a plan can hold: what each source is cooked by, wherever it was written.
-/// options  with what the user typed; they are configured as for hearth cook
-/// errors   those of configure
+/// Same, as data for a plan: the settings of each source, wherever they were written.
+/// options  as the user typed them; they are configured as for hearth cook
+/// errors: those of configure
 Result<farm::Request> requestOf(const profiles::Configuration& configuration, CookOptions& options);
 
 } // namespace hearth::command

@@ -11,7 +11,8 @@ namespace hearth::command
 namespace
 {
 
-/// limit  of --max-size; empty: none
+/// Run hearth cache stat, gc or verify.
+/// limit  value of --max-size; empty: none
 int lookAfter(const std::vector<cache::LevelSpec>& caches, const std::string& work, const std::string& limit)
 {
     if (work == "stat")

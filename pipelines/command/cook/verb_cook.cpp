@@ -13,7 +13,7 @@ namespace hearth::command
 namespace
 {
 
-/// "W1302,W1303"; none of "all".
+/// Split "W1302,W1303" into codes; "all" has none.
 std::vector<std::string> codesOf(const std::string& text)
 {
     std::vector<std::string> codes;
@@ -35,8 +35,8 @@ std::string codesFault(const std::string& text)
     return "";
 }
 
-/// The options with what the configuration adds.
-/// files    gets those of the configuration
+/// Return the options with what the configuration adds.
+/// files    receives the paths of the configuration files
 Result<CookOptions> configured(const CookOptions& options, const SettingOptions& settings,
                                std::vector<std::string>& files)
 {

@@ -17,23 +17,24 @@ namespace
 
 constexpr int kUsage = 2;
 
-/// None where one of the words stands for nothing, of which the next cook tells.
+/// Return the files that the words stand for now; none if a word stands for nothing, which the next cook
+/// reports.
 std::vector<std::string> sourcesNow(const std::vector<std::string>& words)
 {
     const Result<std::vector<std::string>> sources = sourcesOf(words);
     return sources.ok() ? *sources : std::vector<std::string>();
 }
 
-/// One that only one of two unlike lists has.
+/// Return a path that only one of two unlike lists has.
 std::string firstChange(const std::vector<std::string>& before, const std::vector<std::string>& now)
 {
     const auto [old, fresh] = std::mismatch(before.begin(), before.end(), now.begin(), now.end());
     return now.size() < before.size() ? *old : *fresh;
 }
 
-/// Wait until one of the files changes, or the words stand for other sources; both are watched already.
-/// returns  what has changed; nullopt where a signal came instead
-/// errors   as those of FileWatch::watch()
+/// Wait until one of the files changes, or the words stand for other sources. `watch` watches both already.
+/// returns  what has changed; nullopt after a signal
+/// errors: those of FileWatch::watch()
 Result<std::optional<std::string>> waitForChange(FileWatch& watch, const std::vector<std::string>& files,
                                                  std::filesystem::file_time_type since,
                                                  const std::vector<std::string>& words,
@@ -48,7 +49,7 @@ Result<std::optional<std::string>> waitForChange(FileWatch& watch, const std::ve
             return std::optional<std::string>();
         if (!change->is_of_folder)
             return std::optional(change->path);
-        // there may be more folders now
+        // there may be new folders
         HEARTH_TRY(watch.watch(files, since, foldersOf(words)));
     }
 }
@@ -76,7 +77,7 @@ int watch(const std::vector<std::string>& words, const Configure& configure)
             options->force = options->force && is_first;
             looked_for.clear();
             const int exit_code = cook(*options, &looked_for);
-            // what is wrong with the command line no edit of a file mends
+            // no edit of a file repairs the command line
             if (exit_code == kInterrupted || (exit_code == kUsage && looked_for.empty()))
                 return exit_code;
             looked_for.insert(looked_for.end(), settings.begin(), settings.end());

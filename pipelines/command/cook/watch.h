@@ -1,4 +1,4 @@
-// hearth cook --watch: cooks whenever something has changed.
+// hearth cook --watch: cooks again whenever an input changes.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,13 +11,15 @@
 namespace hearth::command
 {
 
-/// What shall be cooked, as files of settings say now; their paths are added to `files`.
+/// Function that returns the options of the next cook, by the present configuration files; appends their
+/// paths to `files`.
 using Configure = std::function<Result<CookOptions>(std::vector<std::string>& files)>;
 
-/// Cook, then wait until a file changes that the cook has read or looked for, or one of settings, or a source comes or goes
-/// in a folder or pattern among the words; then cook again. What fails waits for its mend. Until SIGINT, SIGTERM or SIGHUP.
-/// words      that sources were given by
-/// returns    130; another exit code where files cannot be watched, or the options are wrong from the start
+/// Cook, then wait for a change and cook again, until SIGINT, SIGTERM or SIGHUP. Changes are: of a file that
+/// the cook has read or probed, of a configuration file, and of the sources in a folder or pattern among the
+/// words. A failed cook waits for a change, too.
+/// words      words of the command line that the sources come from
+/// returns    130; another exit code if files cannot be watched, or the options are wrong from the start
 int watch(const std::vector<std::string>& words, const Configure& configure);
 
 } // namespace hearth::command

@@ -16,7 +16,7 @@ namespace hearth::command
 namespace
 {
 
-/// Nothing, where all actions are meant.
+/// Index of the only source whose actions are shown; nullopt: all actions are.
 using OnlySource = std::optional<size_t>;
 
 const char* endingText(graph::Ending ending)
@@ -53,7 +53,7 @@ std::string lastCookText(const graph::Journal& journal, OnlySource only)
 Result<std::string> nextCookText(const graph::Journal& journal, const std::vector<cache::LevelSpec>& caches,
                                  OnlySource only)
 {
-    // the user's paths start there
+    // relative paths of the user start here
     std::error_code error;
     const std::string here = graph::workingFolder();
     const auto memory = CookMemory::over(caches, journal.output, journal.folder, tell);

@@ -1,4 +1,4 @@
-// hearth why: why cookers ran for a pack or a source, and why they would run again.
+// hearth why: explains why cookers ran for a pack or a source, and why they would run again.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,8 +10,9 @@
 namespace hearth::command
 {
 
-/// file    a pack that was cooked here, or a source: then of all packs that it is in, what concerns it
-/// errors  usage where no cook is remembered
+/// Return the explanation as text.
+/// file    a pack that was cooked here, or a source: then its actions in all packs that contain it
+/// errors: usage if no cook is recorded
 Result<std::string> why(const std::string& file, const std::vector<cache::LevelSpec>& caches);
 
 } // namespace hearth::command

@@ -30,7 +30,7 @@ int tellEnd(const Status& status)
     return status.ok() ? 0 : tell(status.error());
 }
 
-/// Have a shell run the script, with this process's input and output.
+/// Run the script in a shell, with this process's input and output.
 Status runScript(const std::string& script)
 {
     std::array<std::string, 3> words{"sh", "-c", script};

@@ -1,4 +1,4 @@
-// hearth farm: hands a plan to a batch system, and tells how far its shards are.
+// hearth farm: hands a plan to a batch system (distributed build), and prints the state of its shards.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -14,9 +14,9 @@ struct SlurmVerbOptions : PlanOptions
 {
     std::string pack;
     std::string partition;
-    std::optional<uint64_t> memory_bytes; ///< of a shard; nothing: as its cookers are thought to need
+    std::optional<uint64_t> memory_bytes; ///< of a shard; nullopt: the estimate for its cookers
     unsigned retries = 2;
-    bool prints = false; ///< print the script, and submit nothing
+    bool prints = false; ///< print the script instead of submitting it
 };
 
 struct NinjaVerbOptions : PlanOptions
@@ -26,12 +26,12 @@ struct NinjaVerbOptions : PlanOptions
     std::string launcher;
 };
 
-// Each returns the exit code; every problem has been told on stderr.
+// Each returns the exit code; every problem has been printed on stderr.
 
 int farmSlurm(const SlurmVerbOptions& options);
 int farmNinja(const NinjaVerbOptions& options);
 
-/// Read and hash what every shard has left. returns  1 where a shard has not left all
+/// Read and hash the results of every shard. returns  1 if a shard is incomplete
 int farmStatus(const PlanOptions& options, const std::string& format);
 
 } // namespace hearth::command

@@ -20,8 +20,8 @@ namespace hearth::command
 namespace
 {
 
-/// Shards write logs, which have no bar.
-/// lines  of the shard's progress; null: none. They live as long as the events
+/// Make executor events that write to a log, which has no bar.
+/// lines  progress lines of the shard; null: none. They must outlive the events
 graph::ExecutorEvents eventsFor(const Effort& effort, ProgressLines* lines)
 {
     graph::ExecutorEvents events;
@@ -49,7 +49,7 @@ graph::ExecutorEvents eventsFor(const Effort& effort, ProgressLines* lines)
     return events;
 }
 
-/// What a cache knows of the plan's files; each shard remembers its own.
+/// Open the caches and the cook state of a shard; each shard has its own state.
 Result<std::unique_ptr<CookMemory>> memoryOf(const OpenedPlan& opened, size_t shard)
 {
     return CookMemory::open(opened.caches, fmt::format("{}.{}", opened.file, shard), opened.plan.folder,
@@ -101,10 +101,10 @@ int runHere(const RunOptions& options, const OpenedPlan& opened, size_t shard)
     return writeRecord(options, *record, opened.plan, shard);
 }
 
-/// The words of a launcher and of the shard that it starts.
+/// Return the command line of a launcher with the shard that it starts.
 std::vector<std::string> launchedCommand(const RunOptions& options, const OpenedPlan& opened, size_t shard)
 {
-    // env looks for the launcher where a shell would
+    // env searches PATH for the launcher, as a shell would
     std::vector<std::string> command{"/usr/bin/env"};
     for (size_t at = 0; at < options.launcher.size();)
     {
@@ -116,7 +116,7 @@ std::vector<std::string> launchedCommand(const RunOptions& options, const Opened
     const std::vector<std::string> run{tools::programFolder() + "/hearth", "run", opened.file, "--shard",
                                        fmt::format("{}/{}", shard, opened.plan.shards.size())};
     command.insert(command.end(), run.begin(), run.end());
-    // nothing of the plan itself: launchers as ssh hand their words to a shell
+    // nothing from inside the plan: launchers such as ssh hand their words to a shell
     if (!opened.directory.empty())
         command.insert(command.end(), {"-C", opened.directory});
     if (options.jobs > 0)
@@ -186,7 +186,7 @@ Result<std::string> planOf(const MakePlanOptions& options, const farm::Measured&
                                                  {options.shard_count, measured}, tools::programFolder(),
                                                  memory.actions(), memory.hashes()));
     const std::string text = farm::planText(plan);
-    // no machine would take a plan whose names are no UTF-8, or look like options
+    // parse it again: every machine would refuse a plan whose names are not UTF-8, or look like options
     HEARTH_TRY(farm::parsePlan(text, options.output));
     return text;
 }

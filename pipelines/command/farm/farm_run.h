@@ -1,4 +1,5 @@
-// hearth plan, hearth run and hearth merge: a cook in three steps, the middle one on as many machines as there are.
+// hearth plan, run and merge: a distributed build in three steps; the second one runs on any number of
+// machines.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -17,35 +18,35 @@ struct MakePlanOptions
 {
     farm::Request request;
     std::string output;                ///< file, or "-"
-    std::optional<size_t> shard_count; ///< nothing: as many as are worth while
-    std::string estimates_file;        ///< a report whose times and memory are gone by; empty: none
+    std::optional<size_t> shard_count; ///< nullopt: as many as are worthwhile
+    std::string estimates_file;        ///< report of an earlier cook, for times and memory; empty: none
     std::vector<std::string> caches;
-    bool emits_commands = false; ///< print a command line for each shard
+    bool emits_commands = false; ///< print the command line of each shard
     bool quiet = false;
 };
 
 struct RunOptions : PlanOptions, Effort
 {
-    std::string shard;       ///< "I/N"; empty: as the batch system says
-    std::string launcher;    ///< words before the command line of the shard; empty: it runs here
+    std::string shard;       ///< "I/N"; empty: index that the batch system gives
+    std::string launcher;    ///< words before the shard's command line; empty: run here
     std::string record_file; ///< empty: none
 };
 
 struct MergeOptions : PlanOptions, Effort
 {
     std::string output;
-    bool cooks_missing = true;             ///< else what is missing is listed
+    bool cooks_missing = true;             ///< false: list missing results instead
     std::vector<std::string> report_files; ///< as CookOptions::report_files
 };
 
-// Each returns the exit code; every problem has been told on stderr.
+// Each returns the exit code; every problem has been printed on stderr.
 
 int makePlanFile(const MakePlanOptions& options);
 
-/// Through a launcher, what the shard has left in the cache is looked at, whatever the launcher says.
+/// Run a shard. With a launcher the results in the cache decide on success, whatever the launcher returns.
 int runShard(const RunOptions& options);
 
-/// Read and hash every result, have what is missing cooked here (or list it: code 75), and link the pack.
+/// Read and hash every result, cook missing ones here (or list them: code 75), and link the pack.
 int merge(const MergeOptions& options);
 
 } // namespace hearth::command

@@ -18,15 +18,15 @@ namespace hearth::command
 namespace
 {
 
-/// Shards of which results are missing for one reason.
+/// Shards whose results are missing for the same reason.
 struct Incomplete
 {
     std::string reason;
     std::vector<size_t> shards; ///< ascending
-    size_t results = 0;         ///< that are missing
+    size_t results = 0;         ///< number of missing results
 };
 
-/// Actions of a shard that are missing.
+/// Return the missing actions of a shard.
 std::vector<size_t> missingOf(const farm::Plan& plan, size_t shard, const std::vector<size_t>& missing)
 {
     std::vector<size_t> of_shard;
@@ -71,7 +71,7 @@ std::vector<Incomplete> incompleteShards(const OpenedPlan& opened, const std::ve
     return groups;
 }
 
-/// "shard 3/16" of one, "shards 0, 3-5 of 16" of several.
+/// Name shards: "shard 3/16" for one, "shards 0, 3-5 of 16" for several.
 std::string namesOf(const std::vector<size_t>& shards, size_t count)
 {
     if (shards.size() == 1)
@@ -89,7 +89,7 @@ std::string namesOf(const std::vector<size_t>& shards, size_t count)
     return text + fmt::format(" of {}", count);
 }
 
-/// Tell of shards that have left results out, a line for each reason.
+/// Print which shards have left results out, a line for each reason.
 void printMissing(const OpenedPlan& opened, const std::vector<size_t>& missing, const MergeOptions& options,
                   cache::Cache& cache)
 {
@@ -99,7 +99,7 @@ void printMissing(const OpenedPlan& opened, const std::vector<size_t>& missing, 
                           options.cooks_missing ? ", and cooked here" : "", group.reason)});
 }
 
-/// The line behind that of the cook: what machines were to cook, and this one has.
+/// Print a line after the cook's: the sources that shards should have cooked, and this machine has.
 void printCookedHere(const farm::Plan& plan, const std::vector<size_t>& missing)
 {
     std::set<size_t> sources;
@@ -123,7 +123,7 @@ std::string listOf(const farm::Plan& plan, const std::vector<size_t>& missing)
     return text;
 }
 
-/// What cannot be had from the cache, by what was planned and is there.
+/// Check the plan against the present files and programs. Return the actions whose results the cache lacks.
 Result<std::vector<size_t>> findMissing(const OpenedPlan& opened, const MergeOptions& options,
                                         CookMemory& memory)
 {
@@ -141,7 +141,7 @@ Result<std::vector<size_t>> findMissing(const OpenedPlan& opened, const MergeOpt
     return missing;
 }
 
-/// The pack, as a cook of the same sources makes it; it finds the results in the cache.
+/// Cook the pack like the same sources without a plan; the results come from the cache.
 int cookPack(const OpenedPlan& opened, const MergeOptions& options)
 {
     CookOptions cooked;

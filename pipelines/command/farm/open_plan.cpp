@@ -24,7 +24,7 @@ std::string absoluteCache(const std::string& cache)
         return cache;
     const size_t options = std::min(cache.find(','), cache.size());
     const std::string folder = cache.substr(kFolderScheme.size(), options - kFolderScheme.size());
-    // an empty one is told of by whoever reads it
+    // an empty folder is reported where the cache is opened
     return folder.empty() ? cache
                           : std::string(kFolderScheme) + graph::absolutePath(folder) + cache.substr(options);
 }

@@ -1,4 +1,4 @@
-// A plan as the verbs of farms need it: read, checked, and with paths that hold wherever they are used.
+// Opens a plan for the verbs of farms: parsed, checked, and with absolute paths.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,35 +11,37 @@
 namespace hearth::command
 {
 
-/// What run, merge and farm have in common.
+/// Options that run, merge and farm have in common.
 struct PlanOptions
 {
     std::string plan_file;
-    std::string directory;           ///< that relative paths of sources start from; empty: as the plan says
-    std::vector<std::string> caches; ///< of --cache
+    std::string directory;           ///< base of the sources' relative paths; empty: as the plan says
+    std::vector<std::string> caches; ///< values of --cache
 };
 
+/// Plan with the paths and caches to use.
 struct OpenedPlan
 {
     farm::Plan plan;
     std::string file;      ///< absolute
-    std::string hash;      ///< SHA-256 of its text
-    std::string directory; ///< absolute, where it is not the plan's own
-    /// Caches with absolute folders: of --cache, else of HEARTH_CACHE; none: the user's own.
+    std::string hash;      ///< SHA-256 of the plan's text
+    std::string directory; ///< absolute; empty if it is the plan's own
+    /// Caches with absolute folders: from --cache, else from HEARTH_CACHE; none: the user's own.
     std::vector<std::string> caches;
 };
 
-/// errors  input_missing, and those of farm::parsePlan
+/// Read and check a plan.
+/// errors: input_missing, and those of farm::parsePlan
 Result<OpenedPlan> openPlan(const PlanOptions& options);
 
-/// Go to the folder of the sources; paths that were not made absolute before mean others from here on.
-/// errors  input_missing
+/// Change to the folder of the sources. Relative paths from before have another meaning afterwards.
+/// errors: input_missing
 Status enterFolder(const OpenedPlan& opened);
 
-/// What a batch system is told. pack  empty: beside the plan, "village.hearth" of "village.plan.json"
+/// Return the job for a batch system. pack  empty: beside the plan, "village.hearth" for "village.plan.json"
 farm::FarmJob jobOf(const OpenedPlan& opened, const std::string& pack);
 
-/// As OpenedPlan::caches.
+/// Return the caches as OpenedPlan::caches describes them.
 std::vector<std::string> absoluteCaches(const std::vector<std::string>& caches);
 
 } // namespace hearth::command

@@ -12,7 +12,7 @@ namespace hearth::command
 namespace
 {
 
-// One that a line of a script cannot end in.
+// Return the fault of a partition's name; empty if it can stand in a line of a script.
 std::string partitionFault(const std::string& text)
 {
     const bool is_name =

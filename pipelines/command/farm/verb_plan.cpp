@@ -15,7 +15,7 @@ namespace hearth::command
 namespace
 {
 
-/// Options of verbs that run cookers.
+/// Add the options of verbs that run cookers.
 void addEffort(cli::CommandLine& verb, SettingOptions& settings)
 {
     settings.addOfCommand(verb, {"jobs", "memory", "progress"});

@@ -1,4 +1,4 @@
-// What the verbs have in common that read a plan.
+// Options of all verbs that read a plan.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -8,7 +8,7 @@
 namespace hearth::command
 {
 
-/// The plan, --directory and --cache.
+/// Add the argument PLAN and the options --directory and --cache.
 void addPlanFile(cli::CommandLine& verb, PlanOptions& options, SettingOptions& settings);
 
 } // namespace hearth::command

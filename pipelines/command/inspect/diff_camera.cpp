@@ -31,7 +31,7 @@ void addInstances(const formats::PackView& pack, Box3& bounds)
     }
 }
 
-/// Width over height.
+/// Parse "WIDTHxHEIGHT" and return width over height; 1 if it is invalid.
 float aspectOf(const std::string& size)
 {
     unsigned width = 0;
@@ -53,7 +53,7 @@ std::string cameraOfBoth(const formats::PackView& a, const formats::PackView& b,
     if (bounds.empty())
         bounds.add(Float3{});
     const Float3 target = bounds.center();
-    // the sphere around the box touches the sides of the view that are closer together
+    // the bounding sphere touches the narrower pair of the view's sides
     const float radius = std::max(length(bounds.max - target), 1e-3F);
     const float tangent = std::tan(0.5F * kFieldOfView_rad) * std::min(1.0F, aspectOf(size));
     const Float3 position = target + normalizeOr(kFrom, {0, 0, 1}) * (radius / std::sin(std::atan(tangent)));

@@ -1,4 +1,4 @@
-// hearth diff --picture without a camera: one that has the scenes of both packs in view.
+// hearth diff --picture without a camera: computes one that has the scenes of both packs in view.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,9 +9,9 @@
 namespace hearth::command
 {
 
-/// A camera at the side and above, so far away that the boxes of all instances of both packs are in view:
-/// one for both pictures, so that they differ only where the packs do.
-/// size     of the picture, "WIDTHxHEIGHT"; taken as square where it is none, of which hearth-render tells
+/// Compute a camera at the side and above that has the boxes of all instances of both packs in view. Both
+/// images use it, so that they differ only where the packs do.
+/// size     of the image, "WIDTHxHEIGHT"; treated as square if it is invalid, which hearth-render reports
 /// returns  PX,PY,PZ,TX,TY,TZ,FOV, as hearth-render takes it
 std::string cameraOfBoth(const formats::PackView& a, const formats::PackView& b, const std::string& size);
 

@@ -55,7 +55,7 @@ std::string chunkLine(const ChunkBytes& kind)
                        kind.a == kind.b ? ", other bytes" : "");
 }
 
-/// How many things of one kind, or of all, have changed how.
+/// Numbers of changed, added and removed entries, of one kind or of all.
 struct Counts
 {
     size_t changed = 0;
@@ -73,18 +73,18 @@ std::string countsText(const Counts& counts)
     return fmt::format("{} changed, {} added, {} removed", counts.changed, counts.added, counts.removed);
 }
 
-/// "1.2 MiB -> 1.3 MiB (+8.3 %)"
+/// Format "1.2 MiB -> 1.3 MiB (+8.3 %)".
 std::string sizesText(uint64_t a, uint64_t b)
 {
     const double change = a == 0 ? 0 : 100 * (static_cast<double>(b) / static_cast<double>(a) - 1);
     return fmt::format("{} -> {} ({:+.1f} %)", readableSize(a), readableSize(b), change);
 }
 
-/// What differs in all, by the kinds of things, and by bytes.
+/// Return the totals: differences by kind of entry, and bytes by type of chunk.
 std::string totalsText(const PackDiff& diff)
 {
     Counts all;
-    std::vector<std::pair<std::string, Counts>> kinds; // in the order of the things
+    std::vector<std::pair<std::string, Counts>> kinds; // in the order of their first entries
     for (const ThingChange& change : diff.things)
     {
         auto kind = std::find_if(kinds.begin(), kinds.end(),
@@ -121,7 +121,7 @@ Json factsJson(const std::vector<FactChange>& facts)
     return list;
 }
 
-/// In words; numbers that are not there are 0.
+/// Describe the figures of hearth-compare; absent numbers are 0.
 std::string pictureText(const PictureFigures& picture)
 {
     if (picture.json.empty())

@@ -15,7 +15,7 @@ using AtomicFile;
 namespace
 {
 
-/// Decodes the page that a cluster lies in; clusters of one page follow each other.
+/// Cache of one decoded page. Clusters of a page follow each other, so one page is enough.
 class PageCache
 {
 public:
@@ -67,7 +67,8 @@ std::string plyHeader(const PackView& pack, const MeshRecord& mesh, std::span<co
            fmt::format("element face {}\nproperty list uchar int vertex_indices\nend_header\n", triangles);
 }
 
-/// posed  null: the vertex as it is
+/// Append the visibility of a vertex: cone, ambient occlusion and moments.
+/// posed  null: the vertex is not posed
 void appendVisibility(std::vector<float>& values, const ClusterGeometry& geometry, uint32_t v,
                       const PosedVertex* posed)
 {
@@ -80,7 +81,8 @@ void appendVisibility(std::vector<float>& values, const ClusterGeometry& geometr
                                  moments.m0, m1.x, m1.y, m1.z});
 }
 
-/// pose  null: the vertices as they are
+/// Append the vertices of a cluster.
+/// pose  null: the vertices are not posed
 void writeVertices(AtomicFile& file, const ClusterGeometry& geometry, const PosedMesh* pose)
 {
     std::vector<float> values;

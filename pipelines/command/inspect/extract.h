@@ -1,4 +1,4 @@
-// hearth extract: a cut of a mesh's hierarchy as plain triangles.
+// hearth extract: writes a cut of a mesh's LOD hierarchy as plain triangles (PLY).
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,18 +12,19 @@
 namespace hearth::command
 {
 
-/// The clusters that are drawn at object-space error `error` (the rule stands beside GroupRecord), by index in the
-/// table. They cover the mesh once.
+/// Return the clusters that are drawn at object-space error `error`, as indices into the table of clusters.
+/// The rule is documented at GroupRecord. The clusters cover the mesh once.
 std::vector<uint32_t> clustersOfCut(const formats::PackView& pack, const formats::MeshRecord& mesh,
                                     float error);
 
-/// Write the cut of mesh `mesh` as binary little-endian PLY: x y z, then where the mesh has them nx ny nz, the cone that
-/// has the moments of the vertex's visibility (axis_x axis_y axis_z, aperture: half-angle in radians, scale), the ambient
-/// occlusion ao = dot(n, m1) / pi and the moments themselves (m0 m1_x m1_y m1_z), and s t; vertices are shared inside a
-/// cluster, not between clusters. One page is in memory at a time.
-/// What joints or morph targets move is written in the scene's space, in the rest pose or that of the clip; other meshes in
-/// their own space, or with a clip in the scene's.
-/// errors: usage where the mesh or the clip does not exist; those of openPack; cannot_write.
+/// Write the cut of mesh `mesh` as binary little-endian PLY. Properties of a vertex: x y z, then, if the mesh
+/// has them, nx ny nz; the cone that has the moments of the vertex's visibility (axis_x axis_y axis_z,
+/// aperture: half-angle in radians, scale); the ambient occlusion ao = dot(n, m1) / pi; the moments
+/// themselves (m0 m1_x m1_y m1_z); s t. Vertices are shared inside a cluster, not between clusters. One page
+/// is in memory at a time.
+/// Meshes that joints or morph targets deform are written in scene space, in the rest pose or the pose of the
+/// clip. Other meshes are written in object space, or with a clip in scene space.
+/// errors: usage if the mesh or the clip does not exist; those of openPack; cannot_write.
 Status extractCut(const std::string& path, uint32_t mesh, float error, const std::optional<ClipTime>& clip,
                   const std::string& output);
 

@@ -15,7 +15,7 @@ using namespace formats;
 Status extractSpecular(const std::string& path, const std::string& output)
 {
     HEARTH_ASSIGN_OR_RETURN(const PackView file, openContainer(path));
-    HEARTH_TRY(checkSpecular(file)); // of a part, nobody has
+    HEARTH_TRY(checkSpecular(file)); // openContainer does not check this chunk of a part
     if (file.specularTables().empty())
         return Error{Issue::chunk_missing, path, chunkName(kChunkSpecular, 0),
                      "the file has no table of specular occlusion"};

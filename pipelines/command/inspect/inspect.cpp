@@ -22,7 +22,7 @@ LevelSummary summarizeLevel(const PackView& pack, const LevelRecord& level)
     summary.max_error = level.max_error;
     for (const ClusterRecord& cluster : recordsOf(pack.clusters(), level.clusters))
     {
-        // none, or nonsense in a part, whose records nobody has checked
+        // no group, or an invalid index in a part, whose records are not checked
         if (cluster.refined_group >= pack.groups().size())
             continue;
         const GroupRecord& group = pack.groups()[cluster.refined_group];
@@ -69,7 +69,8 @@ void addPages(MeshSummary& summary, std::span<const PageRecord> pages)
     }
 }
 
-/// 0 where the mesh is rigid, or nothing is known yet: bounds come last.
+/// Return the bytes of the mesh's bounds under deformation; 0 if it is rigid, or in a part whose bounds are
+/// not computed yet (bounds come last).
 uint64_t boundsBytes(const PackView& pack, uint32_t mesh)
 {
     uint64_t bytes = 0;
@@ -147,7 +148,7 @@ double numberOf(const Json& object, const char* key)
     return found != nullptr && found->is_number() ? found->get<double>() : 0;
 }
 
-/// The members of an array that are objects.
+/// Return the objects in the array at `key`.
 std::vector<Json> objectsOf(const Json& object, const char* key)
 {
     std::vector<Json> objects;

@@ -1,4 +1,4 @@
-// hearth inspect: what is in a pack, as numbers.
+// hearth inspect: summarizes the contents of a pack in numbers.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,22 +12,22 @@
 namespace hearth::command
 {
 
-/// The file or node that a level made by hand came from.
+/// File or node that an authored level comes from.
 struct AuthoredSummary
 {
-    std::string name;               ///< of a file or node; may be empty
-    std::optional<uint32_t> number; ///< 3 of rock_LOD3
+    std::string name;               ///< name of the file or node; may be empty
+    std::optional<uint32_t> number; ///< 3 for rock_LOD3
 };
 
 struct LevelSummary
 {
     uint32_t clusters = 0;
     uint32_t triangles = 0;
-    float max_error = 0; ///< object space; the others are what it is made of, each the largest
+    float max_error = 0; ///< object space; the errors below are its parts, each the largest in the level
     float position_error = 0;
     float normal_error = 0;                  ///< radians
     float uv_error = 0;                      ///< object space
-    std::optional<AuthoredSummary> authored; ///< none: it was generated, or is the source
+    std::optional<AuthoredSummary> authored; ///< nullopt: the level was generated, or is the source
 };
 
 struct MeshSummary
@@ -51,9 +51,9 @@ struct MeshSummary
     uint64_t vertex_bytes = 0;
     uint64_t index_bytes = 0;
     uint64_t page_bytes = 0;        ///< decoded
-    uint64_t stored_page_bytes = 0; ///< as they lie in the file
-    uint64_t record_bytes = 0;      ///< of its tables
-    uint64_t bounds_bytes = 0;      ///< of what chunks DMSH, DCLU and DJNT say of it
+    uint64_t stored_page_bytes = 0; ///< as stored in the file
+    uint64_t record_bytes = 0;      ///< of its records
+    uint64_t bounds_bytes = 0;      ///< of its records in chunks DMSH, DCLU and DJNT
 };
 
 struct MessageSummary
@@ -71,7 +71,7 @@ struct SourceSummary
     std::string hash;
 };
 
-/// What import made of a clip.
+/// Compression of an animation clip by the import.
 struct ClipSummary
 {
     uint64_t keys_before = 0;
@@ -82,7 +82,7 @@ struct ClipSummary
     double proven_error = 0;
 };
 
-/// META, as far as it could be read.
+/// Content of chunk META, as far as it could be read.
 struct MetaSummary
 {
     std::string tool_version;
@@ -97,31 +97,31 @@ struct PackSummary
 {
     MetaSummary meta;
     std::vector<MeshSummary> meshes;
-    uint32_t joint_nodes = 0; ///< distinct
+    uint32_t joint_nodes = 0; ///< number of distinct nodes
     uint32_t morph_targets = 0;
     uint64_t instanced_triangles = 0; ///< of the finest level, over all instances
 };
 
-/// The grid of bricks; the pack has one.
+/// Sizes of the brick grid, for a pack that has one.
 struct BricksSummary
 {
-    uint64_t bytes = 0;        ///< of its tables, as they lie in memory
-    uint64_t stored_bytes = 0; ///< as they lie in the file
+    uint64_t bytes = 0;        ///< in memory, of its tables
+    uint64_t stored_bytes = 0; ///< as stored in the file
 };
 BricksSummary summarizeBricks(const formats::PackView& pack);
 
 PackSummary summarize(const formats::PackView& pack);
 
-/// Chunk META of a part or a pack; what is not there or of the wrong type is left out.
+/// Read chunk META of a part or a pack; absent values and values of the wrong type are left out.
 MetaSummary readMeta(std::string_view json);
 
-/// For people.
+/// Return the summary as text for people.
 std::string inspectText(const formats::PackView& pack, const PackSummary& summary);
 
-/// Schema "hearth.inspect/1".
+/// Return the summary as JSON, schema "hearth.inspect/1".
 std::string inspectJson(const formats::PackView& pack, const PackSummary& summary);
 
-/// What a number in a record stands for.
+/// Return the name of a value in a record.
 std::string attributeNames(uint32_t attributes);
 const char* alphaModeName(uint32_t mode);
 const char* lightTypeName(uint32_t type);

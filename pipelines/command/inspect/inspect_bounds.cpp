@@ -21,7 +21,7 @@ Json boundsPoint(Float3 p)
     return {p.x, p.y, p.z};
 }
 
-/// The deformed mesh of a mesh; null where nothing deforms it, or no node draws it.
+/// Find the deformed mesh of a mesh; null if nothing deforms it, or no node draws it.
 const DeformedMeshRecord* deformedMesh(const PackView& pack, uint32_t mesh)
 {
     for (const DeformedMeshRecord& record : pack.deformedMeshes())
@@ -30,7 +30,7 @@ const DeformedMeshRecord* deformedMesh(const PackView& pack, uint32_t mesh)
     return nullptr;
 }
 
-/// First triangle of each cluster in the file that extractCut writes at error 0.
+/// Return the first triangle of each cluster in the file that extractCut writes at error 0.
 std::map<uint32_t, uint32_t> firstTriangles(const PackView& pack, const MeshRecord& mesh)
 {
     std::map<uint32_t, uint32_t> first;

@@ -1,4 +1,4 @@
-// hearth inspect --bounds: where the clusters of a pack's meshes are in a pose, by their records.
+// hearth inspect --bounds: lists the bounding boxes of all clusters in a pose, by their records.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,9 +10,10 @@
 namespace hearth::command
 {
 
-/// JSON: for each mesh its clusters, each with its level, the box in the space that extractCut writes in, and which
-/// triangles of the file that extractCut writes at error 0 are its own; null for clusters that are not in that file.
-/// errors: usage where the clip does not exist; those of openPack.
+/// Return JSON: for each mesh its clusters, each with its level, its box in the space of extractCut, and its
+/// range of triangles in the file that extractCut writes at error 0; null for clusters that are not in that
+/// file.
+/// errors: usage if the clip does not exist; those of openPack.
 Result<std::string> boundsJson(const std::string& path, const std::optional<ClipTime>& clip);
 
 } // namespace hearth::command

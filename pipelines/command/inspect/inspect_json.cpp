@@ -99,7 +99,7 @@ Json assetJson(const PackView& pack, uint32_t index)
             {"nodes", range(asset.nodes)}};
 }
 
-/// One object for each record of a table.
+/// Return an array with an object for each record of a table.
 template <typename MakeJson>
 Json listJson(size_t count, MakeJson makeJson)
 {
@@ -109,7 +109,7 @@ Json listJson(size_t count, MakeJson makeJson)
     return list;
 }
 
-/// What the import of a clip did to it.
+/// Return the compression of a clip by the import.
 Json clipJson(const ClipSummary& clip)
 {
     return {{"keys", {{"source", clip.keys_before}, {"kept", clip.keys}}},
@@ -193,7 +193,7 @@ Json chunkJson(const ChunkEntry& entry)
             {"codec", codecName(entry.codec)}};
 }
 
-/// All chunks of the bricks, which make sense together alone.
+/// Return all chunks of the bricks as one row, because they have a meaning only together.
 Json brickChunksJson(const PackView& pack)
 {
     const BricksSummary summary = summarizeBricks(pack);
@@ -208,7 +208,7 @@ Json brickChunksJson(const PackView& pack)
     return json;
 }
 
-/// A row for each chunk, in the order of the file, but one for all of the bricks.
+/// Return a row for each chunk in the order of the file, and one row for all chunks of the bricks.
 Json chunksJson(const PackView& pack)
 {
     Json list = Json::array();

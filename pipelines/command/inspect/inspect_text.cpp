@@ -15,7 +15,7 @@ using namespace formats;
 namespace
 {
 
-/// A name from a file, without what would steer a terminal.
+/// Replace control characters in a name from a file, which could steer a terminal.
 std::string printable(std::string_view name)
 {
     std::string text(name);
@@ -50,7 +50,7 @@ std::string sceneText(const PackView& pack, const PackSummary& summary)
         summary.joint_nodes, pack.animations().size(), summary.morph_targets);
 }
 
-/// "495 x 310 x 290 m"
+/// Format "495 x 310 x 290 m".
 std::string sizeText(Float3 size)
 {
     return fmt::format("{:.3g} x {:.3g} x {:.3g} m", size.x, size.y, size.z);
@@ -91,7 +91,7 @@ std::string bricksText(const PackView& pack)
     return text;
 }
 
-/// "  by hand: rock_LOD3.ply (LOD 3)"; empty for other levels.
+/// Return "  by hand: rock_LOD3.ply (LOD 3)" for an authored level; empty for other levels.
 std::string authoredText(const LevelSummary& level)
 {
     if (!level.authored)
@@ -161,7 +161,7 @@ std::string messagesText(const MetaSummary& meta)
     return text.empty() ? text : "\n" + text;
 }
 
-/// Every kind of chunk with its share of the file.
+/// List the types of chunks with their numbers and bytes.
 std::string chunksText(const PackView& pack)
 {
     struct Kind

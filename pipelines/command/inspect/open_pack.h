@@ -1,4 +1,4 @@
-// Opens a pack for the commands that read one: nothing in it is trusted before it is checked.
+// Opens a pack for the verbs that read one. Nothing in it is trusted before it is checked.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,12 +9,13 @@
 namespace hearth::command
 {
 
-/// Map the file and check all of it: the container, every hash, and for a pack the meaning of every record.
-/// A part is opened as well: its tables are safe to read, but of what they mean only bricks are checked, which stand alone.
+/// Map the file and check all of it: the container, every hash, and for a pack the meaning of every record. A
+/// part is opened as well: its tables are safe to read, but only the meaning of its bricks is checked, which
+/// need no other tables.
 /// errors: those of ContainerReader::open, PackView::read, checkPack and checkBricks.
 Result<formats::PackView> openContainer(const std::string& path);
 
-/// The same for packs alone. errors: container_kind where it is a part.
+/// Same, for packs only. errors: container_kind if the file is a part.
 Result<formats::PackView> openPack(const std::string& path);
 
 } // namespace hearth::command

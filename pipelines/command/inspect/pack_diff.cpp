@@ -31,7 +31,7 @@ std::vector<FactChange> diffFacts(std::span<const Fact> a, std::span<const Fact>
     return changes;
 }
 
-/// All things of a kind that have one name.
+/// All entries of the same kind and name, in both packs.
 struct Namesakes
 {
     std::vector<const Thing*> a;
@@ -46,7 +46,7 @@ std::string allFacts(const Thing& thing)
     return text;
 }
 
-/// Take out pairs that are equal.
+/// Remove pairs of equal entries.
 void leaveOutEqual(Namesakes& things)
 {
     std::map<std::string, size_t> count_of_facts;
@@ -71,7 +71,7 @@ void leaveOutEqual(Namesakes& things)
     std::erase_if(things.b, [&](const Thing* thing) { return leaves(paired, thing); });
 }
 
-/// Move pairs of one note to the front of both sides, each in its order.
+/// Move pairs with the same note to the front of both sides, each in its order.
 void alignNotes(Namesakes& things)
 {
     const auto moveTo = [](std::vector<const Thing*>& side, size_t place, size_t from)

@@ -1,4 +1,4 @@
-// hearth diff: what differs between two packs, by what it means.
+// hearth diff: compares two packs by their meaning.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,7 +12,7 @@
 namespace hearth::command
 {
 
-/// A fact of one thing in both packs; empty where one does not have it.
+/// Property of one entry in both packs; empty in a pack that lacks it.
 struct FactChange
 {
     std::string what;
@@ -21,26 +21,27 @@ struct FactChange
     bool is_hash = false; ///< as Fact::is_hash
 };
 
+/// Difference of one entry between packs A and B.
 struct ThingChange
 {
     enum class How
     {
-        added, ///< it is in B alone
+        added, ///< only in B
         removed,
         changed,
     };
     std::string kind;
     std::string name;
     How how = How::changed;
-    std::vector<FactChange> facts{}; ///< that differ, where it is changed
-    std::string note{};              ///< as Thing::note; of B, where it is there
+    std::vector<FactChange> facts{}; ///< differing properties, if it is changed
+    std::string note{};              ///< as Thing::note; from B if the entry is in B
 };
 
-/// All chunks of one type.
+/// Stored bytes of all chunks of one type.
 struct ChunkBytes
 {
     std::string kind; ///< "PAGE"
-    uint64_t a = 0;   ///< as they lie in the file
+    uint64_t a = 0;   ///< bytes in the file
     uint64_t b = 0;
     bool is_same = false; ///< byte for byte
 };
@@ -49,31 +50,32 @@ struct PackDiff
 {
     std::vector<ThingChange> things;
     std::vector<FactChange> settings; ///< by JSON pointer into META
-    std::vector<ChunkBytes> chunks;   ///< all kinds, in the order of A's file
+    std::vector<ChunkBytes> chunks;   ///< all types, in the order of A's file
 
     bool isSameByMeaning() const { return things.empty() && settings.empty(); }
     bool isSame() const;
 };
 
-/// Things are the same where kind and name are. Where several have one name, equal ones are paired first, then those of one
-/// note, then the rest in their order.
+/// Compare entries, which correspond if their kind and name are equal. If several have the same name, equal
+/// entries are paired first, then entries with the same note, then the rest in order.
 std::vector<ThingChange> diffThings(std::span<const Thing> a, std::span<const Thing> b);
 
-/// errors: those of thingsOf
+/// Compare two packs. errors: those of thingsOf
 Result<PackDiff> diffPacks(const formats::PackView& a, const formats::PackView& b);
 
-/// What hearth-compare says of a picture of both.
+/// Figures of hearth-compare for the rendered images of both packs.
 struct PictureFigures
 {
-    std::string heat_map; ///< the file
-    std::string json;     ///< schema hearth.compare/1; empty: no picture was asked for
+    std::string heat_map; ///< path of the heat map
+    std::string json;     ///< schema hearth.compare/1; empty: no image was requested
 };
 
-/// For people: how many things differ and the bytes of both first, then the things.
-/// shows_hashes  of contents; else only that they differ
+/// Return the differences as text for people: first the numbers of entries that differ and the bytes of both
+/// packs, then the entries.
+/// shows_hashes  print the hashes of contents; else only that they differ
 std::string diffText(const PackDiff& diff, const PictureFigures& picture = {}, bool shows_hashes = false);
 
-/// Schema "hearth.diff/1".
+/// Return the differences as JSON, schema "hearth.diff/1".
 std::string diffJson(const PackDiff& diff, const std::string& file_a, const std::string& file_b,
                      const PictureFigures& picture = {});
 

@@ -22,7 +22,7 @@ namespace
 
 // ---- values
 
-/// Twelve digits tell contents apart.
+/// Return the first twelve digits of the SHA-256, which tell contents apart.
 std::string contentText(std::string_view bytes)
 {
     return tools::sha256Of(bytes).substr(0, 12);
@@ -49,7 +49,8 @@ std::string numbersText(const std::byte* bytes, size_t size)
                                : fmt::format("({})", fmt::join(numbers, ", "));
 }
 
-/// The name of a record that is referred to. What has none is not told from others: their numbers are those of a table.
+/// Return the name of a referenced record. Records without a name are not told apart, because an index
+/// depends on the table.
 template <typename Record>
 std::string nameOf(const PackView& pack, std::span<const Record> table, uint32_t index)
 {
@@ -59,7 +60,7 @@ std::string nameOf(const PackView& pack, std::span<const Record> table, uint32_t
     return name.empty() ? "unnamed" : std::string(name);
 }
 
-/// A field that refers to another record, by that one's name; nullopt where it does not.
+/// Return the name of the record or enumerator that a field refers to; nullopt for other fields.
 std::optional<std::string> referenceText(const PackView& pack, const Field& field, uint32_t value)
 {
     if (field.name == "image")
@@ -77,7 +78,7 @@ std::optional<std::string> referenceText(const PackView& pack, const Field& fiel
     return std::nullopt;
 }
 
-// A longer field is a table of its own, told by its hash.
+// Longer fields are tables, compared by their hash.
 constexpr size_t kMaxFieldText_bytes = 256;
 
 std::string fieldText(const PackView& pack, const Field& field, const std::byte* bytes)
@@ -98,7 +99,7 @@ std::string fieldText(const PackView& pack, const Field& field, const std::byte*
     return numbersText<uint32_t>(bytes, field.size);
 }
 
-/// A fact for each field of a record, but for its name and what only says where things lie.
+/// Add a property for each field of a record, except its name and references to other tables.
 template <typename Record>
 void addFields(std::vector<Fact>& facts, const PackView& pack, const Record& record,
                const std::string& prefix = "")
@@ -142,7 +143,7 @@ constexpr uint32_t relative(uint32_t index, Range range)
     return index == kNone ? kNone : index - range.first;
 }
 
-/// Groups and clusters, as if the mesh were alone in its pack.
+/// Hash groups and clusters with mesh-local indices, as if the mesh were alone in its pack.
 std::string hierarchyText(const PackView& pack, const MeshRecord& mesh)
 {
     std::string bytes;
@@ -182,7 +183,7 @@ Result<std::string> geometryText(const PackView& pack, const MeshRecord& mesh)
     return contentText(hashes);
 }
 
-/// Where the mesh can be in all poses; empty where it is rigid.
+/// Hash the bounds of the mesh over all poses; empty if it is rigid.
 std::string boundsText(const PackView& pack, uint32_t mesh)
 {
     std::string bytes;
@@ -231,7 +232,7 @@ Result<Thing> meshThing(const PackView& pack, uint32_t index, const MeshSummary&
 
 // ---- the scene
 
-/// "baseColor of Bark, normal of Bark and 3 more"
+/// List the uses of an image: "baseColor of Bark, normal of Bark and 3 more".
 std::string usesText(const PackView& pack, const std::vector<ImageUse>& uses)
 {
     constexpr size_t kMaxUses = 2;
@@ -251,7 +252,7 @@ Result<Thing> textureThing(const PackView& pack, uint32_t index, const std::vect
     return thing;
 }
 
-/// All that a channel's keys say.
+/// Hash the decoded keys of a channel.
 std::string keysText(const PackView& pack, const AnimationChannelRecord& channel)
 {
     const ChannelKeys keys(pack.keys(), pack.keyBits(), channel);
@@ -305,7 +306,7 @@ Thing skinThing(const PackView& pack, const SkinRecord& skin)
     return thing;
 }
 
-/// What has no name of its own is called after its node.
+/// Add entries for records without a name, named after their node.
 template <typename Record>
 void addOfNodes(std::vector<Thing>& things, const PackView& pack, const char* kind,
                 std::span<const Record> table)
@@ -352,7 +353,7 @@ void addMeta(std::vector<Thing>& things, const MetaSummary& meta)
         things.push_back({"dropped", dropped, {}});
 }
 
-/// A fact for each value that has none below it, with the JSON pointer to it.
+/// Add a property for each leaf value, named by its JSON pointer.
 void addSettings(std::vector<Fact>& settings, const Json& json, const std::string& pointer)
 {
     if (json.empty())
@@ -400,7 +401,7 @@ std::vector<Fact> settingsOf(const PackView& pack)
     Json meta = Json::parse(pack.meta()).value_or(Json());
     if (!meta.is_object())
         return {};
-    // things of their own
+    // these are entries of their own
     for (const char* list : {"sources", "messages", "dropped"})
         meta.erase(list);
     std::vector<Fact> settings;

@@ -1,5 +1,5 @@
-// What a pack holds, as things with a name and facts: what two packs are compared by. Nothing in it depends on where a thing
-// stands in a table.
+// Lists the contents of a pack as named entries with properties, which are the units of comparing two packs.
+// Nothing in an entry depends on its index in a table.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,29 +11,33 @@
 namespace hearth::command
 {
 
+/// Property of an entry.
 struct Fact
 {
     std::string what;
     std::string value;
-    bool is_hash = false; ///< the value is the hash of many bytes, or its start: it tells contents apart
+    bool is_hash = false; ///< the value is a hash of many bytes, or the start of one
     friend bool operator==(const Fact&, const Fact&) = default;
 };
 
+/// Entry: one named item of a pack.
 struct Thing
 {
     std::string kind; ///< "mesh", "material", ...
-    std::string name; ///< may be empty, and that of others as well
+    std::string name; ///< may be empty, or equal to that of other entries
     std::vector<Fact> facts;
-    /// What tells those of one name apart, for people: of a texture "baseColor of Bark"; else empty.
+    /// Text that tells entries of the same name apart, for people: "baseColor of Bark" for a texture; else
+    /// empty.
     std::string note{};
 };
 
-/// Of a pack that has been checked. Sorted by kind: meshes, materials, textures, animations, skins, instances, lights,
-/// cameras, shadow spheres, what light is taken from, and what META says of sources and of what was lost.
+/// Return the entries of a checked pack. Sorted by kind: meshes, materials, textures, animations, skins,
+/// instances, lights, cameras, shadow spheres, specular tables and bricks, then the sources, messages and
+/// dropped data of chunk META.
 /// errors: those of PackView::decodePage and PackView::imageData
 Result<std::vector<Thing>> thingsOf(const formats::PackView& pack);
 
-/// What else META says, number by number: JSON pointer and value.
+/// Return all other values of META, each with its JSON pointer.
 std::vector<Fact> settingsOf(const formats::PackView& pack);
 
 } // namespace hearth::command

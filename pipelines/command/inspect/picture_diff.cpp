@@ -17,7 +17,7 @@ constexpr int kInterrupted = 130;
 struct Program
 {
     std::string name;    ///< "render"
-    std::string subject; ///< that its errors are of
+    std::string subject; ///< file that its errors name
     std::vector<std::string> arguments;
 };
 
@@ -26,7 +26,7 @@ PictureDiff failed(const graph::Failure& failure)
     return {failure.exit_code, failure.error, ""};
 }
 
-/// Side by side. The first that fails ends the others.
+/// Run programs side by side. The first that fails ends the others.
 PictureDiff runAll(const std::vector<Program>& programs)
 {
     tools::ChildProcesses children;

@@ -1,4 +1,4 @@
-// hearth diff --picture: both packs drawn by hearth-render, and held against each other by hearth-compare.
+// hearth diff --picture: renders both packs with hearth-render, and compares the images with hearth-compare.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,17 +11,17 @@ namespace hearth::command
 struct PictureOptions
 {
     std::string output;            ///< the heat map, PNG
-    std::vector<std::string> view; ///< options of hearth-render: from where, how large, what
+    std::vector<std::string> view; ///< options of hearth-render: camera, size, view
 };
 
 struct PictureDiff
 {
     int exit_code = 0;
-    std::string error;   ///< the error line, where it is not 0
+    std::string error;   ///< error line, if exit_code is not 0
     std::string figures; ///< JSON, schema hearth.compare/1
 };
 
-/// Draw both packs, and write how their pictures differ.
+/// Render both packs, and write a heat map of their differences.
 PictureDiff diffPictures(const std::string& pack_a, const std::string& pack_b, const PictureOptions& options);
 
 } // namespace hearth::command

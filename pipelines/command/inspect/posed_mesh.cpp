@@ -15,7 +15,7 @@ using namespace formats;
 namespace
 {
 
-/// errors: usage, with what there is.
+/// Find an animation by its name, or one without a name by its index. errors: usage, with a list of all.
 Result<const AnimationRecord*> findAnimation(const PackView& pack, const std::string& name)
 {
     uint32_t index = kNone;
@@ -35,11 +35,11 @@ Result<const AnimationRecord*> findAnimation(const PackView& pack, const std::st
                                : fmt::format("there is no animation \"{}\": there are {}", name, names)};
 }
 
-/// Where one copy of a mesh is.
+/// Placement of one copy of a mesh.
 struct Copy
 {
     uint32_t node = kNone;
-    const InstanceRecord* instance = nullptr; ///< null where the scene does not draw it
+    const InstanceRecord* instance = nullptr; ///< null if the scene does not draw it
 };
 
 Copy findCopy(const PackView& pack, uint32_t mesh)
@@ -53,7 +53,8 @@ Copy findCopy(const PackView& pack, uint32_t mesh)
     return {};
 }
 
-/// Instances of one node beside each other stand where its transform takes each of them from their places at rest.
+/// Return the transform of a copy in the pose. If a node has several instances, each moves from its rest
+/// transform by the same motion as the node.
 Affine3d worldFromObject(const Copy& copy, const Affine3d& rest, const Affine3d& posed)
 {
     if (copy.instance == nullptr || narrowed(rest) == copy.instance->world_from_object)
@@ -68,8 +69,8 @@ Double3 column(const Affine3d& t, size_t i)
     return {t.m[0][i], t.m[1][i], t.m[2][i]};
 }
 
-/// A vector at a vertex after it is posed: the part along the normal stays along it, that along the surface turns with the
-/// surface, and both keep their lengths.
+/// Turn a vector at a vertex with the pose: the part along the normal stays along it, the part along the
+/// surface turns with the surface, and both keep their lengths.
 Float3 turnedVector(const Affine3d& world_from_vertex, Double3 vector, Double3 normal, Double3 posed_normal)
 {
     const double along = dot(vector, normal);
@@ -157,7 +158,7 @@ PosedVertex PosedMesh::vertex(const ClusterGeometry& geometry, uint32_t vertex) 
     const Affine3d world_from_vertex = worldFromVertex(geometry, vertex);
     PosedVertex posed;
     posed.position = narrow(transformPoint(world_from_vertex, position));
-    // the cofactors of the linear part turn normals as it turns surfaces
+    // normals are transformed by the cofactors of the linear part
     const Double3 x = column(world_from_vertex, 0), y = column(world_from_vertex, 1),
                   z = column(world_from_vertex, 2);
     posed.mirrored = dot(cross(x, y), z) < 0;

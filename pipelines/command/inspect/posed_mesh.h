@@ -1,4 +1,4 @@
-// A mesh of a pack as a clip has it at one time: its vertices in the scene's space.
+// Poses a mesh of a pack by a clip at one time: its vertices in scene space.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,7 +11,8 @@
 namespace hearth::command
 {
 
-/// A clip by its name, or one without a name by its index; seconds from its start.
+/// Time of a clip. The clip is given by its name, or by its index if it has no name; time in seconds from its
+/// start.
 struct ClipTime
 {
     std::string animation;
@@ -20,36 +21,37 @@ struct ClipTime
 
 struct PosedVertex
 {
-    Float3 position; ///< scene's space
-    Float3 normal;   ///< of length 1, if the mesh has normals
-    Float3
-        m1; ///< of its visibility, if the mesh has one: turned with the normal and the surface, as long as before
-    bool mirrored = false; ///< triangles at it turn the other way
+    Float3 position; ///< scene space
+    Float3 normal;   ///< unit length, if the mesh has normals
+    /// First moment of the visibility, if the mesh has it: turned with normal and surface, length unchanged.
+    Float3 m1;
+    bool mirrored = false; ///< its triangles have the opposite winding
 };
 
-/// How the first instance of a mesh is posed; where it has none, as its first node would be.
+/// Pose of the first instance of a mesh; of its first node if it has no instance.
 class PosedMesh
 {
 public:
-    /// clip  nothing: the rest pose
-    /// errors: usage where the pack has no such clip
+    /// Compute the pose.
+    /// clip  nullopt: the rest pose
+    /// errors: usage if the pack has no such clip
     static Result<PosedMesh> make(const formats::PackView& pack, uint32_t mesh,
                                   const std::optional<ClipTime>& clip);
 
-    /// The cluster is one of the mesh.
+    /// Pose a vertex of a cluster, which must be one of the mesh.
     PosedVertex vertex(const formats::ClusterGeometry& geometry, uint32_t vertex) const;
 
-    /// For each joint of the skin, scene from bind pose; one for a mesh without a skin.
+    /// Scene-from-bind-pose transforms of the skin's joints; one transform for a mesh without a skin.
     std::span<const Affine3d> palette() const { return palette_; }
 
 private:
     Affine3d worldFromVertex(const formats::ClusterGeometry& geometry, uint32_t vertex) const;
 
-    std::vector<Affine3d> palette_;     ///< for each joint of the skin; one for a mesh without
+    std::vector<Affine3d> palette_;     ///< see palette()
     std::vector<double> morph_weights_; ///< of the node; missing ones are 0
 };
 
-/// Whether joints or morph targets can move the vertices of the mesh.
+/// True if joints or morph targets can move the vertices of the mesh.
 bool isDeformed(const formats::MeshRecord& mesh);
 
 } // namespace hearth::command

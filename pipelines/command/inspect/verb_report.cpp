@@ -21,7 +21,7 @@ struct Options
     std::string table;
 };
 
-/// The ending that an option's file must have; empty where it has it.
+/// Return a message if the file lacks the extension that its option needs; else empty.
 std::string endingFault(const std::string& path, const std::string& ending)
 {
     return path.empty() || path.ends_with(ending) ? "" : path + " does not end in " + ending;

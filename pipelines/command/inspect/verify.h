@@ -1,4 +1,4 @@
-// hearth verify: whether a file is a whole and meaningful container.
+// hearth verify: checks that a file is a complete and valid container.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,10 +9,10 @@
 namespace hearth::command
 {
 
-/// One line that says what was found to be right. errors: those of openContainer.
+/// Check a file, and return a line on its contents. errors: those of openContainer.
 Result<std::string> verifyFile(const std::string& path);
 
-/// Schema "hearth.verify/1", for a file that is right and for one that is not.
+/// Return the result as JSON, schema "hearth.verify/1", for valid and invalid files.
 std::string verifyJson(const std::string& path, const Result<std::string>& result);
 
 } // namespace hearth::command

@@ -30,7 +30,7 @@ std::string namesOf(const std::vector<cli::OptionInfo>& options)
     return fmt::format("{}", fmt::join(names, " "));
 }
 
-/// Inside of single quotes.
+/// Quote text for a shell with single quotes.
 std::string singleQuoted(std::string text)
 {
     for (size_t at = 0; (at = text.find('\'', at)) != std::string::npos; at += 4)
@@ -38,13 +38,13 @@ std::string singleQuoted(std::string text)
     return "'" + text + "'";
 }
 
-/// The words that the first positional may have, where it is a choice.
+/// Return the choices of the first positional; none if it has no choices.
 std::vector<std::string> firstChoices(const cli::CommandInfo& verb)
 {
     return verb.positionals.empty() ? std::vector<std::string>() : verb.positionals.front().choices;
 }
 
-/// Inside of a zsh specification: what has a meaning there is taken out of it.
+/// Escape the special characters of a zsh specification.
 std::string zshText(const std::string& text)
 {
     std::string plain;

@@ -1,4 +1,4 @@
-// hearth completion: what a shell needs to complete a line that starts with hearth.
+// hearth completion: generates scripts that complete command lines of hearth in a shell.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,7 +9,8 @@
 namespace hearth::command
 {
 
-/// A script for bash, zsh or fish: verbs, options, the words that an option may have, and files where it has none.
+/// Return a script for bash, zsh or fish. It completes verbs, options, the choices of an option, and file
+/// names for options without choices.
 std::string bashCompletion(const cli::CommandInfo& hearth);
 std::string zshCompletion(const cli::CommandInfo& hearth);
 std::string fishCompletion(const cli::CommandInfo& hearth);

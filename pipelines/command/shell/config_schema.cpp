@@ -87,7 +87,7 @@ Json schemaOf(const Setting& setting)
     return json;
 }
 
-/// The groups of settings as tables: of a profile, or of a rule, which has those of sources only.
+/// Return the groups of settings as tables: of a profile, or of a rule, which has only settings of sources.
 Json groupsOf(bool of_rule)
 {
     Json groups = Json::object();

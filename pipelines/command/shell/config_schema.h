@@ -1,4 +1,4 @@
-// The JSON Schema of hearth.toml, from the table of settings: editors complete and check by it.
+// Generates the JSON Schema of hearth.toml from the table of settings, for completion and checks in editors.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 

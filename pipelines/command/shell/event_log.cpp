@@ -14,7 +14,7 @@ namespace
 
 constexpr const char* kSchema = "hearth.events/1";
 
-/// On one line.
+/// Write JSON on one line.
 std::string lineOf(const Json& json)
 {
     return json.dump();

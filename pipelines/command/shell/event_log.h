@@ -1,4 +1,4 @@
-// hearth cook --events: what happens while a cook runs, for programs that watch it.
+// hearth cook --events: writes the events of a running cook, for programs that watch it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,9 +12,10 @@
 namespace hearth::command
 {
 
-/// A JSON object a line, each written at once, schema "hearth.events/1": "event" is "cook" (schema, number of actions), "start"
-/// (cooker, subject, why), "end" (cooker, subject, state: "cooked", "kept" or "failed", seconds, bytes), "error" (message)
-/// or "done" (exit, seconds). What cannot be written is lost: a watcher that has gone ends no cook.
+/// Log of a JSON object per line, each written at once, schema "hearth.events/1": "event" is "cook" (schema,
+/// number of actions), "start" (cooker, subject, why), "end" (cooker, subject, state: "cooked", "kept" or
+/// "failed", seconds, bytes), "error" (message) or "done" (exit, seconds). Write errors are ignored: a cook
+/// does not end because its watcher has gone.
 class EventLog
 {
 public:

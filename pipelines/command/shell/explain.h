@@ -1,4 +1,4 @@
-// hearth explain: what an issue's number means.
+// hearth explain: describes an issue by its number.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,11 +10,12 @@
 namespace hearth::command
 {
 
-/// `code` as messages write it ("E1203", "W1400") or the bare number; empty: the list of all.
-/// errors: usage where there is no such issue.
+/// Return the description of an issue. `code` is written as in messages ("E1203", "W1400"), or the bare
+/// number; empty: list all.
+/// errors: usage if there is no such issue.
 Result<std::string> explain(std::string_view code);
 
-/// The exit codes of all programs, as a table for the help.
+/// Return the exit codes of all programs, as a table for the help.
 std::string exitCodeTable();
 
 } // namespace hearth::command

@@ -1,4 +1,5 @@
-// Macros: man(7). A line that starts with . or ' is a macro, and a backslash an escape: what is text must not be.
+// Writes manual pages with the macros of man(7). A line that starts with . or ' is a macro and a backslash
+// starts an escape, so text has to be escaped.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/shell/manual.h"
 
@@ -19,7 +20,7 @@ namespace
 using profiles::Kind;
 using profiles::Setting;
 
-/// Text that is printed as it is.
+/// Escape text, so that it is printed as it is.
 std::string plain(std::string_view text)
 {
     std::string roff;
@@ -51,7 +52,7 @@ std::string italic(std::string_view text)
     return "\\fI" + plain(text) + "\\fR";
 }
 
-/// Lines that are not filled.
+/// Format lines that are not filled (wrapped again).
 std::string block(const std::string& text)
 {
     std::string roff = ".nf\n";
@@ -66,7 +67,7 @@ std::string head(const std::string& name, int section, const std::string& what)
     std::string title = name;
     std::transform(title.begin(), title.end(), title.begin(),
                    [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; });
-    // no date: the page of a release does not change with the day of its build
+    // no date, so that the page of a release does not depend on the day of its build
     return fmt::format(".TH {} {} \"\" \"hearth " HEARTH_VERSION "\" \"Hearth\"\n.SH NAME\n{} \\- {}\n",
                        title, section, plain(name), plain(what));
 }

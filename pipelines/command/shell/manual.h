@@ -1,4 +1,4 @@
-// hearth man: manual pages, from the table of options and that of settings.
+// hearth man: generates manual pages from the tables of options and settings.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -18,7 +18,7 @@ struct ManualPage
     std::string text; ///< as man(7) macros
 };
 
-/// hearth(1), a page for each verb, hearth.toml(5).
+/// Return hearth(1), a page for each verb, and hearth.toml(5).
 std::vector<ManualPage> manualPages(const cli::CommandInfo& hearth);
 
 } // namespace hearth::command

@@ -30,7 +30,7 @@ size_t& toldCount()
     return count;
 }
 
-/// Where "error: " or "warning: " stands, at the start or behind ": "; npos: nowhere.
+/// Return the position of "error: " or "warning: ", at the start or behind ": "; npos: there is none.
 size_t severityAt(std::string_view line, std::string_view severity)
 {
     if (line.starts_with(severity))
@@ -101,7 +101,7 @@ MessageParts partsOf(std::string_view line)
         parts.file = place.substr(0, bar);
         parts.where = bar == std::string_view::npos ? "" : place.substr(bar + 1);
     }
-    // " [E1203]" is the last of its kind: a text may have brackets
+    // the code " [E1203]" is the last of its kind: the text may have brackets, too
     const size_t open = rest.rfind(" [");
     const size_t close = open == std::string_view::npos ? open : rest.find(']', open);
     if (close != std::string_view::npos && isCode(rest.substr(open + 2, close - open - 2)))

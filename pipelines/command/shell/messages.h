@@ -1,4 +1,4 @@
-// Messages on stderr: as lines for people, or as JSON for programs.
+// Prints messages on stderr: as lines for people, or as JSON for programs.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,14 +13,15 @@ namespace hearth::command
 enum class MessageForm : uint8_t
 {
     text,
-    json, ///< an object a line
+    json, ///< an object per line
 };
 
-/// Of all that follows; a process has one stderr.
+/// Set the form of all later messages. It is global, because a process has one stderr.
 void setMessageForm(MessageForm form);
 MessageForm messageForm();
 
-/// The parts of "file|where: error: text [E1203] hint: what to do"; of a line in no such form, "text" alone.
+/// Parts of "file|where: error: text [E1203] hint: what to do". A line of another form is all `text`, with
+/// severity "note".
 struct MessageParts
 {
     std::string severity; ///< "error", "warning", or "note"
@@ -30,12 +31,13 @@ struct MessageParts
     std::string code; ///< "E1203"
     std::string hint;
 };
+/// Split a line into its parts.
 MessageParts partsOf(std::string_view line);
 
-/// Print a line, its "error:" or "warning:" in colour where stderr has some; or as JSON.
+/// Print a line, with its "error:" or "warning:" in colour if stderr shows colours; or as JSON.
 void tell(const std::string& line);
 
-/// How many lines tell() has printed.
+/// Return the number of lines that tell() has printed.
 size_t countTold();
 
 } // namespace hearth::command

@@ -14,11 +14,11 @@ namespace hearth::command
 namespace
 {
 
-// The eye sees no more, and a terminal far away has better things to do.
+// Least time between two drawings: more often is not visible, and loads remote terminals.
 constexpr std::chrono::milliseconds kBetweenDrawings{50};
 constexpr size_t kBarWidth = 24;
 
-/// stderr is one.
+/// Return the state of the bar: global, because a process has one stderr.
 bool& isBarShown()
 {
     static bool shown = false;
@@ -55,7 +55,7 @@ std::string barText(size_t ended, size_t count, const std::string& what, size_t 
     const size_t filled = count == 0 ? kBarWidth : kBarWidth * ended / count;
     std::string text = fmt::format("[{:<{}}] {:>{}}/{}  ", std::string(filled, '#'), kBarWidth, ended,
                                    std::to_string(count).size(), count);
-    // the last column stays free: some terminals go to the next line there
+    // the last column stays free, because some terminals wrap there
     const size_t room = columns > text.size() + 1 ? columns - text.size() - 1 : 0;
     text += what.substr(0, room);
     return text.substr(0, columns > 0 ? columns - 1 : 0);

@@ -1,4 +1,4 @@
-// How far a cook is, on stderr: a bar at the bottom of a terminal, or lines (progress_lines.h).
+// Shows the progress of a cook on stderr: a bar at the bottom of a terminal, or lines (progress_lines.h).
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,26 +13,28 @@ namespace hearth::command
 enum class ProgressStyle : uint8_t
 {
     none,
-    plain, ///< lines, as ProgressLines has them
-    bar,   ///< one line that changes
+    plain, ///< lines, see ProgressLines
+    bar,   ///< one line that is drawn again and again
 };
 
-/// "auto": a bar where stderr is a terminal that can move its cursor, else plain lines. "bar", "plain", "none".
+/// Parse "auto", "bar", "plain" or "none". "auto" is a bar if stderr is a terminal that can move its cursor,
+/// else plain lines.
 ProgressStyle progressStyle(const std::string& name);
 
-/// The bar: how many of how many actions have ended, and which was last at work. Nothing for the other styles.
+/// Progress bar: the number of ended actions of all, and the action that started last. Draws nothing in other
+/// styles.
 class ProgressBar
 {
 public:
     ProgressBar(ProgressStyle style, size_t count);
-    /// Takes the bar away.
+    /// Erases the bar.
     ~ProgressBar();
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
 
     void started(const std::string& what);
     void ended();
-    /// How many have ended, where that is counted elsewhere.
+    /// Set the number of ended actions, if the caller counts them.
     void show(size_t ended, const std::string& what);
 
 private:
@@ -45,10 +47,10 @@ private:
     std::chrono::steady_clock::time_point last_drawn_{};
 };
 
-/// Take a bar that is shown away before a message is printed; it comes back with the next step.
+/// Erase the bar before a message is printed. The next step draws it again.
 void clearBar();
 
-/// "[######    ]  31/812  clusters rock.glb", cut to `columns`.
+/// Return "[######    ]  31/812  clusters rock.glb", cut to `columns`.
 std::string barText(size_t ended, size_t count, const std::string& what, size_t columns);
 
 } // namespace hearth::command

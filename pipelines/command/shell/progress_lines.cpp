@@ -10,7 +10,7 @@ namespace hearth::command
 namespace
 {
 
-// More names of what runs would not fit on a line: batches of small actions are long.
+// Most names of running actions on a line. More would not fit, because batches of small actions are long.
 constexpr size_t kMaxNames = 3;
 
 std::string nameOf(const graph::Action& action)
@@ -80,7 +80,7 @@ void ProgressLines::ended(const graph::Action& action, const graph::ActionOutcom
         ++source.cooked;
     }
     source.has_failed |= outcome.ending == graph::Ending::failed;
-    // an action ends again where the cache has lost its result: its source has had its line then
+    // an action ends a second time if the cache has lost its result: its source has been printed then
     const bool is_last = source.open.erase(action.outputs.front()) == 1 && source.open.empty();
     if (is_last && source.cooked > 0 && !source.has_failed && action.source != pack_)
         printSource(source, action.subject);

@@ -1,4 +1,5 @@
-// Progress of a cook for logs: a line when a source is done, and one every ten seconds of how far it is.
+// Prints the progress of a cook for logs: a line for each finished source, and a line on overall progress
+// every ten seconds.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -18,18 +19,18 @@ namespace hearth::command
 using PrintLine = std::function<void(const std::string& line)>;
 using MonotonicClock = std::function<std::chrono::steady_clock::time_point()>;
 
-/// Between two lines that say how far something is.
+/// Time between two lines of overall progress.
 inline constexpr std::chrono::seconds kBetweenProgressLines{10};
 
-/// Says when the next line is due.
+/// Timer that says when the next line is due.
 class LineTimer
 {
 public:
     explicit LineTimer(MonotonicClock clock = std::chrono::steady_clock::now);
 
-    /// Since the timer was made.
+    /// Return the seconds since construction.
     double elapsedSeconds() const;
-    /// Whether kBetweenProgressLines have gone by since it last said so, or since it was made.
+    /// True if kBetweenProgressLines have passed since it last returned true, or since construction.
     bool isDue();
 
 private:
@@ -38,15 +39,16 @@ private:
     std::chrono::steady_clock::time_point last_;
 };
 
+/// Printer of a cook's progress as lines.
 class ProgressLines
 {
 public:
-    /// graph  that is run; only read here
-    /// print  gets each line, without its end
+    /// graph  graph that is run; read by the constructor only
+    /// print  receives each line, without its line break
     ProgressLines(const graph::Graph& graph, PrintLine print,
                   MonotonicClock clock = std::chrono::steady_clock::now);
 
-    // As the events of graph::Executor.
+    // Handlers of the events of graph::Executor.
     void starting(const graph::Action& action);
     void ended(const graph::Action& action, const graph::ActionOutcome& outcome);
     void waiting();
@@ -55,8 +57,8 @@ private:
     struct Source
     {
         std::set<std::string> open; ///< first outputs of actions that have not ended
-        double seconds = 0;         ///< of the cookers that ran
-        size_t cooked = 0;          ///< how many those are
+        double seconds = 0;         ///< of the cookers that ran, in total
+        size_t cooked = 0;          ///< number of cookers that ran
         bool has_failed = false;
     };
 
@@ -66,7 +68,7 @@ private:
     PrintLine print_;
     LineTimer timer_;
     size_t action_count_;
-    size_t pack_; ///< Action::source of what belongs to no source
+    size_t pack_; ///< Action::source of actions that belong to no source
     std::map<size_t, Source> sources_;
     std::vector<std::string> running_; ///< "clusters rock.glb", in the order of their starts
 };

@@ -1,4 +1,4 @@
-// What the user sees on stderr while a command works.
+// Style of messages on stderr: verbosity, colours, readable sizes.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,8 +12,8 @@ namespace hearth::command
 enum class Verbosity
 {
     quiet,  ///< errors only
-    normal, ///< and warnings, and a line for each stage
-    all,    ///< and the command line of each stage
+    normal, ///< also warnings, and a line for each stage
+    all,    ///< also the command line of each stage
 };
 
 enum class ColorWish
@@ -23,17 +23,17 @@ enum class ColorWish
     never,
 };
 
-/// As the settings say, before anything is printed; automatic where nobody has said it.
+/// Set the user's choice, before anything is printed; automatic if there is none.
 void setColor(ColorWish wish);
 
-/// Whether stderr gets colours. Where that is automatic: NO_COLOR says no, CLICOLOR_FORCE says yes; else where it is a terminal,
-/// unless TERM=dumb or CI say no.
+/// True if stderr gets colours. If the choice is automatic, NO_COLOR disables them and CLICOLOR_FORCE enables
+/// them; else they are used if stderr is a terminal, unless TERM=dumb or CI is set.
 bool colorOnStderr();
 
-/// `text` faint, where stderr shows colours.
+/// Return `text` in faint style if stderr shows colours.
 std::string faint(std::string_view text);
 
-/// "12.3 MiB", "310 B".
+/// Format a number of bytes: "12.3 MiB", "310 B".
 std::string readableSize(uint64_t bytes);
 
 } // namespace hearth::command

@@ -18,7 +18,7 @@ std::string describe(const std::string& kind, const std::string& word, const std
            (nearest.empty() ? std::string() : ": did you mean '" + nearest + "'?");
 }
 
-/// returns  null where there is none
+/// Find an option by name; null if there is none.
 const cli::OptionInfo* findOption(const cli::CommandInfo& command, const std::string& name)
 {
     const auto has_name = [&](const cli::OptionInfo& option)
@@ -52,7 +52,7 @@ std::string unknownVerb(const cli::CommandInfo& command, const std::string& word
 std::string unknownWord(const cli::CommandInfo& hearth, const std::vector<std::string>& words)
 {
     const cli::CommandInfo* verb = &hearth;
-    bool is_value = false; // of an option that stands before the verb
+    bool is_value = false; // the word is the value of an option before the verb
     for (const std::string& word : words)
     {
         if (std::exchange(is_value, false))
@@ -63,7 +63,7 @@ std::string unknownWord(const cli::CommandInfo& hearth, const std::vector<std::s
         if (is_option)
         {
             const std::string name = word.substr(0, word.find('='));
-            // -j4 and -qv are short options with more in the same word
+            // -j4 and -qv are short options with a value or more options in the same word
             const std::string shortened = name[1] == '-' ? name : name.substr(0, 2);
             const cli::OptionInfo* common = findOption(hearth, shortened);
             if (common == nullptr && findOption(*verb, shortened) == nullptr)
@@ -71,7 +71,7 @@ std::string unknownWord(const cli::CommandInfo& hearth, const std::vector<std::s
             is_value = verb == &hearth && !common->value.empty() && word == shortened;
             continue;
         }
-        // a verb may have verbs of its own
+        // verbs may have subcommands
         if (verb->subcommands.empty())
             continue;
         const auto chosen = std::find_if(verb->subcommands.begin(), verb->subcommands.end(),

@@ -1,4 +1,4 @@
-// Corrections for mistyped words of the command line.
+// Suggests corrections for mistyped words of the command line.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,8 +10,8 @@
 namespace hearth::command
 {
 
-/// returns  a message about the first of `words` that no verb or option is called, with the nearest that is;
-///          empty where all are known
+/// Find the first of `words` that is no known verb or option.
+/// returns  a message about it, with the nearest known word; empty if all are known
 std::string unknownWord(const cli::CommandInfo& hearth, const std::vector<std::string>& words);
 
 } // namespace hearth::command

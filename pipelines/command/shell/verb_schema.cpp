@@ -10,7 +10,7 @@ namespace hearth::command
 namespace
 {
 
-constexpr const char* kConfig = "config"; // made from the table of settings
+constexpr const char* kConfig = "config"; // generated from the table of settings
 
 std::vector<std::string> names()
 {

@@ -1,4 +1,4 @@
-// What verbs share: how their results and errors are told, and options that several of them have.
+// Helpers of all verbs: print results and errors, and add options that several verbs have.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,23 +12,24 @@
 namespace hearth::command
 {
 
-/// Tell of an error on stderr.
+/// Print an error on stderr.
 /// returns    its exit code
 int fail(const Error& error);
 
 int usageError(const std::string& what);
 
-/// "a, b, c", where the separator is ", ".
+/// Join words: "a, b, c" with the separator ", ".
 std::string joined(const std::vector<std::string>& words, std::string_view separator);
 
-/// Results go to stdout; a pipe that does not take them is an error like any other.
+/// Print a result to stdout. A pipe that does not take it is an error like any other.
+/// returns    the exit code
 int printResult(const std::string& text);
 int printResult(const Result<std::string>& result);
 
-/// --format text|json
+/// Add the option --format text|json.
 void addFormat(cli::CommandLine& verb, std::string& format);
 
-/// For Option::check: what is wrong with a size such as 512M, empty where nothing is.
+/// Return the fault of a size such as 512M, empty if it is valid; for Option::check.
 std::string sizeFault(const std::string& text);
 
 } // namespace hearth::command

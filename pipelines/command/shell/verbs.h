@@ -1,4 +1,5 @@
-// The verbs of hearth: each adds itself to the command line, and hands over its work when it is chosen.
+// Verbs (subcommands) of hearth. Each adds itself to the command line, and sets the work that is done if it
+// is chosen.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,7 +10,7 @@
 namespace hearth::command
 {
 
-/// What the chosen verb does, with the options that the command line has given it; returns the exit code.
+/// Action of the chosen verb, with its parsed options; returns the exit code.
 using Work = std::function<int()>;
 
 void addCook(cli::CommandLine& app, Work& run);

@@ -28,7 +28,7 @@ Error cannotWatch(const std::string& path)
     return {Issue::read_failed, path, "", std::string("cannot be watched: ") + std::strerror(errno)};
 }
 
-/// SIGINT, SIGTERM and SIGHUP as a file, while it lives.
+/// SIGINT, SIGTERM and SIGHUP as a file descriptor, while the object lives.
 class Signals
 {
 public:
@@ -93,7 +93,7 @@ namespace
 
 using Change = FileWatch::Change;
 
-/// What of two to tell of: the first, but a file rather than what else is in a folder.
+/// Choose which of two changes to report: the first, but a watched file before other files of a folder.
 std::optional<Change> firstOf(std::optional<Change> first, std::optional<Change> second)
 {
     return !first || (second && first->is_of_folder && !second->is_of_folder) ? std::move(second)
@@ -102,7 +102,8 @@ std::optional<Change> firstOf(std::optional<Change> first, std::optional<Change>
 
 } // namespace
 
-/// before  the watches of folders until now
+/// Watch the folder of a path.
+/// before  watches of folders until now
 Status FileWatch::add(const fs::path& path, const std::map<std::string, int>& before,
                       fs::file_time_type since)
 {
@@ -141,13 +142,13 @@ Status FileWatch::watch(const std::vector<std::string>& paths, fs::file_time_typ
         if (!paths_.insert(absolute.string()).second)
             continue;
         HEARTH_TRY(add(absolute, before, since));
-        // by way of a link the file itself lies elsewhere
+        // behind a symbolic link the file itself lies elsewhere
         if (const fs::path real = fs::canonical(absolute, error); !error && real != absolute)
             HEARTH_TRY(add(real, before, since));
     }
     for (const std::string& folder : folders)
     {
-        // as if of a file in it: where the folder is not there yet, that is waited for
+        // watched like a file in it: if the folder is absent, its creation is waited for
         std::error_code error;
         const fs::path absolute = fs::absolute(folder, error).lexically_normal() / "";
         HEARTH_TRY(add(absolute, before, fs::file_time_type::max()));
@@ -161,7 +162,8 @@ Status FileWatch::watch(const std::vector<std::string>& paths, fs::file_time_typ
     return success();
 }
 
-/// What has changed of the files, of all that has happened; nullopt where nothing of interest has.
+/// Read all pending events. Return the change to report; nullopt if no event concerns the watched files and
+/// folders.
 std::optional<FileWatch::Change> FileWatch::takeEvents()
 {
     std::optional<Change> changed;

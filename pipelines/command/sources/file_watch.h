@@ -1,4 +1,4 @@
-// Waits for changes of files, by inotify on the folders that they lie in.
+// Waits for changes of files, with inotify on their folders.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -14,20 +14,21 @@
 namespace hearth::command
 {
 
-/// Folders are watched, not files: an editor that saves puts another file in the place of the old one, and a file that
-/// is not there yet can be waited for. Where its folder is not there either, the nearest above that is.
+/// Watch of files through their folders: an editor saves by replacing a file, and a file that does not exist
+/// yet can be waited for. If its folder does not exist either, the nearest existing folder above is watched.
 class FileWatch
 {
 public:
-    /// errors: read_failed, where the system has no more watches to give
+    /// errors: read_failed if the system has no more watches
     static Result<FileWatch> create();
     ~FileWatch();
     FileWatch(FileWatch&& other) noexcept;
     FileWatch& operator=(FileWatch&&) = delete;
 
-    /// Watch these files from now on. What has changed in folders watched before is not missed; of folders that are new,
-    /// a file that was written after `since` counts as changed.
-    /// folders    in which any file that comes or goes is a change; what happened there before is not looked for
+    /// Watch these files from now on. Changes in folders that were watched before are not missed. In new
+    /// folders, a file that was written at `since` or later counts as changed.
+    /// folders    folders in which any file that appears or vanishes is a change; earlier changes there are
+    ///            ignored
     /// errors: read_failed
     Status watch(const std::vector<std::string>& paths, std::filesystem::file_time_type since,
                  const std::vector<std::string>& folders = {});
@@ -36,14 +37,14 @@ public:
 
     struct Change
     {
-        std::string path; ///< of the first file that has changed
-        /// No file that is watched has changed, but one has come or gone in this folder.
+        std::string path; ///< first changed file, or the folder
+        /// No watched file has changed, but a file has appeared or vanished in this folder.
         bool is_of_folder = false;
     };
 
-    /// Wait until one of them changes, comes or goes, and then until nothing has for a tenth of a second: who saves
-    /// several files is not interrupted.
-    /// returns    nullopt where SIGINT, SIGTERM or SIGHUP came instead
+    /// Wait until one of them changes, appears or vanishes, and then until nothing has changed for a tenth of
+    /// a second: saving several files is one change.
+    /// returns    nullopt after SIGINT, SIGTERM or SIGHUP
     std::optional<Change> wait();
 
 private:
@@ -55,10 +56,10 @@ private:
     int events_ = -1;
     std::set<std::string> paths_;
     std::map<std::string, int> watch_of_folder_;
-    /// By watch: name in its folder, and the path that it belongs to.
+    /// By watch: name in its folder, and the watched path that it belongs to.
     std::map<int, std::map<std::string, std::string>> names_;
-    std::map<int, std::string> folder_of_watch_; ///< where any file counts
-    std::optional<Change> changed_before_;       ///< while nobody waited
+    std::map<int, std::string> folder_of_watch_; ///< folders in which any file counts
+    std::optional<Change> changed_before_;       ///< change that happened before wait()
 };
 
 } // namespace hearth::command

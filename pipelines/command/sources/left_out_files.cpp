@@ -35,7 +35,7 @@ bool hasEnding(const std::string& path, const std::array<std::string_view, kCoun
     return std::find(endings.begin(), endings.end(), ending) != endings.end();
 }
 
-/// One path for a file, however it is typed: its name in the folder as the disk has that.
+/// Canonical paths of files, whatever their spelling: the real folder, and the file's name in it.
 class RealPaths
 {
 public:
@@ -55,7 +55,7 @@ private:
     std::map<std::string, std::string> real_folder_; ///< by folder as typed
 };
 
-/// Files that are left out for one reason.
+/// Files that are left out for the same reason.
 struct Group
 {
     const char* of_one;
@@ -63,7 +63,7 @@ struct Group
     std::vector<std::string> files;
 };
 
-/// Returns the index of the file's group: textures, files that somebody could use, others.
+/// Return the index of the file's group: textures, other usable files, others.
 size_t groupOf(const std::string& file)
 {
     if (hasEnding(file, kImages))

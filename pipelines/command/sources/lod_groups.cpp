@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 using Words = std::vector<std::string>;
 
-/// One spelling for a file, however it was typed.
+/// Return the normal form of a path, however it was typed.
 std::string normalPath(const std::string& file)
 {
     return fs::path(file).lexically_normal().string();
@@ -33,25 +33,25 @@ std::string wordOf(size_t level, const std::string& file)
     return fmt::format("{}={}", level, file);
 }
 
-/// The levels that a setting lists for a source.
+/// Levels that a setting lists for a source.
 struct ListedLevels
 {
     Words files;        ///< normal paths, finest first
     std::string origin; ///< of the setting
 };
 
-/// The level that a file's name says.
+/// Level that a file's name gives.
 struct NamedLevel
 {
     std::string file; ///< normal path
     uint32_t level = 0;
 };
 
-/// Files of one folder whose names differ in the level alone.
+/// Files of one folder whose names differ only in the level.
 struct NamedGroup
 {
     std::map<uint32_t, std::string> file_of_level; ///< normal paths
-    std::vector<NamedLevel> repeated;              ///< levels that are there already
+    std::vector<NamedLevel> repeated;              ///< further files of a level that has one
 };
 
 class Grouper
@@ -94,7 +94,8 @@ private:
         }
     }
 
-    /// A list may be that of a rule which matches the levels too: whatever another file lists is a level.
+    /// Take the LODs that settings list. A rule may match the levels as well as their source, so a file that
+    /// another file lists is a level, whatever it lists itself.
     Status takeListed()
     {
         for (const auto& [file, listed] : listed_)
@@ -119,7 +120,7 @@ private:
         return success();
     }
 
-    /// Only of files that no setting speaks of.
+    /// Take the LODs that names give, only of files without a setting.
     void takeNamed()
     {
         std::map<std::pair<std::string, std::string>, NamedGroup> group_of_stem;
@@ -170,9 +171,9 @@ private:
 
     const std::vector<std::string>& files_;
     const profiles::Configuration& configuration_;
-    std::map<std::string, ListedLevels> listed_; ///< by file, as all paths below
+    std::map<std::string, ListedLevels> listed_; ///< by file; all paths here and below are normal
     std::map<std::string, Words> lods_of_file_;
-    std::set<std::string> taken_; ///< files that are no sources
+    std::set<std::string> taken_; ///< files that are levels, not sources
     LodGroups groups_;
 };
 

@@ -13,10 +13,10 @@ namespace hearth::command
 namespace
 {
 
-// A chair and a house differ by less, metres and centimetres by more.
+// Factor by which an outlier differs. A chair and a house differ by less, metres and centimetres by more.
 constexpr double kOutlierFactor = 20;
 
-// Two that differ do not say which of them is wrong.
+// With two sources, nothing tells which of them is wrong.
 constexpr size_t kMinSources = 3;
 
 std::string warningOf(const std::string& source, double side, double median, size_t count)

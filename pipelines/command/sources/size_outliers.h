@@ -1,4 +1,5 @@
-// Warnings about sources of another scale than the rest of their cook: exported in centimetres, scanned in millimetres.
+// Finds sources whose scale differs from the rest of their cook: exported in centimetres, scanned in
+// millimetres.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,13 +12,13 @@ namespace hearth::command
 struct SizeOutlier
 {
     size_t source = 0;
-    std::string warning; ///< line, W1410
+    std::string warning; ///< message line, W1410
 };
 
-/// Returns the sources whose largest side is 20 times that of the median source or more, or a 20th of it or less, in their
-/// order. Sources that draw nothing do not count; of fewer than three none is returned.
-/// pack     its assets are the sources; one that cannot be read has no outliers
-/// sources  as messages call them
+/// Return the sources whose largest side is at least 20 times that of the median source, or at most a 20th of
+/// it, in their order. Sources that draw nothing do not count; fewer than three sources have no outliers.
+/// pack     its assets are the sources; a pack that cannot be read has no outliers
+/// sources  names of the sources, for messages
 std::vector<SizeOutlier> findSizeOutliers(const std::string& pack, const std::vector<std::string>& sources);
 
 } // namespace hearth::command

@@ -18,14 +18,14 @@ namespace fs = std::filesystem;
 
 constexpr std::array<std::string_view, 7> kModels{".gltf", ".glb", ".obj", ".ply", ".stl", ".off", ".drc"};
 
-/// Looks at the folders and files below `folder` that are not hidden, in the order of the disk.
+/// Call `look` for the folders and files below `folder` that are not hidden, in the order of the disk.
 Status visit(const fs::path& folder, const std::function<void(const fs::directory_entry&)>& look)
 {
     std::error_code error;
     fs::recursive_directory_iterator entry(folder, error);
     for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error))
     {
-        std::error_code ignored; // of a link that leads nowhere
+        std::error_code ignored; // a dangling link
         if (!entry->path().filename().string().starts_with('.'))
             look(*entry);
         else if (entry->is_directory(ignored))
@@ -34,7 +34,7 @@ Status visit(const fs::path& folder, const std::function<void(const fs::director
     return error ? Status(Error{Issue::input_missing, folder.string(), "", error.message()}) : success();
 }
 
-/// The files below `folder` that `takes` wants, sorted; nothing where the folder cannot be read.
+/// Return the files below `folder` that the filter lets pass, sorted; an error if the folder cannot be read.
 Result<std::vector<std::string>> filesBelow(const fs::path& folder,
                                             const std::function<bool(const fs::path&)>& takes)
 {
@@ -65,7 +65,8 @@ WordKind kindOf(const std::string& word)
     return profiles::isPattern(word) && !fs::exists(word, error) ? WordKind::pattern : WordKind::file;
 }
 
-/// Where the search for a pattern's files starts: the folders before the first * or ?, with a slash at their end.
+/// Return the folder where the search for a pattern's files starts: the folders before the first * or ?, with
+/// a slash at their end.
 std::string folderOfPattern(const std::string& pattern)
 {
     const size_t slash = pattern.rfind('/', pattern.find_first_of("*?"));
@@ -129,7 +130,7 @@ std::vector<std::string> foldersOf(const std::vector<std::string>& words)
         if (kind == WordKind::file)
             continue;
         folders.push_back(kind == WordKind::folder ? word : folderOfPattern(word));
-        // of what cannot be read sourcesOf() tells
+        // sourcesOf() reports folders that cannot be read
         (void)visit(folders.back(),
                     [&](const fs::directory_entry& entry)
                     {

@@ -1,4 +1,4 @@
-// What people type as sources: files, folders, patterns.
+// Expands the sources on a command line: files, folders, patterns.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,22 +10,26 @@
 namespace hearth::command
 {
 
-/// Whether the name's ending is that of a model: glTF, GLB, OBJ, PLY, STL, OFF or Draco.
+/// True if the name has the extension of a model: glTF, GLB, OBJ, PLY, STL, OFF or Draco.
 bool isModel(const std::string& path);
 
-/// The files that words stand for, in their order. A folder stands for all models in it and below, sorted by path: glTF, GLB,
-/// OBJ, PLY, STL, OFF and Draco files; images are what models refer to, and lie there too. A pattern ("props/**/*.glb"; it must
-/// be quoted, or the shell takes it) stands for the files that match, whatever their kind. Hidden files and folders are left out.
-/// Another word stands for itself, whether such a file is there or not. What a folder or pattern has is there once, however often it is found.
-/// errors: no_source where a folder or pattern has none, input_missing where a folder cannot be read.
+/// Return the files that words stand for, in their order.
+/// - A folder stands for all models in it and below, sorted by path: glTF, GLB, OBJ, PLY, STL, OFF and Draco
+///   files. Images do not count, because models refer to images that lie there, too.
+/// - A pattern ("props/**/*.glb", quoted so that the shell leaves it alone) stands for all matching files,
+///   whatever their type.
+/// - Any other word stands for itself, whether the file exists or not.
+/// Hidden files and folders are left out. A file in folders or patterns is listed once, however often it is
+/// found.
+/// errors: no_source if a folder or pattern has none, input_missing if a folder cannot be read.
 Result<std::vector<std::string>> sourcesOf(const std::vector<std::string>& words);
 
-/// The folders in which sourcesOf() has looked for files: another file in one of them may be another source. A pattern's
-/// may not be there yet.
+/// Return the folders that sourcesOf() searches: a new file in one of them may be another source. The folder
+/// of a pattern may not exist yet.
 std::vector<std::string> foldersOf(const std::vector<std::string>& words);
 
-/// Every file of the folders among the words, and below, models or not, each once and sorted by path; as
-/// sourcesOf() without hidden ones. A folder that cannot be read has none.
+/// Return every file in and below the folders among the words, models or not, each once and sorted by path,
+/// without hidden ones. A folder that cannot be read has none.
 std::vector<std::string> filesOfFolders(const std::vector<std::string>& words);
 
 } // namespace hearth::command

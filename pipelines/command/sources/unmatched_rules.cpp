@@ -17,7 +17,7 @@ namespace
 using profiles::Configuration;
 using profiles::Rule;
 
-/// Adds the paths in the project of those that lie there.
+/// Add the paths, relative to the project, of the sources that lie in it.
 void addPaths(const Configuration& configuration, const std::vector<std::string>& sources,
               std::vector<std::string>& paths)
 {
@@ -61,7 +61,7 @@ std::vector<Error> unmatchedRules(const Configuration& configuration, const std:
     removeMatched(rules, paths);
     if (rules.empty())
         return {};
-    // the folder is searched for the few cooks that need it
+    // search the folder only now, because few cooks need it
     if (const auto models = sourcesOf({configuration.projectFolder()}); models.ok())
         addPaths(configuration, *models, paths);
     removeMatched(rules, paths);

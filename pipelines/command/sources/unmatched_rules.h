@@ -11,11 +11,11 @@
 namespace hearth::command
 {
 
-/// A warning, rule_unmatched, for each rule that holds in the chosen profile and matches neither a source nor
-/// a model in the project's folder or below: it names the rule's place and the path that is nearest. A rule
-/// for models that are not cooked this time is fine.
-/// sources  as the user typed them; none: what the project has counts alone, and where it has no model
-///          nothing is amiss
+/// Return a warning, rule_unmatched, for each rule that applies in the chosen profile and matches neither a
+/// source nor a model in the project's folder or below. It names the rule's place and the nearest path. A
+/// rule for models that are not cooked this time is fine.
+/// sources  as the user typed them; none: only the models of the project count, and if it has none there is
+///          no warning
 std::vector<Error> unmatchedRules(const profiles::Configuration& configuration,
                                   const std::vector<std::string>& sources);
 

@@ -17,7 +17,7 @@ namespace
 // chunk AKEY is addressed by 32 bits; this is 4 GiB of keys
 constexpr size_t kMaxKeyFloats = size_t{1} << 30;
 
-// longer or shorter quaternions than this are worth a message
+// quaternions whose length differs more from 1 get a warning
 constexpr float kLengthRounding = 0.01f;
 
 struct Curve
@@ -26,7 +26,7 @@ struct Curve
     std::vector<float> values;
 };
 
-/// Where a curve lies in the part.
+/// Location of a curve in the part.
 struct CurvePlace
 {
     uint32_t first_time = 0;
@@ -40,7 +40,7 @@ bool allFinite(const std::vector<float>& values)
     return std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); });
 }
 
-/// Keep the keys whose time is greater than the one kept before. True where all were kept.
+/// Drop the keys whose time is not greater than the previous one. True if no key was dropped.
 bool keepIncreasing(Curve& curve)
 {
     const size_t stride = curve.values.size() / curve.times.size();
@@ -60,7 +60,7 @@ bool keepIncreasing(Curve& curve)
     return all;
 }
 
-/// Give the quaternions at first, first + step, ... length 1. True where none was far from it.
+/// Normalise the quaternions at first, first + step, ... True if none had a length far from 1.
 bool normalizeRotations(std::vector<float>& values, size_t first, size_t step)
 {
     bool near = true;
@@ -102,7 +102,8 @@ private:
     GltfTally& tally_;
     const GltfAnimation* animation_ = nullptr;
     std::string where_;
-    /// Channels that share a sampler share its keys: sampler, path, components.
+    /// Location of the keys by sampler, path and component count: channels that share a sampler share its
+    /// keys.
     std::map<std::tuple<uint32_t, AnimationPath, size_t>, CurvePlace> places_;
 };
 

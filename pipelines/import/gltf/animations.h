@@ -1,4 +1,4 @@
-// Animations: kept as keys, in the units and the order of the source.
+// Writes animations as keys, in the units and the order of the source.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -8,12 +8,12 @@
 namespace hearth::import
 {
 
-/// Write all animations to the part. Keys whose time does not grow are left out and rotations get length 1, both
-/// with a warning. errors: gltf_value, gltf_data, input_too_large.
+/// Write all animations to the part. Keys whose time does not increase are dropped and rotations are
+/// normalised, both with a warning. errors: gltf_value, gltf_data, input_too_large.
 Status writeAnimations(const GltfModel& model, GltfAccessors& accessors, const GltfContext& context,
                        GltfTally& tally);
 
-/// Morph targets of a mesh: the most that one of its primitives has.
+/// Return the number of morph targets of a mesh: the maximum over its primitives.
 size_t morphTargetCount(const GltfMesh& mesh);
 
 } // namespace hearth::import

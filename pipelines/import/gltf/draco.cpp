@@ -37,7 +37,7 @@ float normalizedInteger(int64_t value, draco::DataType type)
     }
 }
 
-/// All values of one attribute, or nothing where the decoded data do not hold them.
+/// Return all values of one attribute; nullopt if the decoded data do not hold them.
 std::optional<std::vector<float>> readAttribute(const draco::Mesh& mesh, const draco::PointAttribute& source,
                                                 const DracoAttribute& wanted)
 {
@@ -64,7 +64,7 @@ std::optional<std::vector<float>> readAttribute(const draco::Mesh& mesh, const d
     return values;
 }
 
-/// What is wrong, or nothing and `result` is filled.
+/// Decode into `result`. Return a description of the damage, or nullopt on success.
 std::optional<std::string> decode(std::span<const std::byte> compressed,
                                   std::span<const DracoAttribute> attributes, DracoMesh& result)
 {

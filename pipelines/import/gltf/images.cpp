@@ -21,8 +21,8 @@ namespace
 constexpr std::array<uint8_t, 4> kWhite{255, 255, 255, 255};
 constexpr std::array<uint8_t, 4> kFlatNormal{128, 128, 255, 255};
 
-/// For a colour what nobody overlooks; for data and normals the value that changes nothing, so that one thing
-/// alone looks wrong.
+/// Return a conspicuous placeholder for a colour, and a neutral value for data and normals, so that only one
+/// property of the surface looks wrong.
 DecodedImage placeholder(ImagePurpose purpose)
 {
     DecodedImage image = placeholderImage();

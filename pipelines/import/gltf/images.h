@@ -1,4 +1,4 @@
-// The images of a glTF file, as the part keeps them.
+// Writes the images of a glTF file to the part.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,7 +9,7 @@
 namespace hearth::import
 {
 
-/// What a texture's texels mean, which decides how they are filtered and compressed.
+/// Meaning of a texture's texels, which decides their filtering and compression.
 enum class ImagePurpose : uint32_t
 {
     color,  ///< sRGB
@@ -25,23 +25,25 @@ public:
     {
     }
 
-    /// Say that mips of the image must keep the area that passes an alpha test; before it is written.
+    /// Require that mips of the image keep the area that passes an alpha test; call before the image is
+    /// written.
     void setAlphaCutoff(uint32_t image, float cutoff) { alpha_cutoff_of_image_.emplace(image, cutoff); }
 
-    /// The part's image for this one (or for kNone, a texture without an image) and purpose; decoded and written when it
-    /// is first asked for. One that is missing or broken becomes a placeholder, with a warning.
-    /// user  what asks for it, for the warning: "material \"oak\""
+    /// Return the part's image for a source image (kNone: a texture without an image) and a purpose. The
+    /// image is decoded and written on first use; a missing or broken one becomes a placeholder, with a
+    /// warning.
+    /// user  the image's user, for the warning: "material \"oak\""
     Result<uint32_t> write(uint32_t image, ImagePurpose purpose, const std::string& where,
                            const std::string& user);
 
-    /// The texels, or nothing and a warning.
+    /// Return the texels, or nullopt and a warning.
     std::optional<DecodedImage> decode(uint32_t image, const std::string& where, const std::string& user);
 
-    /// Write an image that was made here.
+    /// Write an image that the importer has computed.
     Result<uint32_t> writeMade(const DecodedImage& image, ImagePurpose purpose, const std::string& name,
                                std::optional<float> alpha_cutoff);
 
-    /// Name the images that nothing asked for.
+    /// Report the images that nothing uses.
     void reportUnused() const;
 
 private:

@@ -1,4 +1,4 @@
-// EXT_mesh_gpu_instancing: many copies of a node's mesh.
+// Reads EXT_mesh_gpu_instancing: many copies of a node's mesh.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -8,8 +8,8 @@
 namespace hearth::import
 {
 
-/// node_from_copy for each copy of node `index`. errors: gltf_value (formats), gltf_data (counts that differ, numbers
-/// that are not finite), input_too_large.
+/// Return node_from_copy for each copy of node `index`. errors: gltf_value (formats), gltf_data (counts that
+/// differ, numbers that are not finite), input_too_large.
 Result<std::vector<Transform>> readInstancing(const GltfNode& node, uint32_t index, GltfAccessors& accessors,
                                               const GltfContext& context, GltfTally& tally);
 

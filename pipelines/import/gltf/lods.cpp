@@ -18,7 +18,8 @@ using formats::kNone;
 namespace
 {
 
-// More levels than anybody makes; each is a copy of its mesh, which a small file could ask for without end.
+// Maximum number of levels, more than anybody authors. Each is a copy of its mesh: a small file could ask for
+// any number.
 constexpr size_t kMaxLods = 64;
 
 std::string nodePointer(uint32_t node)
@@ -26,13 +27,13 @@ std::string nodePointer(uint32_t node)
     return fmt::format("/nodes/{}", node);
 }
 
-/// What stands below each node, from one walk over the tree: deep ones must not cost their depth at every question.
+/// Nodes below each node, from one walk over the tree: a query must not cost the depth of the node.
 class Subtrees
 {
 public:
     explicit Subtrees(const GltfModel& model) : spans_(model.nodes.size()), meshes_before_(1, 0)
     {
-        // a node is met twice: on the way down, and when all below it has been met
+        // a node is visited twice: on the way down, and after all nodes below it
         std::vector<std::pair<uint32_t, bool>> open;
         for (uint32_t node = 0; node < model.nodes.size(); ++node)
             if (model.nodes[node].parent == kNone)
@@ -54,7 +55,7 @@ public:
         }
     }
 
-    /// Whether `node` is `upper` or stands below it.
+    /// True if `node` is `upper` or below it.
     bool contains(uint32_t upper, uint32_t node) const
     {
         return spans_[upper].begin <= spans_[node].begin && spans_[node].begin < spans_[upper].end;
@@ -70,11 +71,11 @@ private:
     {
         size_t begin = 0, end = 0;
     };
-    std::vector<Span> spans_; ///< of each node with those below it, in the order of the walk
+    std::vector<Span> spans_; ///< for each node, with the nodes below it, in the order of the walk
     std::vector<size_t> meshes_before_;
 };
 
-/// Collects chains and what they hide.
+/// Collects chains of levels and the nodes that they hide.
 class LodFinder
 {
 public:
@@ -124,7 +125,7 @@ private:
         }
     }
 
-    /// What the extension MSFT_lod of a node lists.
+    /// Add the levels that the extension MSFT_lod of a node lists.
     void addListed(uint32_t node)
     {
         if (is_lod_[node])
@@ -142,7 +143,7 @@ private:
         addChain(node, nodes);
     }
 
-    /// The nodes become levels of `base`, as far as they can be. They are not drawn in any case.
+    /// Make the nodes levels of `base` if they are usable. They are not drawn in any case.
     void addChain(uint32_t base, const std::vector<uint32_t>& nodes)
     {
         is_base_[base] = true;
@@ -151,7 +152,7 @@ private:
         {
             is_lod_[node] = true;
             hide(node);
-            // a node outside of any scene stands in place of the finer one
+            // a node outside of all scenes takes the place of the finer one
             if (model_.nodes[node].parent == kNone && !in_scene_[node] && model_.nodes[base].parent != kNone)
                 lods_.world_from_node[node] =
                     lods_.world_from_node[model_.nodes[base].parent] * model_.nodes[node].parent_from_node;
@@ -188,7 +189,7 @@ private:
         return false;
     }
 
-    /// A mesh has one chain; nodes that share it share that.
+    /// Add a chain unless its mesh has one: nodes that share a mesh share its chain.
     void addUnlessThere(GltfLodChain chain)
     {
         if (chain.lods.empty())
@@ -212,7 +213,7 @@ private:
         return name || n.mesh == kNone ? name : tools::parseLodName(model_.meshes[n.mesh].name);
     }
 
-    /// Nodes side by side whose names differ in the level alone.
+    /// Find sibling nodes whose names differ only in the level number.
     void findByName()
     {
         std::map<std::pair<uint32_t, std::string>, std::map<uint32_t, uint32_t>> node_of_level;
@@ -244,7 +245,7 @@ private:
             }
     }
 
-    /// Meshes that no node has, called like one that is drawn.
+    /// Find meshes that no node has, named as levels of a mesh that is drawn.
     void findUnusedMeshes()
     {
         std::vector<uint32_t> node_of_mesh(model_.meshes.size(), kNone);

@@ -1,4 +1,4 @@
-// Levels of detail that the artist made: MSFT_lod, and nodes or meshes called X_LOD0, X_LOD1, ...
+// Finds authored levels of detail: MSFT_lod, and nodes or meshes called X_LOD0, X_LOD1, ...
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,14 +9,14 @@
 namespace hearth::import
 {
 
-/// One level of a mesh: another mesh, as it stands in a node.
+/// Level of detail of a mesh: another mesh, with the transform of a node.
 struct GltfLod
 {
     uint32_t mesh = formats::kNone;
-    uint32_t node = formats::kNone; ///< kNone: no node has it, it stands where the finer one does
+    uint32_t node = formats::kNone; ///< kNone: no node has it, and the finer mesh's node places it
 };
 
-/// A mesh with its levels, finest first, as the first node has it that names them.
+/// Mesh with its levels, finest first, from the first node that lists any.
 struct GltfLodChain
 {
     uint32_t mesh = formats::kNone;
@@ -27,14 +27,15 @@ struct GltfLodChain
 struct GltfLods
 {
     std::vector<GltfLodChain> chains; ///< by mesh, ascending
-    std::vector<bool> hidden;   ///< nodes that are levels of others, and what stands below them: not drawn
-    std::vector<bool> lod_only; ///< meshes that are drawn as levels of others alone
+    std::vector<bool> hidden;   ///< nodes that are levels of others, with all nodes below them: not drawn
+    std::vector<bool> lod_only; ///< meshes that are drawn only as levels of others
 
-    /// Where the level's vertices stand in the world: like the finer node, if it has no place of its own.
+    /// For each node, the world transform of its vertices as a level: relative to the finer node's parent if
+    /// the node is in no scene.
     std::vector<Transform> world_from_node;
 };
 
-/// Find all levels. What is not usable is left out, with a warning that names it.
+/// Find all levels. An unusable level is dropped, with a warning that names it.
 GltfLods findLods(const GltfModel& model, const GltfContext& context);
 
 } // namespace hearth::import

@@ -45,16 +45,17 @@ private:
     GltfImages images_;
     // the material that is being written
     std::string where_;
-    std::string called_; ///< for people: "material \"oak\""
+    std::string called_; ///< for messages: "material \"oak\""
 };
 
-/// The threshold for the texture's own alpha, which the shader multiplies with the factor's.
+/// Return the threshold for the texture's own alpha, which the shader multiplies with the factor's.
 float textureCutoff(float cutoff, float alpha_factor)
 {
     return cutoff / std::max(alpha_factor, 1e-3f);
 }
 
-/// Before any image is written, because a material further down may test an image of one further up.
+/// Register the alpha cutoffs before any image is written: a later material may test an image that an earlier
+/// one uses.
 void MaterialWriter::noteAlphaCutoffs()
 {
     for (const GltfMaterial& material : model_.materials)
@@ -97,7 +98,8 @@ Result<TextureRef> MaterialWriter::reference(const GltfTextureUse& use, ImagePur
     return referenceTo(image, use);
 }
 
-/// The factors alone where there is no texture, or where the two textures lie differently on the surface.
+/// Convert a material. Only the factors are converted without textures, or if the two textures have different
+/// UV mappings.
 Status MaterialWriter::convertSpecularGlossinessOf(const GltfMaterial& material, MaterialRecord& record)
 {
     const GltfSpecularGlossiness& source = *material.specular_glossiness;
@@ -182,7 +184,7 @@ Result<MaterialRecord> MaterialWriter::convert(const GltfMaterial& material)
     record.alpha_cutoff = material.alpha_cutoff;
     record.base_color = {material.base_color[0], material.base_color[1], material.base_color[2],
                          material.base_color[3]};
-    // a product of finite numbers that is not finite would poison the picture
+    // a product of finite numbers can be infinite, which would spoil the frame
     const auto emitted = [&](size_t i)
     {
         return std::clamp(material.emissive[i] * material.emissive_strength, 0.0f,

@@ -1,4 +1,4 @@
-// Materials and the images that they use.
+// Writes materials and the images that they use.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,8 +7,8 @@
 namespace hearth::import
 {
 
-/// Write all materials to the part, and the images that they use: one record for each image and purpose (colour,
-/// data, normals). Images that are missing or broken become a placeholder with a warning.
+/// Write all materials to the part, and the images that they use: one record for each image and purpose
+/// (colour, data, normals). Missing or broken images become a placeholder with a warning.
 /// errors: cannot_write.
 Status writeMaterials(const GltfModel& model, const GltfBuffers& buffers, const GltfContext& context);
 

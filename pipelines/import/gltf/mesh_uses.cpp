@@ -12,7 +12,7 @@ using formats::kNone;
 namespace
 {
 
-/// Roots first: the model has no cycles.
+/// Return the nodes in an order with parents before children; the model has no cycles.
 std::vector<uint32_t> parentsFirst(const GltfModel& model)
 {
     std::vector<uint32_t> order;
@@ -28,7 +28,7 @@ std::vector<uint32_t> parentsFirst(const GltfModel& model)
     return order;
 }
 
-/// Whether the transform takes every point of the box to one that floats have.
+/// True if the transform takes every point of the box to a position in the range of floats.
 bool fitsFloats(const Transform& t, const Box3& box)
 {
     for (const auto& row : t.m)

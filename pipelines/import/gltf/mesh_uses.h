@@ -1,4 +1,5 @@
-// Which meshes a part has: each mesh of the source with the skin that moves it, and whether a skin can.
+// Finds the meshes of a part: each mesh of the source with the skin that moves it, and checks if a skin can
+// move it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,7 +10,7 @@
 namespace hearth::import
 {
 
-/// A mesh of the part: one of the source, with the skin of the nodes that have it.
+/// Mesh of the part: a mesh of the source with the skin of its nodes.
 struct MeshUse
 {
     uint32_t mesh = formats::kNone; ///< of the source
@@ -18,34 +19,34 @@ struct MeshUse
 
 struct MeshUses
 {
-    std::vector<MeshUse>
-        uses; ///< the source's meshes, each as its first node has it; then those of other skins
-    std::vector<uint32_t> of_node; ///< the part's mesh of each node, or kNone
+    /// the source's meshes, each with the skin of its first node; then copies for other skins
+    std::vector<MeshUse> uses;
+    std::vector<uint32_t> of_node; ///< mesh of the part for each node, or kNone
 
-    /// The part's mesh that is mesh `mesh` of the source with this skin, or kNone.
+    /// Return the part's mesh for mesh `mesh` of the source with this skin, or kNone.
     uint32_t find(uint32_t mesh, uint32_t skin) const;
 };
 
-/// A mesh of the part has at most one skin: where nodes give a mesh several, or none beside one, the further ones get
-/// copies of it behind all others.
+/// Find the meshes of the part. A mesh of the part has at most one skin: if nodes give a mesh several skins,
+/// or a skin and none, each further one gets a copy of the mesh, after all others.
 MeshUses findMeshUses(const GltfModel& model);
 
-/// The transform of every node to the space of the scene.
+/// Return the transform of every node to scene space.
 std::vector<Transform> worldTransforms(const GltfModel& model);
 
 enum class SkinState
 {
     usable,
-    idle,     ///< it moves no vertex, or all its joints shrink the mesh to nothing in the rest pose
+    idle,     ///< moves no vertex, or all its joints shrink the mesh to nothing in the rest pose
     too_large ///< the rest pose does not fit 32-bit numbers
 };
 
-/// Whether a skin can carry a mesh, by the joints that it uses. `used` may not be longer than the skin (asserted).
+/// Classify a skin by the joints that the mesh uses. `used` may not be longer than the skin (asserted).
 SkinState skinState(const mesh::SourceMesh& mesh, const std::vector<bool>& used, const GltfSkin& skin,
                     const InverseBinds& inverse_binds, std::span<const Transform> world_from_node);
 
-/// Whether most of the joints that are used turn the mesh into its mirror image in the rest pose, which turns its
-/// triangles over. `used` may not be longer than the skin (asserted).
+/// True if most of the used joints mirror the mesh in the rest pose, which reverses the winding of its
+/// triangles. `used` may not be longer than the skin (asserted).
 bool skinMirrors(const std::vector<bool>& used, const GltfSkin& skin, const InverseBinds& inverse_binds,
                  std::span<const Transform> world_from_node);
 

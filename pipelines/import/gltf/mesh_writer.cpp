@@ -15,7 +15,7 @@ using formats::kNone;
 namespace
 {
 
-/// Joints and weights of a mesh that no skin moves have nothing to name.
+/// Remove joints and weights of a mesh that no skin moves: their indices refer to nothing.
 void dropInfluences(mesh::SourceMesh& mesh)
 {
     mesh.joint_sets.clear();
@@ -61,7 +61,7 @@ private:
     std::span<const InverseBinds> inverse_binds_;
     const GltfContext& context_;
     std::vector<Transform> world_from_node_;
-    std::vector<bool> counted_; ///< meshes that are in the counts: a level may be one of several meshes
+    std::vector<bool> counted_; ///< meshes that are in the counts: a mesh may be a level of several others
     std::vector<MeshSummary> summaries_;
 };
 
@@ -72,7 +72,7 @@ Result<MeshWriter::Read> MeshWriter::read(const MeshUse& use)
     if (use.skin != kNone)
     {
         summary.used_joints = usedJoints(mesh);
-        // a skin with too few joints is the scene's to refuse
+        // writeScene refuses a skin with too few joints
         if (const GltfSkin& skin = model_.skins[use.skin]; summary.used_joints.size() <= skin.joints.size())
         {
             const InverseBinds& inverse_binds = inverse_binds_[use.skin];
@@ -106,13 +106,13 @@ Status MeshWriter::writeMesh(const MeshUse& use)
     return context_.part.addMesh(read.mesh);
 }
 
-/// A level that no node has is moved by the skin of the finer one.
+/// Return the mesh of the part for a level. A level without a node is moved by the skin of the finer mesh.
 MeshUse MeshWriter::useOf(const GltfLodChain& chain, const GltfLod& lod) const
 {
     return {lod.mesh, model_.nodes[lod.node == kNone ? chain.node : lod.node].skin};
 }
 
-/// From the level's vertices to those of its mesh. Where joints move both, they are in the same bind pose.
+/// Return the transform from the level's vertices to its mesh. If joints move both, they share a bind pose.
 std::optional<Transform> MeshWriter::objectFromLod(const GltfLodChain& chain, const GltfLod& lod,
                                                    const MeshSummary& summary) const
 {
@@ -126,7 +126,7 @@ std::optional<Transform> MeshWriter::objectFromLod(const GltfLodChain& chain, co
     return object_from_world ? std::optional(*object_from_world * world_from_lod) : std::nullopt;
 }
 
-/// The name of the node, or of its mesh where that alone has a number, or the node has no name.
+/// Return the name of the node, or of its mesh if only that has a level number or the node has no name.
 tools::LodLabel MeshWriter::labelOf(const GltfLod& lod) const
 {
     const std::string& of_mesh = model_.meshes[lod.mesh].name;

@@ -9,9 +9,10 @@
 namespace hearth::import
 {
 
-/// Read and write the meshes of `uses` one by one, so that one at a time is in memory. A mesh that is drawn as a level of others
-/// alone is empty in its place; levels follow behind all meshes, moved to where the mesh stands that they are levels of.
-/// returns   what the scene must know of each mesh, without those levels
+/// Read and write the meshes of `uses` one by one, so that only one is in memory at a time. A mesh that is
+/// drawn only as a level of others is empty at its own index. Levels follow after all meshes, transformed
+/// into the space of the mesh that they belong to.
+/// returns   for each mesh, without these levels, the properties that the scene needs
 /// errors    those of GltfMeshReader::read and PartBuilder::addMesh
 Result<std::vector<MeshSummary>> writeMeshes(const GltfModel& model, const MeshUses& uses,
                                              const GltfLods& lods, GltfMeshReader& reader,

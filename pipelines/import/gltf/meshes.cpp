@@ -22,10 +22,10 @@ using formats::kNone;
 namespace
 {
 
-// glTF asks for flat normals where there are none: no edge is smooth
+// glTF asks for flat normals if there are none: no edge is smooth
 constexpr float kFlat = 0;
 
-// a triangle that all of them move still fits into a geometry page; models of faces have a hundred or two
+// a triangle that all targets move still fits into a geometry page; models of faces have a hundred or two
 constexpr size_t kMostMorphTargets = 1024;
 
 std::string_view modeName(PrimitiveMode mode)
@@ -33,7 +33,7 @@ std::string_view modeName(PrimitiveMode mode)
     return mode == PrimitiveMode::points ? "points" : "lines";
 }
 
-/// A target that moves nothing has its number too, which a part would lose with its last array.
+/// Keep the number of targets: a target that moves nothing would be lost in a part with its last array.
 void keepEmptyTargets(mesh::SourceMesh& mesh)
 {
     for (mesh::MorphTarget& target : mesh.morph_targets)
@@ -46,7 +46,7 @@ void keepEmptyTargets(mesh::SourceMesh& mesh)
 Result<mesh::SourceMesh> GltfMeshReader::read(uint32_t mesh_index)
 {
     const GltfMesh& mesh = model_.meshes[mesh_index];
-    // of the mesh before
+    // drop data of the previous mesh
     buffers_.forget();
     piece_of_key_.clear();
     pieces_.clear();
@@ -143,7 +143,7 @@ Result<std::vector<uint32_t>> GltfMeshReader::readIndices(const GltfPrimitive& p
 Status GltfMeshReader::addTriangles(const GltfPrimitive& primitive, const std::string& where, Piece& piece)
 {
     HEARTH_ASSIGN_OR_RETURN(std::vector<uint32_t> indices, readIndices(primitive, piece));
-    // what Draco decodes are triangles, whatever the mode says
+    // Draco decodes triangles, whatever the mode says
     const PrimitiveMode mode = piece.vertices.draco_indices ? PrimitiveMode::triangles : primitive.mode;
     const size_t index_count = indices.size();
     const std::vector<uint32_t> triangles = triangulated(std::move(indices), mode);
@@ -171,7 +171,7 @@ void GltfMeshReader::finishPiece(Piece& piece)
     finishTangents(piece);
 }
 
-/// Keep or make tangents for the first normal texture of the piece; without one they have no use.
+/// Keep or generate tangents for the first normal texture of the piece; remove them if there is none.
 void GltfMeshReader::finishTangents(Piece& piece)
 {
     mesh::SourceMesh& mesh = piece.vertices.mesh;

@@ -1,4 +1,4 @@
-// Meshes: the primitives of a glTF mesh become one SourceMesh.
+// Reads meshes: the primitives of a glTF mesh become one SourceMesh.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -16,14 +16,15 @@ public:
     {
     }
 
-    /// Triangles of all primitives, with one material each. Vertices that primitives share stay shared. Points and
-    /// lines are left out and named. Normals are generated flat where they are missing, as the specification asks;
-    /// tangents where a normal texture needs them. Neither skin nor morph targets move anything.
+    /// Read the triangles of all primitives, with one material each. Vertices that primitives share stay
+    /// shared. Points and lines are dropped and named in a warning. Missing normals are generated flat, as
+    /// the specification asks; tangents are generated where a normal texture needs them. Skins and morph
+    /// targets are not applied.
     /// errors: those of readVertices, gltf_value, gltf_data, index_out_of_range, input_too_large.
     Result<mesh::SourceMesh> read(uint32_t mesh_index);
 
 private:
-    /// Primitives that use the same vertices.
+    /// Primitives that share vertices.
     struct Piece
     {
         GltfVertices vertices;
@@ -45,7 +46,7 @@ private:
     GltfAccessors& accessors_;
     const GltfContext& context_;
     GltfTally& tally_;
-    std::map<PieceKey, uint32_t> piece_of_key_; ///< of the mesh that is being read
+    std::map<PieceKey, uint32_t> piece_of_key_; ///< for the mesh that is being read
     std::vector<Piece> pieces_;
 };
 

@@ -1,4 +1,4 @@
-// The reader of glTF 2.0 files: container, document, data, then the part, section by section.
+// Reads glTF 2.0 files: container, document, data, then the part, section by section.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/gltf/reader.h"
 
@@ -18,7 +18,7 @@ namespace hearth::import
 namespace
 {
 
-/// Vertices as glTF counts them: over the distinct POSITION accessors of all meshes.
+/// Return the vertex count as glTF counts: over the distinct POSITION accessors of all meshes.
 uint64_t sourceVertexCount(const GltfModel& model)
 {
     std::set<uint32_t> positions;

@@ -11,7 +11,7 @@
 namespace hearth::import
 {
 
-/// glTF 2.0 and GLB, with what they refer to in the same folder or below.
+/// Import glTF 2.0 or GLB, with the files that it refers to in the same folder or below.
 Status importGltf(const std::string& path, const FileBytes& file, const ImportOptions& options,
                   PartBuilder& part);
 

@@ -23,7 +23,7 @@ std::string nodePointer(uint32_t node)
     return fmt::format("/nodes/{}", node);
 }
 
-/// Whether each node belongs to the scene that is drawn.
+/// Return a flag for each node: true if it belongs to the scene that is drawn.
 std::vector<bool> findDrawn(const GltfModel& model, const GltfContext& context)
 {
     std::vector<bool> drawn(model.nodes.size());
@@ -75,7 +75,7 @@ public:
     Status writeNode(uint32_t node);
     Status writeContents(uint32_t node);
 
-    /// After the contents of all nodes, as the lights are looked up by name.
+    /// Write a shadow sphere, after the contents of all nodes: it refers to lights by name.
     Status writeShadowSphere(uint32_t node);
 
 private:
@@ -150,8 +150,8 @@ Status SceneWriter::writeNode(uint32_t node)
     return success();
 }
 
-/// A skinned mesh stands where its joints carry it; the transform of its own node does not count. Which way its triangles
-/// turn is the instance's to say: where the joints mirror, the instance does.
+/// Return the transform of a node's instance. A skinned mesh is placed by its joints, so the node's own
+/// transform does not count. The instance tells the winding of the triangles: it mirrors where the joints do.
 Transform SceneWriter::objectTransform(uint32_t node)
 {
     if (model_.nodes[node].skin == kNone)
@@ -253,7 +253,7 @@ Status SceneWriter::writeLight(uint32_t node)
     return success();
 }
 
-/// The lights that a sphere names, by their own name or that of their node. Point lights cast no shadow.
+/// Return the lights that a sphere names, by their own name or their node's. Point lights cast no shadow.
 std::vector<uint32_t> SceneWriter::lightsCalled(const std::string& name) const
 {
     const auto& lights = context_.part.lights;

@@ -10,10 +10,10 @@ namespace hearth::import
 namespace
 {
 
-// 8-bit weights that were rounded one by one miss 1 by up to 4 * 0.5 / 255
+// 8-bit weights that were rounded one by one differ from a sum of 1 by up to 4 * 0.5 / 255
 constexpr float kRounding = 0.01f;
 
-/// The four weights of a Float4 as an array.
+/// Return the four weights of a Float4 as an array.
 float* components(Float4& weights)
 {
     return &weights.x;

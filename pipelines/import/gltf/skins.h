@@ -1,4 +1,4 @@
-// Skins: which nodes move which mesh.
+// Writes skins: the joints that move each mesh.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,7 +7,7 @@
 namespace hearth::import
 {
 
-/// The inverse bind matrices of one skin, one for each joint.
+/// Inverse bind matrices of a skin, one for each joint.
 using InverseBinds = std::vector<Transform>;
 
 /// Write all skins to the part and return their matrices. errors: gltf_value, gltf_data.

@@ -10,7 +10,7 @@ namespace hearth::import
 namespace
 {
 
-// what every dielectric reflects at normal incidence in glTF's model
+// reflectance of every dielectric at normal incidence in glTF's model
 constexpr float kDielectricSpecular = 0.04f;
 constexpr float kEpsilon = 1e-6f;
 
@@ -54,7 +54,7 @@ std::byte toByte(float value)
     return static_cast<std::byte>(std::lround(std::clamp(value, 0.0f, 1.0f) * 255.0f));
 }
 
-/// Nearest texel of an image that is stretched to another size; white where there is none.
+/// Image sampled at another size by nearest texel; white if it is empty.
 class Stretched
 {
 public:

@@ -1,5 +1,5 @@
-// KHR_materials_pbrSpecularGlossiness as metallic-roughness, by the conversion that Khronos published with the
-// extension (solve for the metalness that gives the same diffuse and specular brightness).
+// Converts KHR_materials_pbrSpecularGlossiness to metallic-roughness, by the conversion that Khronos
+// published with the extension: solve for the metalness that gives the same diffuse and specular brightness.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -25,15 +25,15 @@ struct MetallicRoughness
 
 MetallicRoughness convertSpecularGlossiness(const SpecularGlossiness& source);
 
-/// Base colour (sRGB, with the diffuse texture's alpha) and metallic-roughness textures, of the size of the larger
-/// source.
+/// Base colour (sRGB, with the diffuse texture's alpha) and metallic-roughness textures, each of the size of
+/// the larger source image.
 struct MetallicRoughnessImages
 {
     DecodedImage base_color;
     DecodedImage metallic_roughness;
 };
 
-/// The conversion for every texel; a source image that is empty counts as white. 8-bit images only (asserted).
+/// Convert every texel; an empty source image counts as white. 8-bit images only (asserted).
 MetallicRoughnessImages convertSpecularGlossiness(const GltfSpecularGlossiness& factors,
                                                   const DecodedImage& diffuse,
                                                   const DecodedImage& specular_glossiness);

@@ -17,7 +17,7 @@ std::vector<uint32_t> triangulated(std::vector<uint32_t> indices, PrimitiveMode 
     triangles.reserve((indices.size() - 2) * 3);
     for (size_t i = 0; i + 2 < indices.size(); ++i)
     {
-        // section 3.7.2.1 of the specification
+        // winding by section 3.7.2.1 of the specification
         const size_t odd = i % 2;
         if (mode == PrimitiveMode::triangle_strip)
             triangles.insert(triangles.end(), {indices[i], indices[i + 1 + odd], indices[i + 2 - odd]});

@@ -1,4 +1,4 @@
-// Index lists of triangles, strips and fans.
+// Converts index lists of triangle strips and fans to triangle lists.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,8 +7,8 @@
 namespace hearth::import
 {
 
-/// Triangles of a list, strip or fan, all with the winding of the first. Indices that make no whole triangle at the
-/// end are left out.
+/// Return the triangles of a list, strip or fan, all with the winding of the first. Indices at the end that
+/// form no whole triangle are dropped.
 std::vector<uint32_t> triangulated(std::vector<uint32_t> indices, PrimitiveMode mode);
 
 } // namespace hearth::import

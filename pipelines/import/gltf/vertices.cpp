@@ -17,10 +17,11 @@ using formats::kNone;
 namespace
 {
 
-// Beyond this the squares of areas that the cookers compute leave the range of 32-bit floats.
+// Limit of coordinates: beyond it the squares of areas that the cookers compute leave the range of 32-bit
+// floats.
 constexpr float kMaxCoordinate = 1e9f;
 
-// shorter vectors have no direction worth keeping
+// shorter vectors have no meaningful direction
 constexpr float kMinLength = 1e-10f;
 
 constexpr uint32_t bit(ComponentType type)
@@ -36,7 +37,8 @@ constexpr uint32_t kFloat = bit(ComponentType::f32);
 constexpr uint32_t kSigned = bit(ComponentType::i8) | bit(ComponentType::i16);
 constexpr uint32_t kUnsigned = bit(ComponentType::u8) | bit(ComponentType::u16);
 
-/// Allowed formats, KHR_mesh_quantization included (files that use it without saying so are unambiguous).
+/// Allowed formats of an attribute. KHR_mesh_quantization is always accepted: files that use it undeclared
+/// are unambiguous.
 struct AttributeFormat
 {
     std::string_view prefix; ///< whole name, or up to the number
@@ -58,7 +60,7 @@ constexpr AttributeFormat kTargetFormats[] = {
     {"TANGENT", bit(ElementType::vec3), kFloat | kSigned},
 };
 
-/// The format that an attribute must have, or nullptr for one that Hearth does not read.
+/// Return the format that an attribute must have, or nullptr for one that Hearth does not read.
 const AttributeFormat* formatOf(std::string_view semantic, std::span<const AttributeFormat> formats)
 {
     const auto matches = [&](const AttributeFormat& f)
@@ -194,7 +196,8 @@ Result<std::vector<float>> VertexReader::values(std::string_view semantic)
     return accessors_.floats(index);
 }
 
-/// The counts of accessors agree with each other, but perhaps not with what Draco decodes.
+/// Check the count of an accessor. Accessors agree with each other, but may disagree with the data that Draco
+/// decodes.
 Status VertexReader::checkCount(uint32_t accessor, std::string_view semantic) const
 {
     const uint64_t count = accessors_.accessor(accessor).count;
@@ -238,7 +241,7 @@ Status VertexReader::readPositions()
     return success();
 }
 
-/// NORMAL and TANGENT; the tangents mean nothing without the normals.
+/// Read NORMAL and TANGENT; tangents have no meaning without normals.
 Status VertexReader::readFrame()
 {
     if (!has("NORMAL"))
@@ -356,7 +359,7 @@ Result<std::vector<Float3>> VertexReader::deltas(const GltfAttributes& target, s
     const uint32_t index = findAttribute(target, semantic);
     if (index == kNone)
         return std::vector<Float3>{};
-    // target and base may both be called POSITION, but only the base sets the count
+    // targets and base may both have a POSITION, but only the base sets the count
     HEARTH_TRY(checkCount(index, "target"));
     HEARTH_ASSIGN_OR_RETURN(const std::vector<float> floats, accessors_.floats(index));
     std::vector<Float3> vectors = asVectors<Float3>(floats);
@@ -385,7 +388,7 @@ Status VertexReader::readTargets()
     return success();
 }
 
-/// Name the attributes that no reader above has taken.
+/// Report the attributes that no reader above uses.
 void VertexReader::reportOthers() const
 {
     const size_t sets = result.mesh.joint_sets.size();

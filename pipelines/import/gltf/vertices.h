@@ -1,4 +1,5 @@
-// The vertices of a primitive: its attributes, read, checked and repaired, as the arrays of a SourceMesh.
+// Reads the vertices of a primitive: checks and repairs its attributes and converts them to the arrays of a
+// SourceMesh.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,7 +10,7 @@
 namespace hearth::import
 {
 
-/// What the reader of meshes leaves out or mends, counted by name, so that a message comes once and not for every
+/// Counts of dropped and repaired elements by name, so that a message is given once and not for every
 /// primitive.
 class GltfTally
 {
@@ -18,7 +19,7 @@ public:
     void repaired(const std::string& what, const std::string& where) { add(Issue::repaired, what, where); }
     void degraded(const std::string& what, const std::string& where) { add(Issue::degraded, what, where); }
 
-    /// Say all of it, each with its first place and how often it happened.
+    /// Report everything, each with its first location and its count.
     void report(PartBuilder& part) const;
 
 private:
@@ -36,18 +37,18 @@ struct GltfVertices
 {
     /// Vertices and morph targets; no triangles, and no normals where the source has none.
     mesh::SourceMesh mesh;
-    /// Triangles of the compressed data, if the primitive has such.
+    /// Triangles of the compressed data, if the primitive is compressed.
     std::optional<std::vector<uint32_t>> draco_indices;
 };
 
-/// The primitive has a POSITION. `where` is its JSON pointer.
+/// Read the vertices of a primitive that has a POSITION. `where` is its JSON pointer.
 /// errors: gltf_value (format of an accessor), gltf_data (counts that differ, positions that are not finite),
 /// codec_failed, input_too_large.
 Result<GltfVertices> readVertices(const GltfPrimitive& primitive, const std::string& where,
                                   GltfAccessors& accessors, const GltfModel& model,
                                   const GltfBuffers& buffers, const GltfContext& context, GltfTally& tally);
 
-/// The accessor of an attribute, or kNone.
+/// Return the accessor of an attribute, or kNone.
 uint32_t findAttribute(const GltfAttributes& attributes, std::string_view semantic);
 
 } // namespace hearth::import

@@ -13,7 +13,7 @@ namespace
 constexpr uint32_t kMaxCodeLength = 16;
 constexpr uint32_t kSymbolCountBits = 14;
 
-// Symbols of the code that codes the lengths: 0..16 are lengths, then runs.
+// Symbols of the code-length code: 0..16 are lengths, then runs.
 constexpr uint32_t kShortZeroRun = 17; ///< 3 bits, from 3
 constexpr uint32_t kLongZeroRun = 18;  ///< 7 bits, from 11
 constexpr uint32_t kShortRepeat = 19;  ///< 2 bits, from 3

@@ -1,4 +1,4 @@
-// Bits and prefix codes of BasisLZ: least significant bit first, canonical codes of at most 16 bits.
+// Reads bits and prefix codes of BasisLZ: least significant bit first, canonical codes of at most 16 bits.
 // Source: Khronos KTX File Format Specification 2.0, "BasisLZ/ETC1S bitstream".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
@@ -11,13 +11,13 @@
 namespace hearth::import
 {
 
-/// Reading past the end gives zeros and sets failed().
+/// Bit reader. Reading past the end returns zeros and sets failed().
 class BasisBitReader
 {
 public:
     explicit BasisBitReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
 
-    /// The next `count` bits, at most 16, without moving.
+    /// Return the next `count` bits, at most 16, without consuming them.
     uint32_t peek(uint32_t count)
     {
         while (available_ < count)
@@ -43,7 +43,8 @@ public:
         return value;
     }
 
-    /// A number in groups of `group_bits`, the lowest first; a bit behind each group says whether another follows.
+    /// Read a number in groups of `group_bits`, the lowest first; a bit after each group says if another
+    /// follows.
     uint32_t variableLength(uint32_t group_bits);
 
     bool failed() const { return failed_; }
@@ -60,10 +61,10 @@ private:
 class BasisPrefixCode
 {
 public:
-    /// Read the lengths of a code. False where they do not form a complete prefix code.
+    /// Read the lengths of a code. Return false if they do not form a complete prefix code.
     bool read(BasisBitReader& reader);
 
-    /// The next symbol; fails the reader where there is none.
+    /// Decode the next symbol; fail the reader if there is none.
     uint32_t decode(BasisBitReader& reader) const;
 
     bool empty() const { return lookup_.empty(); }
@@ -76,7 +77,7 @@ private:
         uint16_t symbol = 0;
         uint8_t length = 0; ///< 0: no code starts with these bits
     };
-    std::vector<Entry> lookup_; ///< for the next max_length_ bits
+    std::vector<Entry> lookup_; ///< indexed by the next max_length_ bits
     uint32_t max_length_ = 0;
 };
 

@@ -1,5 +1,6 @@
-// ETC1S: every 4 x 4 block has one entry of the endpoint codebook (a colour of 5 bits a channel and an intensity
-// table) and one of the selector codebook (two bits for each texel). BasisLZ codes the indices of both.
+// Decodes ETC1S: every 4 x 4 block has one entry of the endpoint codebook (a colour of 5 bits per channel and
+// an intensity table) and one of the selector codebook (two bits per texel). BasisLZ codes the indices of
+// both.
 // Source: Khronos KTX File Format Specification 2.0, "BasisLZ Global Data" and "ETC1S"; Khronos Data Format
 // Specification 1.3, "ETC1".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
@@ -39,7 +40,7 @@ struct ImageDescription
     uint32_t alpha_size;
 };
 
-constexpr uint32_t kFlagPredictedFrame = 2; ///< a frame of a video that builds on the one before
+constexpr uint32_t kFlagPredictedFrame = 2; ///< frame of a video that is predicted from the previous one
 
 constexpr uint32_t kChannelRed = 3;
 constexpr uint32_t kChannelGreen = 4;
@@ -51,7 +52,7 @@ struct Endpoint
     uint8_t intensity;
 };
 
-using Selector = std::array<uint8_t, 4>; ///< a row in each byte, two bits a texel, the leftmost lowest
+using Selector = std::array<uint8_t, 4>; ///< a byte per row, two bits per texel, the leftmost texel lowest
 
 struct Codebooks
 {
@@ -73,7 +74,8 @@ constexpr std::array<std::array<int, 4>, 8> kIntensities = {{{-8, -2, 2, 8},
                                                              {-106, -33, 33, 106},
                                                              {-183, -47, 47, 183}}};
 
-/// Endpoints are coded as differences to the one before, with one of three codes by the value before.
+/// Read endpoints: each is a difference to the previous one, in one of three codes chosen by the previous
+/// value.
 bool readEndpoints(std::span<const std::byte> bytes, std::vector<Endpoint>& endpoints)
 {
     BasisBitReader reader(bytes);
@@ -138,7 +140,7 @@ bool readTables(std::span<const std::byte> bytes, Codebooks& books)
     return read && !reader.failed();
 }
 
-/// Recently used selectors; a used one moves towards the front half.
+/// Recently used selectors. Using one swaps it with the selector at half its index.
 class SelectorHistory
 {
 public:
@@ -167,8 +169,8 @@ private:
     size_t next_;
 };
 
-/// The endpoint indices of a slice in block order: predicted from the left, upper or upper left block, or a
-/// difference to the block before. One symbol holds the predictions of 2 x 2 blocks.
+/// Decodes the endpoint indices of a slice in block order: predicted from the left, upper or upper left
+/// block, or a difference to the previous block. One symbol holds the predictions of 2 x 2 blocks.
 class EndpointIndices
 {
 public:
@@ -183,7 +185,7 @@ public:
         ++rows_;
     }
 
-    /// nullopt where the data is damaged.
+    /// Return the next index; nullopt if the data is damaged.
     std::optional<uint32_t> next(BasisBitReader& reader, uint32_t x)
     {
         if (x % 2 == 0)
@@ -234,14 +236,14 @@ private:
     std::vector<uint32_t> lower_predictions_; ///< of the odd row of each 2 x 2 blocks
     std::vector<uint32_t> above_;
     std::vector<uint32_t> row_;
-    uint32_t rows_ = 0; ///< started so far
+    uint32_t rows_ = 0; ///< number of rows started so far
     uint32_t predictions_ = 0;
     uint32_t last_symbol_ = 0;
     uint32_t repeats_ = 0;
     uint32_t previous_ = 0;
 };
 
-/// The selector indices: new, from the history, or a run of the history's first.
+/// Decodes the selector indices: new, from the history, or a run of the history's first entry.
 class SelectorIndices
 {
 public:

@@ -1,4 +1,4 @@
-// Decodes ETC1S textures in BasisLZ supercompression, as KTX2 files of KHR_texture_basisu have them.
+// Decodes ETC1S textures in BasisLZ supercompression, as in KTX2 files of KHR_texture_basisu.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -14,7 +14,7 @@ struct BasisLayout
 };
 
 /// Decode the first image of the file, whose slices lie in `level`, into `image` (RGBA8, allocated).
-/// Returns what is wrong with the data, or nothing.
+/// Return a description of the damage; empty on success.
 std::string_view decodeBasisEtc1s(std::span<const std::byte> global_data, std::span<const std::byte> level,
                                   const BasisLayout& layout, DecodedImage& image);
 

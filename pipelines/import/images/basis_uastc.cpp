@@ -1,7 +1,7 @@
-// A UASTC block is one of 19 kinds of ASTC block, written more simply: a prefix code for the kind, hints for other
-// formats (skipped), a pattern number, endpoints, weights.
-// Source: Binomial LLC, "UASTC LDR 4x4 Texture Specification"; Khronos Data Format Specification 1.3, "ASTC Compressed
-// Texture Image Formats" (integer sequences, unquantisation, partitions, interpolation).
+// Decodes UASTC. A block is one of 19 modes of ASTC block in a simpler encoding: a prefix code for the mode,
+// hints for other formats (skipped), a pattern number, endpoints, weights.
+// Source: Binomial LLC, "UASTC LDR 4x4 Texture Specification"; Khronos Data Format Specification 1.3, "ASTC
+// Compressed Texture Image Formats" (integer sequences, unquantisation, partitions, interpolation).
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/images/basis_uastc.h"
 
@@ -16,7 +16,7 @@ namespace hearth::import
 namespace
 {
 
-/// How the bits of an endpoint's value are coded: plain bits, and a trit or quint above them.
+/// Encoding of the bits of an endpoint value: plain bits, and a trit or quint above them.
 struct ValueRange
 {
     uint8_t bits;
@@ -31,7 +31,7 @@ struct UastcMode
     uint8_t pattern_bits;
     uint8_t subsets;
     uint8_t planes;     ///< 2: one channel has weights of its own
-    uint8_t plane_bits; ///< that choose this channel; without them it is alpha
+    uint8_t plane_bits; ///< bits that select this channel; 0: the channel is alpha
     uint8_t components; ///< 2 grey and alpha, 3 RGB, 4 RGBA
     ValueRange endpoints;
     uint8_t weight_bits;
@@ -51,12 +51,12 @@ constexpr std::array kModes = {
     UastcMode{0x09, 4, 15, 0, 1, 1, 0, 3, {5, 1}, 5},
 };
 
-// ASTC seeds of the patterns that BC7 has too, which is what UASTC's pattern numbers count.
+// ASTC seeds of the patterns that BC7 also has; UASTC's pattern numbers index these.
 constexpr std::array<uint16_t, 30> kSeeds2 = {28,  20,  16,  29,  91,  9,   107, 72,  149, 204,
                                               50,  114, 496, 17,  78,  39,  252, 828, 43,  156,
                                               116, 210, 476, 273, 684, 359, 246, 195, 694, 524};
 constexpr std::array<uint16_t, 11> kSeeds3 = {260, 74, 32, 156, 183, 15, 745, 0, 335, 902, 254};
-/// Of mode 7: patterns of three parts in BC7 that two of ASTC's can stand for.
+/// Seeds of mode 7: BC7 patterns of three subsets that ASTC patterns of two subsets can represent.
 constexpr std::array<uint16_t, 19> kSeedsOfMode7 = {36,  48,  61,  137, 161, 183, 226, 281, 302, 307,
                                                     479, 495, 593, 594, 605, 799, 812, 988, 993};
 
@@ -73,7 +73,7 @@ public:
         return value;
     }
 
-    /// The next bits without moving.
+    /// Return the first 7 bits of the block without consuming them.
     uint32_t low7() const { return static_cast<uint32_t>(words_[0] & 127u); }
 
 private:
@@ -81,8 +81,8 @@ private:
     uint32_t at_ = 0;
 };
 
-/// Endpoint values of a block: first the trits or quints, five or three packed together, then all plain bits.
-/// The last pack is as short as its values allow.
+/// Read the endpoint values of a block: first the trits or quints, packed in fives or threes, then all plain
+/// bits. The last pack is as short as its values allow.
 void takeValues(BlockBits& bits, ValueRange range, std::span<uint32_t> values)
 {
     const size_t per_pack = range.base == 3 ? 5 : 3;
@@ -99,7 +99,7 @@ void takeValues(BlockBits& bits, ValueRange range, std::span<uint32_t> values)
         value |= bits.take(range.bits);
 }
 
-/// ASTC's unquantisation of endpoints to 0..255.
+/// Apply ASTC's unquantisation of endpoints to 0..255.
 uint32_t unquantizeEndpoint(uint32_t value, ValueRange range)
 {
     const uint32_t low = value & ((1u << range.bits) - 1u);
@@ -139,7 +139,7 @@ uint32_t unquantizeEndpoint(uint32_t value, ValueRange range)
     return (a & 0x80u) | t >> 2;
 }
 
-/// Weights of 1 to 5 bits to 0..64.
+/// Unquantise a weight of 1 to 5 bits to 0..64.
 uint32_t unquantizeWeight(uint32_t weight, uint32_t bits)
 {
     uint32_t wide = 0; // repeated to six bits
@@ -152,7 +152,7 @@ uint32_t unquantizeWeight(uint32_t weight, uint32_t bits)
 using Texel = std::array<uint8_t, 4>;
 using Block = std::array<Texel, 16>;
 
-/// Endpoints as RGBA, [subset][which].
+/// Endpoints as RGBA, indexed [subset][endpoint].
 using Endpoints = std::array<std::array<std::array<uint32_t, 4>, 2>, 3>;
 
 Endpoints takeEndpoints(BlockBits& bits, const UastcMode& mode)
@@ -220,7 +220,7 @@ std::optional<Block> decodeBlock(const std::byte* data, bool srgb)
     {
         const uint32_t subset =
             mode.subsets == 1 ? 0 : astcPartition(uastcSeeds(number)[pattern], mode.subsets, i % 4, i / 4);
-        // the first weight of each subset lacks its highest bit, which is 0
+        // the anchor weight (the first of a subset) lacks its highest bit, which is 0
         const uint32_t stored_bits = mode.weight_bits - (subset_seen[subset] ? 0u : 1u);
         subset_seen[subset] = true;
         const uint32_t weight = unquantizeWeight(bits.take(stored_bits), mode.weight_bits);

@@ -1,5 +1,6 @@
-// Windows bitmaps: 1, 4, 8, 16, 24 and 32 bits, palettes and bit fields, both row orders; run-length coding is not read.
-// Written from Microsoft's description of BITMAPFILEHEADER, BITMAPINFOHEADER, V4 and V5.
+// Decodes Windows bitmaps: 1, 4, 8, 16, 24 and 32 bits, palettes and bit fields, both row orders; run-length
+// coding is not supported. Written from Microsoft's description of BITMAPFILEHEADER, BITMAPINFOHEADER, V4 and
+// V5.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/base/byte_reader.h"
 #include "pipelines/import/images/codecs.h"
@@ -31,7 +32,7 @@ struct BmpHeader
     std::array<uint32_t, 4> masks{};
 };
 
-/// Value of the bits of `mask` in `word`, spread over 0..255.
+/// Return the bits of `mask` in `word`, scaled to 0..255.
 uint8_t field(uint32_t word, uint32_t mask)
 {
     const auto shift = static_cast<uint32_t>(std::countr_zero(mask));
@@ -40,7 +41,7 @@ uint8_t field(uint32_t word, uint32_t mask)
     return static_cast<uint8_t>((value * 255u + largest / 2u) / largest);
 }
 
-/// The masks of the bit fields: given in the file, or those that every reader assumes without them.
+/// Read the masks of the bit fields from the file, or use the conventional masks if it has none.
 bool readMasks(ByteReader& reader, BmpHeader& header)
 {
     if (header.compression == kBitFields || header.compression == kAlphaBitFields)

@@ -1,4 +1,4 @@
-// The decoders behind decodeImage, one file for each image format, and what they share.
+// Decoders behind decodeImage, one file for each image format, and their shared helpers.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -8,7 +8,7 @@
 namespace hearth::import
 {
 
-/// An encoded image and the name it has in messages.
+/// Encoded image with its name in messages.
 struct EncodedImage
 {
     std::span<const std::byte> bytes;
@@ -26,12 +26,12 @@ struct EncodedImage
     const uint8_t* data() const { return reinterpret_cast<const uint8_t*>(bytes.data()); }
 };
 
-/// An image of this size with zero texels; nothing is allocated before the size is checked.
+/// Return an image of this size with zero texels; the size is checked before anything is allocated.
 /// errors: image_malformed (no texels), input_too_large.
 Result<DecodedImage> allocateImage(const EncodedImage& source, uint64_t width, uint64_t height,
                                    bool is_float);
 
-/// The same check without the image.
+/// Check the size as allocateImage does, without allocating an image.
 Status checkImageSize(const EncodedImage& source, uint64_t width, uint64_t height);
 
 inline uint8_t* bytesOf(DecodedImage& image)

@@ -1,4 +1,5 @@
-// Which decoder an image goes to: its first bytes decide, never its name, except for TGA, which has no signature.
+// Chooses the decoder of an image by its first bytes, never by its name, except for TGA, which has no
+// signature.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/images/decode.h"
 
@@ -20,7 +21,7 @@ using Decoder = Result<DecodedImage> (*)(const EncodedImage&);
 struct Signature
 {
     std::string_view bytes;
-    Decoder decode; ///< null: a format that is known but not read
+    Decoder decode; ///< null: a known format that is not supported
     std::string_view format;
     size_t offset = 0;
 };
@@ -61,7 +62,7 @@ const Signature* signatureOf(std::span<const std::byte> bytes)
     return found == kSignatures.end() ? nullptr : found;
 }
 
-/// TGA has no signature: the fields of its header must make sense together.
+/// True if the fields of the header are consistent with TGA, which has no signature.
 bool looksLikeTga(std::span<const std::byte> bytes)
 {
     if (bytes.size() < 18)
@@ -126,7 +127,7 @@ Result<DecodedImage> decodeImage(std::span<const std::byte> bytes, const std::st
 bool looksLikeImage(const std::string& path, std::span<const std::byte> bytes)
 {
     const Signature* signature = signatureOf(bytes);
-    // two letters are too little to know a BMP by: a text may start with them
+    // two letters are not enough to identify a BMP: a text may start with them
     const bool certain = signature != nullptr && signature->bytes.size() > 2;
     return certain || std::any_of(kExtensions.begin(), kExtensions.end(),
                                   [&](std::string_view extension) { return hasExtension(path, extension); });

@@ -12,12 +12,12 @@
 namespace hearth::import
 {
 
-/// Decode PNG, JPEG, WebP, TGA, BMP, HDR, EXR or KTX2 by content. `name` stands in messages.
+/// Decode PNG, JPEG, WebP, TGA, BMP, HDR, EXR or KTX2, chosen by content. `name` is used in messages.
 /// errors: image_malformed, image_unsupported, input_too_large.
 Result<DecodedImage> decodeImage(std::span<const std::byte> bytes, const std::string& name,
                                  const ImportLimits& limits);
 
-/// Whether the bytes start as one of the image formats that decodeImage knows, whatever their state.
+/// True if the bytes start as an image format that decodeImage knows, even if the image is damaged.
 bool looksLikeImage(const std::string& path, std::span<const std::byte> bytes);
 
 } // namespace hearth::import

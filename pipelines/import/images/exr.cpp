@@ -1,5 +1,5 @@
-// OpenEXR: scanlines and tiles, every lossless and lossy compression, RGB(A), grey, and luminance with chroma.
-// The image is the data window, as other texture tools read it: a texture has no frame that it is shown in.
+// Decodes OpenEXR: scanlines and tiles, every lossless and lossy compression, RGB(A), grey, and luminance
+// with chroma. The image is the data window, as in other texture tools: a texture has no display window.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/images/codecs.h"
 
@@ -52,7 +52,7 @@ private:
 
 struct Window
 {
-    int64_t left, top, right, bottom; ///< inclusive, as OpenEXR has it
+    int64_t left, top, right, bottom; ///< inclusive, as in OpenEXR
 
     explicit Window(const Imath::Box2i& box)
         : left(box.min.x), top(box.min.y), right(box.max.x), bottom(box.max.y)
@@ -62,7 +62,7 @@ struct Window
     uint64_t height() const { return static_cast<uint64_t>(std::max<int64_t>(0, bottom - top + 1)); }
 };
 
-/// OpenEXR keeps infinities and NaN; a stored image is finite.
+/// Return the bits of a finite half: OpenEXR allows infinities and NaN, stored images do not.
 uint16_t finiteBits(half value)
 {
     if (value.isNan())
@@ -83,10 +83,11 @@ void storeRow(std::span<const Imf::Rgba> row, size_t y, DecodedImage& image)
     }
 }
 
-// OpenEXR holds a row of whole tiles, and tiles may be larger than the image. Programs write 64 to 512.
+// Largest tile: OpenEXR holds a row of whole tiles, and tiles may be larger than the image. Programs write 64
+// to 512.
 constexpr int kMaxTileSide = 4096;
 
-/// OpenEXR checks these before it allocates anything by the header.
+/// Set the limits that OpenEXR checks before it allocates anything by the header.
 void setLibraryLimits(const ImportLimits& limits)
 {
     const int side = static_cast<int>(limits.max_image_size);
@@ -107,7 +108,7 @@ Result<DecodedImage> decode(const EncodedImage& source)
         return source.unsupported("EXR images without a channel R, G, B or Y are not read");
     HEARTH_ASSIGN_OR_RETURN(DecodedImage image, allocateImage(source, data.width(), data.height(), true));
 
-    // one row at a time: OpenEXR addresses the frame buffer by absolute coordinates, with a row stride of 0 here
+    // one row at a time: OpenEXR addresses the frame buffer by absolute coordinates; its row stride is 0 here
     std::vector<Imf::Rgba> row(static_cast<size_t>(data.width()));
     file.setFrameBuffer(row.data() - data.left, 1, 0);
     for (int64_t y = data.top; y <= data.bottom; ++y)

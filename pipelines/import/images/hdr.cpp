@@ -1,4 +1,4 @@
-// Radiance pictures (.hdr): RGBE, flat, with old or new run-length coding, all eight orientations.
+// Decodes Radiance images (.hdr): RGBE, flat, with old or new run-length coding, all eight orientations.
 // Source: G. Ward, "Real Pixels", Graphics Gems II, 1991, and the Radiance file formats document.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/base/byte_reader.h"
@@ -18,7 +18,7 @@ namespace
 
 using Rgbe = std::array<uint8_t, 4>;
 
-/// Header lines are short; a longer one is not a Radiance header.
+/// Longest header line of a Radiance file; longer ones mean that the file is of another format.
 constexpr size_t kMaxLine = 4096;
 
 struct HdrHeader
@@ -55,7 +55,7 @@ bool readNumber(std::string_view& text, uint64_t& number)
     return true;
 }
 
-/// "-Y 512 +X 1024": sign, axis, size, twice.
+/// Parse "-Y 512 +X 1024": sign, axis, size, twice.
 bool readResolution(std::string_view line, HdrHeader& header)
 {
     bool seen[2] = {false, false};
@@ -107,7 +107,7 @@ std::optional<HdrHeader> readHeader(ByteReader& reader, std::span<const std::byt
     return header;
 }
 
-/// New coding: each of the four components by itself; a count above 128 repeats one value.
+/// Read the new coding: each of the four components separately; a count above 128 repeats one value.
 bool readComponents(ByteReader& reader, std::vector<Rgbe>& scanline)
 {
     for (size_t component = 0; component < 4; ++component)
@@ -125,8 +125,8 @@ bool readComponents(ByteReader& reader, std::vector<Rgbe>& scanline)
     return true;
 }
 
-/// Flat, or old coding: the texel (1, 1, 1, n) repeats the one before n times, shifted by 8 bits for each such
-/// texel in a row.
+/// Read flat texels or the old coding: the texel (1, 1, 1, n) repeats the previous one n times, shifted by 8
+/// bits for each such texel in a row.
 bool readFlat(ByteReader& reader, Rgbe first, std::vector<Rgbe>& scanline)
 {
     uint32_t shift = 0;
@@ -178,7 +178,8 @@ Result<DecodedImage> decodeHdr(const EncodedImage& source)
     if (header->xyze)
         return source.unsupported("HDR images in XYZ are not read");
     HEARTH_TRY(checkImageSize(source, header->width, header->height));
-    // a repeated run of the new coding makes 127 texels of 2 bytes for each component, an old run 255 of 4 and more
+    // a run of the new coding makes 127 texels from 2 bytes per component, an old run 255 from 4 bytes and
+    // more
     if (header->width * header->height / 32768 > source.bytes.size())
         return source.malformed("HDR: the file ends too early");
 

@@ -1,5 +1,5 @@
-// JPEG through libjpeg-turbo, baseline and progressive, grey, YCbCr, RGB, CMYK and YCCK.
-// libjpeg goes on after damage and fills in grey; here damaged or missing data is an error.
+// Decodes JPEG through libjpeg-turbo: baseline and progressive, grey, YCbCr, RGB, CMYK and YCCK. libjpeg
+// continues after damage and fills in grey; here damaged or missing data is an error.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/images/codecs.h"
 
@@ -17,11 +17,11 @@ namespace hearth::import
 namespace
 {
 
-// Encoders write about ten scans. Each scan of a progressive file walks over the whole image, so that a small file
-// with thousands of them would take minutes.
+// Limit of scans. Encoders write about ten. Each scan of a progressive file covers the whole image, so a
+// small file with thousands of them would take minutes.
 constexpr int kMaxScans = 200;
 
-/// libjpeg reports errors by longjmp: the functions that call it own nothing.
+/// State of a decoder. libjpeg reports errors by longjmp: the functions that call it own nothing.
 struct JpegState
 {
     jpeg_decompress_struct decoder{};
@@ -43,7 +43,8 @@ struct JpegState
     std::longjmp(state->on_error, 1);
 }
 
-/// Warnings have a negative level. Bytes between segments do no harm; any other damage is in the image itself.
+/// Handle a message of libjpeg. Warnings have a negative level. Bytes between segments do no harm; any other
+/// damage is in the image itself.
 void onMessage(j_common_ptr info, int level)
 {
     const int code = info->err->msg_code;
@@ -78,7 +79,7 @@ bool readHeader(JpegState& state, std::span<const std::byte> bytes)
     return true;
 }
 
-/// Decode into RGBA8 rows; CMYK arrives as four channels too.
+/// Decode into RGBA8 rows; CMYK arrives as four channels as well.
 bool readTexels(JpegState& state, uint8_t* texels)
 {
     if (setjmp(state.on_error) != 0)
@@ -97,7 +98,8 @@ bool readTexels(JpegState& state, uint8_t* texels)
     return true;
 }
 
-/// Adobe's programs store ink inverted (255 is no ink) and say so by their marker; all known CMYK files have it.
+/// Convert CMYK to RGB. Adobe's programs store ink inverted (255 is no ink) and write a marker that says so;
+/// all known CMYK files have it.
 void rgbFromCmyk(DecodedImage& image, bool inverted)
 {
     uint8_t* texel = bytesOf(image);

@@ -1,5 +1,6 @@
-// KTX2 images: uncompressed formats, Zstandard supercompression, and Basis Universal. Only the finest level is
-// decoded, because hearth-textures makes the mips. GPU block formats (BC, ETC2, ASTC) are not read.
+// Decodes KTX2 images: uncompressed formats, Zstandard supercompression, and Basis Universal. Only the finest
+// level is decoded, because hearth-textures makes the mips. GPU block formats (BC, ETC2, ASTC) are not
+// supported.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/base/half.h"
 #include "formats/container/container_reader.h"
@@ -26,7 +27,7 @@ enum class Component : uint8_t
     float32,
 };
 
-/// How one uncompressed VkFormat lies in memory.
+/// Memory layout of an uncompressed VkFormat.
 struct TexelLayout
 {
     uint32_t vk_format;
@@ -35,7 +36,8 @@ struct TexelLayout
     bool blue_first = false;
 };
 
-// Numbers of VkFormat. sRGB formats lie like their UNORM twins: what an image means is decided where it is used.
+// Numbers of VkFormat. sRGB formats are laid out as their UNORM counterparts: the use of an image decides its
+// colour space, not its format.
 constexpr std::array kLayouts = {
     TexelLayout{9, Component::unorm8, 1},        TexelLayout{15, Component::unorm8, 1},
     TexelLayout{16, Component::unorm8, 2},       TexelLayout{22, Component::unorm8, 2},
@@ -61,7 +63,7 @@ bool isFloat(Component component)
     return component == Component::float16 || component == Component::float32;
 }
 
-/// One stored component as the image has it: 8 bits, or the bits of a half.
+/// Convert one stored component to the image's form: 8 bits, or the bits of a half.
 uint16_t convert(const uint8_t* bytes, Component component)
 {
     uint16_t word = 0;
@@ -96,7 +98,7 @@ void copyTexels(std::span<const std::byte> bytes, const TexelLayout& layout, Dec
             texel[c] = convert(in, layout.component);
         if (layout.blue_first)
             std::swap(texel[0], texel[2]);
-        // one channel is grey, and two are grey with alpha only in formats that KTX2 cannot name: red and green
+        // one channel is grey; two channels are red and green: KTX2 cannot name formats of grey with alpha
         if (layout.channels == 1)
             texel[1] = texel[2] = texel[0];
         if (isFloat(layout.component))
@@ -107,7 +109,7 @@ void copyTexels(std::span<const std::byte> bytes, const TexelLayout& layout, Dec
     }
 }
 
-/// How the texels of a format come in blocks; a single texel is a block too.
+/// Block of texels of a format; a texel of an uncompressed format is a block of side 1.
 struct BlockSize
 {
     uint32_t side;
@@ -119,7 +121,8 @@ struct BlockSize
     }
 };
 
-/// Sizes of all levels must be those of the format; each level starts on a multiple of 4 and of the block.
+/// True if all levels have the size of the format, and each level without supercompression starts on a
+/// multiple of 4 and of the block size.
 bool levelsFit(const EncodedImage& source, const Ktx2File& file, BlockSize block)
 {
     const uint64_t alignment = std::lcm(block.bytes, uint64_t{4});
@@ -137,7 +140,7 @@ bool levelsFit(const EncodedImage& source, const Ktx2File& file, BlockSize block
     return true;
 }
 
-/// The finest level without its supercompression.
+/// Return the finest level, decompressed.
 Result<std::vector<std::byte>> finestLevel(const EncodedImage& source, const Ktx2File& file, BlockSize block)
 {
     if (!levelsFit(source, file, block))
@@ -164,7 +167,7 @@ Result<DecodedImage> decodeUncompressed(const EncodedImage& source, const Ktx2Fi
     return image;
 }
 
-/// What glTF asks of Basis Universal textures.
+/// Check glTF's requirement for the size of Basis Universal textures.
 Status checkBasisSize(const EncodedImage& source, const Ktx2File& file)
 {
     if (file.width % 4 == 0 && file.height % 4 == 0)

@@ -42,7 +42,7 @@ struct LevelIndex
     uint64_t uncompressed_size;
 };
 
-constexpr uint32_t kDescriptorHeaderBytes = 24; ///< of the basic descriptor block, before its samples
+constexpr uint32_t kDescriptorHeaderBytes = 24; ///< size of the basic descriptor block before its samples
 constexpr uint32_t kSampleBytes = 16;
 constexpr uint8_t kTransferSrgb = 2;
 
@@ -81,7 +81,7 @@ Status checkHeader(const EncodedImage& source, const Ktx2Header& header)
     return checkImageSize(source, header.width, header.height);
 }
 
-/// The basic block of the data format descriptor: colour model and channels.
+/// Read the basic block of the data format descriptor: colour model and channels.
 bool readDescriptor(std::span<const std::byte> bytes, Ktx2File& file)
 {
     ByteReader reader(bytes);
@@ -112,7 +112,7 @@ bool readDescriptor(std::span<const std::byte> bytes, Ktx2File& file)
     return sample_count > 0;
 }
 
-/// Entries of key and value, each of at least two bytes and padded to four.
+/// Check the entries of key and value, each of at least two bytes and padded to four.
 Status checkKeyValues(const EncodedImage& source, std::span<const std::byte> bytes)
 {
     ByteReader reader(bytes);
@@ -133,7 +133,8 @@ Status checkKeyValues(const EncodedImage& source, std::span<const std::byte> byt
     return success();
 }
 
-/// The coarsest level comes first in the file, and levels neither overlap each other nor what stands before them.
+/// Read the levels. The coarsest comes first in the file; levels overlap neither each other nor the data
+/// before them.
 std::optional<std::vector<Ktx2Level>> readLevels(std::span<const std::byte> bytes, ByteReader& reader,
                                                  uint32_t count, uint64_t metadata_end)
 {

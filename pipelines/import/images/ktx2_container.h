@@ -1,4 +1,5 @@
-// The KTX 2.0 container (Khronos KTX File Format Specification 2.0): everything is checked, nothing is decoded.
+// Reads the KTX 2.0 container (Khronos KTX File Format Specification 2.0): checks everything, decodes
+// nothing.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -15,7 +16,7 @@ enum class Ktx2Scheme : uint32_t
     zlib = 3,
 };
 
-/// Colour models of the Khronos data format descriptor that mean a Basis Universal texture.
+/// Colour models of the Khronos data format descriptor that denote a Basis Universal texture.
 inline constexpr uint32_t kModelEtc1s = 163;
 inline constexpr uint32_t kModelUastc = 166;
 
@@ -38,7 +39,7 @@ struct Ktx2File
     std::vector<Ktx2Level> levels; ///< finest first
 };
 
-/// A texture of one image: two dimensions, one layer, one face.
+/// Read a texture of one image: two dimensions, one layer, one face.
 /// errors: image_malformed, image_unsupported (arrays, cubes, volumes), input_too_large.
 Result<Ktx2File> readKtx2(const EncodedImage& source);
 

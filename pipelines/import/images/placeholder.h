@@ -1,4 +1,4 @@
-// What is drawn in place of an image that is missing or broken.
+// Makes the image that is drawn in place of a missing or broken one.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,7 +7,7 @@
 namespace hearth::import
 {
 
-/// Magenta and black squares: easily seen, and in no one's art.
+/// Return magenta and black squares: conspicuous, and unlike any artwork.
 DecodedImage placeholderImage();
 
 } // namespace hearth::import

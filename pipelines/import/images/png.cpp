@@ -1,4 +1,4 @@
-// PNG through libpng: damaged checksums, missing rows and a missing end are errors.
+// Decodes PNG through libpng: damaged checksums, missing rows and a missing end are errors.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/images/codecs.h"
 
@@ -14,8 +14,8 @@ namespace hearth::import
 namespace
 {
 
-/// What libpng's callbacks see. libpng reports errors by longjmp: no function between setjmp and libpng may own
-/// anything, so that the memory is held by decodePng.
+/// State for libpng's callbacks. libpng reports errors by longjmp: no function between setjmp and libpng may
+/// own anything, so decodePng holds the memory.
 struct PngState
 {
     png_structp png = nullptr;
@@ -52,12 +52,12 @@ bool readHeader(PngState& state)
     if (setjmp(png_jmpbuf(state.png)) != 0)
         return false;
     png_set_read_fn(state.png, &state, onRead);
-    png_set_user_limits(state.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX); // checkImageSize has the last word
+    png_set_user_limits(state.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX); // checkImageSize sets the limits
     png_read_info(state.png, state.info);
     return true;
 }
 
-/// Have libpng deliver every kind of PNG as RGBA8 and read it.
+/// Read the image, with every kind of PNG converted to RGBA8 by libpng.
 bool readTexels(PngState& state, png_bytepp rows)
 {
     if (setjmp(png_jmpbuf(state.png)) != 0)

@@ -1,5 +1,6 @@
-// Truevision TGA: colour-mapped, true-colour and grey, run-length coded or not, with any of the four origins.
-// Written from the TGA 2.0 specification, because common readers accept cut-off files and mirror two of the origins.
+// Decodes Truevision TGA: colour-mapped, true-colour and grey, run-length coded or not, with any of the four
+// origins. Written from the TGA 2.0 specification, because common readers accept truncated files and mirror
+// two of the origins.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/base/byte_reader.h"
 #include "pipelines/import/images/codecs.h"
@@ -19,7 +20,7 @@ enum TgaType : uint8_t
     kTgaMapped = 1,
     kTgaColor = 2,
     kTgaGrey = 3,
-    kTgaRunLength = 8, ///< added to the others
+    kTgaRunLength = 8, ///< flag that is added to the other types
 };
 
 struct TgaHeader
@@ -48,7 +49,8 @@ uint8_t from5Bits(uint32_t value)
     return static_cast<uint8_t>((value & 31u) << 3 | (value & 31u) >> 2);
 }
 
-/// A colour of 15, 16, 24 or 32 bits, blue first. Without alpha bits in the descriptor the fourth byte says nothing.
+/// Return a colour of 15, 16, 24 or 32 bits, blue first. Without alpha bits in the descriptor the fourth byte
+/// is ignored.
 Texel colorOf(const uint8_t* bytes, uint32_t depth, bool has_alpha)
 {
     if (depth <= 16)
@@ -125,7 +127,8 @@ std::optional<std::vector<Texel>> readMap(ByteReader& reader, const TgaHeader& h
     return map;
 }
 
-/// Calls put(texel) for every texel in the order of the file. Returns what is wrong, or nothing.
+/// Call put(texel) for every texel in the order of the file. Return a description of the damage; empty on
+/// success.
 template <typename Put>
 std::string_view readTexels(ByteReader& reader, const TexelReader& texels, uint64_t count, Put put)
 {
@@ -143,7 +146,7 @@ std::string_view readTexels(ByteReader& reader, const TexelReader& texels, uint6
             if (!head)
                 return kShort;
             packet = std::min<uint64_t>((*head & 0x7Fu) + 1u,
-                                        count - i); // some writers let the last packet run over
+                                        count - i); // some writers let the last packet exceed the image
             repeated = (*head & 0x80u) != 0;
         }
         const auto bytes = reader.readBytes(repeated ? size : packet * size);

@@ -1,4 +1,4 @@
-// WebP through libwebp: lossy, lossless and alpha; animations are refused.
+// Decodes WebP through libwebp: lossy, lossless and alpha; animations are refused.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/images/codecs.h"
 

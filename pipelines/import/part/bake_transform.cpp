@@ -11,7 +11,7 @@ namespace hearth::import
 namespace
 {
 
-// As pipelines/import/README.md says of positions: beyond it the squares of areas leave the range of floats.
+// Limit of positions (pipelines/import/README.md): beyond it the squares of areas leave the range of floats.
 constexpr double kFarthest = 1e9;
 
 using Direction = std::array<double, 3>;
@@ -25,7 +25,7 @@ Float3 unitOr(const Direction& d, Float3 otherwise)
             static_cast<float>(d[2] / length)};
 }
 
-/// The linear part, or its transpose, times a direction.
+/// Return the linear part, or its transpose, times a direction.
 Direction turned(const Transform& t, Float3 v, bool transposed)
 {
     Direction d{};
@@ -55,7 +55,7 @@ bool bakeTransform(mesh::SourceMesh& mesh, const Transform& transform)
             {static_cast<float>(moved[0]), static_cast<float>(moved[1]), static_cast<float>(moved[2])});
     }
     mesh.positions = std::move(positions);
-    // normals stand upright on the surface: they turn by the transpose of the inverse
+    // normals are transformed by the inverse transpose
     for (Float3& normal : mesh.normals)
         normal = unitOr(turned(*inverse, normal, true), normal);
     const bool mirrored = determinant(transform) < 0;

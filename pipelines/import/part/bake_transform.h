@@ -1,4 +1,4 @@
-// Moves a mesh into another space.
+// Transforms a mesh into another space.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -8,8 +8,9 @@
 namespace hearth::import
 {
 
-/// Move positions, normals and tangents; triangles of a mirrored mesh turn over, so that they face the same side. False,
-/// and nothing done, where the transform is flat or a position leaves the range that meshes may have (1e9).
+/// Transform positions, normals and tangents. Reverse the winding of the triangles where the transform
+/// mirrors, so that they face the same side. Return false and change nothing if the transform is singular or
+/// a position leaves the range allowed for meshes (1e9).
 bool bakeTransform(mesh::SourceMesh& mesh, const Transform& transform);
 
 } // namespace hearth::import

@@ -19,7 +19,7 @@ namespace hearth::import
 namespace
 {
 
-/// The normal of a triangle: direction and weight apart, so that huge and tiny triangles behave alike.
+/// Normal of a triangle, with direction and weight separate, so that huge and tiny triangles behave alike.
 struct FaceNormal
 {
     Double3 unit;    ///< zero where the triangle has no area
@@ -47,7 +47,8 @@ std::vector<FaceNormal> faceNormals(const mesh::SourceMesh& mesh)
     return normals;
 }
 
-/// Vertices at the same place get the same point, so that a soup of triangles is smooth too.
+/// Return a point index for each vertex. Vertices at the same position share a point, so that an unindexed
+/// triangle soup is smooth too.
 std::vector<uint32_t> pointOfVertex(const mesh::SourceMesh& mesh)
 {
     const auto& p = mesh.positions;
@@ -67,7 +68,7 @@ std::vector<uint32_t> pointOfVertex(const mesh::SourceMesh& mesh)
     return point_of_vertex;
 }
 
-/// Corners (3 * triangle + k) sorted by the point that they stand at; those of point i are
+/// Corners (3 * triangle + k) sorted by point; the corners of point i are
 /// corners[offsets[i] .. offsets[i + 1]).
 struct CornersOfPoints
 {
@@ -91,7 +92,8 @@ CornersOfPoints groupCorners(const mesh::SourceMesh& mesh, const std::vector<uin
     return groups;
 }
 
-/// Directions around a point: at most kMaxDirections, so that a fan of a million triangles stays linear.
+/// Direction of a face around a point. A point has at most kMaxDirections, so that the cost of a fan of a
+/// million triangles stays linear.
 struct FaceDirection
 {
     Double3 unit;
@@ -99,7 +101,7 @@ struct FaceDirection
 };
 constexpr size_t kMaxDirections = 256;
 
-/// Cell of a unit vector in a grid on the octahedron, 16 x 16.
+/// Return the cell of a unit vector in a 16 x 16 grid on the octahedron.
 uint32_t octahedralCell(const Double3& n)
 {
     const double scale = 1.0 / (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
@@ -163,7 +165,7 @@ Float3 toFloat(const Double3& v)
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-/// The normal of a corner of `face`: the average of the directions that the crease angle does not part from it.
+/// Return the normal of a corner of `face`: the average of the directions within the crease angle.
 Float3 cornerNormal(const FaceNormal& face, std::span<const FaceDirection> directions, double min_cosine)
 {
     Double3 sum;
@@ -177,7 +179,7 @@ Float3 cornerNormal(const FaceNormal& face, std::span<const FaceDirection> direc
 
 std::vector<Float3> cornerNormals(const mesh::SourceMesh& mesh, float crease_angle_rad)
 {
-    // faces of one plane differ by rounding
+    // normals of coplanar faces differ by rounding
     constexpr double kCosineRounding = 1e-6;
     const double min_cosine = std::cos(static_cast<double>(crease_angle_rad)) - kCosineRounding;
     const std::vector<FaceNormal> faces = faceNormals(mesh);
@@ -201,11 +203,11 @@ std::vector<Float3> cornerNormals(const mesh::SourceMesh& mesh, float crease_ang
     return normals;
 }
 
-/// A corner with what decides whether it may share its vertex with another.
+/// Corner with the values that decide if it may share its vertex with another corner.
 struct SplitCorner
 {
     uint32_t vertex;
-    std::array<int16_t, 3> direction; ///< of the normal, in steps that cannot be seen
+    std::array<int16_t, 3> direction; ///< of the normal, in steps too small to see
     uint32_t corner;
     friend auto operator<=>(const SplitCorner&, const SplitCorner&) = default;
     bool sharesVertexWith(const SplitCorner& other) const
@@ -214,7 +216,7 @@ struct SplitCorner
     }
 };
 
-/// Give each vertex one copy for each direction that its corners have.
+/// Give each vertex one copy for each distinct normal direction of its corners.
 void splitVertices(mesh::SourceMesh& mesh, const std::vector<Float3>& corner_normals)
 {
     constexpr float kSteps = 16384;

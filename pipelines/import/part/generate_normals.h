@@ -7,8 +7,8 @@
 namespace hearth::import
 {
 
-/// Generate area-weighted smooth normals with a crease angle (vertices are split where
-/// needed, all attributes, influences and morph targets with them; vertices that no triangle uses are left out).
+/// Generate area-weighted smooth normals with a crease angle. Vertices are split where needed, with all
+/// attributes, influences and morph targets; vertices that no triangle uses are removed.
 void generateNormals(mesh::SourceMesh& mesh, float crease_angle_rad);
 
 } // namespace hearth::import

@@ -1,5 +1,6 @@
-// Tangents in the manner of MikkTSpace: M. S. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008: each
-// corner's tangent counts by its angle, in the plane of the vertex normal, and mirrored UVs are kept apart.
+// Generates tangents in the manner of MikkTSpace (M. S. Mikkelsen, "Simulation of Wrinkled Surfaces
+// Revisited", 2008): each corner's tangent is weighted by its angle, in the plane of the vertex normal, and
+// mirrored UVs are kept apart.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/part/generate_tangents.h"
 
@@ -19,7 +20,7 @@ namespace hearth::import
 namespace
 {
 
-/// Which way the UVs of a triangle turn.
+/// Handedness of the UVs of a triangle.
 enum class Handedness : uint8_t
 {
     right = 0,    ///< v runs down the image: bitangent = cross(normal, tangent)
@@ -29,7 +30,7 @@ enum class Handedness : uint8_t
 
 struct FaceTangent
 {
-    Float3 direction; ///< unit, of growing u
+    Float3 direction; ///< unit, towards larger u
     Handedness handedness = Handedness::none;
 };
 
@@ -52,11 +53,12 @@ FaceTangent faceTangent(const mesh::SourceMesh& mesh, const std::vector<Float2>&
     if (!(length > 0) || !std::isfinite(length))
         return {};
     const auto unit = [&](size_t axis) { return static_cast<float>(t[axis] / length); };
-    // glTF's v runs down while a normal map's green runs up, so the usual sign is turned round
+    // glTF's v runs down while a normal map's green runs up, so the usual sign is reversed
     return {{unit(0), unit(1), unit(2)}, area < 0 ? Handedness::right : Handedness::mirrored};
 }
 
-/// Vertices with equal position, normal and UV get the same number: a soup of triangles is smooth too.
+/// Return an id for each vertex. Vertices with equal position, normal and UV share it, so that an unindexed
+/// triangle soup is smooth too.
 std::vector<uint32_t> weldedVertices(const mesh::SourceMesh& mesh, const std::vector<Float2>& uvs)
 {
     const auto key = [&](uint32_t v)
@@ -93,7 +95,7 @@ float cornerAngle(const mesh::SourceMesh& mesh, const uint32_t* corner, size_t k
     return std::acos(std::clamp(dot(a, b), -1.0f, 1.0f));
 }
 
-/// What the corners of a triangle add to their vertices.
+/// Return the contribution of each corner of a triangle to the tangent of its vertex.
 std::array<Float3, 3> cornerTangents(const mesh::SourceMesh& mesh, const FaceTangent& face,
                                      const uint32_t* corner)
 {
@@ -107,8 +109,8 @@ std::array<Float3, 3> cornerTangents(const mesh::SourceMesh& mesh, const FaceTan
     return tangents;
 }
 
-/// Sums for each welded vertex, right-handed ones first: element 2 * welded + handedness. In the order of the triangles,
-/// however many threads there are.
+/// Return the sums for each welded vertex, right-handed ones first: element 2 * welded + handedness. Sums are
+/// in the order of the triangles, independent of the number of threads.
 std::vector<Float3> sumTangents(const mesh::SourceMesh& mesh, const std::vector<FaceTangent>& faces,
                                 const std::vector<uint32_t>& welded)
 {
@@ -133,10 +135,10 @@ std::vector<Float3> sumTangents(const mesh::SourceMesh& mesh, const std::vector<
     return sums;
 }
 
-/// The vertex of each handedness that a vertex becomes, or none.
+/// Vertices that a vertex is split into: an index for each handedness, or kNone.
 using Copies = std::array<uint32_t, 2>;
 
-/// Which copies the triangles need; a vertex without any keeps a right-handed one.
+/// Find the copies that the triangles need; a vertex without any keeps a right-handed one.
 std::vector<Copies> findCopies(const mesh::SourceMesh& mesh, const std::vector<FaceTangent>& faces)
 {
     std::vector<Copies> copies(mesh.vertexCount(), {formats::kNone, formats::kNone});

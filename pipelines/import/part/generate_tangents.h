@@ -9,8 +9,8 @@
 namespace hearth::import
 {
 
-/// Tangents from UV set `uv_set`, whose v runs down the image, for a mesh that has normals (asserted); vertices are
-/// split where the UVs are mirrored.
+/// Generate tangents from UV set `uv_set` (v runs down the image) for a mesh that has normals (asserted).
+/// Vertices are split where the UVs are mirrored.
 void generateTangents(mesh::SourceMesh& mesh, uint32_t uv_set);
 
 } // namespace hearth::import

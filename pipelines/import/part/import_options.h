@@ -1,5 +1,5 @@
-// Options of an import, and limits on untrusted sources.
-// Every reader treats its bytes as hostile: it checks counts against what is there before it allocates or reads.
+// Options of an import, and limits on untrusted sources. Every reader treats its bytes as hostile: it checks
+// counts against the available bytes before it allocates or reads.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,13 +10,13 @@
 namespace hearth::import
 {
 
-/// Limits that keep a hostile file from taking the machine; generous for real assets.
+/// Limits that keep a hostile file from exhausting the machine; generous for real assets.
 struct ImportLimits
 {
     uint64_t max_file_bytes = uint64_t{8} << 30;
-    uint64_t max_vertices = uint64_t{1} << 28;     ///< of one mesh
-    uint64_t max_triangles = uint64_t{1} << 28;    ///< of one mesh
-    uint64_t max_image_texels = uint64_t{1} << 26; ///< 8192 x 8192: what a mobile GPU can use
+    uint64_t max_vertices = uint64_t{1} << 28;     ///< for one mesh
+    uint64_t max_triangles = uint64_t{1} << 28;    ///< for one mesh
+    uint64_t max_image_texels = uint64_t{1} << 26; ///< 8192 x 8192: the largest that a mobile GPU can use
     uint32_t max_image_size = 16384;
     uint64_t max_instances = uint64_t{1} << 20;
 };
@@ -24,8 +24,9 @@ struct ImportLimits
 struct ImportOptions
 {
     ImportLimits limits;
-    float crease_angle_rad = 1.0471976f; ///< 60 degrees: sharper edges of a mesh without normals stay hard
-    tools::ReadList* reads = nullptr;    ///< notes the files that are read; null: nobody asks
+    /// Edges sharper than this stay hard in a mesh without normals: 60 degrees.
+    float crease_angle_rad = 1.0471976f;
+    tools::ReadList* reads = nullptr; ///< records the files that are read; null: not recorded
 };
 
 } // namespace hearth::import

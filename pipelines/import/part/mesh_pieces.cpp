@@ -10,7 +10,7 @@ namespace hearth::import
 namespace
 {
 
-/// Call visit(array) for each array that has one element for a vertex.
+/// Call visit(array) for each array that has one element per vertex.
 template <typename Mesh, typename Visit>
 void forEachVertexArray(Mesh& mesh, Visit visit)
 {
@@ -32,7 +32,8 @@ void forEachVertexArray(Mesh& mesh, Visit visit)
     }
 }
 
-/// Append `from` to `to`, which has `before` elements or is empty, where either has any.
+/// Append `from` to `to` and fill absent elements with `missing`; both arrays stay empty if both are. `to`
+/// has `before` elements or is empty, `from` has `added` elements or is empty.
 template <typename T>
 void append(std::vector<T>& to, const std::vector<T>& from, size_t before, size_t added, const T& missing)
 {

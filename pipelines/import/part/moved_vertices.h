@@ -1,4 +1,4 @@
-// Where the vertices of a mesh are that joints or nodes move: what is kept of it once it is in the part's file.
+// Bounds of a mesh's vertices that joints or nodes move; kept after the mesh is written to the part's file.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,13 +13,13 @@ namespace hearth::import
 struct MovedVertices
 {
     motion::Box3d box;                   ///< of the bind pose, object space
-    std::vector<motion::Box3d> of_joint; ///< those of them that each joint moves; none without a skin
-    std::vector<double> morph_distances; ///< of each target: how far it moves any vertex with the weight 1
+    std::vector<motion::Box3d> of_joint; ///< for each joint, of its vertices; empty without a skin
+    std::vector<double> morph_distances; ///< for each target, its longest displacement at weight 1
 };
 
 MovedVertices movedVertices(const mesh::SourceMesh& mesh);
 
-/// Those of a level of detail, which the same joints and weights move, beside those of its mesh.
+/// Merge the bounds of a level of detail, moved by the same joints and weights, into the bounds of its mesh.
 void add(MovedVertices& vertices, const MovedVertices& of_level);
 
 } // namespace hearth::import

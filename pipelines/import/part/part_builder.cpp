@@ -14,10 +14,10 @@ using namespace formats;
 namespace
 {
 
-// A hostile file can provoke a message for every element; a person reads the first few.
+// A hostile file can provoke a message for every element; a user reads the first few.
 constexpr size_t kMaxWarnings = 100;
 
-/// The text with every byte that is not part of valid UTF-8 replaced by '?': names go into the string table as UTF-8.
+/// Replace every byte that is not part of valid UTF-8 by '?': the string table stores names as UTF-8.
 std::string validUtf8(std::string_view text)
 {
     const auto continues = [&](size_t i)

@@ -1,4 +1,4 @@
-// Receives what import reads, mesh by mesh and image by image, and writes the import part.
+// Collects what import reads, mesh by mesh and image by image, and writes the import part.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -17,7 +17,7 @@
 namespace hearth::import
 {
 
-/// An image as decoded: rows top to bottom, tightly packed.
+/// Decoded image: rows top to bottom, tightly packed.
 struct DecodedImage
 {
     uint32_t width = 0;
@@ -26,7 +26,7 @@ struct DecodedImage
     std::vector<std::byte> texels; ///< width * height * (is_float ? 8 : 4)
 };
 
-/// How the source counts itself, for the report.
+/// Counts of the source in its own terms, for the report.
 struct SourceCounts
 {
     uint64_t triangles = 0; ///< over meshes, not instances
@@ -38,44 +38,45 @@ struct SourceCounts
     uint64_t morph_targets = 0;
 };
 
-/// The error with its texts cut to what a person reads: names in a hostile file can be megabytes long.
+/// Truncate the texts of an error to a readable length: names in a hostile file can be megabytes long.
 Error shortened(Error error);
 
-/// The import part being written. Small records collect in the public vectors; meshes and images go to the file
-/// at once, so that one mesh and one image are in memory at a time.
+/// Import part being written. Small records collect in the public vectors. Meshes and images go to the file
+/// immediately, so that only one mesh and one image are in memory at a time.
 class PartBuilder
 {
 public:
     static Result<PartBuilder> create(const std::string& path, std::string source_name);
 
-    /// The name's place in the string table; equal names share it.
+    /// Add a name to the string table and return its reference; equal names share it.
     formats::StringRef intern(std::string_view text);
 
-    /// A text of the string table.
+    /// Return a text of the string table.
     std::string_view text(formats::StringRef ref) const
     {
         return std::string_view(strings_).substr(ref.offset, ref.length);
     }
 
-    /// Next mesh; meshes get the indices 0, 1, ... in call order.
+    /// Write the next mesh; meshes get the indices 0, 1, ... in call order.
     Status addMesh(const mesh::SourceMesh& mesh);
 
-    /// A mesh that is the next coarser level of detail of mesh `of`, in its object space, moved by the same joints. It is a
-    /// mesh of its own number. `label` says what people know the level by.
+    /// Write a mesh that is the next coarser level of detail of mesh `of`, in the object space of `of` and
+    /// moved by the same joints. The level has a mesh index of its own. `label` is the level's number and
+    /// name in the source.
     Status addLod(uint32_t of, const mesh::SourceMesh& mesh, const tools::LodLabel& label);
 
-    /// Next image (finest mip only); returns its index. `record` brings name, format and flags.
+    /// Write the next image (finest mip only) and return its index. `record` provides name, format and flags.
     Result<uint32_t> addImage(formats::ImageRecord record, const DecodedImage& image);
 
-    /// Note something that the user should know; printed to stderr by the program and kept in META.
+    /// Add a warning for the user; the program prints it to stderr and META stores it.
     void warn(Issue issue, std::string where, std::string detail);
-    /// The same with a remark that stands behind the detail on stderr alone: it goes by more than the files
-    /// that are read, such as names of files beside them, and a part must be the same wherever those are.
+    /// Add a warning with a remark, which follows the detail on stderr only. A remark may depend on more than
+    /// the files that are read, such as names of neighbouring files, but the part must not.
     void warn(Issue issue, std::string where, std::string detail, std::string_view remark);
 
-    /// A source file that was read: name relative to the asset's folder, and its content for the hash.
+    /// Register a source file that was read: name relative to the asset's folder, and content for the hash.
     void addSource(std::string name, std::span<const std::byte> content);
-    /// The same where the content is not in memory at once; hash of formats::hashBytes.
+    /// Register a source file that is not in memory at once; `hash` is from formats::hashBytes.
     void addSource(std::string name, uint64_t size, uint64_t hash);
 
     Status finish();
@@ -98,20 +99,20 @@ public:
 
     const std::string& sourceName() const { return source_name_; }
     uint32_t imageCount() const { return static_cast<uint32_t>(images_.size()); }
-    /// Of a mesh and its levels of detail.
+    /// Bounds of the moved vertices of a mesh and its levels of detail.
     const MovedVertices& movedVerticesOf(uint32_t mesh) const { return moved_vertices_[mesh]; }
     bool hasLods() const { return !lods_.empty(); }
 
-    /// Take over the sources and messages of another part, whose meshes become part of this one.
+    /// Add the sources and messages of another part, whose meshes become part of this one.
     void adoptReport(const PartBuilder& other);
 
-    /// As a person is told of them, with their remarks.
+    /// Return the warnings as shown to the user, with their remarks.
     std::vector<Error> warnings() const;
 
-    /// Messages beyond the first hundred, which are only counted.
+    /// Number of messages beyond the first hundred, which are counted but not stored.
     uint64_t warningsLeftOut() const { return warnings_left_out_; }
 
-    /// The text of chunk META, schema hearth.import/1.
+    /// Return the text of chunk META, schema hearth.import/1.
     std::string report() const;
 
 private:
@@ -137,7 +138,7 @@ private:
     std::vector<formats::ImageRecord> images_;
     uint32_t mesh_count_ = 0;
     std::vector<formats::AuthoredLodRecord> lods_;
-    std::vector<MovedVertices> moved_vertices_; ///< of each mesh
+    std::vector<MovedVertices> moved_vertices_; ///< for each mesh
     std::vector<Warning> warnings_;
     uint64_t warnings_left_out_ = 0;
     std::vector<SourceFile> sources_;

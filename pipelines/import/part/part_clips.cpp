@@ -20,7 +20,7 @@ MotionTables tablesOf(const PartBuilder& part)
             part.channels, part.keys,  part.morph_weights, part.key_bits};
 }
 
-/// What instancing puts between the node and its instance, as the runtime finds it.
+/// Return the transform that instancing puts between a node and its instance, derived as in the runtime.
 Affine3d nodeFromObject(const InstanceRecord& instance, const Affine3d& world_from_node)
 {
     const auto narrow = narrowed(world_from_node);
@@ -30,7 +30,7 @@ Affine3d nodeFromObject(const InstanceRecord& instance, const Affine3d& world_fr
     return node_from_world ? *node_from_world * widened(instance.world_from_object) : Affine3d{};
 }
 
-/// How far morph targets take any vertex, over all weights that clips give the node.
+/// Return the longest displacement of a vertex by morph targets, over all weights that clips give the node.
 double morphDistance(const MotionTables& tables, uint32_t node, const MovedVertices& vertices)
 {
     const size_t targets = vertices.morph_distances.size();

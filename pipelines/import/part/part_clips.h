@@ -1,4 +1,4 @@
-// The last step of an import: the clips of the part become as small as their error allows.
+// Compresses the animation clips of a part, the last step of an import, as far as their stated error allows.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -8,7 +8,8 @@
 namespace hearth::import
 {
 
-/// Compress the clips of a part whose scene and meshes are complete (cook/animation_compression), and note in its report what became of them.
+/// Compress the clips of a part whose scene and meshes are complete (cook/animation_compression), and note
+/// the results in its report.
 void compressClips(PartBuilder& part, const clips::StatedError& stated);
 
 } // namespace hearth::import

@@ -45,7 +45,7 @@ std::vector<Affine3d> restPlaces(std::span<const NodeRecord> nodes)
     return world_from_node;
 }
 
-/// Moves all that a part has in the world.
+/// Converts everything in a part that has a place in the world.
 class Mover
 {
 public:
@@ -86,7 +86,7 @@ private:
         return result ? Result<Affine3>(*result) : outOfRange();
     }
 
-    /// 0 stands for no limit and stays; no other length may become it.
+    /// Scale a length. 0 means no limit and stays 0; no other length may become 0.
     Status scaleLength(float& length) const
     {
         const auto metres = static_cast<float>(double{length} * factor_);
@@ -111,8 +111,9 @@ private:
         return success();
     }
 
-    /// Moves an instance. One that stands where its node does must do so to the last bit afterwards: a runtime knows by that
-    /// that nothing is between them. A skinned one stands where its joints are, which have moved already.
+    /// Move an instance. An instance whose transform equals its node's must equal it bit by bit afterwards:
+    /// the runtime concludes from equality that nothing lies between them. A skinned instance is placed by
+    /// its joints, which have moved already.
     Status moveInstance(InstanceRecord& instance, std::span<const Affine3d> before,
                         std::span<const Affine3d> after)
     {
@@ -127,7 +128,8 @@ private:
         return success();
     }
 
-    /// The place of what has lengths of its own: it is turned and moved, and its axes keep their lengths.
+    /// Return the transform of a camera or light, rotated and moved without a change to the length of its
+    /// axes: its own lengths are scaled separately.
     Result<Affine3> placeOf(const Affine3& world_from_thing) const
     {
         Affine3d place = turn_ * widened(world_from_thing);

@@ -1,4 +1,4 @@
-// The unit and the up axis that a source is written in, and its way into a pack's: metres, +Y up.
+// Converts a part from the unit and up axis of its source to metres with +Y up, as in a pack.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,7 +7,7 @@
 namespace hearth::import
 {
 
-/// Limits of SourceSpace::metres_per_unit: beyond what anybody measures in, and far inside of 32-bit numbers.
+/// Limits of SourceSpace::metres_per_unit: beyond any unit in use, and far inside the range of 32-bit floats.
 inline constexpr double kLeastScale = 1e-9;
 inline constexpr double kLargestScale = 1e9;
 
@@ -23,11 +23,12 @@ struct SourceSpace
     UpAxis up = UpAxis::y;
 };
 
-/// Bring a part that has been read, but not finished, into metres with +Y up. A node without a name, behind all others, becomes
-/// the parent of all roots, whatever scene they are of, so that joints and clips need no change; meshes keep their coordinates.
-/// Places, ranges of lights, planes and widths of cameras and radii of shadow spheres follow. Candela and lux do not: they are
-/// units of light, whatever lengths are written in. What is in metres with +Y up already stays as it is.
-/// errors  input_too_large, where a place or a length does not fit 32-bit numbers
+/// Convert a part that has been read, but not finished, to metres with +Y up. A node without a name, appended
+/// after all others, becomes the parent of the roots of all scenes, so joints and clips need no change;
+/// meshes keep their coordinates. World transforms, ranges of lights, near and far planes and widths of
+/// cameras, and radii of shadow spheres are converted. Candela and lux are not: they do not depend on the
+/// unit of length. A part in metres with +Y up stays unchanged.
+/// errors  input_too_large, where a position or a length does not fit 32-bit floats
 Status bringIntoMetres(const SourceSpace& space, PartBuilder& part);
 
 } // namespace hearth::import

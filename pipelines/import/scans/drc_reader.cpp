@@ -1,4 +1,4 @@
-// Bare Draco files (.drc), meshes and point clouds.
+// Reads bare Draco files (.drc): meshes and point clouds.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/scans/file.h"
 
@@ -13,7 +13,7 @@ namespace hearth::import
 namespace
 {
 
-/// The values of an attribute for every point, or false where the data is damaged.
+/// Read the values of an attribute for every point. Return false if the data is damaged.
 template <typename T, int8_t kComponents, typename Convert>
 bool readAttribute(const draco::PointCloud& cloud, const draco::PointAttribute& attribute,
                    std::vector<T>& out, Convert convert)
@@ -30,7 +30,8 @@ bool readAttribute(const draco::PointCloud& cloud, const draco::PointAttribute& 
     return true;
 }
 
-/// Integers stand for 0..1 in colours; Draco scales those that are marked as such.
+/// Return the factor that scales integer colours to 0..1; Draco scales attributes marked as normalized
+/// itself.
 float colorScale(const draco::PointAttribute& attribute)
 {
     if (attribute.normalized())
@@ -82,7 +83,7 @@ bool readOthers(const draco::PointCloud& cloud, ScanFile& file)
     return true;
 }
 
-/// What is wrong, or nothing and `file` is filled.
+/// Decode into `file`. Return a description of the damage; empty on success.
 std::string decode(const ScanSource& source, ScanFile& file)
 {
     draco::DecoderBuffer buffer;

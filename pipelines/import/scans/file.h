@@ -1,4 +1,4 @@
-// What the readers of scans (OBJ, PLY, STL, OFF, Draco) deliver: polygons as the file lists them.
+// Output of the scan readers (OBJ, PLY, STL, OFF, Draco): polygons as the file lists them.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -20,7 +20,7 @@ struct ScanSource
     std::string_view text() const { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 };
 
-/// Something that the user should know although the file is read.
+/// Message for the user about a file that is read nevertheless.
 struct ScanNote
 {
     Issue issue;
@@ -28,26 +28,26 @@ struct ScanNote
     std::string detail;
 };
 
-/// Polygons as the file has them. Corners name positions, and may name normals and UVs of their own; all indices are
-/// in range (formats::kNone: the corner has none) and all positions are finite.
+/// Polygons as in the file. Corners index positions, and may index normals and UVs of their own; all indices
+/// are in range (formats::kNone: the corner has none) and all positions are finite.
 struct ScanFile
 {
     std::vector<Float3> positions;
-    std::vector<Float4> colors;  ///< of each position, linear RGBA; or empty
+    std::vector<Float4> colors;  ///< for each position, linear RGBA; or empty
     std::vector<Float3> normals; ///< any length, zero where the file has none
-    std::vector<Float2> uvs;     ///< v from the top down
+    std::vector<Float2> uvs;     ///< v runs from the top down
 
     std::vector<uint32_t> corner_positions;
     std::vector<uint32_t> corner_normals; ///< empty: normals belong to the positions
     std::vector<uint32_t> corner_uvs;     ///< empty: UVs belong to the positions
-    std::vector<uint32_t>
-        face_ends; ///< for each face the end of its corners, which start where the last ended
-    std::vector<uint32_t> face_materials; ///< of each face, an index into material_names or none; or empty
+    /// end of the corners of each face, which start at the end of the previous face
+    std::vector<uint32_t> face_ends;
+    std::vector<uint32_t> face_materials; ///< for each face, an index into material_names or none; or empty
 
     std::vector<std::string> material_names;
     std::vector<std::string> material_libraries; ///< MTL files
-    std::string texture_file;                    ///< base colour of everything (PLY)
-    uint64_t vertex_count = 0;                   ///< as the file counts them
+    std::string texture_file;                    ///< base colour texture of the whole mesh (PLY)
+    uint64_t vertex_count = 0;                   ///< as the file counts vertices
     std::vector<ScanNote> notes;
 
     void note(Issue issue, std::string where, std::string detail)
@@ -62,14 +62,15 @@ Result<ScanFile> readStl(const ScanSource& source);
 Result<ScanFile> readOff(const ScanSource& source);
 Result<ScanFile> readDrc(const ScanSource& source);
 
-/// The colour of a scan, stored as cameras and screens have it (sRGB), as linear light.
+/// Convert a colour of a scan, stored as sRGB as cameras and screens have it, to linear light.
 Float4 linearColor(float red, float green, float blue, float alpha);
 
-/// Triangulate the polygons and give every distinct corner a vertex. Vertices that no triangle uses are dropped.
-/// Normals are unit; those that the file lacks while it has others are the mean of the triangles around them.
+/// Triangulate the polygons and give every distinct corner a vertex. Vertices that no triangle uses are
+/// dropped. Normals are unit vectors; a normal that is missing in a file that has others is the mean of the
+/// triangles around it.
 mesh::SourceMesh meshFromScan(ScanFile&& scan);
 
-/// Node 0 and instance 0 of mesh 0, at the origin.
+/// Add node 0 and instance 0 of mesh 0, at the origin.
 void addOnlyInstance(const std::string& name, PartBuilder& part);
 
 } // namespace hearth::import

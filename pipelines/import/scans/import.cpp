@@ -1,4 +1,4 @@
-// Scans: one mesh, one node, one instance.
+// Imports a scan as one mesh, one node and one instance.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/scans/import.h"
 
@@ -41,7 +41,7 @@ std::string lowerCase(std::string_view text)
     return lower;
 }
 
-/// By signature where the format has one, else by the name.
+/// Choose the reader by signature where the format has one, else by file name.
 Reader readerOf(const ScanSource& source)
 {
     const std::string_view text = source.text();
@@ -58,14 +58,14 @@ Reader readerOf(const ScanSource& source)
     return found == kFormats.end() ? nullptr : found->read;
 }
 
-/// "folder/skull.obj": "skull".
+/// Return the file name without folder and extension: "skull" for "folder/skull.obj".
 std::string stemOf(const std::string& path)
 {
     const std::string name = path.substr(path.rfind('/') + 1);
     return name.substr(0, name.rfind('.'));
 }
 
-/// The materials of the scan; faces without one get a default that shows their shape.
+/// Add the materials of the scan; faces without one get a default that shows their shape.
 Status addMaterials(ScanFile& scan, const ScanSource& source, const ImportOptions& options, PartBuilder& part)
 {
     part.counts.materials = scan.material_names.size();

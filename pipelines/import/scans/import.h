@@ -12,7 +12,7 @@
 namespace hearth::import
 {
 
-/// OBJ (+ MTL), PLY, STL, OFF, and bare Draco (.drc): one mesh, one node, one instance.
+/// Import OBJ (+ MTL), PLY, STL, OFF, or bare Draco (.drc): one mesh, one node, one instance.
 Status importScan(const std::string& path, std::span<const std::byte> bytes, const ImportOptions& options,
                   PartBuilder& part);
 

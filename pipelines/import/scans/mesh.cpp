@@ -1,4 +1,4 @@
-// Polygons of a scan to a triangle mesh.
+// Converts the polygons of a scan to a triangle mesh.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/scans/file.h"
 #include "pipelines/import/scans/triangulate.h"
@@ -51,7 +51,7 @@ Triangles triangulate(const ScanFile& scan)
     return triangles;
 }
 
-/// What makes a vertex: the same position may stand with several normals and UVs.
+/// Key of a vertex: a position may occur with several normals and UVs.
 struct VertexKey
 {
     uint32_t position = 0;
@@ -62,14 +62,14 @@ struct VertexKey
 
 uint64_t hashOf(const VertexKey& key)
 {
-    // multipliers of splitmix64; every bit of the key reaches the upper half, which picks the slot
+    // multipliers of splitmix64; every bit of the key reaches the upper half, which selects the slot
     uint64_t h = key.position * 0x9E3779B97F4A7C15u;
     h = (h ^ (h >> 29) ^ key.normal) * 0xBF58476D1CE4E5B9u;
     h = (h ^ (h >> 32) ^ key.uv) * 0x94D049BB133111EBu;
     return h ^ (h >> 31);
 }
 
-/// Numbers distinct keys in the order in which they come.
+/// Numbers distinct keys in order of first occurrence.
 class VertexTable
 {
 public:
@@ -118,7 +118,7 @@ T valueOr(const std::vector<T>& values, uint32_t index, T fallback)
     return index == kNone ? fallback : values[index];
 }
 
-/// Vertices of the distinct corners that triangles use; fills positions, attributes and indices.
+/// Make vertices of the distinct corners that triangles use; fill positions, attributes and indices.
 void weldCorners(const ScanFile& scan, const Triangles& triangles, mesh::SourceMesh& mesh)
 {
     const bool own_normals = !scan.corner_normals.empty();
@@ -143,7 +143,7 @@ void weldCorners(const ScanFile& scan, const Triangles& triangles, mesh::SourceM
     }
 }
 
-/// Without attributes at corners a vertex is a position; the order of the file stays.
+/// Make a vertex of each used position, in the order of the file; for scans without corner attributes.
 void takePositions(ScanFile& scan, const Triangles& triangles, mesh::SourceMesh& mesh)
 {
     std::vector<uint32_t> new_from_old(scan.positions.size(), kNone);
@@ -179,7 +179,7 @@ void takePositions(ScanFile& scan, const Triangles& triangles, mesh::SourceMesh&
         mesh.indices.push_back(new_from_old[scan.corner_positions[corner]]);
 }
 
-/// The area-weighted normals of the triangles around each vertex, not unit.
+/// Return the area-weighted normals of the triangles around each vertex, not of unit length.
 std::vector<Float3> meanNormals(const mesh::SourceMesh& mesh)
 {
     std::vector<Float3> sums(mesh.vertexCount());
@@ -194,7 +194,7 @@ std::vector<Float3> meanNormals(const mesh::SourceMesh& mesh)
     return sums;
 }
 
-/// Make normals unit and fill in those that the file lacks.
+/// Make normals unit vectors and fill in missing ones.
 void completeNormals(mesh::SourceMesh& mesh)
 {
     const auto usable = [](Float3 n) { return isFinite(n) && length(n) > 1e-20f; };

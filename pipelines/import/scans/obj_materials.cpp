@@ -1,4 +1,5 @@
-// The materials of a scan as materials of the part: libraries and images from the asset's folder.
+// Converts the materials of a scan to materials of the part: libraries and images come from the asset's
+// folder.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/scans/obj_materials.h"
 
@@ -22,7 +23,8 @@ namespace
 using formats::kNone;
 
 constexpr float kAlphaCutoff = 0.5f;
-// A surface that says nothing of its gloss, as clay or plaster: scans carry light and shade in their colours.
+// Roughness of a surface with unspecified gloss, such as clay or plaster: scans carry light and shade in
+// their colours.
 constexpr float kDefaultRoughness = 0.8f;
 
 enum class Purpose : uint32_t
@@ -77,7 +79,7 @@ public:
     }
 
 private:
-    /// The names of a mtllib statement: one that may have blanks, else several.
+    /// Read the libraries of a mtllib statement: one name that may have blanks, else several names.
     void readLibraries(const std::string& names)
     {
         if (readLibrary(names))
@@ -118,7 +120,7 @@ private:
     {
         formats::MaterialRecord record = defaultScanMaterial();
         const bool has_map = !mtl.diffuse_map.file.empty();
-        // programs write Kd 0 beside a map, or none: the map alone counts then
+        // programs write Kd 0 beside a map, or no Kd: then the map alone counts
         const bool black = mtl.diffuse.x == 0 && mtl.diffuse.y == 0 && mtl.diffuse.z == 0;
         const Float3 diffuse = has_map && (black || !mtl.has_diffuse) ? Float3{1, 1, 1} : mtl.diffuse;
         record.base_color = {diffuse.x, diffuse.y, diffuse.z, mtl.opacity};
@@ -184,7 +186,7 @@ private:
         return success();
     }
 
-    /// The image of a texture, none where the surface is better without one.
+    /// Return the image of a texture, or none if the surface looks better without one.
     Result<uint32_t> textureImage(const MtlTexture& texture, Purpose purpose, bool may_be_height_map)
     {
         const std::string key = (purpose == Purpose::color ? "color\n" : "normals\n") + texture.file + "\n";
@@ -196,7 +198,7 @@ private:
         const bool height_map = may_be_height_map && !placeholder && isGrey(image);
         if (height_map)
             part_.warn(Issue::dropped, "", "height map '" + texture.file + "' is not kept (normal maps are)");
-        // a placeholder says nothing of normals
+        // a placeholder holds no normals
         uint32_t index = kNone;
         if (!height_map && (!placeholder || purpose != Purpose::normals))
         {
@@ -240,7 +242,7 @@ private:
         return decodeImage(file.bytes(), name, options_.limits);
     }
 
-    /// The image, or the placeholder with a warning.
+    /// Load an image, or return the placeholder with a warning.
     DecodedImage load(const std::string& file, bool& placeholder)
     {
         auto image = read(file);
@@ -260,7 +262,7 @@ private:
                    folder_.suggestionFor(file, error.issue));
     }
 
-    /// Height maps are grey; the flat normal is (128, 128, 255).
+    /// True if the image may be a height map, which is grey; the flat normal is (128, 128, 255).
     static bool isGrey(const DecodedImage& image)
     {
         for (size_t at = 0; at < image.texels.size() && !image.is_float; at += 4)
@@ -269,8 +271,8 @@ private:
         return !image.is_float;
     }
 
-    /// Put the opacity map into the alpha of `image` (which is made white if there is none). An opacity map with
-    /// transparent texels brings its alpha, any other its brightness.
+    /// Put the opacity map into the alpha of `image` (a white image if there is none): the map's alpha if it
+    /// has transparent texels, else its brightness.
     void takeOpacity(const MtlMaterial& mtl, DecodedImage& image)
     {
         const auto opacity = read(mtl.opacity_map.file);
@@ -308,7 +310,7 @@ private:
     std::vector<std::string> libraries_read_;
     std::string failure_;
     std::string suggestion_;
-    std::string material_; ///< that is being made; empty: the one of faces without any
+    std::string material_; ///< name of the material being made; empty: for faces without a material
     std::map<std::string, uint32_t> image_of_key_;
     size_t undefined_ = 0;
 };

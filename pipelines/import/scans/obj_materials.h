@@ -1,4 +1,5 @@
-// Materials of OBJ files: MTL, the "Material Library File" appendix of the Advanced Visualizer manual.
+// Reads the materials of OBJ files: MTL, the "Material Library File" appendix of the Advanced Visualizer
+// manual.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,7 +10,7 @@
 namespace hearth::import
 {
 
-/// A texture statement with the options that are kept. MTL counts v from the bottom up: uv' = uv * scale + offset.
+/// Texture statement with its supported options. MTL counts v from the bottom up: uv' = uv * scale + offset.
 struct MtlTexture
 {
     std::string file;
@@ -21,7 +22,7 @@ struct MtlTexture
 
 struct MtlMaterial
 {
-    Float3 diffuse{0.8f, 0.8f, 0.8f}; ///< Kd; without one, the grey that modelling programs use
+    Float3 diffuse{0.8f, 0.8f, 0.8f}; ///< Kd; default: the grey of modelling programs
     Float3 emissive{0, 0, 0};         ///< Ke
     float opacity = 1;                ///< d, or 1 - Tr
     float shininess = 0;              ///< Ns, a Phong exponent
@@ -29,7 +30,7 @@ struct MtlMaterial
     bool has_shininess = false;
     MtlTexture diffuse_map;      ///< map_Kd
     MtlTexture emissive_map;     ///< map_Ke
-    MtlTexture normal_map;       ///< norm, or map_Bump where that is no height map
+    MtlTexture normal_map;       ///< norm, or map_Bump if it is no height map
     MtlTexture opacity_map;      ///< map_d
     bool normal_is_bump = false; ///< normal_map came from map_Bump
 };
@@ -40,24 +41,24 @@ struct MtlLibrary
     std::vector<ScanNote> notes;
 };
 
-/// Read a material library. `name` stands in the notes. Damaged statements are skipped with a note: a scan is worth
-/// reading even where its materials are not.
+/// Read a material library. `name` is used in the notes. Damaged statements are skipped with a note: a scan
+/// is worth reading even without its materials.
 void readMtl(std::string_view text, const std::string& name, MtlLibrary& library);
 
-/// Roughness of the microfacet model whose highlight is as wide as that of a Phong exponent.
+/// Return the microfacet roughness whose highlight is as wide as the highlight of a Phong exponent.
 float roughnessFromShininess(float shininess);
 
 struct ScanMaterialIndices
 {
-    std::vector<uint32_t> of_name;    ///< for each of ScanFile::material_names a material of the part
+    std::vector<uint32_t> of_name;    ///< for each of ScanFile::material_names, a material of the part
     formats::MaterialRecord fallback; ///< for faces without a material; not in the part yet
 };
 
-/// White, rough and without textures: what a scan without materials is drawn with.
+/// Return the material of a scan without materials: white, rough and without textures.
 formats::MaterialRecord defaultScanMaterial();
 
-/// Add the materials that the scan uses and their images to the part; all files come from the asset's folder.
-/// What is missing is a warning. errors: cannot_write.
+/// Add the materials that the scan uses, with their images, to the part; all files come from the asset's
+/// folder. A missing file is a warning. errors: cannot_write.
 Result<ScanMaterialIndices> addScanMaterials(const ScanFile& scan, const std::string& path,
                                              const ImportOptions& options, PartBuilder& part);
 

@@ -16,11 +16,11 @@ namespace
 
 using namespace std::string_view_literals;
 
-/// Statements without a counterpart in the metallic-roughness material; illum only chooses a shader.
+/// Statements without a counterpart in the metallic-roughness material; illum only selects a shader.
 constexpr std::array kIgnoredMaterialKeywords = {"illum"sv, "Ka"sv, "Ks"sv,       "Ni"sv,
                                                  "Tf"sv,    "Kt"sv, "sharpness"sv};
 
-/// Options of texture statements and how many words follow them at most.
+/// Option of a texture statement, with the minimum and maximum number of words after it.
 struct TextureOption
 {
     std::string_view name;
@@ -92,7 +92,7 @@ private:
 
     void note(Issue issue, std::string detail)
     {
-        constexpr size_t kMaxNotes = 20; // a library of 20 000 materials may repeat one thing as often
+        constexpr size_t kMaxNotes = 20; // a library of 20 000 materials may repeat a note as often
         if (library_.notes.size() < kMaxNotes)
             library_.notes.push_back({issue, name_ + " " + text_.where(), std::move(detail)});
     }
@@ -135,7 +135,7 @@ private:
                 note(Issue::repaired, "a colour is no three numbers; the default is used");
                 return false;
             }
-            read[c] = number ? std::max(*number, 0.0f) : read[c - 1]; // one number stands for all three
+            read[c] = number ? std::max(*number, 0.0f) : read[c - 1]; // one number sets all three
         }
         color = read;
         return true;
@@ -150,13 +150,13 @@ private:
         if (!readScalar(value))
             return;
         value = std::clamp(inverted ? 1 - value : value, 0.0f, 1.0f);
-        // many programs write "Tr 1" or "d 0" for what is opaque; nobody exports a thing that cannot be seen
+        // many programs write "Tr 1" or "d 0" for opaque materials; nobody exports an invisible one
         if (value == 0)
             note(Issue::repaired, "a material that would be invisible is drawn opaque");
         material_->opacity = value == 0 ? 1 : value;
     }
 
-    /// Options, the file name (which may have blanks), and with some writers options again.
+    /// Read the options, the file name (which may have blanks), and with some writers options again.
     void readTexture(MtlTexture& texture)
     {
         texture = {};
@@ -217,8 +217,8 @@ void readMtl(std::string_view text, const std::string& name, MtlLibrary& library
 
 float roughnessFromShininess(float shininess)
 {
-    // the Blinn-Phong exponent n and the width alpha of a microfacet lobe: alpha^2 = 2 / (n + 2)
-    // (B. Walter et al., "Microfacet Models for Refraction", 2007); glTF's roughness is the root of alpha
+    // Blinn-Phong exponent n and width alpha of a microfacet lobe: alpha^2 = 2 / (n + 2) (B. Walter et al.,
+    // "Microfacet Models for Refraction", 2007); glTF's roughness is the square root of alpha
     return std::sqrt(std::sqrt(2 / (std::max(shininess, 0.0f) + 2)));
 }
 

@@ -1,5 +1,6 @@
-// Wavefront OBJ: the polygonal part of the "Object Files (.obj)" appendix of the Advanced Visualizer manual, with the
-// vertex colours that scanners write behind the coordinates. Groups and objects become one mesh.
+// Reads Wavefront OBJ: the polygonal part of the "Object Files (.obj)" appendix of the Advanced Visualizer
+// manual, with the vertex colours that scanners write after the coordinates. Groups and objects become one
+// mesh.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/scans/file.h"
 #include "pipelines/import/scans/text.h"
@@ -20,19 +21,19 @@ namespace
 using namespace std::string_view_literals;
 using formats::kNone;
 
-/// Statements of the manual that draw nothing here; anything else that is not read is named in a warning.
+/// Statements of the manual that draw nothing here; other unsupported statements are named in a warning.
 constexpr std::array kIgnoredKeywords = {"g"sv,          "o"sv,         "s"sv,      "mg"sv,
                                          "bevel"sv,      "c_interp"sv,  "lod"sv,    "d_interp"sv,
                                          "shadow_obj"sv, "trace_obj"sv, "maplib"sv, "usemap"sv};
 
-/// How often a statement that is not kept was seen, and where first.
+/// Number of occurrences of an unsupported statement, and the line of the first.
 struct Dropped
 {
     size_t count = 0;
     size_t first_line = 0;
 };
 
-/// The largest index of one kind that was used before its element was defined, if it ever is.
+/// Largest index of one kind that was used before its element was defined, if it ever is defined.
 struct ForwardReference
 {
     uint64_t index = 0;
@@ -95,7 +96,7 @@ private:
         return success();
     }
 
-    /// Numbers up to the end of the line or a comment, at most as many as `values` holds.
+    /// Read numbers up to the end of the line or a comment, at most as many as `values` holds.
     template <size_t N>
     Result<size_t> readNumbers(std::array<double, N>& values)
     {
@@ -113,7 +114,7 @@ private:
         return count;
     }
 
-    /// A number; one with the sign of its exponent before the letter ("3.1+e2") is mended.
+    /// Read a number; the exponent's sign before its letter ("3.1+e2") is repaired.
     std::optional<double> readNumber()
     {
         if (const auto value = text_.number())
@@ -133,7 +134,7 @@ private:
         return value;
     }
 
-    /// A backslash at the end of a line joins it with the next.
+    /// Continue with the next line after a backslash at the end of a line. True if there was one.
     bool joinLine()
     {
         TextCursor ahead = text_;
@@ -181,7 +182,7 @@ private:
             countDropped(bad_colors_);
             color = {1, 1, 1, 1};
         }
-        file_.colors.resize(file_.positions.size(), {1, 1, 1, 1}); // vertices before this one had none
+        file_.colors.resize(file_.positions.size(), {1, 1, 1, 1}); // earlier vertices have no colour
         file_.colors.push_back(linearColor(color.x, color.y, color.z, color.w));
     }
 
@@ -242,7 +243,8 @@ private:
         file_.corner_normals.resize(std::min(size, file_.corner_normals.size()));
     }
 
-    /// "position", "position/uv", "position//normal" or "position/uv/normal"; parts behind the first may be empty.
+    /// Read "position", "position/uv", "position//normal" or "position/uv/normal"; parts after the first may
+    /// be empty.
     Status readCorner()
     {
         std::array<uint32_t, 3> index = {kNone, kNone, kNone};
@@ -269,7 +271,7 @@ private:
                text_.startsWith('\v') || text_.startsWith('\f');
     }
 
-    /// UVs and normals of corners are kept from the first one on.
+    /// Append the UV or normal index of a corner; indices are stored from the first corner that has one.
     void addIndex(std::vector<uint32_t>& indices, uint32_t index)
     {
         if (indices.empty() && index == kNone)
@@ -285,7 +287,7 @@ private:
                                  : file_.normals.size();
     }
 
-    /// Counts from 1; negative numbers count back from the last element so far.
+    /// Read an index: positive numbers count from 1, negative ones back from the last element so far.
     Status readIndex(size_t kind, uint32_t& index)
     {
         const auto number = text_.integer();
@@ -303,7 +305,7 @@ private:
         return success();
     }
 
-    /// Positions must be there. Corners whose UV or normal is not become corners without one.
+    /// Check forward references: a position must exist, a missing UV or normal is removed from its corner.
     Status checkReferences()
     {
         const ForwardReference& position = forward_[kPosition];
@@ -352,12 +354,12 @@ private:
             dropped.first_line = text_.line();
     }
 
-    /// Statements that are not kept. Bytes that no text has mean that the file is none.
+    /// Count a statement that is not supported. Bytes that no text contains mean that the file is not a text.
     Status drop(std::string_view keyword)
     {
         if (std::any_of(keyword.begin(), keyword.end(), isControlByte))
             return syntax("a byte that no text has");
-        constexpr size_t kMaxKinds = 16; // a damaged file could have as many as lines
+        constexpr size_t kMaxKinds = 16; // a damaged file could have one for each line
         const auto found = dropped_.find(keyword);
         if (found != dropped_.end())
             ++found->second.count;

@@ -1,4 +1,4 @@
-// OFF: Geomview's Object File Format as text, with the prefixes ST, C and N in any combination.
+// Reads OFF: Geomview's Object File Format as text, with the prefixes ST, C and N in any combination.
 // Source: Geomview manual, "OFF files".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/scans/file.h"
@@ -20,7 +20,7 @@ struct OffKind
     bool has_normals = false;
 };
 
-/// Position, normal, colour, UV: the most numbers that a vertex has.
+/// Maximum number of values of a vertex: position, normal, colour, UV.
 constexpr size_t kMaxNumbers = 3 + 3 + 4 + 2;
 
 class OffReader
@@ -51,7 +51,7 @@ private:
         return {issue, source_.path, text_.where(), std::move(detail)};
     }
 
-    /// Blank lines and comments.
+    /// Skip blank lines and comments.
     void skipSpace()
     {
         for (text_.skipSpace(); text_.startsWith('#'); text_.skipSpace())
@@ -64,7 +64,7 @@ private:
         return text_.atLineEnd() || text_.startsWith('#');
     }
 
-    /// The keyword may be missing, and the counts may follow on its line.
+    /// Read the keyword, which may be missing; the counts may follow on its line.
     Status readKeyword()
     {
         skipSpace();
@@ -114,7 +114,7 @@ private:
             return failure(Issue::mesh_syntax, "the numbers of vertices, faces and edges are missing");
         vertex_count_ = counts[0];
         face_count_ = counts[1];
-        // "0 0 0\n" and "1 0\n" are the shortest lines; the last needs no end
+        // "0 0 0\n" and "1 0\n" are the shortest lines; the last needs no line end
         if (vertex_count_ > (text_.remaining() + 1) / 6 || face_count_ > (text_.remaining() + 1) / 2)
             return failure(Issue::mesh_counts,
                            std::to_string(vertex_count_) + " vertices and " + std::to_string(face_count_) +
@@ -150,7 +150,7 @@ private:
         return success();
     }
 
-    /// Position, then normal, colour (0..1, or 0..255 where one is greater than 1) and UV.
+    /// Add a vertex: position, then normal, colour (0..1, or 0..255 if a value is greater than 1) and UV.
     void addVertex(const std::array<double, kMaxNumbers>& v, bool alpha)
     {
         size_t at = 0;

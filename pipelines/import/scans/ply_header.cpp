@@ -14,7 +14,7 @@ namespace
 
 using namespace std::string_view_literals;
 
-// Files of scanners have about ten lines; the limits only stop damaged ones.
+// Limits that only stop damaged files: headers of scanners have about ten lines.
 constexpr size_t kMaxHeaderBytes = size_t{1} << 20;
 constexpr size_t kMaxWords = 6;
 
@@ -63,7 +63,7 @@ public:
         const size_t first_end = text_.find_first_of("\r\n");
         if (text_.substr(0, first_end) != "ply" || first_end == text_.npos)
             return failure("the file does not start with 'ply'");
-        // the first line shows how lines end: after end_header the data may start with any byte
+        // the first line shows the kind of line end: after end_header the data may start with any byte
         line_end_ = text_.substr(first_end).starts_with("\r\n") ? "\r\n"sv : text_.substr(first_end, 1);
         for (;;)
         {
@@ -162,7 +162,8 @@ private:
         if (!type || !count_type || isFloat(*count_type))
             return failure("the type of a property is not known");
         PlyElement& element = header_.elements.back();
-        // "gap" and the like may stand several times; what has a meaning may not, and is checked where it is read
+        // properties without a meaning ("gap" and the like) may be repeated; the others may not, as their
+        // reader checks
         element.properties.push_back({std::string(words.back()), *type, is_list, *count_type});
         return success();
     }

@@ -1,4 +1,5 @@
-// The header of a PLY file. Source: G. Turk, "The PLY Polygon File Format", 1994, with the type names of later writers.
+// Reads the header of a PLY file. Source: G. Turk, "The PLY Polygon File Format", 1994, with the type names
+// of later writers.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -42,7 +43,7 @@ struct PlyProperty
     std::string name;
     PlyType type = PlyType::float32;
     bool is_list = false;
-    PlyType count_type = PlyType::uint8; ///< of a list
+    PlyType count_type = PlyType::uint8; ///< type of a list's length
 };
 
 struct PlyElement
@@ -56,12 +57,12 @@ struct PlyHeader
 {
     PlyFormat format = PlyFormat::ascii;
     std::vector<PlyElement> elements;
-    std::string texture_file; ///< of the comment "TextureFile", as MeshLab writes it
+    std::string texture_file; ///< from the comment "TextureFile", as MeshLab writes it
     size_t body_offset = 0;
     size_t body_line = 0;
 };
 
-/// errors: mesh_syntax, naming the line.
+/// Parse the header of a file. errors: mesh_syntax, with the line.
 Result<PlyHeader> readPlyHeader(const ScanSource& source);
 
 } // namespace hearth::import

@@ -1,5 +1,5 @@
-// Stanford PLY: ascii and binary, any scalar types, any order of elements. Elements and properties without a meaning
-// here are skipped and named in a warning.
+// Reads Stanford PLY: ascii and binary, any scalar types, any order of elements. Unknown elements and
+// properties are skipped and named in a warning.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/scans/ply_header.h"
 #include "pipelines/import/scans/ply_values.h"
@@ -18,7 +18,7 @@ namespace
 using namespace std::string_view_literals;
 using formats::kNone;
 
-/// Meanings of properties. The first group belongs to vertices, the second to faces.
+/// Meaning of a property. The first group belongs to vertices, the second to faces.
 enum class Role : uint8_t
 {
     x,
@@ -39,7 +39,7 @@ enum class Role : uint8_t
 };
 constexpr size_t kVertexRoles = static_cast<size_t>(Role::alpha) + 1;
 
-/// The values of one vertex by their role; the last takes those without one.
+/// Values of one vertex by role; the last element takes values without a role.
 using VertexRow = std::array<double, kVertexRoles + 1>;
 
 Role vertexRole(const PlyProperty& property)
@@ -85,7 +85,7 @@ Role faceRole(const PlyProperty& property)
     return property.is_list && property.name == "texcoord" ? Role::corner_uvs : Role::none;
 }
 
-/// What a colour of this type is divided by.
+/// Return the divisor that scales a colour of this type to 0..1.
 double colorScale(PlyType type)
 {
     switch (type)
@@ -101,7 +101,7 @@ double colorScale(PlyType type)
     }
 }
 
-/// The fewest bytes that a row of the element can have, to refuse counts that the file cannot hold.
+/// Return the minimum size in bytes of a row of the element, to refuse counts that the file cannot hold.
 uint64_t smallestRow(const PlyElement& element, PlyFormat format)
 {
     uint64_t size = 0;
@@ -160,7 +160,7 @@ private:
         if (element.count > 0 && element.properties.empty())
             return failure(Issue::mesh_syntax, "element " + element.name + " has no properties");
         const uint64_t row = smallestRow(element, header_.format);
-        // the last line of a text needs no end
+        // the last line of a text needs no line end
         if (element.count > 0 && element.count > (values_.remaining() + 1) / row)
             return failure(Issue::mesh_counts, std::to_string(element.count) + " times element " +
                                                    element.name + " do not fit into the " +
@@ -176,7 +176,7 @@ private:
             dropped_ += (dropped_.empty() ? "" : ", ") + element.name + (name.empty() ? "" : "." + name);
     }
 
-    /// Roles of the properties of the vertices, and which attributes they make.
+    /// Roles of the vertex properties, and the attributes that they form.
     struct VertexLayout
     {
         std::vector<Role> roles;
@@ -285,7 +285,7 @@ private:
         file_.uvs.push_back(finite ? Float2{static_cast<float>(u), static_cast<float>(1 - v)} : Float2{});
     }
 
-    /// The length of a list; a negative or fractional one is damage.
+    /// Read the length of a list; a negative or fractional one means damage.
     std::optional<uint64_t> listLength(const PlyProperty& property)
     {
         const auto count = values_.read(property.count_type);
@@ -402,7 +402,7 @@ private:
         return success();
     }
 
-    /// Two numbers for each corner.
+    /// Read two numbers for each corner.
     bool readCornerUvs(const PlyProperty& property, std::vector<Float2>& uvs)
     {
         const auto count = listLength(property);
@@ -424,7 +424,7 @@ private:
         if (file_.corner_uvs.empty() && uvs.empty())
             return;
         if (file_.corner_uvs.empty())
-            file_.uvs.clear(); // those of corners win over those of vertices
+            file_.uvs.clear(); // UVs of corners replace UVs of vertices
         file_.corner_uvs.resize(first, kNone);
         for (size_t i = 0; i < corners; ++i)
         {

@@ -1,4 +1,4 @@
-// The values of a PLY body, one after the other, whatever its format.
+// Reads the values of a PLY body in sequence, in each of its formats.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,7 +11,7 @@
 namespace hearth::import
 {
 
-/// Values of an ascii body: each row of an element stands on a line of its own.
+/// Values of an ascii body: each row of an element has a line of its own.
 class AsciiValues
 {
 public:

@@ -1,4 +1,5 @@
-// STL, ascii and binary. Triangles stand alone in the file; corners at bitwise the same place become one vertex.
+// Reads STL, ascii and binary. The file lists separate triangles; corners with bitwise equal positions become
+// one vertex.
 // Source: 3D Systems, "StereoLithography Interface Specification", 1988.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/scans/file.h"
@@ -19,9 +20,10 @@ namespace
 using formats::kNone;
 
 constexpr uint64_t kHeaderBytes = 80;
-constexpr uint64_t kTriangleBytes = 50; ///< normal, three corners, two bytes without a meaning
+constexpr uint64_t kTriangleBytes = 50; ///< normal, three corners, two unused bytes
 
-/// Finds positions again by their bits. Open addressing; the order of the file gives the numbers.
+/// Hash table of positions by their bits, with open addressing; positions are numbered in the order of the
+/// file.
 class PositionTable
 {
 public:
@@ -82,7 +84,8 @@ private:
         return {issue, source_.path, std::move(where), std::move(detail)};
     }
 
-    /// Binary files may start with "solid" too: the size decides, then bytes that no text has.
+    /// True for a binary file, which may start with "solid" too: the size decides, then bytes that no text
+    /// contains.
     bool isBinary() const
     {
         const auto count = triangleCount();
@@ -116,7 +119,7 @@ private:
                                std::to_string(available));
         for (uint64_t i = 0; i < *count; ++i)
         {
-            std::array<Float3, 4> values; // the normal, which is made anew, then the corners
+            std::array<Float3, 4> values; // the normal, which is recomputed, then the corners
             std::memcpy(values.data(), triangles->data() + i * kTriangleBytes, sizeof(values));
             for (size_t k = 1; k < 4; ++k)
                 if (!addCorner(values[k]))
@@ -148,7 +151,8 @@ private:
         return true;
     }
 
-    /// solid NAME { facet normal X Y Z outer loop (vertex X Y Z) x 3 endloop endfacet } endsolid NAME, repeated.
+    /// Read solid NAME { facet normal X Y Z outer loop (vertex X Y Z) x 3 endloop endfacet } endsolid NAME,
+    /// repeated.
     Status readAscii()
     {
         TextCursor text(source_.text());
@@ -174,7 +178,7 @@ private:
         if (!accept(text, "normal"))
             return wrong("'normal' is missing");
         for (int i = 0; i < 3; ++i)
-            text.word(); // made anew; exporters write "nan" and worse here for triangles without area
+            text.word(); // recomputed; exporters write "nan" and worse here for triangles without area
         if (!accept(text, "outer") || !accept(text, "loop"))
             return wrong("'outer loop' is missing");
         for (int corner = 0; corner < 3; ++corner)
@@ -201,7 +205,7 @@ private:
     {
         if (!isFinite(position))
             return false;
-        // -0 and 0 are the same place
+        // -0 and 0 are the same coordinate
         file_.corner_positions.push_back(table_.indexOf(position + Float3{0, 0, 0}));
         return true;
     }

@@ -1,4 +1,4 @@
-// Walks over the text of a scan line by line. Numbers are read the same in every locale.
+// Parses the text of a scan line by line. Numbers are read the same in every locale.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,7 +12,7 @@
 namespace hearth::import
 {
 
-/// A line ends with \n, \r or \r\n.
+/// Read position in a text. A line ends with \n, \r or \r\n.
 class TextCursor
 {
 public:
@@ -45,14 +45,14 @@ public:
         ++line_;
     }
 
-    /// Blanks and ends of lines.
+    /// Skip blanks and line ends.
     void skipSpace()
     {
         for (skipBlanks(); at_ != end_ && atLineEnd(); skipBlanks())
             nextLine();
     }
 
-    /// The characters up to the next blank or end of the line; empty there.
+    /// Read the characters up to the next blank or line end; empty at a line end.
     std::string_view word()
     {
         skipBlanks();
@@ -62,7 +62,7 @@ public:
         return {start, static_cast<size_t>(at_ - start)};
     }
 
-    /// The rest of the line without blanks around it.
+    /// Read the rest of the line without the blanks around it.
     std::string_view restOfLine()
     {
         skipBlanks();
@@ -75,7 +75,7 @@ public:
         return {start, static_cast<size_t>(last - start)};
     }
 
-    /// A decimal number that ends at a blank or the end of the line. "nan" and "inf" are numbers too.
+    /// Read a decimal number that ends at a blank or line end. "nan" and "inf" are numbers too.
     std::optional<double> number()
     {
         skipBlanks();
@@ -95,7 +95,7 @@ public:
         return value;
     }
 
-    /// An integer; what follows it is left.
+    /// Read an integer; the characters after it remain.
     std::optional<int64_t> integer()
     {
         int64_t value = 0;
@@ -110,7 +110,8 @@ private:
     static bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
     static bool isSpace(char c) { return isBlank(c) || c == '\n' || c == '\r'; }
 
-    /// A value too small for a double is 0, one too large infinite; a negative exponent tells which.
+    /// Return the value of a number beyond the range of doubles: 0 if it is too small, infinity if too large;
+    /// a negative exponent decides.
     static double outOfRange(const char* start, const char* end)
     {
         const std::string_view text(start, static_cast<size_t>(end - start));
@@ -123,7 +124,7 @@ private:
     size_t line_ = 1;
 };
 
-/// A byte that no text has: the file is damaged or not a text at all.
+/// True for a byte that no text contains: the file is damaged or not a text.
 inline bool isControlByte(char c)
 {
     return static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n' && c != '\r' && c != '\v' &&

@@ -10,7 +10,7 @@ namespace hearth::import
 namespace
 {
 
-/// Work for one corner of a polygon; only made files come near it.
+/// Limit of point tests per corner of a polygon; only artificial files come near it.
 constexpr size_t kTestsPerCorner = 512;
 
 struct Point2
@@ -39,7 +39,7 @@ double dot(Vector3 a, Vector3 b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/// Twice the signed area of the triangle, positive where it turns to the left.
+/// Return twice the signed area of the triangle, positive if it is counter-clockwise.
 double turn(Point2 a, Point2 b, Point2 c)
 {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
@@ -50,7 +50,7 @@ bool contains(Point2 a, Point2 b, Point2 c, Point2 p)
     return turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0;
 }
 
-/// Newell's mean normal of a polygon; its length is twice the area.
+/// Return Newell's mean normal of a polygon; its length is twice the area.
 Vector3 normalOf(std::span<const Float3> corners)
 {
     Vector3 sum;
@@ -64,7 +64,7 @@ Vector3 normalOf(std::span<const Float3> corners)
     return sum;
 }
 
-/// Drop the axis in which the normal is longest; the polygon turns to the left in what remains.
+/// Project along the axis in which the normal is longest; the result is a counter-clockwise polygon.
 std::vector<Point2> project(std::span<const Float3> corners, Vector3 normal)
 {
     const double x = std::abs(normal.x);
@@ -113,7 +113,7 @@ public:
         uint32_t tried = 0;
         while (left > 2)
         {
-            // a polygon that crosses itself may have no ear: after a full round any corner has to do
+            // a polygon that intersects itself may have no ear: after a full round any corner is taken
             if (tried < left && !isEar(corner))
             {
                 corner = next_[corner];
@@ -122,7 +122,7 @@ public:
             }
             triangles.insert(triangles.end(), {previous_[corner], corner, next_[corner]});
             remove(corner);
-            // going on behind the neighbour keeps the triangles from gathering in a fan
+            // continuing behind the neighbour keeps the triangles from forming a fan
             corner = next_[next_[corner]];
             tried = 0;
             --left;
@@ -152,7 +152,7 @@ private:
         return true;
     }
 
-    /// Cutting a corner off can only make its neighbours less concave.
+    /// Remove a corner; this can only make its neighbours less concave.
     void remove(uint32_t i)
     {
         const uint32_t before = previous_[i];
@@ -179,7 +179,7 @@ private:
     std::vector<Point2> points_;
     std::vector<uint32_t> next_;
     std::vector<uint32_t> previous_;
-    std::vector<uint32_t> concave_; ///< and some that are concave no longer
+    std::vector<uint32_t> concave_; ///< may include corners that are no longer concave
     std::vector<uint8_t> is_concave_;
     size_t convex_in_list_ = 0;
     size_t tests_left_;
@@ -189,7 +189,7 @@ void triangulateQuad(std::span<const Float3> c, std::vector<uint32_t>& triangles
 {
     const Vector3 d02 = difference(c[2], c[0]);
     const Vector3 d13 = difference(c[3], c[1]);
-    // a diagonal is inside where its two triangles turn the same way
+    // a diagonal is inside if its two triangles have the same orientation
     const double inside02 = dot(cross(difference(c[1], c[0]), d02), cross(d02, difference(c[3], c[0])));
     const double inside13 = dot(cross(difference(c[2], c[1]), d13), cross(d13, difference(c[0], c[1])));
     const bool ok02 = inside02 > 0;

@@ -23,7 +23,7 @@ std::optional<std::string> resolved(const std::string& path)
     return real ? std::optional<std::string>(real.get()) : std::nullopt;
 }
 
-/// "C:..." and "scheme:...": a colon before the first slash.
+/// True for "C:..." and "scheme:...": a colon before the first slash.
 bool startsWithScheme(std::string_view path)
 {
     return path.substr(0, path.find_first_of("/\\")).find(':') != std::string_view::npos;
@@ -31,7 +31,7 @@ bool startsWithScheme(std::string_view path)
 
 bool climbs(std::string_view path)
 {
-    // a backslash separates folders on other systems, where the same asset must mean the same
+    // a backslash separates folders on other systems, and the same asset must be refused there and here
     while (!path.empty())
     {
         const size_t end = std::min(path.find_first_of("/\\"), path.size());
@@ -46,7 +46,7 @@ bool climbs(std::string_view path)
 
 void noteRead(tools::ReadList& reads, const std::string& path, const FileBytes& file)
 {
-    // what is mapped is read anew, a piece at a time; unchanged() says whether it was the same
+    // a mapping is read again, a piece at a time; unchanged() detects a change
     if (file.isMapping())
         reads.addFile(path);
     else

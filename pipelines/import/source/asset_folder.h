@@ -1,4 +1,4 @@
-// The folder of an asset: the only place from which its readers may open further files.
+// Folder of an asset: the only folder from which its readers may open further files.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -17,37 +17,37 @@
 namespace hearth::import
 {
 
-/// Note what was read under that path.
+/// Record in `reads` that `path` was read, with the content of `file`.
 void noteRead(tools::ReadList& reads, const std::string& path, const FileBytes& file);
 
 class AssetFolder
 {
 public:
-    /// The folder that holds the file `asset_path`, which exists.
-    /// reads  notes every file that is read or looked for in vain; null: nobody asks
+    /// Open the folder of the file `asset_path`, which exists.
+    /// reads  records every file that is read or found missing; null: not recorded
     AssetFolder(const std::string& asset_path, tools::ReadList* reads);
 
-    /// Where the relative path (plain text, nothing percent-encoded) leads, symbolic links resolved.
-    /// errors: uri_malformed (empty, control characters), uri_outside (absolute, a drive or scheme, "..", a link that
-    /// leads out), input_missing (nothing there, or not a regular file).
+    /// Resolve a relative path (plain text, not percent-encoded) and its symbolic links.
+    /// errors: uri_malformed (empty, control characters), uri_outside (absolute, a drive or scheme, "..", a
+    /// link that leads out), input_missing (no such file, or not a regular file).
     Result<std::string> locate(std::string_view relative_path) const;
 
-    /// The content of the file there. errors: those of locate and FileBytes::read.
+    /// Read the file at a relative path. errors: those of locate and FileBytes::read.
     Result<FileBytes> read(std::string_view relative_path, uint64_t max_bytes) const;
 
-    /// The name of the asset's file, without its folder.
+    /// File name of the asset, without its folder.
     const std::string& assetName() const { return asset_name_; }
 
-    /// "; nearest: ..." to stand behind the message of a failed read(): the file that the path probably
-    /// means. Empty where none is near, and where something else is wrong with the file. The folder is listed
-    /// for it, which is nothing that results are kept by: it may stand on stderr, but in no part.
+    /// Return "; nearest: ...", to append to the message of a failed read(): the file that the path probably
+    /// means. Empty if no file is near, and if the failure has another cause. The suggestion may go to
+    /// stderr, but into no part: it depends on a folder listing, which is not an input of the cached results.
     std::string suggestionFor(std::string_view relative_path, Issue issue) const;
 
 private:
     std::string folder_; ///< resolved, ends with '/'
     std::string asset_name_;
     tools::ReadList* reads_ = nullptr;
-    mutable std::optional<FileNames> names_; ///< listed when first asked for
+    mutable std::optional<FileNames> names_; ///< listed on first use
 };
 
 } // namespace hearth::import

@@ -17,7 +17,7 @@ namespace hearth::import
 namespace
 {
 
-// Smaller files are copied: from under a copy nobody can pull anything, and it costs no more than the mapping.
+// Smaller files are copied: nobody can change or truncate a copy, and it costs no more than the mapping.
 constexpr size_t kMappedFrom = size_t{64} << 20;
 constexpr size_t kPiece = size_t{16} << 20;
 
@@ -67,7 +67,7 @@ Result<std::vector<std::byte>> copyOf(int file, size_t size, const std::string& 
 
 Result<FileBytes> FileBytes::read(const std::string& path, uint64_t max_bytes)
 {
-    // without O_NONBLOCK the open of a pipe waits for a writer
+    // without O_NONBLOCK, opening a pipe waits for a writer
     const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
     if (file.number < 0)
         return failure(Issue::input_missing, path, std::strerror(errno));

@@ -1,4 +1,4 @@
-// The bytes of a file that is imported.
+// Reads the bytes of an imported file, or maps them.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -14,12 +14,12 @@
 namespace hearth::import
 {
 
-/// In memory; of a large file a mapping, of which only what is looked at is in memory: a scene of gigabytes is imported mesh
-/// by mesh.
+/// Content of a file: a copy in memory, or for a large file a memory mapping, of which only accessed pages
+/// are in memory. A scene of gigabytes is imported mesh by mesh.
 class FileBytes
 {
 public:
-    /// The content of a regular file of at most `max_bytes`; devices, pipes and folders are refused without being read.
+    /// Read a regular file of at most `max_bytes`; devices, pipes and folders are refused without being read.
     /// errors: input_missing, input_too_large, read_failed.
     static Result<FileBytes> read(const std::string& path, uint64_t max_bytes);
 
@@ -30,15 +30,15 @@ public:
 
     std::span<const std::byte> bytes() const { return mapped_.empty() ? std::span(owned_) : mapped_; }
 
-    /// XXH3-64 as formats::hashBytes, with a piece at a time in memory.
+    /// Return the XXH3-64, as formats::hashBytes, with one piece at a time in memory.
     uint64_t hash() const;
 
     bool isMapping() const { return !mapped_.empty(); }
 
-    /// A mapping's bytes leave this process's memory until they are looked at again.
+    /// Drop the pages of a mapping from this process's memory until they are accessed again.
     void forget() const;
 
-    /// errors: read_failed where the file of a mapping is not what it was when it was mapped.
+    /// Check that the file of a mapping has not changed since it was mapped. errors: read_failed.
     Status unchanged() const;
 
 private:

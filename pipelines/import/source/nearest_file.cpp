@@ -15,10 +15,10 @@ namespace hearth::import
 namespace
 {
 
-// More than the textures of a game; an asset in a home folder must not list all of it.
+// More files than the textures of a game. An asset in a home folder must not list all of it.
 constexpr size_t kMaxFiles = 20'000;
 
-/// How a file may differ from the one that is asked for, nearest first.
+/// Difference between a file and the requested one, nearest first.
 enum class Difference : uint8_t
 {
     separators,
@@ -41,7 +41,7 @@ std::string lowered(std::string_view text)
     return lower;
 }
 
-/// A path taken apart: "textures/", "wood", ".png".
+/// Path split into its parts: "textures/", "wood", ".png".
 struct PathParts
 {
     explicit PathParts(std::string_view path)
@@ -64,6 +64,7 @@ bool isImageName(std::string_view name)
     return looksLikeImage(std::string(name), {});
 }
 
+/// Classify the difference between a requested path and a listed one.
 /// wanted  with '/' between folders
 Difference differenceOf(const std::string& wanted, const std::string& wanted_lower, const std::string& path)
 {
@@ -93,7 +94,7 @@ FileNames::FileNames(const std::string& folder)
     for (; !error && entry != fs::recursive_directory_iterator() && paths_.size() < kMaxFiles;
          entry.increment(error))
     {
-        std::error_code ignored; // of a link that leads nowhere
+        std::error_code ignored; // of a dangling link
         if (entry->is_regular_file(ignored))
             paths_.push_back(entry->path().string().substr(folder.size()));
     }
@@ -121,6 +122,7 @@ std::string FileNames::suggest(std::string_view path) const
     return suggestBySlip(wanted);
 }
 
+/// Return the file in the same folder whose name is a typing error away; empty if none is.
 /// wanted  with '/' between folders
 std::string FileNames::suggestBySlip(const std::string& wanted) const
 {

@@ -1,4 +1,4 @@
-// Suggests the file that an asset means where the one that it names is not there.
+// Suggests an existing file for an asset that names a missing one.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,20 +9,20 @@
 namespace hearth::import
 {
 
-/// The names of the files in a folder and below it, as they were when it was listed. Links to folders are not
+/// Names of the files in a folder and its sub-folders at the time of listing. Links to folders are not
 /// followed, and no file is opened.
 class FileNames
 {
 public:
-    /// folder  ends with '/'. Of one with very many files only the first are known.
+    /// folder  ends with '/'; of a very large folder only the first files are listed
     explicit FileNames(const std::string& folder);
 
-    /// The file that is nearest to a path that leads nowhere: the same but for '\' or the case of letters,
-    /// else of the same name in another folder, else an image of the same name and another format, else one
-    /// in the same folder whose name is a slip away.
+    /// Find the file nearest to a path that does not exist: the same but for '\' or letter case, else the
+    /// same name in another folder, else an image of the same name and another format, else a file in the
+    /// same folder whose name differs by a typing error.
     /// path     relative to the folder
-    /// returns  "textures/wood.png" in quotes and how it differs, for a message; empty where none is near,
-    ///          and where the file is there: something else is wrong with it
+    /// returns  "textures/wood.png" in quotes and the difference, for a message; empty if no file is near, or
+    ///          if the file exists: then something else is wrong with it
     std::string suggest(std::string_view path) const;
 
 private:

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-// The error of each level over its triangles, both logarithmic, with the other meshes faint behind.
+// Plots the error of each level over its triangles, both logarithmic; other meshes are faint.
 
-const kMostFaint = 300; // the largest: more are a grey area, and take as long to draw as the rest of the page
+const kMostFaint = 300; // largest meshes drawn faintly: more become a grey area and take as long as the rest of the page
 
-/** levels  [triangles, error] of what has an error; level 0 has none and no place on a logarithmic axis. */
+/** levels  [triangles, error] of levels with an error; level 0 has none: not on a logarithmic axis. */
 const pointsOf = mesh => mesh.levels.filter(level => level[2] > 0 && level[1] > 0).map(level => [level[1], level[2]]);
 
 function makeCurves(meshes, width, height) {

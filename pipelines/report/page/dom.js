@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-// Elements, and figures with their units.
+// Creates DOM elements, and formats figures with their units.
 
-/** el('td.num', {title: 't'}, 'text', child, ...): names from files become text, never markup. */
+/** Creates an element, as el('td.num', {title: 't'}, 'text', child, ...). Names become text, never markup. */
 function el(name, attributes, ...children) {
   const [tag, ...classes] = name.split('.');
   return fill(document.createElement(tag), classes, attributes, children);
@@ -23,7 +23,7 @@ function fill(element, classes, attributes, children) {
 
 const $ = id => document.getElementById(id);
 
-/** Three digits of a number that may be anything. */
+/** Formats any number with three digits. */
 function digits(value) {
   if (value === 0) return '0';
   const size = Math.abs(value);
@@ -59,7 +59,7 @@ const plural = (number, noun) => count(number) + ' ' + noun + (number === 1 ? ''
 const nameOf = path => path.slice(path.lastIndexOf('/') + 1);
 const color = name => `var(--${name})`;
 
-/** A word of colour and text for a state: never by colour alone. */
+/** Creates a label for a state, with colour and text: never colour alone. */
 const kStateClasses = {cooked: 'good', cached: 'faint', failed: 'bad', 'dependency failed': 'warn', 'not cooked': 'faint'};
 const state = name => el('span.' + (kStateClasses[name] || 'faint'), {}, name);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-// Reads the data that stands in the page, and puts the page together.
+// Reads the data embedded in the page, and builds the page.
 
 const named = (row, names) => Object.fromEntries(names.map((name, i) => [name, row[i]]));
 const kStage = ['stage', 'state', 'seconds', 'bytes', 'start', 'lane', 'cpu', 'peak', 'why'];
@@ -52,7 +52,7 @@ function themeButton(redraw) {
   return button;
 }
 
-/** Whether a table has all of its columns in view, and their figures whole. */
+/** True if a table shows all of its columns without clipping figures. */
 const fits = table => table.scrollWidth <= table.clientWidth && [...table.querySelectorAll('.num')].every(cell => cell.scrollWidth <= cell.clientWidth);
 
 function showPage() {
@@ -83,7 +83,7 @@ function showPage() {
        el('a', {href: '#' + part.id}, part.querySelector('h2').textContent.split(' and ')[0])), themeButton(timeline.draw)));
   kFits.forEach(fit => fit());
   timeline.draw();
-  // something to look at, but not what hides the question of which one
+  // preselect a mesh and an asset, so that there is something to see
   if (meshes) meshes.choose(meshes.first());
   if (data.assets.length) assets.choose(assets.first());
   document.documentElement.dataset.ready = Math.round(performance.now());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-// The parts of the page, each made of the data alone.
+// Builds the sections of the page, each from the data alone.
 
 function section(id, title, note, ...content) {
   return el('section', {id, 'aria-labelledby': id + '-title'},
@@ -103,7 +103,7 @@ function assetsOf(data, go) {
   return {part: table.filter ? withTools(part, table.filter) : part, choose: table.choose, first: table.first};
 }
 
-/** The name first: it is what tells assets apart where there is no room for all of the path. */
+/** Puts the name first: it identifies an asset where there is no room for the whole path. */
 const path = source => el('span', {title: source}, nameOf(source), el('span.faint', {}, '  ' + source.slice(0, source.length - nameOf(source).length)));
 
 const messageText = message => el('span', {}, el('span.' + (message.severity === 'error' ? 'bad' : 'warn'), {}, message.code), ' ',
@@ -192,10 +192,10 @@ function texturesOf(data) {
   return {part: table.filter ? withTools(part, table.filter) : part, choose: table.choose};
 }
 
-/** All that show it, a line each. */
+/** Lists all uses of an image, one a line. */
 const usesText = texture => texture.uses.map(([material, role]) => `${material || '(no name)'} · ${role}`).join('\n');
 
-/** What the cookers took, and which settings make each cheaper. */
+/** Shows the time of each cooker, and the settings that make it cheaper. */
 function slowOf(data, go) {
   const rows = new Map();
   const add = (stage, asset) => {
@@ -239,7 +239,7 @@ function timelineOf(data, go) {
   return {part, draw: line.draw};
 }
 
-/** What made actions run, and how many each. */
+/** Lists the causes for which actions ran, with the number of actions of each. */
 function causesOf(data) {
   const counts = new Map();
   const stages = [...data.assets.flatMap(asset => asset.stages), ...data.stages];

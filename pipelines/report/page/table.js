@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-// A table that sorts and filters, and makes only the rows that are seen: it is as fast for ten rows as for ten thousand.
+// Virtualized table with sorting and filtering: creates visible rows only, so its length does not matter.
 
 const kRowHeight = 30;
 const kRowsAtOnce = 14;
-const kRowsOfPrint = 500; // more than that is no page to print
-const kColumnGap = 12; // as the style says
+const kRowsOfPrint = 500; // maximum of printed rows
+const kColumnGap = 12; // as in report.css
 const kRowPadding = 20;
 
 const widthOf = column => column.width || (column.number ? '84px' : 'minmax(120px, 1fr)');
 const leastWidthOf = column => parseInt(widthOf(column).match(/\d+(?=px)/)[0]);
 const leastWidth = columns => columns.reduce((sum, column) => sum + leastWidthOf(column) + kColumnGap, kRowPadding - kColumnGap);
 
-/** The columns that have room: first those go that have the largest `drop`; what has none stays. */
+/** Returns the columns that fit: the largest `drop` is left out first, columns without one stay. */
 function columnsThatFit(columns, width) {
   const fitting = [...columns];
   const droppable = columns.filter(column => column.drop).sort((a, b) => b.drop - a.drop);
@@ -22,11 +22,11 @@ function columnsThatFit(columns, width) {
   return fitting;
 }
 
-const kFits = []; // of all tables: called when the page has got its width
+const kFits = []; // layout functions of all tables, called when the width of the page is known
 addEventListener('resize', () => kFits.forEach(fit => fit()));
 
 /**
- * columns   {name, of: row => value, show: row => text or element, width, number, tip, drop: rank among what goes for want of width}
+ * columns   {name, of: row => value, show: row => text or element, width, number, tip, drop: rank of removal when space is short}
  * options   select: called with the chosen row; sort: index of the column, negative values first where it begins with '-'
  */
 function makeTable(label, rows, columns, options = {}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-// What ran when: a bar for each action, in the lane that it had. A canvas, since there may be tens of thousands.
+// Draws the timeline: a bar for each action, in its lane. A canvas, for tens of thousands of bars.
 
 const kLaneHeight = 22;
 const kStageColors = {import: 'import', textures: 'textures', clusters: 'clusters', skinning: 'skinning', visibility: 'visibility',
@@ -67,7 +67,7 @@ function makeTimeline(bars, total) {
   return {canvas, draw};
 }
 
-/** 1, 2 or 5 times a power of ten, at least as much as wanted. */
+/** Rounds up to 1, 2 or 5 times a power of ten. */
 function niceStep(wanted) {
   const power = 10 ** Math.floor(Math.log10(wanted));
   return [1, 2, 5, 10].map(k => k * power).find(step => step >= wanted) || wanted;

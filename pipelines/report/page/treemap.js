@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-// Bytes as areas: squarified (M. Bruls, K. Huizing, J. van Wijk, "Squarified Treemaps", 2000), in two levels.
+// Squarified treemap that shows bytes as areas, in two levels (M. Bruls, K. Huizing, J. van Wijk,
+// "Squarified Treemaps", 2000).
 
-const kLeastCell = 60; // square pixels: what is smaller is counted together
+const kLeastCell = 60; // square pixels: smaller items are merged into one cell
 
-/** Places items {bytes} in a rectangle; calls place(item, x, y, w, h). */
+/** Lays out items {bytes} in a rectangle; calls place(item, x, y, w, h). */
 function squarify(items, x, y, w, h, place) {
   let total = items.reduce((sum, item) => sum + item.bytes, 0);
   let begin = 0;
@@ -32,7 +33,7 @@ function squarify(items, x, y, w, h, place) {
   }
 }
 
-/** The items that are worth a cell, largest first, the rest as one. */
+/** Returns the items that are large enough for a cell, largest first, and the rest merged into one. */
 function worthACell(items, area) {
   const sorted = items.filter(item => item.bytes > 0).sort((a, b) => b.bytes - a.bytes);
   const total = sorted.reduce((sum, item) => sum + item.bytes, 0);
@@ -66,7 +67,7 @@ function makeTreemap(groups, width, height) {
   return picture;
 }
 
-/** About as much of a text as has room; characters are 6 pixels wide. */
+/** Shortens a text to about the available width; characters are 6 pixels wide. */
 function fitted(text, width) {
   const most = Math.floor(width / 6.1);
   return text.length <= most ? text : most < 3 ? '' : text.slice(0, most - 1) + '…';

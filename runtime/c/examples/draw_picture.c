@@ -1,4 +1,5 @@
-/* draw_picture PACK.hearth OUT.png: draws a pack without a window, from its first camera, or with all of it in the picture.
+/* draw_picture PACK.hearth OUT.png: draws a pack without a window, from its first camera, or from one that
+ * shows the whole scene.
  * SPDX-License-Identifier: LicenseRef-Hearth-Undecided */
 #include <hearth_helpers.h>
 #include <png.h>
@@ -10,7 +11,7 @@
 
 static unsigned char pixels[WIDTH * HEIGHT * 4]; /* RGBA, sRGB, rows from top to bottom */
 
-/* Ends the program where a call failed. */
+/* Exit if a call failed. */
 static void check(hearth_result result, const char* message)
 {
     if (result == HEARTH_OK)
@@ -30,7 +31,7 @@ static hearth_camera choose_camera(const hearth_pack* pack, const hearth_scene* 
     return hearth_fit_camera(information.box_min, information.box_max, (float)WIDTH / HEIGHT);
 }
 
-/* Uploads the pack, and draws one frame into `pixels`. */
+/* Upload the pack, and draw one frame into `pixels`. */
 static void draw(hearth_device* device, hearth_renderer* renderer, hearth_pack* pack)
 {
     hearth_scene_options options = HEARTH_SCENE_OPTIONS_INIT;

@@ -17,7 +17,7 @@ Result<BinPass> BinPass::createVisibility(const Device& device, const DrawLayout
                          .render_pass = render_pass,
                          .subpass = kSubpassVisibility,
                          .depth_compare =
-                             VK_COMPARE_OP_GREATER, // reversed: 1 at the near plane, 0 infinitely far away
+                             VK_COMPARE_OP_GREATER, // reversed depth: 1 at the near plane, 0 at infinity
                          .depth_write = true,
                          .color = true};
     pass.alpha_tested_ = {shaders::visibility_masked_vert, shaders::visibility_masked_frag};
@@ -43,7 +43,8 @@ Result<BinPass> BinPass::createOverdraw(const Device& device, const DrawLayouts&
     return pass;
 }
 
-/// What faces away from the light casts as well: a surface without thickness has no other side that would.
+/// Culls no faces: triangles that face away from the light cast as well, since a surface without thickness
+/// has no other side.
 Result<BinPass> BinPass::createCasters(const Device& device, const DrawLayouts& layouts,
                                        VkRenderPass render_pass)
 {
@@ -54,7 +55,7 @@ Result<BinPass> BinPass::createCasters(const Device& device, const DrawLayouts& 
                          .layout = layouts.visibility.get(),
                          .render_pass = render_pass,
                          .subpass = 0,
-                         .depth_compare = VK_COMPARE_OP_GREATER, // reversed, as in the picture
+                         .depth_compare = VK_COMPARE_OP_GREATER, // reversed depth, as in the frame
                          .depth_write = true,
                          .color = false};
     pass.alpha_tested_ = {shaders::caster_masked_vert, shaders::caster_masked_frag};
@@ -62,7 +63,8 @@ Result<BinPass> BinPass::createCasters(const Device& device, const DrawLayouts& 
     return pass;
 }
 
-/// Casters are not worth keeping: a map sees other clusters than the picture, and each is drawn once.
+/// Never reads pre-skinned vertices of casters: a map sees other clusters than the frame, and each is drawn
+/// once.
 Status BinPass::prepareDeformed(const Device& device)
 {
     if (!deformed_)
@@ -82,7 +84,7 @@ Status BinPass::createPipelines(const Device& device, uint32_t deformed, Variant
             if (casters_ && facing != Facing::doubleSided)
                 continue;
             const uint32_t used_slices = slices == 0 ? 1 : shared::kPoolSlices;
-            // only the first and the last are constants of these shaders
+            // these shaders have only the first and the last constant
             const uint32_t constants[] = {used_slices, 0, 0, 0, deformed};
             opaque.constants = constants;
             opaque.cull =

@@ -1,6 +1,6 @@
-// Draws the visible clusters, one indirect draw a bin: into the visibility buffer in the first subpass of the frame; for
-// the overdraw view, once more in the last one, where every fragment adds to the picture; or, where they are the casters
-// of a shadow map, into that.
+// Draws the visible clusters, one indirect draw per bin. Draws into the visibility buffer in the first
+// subpass of the frame. For the overdraw view draws once more in the last subpass, where every fragment is
+// added to the image. Draws shadow casters into a shadow map.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -22,17 +22,18 @@ public:
     static Result<BinPass> createCasters(const Device& device, const DrawLayouts& layouts,
                                          VkRenderPass render_pass);
 
-    /// The pipelines of deformed bins, which a scene with deformed meshes needs; once. errors: device_failed.
+    /// Create the pipelines of deformed bins, which a scene with deformed meshes needs; call once. errors:
+    /// device_failed.
     Status prepareDeformed(const Device& device);
 
-    /// Inside the subpass, with viewport and scissor set. Clobbers the graphics state.
-    /// phase  whose clusters are drawn
+    /// Record inside the subpass, with viewport and scissor set. Clobbers the graphics state.
+    /// phase  culling phase whose clusters are drawn
     /// push   the bin is set for each draw
     void record(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
                 const Scene& scene, uint32_t phase, DrawPush push = {}) const;
 
 private:
-    /// For each Facing.
+    /// One pipeline per Facing.
     using Pipelines = UniquePipeline[3];
     struct Stages
     {
@@ -50,7 +51,7 @@ private:
     GraphicsDescription description_{};
     Stages alpha_tested_{};
     Variants rigid_;
-    std::optional<Variants> deformed_; ///< once a scene has deformed meshes
+    std::optional<Variants> deformed_; ///< set once a scene has deformed meshes
 };
 
 } // namespace hearth::gpu

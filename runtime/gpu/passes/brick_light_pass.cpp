@@ -13,7 +13,7 @@ namespace hearth::gpu
 namespace
 {
 
-constexpr uint32_t kGroupFaces = 64; // as light_faces.comp has it
+constexpr uint32_t kGroupFaces = 64; // as in light_faces.comp
 constexpr VkPipelineStageFlags kReaders =
     VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
 
@@ -37,8 +37,9 @@ shared::BrickView viewOf(const SceneBricks& bricks, std::span<const EmissionScal
     return view;
 }
 
-/// After a change what has been gathered counts little for so many sweeps over all faces, by which less than 3 % of the light
-/// before is left where the albedo is .8, and for so many frames more, by which less than 1 % of what was gathered is.
+/// After a light change, gathered history has a low weight for this many sweeps over all faces, and for this
+/// many more frames. After the sweeps less than 3 % of the old light is left at an albedo of .8; after the
+/// frames less than 1 % of the old gathered light is left.
 constexpr uint32_t kQuickSweeps = 16;
 constexpr uint32_t kQuickFrames = 16;
 
@@ -69,7 +70,7 @@ void BrickLightPass::record(const Device& device, VkCommandBuffer commands, cons
     else if (bricks.quick_frames > 0)
         --bricks.quick_frames;
     bricks.last_view = view;
-    // the frame before may still gather
+    // the last frame may still gather
     barrier(device, commands, kReaders | VK_PIPELINE_STAGE_TRANSFER_BIT,
             VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT,
             VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_TRANSFER_READ_BIT);
@@ -86,7 +87,8 @@ void BrickLightPass::record(const Device& device, VkCommandBuffer commands, cons
     const uint32_t groups = (bricks.share.face_count + kGroupFaces - 1) / kGroupFaces;
     device.vk.vkCmdDispatch(commands, std::min(groups, shared::kDispatchRow),
                             (groups + shared::kDispatchRow - 1) / shared::kDispatchRow, 1);
-    // all have read what is overwritten now: a frame sees the light of the one before, whatever the order of the threads
+    // all threads have read the old values: a frame sees the light of the frame before, whatever the order of
+    // threads
     barrier(device, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
             VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
     const VkBufferCopy region{0, sizeof(shared::BrickLight) * bricks.share.first_face,

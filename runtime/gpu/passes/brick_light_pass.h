@@ -1,4 +1,5 @@
-// Lights the faces of a scene's bricks, a share of them a frame. See runtime/gpu/README.md, "The light of bricks".
+// Updates the light of the brick faces (GI), a share of them per frame. See runtime/gpu/README.md, "Global
+// illumination".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,11 +8,11 @@
 namespace hearth::gpu
 {
 
-/// Emission inside a box of the world is `factor` times what the pack says.
+/// Scale of the emission inside a box of the world, relative to the pack.
 struct EmissionScale
 {
     Box3 box;
-    float factor = 1; ///< from 0
+    float factor = 1; ///< 0 or more
 };
 
 class BrickLightPass
@@ -19,10 +20,11 @@ class BrickLightPass
 public:
     static Result<BrickLightPass> create(const Device& device, const DrawLayouts& layouts);
 
-    /// Outside a render pass. What it writes is visible to compute and fragment shaders that follow, and to transfers.
+    /// Record outside a render pass. Results are visible to later compute and fragment shaders and transfers.
     ///
-    /// lights_change  those of the frame are not those of the frame before
-    /// emission  all of this frame: the first shared::kMaxEmissionBoxes count, of those that overlap the last
+    /// lights_change  the lights of this frame differ from the last frame's
+    /// emission  all scales of this frame: the first shared::kMaxEmissionBoxes count; of overlapping boxes
+    ///           the last one
     void record(const Device& device, VkCommandBuffer commands, const Scene& scene, bool lights_change,
                 std::span<const EmissionScale> emission) const;
 

@@ -74,7 +74,7 @@ void computeBarrier(const Device& device, VkCommandBuffer commands)
 namespace
 {
 
-/// Behind everything that still reads the constants and counters of the view before.
+/// Wait for everything that still reads the constants and counters of the view before.
 void beginChanges(const Device& device, VkCommandBuffer commands)
 {
     barrier(device, commands,
@@ -217,7 +217,7 @@ void CullPass::record(const Device& device, VkCommandBuffer commands, const Scen
     const uint32_t blocks = blockCount(scene);
     const auto bins = static_cast<uint32_t>(scene.bins.size());
 
-    // the draws of the early phase have read what the late one adds to
+    // the draws of the early phase have read the counters that the late phase adds to
     if (phase == shared::kPhaseLate)
         barrier(device, commands, VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT,
                 0, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0);

@@ -73,7 +73,7 @@ void CullStatisticsPass::record(const Device& device, VkCommandBuffer commands, 
 {
     constexpr VkPipelineStageFlags kTransfer = VK_PIPELINE_STAGE_TRANSFER_BIT;
     constexpr VkPipelineStageFlags kCompute = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
-    // behind a copy of the numbers before, and behind the culling
+    // waits for the copy of the last numbers, and for the culling
     barrier(device, commands, kTransfer | kCompute, VK_ACCESS_SHADER_WRITE_BIT, kTransfer | kCompute,
             VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_SHADER_READ_BIT);
     device.vk.vkCmdFillBuffer(commands, statistics_.handle.get(), 0, VK_WHOLE_SIZE, 0);

@@ -1,5 +1,5 @@
-// Counts why instances and clusters were drawn or not. A pass of its own behind a frame, which asks the tests once more: the
-// culling of frames that nobody counts stays as it is.
+// Culling statistics: counts the reasons why instances and clusters were drawn or culled. A separate pass
+// after a frame repeats the tests, so the culling of frames without statistics runs no extra instruction.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,18 +11,19 @@
 namespace hearth::gpu
 {
 
-/// For one scene, which outlives it.
+/// Statistics pass for one scene, which outlives it.
 class CullStatisticsPass
 {
 public:
     /// errors: device_failed.
     static Result<CullStatisticsPass> create(const Device& device, const Scene& scene);
 
-    /// Behind the frame that it counts (Renderer::record), before the next of this scene. Writes statistics(), visible to
-    /// transfers. Clobbers the compute state.
+    /// Record after the frame that is counted (Renderer::record), before the next frame of the scene. Writes
+    /// statistics(), visible to transfers. Clobbers the compute state.
     void record(const Device& device, VkCommandBuffer commands, const Scene& scene) const;
 
-    const Buffer& statistics() const { return statistics_; } ///< one shared::CullStatistics
+    /// Buffer of one shared::CullStatistics.
+    const Buffer& statistics() const { return statistics_; }
 
 private:
     explicit CullStatisticsPass(const Device& device) : arena_(device, 0) {}

@@ -31,8 +31,8 @@ constexpr VkPipelineStageFlags kDepthStages =
 constexpr VkAccessFlags kDepthAccess =
     VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
 
-// A frame may follow another that still draws to, or is copied from, the same images.
-// The pyramid of the early phase is made from the depth buffer by a compute shader.
+// The last frame may still draw to the same images or copy from them. A compute shader builds the pyramid
+// from the depth buffer of the early phase.
 constexpr VkPipelineStageFlags kFrameBefore = VK_PIPELINE_STAGE_TRANSFER_BIT |
                                               VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | kDepthStages |
                                               VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
@@ -63,7 +63,8 @@ constexpr VkSubpassDependency kDependencies[] = {
      VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT, VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_SHADER_READ_BIT, 0},
 };
 
-/// All phases have the same subpasses and dependencies, so that they share framebuffers and pipelines.
+/// Create a render pass. All phases have the same subpasses and dependencies, so they share framebuffers and
+/// pipelines.
 Result<UniqueRenderPass> createRenderPass(const Device& device, const Attachments& attachments)
 {
     const VkAttachmentReference visibility_out{kVisibility, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
@@ -101,7 +102,7 @@ Result<UniqueRenderPass> createRenderPass(const Device& device, const Attachment
     return UniqueRenderPass(device, pass);
 }
 
-/// The same, without the picture.
+/// Return the same attachments without the colour output.
 Attachments endAtVisibility(Attachments attachments)
 {
     attachments[kVisibility].finalLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
@@ -113,7 +114,7 @@ Attachments endAtVisibility(Attachments attachments)
 
 Result<FramePasses> FramePasses::create(const Device& device)
 {
-    // every pixel of the material depth and of the colour is written: nothing to load or clear
+    // every pixel of the material depth and of the colour is written, so there is nothing to load or clear
     const Attachments whole = {
         attachment(kVisibility, VK_ATTACHMENT_LOAD_OP_CLEAR, VK_ATTACHMENT_STORE_OP_STORE,
                    VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL),

@@ -1,5 +1,6 @@
-// The render passes of a frame: visibility, material depth, shading as three subpasses, so that on a tile-based GPU the
-// visibility buffer and both depth buffers need not leave the tile, or only the visibility buffer where it must.
+// Render passes of a frame: visibility, material depth and shading as three subpasses. On a tile-based GPU
+// the visibility buffer and both depth buffers need not leave the tile, or only the visibility buffer if
+// material tiles are used.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -29,19 +30,20 @@ inline constexpr VkFormat kColorFormat = VK_FORMAT_R8G8B8A8_SRGB;
 inline constexpr VkFormat kAttachmentFormats[kAttachmentCount] = {kVisibilityFormat, VK_FORMAT_D32_SFLOAT,
                                                                   VK_FORMAT_D16_UNORM, kColorFormat};
 
-/// With occlusion culling a frame is drawn in two: what the last frame's depth does not hide, then, when the depth
-/// of that is known, what was hidden wrongly. With material tiles it ends at the visibility buffer, which a compute
-/// pass reads, and the picture is drawn in one more. All are compatible with each other.
+/// Variants of the frame's render pass; all are compatible with each other. With occlusion culling a frame is
+/// drawn in two phases: first the clusters that the last frame's depth does not occlude, then, with the new
+/// depth, the clusters that were culled wrongly. With material tiles the render pass ends at the visibility
+/// buffer, which a compute pass reads, and another render pass shades.
 struct FramePasses
 {
-    UniqueRenderPass whole; ///< from nothing to the picture
+    UniqueRenderPass whole; ///< from nothing to the shaded frame
     UniqueRenderPass early; ///< visibility and depth, stored; the depth can be sampled afterwards
-    UniqueRenderPass late;  ///< goes on from there, to the picture
+    UniqueRenderPass late;  ///< continues after `early`, to the shaded frame
 
-    UniqueRenderPass
-        whole_visibility; ///< from nothing to the visibility buffer, which can be sampled afterwards
-    UniqueRenderPass late_visibility; ///< from `early` to the same
-    UniqueRenderPass picture;         ///< from the visibility buffer to the picture
+    /// From nothing to the visibility buffer, which can be sampled afterwards.
+    UniqueRenderPass whole_visibility;
+    UniqueRenderPass late_visibility; ///< continues after `early`, to the visibility buffer
+    UniqueRenderPass picture;         ///< from the visibility buffer to the shaded frame
 
     static Result<FramePasses> create(const Device& device);
 };

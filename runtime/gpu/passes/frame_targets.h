@@ -1,5 +1,5 @@
-// The images of a frame, the depth pyramid and the gathered light that one frame leaves to the next, and room for lists of
-// material tiles.
+// Images of a frame, state that one frame leaves to the next (depth pyramid, gathered light), and buffers for
+// the lists of material tiles.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,15 +13,17 @@
 namespace hearth::gpu
 {
 
-/// After a frame, `visibility` and `color` are in VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, visible to transfers.
-/// Before a frame their content and layout do not matter.
+/// Render targets of one camera. After a frame, `visibility` and `color` are in
+/// VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, visible to transfers. Before a frame their content and layout do not
+/// matter.
 ///
-/// The pyramid is a guess: whatever it holds, the picture is the same. The nearer to the truth, the less is drawn.
+/// The pyramid is a guess: whatever it holds, the rendered frame is the same. The better the guess, the less
+/// is drawn.
 class FrameTargets
 {
 public:
-    /// width and height 1 .. the device's limits; `render_pass` is one of FramePasses. errors: device_limit,
-    /// device_failed.
+    /// width and height: 1 to the device's limits. `render_pass`: one of FramePasses.
+    /// errors: device_limit, device_failed.
     static Result<FrameTargets> create(const Device& device, VkRenderPass render_pass,
                                        const DrawLayouts& layouts, VkExtent2D extent);
 
@@ -32,23 +34,24 @@ public:
     VkDescriptorSet attachments() const { return set_; }
     VkDeviceSize allocatedBytes() const { return arena_.allocatedBytes(); }
 
-    const Buffer& pyramid() const { return pyramid_; } ///< floats, as formats/gpu_shared/occlusion.h says
+    const Buffer& pyramid() const { return pyramid_; } ///< floats; layout in formats/gpu_shared/occlusion.h
     const Buffer& occlusionViews() const { return occlusion_views_; }
     VkDescriptorSet occlusionSet() const { return occlusion_set_; }
 
-    /// kMaterialsPerTile words a tile, rows of tiles from top to bottom.
+    /// kMaterialsPerTile words per tile, rows of tiles from top to bottom.
     const Buffer& tileMaterials() const { return tile_materials_; }
-    /// The tiles of each material, as shared::TileDraw says.
+    /// Tile lists of the materials, as shared::TileDraw describes.
     const Buffer& tileLists() const { return tile_lists_; }
     VkDescriptorSet tileSet() const { return tile_set_; }
 
-    /// Of scenes with bricks.
+    /// Gathered light (GI); only for scenes with bricks.
     GatherTargets& gather() { return *gather_; }
     const GatherTargets& gather() const { return *gather_; }
 
-    /// From where the pyramid was drawn: the last frame with occlusion culling. level_count 0: there was none.
+    /// View that the pyramid was rendered from: the last frame with occlusion culling. level_count 0: none.
     const shared::OcclusionView& pyramidView() const { return pyramid_view_; }
-    /// To forget it ({}), or to say that what has been written there was seen from elsewhere, at the same size.
+    /// Invalidate the pyramid ({}), or set the view of a pyramid that the caller has written, at the same
+    /// size.
     void setPyramidView(const shared::OcclusionView& view) { pyramid_view_ = view; }
 
 private:
@@ -76,7 +79,7 @@ private:
     VkDescriptorSet occlusion_set_ = VK_NULL_HANDLE;
     VkDescriptorSet tile_set_ = VK_NULL_HANDLE;
     shared::OcclusionView pyramid_view_{};
-    std::optional<GatherTargets> gather_; ///< always, once created
+    std::optional<GatherTargets> gather_; ///< set after creation
 };
 
 } // namespace hearth::gpu

@@ -10,7 +10,7 @@ namespace hearth::gpu
 namespace
 {
 
-constexpr uint32_t kGroupTiles = 8; // each way, as gather_points.comp and gather_smooth.comp have it
+constexpr uint32_t kGroupTiles = 8; // per side, as in gather_points.comp and gather_smooth.comp
 
 void bind(const Device& device, VkCommandBuffer commands, const ComputePipeline& pipeline,
           std::initializer_list<VkDescriptorSet> sets)
@@ -50,7 +50,7 @@ void GatherPass::record(const Device& device, VkCommandBuffer commands, const Sc
     GatherTargets& gather = targets.gather();
     const shared::GatherView told = gather.beginFrame(view, scene.bricks->grid.origin, light_changes);
     const auto [tiles_x, tiles_y] = gather.tiles();
-    // behind the gathering and shading of the frame before
+    // waits for the gathering and shading of the last frame
     transition(device, commands, gather.texels(), VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL, 0,
                VK_ACCESS_SHADER_WRITE_BIT, kCompute | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, kCompute);
     barrier(device, commands, kCompute | VK_PIPELINE_STAGE_TRANSFER_BIT,

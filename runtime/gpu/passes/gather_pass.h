@@ -1,5 +1,6 @@
-// Gathers the light of bricks for the surfaces of a picture: finds a point in each tile of 8 x 8 pixels, sends rays from it,
-// goes on with what the frame before found there, and smooths over tiles. See runtime/gpu/README.md, "The light of bricks".
+// Gathers indirect light (GI) for the visible surfaces: chooses a point in each tile of 8 x 8 pixels, traces
+// rays through the bricks, blends with the reprojected history and filters over tiles. See
+// runtime/gpu/README.md, "Global illumination".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -14,15 +15,15 @@ class GatherPass
 public:
     static Result<GatherPass> create(const Device& device, const DrawLayouts& layouts);
 
-    /// Outside a render pass, behind the visibility buffer, which is in SHADER_READ_ONLY_OPTIMAL and visible to compute
-    /// shaders. What it writes is visible to fragment shaders that follow, and to transfers.
+    /// Record outside a render pass, after the visibility buffer, which is in SHADER_READ_ONLY_OPTIMAL and
+    /// visible to compute shaders. Results are visible to later fragment shaders and transfers.
     ///
-    /// light_changes  what was found before counts less
+    /// light_changes  the history has a low weight
     void record(const Device& device, VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
                 const shared::FrameView& view, bool light_changes) const;
 
 private:
-    ComputePipeline points_[2][2]; ///< [slices of the geometry pool: 1 or all][with deformed meshes]
+    ComputePipeline points_[2][2]; ///< [pool slices: 1 or all][with deformed meshes]
     ComputePipeline rays_;
     ComputePipeline smooth_;
 };

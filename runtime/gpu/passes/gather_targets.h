@@ -1,4 +1,5 @@
-// What one frame leaves to the next of the light that was gathered for a picture, and what shading reads of it.
+// Gathered light (GI) of one camera: the history that one frame leaves to the next, and the result that
+// shading reads.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,13 +10,13 @@
 namespace hearth::gpu
 {
 
-/// Of FrameTargets: 4 bytes a pixel.
+/// Part of FrameTargets: 4 bytes per pixel.
 class GatherTargets
 {
 public:
-    /// arena       outlives what is made
-    /// visibility  the image of the targets
-    /// sampler     that gives single texels
+    /// arena       outlives the targets
+    /// visibility  image of FrameTargets
+    /// sampler     nearest
     /// errors: device_limit, device_failed.
     static Result<GatherTargets> create(const Device& device, const DrawLayouts& layouts, MemoryArena& arena,
                                         VkExtent2D extent, VkImageView visibility, VkSampler sampler);
@@ -23,17 +24,18 @@ public:
     VkExtent2D tiles() const { return tiles_; }
     const Image& texels() const { return texels_; }
     const Buffer& view() const { return view_; } ///< shared::GatherView
-    /// shared::GatherPoint for each tile, rows from top to bottom: of the last frame.
+    /// shared::GatherPoint of each tile in the last frame, rows from top to bottom.
     const Buffer& points() const { return points_[current_]; }
     VkDescriptorSet pointSet() const { return point_sets_[current_]; }
     VkDescriptorSet gatherSet() const { return gather_sets_[current_]; }
 
-    /// The next frame, seen so: what was this frame's is the one's before. Returns what the device is told.
+    /// Begin a frame with this view: the result of the last frame becomes the history. Returns the view for
+    /// the device.
     ///
     /// grid_origin  world
     shared::GatherView beginFrame(const shared::FrameView& view, Float3 grid_origin, bool light_changes);
 
-    /// The next frame starts anew.
+    /// Discard the history.
     void forget() { known_ = false; }
 
 private:
@@ -42,7 +44,7 @@ private:
     VkExtent2D tiles_;
     Buffer view_;
     Buffer points_[2];
-    Image texels_; ///< two a tile, side by side
+    Image texels_; ///< two texels per tile, side by side
     UniqueDescriptorPool pool_;
     VkDescriptorSet point_sets_[2]{};
     VkDescriptorSet gather_sets_[2]{};

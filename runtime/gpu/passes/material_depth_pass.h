@@ -1,4 +1,4 @@
-// Writes the number of the material that each pixel sees as depth. Second subpass of the frame.
+// Writes the material id of each pixel as depth. Second subpass of the frame.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -14,7 +14,8 @@ public:
     static Result<MaterialDepthPass> create(const Device& device, const DrawLayouts& layouts,
                                             VkRenderPass render_pass);
 
-    /// Inside subpass kSubpassMaterialDepth, with viewport and scissor set. Clobbers the graphics state.
+    /// Record inside subpass kSubpassMaterialDepth, with viewport and scissor set. Clobbers the graphics
+    /// state.
     void record(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
                 const Scene& scene, const FrameTargets& targets) const;
 

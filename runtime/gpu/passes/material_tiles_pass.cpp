@@ -40,7 +40,7 @@ Result<MaterialTilesPass> MaterialTilesPass::create(const Device& device, const 
 
 Status MaterialTilesPass::createSet(const Device& device, Scene& scene) const
 {
-    // the layouts of the three pipelines are alike, so that one set fits all
+    // the three pipelines have the same layout, so one set fits all
     HEARTH_ASSIGN_OR_RETURN(scene.tile_set,
                             allocateSet(device, scene.pool.get(), materials_.set_layout.get()));
     DescriptorWriter(scene.tile_set)
@@ -71,7 +71,7 @@ void MaterialTilesPass::record(const Device& device, VkCommandBuffer commands, c
         barrier(device, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                 VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
     };
-    // the culling pass has waited for the frame before, which may have read what is cleared here
+    // the culling pass has waited for the last frame, which may have read the buffer that is cleared here
     device.vk.vkCmdFillBuffer(commands, scene.buffers.tile_draws.handle.get(), 0, VK_WHOLE_SIZE, 0);
     barrier(device, commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
             VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);

@@ -1,5 +1,5 @@
-// Finds in which tiles of the picture each material is seen, so that shading a scene of many materials need not look at
-// every pixel for each of them. See runtime/gpu/README.md, "Material tiles".
+// Lists the tiles in which each material is visible, so that shading a scene of many materials need not test
+// every pixel for each material. See runtime/gpu/README.md, "Material tiles".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -14,12 +14,12 @@ class MaterialTilesPass
 public:
     static Result<MaterialTilesPass> create(const Device& device, const DrawLayouts& layouts);
 
-    /// The descriptor set of this pass for a scene.
+    /// Allocate the descriptor set of this pass for a scene.
     Status createSet(const Device& device, Scene& scene) const;
 
-    /// Outside a render pass, behind one that ends at the visibility buffer. Writes scene.buffers.tile_draws and
-    /// targets.tileLists(), which indirect draws, vertex shaders and transfers that follow see. Clobbers the compute
-    /// state.
+    /// Record outside a render pass, after a render pass that ends at the visibility buffer. Writes
+    /// scene.buffers.tile_draws and targets.tileLists(), visible to later indirect draws, vertex shaders and
+    /// transfers. Clobbers the compute state.
     void record(const Device& device, VkCommandBuffer commands, const Scene& scene,
                 const FrameTargets& targets) const;
 

@@ -93,7 +93,7 @@ void PageRequestPass::record(const Device& device, VkCommandBuffer commands, con
     ask(pipeline_, scene.page_request_set, {0, rigid});
     if (scene.deformation != nullptr)
         ask(*deformed_, scene.deformation->page_request_set, {rigid, items - rigid});
-    // the late culling phase writes the states that this has read
+    // the late culling phase overwrites the states that this pass has read
     barrier(device, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
             VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
             VK_ACCESS_TRANSFER_READ_BIT);

@@ -10,7 +10,7 @@ namespace hearth::gpu
 namespace
 {
 
-// What one workgroup of pyramid_tiles.comp reduces: a tile of so many pixels each way, to so many levels.
+// Tile size in pixels and number of levels that one workgroup of pyramid_tiles.comp reduces.
 constexpr uint32_t kTilePixels = 32;
 constexpr uint32_t kTileLevels = 5;
 

@@ -1,4 +1,4 @@
-// Reduces the depth buffer to the pyramid that occlusion culling looks at (formats/gpu_shared/occlusion.h).
+// Reduces the depth buffer to the depth pyramid of occlusion culling (formats/gpu_shared/occlusion.h).
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,7 +12,7 @@ class PyramidPass
 public:
     static Result<PyramidPass> create(const Device& device, const DrawLayouts& layouts);
 
-    /// Outside a render pass, behind the early one. What it writes is visible to compute shaders that follow, and to
+    /// Record outside a render pass, after the early one. Results are visible to later compute shaders and
     /// transfers.
     void record(const Device& device, VkCommandBuffer commands, const FrameTargets& targets) const;
 

@@ -57,7 +57,7 @@ Result<ShadingPass> ShadingPass::create(const Device& device, const DrawLayouts&
     GraphicsDescription clusters =
         describe(shaders::inspect_clusters_frag, layouts.clusters.get(), render_pass);
     clusters.vertex = shaders::fullscreen_vert;
-    clusters.depth_compare = VK_COMPARE_OP_LESS; // drawn at depth 0, which is the sky's
+    clusters.depth_compare = VK_COMPARE_OP_LESS; // drawn at depth 0, which is the depth of the sky
     HEARTH_ASSIGN_OR_RETURN(pass.clusters_, createGraphicsPipeline(device, clusters));
     return pass;
 }
@@ -73,7 +73,7 @@ Result<ShadingPipelines> ShadingPass::prepare(const Device& device, const DrawLa
             describe(shaders::inspect_shadows_frag, layouts.picture.get(), render_pass_);
         maps.vertex = shaders::fullscreen_vert;
         maps.constants = constants;
-        maps.depth_compare = VK_COMPARE_OP_LESS; // as clusters_
+        maps.depth_compare = VK_COMPARE_OP_LESS; // as clusters
         HEARTH_ASSIGN_OR_RETURN(shadow_maps, createGraphicsPipeline(device, maps));
     }
     if (variant.bricks != 0)
@@ -102,7 +102,7 @@ Result<ShadingPipelines> ShadingPass::prepare(const Device& device, const DrawLa
                             pipelines.inspection.get()};
 }
 
-/// The views of bricks and of their light.
+/// Create the pipelines of the debug views of bricks and GI.
 Status ShadingPass::prepareBricks(const Device& device, const DrawLayouts& layouts,
                                   const ShadingVariant& variant)
 {
@@ -122,7 +122,7 @@ Status ShadingPass::prepareBricks(const Device& device, const DrawLayouts& layou
             describe(shaders::inspect_gathered_frag, layouts.picture.get(), render_pass_);
         light.vertex = shaders::fullscreen_vert;
         light.constants = constants;
-        light.depth_compare = VK_COMPARE_OP_LESS; // as clusters_
+        light.depth_compare = VK_COMPARE_OP_LESS; // as clusters
         HEARTH_ASSIGN_OR_RETURN(gathered, createGraphicsPipeline(device, light));
     }
     return success();
@@ -177,7 +177,7 @@ void ShadingPass::recordClusters(const Device& device, VkCommandBuffer commands,
     device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
 }
 
-/// With the sets that recordSky has bound.
+/// Uses the sets that recordSky has bound.
 void ShadingPass::recordShadowMaps(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
                                    const Scene& scene, const ShadingView& view) const
 {
@@ -189,7 +189,7 @@ void ShadingPass::recordShadowMaps(const Device& device, VkCommandBuffer command
     device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
 }
 
-/// In place of the sky as well.
+/// Replaces the sky as well.
 void ShadingPass::recordBricks(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
                                const Scene& scene, const ShadingView& view) const
 {
@@ -203,7 +203,7 @@ void ShadingPass::recordBricks(const Device& device, VkCommandBuffer commands, c
     device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
 }
 
-/// With the sets that recordSky has bound.
+/// Uses the sets that recordSky has bound.
 void ShadingPass::recordGathered(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
                                  const Scene& scene, const ShadingView& view) const
 {
@@ -215,7 +215,7 @@ void ShadingPass::recordGathered(const Device& device, VkCommandBuffer commands,
     device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
 }
 
-/// With the sets that recordSky has bound.
+/// Uses the sets that recordSky has bound.
 void ShadingPass::recordMaterials(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
                                   const Scene& scene, const ShadingView& view) const
 {
@@ -239,7 +239,7 @@ void ShadingPass::recordMaterials(const Device& device, VkCommandBuffer commands
         device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 1, 1,
                                           &material.set, 0, nullptr);
         device.vk.vkCmdPushConstants(commands, layout, kDrawPushStages, 0, sizeof(push), &push);
-        // draws nothing where the material is not seen
+        // draws nothing where the material is not visible
         device.vk.vkCmdDrawIndirect(commands, draws, number * sizeof(VkDrawIndirectCommand), 1,
                                     sizeof(VkDrawIndirectCommand));
     }

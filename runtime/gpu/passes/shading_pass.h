@@ -1,4 +1,5 @@
-// Shades the picture: the sky, then each material that is seen, where the material depth is its own. Third subpass.
+// Shades the frame: the sky, then each visible material in the pixels whose material depth equals its own.
+// Third subpass.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,43 +13,45 @@
 namespace hearth::gpu
 {
 
-/// Where each material is shaded. The picture is the same.
+/// Area in which each material is shaded. The result is the same.
 enum class ShadedArea : uint8_t
 {
-    automatic,    ///< the tiles where it is seen, in scenes of more than kWholePictureMaterials
-    wholePicture, ///< everywhere: pixels of other materials fail the depth test
-    tiles,        ///< the tiles where it is seen
+    automatic,    ///< its tiles, in scenes of more than kWholePictureMaterials materials
+    wholePicture, ///< the whole frame: pixels of other materials fail the depth test
+    tiles,        ///< its tiles
 };
 
-/// Up to so many materials a scene is shaded in one render pass. See runtime/gpu/README.md, "Material tiles".
+/// Largest number of materials that a scene shades in one render pass. See runtime/gpu/README.md, "Material
+/// tiles".
 inline constexpr uint32_t kWholePictureMaterials = 8;
 
-/// What the picture shows.
+/// Shading settings of a frame.
 struct ShadingView
 {
     uint32_t shown = shared::kViewFinal; ///< one of shared::kView*
     float depth_scale = 1;               ///< metres that the depth view shows as middle grey
     ShadedArea area = ShadedArea::automatic;
-    uint32_t ambient_occlusion = shared::kAmbientOcclusionExact; ///< of meshes with visibility
-    uint32_t specular_occlusion = shared::kSpecularOcclusionFit; ///< the same
-    bool bricks_light = true; ///< of scenes with bricks: their light is gathered, else the sky is constant
+    uint32_t ambient_occlusion = shared::kAmbientOcclusionExact; ///< for meshes with visibility
+    uint32_t specular_occlusion = shared::kSpecularOcclusionFit; ///< for meshes with visibility
+    /// Indirect light for scenes with bricks (GI); false: constant sky.
+    bool bricks_light = true;
 };
 
-/// Whether the frame makes lists of tiles before it is shaded.
+/// True if the frame lists material tiles before shading.
 inline bool shadesTiles(const Scene& scene, ShadedArea area)
 {
     return area == ShadedArea::tiles ||
            (area == ShadedArea::automatic && scene.materials.size() > kWholePictureMaterials);
 }
 
-/// Whether the picture shows light that is gathered from bricks.
+/// True if the frame uses gathered light (GI).
 inline bool gathers(const Scene& scene, const ShadingView& view)
 {
     return scene.bricks != nullptr &&
            (view.shown == shared::kViewGathered || (view.shown == shared::kViewFinal && view.bricks_light));
 }
 
-/// Whether the picture needs bricks, which not all scenes have.
+/// True if the debug view needs bricks, which not all scenes have.
 inline bool showsBricks(uint32_t shown)
 {
     return shown == shared::kViewBricks || shown == shared::kViewBrickLighting ||
@@ -61,11 +64,12 @@ public:
     static Result<ShadingPass> create(const Device& device, const DrawLayouts& layouts,
                                       VkRenderPass render_pass);
 
-    /// The pipelines of a material; made once for each variant and kept. To be called before frames are recorded.
+    /// Return the pipelines of a material; creates each variant once and caches it. Call before frames are
+    /// recorded.
     Result<ShadingPipelines> prepare(const Device& device, const DrawLayouts& layouts,
                                      const ShadingVariant& variant);
 
-    /// Inside subpass kSubpassShading, with viewport and scissor set. Clobbers the graphics state.
+    /// Record inside subpass kSubpassShading, with viewport and scissor set. Clobbers the graphics state.
     void record(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
                 const Scene& scene, const FrameTargets& targets, const ShadingView& view) const;
 
@@ -93,8 +97,8 @@ private:
     VkRenderPass render_pass_ = VK_NULL_HANDLE;
     UniquePipeline sky_;
     UniquePipeline clusters_;
-    UniquePipeline shadow_maps_[2]; ///< once a scene has them: [1] one with deformed meshes
-    UniquePipeline bricks_;         ///< once a scene has them
+    UniquePipeline shadow_maps_[2]; ///< set once a scene has shadows: [1] for deformed meshes
+    UniquePipeline bricks_;         ///< set once a scene has bricks
     UniquePipeline gathered_[2];    ///< as shadow_maps_, once a scene has bricks
     std::map<ShadingVariant, Variant> variants_;
 };

@@ -12,7 +12,8 @@ constexpr VkPipelineStageFlags kDepthStages =
 constexpr VkPipelineStageFlags kReadingStages =
     VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
 
-// A frame may follow another that still looks the layer up, or drew to it and looked at nothing; a copy may have filled it.
+// The last frame may still sample the layer, or may have drawn to it without sampling it; a copy may have
+// filled it.
 constexpr VkSubpassDependency kDependencies[] = {
     {VK_SUBPASS_EXTERNAL, 0, kReadingStages | kDepthStages, kDepthStages,
      VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
@@ -21,7 +22,7 @@ constexpr VkSubpassDependency kDependencies[] = {
      VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT, 0},
 };
 
-/// Both are compatible with each other.
+/// Create the render pass for one load operation; both are compatible with each other.
 Result<UniqueRenderPass> createRenderPass(const Device& device, VkAttachmentLoadOp load,
                                           VkImageLayout initial_layout)
 {
@@ -51,7 +52,7 @@ Result<UniqueRenderPass> createRenderPass(const Device& device, VkAttachmentLoad
     return UniqueRenderPass(device, pass);
 }
 
-/// Layers `first` and on.
+/// Barrier for `count` layers from `first` on.
 VkImageMemoryBarrier layerBarrier(const Image& image, uint32_t first, uint32_t count, VkImageLayout before,
                                   VkImageLayout after, VkAccessFlags access)
 {
@@ -66,7 +67,8 @@ VkImageMemoryBarrier layerBarrier(const Image& image, uint32_t first, uint32_t c
     return barrier;
 }
 
-/// The view of all layers is in the descriptor set from the first frame on, whatever has been drawn.
+/// Make all layers sampleable: the descriptor set has the view of all layers from the first frame on,
+/// whatever has been drawn.
 void makeSampleable(const Device& device, VkCommandBuffer commands, const Image& image)
 {
     const VkImageMemoryBarrier barrier =
@@ -77,7 +79,7 @@ void makeSampleable(const Device& device, VkCommandBuffer commands, const Image&
                                    &barrier);
 }
 
-/// Leaves the target in TRANSFER_DST_OPTIMAL, and the source as it was.
+/// Copy a layer. Leaves the target in TRANSFER_DST_OPTIMAL, and the source in its old layout.
 void recordCopy(const Device& device, VkCommandBuffer commands, const Image& image, uint32_t from,
                 uint32_t to, VkExtent2D area)
 {
@@ -160,7 +162,7 @@ void ShadowPass::recordMap(const Device& device, VkCommandBuffer commands, const
     const VkRect2D area{{0, 0}, {side, side}};
     if (map.over)
         recordCopy(device, commands, shadows.image(), *map.over, map.layer, area.extent);
-    const VkClearValue nothing{.depthStencil = {0, 0}}; // infinitely far away
+    const VkClearValue nothing{.depthStencil = {0, 0}}; // at infinity
     VkRenderPassBeginInfo begin{};
     begin.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
     begin.renderPass = (map.over ? over_copy_ : from_nothing_).get();

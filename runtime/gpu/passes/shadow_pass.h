@@ -1,5 +1,5 @@
-// Draws the casters of shadow maps, each into its layer: what the culling pass found, as depth.
-// See runtime/gpu/README.md, "Shadows".
+// Draws the casters of shadow maps, each map into its layer: the clusters that the culling pass found, depth
+// only. See runtime/gpu/README.md, "Shadows".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -14,19 +14,19 @@ class ShadowPass
 public:
     static Result<ShadowPass> create(const Device& device, const DrawLayouts& layouts);
 
-    /// What scenes with deformed meshes need beside; once.
+    /// Create the pipelines for scenes with deformed meshes; call once.
     Status prepareDeformed(const Device& device) { return casters_.prepareDeformed(device); }
 
-    /// The maps of a scene, and their places in its descriptor set. Records that their layers can be sampled.
-    /// errors: those of SceneShadows::create.
+    /// Create the shadow maps of a scene and write them to its descriptor set. Records commands that make the
+    /// layers sampleable. errors: same as SceneShadows::create.
     Status createMaps(const Device& device, const formats::PackView& pack, const ShadowOptions& options,
                       VkCommandBuffer commands, Scene& scene) const;
 
-    /// What shaders know of the frame's maps. Outside a render pass, before they are drawn.
+    /// Record the update of the shadow block for shaders. Outside a render pass, before the maps are drawn.
     void recordBlock(const Device& device, VkCommandBuffer commands, const Scene& scene) const;
 
-    /// A layer, after the culling pass has found its casters. Outside a render pass; what it writes is visible to fragment
-    /// shaders and transfers that follow. Clobbers the graphics state.
+    /// Record a layer, after the culling pass has found its casters. Outside a render pass. Results are
+    /// visible to later fragment shaders and transfers. Clobbers the graphics state.
     void recordMap(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
                    const Scene& scene, const ShadowCache::StaleMap& map) const;
 

@@ -62,7 +62,8 @@ void SkinningPass::record(const Device& device, VkCommandBuffer commands, const 
         device.vk.vkCmdPushConstants(commands, pipeline.layout.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                      sizeof(push), &push);
     };
-    // the lists are the culling pass's; the draws of the phase before have read where theirs were
+    // waits for the culling pass, which writes the lists, and for the draws of the phase before, which read
+    // the old offsets
     barrier(device, commands, kCompute | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
             kCompute, VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
     bind(plan_, deformation.plan_set, PlanPush{bins, deformation.first_bin, phase});

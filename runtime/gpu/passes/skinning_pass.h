@@ -1,5 +1,5 @@
-// Skins the visible deformed clusters of a frame once, before they are drawn and shaded: as many as the scratch holds.
-// See runtime/gpu/README.md, "Characters".
+// Skins the visible deformed clusters of a frame once, before they are drawn and shaded, as many as the
+// scratch buffer holds. See runtime/gpu/README.md, "Characters".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,11 +13,11 @@ class SkinningPass
 public:
     static Result<SkinningPass> create(const Device& device, const DrawLayouts& layouts);
 
-    /// The descriptor set of this pass for a scene with deformed meshes.
+    /// Allocate the descriptor set of this pass for a scene with deformed meshes.
     Status createSet(const Device& device, Scene& scene) const;
 
-    /// Behind CullPass::record of the same phase. Outside a render pass; what it writes is visible to vertex and fragment
-    /// shaders that follow. Clobbers the compute state.
+    /// Record after CullPass::record of the same phase. Outside a render pass. Results are visible to later
+    /// vertex and fragment shaders. Clobbers the compute state.
     void record(const Device& device, VkCommandBuffer commands, const Scene& scene, uint32_t phase) const;
 
 private:

@@ -19,11 +19,11 @@ namespace
 
 constexpr size_t kRowWords = 4;
 
-// A skinned vertex is a sum of products of floats: about eight roundings of numbers as large as the mesh. Its bounds
-// are wider by so much of the mesh's reach.
+// Relative slack of the bounds of skinned vertices. A skinned vertex is a sum of products of floats: about
+// eight roundings of numbers as large as the mesh.
 constexpr float kSkinningSlack = 2 * shared::kRoundingSlack;
 
-// Morphed places are sums of hundreds of terms at most, each rounded.
+// Slack of morphed positions, which are sums of at most hundreds of rounded terms.
 constexpr float kMorphRounding = 1.0001f;
 
 /// Appends records to a table of rows.
@@ -69,7 +69,7 @@ Box3 widenedBy(const Box3& box, float margin)
     return box.empty() ? box : Box3{box.min - all, box.max + all};
 }
 
-/// What culling is told of the meshes of chunk DMSH.
+/// Culling bounds of the clusters of the meshes of chunk DMSH.
 class ClusterTable
 {
 public:
@@ -78,7 +78,7 @@ public:
     {
     }
 
-    /// In the bind pose, with morph weights from -1 to 1.
+    /// Bounds in the bind pose, with morph weights from -1 to 1.
     Box3 bindBox(const formats::DeformedMeshRecord& mesh) const
     {
         const shared::MeshBounds& bounds = bounds_[mesh.mesh];
@@ -152,7 +152,7 @@ void applyRows(const DeformedInstance& instance, const PosedRows& rows, Deformat
     instances[instance.instance] = rows.record;
 }
 
-/// One whose numbers fit everywhere.
+/// Return a pose whose numbers fit into floats everywhere.
 InstancePose unitPose(const DeformedInstance& instance, std::vector<Affine3d>& palette,
                       std::vector<float>& weights)
 {
@@ -166,7 +166,7 @@ Float4 rowOf(const Affine3& t, int row)
     return {t.m[row][0], t.m[row][1], t.m[row][2], t.m[row][3]};
 }
 
-/// From the origin of the instance, which is where the anchor is.
+/// Transform relative to the origin of the instance, where the anchor is.
 Affine3d relativeTo(const Affine3d& anchor, Affine3d transform)
 {
     for (int row = 0; row < 3; ++row)
@@ -174,7 +174,7 @@ Affine3d relativeTo(const Affine3d& anchor, Affine3d transform)
     return transform;
 }
 
-/// Cones tell front from back as the instance's bin does: not where a joint turns the triangles round.
+/// Cones tell front from back as the instance's bin does; this fails if a joint mirrors the triangles.
 shared::PaletteRow paletteRow(const Affine3& origin_from_bind, bool mirrored)
 {
     formats::InstanceRecord carrier{};
@@ -285,7 +285,7 @@ private:
     DeformationLayout layout_;
     RowWriter rows_{layout_.words};
     shared::DeformationHeader header_{};
-    std::vector<uint32_t> cluster_rows_; ///< of each deformed mesh, as shared::Pose
+    std::vector<uint32_t> cluster_rows_; ///< per deformed mesh, as shared::Pose
 };
 
 } // namespace
@@ -355,7 +355,7 @@ bool poseInstance(const DeformedInstance& instance, const InstancePose& pose, Po
                         .unused_z = 0};
     const Float3 origin{anchored->m[0][3], anchored->m[1][3], anchored->m[2][3]};
     setTransform(rows.record, pose.free ? Affine3{} : *anchored, origin);
-    rows.bounds.grid_step = 0; // of no grid: nothing of a deformed instance is looked for by it
+    rows.bounds.grid_step = 0; // no grid: nothing of a deformed instance is found by it
     rows.bounds.box_min = instance.box_in_clips.min;
     rows.bounds.box_max = instance.box_in_clips.max;
     if (pose.free)
@@ -374,7 +374,7 @@ std::optional<Sphere> freeSphere(const PosedRows& rows)
     return Sphere{pose.free_center, pose.free_radius * rows.record.scale_max};
 }
 
-/// Where the poses of the nodes do not fit into floats, the bind pose.
+/// Uses the bind pose if the poses of the nodes do not fit into floats.
 std::vector<PosedRows> posesAtRest(const formats::PackView& pack, const DeformationLayout& layout)
 {
     const pack::PosePlayer player(pack);

@@ -9,7 +9,7 @@ namespace hearth::gpu
 Result<DrawLayouts> DrawLayouts::create(const Device& device)
 {
     constexpr VkShaderStageFlags kBoth = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
-    // the skinning pass reads the scene as the vertex shaders do, and so does what finds the points to gather light for
+    // the skinning pass and the pass that chooses gather points read the scene like vertex shaders
     std::vector<SetBinding> scene(kSceneBindingCount,
                                   {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kBoth | VK_SHADER_STAGE_COMPUTE_BIT});
     scene[kSceneFrame] = {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kBoth | VK_SHADER_STAGE_COMPUTE_BIT};

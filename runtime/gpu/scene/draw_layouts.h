@@ -1,5 +1,5 @@
-// The descriptor sets that the drawing passes share: set 0 the scene, set 1 a material, set 2 what is drawn: bins, or
-// what the pixels of the visibility buffer show.
+// Descriptor set layouts that the drawing passes share: set 0 scene, set 1 material, set 2 input of the pass:
+// bins, or the visibility buffer and its companions.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -8,31 +8,32 @@
 namespace hearth::gpu
 {
 
-/// Bindings of set 0, as runtime/shaders/scene/scene.glsl has them. Seven storage buffers in the vertex stage, to which each
-/// set 2 adds one, and eight in the fragment stage: as many as the renderer may have.
+/// Bindings of set 0, as in runtime/shaders/scene/scene.glsl. Seven storage buffers in the vertex stage, to
+/// which each set 2 adds one, and eight in the fragment stage, which is the limit of the renderer.
 enum SceneBinding : uint32_t
 {
     kSceneFrame = 0,
     kSceneInstances = 1,
     kSceneVisible = 2,
     kSceneDraws = 3,
-    kScenePool = 4, ///< and the three after it, of which the last holds the poses of deformed meshes
+    /// First of four bindings; the last one holds the poses of deformed meshes.
+    kScenePool = 4,
     kSceneLighting = 8,
-    kSceneShadows = 9, ///< of scenes with shadows, as the next one
+    kSceneShadows = 9, ///< scenes with shadows only; so is the next one
     kSceneShadowMaps = 10,
     kSceneSpecularTable = 11, ///< one white texel in scenes without a table
     kSceneBindingCount = 12,
 };
 
-/// Bindings of set 2 of the picture's pipelines.
+/// Bindings of set 2 of the shading pipelines.
 enum AttachmentBinding : uint32_t
 {
     kAttachmentVisibility = 0,
     kAttachmentTileLists = 1,
-    kAttachmentGathered = 2, ///< what GatherPass left, for pictures with the light of bricks
+    kAttachmentGathered = 2, ///< result of GatherPass, for frames with GI
 };
 
-/// Bindings of the set that the material-tiles pass has as set 1.
+/// Bindings of set 1 of the material-tiles pass.
 enum TileBinding : uint32_t
 {
     kTileVisibility = 0,
@@ -40,7 +41,7 @@ enum TileBinding : uint32_t
     kTileLists = 2,
 };
 
-/// Bindings of the set that the views of clusters have as set 0; set 1 is the attachments'.
+/// Bindings of set 0 of the cluster debug views; set 1 is the attachments set.
 enum InspectionBinding : uint32_t
 {
     kInspectionFrame = 0,
@@ -50,7 +51,7 @@ enum InspectionBinding : uint32_t
     kInspectionGroups = 4,
 };
 
-/// Bindings of the set that the culling passes have as set 1 and the pyramid pass as set 0.
+/// Bindings of set 1 of the culling passes and set 0 of the pyramid pass.
 enum OcclusionBinding : uint32_t
 {
     kOcclusionViews = 0,
@@ -58,11 +59,10 @@ enum OcclusionBinding : uint32_t
     kOcclusionDepth = 2,
 };
 
-/// Bindings of the set of a scene with bricks, which the passes over them have as set 0. Six storage buffers: two are left
-/// to each set 1.
+/// Bindings of set 0 of the passes over bricks. Six storage buffers, which leaves two for each set 1.
 enum BrickBinding : uint32_t
 {
-    kBrickFrame = 0, ///< the FrameView
+    kBrickFrame = 0, ///< shared::FrameView
     kBrickView = 1,  ///< shared::BrickView
     kBrickGroups = 2,
     kBrickBricks = 3,
@@ -73,44 +73,45 @@ enum BrickBinding : uint32_t
     kBrickBindingCount = 8,
 };
 
-/// Bindings of the set with which points for the gathering are found: set 1, behind the scene.
+/// Bindings of set 1 of the pass that chooses gather points; set 0 is the scene.
 enum GatherPointBinding : uint32_t
 {
     kGatherPointVisibility = 0,
     kGatherPointPoints = 1,
 };
 
-/// Bindings of the set with which light is gathered: set 1, behind the bricks.
+/// Bindings of set 1 of the gather passes; set 0 is the bricks.
 enum GatherBinding : uint32_t
 {
     kGatherView = 0,
     kGatherPoints = 1,
-    kGatherBefore = 2, ///< those of the frame before
-    kGatherTexels = 3, ///< what shading reads
+    kGatherBefore = 2, ///< points of the last frame
+    kGatherTexels = 3, ///< texels that shading reads
 };
 
-/// Push constants of all drawing pipelines; the visibility pass reads only the bin, casters that and two more.
+/// Push constants of all drawing pipelines; the visibility pass reads only the bin, shadow casters also the
+/// next two.
 struct DrawPush
 {
     union
     {
-        float depth = 0; ///< picture: material number / 65535
+        float depth = 0; ///< shading: material id / 65535
         uint32_t bin;    ///< visibility pass
     };
     uint32_t shown_view = 0;
     float depth_scale = 1;
-    uint32_t light_row = 0; ///< casters: of the ShadowBlock
+    uint32_t light_row = 0; ///< casters: row of the ShadowBlock
     uint32_t map_index = 0;
-    uint32_t sky_occlusion = 0; ///< picture: shared::skyOcclusionBits
+    uint32_t sky_occlusion = 0; ///< shading: shared::skyOcclusionBits
 };
 
-/// Specialization constant 4 of the drawing pipelines: where the vertices of deformed meshes come from
+/// Specialization constant 4 of the drawing pipelines: source of the vertices of deformed meshes
 /// (runtime/shaders/scene/drawn_vertex.glsl).
 enum DeformedVertices : uint32_t
 {
-    kRigid = 0,             ///< there are none
-    kDeformedHere = 1,      ///< skinned where they are drawn
-    kDeformedInScratch = 2, ///< skinned before, as far as there was room
+    kRigid = 0,             ///< no deformed meshes
+    kDeformedHere = 1,      ///< skinned on demand by the shader that draws
+    kDeformedInScratch = 2, ///< pre-skinned as far as the scratch buffer has room
 };
 
 inline constexpr VkShaderStageFlags kDrawPushStages =
@@ -120,20 +121,20 @@ struct DrawLayouts
 {
     UniqueSetLayout scene;
     UniqueSetLayout material;
-    UniqueSetLayout bins;        ///< one binding: the draws of the bins, behind them those of the late phase
+    UniqueSetLayout bins;        ///< one binding: draws of the bins, then draws of the late phase
     UniqueSetLayout attachments; ///< bindings AttachmentBinding
-    UniqueSetLayout occlusion;   ///< of the culling and pyramid passes, bindings OcclusionBinding
-    UniqueSetLayout tiles;       ///< of the material-tiles pass, bindings TileBinding
+    UniqueSetLayout occlusion;   ///< culling and pyramid passes, bindings OcclusionBinding
+    UniqueSetLayout tiles;       ///< material-tiles pass, bindings TileBinding
     UniqueSetLayout inspection;  ///< bindings InspectionBinding
     UniqueSetLayout bricks;      ///< bindings BrickBinding
-    UniqueSetLayout
-        fresh_light; ///< two bindings: light of faces before it is copied to where it is read, places of bricks
+    /// Two bindings: light of faces before the copy, positions of bricks.
+    UniqueSetLayout fresh_light;
     UniqueSetLayout gather_point;     ///< bindings GatherPointBinding
     UniqueSetLayout gather;           ///< bindings GatherBinding
     UniquePipelineLayout visibility;  ///< sets scene, material, bins
     UniquePipelineLayout picture;     ///< sets scene, material, attachments
-    UniquePipelineLayout clusters;    ///< of the views of clusters: sets inspection, attachments
-    UniquePipelineLayout brick_views; ///< of the views of bricks: set bricks
+    UniquePipelineLayout clusters;    ///< debug views of clusters: their set, then attachments
+    UniquePipelineLayout brick_views; ///< brick debug views: set bricks
 
     static Result<DrawLayouts> create(const Device& device);
 };

@@ -1,4 +1,4 @@
-// Rigid instances that move: new transforms for the tables on the device.
+// Moving rigid instances: new transforms for the tables on the device.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,7 +9,7 @@
 namespace hearth::gpu
 {
 
-/// What a new transform changes in the tables; holds until the next one.
+/// Table rows for a new transform of an instance; valid until the next one.
 struct InstanceMove
 {
     uint32_t instance = 0;
@@ -17,11 +17,12 @@ struct InstanceMove
     shared::InstanceInverse inverse{};
 };
 
-/// `world_from_object` is finite; it may mirror what was loaded unmirrored, and the other way round. errors: usage.
+/// Compute the table rows. `world_from_object` is finite; it may flip the handedness of the loaded transform.
+/// errors: usage.
 Result<InstanceMove> moveInstance(const Scene& scene, uint32_t instance, const Affine3& world_from_object);
 
-/// Two small copies for each. Between barriers of the caller: after all that reads the tables, before what shall see
-/// the new ones.
+/// Record two small copies per move. The caller puts barriers around: after all reads of the tables, and
+/// before the reads that need the new transforms.
 void recordMoves(const Device& device, VkCommandBuffer commands, const Scene& scene,
                  std::span<const InstanceMove> moves);
 

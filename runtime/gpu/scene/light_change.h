@@ -1,4 +1,4 @@
-// Lights that move or change: new rows for the table on the device.
+// Moving and changing lights: new rows for the table on the device.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,19 +9,19 @@
 namespace hearth::gpu
 {
 
-/// What a light is from now on; holds until the next one.
+/// Table row for the new state of a light; valid until the next one.
 struct LightChange
 {
     uint32_t light = 0;
     shared::Light record{};
 };
 
-/// Of a light that is drawn: another place, direction, colour, intensity, range or cone, of the same type. The scene's
-/// exposure stays. A light of intensity 0 is off. errors: usage.
+/// Compute the table row of a light that is drawn: new position, direction, colour, intensity, range or cone,
+/// same type. The exposure of the scene stays. A light of intensity 0 is off. errors: usage.
 Result<LightChange> changeLight(const Scene& scene, uint32_t light, const formats::LightRecord& record);
 
-/// One small copy for each. Between barriers of the caller: after all that reads the table, before what shall see the new
-/// ones.
+/// Record one small copy per change. The caller puts barriers around: after all reads of the table, and
+/// before the reads that need the new lights.
 void recordLights(const Device& device, VkCommandBuffer commands, const Scene& scene,
                   std::span<const LightChange> lights);
 

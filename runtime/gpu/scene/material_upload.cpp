@@ -72,7 +72,7 @@ VkSamplerAddressMode addressMode(uint8_t wrap)
     return VK_SAMPLER_ADDRESS_MODE_REPEAT;
 }
 
-/// The samplers that the materials ask for, each created once.
+/// Cache of the samplers that the materials need; each is created once.
 class SamplerCache
 {
 public:
@@ -91,7 +91,7 @@ public:
         info.addressModeU = addressMode(texture.wrap_u);
         info.addressModeV = addressMode(texture.wrap_v);
         info.addressModeW = VK_SAMPLER_ADDRESS_MODE_REPEAT;
-        // with more than 8 taps the gain is hard to see; with nearest magnification it would blur the texels
+        // more than 8 taps hardly help; with nearest magnification anisotropy would blur the texels
         info.anisotropyEnable = device_.sampler_anisotropy && texture.nearest == 0 ? VK_TRUE : VK_FALSE;
         info.maxAnisotropy = std::min(8.0f, device_.limits.maxSamplerAnisotropy);
         info.maxLod = VK_LOD_CLAMP_NONE;

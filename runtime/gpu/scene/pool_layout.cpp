@@ -17,14 +17,14 @@ namespace
 constexpr uint64_t kSliceWords = uint64_t{1} << shared::kPoolSliceBits;
 constexpr uint32_t kSlotAlignment = 64;
 
-/// The last slice of a scene with deformed meshes holds their poses.
+/// Bytes of the pool for pages. The last slice of a scene with deformed meshes holds poses.
 uint64_t poolBytes(const formats::PackView& pack)
 {
     const uint32_t slices = pack.deformedMeshes().empty() ? shared::kPoolSlices : shared::kDeformationSlice;
     return slices * kSliceWords * 4;
 }
 
-/// Hands out words of the pool from its start; nothing crosses the border of a slice.
+/// Allocates words of the pool from its start; no allocation crosses a slice boundary.
 class Placer
 {
 public:

@@ -1,5 +1,5 @@
-// A scene on the device: everything that drawing a pack needs and that does not change from frame to frame, and the
-// work buffers of one frame.
+// Scene on the device: everything that drawing a pack needs and that does not change from frame to frame, and
+// the work buffers of one frame.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -22,30 +22,30 @@ namespace hearth::gpu
 
 struct SceneOptions
 {
-    /// Slots of the visible list, 8 bytes each. A frame that finds more clusters leaves out the last ones and counts
-    /// them in FrameCounters::dropped_clusters. 4 Mi slots are half a gigatriangle, far above one for every pixel.
+    /// Slots of the visible list, 8 bytes each. A frame with more clusters drops the last ones and counts
+    /// them in FrameCounters::dropped_clusters. 4 Mi slots are half a gigatriangle, far above one per pixel.
     uint32_t max_visible_clusters = 1u << 22;
 
-    /// Bytes of geometry that are on the device at once; more are streamed as `stream` says (runtime/gpu/README.md, "Streaming").
-    /// 0: all of it, at most 512 MiB.
+    /// Bytes of geometry on the device; `stream` loads pages on demand (runtime/gpu/README.md, "Streaming").
+    /// 0: all geometry is resident, at most 512 MiB.
     uint64_t geometry_budget = 0;
     StreamOptions stream{};
 
     ShadowOptions shadows{}; ///< none unless max_maps is set (runtime/gpu/README.md, "Shadows")
 
-    DeformationOptions deformation{}; ///< of a scene that has deformed meshes
+    DeformationOptions deformation{}; ///< for scenes with deformed meshes
 
-    BrickOptions bricks{}; ///< of a scene that has them
+    BrickOptions bricks{}; ///< for scenes with bricks
 };
 
 class SceneShadows;
 
-/// The types of the elements are those of formats/gpu_shared.
+/// Buffers of a scene; the element types are in formats/gpu_shared.
 struct SceneBuffers
 {
     // constant
     Buffer lighting, materials, instances, inverses, bounds, items, order, clusters, bins, group_items;
-    // constant but for what is streamed
+    // constant except for streaming
     Buffer groups, cluster_draws;
     std::array<Buffer, shared::kPoolSlices> pool;
     // rewritten by every frame
@@ -53,35 +53,35 @@ struct SceneBuffers
         page_requests;
 };
 
-/// One descriptor set for each pipeline of the culling pass.
+/// One descriptor set per pipeline of the culling pass.
 struct CullSets
 {
     VkDescriptorSet instances, clusters, scan_blocks, scan_totals, emit_visible, emit_draws;
 };
 
-/// What of a material is compiled into its shading pipeline: a scene has few different ones.
+/// Specialization of a material's shading pipeline: a scene has few different ones.
 struct ShadingVariant
 {
     uint32_t used_slices = shared::kPoolSlices; ///< of the geometry pool: 1 or all
     uint32_t textures = 0;                      ///< as shared::Material
     uint32_t uv_sets = 0;                       ///< as shared::Material
     uint32_t unlit = 0;
-    uint32_t deformed = 0;       ///< 1: it is on deformed meshes
+    uint32_t deformed = 0;       ///< 1: used by deformed meshes
     uint32_t shadows = 0;        ///< 1: lights have shadow maps
-    uint32_t sky_visibility = 0; ///< 1: it is on meshes that say what they see of the sky
+    uint32_t sky_visibility = 0; ///< 1: used by meshes with sky visibility
     uint32_t bricks = 0;         ///< 1: the scene has bricks
     friend auto operator<=>(const ShadingVariant&, const ShadingVariant&) = default;
 };
 
-/// Pipelines of the shading pass, which owns them.
+/// Pipelines of a variant; the shading pass owns them.
 struct ShadingPipelines
 {
     VkPipeline final_view = VK_NULL_HANDLE;
-    VkPipeline gathered_view = VK_NULL_HANDLE; ///< with the light of bricks, where the scene has them
+    VkPipeline gathered_view = VK_NULL_HANDLE; ///< gathered light (GI) view; null in scenes without bricks
     VkPipeline inspection = VK_NULL_HANDLE;
 };
 
-/// A row of the material table.
+/// Row of the material table.
 struct SceneMaterial
 {
     VkDescriptorSet set = VK_NULL_HANDLE;
@@ -89,78 +89,79 @@ struct SceneMaterial
     ShadingPipelines pipelines;
 };
 
-/// Frames of one scene must not overlap on the GPU: submit them to one queue.
+/// Scene on the device. Its frames must not overlap on the GPU: submit them to one queue.
 struct Scene
 {
     explicit Scene(const Device& device);
     ~Scene();
 
     MemoryArena arena;
-    std::unique_ptr<Uploader> staging; ///< reset() once the commands that loaded the scene have run
+    std::unique_ptr<Uploader> staging; ///< reset() after the upload commands have run
     SceneBuffers buffers;
-    std::vector<Image>
-        images; ///< for each image of the pack, empty where no material uses it; then one white texel
+    /// Per image of the pack, empty if no material uses it; then one white texel.
+    std::vector<Image> images;
     std::vector<UniqueSampler> samplers;
     UniqueDescriptorPool pool;
     VkDescriptorSet draw_set = VK_NULL_HANDLE;
     VkDescriptorSet bins_set = VK_NULL_HANDLE;
     VkDescriptorSet inspection_set = VK_NULL_HANDLE;
-    std::vector<SceneMaterial> materials; ///< the rows of the material table
+    std::vector<SceneMaterial> materials; ///< rows of the material table
     CullSets cull_sets{};
-    VkDescriptorSet tile_set = VK_NULL_HANDLE;         ///< of the material-tiles pass
-    VkDescriptorSet page_request_set = VK_NULL_HANDLE; ///< of a streamed scene
+    VkDescriptorSet tile_set = VK_NULL_HANDLE;         ///< material-tiles pass
+    VkDescriptorSet page_request_set = VK_NULL_HANDLE; ///< streamed scenes only
 
-    std::unique_ptr<SceneStream> stream;           ///< of a streamed scene
-    std::unique_ptr<SceneDeformation> deformation; ///< of a scene with deformed meshes
-    std::unique_ptr<SceneShadows> shadows;         ///< of a scene with shadows
-    std::unique_ptr<SceneBricks> bricks;           ///< of a scene that has them
+    std::unique_ptr<SceneStream> stream;           ///< streamed scenes only
+    std::unique_ptr<SceneDeformation> deformation; ///< scenes with deformed meshes only
+    std::unique_ptr<SceneShadows> shadows;         ///< scenes with shadows only
+    std::unique_ptr<SceneBricks> bricks;           ///< scenes with bricks only
     std::vector<SceneBin> bins;
-    std::vector<formats::InstanceRecord> instances; ///< as they were loaded
+    std::vector<formats::InstanceRecord> instances; ///< as loaded
     uint32_t instance_count = 0;
     uint32_t item_count = 0;
-    uint32_t group_item_count = 0; ///< of a streamed scene
+    uint32_t group_item_count = 0; ///< streamed scenes only
     uint32_t slot_capacity = 0;
-    uint32_t used_slices = shared::kPoolSlices; ///< 1 where the first holds all geometry
-    Image specular_table;                       ///< empty where the pack has none
+    uint32_t used_slices = shared::kPoolSlices; ///< 1 if the first slice holds all geometry
+    Image specular_table;                       ///< empty if the pack has none
     uint32_t specular_spacing = 0;              ///< shared::kSpecularSpacing* of the table
-    std::vector<shared::Light> lights;          ///< those that are drawn, as they were loaded
+    std::vector<shared::Light> lights;          ///< lights that are drawn, as loaded
     float exposure = 1;                         ///< of all lights
     uint32_t dropped_lights = 0;                ///< lights of the pack beyond shared::kMaxLights
-    Box3 bounds;                                ///< world space, empty where there is nothing to draw
+    Box3 bounds;                                ///< world space, empty if there is nothing to draw
 };
 
-/// Whether a mesh says what it sees of the sky: else the settings of its occlusion do nothing.
+/// True if a mesh has sky visibility; otherwise the settings of sky occlusion have no effect.
 inline bool hasSkyVisibility(const Scene& scene)
 {
     return std::any_of(scene.materials.begin(), scene.materials.end(),
                        [](const SceneMaterial& m) { return m.variant.sky_visibility != 0; });
 }
 
-/// The first ones of the work list.
+/// Number of work items of rigid instances, which come first.
 inline uint32_t rigidItems(const Scene& scene)
 {
     return scene.deformation == nullptr ? scene.item_count : scene.deformation->rigid_items;
 }
 
-/// Work items that the scan takes together.
+/// Work items that one block of the scan covers.
 inline uint32_t blockCount(const Scene& scene)
 {
     return (scene.item_count + shared::kScanBlockItems - 1) / shared::kScanBlockItems;
 }
 
-/// Create and fill everything but what belongs to a pass (descriptor sets and the materials' pipelines); records copies
-/// into `commands`, which the caller submits and waits for before it resets `staging`. The pack has been checked
-/// (pack::Pack); that of a streamed scene outlives it.
-/// errors: device_limit, device_failed, streaming_budget, those of reading pages and images.
+/// Create and fill everything except objects that belong to a pass (descriptor sets, material pipelines).
+/// Records copies into `commands`, which the caller submits and waits for before it resets `staging`. The
+/// pack has been checked (pack::Pack); the pack of a streamed scene outlives it. errors: device_limit,
+/// device_failed, streaming_budget, and the errors of reading pages and images.
 Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayouts& layouts,
                                            const formats::PackView& pack, VkCommandBuffer commands,
                                            const SceneOptions& options);
 
-/// The images of the materials, and one descriptor set for each row of the material table. Needs scene.pool and scene.used_slices.
+/// Upload the images of the materials, and allocate one descriptor set per row of the material table. Needs
+/// scene.pool and scene.used_slices.
 Status uploadMaterials(const Device& device, const DrawLayouts& layouts, const formats::PackView& pack,
                        Uploader& uploader, Scene& scene);
 
-/// Of packs that have one; needs scene.draw_set.
+/// Upload the specular occlusion table of packs that have one; needs scene.draw_set.
 Status uploadSpecularTable(const Device& device, const formats::PackView& pack, Uploader& uploader,
                            Scene& scene);
 

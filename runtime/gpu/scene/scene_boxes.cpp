@@ -11,7 +11,7 @@ namespace hearth::gpu
 namespace
 {
 
-/// For each instance.
+/// Transforms of all instances in the pose of the player.
 std::vector<Affine3> placesOf(const formats::PackView& pack, const pack::PosePlayer& player)
 {
     std::vector<Affine3> places;
@@ -23,14 +23,16 @@ std::vector<Affine3> placesOf(const formats::PackView& pack, const pack::PosePla
     return places;
 }
 
-/// Of a joint whose place does not fit into floats, nothing is drawn.
+/// Add a box in the space of a joint. Skips joints whose transform does not fit into floats: nothing of them
+/// is drawn.
 void addCarried(const Box3& box, const Affine3d& world_from_bind, std::vector<PlacedBox>& boxes)
 {
     if (const auto place = narrowed(world_from_bind); place && !box.empty())
         boxes.push_back({box, *place});
 }
 
-/// Calls rigid(mesh, place) and deformed(mesh, record of DMSH, pose) for the instances of the range that have clusters.
+/// Call rigid(mesh, place) and deformed(mesh, record of DMSH, pose) for the instances of the range that have
+/// clusters.
 template <typename Rigid, typename Deformed>
 void visitInstances(const formats::PackView& pack, const pack::PosePlayer& player, formats::Range instances,
                     const Rigid& rigid, const Deformed& deformed)
@@ -52,7 +54,7 @@ void visitInstances(const formats::PackView& pack, const pack::PosePlayer& playe
     }
 }
 
-// Posing takes about 0.1 ms a cluster: more are not worth waiting for.
+// Posing takes about 0.1 ms per cluster: more clusters take too long.
 constexpr size_t kMostPosedClusters = 8192;
 
 size_t countDeformedClusters(const formats::PackView& pack, const pack::PosePlayer& player,
@@ -84,7 +86,7 @@ Affine3d blendedJoints(const formats::ClusterGeometry& geometry, uint32_t vertex
     return blended;
 }
 
-/// World space.
+/// Bounds of the posed clusters in world space.
 Box3 posedBox(const formats::ClusterGeometry& geometry, const pack::PosedInstance& pose)
 {
     Box3 box;
@@ -98,7 +100,7 @@ Box3 posedBox(const formats::ClusterGeometry& geometry, const pack::PosedInstanc
     return box;
 }
 
-/// The finest clusters of an instance in its pose; those of pages that cannot be decoded are left out.
+/// Add boxes of the finest clusters of an instance in its pose. Skips pages that cannot be decoded.
 void addPosed(const formats::PackView& pack, const pack::PosedInstance& pose, std::vector<PlacedBox>& boxes)
 {
     const formats::MeshRecord& mesh = pack.meshes()[pack.instances()[pose.instance].mesh];

@@ -1,4 +1,4 @@
-// Where a scene is: the boxes of what it draws, as they stand in a pose. Plain data, no Vulkan.
+// Bounding boxes of a scene's instances and clusters in a pose. Plain data, no Vulkan.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,33 +9,34 @@
 namespace hearth::gpu
 {
 
-/// A box and what carries it to the world.
+/// Box with its transform to world space.
 struct PlacedBox
 {
     Box3 box;
     Affine3 world_from_box;
 };
 
-/// All instances of a pack.
+/// Return the range of all instances of a pack.
 formats::Range allInstances(const formats::PackView& pack);
 
-/// Of each instance of the range that has clusters: around its source, or where it is deformed, around all its poses from
-/// where its anchor stands.
+/// Return one box per instance of the range that has clusters: around its source, or for a deformed instance
+/// around all its poses, relative to its anchor.
 std::vector<PlacedBox> instanceBoxes(const formats::PackView& pack, const pack::PosePlayer& player,
                                      formats::Range instances);
 
-/// Of each cluster of the finest level of each instance: closer to round things. Where it is deformed, around its vertices
-/// in the pose; of crowds, around all its poses from where its main bone stands.
+/// Return one box per cluster of the finest level of each instance: tighter for round shapes. For deformed
+/// instances, around the posed vertices; for crowds, around all poses, relative to the main joint of the
+/// cluster.
 std::vector<PlacedBox> clusterBoxes(const formats::PackView& pack, const pack::PosePlayer& player,
                                     formats::Range instances);
 
-/// Around instanceBoxes; empty where there are none.
+/// Bounds of instanceBoxes; empty if there are none.
 Box3 instanceBounds(const formats::PackView& pack, const pack::PosePlayer& player, formats::Range instances);
 
-/// The same of all instances.
+/// Bounds of all instances.
 Box3 sceneBounds(const formats::PackView& pack, const pack::PosePlayer& player);
 
-/// The same at rest.
+/// Bounds of all instances at rest.
 Box3 sceneBounds(const formats::PackView& pack);
 
 } // namespace hearth::gpu

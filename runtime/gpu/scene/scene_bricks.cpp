@@ -17,7 +17,7 @@ namespace
 constexpr VkBufferUsageFlags kTableUsage =
     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
 
-/// Of at least a word.
+/// Create a buffer of at least one word.
 Result<Buffer> createTable(const Device& device, const formats::PackView& pack, uint64_t bytes,
                            VkBufferUsageFlags more_usage, Scene& scene)
 {
@@ -29,7 +29,7 @@ Result<Buffer> createTable(const Device& device, const formats::PackView& pack, 
                                     MemoryKind::device);
 }
 
-/// Albedo, emission and normals of all faces, one behind the other.
+/// Albedo, emission and normals of all faces, in three consecutive arrays.
 std::vector<std::byte> surfacesOf(const formats::PackView& pack)
 {
     const std::span<const std::byte> parts[] = {std::as_bytes(pack.brickAlbedo()),
@@ -71,7 +71,7 @@ std::vector<uint32_t> firstFacesOf(const formats::PackView& pack)
     return first_faces;
 }
 
-/// As the pack starts with: nothing is left off by the codes.
+/// Initial light as stored in the pack. The encoding is lossless.
 std::vector<shared::BrickLight> lightOf(const formats::PackView& pack)
 {
     std::vector<shared::BrickLight> light;
@@ -139,7 +139,7 @@ Status uploadBricks(const Device& device, const DrawLayouts& layouts, const form
     b.grid = pack.brickGrid()[0];
     b.rays = options.rays;
     b.first_faces = firstFacesOf(pack);
-    // a period of at most a frame a brick
+    // the period is at most one frame per brick
     const auto brick_count = static_cast<uint32_t>(pack.bricks().size());
     b.period =
         std::clamp(b.grid.face_count / std::max(1u, options.faces_per_frame), 1u, std::max(1u, brick_count));

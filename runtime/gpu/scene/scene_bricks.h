@@ -1,5 +1,5 @@
-// The bricks of a scene on the device: which voxels are solid, what their faces are like and what light they give back.
-// See runtime/gpu/README.md, "The light of bricks".
+// Bricks of a scene on the device (GI): solid voxels, and surface and light of their faces. See
+// runtime/gpu/README.md, "Global illumination".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -17,46 +17,47 @@ struct Scene;
 
 struct BrickOptions
 {
-    /// Faces that are lit a frame, about: all of them take face_count / faces_per_frame frames, the period. See runtime/gpu/README.md for
-    /// the frames after which changed light has settled.
+    /// Approximate number of faces that are lit per frame: all of them take face_count / faces_per_frame
+    /// frames, the period. See runtime/gpu/README.md for the number of frames after which a light change has
+    /// settled.
     uint32_t faces_per_frame = 1u << 16;
 
-    uint32_t rays = 16; ///< of each face that is lit, at least 1
+    uint32_t rays = 16; ///< per face that is lit, at least 1
 };
 
-/// Bricks whose faces a frame lights, and these faces: one behind the other, as they lie in the tables.
+/// Bricks whose faces a frame lights, and the range of these faces in the tables.
 struct BrickShare
 {
     uint32_t first_brick = 0, brick_count = 0;
     uint32_t first_face = 0, face_count = 0;
 };
 
-/// Of a scene whose pack has bricks.
+/// Bricks of a scene whose pack has them.
 struct SceneBricks
 {
     formats::BrickGridRecord grid;
-    Buffer view; ///< shared::BrickView, of the last frame
+    Buffer view; ///< shared::BrickView of the last frame
     Buffer groups, bricks, places, opacity;
     Buffer surfaces; ///< of the faces: albedo, then emission, then normals
-    Buffer lighting; ///< shared::BrickLight of each face: what a frame finds, and gathers from
-    Buffer fresh;    ///< of the faces of one frame, before they are copied
+    Buffer lighting; ///< shared::BrickLight per face, read by lighting and gathering
+    Buffer fresh;    ///< new light of one frame's faces, before the copy
     VkDescriptorSet set = VK_NULL_HANDLE;
     VkDescriptorSet fresh_set = VK_NULL_HANDLE;
 
-    std::vector<uint32_t> first_faces; ///< of each brick, and behind the last one
-    uint32_t rays = 16;                ///< of a face
+    std::vector<uint32_t> first_faces; ///< per brick, and the end of the last one
+    uint32_t rays = 16;                ///< per face
     uint32_t period = 1;               ///< frames that light all faces once
-    uint32_t frame = 0;                ///< that light faces, so far
+    uint32_t frame = 0;                ///< frames that have lit faces so far
     BrickShare share{};                ///< of the last frame
-    shared::BrickView last_view{};     ///< the same
-    uint32_t quick_frames = 0;         ///< so many more frames follow changed light quickly
+    shared::BrickView last_view{};     ///< of the last frame
+    uint32_t quick_frames = 0;         ///< number of further frames that follow a light change quickly
 };
 
-/// What a frame lights.
+/// Return the bricks that a frame lights.
 BrickShare brickShare(const SceneBricks& bricks, uint32_t frame);
 
-/// Into scene.bricks, where the pack has bricks. Needs scene.pool, and the buffers of frames and lights.
-/// errors: device_limit, device_failed, those of reading chunks.
+/// Create scene.bricks if the pack has bricks. Needs scene.pool, and the buffers of frames and lights.
+/// errors: device_limit, device_failed, and the errors of reading chunks.
 Status uploadBricks(const Device& device, const DrawLayouts& layouts, const formats::PackView& pack,
                     const BrickOptions& options, Uploader& uploader, Scene& scene);
 

@@ -28,7 +28,7 @@ bool fits(const DeformedInstance& instance, const InstancePose& pose)
            pose.morph_weights.size() == instance.target_count;
 }
 
-/// vkCmdUpdateBuffer takes 64 KiB at once.
+/// Record an update in pieces: vkCmdUpdateBuffer takes 64 KiB at once.
 void recordUpdate(const Device& device, VkCommandBuffer commands, const Buffer& buffer, VkDeviceSize offset,
                   std::span<const std::byte> bytes)
 {

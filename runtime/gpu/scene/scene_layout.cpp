@@ -13,13 +13,13 @@ namespace hearth::gpu
 namespace
 {
 
-// material numbers are told apart by a 16-bit depth buffer, and 0 is the sky
+// a 16-bit depth buffer tells material ids apart, and 0 is the sky
 constexpr uint32_t kMaxMaterialRows = 65535;
 
-/// What of a bin follows from the mesh and the material.
+/// Part of a bin's key that follows from the mesh and the material.
 struct BinKey
 {
-    bool deformed; // first: their bins are the last
+    bool deformed; // first member: bins of deformed instances are the last
     bool alpha_tested;
     uint32_t material_row;
     Facing facing;
@@ -27,7 +27,7 @@ struct BinKey
     friend auto operator<=>(const BinKey&, const BinKey&) = default;
 };
 
-/// The clusters of a mesh that share a key: order[first .. first + count).
+/// Clusters of a mesh that share a key: order[first .. first + count).
 struct ClusterRun
 {
     BinKey key;
@@ -51,7 +51,7 @@ BinKey keyOfMaterial(const formats::PackView& pack, bool deformed, uint32_t mate
             two_sided ? Facing::doubleSided : Facing::culled, (record.flags & formats::kMaterialUnlit) != 0};
 }
 
-/// For each mesh, 1 where the chunk DMSH describes it.
+/// Per mesh: 1 if the chunk DMSH describes it.
 std::vector<uint8_t> findDeformedMeshes(const formats::PackView& pack)
 {
     std::vector<uint8_t> deformed(pack.meshes().size(), 0);
@@ -60,7 +60,7 @@ std::vector<uint8_t> findDeformedMeshes(const formats::PackView& pack)
     return deformed;
 }
 
-/// Append the clusters of a mesh to the order, sorted by key and otherwise as they are.
+/// Append the clusters of a mesh to the order, stably sorted by key.
 std::vector<ClusterRun> orderMesh(const formats::PackView& pack, const formats::MeshRecord& mesh,
                                   bool deformed, std::vector<uint32_t>& order)
 {
@@ -208,7 +208,7 @@ Result<SceneLayout> makeSceneLayout(const formats::PackView& pack, PoolLayout po
     layout.inverses.reserve(pack.instances().size());
     for (const formats::InstanceRecord& instance : pack.instances())
         layout.inverses.push_back(shared::makeInstanceInverse(instance));
-    // the joints of deformed ones have inverses of their own
+    // deformed instances have an inverse per joint instead
     for (const DeformedInstance& deformed : layout.deformation.instances)
         layout.inverses[deformed.instance] = {};
     return layout;

@@ -1,5 +1,5 @@
-// How a pack is arranged for drawing: the work lists, the bins, addresses in the geometry pool. Plain data, no Vulkan.
-// Computed once when a scene is loaded; see runtime/gpu/README.md, "Bins".
+// Draw layout of a pack: work lists, bins, addresses in the geometry pool. Plain data, no Vulkan. Computed
+// once when a scene is loaded; see runtime/gpu/README.md, "Bins".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -16,57 +16,57 @@ namespace hearth::gpu
 enum class Facing : uint8_t
 {
     culled,      ///< back faces are not drawn
-    mirrored,    ///< the same for instances that turn the triangles round
+    mirrored,    ///< the same for instances that flip the winding
     doubleSided, ///< both faces are drawn
 };
 
-/// What is drawn by one indirect draw: same pipeline, same descriptor sets.
+/// Bin: everything that one indirect draw can draw. Same pipeline, same descriptor sets.
 struct SceneBin
 {
-    bool alpha_tested = false; ///< the material decides which pixels are there
-    uint32_t material_row = 0; ///< of the alpha-tested material; 0 where it does not matter
+    bool alpha_tested = false; ///< the material's alpha texture discards pixels
+    uint32_t material_row = 0; ///< of an alpha-tested material; 0 for other bins
     Facing facing = Facing::culled;
-    bool unlit = false;    ///< casts no shadow: a dome with the sky on it would leave no sun
-    bool deformed = false; ///< its clusters are those of deformed instances
+    bool unlit = false;    ///< casts no shadow: a sky dome would block the sun
+    bool deformed = false; ///< clusters of deformed instances
     shared::Bin items{};
 };
 
 struct SceneLayout
 {
     std::vector<shared::WorkItem> items; ///< sorted by bin, then instance, then cluster
-    uint32_t rigid_items = 0;            ///< the first ones: the bins of deformed instances are the last
-    std::vector<uint32_t> order;         ///< cluster numbers; of each mesh, those of one bin together
+    uint32_t rigid_items = 0;            ///< come first: the bins of deformed instances are the last
+    std::vector<uint32_t> order;         ///< cluster ids; per mesh, the clusters of one bin are adjacent
     std::vector<SceneBin> bins;
-    std::vector<shared::ClusterDraw> draws;        ///< for each cluster
-    std::vector<shared::MeshBounds> bounds;        ///< for each mesh, then for each deformed instance
-    std::vector<shared::Instance> instances;       ///< those of the pack, deformed ones at rest
-    std::vector<shared::InstanceInverse> inverses; ///< for each instance
+    std::vector<shared::ClusterDraw> draws;        ///< per cluster
+    std::vector<shared::MeshBounds> bounds;        ///< per mesh, then per deformed instance
+    std::vector<shared::Instance> instances;       ///< instances of the pack, deformed ones at rest
+    std::vector<shared::InstanceInverse> inverses; ///< per instance
     DeformationLayout deformation;
     PoolLayout pool;
-    uint64_t instanced_clusters =
-        0;                      ///< over all instances, all clusters of the mesh: what a frame draws at most
-    uint32_t material_rows = 0; ///< materials of the pack, and the default material behind them
+    /// Sum over all instances of the clusters of their meshes: the most that a frame draws.
+    uint64_t instanced_clusters = 0;
+    uint32_t material_rows = 0; ///< materials of the pack, then the default material
 };
 
-/// Row of the material table for a material index of the pack, which may be formats::kNone.
+/// Return the row of the material table for a material index of the pack, which may be formats::kNone.
 uint32_t materialRow(const formats::PackView& pack, uint32_t material);
 
-/// What drawing needs of a cluster whose page lies at `page_address` of the geometry pool.
+/// Draw record of a cluster whose page is at `page_address` of the geometry pool.
 shared::ClusterDraw makeClusterDraw(const formats::PackView& pack, uint32_t cluster, uint32_t page_address);
 
-/// The groups of every instance, mesh by mesh: what the page requests look at. Rigid instances first.
+/// Groups of every instance, mesh by mesh, for the page requests. Rigid instances first.
 struct GroupItems
 {
     std::vector<shared::GroupItem> items;
-    uint32_t rigid_items = 0; ///< the first ones
+    uint32_t rigid_items = 0; ///< come first
 };
 GroupItems makeGroupItems(const formats::PackView& pack);
 
-/// Clusters of pages without a place get an address that means nothing.
-/// errors: device_limit, where the scene is larger than any device of Vulkan 1.1 must be able to take.
+/// Compute the layout. Clusters of pages without a place get a meaningless address. errors: device_limit if
+/// the scene exceeds the limits that every Vulkan 1.1 device supports.
 Result<SceneLayout> makeSceneLayout(const formats::PackView& pack, PoolLayout pool);
 
-/// With a place for every page.
+/// Compute the layout with a place for every page.
 Result<SceneLayout> makeSceneLayout(const formats::PackView& pack);
 
 } // namespace hearth::gpu

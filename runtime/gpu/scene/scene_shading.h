@@ -1,4 +1,5 @@
-// Materials and lights of a pack as the shading pass reads them, and the exposure rule. Plain data, no Vulkan.
+// Materials and lights of a pack in the form of the shading pass, and the exposure rule. Plain data, no
+// Vulkan.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,18 +12,18 @@
 namespace hearth::gpu
 {
 
-/// The textures of a material in the order of shared::kTexture*.
+/// Textures of a material in the order of shared::kTexture*.
 std::array<formats::TextureRef, shared::kTextureCount> texturesOf(const formats::MaterialRecord& material);
 
-/// glTF's default material: white, fully metallic and rough, as its specification says.
+/// Return glTF's default material: white, fully metallic and rough, as in its specification.
 formats::MaterialRecord defaultMaterial();
 
 shared::Material makeMaterial(const formats::MaterialRecord& record);
 
-/// Lights and sky, by shared::sceneLighting, with the rows of their shadows.
+/// Compute lights and sky by shared::sceneLighting, with the shadow rows of the lights.
 shared::Lighting makeLighting(const formats::PackView& pack);
 
-/// shared::lightExposure of a pack.
+/// Compute shared::lightExposure of a pack.
 float lightExposure(const formats::PackView& pack);
 
 } // namespace hearth::gpu

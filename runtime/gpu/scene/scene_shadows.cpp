@@ -11,14 +11,14 @@ namespace hearth::gpu
 namespace
 {
 
-/// Compares: 1 where what is looked up is no deeper than the texel.
+/// Create a compare sampler: 1 where the reference is no deeper than the texel.
 Result<UniqueSampler> createCompareSampler(const Device& device)
 {
     VkSamplerCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
     info.addressModeU = info.addressModeV = info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     info.compareEnable = VK_TRUE;
-    info.compareOp = VK_COMPARE_OP_GREATER_OR_EQUAL; // reversed depths
+    info.compareOp = VK_COMPARE_OP_GREATER_OR_EQUAL; // reversed depth
     VkSampler sampler;
     HEARTH_TRY_VK(device.vk.vkCreateSampler(device.handle, &info, device.allocator, &sampler),
                   "create a sampler");

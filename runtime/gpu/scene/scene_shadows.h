@@ -1,5 +1,5 @@
-// The shadow maps of a scene: their image, a layer a map, and what is known of them from frame to frame.
-// See runtime/gpu/README.md, "Shadows".
+// Shadow maps of a scene: their array image with one layer per map, and the cache of valid maps from frame to
+// frame. See runtime/gpu/README.md, "Shadows".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,51 +12,52 @@ namespace hearth::gpu
 /// Format of the maps.
 inline constexpr VkFormat kShadowFormat = VK_FORMAT_D32_SFLOAT;
 
-/// Of the last frame.
+/// Shadow statistics of the last frame.
 struct ShadowStatistics
 {
     uint32_t maps = 0;              ///< in use
-    uint32_t drawn_maps = 0;        ///< of these, drawn by the frame; the others were kept
-    uint32_t moved_maps = 0;        ///< of these, in which the frame drew what moves
-    uint32_t dropped_maps = 0;      ///< for which there was no layer
+    uint32_t drawn_maps = 0;        ///< drawn by the frame; the others were cached
+    uint32_t moved_maps = 0;        ///< maps in which the frame drew moving casters
+    uint32_t dropped_maps = 0;      ///< maps for which there was no layer
     uint32_t unshadowed_lights = 0; ///< suns and spots without a map: beyond the capacity
 };
 
-/// Belongs to a scene and one queue. What a frame records counts as drawn: it must be submitted.
+/// Shadow maps of one scene on one queue. A recorded frame counts as drawn: it must be submitted.
 class SceneShadows
 {
 public:
     /// render_pass  of a ShadowPass
-    /// pack         that of the scene
+    /// pack         of the scene
     /// errors: device_limit, device_failed.
     static Result<std::unique_ptr<SceneShadows>> create(const Device& device, VkRenderPass render_pass,
                                                         const formats::PackView& pack, const Box3& bounds,
                                                         const ShadowOptions& options);
 
-    /// What moves and streams in with a frame, whether it is drawn or only prefetched.
+    /// Pass the moves and the streamed groups of a frame, drawn or only prefetched, to the cache.
     void track(std::span<const InstanceMove> moves, std::span<const pack::ResidentGroups::Change> groups);
 
-    /// A light is another from this frame on; nothing where it casts none.
+    /// Change a light from this frame on; no effect if it casts no shadow.
     void change(uint32_t light, const shared::Light& record);
 
-    /// A new pose, from this frame on.
+    /// Set a new pose from this frame on.
     void pose(const DeformedInstance& instance, const PosedRows& rows) { cache_.pose(instance, rows); }
 
-    /// Decide the maps of a frame; returns those that it must draw.
+    /// Plan the maps of a frame; returns the maps that it must draw.
     ///
-    /// spheres  beside those of the pack
+    /// spheres  beside the spheres of the pack
     std::span<const ShadowCache::StaleMap> planFrame(const shared::FrameView& view,
                                                      std::span<const ShadowSphere> spheres);
 
-    /// Of the last frame.
+    /// Plan of the last frame.
     const ShadowPlan& plan() const { return plan_; }
     const ShadowStatistics& statistics() const { return statistics_; }
 
-    /// Let the next frame draw all its maps.
+    /// Invalidate the cache: the next frame draws all its maps.
     void forget() { cache_.forget(); }
 
     const Buffer& block() const { return block_; } ///< shared::ShadowBlock
-    /// shared::FrameCounters of each layer: the clusters that were drawn, and for which the visible list had no slot.
+    /// shared::FrameCounters per layer: the clusters drawn, and the clusters dropped for lack of slots in the
+    /// visible list.
     const Buffer& casters() const { return casters_; }
     const Image& image() const { return image_; } ///< D32 in SHADER_READ_ONLY_OPTIMAL between frames
     VkSampler sampler() const { return sampler_.get(); }

@@ -17,7 +17,7 @@ namespace hearth::gpu
 namespace
 {
 
-/// The error over the threshold that a request of shared::groupRequest stands for, to within an eighth; > 1.
+/// Decode a request of shared::groupRequest to error / threshold, to within an eighth; > 1.
 float priorityOf(uint32_t request)
 {
     constexpr auto kOne = std::bit_cast<uint32_t>(1.0f);
@@ -25,7 +25,7 @@ float priorityOf(uint32_t request)
     return std::bit_cast<float>(kOne + std::min(request, kMost - kOne));
 }
 
-/// Where a pool address lies.
+/// Slice and offset of a pool address.
 struct PoolPlace
 {
     uint32_t slice;
@@ -152,7 +152,7 @@ void SceneStream::recordUpload(VkCommandBuffer commands, const SceneBuffers& buf
     recordDraws(commands, buffers, upload.page, address);
 }
 
-/// The rows of the page's clusters lie together, but a command takes only so much.
+/// The rows of the page's clusters are adjacent, but one command takes only so many bytes.
 void SceneStream::recordDraws(VkCommandBuffer commands, const SceneBuffers& buffers, uint32_t page,
                               uint32_t page_address) const
 {

@@ -1,5 +1,5 @@
-// Streams the geometry of a scene: brings pages into the pool, says so in the tables, and reads what frames ask for.
-// See runtime/gpu/README.md, "Streaming".
+// Geometry streaming of a scene: brings pages into the pool, updates the tables, and reads back the page
+// requests of frames. See runtime/gpu/README.md, "Streaming".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -17,70 +17,72 @@ struct SceneBuffers;
 
 struct StreamOptions
 {
-    /// Writes to memory of the scene: all reads have ended, or never will, before the scene is destroyed.
+    /// Writes to memory of the scene: before the scene is destroyed all reads must have ended or been
+    /// cancelled.
     pack::PageReader read;
 
-    /// Reads that run at once, >= 1. Twice as many slots of staging memory are made, which the budget does not count.
+    /// Reads in flight, >= 1. Twice as many slots of staging memory are allocated, outside of the budget.
     uint32_t max_loads = 32;
 
-    /// Frames that may be recorded while an earlier one still runs, >= 1: buffers of a word a page for what they ask for.
-    /// Frames beyond that are not listened to.
+    /// Frames that may be recorded while an earlier one still runs, >= 1: one request buffer of a word per
+    /// page each. The requests of further frames are ignored.
     uint32_t frames_in_flight = 3;
 };
 
-/// Belongs to a scene and one queue. For each frame: beginFrame, then Renderer::record, which calls the rest. Not
-/// thread-safe; only the reader may finish on other threads.
+/// Stream of one scene on one queue. For each frame: beginFrame, then Renderer::record, which calls the rest.
+/// Not thread-safe; only the reader may finish on other threads.
 class SceneStream
 {
 public:
     /// pack   outlives the stream
-    /// graph  of the pack
+    /// graph  page graph of the pack
     /// pool   from placePinnedPages
     /// errors: streaming_budget, device_failed.
     static Result<std::unique_ptr<SceneStream>> create(const Device& device, const formats::PackView& pack,
                                                        const pack::PageGraph& graph, const PoolLayout& pool,
                                                        const StreamOptions& options);
 
-    /// Begin frame `serial`: takes what has been read, listens to frames that have completed, starts reads. The frame must
-    /// then be recorded and submitted before the next begins.
-    /// serial            greater than that of the frame before, >= 1
-    /// completed_serial  no frame up to this one runs any more; < serial, and never decreases
+    /// Begin frame `serial`: takes the pages that were read, handles the requests of completed frames, starts
+    /// reads. The frame must then be recorded and submitted before the next begins.
+    /// serial            greater than the serial of the last frame, >= 1
+    /// completed_serial  all frames up to this one have completed; < serial, never decreases
     void beginFrame(uint64_t serial, uint64_t completed_serial);
 
-    /// The view as it will be drawn: its threshold times the error scale.
+    /// Return the view to draw: its threshold is multiplied by the error scale.
     shared::FrameView scaled(const shared::FrameView& view) const;
 
-    /// Groups that come or go with the frame that the last beginFrame began, each once.
+    /// Groups that the last beginFrame made resident or evicted, each once.
     std::span<const pack::ResidentGroups::Change> changedGroups() const { return changes_.groups; }
 
-    /// Pages that could not be read, found out by the last beginFrame, each once. What they would refine stays as it is.
+    /// Pages whose read failed, found by the last beginFrame, each once. The clusters that they would refine
+    /// stay coarse.
     std::span<const uint32_t> failed() const { return changes_.failed; }
-    /// Failed pages may be tried again.
+    /// Allow failed pages to be read again.
     void retryFailed() { pages_.retryFailed(); }
 
-    /// The last frame that drew all that it wanted and could get. To prefetch a view, record frames of it
-    /// (Renderer::recordPrefetch) until this reaches the serial of the first of them.
+    /// Serial of the last frame that drew everything it needed and could get. To prefetch a view, record
+    /// frames of it (Renderer::recordPrefetch) until this reaches the serial of the first of them.
     uint64_t settledSerial() const { return pages_.settledSerial(); }
 
     const pack::StreamStatistics& statistics() const { return pages_.statistics(); }
     const pack::PageStream& pages() const { return pages_; }
     VkDeviceSize allocatedBytes() const { return memory_.arena.allocatedBytes(); }
 
-    /// Copies of pages into the pool and changes of the tables; clears the requests. Between barriers of the caller: after
-    /// all that reads them, before what shall see the new ones.
+    /// Record copies of pages into the pool and changes of the tables; clears the requests. The caller puts
+    /// barriers around: after all reads of them, and before the reads that need the changes.
     void recordChanges(VkCommandBuffer commands, const SceneBuffers& buffers);
 
-    /// Copies the requests, visible to transfers, to where a later beginFrame reads them.
+    /// Record a copy of the requests, visible to transfers, to the buffer that a later beginFrame reads.
     void recordFeedback(VkCommandBuffer commands, const SceneBuffers& buffers);
 
 private:
     struct Feedback
     {
-        Buffer requests;     ///< a word a page
+        Buffer requests;     ///< one word per page
         uint64_t serial = 0; ///< of the frame that writes it; 0: read, or none
     };
 
-    /// What reads and the device share.
+    /// Memory shared by reads and the device.
     struct Memory
     {
         MemoryArena arena;
@@ -115,7 +117,7 @@ private:
     pack::PageStream pages_;
     pack::StreamChanges changes_{};
     uint64_t serial_ = 0;
-    bool recorded_ = true; ///< frame serial_
+    bool recorded_ = true; ///< frame serial_ has been recorded
 };
 
 } // namespace hearth::gpu

@@ -16,7 +16,7 @@ namespace hearth::gpu
 namespace
 {
 
-/// Creates the buffers of a scene and remembers the first error, so that the list below reads as a list.
+/// Creates the buffers of a scene and remembers the first error, so the calls below need no error checks.
 class BufferFactory
 {
 public:
@@ -55,7 +55,7 @@ private:
     Status status_ = success();
 };
 
-/// All of it, with the scratch.
+/// Words of the deformation buffer, with the scratch.
 uint64_t deformationWords(const DeformationLayout& layout)
 {
     shared::DeformationHeader header;
@@ -70,7 +70,7 @@ Status createBuffers(const Device& device, const formats::PackView& pack, const 
         VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     constexpr VkBufferUsageFlags kTable =
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-    // what a frame computes can be copied out: tests and tools look at it
+    // tests and tools copy the work buffers out
     constexpr VkBufferUsageFlags kWork =
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
     constexpr VkBufferUsageFlags kIndirect =
@@ -113,7 +113,7 @@ Status createBuffers(const Device& device, const formats::PackView& pack, const 
     return f.take();
 }
 
-/// The groups of the pack; absent are those of pages without a place.
+/// Groups of the pack; groups of pages without a place are absent.
 std::vector<shared::Group> makeGroups(const formats::PackView& pack, const PoolLayout& pool)
 {
     std::vector<uint8_t> resident_pages;
@@ -181,8 +181,8 @@ Status uploadGeometry(const formats::PackView& pack, const SceneLayout& layout, 
 
 Status createSets(const Device& device, const DrawLayouts& layouts, Scene& scene, uint32_t material_rows)
 {
-    // three sets for drawing (one with the shadow maps), six of the culling pass, those of the material tiles and of the
-    // page requests; three more where meshes are deformed, two where there are bricks; with room for what each binds
+    // three sets for drawing (one with the shadow maps), six of the culling pass, one each for material tiles
+    // and page requests; three more with deformed meshes, two with bricks
     const DescriptorPoolSizes sizes{.uniforms = 20 + material_rows,
                                     .storages = 104,
                                     .textures = material_rows * shared::kTextureCount + 2};
@@ -214,7 +214,8 @@ Status createSets(const Device& device, const DrawLayouts& layouts, Scene& scene
     return success();
 }
 
-/// Its scratch is as large as it may be, and the device binds at once.
+/// Create the deformation buffer. Its scratch is the smallest of the option, the demand and the device's
+/// binding limit.
 std::unique_ptr<SceneDeformation> makeDeformation(const Device& device, const DeformationOptions& options,
                                                   SceneLayout& layout, uint32_t rigid_group_items)
 {
@@ -231,7 +232,7 @@ std::unique_ptr<SceneDeformation> makeDeformation(const Device& device, const De
     return deformation;
 }
 
-/// The materials that are on meshes which say what they see of the sky.
+/// Mark the materials that are used by meshes with sky visibility.
 void findSkyVisibility(const formats::PackView& pack, Scene& scene)
 {
     for (const formats::MeshRecord& mesh : pack.meshes())
@@ -240,7 +241,7 @@ void findSkyVisibility(const formats::PackView& pack, Scene& scene)
                 scene.materials[materialRow(pack, cluster.material)].variant.sky_visibility = 1;
 }
 
-/// What frames still need of it, and the materials that are drawn in poses.
+/// Keep the parts of the layout that frames need, and mark the materials that deformed meshes use.
 void keepLayout(const formats::PackView& pack, DeformationLayout layout, Scene& scene)
 {
     for (const formats::DeformedMeshRecord& mesh : pack.deformedMeshes())
@@ -253,8 +254,8 @@ void keepLayout(const formats::PackView& pack, DeformationLayout layout, Scene& 
     deformation.layout.words = {};
 }
 
-/// No shader of a scene without shadows or table looks at their bindings, but lavapipe (Mesa 22.3) reads what they are; so
-/// they have what is at hand until there are some.
+/// Bind placeholders. In scenes without shadows or table no shader reads their bindings, but lavapipe (Mesa
+/// 22.3) reads the descriptors, so they must be valid.
 void fillSpareBindings(const Device& device, const Scene& scene)
 {
     DescriptorWriter(scene.draw_set)

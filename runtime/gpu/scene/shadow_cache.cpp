@@ -12,7 +12,7 @@ namespace hearth::gpu
 namespace
 {
 
-// below all errors, of which 0 is one
+// below all errors, which can be 0
 constexpr float kUnchanged = -1;
 
 Box3 worldBox(const Box3& box, const Affine3& world_from_object)
@@ -41,7 +41,7 @@ Affine3 transformOf(const shared::Instance& instance)
     return t;
 }
 
-/// The box of a mesh's clusters and of the spheres that decide its cut.
+/// Bounds of a mesh's clusters and of the spheres that decide its cut.
 std::vector<Box3> makeReaches(const formats::PackView& pack)
 {
     std::vector<Box3> reaches;
@@ -67,8 +67,8 @@ bool touches(const shared::FrameView& casters, const Box3& box)
     return !box.empty() && !shared::boxOutsideFrustum(casters, unmoved, box.min, box.max);
 }
 
-/// Whether an error somewhere in the box may be above the threshold. It is largest where the box is nearest, also under a
-/// curve, which grows no faster than the distance.
+/// True if an error somewhere in the box may exceed the threshold. It is largest at the nearest point of the
+/// box, also under a distance curve, which grows no faster than the distance.
 bool mayExceed(const shared::FrameView& casters, const Box3& box, float error_world)
 {
     const auto outside = [](float at, float low, float high) {
@@ -83,7 +83,7 @@ bool mayExceed(const shared::FrameView& casters, const Box3& box, float error_wo
            casters.threshold * distance;
 }
 
-/// What of a light decides how deep its maps are.
+/// Return the light without the members that do not affect the depth in its maps.
 shared::ShadowLight projectionOf(shared::ShadowLight light)
 {
     light.first_map = light.map_count = 0;
@@ -91,7 +91,7 @@ shared::ShadowLight projectionOf(shared::ShadowLight light)
     return light;
 }
 
-/// What of a view decides which casters it finds.
+/// Return the view without the members that do not affect which casters it finds.
 shared::FrameView decisionsOf(shared::FrameView casters)
 {
     casters.clip_x = casters.clip_y = casters.clip_w = {};
@@ -99,7 +99,7 @@ shared::FrameView decisionsOf(shared::FrameView casters)
     return casters;
 }
 
-/// Of records without padding: what is the same to the bit decides the same.
+/// Compare records without padding: equal bits decide equally.
 template <typename T>
 bool sameBits(const T& a, const T& b)
 {
@@ -147,7 +147,7 @@ void ShadowCache::pose(const DeformedInstance& instance, const PosedRows& rows)
     place(instance.instance, worldBox(reach, transformOf(rows.record)), rows.record.scale_max);
 }
 
-/// Something of the instance is elsewhere now.
+/// Move the bounds of an instance, and invalidate the maps that intersect its old or new bounds.
 void ShadowCache::place(uint32_t instance, const Box3& box, float scale)
 {
     touch(box_of_instance_[instance], moves_[instance] != 0);
@@ -177,7 +177,7 @@ void ShadowCache::publish(std::span<const pack::ResidentGroups::Change> groups)
     std::fill(changed_of_mesh_.begin(), changed_of_mesh_.end(), kUnchanged);
 }
 
-/// What is in the box changes, among the instances that move or among the others.
+/// Invalidate the maps that intersect the box, for moving or for resting instances.
 void ShadowCache::touch(const Box3& box, bool moves)
 {
     for (Layer& layer : layers_)
@@ -226,7 +226,7 @@ std::span<const ShadowCache::StaleMap> ShadowCache::plan(ShadowPlan& plan, const
     return stale_;
 }
 
-/// casters  of the map's casters that rest
+/// casters  view of the map's resting casters
 void ShadowCache::planMoving(uint32_t map, const shared::FrameView& casters, Layer& layer, ShadowPlan& plan)
 {
     if (!isMoverIn(casters))

@@ -1,5 +1,5 @@
-// Which shadow maps still show what they would show if they were drawn anew: bit for bit, whatever moved, streamed in or
-// was looked at since. Plain data, no Vulkan. See runtime/gpu/README.md, "Shadows".
+// Shadow map cache: finds the maps whose content would be the same, bit for bit, if they were drawn again.
+// Handles moves, streaming and camera changes. Plain data, no Vulkan. See runtime/gpu/README.md, "Shadows".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -16,49 +16,50 @@
 namespace hearth::gpu
 {
 
-/// Belongs to a scene. For each frame: publish and move, in any order, then plan.
+/// Cache of one scene's maps. For each frame: publish and move, in any order, then plan.
 class ShadowCache
 {
 public:
-    /// With moving layers, map i has layer i for what rests, and layer i + options.max_maps for all, where anything moves.
+    /// With moving layers, map i has layer i for resting casters, and layer i + options.max_maps for all
+    /// casters if any of them moves.
     ///
-    /// pack  outlives the cache where anything is published
+    /// pack  outlives the cache if publish is called
     ShadowCache(const formats::PackView& pack, const ShadowOptions& options);
 
-    /// Instances that have new transforms from this frame on.
+    /// Set instances that have new transforms from this frame on.
     void move(std::span<const InstanceMove> moves);
 
-    /// A deformed instance that has a new pose from this frame on.
+    /// Set a deformed instance that has a new pose from this frame on.
     void pose(const DeformedInstance& instance, const PosedRows& rows);
 
-    /// Groups that came or went with this frame.
+    /// Set groups that became resident or were evicted with this frame.
     void publish(std::span<const pack::ResidentGroups::Change> groups);
 
-    /// A layer that must be drawn, and what finds its casters.
+    /// Layer that must be drawn, and the view that culls its casters.
     struct StaleMap
     {
-        uint32_t map = 0; ///< of the plan
+        uint32_t map = 0; ///< index in the plan
         uint32_t layer = 0;
-        std::optional<uint32_t> over; ///< a copy of this layer
+        std::optional<uint32_t> over; ///< starts as a copy of this layer
         shared::FrameView casters{};
     };
 
-    /// Those that must be drawn, in this order, so that every map of the plan can be used; they count as drawn from now on.
-    /// Valid until the next call.
+    /// Return the layers that must be drawn, in this order, so that every map of the plan is valid; they
+    /// count as drawn from now on. Valid until the next call.
     ///
-    /// plan  gets the layers that its maps are looked up in
-    /// view  of the picture
+    /// plan  gets the layer of each map
+    /// view  of the frame
     std::span<const StaleMap> plan(ShadowPlan& plan, const shared::FrameView& view);
 
-    /// Everything must be drawn anew.
+    /// Invalidate all maps.
     void forget();
 
 private:
-    /// All that decides what a map shows, but for what moves and streams.
+    /// Everything that decides the content of a map, except moves and streaming.
     struct Layer
     {
-        bool drawn = false;        ///< all casters, or with moving layers those that rest
-        bool moving_drawn = false; ///< over them, those that move
+        bool drawn = false;        ///< has all casters, or with moving layers the resting ones
+        bool moving_drawn = false; ///< has the moving casters on top of the resting ones
         shared::ShadowLight light{};
         shared::ShadowMap map{};
         shared::FrameView casters{};
@@ -71,13 +72,14 @@ private:
     void planMoving(uint32_t map, const shared::FrameView& casters, Layer& layer, ShadowPlan& plan);
 
     const formats::PackView& pack_;
-    /// Object space, or where the anchor of a deformed mesh carries it: its clusters and the spheres of its groups.
+    /// Per mesh: bounds of its clusters and of the spheres of its groups, in object space or in the space of
+    /// a deformed mesh's anchor.
     std::vector<Box3> reach_of_mesh_;
     std::vector<uint32_t> mesh_of_instance_;
     std::vector<float> scale_of_instance_;
     std::vector<Box3> box_of_instance_;  ///< world
-    std::vector<float> changed_of_mesh_; ///< the largest error of a group that came or went; scratch
-    std::vector<uint8_t> moves_;         ///< for each instance, 1 where it has moved, with moving layers
+    std::vector<float> changed_of_mesh_; ///< the largest error of a changed group; scratch
+    std::vector<uint8_t> moves_;         ///< per instance: 1 if it has moved, with moving layers
     std::vector<uint32_t> movers_;
     bool moving_layers_;
     std::vector<Layer> layers_;

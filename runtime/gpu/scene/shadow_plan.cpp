@@ -20,7 +20,7 @@ bool isOfType(const shared::Light& light, formats::LightType type)
     return light.type == static_cast<uint32_t>(type);
 }
 
-/// Gives out the layers of a frame, light by light.
+/// Assigns the layers of a frame, light by light.
 class Planner
 {
 public:
@@ -34,7 +34,7 @@ public:
         projection.first_map = plan_.map_count;
     }
 
-    /// texel_m  metres that a texel of the map covers
+    /// texel_m  metres per texel of the map
     void add(shared::ShadowMap map, float texel_m)
     {
         if (plan_.map_count == options_.max_maps)
@@ -99,7 +99,7 @@ void planSpot(const CastingLight& light, const ShadowOptions& options, std::span
 {
     const shared::ShadowMap whole =
         shared::wholeConeMap(light.cone_tangent, {.texels = options.texels, .kernel = options.kernel});
-    planner.add(whole, 1 / whole.density); // a metre from the light
+    planner.add(whole, 1 / whole.density); // at a distance of one metre from the light
     for (const ShadowSphere& sphere : spheres)
         if (isFor(sphere, light))
             if (const auto map = shared::fitSpotMap(light.projection, light.cone_tangent,
@@ -140,7 +140,7 @@ CastingLight makeCastingLight(const shared::Light& light, uint32_t number, const
     const float cos_outer = std::clamp(-light.cone_offset / light.cone_scale, 0.0f, 1.0f);
     return {.light = number,
             .projection = shared::makeSpotShadow(light.position, light.direction, spot_near),
-            // a spot that shines nowhere has a map all the same
+            // a spot with an empty cone has a map all the same
             .cone_tangent = std::max(shared::coneTangent(std::acos(cos_outer)), 1e-3f)};
 }
 

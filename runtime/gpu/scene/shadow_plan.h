@@ -1,4 +1,5 @@
-// Which lights cast shadows, and which maps a frame has of them: plain data, no Vulkan. See runtime/gpu/README.md, "Shadows".
+// Shadow plan: the lights that cast shadows, and their shadow maps in a frame. Plain data, no Vulkan. See
+// runtime/gpu/README.md, "Shadows".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,82 +12,87 @@
 namespace hearth::gpu
 {
 
-/// Suns and spots cast shadows, point lights do not.
+/// Shadow settings of a scene. Suns and spots cast shadows, point lights do not.
 struct ShadowOptions
 {
-    /// Maps of a frame at most, up to shared::kMaxShadowMaps: layers of their image. 0: no shadows, for which nothing is made and recorded.
+    /// Largest number of maps of a frame, up to shared::kMaxShadowMaps: layers of their image. 0: no shadows,
+    /// and nothing is created or recorded for them.
     uint32_t max_maps = 0;
-    uint32_t texels =
-        1024; ///< of a layer each way: 4 bytes each. A power of two up to 8192, >= 4 * (kernel + 1)
-    uint32_t kernel = 1;  ///< texels that the filter reads on each side: 1 is 3 x 3
-    float error_bias = 2; ///< BiasLODError, >= 1: by how many times a shadow may be coarser than the picture
+    /// Width and height of a layer: 4 bytes per texel. A power of two up to 8192, >= 4 * (kernel + 1).
+    uint32_t texels = 1024;
+    uint32_t kernel = 1; ///< filter radius in texels: 1 is 3 x 3
+    /// BiasLODError, >= 1: the error of casters may be this many times the error of the frame.
+    float error_bias = 2;
 
-    /// Maps of each sun that follow the view, beside the spheres of the pack and of FrameInput; at most kMaxSplits.
+    /// View-dependent maps of each sun, beside the spheres of the pack and of FrameInput; at most kMaxSplits.
     uint32_t splits = 4;
     shared::SplitRange split_range{};
 
-    /// Casters that have moved since they were loaded are drawn over a copy of those that rest, in as many layers more: else
-    /// one that moves has its maps drawn as a whole.
+    /// Draw casters that have moved since loading over a copy of the resting ones, in as many more layers.
+    /// Otherwise a moving caster redraws its maps as a whole.
     bool moving_layers = true;
 
-    float spot_near = 0.05f; ///< metres, above 0: what is nearer to a spot light casts no shadow
+    /// Near plane of spots in metres, above 0: nearer surfaces cast no shadow.
+    float spot_near = 0.05f;
 };
 
 inline constexpr uint32_t kMaxSplits = 8;
 
-/// A sphere in which shadows are finer, as an artist places it: a generalised cascade.
+/// Sphere in which shadows are finer, placed by an artist: a generalised cascade.
 struct ShadowSphere
 {
     static constexpr uint32_t kAllLights = 0xFFFFFFFF;
 
     Float3 center;               ///< world
     float radius = 1;            ///< metres, above 0
-    uint32_t light = kAllLights; ///< of the pack
-    uint32_t texels =
-        0; ///< of its map each way, rounded down to a power of two; 0: those of a layer, its most
+    uint32_t light = kAllLights; ///< index in the pack
+    /// Width and height of its map, rounded down to a power of two; 0: the layer size, which is the maximum.
+    uint32_t texels = 0;
 };
 
-/// A light that casts shadows, in the row of the ShadowBlock that its number in a list of them says.
+/// Light that casts shadows; its index in a list of them is its row of the ShadowBlock.
 struct CastingLight
 {
-    uint32_t light = 0; ///< of the pack
+    uint32_t light = 0; ///< index in the pack
     shared::ShadowLight projection{};
     float cone_tangent = 0; ///< of a spot; 0: a sun
 };
 
-/// Those that artists placed in the scene.
+/// Return the spheres that artists placed in the scene.
 std::vector<ShadowSphere> shadowSpheresOf(const formats::PackView& pack);
 
-/// Give the lights that cast shadows their rows: the suns, then the spots, as many as there are.
+/// Assign shadow rows to the lights that cast shadows: the suns, then the spots, as many as fit.
 void assignShadowRows(shared::Lighting& lighting);
 
-/// One of them.
+/// Return the caster record of a light.
 ///
-/// number  of the light
+/// number  index of the light
 CastingLight makeCastingLight(const shared::Light& light, uint32_t number, const Box3& scene,
                               float spot_near);
 
-/// The lights that have rows, in the order of the rows.
+/// Return the lights that have rows, in the order of the rows.
 ///
-/// scene      box of all casters and receivers, world; of an empty one nothing casts
+/// scene      world bounds of all casters and receivers; if empty nothing casts
 std::vector<CastingLight> makeCastingLights(const shared::Lighting& lighting, const Box3& scene,
                                             float spot_near);
 
-/// The maps of a frame. Layers are given out in the order light, sphere, so that what stays keeps its layer.
+/// Shadow maps of a frame. Layers are assigned in the order light, sphere, so unchanged maps keep their
+/// layers.
 struct ShadowPlan
 {
-    shared::ShadowBlock block{};                           ///< of each light the maps are sorted by density
+    shared::ShadowBlock block{};                           ///< the maps of each light are sorted by density
     uint32_t map_count = 0;                                ///< maps, and layers in use
-    std::array<uint32_t, shared::kMaxShadowMaps> row_of{}; ///< light row of a map
-    std::array<float, shared::kMaxShadowLights>
-        finest_m{};            ///< metres of the finest texel of a light that has maps
-    uint32_t dropped_maps = 0; ///< for which there was no layer
+    std::array<uint32_t, shared::kMaxShadowMaps> row_of{}; ///< light row of each map
+    /// Metres of the finest texel of each light that has maps.
+    std::array<float, shared::kMaxShadowLights> finest_m{};
+    uint32_t dropped_maps = 0; ///< maps for which there was no layer
 };
 
-/// Spots have their whole cone and the spheres that meet it, suns the spheres and the splits.
+/// Plan the maps of a frame. Spots get their whole cone and the spheres that intersect it, suns the spheres
+/// and the splits.
 ///
-/// view       of the picture
-/// spheres    those of lights that cast none are passed over
+/// view       of the frame
+/// spheres    spheres of lights that cast no shadow are ignored
 ShadowPlan planShadows(std::span<const CastingLight> lights, const ShadowOptions& options,
                        const shared::FrameView& view, std::span<const ShadowSphere> spheres);
 

@@ -9,7 +9,7 @@ namespace
 
 constexpr uint32_t kNodes = shared::kSpecularNodes;
 
-/// Linear, and never beyond the last node of an axis.
+/// Create a linear sampler that clamps to the last node of an axis.
 Result<VkSampler> createSampler(const Device& device, Scene& scene)
 {
     VkSamplerCreateInfo info{};
@@ -31,7 +31,7 @@ Status uploadSpecularTable(const Device& device, const formats::PackView& pack, 
     if (pack.specularTables().empty())
         return success();
     const formats::SpecularTableRecord& table = pack.specularTables()[0];
-    // as it lies in the file: the squares of each node of beta, one below the other
+    // same layout as in the file: the squares of the nodes of beta, one below the other
     HEARTH_ASSIGN_OR_RETURN(
         scene.specular_table,
         scene.arena.createImage({.format = VK_FORMAT_R8_UNORM,

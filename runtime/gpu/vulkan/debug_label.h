@@ -1,4 +1,4 @@
-// Names of passes for debuggers and profilers.
+// Debug labels of passes for debuggers and profilers.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,7 +7,8 @@
 namespace hearth::gpu
 {
 
-/// Names what is recorded while it lives. Nothing where the caller has not asked for it (DeviceDescription::debug_labels).
+/// Scoped label of recorded commands. Does nothing unless the caller asked for it
+/// (DeviceDescription::debug_labels).
 class DebugLabel
 {
 public:

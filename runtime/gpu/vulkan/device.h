@@ -1,4 +1,4 @@
-// The caller's Vulkan device as the renderer sees it, and handles that destroy what they own.
+// The caller's Vulkan device as the renderer uses it, and owning handles.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,16 +10,18 @@
 namespace hearth::gpu
 {
 
-/// Where the library tells what is degraded and no error: lights that are left out, pages that cannot be read.
+/// Callback for warnings about degraded results that are no error: lights left out, pages that cannot be
+/// read.
 struct MessageHook
 {
     void* user = nullptr;
-    /// One line, as of an error. By the thread that makes the call; it must not call the library.
+    /// Gets one line, formatted like an error, on the thread of the call that finds it; must not call the
+    /// library.
     void (*tell)(void* user, const char* message) = nullptr;
 };
 
-/// What the caller created and keeps alive longer than everything made from it.
-/// Vulkan 1.1; no feature is required. Uses samplerAnisotropy where the caller enabled it and says so.
+/// Objects that the caller created and keeps alive longer than everything created from them. Vulkan 1.1; no
+/// optional feature is required. Uses samplerAnisotropy if the caller enabled it and sets the flag.
 struct DeviceDescription
 {
     PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
@@ -27,14 +29,15 @@ struct DeviceDescription
     VkPhysicalDevice physical_device = VK_NULL_HANDLE;
     VkDevice device = VK_NULL_HANDLE;
     bool sampler_anisotropy = false;
-    bool debug_labels = false; ///< the caller enabled VK_EXT_debug_utils: passes are named in command buffers
+    /// The caller enabled VK_EXT_debug_utils: passes are named in command buffers.
+    bool debug_labels = false;
     const VkAllocationCallbacks* allocator = nullptr;
     VkPipelineCache pipeline_cache = VK_NULL_HANDLE; ///< for all pipelines
-    MemoryHooks memory_hooks{};                      ///< none: blocks of the library's own
+    MemoryHooks memory_hooks{};                      ///< none: the library allocates blocks of its own
     MessageHook message_hook{};
 };
 
-/// Everything else holds a reference to it: it must not move once it is used.
+/// Device of the renderer. Everything else holds a reference to it, so it must not move once it is used.
 struct Device
 {
     DeviceTable vk;
@@ -48,13 +51,13 @@ struct Device
     VkPhysicalDeviceMemoryProperties memory{};
 };
 
-/// errors: device, where an entry point or a required format is missing.
+/// errors: device if an entry point or a required format is missing.
 Result<Device> makeDevice(const DeviceDescription& description);
 
-/// Tell the caller that something is degraded. Allocates, where the caller wants to hear it.
+/// Warn the caller that something is degraded. Allocates only if the caller has set a hook.
 void tell(const Device& device, const std::string& name, const std::string& where, const std::string& what);
 
-/// The Error of a Vulkan call that failed: `what` says what was tried.
+/// Make the Error of a Vulkan call that failed; `what` names the operation.
 Error vulkanError(VkResult result, const char* what);
 
 /// Owns one Vulkan object.
@@ -103,7 +106,7 @@ using UniqueShaderModule = Unique<VkShaderModule, &DeviceTable::vkDestroyShaderM
 
 } // namespace hearth::gpu
 
-/// Leave the function with an Error where a Vulkan call does not return VK_SUCCESS.
+/// Return an Error from the function if a Vulkan call does not return VK_SUCCESS.
 #define HEARTH_TRY_VK(call, what)                                                                            \
     do                                                                                                       \
     {                                                                                                        \

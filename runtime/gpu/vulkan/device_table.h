@@ -1,5 +1,5 @@
-// The Vulkan entry points that the renderer calls, loaded through the caller's vkGetInstanceProcAddr: nothing links
-// libvulkan, and several devices can live in one process.
+// Vulkan entry points that the renderer calls, loaded through the caller's vkGetInstanceProcAddr. Nothing
+// links libvulkan, and several devices can exist in one process.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -81,9 +81,9 @@ struct DeviceTable
     PFN_vkCmdBeginDebugUtilsLabelEXT vkCmdBeginDebugUtilsLabelEXT = nullptr; ///< with loadDebugLabels only
     PFN_vkCmdEndDebugUtilsLabelEXT vkCmdEndDebugUtilsLabelEXT = nullptr;
 
-    /// nullptr, or the name of the first entry point that is missing.
+    /// Return nullptr, or the name of the first entry point that is missing.
     const char* load(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance, VkDevice device);
-    /// The same, of an instance with VK_EXT_debug_utils.
+    /// The same for an instance with VK_EXT_debug_utils.
     const char* loadDebugLabels(PFN_vkGetInstanceProcAddr get_instance_proc_addr, VkInstance instance);
 };
 

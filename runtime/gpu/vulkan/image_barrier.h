@@ -1,4 +1,4 @@
-// Moves a colour image from one layout to another.
+// Layout transitions of colour images.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,7 +7,8 @@
 namespace hearth::gpu
 {
 
-/// All mips of an image without layers. What `from_stage` has `written` is there for `to_stage` to `read`.
+/// Transition all mips of an image without layers. The writes `written` of `from_stage` are visible to the
+/// reads `read` of `to_stage`.
 void transition(const Device& device, VkCommandBuffer commands, const Image& image, VkImageLayout from,
                 VkImageLayout to, VkAccessFlags written, VkAccessFlags read, VkPipelineStageFlags from_stage,
                 VkPipelineStageFlags to_stage);

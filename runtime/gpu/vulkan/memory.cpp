@@ -22,7 +22,7 @@ std::optional<uint32_t> findType(const VkPhysicalDeviceMemoryProperties& memory,
     return std::nullopt;
 }
 
-/// The best type there is: each kind can do with less than it would like.
+/// Choose the best memory type available: each kind has preferred properties that it can do without.
 std::optional<uint32_t> chooseType(const VkPhysicalDeviceMemoryProperties& memory, uint32_t allowed,
                                    MemoryKind kind)
 {

@@ -1,4 +1,4 @@
-// Device memory in large blocks, and the buffers and images that live in them.
+// Device memory in large blocks, and the buffers and images bound to it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -34,10 +34,10 @@ struct ImageDescription
     uint32_t mip_count = 1;
     VkImageUsageFlags usage;
     VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT;
-    uint32_t array_layers = 0; ///< 0: an image that is no array
+    uint32_t array_layers = 0; ///< 0: not an array
 };
 
-/// A piece from MemoryHooks, given back when it goes.
+/// Allocation from MemoryHooks, freed on destruction.
 class HookedMemory
 {
 public:
@@ -70,22 +70,22 @@ private:
     VkDeviceSize size_;
 };
 
-/// Gives out pieces of blocks, or of the caller's hooks where there are some, and takes nothing back: everything ends with the
-/// arena. What is made from it must be destroyed before it, so it stands first among the members of its owner.
+/// Arena allocator over blocks, or over the caller's hooks if set. Frees nothing before its own destruction.
+/// Buffers and images of an arena must be destroyed before it, so it is the first member of its owner.
 class MemoryArena
 {
 public:
-    /// block_bytes  what is asked of the device at once: few enough allocations for the smallest
-    ///              maxMemoryAllocationCount (4096), small enough not to waste a phone's memory; 0 for an arena that
-    ///              holds one thing
+    /// block_bytes  size of a device allocation: large enough to stay below the smallest
+    ///              maxMemoryAllocationCount (4096), small enough not to waste a phone's memory; 0 for an
+    ///              arena that holds one resource
     explicit MemoryArena(const Device& device, VkDeviceSize block_bytes = VkDeviceSize{16} << 20)
         : device_(&device), block_bytes_(block_bytes)
     {
     }
 
-    /// A buffer of at least one byte. errors: device_failed.
+    /// Create a buffer of at least one byte. errors: device_failed.
     Result<Buffer> createBuffer(VkDeviceSize size, VkBufferUsageFlags usage, MemoryKind kind);
-    /// A 2D image, or an array of them, with its view of all mips and layers. errors: device_failed.
+    /// Create a 2D image, or an array, with a view of all mips and layers. errors: device_failed.
     Result<Image> createImage(const ImageDescription& description);
 
     VkDeviceSize allocatedBytes() const;
@@ -95,7 +95,7 @@ private:
     {
         UniqueMemory memory;
         uint32_t type = 0;
-        bool images = false; // buffers and images in separate blocks keep clear of bufferImageGranularity
+        bool images = false; // separate blocks for buffers and images avoid bufferImageGranularity
         VkDeviceSize size = 0;
         VkDeviceSize used = 0;
         std::byte* mapped = nullptr;

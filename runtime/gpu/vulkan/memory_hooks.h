@@ -1,4 +1,4 @@
-// Device memory from the caller's allocator.
+// Hooks for the caller's device memory allocator.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -16,30 +16,31 @@ enum class MemoryKind
     readback, ///< mapped and coherent, read by the CPU; cached where there is such memory
 };
 
-/// Of one buffer or image.
+/// Request for the memory of one buffer or image.
 struct MemoryRequest
 {
     VkMemoryRequirements needs;
     MemoryKind kind;
-    bool image; ///< optimally tiled: bufferImageGranularity is the allocator's to keep
+    bool image; ///< optimally tiled: the allocator must respect bufferImageGranularity
 };
 
 struct MemoryPiece
 {
     VkDeviceMemory memory = VK_NULL_HANDLE;
     VkDeviceSize offset = 0;
-    std::byte* mapped = nullptr; ///< where the piece begins; of kinds that are mapped
-    void* allocation = nullptr;  ///< the allocator's own
+    std::byte* mapped = nullptr; ///< address of the allocation; for mapped kinds
+    void* allocation = nullptr;  ///< private to the allocator
 };
 
-/// Called while scenes, targets and passes are created and destroyed, by the thread that does so; never while a frame is
-/// recorded. Both functions, or neither: then memory comes in blocks from vkAllocateMemory.
+/// Called while scenes, targets and passes are created and destroyed, on the calling thread; never while a
+/// frame is recorded. Set both functions, or neither: then memory comes in blocks from vkAllocateMemory.
 struct MemoryHooks
 {
     void* user = nullptr;
-    /// A piece of a type that `needs` allows and that has the properties of the kind, mapped where the kind is until it is freed.
+    /// Allocate from a type that `needs` allows and that has the properties of the kind. Mapped kinds stay
+    /// mapped until they are freed.
     VkResult (*allocate)(void* user, const MemoryRequest& request, MemoryPiece& piece) = nullptr;
-    /// Nothing uses what is bound to it any more.
+    /// Free an allocation. Nothing bound to it is in use any more.
     void (*free)(void* user, const MemoryPiece& piece) = nullptr;
 };
 

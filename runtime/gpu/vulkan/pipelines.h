@@ -1,4 +1,4 @@
-// Descriptor set layouts, pipelines and descriptor writes with what this renderer varies and nothing else.
+// Descriptor set layouts, pipelines and descriptor writes, reduced to the options that this renderer varies.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -17,14 +17,14 @@ struct SetBinding
     VkShaderStageFlags stages;
 };
 
-/// Bindings 0, 1, 2 ... of one descriptor each.
+/// Create a layout with bindings 0, 1, 2 ... of one descriptor each.
 Result<UniqueSetLayout> createSetLayout(const Device& device, std::span<const SetBinding> bindings);
 
 Result<UniquePipelineLayout> createPipelineLayout(const Device& device,
                                                   std::span<const VkDescriptorSetLayout> sets,
                                                   VkShaderStageFlags push_stages, uint32_t push_bytes);
 
-/// A compute shader with a descriptor set of its own: binding i is of types[i]. Set 1 is one that pipelines share.
+/// Compute shader with a descriptor set of its own: binding i has types[i]. Set 1 is shared by pipelines.
 struct ComputePipeline
 {
     UniqueSetLayout set_layout;
@@ -35,13 +35,13 @@ Result<ComputePipeline> createComputePipeline(const Device& device, std::span<co
                                               std::initializer_list<VkDescriptorType> types,
                                               uint32_t push_bytes,
                                               VkDescriptorSetLayout shared_set = VK_NULL_HANDLE);
-/// One with no set but a shared one, which is its set 0; `set_layout` stays empty.
+/// Create a pipeline with a shared set 0 only; `set_layout` stays empty.
 /// constants  value of specialization constant i
 Result<ComputePipeline> createComputePipeline(const Device& device, std::span<const uint32_t> spirv,
                                               uint32_t push_bytes, VkDescriptorSetLayout shared_set,
                                               std::span<const uint32_t> constants = {});
 
-/// One with shared sets alone: sets[i] is its set i.
+/// Create a pipeline with shared sets only: sets[i] is its set i.
 Result<ComputePipeline> createComputePipeline(const Device& device, std::span<const uint32_t> spirv,
                                               std::span<const VkDescriptorSetLayout> sets,
                                               std::span<const uint32_t> constants = {});
@@ -58,13 +58,14 @@ struct GraphicsDescription
     VkCompareOp depth_compare;
     bool depth_write;
     bool color;
-    bool add = false;                      ///< to the colour target, which else is replaced
+    bool add = false;                      ///< blend additively into the colour target
     std::span<const uint32_t> constants{}; ///< value of specialization constant i, for both stages
 };
-/// Triangles without vertex buffers; viewport and scissor dynamic; at most one colour target.
+/// Create a graphics pipeline: triangles without vertex buffers; dynamic viewport and scissor; at most one
+/// colour target.
 Result<UniquePipeline> createGraphicsPipeline(const Device& device, const GraphicsDescription& description);
 
-/// Gathers writes to one descriptor set.
+/// Collects writes to one descriptor set.
 class DescriptorWriter
 {
 public:
@@ -74,7 +75,7 @@ public:
     DescriptorWriter& storage(uint32_t binding, const Buffer& buffer);
     DescriptorWriter& texture(uint32_t binding, VkImageView view, VkSampler sampler);
     DescriptorWriter& input(uint32_t binding, VkImageView view);
-    /// A storage image in VK_IMAGE_LAYOUT_GENERAL.
+    /// Write a storage image in VK_IMAGE_LAYOUT_GENERAL.
     DescriptorWriter& image(uint32_t binding, VkImageView view);
     void write(const Device& device);
 
@@ -104,11 +105,11 @@ struct DescriptorPoolSizes
 Result<UniqueDescriptorPool> createDescriptorPool(const Device& device, uint32_t set_count,
                                                   const DescriptorPoolSizes& sizes);
 
-/// One set of this layout from the pool.
+/// Allocate one set of this layout from the pool.
 Result<VkDescriptorSet> allocateSet(const Device& device, VkDescriptorPool pool,
                                     VkDescriptorSetLayout layout);
 
-/// A global memory barrier.
+/// Record a global memory barrier.
 void barrier(const Device& device, VkCommandBuffer commands, VkPipelineStageFlags from, VkAccessFlags written,
              VkPipelineStageFlags to, VkAccessFlags read);
 

@@ -1,4 +1,5 @@
-// Brings data to the device: written into mapped staging memory now, copied by commands that the caller submits.
+// Uploads data to the device: writes into mapped staging memory now, and records copies that the caller
+// submits.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,7 +8,7 @@
 namespace hearth::gpu
 {
 
-/// Owns the staging memory of one upload: must live until the recorded commands have run.
+/// Owns the staging memory of one upload; must live until the recorded commands have run.
 class Uploader
 {
 public:
@@ -16,23 +17,23 @@ public:
     {
     }
 
-    /// Mapped memory of `size` > 0 bytes that is copied to the start of `target`.
+    /// Return mapped memory of `size` > 0 bytes that is copied to the start of `target`.
     Result<std::span<std::byte>> stage(const Buffer& target, VkDeviceSize size);
 
-    /// The same with the bytes at hand; nothing where there are none.
+    /// Copy the bytes to the start of `target`; nothing if empty.
     Status upload(const Buffer& target, std::span<const std::byte> bytes);
 
-    /// The same for a contiguous range of records.
+    /// Upload a contiguous range of records.
     template <typename Range>
     Status uploadRecords(const Buffer& target, const Range& records)
     {
         return upload(target, std::as_bytes(std::span(records)));
     }
 
-    /// All mips of an image, finest first, tightly packed; leaves it readable by shaders.
+    /// Upload all mips of an image, finest first, tightly packed; leaves it readable by shaders.
     Status upload(const Image& target, std::span<const std::byte> texels, uint32_t texel_bytes);
 
-    /// Make all copies visible to the commands that follow.
+    /// Make all copies visible to later commands.
     void finish();
 
 private:

@@ -1,4 +1,4 @@
-// Which clusters of rigid instances are drawn.
+// Cluster culling of rigid instances: LOD cut, frustum, normal cone and occlusion.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require

@@ -1,6 +1,6 @@
-// What the passes over the clusters of rigid and of deformed instances share. One workgroup a work item, one thread a
-// cluster: writes which clusters of the item are drawn as a bit mask, and in the early phase which ones the late phase
-// looks at again.
+// Cluster culling, shared by the passes over rigid and over deformed instances. One workgroup per work item,
+// one thread per cluster. Writes a bit mask of the drawn clusters of the item and, in the early phase, a mask
+// of the clusters that the late phase tests again.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/shaders/cull/occlusion.glsl"
 
@@ -21,11 +21,12 @@ layout(push_constant) uniform Push
     uint phase;
 };
 
-// subgroups are not required of the device: the masks are gathered in shared memory
+// subgroups are not required of the device, so shared memory gathers the masks
 shared uint drawn[2];
 shared uint later[2];
 
-// Whether it is drawn if nothing hides it; whether what was seen from there hides it.
+// inFrame: true if the cluster is drawn unless it is occluded. isBehind: true if the depth seen from that
+// view occludes it.
 bool inFrame(WorkItem item, uint cluster);
 bool isBehind(OcclusionView seen_from, WorkItem item, uint cluster);
 

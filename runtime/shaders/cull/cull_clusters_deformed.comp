@@ -1,4 +1,4 @@
-// Which clusters of deformed instances are drawn.
+// Cluster culling of deformed instances: LOD cut, frustum and occlusion.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require

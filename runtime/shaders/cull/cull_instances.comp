@@ -1,4 +1,5 @@
-// One thread an instance: can anything of its mesh be seen, and where is the eye in its object space?
+// Instance culling, one thread per instance: tests the bounding volume of the mesh and computes the eye in
+// object space.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require

@@ -1,4 +1,4 @@
-// Why instances were drawn or not, and clusters of rigid ones.
+// Culling statistics: outcomes of instances, and of the clusters of rigid instances.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require

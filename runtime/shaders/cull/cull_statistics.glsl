@@ -1,5 +1,6 @@
-// What counting the clusters of rigid and of deformed instances shares. After a frame: why each instance and each cluster
-// was drawn or not. One workgroup a work item, one thread a cluster, as cull_clusters.glsl; and thread i looks at instance i.
+// Culling statistics, shared by the passes over rigid and over deformed instances. Runs after a frame and
+// counts the reasons why each instance and each cluster was drawn or culled. One workgroup per work item, one
+// thread per cluster, as in cull_clusters.glsl; thread i also counts instance i.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/cull_statistics.h"
 
@@ -40,7 +41,8 @@ void countInstance(uint i)
         atomicAdd(statistics.occluded_instances, 1u);
 }
 
-// Of a cluster whose instance is looked at: kOutcomeCandidate, or the test that left it out.
+// Return kOutcomeCandidate, or the test that culled a cluster. The instance of the cluster has passed
+// instance culling.
 uint outcomeOfTests(WorkItem item, uint cluster);
 uint trianglesOf(WorkItem item, uint cluster);
 

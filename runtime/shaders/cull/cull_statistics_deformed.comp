@@ -1,4 +1,4 @@
-// Why clusters of deformed instances were drawn or not.
+// Culling statistics: outcomes of the clusters of deformed instances.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require

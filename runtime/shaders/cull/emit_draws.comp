@@ -1,4 +1,5 @@
-// One thread a bin: its items lie together in the work list, so its slots lie together in the visible list.
+// Writes the indirect draws, one thread per bin. The items of a bin are adjacent in the work list, so its
+// slots are adjacent in the visible list.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -33,7 +34,7 @@ void main()
     uint first = slotOfItem(bins[i].first_item);
     uint end = slotOfItem(bins[i].first_item + bins[i].item_count);
     BinDraw draw = BinDraw(kClusterVertices, end - first, 0u, 0u, first, 0u, 0u, 0u);
-    // the draws of the late phase stand behind those of all bins
+    // the draws of the late phase follow the early draws of all bins
     if (phase == kPhaseLate)
         bin_draws[bin_count + i] = draw;
     else

@@ -1,5 +1,6 @@
-// One workgroup a work item: writes its drawn clusters to the visible list, in the order of the work list, and marks
-// the materials that are drawn. The order depends on nothing but the masks: no atomics decide it.
+// Writes the drawn clusters of each work item to the visible list, in the order of the work list, and marks
+// the materials that are drawn. One workgroup per work item. The order depends on the masks alone, not on
+// atomics, so it is deterministic.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require

@@ -1,14 +1,15 @@
-// The depth pyramid and the views that it is looked at from: set 1 of the culling pipelines.
+// Occlusion test against the depth pyramid (hierarchical Z), and the views it was rendered from: set 1 of the
+// culling pipelines.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 
 layout(set = 1, binding = 0, std140) uniform Occlusion
 {
-    OcclusionView last_view;    // the pyramid before this frame's early phase is done: the early phase reads it
-    OcclusionView current_view; // the pyramid of the early phase: the late phase reads it
+    OcclusionView last_view;    // view of the pyramid that the early phase reads, rendered by the last frame
+    OcclusionView current_view; // view of the pyramid that the late phase reads, rendered by the early phase
 };
 layout(set = 1, binding = 1, std430) readonly buffer Pyramid { float pyramid[]; };
 
-// Whether everything in the box lies behind what was drawn.
+// True if everything in the box lies behind the depth in the pyramid.
 bool isHidden(OcclusionView seen_from, Instance instance, vec3 box_min, vec3 box_max)
 {
     PyramidBox box = pyramidBox(seen_from, instance, box_min, box_max);

@@ -1,6 +1,6 @@
-// What asking for the pages of rigid and of deformed instances shares. One workgroup an item, one thread a group: which
-// pages the frame wants, whether or not they are resident, and how much. What is asked depends on the view alone, not on
-// what has been loaded or drawn so far.
+// Page requests, shared by the passes over rigid and over deformed instances. One workgroup per work item,
+// one thread per group. Finds the pages that the frame needs, resident or not, with a priority for each.
+// Requests depend on the view alone, not on the pages loaded or the clusters drawn so far.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 
 layout(local_size_x = 64) in;
@@ -18,11 +18,12 @@ layout(push_constant) uniform Push
     uint item_count;
 };
 
-// The group as the cut looks at it; whether the frustum test leaves a cluster.
+// placedGroup: the group with the bounds that the cut test uses. inFrustum: true if the cluster passes the
+// frustum test.
 Group placedGroup(uint instance, uint group);
 bool inFrustum(uint instance, uint cluster);
 
-// The first page of a set stands for all of it.
+// Request the set of pages of a group. The first page of a set represents the whole set.
 void ask(uint group, uint request)
 {
     if (request != 0u)
@@ -35,13 +36,13 @@ void main()
     if (item_index >= item_count)
         return;
     GroupItem item = items[first_item + item_index];
-    // what the last frame's depth hides is in the frustum as well
+    // clusters occluded in the last frame are still in the frustum, so they are requested as well
     if (gl_LocalInvocationIndex >= item.count || states[item.instance].visible == kInstanceHidden)
         return;
     uint own = item.first + gl_LocalInvocationIndex;
     Group group = placedGroup(item.instance, own);
     uint request = groupRequest(view, instances[item.instance], group);
-    // errors do not grow towards the source: nothing finer is wanted either
+    // errors do not grow towards the source, so nothing finer is needed either
     if (request == 0u && group.error <= kLargestError)
         return;
     bool seen = false;
@@ -50,7 +51,7 @@ void main()
         if (!inFrustum(item.instance, c))
             continue;
         seen = true;
-        // what refines it may lie outside of the frustum and is wanted all the same, or the coarser cluster would stay
+        // the finer group is requested even outside of the frustum, or else the coarser cluster would stay
         uint refined = clusters[c].refined_group;
         if (refined != kNoGroup)
             ask(refined, groupRequest(view, instances[item.instance], placedGroup(item.instance, refined)));

@@ -1,4 +1,4 @@
-// Which pages of deformed instances the frame wants.
+// Page requests of deformed instances.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require

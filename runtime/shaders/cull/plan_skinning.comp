@@ -1,5 +1,6 @@
-// One thread: which slots of the visible list have deformed clusters, whose bins are the last ones, and how many of them the
-// scratch holds. After each culling phase of the picture.
+// Finds the slots of the visible list with deformed clusters, and how many of them fit into the scratch
+// buffer of skinned vertices. One thread; runs after each culling phase. The bins of deformed clusters are
+// the last ones.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -14,7 +15,7 @@ layout(set = 0, binding = 0, std430) readonly buffer BinDraws { BinDraw bin_draw
 layout(push_constant) uniform Push
 {
     uint bin_count;
-    uint first_bin; // the first deformed one
+    uint first_bin; // first bin of deformed clusters
     uint phase;
 };
 

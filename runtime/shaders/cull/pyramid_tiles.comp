@@ -1,4 +1,4 @@
-// Levels 1 to 5 of the depth pyramid: one workgroup a tile of 32 x 32 pixels.
+// Computes levels 1 to 5 of the depth pyramid, one workgroup per tile of 32 x 32 pixels.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -16,7 +16,7 @@ layout(push_constant) uniform Push
 
 shared float tile[16][16];
 
-// Pixels beyond the edge count as those at it, which lie in the same texel.
+// Depth of a pixel. Pixels beyond the edge are clamped to the edge; they lie in the same texel.
 float depthAt(uvec2 pixel)
 {
     return texelFetch(depth_buffer, ivec2(min(pixel, uvec2(width - 1u, height - 1u))), 0).x;

@@ -1,4 +1,4 @@
-// The levels of the depth pyramid above the fifth, in one workgroup.
+// Computes the levels of the depth pyramid above level 5, in one workgroup.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require

@@ -3,11 +3,12 @@
 
 shared uint scan_sums[256];
 
-// All threads must call it. Returns the sum of `value` over the threads before this one; `total` is that of all.
+// Return the sum of `value` over the threads before this one; `total` is the sum over all threads. All
+// threads must call it.
 uint exclusiveScan256(uint value, out uint total)
 {
     uint lane = gl_LocalInvocationIndex;
-    barrier(); // a previous call may still be read
+    barrier(); // a previous call may still be reading
     scan_sums[lane] = value;
     barrier();
     for (uint step = 1u; step < 256u; step <<= 1)

@@ -1,4 +1,5 @@
-// Exclusive prefix sum of the drawn clusters over the work items of one block; the block's total goes to the next pass.
+// Exclusive prefix sum of drawn clusters over the work items of one block. Passes the total of the block to
+// scan_totals.comp.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require

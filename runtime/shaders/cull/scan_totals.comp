@@ -1,5 +1,5 @@
-// Exclusive prefix sum over the totals of all blocks, in one workgroup; the grand total stands behind the last. The late
-// phase goes on behind what the early one drew.
+// Exclusive prefix sum over the totals of all blocks, in one workgroup. The grand total is stored after the
+// last one. The late phase continues after the slots of the early phase.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require

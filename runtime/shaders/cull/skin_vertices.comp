@@ -1,5 +1,6 @@
-// One workgroup a deformed cluster of the visible list, as many as the scratch holds: its vertices in their pose, for the
-// visibility pass and the shading. Positions of all vertices, then normals and tangents where they have any.
+// Skins the vertices of deformed clusters for the visibility pass and shading. One workgroup per deformed
+// cluster of the visible list, as many as the scratch buffer holds. Writes the positions of all vertices,
+// then normals and tangents if the vertices have them.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require

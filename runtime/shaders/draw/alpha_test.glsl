@@ -1,8 +1,9 @@
-// Alpha mask by the cutoff; blended surfaces are drawn as a pattern of holes that covers alpha of the pixels.
+// Alpha test by the cutoff. Blended surfaces are drawn with an ordered-dither pattern that covers a share
+// alpha of the pixels.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 
-// Thresholds 1/128, 3/128 ... 127/128, each once in 8x8 pixels. B. Bayer, "An optimum method for two-level rendition
-// of continuous-tone pictures", 1973.
+// Thresholds 1/128, 3/128 ... 127/128, each once in 8x8 pixels. B. Bayer, "An optimum method for two-level
+// rendition of continuous-tone pictures", 1973.
 float ditherThreshold(uvec2 pixel)
 {
     uint x = pixel.x ^ pixel.y;

@@ -1,4 +1,4 @@
-// What the two vertex shaders of the casters share.
+// Vertex of a shadow caster, shared by caster.vert and caster_masked.vert.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/shaders/scene/shadow_block.glsl"
 #include "runtime/shaders/scene/drawn_vertex.glsl"
@@ -20,7 +20,8 @@ struct CasterCorner
     vec4 position;
 };
 
-// Deeper by the offset of the triangle's own plane: vertex normals would round off what lies in the map.
+// Compute the corner, moved away from the light by the slope-scaled offset of the triangle's own plane.
+// Vertex normals would round off silhouettes in the map.
 CasterCorner casterCorner()
 {
     uint slot = bin_draws[bin_index].first_slot + gl_InstanceIndex;
@@ -28,14 +29,14 @@ CasterCorner casterCorner()
     CasterCorner corner;
     corner.draw = cluster_draws[visible[slot].cluster];
     corner.vertex = kNothingVisible;
-    corner.position = vec4(0.0, 0.0, 0.0, 1.0); // three of these are a triangle without area
+    corner.position = vec4(0.0, 0.0, 0.0, 1.0); // three of these form a triangle without area
     if (triangle >= triangleCount(corner.draw))
         return corner;
     Instance instance = instances[visible[slot].instance];
     DrawnPose pose = drawnPose(visible[slot].instance, slot);
     ShadowLight light = shadows.lights[light_row];
     uint turn = cornerInBin(instance, gl_VertexIndex % 3u);
-    vec3 points[3]; // the corner itself, then the other two in their order
+    vec3 points[3]; // the corner of this invocation, then the other two in order
     for (uint i = 0u; i < 3u; ++i)
     {
         uint index = cornerVertex(corner.draw, triangle, (turn + i) % 3u);
@@ -45,9 +46,9 @@ CasterCorner casterCorner()
     }
     vec3 across = cross(points[1] - points[0], points[2] - points[0]);
     float area2 = dot(across, across);
-    // a triangle without area is not drawn: any normal will do
+    // a triangle without area is not drawn, so any normal will do
     vec3 normal = area2 > 0.0 ? across * inversesqrt(area2) : light.direction;
-    // no part of a triangle is nearer than its nearest corner less its longest edge
+    // no part of a triangle is nearer than its nearest corner minus its longest edge
     float nearest = min(length(points[0]), min(length(points[1]), length(points[2])));
     float longest = max(length(points[1] - points[0]),
                         max(length(points[2] - points[1]), length(points[0] - points[2])));

@@ -1,4 +1,4 @@
-// Draws the casters of a shadow map: depth alone.
+// Draws the casters of a shadow map, depth only.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require

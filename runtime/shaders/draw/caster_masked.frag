@@ -1,4 +1,4 @@
-// Holes cast no shadow.
+// Discards the holes of alpha-tested shadow casters.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require

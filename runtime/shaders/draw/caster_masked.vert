@@ -1,4 +1,4 @@
-// As caster.vert, and hands on what the alpha test needs.
+// Same as caster.vert, and passes the inputs of the alpha test.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require

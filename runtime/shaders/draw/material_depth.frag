@@ -1,5 +1,5 @@
-// Turns the visibility buffer into a depth buffer of material numbers, so that each material's shading runs exactly
-// where it is seen, by the depth test. B. Karis, R. Stubbe, G. Wihlidal, "A deep dive into Nanite", 2021.
+// Turns the visibility buffer into a depth buffer of material ids, so that the depth test limits the shading
+// of each material to its pixels. B. Karis, R. Stubbe, G. Wihlidal, "A deep dive into Nanite", 2021.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require

@@ -1,5 +1,6 @@
-// Where one material is shaded, at its depth: the tiles of its list, one instance each, or the whole picture, which is
-// entry 0. Quads of the size of a tile keep clear of long diagonals, along which a tile-based GPU bins triangles in vain.
+// Draws the area in which one material is shaded, at its depth: the tiles of its list, one instance per tile,
+// or the whole frame, which is entry 0. Quads of the size of a tile avoid long diagonals, along which a
+// tile-based GPU bins triangles in vain.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -10,7 +11,7 @@ layout(set = 0, binding = 0, std140) uniform Frame { FrameView view; };
 layout(set = 2, binding = 1, std430) readonly buffer TileLists { uint tile_lists[]; };
 layout(push_constant) uniform Push { float depth; };
 
-// Corners 0 1 2 and 2 1 3 of a quad, two bits each, the first one lowest.
+// Corners 0 1 2 and 2 1 3 of a quad, two bits each, the first one in the lowest bits.
 const uint kQuadCorners = 0xDA4u;
 
 void main()

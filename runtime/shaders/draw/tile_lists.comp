@@ -1,4 +1,4 @@
-// One workgroup a material: lists its tiles, rows from top to bottom.
+// Lists the tiles of each material, rows from top to bottom. One workgroup per material.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -12,7 +12,7 @@ layout(set = 0, binding = 2, std430) readonly buffer TileDraws { TileDraw tile_d
 layout(set = 1, binding = 1, std430) readonly buffer TileMaterials { uint tile_materials[]; };
 layout(set = 1, binding = 2, std430) writeonly buffer TileLists { uint tile_lists[]; };
 
-// By halving: the materials of a tile are sorted.
+// True if a tile has the material. Binary search: the materials of a tile are sorted.
 bool tileHas(uint tile, uint material)
 {
     uint at = tile * kMaterialsPerTile;

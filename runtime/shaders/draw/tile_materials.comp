@@ -1,5 +1,5 @@
-// One workgroup a tile: lists the materials that the tile sees, and counts the tiles of each. The lists are in rising
-// order and the counts are sums, so that nothing depends on the order of the threads.
+// Lists the materials visible in each tile, and counts the tiles of each material. One workgroup per tile.
+// The lists are in rising order and the counts are sums, so nothing depends on the order of the threads.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -17,9 +17,9 @@ layout(set = 1, binding = 1, std430) writeonly buffer TileMaterials { uint tile_
 
 const uint kPixelsPerThread = kMaterialTilePixels * kMaterialTilePixels / 256u;
 
-shared uint seen[kTileRoundMaterials / 32u]; // bit m: material first_material + m is seen
+shared uint seen[kTileRoundMaterials / 32u]; // bit m: material first_material + m is visible
 
-// 0 is the sky.
+// Material id of a pixel. 0 is the sky.
 uint materialAt(uvec2 pixel)
 {
     if (pixel.x >= width || pixel.y >= height)
@@ -28,7 +28,7 @@ uint materialAt(uvec2 pixel)
     return id == kNothingVisible ? 0u : cluster_draws[visible[id >> kTriangleBits].cluster].material;
 }
 
-// Append the materials of this thread's word behind the `rank` that come before them.
+// Append the materials of this thread's word after the `rank` materials of the words before.
 void appendMaterials(uint word, uint first_material, uint tile, uint rank)
 {
     for (; word != 0u; word &= word - 1u, ++rank)
@@ -63,7 +63,7 @@ void main()
         barrier();
         for (uint i = 0u; i < kPixelsPerThread; ++i)
         {
-            // neighbours mostly see the same: one atomic for all of them
+            // neighbours mostly have the same material: one atomic for all of them
             uint bit = materials[i] - first;
             if (bit < kTileRoundMaterials && (i == 0u || materials[i] != materials[i - 1u]))
                 atomicOr(seen[bit >> 5], 1u << (bit & 31u));

@@ -1,5 +1,5 @@
-// From how many tiles each material has to where its list starts: a prefix sum over all materials in one workgroup,
-// which leaves the draws ready.
+// Turns the number of tiles of each material into the offset of its list: a prefix sum over all materials in
+// one workgroup. Also completes the indirect draws.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require

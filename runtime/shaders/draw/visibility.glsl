@@ -1,4 +1,4 @@
-// What the two vertex shaders of the visibility pass share.
+// Vertex of a visible cluster, shared by visibility.vert and visibility_masked.vert.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/shaders/scene/drawn_vertex.glsl"
 
@@ -21,7 +21,7 @@ CornerOfSlot cornerOfSlot()
     corner.draw = cluster_draws[visible[slot].cluster];
     corner.id = slot << kTriangleBits | triangle;
     corner.vertex = kNothingVisible;
-    corner.position = vec4(0.0, 0.0, 0.0, 1.0); // three of these are a triangle without area
+    corner.position = vec4(0.0, 0.0, 0.0, 1.0); // three of these form a triangle without area
     if (triangle < triangleCount(corner.draw))
     {
         Instance instance = instances[visible[slot].instance];

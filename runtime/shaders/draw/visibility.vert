@@ -1,4 +1,5 @@
-// Draws every cluster of a bin: one instance a cluster, three vertices a triangle, pulled from the geometry pool.
+// Draws every cluster of a bin: one instance per cluster, three vertices per triangle, pulled from the
+// geometry pool.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require

@@ -1,4 +1,4 @@
-// As visibility.frag, with holes.
+// Same as visibility.frag, with alpha test.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require

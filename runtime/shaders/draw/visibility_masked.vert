@@ -1,4 +1,4 @@
-// As visibility.vert, and hands on what the alpha test needs.
+// Same as visibility.vert, and passes the inputs of the alpha test.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require

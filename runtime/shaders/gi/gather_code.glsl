@@ -1,11 +1,12 @@
-// How what was gathered for a tile is handed to shading: two texels of 128 bits. Needs formats/gpu_shared/gather.h.
-// Also formats/gpu_shared/brick_codes.h.
+// Encoding of the gathered light (GI) of a tile for shading: two texels of 128 bits. Needs
+// formats/gpu_shared/gather.h and formats/gpu_shared/brick_codes.h.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 
 struct GatherTexels
 {
-    uvec4 mean;    // mean and share of sky as halves, normal, where the plane of the point lies
-    uvec4 lobes; // m1 over m0 along the two axes of gatherAxes; the sharp lobe and the wide one as R11G11B10F
+    uvec4 mean;    // mean radiance and sky share as halves, normal, distance of the plane of the point
+    // m1 / m0 along the two axes of gatherAxes; the narrow and the wide specular lobe as R11G11B10F
+    uvec4 lobes;
 };
 
 vec2 gatherOctahedral(vec3 n)
@@ -23,7 +24,7 @@ vec3 gatherNormal(uint code)
     return normalize(n);
 }
 
-// Two unit vectors across a normal. T. Duff et al., "Building an orthonormal basis, revisited", 2017.
+// Compute two unit vectors across a normal. T. Duff et al., "Building an orthonormal basis, revisited", 2017.
 void gatherAxes(vec3 n, out vec3 first, out vec3 second)
 {
     float side = n.z < 0.0 ? -1.0 : 1.0;
@@ -33,10 +34,10 @@ void gatherAxes(vec3 n, out vec3 first, out vec3 second)
     second = vec3(b, side + n.y * n.y * a, -n.y);
 }
 
-// The plane's distance from the eye; infinite where nothing is known: the tile shows nothing but sky.
+// Distance of the plane from the eye; infinite where nothing is known because the tile shows only sky.
 const uint kNoPlane = 0x7F800000u;
 
-// m1 is at most m0 long: 10 bits for each colour.
+// Encode m1 / m0 for each colour in 10 bits. The length of m1 is at most m0.
 uint encodeShares(vec3 m1, vec3 m0)
 {
     ivec3 code = ivec3(round(clamp(m1 / max(m0, vec3(1e-30)), vec3(-1.0), vec3(1.0)) * 511.0)) & 1023;

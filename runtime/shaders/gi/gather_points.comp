@@ -1,5 +1,5 @@
-// Finds the point of each tile at which light is gathered for all of it: a thread a tile. The pixel in its middle, or one
-// of four about it where that sees only sky.
+// Chooses the point of each tile at which light is gathered (GI) for the whole tile. One thread per tile.
+// Takes the middle pixel, or one of four pixels around it if the middle one is sky.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require

@@ -1,4 +1,5 @@
-// Gathers the light of bricks: kGatherRays threads for a point, each with a ray of the hemisphere and one of a lobe. Sums are taken in the order of the rays.
+// Gathers indirect light (GI) by tracing rays through the bricks. kGatherRays threads per point; each thread
+// traces one ray of the hemisphere and one of a specular lobe. Sums are taken in the order of the rays.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -12,14 +13,14 @@ layout(set = 1, binding = 0, std140) uniform Gather { GatherView gather; };
 layout(set = 1, binding = 1, std430) buffer GatherPoints { GatherPoint gather_points[]; };
 layout(set = 1, binding = 2, std430) readonly buffer GatherBefore { GatherPoint points_before[]; };
 
-// A ray's light, and how much of it is the sky's; its direction.
+// Radiance of a ray (rgb) and sky share (a); direction of the ray.
 shared vec4 ray_light[kGatherGroupPoints][kGatherRays];
 shared vec3 ray_direction[kGatherGroupPoints][kGatherRays];
-// Of the sharp lobe, and then of the wide one; weighed, and the weight.
+// Weighted radiance and weight of the rays of the narrow lobe, then of the wide lobe.
 shared vec4 lobe_light[kGatherGroupPoints][2u * kGatherLobeRays];
 shared BrickStart starts[kGatherGroupPoints];
 
-// What ray `index` of both lobes brings.
+// Trace ray `index` of the two lobes. Returns its weighted radiance.
 vec4 lobeLight(GatherPoint point, vec3 place, uint index, uint seed)
 {
     GatherLobeRay ray = gatherLobeRay(-normalize(point.position), point.normal, index < kGatherLobeRays ? kGatherSharp : kGatherWide,
@@ -38,7 +39,7 @@ vec3 lobeMean(uint row, uint first)
     return sum.rgb / max(sum.a, 1e-6);
 }
 
-// The mean over the rays of a frame.
+// Average the rays of this frame.
 GatherPoint meanOf(GatherPoint point, uint row)
 {
     for (uint i = 0u; i < kGatherRays; ++i)
@@ -79,8 +80,8 @@ void add(inout GatherPoint sum, GatherPoint p, float weight)
     sum.wide += p.wide * weight;
 }
 
-// How much what was known at `before` says about a point, both relative to the eye of now: it lies in the plane of the
-// point, within a quarter of a tile, and looks the same way.
+// Return the weight that the result at `before` has for a point, both relative to the current eye. It is 1 if
+// `before` lies in the plane of the point, within a quarter of a tile, and has the same normal.
 float likeness(GatherPoint point, GatherPoint before, float reach)
 {
     vec3 apart = before.position - gather.eye_step - point.position;
@@ -89,7 +90,7 @@ float likeness(GatherPoint point, GatherPoint before, float reach)
     return before.count > 0.0 && off_plane < 0.25 * reach && alike > 0.9 && dot(apart, apart) < 4.0 * reach * reach ? 1.0 : 0.0;
 }
 
-// What the frame before knew at the place of a point. count 0: nothing.
+// Reproject the result of the last frame at the position of a point. count 0: no history.
 GatherPoint knownBefore(GatherPoint point)
 {
     GatherPoint known = point;
@@ -104,9 +105,9 @@ GatherPoint knownBefore(GatherPoint point)
     if (w < view.z_near)
         return known;
     vec2 ndc = vec2(dot(gather.clip_x.xyz, place), dot(gather.clip_y.xyz, place)) / w;
-    // texels of tiles: a point stands for the middle of its own
+    // in texels of tiles: a point represents the middle of its tile
     vec2 at = (ndc * 0.5 + 0.5) * vec2(view.width, view.height) / float(kGatherPixels) - 0.5;
-    // where nothing moves the tile itself, exactly
+    // exactly the tile itself where nothing moves
     at = mix(at, round(at), lessThan(abs(at - round(at)), vec2(0.35)));
     vec2 low = floor(at);
     vec2 part = at - low;
@@ -141,7 +142,7 @@ GatherPoint knownBefore(GatherPoint point)
     return known;
 }
 
-// What is known goes on, with this frame as the next of its frames.
+// Blend the rays of this frame into the history, as the next of its frames.
 GatherPoint goOn(GatherPoint fresh, GatherPoint known)
 {
     float count = min(known.count + 1.0, gather.memory);
@@ -158,7 +159,7 @@ GatherPoint goOn(GatherPoint fresh, GatherPoint known)
     return fresh;
 }
 
-// Which tile of its block one is, so that neighbours are far apart in the order: bits of a Bayer matrix.
+// Index of a tile in its block, by the bits of a Bayer matrix, so that neighbours are far apart in the order.
 uint placeInBlock(uvec2 tile)
 {
     uint x = tile.x & 3u;
@@ -188,8 +189,9 @@ void main()
     {
         BrickStart start = starts[row];
         uint seed = placeInBlock(tile) << 28;
-        // of a spiral every kGatherFrames-th ray, so that a frame covers the hemisphere evenly, and a cycle more finely; the
-        // spirals of a block lie between each other, since the upper bits of the seed shift them
+        // takes every kGatherFrames-th ray of a spiral, so that one frame covers the hemisphere evenly and a
+        // cycle of frames more finely; the upper bits of the seed rotate the spirals, so the tiles of a block
+        // interleave
         vec3 direction = brickRayDirection(start.normal, index * kGatherFrames + gather.frame % kGatherFrames,
                                            kGatherRays * kGatherFrames, seed);
         ray_direction[row][index] = direction;

@@ -1,5 +1,5 @@
-// Smooths what was gathered over tiles that show the same surface, and hands it to shading: a thread a tile. What goes on to
-// the next frame stays as it is.
+// Filters the gathered light (GI) over tiles that show the same surface, and encodes it for shading. One
+// thread per tile. The history for the next frame stays unfiltered.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -13,8 +13,8 @@ layout(set = 0, binding = 0, std140) uniform Gather { GatherView gather; };
 layout(set = 0, binding = 1, std430) readonly buffer GatherPoints { GatherPoint gather_points[]; };
 layout(set = 0, binding = 3, rgba32ui) uniform writeonly uimage2D gather_texels;
 
-// Of a tile's point, how much another is of the same surface. Not quite 0 anywhere, so that what is shut in borrows from
-// what is beside it.
+// Weight of a neighbour tile's point: high if both lie on the same surface. Never quite 0, so that enclosed
+// points borrow from their neighbours.
 float likeness(GatherPoint point, GatherPoint other)
 {
     float tile = max(length(point.position), 1e-6) * gather.tile_angle;

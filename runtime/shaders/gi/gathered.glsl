@@ -1,4 +1,5 @@
-// The light of bricks at a pixel, from the four tiles about it: of each as much as its plane and normal are the pixel's.
+// Interpolates the gathered light (GI) at a pixel from the four tiles around it, weighted by plane and normal
+// similarity (joint bilateral upsampling).
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/brick_codes.h"
 #include "formats/gpu_shared/gather.h"
@@ -9,21 +10,21 @@ layout(set = 2, binding = 2) uniform usampler2D gathered;
 struct GatheredLight
 {
     vec3 diffuse; // irradiance / pi at the normal
-    vec3 mirror;  // radiance from the mirror's direction, blurred as by a surface of the roughness
-    float sky;    // share of what is seen of the sky past the bricks, by the cosine
-    bool known;   // false: all about it is sky
+    vec3 mirror;  // radiance from the mirror direction, blurred by the roughness of the surface
+    float sky;    // cosine-weighted share of the sky that the bricks leave visible
+    bool known;   // false: everything around is sky
 };
 
 // pixel     gl_FragCoord.xy
 // position  relative to the eye
-// normal    that is lit, unit
+// normal    shading normal, unit
 // roughness perceptual
 GatheredLight gatheredLight(vec2 pixel, vec3 position, vec3 normal, float roughness)
 {
     vec2 at = pixel / float(kGatherPixels) - 0.5;
     vec2 low = floor(at);
     ivec2 last = ivec2(gatherTiles(uint(view.width)), gatherTiles(uint(view.height))) - 1;
-    // metres that a tile covers there
+    // metres that a tile covers at that distance
     float reach = length(position) * float(kGatherPixels) / view.lod_scale;
     GatheredLight sum = GatheredLight(vec3(0.0), vec3(0.0), 0.0, false);
     float weights = 0.0;
@@ -41,14 +42,14 @@ GatheredLight gatheredLight(vec2 pixel, vec3 position, vec3 normal, float roughn
         float facing = max(dot(point_normal, normal), 0.0);
         float alike = facing * facing;
         alike *= alike;
-        // where none is like the pixel the nearest count, rather than nothing
+        // where no tile is like the pixel the nearest ones count, rather than nothing
         float weight = (bilinear.x * bilinear.y + 1e-3) * (alike / (1.0 + 16.0 * off_plane * off_plane) + 1e-3);
 
         vec4 mean = vec4(unpackHalf2x16(code.x), unpackHalf2x16(code.y));
         uvec4 lobes = texelFetch(gathered, ivec2(tile.x * 2 + 1, tile.y), 0);
         vec3 first, second;
         gatherAxes(point_normal, first, second);
-        // gather.h says why 8 / 3
+        // formats/gpu_shared/gather.h explains 8 / 3
         vec3 bent = (decodeShares(lobes.x) * dot(first, normal) + decodeShares(lobes.y) * dot(second, normal)) * (8.0 / 3.0);
         vec3 diffuse = mean.rgb * max(1.0 + bent, vec3(0.0));
         sum.diffuse += diffuse * weight;

@@ -1,4 +1,5 @@
-// Lights the faces of a frame's share of the bricks: a thread a face. formats/gpu_shared/brick_lighting.h has the iteration.
+// Updates the light (GI) of the brick faces that are due in this frame, one thread per face.
+// formats/gpu_shared/brick_lighting.h has the iteration.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -6,11 +7,11 @@
 
 layout(local_size_x = 64) in;
 
-// of the share's faces, in their order: copied to where faces are read from when all are done
+// lights of the faces due in this frame, in order; copied to the buffer that is read when all are done
 layout(set = 1, binding = 0, std430) writeonly buffer FreshLights { BrickLight fresh_lights[]; };
 layout(set = 1, binding = 1, std430) readonly buffer BrickPlaces { BrickPlace brick_places[]; };
 
-// The last brick of the share whose first face is not behind this one; bricks without faces lie before it.
+// Find the last due brick whose first face is not after this one. Bricks without faces come before it.
 uint brickOfFace(uint face)
 {
     uint least = brick_view.first_brick;
@@ -26,10 +27,10 @@ uint brickOfFace(uint face)
     return least;
 }
 
-// The voxels of a brick that have a face on this side.
+// Mask of the voxels of a brick that have a face on this side.
 uvec2 faceMask(uint brick, uint side) { return uvec2(bricks[brick].face_masks[2u * side], bricks[brick].face_masks[2u * side + 1u]); }
 
-// The bit of a mask below which `rank` bits are set.
+// Find the set bit of a mask that has `rank` set bits below it.
 uint bitOfRank(uint low, uint high, uint rank)
 {
     uint low_count = uint(bitCount(low));

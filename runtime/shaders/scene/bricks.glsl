@@ -1,4 +1,5 @@
-// The bricks of the scene: set 0 of the passes over them, and what formats/gpu_shared/brick_lighting.h reads of them.
+// Bricks of the scene (GI): set 0 of the passes over them, and the accessors that
+// formats/gpu_shared/brick_lighting.h needs.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/records.h"
 #include "formats/gpu_shared/shading.h"
@@ -28,7 +29,7 @@ vec3 brickRadianceAt(BrickGrid grid, uint face) { return decodeBrickLight(brick_
 
 vec3 brickAlbedoAt(uint face) { return decodeAlbedo(brick_surfaces[face]); }
 
-// As the pack has it.
+// Emission of a face as stored in the pack.
 vec3 brickEmissionAt(uint face) { return decodeRadiance(brick_surfaces[brick_view.face_count + face]); }
 
 vec3 brickNormalAt(uint face)

@@ -1,5 +1,5 @@
-// The poses of a scene with deformed meshes (formats/gpu_shared/deformation.h). Whoever includes this says where the buffer
-// is bound: DEFORMATION_SET, DEFORMATION_BINDING; and with DEFORMATION_WRITES that it writes.
+// Poses of a scene with deformed meshes (formats/gpu_shared/deformation.h). The including file defines
+// DEFORMATION_SET and DEFORMATION_BINDING for the buffer, and DEFORMATION_WRITES if it writes.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/deformation.h"
 
@@ -12,7 +12,7 @@ uint deformationWord(uint word) { return deformation[word >> 2][word & 3u]; }
 
 vec4 deformationFloats(uint row) { return uintBitsToFloat(deformation[row]); }
 
-/// Row of the pose of an instance; 0: it is rigid.
+/// Row of the pose of an instance; 0: the instance is rigid.
 uint poseRowOf(uint instance) { return deformationWord(deformation[0].x + instance); }
 
 Pose loadPose(uint row)
@@ -49,14 +49,14 @@ CarriedBox boxInPose(Instance instance, Pose pose, DeformedCluster cluster)
         return boxInClips(instance, main_joint, cluster);
     CarriedBox box = grownBy(emptyFreeBox(instance), main_joint, cluster.bind_min, cluster.bind_max,
                              pose.free_stretch);
-    // the first is the main one; without a skin there are none
+    // joint 0 of the list is the main one; without a skin there are none
     for (uint i = 1u; i < cluster.joint_count; ++i)
         box = grownBy(box, loadJoint(pose, deformationWord(cluster.first_joint + i)), cluster.bind_min, cluster.bind_max,
                       pose.free_stretch);
     return box;
 }
 
-/// Word of the block with the skinned vertices of a slot; 0: it has none, they are skinned where they are needed.
+/// Word of the block with the skinned vertices of a slot; 0: none, its vertices are skinned on demand.
 uint scratchOf(uint slot)
 {
     uvec4 constants = deformation[0];

@@ -1,19 +1,20 @@
-// Where the vertices of a slot of the visible list are drawn, whether its instance is rigid or deformed. After scene.glsl.
+// Vertices of the slots of the visible list as drawn, of rigid and of deformed instances. Include after
+// scene.glsl.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #define DEFORMATION_SET 0
 #define DEFORMATION_BINDING 7
 #include "runtime/shaders/scene/deformation.glsl"
 #include "runtime/shaders/scene/pose_vertex.glsl"
 
-// gpu::DeformedVertices: rigid scenes and bins pay nothing for the others.
+// gpu::DeformedVertices. Rigid scenes and bins pay nothing for deformation.
 layout(constant_id = 4) const uint kDeformed = 0u;
-const uint kDeformedHere = 1u;      // skinned where it is drawn
-const uint kDeformedInScratch = 2u; // skinned before, as far as there was room
+const uint kDeformedHere = 1u;      // skinned on demand by the shader that draws
+const uint kDeformedInScratch = 2u; // skinned by an earlier pass, as far as the scratch buffer has room
 
 struct DrawnPose
 {
     uint row;     // of the pose; 0: the instance is rigid
-    uint scratch; // word of the vertices skinned before; 0: there are none
+    uint scratch; // word of the pre-skinned vertices; 0: none
 };
 
 DrawnPose drawnPose(uint instance, uint slot)
@@ -32,7 +33,7 @@ vec3 scratchVector(uint word)
     return uintBitsToFloat(uvec3(deformationWord(word), deformationWord(word + 1u), deformationWord(word + 2u)));
 }
 
-// Relative to the eye, world axes. index: the vertex's in its cluster.
+// Position relative to the eye, world axes. index: index of the vertex in its cluster.
 vec3 drawnPosition(Instance instance, ClusterDraw draw, DrawnPose pose, uint index, vec3 eye)
 {
     if (kDeformed == 0u || pose.row == 0u)
@@ -45,14 +46,14 @@ vec3 drawnPosition(Instance instance, ClusterDraw draw, DrawnPose pose, uint ind
     return relative;
 }
 
-// Of a deformed instance, as the two after it: unit, world axes. The vertex has a normal.
+// Normal of a deformed instance, unit, world axes; so are the two functions below. The vertex has a normal.
 vec3 drawnNormal(ClusterDraw draw, DrawnPose pose, uint index)
 {
     return pose.scratch != 0u ? scratchVector(pose.scratch + (vertexCount(draw) + index) * 3u)
                               : posedNormal(draw, loadPose(pose.row), index);
 }
 
-// The vertex has a tangent.
+// Tangent of a deformed instance. The vertex has a tangent.
 vec3 drawnTangent(ClusterDraw draw, DrawnPose pose, uint index)
 {
     return pose.scratch != 0u ? scratchVector(pose.scratch + (2u * vertexCount(draw) + index) * 3u)

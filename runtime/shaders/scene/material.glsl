@@ -1,4 +1,4 @@
-// The material of a draw: set 1 of the pipelines that look at materials.
+// Material of a draw: set 1 of the pipelines that read materials.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 
 layout(set = 1, binding = 0, std140) uniform MaterialBlock { Material material; };
@@ -20,7 +20,7 @@ vec2 transformUv(uint slot, vec2 uv)
     return vec2(dot(material.uv_rows[2u * slot].xyz, point), dot(material.uv_rows[2u * slot + 1u].xyz, point));
 }
 
-// The same for a direction in UV space: a derivative.
+// Transform a direction in UV space (a derivative) in the same way.
 vec2 transformUvVector(uint slot, vec2 d)
 {
     return vec2(dot(material.uv_rows[2u * slot].xy, d), dot(material.uv_rows[2u * slot + 1u].xy, d));

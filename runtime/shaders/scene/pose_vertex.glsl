@@ -1,5 +1,6 @@
-// Vertices of deformed meshes in their pose, from the geometry pool: morphed, then skinned. The skinning pass, the vertex
-// shaders and the resolve run these lines, and get the same bits. glTF 2.0, 3.7.2.2 (morph targets), 3.7.3.3 (skins).
+// Deforms vertices from the geometry pool: morph targets, then skinning. The skinning pass, the vertex
+// shaders and the resolve share this code, so they get the same bits. glTF 2.0, 3.7.2.2 (morph targets),
+// 3.7.3.3 (skins).
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 
 // Rows of a 3x4 matrix.
@@ -31,7 +32,7 @@ BlendedJoints blendedJoints(ClusterDraw draw, Pose pose, uint vertex)
     for (uint i = 0u; i < count; ++i)
     {
         uint code = vertexHalf(weights, i);
-        // the largest come first
+        // the largest weights come first
         if (code == 0u)
             break;
         precise float weight = float(code) * (1.0 / 65535.0);
@@ -43,15 +44,15 @@ BlendedJoints blendedJoints(ClusterDraw draw, Pose pose, uint vertex)
     return blended;
 }
 
-// What the morph targets add to a vertex.
+// Sum of the deltas of the morph targets of a vertex.
 struct MorphDelta
 {
     vec3 position;
     vec3 normal;
 };
 
-// Behind the triangles: n, n times { target, step }, then for each of the n three words for each vertex: 20 bits of the
-// position's delta, 12 of the normal's.
+// Layout after the triangles: n, n times { target, step }, then three words per vertex for each of the n
+// targets. The words hold 20 bits of the position delta and 12 bits of the normal delta.
 MorphDelta morphDelta(ClusterDraw draw, Pose pose, uint index)
 {
     precise MorphDelta delta = MorphDelta(vec3(0.0), vec3(0.0));
@@ -69,7 +70,7 @@ MorphDelta morphDelta(ClusterDraw draw, Pose pose, uint index)
         precise float normal_weight = weight * (1.0 / 1024.0);
         uint word = deltas + (i * vertexCount(draw) + index) * 3u;
         ivec3 codes = ivec3(poolWord(word), poolWord(word + 1u), poolWord(word + 2u));
-        // the signs come down with the shifts
+        // the arithmetic right shifts extend the sign
         delta.position += vec3(codes << 12 >> 12) * step_weight;
         delta.normal += vec3(codes >> 20) * normal_weight;
     }
@@ -84,7 +85,8 @@ vec3 crossOf(vec3 a, vec3 b)
 
 vec3 carried(BlendedJoints joints, vec3 v) { return vec3(dot3(joints.x.xyz, v), dot3(joints.y.xyz, v), dot3(joints.z.xyz, v)); }
 
-// World axes, from the instance's origin. index: the vertex's in its cluster.
+// Deformed position in world axes, relative to the instance's origin. index: index of the vertex in its
+// cluster.
 vec3 posedPosition(ClusterDraw draw, Pose pose, uint index)
 {
     uint vertex = vertexAddress(draw, index);
@@ -94,8 +96,8 @@ vec3 posedPosition(ClusterDraw draw, Pose pose, uint index)
     return position;
 }
 
-// Unit, world axes; of a vertex that has one. Normals move with the inverse transpose: the cofactor matrix, and the sign of
-// the determinant.
+// Deformed normal, unit, world axes; the vertex has a normal. Normals transform by the inverse transpose: the
+// cofactor matrix times the sign of the determinant.
 vec3 posedNormal(ClusterDraw draw, Pose pose, uint index)
 {
     uint vertex = vertexAddress(draw, index);
@@ -111,7 +113,7 @@ vec3 posedNormal(ClusterDraw draw, Pose pose, uint index)
     return size > 0.0 ? normal / size : vec3(0.0);
 }
 
-// World axes; of a vertex that has one.
+// Deformed tangent, world axes; the vertex has a tangent.
 vec3 posedTangent(ClusterDraw draw, Pose pose, uint index)
 {
     uint vertex = vertexAddress(draw, index);

@@ -1,6 +1,6 @@
-// Rebuilds the point of a triangle that a pixel sees, from the visibility buffer: barycentrics and their derivatives
-// by homogeneous edge functions, without a division by w, so that triangles may cross the near plane.
-// M. Olano, T. Greer, "Triangle scan conversion using 2D homogeneous coordinates", 1997.
+// Reconstructs the surface point of a pixel from the visibility buffer: barycentrics and their derivatives by
+// homogeneous edge functions, without a division by w, so that triangles may cross the near plane. M. Olano,
+// T. Greer, "Triangle scan conversion using 2D homogeneous coordinates", 1997.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/shaders/scene/drawn_vertex.glsl"
 
@@ -11,7 +11,7 @@ struct Surface
     ClusterDraw draw;
     DrawnPose pose;
     uint triangle;
-    uint indices[3];   // of the vertices, in their cluster
+    uint indices[3];   // indices of the vertices in their cluster
     uint vertices[3];  // addresses
     vec3 corners[3];   // relative to the eye
     vec3 position;     // relative to the eye
@@ -48,7 +48,7 @@ Surface resolveSurface(uint id, vec2 pixel)
     }
     vec3 edges = vec3(p[1].x * p[2].y - p[2].x * p[1].y, p[2].x * p[0].y - p[0].x * p[2].y,
                       p[0].x * p[1].y - p[1].x * p[0].y);
-    // derivatives of the edge functions by the pixel's ndc
+    // derivatives of the edge functions by the ndc of the pixel
     vec3 edges_dx = vec3(p[1].y * w[2] - p[2].y * w[1], p[2].y * w[0] - p[0].y * w[2], p[0].y * w[1] - p[1].y * w[0]);
     vec3 edges_dy = vec3(p[2].x * w[1] - p[1].x * w[2], p[0].x * w[2] - p[2].x * w[0], p[1].x * w[0] - p[0].x * w[1]);
     float sum = edges.x + edges.y + edges.z;
@@ -56,21 +56,23 @@ Surface resolveSurface(uint id, vec2 pixel)
     vec3 weights = sum != 0.0 ? edges * inverse : vec3(1.0 / 3.0);
     s.weights_dx = (edges_dx - weights * (edges_dx.x + edges_dx.y + edges_dx.z)) * inverse * (2.0 / view.width);
     s.weights_dy = (edges_dy - weights * (edges_dy.x + edges_dy.y + edges_dy.z)) * inverse * (2.0 / view.height);
-    // a vertex is snapped to 1/256 pixel: the sample may lie just outside the exact triangle, far outside a sliver
+    // vertices are snapped to 1/256 pixel: the sample may lie just outside of the exact triangle, or far
+    // outside of a sliver
     weights = max(weights, vec3(0.0));
     s.weights = weights / (weights.x + weights.y + weights.z);
     s.position = s.corners[0] * s.weights.x + s.corners[1] * s.weights.y + s.corners[2] * s.weights.z;
     s.distance_w = w[0] * s.weights.x + w[1] * s.weights.y + w[2] * s.weights.z;
     s.mirrored = isMirrored(s.instance);
-    // y points down: a counter-clockwise triangle has a negative area
+    // y points down, so a counter-clockwise triangle has a negative area
     s.front = (sum < 0.0) != s.mirrored;
     return s;
 }
 
-// A triangle seen edge-on has gradients without end, or none: past 64 textures a pixel every mip is the last one.
+// Bound a UV gradient. A triangle seen edge-on has unbounded or undefined gradients; past 64 textures per
+// pixel every mip is the last one.
 vec2 boundedGradient(vec2 gradient)
 {
-    // written so that not-a-number takes the bound as well
+    // this form of the test replaces NaN by the bound as well
     return vec2(abs(gradient.x) < 64.0 ? gradient.x : 64.0, abs(gradient.y) < 64.0 ? gradient.y : 64.0);
 }
 
@@ -87,7 +89,7 @@ SurfaceUv surfaceUv(Surface s, uint set)
     return r;
 }
 
-// Those of one set are read once.
+// Reads each UV set once, also if several textures use it.
 SurfaceUvs surfaceUvs(Surface s)
 {
     SurfaceUvs uvs;
@@ -122,7 +124,8 @@ vec3 worldVector(Instance instance, vec3 v)
                 dot(instance.world_from_object_z.xyz, v));
 }
 
-// Normals move with the cofactor matrix: the inverse transpose up to a positive factor once the mirror is taken out.
+// Normals transform by the cofactor matrix: the inverse transpose up to a positive factor once the mirror is
+// taken out.
 vec3 worldNormal(Instance instance, vec3 n)
 {
     vec3 x = instance.world_from_object_x.xyz;
@@ -140,7 +143,7 @@ vec3 geometricNormal(Surface s)
     return normalizeOr(s.mirrored ? -n : n, vec3(0.0, 1.0, 0.0));
 }
 
-// The interpolated vertex normal in world axes, on the front side.
+// Interpolated vertex normal in world axes, on the front side.
 vec3 smoothNormal(Surface s)
 {
     vec3 flat_normal = geometricNormal(s);
@@ -158,7 +161,8 @@ vec3 smoothNormal(Surface s)
     return normalizeOr(worldNormal(s.instance, n), flat_normal);
 }
 
-// Tangent and bitangent (unit, world), from the vertices or else from the gradients of the UVs that the normal map uses.
+// Compute tangent and bitangent (unit, world) from the vertex tangents, or else from the gradients of the UVs
+// that the normal map uses.
 void tangentFrame(Surface s, vec3 normal, uint uv_set, out vec3 tangent, out vec3 bitangent)
 {
     vec3 t = vec3(0.0);
@@ -182,14 +186,15 @@ void tangentFrame(Surface s, vec3 normal, uint uv_set, out vec3 tangent, out vec
         vec2 u2 = vertexUv(s.draw, s.vertices[2], uv_set) - a;
         float area = u1.x * u2.y - u2.x * u1.y;
         t = ((s.corners[1] - s.corners[0]) * u2.y - (s.corners[2] - s.corners[0]) * u1.y) * sign(area);
-        // v points down in the texture, the bitangent up: a chart that is not mirrored has a negative area
+        // v points down in the texture, the bitangent points up: a chart that is not mirrored has a negative
+        // area
         side *= area > 0.0 ? -1.0 : 1.0;
     }
     completeFrame(normal, t, side, tangent, bitangent);
 }
 
-// The moments of a vertex in world axes, as its instance stands in its pose. What points along the normal follows the posed
-// normal, what points across it follows the surface; lengths stay.
+// Transform the visibility moments of a vertex to world axes in the pose of its instance. The part along the
+// normal follows the posed normal, the part across it follows the surface. The length stays.
 vec3 posedMoment(Surface s, uint corner, vec3 normal, vec3 m1)
 {
     float along = dot(normal, m1);
@@ -200,7 +205,8 @@ vec3 posedMoment(Surface s, uint corner, vec3 normal, vec3 m1)
     return posed_normal * along + normalizeOr(carried_across, vec3(0.0)) * length(across);
 }
 
-// What the point sees of the sky, interpolated: it is linear in the light, so that this is what was fitted to the samples.
+// Interpolate the sky visibility of the vertices. Visibility moments are linear in the light, so
+// interpolation is valid.
 VisibilityMoments surfaceSky(Surface s, vec3 normal)
 {
     VisibilityMoments sky = openSky(normal);
@@ -215,7 +221,8 @@ VisibilityMoments surfaceSky(Surface s, vec3 normal)
         sky.m1 += (isDeformed(s) ? posedMoment(s, i, at_vertex, moments.m1) : moments.m1) * s.weights[i];
     }
     if (!isDeformed(s))
-        // as normals do, so that what is open stays open; a length is a share of light and no distance
+        // transforms like a normal, so that what is open stays open; the length is a share of light, not a
+        // distance
         sky.m1 = normalizeOr(worldNormal(s.instance, sky.m1), vec3(0.0)) * length(sky.m1);
     return sky;
 }
@@ -233,7 +240,7 @@ SurfacePoint surfacePoint(Surface s)
     point.color = surfaceColor(s);
     point.front = s.front;
     point.sky = surfaceSky(s, point.normal);
-    // the back of a sheet sees what its front would see in a mirror
+    // the back of a sheet sees the mirror image of the sky that its front sees
     if (!s.front)
         point.sky.m1 -= point.normal * (2.0 * dot(point.normal, point.sky.m1));
     return point;

@@ -1,4 +1,4 @@
-// The scene as drawing reads it: set 0 of the visibility, material-depth and shading pipelines.
+// Scene tables for drawing: set 0 of the visibility, material-depth and shading pipelines.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 
 layout(set = 0, binding = 0, std140) uniform Frame { FrameView view; };
@@ -10,7 +10,8 @@ layout(set = 0, binding = 5, std430) readonly buffer Pool1 { uint pool1[]; };
 layout(set = 0, binding = 6, std430) readonly buffer Pool2 { uint pool2[]; };
 layout(set = 0, binding = 7, std430) readonly buffer Pool3 { uint pool3[]; };
 
-// Slices that the scene uses: 1 or kPoolSlices. Most scenes fit into one, and then no word costs a choice.
+// Pool slices that the scene uses: 1 or kPoolSlices. Most scenes fit into one slice, and then reading a word
+// needs no branch.
 layout(constant_id = 0) const uint kUsedSlices = kPoolSlices;
 
 uint poolWord(uint address)
@@ -28,7 +29,7 @@ uint poolWord(uint address)
 
 float poolFloat(uint address) { return uintBitsToFloat(poolWord(address)); }
 
-// formats::VertexAttributes; formats/codecs/vertex_codec.h says what the codes mean
+// formats::VertexAttributes; formats/codecs/vertex_codec.h explains the codes
 const uint kVertexNormal = 1u;
 const uint kVertexTangent = 2u;
 const uint kVertexUv0 = 4u;
@@ -42,7 +43,7 @@ const uint kVertexInfluences = 16384u;
 const uint kVertexMoreInfluences = 32768u;
 const uint kVertexUvStepShift = 16u;
 
-// The UV sets that have a grid: formats::gridUvs.
+// UV sets that are stored on a grid: formats::gridUvs.
 uint gridUvs(uint layout_bits)
 {
     uint steps = layout_bits >> kVertexUvStepShift;
@@ -53,7 +54,8 @@ uint gridUvs(uint layout_bits)
     return (steps & 15u) * kVertexUv0;
 }
 
-// Words of a vertex; where the sets of UVs end, with fewer of their bits where the next set starts.
+// vertexWords: words of a vertex. uvEnd: bit at which the UV sets end; the next set starts in the bits that
+// are left.
 uint uvEnd(uint layout_bits, uint sets)
 {
     bool wide = (layout_bits & kVertexWide) != 0u;
@@ -66,7 +68,7 @@ uint uvEnd(uint layout_bits, uint sets)
            uint(bitCount(layout_bits & sets & (wide ? kVertexUvs : ~gridUvs(layout_bits))));
 }
 
-// Of a vertex that has one: where its visibility stands.
+// Word of the visibility of a vertex that has one.
 uint visibilityWord(uint layout_bits)
 {
     uint words = uvEnd(layout_bits, kVertexUvs);
@@ -75,13 +77,13 @@ uint visibilityWord(uint layout_bits)
     return words;
 }
 
-// Of a vertex: where its joints and weights stand.
+// First word of the joints and weights of a vertex.
 uint influenceWord(uint layout_bits)
 {
     return visibilityWord(layout_bits) + ((layout_bits & kVertexVisibility) != 0u ? 1u : 0u);
 }
 
-// Joints of a vertex that have weights, with which they take a word each.
+// Joints of a vertex that has weights; each takes a word.
 uint influenceCount(uint layout_bits)
 {
     if ((layout_bits & kVertexInfluences) == 0u)
@@ -95,7 +97,7 @@ uint vertexCount(ClusterDraw draw) { return draw.counts & 0x1FFu; }
 uint triangleCount(ClusterDraw draw) { return draw.counts >> 9 & 0xFFu; }
 uint levelOf(ClusterDraw draw) { return draw.counts >> 17 & 0xFFu; }
 
-// The vertex of a corner, counted in its cluster. Indices are bytes behind the vertices.
+// Index of a triangle corner's vertex in its cluster. Indices are bytes stored after the vertices.
 uint cornerVertex(ClusterDraw draw, uint triangle, uint corner)
 {
     uint index = triangle * 3u + corner;
@@ -103,7 +105,7 @@ uint cornerVertex(ClusterDraw draw, uint triangle, uint corner)
     return word >> ((index & 3u) * 8u) & 0xFFu;
 }
 
-// Of three corners, in the order in which the instance's bin sees the front of its triangles.
+// Map a corner 0..2 to the winding order in which the bin of the instance sees the front of its triangles.
 uint cornerInBin(Instance instance, uint corner)
 {
     return (instance.flags & kInstanceTurned) == 0u ? corner : (3u - corner) % 3u;
@@ -112,7 +114,7 @@ uint cornerInBin(Instance instance, uint corner)
 // Address of the first word of a vertex of a cluster.
 uint vertexAddress(ClusterDraw draw, uint vertex) { return draw.address + vertex * vertexWords(draw.vertex_layout); }
 
-// In object space. Whole numbers of at most 24 bits times a power of two: exact.
+// Position in object space. Integers of at most 24 bits times a power of two: exact.
 vec3 vertexPosition(ClusterDraw draw, uint vertex)
 {
     uint x = poolWord(vertex);
@@ -130,7 +132,7 @@ vec3 directionFromOctahedral(vec2 p)
     return normalize(d);
 }
 
-// Of a vertex that has one.
+// Normal of a vertex that has one.
 vec3 vertexNormal(ClusterDraw draw, uint vertex)
 {
     uint layout_bits = draw.vertex_layout;
@@ -140,7 +142,7 @@ vec3 vertexNormal(ClusterDraw draw, uint vertex)
     return directionFromOctahedral(unpackSnorm4x8(code).xy);
 }
 
-// Of a vertex that has one; w = -1 where the bitangent is flipped.
+// Tangent of a vertex that has one; w = -1 if the bitangent is flipped.
 vec4 vertexTangent(ClusterDraw draw, uint vertex, vec3 normal)
 {
     uint code = poolWord(vertex + uvEnd(draw.vertex_layout, 0u) - 1u);
@@ -170,7 +172,7 @@ vec2 vertexUv(ClusterDraw draw, uint vertex, uint set)
     uint grids = gridUvs(layout_bits) & layout_bits;
     if ((grids & bit) == 0u)
         return vec2(poolFloat(at), poolFloat(at + 1u));
-    // the bases of the sets on grids end where the first vertex starts
+    // the grid bases end where the first vertex starts
     uint later_grids = uint(bitCount(grids & ~before));
     uint base = draw.address - 2u * later_grids;
     uint word = poolWord(at);
@@ -190,5 +192,6 @@ vec4 vertexColor(ClusterDraw draw, uint vertex)
     return vec4(unpackUnorm2x16(poolWord(at)), unpackUnorm2x16(poolWord(at + 1u)));
 }
 
-// Of a vertex that has one: decodeVisibility of formats/gpu_shared/visibility_cone.h says what it means.
+// Sky visibility code of a vertex that has one; decode with decodeVisibility of
+// formats/gpu_shared/visibility_cone.h.
 uint vertexVisibility(ClusterDraw draw, uint vertex) { return poolWord(vertex + visibilityWord(draw.vertex_layout)); }

@@ -1,4 +1,4 @@
-// The shadow maps of the frame: needs formats/gpu_shared/shadow.h.
+// Shadow maps of the frame. Needs formats/gpu_shared/shadow.h.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 
 layout(set = 0, binding = 9, std140) uniform Shadows { ShadowBlock shadows; };

@@ -21,7 +21,7 @@ vec3 fresnelSchlick(vec3 f0, float v_dot_h)
     return f0 + (1.0 - f0) * (x2 * x2 * x);
 }
 
-// Radiance towards the eye per irradiance arriving from `to_light`, cosine included.
+// Radiance towards the eye per irradiance from `to_light`, cosine included.
 vec3 reflected(Shading s, vec3 to_light)
 {
     float n_dot_l = dot(s.normal, to_light);
@@ -41,8 +41,8 @@ vec3 reflected(Shading s, vec3 to_light)
     return ((1.0 - fresnel) * s.diffuse / kPi + fresnel * distribution * visibility) * n_dot_l;
 }
 
-// The specular albedo under constant light, as scale and bias on f0.
-// B. Karis, "Physically based shading on mobile", 2014: his fit to the split-sum table.
+// Specular albedo under constant light, as scale and bias on f0. B. Karis, "Physically based shading on
+// mobile", 2014: his fit to the split-sum table.
 vec2 specularScaleBias(float roughness, float n_dot_v)
 {
     vec4 r = roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);

@@ -1,5 +1,5 @@
-// Shows what is drawn instead of how it looks: clusters, levels, triangles, materials, bones, normals, depth, and what is seen
-// of the sky.
+// Debug views of surface data: clusters, LOD levels, triangles, materials, bones, normals, depth and sky
+// visibility.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -17,7 +17,7 @@ layout(input_attachment_index = 0, set = 2, binding = 0) uniform usubpassInput v
 layout(early_fragment_tests) in;
 layout(location = 0) out vec4 out_color;
 
-// A colour that differs much between neighbouring numbers.
+// Map a number to a colour that differs much between neighbouring numbers.
 vec3 colorOfNumber(uint number)
 {
     uint h = number * 2654435761u; // Knuth's multiplicative hash
@@ -29,7 +29,7 @@ vec3 colorOfNumber(uint number)
 
 vec3 colorOfLevel(uint level)
 {
-    // red where the source is drawn, over yellow, green and blue to violet at level 12 and coarser
+    // red for the source triangles, over yellow, green and blue to violet at level 12 and coarser
     float hue = min(float(level), 12.0) / 12.0 * 0.8;
     return clamp(abs(fract(hue + vec3(0.0, 2.0 / 3.0, 1.0 / 3.0)) * 6.0 - 3.0) - 1.0, 0.0, 1.0);
 }
@@ -47,7 +47,7 @@ bool isSkyView(uint shown)
            shown == kViewSpecularOcclusion;
 }
 
-// Dark red: the mesh does not say.
+// Colour of the sky visibility. Dark red: the mesh has none.
 vec3 colorOfSky(Surface s)
 {
     if (!kSkyVisibility || (s.draw.vertex_layout & kVertexVisibility) == 0u)
@@ -70,7 +70,7 @@ vec3 colorOfSky(Surface s)
 void main()
 {
     Surface s = resolveSurface(subpassLoad(visibility).x, gl_FragCoord.xy);
-    // dimmed by the angle to the eye, so that the shape can be seen
+    // dimmed by the angle to the eye, so that the shape is visible
     float facing = 0.35 + 0.65 * abs(dot(geometricNormal(s), normalizeOr(s.position, vec3(0.0))));
     vec3 color;
     if (shown_view == kViewClusters)

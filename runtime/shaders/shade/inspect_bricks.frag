@@ -1,6 +1,6 @@
-// Shows the bricks themselves: the first solid voxel that the ray of a pixel meets, by its face's albedo under a light that
-// shines from the eye's side (with the voxels' edges drawn), or by the light that the face sends out. Red: the face is lit
-// by nothing, since the pack has none there. One full-screen triangle in place of all surfaces.
+// Debug view of the bricks (GI): the first solid voxel that the ray of a pixel hits. Shows the albedo of its
+// face under a headlight, with the voxel edges drawn, or the radiance of the face. Red: the pack has no light
+// for the face. One full-screen triangle in place of all surfaces.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -18,14 +18,14 @@ layout(location = 0) out vec4 out_color;
 
 const vec3 kNoFaceColor = vec3(0.5, 0.02, 0.02);
 
-// 1 on the edges of a voxel, as wide as a pixel or a twentieth of it.
+// 1 on the edges of a voxel. Edges are as wide as a pixel or a twentieth of the voxel.
 float onEdge(vec3 place, uint face, float pixel_voxels)
 {
     vec3 part = abs(fract(place) - 0.5);
     part[face >> 1] = 0.0;
     float to_edge = 0.5 - max(part.x, max(part.y, part.z));
     float width = min(max(0.03, pixel_voxels), 0.1);
-    // where voxels are as small as pixels there is nothing to draw
+    // voxels as small as pixels get no edges
     return (1.0 - smoothstep(0.5 * width, width, to_edge)) * (1.0 - smoothstep(0.15, 0.5, pixel_voxels));
 }
 

@@ -1,5 +1,5 @@
-// Shows what the tables say of the cluster that a pixel sees: its error on the screen, its normal cone. One full-screen
-// triangle for all materials; the depth test leaves out the sky.
+// Debug views of the visible cluster's data: screen-space error, normal cone. One full-screen triangle for
+// all materials; the depth test leaves out the sky.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -23,7 +23,7 @@ layout(push_constant) uniform Push
 layout(early_fragment_tests) in;
 layout(location = 0) out vec4 out_color;
 
-// In pixels, as the cut rule reckons it (errorExceeds), over what is allowed.
+// Screen-space error in pixels, as in the cut test (errorExceeds), relative to the error threshold.
 float errorRatio(Instance instance, Cluster cluster)
 {
     if (cluster.refined_group == kNoGroup || view.threshold <= 0.0)
@@ -35,10 +35,11 @@ float errorRatio(Instance instance, Cluster cluster)
     return error_pixels / view.threshold;
 }
 
-// From blue, the source itself, to yellow, as much as is allowed.
+// From blue for the source to yellow at the error threshold.
 vec3 colorOfError(float ratio) { return mix(vec3(0.1, 0.15, 0.5), vec3(1.0, 0.85, 0.1), clamp(ratio, 0.0, 1.0)); }
 
-// Green where all triangles face the same way, to yellow; red where there is no cone: such clusters are never culled by it.
+// Green if all triangles face the same way, up to yellow; red if there is no cone: cone culling never removes
+// such clusters.
 vec3 colorOfCone(Cluster cluster)
 {
     uint cutoff = cluster.cone >> 16;

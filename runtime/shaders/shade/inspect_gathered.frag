@@ -1,5 +1,6 @@
-// Shows the light of bricks as shading gets it: irradiance / pi at the surface's normal, as a white surface that only this
-// light falls on would look. One full-screen triangle for all materials; the depth test leaves out the sky.
+// Debug view of the indirect light (GI) that shading reads: irradiance / pi at the normal of the surface,
+// like a white surface that only this light reaches. One full-screen triangle for all materials; the depth
+// test leaves out the sky.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require

@@ -1,5 +1,5 @@
-// Shows which shadow map is looked up for a pixel: of the first light that has one there, a colour for each map, dark in
-// its shadow. Grey: none. One triangle for all materials.
+// Debug view of the shadow map that each pixel reads, for the first light that has a map there. One colour
+// per map, dark in its shadow. Grey: none. One triangle for all materials.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -16,7 +16,7 @@ layout(input_attachment_index = 0, set = 2, binding = 0) uniform usubpassInput v
 layout(early_fragment_tests) in;
 layout(location = 0) out vec4 out_color;
 
-// Eight that differ much, then as many darker ones.
+// Eight distinct colours, then as many darker ones.
 vec3 colorOfMap(uint map)
 {
     float hue = float(map & 7u) / 8.0;
@@ -36,7 +36,7 @@ void main()
         if (at.map != kNoShadow)
             color = colorOfMap(at.map) * (0.2 + 0.8 * litTexels(at));
     }
-    // dimmed by the angle to the eye, so that the shape can be seen
+    // dimmed by the angle to the eye, so that the shape is visible
     float facing = 0.35 + 0.65 * abs(dot(normal, normalizeOr(s.position, vec3(0.0))));
     out_color = vec4(color * facing, 1.0);
 }

@@ -1,6 +1,6 @@
-// What a point of a surface looks like: its material under the lights and the sky. See runtime/gpu/README.md for units
-// and exposure. What of a light reaches the point, `lightShare`, is shadow.glsl's or unshadowed.glsl's; what its surroundings
-// send, `surroundingLight`, is surrounding_sky.glsl's or surrounding_bricks.glsl's.
+// Shades a surface point: its material under the lights and the sky. See runtime/gpu/README.md for units and
+// exposure. Needs `lightShare` (shadowing of a light) from shadow.glsl or unshadowed.glsl, and
+// `surroundingLight` (light of the environment) from surrounding_sky.glsl or surrounding_bricks.glsl.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 
 layout(set = 0, binding = 8, std140) readonly buffer LightingBlock { Lighting lighting; };
@@ -15,7 +15,7 @@ layout(constant_id = 3) const bool kUnlit = false;
 const uint kLightDirectional = 0u;
 const uint kLightSpot = 2u;
 
-// Irradiance of a light on a surface that faces it, and where it comes from. KHR_lights_punctual.
+// Irradiance of a light on a surface that faces it, and the direction to the light. KHR_lights_punctual.
 vec3 irradianceOf(Light light, vec3 position, out vec3 to_light)
 {
     if (light.type == kLightDirectional)
@@ -40,7 +40,8 @@ vec3 irradianceOf(Light light, vec3 position, out vec3 to_light)
     return light.intensity * attenuation;
 }
 
-// Radiance towards the eye, of all but the lights; occlusion: that of the material's texture.
+// Radiance towards the eye from everything except the lights. occlusion: value of the material's occlusion
+// texture.
 vec3 surroundingLight(SurfacePoint point, Shading shading, float occlusion);
 
 vec3 lit(SurfacePoint point, SurfaceUvs uvs, vec3 base)
@@ -71,7 +72,7 @@ vec3 lit(SurfacePoint point, SurfaceUvs uvs, vec3 base)
     return radiance + material.emissive * sampleSurface(uvs, kTextureEmissive, emissive_texture).rgb;
 }
 
-// Display-linear. Unlit colours are display colours: no light, no tone mapping.
+// Display-linear colour. Unlit colours are display colours: no light, no tone mapping.
 vec3 displayColor(SurfacePoint point, SurfaceUvs uvs)
 {
     vec3 base =

@@ -1,4 +1,4 @@
-// Shades the pixels of one material: rebuilds the surface, and shades it with exact derivatives of its UVs.
+// Shades the pixels of one material: reconstructs the surface point and shades it with exact UV derivatives.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -14,7 +14,8 @@
 
 layout(input_attachment_index = 0, set = 2, binding = 0) uniform usubpassInput visibility;
 
-// said aloud because lavapipe else shades every pixel before it tests: five times the time of a frame
+// explicit because lavapipe otherwise shades every pixel before the depth test, which takes five times the
+// frame time
 layout(early_fragment_tests) in;
 layout(location = 0) out vec4 out_color;
 

@@ -1,4 +1,4 @@
-// As shading.frag, with the shadows of the lights and the light of bricks.
+// Same as shading.frag, with shadows of the lights and indirect light from bricks (GI).
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -14,7 +14,7 @@
 
 layout(input_attachment_index = 0, set = 2, binding = 0) uniform usubpassInput visibility;
 
-layout(early_fragment_tests) in; // as shading.frag
+layout(early_fragment_tests) in; // see shading.frag
 layout(location = 0) out vec4 out_color;
 
 void main()

@@ -1,19 +1,20 @@
-// How much of a light reaches a point, by its shadow maps. Needs formats/gpu_shared/shadow.h and `view`.
+// Looks up shadow maps: the share of a light that reaches a point. Needs formats/gpu_shared/shadow.h and
+// `view`.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/shaders/scene/shadow_block.glsl"
 
-// compares: 1 where the point is no deeper than the texel; it has one mip, so that derivatives do not matter
+// compares: 1 where the point is no deeper than the texel; one mip, so derivatives do not matter
 layout(set = 0, binding = 10) uniform sampler2DArrayShadow shadow_maps;
 
-// A point as a light sees it, and the densest of its maps that holds it.
+// Point in the space of a light, and the densest of the light's shadow maps that contains it.
 struct Lookup
 {
     ShadowPoint point;
-    uint map; // kNoShadow: there is none, the point is taken for lit
+    uint map; // kNoShadow: no map, the point counts as lit
 };
 
 // position     relative to the eye
-// flat_normal  unit, of the triangle, towards the side that is seen
+// flat_normal  unit, of the triangle, towards the visible side
 Lookup lookUp(uint light_row, vec3 position, vec3 flat_normal)
 {
     ShadowLight light = shadows.lights[light_row];
@@ -27,12 +28,12 @@ Lookup lookUp(uint light_row, vec3 position, vec3 flat_normal)
     return found;
 }
 
-// Of (2 kernel + 1)^2 texels, the part that the point is before.
+// Percentage-closer filtering: the lit share of (2 kernel + 1)^2 texels.
 float litTexels(Lookup at)
 {
     ShadowMap map = shadows.maps[at.map];
     vec2 middle = floor(shadowTexel(map, at.point)) + 0.5;
-    // behind the end of a sun's scene nothing casts
+    // nothing casts beyond the far end of a sun's scene
     float depth = max(at.point.depth, 0.0);
     int reach = int(map.kernel);
     float lit = 0.0;
@@ -43,7 +44,7 @@ float litTexels(Lookup at)
     return lit / (side * side);
 }
 
-// 0 in the shadow of the light, 1 where all of it arrives.
+// Share of the light that reaches the point: 0 in shadow, 1 fully lit.
 float lightShare(uint light_row, vec3 position, vec3 flat_normal)
 {
     if (light_row == kNoShadow)

@@ -1,4 +1,4 @@
-// The background: pixels in which nothing is visible.
+// Draws the background: pixels in which no surface is visible.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -21,7 +21,7 @@ layout(location = 0) out vec4 out_color;
 void main()
 {
     vec2 ndc = gl_FragCoord.xy * 2.0 / vec2(view.width, view.height) - 1.0;
-    // the rows are orthogonal: the direction with clip coordinates (ndc, 1)
+    // the rows are orthogonal, so this is the direction with clip coordinates (ndc, 1)
     vec3 x = view.clip_x.xyz;
     vec3 y = view.clip_y.xyz;
     vec3 direction = normalize(view.clip_w.xyz + x * (ndc.x / dot(x, x)) + y * (ndc.y / dot(y, y)));

@@ -1,8 +1,8 @@
-// The sky that lights every scene: a smooth gradient from ground over horizon to zenith. Radiances from the lighting
-// block, which a file includes before.
+// Procedural sky that lights every scene: a smooth gradient from ground over horizon to zenith. Needs the
+// lighting block, which holds the radiances; the including file includes it before.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 
-// Radiance from a direction, blurred as a rough surface sees it (roughness 0..1).
+// Radiance from a direction, prefiltered for a surface of this roughness (0..1).
 vec3 skyRadiance(vec3 direction, float roughness)
 {
     float width = mix(0.12, 1.0, roughness);

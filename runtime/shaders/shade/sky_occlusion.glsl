@@ -1,36 +1,38 @@
-// How much of the sky reaches a point, by its visibility: ambient occlusion for the diffuse part, specular occlusion for the
-// mirror image. After surface_point.glsl; formats/gpu_shared has the formulas, runtime/gpu/README.md what they cost.
+// Sky occlusion from the visibility of a point: ambient occlusion for the diffuse part, specular occlusion
+// for the reflection. Include after surface_point.glsl. formats/gpu_shared has the formulas,
+// runtime/gpu/README.md the cost.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/ambient_occlusion.h"
 #include "formats/gpu_shared/specular_occlusion.h"
 
-// 16 x 16 texels (aperture, roughness), one square below the other for each node of beta; white in scenes without a table
+// 16 x 16 texels (aperture, roughness); squares for the nodes of beta below each other; white in scenes
+// without a table
 layout(set = 0, binding = 11) uniform sampler2D specular_table;
 
 layout(push_constant) uniform Push
 {
     float depth;
     uint shown_view;
-    float depth_scale; // metres that the depth view shows as half
+    float depth_scale; // metres that the depth view shows as half brightness
     layout(offset = 20) uint sky_occlusion; // skyOcclusionBits
 };
 
-// The cone of a point, and how it lies to the normal.
+// Visibility cone of a point, and its angles to the normals.
 struct SkyView
 {
     VisibilityCone cone;
-    float geometric; // cosine between its axis and the normal that it was baked for
-    float shading;   // the same of the normal that is lit
+    float geometric; // cosine between the axis and the normal that the cone was baked for
+    float shading;   // cosine between the axis and the shading normal
 };
 
-// normal: that is lit
+// normal: shading normal
 SkyView skyView(SurfacePoint point, vec3 normal)
 {
     vec3 geometric = point.front ? point.normal : -point.normal;
     SkyView sky;
     sky.cone = visibilityCone(point.sky.m0, point.sky.m1, geometric);
     sky.geometric = dot(sky.cone.axis, geometric);
-    // the same bits where no map bends it: what is reckoned from both then cancels
+    // the same bits if no normal map changes the normal: the terms of both then cancel
     sky.shading = hasTexture(kTextureNormal) ? dot(sky.cone.axis, normal) : sky.geometric;
     return sky;
 }
@@ -46,13 +48,13 @@ float specularTableShare(vec3 place)
     float beta = place.z * 15.0;
     float below = floor(beta);
     vec2 at = vec2(place.x * 15.0 + 0.5, place.y * 15.0 + 0.5 + 16.0 * below) / vec2(16.0, 256.0);
-    // one mip: explicit, so that no derivative is asked for
+    // one mip: explicit, so that no derivative is needed
     float first = textureLod(specular_table, at, 0.0).r;
     float second = textureLod(specular_table, vec2(at.x, below < 15.0 ? at.y + 1.0 / 16.0 : at.y), 0.0).r;
     return mix(first, second, beta - below);
 }
 
-// mirror: the reflection of the view at the normal that is lit, unit
+// mirror: reflection of the view direction at the shading normal, unit
 float specularSky(SkyView sky, float roughness, float n_dot_v, vec3 mirror)
 {
     uint mode = sky_occlusion >> 8 & 255u;

@@ -1,13 +1,14 @@
-// As surrounding_sky.glsl, of scenes with bricks: what was gathered through them, the sky with it.
+// Environment light of scenes with bricks (GI): the gathered light, which includes the sky. In place of
+// surrounding_sky.glsl.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/shaders/gi/gathered.glsl"
 
-// What a cone is open, and what the bricks leave of it, count as so much more: where both see next to no sky the cone says
-// nothing.
+// Margin added to the openness of the cone and to the sky share of the bricks. Where both see next to no sky
+// the cone has no say.
 const float kOpenMargin = 0.1;
 
-// Bricks hide what is farther than a voxel or two; cones know finer form. How much a point loses by that: what its cone
-// sees of the sky over what the bricks let it see.
+// Occlusion by detail finer than the bricks. Bricks occlude at distances above a voxel or two; cones know
+// finer shape. Returns the sky share of the cone over the sky share that the bricks leave.
 float fineOcclusion(SurfacePoint point, vec3 normal, float sky_share)
 {
     if (!kSkyVisibility)

@@ -1,5 +1,5 @@
-// What a point gets from its surroundings beside the lights: the sky, as far as the point's visibility lets it through.
-// After lighting.glsl.
+// Environment light without bricks: the sky, occluded by the visibility of the point. Include after
+// lighting.glsl.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 
 vec3 surroundingLight(SurfacePoint point, Shading shading, float occlusion)
@@ -11,8 +11,8 @@ vec3 surroundingLight(SurfacePoint point, Shading shading, float occlusion)
     vec3 specular_sky = specular * skyRadiance(mirror, shading.roughness);
     if (!kSkyVisibility)
         return occlusion * (diffuse_sky + specular_sky);
-    // The smaller counts: a texture is usually baked from the same form and would hide the sky twice; what it has beyond
-    // that, fine form that the mesh lacks, is where it says less.
+    // The smaller one counts. An occlusion texture is usually baked from the same shape and would occlude the
+    // sky twice. The texture is smaller only where it has detail that the mesh lacks.
     SkyView sky = skyView(point, shading.normal);
     return min(occlusion, diffuseSky(sky)) * diffuse_sky +
            min(occlusion, specularSky(sky, shading.roughness, shading.n_dot_v, mirror)) * specular_sky;

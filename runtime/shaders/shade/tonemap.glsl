@@ -1,7 +1,7 @@
-// From scene-linear radiance to display-linear colour.
+// Tone mapping from scene-linear radiance to display-linear colour.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 
-// J. Hejl, R. Burgess-Dawson, "Filmic tonemapping", 2010. The fit's result is meant for a 2.2 gamma display;
+// J. Hejl, R. Burgess-Dawson, "Filmic tonemapping", 2010. The result of the fit is for a 2.2 gamma display;
 // the target encodes sRGB itself, so the gamma is taken out again.
 vec3 toneMap(vec3 radiance)
 {
@@ -10,7 +10,7 @@ vec3 toneMap(vec3 radiance)
     return pow(display, vec3(2.2));
 }
 
-// Linear value that an sRGB target stores as `encoded`: for views that are data, not light.
+// Linear value that an sRGB target stores as `encoded`; for debug views of data.
 vec3 linearFromSrgb(vec3 encoded)
 {
     return mix(encoded / 12.92, pow((encoded + 0.055) / 1.055, vec3(2.4)), greaterThan(encoded, vec3(0.04045)));

@@ -29,7 +29,7 @@ Double3 abs(Double3 a)
     return {std::abs(a.x), std::abs(a.y), std::abs(a.z)};
 }
 
-/// An image of three channels, or of one where only x is used; reading beyond the border repeats it.
+/// Image of three channels, or of one in x only; reads beyond the border are clamped to it.
 struct Field
 {
     long width, height;
@@ -77,7 +77,7 @@ Double3 relativeToWhite(Double3 xyz)
     return {xyz.x / white.x, xyz.y / white.y, xyz.z / white.z};
 }
 
-/// A linearised L*a*b*: luminance, red-green, blue-yellow.
+/// Convert to linearised L*a*b*: luminance, red-green, blue-yellow.
 Double3 opponentFromRgb(Double3 rgb)
 {
     const Double3 r = relativeToWhite(xyzFromRgb(rgb));
@@ -96,7 +96,7 @@ double labCurve(double t)
     return t > kDelta * kDelta * kDelta ? std::cbrt(t) : t / (3 * kDelta * kDelta) + 4.0 / 29;
 }
 
-/// L*a*b* with chroma that counts less where it is dark (Hunt's effect).
+/// Convert to L*a*b* with less chroma in the dark (Hunt effect).
 Double3 huntLabFromRgb(Double3 rgb)
 {
     const Double3 r = relativeToWhite(xyzFromRgb(rgb));
@@ -112,7 +112,7 @@ double hyAb(Double3 a, Double3 b)
 
 // ---- colour difference, paper sections 4.1 and 4.2
 
-/// Sums of up to two Gaussians in the distance in degrees: the contrast sensitivity of each channel.
+/// Contrast sensitivity of each channel: sums of up to two Gaussians in the distance in degrees.
 struct ContrastSensitivity
 {
     double a1, b1, a2, b2;
@@ -128,7 +128,7 @@ constexpr ContrastSensitivity kLuminance{1, 0.0047, 0, 1e-5};
 constexpr ContrastSensitivity kRedGreen{1, 0.0053, 0, 1e-5};
 constexpr ContrastSensitivity kBlueYellow{34.1, 0.04, 13.5, 0.025};
 
-/// What the eye cannot resolve at this distance is blurred away.
+/// Blur away the detail that the eye cannot resolve at this distance.
 Field blurredAsSeen(const Field& opponent, double pixels_per_degree)
 {
     const auto radius =
@@ -165,13 +165,13 @@ Double3 clampedToUnit(Double3 c)
 
 constexpr double kColorExponent = 0.7;
 
-/// The largest difference there is, between pure green and pure blue, as the measure raises it.
+/// Largest possible difference, between pure green and pure blue, with the exponent of the measure.
 double largestColorDifference()
 {
     return std::pow(hyAb(huntLabFromRgb({0, 1, 0}), huntLabFromRgb({0, 0, 1})), kColorExponent);
 }
 
-/// 0..1: the lower 40 % of the range fill 95 % of the scale.
+/// Remap to 0..1: the lower 40 % of the range fill 95 % of the scale.
 double redistributed(double difference, double largest)
 {
     constexpr double kKneeIn = 0.4, kKneeOut = 0.95;
@@ -247,7 +247,7 @@ Field opponentOf(const Picture& picture)
     return field;
 }
 
-/// Everything that the measure needs to know of one picture.
+/// Precomputed fields of one image.
 struct Seen
 {
     Field lab;

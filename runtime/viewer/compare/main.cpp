@@ -1,4 +1,4 @@
-// hearth-compare: how two pictures differ, as numbers and as a heat map.
+// hearth-compare: compares two images, as numbers and as a heat map.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/base/program.h"
 #include "runtime/viewer/command_line.h"
@@ -51,12 +51,12 @@ Result<CompareOptions> parseCompareOptions(std::span<const char* const> argument
     return options;
 }
 
-/// Of all channels, in steps of 255.
+/// Differences over all channels, in units of 1/255.
 struct Steps
 {
     double rms = 0;
     int largest = 0;
-    uint64_t pixels = 0; ///< that differ
+    uint64_t pixels = 0; ///< pixels that differ
 };
 
 Steps countSteps(const Picture& a, const Picture& b)
@@ -79,7 +79,7 @@ Steps countSteps(const Picture& a, const Picture& b)
     return steps;
 }
 
-/// So many of a thousand pixels differ no more.
+/// Return the error that this many of a thousand pixels do not exceed.
 double quantile(std::vector<float> errors, size_t of_thousand)
 {
     const size_t index = (errors.size() - 1) * of_thousand / 1000;

@@ -14,7 +14,7 @@ Result<Picture> readPng(const std::string& path)
     png.version = PNG_IMAGE_VERSION;
     if (!png_image_begin_read_from_file(&png, path.c_str()))
         return Error{Issue::input_missing, path, "", png.message};
-    png.format = PNG_FORMAT_RGBA; // asked for with alpha, so that nothing is blended with a background
+    png.format = PNG_FORMAT_RGBA; // with alpha, so that libpng does not blend with a background
     std::vector<uint8_t> rgba(PNG_IMAGE_SIZE(png));
     if (!png_image_finish_read(&png, nullptr, rgba.data(), 0, nullptr))
         return Error{Issue::image_malformed, path, "", png.message};

@@ -1,4 +1,4 @@
-// Pictures of 8 bits a channel, read from and written to PNG files.
+// Images of 8 bits per channel, read from and written to PNG files.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,7 +11,7 @@
 namespace hearth::viewer
 {
 
-/// RGB, sRGB-encoded, rows top to bottom.
+/// sRGB-encoded image, rows from top to bottom.
 struct Picture
 {
     uint32_t width = 0;
@@ -24,13 +24,13 @@ struct Picture
     const uint8_t* at(size_t x, size_t y) const { return &rgb[(y * width + x) * 3]; }
 };
 
-/// Alpha is dropped. errors: input_missing, image_malformed.
+/// Read a PNG file. Alpha is dropped. errors: input_missing, image_malformed.
 Result<Picture> readPng(const std::string& path);
 
-/// errors: cannot_write.
+/// Write a PNG file. errors: cannot_write.
 Status writePng(const std::string& path, const Picture& picture);
 
-/// IEC 61966-2-1, for one channel in 0..1.
+/// Decode one channel in 0..1 by IEC 61966-2-1.
 double linearFromSrgb(double encoded);
 double srgbFromLinear(double linear);
 

@@ -24,7 +24,7 @@ namespace hearth::viewer
 namespace
 {
 
-/// The texels of the finished picture, at the size that was asked for.
+/// Read the texels of the finished frame, at the requested size.
 Result<std::vector<std::byte>> readPicture(VulkanHost& host, const gpu::Renderer& renderer,
                                            const gpu::FrameTargets& targets, uint32_t samples)
 {
@@ -40,7 +40,7 @@ Result<std::vector<std::byte>> encodePicture(const RenderOptions& options, std::
                                             : encodePng(pixels, options.width, options.height);
 }
 
-/// One for each frame.
+/// Return one camera per frame.
 Result<std::vector<shared::Camera>> chooseCameras(const RenderOptions& options, const formats::PackView& pack,
                                                   const pack::PosePlayer& player)
 {
@@ -56,8 +56,8 @@ uint32_t sampleScale(const RenderOptions& options)
     return options.samples == 4 ? 2 : 1;
 }
 
-/// The error is meant in pixels of the picture, not of its samples. On a sheet the light of bricks is left out: they are those
-/// of all assets at once.
+/// Return the settings of the frame. The error is in pixels of the output, not of its samples. On a sheet GI
+/// is off: the bricks belong to all assets at once.
 FrameSettings frameSettings(const RenderOptions& options, bool on_sheet)
 {
     FrameSettings settings = options.settings;
@@ -66,7 +66,7 @@ FrameSettings frameSettings(const RenderOptions& options, bool on_sheet)
     return settings;
 }
 
-/// The sheet that is to be drawn; none where the scene is.
+/// Return the sheet to draw; none if the scene is drawn.
 Result<std::optional<Sheet>> chooseSheet(const RenderOptions& options, const formats::PackView& pack)
 {
     const bool automatic = options.sheet == SheetChoice::automatic;
@@ -103,7 +103,7 @@ void warnAboutShadows(const ShadowCounts& counts, const std::string& name)
     warn(counts.dropped_clusters, " clusters are more than the visible list holds and cast no shadow");
 }
 
-/// Draws the frames of one run, and writes what was asked for.
+/// Draws the requested frames, and writes the requested files.
 class Run
 {
 public:
@@ -124,15 +124,16 @@ public:
     {
     }
 
-    /// Of the frames to come.
+    /// Set the view of later frames.
     void setView(uint32_t view) { settings_.view = view; }
 
-    /// Streams until a frame of this camera has all that it wants, of what is not resident.
+    /// Stream until a frame of this camera has everything it needs, if geometry is streamed.
     Status prefetch(const shared::Camera& camera, size_t number)
     {
         if (scene_.stream == nullptr)
             return success();
-        // 256 frames fill the largest pool, 60 raise the error scale to its most: what takes longer does not rest
+        // 256 frames fill the largest pool, and 60 raise the error scale to its maximum: more frames mean it
+        // never settles
         constexpr uint64_t kMostFrames = 1000;
         const shared::FrameView view = frameOf(camera).view;
         const uint64_t first = serial_ + 1;
@@ -150,7 +151,7 @@ public:
         return success();
     }
 
-    /// Lets the light of bricks settle, where the picture shows it.
+    /// Let the indirect light settle, if the frame shows it.
     Status settle(const shared::Camera& camera)
     {
         if (scene_.bricks == nullptr || !(settings_.bricks_light || gpu::showsBricks(settings_.view)))
@@ -186,13 +187,13 @@ public:
         return success();
     }
 
-    /// The last frame that was drawn, at the size that was asked for.
+    /// Return the last frame, at the requested size.
     Result<std::vector<std::byte>> picture()
     {
         return readPicture(host_, renderer_, targets_, options_.samples);
     }
 
-    /// Warn of what the last frame left out, and count it for the statistics.
+    /// Warn about objects that the last frame left out, and count them for the statistics.
     Status note()
     {
         HEARTH_ASSIGN_OR_RETURN(const VisibleList list, readVisibleList(host_, renderer_, scene_));
@@ -218,7 +219,7 @@ public:
         return success();
     }
 
-    /// What each pixel of the last frame shows.
+    /// Write the visible triangle of each pixel of the last frame.
     Status writeVisibility(const std::string& file)
     {
         HEARTH_ASSIGN_OR_RETURN(const VisibleList list, readVisibleList(host_, renderer_, scene_));
@@ -253,7 +254,7 @@ public:
     }
 
 private:
-    /// The next frame shows that picture of the clip or the stage.
+    /// Go to the moves and poses of that image of the clip or the stage.
     Status goTo(size_t number)
     {
         animation_.goTo(number);
@@ -274,7 +275,7 @@ private:
         return frame;
     }
 
-    /// Add what the last frame drew, and what it did not, to the statistics.
+    /// Add the counts of the last frame to the statistics.
     Status count(const VisibleList& list)
     {
         const gpu::Device& device = renderer_.device();
@@ -305,7 +306,7 @@ private:
         return success();
     }
 
-    /// Each frame is waited for before the next begins.
+    /// Begin a frame; each frame is waited for before the next begins.
     void beginFrame()
     {
         if (scene_.stream != nullptr)
@@ -324,16 +325,16 @@ private:
     VkQueryPool timestamps_;
     FrameSettings settings_;
     std::vector<gpu::InstanceMove> moves_;       ///< of the next frame
-    std::span<const gpu::InstancePose> poses_{}; ///< the same
+    std::span<const gpu::InstancePose> poses_{}; ///< of the next frame
     std::vector<std::vector<double>> times_;
-    std::vector<FrameCounts> frames_; ///< of those that were written
+    std::vector<FrameCounts> frames_; ///< frames that were written
     std::vector<StreamCounts> streaming_;
     std::vector<ShadowCounts> shadows_;
     std::optional<SkinningCounts> skinning_;
     uint64_t serial_ = 0; ///< of the last frame
 };
 
-/// "a.png" becomes "a-lod.png"; it stays as it is without a name of a view.
+/// File name for a view: "a.png" becomes "a-lod.png"; unchanged without a view name.
 std::string viewFile(const std::string& path, std::string_view view)
 {
     const size_t name = path.rfind('/') + 1; // npos + 1 is 0
@@ -342,7 +343,7 @@ std::string viewFile(const std::string& path, std::string_view view)
     return view.empty() ? path : path.substr(0, at) + "-" + std::string(view) + path.substr(at);
 }
 
-/// Reads at once.
+/// Return a reader that reads synchronously.
 pack::PageReader pageReader(const formats::PackView& pack)
 {
     return [&pack](uint32_t page, std::span<std::byte> destination, pack::ReadDone done)
@@ -359,7 +360,7 @@ gpu::SceneOptions sceneOptions(const RenderOptions& options, const formats::Pack
     return scene;
 }
 
-/// Cameras of the pictures; a stage where each of these shows a part of the scene alone.
+/// Cameras of the output images; with a stage each of them shows one part of the scene alone.
 struct Pictures
 {
     std::optional<Stage> stage;
@@ -408,7 +409,7 @@ Status writePicture(const RenderOptions& options, const std::string& file, std::
     return writeFile(file, encoded);
 }
 
-/// A file for each picture and view; of --frames the last one alone.
+/// Write a file per camera and view; of --frames only the last frame.
 Status drawPictures(const RenderOptions& options, const Pictures& pictures, Run& run)
 {
     const std::vector<shared::Camera>& cameras = pictures.cameras;
@@ -437,7 +438,7 @@ Status drawPictures(const RenderOptions& options, const Pictures& pictures, Run&
     return success();
 }
 
-/// A file for each view, once all cells are drawn.
+/// Write a file per view, once all cells are drawn.
 Status drawSheet(const RenderOptions& options, const Pictures& pictures, const Sheet& sheet, Run& run)
 {
     const std::vector<Named<uint32_t>> views = viewsOf(options);
@@ -500,7 +501,7 @@ Status nameDevice(const RenderOptions& options)
     HEARTH_ASSIGN_OR_RETURN(
         const std::unique_ptr<VulkanHost> host,
         VulkanHost::create({.device_name = options.device, .validate = options.validate}));
-    // what a device lacks, the renderer says
+    // the renderer reports missing features
     HEARTH_ASSIGN_OR_RETURN(const std::unique_ptr<gpu::Renderer> renderer,
                             gpu::Renderer::create(host->description()));
     std::printf("%s%s\n", host->deviceName().c_str(), host->software() ? " (software)" : "");

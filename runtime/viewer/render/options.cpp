@@ -29,7 +29,7 @@ Status parsePyramid(std::string_view text, RenderOptions& options)
     return success();
 }
 
-/// "N,N,..."
+/// Parse "N,N,..."
 Status parseMeshes(std::string_view text, RenderOptions& options)
 {
     options.meshes.clear();
@@ -45,7 +45,7 @@ Status parseMeshes(std::string_view text, RenderOptions& options)
     return success();
 }
 
-/// "VIEW,VIEW,..."
+/// Parse "VIEW,VIEW,..."
 Status parseViews(std::string_view text, RenderOptions& options)
 {
     options.views.clear();

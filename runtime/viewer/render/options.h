@@ -1,4 +1,4 @@
-// The command line of hearth-render.
+// Command line of hearth-render.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -8,18 +8,18 @@
 namespace hearth::viewer
 {
 
-/// What occlusion culling finds of the frame before: the picture is the same, whatever it is.
+/// Initial depth pyramid of occlusion culling; the result is the same with each.
 enum class PyramidStart
 {
-    previous, ///< what the frame before left, nothing in the first
-    none,     ///< nothing in every frame
+    previous, ///< left by the last frame, empty in the first
+    none,     ///< empty in every frame
     noise,    ///< random depths in every frame
 };
 
-/// Whether the assets of a pack are drawn side by side.
+/// Choice of a contact sheet, with the assets of a pack side by side.
 enum class SheetChoice
 {
-    automatic, ///< where they stand in one place, and nothing says what else to draw
+    automatic, ///< if the assets stand in one place, and no option says what else to draw
     on,
     off,
 };
@@ -27,26 +27,26 @@ enum class SheetChoice
 struct RenderOptions : DrawOptions
 {
     std::string output;
-    std::string camera_path;      ///< a file; empty: one picture
-    std::vector<uint32_t> meshes; ///< a picture of each alone; none: of the scene
-    std::vector<Named<uint32_t>>
-        views; ///< each picture is drawn in each of these; none: in that of the settings
+    std::string camera_path;      ///< file; empty: one image
+    std::vector<uint32_t> meshes; ///< an image of each mesh alone; none: the scene
+    /// Each image is drawn in each of these; none: in the view of the settings.
+    std::vector<Named<uint32_t>> views;
     SheetChoice sheet = SheetChoice::automatic;
     AnimationSettings animation;
     uint32_t samples = 1;
     uint32_t frames = 1;
-    uint32_t gi_frames = 32; ///< of a pack with bricks, before the first picture
+    uint32_t gi_frames = 32; ///< before the first image, for packs with bricks
     PyramidStart pyramid = PyramidStart::previous;
     uint32_t noise_seed = 0;
     std::string stats;
     std::string visibility;
-    bool names_device = false; ///< and does nothing else
+    bool names_device = false; ///< only prints the name of the device
 };
 
-/// Whether the whole scene is drawn once at rest, from where it fits: what a sheet can stand for.
+/// True if the whole scene is drawn once at rest from a fitted camera, so that a sheet can replace it.
 bool fitsWholeScene(const RenderOptions& options);
 
-/// The text of --help.
+/// Return the text of --help.
 std::string renderHelp();
 
 /// errors: usage, naming the argument.

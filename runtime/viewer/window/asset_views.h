@@ -1,4 +1,4 @@
-// The assets of a pack as a person goes from one to the other.
+// Views of the single assets of a pack, for stepping through them.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,22 +12,22 @@ namespace hearth::viewer
 
 struct AssetView
 {
-    std::string name; ///< with its size: "rock, 2.1 m"
+    std::string name; ///< with the size: "rock, 2.1 m"
     shared::Camera camera;
 };
 
 struct AssetViews
 {
-    /// Those that draw something; empty where there are fewer than two.
+    /// Assets that draw something; empty if there are fewer than two.
     std::vector<AssetView> list;
-    /// Hides what is not looked at, by its part: that of partOf. None where the assets do not stand in one place.
+    /// Hides all parts but partOf(choice). None if the assets do not stand in one place.
     std::optional<Stage> stage;
 
-    /// choice  of the list; none: the whole scene
+    /// choice  index in the list; none: the whole scene
     static size_t partOf(std::optional<size_t> choice) { return choice ? *choice + 1 : 0; }
 };
 
-/// player  as the scene stands
+/// player  current pose of the scene
 AssetViews makeAssetViews(const formats::PackView& pack, const pack::PosePlayer& player, float aspect);
 
 } // namespace hearth::viewer

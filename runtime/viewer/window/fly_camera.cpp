@@ -13,7 +13,7 @@ namespace
 {
 
 constexpr Float3 kWorldUp{0, 1, 0};
-constexpr float kSteepest = 1.55f; // 89 degrees: what is level stays defined
+constexpr float kSteepest = 1.55f; // 89 degrees: keeps the horizon defined
 
 } // namespace
 
@@ -21,7 +21,7 @@ void FlyCamera::look(float right_rad, float up_rad)
 {
     const float distance = length(camera_.target - camera_.position);
     const Float3 forward = normalizeOr(camera_.target - camera_.position, {0, 0, -1});
-    // whoever looks straight up or down faces where the top of the picture points
+    // a camera that looks straight up or down faces the direction of the frame's top edge
     const bool steep = std::abs(forward.y) > 0.9999f;
     const Float3 facing = steep ? camera_.up * (forward.y > 0 ? -1.0f : 1.0f) : forward;
     const float yaw = std::atan2(facing.x, -facing.z) + right_rad;
@@ -41,7 +41,7 @@ void FlyCamera::fly(Float3 push, float seconds)
     const Float3 way = (right * push.x + kWorldUp * push.y + forward * push.z) * (speed_ * seconds);
     camera_.position += way;
     camera_.target += way;
-    // whoever flies slowly is near to something
+    // a slow camera is near to something
     camera_.z_near = std::min(camera_.z_near, nearPlane(speed_));
 }
 

@@ -1,4 +1,4 @@
-// A camera that a person flies.
+// First-person fly camera.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,11 +7,11 @@
 namespace hearth::viewer
 {
 
-/// Exactly the camera it started as, bit for bit, until it is moved. The target goes with the eye, at its distance.
+/// Equals its start camera, bit for bit, until it is moved. The target moves with the eye, at its distance.
 class FlyCamera
 {
 public:
-    /// speed  metres a second, > 0
+    /// speed  metres per second, > 0
     FlyCamera(const shared::Camera& start, float speed) : camera_(start), speed_(speed) {}
 
     const shared::Camera& camera() const { return camera_; }
@@ -20,12 +20,12 @@ public:
     /// Turn to the right and upwards, up to the zenith and the nadir; makes the horizon level.
     void look(float right_rad, float up_rad);
 
-    /// Fly for a while.
-    /// push     to the right, up the world and forwards, -1 to 1 each
+    /// Fly for a time step.
+    /// push     to the right, up (world) and forwards, -1 to 1 each
     /// seconds  >= 0
     void fly(Float3 push, float seconds);
 
-    /// Faster by a fifth a step, or slower.
+    /// Change the speed by a fifth per step.
     void changeSpeed(float steps);
 
 private:

@@ -13,7 +13,7 @@ namespace
 
 struct FlyKey
 {
-    SDL_Scancode key; // the place on the keyboard, whatever letter is there
+    SDL_Scancode key; // position on the keyboard, independent of the layout
     Float3 push;
 };
 
@@ -25,7 +25,7 @@ constexpr FlyKey kFlyKeys[] = {
 constexpr float kRadiansPerPixel = 0.003f; // half a turn for a thousand pixels
 constexpr float kFast = 4;
 
-/// The bit of a key that flies, or 0.
+/// Return the bit of a fly key, or 0 for other keys.
 uint32_t bitOf(SDL_Scancode key)
 {
     const auto* found =
@@ -79,7 +79,7 @@ void FlyControls::handle(const SDL_Event& event, Kept by_panel, FlyCamera& camer
     }
 }
 
-/// Nobody tells a window without the focus what is let go.
+/// Release all keys: a window without the focus gets no key-up events.
 void FlyControls::letGo()
 {
     held_ = 0;

@@ -1,4 +1,4 @@
-// Keys and mouse, as they fly the camera.
+// Keyboard and mouse controls of the fly camera.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,11 +11,11 @@ union SDL_Event;
 namespace hearth::viewer
 {
 
-/// Knows which keys are held from the events alone.
+/// Tracks the pressed keys from events alone.
 class FlyControls
 {
 public:
-    /// Which events the panel keeps for itself: what is pressed there does not fly. What is let go always counts.
+    /// Events that the panel captures: presses there do not fly. Releases always count.
     struct Kept
     {
         bool keys = false;
@@ -24,7 +24,7 @@ public:
 
     void handle(const SDL_Event& event, Kept by_panel, FlyCamera& camera);
 
-    /// Fly as the held keys say. seconds >= 0
+    /// Fly by the pressed keys. seconds >= 0
     void fly(FlyCamera& camera, float seconds) const;
 
 private:

@@ -1,4 +1,4 @@
-// What frames cost and drew, read when they have run.
+// Costs and counts of frames, read after they have completed.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,23 +13,24 @@ struct FrameFigures
 {
     std::array<double, gpu::kTimestampCount> milliseconds{}; ///< as FrameReport, medians of the last frames
     shared::FrameCounters counters{};
-    std::optional<CullReport> culling; ///< where it was counted; no triangles
+    std::optional<CullReport> culling; ///< if culling statistics were requested; without triangles
 };
 
 class FrameMeter
 {
 public:
-    /// The arguments outlive it. errors: device_failed.
+    /// The arguments outlive the meter. errors: device_failed.
     static Result<std::unique_ptr<FrameMeter>> create(VulkanHost& host, const gpu::Device& device);
 
-    /// For gpu::FrameInput of the frame in this slot.
+    /// Return the queries for gpu::FrameInput of the frame in this slot.
     VkQueryPool timestamps(uint32_t slot) const { return slots_[slot].timestamps; }
 
-    /// Behind Renderer::record of the frame in this slot.
-    /// count_culling  also what each test left out, which costs about as much as the culling
+    /// Record after Renderer::record of the frame in this slot.
+    /// count_culling  also count the outcomes of the culling tests, which costs about as much as the culling
     void record(VkCommandBuffer commands, const LoadedScene& scene, uint32_t slot, bool count_culling);
 
-    /// Of the frame that was in this slot and has run; nothing where there was none. errors: device_failed.
+    /// Read the results of the completed frame that was in this slot; nothing if there was none. errors:
+    /// device_failed.
     Status take(uint32_t slot);
 
     const FrameFigures& figures() const { return figures_; }

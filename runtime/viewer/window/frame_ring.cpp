@@ -50,7 +50,7 @@ Status FrameRing::wait()
 {
     HEARTH_TRY_VK(vk_.vkWaitForFences(device_, 1, &slots_[slot()].done, VK_TRUE, UINT64_MAX),
                   "wait for a frame");
-    // frames of one queue end in order
+    // frames of one queue complete in order
     const uint64_t next = serial_ + 1;
     if (next > kFramesInFlight)
         completed_serial_ = std::max(completed_serial_, next - kFramesInFlight);

@@ -1,4 +1,4 @@
-// Command buffers and fences of the frames that run at once.
+// Command buffers and fences of the frames in flight.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,36 +10,39 @@
 namespace hearth::viewer
 {
 
-/// One is recorded while the other is drawn.
+/// One frame is recorded while the other is drawn.
 inline constexpr uint32_t kFramesInFlight = 2;
 
-/// For each frame: wait, begin, submit. The slots are taken in turn.
+/// Ring of frame slots. For each frame: wait, begin, submit.
 class FrameRing
 {
 public:
-    /// The arguments outlive it. errors: device_failed.
+    /// The arguments outlive the ring. errors: device_failed.
     static Result<std::unique_ptr<FrameRing>> create(const VulkanHost& host, const gpu::Device& device,
                                                      const WindowTable& vk);
-    /// No frame is under way.
+    /// No frame is in flight.
     ~FrameRing();
 
     uint32_t slot() const
     {
         return static_cast<uint32_t>((serial_ + 1) % kFramesInFlight);
-    }                                                              ///< the next frame's
-    uint64_t serial() const { return serial_; }                    ///< of the last frame, the first is 1
-    uint64_t completedSerial() const { return completed_serial_; } ///< no frame up to this one runs any more
+        /// Slot of the next frame.
+    }
+    uint64_t serial() const { return serial_; } ///< of the last frame; the first is 1
+    /// all frames up to this one have completed
+    uint64_t completedSerial() const { return completed_serial_; }
 
-    /// Until the frame that had the slot before has run. errors: device_failed.
+    /// Wait until the frame that had the slot before has completed. errors: device_failed.
     Status wait();
-    /// To be signalled when the frame may be drawn to what it presents.
+    /// Semaphore to signal when the frame may draw to its swapchain image.
     VkSemaphore available() const { return slots_[slot()].available; }
     /// errors: device_failed.
     Result<VkCommandBuffer> begin();
-    /// Its transfers wait for available(); `drawn` is signalled when all is done. errors: device_failed.
+    /// Submit. The transfers wait for available(); `drawn` is signalled when everything is done. errors:
+    /// device_failed.
     Status submit(VkSemaphore drawn);
 
-    /// Until no frame runs. errors: device_failed.
+    /// Wait until no frame is in flight. errors: device_failed.
     Status waitForAll();
 
 private:

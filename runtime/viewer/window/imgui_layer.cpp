@@ -15,7 +15,7 @@ namespace hearth::viewer
 namespace
 {
 
-/// Dear ImGui means sRGB codes, and the window's images want light.
+/// Convert the colours: Dear ImGui's are sRGB codes, and the window's images are linear.
 void linearizeColors(ImGuiStyle& style)
 {
     const auto linear = [](float code)
@@ -34,7 +34,7 @@ ImGui_ImplVulkan_InitInfo initInfo(const VulkanHost& host, VkDescriptorPool desc
     info.QueueFamily = host.queueFamily();
     info.Queue = host.queue();
     info.DescriptorPool = descriptors;
-    // sets of vertex buffers, taken in turn: one for each frame that may still be read
+    // sets of vertex buffers, used in turn: one per frame in flight
     info.MinImageCount = kFramesInFlight;
     info.ImageCount = kFramesInFlight;
     info.MSAASamples = VK_SAMPLE_COUNT_1_BIT;
@@ -49,7 +49,7 @@ Result<std::unique_ptr<ImguiLayer>> ImguiLayer::create(const SdlWindow& window, 
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
     std::unique_ptr<ImguiLayer> layer(new ImguiLayer(device));
-    ImGui::GetIO().IniFilename = nullptr; // no file where the program happens to run
+    ImGui::GetIO().IniFilename = nullptr; // no settings file in the working directory
     ImGui::StyleColorsDark();
     linearizeColors(ImGui::GetStyle());
     layer->on_window_ = ImGui_ImplSDL2_InitForVulkan(window.handle());

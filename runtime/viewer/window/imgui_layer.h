@@ -1,4 +1,4 @@
-// Dear ImGui on the window: takes events, draws over the picture.
+// Dear ImGui layer of the window: takes events, draws over the frame.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,25 +9,25 @@
 namespace hearth::viewer
 {
 
-/// One at a time in a process, since Dear ImGui has globals.
+/// One at a time per process, since Dear ImGui has globals.
 class ImguiLayer
 {
 public:
-    /// The arguments outlive it. errors: device_failed.
+    /// The arguments outlive the layer. errors: device_failed.
     static Result<std::unique_ptr<ImguiLayer>> create(const SdlWindow& window, VulkanHost& host,
                                                       const gpu::Device& device, const Swapchain& swapchain);
-    /// No frame is under way.
+    /// No frame is in flight.
     ~ImguiLayer();
 
     void handle(const SDL_Event& event);
-    /// What the panel wants of the keys and the mouse, as far as the last frame tells.
+    /// Return the keys and mouse events that the panel captures, as of the last frame.
     FlyControls::Kept kept() const;
 
-    /// Between these two the panel is built.
+    /// Build the panel between beginFrame and endFrame.
     void beginFrame();
     void endFrame();
 
-    /// Draw what endFrame left over an image of the window: Swapchain::overlayPass.
+    /// Draw the result of endFrame over an image of the window: Swapchain::overlayPass.
     void record(VkCommandBuffer commands, const Swapchain& swapchain, uint32_t image) const;
 
 private:
@@ -36,7 +36,7 @@ private:
 
     const gpu::Device& device_;
     gpu::UniqueDescriptorPool descriptors_;
-    bool on_window_ = false; ///< its halves, as far as they have begun
+    bool on_window_ = false; ///< true once the window backend is initialized; on_device_: the Vulkan backend
     bool on_device_ = false;
 };
 

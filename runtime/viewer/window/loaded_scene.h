@@ -1,4 +1,4 @@
-// A pack on the device, and what brings its pages there.
+// Pack on the device, with its stream and page loader.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -17,7 +17,7 @@ class LoadedScene
 public:
     /// pack             outlives the scene
     /// geometry_budget  bytes; 0: all geometry is resident
-    /// errors: those of gpu::Renderer::upload.
+    /// errors: same as gpu::Renderer::upload.
     static Result<std::unique_ptr<LoadedScene>> load(VulkanHost& host, gpu::Renderer& renderer,
                                                      const formats::PackView& pack, uint64_t geometry_budget,
                                                      const gpu::ShadowOptions& shadows);
@@ -25,7 +25,7 @@ public:
     gpu::Scene& scene() { return *scene_; }
     const gpu::Scene& scene() const { return *scene_; }
     const gpu::CullStatisticsPass& statistics() const { return *statistics_; }
-    uint64_t geometryBudget() const { return geometry_budget_; } ///< as it was asked for
+    uint64_t geometryBudget() const { return geometry_budget_; } ///< as requested
     VkDeviceSize bytes() const;                                  ///< on the device
 
 private:
@@ -34,7 +34,8 @@ private:
     uint64_t geometry_budget_ = 0;
     std::unique_ptr<gpu::Scene> scene_;
     std::optional<gpu::CullStatisticsPass> statistics_;
-    std::unique_ptr<PageLoader> loader_; ///< ends before the scene: it writes to the scene's memory
+    /// destroyed before the scene, since it writes to the scene's memory
+    std::unique_ptr<PageLoader> loader_;
 };
 
 } // namespace hearth::viewer

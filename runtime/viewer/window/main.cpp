@@ -14,7 +14,7 @@ namespace hearth::viewer
 namespace
 {
 
-/// Seconds since it was last asked, 0 the first time.
+/// Returns the seconds since the last call, 0 the first time.
 class StepClock
 {
 public:
@@ -30,10 +30,10 @@ private:
     std::optional<std::chrono::steady_clock::time_point> last_;
 };
 
-/// The picture with all the geometry that it wants.
+/// Save a frame with all the geometry that it needs.
 Status takeScreenshot(Viewer& viewer, const std::string& file)
 {
-    constexpr uint64_t kMostFrames = 10000; // what does not come to rest in minutes never does
+    constexpr uint64_t kMostFrames = 10000; // a scene that has not settled after minutes never does
     const uint64_t first = viewer.serial() + 1;
     while (viewer.isOpen() && !viewer.settledSince(first) && viewer.serial() < first + kMostFrames)
         HEARTH_TRY(viewer.step(0));

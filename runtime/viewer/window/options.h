@@ -1,4 +1,4 @@
-// The command line of hearth-view.
+// Command line of hearth-view.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,12 +10,12 @@ namespace hearth::viewer
 
 struct ViewOptions : DrawOptions
 {
-    AnimationSettings animation; ///< it plays, or stands still at the time that is given
+    AnimationSettings animation; ///< plays, or stands still at the given time
     uint32_t frames = 0;         ///< 0: until the window is closed
-    std::string screenshot;      ///< of the last frame; empty: none
+    std::string screenshot;      ///< file for the last frame; empty: none
 };
 
-/// The text of --help.
+/// Return the text of --help.
 std::string viewHelp();
 
 /// errors: usage, naming the argument.

@@ -1,4 +1,4 @@
-// Reads pages beside the frames, on a thread of its own.
+// Asynchronous page reads on a thread of their own.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -14,11 +14,11 @@
 namespace hearth::viewer
 {
 
-/// For one stream, which outlives it: once it is gone, all reads have ended or never will.
+/// Loader for one stream, which outlives it. After its destruction all reads have ended or are cancelled.
 class PageLoader
 {
 public:
-    /// Decodes a page into memory of its size; false where it cannot be read. Called on the loader's thread.
+    /// Decodes a page into memory of its size; false if it cannot be read. Called on the loader's thread.
     using Decode = std::function<bool(uint32_t page, std::span<std::byte> destination)>;
 
     explicit PageLoader(Decode decode);
@@ -26,7 +26,7 @@ public:
     PageLoader(const PageLoader&) = delete;
     PageLoader& operator=(const PageLoader&) = delete;
 
-    /// Refers to the loader.
+    /// The reader refers to the loader.
     pack::PageReader reader();
 
 private:
@@ -41,9 +41,9 @@ private:
     Decode decode_;
     std::mutex mutex_;
     std::condition_variable changed_;
-    std::deque<Read> waiting_; ///< in the order in which they were asked for
+    std::deque<Read> waiting_; ///< in request order
     bool ending_ = false;
-    std::thread thread_; ///< last: it starts with everything else in place
+    std::thread thread_; ///< last member: starts after everything else is initialized
 };
 
 } // namespace hearth::viewer

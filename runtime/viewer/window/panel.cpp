@@ -18,7 +18,7 @@ double mib(uint64_t bytes)
     return static_cast<double>(bytes) / static_cast<double>(kMib);
 }
 
-/// Choose one of several named values.
+/// Show a choice between named values.
 template <typename T>
 void chooseNamed(const char* label, std::span<const Named<T>> choices, T& value)
 {
@@ -213,7 +213,7 @@ void Panel::buildCurve(FrameSettings& settings)
         {
             curve_.erase(curve_.begin() + static_cast<ptrdiff_t>(i));
             changed = true;
-            break; // the rest of the rows stands there again in the next frame
+            break; // the other rows appear again in the next frame
         }
     }
     if (curve_.size() < shared::kMaxLodKnots && ImGui::SmallButton("add a knot"))
@@ -242,7 +242,7 @@ void Panel::buildStreaming(ViewSettings& settings, const PanelFacts& facts)
     {
         ImGui::SliderInt("Budget", &budget_mib_, 1, largest_budget_mib_, "%d MiB",
                          ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
-        // the scene is loaded anew: once, and not for every pixel that the slider is dragged
+        // the scene is reloaded, so once per drag and not for every pixel of it
         changed |= ImGui::IsItemDeactivatedAfterEdit();
     }
     if (changed)

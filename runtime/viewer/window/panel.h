@@ -1,4 +1,4 @@
-// What can be set and read on the window.
+// Settings and statistics panel of the window.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,7 +11,7 @@
 namespace hearth::viewer
 {
 
-/// What a person sets. Whoever draws the frames acts on it.
+/// Settings of the panel; the frame loop applies them.
 struct ViewSettings
 {
     FrameSettings frame;
@@ -19,8 +19,8 @@ struct ViewSettings
     uint64_t geometry_budget = 0; ///< bytes; 0: all geometry is resident
     bool count_culling = false;
     bool panel = true;
-    std::optional<size_t> camera{}; ///< go to this one of PanelFacts::cameras
-    std::optional<size_t> asset{};  ///< look at this one of PanelFacts::assets; none: at the whole scene
+    std::optional<size_t> camera{}; ///< request: go to this one of PanelFacts::cameras
+    std::optional<size_t> asset{};  ///< this one of PanelFacts::assets; none: the whole scene
 };
 
 struct NamedCamera
@@ -29,12 +29,12 @@ struct NamedCamera
     shared::Camera camera;
 };
 
-/// What the panel tells.
+/// Values that the panel displays.
 struct PanelFacts
 {
     const std::string& device;
     VkExtent2D extent;
-    double frame_seconds; ///< from one picture to the next
+    double frame_seconds; ///< from one frame to the next
     const FrameFigures& figures;
     const LoadedScene& scene;
     VkDeviceSize target_bytes;
@@ -42,18 +42,18 @@ struct PanelFacts
     std::span<const NamedCamera> cameras;
     std::span<const AssetView> assets;
     const Playback& playback;
-    std::span<const std::string> clips; ///< what people call the animations of the pack
-    const std::string& problem;         ///< why the last budget was not taken; or empty
+    std::span<const std::string> clips; ///< names of the pack's animations
+    const std::string& problem;         ///< reason why the last budget was rejected; or empty
 };
 
 class Panel
 {
 public:
-    /// settings        where the panel starts
+    /// settings        initial settings
     /// geometry_bytes  of the whole pack, which sets the range of budgets
     Panel(const ViewSettings& settings, uint64_t geometry_bytes);
 
-    /// Within a frame of ImguiLayer. What is set is valid.
+    /// Build within a frame of ImguiLayer. The resulting settings are valid.
     void build(ViewSettings& settings, const PanelFacts& facts);
 
 private:
@@ -63,9 +63,9 @@ private:
     void buildCulling(ViewSettings& settings, const PanelFacts& facts);
 
     int largest_budget_mib_;
-    bool streamed_; ///< as it stands on the panel
+    bool streamed_; ///< state of the panel's checkbox
     int budget_mib_;
-    std::vector<shared::LodKnot> curve_; ///< as it is being edited, perhaps not one that can be drawn
+    std::vector<shared::LodKnot> curve_; ///< being edited, perhaps invalid
     std::string curve_problem_;
 };
 

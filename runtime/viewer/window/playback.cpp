@@ -11,7 +11,7 @@ namespace hearth::viewer
 namespace
 {
 
-/// Into [0, duration), or into [0, duration] where it does not loop.
+/// Wrap into [0, duration), or clamp to [0, duration] if the clip does not loop.
 double withinClip(double seconds, double duration, bool loop)
 {
     if (!loop || duration <= 0)

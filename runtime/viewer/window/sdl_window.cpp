@@ -19,7 +19,7 @@ Error windowError(const char* what)
     return {Issue::device, "", "", std::string("cannot ") + what + ": " + SDL_GetError()};
 }
 
-/// Sends stderr to nowhere while it lives.
+/// Redirects stderr to /dev/null while it lives.
 class SilentStderr
 {
 public:
@@ -43,7 +43,7 @@ private:
     int stderr_;
 };
 
-/// The displays that the environment names: "DISPLAY=:0".
+/// Format the display variables of the environment: "DISPLAY=:0".
 std::string namedDisplays()
 {
     std::string list;
@@ -66,12 +66,12 @@ Error noDisplay(const std::string& reason)
 Status openDisplay()
 {
     {
-        // libraries of each display that SDL tries write there; what SDL says of them is enough
+        // libraries of each display that SDL tries write to stderr; the error of SDL is enough
         const SilentStderr silent;
         if (SDL_Init(SDL_INIT_VIDEO) != 0)
             return noDisplay(SDL_GetError());
     }
-    // SDL takes these where there is no other; nobody sees what they show
+    // SDL falls back to these drivers, which show nothing
     const std::string_view driver = SDL_GetCurrentVideoDriver();
     if (driver == "offscreen" || driver == "dummy")
         return noDisplay("video driver " + std::string(driver));

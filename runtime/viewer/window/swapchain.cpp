@@ -11,7 +11,7 @@ using gpu::vulkanError;
 namespace
 {
 
-// drawn to by copies and by the panel, and read for screenshots
+// copies and the panel draw to it; screenshots read it
 constexpr VkImageUsageFlags kUsage =
     VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
 
@@ -23,7 +23,7 @@ VkSurfaceCapabilitiesKHR capabilitiesOf(const VulkanHost& host, const WindowTabl
     return surface;
 }
 
-/// The window's own size, or the wanted one where it takes ours.
+/// Return the window's own size, or the wanted size if the surface accepts any.
 VkExtent2D sizeOf(const VkSurfaceCapabilitiesKHR& surface, VkExtent2D wanted)
 {
     constexpr uint32_t kAny = 0xffffffff;
@@ -132,7 +132,7 @@ Status Swapchain::resize(VkExtent2D wanted)
 
 Status Swapchain::createSwapchain(const VkSurfaceCapabilitiesKHR& surface)
 {
-    // one image more than the system holds back, so that there is always one to draw to
+    // one image more than the system holds back, so that one is always available
     const uint32_t count = surface.minImageCount + 1;
     VkSwapchainCreateInfoKHR info{};
     info.sType = VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR;
@@ -148,8 +148,8 @@ Status Swapchain::createSwapchain(const VkSurfaceCapabilitiesKHR& surface)
     info.compositeAlpha = (surface.supportedCompositeAlpha & VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR) != 0
                               ? VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR
                               : VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
-    info.presentMode = VK_PRESENT_MODE_FIFO_KHR; // the one that every device has
-    info.clipped = VK_FALSE;                     // screenshots want all pixels
+    info.presentMode = VK_PRESENT_MODE_FIFO_KHR; // the only mode that every device has
+    info.clipped = VK_FALSE;                     // screenshots need all pixels
     info.oldSwapchain = swapchain_;
     VkSwapchainKHR swapchain = VK_NULL_HANDLE;
     const VkResult result = vk_.vkCreateSwapchainKHR(device_.handle, &info, nullptr, &swapchain);
@@ -210,7 +210,7 @@ Result<std::optional<uint32_t>> Swapchain::acquire(VkSemaphore available)
         vk_.vkAcquireNextImageKHR(device_.handle, swapchain_, UINT64_MAX, available, VK_NULL_HANDLE, &image);
     if (result == VK_ERROR_OUT_OF_DATE_KHR)
         return std::optional<uint32_t>();
-    // an image that no longer fits well is drawn all the same: its semaphore is on its way
+    // an image that no longer fits well is drawn all the same: its semaphore will be signalled
     if (result != VK_SUBOPTIMAL_KHR)
         HEARTH_TRY_VK(result, "get the next image of the window");
     return std::optional<uint32_t>(image);

@@ -1,4 +1,4 @@
-// The images that a window shows one after the other.
+// Swapchain: the images that a window shows in turn.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,31 +13,31 @@ namespace hearth::viewer
 class Swapchain
 {
 public:
-    /// Without images: resize makes them. The arguments outlive it.
-    /// errors: device, where the window cannot show a picture of the renderer; device_failed.
+    /// Create without images: resize makes them. The arguments outlive it. errors: device if the window
+    /// cannot show frames of the renderer; device_failed.
     static Result<std::unique_ptr<Swapchain>> create(const VulkanHost& host, const gpu::Device& device,
                                                      const WindowTable& vk);
     ~Swapchain();
 
-    /// Images of the size of the window, in place of those before. No frame is under way.
-    /// wanted  pixels; counts where the window system leaves the size to us
+    /// Recreate the images at the size of the window. No frame is in flight.
+    /// wanted  pixels; used if the window system leaves the size to the application
     /// errors: device_failed.
     Status resize(VkExtent2D wanted);
 
     /// 0 x 0: the window has no area, and there are no images.
     VkExtent2D extent() const { return extent_; }
-    VkFormat format() const { return format_.format; } ///< eight bits a channel, sRGB
+    VkFormat format() const { return format_.format; } ///< 8 bits per channel, sRGB
 
-    /// The next image; none where the window has changed and wants resize. errors: device_failed.
+    /// Acquire the next image; none if the window has changed and needs resize. errors: device_failed.
     Result<std::optional<uint32_t>> acquire(VkSemaphore available);
-    /// Show the image when drawn(image) is signalled. False: the window has changed and wants resize.
+    /// Present the image when drawn(image) is signalled. False if the window has changed and needs resize.
     Result<bool> present(uint32_t image);
 
     VkImage image(uint32_t index) const { return images_[index].image; }
     VkSemaphore drawn(uint32_t index) const { return images_[index].drawn; }
 
-    /// A render pass that draws over an image: takes it in TRANSFER_DST_OPTIMAL behind a transfer, and leaves it in
-    /// TRANSFER_SRC_OPTIMAL, visible to transfers.
+    /// Render pass that draws over an image: expects it in TRANSFER_DST_OPTIMAL after a transfer, and leaves
+    /// it in TRANSFER_SRC_OPTIMAL, visible to transfers.
     VkRenderPass overlayPass() const { return overlay_pass_.get(); }
     VkFramebuffer overlay(uint32_t index) const { return images_[index].framebuffer.get(); }
 

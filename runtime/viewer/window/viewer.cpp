@@ -16,10 +16,10 @@ namespace hearth::viewer
 namespace
 {
 
-constexpr double kLongestStep = 0.1; // seconds: whoever waited longer does not want to be far away afterwards
+constexpr double kLongestStep = 0.1; // seconds: limits the jump after a long pause
 
-/// Metres a second that bring the eye to most of what is there in a few seconds: a quarter of the median distance of the
-/// instances. Their box would count a sky that is one of them.
+/// Fly speed in metres per second that reaches most of the scene in a few seconds: a quarter of the median
+/// distance of the instances. Their bounds would include a sky dome.
 float flySpeed(const formats::PackView& pack, Float3 eye)
 {
     std::vector<float> distances;
@@ -57,7 +57,7 @@ std::vector<std::string> clipNames(const formats::PackView& pack)
     return names;
 }
 
-/// The clip plays from its start, unless the command line names a moment of it.
+/// The clip plays from its start, unless the command line sets a time.
 PlaybackSettings playbackSettings(const AnimationSettings& options, const Playback& playback)
 {
     PlaybackSettings settings;
@@ -67,7 +67,7 @@ PlaybackSettings playbackSettings(const AnimationSettings& options, const Playba
     return settings;
 }
 
-/// For flights between these cameras.
+/// Fit the shadow options to flights between these cameras.
 gpu::ShadowOptions shadowsOf(const ShadowSettings& settings, const formats::PackView& pack,
                              std::span<const NamedCamera> named)
 {
@@ -144,7 +144,7 @@ Status Viewer::open(const ViewOptions& options)
 Viewer::~Viewer()
 {
     if (frames_ != nullptr)
-        (void)frames_->waitForAll(); // a lost device has nothing under way
+        (void)frames_->waitForAll(); // a lost device has nothing in flight
 }
 
 Result<bool> Viewer::step(double seconds)
@@ -199,7 +199,7 @@ void Viewer::handle(const SDL_Event& event)
     }
 }
 
-/// The keys of README.md that do not fly.
+/// Handle the keys of README.md that do not fly.
 void Viewer::pressed(int32_t key)
 {
     if (key == SDLK_ESCAPE)
@@ -223,7 +223,7 @@ void Viewer::pressed(int32_t key)
     }
 }
 
-/// What the settings ask for and a frame cannot do.
+/// Apply the settings that are no part of a frame: camera, asset, and the budget, which reloads the scene.
 Status Viewer::followSettings()
 {
     if (settings_.camera)
@@ -232,7 +232,7 @@ Status Viewer::followSettings()
     lookAtAsset();
     if (settings_.geometry_budget == scene_->geometryBudget())
         return success();
-    // the scene that is there stays until the new one is
+    // the present scene stays until the new one is ready
     Result<std::unique_ptr<LoadedScene>> scene =
         LoadedScene::load(*host_, *renderer_, pack_, settings_.geometry_budget, shadows_);
     problem_ = scene.ok() ? "" : formatMessage(scene.error());
@@ -248,7 +248,7 @@ Status Viewer::followSettings()
     return success();
 }
 
-/// Go to another asset, or to the whole scene, where that was chosen; fly as fast as suits its size.
+/// Go to the chosen asset, or to the whole scene, and set a fly speed that suits its size.
 void Viewer::lookAtAsset()
 {
     if (asset_ == settings_.asset)
@@ -260,7 +260,7 @@ void Viewer::lookAtAsset()
     camera_ = FlyCamera(camera, speed);
 }
 
-/// What moves and poses the next frame has: those of the clip, of what is shown.
+/// Compute the moves and poses of the next frame, for the clip and the shown asset.
 Status Viewer::poseScene()
 {
     playback_.pose(player_);

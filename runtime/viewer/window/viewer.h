@@ -1,4 +1,4 @@
-// hearth-view without its command line: a window on a pack. README.md has the keys.
+// hearth-view without its command line: a window that shows a pack. README.md lists the keys.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,29 +9,29 @@
 namespace hearth::viewer
 {
 
-/// One at a time in a process. The window, the panel and the files are its own; events come from SDL's queue.
+/// One at a time per process. Owns the window and the panel, writes the files; events come from SDL's queue.
 class Viewer
 {
 public:
     /// pack  outlives the viewer
-    /// errors: device; those of findClip, chooseCamera and gpu::Renderer::upload.
+    /// errors: device; errors of findClip, chooseCamera and gpu::Renderer::upload.
     static Result<std::unique_ptr<Viewer>> create(const ViewOptions& options, const formats::PackView& pack);
-    /// Waits for the frames.
+    /// Wait for the frames.
     ~Viewer();
 
-    /// Until somebody closes it.
+    /// True until somebody closes the window.
     bool isOpen() const { return open_; }
 
-    /// Take the events that have come, fly for so many seconds (at most a tenth), let clips play, and show a picture. False where the window
-    /// shows none now: it is minimized, or has just changed.
-    /// errors: device_failed.
+    /// Handle pending events, fly for a time step (at most a tenth of a second), advance clips, and show a
+    /// frame. False if the window shows none now: it is minimized, or has just changed. errors:
+    /// device_failed.
     Result<bool> step(double seconds);
 
-    /// Take no events, draw what the window shows without the panel, and write it as PNG. False where the window shows nothing
-    /// now. errors: cannot_write, device_failed.
+    /// Handle no events, draw the frame without the panel, and write it as PNG. False if the window shows
+    /// nothing now. errors: cannot_write, device_failed.
     Result<bool> saveScreenshot(const std::string& file);
 
-    /// Whether a frame from this serial on had all the geometry that it wanted, and could get.
+    /// True if a frame from this serial on had all the geometry that it needed and could get.
     bool settledSince(uint64_t serial) const;
     uint64_t serial() const { return frames_->serial(); } ///< of the last frame
 
@@ -67,12 +67,12 @@ private:
     Playback playback_;
     pack::PosePlayer player_;
     FramePose pose_;
-    std::vector<NamedCamera>
-        cameras_; ///< where it can go; the first is where it started, the second has all in view
+    /// Cameras to go to; the first is the start camera, the second shows the whole scene.
+    std::vector<NamedCamera> cameras_;
     AssetViews assets_;
-    std::optional<size_t> asset_;                ///< of assets_ that is looked at
+    std::optional<size_t> asset_;                ///< selected one of assets_
     std::vector<gpu::InstanceMove> moves_;       ///< of the next frame
-    std::span<const gpu::InstancePose> poses_{}; ///< the same
+    std::span<const gpu::InstancePose> poses_{}; ///< of the next frame
     gpu::ShadowOptions shadows_;
     std::vector<gpu::ShadowSphere> shadow_spheres_;
     std::string problem_; ///< with the budget
@@ -81,7 +81,7 @@ private:
     bool resized_ = true;
     double frame_seconds_ = 0;
 
-    // each needs those before it
+    // each needs the ones before it
     std::unique_ptr<SdlWindow> window_;
     std::unique_ptr<VulkanHost> host_;
     std::unique_ptr<gpu::Renderer> renderer_;

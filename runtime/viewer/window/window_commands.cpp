@@ -43,7 +43,7 @@ void recordPicture(const gpu::Device& device, const WindowTable& vk, VkCommandBu
                    const gpu::FrameTargets& targets, VkImage window)
 {
     transition(device, commands, window, {kTransfer, 0, VK_IMAGE_LAYOUT_UNDEFINED}, kWritten);
-    // texel by texel: a blit orders the channels as the window has them, which a copy would not
+    // texel by texel: a blit converts the order of channels to the window's, which a copy would not
     const VkExtent2D extent = targets.extent();
     const VkOffset3D corner{static_cast<int32_t>(extent.width), static_cast<int32_t>(extent.height), 1};
     const VkImageSubresourceLayers color{VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};

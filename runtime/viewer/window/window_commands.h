@@ -1,4 +1,4 @@
-// The commands that bring a picture to an image of the window.
+// Commands that copy a frame to an image of the window.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -8,19 +8,20 @@
 namespace hearth::viewer
 {
 
-/// Copy the picture of a frame, of the window's size, to an image of the window, whatever was there. Leaves that in
-/// TRANSFER_DST_OPTIMAL. Waits for the image in the transfer stage.
+/// Copy a frame of the window's size to an image of the window, whose old content is lost. Leaves the image
+/// in TRANSFER_DST_OPTIMAL. Waits for the image in the transfer stage.
 void recordPicture(const gpu::Device& device, const WindowTable& vk, VkCommandBuffer commands,
                    const gpu::FrameTargets& targets, VkImage window);
 
-/// From TRANSFER_DST_OPTIMAL behind a transfer to TRANSFER_SRC_OPTIMAL, as Swapchain::overlayPass does.
+/// Transition from TRANSFER_DST_OPTIMAL after a transfer to TRANSFER_SRC_OPTIMAL, as Swapchain::overlayPass
+/// does.
 void recordWithoutOverlay(const gpu::Device& device, VkCommandBuffer commands, VkImage window);
 
-/// Copy an image in TRANSFER_SRC_OPTIMAL to memory that the host reads.
+/// Copy an image in TRANSFER_SRC_OPTIMAL to host-visible memory.
 void recordReadback(const gpu::Device& device, const WindowTable& vk, VkCommandBuffer commands,
                     VkImage window, VkExtent2D extent, const gpu::Buffer& target);
 
-/// From TRANSFER_SRC_OPTIMAL to what can be presented.
+/// Transition from TRANSFER_SRC_OPTIMAL to the present layout.
 void recordPresentable(const gpu::Device& device, VkCommandBuffer commands, VkImage window);
 
 } // namespace hearth::viewer

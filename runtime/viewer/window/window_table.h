@@ -1,4 +1,4 @@
-// The Vulkan entry points that a window needs beside those of the renderer.
+// Vulkan entry points that a window needs beside those of the renderer.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -41,7 +41,7 @@ struct WindowTable
 #undef HEARTH_MEMBER
 };
 
-/// Of a device with VK_KHR_swapchain. errors: device, where an entry point is missing.
+/// Load from a device with VK_KHR_swapchain. errors: device if an entry point is missing.
 Result<WindowTable> loadWindowTable(const gpu::DeviceDescription& device);
 
 } // namespace hearth::viewer

@@ -13,8 +13,8 @@ using formats::kNone;
 namespace
 {
 
-// An accessor without a buffer view costs the file nothing, so the sum over all that are read is limited. Sparse
-// morph targets use them: this is enough for 100 targets of 100 000 vertices.
+// Limit on the total of zero-filled accessors: an accessor without a buffer view costs the file nothing.
+// Sparse morph targets use them: this is enough for 100 targets of 100 000 vertices.
 constexpr uint64_t kMaxZeroBytes = uint64_t{128} << 20;
 
 uint32_t columnCount(ElementType type)
@@ -80,7 +80,7 @@ uint32_t loadUnsigned(const std::byte* from, ComponentType component)
     return load<uint32_t>(from);
 }
 
-/// Call visit(pointer) for every component of `count` elements that lie without gaps between them.
+/// Call visit(pointer) for every component of `count` contiguous elements.
 template <typename Visit>
 void forEachComponent(const std::vector<std::byte>& elements, const GltfAccessor& accessor, Visit visit)
 {
@@ -168,7 +168,7 @@ Result<std::vector<std::byte>> GltfAccessors::elements(uint32_t index)
     std::vector<std::byte> elements(accessor.count * size);
     if (accessor.buffer_view != kNone)
     {
-        // the model has checked that the elements fit in the view, and the buffers that the view is there
+        // the model has checked that the elements fit in the view, and the buffers that the view exists
         const std::byte* from = buffers_.view(accessor.buffer_view).data() + accessor.byte_offset;
         const uint64_t view_stride = model_.buffer_views[accessor.buffer_view].byte_stride;
         const uint64_t stride = view_stride == 0 ? size : view_stride;

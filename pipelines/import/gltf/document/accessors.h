@@ -1,4 +1,4 @@
-// Reads the elements of accessors as numbers: strides, sparse replacement and normalised integers are done here.
+// Reads the elements of accessors as numbers: handles strides, sparse replacement and normalised integers.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,10 +7,10 @@
 namespace hearth::import
 {
 
-/// Bytes of one element; the columns of small matrices start at multiples of 4 bytes.
+/// Return the bytes of one element; the columns of small matrices start at multiples of 4 bytes.
 uint32_t elementSize(ComponentType component, ElementType type);
 
-/// "VEC3 of signed 16-bit integers": for messages.
+/// Return the format for messages: "VEC3 of signed 16-bit integers".
 std::string formatName(const GltfAccessor& accessor);
 
 class GltfAccessors
@@ -23,25 +23,25 @@ public:
 
     const GltfAccessor& accessor(uint32_t index) const { return model_.accessors[index]; }
 
-    /// All components, element after element. Integers that are `normalized` become -1..1 or 0..1, others keep
-    /// their value; floats are as they are, also where they are not finite.
-    /// errors: gltf_data (sparse indices), input_too_large (elements that no data stand for).
+    /// Return all components, element after element. Integers that are `normalized` become -1..1 or 0..1,
+    /// others keep their value; floats are unchanged, even if they are not finite.
+    /// errors: gltf_data (sparse indices), input_too_large (elements without data).
     Result<std::vector<float>> floats(uint32_t index);
 
-    /// All components of an accessor of unsigned integers (asserted). errors: those of floats.
+    /// Return all components of an accessor of unsigned integers (asserted). errors: those of floats.
     Result<std::vector<uint32_t>> integers(uint32_t index);
 
     Error error(uint32_t index, Issue issue, std::string detail) const;
 
 private:
-    /// The elements without gaps.
+    /// Return the elements without gaps.
     Result<std::vector<std::byte>> elements(uint32_t index);
     Status replaceSparse(uint32_t index, std::span<std::byte> elements) const;
 
     const GltfModel& model_;
     const GltfBuffers& buffers_;
     const GltfContext& context_;
-    uint64_t zero_bytes_ = 0; ///< made so far from accessors without data
+    uint64_t zero_bytes_ = 0; ///< total so far, of accessors without data
 };
 
 } // namespace hearth::import

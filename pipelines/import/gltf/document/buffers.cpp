@@ -17,14 +17,15 @@ namespace
 
 using Bytes = std::span<const std::byte>;
 
-/// A URI in a message: data URIs can be megabytes long.
+/// Truncate a URI for a message: data URIs can be megabytes long.
 std::string shortened(const std::string& uri)
 {
     constexpr size_t kMax = 80;
     return uri.size() <= kMax ? uri : uri.substr(0, kMax) + "...";
 }
 
-/// Which buffers must be there: one that only stands behind compressed views, as their fallback, may be absent.
+/// Return a flag for each buffer: true if it must exist. A buffer may be absent if only compressed views use
+/// it, as their fallback.
 std::vector<bool> findNeeded(const GltfModel& model)
 {
     std::vector<bool> needed(model.buffers.size());

@@ -1,4 +1,4 @@
-// The bytes behind a glTF file's buffer views.
+// Reads the bytes of a glTF file's buffer views.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,7 +12,7 @@
 namespace hearth::import
 {
 
-/// What the readers of a document share.
+/// Shared state of the readers of a document.
 struct GltfContext
 {
     const std::string& file; ///< the asset, as the user named it
@@ -26,28 +26,28 @@ struct GltfContext
     }
 };
 
-/// The bytes that a URI stands for: those of a data URI, or of a file in the asset's folder, which is noted as a
-/// source. errors: uri_malformed, uri_outside, input_missing, input_too_large, read_failed.
+/// Read the bytes of a data URI, or of a file in the asset's folder, which is registered as a source.
+/// errors: uri_malformed, uri_outside, input_missing, input_too_large, read_failed.
 Result<FileBytes> readUri(const std::string& uri, const std::string& where, const GltfContext& context);
 
-/// As AssetFolder::suggestionFor, where readUri has failed with the issue; empty for a data URI.
+/// Return AssetFolder::suggestionFor, after readUri has failed with the issue; empty for a data URI.
 std::string suggestionForUri(const std::string& uri, Issue issue, const GltfContext& context);
 
-/// Owns the buffers and the decompressed views. All views are decompressed when it is made, used or not.
+/// Buffers and decompressed views of a document. All views are decompressed on load, used or not.
 class GltfBuffers
 {
 public:
-    /// errors: those of readUri, buffer_missing, buffer_short, codec_failed, gltf_bounds.
-    /// source  that the container lies in; it outlives this
+    /// Load all buffers. errors: those of readUri, buffer_missing, buffer_short, codec_failed, gltf_bounds.
+    /// source  file of the container; outlives this object
     static Result<GltfBuffers> load(const GltfModel& model, const FileBytes& source,
                                     const GltfContainer& container, const GltfContext& context);
 
     std::span<const std::byte> view(uint32_t index) const { return views_[index]; }
 
-    /// Whatever lies in mapped files leaves the memory until it is looked at again.
+    /// Drop the pages of mapped files from memory until they are accessed again.
     void forget() const;
 
-    /// errors: read_failed where a file of the buffers has changed since.
+    /// Check that the files of the buffers have not changed. errors: read_failed.
     Status unchanged() const;
 
 private:

@@ -15,7 +15,7 @@ namespace
 constexpr uint32_t kGlbMagic = formats::fourCC("glTF");
 constexpr uint32_t kGlbVersion = 2;
 constexpr uint32_t kChunkJson = formats::fourCC("JSON");
-constexpr uint32_t kChunkBinary = 0x004E4942; // "BIN", zero
+constexpr uint32_t kChunkBinary = 0x004E4942; // "BIN" and a zero byte
 
 struct GlbHeader
 {
@@ -35,7 +35,7 @@ std::string_view asText(std::span<const std::byte> bytes)
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// Writers that pad with zeros instead of spaces are common enough to be let be.
+/// Remove zero padding: writers that pad with zeros instead of spaces are common enough to be tolerated.
 std::string_view withoutPadding(std::string_view json)
 {
     while (json.ends_with('\0'))
@@ -57,7 +57,7 @@ Result<GltfContainer> splitGlb(std::span<const std::byte> bytes, const std::stri
     if (header->length > bytes.size())
         return damaged(fmt::format("the file has {} bytes, but says {}", bytes.size(), header->length));
 
-    // bytes behind the stated length belong to somebody else
+    // bytes after the stated length are not part of the file
     ByteReader reader(bytes.first(header->length));
     if (!reader.skip(sizeof(GlbHeader)))
         return damaged(fmt::format("the file says that it has {} bytes", header->length));

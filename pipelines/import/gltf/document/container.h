@@ -1,4 +1,4 @@
-// The two forms of a glTF file: JSON text, and GLB with the JSON and one binary buffer in chunks.
+// Splits the two forms of a glTF file: JSON text, and GLB with the JSON and one binary buffer in chunks.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -19,7 +19,7 @@ struct GltfContainer
     std::optional<std::span<const std::byte>> binary; ///< chunk BIN of a GLB
 };
 
-/// Told apart by content. errors: glb_structure, gltf_version (of the container).
+/// Split a file; its content decides the form. errors: glb_structure, gltf_version (of the container).
 Result<GltfContainer> splitGltf(std::span<const std::byte> bytes, const std::string& file);
 
 } // namespace hearth::import

@@ -13,7 +13,7 @@ using formats::kNone;
 namespace
 {
 
-// the largest double below which every integer is exact
+// upper bound of doubles below which every integer is exact
 constexpr double kMaxExactInteger = 9007199254740992.0;
 
 } // namespace

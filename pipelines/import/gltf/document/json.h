@@ -1,4 +1,4 @@
-// Strict, typed access to the JSON of a glTF file: every property is checked where it is read.
+// Reads the JSON of a glTF file with strict types: every property is checked where it is read.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -15,8 +15,8 @@
 namespace hearth::import
 {
 
-/// Remembers the first error of a document. Readers of properties go on after it with harmless values and test
-/// once at the end, which keeps them as plain as the tables of the specification.
+/// First error of a document. Readers of properties continue after it with harmless values and test once at
+/// the end, which keeps them as plain as the tables of the specification.
 class GltfProblems
 {
 public:
@@ -54,12 +54,12 @@ struct Choice
     uint32_t value;
 };
 
-/// A JSON object of the document. Absent optional properties read as their default; wrong ones are remembered as
-/// errors and read as their default too.
+/// JSON object of the document. Absent optional properties read as their default; invalid ones are recorded
+/// as errors and read as their default too.
 class GltfObject
 {
 public:
-    /// errors: gltf_structure where `json` is not an object.
+    /// Wrap a JSON value. errors: gltf_structure if `json` is not an object.
     GltfObject(const Json& json, GltfProblems& problems);
 
     const Json& json() const { return json_; }
@@ -67,20 +67,22 @@ public:
 
     bool has(std::string_view name) const { return find(name).has_value(); }
 
-    /// An integer below `size` ("24.0" is one, "0.5", "\"24\"", null and -1 are not), or kNone where it is absent.
+    /// Return an integer below `size` ("24.0" is one, "0.5", "\"24\"", null and -1 are not), or kNone if it
+    /// is absent.
     /// errors: gltf_structure, gltf_reference.
     uint32_t index(std::string_view name, size_t size, Need need = Need::optional) const;
 
-    /// The elements of an array of such integers.
+    /// Return the elements of an array of such integers.
     std::vector<uint32_t> indices(std::string_view name, size_t size, Need need = Need::optional) const;
 
-    /// errors: gltf_structure, gltf_value outside the range.
+    /// Return an integer in the range. errors: gltf_structure, gltf_value (outside the range).
     uint64_t integer(std::string_view name, IntegerRange range, std::optional<uint64_t> fallback) const;
 
-    /// A number that a float can hold. Without a fallback it must be there.
+    /// Return a number in the range of floats. Without a fallback it must be present.
     float number(std::string_view name, std::optional<float> fallback) const;
 
-    /// A number in [min, max]; one outside is moved inside with a warning, as exporters are careless with factors.
+    /// Return a number in [min, max]; an outside one is clamped with a warning, as exporters are careless
+    /// with factors.
     float factor(std::string_view name, float fallback, float min, float max) const;
 
     template <size_t N>
@@ -91,22 +93,22 @@ public:
         return values;
     }
 
-    /// An array of numbers of any length; empty where it is absent.
+    /// Return an array of numbers of any length; empty if it is absent.
     std::vector<float> numberList(std::string_view name) const;
 
     bool boolean(std::string_view name, bool fallback) const;
     std::string text(std::string_view name, Need need = Need::optional) const;
 
-    /// A string that is one of `choices`, as its value. errors: gltf_value where it is another.
+    /// Return the value of a string among `choices`. errors: gltf_value for other strings.
     uint32_t choice(std::string_view name, std::span<const Choice> choices,
                     std::optional<uint32_t> fallback) const;
 
     std::optional<GltfObject> object(std::string_view name, Need need = Need::optional) const;
 
-    /// The elements of an array, each an object.
+    /// Return the elements of an array, each an object.
     std::vector<GltfObject> objects(std::string_view name, Need need = Need::optional) const;
 
-    /// Object `name` of this object's "extensions".
+    /// Return object `name` of this object's "extensions".
     std::optional<GltfObject> extension(std::string_view name) const;
 
 private:

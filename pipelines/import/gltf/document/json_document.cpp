@@ -12,16 +12,17 @@ namespace hearth::import
 namespace
 {
 
-// glTF itself needs about 10 levels; the rest is room for extras
+// glTF itself needs about 10 levels; the rest is for extras
 constexpr size_t kMaxDepth = 128;
 
-// A value takes at least two bytes of text and 44 here; 2^24 values (a scene of a million nodes) are 0.7 GB at most.
+// Limit of values: each takes at least two bytes of text and 44 here; 2^24 values (a scene of a million
+// nodes) are 0.7 GB at most.
 constexpr size_t kMaxValues = size_t{1} << 24;
 constexpr size_t kMaxTextBytes = size_t{1} << 30;
 
 } // namespace
 
-/// Receives the parser's events and grows the document.
+/// Receives the parser's events and builds the document.
 class JsonBuilder final : public JsonEvents
 {
 public:
@@ -58,7 +59,8 @@ public:
         return true;
     }
 
-    /// position  bytes that had been read when the text turned out to be no JSON
+    /// Return the error for a text that is not JSON.
+    /// position  number of bytes read when the parser failed
     Error syntaxError(size_t position) const
     {
         const size_t at = std::min(position, source_.size());
@@ -142,7 +144,7 @@ private:
     const std::string& file_;
     JsonDocument::Text key_;
     std::vector<OpenContainer> open_;
-    std::vector<uint32_t> pending_; ///< children of the open containers that are already known
+    std::vector<uint32_t> pending_; ///< known children of the open containers
     std::optional<Error> error_;
 };
 

@@ -1,4 +1,4 @@
-// A JSON text as a flat table of values that know their place, so that a message can name it.
+// Parses a JSON text into a flat table of values that know their JSON pointer, for messages.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -23,12 +23,12 @@ enum class JsonType : uint8_t
     object,
 };
 
-/// "a string", "an object": for messages.
+/// Return the name of a type for messages: "a string", "an object".
 std::string_view jsonTypeName(JsonType type);
 
 class JsonDocument;
 
-/// One value of a document, valid as long as the document stays where it is. Cheap to copy.
+/// One value of a document, valid as long as the document is not moved or destroyed. Cheap to copy.
 class Json
 {
 public:
@@ -46,10 +46,10 @@ public:
 
     size_t size() const;             ///< elements of an array or members of an object, else 0
     Json operator[](size_t i) const; ///< element or member i < size() (asserted)
-    std::string_view key() const;    ///< name of this member; empty where it is none
+    std::string_view key() const;    ///< name of this member; empty if this is no member
     std::optional<Json> find(std::string_view name) const; ///< member of an object; the last of equal names
 
-    /// RFC 6901: "/meshes/0/primitives/1"; empty for the whole document.
+    /// Return the JSON pointer (RFC 6901): "/meshes/0/primitives/1"; empty for the whole document.
     std::string pointer() const;
 
 private:
@@ -61,7 +61,7 @@ class JsonDocument
 {
 public:
     /// Parse strictly (RFC 8259, UTF-8), except that equal names in an object are tolerated.
-    /// `file` stands in messages. errors: json_syntax (also for more than 128 levels), input_too_large.
+    /// `file` is used in messages. errors: json_syntax (also for more than 128 levels), input_too_large.
     static Result<JsonDocument> parse(std::string_view text, const std::string& file);
 
     Json root() const { return {*this, 0}; }
@@ -76,7 +76,8 @@ private:
         uint32_t length = 0;
     };
 
-    /// `content` holds the number, or for a string its Text, or for a container a range of children_.
+    /// Value of the table. `content` is the number, or for a string its Text, or for a container a range of
+    /// children_.
     struct Value
     {
         JsonType type = JsonType::null;

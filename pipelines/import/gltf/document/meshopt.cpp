@@ -10,12 +10,12 @@ namespace hearth::import
 namespace
 {
 
-// The densest data (all bytes equal) still cost 2 bits for 16 bytes: no decoder output is more than 64 times its
-// input, beside one block. What claims more is refused before memory is asked for.
+// Limit of the compression ratio. The densest data (all bytes equal) still cost 2 bits for 16 bytes: decoder
+// output is at most 64 times its input, plus one block. Larger claims are refused before memory is allocated.
 constexpr uint64_t kMaxRatio = 64;
 constexpr uint64_t kBlockBytes = 8192;
 
-/// What the library takes for granted; nothing where all of it holds.
+/// Check the preconditions of the library. Return a description of the first violation, or nullopt.
 std::optional<std::string> broken(const GltfMeshopt& view)
 {
     const uint64_t stride = view.byte_stride;

@@ -1,4 +1,4 @@
-// EXT_meshopt_compression: buffer views compressed by meshoptimizer.
+// Decodes EXT_meshopt_compression: buffer views compressed by meshoptimizer.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,8 +7,8 @@
 namespace hearth::import
 {
 
-/// The count * byte_stride bytes of a compressed view. `where` is its JSON pointer.
-/// errors: gltf_value (stride, count, mode and filter that do not go together), codec_failed.
+/// Return the count * byte_stride bytes of a compressed view. `where` is its JSON pointer.
+/// errors: gltf_value (inconsistent stride, count, mode and filter), codec_failed.
 Result<std::vector<std::byte>> decodeMeshopt(const GltfMeshopt& view, std::span<const std::byte> compressed,
                                              const std::string& file, const std::string& where);
 

@@ -14,7 +14,7 @@ namespace hearth::import
 namespace
 {
 
-/// What Hearth reads, so that a file may require it.
+/// Extensions that Hearth reads, so that a file may require them.
 constexpr std::string_view kSupportedExtensions[] = {
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
@@ -42,7 +42,7 @@ struct Version
     unsigned minor = 0;
 };
 
-/// "2.0"; nothing else.
+/// Parse "2.0"; nullopt for other forms.
 std::optional<Version> parseVersion(std::string_view text)
 {
     constexpr size_t kMaxDigits = 4;
@@ -102,7 +102,7 @@ std::vector<std::string> readNames(const GltfObject& root, std::string_view list
     return names;
 }
 
-/// Add the names of all extension objects in `json` and below. The depth is limited by the JSON parser.
+/// Add the names of all extension objects in `json` and below. The JSON parser limits the depth.
 void collectExtensions(const Json& json, std::set<std::string, std::less<>>& names)
 {
     for (size_t i = 0; i < json.size(); ++i)

@@ -1,5 +1,5 @@
-// What a glTF file says, checked: every index is in range, every property has its type. No data of buffers yet.
-// Names and defaults are those of the glTF 2.0 specification; kNone stands for an absent index.
+// Contents of a glTF file, checked: every index is in range, every property has its type. Data of buffers are
+// not included. Names and defaults are those of the glTF 2.0 specification; kNone means an absent index.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -53,11 +53,11 @@ struct GltfBufferView
     uint32_t buffer = formats::kNone;
     uint64_t byte_offset = 0;
     uint64_t byte_length = 0;
-    uint64_t byte_stride = 0; ///< 0: elements follow each other
+    uint64_t byte_stride = 0; ///< 0: elements are contiguous
     std::optional<GltfMeshopt> meshopt;
 };
 
-/// The numbers are OpenGL's, as in the file.
+/// Component type, with OpenGL's numbers, as in the file.
 enum class ComponentType : uint32_t
 {
     i8 = 5120,
@@ -116,7 +116,7 @@ struct GltfTexture
     bool nearest = false;
 };
 
-/// A material's use of a texture; `texture` is none where there is none.
+/// Use of a texture by a material; `texture` is kNone if there is none.
 struct GltfTextureUse
 {
     uint32_t texture = formats::kNone;
@@ -124,7 +124,7 @@ struct GltfTextureUse
     std::array<float, 6> uv_transform{1, 0, 0, 0, 1, 0}; ///< row-major 2x3
 };
 
-/// KHR_materials_pbrSpecularGlossiness
+/// Factors and textures of KHR_materials_pbrSpecularGlossiness.
 struct GltfSpecularGlossiness
 {
     std::array<float, 4> diffuse{1, 1, 1, 1};
@@ -164,7 +164,7 @@ struct GltfAttribute
     friend auto operator<=>(const GltfAttribute&, const GltfAttribute&) = default;
 };
 
-/// In the order of their names, so that equal sets of attributes compare equal.
+/// Attributes in the order of their names, so that equal sets of attributes compare equal.
 using GltfAttributes = std::vector<GltfAttribute>;
 
 struct GltfDraco
@@ -175,7 +175,7 @@ struct GltfDraco
     friend auto operator<=>(const GltfDraco&, const GltfDraco&) = default;
 };
 
-/// OpenGL's numbers.
+/// Primitive mode, with OpenGL's numbers.
 enum class PrimitiveMode : uint32_t
 {
     points = 0,
@@ -204,7 +204,7 @@ struct GltfMesh
     std::vector<float> weights;
 };
 
-/// extras of a node: hearth_shadow_radius, hearth_shadow_light, hearth_shadow_texels.
+/// Shadow sphere from the extras of a node: hearth_shadow_radius, hearth_shadow_light, hearth_shadow_texels.
 struct GltfShadowSphere
 {
     float radius = 1;    ///< in the node's space
@@ -309,14 +309,14 @@ struct GltfModel
     std::vector<GltfAnimation> animations;
 };
 
-/// Read and check the whole document, used or not. What Hearth does not keep is warned of by name.
+/// Read and check the whole document, used or not. Unsupported contents get a warning by name.
 /// errors: gltf_structure, gltf_value, gltf_reference, gltf_version, gltf_extension, gltf_hierarchy.
 Result<GltfModel> readGltfModel(const JsonDocument& document, const std::string& file, PartBuilder& part);
 
-/// The number of components of an element: 1, 2, 3, 4, 4, 9, 16.
+/// Return the number of components of an element: 1, 2, 3, 4, 4, 9, 16.
 uint32_t componentCount(ElementType type);
 
-/// Bytes of one component.
+/// Return the bytes of one component.
 uint32_t componentSize(ComponentType type);
 
 } // namespace hearth::import

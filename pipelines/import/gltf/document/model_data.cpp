@@ -1,4 +1,4 @@
-// Buffers, buffer views and accessors: all sizes and ranges are checked here, against the declared lengths.
+// Reads buffers, buffer views and accessors, and checks all sizes and ranges against the declared lengths.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/gltf/document/accessors.h"
 #include "pipelines/import/gltf/document/model_parts.h"
@@ -13,7 +13,7 @@ using formats::kNone;
 namespace
 {
 
-// "byteStride": 4 to 252 by the specification
+// range of "byteStride" by the specification: 4 to 252
 constexpr IntegerRange kStrideRange{4, 252};
 
 constexpr Choice kMeshoptModes[] = {
@@ -37,13 +37,13 @@ constexpr Choice kElementTypes[] = {
     {"MAT4", static_cast<uint32_t>(ElementType::mat4)},
 };
 
-/// Whether [offset, offset + length) lies in [0, size), without overflow.
+/// True if [offset, offset + length) lies in [0, size), without overflow.
 bool fits(uint64_t offset, uint64_t length, uint64_t size)
 {
     return offset <= size && length <= size - offset;
 }
 
-/// Whether `count` elements of `size` bytes at distance `stride` fit, the last one without its gap.
+/// True if `count` elements of `size` bytes at distance `stride` fit, the last one without its gap.
 bool elementsFit(uint64_t offset, uint64_t count, uint64_t size, uint64_t stride, uint64_t available)
 {
     if (!fits(offset, size, available))

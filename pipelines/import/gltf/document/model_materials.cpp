@@ -1,4 +1,4 @@
-// Images, textures, samplers and materials.
+// Reads images, textures, samplers and materials.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/gltf/document/model_parts.h"
 
@@ -56,12 +56,12 @@ Sampler readSampler(const GltfObject& object)
     sampler.wrap_u = readWrap(object, "wrapS");
     sampler.wrap_v = readWrap(object, "wrapT");
     sampler.nearest = object.integer("magFilter", {kNearest, kLinear}, kLinear) == kNearest;
-    // only checked: how a minified texture is filtered is the runtime's choice
+    // only checked: the runtime chooses the filter of minified textures
     (void)object.integer("minFilter", {kNearest, 9987}, kLinear);
     return sampler;
 }
 
-/// The image of a texture: its own, or that of an extension where it has none that every reader can show.
+/// Return the image of a texture: its own, or an extension's if it has no image that every reader supports.
 uint32_t readTextureImage(const GltfObject& object, const GltfModel& model)
 {
     const uint32_t plain = object.index("source", model.images.size());
@@ -75,7 +75,7 @@ uint32_t readTextureImage(const GltfObject& object, const GltfModel& model)
     return plain != kNone ? plain : extended;
 }
 
-/// KHR_texture_transform: translation * rotation * scale, applied to (u, v, 1).
+/// Return KHR_texture_transform: translation * rotation * scale, applied to (u, v, 1).
 std::array<float, 6> readUvTransform(const GltfObject& object)
 {
     const auto offset = object.numbers<2>("offset", {0, 0});
@@ -91,7 +91,7 @@ GltfTextureUse readTextureUse(const GltfObject& object, const GltfModel& model)
 {
     GltfTextureUse use;
     use.texture = object.index("index", model.textures.size(), Need::required);
-    // a set that no mesh can have reads as the first one that is too many, and is dropped with a warning
+    // a set that no mesh can have reads as the first unsupported one, and is dropped with a warning
     use.uv_set = static_cast<uint32_t>(std::min<uint64_t>(object.integer("texCoord", {}, 0), UINT32_MAX));
     if (const auto transform = object.extension("KHR_texture_transform"))
     {

@@ -1,4 +1,4 @@
-// Meshes and their primitives.
+// Reads meshes and their primitives.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/gltf/document/model_parts.h"
 

@@ -1,4 +1,4 @@
-// Skins and animations.
+// Reads skins and animations.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/gltf/document/model_parts.h"
 
@@ -26,7 +26,7 @@ constexpr Choice kPaths[] = {
     {"weights", static_cast<uint32_t>(formats::AnimationPath::weights)},
 };
 
-/// The channel, or nothing where it moves what Hearth does not keep.
+/// Return the channel, or nullopt if it animates something that Hearth does not support.
 std::optional<GltfAnimationChannel> readChannel(const GltfObject& object, size_t sampler_count,
                                                 const GltfModel& model)
 {
@@ -46,7 +46,7 @@ std::optional<GltfAnimationChannel> readChannel(const GltfObject& object, size_t
         return std::nullopt;
     }
     channel.path = static_cast<formats::AnimationPath>(known->value);
-    // the specification lets a channel without a node be, for extensions
+    // the specification allows a channel without a node, for extensions
     return channel.node == kNone ? std::nullopt : std::optional(channel);
 }
 

@@ -1,4 +1,4 @@
-// The readers of the sections of a glTF document; each is called once by readGltfModel, in the order of this list,
+// Readers of the sections of a glTF document. readGltfModel calls each once, in the order of this list,
 // because later sections refer to the sizes of earlier ones.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
@@ -26,7 +26,8 @@ void readScenes(const GltfObject& root, GltfModel& model);
 void readSkins(const GltfObject& root, GltfModel& model);
 void readAnimations(const GltfObject& root, GltfModel& model);
 
-/// The members of object `name` as attributes in the order of their names: semantic -> index below `size`.
+/// Read the members of object `name` as attributes in the order of their names: semantic -> index below
+/// `size`.
 GltfAttributes readAttributes(const GltfObject& object, size_t size);
 
 } // namespace hearth::import

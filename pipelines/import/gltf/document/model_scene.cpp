@@ -1,4 +1,4 @@
-// Nodes, scenes, cameras and punctual lights.
+// Reads nodes, scenes, cameras and punctual lights.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/gltf/document/model_parts.h"
 
@@ -32,7 +32,7 @@ constexpr Choice kLightTypes[] = {
 
 void readPerspective(const GltfObject& object, GltfCamera& camera)
 {
-    // one tenth of a degree to almost a half turn: beyond that no picture can be made
+    // one tenth of a degree to almost a half turn: no image can be rendered beyond
     camera.y_fov_rad = object.factor("yfov", 1, 0.0017f, kPi - 0.0017f);
     camera.aspect = object.factor("aspectRatio", 0, 0, kLargest);
     camera.z_near = object.factor("znear", 0.01f, kSmallest, kLargest);
@@ -49,7 +49,7 @@ void readOrthographic(const GltfObject& object, GltfCamera& camera)
         object.problems().fail(Issue::gltf_value, object.json(), "a magnification is 0");
 }
 
-/// The rotation with length 1; exporters that round to a few digits are not worth a message.
+/// Return the rotation with length 1; exporters that round to a few digits get no warning.
 std::array<float, 4> unitRotation(const GltfObject& object, const std::array<float, 4>& rotation)
 {
     constexpr double kRounding = 1e-3;
@@ -89,7 +89,7 @@ void readTransform(const GltfObject& object, GltfNode& node)
     node.parent_from_node = transformFromTrs(node.translation, node.rotation, node.scale);
 }
 
-/// The nodes that are levels of detail; numbers that name none are left out.
+/// Return the nodes that are levels of detail; numbers of missing nodes are dropped.
 std::vector<uint32_t> readLods(const GltfObject& lod, size_t node_count)
 {
     std::vector<uint32_t> nodes;
@@ -118,11 +118,11 @@ void readNodeExtensions(const GltfObject& object, const GltfModel& model, size_t
     }
 }
 
-/// A node that stands for a shadow sphere, told by its custom properties (Blender writes them to extras).
+/// Read a shadow sphere from the custom properties of a node (Blender writes them to extras).
 void readShadowSphere(const GltfObject& object, GltfNode& node)
 {
     const std::optional<Json> json = object.json().find("extras");
-    if (!json || !json->isObject()) // anything may stand there
+    if (!json || !json->isObject()) // extras may hold anything
         return;
     const GltfObject extras(*json, object.problems());
     if (!extras.has("hearth_shadow_radius"))
@@ -142,7 +142,7 @@ void readShadowSphere(const GltfObject& object, GltfNode& node)
     node.shadow_sphere = std::move(sphere);
 }
 
-/// Give every node its parent. errors: gltf_hierarchy where a node would have two.
+/// Give every node its parent. errors: gltf_hierarchy if a node would have two.
 void linkParents(const std::vector<GltfObject>& objects, GltfModel& model)
 {
     for (uint32_t parent = 0; parent < model.nodes.size(); ++parent)
@@ -158,7 +158,7 @@ void linkParents(const std::vector<GltfObject>& objects, GltfModel& model)
         }
 }
 
-/// With one parent each, nodes that no root leads to go round in a circle.
+/// Check the hierarchy for cycles: with one parent each, nodes that no root leads to form a cycle.
 void checkForCycles(const std::vector<GltfObject>& objects, GltfModel& model)
 {
     std::vector<bool> reached(model.nodes.size());
@@ -248,7 +248,7 @@ void readNodes(const GltfObject& root, size_t skin_count, GltfModel& model)
         readShadowSphere(object, node);
         model.nodes.push_back(std::move(node));
     }
-    // a bad child index has been reported, and would lead outside the array
+    // an invalid child index has been reported, and would lead outside the array
     if (!root.problems().ok())
         return;
     linkParents(objects, model);

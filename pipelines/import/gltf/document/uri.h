@@ -1,4 +1,4 @@
-// URIs of glTF: relative paths, percent-encoded, and data URIs.
+// Decodes URIs of glTF: relative paths, percent-encoded, and data URIs.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -15,11 +15,11 @@ namespace hearth::import
 
 bool isDataUri(std::string_view uri);
 
-/// The bytes of "data:[type][;parameters];base64,...": strict base64 with its padding.
-/// Nothing where it is not that.
+/// Return the bytes of "data:[type][;parameters];base64,...": strict base64 with its padding; nullopt for
+/// anything else.
 std::optional<std::vector<std::byte>> decodeDataUri(std::string_view uri);
 
-/// Every "%41" replaced by its byte, once; nothing where a '%' is not followed by two hexadecimal digits.
+/// Replace every "%41" by its byte, once; nullopt if a '%' is not followed by two hexadecimal digits.
 std::optional<std::string> percentDecoded(std::string_view uri);
 
 } // namespace hearth::import
