@@ -60,7 +60,7 @@ void addCampGround(Document& document, const HeightGrid& grid, uint32_t texture_
                  scatterGrass(grid, 22000, kClearingRadius - 1.2f, 601));
 }
 
-struct Boulder
+struct BoulderPlacement
 {
     float x, z, scale;
 };
@@ -75,15 +75,15 @@ void addRocks(Document& document, const HeightGrid& grid, uint64_t hero_triangle
              multiply(rotationAbout({0, 1, 0}, 0.6f), rotationAbout({0, 0, 1}, 0.12f)),
              {2.5f, 1.9f, 1.9f}});
 
-    constexpr std::array kBoulders{Boulder{3.4f, -3.2f, 0.85f}, Boulder{4.6f, -4.4f, 1.3f},
-                                   Boulder{-4.8f, -1.8f, 0.8f}, Boulder{-6.2f, -4.8f, 1.5f},
-                                   Boulder{2.0f, -6.6f, 1.1f},  Boulder{6.9f, -1.4f, 0.9f},
-                                   Boulder{-3.9f, 2.6f, 0.45f}, Boulder{8.2f, -7.6f, 1.9f},
-                                   Boulder{1.2f, -3.6f, 0.32f}, Boulder{5.4f, 2.0f, 0.5f}};
+    constexpr std::array kBoulders{BoulderPlacement{3.4f, -3.2f, 0.85f}, BoulderPlacement{4.6f, -4.4f, 1.3f},
+                                   BoulderPlacement{-4.8f, -1.8f, 0.8f}, BoulderPlacement{-6.2f, -4.8f, 1.5f},
+                                   BoulderPlacement{2.0f, -6.6f, 1.1f},  BoulderPlacement{6.9f, -1.4f, 0.9f},
+                                   BoulderPlacement{-3.9f, 2.6f, 0.45f}, BoulderPlacement{8.2f, -7.6f, 1.9f},
+                                   BoulderPlacement{1.2f, -3.6f, 0.32f}, BoulderPlacement{5.4f, 2.0f, 0.5f}};
     std::vector<Placement> of_shape[2];
     for (size_t i = 0; i < kBoulders.size(); ++i)
     {
-        const Boulder& boulder = kBoulders[i];
+        const BoulderPlacement& boulder = kBoulders[i];
         const auto index = static_cast<uint32_t>(i);
         const float flat = 0.7f + 0.25f * randomUnit(index, 611);
         of_shape[i % 2].push_back({sunk(boulder.x, boulder.z, -0.45f * boulder.scale * flat),

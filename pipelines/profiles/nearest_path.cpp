@@ -104,7 +104,7 @@ private:
             const std::string tried = has_other_ending ? withEndingOf(pattern, path) : pattern;
             if (!matchesPath(tried, path))
                 continue;
-            const Cost cost{folders_changed, has_other_ending, tools::editDistance(tried, pattern_)};
+            const Cost cost{folders_changed, has_other_ending, editDistance(tried, pattern_)};
             if (cost < cost_)
             {
                 cost_ = cost;
@@ -132,7 +132,7 @@ std::optional<NearestPath> nearestPath(const std::string& pattern, std::span<con
         search.tryPath(path);
     if (!search.best().path.empty())
         return search.best();
-    const auto distance = [&](const std::string& path) { return tools::editDistance(pattern, path); };
+    const auto distance = [&](const std::string& path) { return editDistance(pattern, path); };
     return NearestPath{*std::min_element(paths.begin(), paths.end(),
                                          [&](const std::string& a, const std::string& b)
                                          { return distance(a) < distance(b); }),

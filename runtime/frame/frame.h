@@ -4,6 +4,8 @@
 #pragma once
 
 #include "formats/gpu_shared/decisions.h"
+#include "formats/records/mesh.h"
+#include "formats/records/scene.h"
 
 #include <span>
 #include <vector>

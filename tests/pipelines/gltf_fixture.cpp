@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/pipelines/gltf_fixture.h"
 
+#include "pipelines/import/source/file_bytes.h"
+
 #include <algorithm>
 #include <cstdlib>
 

@@ -6,6 +6,7 @@
 #include "formats/container/container_reader.h"
 #include "formats/records/scene.h"
 #include "pipelines/import/part/import_options.h"
+#include "pipelines/import/part/part_builder.h"
 
 #include <gtest/gtest.h>
 

@@ -177,7 +177,7 @@ float edgeLength(std::span<const Float3> positions, std::span<const uint32_t> co
 AttributeStep measureAttributes(const PreparedMesh& mesh, std::span<const uint32_t> source_corners,
                                 const AuthoredLevel& level)
 {
-    constexpr CornerWeights kMiddle{1.0f / 3, 1.0f / 3, 1.0f / 3};
+    constexpr CornerWeights kCentroid{1.0f / 3, 1.0f / 3, 1.0f / 3};
     const mesh::SourceMesh& vertices = mesh.vertices;
     const bool has_normals = !vertices.normals.empty(), has_uvs = !vertices.uvs[0].empty();
     const size_t stride = std::max<size_t>(1, source_corners.size() / 3 / kLeastMiddles);
@@ -187,7 +187,7 @@ AttributeStep measureAttributes(const PreparedMesh& mesh, std::span<const uint32
     for (size_t t = 0; t < source_corners.size(); t += 3 * stride)
     {
         const auto from = source_corners.subspan(t, 3);
-        const Float3 middle = valueAt(vertices.positions, from, kMiddle);
+        const Float3 middle = valueAt(vertices.positions, from, kCentroid);
         hint = tree.nearest(widen(middle), 0, hint).triangle;
         const auto to = std::span(level.corners).subspan(size_t{hint} * 3, 3);
         const CornerWeights weights = nearestPoint(vertices.positions, to, middle);
@@ -195,14 +195,14 @@ AttributeStep measureAttributes(const PreparedMesh& mesh, std::span<const uint32
         surface += area;
         if (has_normals)
         {
-            const Float3 away = normalizeOr(valueAt(vertices.normals, from, kMiddle), {}) -
+            const Float3 away = normalizeOr(valueAt(vertices.normals, from, kCentroid), {}) -
                                 normalizeOr(valueAt(vertices.normals, to, weights), {});
             normal2 += area * double{dot(away, away)};
         }
         if (has_uvs)
         {
             const Float2 away =
-                valueAt(vertices.uvs[0], from, kMiddle) - valueAt(vertices.uvs[0], to, weights);
+                valueAt(vertices.uvs[0], from, kCentroid) - valueAt(vertices.uvs[0], to, weights);
             texture += areaOf(vertices.uvs[0], from);
             uv2 += area * (double{away.x} * double{away.x} + double{away.y} * double{away.y});
         }

@@ -11,8 +11,6 @@
 namespace hearth::clusters
 {
 
-using AtomicFile;
-
 namespace
 {
 

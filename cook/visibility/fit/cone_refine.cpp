@@ -19,8 +19,6 @@ namespace hearth::visibility
 namespace
 {
 
-constexpr double kPi = std::numbers::pi;
-
 // Narrower cones have no visible effect on shading, and at 0 all derivatives vanish.
 constexpr double kLeastAperture = 1e-3;
 
@@ -30,9 +28,10 @@ constexpr double kFunctionTolerance = 1e-10;
 template <typename T>
 std::array<T, 9> basisOf(const T& x, const T& y, const T& z)
 {
-    const double band1 = std::sqrt(3 / (4 * kPi)), band2 = std::sqrt(15 / (4 * kPi));
-    const double zonal2 = std::sqrt(5 / (16 * kPi));
-    return {T(1 / std::sqrt(4 * kPi)),
+    const double band1 = std::sqrt(3 / (4 * std::numbers::pi)),
+                 band2 = std::sqrt(15 / (4 * std::numbers::pi));
+    const double zonal2 = std::sqrt(5 / (16 * std::numbers::pi));
+    return {T(1 / std::sqrt(4 * std::numbers::pi)),
             y * band1,
             z * band1,
             x * band1,
@@ -49,8 +48,8 @@ std::array<T, 9> coneHarmonics(const T* axis, const T& aperture, const T& scale)
 {
     using std::cos, std::sin;
     const T c = cos(aperture), s = sin(aperture);
-    const T band0 = scale * (1.0 - c) * (2 * kPi);
-    const T band1 = scale * s * s * kPi;
+    const T band0 = scale * (1.0 - c) * (2 * std::numbers::pi);
+    const T band1 = scale * s * s * std::numbers::pi;
     const T band2 = c * band1;
     std::array<T, 9> result = basisOf(axis[0], axis[1], axis[2]);
     result[0] = result[0] * band0;
@@ -86,14 +85,14 @@ double distance2(const Sh9& a, const Sh9& b)
 ConeFit descend(const Sh9& visibility, const ConeFit& start)
 {
     std::array<double, 3> axis{start.axis.x, start.axis.y, start.axis.z};
-    std::array<double, 2> shape{std::clamp(start.aperture_rad, kLeastAperture, kPi / 2),
+    std::array<double, 2> shape{std::clamp(start.aperture_rad, kLeastAperture, std::numbers::pi / 2),
                                 std::clamp(start.scale, 0.0, 1.0)};
     ceres::Problem problem;
     problem.AddResidualBlock(new ceres::AutoDiffCostFunction<Distance, 9, 3, 2>(new Distance{visibility}),
                              nullptr, axis.data(), shape.data());
     problem.SetManifold(axis.data(), new ceres::SphereManifold<3>);
     problem.SetParameterLowerBound(shape.data(), 0, kLeastAperture);
-    problem.SetParameterUpperBound(shape.data(), 0, kPi / 2);
+    problem.SetParameterUpperBound(shape.data(), 0, std::numbers::pi / 2);
     problem.SetParameterLowerBound(shape.data(), 1, 0);
     problem.SetParameterUpperBound(shape.data(), 1, 1);
     ceres::Solver::Options options;

@@ -17,8 +17,6 @@ namespace hearth::visibility
 namespace
 {
 
-constexpr double kPi = std::numbers::pi;
-
 // Share of the open hemisphere's m0; above it the closed form is the hemisphere, and nothing can be nearer.
 constexpr float kOpen = 0.9999f;
 
@@ -30,9 +28,10 @@ Sh9 harmonicsOf(const Seen& seen)
     std::array<double, 9> wide{};
     std::copy(seen.begin(), seen.end(), wide.begin());
     const auto& [m0, x, y, z, xx, yy, xy, xz, yz] = wide;
-    const double band1 = std::sqrt(3 / (4 * kPi)), band2 = std::sqrt(15 / (4 * kPi));
+    const double band1 = std::sqrt(3 / (4 * std::numbers::pi)),
+                 band2 = std::sqrt(15 / (4 * std::numbers::pi));
     const double zz = m0 - xx - yy;
-    return {m0 / std::sqrt(4 * kPi),
+    return {m0 / std::sqrt(4 * std::numbers::pi),
             band1 * y,
             band1 * z,
             band1 * x,
@@ -46,8 +45,8 @@ Sh9 harmonicsOf(const Seen& seen)
 /// Compute m0 = 2 pi s (1 - c), m1 = pi s (1 - c^2) d.
 Moments momentsOf(const ConeFit& cone)
 {
-    const double c = std::cos(cone.aperture_rad), size = kPi * cone.scale * (1 - c * c);
-    return {static_cast<float>(2 * kPi * cone.scale * (1 - c)),
+    const double c = std::cos(cone.aperture_rad), size = std::numbers::pi * cone.scale * (1 - c * c);
+    return {static_cast<float>(2 * std::numbers::pi * cone.scale * (1 - c)),
             {static_cast<float>(size * cone.axis.x), static_cast<float>(size * cone.axis.y),
              static_cast<float>(size * cone.axis.z)}};
 }
@@ -59,7 +58,7 @@ std::vector<uint32_t> inGroups(const LevelMesh& level, std::span<const Seen> see
     for (uint32_t v = 0; v < seen.size(); ++v)
     {
         const bool held = !level.finer_vertex.empty() && level.finer_vertex[v] != kNowhere;
-        if (!held && seen[v][0] > 0 && seen[v][0] < kOpen * 2 * static_cast<float>(kPi))
+        if (!held && seen[v][0] > 0 && seen[v][0] < kOpen * 2 * static_cast<float>(std::numbers::pi))
             order.push_back(v);
     }
     std::sort(order.begin(), order.end(),

@@ -60,7 +60,7 @@ struct PlacedMesh
     std::unique_ptr<Passage> passage;
 };
 
-struct Place
+struct OccluderInstance
 {
     size_t mesh;
     Affine3 world_from_mesh;
@@ -84,14 +84,14 @@ struct Occluders::State
     Held<RTCDevice> device{rtcNewDevice(nullptr)};
     Held<RTCScene> top{rtcNewScene(device.get())};
     std::vector<PlacedMesh> meshes;
-    std::vector<Place> places;
+    std::vector<OccluderInstance> places;
     std::vector<Held<RTCGeometry>> instances;
     bool finished = false;
 
-    void put(const Place& place);
+    void put(const OccluderInstance& place);
 };
 
-void Occluders::State::put(const Place& place)
+void Occluders::State::put(const OccluderInstance& place)
 {
     PlacedMesh& mesh = meshes[place.mesh];
     if (mesh.triangles == nullptr)
@@ -159,7 +159,7 @@ void Occluders::place(Mesh mesh, const Affine3& world_from_mesh)
 void Occluders::finish()
 {
     HEARTH_ASSERT(!state_->finished);
-    for (const Place& place : state_->places)
+    for (const OccluderInstance& place : state_->places)
         state_->put(place);
     std::vector<RTCScene> instanced;
     for (const PlacedMesh& mesh : state_->meshes)

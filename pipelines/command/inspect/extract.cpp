@@ -10,7 +10,6 @@ namespace hearth::command
 {
 
 using namespace formats;
-using AtomicFile;
 
 namespace
 {

@@ -131,11 +131,11 @@ private:
 
     Status readFormat(const std::vector<std::string_view>& words)
     {
-        constexpr std::array kFormats = {"ascii"sv, "binary_little_endian"sv, "binary_big_endian"sv};
-        const auto found = std::find(kFormats.begin(), kFormats.end(), words[1]);
-        if (found == kFormats.end() || words[2] != "1.0")
+        constexpr std::array kFormatNames = {"ascii"sv, "binary_little_endian"sv, "binary_big_endian"sv};
+        const auto found = std::find(kFormatNames.begin(), kFormatNames.end(), words[1]);
+        if (found == kFormatNames.end() || words[2] != "1.0")
             return failure("the format is not ascii, binary_little_endian or binary_big_endian 1.0");
-        header_.format = static_cast<PlyFormat>(found - kFormats.begin());
+        header_.format = static_cast<PlyFormat>(found - kFormatNames.begin());
         format_seen_ = true;
         return success();
     }

@@ -7,6 +7,7 @@
 #include "pipelines/import/part/part_builder.h"
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,6 +15,9 @@
 
 namespace hearth::import
 {
+
+/// Upper end of the range of a number that has none.
+inline constexpr float kUnbounded = std::numeric_limits<float>::max();
 
 /// First error of a document. Readers of properties continue after it with harmless values and test once at
 /// the end, which keeps them as plain as the tables of the specification.

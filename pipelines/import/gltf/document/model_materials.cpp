@@ -15,8 +15,6 @@ using formats::kNone;
 namespace
 {
 
-constexpr float kLargest = std::numeric_limits<float>::max();
-
 constexpr Choice kAlphaModes[] = {
     {"OPAQUE", static_cast<uint32_t>(formats::AlphaMode::opaque)},
     {"MASK", static_cast<uint32_t>(formats::AlphaMode::mask)},
@@ -171,11 +169,11 @@ GltfMaterial readMaterial(const GltfObject& object, const GltfModel& model)
     material.emissive = object.numbers<3>("emissiveFactor", {0, 0, 0});
     material.alpha_mode = static_cast<formats::AlphaMode>(
         object.choice("alphaMode", kAlphaModes, static_cast<uint32_t>(formats::AlphaMode::opaque)));
-    material.alpha_cutoff = object.factor("alphaCutoff", 0.5f, 0, kLargest);
+    material.alpha_cutoff = object.factor("alphaCutoff", 0.5f, 0, kUnbounded);
     material.double_sided = object.boolean("doubleSided", false);
     material.unlit = object.extension("KHR_materials_unlit").has_value();
     if (const auto strength = object.extension("KHR_materials_emissive_strength"))
-        material.emissive_strength = strength->factor("emissiveStrength", 1, 0, kLargest);
+        material.emissive_strength = strength->factor("emissiveStrength", 1, 0, kUnbounded);
     if (const auto specular_glossiness = object.extension("KHR_materials_pbrSpecularGlossiness"))
         material.specular_glossiness = readSpecularGlossiness(*specular_glossiness, model);
     return material;

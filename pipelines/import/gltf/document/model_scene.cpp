@@ -16,8 +16,7 @@ using formats::kNone;
 namespace
 {
 
-constexpr float kLargest = std::numeric_limits<float>::max();
-constexpr float kSmallest = std::numeric_limits<float>::min();
+constexpr float kMinPositive = std::numeric_limits<float>::min();
 constexpr float kPi = std::numbers::pi_v<float>;
 
 constexpr Choice kCameraTypes[] = {
@@ -34,17 +33,17 @@ void readPerspective(const GltfObject& object, GltfCamera& camera)
 {
     // one tenth of a degree to almost a half turn: no image can be rendered beyond
     camera.y_fov_rad = object.factor("yfov", 1, 0.0017f, kPi - 0.0017f);
-    camera.aspect = object.factor("aspectRatio", 0, 0, kLargest);
-    camera.z_near = object.factor("znear", 0.01f, kSmallest, kLargest);
-    camera.z_far = object.factor("zfar", 0, 0, kLargest);
+    camera.aspect = object.factor("aspectRatio", 0, 0, kUnbounded);
+    camera.z_near = object.factor("znear", 0.01f, kMinPositive, kUnbounded);
+    camera.z_far = object.factor("zfar", 0, 0, kUnbounded);
 }
 
 void readOrthographic(const GltfObject& object, GltfCamera& camera)
 {
     camera.x_magnification = object.number("xmag", std::nullopt);
     camera.y_magnification = object.number("ymag", std::nullopt);
-    camera.z_near = object.factor("znear", 0, 0, kLargest);
-    camera.z_far = object.factor("zfar", 1, kSmallest, kLargest);
+    camera.z_near = object.factor("znear", 0, 0, kUnbounded);
+    camera.z_far = object.factor("zfar", 1, kMinPositive, kUnbounded);
     if (camera.x_magnification == 0 || camera.y_magnification == 0)
         object.problems().fail(Issue::gltf_value, object.json(), "a magnification is 0");
 }
@@ -216,8 +215,8 @@ void readLights(const GltfObject& root, GltfModel& model)
         light.name = object.text("name");
         light.type = static_cast<formats::LightType>(object.choice("type", kLightTypes, std::nullopt));
         light.color = object.numbers<3>("color", {1, 1, 1});
-        light.intensity = object.factor("intensity", 1, 0, kLargest);
-        light.range = object.factor("range", 0, 0, kLargest);
+        light.intensity = object.factor("intensity", 1, 0, kUnbounded);
+        light.range = object.factor("range", 0, 0, kUnbounded);
         if (light.type == formats::LightType::spot)
         {
             light.outer_cone_rad = kPi / 4;
