@@ -22,7 +22,7 @@ int main(int argument_count, char** arguments)
     const std::string document{std::istreambuf_iterator<char>(in), {}};
     in.close();
     std::ofstream out(arguments[1], std::ios::binary);
-    out << hearth::formats::withFreshTables(document);
+    out << hearth::formats::regenerateTables(document);
     out.close();
     if (!out)
     {

@@ -26,7 +26,7 @@ struct RecordTable
 #define HEARTH_RECORD_TABLE(record)                                                                          \
     RecordTable                                                                                              \
     {                                                                                                        \
-        #record, sizeof(record), FieldsOf<record>::value                                                     \
+        #record, sizeof(record), RecordFields<record>::value                                                 \
     }
 constexpr RecordTable kRecords[] = {
     HEARTH_RECORD_TABLE(FileHeader),
@@ -133,11 +133,11 @@ std::vector<ValueTable> valueTables()
           value("UV 2", kVertexUv2, "the same"), value("UV 3", kVertexUv3, "the same"),
           value("colour", kVertexColor, "4 x unorm8, linear RGBA"),
           value("visibility", kVertexVisibility, "moments of what the vertex sees, beside a normal"),
-          value("fine normal", kVertexFineNormal, "the normal is 2 x snorm16, the tangent's angle 15 bits"),
-          value("fine colour", kVertexFineColor, "the colour is 4 x unorm16"),
-          value("wide", kVertexWide, "of a cluster only: offsets on grids are u32"),
+          value("fine normal", kVertexNormal16, "the normal is 2 x snorm16, the tangent's angle 15 bits"),
+          value("fine colour", kVertexColor16, "the colour is 4 x unorm16"),
+          value("wide", kVertexWideOffsets, "of a cluster only: offsets on grids are u32"),
           value("influences", kVertexInfluences, "4 x u16 joints, then 4 x unorm16 weights"),
-          value("more influences", kVertexMoreInfluences, "8 joints, then 8 weights")}},
+          value("more influences", kVertexInfluences8, "8 joints, then 8 weights")}},
         {"PageCodec",
          {value("none", PageCodec::none, "the decoded bytes"),
           value("zstd", PageCodec::zstd, "one zstd frame of them"),
@@ -264,10 +264,10 @@ std::string scientific(double number)
 std::string limitTable()
 {
     const std::pair<std::string_view, std::string> rows[] = {
-        {"triangles of a cluster", std::to_string(kClusterMaxTriangles)},
-        {"vertices of a cluster", std::to_string(kClusterMaxVertices)},
-        {"bytes of a decoded page", std::to_string(kPageMaxBytes)},
-        {"texels of an image's side", std::to_string(kImageMaxSize)},
+        {"triangles of a cluster", std::to_string(kMaxClusterTriangles)},
+        {"vertices of a cluster", std::to_string(kMaxClusterVertices)},
+        {"bytes of a decoded page", std::to_string(kMaxPageBytes)},
+        {"texels of an image's side", std::to_string(kMaxImageSize)},
         {"voxels along an axis of a grid of bricks", std::to_string(kMaxGridVoxels)},
         {"groups of a grid of bricks", std::to_string(kMaxBrickGroups)},
         {"solid voxels of a grid of bricks", std::to_string(kMaxBrickVoxels)},
@@ -312,7 +312,7 @@ std::vector<std::string_view> formatTableNames()
     return names;
 }
 
-std::string withFreshTables(std::string_view document)
+std::string regenerateTables(std::string_view document)
 {
     constexpr std::string_view kBegin = "<!-- table ", kClose = " -->\n", kEnd = "<!-- end -->";
     std::string fresh;

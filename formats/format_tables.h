@@ -19,6 +19,6 @@ std::vector<std::string_view> formatTableNames();
 
 /// Return `document` with the text between each `<!-- table NAME -->` and the next `<!-- end -->`
 /// regenerated. A block with an unknown name is left empty.
-std::string withFreshTables(std::string_view document);
+std::string regenerateTables(std::string_view document);
 
 } // namespace hearth::formats

@@ -175,7 +175,7 @@ void setColors(const Body& body, TriangleMesh& mesh)
     }
 }
 
-TriangleMesh growSkin(const Pose& pose, float cell)
+TriangleMesh generateSkin(const Pose& pose, float cell)
 {
     const Body body(pose);
     Box3 bounds;
@@ -185,7 +185,7 @@ TriangleMesh growSkin(const Pose& pose, float cell)
             bounds.add(end - Float3{0.2f, 0.2f, 0.2f});
             bounds.add(end + Float3{0.2f, 0.2f, 0.2f});
         }
-    TriangleMesh skin = surfaceOf([&](Float3 p) { return distanceToBody(body, p); }, bounds, cell);
+    TriangleMesh skin = polygonise([&](Float3 p) { return distanceToBody(body, p); }, bounds, cell);
     setColors(body, skin);
     setInfluences(body, skin);
     return skin;
@@ -208,15 +208,15 @@ Affine3 jointFromModel(const Frame& frame)
     return result;
 }
 
-Float4 turnX(float degrees)
+Float4 rotationAboutX(float degrees)
 {
     return rotationAbout({1, 0, 0}, degrees * (kPi / 180));
 }
-Float4 turnY(float degrees)
+Float4 rotationAboutY(float degrees)
 {
     return rotationAbout({0, 1, 0}, degrees * (kPi / 180));
 }
-Float4 turnZ(float degrees)
+Float4 rotationAboutZ(float degrees)
 {
     return rotationAbout({0, 0, 1}, degrees * (kPi / 180));
 }
@@ -255,10 +255,10 @@ std::vector<float> evenTimes(size_t count, float duration)
 Pose standingPose()
 {
     Pose pose;
-    pose.rotations[kLeftUpperArm] = turnZ(-62);
-    pose.rotations[kRightUpperArm] = turnZ(62);
-    pose.rotations[kLeftForearm] = turnY(-18);
-    pose.rotations[kRightForearm] = turnY(18);
+    pose.rotations[kLeftUpperArm] = rotationAboutZ(-62);
+    pose.rotations[kRightUpperArm] = rotationAboutZ(62);
+    pose.rotations[kLeftForearm] = rotationAboutY(-18);
+    pose.rotations[kRightForearm] = rotationAboutY(18);
     return pose;
 }
 
@@ -266,21 +266,21 @@ Pose sittingPose()
 {
     Pose pose;
     pose.hips = {0, 0.52f, 0};
-    pose.rotations[kSpine] = turnX(9);
-    pose.rotations[kChest] = turnX(12);
-    pose.rotations[kNeck] = turnX(-4);
-    pose.rotations[kLeftUpperArm] = multiply(turnX(-34), turnZ(-72));
-    pose.rotations[kRightUpperArm] = multiply(turnX(-34), turnZ(72));
-    pose.rotations[kLeftForearm] = turnY(-52);
-    pose.rotations[kRightForearm] = turnY(52);
-    pose.rotations[kLeftHand] = turnY(16);
-    pose.rotations[kRightHand] = turnY(-16);
-    pose.rotations[kLeftThigh] = multiply(turnY(12), turnX(-82));
-    pose.rotations[kRightThigh] = multiply(turnY(-12), turnX(-82));
-    pose.rotations[kLeftShin] = turnX(66);
-    pose.rotations[kRightShin] = turnX(74);
-    pose.rotations[kLeftFoot] = turnX(10);
-    pose.rotations[kRightFoot] = turnX(6);
+    pose.rotations[kSpine] = rotationAboutX(9);
+    pose.rotations[kChest] = rotationAboutX(12);
+    pose.rotations[kNeck] = rotationAboutX(-4);
+    pose.rotations[kLeftUpperArm] = multiply(rotationAboutX(-34), rotationAboutZ(-72));
+    pose.rotations[kRightUpperArm] = multiply(rotationAboutX(-34), rotationAboutZ(72));
+    pose.rotations[kLeftForearm] = rotationAboutY(-52);
+    pose.rotations[kRightForearm] = rotationAboutY(52);
+    pose.rotations[kLeftHand] = rotationAboutY(16);
+    pose.rotations[kRightHand] = rotationAboutY(-16);
+    pose.rotations[kLeftThigh] = multiply(rotationAboutY(12), rotationAboutX(-82));
+    pose.rotations[kRightThigh] = multiply(rotationAboutY(-12), rotationAboutX(-82));
+    pose.rotations[kLeftShin] = rotationAboutX(66);
+    pose.rotations[kRightShin] = rotationAboutX(74);
+    pose.rotations[kLeftFoot] = rotationAboutX(10);
+    pose.rotations[kRightFoot] = rotationAboutX(6);
     return pose;
 }
 
@@ -312,8 +312,8 @@ CharacterNodes addCharacter(Document& document, const Pose& pose, float cell)
     material.roughness = 0.75f;
     Node body;
     body.name = "mannequin_skin";
-    body.mesh =
-        add(document.meshes, Mesh{"mannequin", {{growSkin(pose, cell), add(document.materials, material)}}});
+    body.mesh = add(document.meshes,
+                    Mesh{"mannequin", {{generateSkin(pose, cell), add(document.materials, material)}}});
     body.skin = add(document.skins, skin);
     Node root;
     root.name = "character";
@@ -337,14 +337,16 @@ void addWalkClip(Document& document, const CharacterNodes& nodes, const Pose& po
     for (const bool left : {true, false})
     {
         const float phase = left ? 0.0f : kPi;
-        swing(left ? kLeftThigh : kRightThigh, [&](float a) { return turnX(-26 * sine(a + phase) - 4); });
+        swing(left ? kLeftThigh : kRightThigh,
+              [&](float a) { return rotationAboutX(-26 * sine(a + phase) - 4); });
         swing(left ? kLeftShin : kRightShin,
-              [&](float a) { return turnX(24 + 24 * sine(a + phase + 2.1f)); });
+              [&](float a) { return rotationAboutX(24 + 24 * sine(a + phase + 2.1f)); });
         swing(left ? kLeftFoot : kRightFoot,
-              [&](float a) { return turnX(-6 + 12 * sine(a + phase + 2.6f)); });
-        swing(left ? kLeftUpperArm : kRightUpperArm, [&](float a) { return turnX(20 * sine(a + phase)); });
+              [&](float a) { return rotationAboutX(-6 + 12 * sine(a + phase + 2.6f)); });
+        swing(left ? kLeftUpperArm : kRightUpperArm,
+              [&](float a) { return rotationAboutX(20 * sine(a + phase)); });
     }
-    swing(kChest, [&](float a) { return turnY(5 * sine(a)); });
+    swing(kChest, [&](float a) { return rotationAboutY(5 * sine(a)); });
 
     std::vector<Float4> way;
     for (const float time : times)
@@ -366,10 +368,10 @@ void addWaveClip(Document& document, const CharacterNodes& nodes, const Pose& po
     std::vector<Float4> forearm, head;
     for (const float time : times)
     {
-        forearm.push_back(multiply(turnZ(-58 + 24 * sine(time * 2 * kPi)), turnY(14)));
-        head.push_back(multiply(turnZ(4 * sine(time * kPi)), pose.rotations[kHead]));
+        forearm.push_back(multiply(rotationAboutZ(-58 + 24 * sine(time * 2 * kPi)), rotationAboutY(14)));
+        head.push_back(multiply(rotationAboutZ(4 * sine(time * kPi)), pose.rotations[kHead]));
     }
-    const Float4 raised = turnZ(-32);
+    const Float4 raised = rotationAboutZ(-32);
     wave.tracks.push_back(rotationTrack(nodes.joints[kRightUpperArm], {0, 2}, {raised, raised}));
     wave.tracks.push_back({nodes.joints[kRightForearm], TrackPath::rotation, TrackKind::cubic_spline, times,
                            withTangents(times, forearm)});

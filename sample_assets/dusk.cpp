@@ -12,7 +12,7 @@ namespace hearth::samples
 namespace
 {
 
-float starAt(Float2 uv)
+float starBrightness(Float2 uv)
 {
     const TileNoise::Cell star = TileNoise{150, 701}.cellular({uv.x, uv.y * 0.25f});
     const float size = 0.02f + 0.05f * static_cast<float>(star.hash >> 24) / 255.0f;
@@ -42,7 +42,7 @@ Float4 skyColor(Float2 uv)
     color =
         lerp(color, lerp(Float3{0.10f, 0.08f, 0.13f}, Float3{0.85f, 0.28f, 0.16f}, near_sun), cloud * 0.55f);
 
-    const float star = starAt(uv) * smoothstep(0.15f, 0.6f, up) * (1 - cloud) * (1 - glow);
+    const float star = starBrightness(uv) * smoothstep(0.15f, 0.6f, up) * (1 - cloud) * (1 - glow);
     color = lerp(color, Float3{0.85f, 0.88f, 1.0f}, star * 0.8f);
     return {color.x, color.y, color.z, 1};
 }

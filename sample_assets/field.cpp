@@ -27,8 +27,8 @@ constexpr uint32_t kTileRows = 16;
 constexpr uint32_t kPlotsAcross = 8;
 constexpr uint32_t kPlotColumns = kTileColumns * kTilesAcross / kPlotsAcross;
 constexpr uint32_t kPlotRows = kTileRows * kTilesAcross / kPlotsAcross;
-constexpr uint32_t kRocks = 40;
-constexpr uint32_t kTufts = 10000;
+constexpr uint32_t kRockCount = 40;
+constexpr uint32_t kTuftCount = 10000;
 constexpr Float2 kEye{0, 62}; // x z
 
 /// Make a plot of ground with a skirt. Neighbouring plots are simplified independently and separate by up to
@@ -85,7 +85,7 @@ void addInstances(Document& document, const std::string& name, TriangleMesh mesh
 Placement rockPlacement(const HeightGrid& grid, uint32_t index)
 {
     const auto random = [&](uint32_t which) { return randomUnit(index * 8 + which, 811); };
-    const float along = (static_cast<float>(index) + 0.5f) / kRocks;
+    const float along = (static_cast<float>(index) + 0.5f) / kRockCount;
     const float scale = (1.2f + 1.4f * random(0)) * (1 + 2.2f * along);
     const float side = index % 2 ? 1.0f : -1.0f;
     const Float2 xz{side * (scale + 1.5f + (6 + 60 * along) * random(1)), kEye.y - 8 - 150 * along};
@@ -102,7 +102,7 @@ void addRocks(Document& document, const HeightGrid& grid, uint64_t triangles, ui
     for (uint32_t shape = 0; shape < shapes; ++shape)
     {
         std::vector<Placement> instances;
-        for (uint32_t rock = shape; rock < kRocks; rock += shapes)
+        for (uint32_t rock = shape; rock < kRockCount; rock += shapes)
             instances.push_back(rockPlacement(grid, rock));
         addInstances(document, "rock_" + std::to_string(shape), makeRock(triangles, shape + 1, 3.0f),
                      material, std::move(instances));
@@ -110,11 +110,11 @@ void addRocks(Document& document, const HeightGrid& grid, uint64_t triangles, ui
 }
 
 /// Place tufts of grass, denser near the camera's starting point.
-std::vector<Placement> meadow(const HeightGrid& grid)
+std::vector<Placement> scatterMeadow(const HeightGrid& grid)
 {
     constexpr float kRadius = 70;
     std::vector<Placement> tufts;
-    for (uint32_t i = 0; tufts.size() < kTufts; ++i)
+    for (uint32_t i = 0; tufts.size() < kTuftCount; ++i)
     {
         const auto random = [&](uint32_t which) { return randomUnit(i * 8 + which, 821); };
         const float angle = random(0) * 2 * kPi, radius = kRadius * random(1);
@@ -167,14 +167,14 @@ void addSunAndCamera(Document& document, const HeightGrid& grid)
 
 Document makeField(uint64_t rock_triangles, uint32_t rock_shapes, uint32_t texture_size)
 {
-    HEARTH_ASSERT(rock_shapes > 0 && kRocks % rock_shapes == 0);
+    HEARTH_ASSERT(rock_shapes > 0 && kRockCount % rock_shapes == 0);
     Document document;
     const HeightGrid grid =
         makeHeights({.size = kFieldSize, .cells = kTilesAcross * kTileColumns, .seed = 8});
     addGround(document, grid, texture_size);
     addRocks(document, grid, rock_triangles, rock_shapes);
     addInstances(document, "grass", makeGrassTuft({.cards = 5, .columns = 1, .rows = 2}),
-                 addGrassMaterial(document), meadow(grid));
+                 addGrassMaterial(document), scatterMeadow(grid));
     addSky(document, "day_sky", 400, daySkyColor);
     addSunAndCamera(document, grid);
     return document;

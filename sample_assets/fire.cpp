@@ -194,8 +194,8 @@ TriangleMesh makeFlames()
                                            });
         const float turn = static_cast<float>(card) * 1.2566371f;
         const float away = card == 0 ? 0.0f : 0.12f;
-        TriangleMesh lit = placed(mesh, {.translation = {away * sine(turn), 0.02f, away * cosine(turn)},
-                                         .rotation = rotationAbout({0, 1, 0}, turn)});
+        TriangleMesh lit = transformed(mesh, {.translation = {away * sine(turn), 0.02f, away * cosine(turn)},
+                                              .rotation = rotationAbout({0, 1, 0}, turn)});
         setSmoothNormals(lit);
         append(flames, lit);
     }

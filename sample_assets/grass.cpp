@@ -20,7 +20,7 @@ struct Blade
     float root, lean, height, width, shade;
 };
 
-Blade bladeOf(uint32_t index)
+Blade makeBlade(uint32_t index)
 {
     const auto random = [&](uint32_t which) { return randomUnit(index * 8 + which, 301); };
     const float root = 0.12f + 0.76f * (static_cast<float>(index) + 0.8f * random(0)) / kBladeCount;
@@ -35,7 +35,7 @@ Float4 grassTexel(Float2 uv)
                  0}; // blade colour also between the blades, so that mips have no dark edges
     for (uint32_t index = 0; index < kBladeCount; ++index)
     {
-        const Blade blade = bladeOf(index);
+        const Blade blade = makeBlade(index);
         const float t = up / blade.height;
         if (t > 1)
             continue;
@@ -69,7 +69,8 @@ TriangleMesh makeGrassTuft(const TuftShape& shape)
                                      });
         for (const Float3& p : mesh.positions)
             mesh.normals.push_back(normalize({p.x * 0.6f, 1.0f, 0.35f + p.y}));
-        append(tuft, placed(mesh, {.rotation = rotationAbout({0, 1, 0}, static_cast<float>(card) * turn)}));
+        append(tuft,
+               transformed(mesh, {.rotation = rotationAbout({0, 1, 0}, static_cast<float>(card) * turn)}));
     }
     return tuft;
 }

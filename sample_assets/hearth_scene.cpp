@@ -41,7 +41,7 @@ void addInstances(Document& document, const char* name, int mesh, std::vector<Pl
     addRoot(document, node);
 }
 
-Float4 anyRotation(uint32_t index, uint32_t seed)
+Float4 randomRotation(uint32_t index, uint32_t seed)
 {
     const Float4 about_y = rotationAbout({0, 1, 0}, randomUnit(index * 4, seed) * 2 * kPi);
     const Float4 tilt = rotationAbout({1, 0, 0}, (randomUnit(index * 4 + 1, seed) - 0.5f) * 1.4f);
@@ -87,7 +87,7 @@ void addRocks(Document& document, const HeightGrid& grid, uint64_t hero_triangle
         const auto index = static_cast<uint32_t>(i);
         const float flat = 0.7f + 0.25f * randomUnit(index, 611);
         of_shape[i % 2].push_back({sunk(boulder.x, boulder.z, -0.45f * boulder.scale * flat),
-                                   anyRotation(index, 612),
+                                   randomRotation(index, 612),
                                    {boulder.scale, boulder.scale * flat, boulder.scale * 0.95f}});
     }
     addInstances(document, "boulders_a", addMesh(document, "boulder_a", makeRock(50000, 2, 2.0f), material),
@@ -102,7 +102,7 @@ void addRocks(Document& document, const HeightGrid& grid, uint64_t hero_triangle
         const float angle = (static_cast<float>(i) + 0.35f * randomUnit(i, 621)) * 2 * kPi / kRingStones;
         const float radius = 0.72f + 0.07f * randomUnit(i, 622), scale = 0.145f + 0.055f * randomUnit(i, 623);
         ring.push_back({{radius * cosine(angle), 0.35f * scale, radius * sine(angle)},
-                        anyRotation(i, 624),
+                        randomRotation(i, 624),
                         {scale * 1.15f, scale * 0.9f, scale}});
     }
     addInstances(document, "hearth_stones",
@@ -130,7 +130,7 @@ void addFire(Document& document)
                  addMesh(document, "burning_log", makeLog(0.075f, 5), addLogMaterial(document, true)), logs);
 }
 
-void addSeatAndGuest(Document& document)
+void addSeatAndCharacter(Document& document)
 {
     const int log = addMesh(document, "seat_log", makeLog(0.13f, 6), addLogMaterial(document, false));
     const Float3 seat{-1.55f, 0.24f, 0.35f};
@@ -193,7 +193,7 @@ Document makeHearthScene(uint64_t hero_triangles, uint32_t texture_size)
     addCampGround(document, grid, texture_size);
     addRocks(document, grid, hero_triangles);
     addFire(document);
-    addSeatAndGuest(document);
+    addSeatAndCharacter(document);
     addLights(document);
     addHearthCamera(document);
     addDuskSky(document, 400);

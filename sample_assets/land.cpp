@@ -17,12 +17,12 @@ namespace
 {
 
 constexpr float kLandSize = 512;
-constexpr float kSteeper = 2.8f; // steeper than hills elsewhere, to use the height of 128 m
+constexpr float kHillSteepness = 2.8f; // steeper than hills elsewhere, to use the height of 128 m
 constexpr uint32_t kLandPlotsAcross = 8;
 constexpr uint32_t kRockShapes = 4;
 constexpr uint32_t kRocksOfShape = 30;
 constexpr uint64_t kRockTriangles = 100000;
-constexpr uint32_t kHouses = 12;
+constexpr uint32_t kHouseCount = 12;
 constexpr float kHalfWidth = 6, kHalfDepth = 4.5f, kWallHeight = 4,
                 kWall = 0.25f; // metres; kWall is half a wall
 
@@ -70,7 +70,7 @@ void addInstances(Document& document, const std::string& name, std::vector<Primi
 }
 
 /// Return a position that is not too near to the border.
-Float2 placeOf(uint32_t index, uint32_t seed)
+Float2 randomPosition(uint32_t index, uint32_t seed)
 {
     return {(randomUnit(2 * index, seed) - 0.5f) * 0.9f * kLandSize,
             (randomUnit(2 * index + 1, seed) - 0.5f) * 0.9f * kLandSize};
@@ -85,7 +85,7 @@ void addRocks(Document& document, const HeightGrid& grid)
         for (uint32_t i = shape; i < kRockShapes * kRocksOfShape; i += kRockShapes)
         {
             const auto random = [&](uint32_t which) { return randomUnit(i * 8 + which, 911); };
-            const Float2 xz = placeOf(i, 912);
+            const Float2 xz = randomPosition(i, 912);
             const float scale = 1.5f + 5 * random(0) * random(1);
             instances.push_back({{xz.x, grid.at(xz) + 0.3f * scale, xz.y},
                                  multiply(rotationAbout({0, 1, 0}, random(2) * 2 * kPi),
@@ -97,7 +97,7 @@ void addRocks(Document& document, const HeightGrid& grid)
     }
 }
 
-int addPlain(Document& document, const char* name, Float3 color)
+int addPlainMaterial(Document& document, const char* name, Float3 color)
 {
     Material material;
     material.name = name;
@@ -109,9 +109,9 @@ int addPlain(Document& document, const char* name, Float3 color)
 /// window.
 std::vector<Primitive> makeHouse(Document& document)
 {
-    const int plaster = addPlain(document, "plaster", {0.62f, 0.56f, 0.47f});
-    const int red = addPlain(document, "red_plaster", {0.52f, 0.12f, 0.08f});
-    const int tiles = addPlain(document, "tiles", {0.24f, 0.10f, 0.06f});
+    const int plaster = addPlainMaterial(document, "plaster", {0.62f, 0.56f, 0.47f});
+    const int red = addPlainMaterial(document, "red_plaster", {0.52f, 0.12f, 0.08f});
+    const int tiles = addPlainMaterial(document, "tiles", {0.24f, 0.10f, 0.06f});
     Material lamp;
     lamp.name = "lamp";
     lamp.base_color = {0.8f, 0.8f, 0.8f, 1};
@@ -150,9 +150,9 @@ std::vector<Primitive> makeHouse(Document& document)
 void addHouses(Document& document, const HeightGrid& grid)
 {
     std::vector<Placement> instances;
-    for (uint32_t i = 0; i < kHouses; ++i)
+    for (uint32_t i = 0; i < kHouseCount; ++i)
     {
-        const Float2 xz = placeOf(i, 921);
+        const Float2 xz = randomPosition(i, 921);
         // on the highest ground below it, so that no hill reaches into the room
         float height = grid.at(xz);
         for (const float x : {-6.5f, 0.0f, 6.5f})
@@ -191,7 +191,7 @@ Document makeLand(uint64_t ground_triangles, uint32_t texture_size)
     const uint32_t cells = std::max(1u, wanted / kLandPlotsAcross) * kLandPlotsAcross;
     HeightGrid grid = makeHeights({.size = kLandSize, .cells = cells, .seed = 11});
     for (float& height : grid.heights)
-        height *= kSteeper;
+        height *= kHillSteepness;
     addPlots(document, grid, texture_size);
     addRocks(document, grid);
     addHouses(document, grid);

@@ -68,7 +68,7 @@ float plasterHeight(Float2 uv)
     return 0.5f + 0.5f * TileNoise{10, 530}.fbm(uv, 6);
 }
 
-int addPlain(Document& document, const char* name, Float3 color, float roughness, float metallic = 0)
+int addPlainMaterial(Document& document, const char* name, Float3 color, float roughness, float metallic = 0)
 {
     Material material;
     material.name = name;
@@ -78,9 +78,9 @@ int addPlain(Document& document, const char* name, Float3 color, float roughness
     return add(document.materials, material);
 }
 
-int addShining(Document& document, const char* name, Float3 color, float strength)
+int addEmissiveMaterial(Document& document, const char* name, Float3 color, float strength)
 {
-    const int index = addPlain(document, name, {0.8f, 0.8f, 0.8f}, 0.6f);
+    const int index = addPlainMaterial(document, name, {0.8f, 0.8f, 0.8f}, 0.6f);
     document.materials[static_cast<size_t>(index)].emissive = color;
     document.materials[static_cast<size_t>(index)].emissive_strength = strength;
     return index;
@@ -166,14 +166,14 @@ void addTable(Document& document, int wood, int ceramic, int brass)
                                    {0.05f, 0.0f},
                                    {0.0f, 0.0f}},
                                   48);
-    vase = placed(vase, {.translation = {-0.75f, 0.765f, -0.35f}});
+    vase = transformed(vase, {.translation = {-0.75f, 0.765f, -0.35f}});
     std::vector<Float2> ball;
     for (int i = 0; i <= 24; ++i)
     {
         const float angle = kPi * static_cast<float>(i) / 24;
         ball.push_back({i % 24 == 0 ? 0.0f : 0.11f * sine(angle), 0.11f * cosine(angle)});
     }
-    const TriangleMesh sphere = placed(makeLathe(ball, 48), {.translation = {-0.1f, 0.875f, -0.2f}});
+    const TriangleMesh sphere = transformed(makeLathe(ball, 48), {.translation = {-0.1f, 0.875f, -0.2f}});
     addObject(document, "table", {{table, wood}, {vase, ceramic}, {sphere, brass}});
 }
 
@@ -207,21 +207,21 @@ void addLamp(Document& document, const char* name, Float3 at, int metal, int glo
 {
     TriangleMesh rod = makeBox({at.x, (at.y + kHeight) / 2 + 0.05f, at.z},
                                {0.006f, (kHeight - at.y) / 2 - 0.05f, 0.006f}, 1);
-    append(rod, placed(makeLathe({{0.0f, 0.16f},
-                                  {0.05f, 0.15f},
-                                  {0.16f, 0.0f},
-                                  {0.155f, 0.0f},
-                                  {0.045f, 0.14f},
-                                  {0.0f, 0.145f}},
-                                 40),
-                       {.translation = at}));
+    append(rod, transformed(makeLathe({{0.0f, 0.16f},
+                                       {0.05f, 0.15f},
+                                       {0.16f, 0.0f},
+                                       {0.155f, 0.0f},
+                                       {0.045f, 0.14f},
+                                       {0.0f, 0.145f}},
+                                      40),
+                            {.translation = at}));
     std::vector<Float2> bulb;
     for (int i = 0; i <= 16; ++i)
     {
         const float angle = kPi * static_cast<float>(i) / 16;
         bulb.push_back({i % 16 == 0 ? 0.0f : 0.045f * sine(angle), 0.045f * cosine(angle)});
     }
-    const TriangleMesh globe = placed(makeLathe(bulb, 24), {.translation = at + Float3{0, 0.03f, 0}});
+    const TriangleMesh globe = transformed(makeLathe(bulb, 24), {.translation = at + Float3{0, 0.03f, 0}});
     addObject(document, name, {{rod, metal}, {globe, glowing}});
 }
 
@@ -241,12 +241,12 @@ Document makeRoom()
     Document document;
     const int floor = addFloorMaterial(document), plaster = addPlasterMaterial(document);
     const int carpet = addCarpetMaterial(document);
-    const int wood = addPlain(document, "dark_wood", {0.11f, 0.055f, 0.028f}, 0.45f);
-    const int ceramic = addPlain(document, "ceramic", {0.10f, 0.24f, 0.30f}, 0.15f);
-    const int brass = addPlain(document, "brass", {0.78f, 0.57f, 0.25f}, 0.22f, 1);
-    const int paper = addPlain(document, "books", {1, 1, 1}, 0.7f);
-    const int warm = addShining(document, "bulb", {1, 0.78f, 0.45f}, 12);
-    const int neon = addShining(document, "neon", {0.25f, 0.55f, 1.0f}, 4);
+    const int wood = addPlainMaterial(document, "dark_wood", {0.11f, 0.055f, 0.028f}, 0.45f);
+    const int ceramic = addPlainMaterial(document, "ceramic", {0.10f, 0.24f, 0.30f}, 0.15f);
+    const int brass = addPlainMaterial(document, "brass", {0.78f, 0.57f, 0.25f}, 0.22f, 1);
+    const int paper = addPlainMaterial(document, "books", {1, 1, 1}, 0.7f);
+    const int warm = addEmissiveMaterial(document, "bulb", {1, 0.78f, 0.45f}, 12);
+    const int neon = addEmissiveMaterial(document, "neon", {0.25f, 0.55f, 1.0f}, 4);
 
     addShell(document, floor, plaster);
     addTable(document, wood, ceramic, brass);

@@ -14,6 +14,6 @@ namespace hearth::samples
 Float3 skyDirection(Float2 uv);
 
 /// Add a node "sky": the image on a hemisphere of `radius` metres around the origin, shown unlit.
-void addSky(Document& document, const std::string& name, float radius, const Picture& picture);
+void addSky(Document& document, const std::string& name, float radius, const ColorFunction& color_function);
 
 } // namespace hearth::samples

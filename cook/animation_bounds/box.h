@@ -8,7 +8,7 @@
 #include <array>
 #include <limits>
 
-namespace hearth::motion
+namespace hearth::animation_bounds
 {
 
 /// Closed interval; empty until a value is added.
@@ -54,4 +54,4 @@ inline Double3 half(const Box3d& box)
     return {box[0].half(), box[1].half(), box[2].half()};
 }
 
-} // namespace hearth::motion
+} // namespace hearth::animation_bounds

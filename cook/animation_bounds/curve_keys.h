@@ -8,19 +8,19 @@
 #include <algorithm>
 #include <array>
 
-namespace hearth::motion
+namespace hearth::animation_bounds
 {
 
 /// Components of a channel's value, up to four; missing ones are 0.
-using Value = formats::KeyValue;
+using ChannelValue = formats::KeyValue;
 /// Control points of a cubic over the parameters 0 to 1.
-using BezierPiece = std::array<Value, 4>;
+using BezierPiece = std::array<ChannelValue, 4>;
 
 /// Keys of a channel, restricted to `count` components from `first` on.
 class CurveKeys
 {
 public:
-    CurveKeys(const formats::MotionTables& tables, const formats::AnimationChannelRecord& channel,
+    CurveKeys(const formats::AnimationTables& tables, const formats::AnimationChannelRecord& channel,
               uint32_t first, uint32_t count)
         : keys_(tables.keys, tables.key_bits, channel), first_(first), count_(count)
     {
@@ -35,9 +35,9 @@ public:
     double time(uint32_t key) const { return keys_.time(key); }
 
     /// Return the last key that is not later than a time; the first key if all are later.
-    uint32_t keyBefore(double time) const { return std::max(keys_.keyAfter(time), 1u) - 1; }
+    uint32_t keyBefore(double time) const { return std::max(keys_.firstKeyAfter(time), 1u) - 1; }
 
-    Value at(uint32_t key) const { return keys_.value(key, first_, count_); }
+    ChannelValue at(uint32_t key) const { return keys_.value(key, first_, count_); }
 
     /// True if the value changes from the key to the next one: false where both keys have the same time.
     bool hasPiece(uint32_t key) const { return key + 1 < count() && time(key + 1) > time(key); }
@@ -47,9 +47,9 @@ public:
     BezierPiece piece(uint32_t key) const
     {
         const double third = (time(key + 1) - time(key)) / 3;
-        const Value start = at(key), end = at(key + 1);
-        const Value out = keys_.outTangent(key, first_, count_),
-                    in = keys_.inTangent(key + 1, first_, count_);
+        const ChannelValue start = at(key), end = at(key + 1);
+        const ChannelValue out = keys_.outTangent(key, first_, count_),
+                           in = keys_.inTangent(key + 1, first_, count_);
         BezierPiece bezier{start, start, end, end};
         for (size_t i = 0; i < count_; ++i)
         {
@@ -65,4 +65,4 @@ private:
     uint32_t count_;
 };
 
-} // namespace hearth::motion
+} // namespace hearth::animation_bounds

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hearth::motion
+namespace hearth::animation_bounds
 {
 
 using namespace formats;
@@ -22,12 +22,12 @@ constexpr int kVectorHalvings = 3;
 // Cosine between quaternions, of 0.1 rad: control points of a rotation's piece are this near to each other,
 // if 2^10 pieces suffice.
 constexpr double kNearCosine = 0.995;
-constexpr int kMostRotationHalvings = 10;
+constexpr int kMaxRotationHalvings = 10;
 
 // Cosine below which a piece at the last subdivision may pass through 0.
 constexpr double kConeCosine = 0.5;
 
-Value mean(const Value& a, const Value& b)
+ChannelValue mean(const ChannelValue& a, const ChannelValue& b)
 {
     return {0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2]), 0.5 * (a[3] + b[3])};
 }
@@ -35,9 +35,9 @@ Value mean(const Value& a, const Value& b)
 /// Split a piece in halves (de Casteljau).
 std::array<BezierPiece, 2> halves(const BezierPiece& b)
 {
-    const Value ab = mean(b[0], b[1]), bc = mean(b[1], b[2]), cd = mean(b[2], b[3]);
-    const Value abc = mean(ab, bc), bcd = mean(bc, cd);
-    const Value middle = mean(abc, bcd);
+    const ChannelValue ab = mean(b[0], b[1]), bc = mean(b[1], b[2]), cd = mean(b[2], b[3]);
+    const ChannelValue abc = mean(ab, bc), bcd = mean(bc, cd);
+    const ChannelValue middle = mean(abc, bcd);
     return {BezierPiece{b[0], ab, abc, middle}, BezierPiece{middle, bcd, cd, b[3]}};
 }
 
@@ -67,7 +67,7 @@ void addAll(const CurveKeys& keys, const AddValue& add)
 }
 
 /// Return the smallest cosine between two of the points; -1 where a point is 0.
-double leastCosine(const BezierPiece& piece)
+double minCosine(const BezierPiece& piece)
 {
     double least = 1;
     for (size_t i = 0; i < piece.size(); ++i)
@@ -81,7 +81,7 @@ double leastCosine(const BezierPiece& piece)
 
 void addRotationPiece(const BezierPiece& piece, int halvings, RotationPoints& points)
 {
-    const double cosine = leastCosine(piece);
+    const double cosine = minCosine(piece);
     if (cosine >= kNearCosine || (halvings == 0 && cosine > kConeCosine))
         points.points.insert(points.points.end(), piece.begin() + 1, piece.end());
     else if (halvings == 0)
@@ -93,26 +93,27 @@ void addRotationPiece(const BezierPiece& piece, int halvings, RotationPoints& po
 
 } // namespace
 
-void addValues(const MotionTables& tables, const AnimationChannelRecord& channel, Box3d& box)
+void addValues(const AnimationTables& tables, const AnimationChannelRecord& channel, Box3d& box)
 {
-    addAll(CurveKeys(tables, channel, 0, 3), [&](const Value& v) { add(box, {v[0], v[1], v[2]}); });
+    addAll(CurveKeys(tables, channel, 0, 3), [&](const ChannelValue& v) { add(box, {v[0], v[1], v[2]}); });
 }
 
-void addValues(const MotionTables& tables, const AnimationChannelRecord& channel, uint32_t component,
+void addValues(const AnimationTables& tables, const AnimationChannelRecord& channel, uint32_t component,
                Interval& range)
 {
-    addAll(CurveKeys(tables, channel, component, 1), [&](const Value& v) { range.add(v[0]); });
+    addAll(CurveKeys(tables, channel, component, 1), [&](const ChannelValue& v) { range.add(v[0]); });
 }
 
-void addRotations(const MotionTables& tables, const AnimationChannelRecord& channel, RotationPoints& points)
+void addRotations(const AnimationTables& tables, const AnimationChannelRecord& channel,
+                  RotationPoints& points)
 {
     const CurveKeys rotations(tables, channel, 0, 4);
     for (uint32_t key = 0; key < rotations.count() && !points.unbounded; ++key)
     {
         points.points.push_back(normalizedOrNone(rotations.at(key)));
         if (rotations.hasSpline(key))
-            addRotationPiece(rotations.piece(key), kMostRotationHalvings, points);
+            addRotationPiece(rotations.piece(key), kMaxRotationHalvings, points);
     }
 }
 
-} // namespace hearth::motion
+} // namespace hearth::animation_bounds

@@ -8,16 +8,16 @@
 #include <span>
 #include <vector>
 
-namespace hearth::motion
+namespace hearth::animation_bounds
 {
 
 /// Add the box of a translation or scale channel (three components). Splines are bounded by their Bezier
 /// control points, which are subdivided until they lie close to the curve.
-void addValues(const formats::MotionTables& tables, const formats::AnimationChannelRecord& channel,
+void addValues(const formats::AnimationTables& tables, const formats::AnimationChannelRecord& channel,
                Box3d& box);
 
 /// Add the range of component `component` of a morph weight channel.
-void addValues(const formats::MotionTables& tables, const formats::AnimationChannelRecord& channel,
+void addValues(const formats::AnimationTables& tables, const formats::AnimationChannelRecord& channel,
                uint32_t component, Interval& range);
 
 /// Quaternions of any length above 0 that bound rotations. Between two keys or control points, rotations lie
@@ -29,7 +29,7 @@ struct RotationPoints
 };
 
 /// Add the points of a rotation channel.
-void addRotations(const formats::MotionTables& tables, const formats::AnimationChannelRecord& channel,
+void addRotations(const formats::AnimationTables& tables, const formats::AnimationChannelRecord& channel,
                   RotationPoints& points);
 
-} // namespace hearth::motion
+} // namespace hearth::animation_bounds

@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-namespace hearth::motion
+namespace hearth::animation_bounds
 {
 
 namespace
@@ -24,7 +24,7 @@ Affine3d difference(const Affine3d& a, const Affine3d& b)
 }
 
 /// Return the middle of the bounding box, in twelve dimensions, of the matrices.
-Affine3d middleOf(const std::vector<Affine3d>& matrices)
+Affine3d boxCenter(const std::vector<Affine3d>& matrices)
 {
     Affine3d middle;
     for (size_t i = 0; i < 3; ++i)
@@ -54,7 +54,7 @@ void limitSlack(MatrixSet& set)
 }
 
 /// Return the point for which the matrices' squared displacements have the smallest sum, or the set's pivot.
-Double3 stillPoint(const MatrixSet& set)
+Double3 leastMovedPoint(const MatrixSet& set)
 {
     // solve sum of A^T (A x + b) = 0 for the matrices minus the unit matrix, with linear part A and
     // translation b
@@ -94,13 +94,13 @@ double shiftAt(const MatrixSet& set, Double3 point)
 
 } // namespace
 
-MatrixSet only(const Affine3d& transform)
+MatrixSet singletonSet(const Affine3d& transform)
 {
     const double norm = operatorNorm(transform);
     return {{transform}, norm, norm, {}, 0, 0};
 }
 
-MatrixSet composed(const MatrixSet& second, const MatrixSet& first)
+MatrixSet composeSets(const MatrixSet& second, const MatrixSet& first)
 {
     MatrixSet set;
     set.hull.reserve(second.hull.size() * first.hull.size());
@@ -120,9 +120,9 @@ MatrixSet composed(const MatrixSet& second, const MatrixSet& first)
     return set;
 }
 
-MatrixBall ballAround(const MatrixSet& set)
+MatrixBall boundingBall(const MatrixSet& set)
 {
-    MatrixBall ball{middleOf(set.hull), set.pivot, 0, 0};
+    MatrixBall ball{boxCenter(set.hull), set.pivot, 0, 0};
     for (const Affine3d& matrix : set.hull)
     {
         const Affine3d away = difference(matrix, ball.center);
@@ -134,13 +134,13 @@ MatrixBall ballAround(const MatrixSet& set)
     return ball;
 }
 
-Departure departureOf(const MatrixSet& set)
+IdentityDeviation computeIdentityDeviation(const MatrixSet& set)
 {
-    Departure departure;
+    IdentityDeviation departure;
     for (const Affine3d& matrix : set.hull)
         departure.rotation = std::max(departure.rotation, operatorNorm(difference(matrix, Affine3d{})));
     departure.rotation += set.linear_slack;
-    const Double3 still = stillPoint(set);
+    const Double3 still = leastMovedPoint(set);
     const double shift_of_still = shiftAt(set, still);
     const double shift_of_pivot = shiftAt(set, set.pivot);
     departure.pivot = shift_of_still < shift_of_pivot ? still : set.pivot;
@@ -148,4 +148,4 @@ Departure departureOf(const MatrixSet& set)
     return departure;
 }
 
-} // namespace hearth::motion
+} // namespace hearth::animation_bounds

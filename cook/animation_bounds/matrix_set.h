@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace hearth::motion
+namespace hearth::animation_bounds
 {
 
 /// Set of all transforms D = C + E with C in the convex hull of the matrices, and
@@ -22,11 +22,11 @@ struct MatrixSet
 };
 
 /// Return the set of one transform.
-MatrixSet only(const Affine3d& transform);
+MatrixSet singletonSet(const Affine3d& transform);
 
 /// Return the set of all products of a transform of `first`, then one of `second`. The pivot is the pivot of
 /// `first`.
-MatrixSet composed(const MatrixSet& second, const MatrixSet& first);
+MatrixSet composeSets(const MatrixSet& second, const MatrixSet& first);
 
 /// Set of one matrix with slack, a superset of a MatrixSet.
 struct MatrixBall
@@ -40,16 +40,16 @@ struct MatrixBall
     /// and under the center.
     double slackAt(Double3 point) const { return linear_slack * length(point - pivot) + point_slack; }
 };
-MatrixBall ballAround(const MatrixSet& set);
+MatrixBall boundingBall(const MatrixSet& set);
 
 /// Upper bound for the distance of a set's transforms D from the identity:
 /// |D x - x| <= rotation * |x - pivot| + shift.
-struct Departure
+struct IdentityDeviation
 {
     Double3 pivot;
     double rotation = 0; ///< operator norm of D's linear part minus the unit matrix
     double shift = 0;    ///< metres
 };
-Departure departureOf(const MatrixSet& set);
+IdentityDeviation computeIdentityDeviation(const MatrixSet& set);
 
-} // namespace hearth::motion
+} // namespace hearth::animation_bounds

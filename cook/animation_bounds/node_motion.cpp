@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hearth::motion
+namespace hearth::animation_bounds
 {
 
 using namespace formats;
@@ -17,21 +17,21 @@ namespace
 {
 
 // Share of the node's largest scale below which a scale counts as 0.
-constexpr double kLeastScale = 1e-5;
+constexpr double kMinScale = 1e-5;
 
 // Relative margin for single precision in the tables and in a runtime's sampling: a few roundings.
 constexpr double kRoundingMargin = 1e-7;
 
 /// Points on an axis whose convex hull, up to `slack`, is an interval: one point if the interval is short
 /// enough.
-struct Ends
+struct IntervalPoints
 {
     std::array<double, 2> values{};
     size_t count = 1;
     double slack = 0;
 };
 
-Ends endsOf(const Interval& interval, double tolerance)
+IntervalPoints intervalPoints(const Interval& interval, double tolerance)
 {
     if (interval.half() <= tolerance)
         return {{interval.middle(), 0}, 1, interval.half()};
@@ -45,9 +45,10 @@ struct Corners
     Double3 slack;
 };
 
-Corners cornersOf(const Box3d& box, double tolerance)
+Corners boxCorners(const Box3d& box, double tolerance)
 {
-    const Ends x = endsOf(box[0], tolerance), y = endsOf(box[1], tolerance), z = endsOf(box[2], tolerance);
+    const IntervalPoints x = intervalPoints(box[0], tolerance), y = intervalPoints(box[1], tolerance),
+                         z = intervalPoints(box[2], tolerance);
     Corners corners{{}, {x.slack, y.slack, z.slack}};
     for (size_t i = 0; i < x.count; ++i)
         for (size_t j = 0; j < y.count; ++j)
@@ -58,8 +59,8 @@ Corners cornersOf(const Box3d& box, double tolerance)
 
 size_t cornerCount(const Box3d& box, double tolerance)
 {
-    return endsOf(box[0], tolerance).count * endsOf(box[1], tolerance).count *
-           endsOf(box[2], tolerance).count;
+    return intervalPoints(box[0], tolerance).count * intervalPoints(box[1], tolerance).count *
+           intervalPoints(box[2], tolerance).count;
 }
 
 double largest(Double3 v)
@@ -89,7 +90,7 @@ double hullNorm(std::span<const Matrix3> matrices)
 }
 
 /// Return the tolerance of the rotation: half of the linear tolerance if scales move, too, else all of it.
-double ofRotation(const NodeMotion& motion, Tolerance tolerance, double scale)
+double rotationTolerance(const NodeMotion& motion, Tolerance tolerance, double scale)
 {
     const bool scales_move = largest(half(motion.scales)) > kRoundingMargin * 10 * magnitude(motion.scales);
     return tolerance.linear * (scales_move ? 0.5 : 1.0) / std::max(scale, 1e-30);
@@ -102,35 +103,36 @@ void grow(Box3d& box)
 }
 
 /// Values of all channels of a node, before they are combined.
-struct Gathered
+struct ChannelBounds
 {
     Box3d translations;
     Box3d scales;
     RotationPoints rotations;
 };
 
-Gathered gatheredOf(const NodeRecord& node)
+ChannelBounds boundsFromRestPose(const NodeRecord& node)
 {
-    Gathered gathered;
-    add(gathered.translations, widen(node.translation));
-    add(gathered.scales, widen(node.scale));
+    ChannelBounds channel_bounds;
+    add(channel_bounds.translations, widen(node.translation));
+    add(channel_bounds.scales, widen(node.scale));
     const Quaternion rotation{node.rotation.x, node.rotation.y, node.rotation.z, node.rotation.w};
-    gathered.rotations.points.push_back(normalizedOrNone(rotation));
-    return gathered;
+    channel_bounds.rotations.points.push_back(normalizedOrNone(rotation));
+    return channel_bounds;
 }
 
-void addChannel(const MotionTables& tables, const AnimationChannelRecord& channel, Gathered& gathered)
+void addChannel(const AnimationTables& tables, const AnimationChannelRecord& channel,
+                ChannelBounds& channel_bounds)
 {
     switch (static_cast<AnimationPath>(channel.path))
     {
     case AnimationPath::translation:
-        addValues(tables, channel, gathered.translations);
+        addValues(tables, channel, channel_bounds.translations);
         break;
     case AnimationPath::rotation:
-        addRotations(tables, channel, gathered.rotations);
+        addRotations(tables, channel, channel_bounds.rotations);
         break;
     case AnimationPath::scale:
-        addValues(tables, channel, gathered.scales);
+        addValues(tables, channel, channel_bounds.scales);
         break;
     case AnimationPath::weights:
         break;
@@ -139,14 +141,14 @@ void addChannel(const MotionTables& tables, const AnimationChannelRecord& channe
 
 } // namespace
 
-bool NodeMotion::canBeFlat() const
+bool NodeMotion::canBeSingular() const
 {
     if (fixed)
     {
         const std::optional<Affine3d> inverse = inverted(*fixed);
-        return !inverse || operatorNorm(*fixed) * operatorNorm(*inverse) > 1 / kLeastScale;
+        return !inverse || operatorNorm(*fixed) * operatorNorm(*inverse) > 1 / kMinScale;
     }
-    const double least = kLeastScale * magnitude(scales);
+    const double least = kMinScale * magnitude(scales);
     return std::any_of(scales.begin(), scales.end(),
                        [&](const Interval& axis) { return axis.low <= least && axis.high >= -least; });
 }
@@ -171,28 +173,28 @@ double NodeMotion::norm() const
 
 double NodeMotion::inverseNorm() const
 {
-    HEARTH_ASSERT(!canBeFlat());
+    HEARTH_ASSERT(!canBeSingular());
     return fixed ? operatorNorm(*inverted(*fixed)) : magnitude(reciprocals(scales));
 }
 
-std::vector<NodeMotion> nodeMotions(const MotionTables& tables)
+std::vector<NodeMotion> nodeMotions(const AnimationTables& tables)
 {
-    std::vector<Gathered> gathered;
-    gathered.reserve(tables.nodes.size());
+    std::vector<ChannelBounds> channel_bounds;
+    channel_bounds.reserve(tables.nodes.size());
     for (const NodeRecord& node : tables.nodes)
-        gathered.push_back(gatheredOf(node));
+        channel_bounds.push_back(boundsFromRestPose(node));
     for (const AnimationRecord& animation : tables.animations)
         for (const AnimationChannelRecord& channel :
              tables.channels.subspan(animation.channels.first, animation.channels.count))
-            addChannel(tables, channel, gathered[channel.node]);
+            addChannel(tables, channel, channel_bounds[channel.node]);
     std::vector<NodeMotion> motions;
     motions.reserve(tables.nodes.size());
     for (size_t i = 0; i < tables.nodes.size(); ++i)
     {
-        grow(gathered[i].translations);
-        grow(gathered[i].scales);
-        NodeMotion motion{gathered[i].translations, RotationSet::around(gathered[i].rotations),
-                          gathered[i].scales, std::nullopt};
+        grow(channel_bounds[i].translations);
+        grow(channel_bounds[i].scales);
+        NodeMotion motion{channel_bounds[i].translations, RotationSet::around(channel_bounds[i].rotations),
+                          channel_bounds[i].scales, std::nullopt};
         if (tables.nodes[i].has_trs == 0)
             motion.fixed = widened(tables.nodes[i].parent_from_node);
         motions.push_back(std::move(motion));
@@ -203,11 +205,11 @@ std::vector<NodeMotion> nodeMotions(const MotionTables& tables)
 MatrixSet parentFromNode(const NodeMotion& motion, Tolerance tolerance)
 {
     if (motion.fixed)
-        return only(*motion.fixed);
+        return singletonSet(*motion.fixed);
     const double scale = motion.norm();
-    const RotationHull rotations = motion.rotations.hull(ofRotation(motion, tolerance, scale));
-    const Corners scales = cornersOf(motion.scales, 0.5 * tolerance.linear);
-    const Corners translations = cornersOf(motion.translations, tolerance.shift);
+    const RotationHull rotations = motion.rotations.hull(rotationTolerance(motion, tolerance, scale));
+    const Corners scales = boxCorners(motion.scales, 0.5 * tolerance.linear);
+    const Corners translations = boxCorners(motion.translations, tolerance.shift);
     MatrixSet set;
     for (const Matrix3& r : rotations.matrices)
         for (const Double3 s : scales.points)
@@ -225,13 +227,13 @@ MatrixSet parentFromNode(const NodeMotion& motion, Tolerance tolerance)
 
 MatrixSet nodeFromParent(const NodeMotion& motion, Tolerance tolerance)
 {
-    HEARTH_ASSERT(!motion.canBeFlat());
+    HEARTH_ASSERT(!motion.canBeSingular());
     if (motion.fixed)
-        return only(*inverted(*motion.fixed));
+        return singletonSet(*inverted(*motion.fixed));
     const double scale = motion.inverseNorm();
-    const RotationHull rotations = motion.rotations.hull(ofRotation(motion, tolerance, scale));
-    const Corners scales = cornersOf(reciprocals(motion.scales), 0.5 * tolerance.linear);
-    const Corners translations = cornersOf(motion.translations, tolerance.shift);
+    const RotationHull rotations = motion.rotations.hull(rotationTolerance(motion, tolerance, scale));
+    const Corners scales = boxCorners(reciprocals(motion.scales), 0.5 * tolerance.linear);
+    const Corners translations = boxCorners(motion.translations, tolerance.shift);
     MatrixSet set;
     for (const Matrix3& r : rotations.matrices)
         for (const Double3 s : scales.points)
@@ -262,16 +264,16 @@ double hullSize(const NodeMotion& motion, Tolerance tolerance)
 {
     if (motion.fixed)
         return 1;
-    const double scale = std::max(motion.norm(), motion.canBeFlat() ? 0.0 : motion.inverseNorm());
+    const double scale = std::max(motion.norm(), motion.canBeSingular() ? 0.0 : motion.inverseNorm());
     const size_t translations = cornerCount(motion.translations, tolerance.shift);
     const size_t scales = std::max(
         cornerCount(motion.scales, 0.5 * tolerance.linear),
-        motion.canBeFlat() ? size_t{1} : cornerCount(reciprocals(motion.scales), 0.5 * tolerance.linear));
-    return motion.rotations.hullSize(ofRotation(motion, tolerance, scale)) *
+        motion.canBeSingular() ? size_t{1} : cornerCount(reciprocals(motion.scales), 0.5 * tolerance.linear));
+    return motion.rotations.hullSize(rotationTolerance(motion, tolerance, scale)) *
            static_cast<double>(translations * scales);
 }
 
-std::vector<Interval> morphWeightRanges(const MotionTables& tables, uint32_t node, size_t targets)
+std::vector<Interval> morphWeightRanges(const AnimationTables& tables, uint32_t node, size_t targets)
 {
     std::vector<Interval> ranges(targets, Interval{0, 1});
     const Range rest = tables.nodes[node].morph_weights;
@@ -288,4 +290,4 @@ std::vector<Interval> morphWeightRanges(const MotionTables& tables, uint32_t nod
     return ranges;
 }
 
-} // namespace hearth::motion
+} // namespace hearth::animation_bounds

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-namespace hearth::motion
+namespace hearth::animation_bounds
 {
 
 /// Bounds of a node's translation, rotation and scale, each by itself. They contain the convex hull (for
@@ -23,7 +23,7 @@ struct NodeMotion
     std::optional<Affine3d> fixed;
 
     /// True if any scale can be 0, or so near to 0 that division by it gives no useful bound.
-    bool canBeFlat() const;
+    bool canBeSingular() const;
 
     /// True if the node can mirror, so that triangles are turned inside out.
     bool canMirror() const;
@@ -35,7 +35,7 @@ struct NodeMotion
 };
 
 /// Compute the motion of each node.
-std::vector<NodeMotion> nodeMotions(const formats::MotionTables& tables);
+std::vector<NodeMotion> nodeMotions(const formats::AnimationTables& tables);
 
 /// Allowed distance between a set and the exact bounds.
 struct Tolerance
@@ -56,6 +56,7 @@ double hullSize(const NodeMotion& motion, Tolerance tolerance);
 /// Return the ranges of a node's morph weights, one for each target: from 0 to 1 and all values in clips and
 /// the rest pose.
 /// targets  number of targets of the mesh
-std::vector<Interval> morphWeightRanges(const formats::MotionTables& tables, uint32_t node, size_t targets);
+std::vector<Interval> morphWeightRanges(const formats::AnimationTables& tables, uint32_t node,
+                                        size_t targets);
 
-} // namespace hearth::motion
+} // namespace hearth::animation_bounds

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace hearth::motion
+namespace hearth::animation_bounds
 {
 
 using namespace formats;
@@ -19,12 +19,12 @@ namespace
 {
 
 // Maximum number of spans of a clip, and approximate number of all clips together.
-constexpr uint32_t kMostLeaves = 128;
+constexpr uint32_t kMaxLeaves = 128;
 constexpr uint32_t kLeavesOfAllClips = 2048;
-constexpr uint32_t kLeastLeaves = 8;
+constexpr uint32_t kMinLeaves = 8;
 
 // Smallest range of weights that blends are split into.
-constexpr double kLeastWeights = 1.0 / 64;
+constexpr double kMinWeightRange = 1.0 / 64;
 
 // Remainder, as an angle between quaternions in radians, that an unknown rotation counts as.
 constexpr double kAnyRotation = std::numbers::pi / 2;
@@ -32,7 +32,7 @@ constexpr double kAnyRotation = std::numbers::pi / 2;
 // Error of polynomials for a rotation by x radians in all, as a share of x, divided by x^2. Measured: with a
 // value a hundred times larger, boxes of the fox are 1.9 times the tightest, with this one 1.6, for the same
 // work.
-constexpr double kBend = 0.005;
+constexpr double kCurvatureError = 0.005;
 
 double angleBetween(const Quaternion& a, const Quaternion& b)
 {
@@ -40,7 +40,7 @@ double angleBetween(const Quaternion& a, const Quaternion& b)
 }
 
 /// Return the times at which a channel has a key, seconds, sorted.
-std::vector<double> keyTimes(const MotionTables& tables, const AnimationRecord& animation)
+std::vector<double> keyTimes(const AnimationTables& tables, const AnimationRecord& animation)
 {
     std::vector<double> times;
     for (const AnimationChannelRecord& channel :
@@ -56,7 +56,7 @@ std::vector<double> keyTimes(const MotionTables& tables, const AnimationRecord& 
 }
 
 /// Return the key time nearest to the middle of a span, or the middle if no key is in the middle half.
-double cutOf(TimeSpan span, std::span<const double> key_times)
+double splitTime(TimeSpan span, std::span<const double> key_times)
 {
     const double middle = 0.5 * (span.from + span.to), quarter = 0.25 * (span.to - span.from);
     const auto later = std::lower_bound(key_times.begin(), key_times.end(), middle);
@@ -77,13 +77,13 @@ double cutOf(TimeSpan span, std::span<const double> key_times)
 }
 
 /// Amount of motion of a node in a time span: size of the polynomials' motion, and of their remainders.
-struct Motion
+struct SpanMotion
 {
     double smooth = 0;
     double rough = 0;
 };
 
-void addMotion(const NodeSpan& span, Motion& motion)
+void addMotion(const NodeSpan& span, SpanMotion& motion)
 {
     const auto add = [&](const TimeCurve& curve, double share)
     {
@@ -111,10 +111,10 @@ VectorModel blended(const TimeCurve& from, const TimeCurve& to, Interval weights
         term(kFirstLinear) = (1 - weight) * a[1];
         term(kFirstLinear + 1) = weight * b[1];
         term(kFirstLinear + 2) = half * (b[0] - a[0]);
-        term(termOf(0, 0)) = (1 - weight) * a[2];
-        term(termOf(1, 1)) = weight * b[2];
-        term(termOf(0, 2)) = -half * a[1];
-        term(termOf(1, 2)) = half * b[1];
+        term(termIndex(0, 0)) = (1 - weight) * a[2];
+        term(termIndex(1, 1)) = weight * b[2];
+        term(termIndex(0, 2)) = -half * a[1];
+        term(termIndex(1, 2)) = half * b[1];
     }
     model.remainder = half * (length(from.terms[2]) + length(to.terms[2])) +
                       std::max(std::lerp(from.remainder, to.remainder, weights.low),
@@ -122,33 +122,33 @@ VectorModel blended(const TimeCurve& from, const TimeCurve& to, Interval weights
     return model;
 }
 
-Value vectorValue(Double3 v)
+ChannelValue vectorValue(Double3 v)
 {
     return {v.x, v.y, v.z, 0};
 }
 
 } // namespace
 
-PoseRegions::PoseRegions(const MotionTables& tables, std::span<const NodeMotion> nodes)
+PoseRegions::PoseRegions(const AnimationTables& tables, std::span<const NodeMotion> nodes)
     : tables_(tables), nodes_(nodes)
 {
     for (const NodePose& pose : restPose(tables).nodes)
-        rest_.push_back({curveOf(vectorValue(pose.translation)), curveOf(pose.rotation),
-                         curveOf(vectorValue(pose.scale))});
+        rest_.push_back({constantCurve(vectorValue(pose.translation)), constantCurve(pose.rotation),
+                         constantCurve(vectorValue(pose.scale))});
     Clip rest;
     rest.times.resize(2);
     rest.parts = std::make_unique<Part[]>(2);
     clips_.push_back(std::move(rest));
     for (const AnimationRecord& animation : tables.animations)
-        clips_.push_back(clipOf(animation));
+        clips_.push_back(makeClip(animation));
 }
 
-PoseRegions::Clip PoseRegions::clipOf(const AnimationRecord& animation) const
+PoseRegions::Clip PoseRegions::makeClip(const AnimationRecord& animation) const
 {
     Clip clip;
     clip.animation = &animation;
     const auto share = static_cast<uint32_t>(kLeavesOfAllClips / tables_.animations.size());
-    clip.leaves = std::bit_floor(std::clamp(share, kLeastLeaves, kMostLeaves));
+    clip.leaves = std::bit_floor(std::clamp(share, kMinLeaves, kMaxLeaves));
     clip.times.resize(2 * clip.leaves);
     clip.parts = std::make_unique<Part[]>(2 * clip.leaves);
     const std::vector<double> key_times = keyTimes(tables_, animation);
@@ -156,14 +156,14 @@ PoseRegions::Clip PoseRegions::clipOf(const AnimationRecord& animation) const
     for (uint32_t part = 1; part < clip.leaves; ++part)
     {
         const TimeSpan& time = clip.times[part];
-        const double cut = cutOf(time, key_times);
+        const double cut = splitTime(time, key_times);
         clip.times[2 * part] = {time.from, cut, false};
         clip.times[2 * part + 1] = {cut, time.to, time.last};
     }
     return clip;
 }
 
-std::vector<NodeSpan> PoseRegions::spansOf(const Clip& clip, uint32_t part) const
+std::vector<NodeSpan> PoseRegions::computeSpans(const Clip& clip, uint32_t part) const
 {
     std::vector<NodeSpan> spans = rest_;
     if (clip.animation == nullptr)
@@ -175,13 +175,13 @@ std::vector<NodeSpan> PoseRegions::spansOf(const Clip& clip, uint32_t part) cons
         switch (static_cast<AnimationPath>(channel.path))
         {
         case AnimationPath::translation:
-            span.translation = vectorCurve(clip.times[part], tables_, channel);
+            span.translation = fitVectorCurve(clip.times[part], tables_, channel);
             break;
         case AnimationPath::rotation:
-            span.rotation = rotationCurve(clip.times[part], tables_, channel);
+            span.rotation = fitRotationCurve(clip.times[part], tables_, channel);
             break;
         case AnimationPath::scale:
-            span.scale = vectorCurve(clip.times[part], tables_, channel);
+            span.scale = fitVectorCurve(clip.times[part], tables_, channel);
             break;
         case AnimationPath::weights:
             break;
@@ -193,7 +193,7 @@ std::vector<NodeSpan> PoseRegions::spansOf(const Clip& clip, uint32_t part) cons
 const NodeSpan& PoseRegions::span(uint32_t clip, uint32_t part, uint32_t node) const
 {
     Part& found = clips_[clip].parts[part];
-    std::call_once(found.once, [&] { found.spans = spansOf(clips_[clip], part); });
+    std::call_once(found.once, [&] { found.spans = computeSpans(clips_[clip], part); });
     return found.spans[node];
 }
 
@@ -224,14 +224,14 @@ PoseRegion PoseRegions::sample(size_t number) const
     return {from, leaf(from, share(0.628706728)), to, leaf(to, share(0.538597197)), weight, weight};
 }
 
-std::optional<std::array<PoseRegion, 2>> PoseRegions::halves(const PoseRegion& region,
-                                                             std::span<const uint32_t> nodes) const
+std::optional<std::array<PoseRegion, 2>> PoseRegions::split(const PoseRegion& region,
+                                                            std::span<const uint32_t> nodes) const
 {
     const double weights = region.high_weight - region.low_weight;
     const bool can_cut_from = region.from_span < clips_[region.from_clip].leaves && region.low_weight < 1;
     const bool can_cut_to = region.to_span < clips_[region.to_clip].leaves && region.high_weight > 0;
     double between = 0;
-    Motion from_motion, to_motion;
+    SpanMotion from_motion, to_motion;
     for (const uint32_t node : nodes)
     {
         const NodeSpan& from = span(region.from_clip, region.from_span, node);
@@ -244,29 +244,29 @@ std::optional<std::array<PoseRegion, 2>> PoseRegions::halves(const PoseRegion& r
     const double along_weights = 0.5 * (between + from_motion.smooth + to_motion.smooth) * weights;
     const double all = from_motion.smooth * from_share + to_motion.smooth * to_share + along_weights;
     // the error of polynomials grows with the third power
-    const double bend = std::min(1.0, kBend * all * all);
+    const double bend = std::min(1.0, kCurvatureError * all * all);
     const double of_from = can_cut_from ? (from_motion.rough + from_motion.smooth * bend) * from_share : -1;
     const double of_to = can_cut_to ? (to_motion.rough + to_motion.smooth * bend) * to_share : -1;
-    const double of_weights = weights > kLeastWeights ? along_weights * bend : -1;
-    std::array<PoseRegion, 2> halves{region, region};
+    const double of_weights = weights > kMinWeightRange ? along_weights * bend : -1;
+    std::array<PoseRegion, 2> split{region, region};
     if (of_from < 0 && of_to < 0 && of_weights < 0)
         return std::nullopt;
     if (of_weights >= of_from && of_weights >= of_to)
-        halves[0].high_weight = halves[1].low_weight = 0.5 * (region.low_weight + region.high_weight);
+        split[0].high_weight = split[1].low_weight = 0.5 * (region.low_weight + region.high_weight);
     else if (of_from >= of_to)
     {
-        halves[0].from_span = 2 * region.from_span;
-        halves[1].from_span = 2 * region.from_span + 1;
+        split[0].from_span = 2 * region.from_span;
+        split[1].from_span = 2 * region.from_span + 1;
     }
     else
     {
-        halves[0].to_span = 2 * region.to_span;
-        halves[1].to_span = 2 * region.to_span + 1;
+        split[0].to_span = 2 * region.to_span;
+        split[1].to_span = 2 * region.to_span + 1;
     }
-    return halves;
+    return split;
 }
 
-NodeModel PoseRegions::modelOf(const PoseRegion& region, uint32_t node) const
+NodeModel PoseRegions::nodeModel(const PoseRegion& region, uint32_t node) const
 {
     const NodeSpan& from = span(region.from_clip, region.from_span, node);
     const NodeSpan& to = span(region.to_clip, region.to_span, node);
@@ -276,7 +276,7 @@ NodeModel PoseRegions::modelOf(const PoseRegion& region, uint32_t node) const
             rotation.remainder < 1 ? rotation : anyRotation(), blended(from.scale, to.scale, weights)};
 }
 
-NodePose PoseRegions::middleOf(const PoseRegion& region, uint32_t node) const
+NodePose PoseRegions::middlePose(const PoseRegion& region, uint32_t node) const
 {
     const NodeSpan& from = span(region.from_clip, region.from_span, node);
     const NodeSpan& to = span(region.to_clip, region.to_span, node);
@@ -292,4 +292,4 @@ NodePose PoseRegions::middleOf(const PoseRegion& region, uint32_t node) const
             between(from.scale, to.scale)};
 }
 
-} // namespace hearth::motion
+} // namespace hearth::animation_bounds

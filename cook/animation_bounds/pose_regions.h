@@ -11,7 +11,7 @@
 #include <memory>
 #include <mutex>
 
-namespace hearth::motion
+namespace hearth::animation_bounds
 {
 
 /// Local transform of a node during a time span.
@@ -49,7 +49,7 @@ class PoseRegions
 public:
     /// Construct from a scene's motion.
     /// tables, nodes  must outlive this
-    PoseRegions(const formats::MotionTables& tables, std::span<const NodeMotion> nodes);
+    PoseRegions(const formats::AnimationTables& tables, std::span<const NodeMotion> nodes);
 
     /// Return regions that cover all poses: each clip, the rest pose as a further clip, and all blends of
     /// two.
@@ -62,17 +62,17 @@ public:
     /// Split a region in two along the parameter with the most motion. Return nothing if the region cannot be
     /// split.
     /// nodes  nodes whose motion counts
-    std::optional<std::array<PoseRegion, 2>> halves(const PoseRegion& region,
-                                                    std::span<const uint32_t> nodes) const;
+    std::optional<std::array<PoseRegion, 2>> split(const PoseRegion& region,
+                                                   std::span<const uint32_t> nodes) const;
 
     /// Return the local transform of a node over a region.
-    NodeModel modelOf(const PoseRegion& region, uint32_t node) const;
+    NodeModel nodeModel(const PoseRegion& region, uint32_t node) const;
 
     /// Return a pose of the node in the region, or near it: all nodes at the middle of the times and weights.
-    formats::NodePose middleOf(const PoseRegion& region, uint32_t node) const;
+    formats::NodePose middlePose(const PoseRegion& region, uint32_t node) const;
 
     /// Return the time span of a node of a clip's span tree.
-    TimeSpan timeOf(uint32_t clip, uint32_t span) const { return clips_[clip].times[span]; }
+    TimeSpan timeSpan(uint32_t clip, uint32_t span) const { return clips_[clip].times[span]; }
 
     /// Return the transform of a node that has a matrix, nothing for other nodes.
     const std::optional<Affine3d>& fixed(uint32_t node) const { return nodes_[node].fixed; }
@@ -95,14 +95,14 @@ private:
         std::unique_ptr<Part[]> parts; ///< by part
     };
 
-    Clip clipOf(const formats::AnimationRecord& animation) const;
-    std::vector<NodeSpan> spansOf(const Clip& clip, uint32_t part) const;
+    Clip makeClip(const formats::AnimationRecord& animation) const;
+    std::vector<NodeSpan> computeSpans(const Clip& clip, uint32_t part) const;
     const NodeSpan& span(uint32_t clip, uint32_t part, uint32_t node) const;
 
-    formats::MotionTables tables_;
+    formats::AnimationTables tables_;
     std::span<const NodeMotion> nodes_;
     std::vector<NodeSpan> rest_;
     std::vector<Clip> clips_;
 };
 
-} // namespace hearth::motion
+} // namespace hearth::animation_bounds

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace hearth::motion
+namespace hearth::animation_bounds
 {
 
 inline double dot(const formats::Quaternion& a, const formats::Quaternion& b)
@@ -45,4 +45,4 @@ inline formats::Quaternion multiply(const formats::Quaternion& a, const formats:
             a[3] * b[3] - a[0] * b[0] - a[1] * b[1] - a[2] * b[2]};
 }
 
-} // namespace hearth::motion
+} // namespace hearth::animation_bounds

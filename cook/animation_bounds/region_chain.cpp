@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <unordered_map>
 
-namespace hearth::motion
+namespace hearth::animation_bounds
 {
 
 using namespace formats;
@@ -13,7 +13,7 @@ RegionChain::RegionChain(std::span<const NodeRecord> nodes, uint32_t main, std::
 {
     // the last entry is none: the world, the common root of all trees
     std::vector<uint32_t> ancestors{main};
-    while (ancestors.back() != kNone)
+    while (ancestors.back() != kInvalidIndex)
         ancestors.push_back(nodes[ancestors.back()].parent);
     links_.push_back({main, 0, false});
     std::unordered_map<uint32_t, uint32_t> link_of_node{{main, 0}};
@@ -63,7 +63,7 @@ bool RegionChain::place(const PoseRegions& regions, const PoseRegion& region, st
                         std::vector<TransformModel>& models) const
 {
     models.resize(links_.size());
-    models[0] = unmoved();
+    models[0] = identityModel();
     for (const uint32_t i : links)
     {
         const Link& link = links_[i];
@@ -72,11 +72,11 @@ bool RegionChain::place(const PoseRegions& regions, const PoseRegion& region, st
         if (fixed)
         {
             const std::optional<Affine3d> transform = link.up ? inverted(*fixed) : fixed;
-            step = transform ? std::optional(exactly(*transform)) : std::nullopt;
+            step = transform ? std::optional(constantModel(*transform)) : std::nullopt;
         }
         else
-            step = link.up ? nodeFromParent(regions.modelOf(region, link.node))
-                           : parentFromNode(regions.modelOf(region, link.node));
+            step = link.up ? nodeFromParent(regions.nodeModel(region, link.node))
+                           : parentFromNode(regions.nodeModel(region, link.node));
         if (!step)
             return false;
         compose(models[link.after], *step, models[i]);
@@ -92,8 +92,8 @@ bool RegionChain::middle(const PoseRegions& regions, const PoseRegion& region,
     {
         const Link& link = links_[i];
         const std::optional<Affine3d>& fixed = regions.fixed(link.node);
-        const NodePose pose = regions.middleOf(region, link.node);
-        const Affine3d down = fixed ? *fixed : affineFromTrs(pose.translation, pose.rotation, pose.scale);
+        const NodePose pose = regions.middlePose(region, link.node);
+        const Affine3d down = fixed ? *fixed : makeAffineFromTrs(pose.translation, pose.rotation, pose.scale);
         const std::optional<Affine3d> step = link.up ? inverted(down) : down;
         if (!step)
             return false;
@@ -105,4 +105,4 @@ bool RegionChain::middle(const PoseRegions& regions, const PoseRegion& region,
     return true;
 }
 
-} // namespace hearth::motion
+} // namespace hearth::animation_bounds

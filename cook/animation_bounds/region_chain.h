@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace hearth::motion
+namespace hearth::animation_bounds
 {
 
 /// Nodes between a main bone and other joints. Each link follows the link that it is attached to, seen from
@@ -23,10 +23,10 @@ public:
     std::vector<uint32_t> linksTo(std::span<const uint32_t> joints) const;
 
     /// Return the node whose pose defines a link.
-    uint32_t nodeOf(uint32_t link) const { return links_[link].node; }
+    uint32_t linkNode(uint32_t link) const { return links_[link].node; }
 
     /// Return the index at which `place` stores the model of a joint.
-    uint32_t linkOf(uint32_t joint) const { return link_of_joint_[joint]; }
+    uint32_t linkIndex(uint32_t joint) const { return link_of_joint_[joint]; }
 
     /// Compute the transforms from the joints' nodes to the main bone's node. Return false if a transform has
     /// no bounds.
@@ -52,4 +52,4 @@ private:
     std::vector<uint32_t> link_of_joint_;
 };
 
-} // namespace hearth::motion
+} // namespace hearth::animation_bounds

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace hearth::motion
+namespace hearth::animation_bounds
 {
 
 using namespace formats;
@@ -33,19 +33,19 @@ constexpr double kSlabMargin = 1e-9;
 
 // Cosine between quaternions below which two rotations count as half a turn apart: either arc may be the
 // shorter one.
-constexpr double kLeastCosine = 1e-5;
+constexpr double kMinCosine = 1e-5;
 
 // Distance of quaternions from a common circle below which rotations are bounded as rotations about one axis.
 constexpr double kNearCircle = 0.02;
 
 // Maximum half width of a cell: control points then exceed the hull by less than a third.
-constexpr double kMostCellHalf = 0.4;
+constexpr double kMaxCellHalf = 0.4;
 
 // Maximum extent of a projection. Larger sets are hardly smaller than the set of all rotations.
-constexpr double kMostReach = 4;
+constexpr double kMaxExtent = 4;
 
 // Maximum number of pairs that are tested one by one.
-constexpr size_t kMostPairs = 4'000'000;
+constexpr size_t kMaxPairs = 4'000'000;
 
 double along(const std::array<int, 3>& direction, Double3 u)
 {
@@ -53,7 +53,7 @@ double along(const std::array<int, 3>& direction, Double3 u)
 }
 
 /// Return the principal directions of the points, irrespective of their signs.
-Eigenvectors<4> spread(std::span<const Quaternion> points)
+Eigenvectors<4> principalDirections(std::span<const Quaternion> points)
 {
     std::array<std::array<double, 4>, 4> sum{};
     for (const Quaternion& q : points)
@@ -79,20 +79,20 @@ bool areInOneCone(std::span<const Quaternion> points, const Quaternion& center)
         least = std::min(least, std::abs(cosine(q, center)));
     if (least >= kEighthTurn)
         return true;
-    if (least < kLeastCosine || points.size() * points.size() > kMostPairs)
+    if (least < kMinCosine || points.size() * points.size() > kMaxPairs)
         return false;
     for (size_t i = 0; i < points.size(); ++i)
         for (size_t j = i + 1; j < points.size(); ++j)
         {
             const double sides = dot(points[i], center) * dot(points[j], center) < 0 ? -1 : 1;
-            if (cosine(points[i], points[j]) * sides < kLeastCosine)
+            if (cosine(points[i], points[j]) * sides < kMinCosine)
                 return false;
         }
     return true;
 }
 
 /// Return the gnomonic coordinates relative to a frame.
-Double3 projected(const Quaternion& frame, const Quaternion& q)
+Double3 project(const Quaternion& frame, const Quaternion& q)
 {
     const Quaternion turned = multiply(conjugate(frame), q);
     return Double3{turned[0], turned[1], turned[2]} * (1 / turned[3]);
@@ -122,12 +122,12 @@ std::array<Double3, 3> principalAxes(std::span<const Double3> vectors)
     return {unit(axes.vectors[0]), unit(axes.vectors[1]), unit(axes.vectors[2])};
 }
 
-std::vector<Double3> projectedAll(const Quaternion& frame, std::span<const Quaternion> points)
+std::vector<Double3> projectAll(const Quaternion& frame, std::span<const Quaternion> points)
 {
     std::vector<Double3> vectors;
     vectors.reserve(points.size());
     for (const Quaternion& q : points)
-        vectors.push_back(projected(frame, q));
+        vectors.push_back(project(frame, q));
     return vectors;
 }
 
@@ -141,7 +141,7 @@ Double3 fromAxes(const std::array<Double3, 3>& axes, Double3 u)
     return axes[0] * u.x + axes[1] * u.y + axes[2] * u.z;
 }
 
-Box3d boxOf(const RotationPatch& patch)
+Box3d patchBox(const RotationPatch& patch)
 {
     return {patch.slabs[0], patch.slabs[1], patch.slabs[2]};
 }
@@ -151,7 +151,7 @@ RotationPatch patchAround(const Quaternion& frame, std::span<const Quaternion> p
 {
     RotationPatch patch;
     patch.frame = frame;
-    const std::vector<Double3> vectors = projectedAll(frame, points);
+    const std::vector<Double3> vectors = projectAll(frame, points);
     patch.axes = principalAxes(vectors);
     for (const Double3 v : vectors)
     {
@@ -169,7 +169,7 @@ RotationPatch patchAround(const Quaternion& frame, std::span<const Quaternion> p
 Quaternion middleFrame(const Quaternion& center, std::span<const Quaternion> points)
 {
     const RotationPatch patch = patchAround(center, points);
-    const Double3 u = fromAxes(patch.axes, middle(boxOf(patch)));
+    const Double3 u = fromAxes(patch.axes, middle(patchBox(patch)));
     return normalizedOrNone(multiply(center, {u.x, u.y, u.z, 1}));
 }
 
@@ -219,8 +219,8 @@ public:
             slack_ = 2 * interval.half();
             return;
         }
-        const double most_half = std::min(kMostCellHalf, std::sqrt(tolerance * 0.5));
-        cells_ = std::ceil(interval.half() / most_half);
+        const double max_half = std::min(kMaxCellHalf, std::sqrt(tolerance * 0.5));
+        cells_ = std::ceil(interval.half() / max_half);
         first_ = interval.low;
         half_ = interval.half() / cells_;
     }
@@ -246,20 +246,20 @@ private:
     double slack_ = 0;
 };
 
-std::array<AxisCells, 3> cellsOf(const RotationPatch& patch, double tolerance)
+std::array<AxisCells, 3> makeCells(const RotationPatch& patch, double tolerance)
 {
     return {AxisCells(patch.slabs[0], tolerance), AxisCells(patch.slabs[1], tolerance),
             AxisCells(patch.slabs[2], tolerance)};
 }
 
-double slackOf(const std::array<AxisCells, 3>& cells)
+double totalSlack(const std::array<AxisCells, 3>& cells)
 {
     return cells[0].slack() + cells[1].slack() + cells[2].slack();
 }
 
-Matrix3 matrixOf(const Quaternion& unit_quaternion)
+Matrix3 rotationMatrix(const Quaternion& unit_quaternion)
 {
-    const Affine3d t = affineFromTrs({}, unit_quaternion, {1, 1, 1});
+    const Affine3d t = makeAffineFromTrs({}, unit_quaternion, {1, 1, 1});
     return {{{t.m[0][0], t.m[0][1], t.m[0][2]},
              {t.m[1][0], t.m[1][1], t.m[1][2]},
              {t.m[2][0], t.m[2][1], t.m[2][2]}}};
@@ -277,7 +277,7 @@ public:
         for (size_t i = 0; i < 3; ++i)
         {
             const Double3 axis = patch.axes[i];
-            axis_matrices_[i] = matrixOf(multiply(patch.frame, {axis.x, axis.y, axis.z, 0}));
+            axis_matrices_[i] = rotationMatrix(multiply(patch.frame, {axis.x, axis.y, axis.z, 0}));
         }
     }
 
@@ -288,7 +288,7 @@ public:
     {
         const Double3 v = fromAxes(patch_.axes, u);
         const double square = 1 + dot(u, u);
-        Matrix3 sum = matrixOf(normalizedOrNone(multiply(patch_.frame, {v.x, v.y, v.z, 1})));
+        Matrix3 sum = rotationMatrix(normalizedOrNone(multiply(patch_.frame, {v.x, v.y, v.z, 1})));
         double weight = square;
         for (const double half : halves)
             weight -= half * half;
@@ -324,7 +324,7 @@ bool reachesInto(const RotationPatch& patch, Double3 center, Double3 extent)
 
 void addControlPoints(const RotationPatch& patch, double tolerance, RotationHull& hull)
 {
-    const std::array<AxisCells, 3> cells = cellsOf(patch, tolerance);
+    const std::array<AxisCells, 3> cells = makeCells(patch, tolerance);
     const ControlPoints points(patch);
     for (size_t i = 0; i < cells[0].nodes(); ++i)
         for (size_t j = 0; j < cells[1].nodes(); ++j)
@@ -336,13 +336,13 @@ void addControlPoints(const RotationPatch& patch, double tolerance, RotationHull
                     hull.matrices.push_back(
                         points.at(u, {cells[0].halfAt(i), cells[1].halfAt(j), cells[2].halfAt(k)}));
             }
-    hull.slack = std::max(hull.slack, slackOf(cells));
+    hull.slack = std::max(hull.slack, totalSlack(cells));
 }
 
 bool isNarrow(const RotationPatch& patch)
 {
     return std::max({patch.slabs[0].magnitude(), patch.slabs[1].magnitude(), patch.slabs[2].magnitude()}) <=
-           kMostReach;
+           kMaxExtent;
 }
 
 } // namespace
@@ -353,7 +353,7 @@ RotationSet RotationSet::around(const RotationPoints& points)
     if (points.unbounded)
         return set;
     HEARTH_ASSERT(!points.points.empty());
-    const Eigenvectors<4> spread_of_points = spread(points.points);
+    const Eigenvectors<4> spread_of_points = principalDirections(points.points);
     const Quaternion& center = spread_of_points.vectors[0];
     if (areInOneCone(points.points, center))
     {
@@ -375,8 +375,8 @@ double RotationSet::hullSize(double tolerance) const
     double size = 0;
     for (const RotationPatch& patch : patches_)
     {
-        const std::array<AxisCells, 3> cells = cellsOf(patch, tolerance);
-        if (slackOf(cells) > 1)
+        const std::array<AxisCells, 3> cells = makeCells(patch, tolerance);
+        if (totalSlack(cells) > 1)
             return 1;
         size += cells[0].nodeCount() * cells[1].nodeCount() * cells[2].nodeCount();
     }
@@ -394,4 +394,4 @@ RotationHull RotationSet::hull(double tolerance) const
     return hull;
 }
 
-} // namespace hearth::motion
+} // namespace hearth::animation_bounds

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace hearth::motion
+namespace hearth::animation_bounds
 {
 
 /// Number of directions, up to sign, of the slabs that bound a patch: 3 axes, 6 face diagonals and 4 space
@@ -57,4 +57,4 @@ private:
     std::vector<RotationPatch> patches_; ///< none: all rotations
 };
 
-} // namespace hearth::motion
+} // namespace hearth::animation_bounds

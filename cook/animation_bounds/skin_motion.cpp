@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hearth::motion
+namespace hearth::animation_bounds
 {
 
 using namespace formats;
@@ -17,7 +17,7 @@ namespace
 
 // Maximum number of matrices of a joint's motion. More matrices give tighter bounds and slower queries: with
 // four times as many, boxes of moving clusters shrink by less than a hundredth.
-constexpr size_t kMostMatrices = 256;
+constexpr size_t kMaxMatrices = 256;
 
 // Initial tolerance, as a share of the size of the points that the joint moves. It grows until the matrices
 // are few enough.
@@ -26,7 +26,7 @@ constexpr double kToleranceGrowth = 1.4;
 
 } // namespace
 
-JointMotion::JointMotion(MatrixSet set) : set_(std::move(set)), ball_(ballAround(set_))
+JointMotion::JointMotion(MatrixSet set) : set_(std::move(set)), ball_(boundingBall(set_))
 {
     const std::vector<Affine3d>& hull = set_.hull;
     for (size_t axis = 0; axis < 3; ++axis)
@@ -40,7 +40,7 @@ JointMotion::JointMotion(MatrixSet set) : set_(std::move(set)), ball_(ballAround
         }
 }
 
-void JointMotion::addPlaces(Double3 point, Double3 half, double weight, Box3d& box) const
+void JointMotion::addPositionBox(Double3 point, Double3 half, double weight, Box3d& box) const
 {
     const double slack = set_.linear_slack * (length(point - set_.pivot) + length(half)) + set_.point_slack;
     const bool is_point = half.x == 0 && half.y == 0 && half.z == 0;
@@ -64,7 +64,7 @@ void JointMotion::addPlaces(Double3 point, Double3 half, double weight, Box3d& b
     }
 }
 
-SkinMotion::SkinMotion(const MotionTables& tables, std::span<const NodeMotion> nodes, uint32_t skin,
+SkinMotion::SkinMotion(const AnimationTables& tables, std::span<const NodeMotion> nodes, uint32_t skin,
                        std::span<const Box3d> reach)
     : records_(tables.nodes), nodes_(nodes)
 {
@@ -73,7 +73,7 @@ SkinMotion::SkinMotion(const MotionTables& tables, std::span<const NodeMotion> n
         parent_from_node_.push_back(
             nodes[i].fixed
                 ? *nodes[i].fixed
-                : affineFromTrs(rest.nodes[i].translation, rest.nodes[i].rotation, rest.nodes[i].scale));
+                : makeAffineFromTrs(rest.nodes[i].translation, rest.nodes[i].rotation, rest.nodes[i].scale));
     const Range range = tables.skins[skin].joints;
     HEARTH_ASSERT(reach.size() == range.count);
     for (uint32_t i = 0; i < range.count; ++i)
@@ -82,14 +82,14 @@ SkinMotion::SkinMotion(const MotionTables& tables, std::span<const NodeMotion> n
         Joint joint;
         joint.joint_from_bind = widened(record.joint_from_bind);
         joint.bind_from_joint = inverted(joint.joint_from_bind);
-        for (uint32_t node = record.node; node != kNone; node = tables.nodes[node].parent)
+        for (uint32_t node = record.node; node != kInvalidIndex; node = tables.nodes[node].parent)
             joint.nodes.push_back(node);
         joint.reach = reach[i];
         joints_.push_back(std::move(joint));
     }
 }
 
-std::optional<std::vector<SkinMotion::Step>> SkinMotion::way(uint32_t main, uint32_t joint) const
+std::optional<std::vector<SkinMotion::Step>> SkinMotion::pathBetween(uint32_t main, uint32_t joint) const
 {
     const std::vector<uint32_t>& to = joints_[main].nodes;
     const std::vector<uint32_t>& from = joints_[joint].nodes;
@@ -105,7 +105,7 @@ std::optional<std::vector<SkinMotion::Step>> SkinMotion::way(uint32_t main, uint
         steps.push_back({from[i], false});
     for (size_t i = to.size() - shared; i-- > 0;)
     {
-        if (nodes_[to[i]].canBeFlat())
+        if (nodes_[to[i]].canBeSingular())
             return std::nullopt;
         steps.push_back({to[i], true});
     }
@@ -135,19 +135,19 @@ std::vector<Tolerance> SkinMotion::tolerances(std::span<const Step> steps, uint3
     }
     // convert an error of a metre behind each step to metres in the main bone
     std::vector<Tolerance> shares(steps.size());
-    double onwards = operatorNorm(*joints_[main].bind_from_joint);
+    double main_scale = operatorNorm(*joints_[main].bind_from_joint);
     for (size_t i = steps.size(); i-- > 0;)
     {
-        const double shift = onwards * (steps[i].down ? norms[i] : 1.0);
-        shares[i] = {1 / std::max(onwards * levers[i], 1e-30), 1 / std::max(shift, 1e-30)};
-        onwards *= norms[i];
+        const double shift = main_scale * (steps[i].down ? norms[i] : 1.0);
+        shares[i] = {1 / std::max(main_scale * levers[i], 1e-30), 1 / std::max(shift, 1e-30)};
+        main_scale *= norms[i];
     }
     return shares;
 }
 
-std::unique_ptr<JointMotion> SkinMotion::measured(uint32_t main, uint32_t joint) const
+std::unique_ptr<JointMotion> SkinMotion::computeMotion(uint32_t main, uint32_t joint) const
 {
-    const std::optional<std::vector<Step>> steps = way(main, joint);
+    const std::optional<std::vector<Step>> steps = pathBetween(main, joint);
     if (!steps)
         return nullptr;
     const std::vector<Tolerance> shares = tolerances(*steps, main, joint);
@@ -164,20 +164,20 @@ std::unique_ptr<JointMotion> SkinMotion::measured(uint32_t main, uint32_t joint)
             count *= hullSize(nodes_[(*steps)[i].node], scaled(i, tolerance));
         return count;
     };
-    while (matrices() > static_cast<double>(kMostMatrices))
+    while (matrices() > static_cast<double>(kMaxMatrices))
         tolerance *= kToleranceGrowth;
 
-    MatrixSet set = only(from.joint_from_bind);
+    MatrixSet set = singletonSet(from.joint_from_bind);
     // rotations about the joint leave its origin unmoved
     set.pivot = from.bind_from_joint ? transformPoint(*from.bind_from_joint, {}) : Double3{};
     for (size_t i = 0; i < steps->size(); ++i)
     {
         const NodeMotion& node = nodes_[(*steps)[i].node];
-        set = composed((*steps)[i].down ? nodeFromParent(node, scaled(i, tolerance))
-                                        : parentFromNode(node, scaled(i, tolerance)),
-                       set);
+        set = composeSets((*steps)[i].down ? nodeFromParent(node, scaled(i, tolerance))
+                                           : parentFromNode(node, scaled(i, tolerance)),
+                          set);
     }
-    return std::make_unique<JointMotion>(composed(only(*joints_[main].bind_from_joint), set));
+    return std::make_unique<JointMotion>(composeSets(singletonSet(*joints_[main].bind_from_joint), set));
 }
 
 SkinMotion::Entry& SkinMotion::entry(uint32_t main, uint32_t joint) const
@@ -190,7 +190,7 @@ const JointMotion* SkinMotion::relative(uint32_t main, uint32_t joint) const
 {
     HEARTH_ASSERT(main < joints_.size() && joint < joints_.size());
     Entry& found = entry(main, joint);
-    std::call_once(found.once, [&] { found.motion = measured(main, joint); });
+    std::call_once(found.once, [&] { found.motion = computeMotion(main, joint); });
     return found.motion.get();
 }
 
@@ -206,15 +206,16 @@ bool SkinMotion::canMirror(uint32_t joint) const
 {
     const std::vector<uint32_t>& nodes = joints_[joint].nodes;
     return std::any_of(nodes.begin(), nodes.end(),
-                       [&](uint32_t node) { return nodes_[node].canMirror() || nodes_[node].canBeFlat(); });
+                       [&](uint32_t node)
+                       { return nodes_[node].canMirror() || nodes_[node].canBeSingular(); });
 }
 
-std::optional<Departure> SkinMotion::departure(uint32_t main, uint32_t joint) const
+std::optional<IdentityDeviation> SkinMotion::departure(uint32_t main, uint32_t joint) const
 {
     const JointMotion* motion = relative(main, joint);
     if (motion == nullptr)
         return std::nullopt;
-    return departureOf(motion->set());
+    return computeIdentityDeviation(motion->set());
 }
 
-} // namespace hearth::motion
+} // namespace hearth::animation_bounds

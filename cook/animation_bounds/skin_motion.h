@@ -11,7 +11,7 @@
 #include <unordered_map>
 #include <vector>
 
-namespace hearth::motion
+namespace hearth::animation_bounds
 {
 
 /// Motion of joint j relative to the main bone b: D = (palette[b])^-1 palette[j], from the bind pose to the
@@ -26,7 +26,7 @@ public:
 
     /// Add `weight` times the box of all positions that a point can have.
     /// half  half size of the box around the point, axis by axis; 0 for a point alone
-    void addPlaces(Double3 point, Double3 half, double weight, Box3d& box) const;
+    void addPositionBox(Double3 point, Double3 half, double weight, Box3d& box) const;
 
 private:
     using Lanes = double __attribute__((vector_size(2 * sizeof(double))));
@@ -49,7 +49,7 @@ public:
     /// Construct from a scene's motion.
     /// reach  for each joint the box of the points, in the bind pose, that it moves: bounds are tightest for
     ///        these; empty where it moves none
-    SkinMotion(const formats::MotionTables& tables, std::span<const NodeMotion> nodes, uint32_t skin,
+    SkinMotion(const formats::AnimationTables& tables, std::span<const NodeMotion> nodes, uint32_t skin,
                std::span<const Box3d> reach);
 
     uint32_t jointCount() const { return static_cast<uint32_t>(joints_.size()); }
@@ -73,7 +73,7 @@ public:
 
     /// Return the distance from the identity of the joint's motion relative to `main`. Nothing where
     /// relative() is null.
-    std::optional<Departure> departure(uint32_t main, uint32_t joint) const;
+    std::optional<IdentityDeviation> departure(uint32_t main, uint32_t joint) const;
 
 private:
     struct Joint
@@ -95,9 +95,9 @@ private:
         std::unique_ptr<JointMotion> motion;
     };
 
-    std::optional<std::vector<Step>> way(uint32_t main, uint32_t joint) const;
+    std::optional<std::vector<Step>> pathBetween(uint32_t main, uint32_t joint) const;
     std::vector<Tolerance> tolerances(std::span<const Step> steps, uint32_t main, uint32_t joint) const;
-    std::unique_ptr<JointMotion> measured(uint32_t main, uint32_t joint) const;
+    std::unique_ptr<JointMotion> computeMotion(uint32_t main, uint32_t joint) const;
     Entry& entry(uint32_t main, uint32_t joint) const;
 
     std::span<const formats::NodeRecord> records_;
@@ -109,4 +109,4 @@ private:
     mutable std::unordered_map<uint64_t, Entry> entries_;
 };
 
-} // namespace hearth::motion
+} // namespace hearth::animation_bounds

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace hearth::motion
+namespace hearth::animation_bounds
 {
 
 using namespace formats;
@@ -15,7 +15,7 @@ namespace
 {
 
 // Maximum squared sine of half the arc; 1/2 is for quaternions at a right angle, which are half a turn apart.
-constexpr double kMostSquare = 0.495;
+constexpr double kMaxSquaredSine = 0.495;
 
 // Terms below which series end: for values, and for bounds of third derivatives, which are of order 1.
 constexpr double kValueTerm = 1e-14;
@@ -44,8 +44,8 @@ Series seriesAt(double v, double z, double last_term)
     Series sum;
     double c[4] = {1, 0, 0, 0};      // derivatives by v
     double powers[4] = {1, 0, 0, 0}; // z^(k - j)
-    constexpr int kMost = 150;
-    for (int k = 0; k < kMost; ++k)
+    constexpr int kMaxSeriesTerms = 150;
+    for (int k = 0; k < kMaxSeriesTerms; ++k)
     {
         const double share = 1.0 / (2 * k + 1);
         double falling = 1; // k (k - 1) .. of the derivatives by z
@@ -94,39 +94,39 @@ struct Expansion
 };
 
 /// Return the expansion of cos(u arc) / cos(arc / 2); z is the squared sine of half the arc.
-Expansion cosines(double u, const Derivatives& s, double most_u, const Derivatives& most)
+Expansion cosines(double u, const Derivatives& s, double max_u, const Derivatives& most)
 {
-    const double v = u * u, most_v = most_u * most_u;
+    const double v = u * u, max_v = max_u * max_u;
     return {s.at[0][0],
             2 * u * s.at[1][0],
             s.at[0][1],
             2 * s.at[1][0] + 4 * v * s.at[2][0],
             2 * u * s.at[1][1],
             s.at[0][2],
-            most_u * (12 * most.at[2][0] + 8 * most_v * most.at[3][0]),
-            2 * most.at[1][1] + 4 * most_v * most.at[2][1],
-            2 * most_u * most.at[1][2],
+            max_u * (12 * most.at[2][0] + 8 * max_v * most.at[3][0]),
+            2 * most.at[1][1] + 4 * max_v * most.at[2][1],
+            2 * max_u * most.at[1][2],
             most.at[0][3]};
 }
 
 /// Return the expansion of sin(u arc) / sin(arc / 2) = 2 u sum.
-Expansion sines(double u, const Derivatives& s, double most_u, const Derivatives& most)
+Expansion sines(double u, const Derivatives& s, double max_u, const Derivatives& most)
 {
-    const double v = u * u, most_v = most_u * most_u;
+    const double v = u * u, max_v = max_u * max_u;
     return {2 * u * s.at[0][0],
             2 * s.at[0][0] + 4 * v * s.at[1][0],
             2 * u * s.at[0][1],
             2 * u * (6 * s.at[1][0] + 4 * v * s.at[2][0]),
             2 * s.at[0][1] + 4 * v * s.at[1][1],
             2 * u * s.at[0][2],
-            12 * most.at[1][0] + 48 * most_v * most.at[2][0] + 16 * most_v * most_v * most.at[3][0],
-            2 * most_u * (6 * most.at[1][1] + 4 * most_v * most.at[2][1]),
-            2 * most.at[0][2] + 4 * most_v * most.at[1][2],
-            2 * most_u * most.at[0][3]};
+            12 * most.at[1][0] + 48 * max_v * most.at[2][0] + 16 * max_v * max_v * most.at[3][0],
+            2 * max_u * (6 * most.at[1][1] + 4 * max_v * most.at[2][1]),
+            2 * most.at[0][2] + 4 * max_v * most.at[1][2],
+            2 * max_u * most.at[0][3]};
 }
 
 /// Squared sine of half the arc as a polynomial in the two times.
-struct Square
+struct SquaredSine
 {
     double middle;
     double linear[2];
@@ -142,7 +142,7 @@ struct Square
 };
 
 /// Compute the squared sine. `side` is the sign of `to`.
-Square squareOf(const TimeCurve& from, const TimeCurve& to, double side)
+SquaredSine computeSquaredSine(const TimeCurve& from, const TimeCurve& to, double side)
 {
     const auto& a = from.terms;
     const auto& b = to.terms;
@@ -158,7 +158,7 @@ Square squareOf(const TimeCurve& from, const TimeCurve& to, double side)
 }
 
 /// Compose the expansion with u, which moves by half_u x2, and the polynomial z.
-TaylorModel<1> composed(const Expansion& f, double half_u, const Square& z)
+TaylorModel<1> composeExpansion(const Expansion& f, double half_u, const SquaredSine& z)
 {
     const double l0 = z.linear[0], l1 = z.linear[1], linear = z.linearNorm(), away = z.away();
     TaylorModel<1> model;
@@ -167,12 +167,12 @@ TaylorModel<1> composed(const Expansion& f, double half_u, const Square& z)
     set(kFirstLinear, f.z * l0);
     set(kFirstLinear + 1, f.z * l1);
     set(kFirstLinear + 2, f.u * half_u);
-    set(termOf(0, 0), f.z * z.quadratic[0] + 0.5 * f.zz * l0 * l0);
-    set(termOf(1, 1), f.z * z.quadratic[1] + 0.5 * f.zz * l1 * l1);
-    set(termOf(2, 2), 0.5 * f.uu * half_u * half_u);
-    set(termOf(0, 1), f.z * z.mixed + f.zz * l0 * l1);
-    set(termOf(0, 2), f.uz * l0 * half_u);
-    set(termOf(1, 2), f.uz * l1 * half_u);
+    set(termIndex(0, 0), f.z * z.quadratic[0] + 0.5 * f.zz * l0 * l0);
+    set(termIndex(1, 1), f.z * z.quadratic[1] + 0.5 * f.zz * l1 * l1);
+    set(termIndex(2, 2), 0.5 * f.uu * half_u * half_u);
+    set(termIndex(0, 1), f.z * z.mixed + f.zz * l0 * l1);
+    set(termIndex(0, 2), f.uz * l0 * half_u);
+    set(termIndex(1, 2), f.uz * l1 * half_u);
     model.remainder = std::abs(f.z) * z.remainder + std::abs(f.uz) * half_u * (away - linear) +
                       0.5 * std::abs(f.zz) * (away * away - linear * linear) +
                       f.zzz * away * away * away / 6 + 0.5 * f.uzz * half_u * away * away +
@@ -188,11 +188,11 @@ void addProduct(const TaylorModel<1>& factor, const TaylorModel<4>& of, TaylorMo
         for (size_t i = 0; i < 4; ++i)
             sum.terms[product.product][i] += factor.terms[product.one][0] * of.terms[product.other][i];
     const DegreeNorms norms = degreeNorms(of);
-    sum.remainder += leftOut(degreeNorms(factor), norms) + factor.remainder * norms.all();
+    sum.remainder += omittedTerms(degreeNorms(factor), norms) + factor.remainder * norms.all();
 }
 
-constexpr size_t kFromTerms[3] = {0, kFirstLinear, termOf(0, 0)};
-constexpr size_t kToTerms[3] = {0, kFirstLinear + 1, termOf(1, 1)};
+constexpr size_t kFromTerms[3] = {0, kFirstLinear, termIndex(0, 0)};
+constexpr size_t kToTerms[3] = {0, kFirstLinear + 1, termIndex(1, 1)};
 
 /// Return the nearer end. The arc is never longer than a right angle.
 TaylorModel<4> nearEnd(const TimeCurve& from, const TimeCurve& to, Interval weights)
@@ -212,19 +212,19 @@ TaylorModel<4> nearEnd(const TimeCurve& from, const TimeCurve& to, Interval weig
 TaylorModel<4> slerpModel(const TimeCurve& from, const TimeCurve& to, Interval weights)
 {
     const double side = dot(from.terms[0], to.terms[0]) < 0 ? -1 : 1;
-    const Square square = squareOf(from, to, side);
-    const double most_square = square.middle + square.away();
-    if (!(most_square < kMostSquare))
+    const SquaredSine square = computeSquaredSine(from, to, side);
+    const double max_square = square.middle + square.away();
+    if (!(max_square < kMaxSquaredSine))
         return nearEnd(from, to, weights);
     // slerp = S (from + to) / 2 + D (to - from) / 2, at u = weight - 1/2: where the two are near each other,
     // D has a small factor
     const double u = weights.middle() - 0.5, half_u = weights.half();
-    const double most_u = std::abs(u) + half_u, least_u = std::max(0.0, std::abs(u) - half_u);
+    const double max_u = std::abs(u) + half_u, min_u = std::max(0.0, std::abs(u) - half_u);
     // derivatives by v are largest where v is small
-    const double z = square.middle, least_v = least_u * least_u;
-    const Series here = seriesAt(u * u, z, kValueTerm), most = boundsAt(least_v, most_square);
-    const TaylorModel<1> s = composed(cosines(u, here.cosines, most_u, most.cosines), half_u, square);
-    const TaylorModel<1> d = composed(sines(u, here.sines, most_u, most.sines), half_u, square);
+    const double z = square.middle, min_v = min_u * min_u;
+    const Series here = seriesAt(u * u, z, kValueTerm), most = boundsAt(min_v, max_square);
+    const TaylorModel<1> s = composeExpansion(cosines(u, here.cosines, max_u, most.cosines), half_u, square);
+    const TaylorModel<1> d = composeExpansion(sines(u, here.sines, max_u, most.sines), half_u, square);
     TaylorModel<4> sum, difference;
     for (size_t degree = 0; degree < 3; ++degree)
         for (size_t i = 0; i < 4; ++i)
@@ -244,4 +244,4 @@ TaylorModel<4> slerpModel(const TimeCurve& from, const TimeCurve& to, Interval w
     return model;
 }
 
-} // namespace hearth::motion
+} // namespace hearth::animation_bounds

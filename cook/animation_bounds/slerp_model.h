@@ -5,7 +5,7 @@
 #include "cook/animation_bounds/taylor_model.h"
 #include "cook/animation_bounds/time_curve.h"
 
-namespace hearth::motion
+namespace hearth::animation_bounds
 {
 
 /// Return the model of any rotation: each is within 1 of the quaternion 0.
@@ -25,4 +25,4 @@ inline TaylorModel<4> anyRotation()
 ///         largest at the far corner.
 TaylorModel<4> slerpModel(const TimeCurve& from, const TimeCurve& to, Interval weights);
 
-} // namespace hearth::motion
+} // namespace hearth::animation_bounds

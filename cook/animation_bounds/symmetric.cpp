@@ -6,7 +6,7 @@
 #include <numbers>
 #include <numeric>
 
-namespace hearth::motion
+namespace hearth::animation_bounds
 {
 
 namespace
@@ -104,4 +104,4 @@ double operatorNorm(const Affine3d& t)
                                  {t.m[2][0], t.m[2][1], t.m[2][2]}}});
 }
 
-} // namespace hearth::motion
+} // namespace hearth::animation_bounds

@@ -6,7 +6,7 @@
 
 #include <array>
 
-namespace hearth::motion
+namespace hearth::animation_bounds
 {
 
 using Matrix3 = std::array<std::array<double, 3>, 3>;
@@ -32,4 +32,4 @@ double operatorNorm(const Matrix3& matrix);
 /// Return the same bound for the linear part.
 double operatorNorm(const Affine3d& transform);
 
-} // namespace hearth::motion
+} // namespace hearth::animation_bounds

@@ -10,7 +10,7 @@
 #include <array>
 #include <cmath>
 
-namespace hearth::motion
+namespace hearth::animation_bounds
 {
 
 /// Number of terms: 1; x0, x1, x2; x0^2, x1^2, x2^2; x0 x1, x0 x2, x1 x2.
@@ -19,7 +19,7 @@ inline constexpr size_t kFirstLinear = 1;
 inline constexpr size_t kFirstQuadratic = 4;
 
 /// Return the term of the product of two parameters, 0 to 2.
-constexpr size_t termOf(size_t a, size_t b)
+constexpr size_t termIndex(size_t a, size_t b)
 {
     return a == b ? kFirstQuadratic + a : kFirstQuadratic + 2 + a + b;
 }
@@ -42,7 +42,7 @@ constexpr std::array<TermProduct, kTermProducts> termProducts()
         products[count++] = {term, 0, term};
     for (size_t a = 0; a < 3; ++a)
         for (size_t b = 0; b < 3; ++b)
-            products[count++] = {kFirstLinear + a, kFirstLinear + b, termOf(a, b)};
+            products[count++] = {kFirstLinear + a, kFirstLinear + b, termIndex(a, b)};
     return products;
 }
 inline constexpr std::array<TermProduct, kTermProducts> kProducts = termProducts();
@@ -104,7 +104,7 @@ DegreeNorms degreeNorms(const TaylorModel<N>& model)
 }
 
 /// Return an upper bound for the omitted terms of third and fourth degree of a product.
-inline double leftOut(const DegreeNorms& a, const DegreeNorms& b)
+inline double omittedTerms(const DegreeNorms& a, const DegreeNorms& b)
 {
     return a.linear * b.quadratic + a.quadratic * (b.linear + b.quadratic);
 }
@@ -130,7 +130,7 @@ TaylorModel<N> productTerms(const MatrixModel& a, const TaylorModel<N>& b)
 }
 
 /// Return the range of a polynomial with one component.
-inline Interval rangeOf(const std::array<double, kTerms>& terms)
+inline Interval polynomialRange(const std::array<double, kTerms>& terms)
 {
     Interval range{terms[0], terms[0]};
     for (size_t i = 0; i < 3; ++i)
@@ -146,4 +146,4 @@ inline Interval rangeOf(const std::array<double, kTerms>& terms)
     return range;
 }
 
-} // namespace hearth::motion
+} // namespace hearth::animation_bounds

@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-namespace hearth::motion
+namespace hearth::animation_bounds
 {
 
 using namespace formats;
@@ -25,7 +25,7 @@ constexpr double kCurveRounding = 1e-13;
 
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
-Value added(const Value& a, const Value& b, double factor)
+ChannelValue addScaled(const ChannelValue& a, const ChannelValue& b, double factor)
 {
     return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2], a[3] + factor * b[3]};
 }
@@ -35,9 +35,9 @@ struct Piece
 {
     double from = -1;
     double to = 1;
-    Value start;
-    Value end;
-    Value second{};          ///< derivative over a parameter from 0 to 1
+    ChannelValue start;
+    ChannelValue end;
+    ChannelValue second{};   ///< derivative over a parameter from 0 to 1
     double second_slack = 0; ///< maximum distance of the second derivative from `second`
     double chord_slack = 0;  ///< maximum distance of the curve from a curve with such a second derivative
 };
@@ -83,21 +83,21 @@ private:
         const double middle = 0.5 * (time_.from + time_.to);
         if (from < middle && middle < to)
         {
-            addWay(key, from, middle);
-            addWay(key, middle, to);
+            addInterval(key, from, middle);
+            addInterval(key, middle, to);
         }
         else
-            addWay(key, from, to);
+            addInterval(key, from, to);
     }
 
     void addConstant(uint32_t key, double from, double to)
     {
-        const Value value = is_rotation_ ? normalizedOrNone(keys_.at(key)) : keys_.at(key);
+        const ChannelValue value = is_rotation_ ? normalizedOrNone(keys_.at(key)) : keys_.at(key);
         add({parameter(from), parameter(to), value, value});
     }
 
     /// Add the part between two times of the curve from a key to the next one.
-    void addWay(uint32_t key, double from, double to)
+    void addInterval(uint32_t key, double from, double to)
     {
         const double start = keys_.time(key), seconds = keys_.time(key + 1) - start;
         const auto share = [&](double time) { return std::clamp((time - start) / seconds, 0.0, 1.0); };
@@ -116,8 +116,9 @@ private:
                    share(to), {parameter(from), parameter(to), {}, {}});
         else
         {
-            const Value a = keys_.at(key), way = added(keys_.at(key + 1), a, -1);
-            add({parameter(from), parameter(to), added(a, way, share(from)), added(a, way, share(to))});
+            const ChannelValue a = keys_.at(key), delta = addScaled(keys_.at(key + 1), a, -1);
+            add({parameter(from), parameter(to), addScaled(a, delta, share(from)),
+                 addScaled(a, delta, share(to))});
         }
     }
 
@@ -135,15 +136,15 @@ private:
 
     void addSpline(const BezierPiece& b, double from, double to)
     {
-        Value second[2];
+        ChannelValue second[2];
         for (size_t end = 0; end < 2; ++end)
-            second[end] = scaled(added(added(b[end], b[end + 2], 1), b[end + 1], -2), 6);
+            second[end] = scaled(addScaled(addScaled(b[end], b[end + 2], 1), b[end + 1], -2), 6);
         Piece piece{from, to, b[0], b[3]};
         if (!is_rotation_)
         {
             // the second derivative is linear between the ends
-            piece.second = scaled(added(second[0], second[1], 1), 0.5);
-            piece.second_slack = 0.5 * length(added(second[0], second[1], -1));
+            piece.second = scaled(addScaled(second[0], second[1], 1), 0.5);
+            piece.second_slack = 0.5 * length(addScaled(second[0], second[1], -1));
             add(piece);
             return;
         }
@@ -163,7 +164,7 @@ private:
         }
         piece.start = scaled(b[0], 1 / lengths[0]);
         piece.end = scaled(b[3], 1 / lengths[1]);
-        const double chord = length(added(piece.end, piece.start, -1));
+        const double chord = length(addScaled(piece.end, piece.start, -1));
         piece.chord_slack = from_chord / least +
                             // difference of the parameters along the chord, if the ends' lengths differ
                             chord * (longer - shorter) / (4 * shorter) +
@@ -178,7 +179,7 @@ private:
         // blossom of a cubic at three parameters
         const auto blossom = [&](double r, double s, double t)
         {
-            Value value;
+            ChannelValue value;
             for (size_t i = 0; i < value.size(); ++i)
             {
                 const double ab = std::lerp(b[0][i], b[1][i], r), bc = std::lerp(b[1][i], b[2][i], r),
@@ -195,7 +196,7 @@ private:
     {
         // q and -q are the same rotation: continue with the nearer one
         if (is_rotation_ && !pieces_.empty() && dot(pieces_.back().end, piece.start) < 0)
-            for (Value* const value : {&piece.start, &piece.end, &piece.second})
+            for (ChannelValue* const value : {&piece.start, &piece.end, &piece.second})
                 *value = scaled(*value, -1);
         pieces_.push_back(piece);
     }
@@ -207,13 +208,13 @@ private:
     bool unknown_ = false;
 };
 
-double differenceAt(const std::array<Value, 3>& terms, double s, const Value& value)
+double differenceAt(const std::array<ChannelValue, 3>& terms, double s, const ChannelValue& value)
 {
-    return length(added(added(added(terms[0], terms[1], s), terms[2], s * s), value, -1));
+    return length(addScaled(addScaled(addScaled(terms[0], terms[1], s), terms[2], s * s), value, -1));
 }
 
 /// Return an upper bound for the distance between the pieces and a quadratic.
-double remainderOf(const std::array<Value, 3>& terms, const std::vector<Piece>& pieces)
+double computeRemainder(const std::array<ChannelValue, 3>& terms, const std::vector<Piece>& pieces)
 {
     double remainder = 0;
     for (const Piece& piece : pieces)
@@ -221,7 +222,7 @@ double remainderOf(const std::array<Value, 3>& terms, const std::vector<Piece>& 
         const double width = piece.to - piece.from;
         // between its ends a function deviates from its chord by at most an eighth of the second derivative
         const double bend =
-            (length(added(piece.second, terms[2], -2 * width * width)) + piece.second_slack) / 8;
+            (length(addScaled(piece.second, terms[2], -2 * width * width)) + piece.second_slack) / 8;
         remainder = std::max(remainder, std::max(differenceAt(terms, piece.from, piece.start),
                                                  differenceAt(terms, piece.to, piece.end)) +
                                             bend + piece.chord_slack);
@@ -230,38 +231,38 @@ double remainderOf(const std::array<Value, 3>& terms, const std::vector<Piece>& 
 }
 
 /// Return the quadratic that interpolates the first, the middle and the last value.
-std::array<Value, 3> through(const std::vector<Piece>& pieces)
+std::array<ChannelValue, 3> fitQuadratic(const std::vector<Piece>& pieces)
 {
-    const Value start = pieces.front().start, end = pieces.back().end;
-    Value middle = start;
+    const ChannelValue start = pieces.front().start, end = pieces.back().end;
+    ChannelValue middle = start;
     for (const Piece& piece : pieces)
         if (piece.from <= 0 && piece.to >= 0)
             middle = piece.to > -piece.from ? piece.start : piece.end;
-    const Value mean = scaled(added(start, end, 1), 0.5);
-    return {middle, scaled(added(end, start, -1), 0.5), added(mean, middle, -1)};
+    const ChannelValue mean = scaled(addScaled(start, end, 1), 0.5);
+    return {middle, scaled(addScaled(end, start, -1), 0.5), addScaled(mean, middle, -1)};
 }
 
 /// Return the middle of the values as a constant, for values that jump.
-std::array<Value, 3> around(const std::vector<Piece>& pieces)
+std::array<ChannelValue, 3> fitConstant(const std::vector<Piece>& pieces)
 {
-    Value low = pieces.front().start, high = low;
+    ChannelValue low = pieces.front().start, high = low;
     for (const Piece& piece : pieces)
-        for (const Value* const value : {&piece.start, &piece.end})
+        for (const ChannelValue* const value : {&piece.start, &piece.end})
             for (size_t i = 0; i < low.size(); ++i)
             {
                 low[i] = std::min(low[i], (*value)[i]);
                 high[i] = std::max(high[i], (*value)[i]);
             }
-    return {scaled(added(low, high, 1), 0.5), {}, {}};
+    return {scaled(addScaled(low, high, 1), 0.5), {}, {}};
 }
 
-TimeCurve fitted(const Pieces& pieces)
+TimeCurve fitCurve(const Pieces& pieces)
 {
     if (pieces.unknown())
-        return {{Value{0, 0, 0, 1}}, kUnknown};
-    const std::array<Value, 3> smooth = through(pieces.all()), still = around(pieces.all());
-    const double of_smooth = remainderOf(smooth, pieces.all());
-    const double of_still = remainderOf(still, pieces.all());
+        return {{ChannelValue{0, 0, 0, 1}}, kUnknown};
+    const std::array<ChannelValue, 3> smooth = fitQuadratic(pieces.all()), still = fitConstant(pieces.all());
+    const double of_smooth = computeRemainder(smooth, pieces.all());
+    const double of_still = computeRemainder(still, pieces.all());
     TimeCurve curve{of_smooth <= of_still ? smooth : still, std::min(of_smooth, of_still)};
     curve.remainder += kCurveRounding * (length(curve.terms[0]) + length(curve.terms[1]) + curve.remainder);
     return curve;
@@ -269,21 +270,22 @@ TimeCurve fitted(const Pieces& pieces)
 
 } // namespace
 
-TimeCurve curveOf(const Value& value)
+TimeCurve constantCurve(const ChannelValue& value)
 {
     return {{value}, kCurveRounding * length(value)};
 }
 
-TimeCurve vectorCurve(TimeSpan time, const MotionTables& tables, const AnimationChannelRecord& channel)
+TimeCurve fitVectorCurve(TimeSpan time, const AnimationTables& tables, const AnimationChannelRecord& channel)
 {
     const CurveKeys vectors(tables, channel, 0, 3);
-    return fitted(Pieces(time, vectors, false));
+    return fitCurve(Pieces(time, vectors, false));
 }
 
-TimeCurve rotationCurve(TimeSpan time, const MotionTables& tables, const AnimationChannelRecord& channel)
+TimeCurve fitRotationCurve(TimeSpan time, const AnimationTables& tables,
+                           const AnimationChannelRecord& channel)
 {
     const CurveKeys rotations(tables, channel, 0, 4);
-    return fitted(Pieces(time, rotations, true));
+    return fitCurve(Pieces(time, rotations, true));
 }
 
-} // namespace hearth::motion
+} // namespace hearth::animation_bounds

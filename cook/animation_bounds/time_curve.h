@@ -4,7 +4,7 @@
 
 #include "cook/animation_bounds/curve_keys.h"
 
-namespace hearth::motion
+namespace hearth::animation_bounds
 {
 
 /// Time span, seconds. A step or jump of keys at its end belongs to the next span, unless it is the last one.
@@ -18,21 +18,21 @@ struct TimeSpan
 /// Quadratic terms[0] + s terms[1] + s^2 terms[2], for s from -1 at the span's start to 1 at its end.
 struct TimeCurve
 {
-    std::array<Value, 3> terms{};
+    std::array<ChannelValue, 3> terms{};
     /// upper bound for the Euclidean distance from the channel at any time; infinite if unknown
     double remainder = 0;
 };
 
 /// Return the curve of a constant value.
-TimeCurve curveOf(const Value& value);
+TimeCurve constantCurve(const ChannelValue& value);
 
 /// Fit the curve of a translation or scale channel.
-TimeCurve vectorCurve(TimeSpan time, const formats::MotionTables& tables,
-                      const formats::AnimationChannelRecord& channel);
+TimeCurve fitVectorCurve(TimeSpan time, const formats::AnimationTables& tables,
+                         const formats::AnimationChannelRecord& channel);
 
 /// Fit the curve of a rotation channel: the quaternion of length 1, with the sign that makes it continuous
 /// between jumps. The remainder is infinite where a spline may pass through 0.
-TimeCurve rotationCurve(TimeSpan time, const formats::MotionTables& tables,
-                        const formats::AnimationChannelRecord& channel);
+TimeCurve fitRotationCurve(TimeSpan time, const formats::AnimationTables& tables,
+                           const formats::AnimationChannelRecord& channel);
 
-} // namespace hearth::motion
+} // namespace hearth::animation_bounds

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hearth::motion
+namespace hearth::animation_bounds
 {
 
 namespace
@@ -30,13 +30,13 @@ void limitRemainder(TransformModel& transform)
     transform.norms = {};
 }
 
-RigidModel rigidOf(const TaylorModel<4>& rotation, double stretch)
+RigidModel makeRigid(const TaylorModel<4>& rotation, double stretch)
 {
     return {rotation, degreeNorms(rotation), stretch};
 }
 
 /// Return the product: b, then a.
-RigidModel productOf(const RigidModel& a, const RigidModel& b)
+RigidModel composeRigid(const RigidModel& a, const RigidModel& b)
 {
     TaylorModel<4> rotation;
     for (const TermProduct& product : kProducts)
@@ -51,10 +51,10 @@ RigidModel productOf(const RigidModel& a, const RigidModel& b)
     }
     // for quaternions of length 1: (a + e) (b + f) = a b + a f + e (b + f)
     rotation.remainder = a.norms.all() * b.rotation.remainder + a.rotation.remainder +
-                         leftOut(a.norms, b.norms) + kTransformRounding;
+                         omittedTerms(a.norms, b.norms) + kTransformRounding;
     // for rotations with a stretch: (A + E) (B + F) = A B + E B + (A + E) F
-    return rigidOf(rotation.remainder < 1 ? rotation : anyRotation(),
-                   a.stretch + (1 + a.stretch) * b.stretch);
+    return makeRigid(rotation.remainder < 1 ? rotation : anyRotation(),
+                     a.stretch + (1 + a.stretch) * b.stretch);
 }
 
 /// Set the linear part from its rotation: |q|^2 times the matrix of q, which is of second degree in q.
@@ -87,8 +87,8 @@ void setLinear(TransformModel& transform)
     const DegreeNorms& p = transform.rigid->norms;
     transform.norms = {p.constant * p.constant, 2 * p.constant * p.linear,
                        2 * p.constant * p.quadratic + p.linear * p.linear};
-    matrix.remainder = rotation.remainder * (2 + rotation.remainder) + leftOut(p, p) + kTransformRounding +
-                       transform.rigid->stretch;
+    matrix.remainder = rotation.remainder * (2 + rotation.remainder) + omittedTerms(p, p) +
+                       kTransformRounding + transform.rigid->stretch;
     limitRemainder(transform);
 }
 
@@ -102,7 +102,7 @@ std::array<double, kTerms> axisTerms(const VectorModel& model, size_t axis)
 
 Interval axisRange(const VectorModel& model, size_t axis)
 {
-    Interval range = rangeOf(axisTerms(model, axis));
+    Interval range = polynomialRange(axisTerms(model, axis));
     range.grow(model.remainder);
     return range;
 }
@@ -136,7 +136,8 @@ std::optional<VectorModel> reciprocal(const VectorModel& s)
         {
             linear += std::abs(terms[kFirstLinear + a]);
             for (size_t b = 0; b < 3; ++b)
-                result.terms[termOf(a, b)][axis] += terms[kFirstLinear + a] * terms[kFirstLinear + b] * cube;
+                result.terms[termIndex(a, b)][axis] +=
+                    terms[kFirstLinear + a] * terms[kFirstLinear + b] * cube;
         }
         // 1 / (c + d) = 1/c - d/c^2 + d^2/c^3 - d^3/e^4, e between c and c + d
         const double remainder = s.remainder * square + (away * away - linear * linear) * std::abs(cube) +
@@ -147,7 +148,7 @@ std::optional<VectorModel> reciprocal(const VectorModel& s)
 }
 
 /// Return the maximum distance of a scale from 1.
-double departureFromOne(const VectorModel& scale)
+double maxDistanceFromOne(const VectorModel& scale)
 {
     double away = 0;
     for (size_t axis = 0; axis < 3; ++axis)
@@ -166,10 +167,10 @@ TaylorModel<4> conjugate(TaylorModel<4> rotation)
     return rotation;
 }
 
-TransformModel rotated(const TaylorModel<4>& rotation)
+TransformModel rotationModel(const TaylorModel<4>& rotation)
 {
     TransformModel model;
-    model.rigid = rigidOf(rotation, 0);
+    model.rigid = makeRigid(rotation, 0);
     return model;
 }
 
@@ -179,7 +180,7 @@ template <typename AxisOf>
 void scaleElements(TransformModel& model, const VectorModel& scale, const AxisOf& axis_of)
 {
     model.norm = largest(scale);
-    if (const double away = departureFromOne(scale); away < kNearRigid)
+    if (const double away = maxDistanceFromOne(scale); away < kNearRigid)
     {
         model.rigid->stretch = away;
         return;
@@ -193,7 +194,7 @@ void scaleElements(TransformModel& model, const VectorModel& scale, const AxisOf
             scaled.terms[product.product][i] +=
                 model.linear.terms[product.one][i] * scale.terms[product.other][axis_of(i)];
     scaled.remainder = model.linear.remainder * model.norm + scale.remainder * (1 + model.linear.remainder) +
-                       leftOut(model.norms, of_scale) + kTransformRounding * model.norm;
+                       omittedTerms(model.norms, of_scale) + kTransformRounding * model.norm;
     model.linear = scaled;
     model.norms = degreeNorms(scaled);
     limitRemainder(model);
@@ -220,7 +221,7 @@ VectorModel constantProduct(const MatrixModel& matrix, const std::array<double, 
 }
 
 /// Apply the linear part to a vector.
-VectorModel moved(const TransformModel& transform, const VectorModel& vector)
+VectorModel applyLinear(const TransformModel& transform, const VectorModel& vector)
 {
     const DegreeNorms norms = degreeNorms(vector);
     // special case for speed: most joints rotate, with a constant translation
@@ -229,22 +230,22 @@ VectorModel moved(const TransformModel& transform, const VectorModel& vector)
                              : productTerms(transform.linear, vector);
     result.remainder = transform.norm * vector.remainder +
                        (transform.linear.remainder + kTransformRounding * transform.norm) * norms.all() +
-                       leftOut(transform.norms, norms);
+                       omittedTerms(transform.norms, norms);
     return result;
 }
 
 } // namespace
 
-TransformModel unmoved()
+TransformModel identityModel()
 {
     TaylorModel<4> rotation;
     rotation.terms[0][3] = 1;
-    TransformModel model = rotated(rotation);
+    TransformModel model = rotationModel(rotation);
     setLinear(model);
     return model;
 }
 
-TransformModel exactly(const Affine3d& transform)
+TransformModel constantModel(const Affine3d& transform)
 {
     TransformModel model;
     model.norm = operatorNorm(transform);
@@ -260,7 +261,7 @@ TransformModel exactly(const Affine3d& transform)
 
 TransformModel parentFromNode(const NodeModel& node)
 {
-    TransformModel model = rotated(node.rotation);
+    TransformModel model = rotationModel(node.rotation);
     model.place = node.translation;
     scaleBefore(model, node.scale);
     return model;
@@ -271,7 +272,7 @@ std::optional<TransformModel> nodeFromParent(const NodeModel& node)
     const std::optional<VectorModel> inverse = reciprocal(node.scale);
     if (!inverse)
         return std::nullopt;
-    TransformModel model = rotated(conjugate(node.rotation));
+    TransformModel model = rotationModel(conjugate(node.rotation));
     scaleAfter(model, *inverse);
     const auto& translation = node.translation.terms;
     model.pivot = {translation[0][0], translation[0][1], translation[0][2]};
@@ -282,7 +283,7 @@ std::optional<TransformModel> nodeFromParent(const NodeModel& node)
     away.remainder = node.translation.remainder;
     if (model.rigid)
         setLinear(model);
-    model.place = moved(model, away);
+    model.place = applyLinear(model, away);
     model.place.remainder += kTransformRounding * model.norm * length(model.pivot);
     return model;
 }
@@ -294,7 +295,7 @@ void compose(const TransformModel& second, TransformModel& first, TransformModel
     result.norm = second.norm * first.norm;
     if (second.rigid && first.rigid)
     {
-        result.rigid = productOf(*second.rigid, *first.rigid);
+        result.rigid = composeRigid(*second.rigid, *first.rigid);
         setLinear(result);
     }
     else
@@ -304,8 +305,8 @@ void compose(const TransformModel& second, TransformModel& first, TransformModel
         result.linear = productTerms(second.linear, first.linear);
         // (A + E) (B + F) = A B + E B + (A + E) F
         result.linear.remainder = second.linear.remainder * (first.norm + first.linear.remainder) +
-                                  second.norm * first.linear.remainder + leftOut(second.norms, first.norms) +
-                                  kTransformRounding * result.norm;
+                                  second.norm * first.linear.remainder +
+                                  omittedTerms(second.norms, first.norms) + kTransformRounding * result.norm;
         result.norms = degreeNorms(result.linear);
         limitRemainder(result);
     }
@@ -313,7 +314,7 @@ void compose(const TransformModel& second, TransformModel& first, TransformModel
     away.terms[0][0] -= second.pivot.x;
     away.terms[0][1] -= second.pivot.y;
     away.terms[0][2] -= second.pivot.z;
-    result.place = moved(second, away);
+    result.place = applyLinear(second, away);
     for (size_t term = 0; term < kTerms; ++term)
         for (size_t i = 0; i < 3; ++i)
             result.place.terms[term][i] += second.place.terms[term][i];
@@ -321,4 +322,4 @@ void compose(const TransformModel& second, TransformModel& first, TransformModel
         second.place.remainder + kTransformRounding * second.norm * length(second.pivot);
 }
 
-} // namespace hearth::motion
+} // namespace hearth::animation_bounds

@@ -7,7 +7,7 @@
 
 #include <optional>
 
-namespace hearth::motion
+namespace hearth::animation_bounds
 {
 
 /// Linear part that is a rotation, or nearly so, as a quaternion. Quaternion products need a quarter of the
@@ -35,10 +35,10 @@ struct TransformModel
 };
 
 /// Return the identity.
-TransformModel unmoved();
+TransformModel identityModel();
 
 /// Return a constant transform.
-TransformModel exactly(const Affine3d& transform);
+TransformModel constantModel(const Affine3d& transform);
 
 /// Return the transform from a node to its parent. If it is rigid, `linear` is not filled in; `compose` does
 /// not need it.
@@ -51,4 +51,4 @@ std::optional<TransformModel> nodeFromParent(const NodeModel& node);
 /// linear part of `first` where it is needed. The pivot is the pivot of `first`.
 void compose(const TransformModel& second, TransformModel& first, TransformModel& result);
 
-} // namespace hearth::motion
+} // namespace hearth::animation_bounds

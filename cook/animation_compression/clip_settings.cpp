@@ -3,7 +3,7 @@
 
 #include "cook/animation_compression/compress.h"
 #include "cook/tools/toml.h"
-#include "formats/base/suggest.h"
+#include "formats/base/nearest_match.h"
 
 #include <array>
 #include <filesystem>
@@ -11,7 +11,7 @@
 #include <fstream>
 #include <iterator>
 
-namespace hearth::clips
+namespace hearth::animation_compression
 {
 
 namespace
@@ -20,36 +20,37 @@ namespace
 using tools::TomlNode;
 
 // Maximum error, a kilometre: larger values are probably in other units.
-constexpr double kMostError = 1000;
+constexpr double kMaxError = 1000;
 
-Error wrong(Issue issue, const std::string& file, const TomlNode& node, const std::string& key,
-            std::string detail)
+Error settingError(Issue issue, const std::string& file, const TomlNode& node, const std::string& key,
+                   std::string detail)
 {
     return {issue, file, fmt::format("line {}, {}", node.line, key), std::move(detail)};
 }
 
-Result<StatedError> statedErrorOf(const TomlNode& root, const std::string& file)
+Result<StatedError> readErrorSetting(const TomlNode& root, const std::string& file)
 {
     const TomlNode* table = root.find("animation");
     if (table == nullptr)
         return StatedError{0, kDefaultShareOfSize};
     if (!table->isTable())
-        return wrong(Issue::profile_value, file, *table, "animation", "must be a table");
+        return settingError(Issue::profile_value, file, *table, "animation", "must be a table");
     for (const TomlNode& member : table->children)
         if (member.key != "error")
         {
             const std::string nearest = nearestMatch(member.key, std::array<std::string, 1>{"error"});
-            return wrong(Issue::profile_key, file, member, fmt::format("animation.{}", member.key),
-                         nearest.empty() ? "this key is not known"
-                                         : fmt::format("this key is not known: did you mean '{}'?", nearest));
+            return settingError(Issue::profile_key, file, member, fmt::format("animation.{}", member.key),
+                                nearest.empty()
+                                    ? "this key is not known"
+                                    : fmt::format("this key is not known: did you mean '{}'?", nearest));
         }
     const TomlNode* error = table->find("error");
     if (error == nullptr)
         return StatedError{0, kDefaultShareOfSize};
     const double metres = error->asNumber().value_or(-1);
-    if (!(metres >= 0 && metres <= kMostError))
-        return wrong(Issue::profile_value, file, *error, "animation.error",
-                     fmt::format("must be a number of metres from 0 to {:g}", kMostError));
+    if (!(metres >= 0 && metres <= kMaxError))
+        return settingError(Issue::profile_value, file, *error, "animation.error",
+                            fmt::format("must be a number of metres from 0 to {:g}", kMaxError));
     return StatedError{metres, 0};
 }
 
@@ -67,11 +68,11 @@ Result<StatedError> readStatedError(const std::string& profile_path)
 
 Result<StatedError> parseStatedError(std::string_view text, const std::string& name)
 {
-    tools::TomlFault fault;
+    tools::TomlError fault;
     const std::optional<TomlNode> root = tools::parseToml(text, fault);
     if (!root)
         return Error{Issue::profile_syntax, name, fmt::format("line {}", fault.line), fault.text};
-    return statedErrorOf(*root, name);
+    return readErrorSetting(*root, name);
 }
 
-} // namespace hearth::clips
+} // namespace hearth::animation_compression

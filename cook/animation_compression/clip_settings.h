@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace hearth::clips
+namespace hearth::animation_compression
 {
 
 /// Read the key animation.error of a profile: metres, from 0, which keeps clips unchanged. Without the key
@@ -22,4 +22,4 @@ Result<StatedError> readStatedError(const std::string& profile_path);
 /// errors: profile_syntax, profile_key, profile_value.
 Result<StatedError> parseStatedError(std::string_view text, const std::string& name);
 
-} // namespace hearth::clips
+} // namespace hearth::animation_compression

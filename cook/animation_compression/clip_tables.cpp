@@ -9,7 +9,7 @@
 #include <optional>
 #include <set>
 
-namespace hearth::clips
+namespace hearth::animation_compression
 {
 
 using namespace formats;
@@ -52,27 +52,27 @@ Times commonTimes(const FittedClip& clip)
     return times;
 }
 
-uint32_t placeIn(const Times& table, float time)
+uint32_t timeIndex(const Times& table, float time)
 {
     return static_cast<uint32_t>(std::lower_bound(table.begin(), table.end(), time) - table.begin());
 }
 
-bool isRunOf(const Times& table, const Times& times)
+bool isContiguousIn(const Times& table, const Times& times)
 {
-    const size_t first = placeIn(table, times[0]);
+    const size_t first = timeIndex(table, times[0]);
     return times.size() <= table.size() - first &&
            std::equal(times.begin(), times.end(), table.begin() + static_cast<std::ptrdiff_t>(first));
 }
 
-uint32_t placeBits(const Times& table)
+uint32_t timeIndexBits(const Times& table)
 {
     return static_cast<uint32_t>(std::bit_width(table.size() - 1));
 }
 
 /// True if the clip is smaller with one time table than with a list for each channel.
-bool pays(const Times& table, const FittedClip& clip)
+bool isTimeTableSmaller(const Times& table, const FittedClip& clip)
 {
-    if (table.empty() || placeBits(table) > kMostKeyFieldBits)
+    if (table.empty() || timeIndexBits(table) > kMaxKeyFieldBits)
         return false;
     std::set<Times> own, beside;
     uint64_t with = 32 * table.size(), without = 0;
@@ -82,10 +82,10 @@ bool pays(const Times& table, const FittedClip& clip)
         if (times.size() < 2)
             continue;
         without += own.insert(times).second ? 32 * times.size() : 0;
-        if (isRunOf(table, times))
+        if (isContiguousIn(table, times))
             continue;
         if (isPacked(channel.record))
-            with += placeBits(table) * times.size();
+            with += timeIndexBits(table) * times.size();
         else
             with += beside.insert(times).second ? 32 * times.size() : 0;
     }
@@ -98,17 +98,17 @@ public:
     ClipTables write(const FittedClip& clip)
     {
         table_ = commonTimes(clip);
-        if (pays(table_, clip))
-            table_place_ = placeOf(table_);
+        if (isTimeTableSmaller(table_, clip))
+            table_offset_ = storeFloats(table_);
         for (const FittedChannel& channel : clip.channels)
             addChannel(channel);
         return std::move(tables_);
     }
 
 private:
-    uint32_t placeOf(const std::vector<float>& floats)
+    uint32_t storeFloats(const std::vector<float>& floats)
     {
-        const auto [found, added] = places_.try_emplace(floats, static_cast<uint32_t>(tables_.keys.size()));
+        const auto [found, added] = offsets_.try_emplace(floats, static_cast<uint32_t>(tables_.keys.size()));
         if (added)
             tables_.keys.insert(tables_.keys.end(), floats.begin(), floats.end());
         return found->second;
@@ -117,32 +117,32 @@ private:
     void addChannel(const FittedChannel& channel)
     {
         AnimationChannelRecord record = channel.record;
-        placeTimes(channel, record);
+        storeTimes(channel, record);
         if (isPacked(record))
         {
             const PackedCurve& packed = channel.packed;
-            record.first_value = placeOf({packed.base[0], packed.base[1], packed.base[2], packed.step});
+            record.first_value = storeFloats({packed.base[0], packed.base[1], packed.base[2], packed.step});
             writeKeys(channel, record);
         }
         else
-            record.first_value = placeOf(channel.values);
+            record.first_value = storeFloats(channel.values);
         tables_.channels.push_back(record);
     }
 
-    void placeTimes(const FittedChannel& channel, AnimationChannelRecord& record)
+    void storeTimes(const FittedChannel& channel, AnimationChannelRecord& record)
     {
         // the value of a single key holds at all times, so any time will do
-        if (channel.times.size() == 1 && table_place_)
-            record.first_time = *table_place_;
-        else if (table_place_ && isRunOf(table_, channel.times))
-            record.first_time = *table_place_ + placeIn(table_, channel.times[0]);
-        else if (table_place_ && isPacked(record))
+        if (channel.times.size() == 1 && table_offset_)
+            record.first_time = *table_offset_;
+        else if (table_offset_ && isContiguousIn(table_, channel.times))
+            record.first_time = *table_offset_ + timeIndex(table_, channel.times[0]);
+        else if (table_offset_ && isPacked(record))
         {
-            record.first_time = *table_place_;
-            record.time_bits = static_cast<uint8_t>(placeBits(table_));
+            record.first_time = *table_offset_;
+            record.time_bits = static_cast<uint8_t>(timeIndexBits(table_));
         }
         else
-            record.first_time = placeOf(channel.times);
+            record.first_time = storeFloats(channel.times);
     }
 
     void writeKeys(const FittedChannel& channel, AnimationChannelRecord& record)
@@ -153,9 +153,9 @@ private:
         {
             const PackedCurve::Key& key = channel.packed.keys[i];
             if (record.time_bits > 0)
-                stream.write(placeIn(table_, channel.times[i]), record.time_bits);
+                stream.write(timeIndex(table_, channel.times[i]), record.time_bits);
             if (record.path == static_cast<uint32_t>(AnimationPath::rotation))
-                stream.write(key.largest, kLargestBits);
+                stream.write(key.largest, kOmittedIndexBits);
             for (size_t n = 0; n < key.codes.size(); ++n)
                 stream.write(key.codes[n], record.value_bits[n]);
         }
@@ -163,8 +163,8 @@ private:
 
     ClipTables tables_;
     Times table_; ///< times of the whole clip
-    std::optional<uint32_t> table_place_;
-    std::map<std::vector<float>, uint32_t> places_;
+    std::optional<uint32_t> table_offset_;
+    std::map<std::vector<float>, uint32_t> offsets_;
 };
 
 } // namespace
@@ -195,4 +195,4 @@ ClipTables clipTables(const FittedClip& clip)
     return ClipWriter().write(clip);
 }
 
-} // namespace hearth::clips
+} // namespace hearth::animation_compression

@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace hearth::clips
+namespace hearth::animation_compression
 {
 
 /// Tables of clips. Offsets are relative to the beginning of these tables.
@@ -24,4 +24,4 @@ struct ClipTables
 /// indices into one time table of the clip, if that takes fewer bits than separate times.
 ClipTables clipTables(const FittedClip& clip);
 
-} // namespace hearth::clips
+} // namespace hearth::animation_compression

@@ -10,7 +10,7 @@
 
 #include <tbb/parallel_for.h>
 
-namespace hearth::clips
+namespace hearth::animation_compression
 {
 
 using namespace formats;
@@ -18,17 +18,17 @@ using namespace formats;
 namespace
 {
 
-struct Compressed
+struct CompressedClip
 {
     ClipTables tables;
     ClipStatistics statistics;
 };
 
 /// Return the bytes of a source's clip. Times and values that channels share count once.
-uint64_t sourceBytes(const MotionTables& tables, const AnimationRecord& animation)
+uint64_t sourceBytes(const AnimationTables& tables, const AnimationRecord& animation)
 {
     std::set<std::pair<uint32_t, size_t>> ranges;
-    for (const AnimationChannelRecord& channel : recordsOf(tables.channels, animation.channels))
+    for (const AnimationChannelRecord& channel : recordsInRange(tables.channels, animation.channels))
     {
         const bool spline = channel.interpolation == static_cast<uint32_t>(Interpolation::cubic_spline);
         ranges.insert({channel.first_time, channel.key_count});
@@ -49,10 +49,10 @@ uint32_t keyCount(std::span<const AnimationChannelRecord> channels)
     return count;
 }
 
-Compressed compressed(const MotionTables& tables, const AnimationRecord& animation, const SceneReach& scene,
-                      const StatedError& stated)
+CompressedClip compressClip(const AnimationTables& tables, const AnimationRecord& animation,
+                            const SceneReach& scene, const StatedError& stated)
 {
-    Compressed result{clipTables(sourceClip(tables, animation)), {}};
+    CompressedClip result{clipTables(sourceClip(tables, animation)), {}};
     const bool exact = !(stated.metres > 0) && !(stated.share_of_size > 0);
     const FittedClip fitted = exact ? FittedClip{} : fitClip(tables, animation, scene, stated);
     result.statistics.stated_error = fitted.stated_error;
@@ -65,14 +65,14 @@ Compressed compressed(const MotionTables& tables, const AnimationRecord& animati
             result.statistics.proven_error = fitted.proven_error;
         }
     }
-    result.statistics.keys_before = keyCount(recordsOf(tables.channels, animation.channels));
+    result.statistics.keys_before = keyCount(recordsInRange(tables.channels, animation.channels));
     result.statistics.keys_after = keyCount(result.tables.channels);
     result.statistics.bytes_before = sourceBytes(tables, animation);
     result.statistics.bytes_after = result.tables.bytes();
     return result;
 }
 
-float roundedUp(double value)
+float roundUp(double value)
 {
     const auto nearest = static_cast<float>(value);
     return double{nearest} >= value ? nearest
@@ -81,20 +81,21 @@ float roundedUp(double value)
 
 } // namespace
 
-CompressedClips compressClips(const MotionTables& tables, std::span<const Carried> carried,
+CompressedClips compressClips(const AnimationTables& tables, std::span<const AttachedVertices> carried,
                               const StatedError& stated)
 {
-    const SceneReach scene = sceneReach(tables, carried);
-    std::vector<Compressed> clips(tables.animations.size());
+    const SceneReach scene = computeSceneReach(tables, carried);
+    std::vector<CompressedClip> clips(tables.animations.size());
     tbb::parallel_for(size_t{0}, clips.size(),
-                      [&](size_t i) { clips[i] = compressed(tables, tables.animations[i], scene, stated); });
+                      [&](size_t i)
+                      { clips[i] = compressClip(tables, tables.animations[i], scene, stated); });
     CompressedClips result;
     for (size_t i = 0; i < clips.size(); ++i)
     {
         AnimationRecord animation = tables.animations[i];
         animation.channels = {static_cast<uint32_t>(result.tables.channels.size()),
                               static_cast<uint32_t>(clips[i].tables.channels.size())};
-        animation.error = roundedUp(clips[i].statistics.proven_error);
+        animation.error = roundUp(clips[i].statistics.proven_error);
         result.animations.push_back(animation);
         result.tables.append(clips[i].tables);
         result.statistics.push_back(clips[i].statistics);
@@ -102,4 +103,4 @@ CompressedClips compressClips(const MotionTables& tables, std::span<const Carrie
     return result;
 }
 
-} // namespace hearth::clips
+} // namespace hearth::animation_compression

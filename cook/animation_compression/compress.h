@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace hearth::clips
+namespace hearth::animation_compression
 {
 
 /// Default error of a clip, as a share of the model's size: two tenths of the allowed difference between
@@ -36,7 +36,7 @@ struct CompressedClips
 /// Deterministic: the result does not depend on the number of threads.
 /// tables   all finite, of the source: no packed channels
 /// carried  every vertex that nodes move, in any order
-CompressedClips compressClips(const formats::MotionTables& tables, std::span<const Carried> carried,
-                              const StatedError& stated);
+CompressedClips compressClips(const formats::AnimationTables& tables,
+                              std::span<const AttachedVertices> carried, const StatedError& stated);
 
-} // namespace hearth::clips
+} // namespace hearth::animation_compression

@@ -9,14 +9,14 @@
 #include <cmath>
 #include <limits>
 
-namespace hearth::clips
+namespace hearth::animation_compression
 {
 
 using namespace formats;
-using motion::dot;
-using motion::length;
-using motion::normalizedOrNone;
-using motion::scaled;
+using animation_bounds::dot;
+using animation_bounds::length;
+using animation_bounds::normalizedOrNone;
+using animation_bounds::scaled;
 
 namespace
 {
@@ -31,7 +31,7 @@ constexpr double kAmbiguousCosine = 1e-9;
 constexpr double kNearChord = 0.2;
 
 // Maximum number of linear pieces of one piece of a spline: with more, the spline's own keys are smaller.
-constexpr uint32_t kMostPieces = 8;
+constexpr uint32_t kMaxPieces = 8;
 
 // Upper bound for a few roundings of numbers up to 1.
 constexpr double kAngleRounding = 1e-14;
@@ -41,7 +41,7 @@ KeyValue minus(const KeyValue& a, const KeyValue& b)
     return {a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]};
 }
 
-KeyValue mixed(const KeyValue& a, const KeyValue& b, double t)
+KeyValue interpolated(const KeyValue& a, const KeyValue& b, double t)
 {
     KeyValue value;
     for (size_t i = 0; i < value.size(); ++i)
@@ -106,7 +106,7 @@ double vectorDeviation(const Curve& curve, size_t first, size_t last, const KeyV
             continue;
         for (const size_t at : {key, key + 1})
             worst = std::max(worst, distance(curve.path, curve.values[at],
-                                             mixed(start, end, (curve.times[at] - from) / seconds)));
+                                             interpolated(start, end, (curve.times[at] - from) / seconds)));
     }
     return worst;
 }
@@ -186,7 +186,7 @@ double remainder(AnimationPath path, const Spline& spline, double from, double t
 bool appendPieces(const Spline& spline, float start_time, float end_time, double tolerance, Curve& curve)
 {
     const double seconds = double{end_time} - double{start_time};
-    for (uint32_t pieces = 1; pieces <= kMostPieces; ++pieces)
+    for (uint32_t pieces = 1; pieces <= kMaxPieces; ++pieces)
     {
         std::vector<float> times{start_time};
         for (uint32_t i = 1; i < pieces; ++i)
@@ -212,7 +212,8 @@ bool appendPieces(const Spline& spline, float start_time, float end_time, double
     return false;
 }
 
-std::optional<Curve> straightened(const ChannelKeys& keys, Curve curve, uint32_t components, double tolerance)
+std::optional<Curve> toLinearPieces(const ChannelKeys& keys, Curve curve, uint32_t components,
+                                    double tolerance)
 {
     curve.times = {keys.time(0)};
     curve.values = {keys.value(0, 0, components)};
@@ -233,10 +234,10 @@ std::optional<Curve> straightened(const ChannelKeys& keys, Curve curve, uint32_t
     return curve;
 }
 
-motion::Box3d boxOf(const MotionTables& tables, const AnimationChannelRecord& channel)
+animation_bounds::Box3d channelBox(const AnimationTables& tables, const AnimationChannelRecord& channel)
 {
-    motion::Box3d box;
-    motion::addValues(tables, channel, box);
+    animation_bounds::Box3d box;
+    animation_bounds::addValues(tables, channel, box);
     return box;
 }
 
@@ -252,8 +253,8 @@ double distance(AnimationPath path, const KeyValue& a, const KeyValue& b)
     return length(d);
 }
 
-std::optional<Curve> curveOf(const MotionTables& tables, const AnimationChannelRecord& channel,
-                             double tolerance)
+std::optional<Curve> makeCurve(const AnimationTables& tables, const AnimationChannelRecord& channel,
+                               double tolerance)
 {
     const ChannelKeys keys(tables.keys, tables.key_bits, channel);
     std::optional<Curve> curve(std::in_place);
@@ -261,7 +262,7 @@ std::optional<Curve> curveOf(const MotionTables& tables, const AnimationChannelR
     curve->steps = keys.interpolation() == Interpolation::step;
     HEARTH_ASSERT(curve->path != AnimationPath::weights);
     if (keys.interpolation() == Interpolation::cubic_spline)
-        curve = straightened(keys, *curve, channel.components, tolerance);
+        curve = toLinearPieces(keys, *curve, channel.components, tolerance);
     else
         for (uint32_t key = 0; key < keys.count(); ++key)
         {
@@ -283,35 +284,35 @@ double pieceDeviation(const Curve& curve, size_t first, size_t last, const KeyVa
                                                  : vectorDeviation(curve, first, last, start, end, limit);
 }
 
-double constantDeviation(const MotionTables& tables, const AnimationChannelRecord& channel,
+double constantDeviation(const AnimationTables& tables, const AnimationChannelRecord& channel,
                          const KeyValue& value)
 {
     const auto path = static_cast<AnimationPath>(channel.path);
     if (path == AnimationPath::rotation)
     {
-        motion::RotationPoints points;
-        motion::addRotations(tables, channel, points);
+        animation_bounds::RotationPoints points;
+        animation_bounds::addRotations(tables, channel, points);
         double worst = points.unbounded ? kUnknown : 0;
         for (const Quaternion& point : points.points)
             worst = std::max(worst, distance(path, normalizedOrNone(point), value));
         return worst <= kNearChord ? worst : kUnknown;
     }
-    const motion::Box3d box = boxOf(tables, channel);
+    const animation_bounds::Box3d box = channelBox(tables, channel);
     KeyValue farthest{};
     for (size_t i = 0; i < 3; ++i)
         farthest[i] = std::max(box[i].high - value[i], value[i] - box[i].low);
     return distance(path, farthest, {});
 }
 
-KeyValue middleValue(const MotionTables& tables, const AnimationChannelRecord& channel)
+KeyValue middleValue(const AnimationTables& tables, const AnimationChannelRecord& channel)
 {
     if (static_cast<AnimationPath>(channel.path) == AnimationPath::rotation)
         return ChannelKeys(tables.keys, tables.key_bits, channel).value(0, 0, 4);
-    const motion::Box3d box = boxOf(tables, channel);
+    const animation_bounds::Box3d box = channelBox(tables, channel);
     KeyValue middle{};
     for (size_t i = 0; i < 3; ++i)
         middle[i] = double{static_cast<float>(box[i].middle())};
     return middle;
 }
 
-} // namespace hearth::clips
+} // namespace hearth::animation_compression

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-namespace hearth::clips
+namespace hearth::animation_compression
 {
 
 /// Return the distance between two values. Translations: metres. Scales: the largest difference of an axis.
@@ -31,8 +31,8 @@ struct Curve
 /// `tolerance`.
 /// returns  nothing if that takes so many pieces that the spline itself is smaller, or if the spline comes
 ///          too near to 0 for a bound on its rotation
-std::optional<Curve> curveOf(const formats::MotionTables& tables,
-                             const formats::AnimationChannelRecord& channel, double tolerance);
+std::optional<Curve> makeCurve(const formats::AnimationTables& tables,
+                               const formats::AnimationChannelRecord& channel, double tolerance);
 
 /// Return an upper bound for the distance, at any time, between the curve and the linear piece from `start`
 /// at key `first` to `end` at key `last`. Infinite if the shorter arc of a rotation is ambiguous. Stops early
@@ -41,11 +41,11 @@ double pieceDeviation(const Curve& curve, size_t first, size_t last, const forma
                       const formats::KeyValue& end, double limit);
 
 /// Return an upper bound for the distance between the channel and one value, at any time.
-double constantDeviation(const formats::MotionTables& tables, const formats::AnimationChannelRecord& channel,
-                         const formats::KeyValue& value);
+double constantDeviation(const formats::AnimationTables& tables,
+                         const formats::AnimationChannelRecord& channel, const formats::KeyValue& value);
 
 /// Return a value in the middle of the channel's values, in single precision.
-formats::KeyValue middleValue(const formats::MotionTables& tables,
+formats::KeyValue middleValue(const formats::AnimationTables& tables,
                               const formats::AnimationChannelRecord& channel);
 
-} // namespace hearth::clips
+} // namespace hearth::animation_compression

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace hearth::clips
+namespace hearth::animation_compression
 {
 
 using namespace formats;
@@ -17,11 +17,11 @@ namespace
 {
 
 // Minimum reach of a node, as a share of the model's size: games attach objects to nodes.
-constexpr double kLeastReach = 0.01;
+constexpr double kMinReach = 0.01;
 
 // Maximum error of a channel with a small reach, as a chord of a rotation or as a share of the node's scale:
 // bounds of larger errors carry no information.
-constexpr double kMostChord = 0.1;
+constexpr double kMaxChord = 0.1;
 
 // Chord between quaternions that are equal up to the rounding of normalization.
 constexpr double kSameChord = 1e-15;
@@ -32,7 +32,7 @@ constexpr double kSpentMargin = 1 + 1e-9;
 // Share of a spline's tolerance for its approximation by linear pieces.
 constexpr double kSplineShare = 0.25;
 
-AnimationPath pathOf(const AnimationChannelRecord& channel)
+AnimationPath channelPath(const AnimationChannelRecord& channel)
 {
     return static_cast<AnimationPath>(channel.path);
 }
@@ -42,7 +42,7 @@ bool isSpline(const AnimationChannelRecord& channel)
     return channel.interpolation == static_cast<uint32_t>(Interpolation::cubic_spline);
 }
 
-std::vector<float> floatsOf(const KeyValue& value, uint32_t components)
+std::vector<float> toFloats(const KeyValue& value, uint32_t components)
 {
     std::vector<float> floats;
     for (uint32_t i = 0; i < components; ++i)
@@ -50,7 +50,7 @@ std::vector<float> floatsOf(const KeyValue& value, uint32_t components)
     return floats;
 }
 
-FittedChannel asSource(const MotionTables& tables, const AnimationChannelRecord& channel)
+FittedChannel copyChannel(const AnimationTables& tables, const AnimationChannelRecord& channel)
 {
     HEARTH_ASSERT(!isPacked(channel));
     const size_t rows = isSpline(channel) ? 3 : 1;
@@ -65,7 +65,7 @@ FittedChannel asSource(const MotionTables& tables, const AnimationChannelRecord&
 }
 
 /// Return a channel with one value at all times.
-FittedChannel constant(const AnimationChannelRecord& channel, std::vector<float> value)
+FittedChannel constantChannel(const AnimationChannelRecord& channel, std::vector<float> value)
 {
     FittedChannel fitted;
     fitted.record = channel;
@@ -77,7 +77,7 @@ FittedChannel constant(const AnimationChannelRecord& channel, std::vector<float>
 }
 
 /// Return the weights of a channel if they never change.
-std::optional<std::vector<float>> constantWeights(const MotionTables& tables,
+std::optional<std::vector<float>> constantWeights(const AnimationTables& tables,
                                                   const AnimationChannelRecord& channel)
 {
     const bool spline = isSpline(channel);
@@ -106,7 +106,7 @@ FittedChannel packed(const AnimationChannelRecord& channel, const Curve& curve, 
     fitted.record.encoding = static_cast<uint32_t>(KeyEncoding::packed);
     std::copy(keys.bits.begin(), keys.bits.end(), fitted.record.value_bits);
     for (const PackedCurve::Key& key : keys.keys)
-        fitted.times.push_back(curve.times[key.of_curve]);
+        fitted.times.push_back(curve.times[key.curve_key]);
     fitted.packed = std::move(keys);
     return fitted;
 }
@@ -132,8 +132,8 @@ struct NodeState
     uint32_t chain = 0; ///< channels that need a share of the error, on the longest chain from the node down
     double model_size = 0; ///< metres; size of the model that the node belongs to
     /// metres of error that remain for the node and its descendants; below 0: no animated node up to here
-    double left = -1;
-    double spent = 0;   ///< metres of error that descendant vertices may already have
+    double remaining = -1;
+    double used = 0;    ///< metres of error that descendant vertices may already have
     double stretch = 1; ///< upper bound for the largest singular value of the product of all ancestors
     double scale = 1;   ///< upper bound for the largest singular value of the node itself
 };
@@ -141,17 +141,17 @@ struct NodeState
 class ClipFitter
 {
 public:
-    ClipFitter(const MotionTables& tables, const AnimationRecord& animation, const SceneReach& scene,
+    ClipFitter(const AnimationTables& tables, const AnimationRecord& animation, const SceneReach& scene,
                const StatedError& stated)
         : tables_(tables),
           scene_(scene),
           stated_(stated),
-          reach_(clipReach(tables, animation, scene)),
+          reach_(computeClipReach(tables, animation, scene)),
           rest_(restPose(tables)),
           channels_of_node_(tables.nodes.size()),
           states_(tables.nodes.size())
     {
-        for (const AnimationChannelRecord& channel : recordsOf(tables.channels, animation.channels))
+        for (const AnimationChannelRecord& channel : recordsInRange(tables.channels, animation.channels))
             addChannel(channel);
         countChains();
     }
@@ -162,7 +162,7 @@ public:
             fitNode(node);
         for (size_t node = 0; node < states_.size(); ++node)
             if (scene_.own[node] >= 0)
-                clip_.proven_error = std::max(clip_.proven_error, states_[node].spent);
+                clip_.proven_error = std::max(clip_.proven_error, states_[node].used);
         return std::move(clip_);
     }
 
@@ -178,7 +178,7 @@ private:
     /// does not move.
     bool isMeasured(const AnimationChannelRecord& channel) const
     {
-        return pathOf(channel) != AnimationPath::weights && tables_.nodes[channel.node].has_trs != 0;
+        return channelPath(channel) != AnimationPath::weights && tables_.nodes[channel.node].has_trs != 0;
     }
 
     /// Add a channel. It replaces an earlier channel for the same property.
@@ -190,9 +190,10 @@ private:
         if (isMeasured(record))
         {
             channel.middle = middleValue(tables_, record);
-            const bool rotation = pathOf(record) == AnimationPath::rotation;
+            const bool rotation = channelPath(record) == AnimationPath::rotation;
             channel.from_middle = constantDeviation(
-                tables_, record, rotation ? motion::normalizedOrNone(channel.middle) : channel.middle);
+                tables_, record,
+                rotation ? animation_bounds::normalizedOrNone(channel.middle) : channel.middle);
         }
         channels.push_back(channel);
     }
@@ -203,7 +204,7 @@ private:
         {
             for (const Channel& channel : channels_of_node_[*at])
                 states_[*at].chain += channel.from_middle > 0 ? 1 : 0;
-            if (const uint32_t parent = tables_.nodes[*at].parent; parent != kNone)
+            if (const uint32_t parent = tables_.nodes[*at].parent; parent != kInvalidIndex)
                 states_[parent].chain = std::max(states_[parent].chain, states_[*at].chain);
         }
     }
@@ -212,17 +213,17 @@ private:
     {
         NodeState& state = states_[node];
         state.scale = reach_.scale[node];
-        if (const uint32_t parent = tables_.nodes[node].parent; parent != kNone)
+        if (const uint32_t parent = tables_.nodes[node].parent; parent != kInvalidIndex)
         {
             const NodeState& above = states_[parent];
             state.model_size = above.model_size;
-            state.left = above.left;
-            state.spent = above.spent;
+            state.remaining = above.remaining;
+            state.used = above.used;
             state.stretch = above.stretch * above.scale;
         }
-        if (state.left < 0 && !channels_of_node_[node].empty())
+        if (state.remaining < 0 && !channels_of_node_[node].empty())
             beginModel(node);
-        uint32_t takers = state.chain;
+        uint32_t remaining_channels = state.chain;
         for (const Channel& channel : channels_of_node_[node])
         {
             if (!isMeasured(channel.record))
@@ -230,7 +231,7 @@ private:
                 fitUnmeasured(channel.record);
                 continue;
             }
-            const double share = channel.from_middle > 0 ? state.left / takers-- : 0;
+            const double share = channel.from_middle > 0 ? state.remaining / remaining_channels-- : 0;
             fitMeasured(channel, share, state);
         }
     }
@@ -239,18 +240,18 @@ private:
     {
         NodeState& state = states_[node];
         state.model_size = scene_.size[node] > 0 ? scene_.size[node] : scene_.scene_size;
-        state.left = stated_.metres + stated_.share_of_size * state.model_size;
-        if (!std::isfinite(state.left))
-            state.left = 0;
-        clip_.stated_error = std::max(clip_.stated_error, state.left);
+        state.remaining = stated_.metres + stated_.share_of_size * state.model_size;
+        if (!std::isfinite(state.remaining))
+            state.remaining = 0;
+        clip_.stated_error = std::max(clip_.stated_error, state.remaining);
     }
 
     /// Return the error in metres in world space for a deviation of 1.
-    double metresOf(const AnimationChannelRecord& channel, const NodeState& state) const
+    double metresPerUnit(const AnimationChannelRecord& channel, const NodeState& state) const
     {
         const double farthest = reach_.farthest[channel.node];
-        const double least = farthest < 0 ? state.model_size : kLeastReach * state.model_size;
-        switch (pathOf(channel))
+        const double least = farthest < 0 ? state.model_size : kMinReach * state.model_size;
+        switch (channelPath(channel))
         {
         case AnimationPath::rotation:
             return 2 * std::max(state.stretch * reach_.scale[channel.node] * farthest, least);
@@ -265,22 +266,22 @@ private:
 
     void fitMeasured(const Channel& channel, double share, NodeState& state)
     {
-        const double metres = metresOf(channel.record, state);
+        const double metres = metresPerUnit(channel.record, state);
         if (!std::isfinite(metres))
         {
-            clip_.channels.push_back(asSource(tables_, channel.record));
+            clip_.channels.push_back(copyChannel(tables_, channel.record));
             return;
         }
         double tolerance = share > 0 ? share / metres : 0;
-        if (pathOf(channel.record) == AnimationPath::rotation)
-            tolerance = std::clamp(tolerance, kSameChord, kMostChord);
-        if (pathOf(channel.record) == AnimationPath::scale)
-            tolerance = std::min(tolerance, kMostChord * reach_.scale[channel.record.node]);
+        if (channelPath(channel.record) == AnimationPath::rotation)
+            tolerance = std::clamp(tolerance, kSameChord, kMaxChord);
+        if (channelPath(channel.record) == AnimationPath::scale)
+            tolerance = std::min(tolerance, kMaxChord * reach_.scale[channel.record.node]);
         const double deviation = fitChannel(channel, tolerance);
-        if (pathOf(channel.record) == AnimationPath::scale)
+        if (channelPath(channel.record) == AnimationPath::scale)
             state.scale += deviation;
-        state.spent += deviation * metres * kSpentMargin;
-        state.left = std::max(state.left - deviation * metres * kSpentMargin, 0.0);
+        state.used += deviation * metres * kSpentMargin;
+        state.remaining = std::max(state.remaining - deviation * metres * kSpentMargin, 0.0);
     }
 
     /// Fit a channel and add it to the clip.
@@ -288,21 +289,21 @@ private:
     double fitChannel(const Channel& channel, double tolerance)
     {
         const AnimationChannelRecord& record = channel.record;
-        const KeyValue rest = restValue(rest_.nodes[record.node], pathOf(record));
+        const KeyValue rest = restValue(rest_.nodes[record.node], channelPath(record));
         if (const double off = constantDeviation(tables_, record, rest); off <= tolerance)
             return off;
         if (channel.from_middle <= tolerance)
         {
-            clip_.channels.push_back(constant(record, floatsOf(channel.middle, record.components)));
+            clip_.channels.push_back(constantChannel(record, toFloats(channel.middle, record.components)));
             return channel.from_middle;
         }
-        clip_.channels.push_back(asSource(tables_, record));
+        clip_.channels.push_back(copyChannel(tables_, record));
         if (!(channel.from_middle > 0 && tolerance > 0))
             return 0;
-        const std::optional<Curve> curve = curveOf(tables_, record, kSplineShare * tolerance);
+        const std::optional<Curve> curve = makeCurve(tables_, record, kSplineShare * tolerance);
         if (!curve)
             return 0;
-        std::optional<PackedCurve> smaller = packedCurve(*curve, tolerance);
+        std::optional<PackedCurve> smaller = packCurve(*curve, tolerance);
         if (!smaller || sizeBits(*smaller, record, *curve) >= 32 * clip_.channels.back().values.size())
             return 0;
         const double deviation = smaller->deviation;
@@ -312,24 +313,24 @@ private:
 
     void fitUnmeasured(const AnimationChannelRecord& channel)
     {
-        if (pathOf(channel) != AnimationPath::weights)
+        if (channelPath(channel) != AnimationPath::weights)
         {
-            clip_.channels.push_back(asSource(tables_, channel));
+            clip_.channels.push_back(copyChannel(tables_, channel));
             return;
         }
         const std::optional<std::vector<float>> weights = constantWeights(tables_, channel);
         const std::span<const float> rest =
-            recordsOf(tables_.morph_weights, tables_.nodes[channel.node].morph_weights);
+            recordsInRange(tables_.morph_weights, tables_.nodes[channel.node].morph_weights);
         if (!weights)
-            clip_.channels.push_back(asSource(tables_, channel));
+            clip_.channels.push_back(copyChannel(tables_, channel));
         else if (!std::equal(rest.begin(),
                              rest.begin() +
                                  static_cast<std::ptrdiff_t>(std::min(rest.size(), weights->size())),
                              weights->begin()))
-            clip_.channels.push_back(constant(channel, *weights));
+            clip_.channels.push_back(constantChannel(channel, *weights));
     }
 
-    const MotionTables& tables_;
+    const AnimationTables& tables_;
     const SceneReach& scene_;
     const StatedError& stated_;
     ClipReach reach_;
@@ -341,18 +342,18 @@ private:
 
 } // namespace
 
-FittedClip fitClip(const MotionTables& tables, const AnimationRecord& animation, const SceneReach& scene,
+FittedClip fitClip(const AnimationTables& tables, const AnimationRecord& animation, const SceneReach& scene,
                    const StatedError& stated)
 {
     return ClipFitter(tables, animation, scene, stated).fit();
 }
 
-FittedClip sourceClip(const MotionTables& tables, const AnimationRecord& animation)
+FittedClip sourceClip(const AnimationTables& tables, const AnimationRecord& animation)
 {
     FittedClip clip;
-    for (const AnimationChannelRecord& channel : recordsOf(tables.channels, animation.channels))
-        clip.channels.push_back(asSource(tables, channel));
+    for (const AnimationChannelRecord& channel : recordsInRange(tables.channels, animation.channels))
+        clip.channels.push_back(copyChannel(tables, channel));
     return clip;
 }
 
-} // namespace hearth::clips
+} // namespace hearth::animation_compression

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace hearth::clips
+namespace hearth::animation_compression
 {
 
 /// Compressed channel: floats, or a packed curve.
@@ -38,10 +38,10 @@ struct StatedError
 /// Compress a clip. An error of a node moves its descendants' vertices by at most the node's reach times the
 /// error, so the errors of a chain of nodes add up. Each channel gets an equal share of the error that its
 /// ancestors have left.
-FittedClip fitClip(const formats::MotionTables& tables, const formats::AnimationRecord& animation,
+FittedClip fitClip(const formats::AnimationTables& tables, const formats::AnimationRecord& animation,
                    const SceneReach& scene, const StatedError& stated);
 
 /// Return all channels unchanged.
-FittedClip sourceClip(const formats::MotionTables& tables, const formats::AnimationRecord& animation);
+FittedClip sourceClip(const formats::AnimationTables& tables, const formats::AnimationRecord& animation);
 
-} // namespace hearth::clips
+} // namespace hearth::animation_compression

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-namespace hearth::clips
+namespace hearth::animation_compression
 {
 
 using namespace formats;
@@ -17,17 +17,17 @@ namespace
 {
 
 /// Three components of a key that are stored.
-struct Numbers
+struct StoredComponents
 {
     uint32_t largest = 0;
     std::array<double, 3> values{};
 };
 
-Numbers numbersOf(AnimationPath path, const KeyValue& value)
+StoredComponents storedComponents(AnimationPath path, const KeyValue& value)
 {
     if (path != AnimationPath::rotation)
         return {0, {value[0], value[1], value[2]}};
-    Numbers numbers;
+    StoredComponents numbers;
     for (uint32_t i = 1; i < 4; ++i)
         if (std::abs(value[i]) > std::abs(value[numbers.largest]))
             numbers.largest = i;
@@ -37,7 +37,7 @@ Numbers numbersOf(AnimationPath path, const KeyValue& value)
     return numbers;
 }
 
-struct Coded
+struct QuantisedCurve
 {
     PackedCurve packed;           ///< with all keys
     std::vector<KeyValue> values; ///< decoded values
@@ -45,19 +45,20 @@ struct Coded
 
 /// Quantise all keys, with `bits` bits for the component with the largest range. Nothing if a code needs too
 /// many bits.
-std::optional<Coded> coded(const Curve& curve, std::span<const Numbers> numbers, uint32_t bits)
+std::optional<QuantisedCurve> quantise(const Curve& curve, std::span<const StoredComponents> numbers,
+                                       uint32_t bits)
 {
     std::array<double, 3> low, high;
     low.fill(std::numeric_limits<double>::infinity());
     high.fill(-std::numeric_limits<double>::infinity());
-    for (const Numbers& key : numbers)
+    for (const StoredComponents& key : numbers)
         for (size_t i = 0; i < 3; ++i)
         {
             low[i] = std::min(low[i], key.values[i]);
             high[i] = std::max(high[i], key.values[i]);
         }
     const double extent = std::max({high[0] - low[0], high[1] - low[1], high[2] - low[2]});
-    Coded result;
+    QuantisedCurve result;
     result.packed.step = static_cast<float>(extent / (std::exp2(bits) - 1));
     for (size_t i = 0; i < 3; ++i)
         result.packed.base[i] = static_cast<float>(low[i]);
@@ -70,7 +71,7 @@ std::optional<Coded> coded(const Curve& curve, std::span<const Numbers> numbers,
         {
             const double base = double{result.packed.base[i]};
             const double code = step > 0 ? std::round((numbers[k].values[i] - base) / step) : 0.0;
-            if (!(code < std::exp2(kMostKeyFieldBits)))
+            if (!(code < std::exp2(kMaxKeyFieldBits)))
                 return std::nullopt;
             key.codes[i] = static_cast<uint32_t>(std::max(code, 0.0));
             read[i] = base + step * key.codes[i];
@@ -79,7 +80,7 @@ std::optional<Coded> coded(const Curve& curve, std::span<const Numbers> numbers,
         }
         result.packed.keys.push_back(key);
         result.values.push_back(curve.path == AnimationPath::rotation
-                                    ? motion::normalizedOrNone(rotationWithout(key.largest, read))
+                                    ? animation_bounds::normalizedOrNone(restoreRotation(key.largest, read))
                                     : KeyValue{read[0], read[1], read[2], 0});
     }
     return result;
@@ -162,13 +163,13 @@ size_t sizeBits(const PackedCurve& packed, AnimationPath path)
 
 } // namespace
 
-std::optional<PackedCurve> packedCurve(const Curve& curve, double tolerance)
+std::optional<PackedCurve> packCurve(const Curve& curve, double tolerance)
 {
-    std::vector<Numbers> numbers;
+    std::vector<StoredComponents> numbers;
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const KeyValue& value : curve.values)
     {
-        numbers.push_back(numbersOf(curve.path, value));
+        numbers.push_back(storedComponents(curve.path, value));
         for (const double number : numbers.back().values)
         {
             low = std::min(low, number);
@@ -178,11 +179,11 @@ std::optional<PackedCurve> packedCurve(const Curve& curve, double tolerance)
     // try six widths of codes around steps as wide as the tolerance: finer codes leave more tolerance for
     // removing keys
     const double widest = std::log2((high - low) / tolerance + 1);
-    const auto fewest = static_cast<uint32_t>(std::clamp(std::ceil(widest) - 2, 1.0, 24.0));
+    const auto min_bits = static_cast<uint32_t>(std::clamp(std::ceil(widest) - 2, 1.0, 24.0));
     std::optional<PackedCurve> best;
-    for (uint32_t bits = fewest; bits <= std::min(fewest + 5, kMostKeyFieldBits); ++bits)
+    for (uint32_t bits = min_bits; bits <= std::min(min_bits + 5, kMaxKeyFieldBits); ++bits)
     {
-        std::optional<Coded> candidate = coded(curve, numbers, bits);
+        std::optional<QuantisedCurve> candidate = quantise(curve, numbers, bits);
         if (!candidate)
             continue;
         KeyReduction reduction(curve, candidate->values, tolerance - curve.remainder);
@@ -200,4 +201,4 @@ std::optional<PackedCurve> packedCurve(const Curve& curve, double tolerance)
     return best;
 }
 
-} // namespace hearth::clips
+} // namespace hearth::animation_compression

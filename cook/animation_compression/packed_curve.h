@@ -6,7 +6,7 @@
 
 #include <array>
 
-namespace hearth::clips
+namespace hearth::animation_compression
 {
 
 /// Data of a channel in chunk AKBT, before it has an offset there. FORMAT.md, "Skins and animations".
@@ -14,7 +14,7 @@ struct PackedCurve
 {
     struct Key
     {
-        size_t of_curve = 0;  ///< index of the key in the curve
+        size_t curve_key = 0; ///< index of the key in the curve
         uint32_t largest = 0; ///< index of the omitted component of a rotation
         std::array<uint32_t, 3> codes{};
     };
@@ -27,7 +27,7 @@ struct PackedCurve
     uint32_t keyBits(formats::AnimationPath path) const
     {
         return uint32_t{bits[0]} + bits[1] + bits[2] +
-               (path == formats::AnimationPath::rotation ? formats::kLargestBits : 0);
+               (path == formats::AnimationPath::rotation ? formats::kOmittedIndexBits : 0);
     }
 };
 
@@ -35,6 +35,6 @@ struct PackedCurve
 /// Deterministic.
 /// tolerance  above 0, as distance() measures
 /// returns    nothing if 24 bits are not enough, or no bound is known
-std::optional<PackedCurve> packedCurve(const Curve& curve, double tolerance);
+std::optional<PackedCurve> packCurve(const Curve& curve, double tolerance);
 
-} // namespace hearth::clips
+} // namespace hearth::animation_compression

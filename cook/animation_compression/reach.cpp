@@ -7,16 +7,16 @@
 
 #include <algorithm>
 
-namespace hearth::clips
+namespace hearth::animation_compression
 {
 
 using namespace formats;
-using motion::Box3d;
+using animation_bounds::Box3d;
 
 namespace
 {
 
-std::array<Double3, 8> cornersOf(const Box3d& box)
+std::array<Double3, 8> boxCorners(const Box3d& box)
 {
     std::array<Double3, 8> corners;
     for (size_t i = 0; i < corners.size(); ++i)
@@ -46,26 +46,26 @@ Double3 farthestCorner(const Box3d& box)
 
 } // namespace
 
-SceneReach sceneReach(const MotionTables& tables, std::span<const Carried> carried)
+SceneReach computeSceneReach(const AnimationTables& tables, std::span<const AttachedVertices> carried)
 {
     const size_t count = tables.nodes.size();
-    SceneReach reach{parentsFirst(tables.nodes), std::vector<double>(count, -1), std::vector<double>(count),
-                     0};
+    SceneReach reach{nodesParentsFirst(tables.nodes), std::vector<double>(count, -1),
+                     std::vector<double>(count), 0};
     std::vector<Affine3d> world_from_node(count);
     poseNodes(tables, restPose(tables), reach.parents_first, world_from_node);
     std::vector<Box3d> boxes(count);
-    for (const Carried& points : carried)
-        for (const Double3 corner : cornersOf(points.box))
+    for (const AttachedVertices& points : carried)
+        for (const Double3 corner : boxCorners(points.box))
         {
             const Double3 place = transformPoint(points.node_from_points, corner);
             reach.own[points.node] = std::max(reach.own[points.node], length(place));
-            motion::add(boxes[points.node], transformPoint(world_from_node[points.node], place));
+            animation_bounds::add(boxes[points.node], transformPoint(world_from_node[points.node], place));
         }
     Box3d scene;
     for (auto node = reach.parents_first.rbegin(); node != reach.parents_first.rend(); ++node)
     {
         reach.size[*node] = longestSide(boxes[*node]);
-        if (tables.nodes[*node].parent != kNone)
+        if (tables.nodes[*node].parent != kInvalidIndex)
             join(boxes[tables.nodes[*node].parent], boxes[*node]);
         else
             join(scene, boxes[*node]);
@@ -74,15 +74,16 @@ SceneReach sceneReach(const MotionTables& tables, std::span<const Carried> carri
     return reach;
 }
 
-ClipReach clipReach(const MotionTables& tables, const AnimationRecord& animation, const SceneReach& scene)
+ClipReach computeClipReach(const AnimationTables& tables, const AnimationRecord& animation,
+                           const SceneReach& scene)
 {
     const size_t count = tables.nodes.size();
     std::vector<Box3d> translations(count), scales(count);
-    for (const AnimationChannelRecord& channel : recordsOf(tables.channels, animation.channels))
+    for (const AnimationChannelRecord& channel : recordsInRange(tables.channels, animation.channels))
         if (channel.path == static_cast<uint32_t>(AnimationPath::translation))
-            motion::addValues(tables, channel, translations[channel.node]);
+            animation_bounds::addValues(tables, channel, translations[channel.node]);
         else if (channel.path == static_cast<uint32_t>(AnimationPath::scale))
-            motion::addValues(tables, channel, scales[channel.node]);
+            animation_bounds::addValues(tables, channel, scales[channel.node]);
 
     ClipReach reach{std::vector<double>(count), scene.own};
     for (auto at = scene.parents_first.rbegin(); at != scene.parents_first.rend(); ++at)
@@ -92,24 +93,24 @@ ClipReach clipReach(const MotionTables& tables, const AnimationRecord& animation
         if (node.has_trs == 0)
         {
             const Affine3d matrix = widened(node.parent_from_node);
-            reach.scale[*at] = motion::operatorNorm(matrix);
+            reach.scale[*at] = animation_bounds::operatorNorm(matrix);
             shift = length(Double3{matrix.m[0][3], matrix.m[1][3], matrix.m[2][3]});
         }
         else
         {
             if (translations[*at][0].empty())
-                motion::add(translations[*at], widen(node.translation));
+                animation_bounds::add(translations[*at], widen(node.translation));
             if (scales[*at][0].empty())
-                motion::add(scales[*at], widen(node.scale));
+                animation_bounds::add(scales[*at], widen(node.scale));
             const Double3 scale = farthestCorner(scales[*at]);
             reach.scale[*at] = std::max({scale.x, scale.y, scale.z});
             shift = length(farthestCorner(translations[*at]));
         }
-        if (node.parent != kNone && reach.farthest[*at] >= 0)
+        if (node.parent != kInvalidIndex && reach.farthest[*at] >= 0)
             reach.farthest[node.parent] =
                 std::max(reach.farthest[node.parent], shift + reach.scale[*at] * reach.farthest[*at]);
     }
     return reach;
 }
 
-} // namespace hearth::clips
+} // namespace hearth::animation_compression

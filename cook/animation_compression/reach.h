@@ -9,16 +9,17 @@
 #include <span>
 #include <vector>
 
-namespace hearth::clips
+namespace hearth::animation_compression
 {
 
 /// Vertices that are fixed in a node's space: a mesh of the node, or the vertices that one joint of a skin
 /// moves.
-struct Carried
+struct AttachedVertices
 {
     uint32_t node = 0;
     Affine3d node_from_points; ///< for a joint: the inverse bind matrix
-    motion::Box3d box; ///< metres, contains the points; for morphing meshes with all weights of the clips
+    animation_bounds::Box3d
+        box; ///< metres, contains the points; for morphing meshes with all weights of the clips
 };
 
 /// Data of a scene that is common to all clips.
@@ -32,7 +33,8 @@ struct SceneReach
     std::vector<double> size;
     double scene_size = 0;
 };
-SceneReach sceneReach(const formats::MotionTables& tables, std::span<const Carried> carried);
+SceneReach computeSceneReach(const formats::AnimationTables& tables,
+                             std::span<const AttachedVertices> carried);
 
 /// Reach of all nodes in one clip of the source, at all times. One entry for each node.
 struct ClipReach
@@ -41,7 +43,7 @@ struct ClipReach
     /// distance of the farthest vertex of it or its descendants, in its space; below 0 if there are none
     std::vector<double> farthest;
 };
-ClipReach clipReach(const formats::MotionTables& tables, const formats::AnimationRecord& animation,
-                    const SceneReach& scene);
+ClipReach computeClipReach(const formats::AnimationTables& tables, const formats::AnimationRecord& animation,
+                           const SceneReach& scene);
 
-} // namespace hearth::clips
+} // namespace hearth::animation_compression

@@ -26,7 +26,7 @@ void addCheck(CLI::Option& option, CLI::Validator check, const std::string& type
     option.check(std::move(check));
 }
 
-std::vector<std::string> namesOf(const CLI::Option& option)
+std::vector<std::string> optionNames(const CLI::Option& option)
 {
     std::vector<std::string> names;
     for (const std::string& name : option.get_snames())
@@ -40,22 +40,22 @@ std::vector<std::string> namesOf(const CLI::Option& option)
 
 /// Return the words of "TEXT:{text,json}" (as Option::choices shows them) or of "draft|default|high" (as
 /// given to Option::typeName).
-std::vector<std::string> choicesOf(const std::string& type)
+std::vector<std::string> parseChoices(const std::string& type)
 {
     if (const size_t open = type.find('{'); open != std::string::npos)
         return splitText(type.substr(open + 1, type.find('}') - open - 1), ',');
     return type.find('|') != std::string::npos ? splitText(type, '|') : std::vector<std::string>();
 }
 
-OptionInfo infoOf(const CLI::Option& option)
+OptionInfo makeOptionInfo(const CLI::Option& option)
 {
     OptionInfo info;
-    info.names = namesOf(option);
+    info.names = optionNames(option);
     info.description = option.get_description();
     info.is_required = option.get_required();
     info.may_repeat = option.get_items_expected_max() > 1 || option.get_expected_max() > 1;
     const std::string type = option.get_type_name();
-    info.choices = choicesOf(type);
+    info.choices = parseChoices(type);
     // "UINT" of "UINT:INT in [1 - 9]"
     if (option.get_items_expected_max() > 0 && option.nonpositional())
         info.value = info.choices.empty() ? type.substr(0, type.find(':')) : "NAME";
@@ -356,7 +356,7 @@ CommandInfo CommandLine::info() const
 {
     CommandInfo info{app_->get_name(), app_->get_description(), {}, {}, app_->get_footer(), {}};
     for (const CLI::Option* option : std::as_const(*app_).get_options())
-        (option->nonpositional() ? info.options : info.positionals).push_back(infoOf(*option));
+        (option->nonpositional() ? info.options : info.positionals).push_back(makeOptionInfo(*option));
     for (const auto& subcommand : subcommands_)
         info.subcommands.push_back(subcommand->info());
     return info;

@@ -29,17 +29,17 @@ const char* typeName(const Json& json)
                                : "an object";
 }
 
-[[noreturn]] void failWrongType(const Json& json, const char* wanted)
+[[noreturn]] void throwWrongType(const Json& json, const char* wanted)
 {
     throw JsonError(std::string("a value is ") + typeName(json) + " and must be " + wanted);
 }
 
-[[noreturn]] void failMissing(std::string_view key)
+[[noreturn]] void throwMissing(std::string_view key)
 {
     throw JsonError("member '" + std::string(key) + "' is missing");
 }
 
-[[noreturn]] void failMissing(size_t index)
+[[noreturn]] void throwMissing(size_t index)
 {
     throw JsonError("element " + std::to_string(index) + " is missing");
 }
@@ -47,10 +47,10 @@ const char* typeName(const Json& json)
 // ---- reading
 
 /// Adapter from the library's SAX parser to JsonEvents.
-class ParserTarget
+class SaxAdapter
 {
 public:
-    explicit ParserTarget(JsonEvents& events) : events_(events) {}
+    explicit SaxAdapter(JsonEvents& events) : events_(events) {}
 
     const std::optional<size_t>& fault() const { return fault_; }
 
@@ -97,7 +97,7 @@ public:
         return true;
     }
 
-    bool isWhole() const { return has_root_ && open_.empty(); }
+    bool isComplete() const { return has_root_ && open_.empty(); }
     Json take() { return std::move(root_); }
 
 private:
@@ -142,7 +142,7 @@ private:
 };
 
 /// Return the array index of a step of a JSON pointer; nullopt if the step is no index.
-std::optional<size_t> indexOf(std::string_view step)
+std::optional<size_t> parseIndex(std::string_view step)
 {
     size_t index = 0;
     const auto [end, error] = std::from_chars(step.data(), step.data() + step.size(), index);
@@ -150,7 +150,7 @@ std::optional<size_t> indexOf(std::string_view step)
 }
 
 /// Return the object key of a step of a JSON pointer.
-std::string keyOf(std::string_view step)
+std::string unescapeKey(std::string_view step)
 {
     std::string key;
     for (size_t i = 0; i < step.size(); ++i)
@@ -304,7 +304,7 @@ const Json::Array& Json::elements() const
 {
     if (const Array* array = std::get_if<Array>(&content_))
         return *array;
-    failWrongType(*this, "an array");
+    throwWrongType(*this, "an array");
 }
 
 Json::Array& Json::elements()
@@ -316,17 +316,17 @@ const Json::Object& Json::members() const
 {
     if (const Object* object = std::get_if<Object>(&content_))
         return *object;
-    failWrongType(*this, "an object");
+    throwWrongType(*this, "an object");
 }
 
 bool Json::boolean() const
 {
     if (const bool* flag = std::get_if<bool>(&content_))
         return *flag;
-    failWrongType(*this, "a boolean");
+    throwWrongType(*this, "a boolean");
 }
 
-uint64_t Json::wholeBits() const
+uint64_t Json::integerBits() const
 {
     if (const uint64_t* count = std::get_if<uint64_t>(&content_))
         return *count;
@@ -349,14 +349,14 @@ double Json::number() const
         return static_cast<double>(*count);
     if (const int64_t* integer = std::get_if<int64_t>(&content_))
         return static_cast<double>(*integer);
-    failWrongType(*this, "a number");
+    throwWrongType(*this, "a number");
 }
 
 const std::string& Json::text() const
 {
     if (const std::string* text = std::get_if<std::string>(&content_))
         return *text;
-    failWrongType(*this, "a string");
+    throwWrongType(*this, "a string");
 }
 
 const Json* Json::begin() const
@@ -388,15 +388,15 @@ const Json& Json::at(size_t index) const
 {
     const Array& array = elements();
     if (index >= array.size())
-        failMissing(index);
+        throwMissing(index);
     return array[index];
 }
 
 const Json& Json::at(std::string_view key) const
 {
-    if (const Json* member = memberOrNull(key))
+    if (const Json* member = findMember(key))
         return *member;
-    failMissing(key);
+    throwMissing(key);
 }
 
 Json& Json::at(size_t index)
@@ -408,13 +408,13 @@ Json& Json::operator[](std::string_view key)
 {
     if (is_null())
         *this = object();
-    if (const Json* member = memberOrNull(key))
+    if (const Json* member = findMember(key))
         return const_cast<Json&>(*member);
     addMember(key, Json());
     return std::get<Object>(content_).back().value;
 }
 
-const Json* Json::memberOrNull(std::string_view key) const
+const Json* Json::findMember(std::string_view key) const
 {
     const Object& object = members();
     const auto found =
@@ -424,7 +424,7 @@ const Json* Json::memberOrNull(std::string_view key) const
 
 const Json* Json::find(std::string_view key) const
 {
-    return is_object() ? memberOrNull(key) : nullptr;
+    return is_object() ? findMember(key) : nullptr;
 }
 
 const Json* Json::resolve(std::string_view pointer) const
@@ -437,8 +437,8 @@ const Json* Json::resolve(std::string_view pointer) const
         const size_t end = std::min(pointer.find('/', 1), pointer.size());
         const std::string_view step = pointer.substr(1, end - 1);
         pointer.remove_prefix(end);
-        const std::optional<size_t> index = at->is_array() ? indexOf(step) : std::nullopt;
-        at = !at->is_array()                ? at->find(keyOf(step))
+        const std::optional<size_t> index = at->is_array() ? parseIndex(step) : std::nullopt;
+        at = !at->is_array()                ? at->find(unescapeKey(step))
              : index && *index < at->size() ? &at->at(*index)
                                             : nullptr;
     }
@@ -455,9 +455,9 @@ Json& Json::back()
     return at(size() - 1);
 }
 
-std::string Json::value(std::string_view key, const char* otherwise) const
+std::string Json::value(std::string_view key, const char* fallback) const
 {
-    return value(key, std::string(otherwise));
+    return value(key, std::string(fallback));
 }
 
 // ---- modification
@@ -508,7 +508,7 @@ bool operator==(const Json& a, const Json& b)
         return other != nullptr && member.value == *other;
     };
     if (a.is_number_integer() && b.is_number_integer())
-        return isNegative(a) == isNegative(b) && a.wholeBits() == b.wholeBits();
+        return isNegative(a) == isNegative(b) && a.integerBits() == b.integerBits();
     if (a.is_number() && b.is_number())
         return a.number() == b.number();
     if (a.is_object() && b.is_object())
@@ -526,7 +526,7 @@ bool operator==(const Json& a, const Json& b)
 
 std::optional<size_t> parseJson(std::string_view text, JsonEvents& events)
 {
-    ParserTarget target(events);
+    SaxAdapter target(events);
     nlohmann::json::sax_parse(text.begin(), text.end(), &target);
     return target.fault();
 }
@@ -534,7 +534,7 @@ std::optional<size_t> parseJson(std::string_view text, JsonEvents& events)
 std::optional<Json> Json::parse(std::string_view text)
 {
     Builder builder;
-    if (parseJson(text, builder) || !builder.isWhole())
+    if (parseJson(text, builder) || !builder.isComplete())
         return std::nullopt;
     return builder.take();
 }
@@ -550,9 +550,9 @@ public:
     void write(const Json& json)
     {
         if (json.is_array())
-            writeAll('[', json, ']', [&](const Json& element) { write(element); });
+            writeContainer('[', json, ']', [&](const Json& element) { write(element); });
         else if (json.is_object())
-            writeAll('{', json.items(), '}', [&](const Member& member) { writeMember(member); });
+            writeContainer('{', json.items(), '}', [&](const Member& member) { writeMember(member); });
         else
             writeScalar(json);
     }
@@ -561,7 +561,7 @@ public:
 
 private:
     template <typename List, typename Write>
-    void writeAll(char open, const List& list, char close, Write writeOne)
+    void writeContainer(char open, const List& list, char close, Write writeOne)
     {
         text_ += open;
         ++depth_;
@@ -596,7 +596,7 @@ private:
         else if (const int64_t* integer = std::get_if<int64_t>(&json.content_))
             text_ += std::to_string(*integer);
         else if (json.is_number_unsigned())
-            text_ += std::to_string(json.wholeBits());
+            text_ += std::to_string(json.integerBits());
         else if (json.is_number())
             writeNumber(json.number());
         else

@@ -162,11 +162,11 @@ public:
     {
         value = get<T>();
     }
-    /// Return the member as get() converts it, or `otherwise` if it is absent. Throws JsonError as get()
+    /// Return the member as get() converts it, or `fallback` if it is absent. Throws JsonError as get()
     /// does, and if this is no object.
     template <typename T>
-    T value(std::string_view key, T otherwise) const;
-    std::string value(std::string_view key, const char* otherwise) const;
+    T value(std::string_view key, T fallback) const;
+    std::string value(std::string_view key, const char* fallback) const;
 
     /// Compare numbers by value, and objects regardless of the order of their members.
     friend bool operator==(const Json& a, const Json& b);
@@ -181,12 +181,12 @@ private:
     void setUnsigned(uint64_t value);
     void setNumber(double value);
     void addMember(std::string_view key, Json value); ///< precondition: the key is new
-    const Json* memberOrNull(std::string_view key) const;
+    const Json* findMember(std::string_view key) const;
     const Array& elements() const;
     Array& elements();
     const Object& members() const;
     bool boolean() const;
-    uint64_t wholeBits() const; ///< integer of 64 bits, a negative one as cast to unsigned
+    uint64_t integerBits() const; ///< integer of 64 bits, a negative one as cast to unsigned
     double number() const;
     const std::string& text() const;
 
@@ -226,7 +226,7 @@ T Json::get() const
     else if constexpr (std::same_as<T, bool>)
         return boolean();
     else if constexpr (std::integral<T>)
-        return static_cast<T>(wholeBits());
+        return static_cast<T>(integerBits());
     else if constexpr (std::floating_point<T>)
         return static_cast<T>(number());
     else if constexpr (std::same_as<T, std::string>)
@@ -248,10 +248,10 @@ T Json::get() const
 }
 
 template <typename T>
-T Json::value(std::string_view key, T otherwise) const
+T Json::value(std::string_view key, T fallback) const
 {
-    const Json* member = memberOrNull(key);
-    return member == nullptr ? std::move(otherwise) : member->get<T>();
+    const Json* member = findMember(key);
+    return member == nullptr ? std::move(fallback) : member->get<T>();
 }
 
 /// Write the value as dump() does.

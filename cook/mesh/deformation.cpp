@@ -39,7 +39,7 @@ size_t sortInfluences(std::span<Influence> influences)
     return count;
 }
 
-double sumOf(std::span<const Influence> influences)
+double sumWeights(std::span<const Influence> influences)
 {
     double sum = 0;
     for (const Influence& influence : influences)
@@ -50,7 +50,7 @@ double sumOf(std::span<const Influence> influences)
 /// Choose codes that sum to kWeightCodes, each within one of its weight's share. Codes descend as weights do.
 void chooseCodes(std::span<const Influence> influences, std::span<uint32_t> codes)
 {
-    const double scale = kWeightCodes / sumOf(influences);
+    const double scale = kWeightCodes / sumWeights(influences);
     uint32_t left = kWeightCodes;
     for (size_t i = 0; i < influences.size(); ++i)
     {
@@ -81,7 +81,7 @@ std::vector<Influence> influencesAt(const SourceMesh& mesh, size_t vertex)
 
 /// Return the number of influence sets: one if four influences suffice for all vertices, else enough for
 /// `most`.
-size_t neededSets(const SourceMesh& mesh, uint32_t most)
+size_t countNeededSets(const SourceMesh& mesh, uint32_t most)
 {
     const size_t sets = std::min<size_t>(mesh.joint_sets.size(), most / kSetInfluences);
     for (size_t v = 0; v < mesh.vertexCount() && sets > 1; ++v)
@@ -101,7 +101,7 @@ float setInfluences(SourceMesh& mesh, size_t vertex, std::span<Influence> influe
     const auto all = influences.first(sortInfluences(influences));
     HEARTH_ASSERT(!all.empty());
     const auto kept = all.first(std::min(all.size(), most));
-    const double loss = sumOf(all.subspan(kept.size())) / sumOf(all);
+    const double loss = sumWeights(all.subspan(kept.size())) / sumWeights(all);
     std::array<uint32_t, 2 * kSetInfluences> codes{};
     chooseCodes(kept, codes);
     for (size_t i = 0; i < most; ++i)
@@ -121,7 +121,7 @@ InfluenceLoss reduceInfluences(SourceMesh& mesh, uint32_t most)
     if (mesh.joint_sets.empty())
         return loss;
     SourceMesh reduced;
-    const size_t sets = neededSets(mesh, most);
+    const size_t sets = countNeededSets(mesh, most);
     reduced.joint_sets.assign(sets, std::vector<Joints4>(mesh.vertexCount()));
     reduced.weight_sets.assign(sets, std::vector<Float4>(mesh.vertexCount()));
     double sum = 0;
@@ -129,7 +129,7 @@ InfluenceLoss reduceInfluences(SourceMesh& mesh, uint32_t most)
     {
         std::vector<Influence> influences = influencesAt(mesh, v);
         const float lost = setInfluences(reduced, v, influences);
-        loss.most_weight = std::max(loss.most_weight, lost);
+        loss.max_weight = std::max(loss.max_weight, lost);
         loss.vertex_count += lost > 0 ? 1 : 0;
         sum += double{lost};
     }

@@ -21,7 +21,7 @@ struct Influence
 /// Weight that vertices lost with dropped influences, before the others were scaled to a sum of 1.
 struct InfluenceLoss
 {
-    float most_weight = 0;     ///< largest of one vertex
+    float max_weight = 0;      ///< largest of one vertex
     float mean_weight = 0;     ///< mean over all vertices
     uint32_t vertex_count = 0; ///< vertices that lost any
 };

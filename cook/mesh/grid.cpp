@@ -23,7 +23,7 @@ constexpr int kBits = 16;
 /// Deformed meshes get a finer grid: their poses are compared with those of other programs to 1e-5 of the
 /// model's size.
 constexpr int kDeformedBits = 18;
-constexpr int kMostExtraBits = 4;
+constexpr int kMaxExtraBits = 4;
 
 /// Return the largest power of two that is not above x; x positive.
 double powerOfTwoBelow(double x)
@@ -31,7 +31,7 @@ double powerOfTwoBelow(double x)
     return std::ldexp(1.0, std::ilogb(x));
 }
 
-double largestPart(Float3 from, Float3 to)
+double maxDifference(Float3 from, Float3 to)
 {
     return std::max(
         {std::abs(double{to.x} - from.x), std::abs(double{to.y} - from.y), std::abs(double{to.z} - from.z)});
@@ -41,21 +41,21 @@ double largestPart(Float3 from, Float3 to)
 /// of every edge apart.
 double shortestEdge(const SourceMesh& mesh)
 {
-    const auto shortestOf = [&](const Block& triangles, double shortest)
+    const auto shortestInBlock = [&](const Block& triangles, double shortest)
     {
         for (size_t t = triangles.begin(); t < triangles.end(); ++t)
         {
             const Float3 a = mesh.positions[mesh.indices[t * 3]];
             const Float3 b = mesh.positions[mesh.indices[t * 3 + 1]];
             const Float3 c = mesh.positions[mesh.indices[t * 3 + 2]];
-            const double least = std::min({largestPart(a, b), largestPart(b, c), largestPart(c, a)});
+            const double least = std::min({maxDifference(a, b), maxDifference(b, c), maxDifference(c, a)});
             if (least < shortest && !isDegenerate(a, b, c))
                 shortest = least;
         }
         return shortest;
     };
     return tbb::parallel_reduce(Block(0, mesh.triangleCount(), kGrain),
-                                std::numeric_limits<double>::infinity(), shortestOf,
+                                std::numeric_limits<double>::infinity(), shortestInBlock,
                                 [](double a, double b) { return std::min(a, b); });
 }
 
@@ -77,7 +77,7 @@ double gridStep(const SourceMesh& mesh)
     const bool deforms = !mesh.joint_sets.empty() || !mesh.morph_targets.empty();
     double step = powerOfTwoBelow(std::ldexp(extent, -(deforms ? kDeformedBits : kBits)));
     if (const double shortest = shortestEdge(mesh); shortest < step)
-        step = std::max(powerOfTwoBelow(shortest), std::ldexp(step, -kMostExtraBits));
+        step = std::max(powerOfTwoBelow(shortest), std::ldexp(step, -kMaxExtraBits));
     const double float_step = std::ldexp(powerOfTwoBelow(farthest), 1 - std::numeric_limits<float>::digits);
     return std::max({step, float_step, double{std::numeric_limits<float>::denorm_min()}});
 }

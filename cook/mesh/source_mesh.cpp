@@ -73,7 +73,7 @@ void addDeformation(ArrayPacker& packer, const SourceMesh& mesh)
     }
 }
 
-SourceMeshHeader headerOf(const SourceMesh& mesh)
+SourceMeshHeader makeHeader(const SourceMesh& mesh)
 {
     SourceMeshHeader header{};
     header.face_count = mesh.face_count;
@@ -101,7 +101,7 @@ bool copyArray(std::span<const std::byte> bytes, const SourceArray& array, uint6
 }
 
 template <typename T>
-T& grown(std::vector<T>& sets, uint32_t set)
+T& growToSet(std::vector<T>& sets, uint32_t set)
 {
     if (sets.size() <= set)
         sets.resize(set + 1);
@@ -131,26 +131,26 @@ bool readArray(std::span<const std::byte> bytes, const SourceMeshHeader& header,
     case SourceSemantic::color:
         return copyArray(bytes, array, vertices, mesh.colors);
     case SourceSemantic::joints:
-        return copyArray(bytes, array, vertices, grown(mesh.joint_sets, array.set));
+        return copyArray(bytes, array, vertices, growToSet(mesh.joint_sets, array.set));
     case SourceSemantic::weights:
-        return copyArray(bytes, array, vertices, grown(mesh.weight_sets, array.set));
+        return copyArray(bytes, array, vertices, growToSet(mesh.weight_sets, array.set));
     case SourceSemantic::index:
         return copyArray(bytes, array, triangles, mesh.indices, 3 * sizeof(uint32_t));
     case SourceSemantic::triangle_material:
         return copyArray(bytes, array, triangles, mesh.triangle_materials);
     case SourceSemantic::morph_position:
-        return copyArray(bytes, array, vertices, grown(mesh.morph_targets, array.set).positions);
+        return copyArray(bytes, array, vertices, growToSet(mesh.morph_targets, array.set).positions);
     case SourceSemantic::morph_normal:
-        return copyArray(bytes, array, vertices, grown(mesh.morph_targets, array.set).normals);
+        return copyArray(bytes, array, vertices, growToSet(mesh.morph_targets, array.set).normals);
     case SourceSemantic::morph_tangent:
-        return copyArray(bytes, array, vertices, grown(mesh.morph_targets, array.set).tangents);
+        return copyArray(bytes, array, vertices, growToSet(mesh.morph_targets, array.set).tangents);
     }
     return false;
 }
 
 } // namespace
 
-uint32_t attributesOf(const SourceMesh& mesh)
+uint32_t attributeBits(const SourceMesh& mesh)
 {
     uint32_t attributes = 0;
     attributes |= mesh.normals.empty() ? 0u : kVertexNormal;
@@ -159,7 +159,7 @@ uint32_t attributesOf(const SourceMesh& mesh)
         attributes |= mesh.uvs[set].empty() ? 0u : kVertexUv0 << set;
     attributes |= mesh.colors.empty() ? 0u : kVertexColor;
     attributes |= mesh.joint_sets.empty() ? 0u : kVertexInfluences;
-    attributes |= mesh.joint_sets.size() < 2 ? 0u : kVertexMoreInfluences;
+    attributes |= mesh.joint_sets.size() < 2 ? 0u : kVertexInfluences8;
     return attributes;
 }
 
@@ -176,7 +176,7 @@ Status writeSourceMesh(ContainerWriter& writer, uint32_t index, const SourceMesh
     packer.add(SourceSemantic::index, 0, mesh.indices, 3 * sizeof(uint32_t));
     packer.add(SourceSemantic::triangle_material, 0, mesh.triangle_materials);
     addDeformation(packer, mesh);
-    SourceMeshHeader header = headerOf(mesh);
+    SourceMeshHeader header = makeHeader(mesh);
     std::vector<std::byte> bytes = packer.pack(header);
     header.name.offset = static_cast<uint32_t>(bytes.size());
     std::memcpy(bytes.data() + offsetof(SourceMeshHeader, name), &header.name, sizeof(header.name));

@@ -45,7 +45,7 @@ struct SourceMesh
     std::vector<std::vector<Joints4>> joint_sets; ///< four influences a set; as many sets as weight_sets
     std::vector<std::vector<Float4>> weight_sets; ///< over all sets, a vertex's weights sum to 1
     std::vector<uint32_t> indices;                ///< three for each triangle
-    std::vector<uint32_t> triangle_materials;     ///< material of each triangle, or formats::kNone
+    std::vector<uint32_t> triangle_materials;     ///< material of each triangle, or kInvalidIndex
     std::vector<MorphTarget> morph_targets;
     uint32_t face_count = 0;          ///< polygons of the source before triangulation
     uint32_t source_vertex_count = 0; ///< as the source counts them (glTF: its distinct POSITION accessors)
@@ -55,7 +55,7 @@ struct SourceMesh
 };
 
 /// Return the bits of formats::VertexAttributes for the arrays that are not empty.
-uint32_t attributesOf(const SourceMesh& mesh);
+uint32_t attributeBits(const SourceMesh& mesh);
 
 /// Write the mesh as chunk SMSH `index`.
 Status writeSourceMesh(formats::ContainerWriter& writer, uint32_t index, const SourceMesh& mesh);

@@ -46,7 +46,7 @@ bool areaIsZero(double ax, double ay, double bx, double by, double cx, double cy
 }
 
 /// True if u1 * v2 - u2 * v1 is certainly not zero, despite the rounding of its inputs and result.
-bool surelyNotZero(double u1, double v2, double u2, double v1)
+bool isCertainlyNonzero(double u1, double v2, double u2, double v1)
 {
     // at most 8 roundings of relative size 2^-53 on each product
     constexpr double kRounding = 8.0 / 9007199254740992.0;
@@ -61,7 +61,8 @@ bool isDegenerate(Float3 a, Float3 b, Float3 c)
 {
     const double ux = double{b.x} - a.x, uy = double{b.y} - a.y, uz = double{b.z} - a.z;
     const double vx = double{c.x} - a.x, vy = double{c.y} - a.y, vz = double{c.z} - a.z;
-    if (surelyNotZero(ux, vy, uy, vx) || surelyNotZero(uy, vz, uz, vy) || surelyNotZero(uz, vx, ux, vz))
+    if (isCertainlyNonzero(ux, vy, uy, vx) || isCertainlyNonzero(uy, vz, uz, vy) ||
+        isCertainlyNonzero(uz, vx, ux, vz))
         return false;
     return areaIsZero(a.x, a.y, b.x, b.y, c.x, c.y) && areaIsZero(a.y, a.z, b.y, b.z, c.y, c.z) &&
            areaIsZero(a.z, a.x, b.z, b.x, c.z, c.x);

@@ -51,8 +51,8 @@ private:
 
 /// Call visit(index, hash) for all indices in order, prefetching the slots of the next ones: the set is
 /// larger than any cache, and accesses are scattered.
-template <typename HashOf, typename Visit>
-void forEachHashed(const IndexSet& set, size_t count, HashOf hashOf, Visit visit)
+template <typename HashVertex, typename Visit>
+void forEachHashed(const IndexSet& set, size_t count, HashVertex hashVertex, Visit visit)
 {
     constexpr size_t kAhead = 32;
     std::array<uint64_t, kAhead> hashes;
@@ -61,7 +61,7 @@ void forEachHashed(const IndexSet& set, size_t count, HashOf hashOf, Visit visit
         const size_t size = std::min(kAhead, count - first);
         for (size_t i = 0; i < size; ++i)
         {
-            hashes[i] = hashOf(static_cast<uint32_t>(first + i));
+            hashes[i] = hashVertex(static_cast<uint32_t>(first + i));
             set.prefetch(hashes[i]);
         }
         for (size_t i = 0; i < size; ++i)
@@ -70,7 +70,7 @@ void forEachHashed(const IndexSet& set, size_t count, HashOf hashOf, Visit visit
 }
 
 /// Array of a mesh as rows of bytes.
-struct Rows
+struct ByteRows
 {
     const std::byte* data;
     size_t size;
@@ -79,15 +79,15 @@ struct Rows
 };
 
 template <typename T>
-void addRows(std::vector<Rows>& rows, const std::vector<T>& values)
+void addRows(std::vector<ByteRows>& rows, const std::vector<T>& values)
 {
     if (!values.empty())
         rows.push_back({reinterpret_cast<const std::byte*>(values.data()), sizeof(T)});
 }
 
-std::vector<Rows> allRows(const SourceMesh& mesh)
+std::vector<ByteRows> allRows(const SourceMesh& mesh)
 {
-    std::vector<Rows> rows;
+    std::vector<ByteRows> rows;
     addRows(rows, mesh.positions);
     addRows(rows, mesh.normals);
     addRows(rows, mesh.tangents);
@@ -125,45 +125,45 @@ uint64_t hashRow(const std::byte* row, size_t size, uint64_t hash)
 Weld weldPositions(std::span<const Float3> positions)
 {
     Weld weld;
-    weld.position_of_vertex.resize(positions.size());
+    weld.position_id_of_vertex.resize(positions.size());
     IndexSet set(positions.size());
     const auto equal = [&](uint32_t a, uint32_t b) { return positions[a] == positions[b]; };
-    const auto hashOf = [&](uint32_t vertex)
+    const auto hashVertex = [&](uint32_t vertex)
     {
         const Float3 p = positions[vertex] + Float3{}; // -0 + 0 = +0
         const uint64_t xy = std::bit_cast<uint32_t>(p.x) | uint64_t{std::bit_cast<uint32_t>(p.y)} << 32;
         return mix(mix(xy) + std::bit_cast<uint32_t>(p.z));
     };
-    forEachHashed(set, positions.size(), hashOf,
+    forEachHashed(set, positions.size(), hashVertex,
                   [&](uint32_t vertex, uint64_t hash)
                   {
                       const uint32_t first = set.findOrInsert(vertex, hash, equal);
-                      weld.position_of_vertex[vertex] =
-                          first == vertex ? weld.position_count++ : weld.position_of_vertex[first];
+                      weld.position_id_of_vertex[vertex] =
+                          first == vertex ? weld.position_count++ : weld.position_id_of_vertex[first];
                   });
     return weld;
 }
 
 std::vector<uint32_t> firstEqualVertices(const SourceMesh& mesh)
 {
-    const std::vector<Rows> rows = allRows(mesh);
+    const std::vector<ByteRows> rows = allRows(mesh);
     std::vector<uint32_t> first(mesh.vertexCount());
     IndexSet set(mesh.vertexCount());
     const auto equal = [&](uint32_t a, uint32_t b)
     {
-        for (const Rows& array : rows)
+        for (const ByteRows& array : rows)
             if (std::memcmp(array[a], array[b], array.size) != 0)
                 return false;
         return true;
     };
-    const auto hashOf = [&](uint32_t vertex)
+    const auto hashVertex = [&](uint32_t vertex)
     {
         uint64_t hash = 0;
-        for (const Rows& array : rows)
+        for (const ByteRows& array : rows)
             hash = hashRow(array[vertex], array.size, hash);
         return mix(hash);
     };
-    forEachHashed(set, first.size(), hashOf,
+    forEachHashed(set, first.size(), hashVertex,
                   [&](uint32_t vertex, uint64_t hash)
                   { first[vertex] = set.findOrInsert(vertex, hash, equal); });
     return first;

@@ -15,7 +15,7 @@ namespace hearth::mesh
 /// Result of welding vertices by position.
 struct Weld
 {
-    std::vector<uint32_t> position_of_vertex; ///< position ids, dense, in order of first use
+    std::vector<uint32_t> position_id_of_vertex; ///< position ids, dense, in order of first use
     uint32_t position_count = 0;
 };
 

@@ -56,7 +56,7 @@ double codedBits(const Histogram& histogram)
     return total == 0 ? 0 : bits + timesLog2(total);
 }
 
-uint32_t totalOf(const Histogram& histogram)
+uint32_t totalCount(const Histogram& histogram)
 {
     uint32_t total = 0;
     for (const uint32_t count : histogram)
@@ -66,7 +66,7 @@ uint32_t totalOf(const Histogram& histogram)
 
 } // namespace
 
-Histogram histogramOf(std::span<const uint8_t> bytes)
+Histogram computeHistogram(std::span<const uint8_t> bytes)
 {
     Histogram histogram{};
     for (const uint8_t byte : bytes)
@@ -82,7 +82,7 @@ double timesLog2(uint32_t count)
 
 double storedBits(const Histogram& histogram)
 {
-    const double total = totalOf(histogram);
+    const double total = totalCount(histogram);
     return std::min(8 * total, codedBits(histogram) + kBitsOfCodedByte * total);
 }
 
@@ -113,7 +113,7 @@ void EntropyBlocks::add(std::span<const uint8_t> stream)
     if (stream.empty())
         return;
     streams_.push_back(stream);
-    histograms_.push_back(histogramOf(stream));
+    histograms_.push_back(computeHistogram(stream));
 }
 
 /// Append to the last block if a shared code is cheaper than two.

@@ -17,7 +17,7 @@ namespace hearth::pages
 
 using Histogram = std::array<uint32_t, 256>;
 
-Histogram histogramOf(std::span<const uint8_t> bytes);
+Histogram computeHistogram(std::span<const uint8_t> bytes);
 
 /// Return count * log2(count); 0 for 0.
 double timesLog2(uint32_t count);

@@ -25,7 +25,7 @@ constexpr size_t kDictionarySize = 1 << 15;
 
 /// Vertices of the page's narrow clusters so far, by number from 1 on. Grid lanes are relative to the origin,
 /// modulo 2^16.
-class Slots
+class VertexSlots
 {
 public:
     void clear(size_t blocks)
@@ -146,34 +146,34 @@ public:
         planes_.clear(lanes_);
         last_reference_ = 0;
         for (size_t c = 0; c < clusters.size(); ++c)
-            addCluster(c % 2, records[c], layoutOf(records[c], mesh_layout), clusters[c]);
+            addCluster(c % 2, records[c], clusterVertexLayout(records[c], mesh_layout), clusters[c]);
         return compress();
     }
 
 private:
     /// Cluster being encoded.
-    struct Current
+    struct ClusterState
     {
         size_t place; ///< parity in the page: even or odd
         bool wide;
         uint32_t words;      ///< words of a vertex
         uint32_t base_words; ///< words before the vertices
         size_t first_slot;
-        std::array<VertexRow, kClusterMaxVertices> rows; ///< of its vertices, if it is narrow
-        std::array<uint64_t, kClusterMaxVertices> hashes;
-        std::array<uint16_t, kClusterMaxVertices> known; ///< slots of earlier clusters; 0: new
-        std::array<int, kClusterMaxVertices> new_of_old;
-        std::array<uint8_t, kClusterMaxVertices> old_of_new;
+        std::array<VertexRow, kMaxClusterVertices> rows; ///< of its vertices, if it is narrow
+        std::array<uint64_t, kMaxClusterVertices> hashes;
+        std::array<uint16_t, kMaxClusterVertices> known; ///< slots of earlier clusters; 0: new
+        std::array<int, kMaxClusterVertices> new_of_old;
+        std::array<uint8_t, kMaxClusterVertices> old_of_new;
         size_t new_count;
 
-        size_t slotOf(uint8_t vertex) const { return first_slot + static_cast<size_t>(new_of_old[vertex]); }
+        size_t slot(uint8_t vertex) const { return first_slot + static_cast<size_t>(new_of_old[vertex]); }
     };
 
     void addCluster(size_t place, const ClusterRecord& record, uint32_t layout, CodedCluster& cluster)
     {
-        Current& c = current_;
+        ClusterState& c = current_;
         c.place = place;
-        c.wide = (layout & kVertexWide) != 0;
+        c.wide = (layout & kVertexWideOffsets) != 0;
         c.words = vertexWords(layout);
         c.base_words = uvBaseWords(layout);
         c.first_slot = slots_.count();
@@ -184,7 +184,7 @@ private:
             std::fill_n(c.known.begin(), vertices, uint16_t{0});
         else
             readRows(record, cluster);
-        const auto steps = codes_ ? walk_.again(cluster.indices, takeCodes(record.triangle_count))
+        const auto steps = codes_ ? walk_.replay(cluster.indices, takeCodes(record.triangle_count))
                                   : walk_.walk(cluster.indices, std::span(c.known).first(vertices));
         static_cast<void>(addTriangle(steps[0]));
         for (size_t i = 1; i < steps.size(); i += 2)
@@ -243,9 +243,9 @@ private:
         {
             const size_t before = current_.first_slot + current_.new_count - 1;
             uint32_t kinds = addCorner(a, {before, before, before});
-            const size_t slot_a = current_.slotOf(a);
+            const size_t slot_a = current_.slot(a);
             kinds |= addCorner(b, {slot_a, slot_a, slot_a}) << 2;
-            const size_t slot_b = current_.slotOf(b);
+            const size_t slot_b = current_.slot(b);
             kinds |= addCorner(c, {slot_b, slot_b, slot_b}) << 4;
             streams_.restarts[current_.place].push_back(static_cast<uint8_t>(kinds));
             remember(step);
@@ -254,31 +254,31 @@ private:
         size_t opposite = opposite_right_;
         if (step.edge == kEdgeLeft)
             opposite = opposite_left_;
-        else if (step.edge == kEdgeKept)
+        else if (step.edge == kEdgePopped)
         {
             opposite = kept_.back();
             kept_.pop_back();
         }
-        else if (step.edge == kEdgeRightKeepLeft)
+        else if (step.edge == kEdgeRightPushLeft)
             kept_.push_back(opposite_left_);
-        const uint32_t kind = addCorner(c, {current_.slotOf(a), current_.slotOf(b), opposite});
+        const uint32_t kind = addCorner(c, {current_.slot(a), current_.slot(b), opposite});
         remember(step);
         return 3 * step.edge + kind;
     }
 
     void remember(const WalkStep& step)
     {
-        opposite_right_ = current_.slotOf(step.corners[0]);
-        opposite_left_ = current_.slotOf(step.corners[1]);
+        opposite_right_ = current_.slot(step.corners[0]);
+        opposite_left_ = current_.slot(step.corners[1]);
     }
 
     /// Add a corner. Returns formats::kCorner*.
     uint32_t addCorner(uint8_t vertex, const Edge& edge)
     {
-        Current& c = current_;
+        ClusterState& c = current_;
         if (c.new_of_old[vertex] >= 0)
         {
-            streams_.reuses[c.place].push_back(static_cast<uint8_t>(edge.second - c.slotOf(vertex)));
+            streams_.reuses[c.place].push_back(static_cast<uint8_t>(edge.second - c.slot(vertex)));
             return kCornerReuse;
         }
         c.new_of_old[vertex] = static_cast<int>(c.new_count);
@@ -291,11 +291,11 @@ private:
             addReference(c.known[vertex]);
             return kCornerReference;
         }
-        planes_.add(residualOf(c.rows[vertex], edge));
+        planes_.add(computeResidual(c.rows[vertex], edge));
         return kCornerNew;
     }
 
-    VertexRow residualOf(const VertexRow& row, const Edge& edge) const
+    VertexRow computeResidual(const VertexRow& row, const Edge& edge) const
     {
         const VertexRow& first = slots_[edge.first];
         const VertexRow& second = slots_[edge.second];
@@ -320,7 +320,7 @@ private:
 
     void reorder(std::span<const WalkStep> steps, CodedCluster& cluster)
     {
-        const Current& c = current_;
+        const ClusterState& c = current_;
         HEARTH_ASSERT(c.base_words + c.new_count * c.words == cluster.words.size());
         unordered_ = cluster.words;
         for (size_t v = 0; v < c.new_count; ++v)
@@ -339,7 +339,7 @@ private:
         if (cluster.morphs.empty())
             return;
         unordered_ = cluster.morphs;
-        const Current& c = current_;
+        const ClusterState& c = current_;
         const size_t targets = cluster.morphs[0];
         for (size_t target = 0; target < targets; ++target)
         {
@@ -385,12 +385,12 @@ private:
     VertexLanes lanes_;
     LaneMasks masks_{VertexLanes{}};
     size_t blocks_ = 0; ///< vectors of a vertex
-    Slots slots_;
+    VertexSlots slots_;
     TriangleWalk walk_;
     Streams streams_;
     PagePlanes planes_;
     EntropyBlocks blocks_of_streams_;
-    Current current_;
+    ClusterState current_;
     std::vector<uint32_t> unordered_;
     size_t last_reference_ = 0;
     size_t opposite_right_ = 0;

@@ -20,11 +20,11 @@ constexpr size_t kNumberBits = 16;
 /// Cost of an escape in bits: its number, and the time to insert it.
 constexpr double kBitsOfEscape = 16 + 24;
 
-using LowBitCosts = std::array<double, kMaxLowBitsOfFour + 1>;
+using LowBitCosts = std::array<double, kMaxLowBitsAboveFour + 1>;
 
 /// Estimate the bits of a lane's numbers for each number of low bits: low bits are stored raw, the others are
 /// coded. Depends only on the lengths of the numbers: those of one length are about equally frequent.
-LowBitCosts costsOfLowBits(std::span<const uint16_t> numbers, uint32_t main_bits, uint32_t most)
+LowBitCosts estimateLowBitCosts(std::span<const uint16_t> numbers, uint32_t main_bits, uint32_t most)
 {
     std::array<uint32_t, kNumberBits + 1> count_of_length{};
     for (const uint16_t number : numbers)
@@ -72,7 +72,7 @@ LaneForms PagePlanes::make(PageHeader& header)
     LaneForms forms;
     header.new_vertices = static_cast<uint16_t>(rows_.size());
     spreadLanes();
-    const size_t blocks = (lanes_.count + kLanesOfBlock - 1) / kLanesOfBlock;
+    const size_t blocks = (lanes_.count + kLanesPerBlock - 1) / kLanesPerBlock;
     for (size_t block = 0; block < blocks; ++block)
         chooseLowBits(block, forms);
     collectEscapes(forms);
@@ -109,47 +109,47 @@ void PagePlanes::spreadLanes()
     rows_.resize(vertices);
 }
 
-uint32_t PagePlanes::escapeOf(size_t lane) const
+uint32_t PagePlanes::escapeCode(size_t lane) const
 {
-    return sharesMainByte(lanes_, lane) ? kEscapeOfFour : kEscape;
+    return sharesMainByte(lanes_, lane) ? kEscapeOfFourBits : kEscape;
 }
 
 /// Choose the cheapest number of low bits of each lane, then add bits until they fill the bytes of the block.
 void PagePlanes::chooseLowBits(size_t block, LaneForms& forms) const
 {
-    std::array<LowBitCosts, kLanesOfBlock> costs;
-    auto* const low_bits = forms.low_bits.data() + block * kLanesOfBlock;
-    std::array<uint32_t, kLanesOfBlock> most{};
+    std::array<LowBitCosts, kLanesPerBlock> costs;
+    auto* const low_bits = forms.low_bits.data() + block * kLanesPerBlock;
+    std::array<uint32_t, kLanesPerBlock> most{};
     uint32_t sum = 0;
-    const size_t count = std::min<size_t>(kLanesOfBlock, lanes_.count - block * kLanesOfBlock);
+    const size_t count = std::min<size_t>(kLanesPerBlock, lanes_.count - block * kLanesPerBlock);
     for (size_t i = 0; i < count; ++i)
     {
-        const size_t lane = block * kLanesOfBlock + i;
+        const size_t lane = block * kLanesPerBlock + i;
         if (lanes_.kinds[lane] == LaneKind::bytes)
             continue;
         const bool shared = sharesMainByte(lanes_, lane);
-        most[i] = shared ? kMaxLowBitsOfFour : kMaxLowBits;
-        costs[i] = costsOfLowBits(values_[lane], shared ? 4 : 8, most[i]);
+        most[i] = shared ? kMaxLowBitsAboveFour : kMaxLowBits;
+        costs[i] = estimateLowBitCosts(values_[lane], shared ? 4 : 8, most[i]);
         const auto best = std::min_element(costs[i].begin(), costs[i].end());
         low_bits[i] = static_cast<uint8_t>(best - costs[i].begin());
         sum += low_bits[i];
     }
     while (sum % 8 != 0)
     {
-        size_t best = kLanesOfBlock;
+        size_t best = kLanesPerBlock;
         double best_cost = 0;
         for (size_t i = 0; i < count; ++i)
         {
             if (low_bits[i] >= most[i])
                 continue;
             const double cost = costs[i][low_bits[i] + 1u] - costs[i][low_bits[i]];
-            if (best == kLanesOfBlock || cost < best_cost)
+            if (best == kLanesPerBlock || cost < best_cost)
             {
                 best = i;
                 best_cost = cost;
             }
         }
-        if (best == kLanesOfBlock)
+        if (best == kLanesPerBlock)
             return;
         ++low_bits[best];
         ++sum;
@@ -182,10 +182,10 @@ void PagePlanes::addNumberPlanes(LaneForms& forms)
         if (lanes_.kinds[lane] == LaneKind::bytes || (shared && lane % 2 == 1))
             continue;
         uint8_t* const plane = nextPlane().data();
-        const auto mainOf = [&](size_t of, size_t v)
-        { return std::min<uint32_t>(uint32_t{values_[of][v]} >> forms.low_bits[of], escapeOf(of)); };
+        const auto mainBits = [&](size_t of, size_t v)
+        { return std::min<uint32_t>(uint32_t{values_[of][v]} >> forms.low_bits[of], escapeCode(of)); };
         for (size_t v = 0; v < rows_.size(); ++v)
-            plane[v] = static_cast<uint8_t>(mainOf(lane, v) | (shared ? mainOf(lane + 1, v) << 4 : 0));
+            plane[v] = static_cast<uint8_t>(mainBits(lane, v) | (shared ? mainBits(lane + 1, v) << 4 : 0));
         if (dropZeros())
             forms.planes[lane] |= kPlaneMain;
     }
@@ -211,8 +211,8 @@ void PagePlanes::addBytePlanes(LaneForms& forms)
             upper[v] = static_cast<uint8_t>((value >> 4 & 0x0F) | (value >> 8 & 0xF0));
             lower[v] = static_cast<uint8_t>((value & 0x0F) | (value >> 4 & 0xF0));
         }
-        const double whole = storedBits(histogramOf(main)) + storedBits(histogramOf(second));
-        if (storedBits(histogramOf(upper)) + 8.0 * static_cast<double>(vertices) < whole)
+        const double whole = storedBits(computeHistogram(main)) + storedBits(computeHistogram(second));
+        if (storedBits(computeHistogram(upper)) + 8.0 * static_cast<double>(vertices) < whole)
         {
             forms.planes[lane] |= kPlaneNibbles;
             main = upper;
@@ -237,14 +237,14 @@ void PagePlanes::addLowBits(size_t block, const LaneForms& forms)
     for (uint32_t part = 0; part < fields.planes(); ++part)
     {
         uint8_t* const plane = nextPlane().data();
-        for (size_t i = 0; i < kLanesOfBlock && block * kLanesOfBlock + i < lanes_.count; ++i)
+        for (size_t i = 0; i < kLanesPerBlock && block * kLanesPerBlock + i < lanes_.count; ++i)
         {
-            const uint32_t bits = forms.low_bits[block * kLanesOfBlock + i];
+            const uint32_t bits = forms.low_bits[block * kLanesPerBlock + i];
             const int shift = static_cast<int>(8 * part) - static_cast<int>(fields.first[i]);
             if (shift <= -8 || shift >= static_cast<int>(bits))
                 continue;
             const uint32_t mask = (1u << bits) - 1;
-            const uint16_t* const values = values_[block * kLanesOfBlock + i].data();
+            const uint16_t* const values = values_[block * kLanesPerBlock + i].data();
             const int up = std::max(-shift, 0), down = std::max(shift, 0);
             for (size_t v = 0; v < rows_.size(); ++v)
                 plane[v] |= static_cast<uint8_t>((values[v] & mask) << up >> down);
@@ -256,7 +256,7 @@ void PagePlanes::addLowBits(size_t block, const LaneForms& forms)
 void PagePlanes::collectEscapes(const LaneForms& forms)
 {
     constexpr size_t kGroup = 16;
-    const auto leastEscape = [&](size_t lane) { return escapeOf(lane) << forms.low_bits[lane]; };
+    const auto leastEscape = [&](size_t lane) { return escapeCode(lane) << forms.low_bits[lane]; };
     std::vector<size_t> lanes;
     for (size_t lane = 0; lane < lanes_.count; ++lane)
     {

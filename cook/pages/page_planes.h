@@ -14,10 +14,10 @@
 namespace hearth::pages
 {
 
-inline constexpr size_t kMostBlocks = (formats::kMaxLanes + formats::kHalves - 1) / formats::kHalves;
+inline constexpr size_t kMaxRowBlocks = (formats::kMaxLanes + formats::kHalves - 1) / formats::kHalves;
 
 /// Lanes of a vertex in whole vectors.
-using VertexRow = std::array<formats::Halves, kMostBlocks>;
+using VertexRow = std::array<formats::Halves, kMaxRowBlocks>;
 
 /// Builds the planes of one page after the other.
 class PagePlanes
@@ -41,7 +41,7 @@ public:
 private:
     void spreadLanes();
     void chooseLowBits(size_t block, formats::LaneForms& forms) const;
-    uint32_t escapeOf(size_t lane) const;
+    uint32_t escapeCode(size_t lane) const;
     void addNumberPlanes(formats::LaneForms& forms);
     void addBytePlanes(formats::LaneForms& forms);
     void addLowBits(size_t block, const formats::LaneForms& forms);
@@ -51,7 +51,7 @@ private:
 
     formats::VertexLanes lanes_;
     std::vector<VertexRow> rows_;
-    std::array<std::vector<uint16_t>, kMostBlocks * formats::kHalves> values_; ///< for each lane
+    std::array<std::vector<uint16_t>, kMaxRowBlocks * formats::kHalves> values_; ///< for each lane
     std::vector<std::vector<uint8_t>> planes_; ///< the first plane_count_ are in use
     size_t plane_count_ = 0;
     std::vector<uint8_t> escapes_;

@@ -31,8 +31,8 @@ constexpr uint32_t kBatchPages = 64;
 
 /// Copy a cluster from a decoded page. The bytes between its triangles and `end`, where the next cluster
 /// begins, are its morph section.
-CodedCluster codedOf(std::span<const std::byte> page, const ClusterRecord& cluster, uint32_t layout,
-                     size_t end)
+CodedCluster copyCluster(std::span<const std::byte> page, const ClusterRecord& cluster, uint32_t layout,
+                         size_t end)
 {
     CodedCluster coded;
     const std::byte* at = page.data() + size_t{cluster.page_word} * 4;
@@ -69,7 +69,7 @@ public:
                          "it is not stored as clusters, but with codec " + std::to_string(record.codec)};
         decoded_.resize(record.size);
         HEARTH_TRY(view.decodePage(page, decoded_));
-        const auto clusters = recordsOf(view.clusters(), record.clusters);
+        const auto clusters = recordsInRange(view.clusters(), record.clusters);
         std::vector<ClusterGeometry> geometry;
         codes_.clear();
         for (const ClusterRecord& cluster : clusters)
@@ -84,14 +84,15 @@ public:
                 codes_.push_back(found->visibilityCode(v));
         }
         edit({page, record.mesh, record.clusters, geometry}, codes_);
-        const auto walk = walkOf(view.pageBytes().subspan(record.offset, record.stored_size), clusters);
-        return encoder_.encodeAgain(clusters, mesh.attributes, withCodes(clusters, mesh.attributes), walk);
+        const auto walk =
+            readWalkCodes(view.pageBytes().subspan(record.offset, record.stored_size), clusters);
+        return encoder_.encodeAgain(clusters, mesh.attributes, applyCodes(clusters, mesh.attributes), walk);
     }
 
 private:
     /// Return the stream codes of a page that was decoded: the first stream behind the header.
-    std::span<const uint8_t> walkOf(std::span<const std::byte> stored,
-                                    std::span<const ClusterRecord> clusters)
+    std::span<const uint8_t> readWalkCodes(std::span<const std::byte> stored,
+                                           std::span<const ClusterRecord> clusters)
     {
         size_t size = 0;
         for (const ClusterRecord& cluster : clusters)
@@ -106,21 +107,21 @@ private:
         return std::span(content_).subspan(sizeof(PageHeader), size);
     }
 
-    std::span<CodedCluster> withCodes(std::span<const ClusterRecord> clusters, uint32_t mesh_layout)
+    std::span<CodedCluster> applyCodes(std::span<const ClusterRecord> clusters, uint32_t mesh_layout)
     {
         coded_.clear();
         const uint32_t* code = codes_.data();
         for (size_t c = 0; c < clusters.size(); ++c)
         {
-            const uint32_t layout = layoutOf(clusters[c], mesh_layout);
+            const uint32_t layout = clusterVertexLayout(clusters[c], mesh_layout);
             const size_t end =
                 c + 1 < clusters.size() ? size_t{clusters[c + 1].page_word} * 4 : decoded_.size();
-            coded_.push_back(codedOf(decoded_, clusters[c], layout, end));
+            coded_.push_back(copyCluster(decoded_, clusters[c], layout, end));
             uint32_t* word =
                 coded_[c].words.data() + uvBaseWords(layout) + attributeWord(layout, kVertexVisibility);
             for (uint32_t v = 0; v < clusters[c].vertex_count; ++v, word += vertexWords(layout))
             {
-                HEARTH_ASSERT(legalVisibility(*code));
+                HEARTH_ASSERT(isLegalVisibility(*code));
                 *word = *code++;
             }
         }

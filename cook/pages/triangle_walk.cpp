@@ -12,12 +12,12 @@ void TriangleWalk::linkEdges()
 {
     for (uint32_t t = 0; t < indices_.size() / 3; ++t)
     {
-        const auto [a, b, c] = cornersOf(t);
+        const auto [a, b, c] = triangleCorners(t);
         // of several triangles at one edge the first is found across it
         const auto link = [&](uint8_t from, uint8_t to, uint32_t opposite)
         {
             uint16_t& other = across_[size_t{from} << 8 | to];
-            if (other == kNothing)
+            if (other == kNoEdge)
                 other = static_cast<uint16_t>(4 * t + opposite);
         };
         link(a, b, 2);
@@ -29,7 +29,7 @@ void TriangleWalk::linkEdges()
 void TriangleWalk::visit(uint32_t triangle, const WalkStep& step)
 {
     visited_[triangle] = 1;
-    there_[step.corners[2]] = 1;
+    available_[step.corners[2]] = 1;
     steps_[step_count_++] = step;
 }
 
@@ -45,12 +45,12 @@ void TriangleWalk::cross(uint8_t edge, uint8_t from, uint8_t to)
 /// left open on the left.
 void TriangleWalk::follow(uint32_t triangle)
 {
-    WalkStep step{kEdgeNone, cornersOf(triangle)};
+    WalkStep step{kEdgeNone, triangleCorners(triangle)};
     // rotate the first triangle so that the walk can continue to the right
     for (int turn = 0; turn < 2 && !free(step.corners[2], step.corners[1]); ++turn)
         std::rotate(step.corners.begin(), step.corners.begin() + 1, step.corners.end());
-    there_[step.corners[0]] = 1;
-    there_[step.corners[1]] = 1;
+    available_[step.corners[0]] = 1;
+    available_[step.corners[1]] = 1;
     visit(triangle, step);
     while (true)
     {
@@ -71,10 +71,10 @@ void TriangleWalk::follow(uint32_t triangle)
             kept_.pop_back();
         if (kept_.empty())
             return;
-        const Kept kept = kept_.back();
+        const KeptEdge kept = kept_.back();
         kept_.pop_back();
-        steps_[kept.step].edge = kEdgeRightKeepLeft;
-        cross(kEdgeKept, kept.from, kept.to);
+        steps_[kept.step].edge = kEdgeRightPushLeft;
+        cross(kEdgePopped, kept.from, kept.to);
     }
 }
 
@@ -88,8 +88,8 @@ uint32_t TriangleWalk::bestStart() const
         if (visited_[t] != 0)
             continue;
         int count = 0;
-        for (const uint8_t corner : cornersOf(t))
-            count += there_[corner];
+        for (const uint8_t corner : triangleCorners(t))
+            count += available_[corner];
         if (count > best_count)
         {
             best = t;
@@ -107,9 +107,9 @@ std::span<const WalkStep> TriangleWalk::walk(std::span<const uint8_t> indices,
     indices_ = indices;
     visited_ = {};
     visited_.back() = 1;
-    there_ = {};
+    available_ = {};
     for (size_t v = 0; v < known.size(); ++v)
-        there_[v] = known[v] != 0 ? 1 : 0;
+        available_[v] = known[v] != 0 ? 1 : 0;
     step_count_ = 0;
     linkEdges();
     while (step_count_ < indices.size() / 3)
@@ -118,20 +118,20 @@ std::span<const WalkStep> TriangleWalk::walk(std::span<const uint8_t> indices,
     {
         const auto [a, b, c] = step.corners;
         for (const size_t edge : {size_t{a} << 8 | b, size_t{b} << 8 | c, size_t{c} << 8 | a})
-            across_[edge] = kNothing;
+            across_[edge] = kNoEdge;
     }
     return std::span(steps_).first(step_count_);
 }
 
-std::span<const WalkStep> TriangleWalk::again(std::span<const uint8_t> indices,
-                                              std::span<const uint8_t> codes)
+std::span<const WalkStep> TriangleWalk::replay(std::span<const uint8_t> indices,
+                                               std::span<const uint8_t> codes)
 {
     indices_ = indices;
     step_count_ = static_cast<uint32_t>(indices.size() / 3);
     for (uint32_t t = 0; t < step_count_; ++t)
     {
         const uint32_t code = t == 0 ? kCodeRestart : uint32_t{codes[(t - 1) / 2]} >> ((t - 1) % 2 * 4) & 15u;
-        steps_[t] = {code == kCodeRestart ? kEdgeNone : static_cast<uint8_t>(code / 3), cornersOf(t)};
+        steps_[t] = {code == kCodeRestart ? kEdgeNone : static_cast<uint8_t>(code / 3), triangleCorners(t)};
     }
     return std::span(steps_).first(step_count_);
 }

@@ -25,11 +25,11 @@ struct WalkStep
 class TriangleWalk
 {
 public:
-    TriangleWalk() : across_(size_t{1} << 16, kNothing) {}
+    TriangleWalk() : across_(size_t{1} << 16, kNoEdge) {}
 
     /// Return each triangle once, rotated so that it begins with its edge. Valid until the next walk.
     ///
-    /// indices  three for each of at most kClusterMaxTriangles
+    /// indices  three for each of at most kMaxClusterTriangles
     /// known    for each vertex: not 0 if an earlier cluster has it; the walk begins there
     std::span<const WalkStep> walk(std::span<const uint8_t> indices, std::span<const uint16_t> known);
 
@@ -37,10 +37,10 @@ public:
     /// next walk.
     ///
     /// codes  of the cluster, in formats::codeBytes
-    std::span<const WalkStep> again(std::span<const uint8_t> indices, std::span<const uint8_t> codes);
+    std::span<const WalkStep> replay(std::span<const uint8_t> indices, std::span<const uint8_t> codes);
 
 private:
-    static constexpr uint16_t kNothing = 4 * formats::kClusterMaxTriangles;
+    static constexpr uint16_t kNoEdge = 4 * formats::kMaxClusterTriangles;
 
     void linkEdges();
     void follow(uint32_t triangle);
@@ -48,13 +48,13 @@ private:
     uint32_t bestStart() const;
     bool free(uint8_t from, uint8_t to) const { return visited_[across(from, to) / 4] == 0; }
     uint32_t across(uint8_t from, uint8_t to) const { return across_[size_t{from} << 8 | to]; }
-    std::array<uint8_t, 3> cornersOf(uint32_t triangle) const
+    std::array<uint8_t, 3> triangleCorners(uint32_t triangle) const
     {
         return {indices_[triangle * 3], indices_[triangle * 3 + 1], indices_[triangle * 3 + 2]};
     }
     void visit(uint32_t triangle, const WalkStep& step);
 
-    struct Kept
+    struct KeptEdge
     {
         uint8_t from, to;
         uint32_t step; ///< step that could keep it
@@ -64,10 +64,10 @@ private:
     /// 4 * triangle that has the edge from << 8 | to + the number of its corner opposite that edge
     std::vector<uint16_t> across_;
     /// The last is a sentinel for no triangle.
-    std::array<uint8_t, formats::kClusterMaxTriangles + 1> visited_{};
-    std::array<uint8_t, formats::kClusterMaxVertices> there_{}; ///< 1: placed, or known
-    std::vector<Kept> kept_;
-    std::array<WalkStep, formats::kClusterMaxTriangles> steps_;
+    std::array<uint8_t, formats::kMaxClusterTriangles + 1> visited_{};
+    std::array<uint8_t, formats::kMaxClusterVertices> available_{}; ///< 1: placed, or known
+    std::vector<KeptEdge> kept_;
+    std::array<WalkStep, formats::kMaxClusterTriangles> steps_;
     uint32_t step_count_ = 0;
 };
 

@@ -14,7 +14,7 @@ struct SineCosine
 };
 
 /// Compute sine and cosine of `turns` full turns, in [0, 1]: within 2e-7, the same on every machine.
-inline SineCosine sineCosineOfTurns(float turns)
+inline SineCosine sineCosine(float turns)
 {
     const auto quarter = static_cast<int32_t>(turns * 4 + 0.5f); // the nearest one
     const float angle = (turns * 4 - static_cast<float>(quarter)) * 1.57079633f;
@@ -31,7 +31,7 @@ inline SineCosine sineCosineOfTurns(float turns)
 inline Float3 hemisphereDirection(Float2 u)
 {
     const float radius = std::sqrt((1 - u.x) * (1 + u.x));
-    const SineCosine azimuth = sineCosineOfTurns(u.y);
+    const SineCosine azimuth = sineCosine(u.y);
     return {radius * azimuth.cosine, radius * azimuth.sine, u.x};
 }
 

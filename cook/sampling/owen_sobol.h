@@ -13,7 +13,7 @@ namespace hearth::sampling
 /// Derive one of 2^64 independent seeds for each `index`, such as the index of a sample or a triangle.
 /// source  G. L. Steele, D. Lea, C. H. Flood, "Fast splittable pseudorandom number generators", 2014: its
 ///         finaliser
-constexpr uint64_t seedOf(uint64_t seed, uint64_t index)
+constexpr uint64_t deriveSeed(uint64_t seed, uint64_t index)
 {
     uint64_t x = seed + (index + 1) * 0x9E3779B97F4A7C15u;
     x = (x ^ x >> 30) * 0xBF58476D1CE4E5B9u;
@@ -21,7 +21,7 @@ constexpr uint64_t seedOf(uint64_t seed, uint64_t index)
     return x ^ x >> 31;
 }
 
-constexpr uint32_t reversedBits(uint32_t x)
+constexpr uint32_t reverseBits(uint32_t x)
 {
     x = x >> 16 | x << 16;
     x = (x & 0x00FF00FFu) << 8 | (x & 0xFF00FF00u) >> 8;
@@ -74,8 +74,8 @@ constexpr uint32_t scrambledReversed(uint32_t x, uint32_t seed)
 constexpr SquarePoint owenSobol(uint32_t index, uint64_t seed)
 {
     const auto low = static_cast<uint32_t>(seed), high = static_cast<uint32_t>(seed >> 32);
-    return {reversedBits(detail::scrambledReversed(index, low)),
-            reversedBits(detail::scrambledReversed(detail::secondReversed(index), high))};
+    return {reverseBits(detail::scrambledReversed(index, low)),
+            reverseBits(detail::scrambledReversed(detail::secondReversed(index), high))};
 }
 
 /// Convert to a float in (0, 1): the upper 23 bits plus half a step, which a float holds exactly.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/skinning/cluster_bounds.h"
 
+#include "cook/skinning/box_search.h"
 #include "cook/skinning/deformed_cone.h"
 #include "cook/skinning/rounding.h"
-#include "cook/skinning/tight_box.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,24 +15,24 @@
 namespace hearth::skinning
 {
 
-using motion::Box3d;
-using motion::Interval;
+using animation_bounds::Box3d;
+using animation_bounds::Interval;
 
 namespace
 {
 
 // Number of the heaviest joints that are tried as the main bone: a fourth has never been the best one (bench
 // of the sample character and the skinned assets).
-constexpr size_t kMostCandidates = 3;
+constexpr size_t kMaxCandidates = 3;
 
 // Work for tightening the boxes of all loose clusters of a mesh, in influences of vertices of about 50 ns
 // each. With half of it, boxes of the tube of 300 joints are 4 times the tightest, with this 2.3.
-constexpr size_t kWorkOfMesh = 160'000'000;
-constexpr size_t kMostWork = 6'000'000; ///< of one cluster in the last round
+constexpr size_t kMeshWork = 160'000'000;
+constexpr size_t kMaxClusterWork = 6'000'000; ///< of one cluster in the last round
 
 // Minimum share of a cluster. A smaller share has no effect, so meshes with very many loose clusters keep
 // their boxes.
-constexpr size_t kLeastWork = 1'000'000;
+constexpr size_t kMinClusterWork = 1'000'000;
 
 // Number of rounds in which work is distributed; later rounds distribute the unused work.
 constexpr size_t kRounds = 3;
@@ -77,7 +77,7 @@ struct MainBone
 void tryJoint(uint32_t joint, const DeformedCluster& cluster, const Deformation& deformation,
               std::span<const MorphedVertex> vertices, MainBone& best)
 {
-    const std::optional<Box3d> box = boxIn(joint, cluster, deformation, vertices);
+    const std::optional<Box3d> box = computeClusterBox(joint, cluster, deformation, vertices);
     if (box && (!best.box || area(*box) < area(*best.box)))
         best = {joint, box};
 }
@@ -86,9 +86,9 @@ MainBone mainBone(std::span<const uint32_t> heaviest_first, const DeformedCluste
                   const Deformation& deformation, std::span<const MorphedVertex> vertices)
 {
     if (deformation.skin == nullptr)
-        return {0, boxIn(0, cluster, deformation, vertices)};
+        return {0, computeClusterBox(0, cluster, deformation, vertices)};
     MainBone best{heaviest_first.front(), std::nullopt};
-    for (const uint32_t joint : heaviest_first.first(std::min(kMostCandidates, heaviest_first.size())))
+    for (const uint32_t joint : heaviest_first.first(std::min(kMaxCandidates, heaviest_first.size())))
         tryJoint(joint, cluster, deformation, vertices, best);
     for (uint32_t joint = 0; joint < deformation.skin->jointCount() && !best.box; ++joint)
         tryJoint(joint, cluster, deformation, vertices, best);
@@ -121,7 +121,7 @@ struct Draft
     std::optional<BoxSearch> search; ///< set for a loose box
 };
 
-Draft draftOf(const DeformedCluster& cluster, const Deformation& deformation)
+Draft makeDraft(const DeformedCluster& cluster, const Deformation& deformation)
 {
     const std::vector<MorphedVertex> vertices = morphedVertices(cluster, deformation.morph_weights);
     Draft draft;
@@ -139,23 +139,24 @@ Draft draftOf(const DeformedCluster& cluster, const Deformation& deformation)
 /// Tighten loose boxes. All get the same share of the work; unused work goes to the others.
 void tighten(std::vector<Draft>& drafts)
 {
-    size_t left = kWorkOfMesh;
+    size_t remaining_work = kMeshWork;
     for (size_t round = 0; round < kRounds; ++round)
     {
         std::vector<BoxSearch*> searches;
         for (Draft& draft : drafts)
             if (draft.search && !draft.search->done())
                 searches.push_back(&*draft.search);
-        if (searches.empty() || left / searches.size() < kLeastWork)
+        if (searches.empty() || remaining_work / searches.size() < kMinClusterWork)
             return;
-        const size_t share = std::min(kMostWork, left / searches.size()) / (kRounds - round);
+        const size_t share = std::min(kMaxClusterWork, remaining_work / searches.size()) / (kRounds - round);
         std::vector<size_t> work(searches.size());
         tbb::parallel_for(size_t{0}, searches.size(), [&](size_t i) { work[i] = searches[i]->run(share); });
-        left -= std::min(left, std::accumulate(work.begin(), work.end(), size_t{0}));
+        remaining_work -= std::min(remaining_work, std::accumulate(work.begin(), work.end(), size_t{0}));
     }
 }
 
-DeformedBounds finished(const Draft& draft, const DeformedCluster& cluster, const Deformation& deformation)
+DeformedBounds finishBounds(const Draft& draft, const DeformedCluster& cluster,
+                            const Deformation& deformation)
 {
     const std::vector<MorphedVertex> vertices = morphedVertices(cluster, deformation.morph_weights);
     const uint32_t main = draft.main.joint;
@@ -170,8 +171,8 @@ DeformedBounds finished(const Draft& draft, const DeformedCluster& cluster, cons
     StoredCone cone;
     if (draft.main.box)
     {
-        box = roundedOut(draft.search ? draft.search->box() : *draft.main.box);
-        cone = coneIn(main, cluster, deformation, vertices, box.center());
+        box = roundOutwards(draft.search ? draft.search->box() : *draft.main.box);
+        cone = computeCone(main, cluster, deformation, vertices, box.center());
     }
     bounds.record.joint = static_cast<uint16_t>(main);
     bounds.record.box_min = box.min;
@@ -185,15 +186,16 @@ DeformedBounds finished(const Draft& draft, const DeformedCluster& cluster, cons
 
 } // namespace
 
-std::optional<Box3d> boxIn(uint32_t main, const DeformedCluster& cluster, const Deformation& deformation,
-                           std::span<const MorphedVertex> vertices)
+std::optional<Box3d> computeClusterBox(uint32_t main, const DeformedCluster& cluster,
+                                       const Deformation& deformation,
+                                       std::span<const MorphedVertex> vertices)
 {
     Box3d box;
     for (size_t v = 0; v < vertices.size(); ++v)
     {
         const MorphedVertex& vertex = vertices[v];
         Box3d places;
-        const double own = deformation.skin == nullptr ? 1.0 : weightOf(cluster, v, main);
+        const double own = deformation.skin == nullptr ? 1.0 : jointWeight(cluster, v, main);
         const double middle[3] = {vertex.middle.x, vertex.middle.y, vertex.middle.z};
         const double half[3] = {vertex.half.x, vertex.half.y, vertex.half.z};
         for (size_t axis = 0; axis < 3; ++axis)
@@ -201,10 +203,11 @@ std::optional<Box3d> boxIn(uint32_t main, const DeformedCluster& cluster, const 
         for (size_t i = v * cluster.influences; i < (v + 1) * cluster.influences; ++i)
             if (cluster.weights[i] > 0 && cluster.joints[i] != main)
             {
-                const motion::JointMotion* motion = deformation.skin->relative(main, cluster.joints[i]);
+                const animation_bounds::JointMotion* motion =
+                    deformation.skin->relative(main, cluster.joints[i]);
                 if (motion == nullptr)
                     return std::nullopt;
-                motion->addPlaces(vertex.middle, vertex.half, cluster.weights[i], places);
+                motion->addPositionBox(vertex.middle, vertex.half, cluster.weights[i], places);
             }
         for (size_t axis = 0; axis < 3; ++axis)
         {
@@ -215,16 +218,16 @@ std::optional<Box3d> boxIn(uint32_t main, const DeformedCluster& cluster, const 
     return box;
 }
 
-std::vector<DeformedBounds> boundsOf(std::span<const DeformedCluster> clusters,
-                                     const Deformation& deformation)
+std::vector<DeformedBounds> computeClusterBounds(std::span<const DeformedCluster> clusters,
+                                                 const Deformation& deformation)
 {
     std::vector<Draft> drafts(clusters.size());
     tbb::parallel_for(size_t{0}, drafts.size(),
-                      [&](size_t i) { drafts[i] = draftOf(clusters[i], deformation); });
+                      [&](size_t i) { drafts[i] = makeDraft(clusters[i], deformation); });
     tighten(drafts);
     std::vector<DeformedBounds> bounds(clusters.size());
     tbb::parallel_for(size_t{0}, drafts.size(),
-                      [&](size_t i) { bounds[i] = finished(drafts[i], clusters[i], deformation); });
+                      [&](size_t i) { bounds[i] = finishBounds(drafts[i], clusters[i], deformation); });
     return bounds;
 }
 

@@ -25,11 +25,12 @@ struct DeformedBounds
 /// Compute bounds of the clusters of one mesh. The main bone is the joint with the largest sum of weights,
 /// unless another of the heaviest joints gives a smaller box; any joint of the skin if none of these gives a
 /// box.
-std::vector<DeformedBounds> boundsOf(std::span<const DeformedCluster> clusters,
-                                     const Deformation& deformation);
+std::vector<DeformedBounds> computeClusterBounds(std::span<const DeformedCluster> clusters,
+                                                 const Deformation& deformation);
 
 /// Compute the box with this joint as the main bone, before rounding; nothing if it has no bounds.
-std::optional<motion::Box3d> boxIn(uint32_t main, const DeformedCluster& cluster,
-                                   const Deformation& deformation, std::span<const MorphedVertex> vertices);
+std::optional<animation_bounds::Box3d> computeClusterBox(uint32_t main, const DeformedCluster& cluster,
+                                                         const Deformation& deformation,
+                                                         std::span<const MorphedVertex> vertices);
 
 } // namespace hearth::skinning

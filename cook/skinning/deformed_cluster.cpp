@@ -4,7 +4,7 @@
 namespace hearth::skinning
 {
 
-double weightOf(const DeformedCluster& cluster, size_t vertex, uint32_t joint)
+double jointWeight(const DeformedCluster& cluster, size_t vertex, uint32_t joint)
 {
     double weight = 0;
     for (size_t i = vertex * cluster.influences; i < (vertex + 1) * cluster.influences; ++i)
@@ -14,7 +14,7 @@ double weightOf(const DeformedCluster& cluster, size_t vertex, uint32_t joint)
 }
 
 std::vector<MorphedVertex> morphedVertices(const DeformedCluster& cluster,
-                                           std::span<const motion::Interval> morph_weights)
+                                           std::span<const animation_bounds::Interval> morph_weights)
 {
     std::vector<MorphedVertex> vertices;
     vertices.reserve(cluster.positions.size());
@@ -22,7 +22,7 @@ std::vector<MorphedVertex> morphedVertices(const DeformedCluster& cluster,
         vertices.push_back({widen(position), {}});
     for (const MorphDeltas& morph : cluster.morphs)
     {
-        const motion::Interval& weights = morph_weights[morph.target];
+        const animation_bounds::Interval& weights = morph_weights[morph.target];
         for (size_t i = 0; i < vertices.size(); ++i)
         {
             const Double3 delta = widen(morph.positions[i]);

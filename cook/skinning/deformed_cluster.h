@@ -31,14 +31,14 @@ struct DeformedCluster
 };
 
 /// Return the weight of a joint at a vertex.
-double weightOf(const DeformedCluster& cluster, size_t vertex, uint32_t joint);
+double jointWeight(const DeformedCluster& cluster, size_t vertex, uint32_t joint);
 
 /// Deformation of the clusters of one mesh. All members must outlive it.
 struct Deformation
 {
-    const motion::SkinMotion* skin = nullptr;             ///< null without a skin
-    std::span<const motion::Interval> morph_weights = {}; ///< by target
-    const motion::PoseRegions* regions = nullptr;         ///< for tightening boxes; null without animation
+    const animation_bounds::SkinMotion* skin = nullptr;             ///< null without a skin
+    std::span<const animation_bounds::Interval> morph_weights = {}; ///< by target
+    const animation_bounds::PoseRegions* regions = nullptr; ///< for tightening boxes; null without animation
 };
 
 /// Box of the positions of a vertex in the bind pose, over all morph weights.
@@ -48,6 +48,6 @@ struct MorphedVertex
     Double3 half;
 };
 std::vector<MorphedVertex> morphedVertices(const DeformedCluster& cluster,
-                                           std::span<const motion::Interval> morph_weights);
+                                           std::span<const animation_bounds::Interval> morph_weights);
 
 } // namespace hearth::skinning

@@ -31,7 +31,7 @@ struct DeformedTriangle
 };
 
 /// Compute the triangle's bounds; nothing if it can face in any direction.
-std::optional<DeformedTriangle> triangleOf(const MiddlePose& pose, const uint32_t (&corners)[3])
+std::optional<DeformedTriangle> boundTriangle(const MiddlePose& pose, const uint32_t (&corners)[3])
 {
     const Double3 a = pose.place(corners[0]);
     const Double3 ab = pose.place(corners[1]) - a, ac = pose.place(corners[2]) - a;
@@ -46,7 +46,7 @@ std::optional<DeformedTriangle> triangleOf(const MiddlePose& pose, const uint32_
 }
 
 /// Return the code of the unit vector along the sum of the normals.
-std::optional<uint16_t> axisOf(std::span<const DeformedTriangle> triangles)
+std::optional<uint16_t> coneAxisCode(std::span<const DeformedTriangle> triangles)
 {
     Double3 sum;
     for (const DeformedTriangle& triangle : triangles)
@@ -62,7 +62,7 @@ double angleBetween(Double3 a, Double3 b)
 }
 
 /// Return the largest value of v * n over normals n of the triangle.
-double mostAlong(const DeformedTriangle& triangle, Double3 v)
+double maxAlong(const DeformedTriangle& triangle, Double3 v)
 {
     const double angle = angleBetween(v, triangle.normal);
     return length(v) * std::cos(std::max(0.0, angle - triangle.turn));
@@ -70,8 +70,8 @@ double mostAlong(const DeformedTriangle& triangle, Double3 v)
 
 } // namespace
 
-StoredCone coneIn(uint32_t main, const DeformedCluster& cluster, const Deformation& deformation,
-                  std::span<const MorphedVertex> vertices, Float3 middle)
+StoredCone computeCone(uint32_t main, const DeformedCluster& cluster, const Deformation& deformation,
+                       std::span<const MorphedVertex> vertices, Float3 middle)
 {
     StoredCone none;
     if (deformation.skin != nullptr && deformation.skin->canMirror(main))
@@ -83,12 +83,12 @@ StoredCone coneIn(uint32_t main, const DeformedCluster& cluster, const Deformati
     for (size_t i = 0; i < cluster.indices.size(); i += 3)
     {
         const auto triangle =
-            triangleOf(*pose, {cluster.indices[i], cluster.indices[i + 1], cluster.indices[i + 2]});
+            boundTriangle(*pose, {cluster.indices[i], cluster.indices[i + 1], cluster.indices[i + 2]});
         if (!triangle)
             return none;
         triangles.push_back(*triangle);
     }
-    const std::optional<uint16_t> code = axisOf(triangles);
+    const std::optional<uint16_t> code = coneAxisCode(triangles);
     if (!code)
         return none;
     Double3 axis = widen(formats::NormalCode<8>::decode(*code));
@@ -102,7 +102,7 @@ StoredCone coneIn(uint32_t main, const DeformedCluster& cluster, const Deformati
         widest = std::max(widest, angle);
         const Double3 away = widen(middle) - triangle.corner;
         reach = std::max(reach, length(away) + triangle.corner_slack);
-        back = std::max(back, (mostAlong(triangle, away) + triangle.corner_slack) / std::cos(angle));
+        back = std::max(back, (maxAlong(triangle, away) + triangle.corner_slack) / std::cos(angle));
     }
     // margin for the runtime's single precision
     const double magnitude = length(widen(middle)) + reach + back;

@@ -19,7 +19,7 @@ struct StoredCone
 /// Compute the cone in the space of a joint.
 /// main    joint for which all other joints of the cluster have bounds
 /// middle  center of the cluster's box in the joint
-StoredCone coneIn(uint32_t main, const DeformedCluster& cluster, const Deformation& deformation,
-                  std::span<const MorphedVertex> vertices, Float3 middle);
+StoredCone computeCone(uint32_t main, const DeformedCluster& cluster, const Deformation& deformation,
+                       std::span<const MorphedVertex> vertices, Float3 middle);
 
 } // namespace hearth::skinning

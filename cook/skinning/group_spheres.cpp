@@ -16,14 +16,14 @@ namespace hearth::skinning
 {
 
 using namespace formats;
-using motion::Box3d;
+using animation_bounds::Box3d;
 
 namespace
 {
 
 // Number of joints with the largest weights that are tried as anchors, besides the skin's first joint, mostly
 // a root.
-constexpr size_t kMostAnchors = 6;
+constexpr size_t kMaxAnchors = 6;
 
 // Number of steps: more shrink a sphere by less than 1 % of its radius.
 constexpr int kSphereSteps = 12;
@@ -38,9 +38,10 @@ struct WideSphere
 };
 
 /// Bounding spheres of the vertices of a cluster in all poses; nothing if there are no bounds.
-using Reached = std::optional<std::vector<WideSphere>>;
+using VertexSpheres = std::optional<std::vector<WideSphere>>;
 
-Reached reachedBy(const DeformedCluster& cluster, const Deformation& deformation, uint32_t anchor)
+VertexSpheres computeVertexSpheres(const DeformedCluster& cluster, const Deformation& deformation,
+                                   uint32_t anchor)
 {
     const std::vector<MorphedVertex> vertices = morphedVertices(cluster, deformation.morph_weights);
     const std::optional<MiddlePose> pose = MiddlePose::in(anchor, cluster, deformation, vertices);
@@ -55,20 +56,20 @@ Reached reachedBy(const DeformedCluster& cluster, const Deformation& deformation
 void add(Box3d& box, const WideSphere& sphere)
 {
     const Double3 r{sphere.radius, sphere.radius, sphere.radius};
-    motion::add(box, sphere.center - r);
-    motion::add(box, sphere.center + r);
+    animation_bounds::add(box, sphere.center - r);
+    animation_bounds::add(box, sphere.center + r);
 }
 
 /// Return half the diagonal of the box around all points that joints move, relative to a candidate for the
 /// anchor.
-double sizeSeenFrom(uint32_t anchor, const motion::SkinMotion& skin, std::span<const Box3d> reach)
+double sizeRelativeTo(uint32_t anchor, const animation_bounds::SkinMotion& skin, std::span<const Box3d> reach)
 {
     Box3d box;
     for (uint32_t joint = 0; joint < reach.size(); ++joint)
     {
         if (reach[joint][0].empty())
             continue;
-        const motion::JointMotion* motion = skin.relative(anchor, joint);
+        const animation_bounds::JointMotion* motion = skin.relative(anchor, joint);
         if (motion == nullptr)
             return std::numeric_limits<double>::infinity();
         const Double3 center = middle(reach[joint]);
@@ -78,8 +79,8 @@ double sizeSeenFrom(uint32_t anchor, const motion::SkinMotion& skin, std::span<c
     return length(half(box));
 }
 
-uint32_t anchorOf(std::span<const DeformedCluster> clusters, const motion::SkinMotion& skin,
-                  std::span<const Box3d> reach)
+uint32_t chooseAnchor(std::span<const DeformedCluster> clusters, const animation_bounds::SkinMotion& skin,
+                      std::span<const Box3d> reach)
 {
     std::vector<double> weights(skin.jointCount());
     for (const DeformedCluster& cluster : clusters)
@@ -90,11 +91,11 @@ uint32_t anchorOf(std::span<const DeformedCluster> clusters, const motion::SkinM
         candidates[joint] = joint;
     std::stable_sort(candidates.begin(), candidates.end(),
                      [&](uint32_t a, uint32_t b) { return weights[a] > weights[b]; });
-    candidates.resize(std::min(candidates.size(), kMostAnchors));
+    candidates.resize(std::min(candidates.size(), kMaxAnchors));
     candidates.push_back(0);
     std::vector<double> sizes(candidates.size());
     tbb::parallel_for(size_t{0}, candidates.size(),
-                      [&](size_t i) { sizes[i] = sizeSeenFrom(candidates[i], skin, reach); });
+                      [&](size_t i) { sizes[i] = sizeRelativeTo(candidates[i], skin, reach); });
     return candidates[static_cast<size_t>(std::min_element(sizes.begin(), sizes.end()) - sizes.begin())];
 }
 
@@ -112,7 +113,7 @@ std::pair<double, size_t> farthestFrom(Double3 center, std::span<const WideSpher
 
 /// Return a bounding sphere of spheres.
 /// source  M. Badoiu, K. L. Clarkson, "Smaller core-sets for balls", 2003
-Sphere sphereAround(std::span<const WideSphere> spheres)
+Sphere boundingSphere(std::span<const WideSphere> spheres)
 {
     HEARTH_ASSERT(!spheres.empty());
     Box3d box;
@@ -137,7 +138,8 @@ Sphere sphereAround(std::span<const WideSphere> spheres)
 
 /// Compute nested spheres from fine to coarse: records are in the order coarse to fine, the groups of a set
 /// together.
-std::vector<Sphere> nestedSpheres(const MeshHierarchy& hierarchy, std::span<const Reached> reached)
+std::vector<Sphere> nestedSpheres(const MeshHierarchy& hierarchy,
+                                  std::span<const VertexSpheres> vertex_spheres)
 {
     std::vector<Sphere> spheres(hierarchy.groups.size());
     for (size_t end = hierarchy.groups.size(); end > 0;)
@@ -150,16 +152,17 @@ std::vector<Sphere> nestedSpheres(const MeshHierarchy& hierarchy, std::span<cons
             for (uint32_t c = clusters.first; c < clusters.first + clusters.count; ++c)
             {
                 const uint32_t local = c - hierarchy.first_cluster;
-                const std::vector<WideSphere>& places = *reached[local];
+                const std::vector<WideSphere>& places = *vertex_spheres[local];
                 inside.insert(inside.end(), places.begin(), places.end());
-                if (const uint32_t refined = hierarchy.clusters[local].refined_group; refined != kNone)
+                if (const uint32_t refined = hierarchy.clusters[local].refined_group;
+                    refined != kInvalidIndex)
                 {
                     const Sphere& sphere = spheres[refined - hierarchy.first_group];
                     inside.push_back({widen(sphere.center), double{sphere.radius}});
                 }
             }
         }
-        const Sphere sphere = sphereAround(inside);
+        const Sphere sphere = boundingSphere(inside);
         for (; end > first; --end)
             spheres[end - 1] = sphere;
     }
@@ -168,16 +171,18 @@ std::vector<Sphere> nestedSpheres(const MeshHierarchy& hierarchy, std::span<cons
 
 } // namespace
 
-AnchoredBounds anchoredBounds(const MeshHierarchy& hierarchy, std::span<const DeformedCluster> clusters,
-                              const Deformation& deformation, std::span<const Box3d> reach)
+AnchoredBounds computeAnchoredBounds(const MeshHierarchy& hierarchy,
+                                     std::span<const DeformedCluster> clusters,
+                                     const Deformation& deformation, std::span<const Box3d> reach)
 {
     AnchoredBounds bounds;
     if (deformation.skin != nullptr)
-        bounds.anchor = anchorOf(clusters, *deformation.skin, reach);
-    std::vector<Reached> reached(clusters.size());
+        bounds.anchor = chooseAnchor(clusters, *deformation.skin, reach);
+    std::vector<VertexSpheres> vertex_spheres(clusters.size());
     tbb::parallel_for(size_t{0}, clusters.size(),
-                      [&](size_t i) { reached[i] = reachedBy(clusters[i], deformation, bounds.anchor); });
-    if (std::any_of(reached.begin(), reached.end(), [](const Reached& r) { return !r; }))
+                      [&](size_t i)
+                      { vertex_spheres[i] = computeVertexSpheres(clusters[i], deformation, bounds.anchor); });
+    if (std::any_of(vertex_spheres.begin(), vertex_spheres.end(), [](const VertexSpheres& r) { return !r; }))
     {
         const Float3 far{kUnbounded, kUnbounded, kUnbounded};
         bounds.box = {-far, far};
@@ -185,11 +190,11 @@ AnchoredBounds anchoredBounds(const MeshHierarchy& hierarchy, std::span<const De
         return bounds;
     }
     Box3d box;
-    for (const Reached& places : reached)
+    for (const VertexSpheres& places : vertex_spheres)
         for (const WideSphere& place : *places)
             add(box, place);
-    bounds.box = roundedOut(box);
-    bounds.spheres = nestedSpheres(hierarchy, reached);
+    bounds.box = roundOutwards(box);
+    bounds.spheres = nestedSpheres(hierarchy, vertex_spheres);
     return bounds;
 }
 

@@ -31,7 +31,9 @@ struct AnchoredBounds
 ///
 /// clusters  one for each cluster of the hierarchy
 /// reach     for each joint, as in SkinMotion; empty without a skin
-AnchoredBounds anchoredBounds(const MeshHierarchy& hierarchy, std::span<const DeformedCluster> clusters,
-                              const Deformation& deformation, std::span<const motion::Box3d> reach);
+AnchoredBounds computeAnchoredBounds(const MeshHierarchy& hierarchy,
+                                     std::span<const DeformedCluster> clusters,
+                                     const Deformation& deformation,
+                                     std::span<const animation_bounds::Box3d> reach);
 
 } // namespace hearth::skinning

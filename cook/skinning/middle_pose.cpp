@@ -17,7 +17,7 @@ std::optional<MiddlePose> MiddlePose::in(uint32_t main, const DeformedCluster& c
             !pose.addPart(deformation, main, cluster.joints[i]))
             return std::nullopt;
     for (size_t v = 0; v < vertices.size(); ++v)
-        pose.addPlace(v, deformation.skin == nullptr ? 1.0 : weightOf(cluster, v, main));
+        pose.addPosition(v, deformation.skin == nullptr ? 1.0 : jointWeight(cluster, v, main));
     return pose;
 }
 
@@ -25,20 +25,20 @@ bool MiddlePose::addPart(const Deformation& deformation, uint32_t main, uint32_t
 {
     if (std::any_of(parts_.begin(), parts_.end(), [&](const Part& part) { return part.joint == joint; }))
         return true;
-    const motion::JointMotion* motion = deformation.skin->relative(main, joint);
+    const animation_bounds::JointMotion* motion = deformation.skin->relative(main, joint);
     if (motion == nullptr)
         return false;
     parts_.push_back({joint, motion});
     return true;
 }
 
-void MiddlePose::addPlace(size_t vertex, double own_weight)
+void MiddlePose::addPosition(size_t vertex, double own_weight)
 {
     const Double3 bound = vertices_[vertex].middle;
     Double3 place = bound * own_weight;
     double stretch = own_weight;
     for (const Part& part : parts_)
-        if (const double weight = weightOf(*cluster_, vertex, part.joint); weight > 0)
+        if (const double weight = jointWeight(*cluster_, vertex, part.joint); weight > 0)
         {
             place = place + transformPoint(part.motion->ball().center, bound) * weight;
             stretch += weight * part.motion->set().norm;
@@ -51,7 +51,7 @@ double MiddlePose::slack(size_t vertex) const
 {
     double slack = morph_slack_[vertex];
     for (const Part& part : parts_)
-        if (const double weight = weightOf(*cluster_, vertex, part.joint); weight > 0)
+        if (const double weight = jointWeight(*cluster_, vertex, part.joint); weight > 0)
             slack += weight * part.motion->ball().slackAt(vertices_[vertex].middle);
     return slack;
 }
@@ -61,9 +61,9 @@ double MiddlePose::edgeSlack(size_t a, size_t b) const
     double slack = morph_slack_[a] + morph_slack_[b];
     for (const Part& part : parts_)
     {
-        const motion::MatrixBall& ball = part.motion->ball();
-        const double weight_a = weightOf(*cluster_, a, part.joint);
-        const double weight_b = weightOf(*cluster_, b, part.joint);
+        const animation_bounds::MatrixBall& ball = part.motion->ball();
+        const double weight_a = jointWeight(*cluster_, a, part.joint);
+        const double weight_b = jointWeight(*cluster_, b, part.joint);
         const Double3 arm =
             (vertices_[a].middle - ball.pivot) * weight_a - (vertices_[b].middle - ball.pivot) * weight_b;
         slack += ball.linear_slack * length(arm) + ball.point_slack * std::abs(weight_a - weight_b);

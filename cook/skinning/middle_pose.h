@@ -34,7 +34,7 @@ private:
     struct Part
     {
         uint32_t joint;
-        const motion::JointMotion* motion;
+        const animation_bounds::JointMotion* motion;
     };
 
     MiddlePose(const DeformedCluster& cluster, std::span<const MorphedVertex> vertices)
@@ -43,7 +43,7 @@ private:
     }
     /// Add a joint. False if it has no bounds.
     bool addPart(const Deformation& deformation, uint32_t main, uint32_t joint);
-    void addPlace(size_t vertex, double own_weight);
+    void addPosition(size_t vertex, double own_weight);
 
     const DeformedCluster* cluster_;
     std::span<const MorphedVertex> vertices_;

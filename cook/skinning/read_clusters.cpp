@@ -17,7 +17,7 @@ namespace
 // Sum of the weight codes of a vertex.
 constexpr double kWeightSum = 65535;
 
-Error fail(const PackView& part, Issue issue, uint32_t cluster, std::string detail)
+Error makeError(const PackView& part, Issue issue, uint32_t cluster, std::string detail)
 {
     return {issue, part.name(), "cluster " + std::to_string(cluster), std::move(detail)};
 }
@@ -33,7 +33,7 @@ void addInfluences(const ClusterGeometry& geometry, uint32_t vertex, DeformedClu
     }
 }
 
-DeformedCluster clusterOf(const ClusterGeometry& geometry)
+DeformedCluster readCluster(const ClusterGeometry& geometry)
 {
     DeformedCluster cluster;
     cluster.influences = geometry.influenceCount();
@@ -56,7 +56,7 @@ DeformedCluster clusterOf(const ClusterGeometry& geometry)
 }
 
 /// Return the sum of the weights: 1 up to rounding if the codes are valid.
-double sumOfWeights(const DeformedCluster& cluster, size_t vertex)
+double weightSum(const DeformedCluster& cluster, size_t vertex)
 {
     double sum = 0;
     for (size_t i = vertex * cluster.influences; i < (vertex + 1) * cluster.influences; ++i)
@@ -67,23 +67,24 @@ double sumOfWeights(const DeformedCluster& cluster, size_t vertex)
 Status checkCluster(const PackView& part, uint32_t number, const DeformedCluster& cluster,
                     uint32_t joint_count, uint32_t target_count)
 {
-    const auto least = [](const auto& values, size_t count)
+    const auto allBelow = [](const auto& values, size_t count)
     { return std::all_of(values.begin(), values.end(), [&](auto value) { return value < count; }); };
-    if (!least(cluster.indices, cluster.positions.size()))
-        return fail(part, Issue::meaning_geometry, number, "a triangle points outside of its vertices");
+    if (!allBelow(cluster.indices, cluster.positions.size()))
+        return makeError(part, Issue::meaning_geometry, number, "a triangle points outside of its vertices");
     if ((joint_count > 0) != (cluster.influences > 0))
-        return fail(part, Issue::meaning_geometry, number,
-                    "it has influences without a skin, or none with one");
-    if (!least(cluster.joints, joint_count))
-        return fail(part, Issue::meaning_reference, number,
-                    "a joint is not one of the " + std::to_string(joint_count) + " of its skin");
+        return makeError(part, Issue::meaning_geometry, number,
+                         "it has influences without a skin, or none with one");
+    if (!allBelow(cluster.joints, joint_count))
+        return makeError(part, Issue::meaning_reference, number,
+                         "a joint is not one of the " + std::to_string(joint_count) + " of its skin");
     for (size_t v = 0; v < cluster.positions.size() && joint_count > 0; ++v)
-        if (sumOfWeights(cluster, v) != 1)
-            return fail(part, Issue::meaning_geometry, number, "the weights of a vertex do not sum to 1");
+        if (weightSum(cluster, v) != 1)
+            return makeError(part, Issue::meaning_geometry, number,
+                             "the weights of a vertex do not sum to 1");
     for (const MorphDeltas& morph : cluster.morphs)
         if (morph.target >= target_count)
-            return fail(part, Issue::meaning_reference, number,
-                        "morph target " + std::to_string(morph.target));
+            return makeError(part, Issue::meaning_reference, number,
+                             "morph target " + std::to_string(morph.target));
     return success();
 }
 
@@ -96,8 +97,8 @@ Status readPage(const PackView& part, const MeshRecord& mesh, uint32_t page_numb
     {
         const auto geometry = ClusterGeometry::at(page, part.clusters()[number], mesh);
         if (!geometry)
-            return fail(part, Issue::meaning_geometry, number, "its data does not lie in its page");
-        DeformedCluster cluster = clusterOf(*geometry);
+            return makeError(part, Issue::meaning_geometry, number, "its data does not lie in its page");
+        DeformedCluster cluster = readCluster(*geometry);
         HEARTH_TRY(checkCluster(part, number, cluster, joint_count, mesh.morph_target_count));
         clusters[number - mesh.clusters.first] = std::move(cluster);
     }
@@ -107,7 +108,8 @@ Status readPage(const PackView& part, const MeshRecord& mesh, uint32_t page_numb
 /// True if the pages of a mesh contain exactly its clusters.
 bool pagesFit(const PackView& part, const MeshRecord& mesh)
 {
-    if (!insideTable(mesh.clusters, part.clusters().size()) || !insideTable(mesh.pages, part.pages().size()))
+    if (!isInsideTable(mesh.clusters, part.clusters().size()) ||
+        !isInsideTable(mesh.pages, part.pages().size()))
         return false;
     uint32_t next = mesh.clusters.first;
     for (const PageRecord& page : part.pages().subspan(mesh.pages.first, mesh.pages.count))

@@ -18,17 +18,17 @@ constexpr double kSingleMargin = 2e-6;
 
 float roundUp(double value)
 {
-    constexpr float kLargest = std::numeric_limits<float>::max();
-    if (!(value < double{kLargest}))
-        return kLargest;
+    constexpr float kMaxFloat = std::numeric_limits<float>::max();
+    if (!(value < double{kMaxFloat}))
+        return kMaxFloat;
     const auto rounded = static_cast<float>(value);
-    return double{rounded} >= value ? rounded : std::nextafter(rounded, kLargest);
+    return double{rounded} >= value ? rounded : std::nextafter(rounded, kMaxFloat);
 }
 
-Box3 roundedOut(const motion::Box3d& box)
+Box3 roundOutwards(const animation_bounds::Box3d& box)
 {
     double farthest = 0;
-    for (const motion::Interval& axis : box)
+    for (const animation_bounds::Interval& axis : box)
         farthest = std::max(farthest, axis.magnitude());
     Box3 rounded;
     for (size_t axis = 0; axis < 3; ++axis)

@@ -13,6 +13,6 @@ float roundUp(double value);
 
 /// Round a box outwards, with a margin for a runtime that skins in single precision: 2e-6 of its farthest
 /// coordinate.
-Box3 roundedOut(const motion::Box3d& box);
+Box3 roundOutwards(const animation_bounds::Box3d& box);
 
 } // namespace hearth::skinning

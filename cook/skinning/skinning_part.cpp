@@ -14,8 +14,8 @@ namespace hearth::skinning
 {
 
 using namespace formats;
-using motion::Box3d;
-using motion::Interval;
+using animation_bounds::Box3d;
+using animation_bounds::Interval;
 
 namespace
 {
@@ -32,7 +32,7 @@ struct Tables
 struct DrawnMesh
 {
     uint32_t mesh = 0;
-    uint32_t skin = kNone;
+    uint32_t skin = kInvalidIndex;
     std::vector<uint32_t> nodes;
 };
 
@@ -51,7 +51,7 @@ Result<std::vector<DrawnMesh>> drawnMeshes(const PackView& scene, const PackView
     for (uint32_t i = 0; i < scene.nodes().size(); ++i)
     {
         const NodeRecord& node = scene.nodes()[i];
-        if (node.mesh == kNone)
+        if (node.mesh == kInvalidIndex)
             continue;
         const auto fail = [&](std::string detail) {
             return Error{Issue::meaning_reference, scene.name(), "node " + std::to_string(i),
@@ -63,7 +63,7 @@ Result<std::vector<DrawnMesh>> drawnMeshes(const PackView& scene, const PackView
         mesh.nodes.push_back(i);
         if (part.meshes()[node.mesh].skinned == 0)
             continue;
-        if (node.skin == kNone || (mesh.skin != kNone && mesh.skin != node.skin))
+        if (node.skin == kInvalidIndex || (mesh.skin != kInvalidIndex && mesh.skin != node.skin))
             return fail("mesh " + std::to_string(node.mesh) + " is drawn with different skins");
         mesh.skin = node.skin;
     }
@@ -72,12 +72,12 @@ Result<std::vector<DrawnMesh>> drawnMeshes(const PackView& scene, const PackView
     return meshes;
 }
 
-std::vector<Interval> morphWeights(const MotionTables& tables, const DrawnMesh& mesh, uint32_t targets)
+std::vector<Interval> morphWeights(const AnimationTables& tables, const DrawnMesh& mesh, uint32_t targets)
 {
     std::vector<Interval> ranges(targets);
     for (const uint32_t node : mesh.nodes)
     {
-        const std::vector<Interval> of_node = motion::morphWeightRanges(tables, node, targets);
+        const std::vector<Interval> of_node = animation_bounds::morphWeightRanges(tables, node, targets);
         for (size_t i = 0; i < ranges.size(); ++i)
         {
             ranges[i].add(of_node[i].low);
@@ -87,13 +87,14 @@ std::vector<Interval> morphWeights(const MotionTables& tables, const DrawnMesh& 
     return ranges;
 }
 
-std::vector<Box3d> reachOf(std::span<const DeformedCluster> clusters, uint32_t joints)
+std::vector<Box3d> jointReach(std::span<const DeformedCluster> clusters, uint32_t joints)
 {
     std::vector<Box3d> reach(joints);
     for (const DeformedCluster& cluster : clusters)
         for (size_t i = 0; i < cluster.joints.size(); ++i)
             if (cluster.weights[i] > 0)
-                motion::add(reach[cluster.joints[i]], widen(cluster.positions[i / cluster.influences]));
+                animation_bounds::add(reach[cluster.joints[i]],
+                                      widen(cluster.positions[i / cluster.influences]));
     return reach;
 }
 
@@ -103,8 +104,8 @@ double surface(Float3 low, Float3 high)
     return size.x * size.y + size.y * size.z + size.z * size.x;
 }
 
-MeshStatistics statisticsOf(const PackView& part, const DrawnMesh& drawn,
-                            std::span<const DeformedBounds> bounds)
+MeshStatistics makeStatistics(const PackView& part, const DrawnMesh& drawn,
+                              std::span<const DeformedBounds> bounds)
 {
     const MeshRecord& mesh = part.meshes()[drawn.mesh];
     MeshStatistics statistics;
@@ -116,7 +117,7 @@ MeshStatistics statisticsOf(const PackView& part, const DrawnMesh& drawn,
     for (uint32_t i = 0; i < bounds.size(); ++i)
     {
         const DeformedClusterRecord& record = bounds[i].record;
-        const Box3 bind = boxOf(part.clusters()[mesh.clusters.first + i], mesh.grid_step);
+        const Box3 bind = clusterBox(part.clusters()[mesh.clusters.first + i], mesh.grid_step);
         const bool unbounded = record.box_max.x >= kUnbounded;
         statistics.unbounded += unbounded ? 1 : 0;
         statistics.cones += record.cone_cutoff != kNoCone ? 1 : 0;
@@ -166,7 +167,7 @@ Status checkGroups(const PackView& part, const MeshRecord& mesh, uint32_t number
     const auto fail = [&](Issue issue, const char* detail) {
         return Error{issue, part.name(), "mesh " + std::to_string(number), detail};
     };
-    if (!insideTable(mesh.groups, part.groups().size()))
+    if (!isInsideTable(mesh.groups, part.groups().size()))
         return fail(Issue::meaning_range, "its groups lie outside chunk GRUP");
     const uint32_t end = mesh.clusters.first + mesh.clusters.count;
     for (uint32_t g = 0; g < mesh.groups.count; ++g)
@@ -178,34 +179,36 @@ Status checkGroups(const PackView& part, const MeshRecord& mesh, uint32_t number
         for (uint32_t c = group.clusters.first; c < group.clusters.first + group.clusters.count; ++c)
             // finer groups follow coarser ones in the table
             if (const uint32_t refined = part.clusters()[c].refined_group;
-                refined != kNone &&
+                refined != kInvalidIndex &&
                 (refined <= mesh.groups.first + g || refined >= mesh.groups.first + mesh.groups.count))
                 return fail(Issue::meaning_reference, "a cluster was made from a group that is not finer");
     }
     return success();
 }
 
-Result<MeshStatistics> cookMesh(const PackView& part, const MotionTables& tables,
-                                std::span<const motion::NodeMotion> nodes, const motion::PoseRegions* regions,
-                                const DrawnMesh& drawn, Tables& written)
+Result<MeshStatistics> cookMesh(const PackView& part, const AnimationTables& tables,
+                                std::span<const animation_bounds::NodeMotion> nodes,
+                                const animation_bounds::PoseRegions* regions, const DrawnMesh& drawn,
+                                Tables& written)
 {
     const MeshRecord& mesh = part.meshes()[drawn.mesh];
-    const uint32_t joints = drawn.skin == kNone ? 0 : tables.skins[drawn.skin].joints.count;
+    const uint32_t joints = drawn.skin == kInvalidIndex ? 0 : tables.skins[drawn.skin].joints.count;
     HEARTH_ASSIGN_OR_RETURN(const std::vector<DeformedCluster> clusters,
                             readClusters(part, drawn.mesh, joints));
     HEARTH_TRY(checkGroups(part, mesh, drawn.mesh));
     const std::vector<Interval> morph_weights = morphWeights(tables, drawn, mesh.morph_target_count);
-    const std::vector<Box3d> reach = reachOf(clusters, joints);
-    std::optional<motion::SkinMotion> skin;
-    if (drawn.skin != kNone)
+    const std::vector<Box3d> reach = jointReach(clusters, joints);
+    std::optional<animation_bounds::SkinMotion> skin;
+    if (drawn.skin != kInvalidIndex)
         skin.emplace(tables, nodes, drawn.skin, reach);
     const Deformation deformation{skin ? &*skin : nullptr, morph_weights, regions};
-    const std::vector<DeformedBounds> bounds = boundsOf(clusters, deformation);
+    const std::vector<DeformedBounds> bounds = computeClusterBounds(clusters, deformation);
     const MeshHierarchy hierarchy{part.groups().subspan(mesh.groups.first, mesh.groups.count),
                                   part.clusters().subspan(mesh.clusters.first, mesh.clusters.count),
                                   mesh.groups.first, mesh.clusters.first};
-    appendTables(written, mesh, drawn, bounds, anchoredBounds(hierarchy, clusters, deformation, reach));
-    MeshStatistics statistics = statisticsOf(part, drawn, bounds);
+    appendTables(written, mesh, drawn, bounds,
+                 computeAnchoredBounds(hierarchy, clusters, deformation, reach));
+    MeshStatistics statistics = makeStatistics(part, drawn, bounds);
     statistics.joints = joints;
     return statistics;
 }
@@ -223,12 +226,12 @@ writeSkinningPart(const PackView& import_part, const PackView& clusters_part, co
 {
     HEARTH_ASSIGN_OR_RETURN(ContainerWriter writer,
                             ContainerWriter::create(output_path, ContainerKind::part));
-    HEARTH_TRY(checkMotion(import_part));
+    HEARTH_TRY(checkAnimationTables(import_part));
     HEARTH_ASSIGN_OR_RETURN(const std::vector<DrawnMesh> meshes, drawnMeshes(import_part, clusters_part));
-    const MotionTables tables = motionTables(import_part);
-    const std::vector<motion::NodeMotion> nodes =
-        meshes.empty() ? std::vector<motion::NodeMotion>{} : motion::nodeMotions(tables);
-    std::optional<motion::PoseRegions> regions;
+    const AnimationTables tables = animationTables(import_part);
+    const std::vector<animation_bounds::NodeMotion> nodes =
+        meshes.empty() ? std::vector<animation_bounds::NodeMotion>{} : animation_bounds::nodeMotions(tables);
+    std::optional<animation_bounds::PoseRegions> regions;
     if (!meshes.empty() && !tables.animations.empty())
         regions.emplace(tables, nodes);
     Tables written;

@@ -25,7 +25,7 @@ using Context = std::unique_ptr<astcenc_context, FreeContext>;
 
 /// Create a context for one thread: all blocks take a tenth of a second. The exhaustive search takes four
 /// times as long, and its errors are a tenth smaller.
-Context contextFor(uint32_t block)
+Context createContext(uint32_t block)
 {
     astcenc_config config{};
     const astcenc_error configured =
@@ -38,7 +38,7 @@ Context contextFor(uint32_t block)
 }
 
 /// Compute the index of a node's texel in the image.
-size_t texelOf(size_t node)
+size_t nodeTexel(size_t node)
 {
     const size_t aperture = node % kTableNodes, roughness = node / kTableNodes % kTableNodes,
                  beta = node / (kTableNodes * kTableNodes);
@@ -57,7 +57,7 @@ AstcTable encodeAstc(const TableValues& values, uint32_t block)
     HEARTH_ASSERT(std::find(kAstcBlocks.begin(), kAstcBlocks.end(), block) != kAstcBlocks.end());
     std::vector<float> texels(size_t{kWidth} * kHeight * 4, 1);
     for (size_t node = 0; node < values.size(); ++node)
-        std::fill_n(texels.begin() + static_cast<ptrdiff_t>(4 * texelOf(node)), 3, values[node]);
+        std::fill_n(texels.begin() + static_cast<ptrdiff_t>(4 * nodeTexel(node)), 3, values[node]);
     void* slice = texels.data();
     astcenc_image image{kWidth, kHeight, 1, ASTCENC_TYPE_F32, &slice};
 
@@ -65,7 +65,7 @@ AstcTable encodeAstc(const TableValues& values, uint32_t block)
     table.block = block;
     table.blocks.resize(blocksAlong(kWidth, block) * blocksAlong(kHeight, block) * kBlockBytes);
     auto* bytes = reinterpret_cast<uint8_t*>(table.blocks.data());
-    const Context context = contextFor(block);
+    const Context context = createContext(block);
     const astcenc_swizzle grey{ASTCENC_SWZ_R, ASTCENC_SWZ_R, ASTCENC_SWZ_R, ASTCENC_SWZ_1};
     const astcenc_error encoded =
         astcenc_compress_image(context.get(), &image, &grey, bytes, table.blocks.size(), 0);
@@ -76,7 +76,7 @@ AstcTable encodeAstc(const TableValues& values, uint32_t block)
         astcenc_decompress_image(context.get(), bytes, table.blocks.size(), &image, &same, 0);
     HEARTH_ASSERT(decoded == ASTCENC_SUCCESS);
     for (size_t node = 0; node < values.size(); ++node)
-        table.decoded[node] = texels[4 * texelOf(node)];
+        table.decoded[node] = texels[4 * nodeTexel(node)];
     return table;
 }
 

@@ -25,7 +25,7 @@ float fitOcclusion(const Configuration& configuration, const shared::SpecularFit
 float tableOcclusion(const Configuration& configuration, const TableValues& values, SpecularSpacing spacing);
 
 /// Compute the cosine of the angle between reflection vector and axis.
-double cosBetaOf(const Configuration& configuration);
+double cosBeta(const Configuration& configuration);
 
 /// Generate random configurations, the same for the same seed. Aperture, roughness (from the table's first
 /// node) and theta_o are uniform; the axis is tilted from the normal by a uniform angle up to 60 degrees, in

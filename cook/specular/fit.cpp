@@ -41,7 +41,7 @@ struct Residual
 
 } // namespace
 
-Refit refit(size_t configuration_count, uint64_t seed, Masking masking)
+ConstantsFit fitConstants(size_t configuration_count, uint64_t seed, Masking masking)
 {
     const std::vector<Configuration> configurations = randomConfigurations(configuration_count, seed);
     std::vector<double> exact(configurations.size());
@@ -72,7 +72,7 @@ Refit refit(size_t configuration_count, uint64_t seed, Masking masking)
             rms(summary.final_cost)};
 }
 
-std::string constantsText(const shared::SpecularFit& fit)
+std::string formatConstants(const shared::SpecularFit& fit)
 {
     const auto values = std::bit_cast<std::array<float, 8>>(fit);
     std::string text = "SpecularFit(";

@@ -9,7 +9,7 @@
 namespace hearth::specular
 {
 
-struct Refit
+struct ConstantsFit
 {
     shared::SpecularFit constants;
     int iterations = 0;
@@ -19,9 +19,9 @@ struct Refit
 
 /// Fit the constants to exact values of random configurations by least squares, starting from the constants
 /// in the header. Ceres runs on one thread: the same constants for the same seed.
-Refit refit(size_t configuration_count, uint64_t seed, Masking masking);
+ConstantsFit fitConstants(size_t configuration_count, uint64_t seed, Masking masking);
 
 /// Format the constants as in the header.
-std::string constantsText(const shared::SpecularFit& fit);
+std::string formatConstants(const shared::SpecularFit& fit);
 
 } // namespace hearth::specular

@@ -38,22 +38,22 @@ Interval overlap(Interval a, Interval b)
 }
 
 /// Solve a x^2 + 2 b x + c >= 0.
-Intervals notNegative(double a, double b, double c)
+Intervals solveNotNegative(double a, double b, double c)
 {
-    constexpr Interval kNothing{0, 0};
-    constexpr Interval kEverything{-kInfinity, kInfinity};
+    constexpr Interval kEmpty{0, 0};
+    constexpr Interval kAllReals{-kInfinity, kInfinity};
     const double discriminant = b * b - a * c;
     if (discriminant <= 0)
-        return {a > 0 || (a == 0 && c >= 0) ? kEverything : kNothing, kNothing};
+        return {a > 0 || (a == 0 && c >= 0) ? kAllReals : kEmpty, kEmpty};
     // the form without cancellation
     const double sum = -(b + std::copysign(std::sqrt(discriminant), b));
     const double first = c / sum;
     if (a == 0)
-        return {b > 0 ? Interval{first, kInfinity} : Interval{-kInfinity, first}, kNothing};
+        return {b > 0 ? Interval{first, kInfinity} : Interval{-kInfinity, first}, kEmpty};
     const double second = sum / a;
     const Interval between{std::min(first, second), std::max(first, second)};
     if (a < 0)
-        return {between, kNothing};
+        return {between, kEmpty};
     return {Interval{-kInfinity, between.low}, Interval{between.high, kInfinity}};
 }
 
@@ -122,8 +122,8 @@ public:
     Intervals slopes(double y) const
     {
         const double across = axis_.y * y + axis_.z;
-        return notNegative(2 * view_x_ * axis_.x - level_, view_x_ * across + view_z_ * axis_.x,
-                           2 * view_z_ * across - level_ * (1 + y * y));
+        return solveNotNegative(2 * view_x_ * axis_.x - level_, view_x_ * across + view_z_ * axis_.x,
+                                2 * view_z_ * across - level_ * (1 + y * y));
     }
 
     /// Return each y at which intervals appear, vanish or meet, or at which the cone's edge crosses the
@@ -134,9 +134,9 @@ public:
         const double turned = view_x_ * axis_.z - view_z_ * axis_.x;
         const double rest = level_ * (2 * view_x_ * axis_.x - level_);
         // the discriminant of slopes(y) is a quadratic in y: its sign changes at the ends of these intervals
-        const Intervals real = notNegative(view_x_ * view_x_ * axis_.y * axis_.y + rest,
-                                           view_x_ * axis_.y * turned + level_ * view_z_ * axis_.y,
-                                           turned * turned + 2 * level_ * view_z_ * axis_.z + rest);
+        const Intervals real = solveNotNegative(view_x_ * view_x_ * axis_.y * axis_.y + rest,
+                                                view_x_ * axis_.y * turned + level_ * view_z_ * axis_.y,
+                                                turned * turned + 2 * level_ * view_z_ * axis_.z + rest);
         for (const Interval& interval : real)
             found.insert(found.end(), {interval.low, interval.high});
         const double level_length2 = axis_.x * axis_.x + axis_.y * axis_.y;
@@ -161,24 +161,24 @@ private:
 class Quadrature
 {
 public:
-    Quadrature(const SlopeLobe& lobe, Fineness fineness)
-        : lobe_(lobe), outer_(gaussLegendre(fineness.outer)), inner_(gaussLegendre(fineness.inner))
+    Quadrature(const SlopeLobe& lobe, QuadratureOrder order)
+        : lobe_(lobe), outer_(gaussLegendre(order.outer)), inner_(gaussLegendre(order.inner))
     {
     }
 
-    double everything() const
+    double total() const
     {
-        const double end = tauOf(1 / lobe_.viewZ());
+        const double end = slopeAngle(1 / lobe_.viewZ());
         return 2 * piece(0, end, [&](double y) { return Intervals{lobe_.aboveHorizon(y), Interval{0, 0}}; });
     }
 
     double inside(const SlopeCone& cone, bool symmetric) const
     {
-        const double end = tauOf(1 / lobe_.viewZ());
+        const double end = slopeAngle(1 / lobe_.viewZ());
         const double start = symmetric ? 0 : -end;
         std::vector<double> ends{start, end};
         for (const double y : cone.breaks())
-            if (const double tau = tauOf(y); tau > start && tau < end)
+            if (const double tau = slopeAngle(y); tau > start && tau < end)
                 ends.push_back(tau);
         std::sort(ends.begin(), ends.end());
         const auto intervalsAt = [&](double y)
@@ -196,7 +196,7 @@ public:
     }
 
 private:
-    double tauOf(double y) const { return std::atan(y / lobe_.alpha()); }
+    double slopeAngle(double y) const { return std::atan(y / lobe_.alpha()); }
 
     /// Integrate over tau in [low, high]. Intervals that appear or vanish at its ends do so as square roots:
     /// substituting a sine, with its flat ends, makes them smooth.
@@ -241,24 +241,24 @@ private:
 
 } // namespace
 
-void occlusionsOf(const Lobe& lobe, const Double3& axis, std::span<const double> half_angles,
-                  std::span<double> out, Fineness fineness)
+void computeOcclusions(const Lobe& lobe, const Double3& axis, std::span<const double> half_angles,
+                       std::span<double> out, QuadratureOrder order)
 {
     HEARTH_ASSERT(half_angles.size() == out.size());
     const SlopeLobe slopes(lobe);
-    const Quadrature quadrature(slopes, fineness);
-    const double everything = quadrature.everything();
+    const Quadrature quadrature(slopes, order);
+    const double total = quadrature.total();
     for (size_t i = 0; i < out.size(); ++i)
     {
         const double inside = quadrature.inside(SlopeCone(slopes, axis, half_angles[i]), axis.y == 0);
-        out[i] = std::clamp(inside / everything, 0.0, 1.0);
+        out[i] = std::clamp(inside / total, 0.0, 1.0);
     }
 }
 
-double occlusionOf(const Lobe& lobe, const Cone& cone, Fineness fineness)
+double computeOcclusion(const Lobe& lobe, const Cone& cone, QuadratureOrder order)
 {
     double share = 0;
-    occlusionsOf(lobe, cone.axis, {&cone.half_angle, 1}, {&share, 1}, fineness);
+    computeOcclusions(lobe, cone.axis, {&cone.half_angle, 1}, {&share, 1}, order);
     return share;
 }
 

@@ -33,7 +33,7 @@ struct Cone
 };
 
 /// Number of quadrature points, in each piece of the outer integral and in each interval of the inner one.
-struct Fineness
+struct QuadratureOrder
 {
     int outer = 32;
     int inner = 24;
@@ -41,11 +41,11 @@ struct Fineness
 
 /// Compute S = int D G2 / (4 cos_o) dw over the cone above the horizon, as a share of the same integral over
 /// all directions above the horizon. In [0, 1]. Fresnel is left out.
-double occlusionOf(const Lobe& lobe, const Cone& cone, Fineness fineness = {});
+double computeOcclusion(const Lobe& lobe, const Cone& cone, QuadratureOrder order = {});
 
 /// Compute the same for many cones about one axis, with one integration of the whole lobe.
 /// out  as long as half_angles
-void occlusionsOf(const Lobe& lobe, const Double3& axis, std::span<const double> half_angles,
-                  std::span<double> out, Fineness fineness = {});
+void computeOcclusions(const Lobe& lobe, const Double3& axis, std::span<const double> half_angles,
+                       std::span<double> out, QuadratureOrder order = {});
 
 } // namespace hearth::specular

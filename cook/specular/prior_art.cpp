@@ -7,19 +7,19 @@
 namespace hearth::specular
 {
 
-double overlapOfCones(const Configuration& configuration)
+double coneOverlapOcclusion(const Configuration& configuration)
 {
     const double alpha = configuration.roughness * configuration.roughness;
     const double lobe = std::acos(std::exp2(-3.32193 * alpha));
     const double visible = configuration.half_angle;
-    const double apart = std::acos(std::clamp(cosBetaOf(configuration), -1.0, 1.0));
+    const double apart = std::acos(std::clamp(cosBeta(configuration), -1.0, 1.0));
     const double inside = std::abs(lobe - visible);
     const double smaller = (1 - std::cos(std::min(lobe, visible))) / (1 - std::cos(lobe));
     const double near = 1 - std::clamp((apart - inside) / std::max(lobe + visible - inside, 1e-9), 0.0, 1.0);
     return smaller * near * near * (3 - 2 * near);
 }
 
-double fromAmbientOcclusion(const Configuration& configuration)
+double occlusionFromAmbient(const Configuration& configuration)
 {
     const double sine = std::sin(configuration.half_angle);
     const double open = sine * sine * std::max(configuration.axis.z, 0.0);

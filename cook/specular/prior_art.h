@@ -11,10 +11,10 @@ namespace hearth::specular
 /// smoothstep approximates the intersection of the caps. C. Oat, P. Sander, "Ambient aperture lighting",
 /// 2007; the lobe's width as in J. Jimenez et al., "Practical realtime strategies for accurate indirect
 /// occlusion", 2016.
-double overlapOfCones(const Configuration& configuration);
+double coneOverlapOcclusion(const Configuration& configuration);
 
 /// Estimate from ambient occlusion alone. S. Lagarde, C. de Rousiers, "Moving Frostbite to physically based
 /// rendering", 2014.
-double fromAmbientOcclusion(const Configuration& configuration);
+double occlusionFromAmbient(const Configuration& configuration);
 
 } // namespace hearth::specular

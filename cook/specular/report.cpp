@@ -26,11 +26,11 @@ constexpr double kRightAngle = std::numbers::pi / 2;
 /// Nodes of theta_o in the four-dimensional table: 32 KiB.
 constexpr int kViewNodes = 8;
 
-constexpr double kTalksNormalLambda = 0.78;
+constexpr double kTalkNormalLambda = 0.78;
 
 using Values = std::vector<double>;
 
-ErrorFigures errorsOf(std::string name, const Values& values, const Values& exact)
+ErrorFigures computeErrors(std::string name, const Values& values, const Values& exact)
 {
     ErrorFigures figures;
     figures.name = std::move(name);
@@ -51,24 +51,25 @@ ErrorFigures errorsOf(std::string name, const Values& values, const Values& exac
 }
 
 /// Evaluates all methods on one set of configurations.
-class Contest
+class MethodEvaluator
 {
 public:
-    Contest(std::vector<Configuration> configurations, const TableSettings& settings)
+    MethodEvaluator(std::vector<Configuration> configurations, const TableSettings& settings)
         : configurations_(std::move(configurations)), settings_(settings)
     {
     }
 
-    Values of(const std::function<double(const Configuration&)>& way) const
+    Values evaluate(const std::function<double(const Configuration&)>& method) const
     {
         Values values(configurations_.size());
-        tbb::parallel_for(size_t{0}, values.size(), [&](size_t i) { values[i] = way(configurations_[i]); });
+        tbb::parallel_for(size_t{0}, values.size(),
+                          [&](size_t i) { values[i] = method(configurations_[i]); });
         return values;
     }
 
     Values exact() const
     {
-        return of([&](const Configuration& c) { return exactOcclusion(c, settings_.masking); });
+        return evaluate([&](const Configuration& c) { return exactOcclusion(c, settings_.masking); });
     }
 
     /// Evaluate a table of three dimensions with infinitely many nodes.
@@ -76,12 +77,12 @@ public:
     {
         TableSettings settings = settings_;
         settings.normal_lambda = normal_lambda;
-        return of(
+        return evaluate(
             [settings](const Configuration& c)
             {
-                const double beta = std::acos(std::clamp(cosBetaOf(c), -1.0, 1.0));
-                const AssumedPlace place = assumedPlace(c.roughness, beta, settings);
-                return occlusionOf(place.lobe, {place.axis, c.half_angle});
+                const double beta = std::acos(std::clamp(cosBeta(c), -1.0, 1.0));
+                const AssumedLobe place = assumeLobe(c.roughness, beta, settings);
+                return computeOcclusion(place.lobe, {place.axis, c.half_angle});
             });
     }
 
@@ -92,44 +93,44 @@ public:
         TableValues values = cookTable(settings);
         if (rounded)
             values = unpackTable(packTable(values, settings));
-        return lookedUp(values, spacing);
+        return lookUpAll(values, spacing);
     }
 
-    Values lookedUp(const TableValues& values, SpecularSpacing spacing) const
+    Values lookUpAll(const TableValues& values, SpecularSpacing spacing) const
     {
-        return of([&](const Configuration& c) { return double{tableOcclusion(c, values, spacing)}; });
+        return evaluate([&](const Configuration& c) { return double{tableOcclusion(c, values, spacing)}; });
     }
 
     /// Evaluate with the given theta_o; the normal lies in the plane of reflection vector and axis, on the
     /// side of the axis.
-    double viewKept(double half_angle, double roughness, double theta_o, double beta) const
+    double keepingTheta(double half_angle, double roughness, double theta_o, double beta) const
     {
         const double tilt = theta_o - beta;
-        return occlusionOf({roughness, theta_o, settings_.masking},
-                           {{std::sin(tilt), 0, std::cos(tilt)}, half_angle});
+        return computeOcclusion({roughness, theta_o, settings_.masking},
+                                {{std::sin(tilt), 0, std::cos(tilt)}, half_angle});
     }
 
-    Values idealViewKept() const
+    Values idealKeepingTheta() const
     {
-        return of(
+        return evaluate(
             [this](const Configuration& c) {
-                return viewKept(c.half_angle, c.roughness, c.theta_o,
-                                std::acos(std::clamp(cosBetaOf(c), -1.0, 1.0)));
+                return keepingTheta(c.half_angle, c.roughness, c.theta_o,
+                                    std::acos(std::clamp(cosBeta(c), -1.0, 1.0)));
             });
     }
 
     /// Evaluate the same by interpolation between the sixteen nodes around each configuration.
-    Values tableViewKept() const
+    Values tableKeepingTheta() const
     {
-        return of([this](const Configuration& c) { return lookUpViewKept(c); });
+        return evaluate([this](const Configuration& c) { return lookUpKeepingTheta(c); });
     }
 
 private:
-    double lookUpViewKept(const Configuration& c) const
+    double lookUpKeepingTheta(const Configuration& c) const
     {
-        const Float3 place = shared::specularTablePlace(
+        const Float3 place = shared::specularTableCoordinates(
             static_cast<float>(std::cos(c.half_angle)), static_cast<float>(c.roughness),
-            static_cast<float>(cosBetaOf(c)), static_cast<shared::uint>(settings_.spacing));
+            static_cast<float>(cosBeta(c)), static_cast<shared::uint>(settings_.spacing));
         const std::array<double, 4> at{
             double{place.x} * (shared::kSpecularNodes - 1), double{place.y} * (shared::kSpecularNodes - 1),
             double{place.z} * (shared::kSpecularNodes - 1), c.theta_o / kRightAngle * (kViewNodes - 1)};
@@ -148,10 +149,11 @@ private:
                 weight *= step == 1 ? part : 1 - part;
             }
             if (weight > 0)
-                sum += weight * viewKept(kRightAngle * formats::specularNodeAperture(node[0]),
-                                         formats::specularNodeRoughness(node[1]),
-                                         kRightAngle * node[3] / (kViewNodes - 1),
-                                         std::acos(formats::specularNodeCosBeta(node[2], settings_.spacing)));
+                sum += weight *
+                       keepingTheta(kRightAngle * formats::specularNodeAperture(node[0]),
+                                    formats::specularNodeRoughness(node[1]),
+                                    kRightAngle * node[3] / (kViewNodes - 1),
+                                    std::acos(formats::specularNodeCosBeta(node[2], settings_.spacing)));
         }
         return sum;
     }
@@ -160,45 +162,49 @@ private:
     TableSettings settings_;
 };
 
-void compareWays(const Contest& contest, const Values& exact, double lambda, std::vector<ErrorFigures>& ways)
+void compareMethods(const MethodEvaluator& evaluator, const Values& exact, double lambda,
+                    std::vector<ErrorFigures>& methods)
 {
     const auto add = [&](std::string name, const Values& values)
-    { ways.push_back(errorsOf(std::move(name), values, exact)); };
-    add("fit, no table", contest.of([](const Configuration& c) { return double{fitOcclusion(c)}; }));
+    { methods.push_back(computeErrors(std::move(name), values, exact)); };
+    add("fit, no table", evaluator.evaluate([](const Configuration& c) { return double{fitOcclusion(c)}; }));
     add(fmt::format("table, cosine, normal lambda {}", lambda),
-        contest.table(lambda, SpecularSpacing::cosine, true));
+        evaluator.table(lambda, SpecularSpacing::cosine, true));
     add(fmt::format("table, half sine, normal lambda {}", lambda),
-        contest.table(lambda, SpecularSpacing::half_sine, true));
-    const Values talk = contest.table(kTalksNormalLambda, SpecularSpacing::cosine, true);
-    add(fmt::format("table, cosine, normal lambda {}", kTalksNormalLambda), talk);
-    const Values tilts = contest.of([](const Configuration& c) { return std::max(c.axis.z, 0.0); });
+        evaluator.table(lambda, SpecularSpacing::half_sine, true));
+    const Values talk = evaluator.table(kTalkNormalLambda, SpecularSpacing::cosine, true);
+    add(fmt::format("table, cosine, normal lambda {}", kTalkNormalLambda), talk);
+    const Values tilts = evaluator.evaluate([](const Configuration& c) { return std::max(c.axis.z, 0.0); });
     Values darkened(talk.size());
     std::transform(talk.begin(), talk.end(), tilts.begin(), darkened.begin(), std::multiplies<>());
     add("the same times dot(axis, normal): the talk's shader", darkened);
-    add("table of four dimensions, 32 KiB, theta_o kept", contest.tableViewKept());
-    add("four dimensions, without interpolation", contest.idealViewKept());
+    add("table of four dimensions, 32 KiB, theta_o kept", evaluator.tableKeepingTheta());
+    add("four dimensions, without interpolation", evaluator.idealKeepingTheta());
     for (int tenths = 0; tenths <= 10; ++tenths)
         add(fmt::format("three dimensions, without interpolation, normal lambda {:.1f}", tenths / 10.0),
-            contest.idealTable(tenths / 10.0));
-    add(fmt::format("three dimensions, without interpolation, normal lambda {}", kTalksNormalLambda),
-        contest.idealTable(kTalksNormalLambda));
-    add("two cones, smoothstep", contest.of(overlapOfCones));
-    add("ambient occlusion alone", contest.of(fromAmbientOcclusion));
+            evaluator.idealTable(tenths / 10.0));
+    add(fmt::format("three dimensions, without interpolation, normal lambda {}", kTalkNormalLambda),
+        evaluator.idealTable(kTalkNormalLambda));
+    add("two cones, smoothstep", evaluator.evaluate(coneOverlapOcclusion));
+    add("ambient occlusion alone", evaluator.evaluate(occlusionFromAmbient));
 }
 
-void compareInterpolations(const Contest& contest, double lambda, std::vector<ErrorFigures>& list)
+void compareInterpolations(const MethodEvaluator& evaluator, double lambda, std::vector<ErrorFigures>& list)
 {
-    const Values ideal = contest.idealTable(lambda);
-    list.push_back(errorsOf("cosine", contest.table(lambda, SpecularSpacing::cosine, false), ideal));
-    list.push_back(errorsOf("cosine, 8 bits", contest.table(lambda, SpecularSpacing::cosine, true), ideal));
-    list.push_back(errorsOf("half sine", contest.table(lambda, SpecularSpacing::half_sine, false), ideal));
+    const Values ideal = evaluator.idealTable(lambda);
+    list.push_back(computeErrors("cosine", evaluator.table(lambda, SpecularSpacing::cosine, false), ideal));
     list.push_back(
-        errorsOf("half sine, 8 bits", contest.table(lambda, SpecularSpacing::half_sine, true), ideal));
-    list.push_back(errorsOf("four dimensions", contest.tableViewKept(), contest.idealViewKept()));
+        computeErrors("cosine, 8 bits", evaluator.table(lambda, SpecularSpacing::cosine, true), ideal));
+    list.push_back(
+        computeErrors("half sine", evaluator.table(lambda, SpecularSpacing::half_sine, false), ideal));
+    list.push_back(
+        computeErrors("half sine, 8 bits", evaluator.table(lambda, SpecularSpacing::half_sine, true), ideal));
+    list.push_back(
+        computeErrors("four dimensions", evaluator.tableKeepingTheta(), evaluator.idealKeepingTheta()));
 }
 
 /// Compare the table as a texture: its nodes, and lookups in it.
-void compareAstc(const Contest& contest, const Values& exact, const TableSettings& settings,
+void compareAstc(const MethodEvaluator& evaluator, const Values& exact, const TableSettings& settings,
                  Comparison& comparison)
 {
     const TableValues values = cookTable(settings);
@@ -207,9 +213,9 @@ void compareAstc(const Contest& contest, const Values& exact, const TableSetting
         const AstcTable astc = encodeAstc(values, block);
         const std::string name = fmt::format("ASTC, {0} x {0}, {1} bytes", block, astc.blocks.size());
         comparison.astc.push_back(
-            errorsOf(name, {astc.decoded.begin(), astc.decoded.end()}, {values.begin(), values.end()}));
-        comparison.ways.push_back(
-            errorsOf("the table as " + name, contest.lookedUp(astc.decoded, settings.spacing), exact));
+            computeErrors(name, {astc.decoded.begin(), astc.decoded.end()}, {values.begin(), values.end()}));
+        comparison.methods.push_back(computeErrors(
+            "the table as " + name, evaluator.lookUpAll(astc.decoded, settings.spacing), exact));
     }
 }
 
@@ -225,12 +231,12 @@ void measureNodes(const TableSettings& settings, Comparison& comparison)
         [&](size_t i)
         {
             const auto node = static_cast<uint32_t>(i * kStride);
-            const AssumedPlace place =
-                assumedPlace(formats::specularNodeRoughness(node / 16 % 16),
-                             std::acos(formats::specularNodeCosBeta(node / 256, settings.spacing)), settings);
-            const double fine =
-                occlusionOf(place.lobe, {place.axis, kRightAngle * formats::specularNodeAperture(node % 16)},
-                            {.outer = 128, .inner = 96});
+            const AssumedLobe place =
+                assumeLobe(formats::specularNodeRoughness(node / 16 % 16),
+                           std::acos(formats::specularNodeCosBeta(node / 256, settings.spacing)), settings);
+            const double fine = computeOcclusion(
+                place.lobe, {place.axis, kRightAngle * formats::specularNodeAperture(node % 16)},
+                {.outer = 128, .inner = 96});
             errors[i] = std::abs(double{values[node]} - fine);
         });
     const double squares = std::inner_product(errors.begin(), errors.end(), errors.begin(), 0.0);
@@ -238,12 +244,12 @@ void measureNodes(const TableSettings& settings, Comparison& comparison)
     comparison.quadrature_largest = *std::max_element(errors.begin(), errors.end());
 }
 
-const char* nameOf(Masking masking)
+const char* optionName(Masking masking)
 {
     return masking == Masking::separable ? "separable" : "correlated";
 }
 
-const char* nameOf(SpecularSpacing spacing)
+const char* optionName(SpecularSpacing spacing)
 {
     return spacing == SpecularSpacing::cosine ? "cosine" : "half-sine";
 }
@@ -277,11 +283,11 @@ Comparison compare(const TableSettings& settings, size_t configuration_count, ui
     Comparison comparison;
     comparison.settings = settings;
     comparison.configuration_count = configuration_count;
-    const Contest contest(randomConfigurations(configuration_count, seed), settings);
-    const Values exact = contest.exact();
-    compareWays(contest, exact, settings.normal_lambda, comparison.ways);
-    compareAstc(contest, exact, settings, comparison);
-    compareInterpolations(contest, settings.normal_lambda, comparison.interpolations);
+    const MethodEvaluator evaluator(randomConfigurations(configuration_count, seed), settings);
+    const Values exact = evaluator.exact();
+    compareMethods(evaluator, exact, settings.normal_lambda, comparison.methods);
+    compareAstc(evaluator, exact, settings, comparison);
+    compareInterpolations(evaluator, settings.normal_lambda, comparison.interpolations);
     measureNodes(settings, comparison);
     return comparison;
 }
@@ -289,9 +295,9 @@ Comparison compare(const TableSettings& settings, size_t configuration_count, ui
 std::string comparisonText(const Comparison& comparison)
 {
     return fmt::format("{} random configurations, {} masking, table spaced by {}\n\n",
-                       comparison.configuration_count, nameOf(comparison.settings.masking),
-                       nameOf(comparison.settings.spacing)) +
-           tableText("against the exact value", comparison.ways) + "\n" +
+                       comparison.configuration_count, optionName(comparison.settings.masking),
+                       optionName(comparison.settings.spacing)) +
+           tableText("against the exact value", comparison.methods) + "\n" +
            tableText("nodes of textures, against the table", comparison.astc) + "\n" +
            tableText("interpolation: against what the nodes are taken from", comparison.interpolations) +
            fmt::format("\nnodes against a finer quadrature, before rounding: rms {:.1e}, max {:.1e}\n",
@@ -301,12 +307,12 @@ std::string comparisonText(const Comparison& comparison)
 std::string comparisonJson(const Comparison& comparison, double cook_seconds)
 {
     const Json document{{"schema", "hearth.specular/1"},
-                        {"masking", nameOf(comparison.settings.masking)},
+                        {"masking", optionName(comparison.settings.masking)},
                         {"normal_lambda", comparison.settings.normal_lambda},
-                        {"spacing", nameOf(comparison.settings.spacing)},
+                        {"spacing", optionName(comparison.settings.spacing)},
                         {"cook_seconds", cook_seconds},
                         {"configurations", comparison.configuration_count},
-                        {"ways", tableJson(comparison.ways)},
+                        {"ways", tableJson(comparison.methods)},
                         {"astc", tableJson(comparison.astc)},
                         {"interpolation", tableJson(comparison.interpolations)},
                         {"nodes_rms", comparison.quadrature_rms},

@@ -24,7 +24,7 @@ struct Comparison
 {
     TableSettings settings;
     size_t configuration_count = 0;
-    std::vector<ErrorFigures> ways;           ///< methods, against the exact value of the five numbers
+    std::vector<ErrorFigures> methods;        ///< methods, against the exact value of the five numbers
     std::vector<ErrorFigures> astc;           ///< nodes as read from ASTC textures, against the table
     std::vector<ErrorFigures> interpolations; ///< unrounded tables, against the interpolated function
     /// Table's nodes against a quadrature of four times as many points along each axis.

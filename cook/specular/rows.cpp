@@ -20,9 +20,9 @@ constexpr double kSlack_rad = 1e-5;
 
 /// Parse a row.
 /// row  six numbers; errors: table_rows
-Result<Configuration> configurationOf(std::span<const double> row, const std::string& name, size_t line)
+Result<Configuration> parseConfiguration(std::span<const double> row, const std::string& name, size_t line)
 {
-    const auto fault = [&](std::string detail) { return csvRowError(name, line, std::move(detail)); };
+    const auto fault = [&](std::string detail) { return makeCsvRowError(name, line, std::move(detail)); };
     const double half_angle = row[0], roughness = row[1], theta_o = row[2];
     constexpr double kMaxAngle = std::numbers::pi / 2;
     if (!(half_angle >= 0 && half_angle <= kMaxAngle + kSlack_rad))
@@ -48,7 +48,7 @@ Result<std::vector<Configuration>> readRows(std::string_view text, const std::st
     for (size_t i = 0; i < rows.size(); ++i)
     {
         HEARTH_ASSIGN_OR_RETURN(const Configuration configuration,
-                                configurationOf(rows.row(i), name, rows.lines[i]));
+                                parseConfiguration(rows.row(i), name, rows.lines[i]));
         configurations.push_back(configuration);
     }
     return configurations;

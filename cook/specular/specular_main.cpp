@@ -57,10 +57,11 @@ Status evaluate(const Arguments& arguments)
 
 Status printFit(const Arguments& arguments)
 {
-    const Refit found = refit(arguments.configurations, arguments.seed, arguments.settings.masking);
+    const ConstantsFit found =
+        fitConstants(arguments.configurations, arguments.seed, arguments.settings.masking);
     std::printf("%zu configurations, %d iterations: rms %.5f, with the header's constants %.5f\n%s\n",
                 arguments.configurations, found.iterations, found.rms, found.start_rms,
-                constantsText(found.constants).c_str());
+                formatConstants(found.constants).c_str());
     return success();
 }
 
@@ -111,7 +112,7 @@ int run(const Arguments& arguments)
 }
 
 /// Describe an error in the combination of options; empty if there is none.
-std::string faultOf(const Arguments& arguments)
+std::string findOptionError(const Arguments& arguments)
 {
     if (!(arguments.settings.normal_lambda >= 0 && arguments.settings.normal_lambda <= 1))
         return "--normal-lambda must be a number from 0 to 1";
@@ -173,7 +174,7 @@ int program(int argc, char** argv)
     addOptions(app, arguments);
     if (const std::optional<int> exit_code = app.parse(argc, argv))
         return *exit_code;
-    if (const std::string fault = faultOf(arguments); !fault.empty())
+    if (const std::string fault = findOptionError(arguments); !fault.empty())
         return reportFailure({Issue::usage, "hearth-specular", "", fault});
     return run(arguments);
 }

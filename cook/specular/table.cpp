@@ -20,7 +20,7 @@ constexpr double kQuarterTurn = std::numbers::pi / 2;
 
 } // namespace
 
-AssumedPlace assumedPlace(double roughness, double beta, const TableSettings& settings)
+AssumedLobe assumeLobe(double roughness, double beta, const TableSettings& settings)
 {
     const double theta_o =
         (1 - settings.normal_lambda) * beta / 2 + settings.normal_lambda * std::min(beta, kQuarterTurn);
@@ -38,10 +38,10 @@ TableValues cookTable(const TableSettings& settings)
                       [&](uint32_t row)
                       {
                           const double beta = std::acos(specularNodeCosBeta(row / kNodes, settings.spacing));
-                          const AssumedPlace place =
-                              assumedPlace(specularNodeRoughness(row % kNodes), beta, settings);
+                          const AssumedLobe place =
+                              assumeLobe(specularNodeRoughness(row % kNodes), beta, settings);
                           std::array<double, kNodes> shares{};
-                          occlusionsOf(place.lobe, place.axis, half_angles, shares);
+                          computeOcclusions(place.lobe, place.axis, half_angles, shares);
                           // a wider cone holds no less: a decrease is an error of the quadrature
                           double least = 0;
                           for (uint32_t i = 0; i < kNodes; ++i)
@@ -60,7 +60,7 @@ SpecularTableRecord packTable(const TableValues& values, const TableSettings& se
     record.spacing = static_cast<uint32_t>(settings.spacing);
     record.masking = static_cast<uint32_t>(settings.masking);
     record.normal_lambda = static_cast<float>(settings.normal_lambda);
-    record.least_roughness = shared::kSpecularLeastRoughness;
+    record.min_roughness = shared::kMinSpecularRoughness;
     std::transform(values.begin(), values.end(), std::begin(record.values),
                    [](float value) { return static_cast<uint8_t>(value * 255.0f + 0.5f); });
     return record;
@@ -77,8 +77,8 @@ TableValues unpackTable(const SpecularTableRecord& record)
 float lookUp(const TableValues& values, SpecularSpacing spacing, float cos_aperture, float roughness,
              float cos_beta)
 {
-    const Float3 place =
-        shared::specularTablePlace(cos_aperture, roughness, cos_beta, static_cast<shared::uint>(spacing));
+    const Float3 place = shared::specularTableCoordinates(cos_aperture, roughness, cos_beta,
+                                                          static_cast<shared::uint>(spacing));
     constexpr float kLast = float{kNodes - 1};
     std::array<uint32_t, 3> first{};
     std::array<float, 3> part{};

@@ -29,12 +29,12 @@ using TableValues = std::array<float, formats::kSpecularTexels>;
 
 /// Lobe and cone axis that the table assumes if reflection vector and axis are beta radians apart.
 /// N = (0, 0, 1).
-struct AssumedPlace
+struct AssumedLobe
 {
     Lobe lobe;
     Double3 axis;
 };
-AssumedPlace assumedPlace(double roughness, double beta, const TableSettings& settings);
+AssumedLobe assumeLobe(double roughness, double beta, const TableSettings& settings);
 
 /// Compute all nodes, exact to 1e-5, never falling along the aperture. The same for any number of threads.
 TableValues cookTable(const TableSettings& settings);
@@ -43,7 +43,7 @@ TableValues cookTable(const TableSettings& settings);
 formats::SpecularTableRecord packTable(const TableValues& values, const TableSettings& settings);
 TableValues unpackTable(const formats::SpecularTableRecord& record);
 
-/// Look up like a texture unit: linear between the nodes of shared::specularTablePlace.
+/// Look up like a texture unit: linear between the nodes of shared::specularTableCoordinates.
 float lookUp(const TableValues& values, SpecularSpacing spacing, float cos_aperture, float roughness,
              float cos_beta);
 

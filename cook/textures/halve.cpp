@@ -22,7 +22,7 @@ struct Coverage
 
 /// Compute the coverage of texel `target` of `target_size`: [target, target + 1) * size / target_size. Exact
 /// in integers.
-Coverage coverageOf(uint32_t target, uint32_t target_size, uint32_t size)
+Coverage computeCoverage(uint32_t target, uint32_t target_size, uint32_t size)
 {
     const uint64_t start = uint64_t{target} * size;
     const uint64_t end = start + size;
@@ -56,7 +56,7 @@ FloatImage halve(uint32_t width, uint32_t height, const RowReader& readRow)
 
     std::vector<Coverage> columns(result.width);
     for (uint32_t x = 0; x < result.width; ++x)
-        columns[x] = coverageOf(x, result.width, width);
+        columns[x] = computeCoverage(x, result.width, width);
 
     const auto fillRows = [&](const tbb::blocked_range<uint32_t>& rows)
     {
@@ -64,7 +64,7 @@ FloatImage halve(uint32_t width, uint32_t height, const RowReader& readRow)
         std::vector<Float4> sum(width);
         for (uint32_t y = rows.begin(); y < rows.end(); ++y)
         {
-            const Coverage lines = coverageOf(y, result.height, height);
+            const Coverage lines = computeCoverage(y, result.height, height);
             std::fill(sum.begin(), sum.end(), Float4{});
             for (uint32_t i = 0; i < lines.count; ++i)
             {

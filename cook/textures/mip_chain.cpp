@@ -52,7 +52,7 @@ std::vector<std::byte> buildMipChain(const ImageRecord& image, std::vector<std::
     ImageRecord chain = image;
     chain.mip_count = fullMipCount(image.width, image.height);
     HEARTH_ASSERT(texels.size() == formats::mipOffset(chain, 1));
-    const Content content = contentOf(image);
+    const Content content = classifyContent(image);
     const size_t row_bytes = texels.size() / image.height;
     const double coverage = keepsCoverage(image) ? alphaCoverage(texels, image.alpha_cutoff) : 0;
     texels.resize(static_cast<size_t>(formats::mipOffset(chain, chain.mip_count)));

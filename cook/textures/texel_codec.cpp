@@ -15,11 +15,11 @@ namespace
 
 // Colours are weighted by alpha + this. If all texels are cut away, the result is their plain mean; beside
 // the faintest alpha that 8 bits store, cut-away texels add less than 1/4000.
-constexpr float kLeastWeight = 0x1p-20f;
+constexpr float kMinWeight = 0x1p-20f;
 
 // Minimum length of a mean direction. Stored directions are accurate to half a step of 8 bits: a mean shorter
 // than one step has no direction.
-constexpr float kLeastDirection = 1.0f / 128;
+constexpr float kMinDirectionLength = 1.0f / 128;
 
 uint8_t unorm8(float value)
 {
@@ -27,7 +27,7 @@ uint8_t unorm8(float value)
 }
 
 /// Decode a normal: 0..255 means -1..1, as in glTF.
-Float3 directionOf(const uint8_t* texel)
+Float3 decodeNormal(const uint8_t* texel)
 {
     const auto component = [](uint8_t value) { return static_cast<float>(value) / 127.5f - 1; };
     return normalizeOr({component(texel[0]), component(texel[1]), component(texel[2])}, {0, 0, 1});
@@ -40,13 +40,13 @@ Float4 decode(Content content, const uint8_t* texel, const SrgbTables& srgb)
     {
     case Content::color:
     {
-        const float weight = alpha + kLeastWeight;
+        const float weight = alpha + kMinWeight;
         return {srgb.linear(texel[0]) * weight, srgb.linear(texel[1]) * weight,
                 srgb.linear(texel[2]) * weight, alpha};
     }
     case Content::normals:
     {
-        const Float3 direction = directionOf(texel);
+        const Float3 direction = decodeNormal(texel);
         return {direction.x, direction.y, direction.z, alpha};
     }
     default:
@@ -62,14 +62,14 @@ std::array<uint8_t, 4> encode(Content content, Float4 texel, float alpha_scale, 
     {
     case Content::color:
     {
-        const float weight = texel.w + kLeastWeight;
+        const float weight = texel.w + kMinWeight;
         return {srgb.stored(texel.x / weight), srgb.stored(texel.y / weight), srgb.stored(texel.z / weight),
                 alpha};
     }
     case Content::normals:
     {
         const Float3 mean{texel.x, texel.y, texel.z};
-        const Float3 direction = length(mean) < kLeastDirection ? Float3{0, 0, 1} : mean / length(mean);
+        const Float3 direction = length(mean) < kMinDirectionLength ? Float3{0, 0, 1} : mean / length(mean);
         return {unorm8(direction.x * 0.5f + 0.5f), unorm8(direction.y * 0.5f + 0.5f),
                 unorm8(direction.z * 0.5f + 0.5f), alpha};
     }
@@ -80,7 +80,7 @@ std::array<uint8_t, 4> encode(Content content, Float4 texel, float alpha_scale, 
 
 } // namespace
 
-Content contentOf(const formats::ImageRecord& image)
+Content classifyContent(const formats::ImageRecord& image)
 {
     const auto format = static_cast<formats::TexelFormat>(image.format);
     if (format == formats::TexelFormat::rgba16_float)
@@ -117,8 +117,8 @@ void encodeRow(Content content, std::span<const Float4> texels, float alpha_scal
         const Float4& t = texels[i];
         if (content == Content::light)
         {
-            const std::array<uint16_t, 4> half = {finiteHalf(t.x), finiteHalf(t.y), finiteHalf(t.z),
-                                                  finiteHalf(t.w * alpha_scale)};
+            const std::array<uint16_t, 4> half = {halfFromFloat(t.x), halfFromFloat(t.y), halfFromFloat(t.z),
+                                                  halfFromFloat(t.w * alpha_scale)};
             std::memcpy(out.data() + i * sizeof(half), half.data(), sizeof(half));
             continue;
         }

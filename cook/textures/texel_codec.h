@@ -22,7 +22,7 @@ enum class Content : uint8_t
     light,   ///< RGBA16F
 };
 
-Content contentOf(const formats::ImageRecord& image);
+Content classifyContent(const formats::ImageRecord& image);
 
 /// Decode one row of stored texels to working texels. `stored` has out.size() texels.
 void decodeRow(Content content, std::span<const std::byte> stored, std::span<Float4> out);

@@ -23,8 +23,8 @@ Result<std::vector<std::byte>> readTexels(const ContainerReader& part, const Ima
                                           uint32_t index)
 {
     const std::string where = "image " + std::to_string(index);
-    if (image.width == 0 || image.width > kLargestSize || image.height == 0 || image.height > kLargestSize ||
-        texelBytes(image.format) == 0)
+    if (image.width == 0 || image.width > kMaxTextureSize || image.height == 0 ||
+        image.height > kMaxTextureSize || texelBytes(image.format) == 0)
         return Error{Issue::meaning_value, part.name(), where,
                      std::to_string(image.width) + " x " + std::to_string(image.height) +
                          " texels of format " + std::to_string(image.format)};
@@ -40,7 +40,7 @@ Result<std::vector<std::byte>> readTexels(const ContainerReader& part, const Ima
 }
 
 /// Count the finest mips to leave out, until no side is longer than `max_size`.
-uint32_t mipsTooLarge(const ImageRecord& image, uint32_t max_size)
+uint32_t countTooLargeMips(const ImageRecord& image, uint32_t max_size)
 {
     uint32_t count = 0;
     while (max_size > 0 && std::max(image.width, image.height) >> count > max_size)
@@ -59,29 +59,29 @@ ImageRecord withoutMips(ImageRecord image, uint32_t count)
 }
 
 /// Return a name; empty if it is not in the table.
-std::string nameOf(std::string_view strings, const StringRef& name)
+std::string readName(std::string_view strings, const StringRef& name)
 {
-    return insideTable({name.offset, name.length}, strings.size())
+    return isInsideTable({name.offset, name.length}, strings.size())
                ? std::string(strings.substr(name.offset, name.length))
                : "";
 }
 
 /// image, chain  with all mips
-ImageStatistics statisticsOf(std::string_view strings, const ImageRecord& image,
-                             std::span<const std::byte> chain, uint32_t left_out)
+ImageStatistics computeStatistics(std::string_view strings, const ImageRecord& image,
+                                  std::span<const std::byte> chain, uint32_t skipped_mips)
 {
     ImageStatistics statistics;
-    statistics.name = nameOf(strings, image.name);
-    statistics.image = withoutMips(image, left_out);
-    statistics.bytes = chain.size() - mipOffset(image, left_out);
+    statistics.name = readName(strings, image.name);
+    statistics.image = withoutMips(image, skipped_mips);
+    statistics.bytes = chain.size() - mipOffset(image, skipped_mips);
     // the finest mip is the imported image, texel by texel: see buildMipChain
-    if (left_out == 0)
+    if (skipped_mips == 0)
         statistics.error = 0;
     if (texelBytes(image.format) != 4)
         return statistics;
-    statistics.error = mipError(image, chain, left_out);
-    if (left_out + 1 < image.mip_count)
-        statistics.half_error = mipError(image, chain, left_out + 1);
+    statistics.error = mipError(image, chain, skipped_mips);
+    if (skipped_mips + 1 < image.mip_count)
+        statistics.half_error = mipError(image, chain, skipped_mips + 1);
     return statistics;
 }
 
@@ -95,7 +95,7 @@ Status addUses(const ContainerReader& part, std::string_view strings, std::span<
     for (size_t i = 0; i < statistics.size(); ++i)
         for (const ImageUse& use : uses[i])
             statistics[i].uses.push_back(
-                {nameOf(strings, records[use.material].name), std::string(use.role)});
+                {readName(strings, records[use.material].name), std::string(use.role)});
     return success();
 }
 
@@ -129,12 +129,13 @@ Status cookTextures(const std::string& import_path, const std::string& output_pa
         HEARTH_ASSIGN_OR_RETURN(std::vector<std::byte> texels, readTexels(part, images[i], i));
         images[i].mip_count = fullMipCount(images[i].width, images[i].height);
         const std::vector<std::byte> chain = buildMipChain(images[i], std::move(texels));
-        const uint32_t left_out = mipsTooLarge(images[i], max_size);
+        const uint32_t skipped_mips = countTooLargeMips(images[i], max_size);
         HEARTH_TRY(writer.addChunk({.type = kChunkImageData, .index = i},
-                                   std::span(chain).subspan(mipOffset(images[i], left_out)), 1, Codec::zstd));
+                                   std::span(chain).subspan(mipOffset(images[i], skipped_mips)), 1,
+                                   Codec::zstd));
         if (statistics != nullptr)
-            statistics->push_back(statisticsOf(names, images[i], chain, left_out));
-        images[i] = withoutMips(images[i], left_out);
+            statistics->push_back(computeStatistics(names, images[i], chain, skipped_mips));
+        images[i] = withoutMips(images[i], skipped_mips);
     }
     HEARTH_TRY(writer.addRecords<ImageRecord>(kChunkImages, images));
     HEARTH_TRY(writer.finish());

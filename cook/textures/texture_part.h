@@ -13,7 +13,7 @@ namespace hearth::textures
 
 /// Maximum texels of a side: the limit of Vulkan devices on phones; larger sizes could also overflow data
 /// sizes.
-inline constexpr uint32_t kLargestSize = 16384;
+inline constexpr uint32_t kMaxTextureSize = 16384;
 
 /// Read the images of the import part at `import_path` and write them with mips to `output_path`: IMGR, whose
 /// names refer to the import part's string table, and an IMGD for each image. One image is in memory at a

@@ -68,7 +68,7 @@ Json imageJson(const ImageStatistics& image, size_t index)
               {"height", image.image.height},
               {"mips", image.image.mip_count},
               {"format", texelFormatName(image.image.format)},
-              {"content", contentName(contentOf(image.image))},
+              {"content", contentName(classifyContent(image.image))},
               {"placeholder", (image.image.flags & kImagePlaceholder) != 0},
               {"bytes", image.bytes},
               {"bytes_stored", image.stored_bytes}};
@@ -86,7 +86,7 @@ Json imageJson(const ImageStatistics& image, size_t index)
 double mipError(const ImageRecord& image, std::span<const std::byte> mips, uint32_t mip)
 {
     HEARTH_ASSERT(texelBytes(image.format) == 4 && mip < image.mip_count);
-    const Content content = contentOf(image);
+    const Content content = classifyContent(image);
     const auto* finest = reinterpret_cast<const uint8_t*>(mips.data());
     const auto* smaller = reinterpret_cast<const uint8_t*>(mips.data() + mipOffset(image, mip));
     const MipExtent size = mipExtent(image, mip);

@@ -54,7 +54,7 @@ int program(int argc, char** argv)
     app.addOption("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
     app.addOption("--max-size", arguments.max_size,
                   "texels: the longer side of what is kept; finer mips are left out")
-        .range(1u, textures::kLargestSize, "UINT");
+        .range(1u, textures::kMaxTextureSize, "UINT");
     app.addOption("--stats", arguments.statistics,
                   "write what became of each image as JSON, its error measured; - is standard output");
     app.setFooter(

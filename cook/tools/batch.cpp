@@ -33,13 +33,13 @@ using File = std::unique_ptr<std::FILE, CloseFile>;
 
 /// Redirect stdin or stdout to /dev/null, as for a cooker that runs alone. Return the file that it was
 /// before; null on failure.
-File takeOver(int standard, const char* mode)
+File redirectToNull(int standard, const char* mode)
 {
     const int mine = ::fcntl(standard, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
-    const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC);
-    if (mine < 0 || nowhere < 0 || ::dup2(nowhere, standard) < 0)
+    const int null_device = ::open("/dev/null", O_RDWR | O_CLOEXEC);
+    if (mine < 0 || null_device < 0 || ::dup2(null_device, standard) < 0)
         return nullptr;
-    ::close(nowhere);
+    ::close(null_device);
     return File(::fdopen(mine, mode));
 }
 
@@ -56,7 +56,7 @@ std::optional<std::string> readLine(std::FILE* file)
 }
 
 /// Parse a line that is a JSON array of strings; nullopt if it is none.
-std::optional<std::vector<std::string>> wordsOf(const std::string& line)
+std::optional<std::vector<std::string>> parseArguments(const std::string& line)
 {
     const Json json = Json::parse(line).value_or(Json());
     if (!json.is_array())
@@ -86,7 +86,7 @@ double cpuSeconds()
 
 /// Reset the peak of the process's resident memory: Linux does so when 5 is written to this file, see
 /// proc(5).
-void forgetPeak()
+void resetPeak()
 {
     if (const File file{std::fopen("/proc/self/clear_refs", "we")})
         std::fputs("5", file.get());
@@ -110,7 +110,7 @@ Json run(const char* name, std::vector<std::string> words, const Program& progra
         arguments.push_back(word.data());
     arguments.push_back(nullptr);
 
-    forgetPeak();
+    resetPeak();
     const double cpu_before = cpuSeconds();
     const auto start = std::chrono::steady_clock::now();
     const int exit_code =
@@ -127,8 +127,8 @@ int runBatch(const char* name, const Program& program)
 {
     // one thread each: callers use a batch if they have more command lines than cores
     const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-    const File lines = takeOver(STDIN_FILENO, "r");
-    const File ends = takeOver(STDOUT_FILENO, "w");
+    const File lines = redirectToNull(STDIN_FILENO, "r");
+    const File ends = redirectToNull(STDOUT_FILENO, "w");
     const auto fail = [&](const Error& error)
     {
         std::fprintf(stderr, "%s\n", formatMessage(error).c_str());
@@ -141,7 +141,7 @@ int runBatch(const char* name, const Program& program)
         const std::optional<std::string> line = readLine(lines.get());
         if (!line)
             return 0;
-        std::optional<std::vector<std::string>> words = wordsOf(*line);
+        std::optional<std::vector<std::string>> words = parseArguments(*line);
         if (!words)
             return fail({Issue::usage, name, "line " + std::to_string(number),
                          "--batch reads lines that are each a JSON array of words"});

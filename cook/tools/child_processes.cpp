@@ -26,12 +26,12 @@ namespace
 {
 
 // Interval at which wait() calls back, and polls for children whose end no file descriptor reports.
-constexpr int kLookInterval_ms = 100;
+constexpr int kPollInterval_ms = 100;
 
 // Most message bytes that are stored. A child that writes more is broken; the rest is read and discarded.
 constexpr size_t kMaxMessages = size_t{1} << 20;
 
-double secondsOf(const timeval& time)
+double toSeconds(const timeval& time)
 {
     return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6;
 }
@@ -102,7 +102,7 @@ ChildProcesses::~ChildProcesses()
         // nothing to save: partial output of a cooker is of no use
         ::kill(child.process, SIGKILL);
         ::waitpid(child.process, nullptr, 0);
-        closeFile(child.end_file);
+        closeFile(child.pidfd);
         closeFile(child.messages_pipe);
         closeFile(child.work_socket);
     }
@@ -141,7 +141,7 @@ Result<size_t> ChildProcesses::start(const std::vector<std::string>& command, bo
         arguments.push_back(const_cast<char*>(argument.c_str()));
     arguments.push_back(nullptr);
 
-    std::string no_flush = std::string(kFlushVariable) + "=off";
+    std::string no_flush = std::string(kFlushEnvironmentVariable) + "=off";
     std::vector<char*> environment{no_flush.data()};
     for (char** variable = environ; *variable != nullptr; ++variable)
         environment.push_back(*variable);
@@ -162,7 +162,7 @@ Result<size_t> ChildProcesses::start(const std::vector<std::string>& command, bo
     }
     child.id = next_id_++;
     // without <sys/pidfd.h>: the header of glibc 2.36 cannot be used from C++
-    child.end_file = static_cast<int>(::syscall(SYS_pidfd_open, child.process, 0));
+    child.pidfd = static_cast<int>(::syscall(SYS_pidfd_open, child.process, 0));
     child.messages_pipe = ends[0];
     child.work_socket = work[0];
     child.is_batch = is_batch;
@@ -178,7 +178,7 @@ ChildProcesses::Child* ChildProcesses::find(size_t id)
     return found == children_.end() ? nullptr : &*found;
 }
 
-void ChildProcesses::give(size_t id, std::string_view line)
+void ChildProcesses::sendCommandLine(size_t id, std::string_view line)
 {
     Child* child = find(id);
     while (child != nullptr && !line.empty())
@@ -198,8 +198,8 @@ void ChildProcesses::close(size_t id)
         closeFile(child->work_socket);
 }
 
-/// Turn a finished report into a ChildEnd. Text that is no report was a message.
-void ChildProcesses::takeReport(Child& child)
+/// Turn a finished report into a ChildOutcome. Text that is no report was a message.
+void ChildProcesses::parseReport(Child& child)
 {
     const std::string report = std::move(child.report);
     child.report.clear();
@@ -211,7 +211,7 @@ void ChildProcesses::takeReport(Child& child)
         child.messages += report;
         return;
     }
-    ChildEnd end;
+    ChildOutcome end;
     end.id = child.id;
     end.is_alive = true;
     end.exit_code = json["exit"].get<int>();
@@ -220,10 +220,10 @@ void ChildProcesses::takeReport(Child& child)
     end.cpu_seconds = json["cpu_seconds"].get<double>();
     end.peak_rss_bytes = json["peak_rss_bytes"].get<uint64_t>();
     child.messages.clear();
-    ends_.push_back(std::move(end));
+    outcomes_.push_back(std::move(end));
 }
 
-void ChildProcesses::take(Child& child, std::string_view text)
+void ChildProcesses::appendOutput(Child& child, std::string_view text)
 {
     const auto isInReport = [&] { return !child.report.empty(); };
     while (!text.empty())
@@ -236,7 +236,7 @@ void ChildProcesses::take(Child& child, std::string_view text)
         if (to == text.npos)
             return;
         if (isInReport())
-            takeReport(child);
+            parseReport(child);
         else
         {
             child.report = kRecordSeparator;
@@ -261,7 +261,7 @@ void ChildProcesses::drain(Child& child)
             closeFile(child.messages_pipe);
             return;
         }
-        take(child, {buffer, static_cast<size_t>(size)});
+        appendOutput(child, {buffer, static_cast<size_t>(size)});
     }
 }
 
@@ -278,32 +278,32 @@ void ChildProcesses::reap()
             continue;
         }
         drain(*child);
-        ChildEnd end;
+        ChildOutcome end;
         end.id = child->id;
         end.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 0;
         end.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
         end.messages = std::move(child->messages);
         end.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - child->start).count();
-        end.cpu_seconds = secondsOf(usage.ru_utime) + secondsOf(usage.ru_stime);
+        end.cpu_seconds = toSeconds(usage.ru_utime) + toSeconds(usage.ru_stime);
         end.peak_rss_bytes = static_cast<uint64_t>(usage.ru_maxrss) * 1024;
-        closeFile(child->end_file);
+        closeFile(child->pidfd);
         closeFile(child->messages_pipe);
         closeFile(child->work_socket);
         child = children_.erase(child);
-        ends_.push_back(std::move(end));
+        outcomes_.push_back(std::move(end));
     }
 }
 
-std::optional<ChildEnd> ChildProcesses::wait(const std::function<void()>& waiting)
+std::optional<ChildOutcome> ChildProcesses::wait(const std::function<void()>& waiting)
 {
     for (;;)
     {
-        if (ends_.empty())
+        if (outcomes_.empty())
             reap();
-        if (!ends_.empty())
+        if (!outcomes_.empty())
         {
-            ChildEnd end = std::move(ends_.front());
-            ends_.pop_front();
+            ChildOutcome end = std::move(outcomes_.front());
+            outcomes_.pop_front();
             return end;
         }
         HEARTH_ASSERT(!children_.empty());
@@ -311,10 +311,10 @@ std::optional<ChildEnd> ChildProcesses::wait(const std::function<void()>& waitin
         std::vector<pollfd> files{{signal_file_, POLLIN, 0}};
         for (const Child& child : children_)
         {
-            files.push_back({child.end_file, POLLIN, 0});
+            files.push_back({child.pidfd, POLLIN, 0});
             files.push_back({child.messages_pipe, POLLIN, 0});
         }
-        ::poll(files.data(), files.size(), kLookInterval_ms);
+        ::poll(files.data(), files.size(), kPollInterval_ms);
         if (waiting)
             waiting();
         for (Child& child : children_)
@@ -325,7 +325,7 @@ std::optional<ChildEnd> ChildProcesses::wait(const std::function<void()>& waitin
     }
 }
 
-std::optional<std::string> batchLine(std::span<const std::string> arguments)
+std::optional<std::string> makeBatchLine(std::span<const std::string> arguments)
 {
     Json words = Json::array();
     for (const std::string& argument : arguments)

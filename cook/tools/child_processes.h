@@ -20,7 +20,7 @@ namespace hearth::tools
 {
 
 /// Outcome of a child process, or of one command line of a batch: the first one sent that had not ended yet.
-struct ChildEnd
+struct ChildOutcome
 {
     size_t id = 0;         ///< id from start()
     bool is_alive = false; ///< outcome of a command line; its batch goes on
@@ -54,9 +54,9 @@ public:
     /// errors: child_failed.
     Result<size_t> startBatch(const std::string& program);
 
-    /// Send a command line (from batchLine) to batch `id`, which runs it after the earlier ones. Send only a
+    /// Send a command line (from makeBatchLine) to batch `id`, which runs it after the earlier ones. Send only a
     /// few ahead: unread ones fill a buffer of about 100 KB. If the process has died, wait() reports it.
-    void give(size_t id, std::string_view line);
+    void sendCommandLine(size_t id, std::string_view line);
 
     /// Send no more command lines to batch `id`, which ends after the ones that it has.
     void close(size_t id);
@@ -66,7 +66,7 @@ public:
     /// Wait until a child, or a command line of a batch, ends; nullopt if a signal asks this process to end.
     /// At least one child must be running.
     /// waiting  called meanwhile, once a second or more often; empty: no call
-    std::optional<ChildEnd> wait(const std::function<void()>& waiting = {});
+    std::optional<ChildOutcome> wait(const std::function<void()>& waiting = {});
 
 private:
     struct Child
@@ -75,7 +75,7 @@ private:
         pid_t process = 0;
         /// Pidfd, readable when the process has ended; -1 if the kernel has no pidfds. SIGCHLD would not do:
         /// any thread of this process may take it.
-        int end_file = -1;
+        int pidfd = -1;
         int messages_pipe = -1;
         int work_socket = -1; ///< stdin of a batch that accepts more; else -1
         bool is_batch = false;
@@ -88,11 +88,11 @@ private:
     Child* find(size_t id);
     void reap();
     void drain(Child& child);
-    void take(Child& child, std::string_view text);
-    void takeReport(Child& child);
+    void appendOutput(Child& child, std::string_view text);
+    void parseReport(Child& child);
 
     std::vector<Child> children_;
-    std::deque<ChildEnd> ends_; ///< not yet reported
+    std::deque<ChildOutcome> outcomes_; ///< not yet reported
     size_t next_id_ = 0;
     sigset_t old_signals_;
     int signal_file_ = -1;
@@ -100,7 +100,7 @@ private:
 
 /// Return a command line, without the program, in the form that a batch reads; nullopt if JSON cannot
 /// represent it: a path need not be UTF-8.
-std::optional<std::string> batchLine(std::span<const std::string> arguments);
+std::optional<std::string> makeBatchLine(std::span<const std::string> arguments);
 
 /// Return the folder of this program, where its cookers lie as well.
 std::string programFolder();

@@ -22,15 +22,15 @@ std::optional<LodName> parseLodName(std::string_view name)
     while (digits < name.size() && name[name.size() - 1 - digits] >= '0' &&
            name[name.size() - 1 - digits] <= '9')
         ++digits;
-    constexpr std::string_view kMark = "_lod";
-    if (digits == 0 || digits > kMaxDigits || name.size() < digits + kMark.size())
+    constexpr std::string_view kSuffix = "_lod";
+    if (digits == 0 || digits > kMaxDigits || name.size() < digits + kSuffix.size())
         return std::nullopt;
     LodName parsed;
     for (const char c : name.substr(0, name.size() - digits))
         parsed.stem += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    if (!parsed.stem.ends_with(kMark))
+    if (!parsed.stem.ends_with(kSuffix))
         return std::nullopt;
-    parsed.stem.resize(parsed.stem.size() - kMark.size());
+    parsed.stem.resize(parsed.stem.size() - kSuffix.size());
     for (const char c : name.substr(name.size() - digits))
         parsed.level = parsed.level * 10 + static_cast<uint32_t>(c - '0');
     return parsed;

@@ -22,10 +22,10 @@ namespace hearth::tools
 namespace
 {
 
-class Hash
+class Sha256
 {
 public:
-    Hash() { ::SHA256_Init(&state_); }
+    Sha256() { ::SHA256_Init(&state_); }
 
     void add(const void* bytes, size_t size) { ::SHA256_Update(&state_, bytes, size); }
 
@@ -48,19 +48,19 @@ private:
 
 } // namespace
 
-std::string sha256Of(std::span<const std::byte> bytes)
+std::string computeSha256(std::span<const std::byte> bytes)
 {
-    Hash hash;
+    Sha256 hash;
     hash.add(bytes.data(), bytes.size());
     return hash.hex();
 }
 
-std::string sha256Of(std::string_view text)
+std::string computeSha256(std::string_view text)
 {
-    return sha256Of(std::as_bytes(std::span(text)));
+    return computeSha256(std::as_bytes(std::span(text)));
 }
 
-std::optional<std::string> sha256OfFile(const std::string& path)
+std::optional<std::string> computeFileSha256(const std::string& path)
 {
     // without O_NONBLOCK the open of a pipe waits for a writer
     const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
@@ -68,7 +68,7 @@ std::optional<std::string> sha256OfFile(const std::string& path)
         return std::nullopt;
     struct stat info = {};
     bool readable = ::fstat(file, &info) == 0 && S_ISREG(info.st_mode);
-    Hash hash;
+    Sha256 hash;
     std::vector<std::byte> piece(std::clamp<size_t>(static_cast<size_t>(info.st_size) + 1, 4096, 1 << 18));
     while (readable)
     {

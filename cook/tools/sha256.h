@@ -12,11 +12,11 @@ namespace hearth::tools
 {
 
 /// Return the SHA-256 as 64 lower-case hexadecimal digits.
-std::string sha256Of(std::span<const std::byte> bytes);
-std::string sha256Of(std::string_view text);
+std::string computeSha256(std::span<const std::byte> bytes);
+std::string computeSha256(std::string_view text);
 
 /// Hash the content of a regular file, read piece by piece; nullopt if it cannot be read.
-std::optional<std::string> sha256OfFile(const std::string& path);
+std::optional<std::string> computeFileSha256(const std::string& path);
 
 /// True if `text` has the form that the functions above return.
 bool isSha256(std::string_view text);

@@ -10,19 +10,19 @@ namespace hearth::tools
 namespace
 {
 
-TomlNode nodeOf(const toml::node& source)
+TomlNode convertNode(const toml::node& source)
 {
     TomlNode node;
     node.line = source.source().begin.line;
     node.column = source.source().begin.column;
     if (const toml::table* table = source.as_table())
         for (const auto& [key, value] : *table)
-            node.children.emplace_back(nodeOf(value)).key = key.str();
+            node.children.emplace_back(convertNode(value)).key = key.str();
     else if (const toml::array* array = source.as_array())
     {
         node.kind = TomlKind::array;
         for (const toml::node& element : *array)
-            node.children.push_back(nodeOf(element));
+            node.children.push_back(convertNode(element));
     }
     else if (const auto* text = source.as_string())
     {
@@ -70,11 +70,11 @@ const TomlNode* TomlNode::find(std::string_view name) const
     return found == children.end() ? nullptr : &*found;
 }
 
-std::optional<TomlNode> parseToml(std::string_view text, TomlFault& fault)
+std::optional<TomlNode> parseToml(std::string_view text, TomlError& fault)
 {
     try
     {
-        return nodeOf(toml::parse(text));
+        return convertNode(toml::parse(text));
     }
     catch (const toml::parse_error& wrong)
     {

@@ -50,7 +50,7 @@ struct TomlNode
 };
 
 /// Error of the parser: its position and message.
-struct TomlFault
+struct TomlError
 {
     uint32_t line = 0;   ///< from 1
     uint32_t column = 0; ///< from 1
@@ -58,6 +58,6 @@ struct TomlFault
 };
 
 /// Parse a TOML document into its root table. If it is invalid: nullopt, with the reason in `fault`.
-std::optional<TomlNode> parseToml(std::string_view text, TomlFault& fault);
+std::optional<TomlNode> parseToml(std::string_view text, TomlError& fault);
 
 } // namespace hearth::tools

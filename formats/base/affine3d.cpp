@@ -29,7 +29,7 @@ Double3 transformPoint(const Affine3d& transform, Double3 point)
            Double3{transform.m[0][3], transform.m[1][3], transform.m[2][3]};
 }
 
-Affine3d affineFromTrs(Double3 translation, const std::array<double, 4>& rotation, Double3 scale)
+Affine3d makeAffineFromTrs(Double3 translation, const std::array<double, 4>& rotation, Double3 scale)
 {
     const double x = rotation[0], y = rotation[1], z = rotation[2], w = rotation[3];
     const double r[3][3] = {
@@ -87,15 +87,15 @@ namespace
 constexpr float kMaxFloat = std::numeric_limits<float>::max();
 
 /// Return the largest float not above a finite value.
-float roundedDown(double value)
+float roundDownToFloat(double value)
 {
     const auto nearest = static_cast<float>(std::clamp(value, -double{kMaxFloat}, double{kMaxFloat}));
     return double{nearest} > value ? std::max(std::nextafter(nearest, -kMaxFloat), -kMaxFloat) : nearest;
 }
 
-float roundedUp(double value)
+float roundUpToFloat(double value)
 {
-    return -roundedDown(-value);
+    return -roundDownToFloat(-value);
 }
 
 } // namespace
@@ -114,8 +114,8 @@ Box3 transformBox(const Affine3d& transform, const Box3& box)
         const auto& row = transform.m[axis];
         const double reach =
             std::abs(row[0]) * half.x + std::abs(row[1]) * half.y + std::abs(row[2]) * half.z;
-        result.min[axis] = roundedDown(centers[axis] - reach);
-        result.max[axis] = roundedUp(centers[axis] + reach);
+        result.min[axis] = roundDownToFloat(centers[axis] - reach);
+        result.max[axis] = roundUpToFloat(centers[axis] + reach);
     }
     return result;
 }

@@ -23,7 +23,7 @@ Double3 transformVector(const Affine3d& transform, Double3 vector);
 Double3 transformPoint(const Affine3d& transform, Double3 point);
 
 /// Return translation * rotation (unit quaternion x y z w) * scale.
-Affine3d affineFromTrs(Double3 translation, const std::array<double, 4>& rotation, Double3 scale);
+Affine3d makeAffineFromTrs(Double3 translation, const std::array<double, 4>& rotation, Double3 scale);
 
 /// Return the inverse; nullopt if the linear part is singular.
 std::optional<Affine3d> inverted(const Affine3d& transform);

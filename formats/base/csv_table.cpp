@@ -11,7 +11,7 @@ namespace hearth
 namespace
 {
 
-std::string_view trimmed(std::string_view text)
+std::string_view trim(std::string_view text)
 {
     while (!text.empty() && (text.front() == ' ' || text.front() == '\t'))
         text.remove_prefix(1);
@@ -21,7 +21,7 @@ std::string_view trimmed(std::string_view text)
 }
 
 /// Split the part before `separator` off `rest`.
-std::string_view next(std::string_view& rest, char separator)
+std::string_view takeField(std::string_view& rest, char separator)
 {
     const size_t end = std::min(rest.find(separator), rest.size());
     const std::string_view part = rest.substr(0, end);
@@ -36,26 +36,26 @@ Status readRow(CsvTable& rows, std::string_view row, const std::string& name, si
     for (bool more = true; more; ++count)
     {
         more = row.find(',') != std::string_view::npos;
-        const std::string_view cell = trimmed(next(row, ','));
+        const std::string_view cell = trim(takeField(row, ','));
         if (count >= rows.columns)
             continue; // keep counting, for the message
         double value = 0;
         const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
         if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value))
-            return csvRowError(name, line, "'" + std::string(cell) + "' is not a number");
+            return makeCsvRowError(name, line, "'" + std::string(cell) + "' is not a number");
         rows.values.push_back(value);
     }
     if (count != rows.columns)
-        return csvRowError(name, line,
-                           "has " + std::to_string(count) + " columns, " + std::to_string(rows.columns) +
-                               " are needed");
+        return makeCsvRowError(name, line,
+                               "has " + std::to_string(count) + " columns, " + std::to_string(rows.columns) +
+                                   " are needed");
     rows.lines.push_back(line);
     return success();
 }
 
 } // namespace
 
-Error csvRowError(const std::string& name, size_t line, std::string detail)
+Error makeCsvRowError(const std::string& name, size_t line, std::string detail)
 {
     return {Issue::table_rows, name, "line " + std::to_string(line), std::move(detail)};
 }
@@ -65,15 +65,15 @@ Result<CsvTable> readCsvTable(std::string_view text, std::string_view header, co
     if (text.starts_with("\xEF\xBB\xBF"))
         text.remove_prefix(3); // spreadsheets write a UTF-8 byte order mark
     std::string first;
-    for (const char c : trimmed(next(text, '\n')))
+    for (const char c : trim(takeField(text, '\n')))
         if (c != ' ' && c != '\t')
             first += c;
     if (first != header)
-        return csvRowError(name, 1, "is not '" + std::string(header) + "'");
+        return makeCsvRowError(name, 1, "is not '" + std::string(header) + "'");
     CsvTable rows;
     rows.columns = static_cast<size_t>(std::count(header.begin(), header.end(), ',')) + 1;
     for (size_t line = 2; !text.empty(); ++line)
-        if (const std::string_view row = trimmed(next(text, '\n')); !row.empty())
+        if (const std::string_view row = trim(takeField(text, '\n')); !row.empty())
             HEARTH_TRY(readRow(rows, row, name, line));
     return rows;
 }

@@ -30,6 +30,6 @@ struct CsvTable
 Result<CsvTable> readCsvTable(std::string_view text, std::string_view header, const std::string& name);
 
 /// Return the error of a line of a CSV file.
-Error csvRowError(const std::string& name, size_t line, std::string detail);
+Error makeCsvRowError(const std::string& name, size_t line, std::string detail);
 
 } // namespace hearth

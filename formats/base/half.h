@@ -12,7 +12,7 @@ inline constexpr float kHalfMax = 65504.0f;
 
 /// Return the half nearest to `value`. Values outside the range become +-65504 and NaN becomes 0: a stored
 /// image is finite.
-constexpr uint16_t finiteHalf(float value)
+constexpr uint16_t halfFromFloat(float value)
 {
     const uint32_t bits = std::bit_cast<uint32_t>(value);
     const uint32_t sign = (bits >> 16) & 0x8000u;

@@ -75,13 +75,13 @@ private:
     std::variant<T, Error> state_;
 };
 
-struct Nothing
+struct Empty
 {
 };
-using Status = Result<Nothing>;
+using Status = Result<Empty>;
 inline Status success()
 {
-    return Nothing{};
+    return Empty{};
 }
 
 } // namespace hearth

@@ -38,6 +38,6 @@ private:
 std::string parentFolder(const std::string& path);
 
 /// Return the user's folder for temporary files: TMPDIR, or `otherwise` if that is not set.
-std::string temporaryOr(const std::string& otherwise);
+std::string temporaryFolderOr(const std::string& otherwise);
 
 } // namespace hearth

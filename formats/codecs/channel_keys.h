@@ -18,7 +18,7 @@ namespace hearth::formats
 using KeyValue = std::array<double, 4>;
 
 /// Bits of the index of the number that a packed rotation omits: it follows from the length 1.
-inline constexpr uint32_t kLargestBits = 2;
+inline constexpr uint32_t kOmittedIndexBits = 2;
 
 /// Read `count` (at most 32) bits from bit `offset` on; bit 0 is the lowest of the first word.
 inline uint32_t readBits(std::span<const uint32_t> words, uint64_t offset, uint32_t count)
@@ -42,12 +42,12 @@ inline bool isPacked(const AnimationChannelRecord& channel)
 inline uint32_t keyStride(const AnimationChannelRecord& channel)
 {
     const bool rotation = channel.path == static_cast<uint32_t>(AnimationPath::rotation);
-    return uint32_t{channel.time_bits} + (rotation ? kLargestBits : 0) + channel.value_bits[0] +
+    return uint32_t{channel.time_bits} + (rotation ? kOmittedIndexBits : 0) + channel.value_bits[0] +
            channel.value_bits[1] + channel.value_bits[2];
 }
 
 /// Restore a unit rotation from three of its numbers; the omitted one is not negative.
-inline KeyValue rotationWithout(uint32_t largest, const std::array<double, 3>& others)
+inline KeyValue restoreRotation(uint32_t largest, const std::array<double, 3>& others)
 {
     KeyValue rotation{};
     double rest = 1;
@@ -83,7 +83,7 @@ public:
     float time(uint32_t key) const { return times_[timeIndex(key)]; }
 
     /// Return the first key later than a time; count() if there is none.
-    uint32_t keyAfter(double time_s) const
+    uint32_t firstKeyAfter(double time_s) const
     {
         uint32_t first = 0, count = channel_.key_count;
         while (count > 0)
@@ -138,8 +138,8 @@ private:
     {
         uint64_t offset = uint64_t{key} * stride_ + channel_.time_bits;
         const bool rotation = channel_.components == 4;
-        const uint32_t largest = rotation ? readBits(bits_, offset, kLargestBits) : 0;
-        offset += rotation ? kLargestBits : 0;
+        const uint32_t largest = rotation ? readBits(bits_, offset, kOmittedIndexBits) : 0;
+        offset += rotation ? kOmittedIndexBits : 0;
         std::array<double, 3> numbers{};
         for (size_t i = 0; i < 3; ++i)
         {
@@ -147,7 +147,7 @@ private:
             numbers[i] = double{values_[i]} + double{values_[3]} * readBits(bits_, offset, count);
             offset += count;
         }
-        return rotation ? rotationWithout(largest, numbers) : KeyValue{numbers[0], numbers[1], numbers[2], 0};
+        return rotation ? restoreRotation(largest, numbers) : KeyValue{numbers[0], numbers[1], numbers[2], 0};
     }
 
     std::span<const float> times_;

@@ -13,13 +13,13 @@ namespace hearth::formats
 inline constexpr uint32_t kConeBackSteps = 16;
 
 /// Largest ClusterRecord::extent_shift: covers the whole grid from corner to corner.
-inline constexpr uint32_t kMostExtentShift = 9;
+inline constexpr uint32_t kMaxExtentShift = 9;
 
-/// Return the vertex layout of a cluster: its mesh's layout, and kVertexWide if its offsets need more than 16
+/// Return the vertex layout of a cluster: its mesh's layout, and kVertexWideOffsets if its offsets need more than 16
 /// bits.
-constexpr uint32_t layoutOf(const ClusterRecord& cluster, uint32_t mesh_layout)
+constexpr uint32_t clusterVertexLayout(const ClusterRecord& cluster, uint32_t mesh_layout)
 {
-    return mesh_layout | (cluster.extent_shift > 0 ? uint32_t{kVertexWide} : 0u);
+    return mesh_layout | (cluster.extent_shift > 0 ? uint32_t{kVertexWideOffsets} : 0u);
 }
 
 /// Return the number of steps from the base to the high corner of the box.
@@ -28,7 +28,7 @@ constexpr int64_t boxSteps(const ClusterRecord& cluster, int axis)
     return int64_t{cluster.extent[axis]} << cluster.extent_shift;
 }
 
-inline Box3 boxOf(const ClusterRecord& cluster, float grid_step)
+inline Box3 clusterBox(const ClusterRecord& cluster, float grid_step)
 {
     Box3 box;
     for (int axis = 0; axis < 3; ++axis)

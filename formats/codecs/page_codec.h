@@ -47,18 +47,18 @@ constexpr VertexLanes vertexLanes(uint32_t layout)
     };
     add(LaneKind::grid, 3);
     add(LaneKind::bytes, 1);
-    if ((layout & kVertexNormal) && (layout & kVertexFineNormal))
+    if ((layout & kVertexNormal) && (layout & kVertexNormal16))
         add(LaneKind::word, 2);
     if (layout & kVertexTangent)
-        add((layout & kVertexFineNormal) ? LaneKind::word : LaneKind::bytes, 2);
+        add((layout & kVertexNormal16) ? LaneKind::word : LaneKind::bytes, 2);
     for (uint32_t set = 0; set < 4; ++set)
         if (layout & kVertexUv0 << set)
             uvFractionBits(layout, set) == 0 ? add(LaneKind::word, 4) : add(LaneKind::grid, 2);
     if (layout & kVertexColor)
-        (layout & kVertexFineColor) ? add(LaneKind::word, 4) : add(LaneKind::bytes, 2);
+        (layout & kVertexColor16) ? add(LaneKind::word, 4) : add(LaneKind::bytes, 2);
     if (layout & kVertexVisibility)
         add(LaneKind::bytes, 2);
-    add(LaneKind::word, 2 * influencesOf(layout));
+    add(LaneKind::word, 2 * influencesPerVertex(layout));
     return lanes;
 }
 
@@ -132,21 +132,21 @@ inline LaneForms readLaneForms(const PageHeader& header, std::span<const std::by
 }
 
 inline constexpr uint32_t kEscape = 255;
-inline constexpr uint32_t kEscapeOfFour = 15; ///< for shared main bytes
+inline constexpr uint32_t kEscapeOfFourBits = 15; ///< for shared main bytes
 
 inline constexpr uint8_t kPlaneMain = 1; ///< bits of LaneForms::planes: bytes of an absent plane are 0
 inline constexpr uint8_t kPlaneSecond = 2;
 inline constexpr uint8_t kPlaneNibbles = 4; ///< for a lane of two bytes
-inline constexpr uint32_t kLanesOfBlock = 8;
+inline constexpr uint32_t kLanesPerBlock = 8;
 
 /// Maximum number of bits below main bytes, and below four main bits.
 inline constexpr uint32_t kMaxLowBits = 8;
-inline constexpr uint32_t kMaxLowBitsOfFour = 12;
+inline constexpr uint32_t kMaxLowBitsAboveFour = 12;
 
 /// Bit positions of the low bits of a block's lanes.
 struct LowBitFields
 {
-    std::array<uint32_t, kLanesOfBlock> first{};
+    std::array<uint32_t, kLanesPerBlock> first{};
     uint32_t bits = 0; ///< of all lanes
     uint32_t planes() const { return (bits + 7) / 8; }
 };
@@ -154,10 +154,10 @@ struct LowBitFields
 constexpr LowBitFields lowBitFields(const LaneForms& forms, size_t block)
 {
     LowBitFields fields;
-    for (size_t i = 0; i < kLanesOfBlock && block * kLanesOfBlock + i < kMaxLanes; ++i)
+    for (size_t i = 0; i < kLanesPerBlock && block * kLanesPerBlock + i < kMaxLanes; ++i)
     {
         fields.first[i] = fields.bits;
-        fields.bits += forms.low_bits[block * kLanesOfBlock + i];
+        fields.bits += forms.low_bits[block * kLanesPerBlock + i];
     }
     return fields;
 }
@@ -166,9 +166,9 @@ constexpr LowBitFields lowBitFields(const LaneForms& forms, size_t block)
 // b) to its right and (a, c) to its left. The next triangle starts with one of these two edges, or with an
 // edge on the stack, and adds a corner. code = 3 * edge + corner
 inline constexpr uint32_t kEdgeRight = 0;
-inline constexpr uint32_t kEdgeRightKeepLeft = 1; ///< and push the left edge on the stack
+inline constexpr uint32_t kEdgeRightPushLeft = 1; ///< and push the left edge on the stack
 inline constexpr uint32_t kEdgeLeft = 2;
-inline constexpr uint32_t kEdgeKept = 3; ///< pop the edge from the stack
+inline constexpr uint32_t kEdgePopped = 3; ///< pop the edge from the stack
 inline constexpr uint32_t kCornerNew = 0;
 /// New in this cluster, but equal to a vertex of an earlier cluster
 inline constexpr uint32_t kCornerReference = 1;

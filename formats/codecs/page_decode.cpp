@@ -19,13 +19,13 @@ namespace
 using namespace page;
 
 /// Upper bound of the content of a 64 KiB page before its entropy coding.
-constexpr size_t kMostContent = size_t{1} << 19;
+constexpr size_t kMaxContentBytes = size_t{1} << 19;
 
 /// Vertices of a cluster that edges can address.
 constexpr size_t kLocalIndices = 256;
 
 template <size_t Blocks>
-Slot<Blocks> baseOf(const ClusterRecord& cluster, const VertexLanes& lanes, const uint8_t* uv_bases)
+Slot<Blocks> readClusterBase(const ClusterRecord& cluster, const VertexLanes& lanes, const uint8_t* uv_bases)
 {
     Slot<Blocks> base{};
     for (size_t axis = 0; axis < 3; ++axis)
@@ -71,7 +71,7 @@ public:
                     return false;
         }
         writeMorphs(page_.size());
-        return allRead();
+        return isAllRead();
     }
 
 private:
@@ -79,7 +79,7 @@ private:
     {
         if (connectivity.vertex_count != cluster.vertex_count)
             return false;
-        const uint32_t layout = layoutOf(cluster, mesh_layout_);
+        const uint32_t layout = clusterVertexLayout(cluster, mesh_layout_);
         const size_t base_bytes = size_t{uvBaseWords(layout)} * 4;
         const size_t vertex_bytes = size_t{vertexWords(layout)} * 4;
         const size_t index_bytes = size_t{cluster.triangle_count} * 3;
@@ -91,15 +91,15 @@ private:
         std::memcpy(at, uv_bases, base_bytes);
         streams_.uv_bases.at += base_bytes;
         at += base_bytes;
-        if (layout & kVertexWide)
+        if (layout & kVertexWideOffsets)
         {
             if (connectivity.referenceCount() != 0)
                 return false;
             std::memcpy(at, streams_.wide.at, cluster.vertex_count * vertex_bytes);
             streams_.wide.at += cluster.vertex_count * vertex_bytes;
         }
-        else if (!vertices_.decode(connectivity, baseOf<Blocks>(cluster, lanes_, uv_bases), at, vertex_bytes,
-                                   end))
+        else if (!vertices_.decode(connectivity, readClusterBase<Blocks>(cluster, lanes_, uv_bases), at,
+                                   vertex_bytes, end))
             return false;
         at += cluster.vertex_count * vertex_bytes;
         std::memcpy(at, connectivity.indices.data(), index_bytes);
@@ -116,10 +116,11 @@ private:
                 page_[at_ + i] = std::byte{*streams_.morphs[i]++};
     }
 
-    bool allRead() const
+    bool isAllRead() const
     {
-        return vertices_.allRead() && streams_.escapes.allRead() && streams_.restarts[0].allRead() &&
-               streams_.restarts[1].allRead() && streams_.reuses[0].allRead() && streams_.reuses[1].allRead();
+        return vertices_.isAllRead() && streams_.escapes.isAllRead() && streams_.restarts[0].isAllRead() &&
+               streams_.restarts[1].isAllRead() && streams_.reuses[0].isAllRead() &&
+               streams_.reuses[1].isAllRead();
     }
 
     Streams& streams_;
@@ -156,11 +157,11 @@ struct PageDecoder::Scratch
     {
         const unsigned long long size = ZSTD_getFrameContentSize(stored.data(), stored.size());
         const size_t frame = ZSTD_findFrameCompressedSize(stored.data(), stored.size());
-        if (context == nullptr || size > kMostContent || ZSTD_isError(frame))
+        if (context == nullptr || size > kMaxContentBytes || ZSTD_isError(frame))
             return {};
         const auto coded = static_cast<size_t>(size);
         const std::span<const std::byte> rest = stored.subspan(frame);
-        if (rest.size() > kMostContent)
+        if (rest.size() > kMaxContentBytes)
             return {};
         if (content.size() < coded + rest.size() + kStreamSlack)
             content.resize(coded + rest.size() + kStreamSlack);
@@ -179,12 +180,12 @@ PageDecoder::~PageDecoder() = default;
 bool PageDecoder::decode(std::span<const std::byte> stored, std::span<const ClusterRecord> clusters,
                          uint32_t mesh_layout, std::span<std::byte> out)
 {
-    PageShape shape;
+    PageStreamSizes shape;
     size_t end = 0;
     for (const ClusterRecord& cluster : clusters)
         if (!shape.add(cluster, mesh_layout, end))
             return false;
-    if (out.empty() || !shape.finish(end, out.size()) || out.size() > kPageMaxBytes)
+    if (out.empty() || !shape.finish(end, out.size()) || out.size() > kMaxPageBytes)
         return false;
     const std::span<const std::byte> content = scratch_->decompress(stored);
     const VertexLanes lanes = vertexLanes(mesh_layout);

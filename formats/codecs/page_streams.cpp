@@ -11,7 +11,7 @@ namespace
 {
 
 /// True if the planes are possible for these lanes.
-bool legalForms(const LaneForms& forms, const VertexLanes& lanes)
+bool areLegalForms(const LaneForms& forms, const VertexLanes& lanes)
 {
     for (size_t lane = 0; lane < kMaxLanes; ++lane)
     {
@@ -21,7 +21,7 @@ bool legalForms(const LaneForms& forms, const VertexLanes& lanes)
                                      : bytes ? kPlaneMain | kPlaneSecond | kPlaneNibbles
                                              : kPlaneMain;
         const uint32_t most_bits = lane >= lanes.count || bytes ? 0
-                                   : shared                     ? kMaxLowBitsOfFour
+                                   : shared                     ? kMaxLowBitsAboveFour
                                                                 : kMaxLowBits;
         if (forms.planes[lane] > most_planes || forms.low_bits[lane] > most_bits)
             return false;
@@ -30,7 +30,7 @@ bool legalForms(const LaneForms& forms, const VertexLanes& lanes)
 }
 
 /// True if no code is 12 to 14, which are unused.
-bool legalCodes(std::span<const std::byte> codes)
+bool areLegalCodes(std::span<const std::byte> codes)
 {
     const auto illegal = [](uint32_t code) { return ((code + 4) & 15u) < 3 ? 1u : 0u; };
     uint32_t found = 0;
@@ -41,25 +41,25 @@ bool legalCodes(std::span<const std::byte> codes)
 
 } // namespace
 
-bool PageShape::add(const ClusterRecord& cluster, uint32_t mesh_layout, size_t& end)
+bool PageStreamSizes::add(const ClusterRecord& cluster, uint32_t mesh_layout, size_t& end)
 {
-    if (cluster.vertex_count > kClusterMaxVertices || cluster.triangle_count > kClusterMaxTriangles ||
+    if (cluster.vertex_count > kMaxClusterVertices || cluster.triangle_count > kMaxClusterTriangles ||
         size_t{cluster.page_word} * 4 < end)
         return false;
     morph_words += cluster.page_word - end / 4;
     end = size_t{cluster.page_word} * 4;
-    const uint32_t layout = layoutOf(cluster, mesh_layout);
+    const uint32_t layout = clusterVertexLayout(cluster, mesh_layout);
     end += clusterBytes(layout, cluster.vertex_count, cluster.triangle_count);
     codes += codeBytes(cluster.triangle_count);
     uv_base_bytes += size_t{uvBaseWords(layout)} * 4;
-    if (layout & kVertexWide)
+    if (layout & kVertexWideOffsets)
         wide_bytes += size_t{cluster.vertex_count} * vertexWords(layout) * 4;
     else
         slots += cluster.vertex_count;
     return true;
 }
 
-bool PageShape::finish(size_t end, size_t page_size)
+bool PageStreamSizes::finish(size_t end, size_t page_size)
 {
     if (page_size < end || (page_size - end) % 4 != 0)
         return false;
@@ -67,7 +67,7 @@ bool PageShape::finish(size_t end, size_t page_size)
     return true;
 }
 
-std::optional<Streams> splitContent(std::span<const std::byte> content, const PageShape& shape,
+std::optional<Streams> splitContent(std::span<const std::byte> content, const PageStreamSizes& shape,
                                     const VertexLanes& lanes)
 {
     ByteReader reader(content);
@@ -85,7 +85,7 @@ std::optional<Streams> splitContent(std::span<const std::byte> content, const Pa
     Streams streams;
     streams.header = *header;
     streams.codes = take(shape.codes);
-    good = good && legalCodes(content.subspan(sizeof(PageHeader), shape.codes));
+    good = good && areLegalCodes(content.subspan(sizeof(PageHeader), shape.codes));
     for (const size_t place : {size_t{0}, size_t{1}})
         streams.restarts[place] = take(header->restarts[place]);
     for (const size_t place : {size_t{0}, size_t{1}})
@@ -95,7 +95,7 @@ std::optional<Streams> splitContent(std::span<const std::byte> content, const Pa
     streams.wide = take(shape.wide_bytes);
     const auto more_lanes = reader.readBytes(moreLaneBytes(lanes));
     streams.forms = readLaneForms(*header, more_lanes.value_or(std::span<const std::byte>()));
-    if (!more_lanes || !legalForms(streams.forms, lanes))
+    if (!more_lanes || !areLegalForms(streams.forms, lanes))
         return std::nullopt;
     for (const uint8_t*& plane : streams.morphs)
         plane = take(shape.morph_words).at;
@@ -110,7 +110,7 @@ std::optional<Streams> splitContent(std::span<const std::byte> content, const Pa
     takePlanes(false, kPlaneMain, streams.main);
     takePlanes(true, kPlaneMain, streams.main);
     takePlanes(true, kPlaneSecond, streams.second);
-    for (size_t block = 0; block < kMostBlocks; ++block)
+    for (size_t block = 0; block < kMaxLaneBlocks; ++block)
         for (size_t plane = 0; plane < lowBitFields(streams.forms, block).planes(); ++plane)
             streams.low_bits[block][plane] = take(header->new_vertices).at;
     if (!good || reader.remaining() != 0)

@@ -13,21 +13,21 @@
 namespace hearth::formats::page
 {
 
-inline constexpr size_t kClusterCorners = size_t{kClusterMaxTriangles} * 3;
+inline constexpr size_t kClusterCorners = size_t{kMaxClusterTriangles} * 3;
 
 /// Bytes after the content that decoding a cluster may overread: two for each corner, and a vector.
 inline constexpr size_t kStreamSlack = 2 * kClusterCorners + 64;
 
-inline constexpr size_t kMostBlocks = (kMaxLanes + kLanesOfBlock - 1) / kLanesOfBlock;
-inline constexpr size_t kMostLowPlanes = kLanesOfBlock * kMaxLowBitsOfFour / 8;
+inline constexpr size_t kMaxLaneBlocks = (kMaxLanes + kLanesPerBlock - 1) / kLanesPerBlock;
+inline constexpr size_t kMaxLowBitPlanes = kLanesPerBlock * kMaxLowBitsAboveFour / 8;
 
 struct Stream
 {
     const uint8_t* at = nullptr;
     const uint8_t* end = nullptr;
 
-    bool overrun() const { return at > end; }
-    bool allRead() const { return at == end; }
+    bool isOverrun() const { return at > end; }
+    bool isAllRead() const { return at == end; }
 };
 
 struct Streams
@@ -40,11 +40,11 @@ struct Streams
     /// Low bytes; the high bytes follow header.references bytes later
     const uint8_t* references = nullptr;
     std::array<const uint8_t*, kMaxLanes> main{}, second{}; ///< bytes of lanes; nullptr: all bytes are 0
-    std::array<std::array<const uint8_t*, kMostLowPlanes>, kMostBlocks> low_bits{};
+    std::array<std::array<const uint8_t*, kMaxLowBitPlanes>, kMaxLaneBlocks> low_bits{};
 };
 
 /// Sizes that the page's clusters require.
-struct PageShape
+struct PageStreamSizes
 {
     size_t codes = 0;
     size_t uv_base_bytes = 0;
@@ -62,7 +62,7 @@ struct PageShape
 
 /// Split the content into streams. nullopt if the header is invalid, or the streams do not add up to the
 /// content.
-std::optional<Streams> splitContent(std::span<const std::byte> content, const PageShape& shape,
+std::optional<Streams> splitContent(std::span<const std::byte> content, const PageStreamSizes& shape,
                                     const VertexLanes& lanes);
 
 } // namespace hearth::formats::page

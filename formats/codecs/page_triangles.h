@@ -15,13 +15,13 @@ namespace hearth::formats::page
 {
 
 /// Pack three vertices of a cluster into the lowest bytes of a word.
-constexpr uint32_t threeBytes(uint32_t a, uint32_t b, uint32_t c)
+constexpr uint32_t packThreeBytes(uint32_t a, uint32_t b, uint32_t c)
 {
     return a | b << 8 | c << 16;
 }
 
 /// Size of the edge stack: invalid codes pop more edges than were pushed.
-inline constexpr size_t kKeptRoom = kClusterMaxTriangles + 1;
+inline constexpr size_t kEdgeStackSize = kMaxClusterTriangles + 1;
 
 /// Corners of the triangles of a cluster, and the sources of its vertices.
 struct Connectivity
@@ -34,35 +34,35 @@ struct Connectivity
     std::array<uint8_t, kClusterCorners + 1> references; ///< vertices equal to one of an earlier cluster
     uint32_t vertex_count = 0;
     uint32_t new_count = 0;
-    std::array<uint32_t, 2 * kKeptRoom + 1> kept{}; ///< stack of edges while the cluster is decoded
+    std::array<uint32_t, 2 * kEdgeStackSize + 1> kept{}; ///< stack of edges while the cluster is decoded
 
     uint32_t referenceCount() const { return vertex_count - new_count; }
 };
 
 /// Effect of a code, as numbers for branch-free arithmetic: the next code is unpredictable, and a
 /// mispredicted branch costs more than a triangle.
-struct Way
+struct CodeEffect
 {
-    int64_t from;       ///< edge it starts from: -1 top of the stack, 0 the left one, 1 the right one
-    int64_t kept;       ///< number of edges pushed, or popped if negative
-    uint64_t reused;    ///< 1: its corner is an earlier vertex of the cluster
-    uint32_t fresh;     ///< 1: its corner is a new vertex
-    uint32_t not_added; ///< all bits if `reused`, else none
+    int64_t from;        ///< edge it starts from: -1 top of the stack, 0 the left one, 1 the right one
+    int64_t kept;        ///< number of edges pushed, or popped if negative
+    uint64_t is_reused;  ///< 1: its corner is an earlier vertex of the cluster
+    uint32_t is_new;     ///< 1: its corner is a new vertex
+    uint32_t reuse_mask; ///< all bits if `is_reused`, else none
 };
 
-inline constexpr std::array<Way, 16> kWays = []
+inline constexpr std::array<CodeEffect, 16> kCodeEffects = []
 {
     constexpr std::array<int64_t, 6> kFrom{1, 1, 0, -1, 0, 0};
-    constexpr std::array<int64_t, 6> kKept{0, 1, 0, -1, 0, 0};
-    std::array<Way, 16> ways{};
-    for (uint32_t code = 0; code < ways.size(); ++code)
+    constexpr std::array<int64_t, 6> kPushed{0, 1, 0, -1, 0, 0};
+    std::array<CodeEffect, 16> effects{};
+    for (uint32_t code = 0; code < effects.size(); ++code)
     {
         const uint32_t start = code / 3;
         const uint32_t corner = code % 3;
-        ways[code] = {kFrom[start], kKept[start], corner == kCornerReuse ? 1u : 0u,
-                      corner == kCornerNew ? 1u : 0u, corner == kCornerReuse ? ~0u : 0u};
+        effects[code] = {kFrom[start], kPushed[start], corner == kCornerReuse ? 1u : 0u,
+                         corner == kCornerNew ? 1u : 0u, corner == kCornerReuse ? ~0u : 0u};
     }
-    return ways;
+    return effects;
 }();
 
 class TriangleDecoder
@@ -130,7 +130,8 @@ private:
             out_->new_count = new_count_;
             streams.restarts[place].at = restarts_;
             streams.reuses[place].at = reuses_;
-            return bad_ >= 0 && !streams.restarts[place].overrun() && !streams.reuses[place].overrun();
+            return error_bits_ >= 0 && !streams.restarts[place].isOverrun() &&
+                   !streams.reuses[place].isOverrun();
         }
 
     private:
@@ -140,16 +141,16 @@ private:
                 restart();
             else
             {
-                const Way& way = kWays[code];
-                uint32_t* const kept = out_->kept.data() + kKeptRoom + kept_;
+                const CodeEffect& effect = kCodeEffects[code];
+                uint32_t* const kept = out_->kept.data() + kEdgeStackSize + stack_size_;
                 // the left edge and the corner opposite to it; the right ones are one byte above
                 const uint32_t left = __builtin_bswap32(triangle_);
                 kept[0] = left;
                 kept[1] = left >> 8;
-                const uint32_t from = kept[way.from];
-                kept_ += way.kept;
-                bad_ |= static_cast<int32_t>(kept_);
-                triangle_ = (from & 0xFFFFu) | corner(way, from) << 16 | from << 24;
+                const uint32_t from = kept[effect.from];
+                stack_size_ += effect.kept;
+                error_bits_ |= static_cast<int32_t>(stack_size_);
+                triangle_ = (from & 0xFFFFu) | corner(effect, from) << 16 | from << 24;
             }
             writeTriangle(triangle);
         }
@@ -159,18 +160,18 @@ private:
             std::memcpy(out_->indices.data() + size_t{triangle} * 3, &triangle_, sizeof(triangle_));
         }
 
-        [[gnu::always_inline]] uint32_t corner(const Way& way, uint32_t from)
+        [[gnu::always_inline]] uint32_t corner(const CodeEffect& effect, uint32_t from)
         {
-            const uint32_t reused = ((from >> 8) - *reuses_) & 255u;
+            const uint32_t is_reused = ((from >> 8) - *reuses_) & 255u;
             const uint32_t added = newest_ + 1;
             out_->edges[new_count_] = from;
             out_->new_vertices[new_count_] = static_cast<uint8_t>(added);
             out_->references[added - new_count_] = static_cast<uint8_t>(added);
-            newest_ = added + way.not_added;
-            new_count_ += way.fresh;
-            reuses_ += way.reused;
-            const uint32_t vertex = newest_ ^ ((newest_ ^ reused) & way.not_added);
-            bad_ |= static_cast<int32_t>(newest_ - vertex);
+            newest_ = added + effect.reuse_mask;
+            new_count_ += effect.is_new;
+            reuses_ += effect.is_reused;
+            const uint32_t vertex = newest_ ^ ((newest_ ^ is_reused) & effect.reuse_mask);
+            error_bits_ |= static_cast<int32_t>(newest_ - vertex);
             return vertex;
         }
 
@@ -186,13 +187,14 @@ private:
         {
             const uint32_t kinds = *s.restarts_++;
             if ((kinds & kinds >> 1 & 0x15u) != 0 || kinds > 63)
-                s.bad_ = -1;
+                s.error_bits_ = -1;
             // before the first vertex of the cluster, its slot holds the last vertex of the previous cluster
             const uint32_t before = s.newest_ == ~0u ? 0 : s.newest_ & 255u;
-            const uint32_t a = s.corner(kWays[(kinds & 3u) % 3], threeBytes(before, before, before));
-            const uint32_t b = s.corner(kWays[(kinds >> 2 & 3u) % 3], threeBytes(a, a, a));
-            const uint32_t c = s.corner(kWays[(kinds >> 4 & 3u) % 3], threeBytes(b, b, b));
-            s.triangle_ = threeBytes(a, b, c) | a << 24;
+            const uint32_t a =
+                s.corner(kCodeEffects[(kinds & 3u) % 3], packThreeBytes(before, before, before));
+            const uint32_t b = s.corner(kCodeEffects[(kinds >> 2 & 3u) % 3], packThreeBytes(a, a, a));
+            const uint32_t c = s.corner(kCodeEffects[(kinds >> 4 & 3u) % 3], packThreeBytes(b, b, b));
+            s.triangle_ = packThreeBytes(a, b, c) | a << 24;
         }
 
         const uint8_t* codes_;
@@ -202,8 +204,8 @@ private:
         uint32_t triangle_ = 0; ///< its corners a, b, c in the lowest bytes, and a in the highest
         uint32_t newest_ = ~0u; ///< newest vertex
         uint32_t new_count_ = 0;
-        int32_t bad_ = 0;  ///< negative once an input was invalid
-        int64_t kept_ = 0; ///< edges on the stack; negative once a code was invalid
+        int32_t error_bits_ = 0; ///< negative once an input was invalid
+        int64_t stack_size_ = 0; ///< edges on the stack; negative once a code was invalid
     };
 };
 

@@ -29,7 +29,8 @@ public:
             const LowBitFields fields = lowBitFields(streams.forms, block);
             low_planes_[block] = fields.planes();
             for (size_t i = 0; i < kHalves && block * kHalves + i < lanes.count; ++i)
-                if (const LanePlan plan = planOf(block * kHalves + i, lanes, fields.first[i]); plan.any())
+                if (const LanePlan plan = makeLanePlan(block * kHalves + i, lanes, fields.first[i]);
+                    plan.any())
                     plans_[block][plan_counts_[block]++] = plan;
         }
     }
@@ -53,7 +54,7 @@ private:
     using Group = std::array<std::array<Halves, kHalves>, 2>;
 
     /// Low bits of sixteen vertices in halves of words, and one extra half.
-    using Fields = std::array<std::array<Halves, kMostLowPlanes / 2 + 1>, 2>;
+    using Fields = std::array<std::array<Halves, kMaxLowBitPlanes / 2 + 1>, 2>;
 
     enum class Form : uint8_t
     {
@@ -77,7 +78,7 @@ private:
         bool any() const { return main != nullptr || second != nullptr || low_bits != 0; }
     };
 
-    LanePlan planOf(size_t lane, const VertexLanes& lanes, uint32_t first_low_bit) const
+    LanePlan makeLanePlan(size_t lane, const VertexLanes& lanes, uint32_t first_low_bit) const
     {
         LanePlan plan;
         plan.lane = lane % kHalves;
@@ -92,7 +93,7 @@ private:
         {
             plan.main = streams_.main[lane & ~size_t{1}];
             plan.main_shift = lane % 2 == 1 ? 4 : 0;
-            plan.escape = kEscapeOfFour;
+            plan.escape = kEscapeOfFourBits;
         }
         return plan;
     }
@@ -118,13 +119,13 @@ private:
 
     void readLane(const LanePlan& plan, const Fields& fields, Group& group)
     {
-        const Bytes main = bytesAt(plan.main);
+        const Bytes main = loadBytesAt(plan.main);
         if (plan.form == Form::number)
         {
             readNumbers(plan, fields, main, group);
             return;
         }
-        const Bytes second = bytesAt(plan.second);
+        const Bytes second = loadBytesAt(plan.second);
         if (plan.form == Form::bytes)
             put(group, plan.lane, main, second);
         else
@@ -136,7 +137,7 @@ private:
         }
     }
 
-    Bytes bytesAt(const uint8_t* plane) const
+    Bytes loadBytesAt(const uint8_t* plane) const
     {
         return plane != nullptr ? loadBytes(plane + position_) : Bytes{};
     }
@@ -153,7 +154,7 @@ private:
         const auto& planes = streams_.low_bits[block];
         for (size_t i = 0; i < (low_planes_[block] + 1) / 2; ++i)
         {
-            const Bytes low = bytesAt(planes[2 * i]), high = bytesAt(planes[2 * i + 1]);
+            const Bytes low = loadBytesAt(planes[2 * i]), high = loadBytesAt(planes[2 * i + 1]);
             fields[0][i] = asHalves(interleaveLow(low, high));
             fields[1][i] = asHalves(interleaveHigh(low, high));
             fields[0][i + 1] = fields[1][i + 1] = Halves{};
@@ -203,7 +204,7 @@ private:
     std::array<size_t, Blocks> low_planes_{};
     std::array<size_t, Blocks> plan_counts_{};
     std::array<Group, Blocks> groups_{}; ///< lanes without a plan stay 0
-    std::array<Slot<Blocks>, kClusterMaxVertices + kGroup> rows_;
+    std::array<Slot<Blocks>, kMaxClusterVertices + kGroup> rows_;
     uint32_t used_ = 0, ready_ = 0; ///< rows used and rows decoded
     uint32_t position_ = 0;         ///< vertices read
 };
@@ -250,7 +251,7 @@ public:
         return true;
     }
 
-    bool allRead() const
+    bool isAllRead() const
     {
         return new_used_ == streams_.header.new_vertices && references_used_ == streams_.header.references;
     }

@@ -45,11 +45,11 @@ namespace hearth::formats
 /// Mask of the attribute bits.
 inline constexpr uint32_t kVertexAttributesAll = 255;
 
-/// Grid coordinates are integers in [-kGridMost, kGridMost]: floats represent all of them.
-inline constexpr int32_t kGridMost = 1 << 24;
+/// Grid coordinates are integers in [-kMaxGridCoordinate, kMaxGridCoordinate]: floats represent all of them.
+inline constexpr int32_t kMaxGridCoordinate = 1 << 24;
 
 /// Largest distance in steps from a cluster's base that a 16-bit offset reaches.
-inline constexpr int64_t kNarrowMost = 65535;
+inline constexpr int64_t kMaxNarrowOffset = 65535;
 
 /// Return n of UV set `set`, whose grid has steps of 2^-n; 0 for floats.
 constexpr uint32_t uvFractionBits(uint32_t layout, uint32_t set)
@@ -59,22 +59,22 @@ constexpr uint32_t uvFractionBits(uint32_t layout, uint32_t set)
 
 /// True if the layout is legal for a mesh: unused bits are 0, no coding bit is set for an absent attribute,
 /// and tangents and visibility require normals.
-constexpr bool legalLayout(uint32_t layout)
+constexpr bool isLegalLayout(uint32_t layout)
 {
-    constexpr uint32_t kOfMeshes = kVertexAttributesAll | kVertexFineNormal | kVertexFineColor |
+    constexpr uint32_t kOfMeshes = kVertexAttributesAll | kVertexNormal16 | kVertexColor16 |
                                    kVertexInfluenceBits | 0xFFFFu << kVertexUvStepShift;
-    constexpr uint32_t kBesideNormals = kVertexTangent | kVertexVisibility | kVertexFineNormal;
-    return (layout & ~kOfMeshes) == 0 && (layout & kVertexInfluenceBits) != kVertexMoreInfluences &&
+    constexpr uint32_t kBesideNormals = kVertexTangent | kVertexVisibility | kVertexNormal16;
+    return (layout & ~kOfMeshes) == 0 && (layout & kVertexInfluenceBits) != kVertexInfluences8 &&
            (gridUvs(layout) & ~layout) == 0 &&
            ((layout & kVertexNormal) != 0 || (layout & kBesideNormals) == 0) &&
-           ((layout & kVertexColor) != 0 || (layout & kVertexFineColor) == 0);
+           ((layout & kVertexColor) != 0 || (layout & kVertexColor16) == 0);
 }
 
 /// Return the first word of attribute `bit` in a vertex with this layout; `bit` is an attribute bit, or
 /// kVertexInfluences. Positions are at 0; a normal without a word of its own is the upper half of word 1.
 constexpr uint32_t attributeWord(uint32_t layout, uint32_t bit)
 {
-    const bool shares_word = bit == kVertexNormal && (layout & (kVertexFineNormal | kVertexWide)) == 0;
+    const bool shares_word = bit == kVertexNormal && (layout & (kVertexNormal16 | kVertexWideOffsets)) == 0;
     const uint32_t before = ((bit - 1) | ~kVertexAttributesAll) & ~kVertexInfluenceBits;
     return shares_word ? 1 : vertexWords(layout & before);
 }
@@ -93,10 +93,10 @@ constexpr uint32_t clusterBytes(uint32_t layout, uint32_t vertex_count, uint32_t
 }
 
 /// Return the layout with these attributes that needs the most bytes.
-constexpr uint32_t largestLayout(uint32_t attributes)
+constexpr uint32_t worstCaseLayout(uint32_t attributes)
 {
-    uint32_t layout = (attributes & (kVertexAttributesAll | kVertexInfluenceBits)) | kVertexFineNormal |
-                      kVertexFineColor | kVertexWide;
+    uint32_t layout = (attributes & (kVertexAttributesAll | kVertexInfluenceBits)) | kVertexNormal16 |
+                      kVertexColor16 | kVertexWideOffsets;
     // as floats, a UV takes two words, but a grid also has a base
     for (uint32_t set = 0; set < 4; ++set)
         if (attributes & kVertexUv0 << set)
@@ -110,7 +110,7 @@ constexpr size_t morphSectionWords(size_t targets, size_t vertex_count)
     return 1 + targets * (2 + 3 * vertex_count);
 }
 
-inline constexpr int32_t kMorphPositionMost = (1 << 19) - 1;
+inline constexpr int32_t kMaxMorphPositionSteps = (1 << 19) - 1;
 /// Unit of normal deltas, in the difference of two orthogonal normals.
 inline constexpr float kMorphNormalSteps = 1024;
 
@@ -147,8 +147,8 @@ inline uint32_t quantizeUnorm(float value, float most)
     return static_cast<uint32_t>(std::lround(std::clamp(value, 0.0f, 1.0f) * most));
 }
 
-/// Return the position of a grid coordinate; exact for |coordinate| <= kGridMost.
-inline float fromGrid(int32_t coordinate, float step)
+/// Return the position of a grid coordinate; exact for |coordinate| <= kMaxGridCoordinate.
+inline float gridToFloat(int32_t coordinate, float step)
 {
     return static_cast<float>(coordinate) * step;
 }
@@ -212,7 +212,7 @@ inline FourFloats distance2ToOctahedral(FourFloats x, FourFloats y, Float3 unit)
 template <int B>
 struct NormalCode
 {
-    static constexpr int32_t kMost = (1 << (B - 1)) - 1;
+    static constexpr int32_t kMaxCode = (1 << (B - 1)) - 1;
 
     static constexpr int32_t x(uint32_t code) { return static_cast<int32_t>(code << (32 - B)) >> (32 - B); }
     static constexpr int32_t y(uint32_t code) { return x(code >> B); }
@@ -221,12 +221,12 @@ struct NormalCode
         constexpr uint32_t kMask = (1u << B) - 1;
         return (static_cast<uint32_t>(x) & kMask) | (static_cast<uint32_t>(y) & kMask) << B;
     }
-    static constexpr bool legal(uint32_t code) { return x(code) >= -kMost && y(code) >= -kMost; }
+    static constexpr bool legal(uint32_t code) { return x(code) >= -kMaxCode && y(code) >= -kMaxCode; }
 
     static Float3 decode(uint32_t code)
     {
         return directionFromOctahedral(
-            {static_cast<float>(x(code)) / kMost, static_cast<float>(y(code)) / kMost});
+            {static_cast<float>(x(code)) / kMaxCode, static_cast<float>(y(code)) / kMaxCode});
     }
 
     /// Encode a normal: the code with the smallest angle of the four around the direction. `normal` is finite
@@ -237,16 +237,16 @@ struct NormalCode
         const Float3 unit = normal / length(normal);
         const auto below = [](float value)
         {
-            const auto nearer_to_0 = static_cast<int32_t>(value * kMost);
-            return std::clamp(nearer_to_0 - (value < 0 ? 1 : 0), -kMost, kMost - 1);
+            const auto nearer_to_0 = static_cast<int32_t>(value * kMaxCode);
+            return std::clamp(nearer_to_0 - (value < 0 ? 1 : 0), -kMaxCode, kMaxCode - 1);
         };
         const int32_t low_x = below(p.x);
         const int32_t low_y = below(p.y);
         const auto x0 = static_cast<float>(low_x), y0 = static_cast<float>(low_y);
         // the chord: unlike the cosine, it resolves the smallest angles in floats
         const FourFloats distance2 =
-            distance2ToOctahedral(FourFloats{x0, x0 + 1, x0, x0 + 1} / static_cast<float>(kMost),
-                                  FourFloats{y0, y0, y0 + 1, y0 + 1} / static_cast<float>(kMost), unit);
+            distance2ToOctahedral(FourFloats{x0, x0 + 1, x0, x0 + 1} / static_cast<float>(kMaxCode),
+                                  FourFloats{y0, y0, y0 + 1, y0 + 1} / static_cast<float>(kMaxCode), unit);
         int32_t best = 0;
         for (int32_t corner = 1; corner < 4; ++corner)
             best = distance2[corner] < distance2[best] ? corner : best;
@@ -254,25 +254,25 @@ struct NormalCode
     }
 };
 
-/// Encode a normal in 16 bits (2 x 8), or 32 (2 x 16) in a layout with kVertexFineNormal.
+/// Encode a normal in 16 bits (2 x 8), or 32 (2 x 16) in a layout with kVertexNormal16.
 inline uint32_t encodeNormal(uint32_t layout, Float3 normal)
 {
-    return (layout & kVertexFineNormal) ? NormalCode<16>::encode(normal) : NormalCode<8>::encode(normal);
+    return (layout & kVertexNormal16) ? NormalCode<16>::encode(normal) : NormalCode<8>::encode(normal);
 }
 inline Float3 decodeNormal(uint32_t layout, uint32_t code)
 {
-    return (layout & kVertexFineNormal) ? NormalCode<16>::decode(code) : NormalCode<8>::decode(code);
+    return (layout & kVertexNormal16) ? NormalCode<16>::decode(code) : NormalCode<8>::decode(code);
 }
-constexpr bool legalNormal(uint32_t layout, uint32_t code)
+constexpr bool isLegalNormal(uint32_t layout, uint32_t code)
 {
-    return (layout & kVertexFineNormal) ? NormalCode<16>::legal(code)
-                                        : code <= 0xFFFF && NormalCode<8>::legal(code);
+    return (layout & kVertexNormal16) ? NormalCode<16>::legal(code)
+                                      : code <= 0xFFFF && NormalCode<8>::legal(code);
 }
 
 /// Return the number of bits of a tangent's angle.
 constexpr uint32_t tangentAngleBits(uint32_t layout)
 {
-    return (layout & kVertexFineNormal) ? 15 : 7;
+    return (layout & kVertexNormal16) ? 15 : 7;
 }
 
 /// Two unit vectors orthogonal to a unit normal and to each other.
@@ -282,7 +282,7 @@ struct NormalFrame
     Float3 second;
 };
 
-inline NormalFrame frameOf(Float3 n)
+inline NormalFrame makeNormalFrame(Float3 n)
 {
     const float sign = n.z < 0 ? -1.0f : 1.0f;
     const float a = -1.0f / (sign + n.z);
@@ -294,7 +294,7 @@ inline NormalFrame frameOf(Float3 n)
 /// tangent's component along the normal is lost; a tangent along the normal gets the frame's first vector.
 inline uint32_t encodeTangent(uint32_t layout, Float4 tangent, Float3 normal)
 {
-    const NormalFrame frame = frameOf(normal);
+    const NormalFrame frame = makeNormalFrame(normal);
     const Float3 t{tangent.x, tangent.y, tangent.z};
     const float u = dot(t, frame.first);
     const float v = dot(t, frame.second);
@@ -317,22 +317,22 @@ inline Float4 decodeTangent(uint32_t layout, uint32_t code, Float3 normal)
     const uint32_t turn = angle / quarter;
     const float u = turn == 0 ? 1 - along : turn == 1 ? -along : turn == 2 ? along - 1 : along;
     const float v = turn == 0 ? along : turn == 1 ? 1 - along : turn == 2 ? -along : along - 1;
-    const NormalFrame frame = frameOf(normal);
+    const NormalFrame frame = makeNormalFrame(normal);
     const Float3 t = frame.first * u + frame.second * v;
     const Float3 unit = t / length(t);
     return {unit.x, unit.y, unit.z, (code & 1) != 0 ? -1.0f : 1.0f};
 }
 
-constexpr bool legalTangent(uint32_t layout, uint32_t code)
+constexpr bool isLegalTangent(uint32_t layout, uint32_t code)
 {
     return code >> (tangentAngleBits(layout) + 1) == 0;
 }
 
 /// Return the words of a colour: red in the lowest bits. The second word is 0 and not stored unless the
-/// layout has kVertexFineColor.
+/// layout has kVertexColor16.
 inline std::array<uint32_t, 2> encodeColor(uint32_t layout, Float4 color)
 {
-    if (layout & kVertexFineColor)
+    if (layout & kVertexColor16)
         return {quantizeUnorm(color.x, 65535) | quantizeUnorm(color.y, 65535) << 16,
                 quantizeUnorm(color.z, 65535) | quantizeUnorm(color.w, 65535) << 16};
     return {quantizeUnorm(color.x, 255) | quantizeUnorm(color.y, 255) << 8 |
@@ -343,7 +343,7 @@ inline std::array<uint32_t, 2> encodeColor(uint32_t layout, Float4 color)
 inline Float4 decodeColor(uint32_t layout, std::array<uint32_t, 2> words)
 {
     const auto part = [](uint32_t q, float most) { return static_cast<float>(q) / most; };
-    if (layout & kVertexFineColor)
+    if (layout & kVertexColor16)
         return {part(words[0] & 0xFFFFu, 65535), part(words[0] >> 16, 65535), part(words[1] & 0xFFFFu, 65535),
                 part(words[1] >> 16, 65535)};
     return {part(words[0] & 0xFFu, 255), part(words[0] >> 8 & 0xFFu, 255), part(words[0] >> 16 & 0xFFu, 255),

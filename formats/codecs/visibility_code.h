@@ -9,9 +9,9 @@ namespace hearth::formats
 {
 
 /// Code of the unoccluded hemisphere: decodes to exactly m0 = 2 pi and m1 = pi n.
-inline constexpr uint32_t kVisibilityOpen = 0x1FF;
+inline constexpr uint32_t kVisibilityUnoccluded = 0x1FF;
 
-constexpr bool legalVisibility(uint32_t code)
+constexpr bool isLegalVisibility(uint32_t code)
 {
     return (code >> 16 & 0xFFu) != 0x80 && code >> 24 != 0x80;
 }
@@ -26,7 +26,7 @@ constexpr bool legalVisibility(uint32_t code)
 inline uint32_t encodeVisibility(float m0, Float3 m1, Float3 normal)
 {
     const shared::VisibilityMoments moments = shared::feasibleVisibility(m0, m1);
-    const NormalFrame frame = frameOf(normal);
+    const NormalFrame frame = makeNormalFrame(normal);
     const Float3 p =
         Float3{dot(moments.m1, frame.first), dot(moments.m1, frame.second), dot(moments.m1, normal)} /
         shared::kVisibilityPi;

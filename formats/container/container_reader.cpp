@@ -34,23 +34,23 @@ struct Mapping
     }
 };
 
-std::pair<uint32_t, uint32_t> idOf(const ChunkEntry& entry)
+std::pair<uint32_t, uint32_t> chunkKey(const ChunkEntry& entry)
 {
     return {entry.type, entry.index};
 }
 
 /// True if `stored` is exactly one zstd frame that declares `size` as its content size. Does not decompress
 /// it.
-bool isFrameOf(std::span<const std::byte> stored, uint64_t size)
+bool isSingleFrame(std::span<const std::byte> stored, uint64_t size)
 {
     return ZSTD_getFrameContentSize(stored.data(), stored.size()) == size &&
            ZSTD_findFrameCompressedSize(stored.data(), stored.size()) == stored.size();
 }
 
 /// True if decompress() succeeds, tested with a small buffer.
-bool decodesTo(std::span<const std::byte> stored, uint64_t size)
+bool decompressesTo(std::span<const std::byte> stored, uint64_t size)
 {
-    if (!isFrameOf(stored, size))
+    if (!isSingleFrame(stored, size))
         return false;
     const std::unique_ptr<ZSTD_DCtx, size_t (*)(ZSTD_DCtx*)> context(ZSTD_createDCtx(), ZSTD_freeDCtx);
     std::vector<std::byte> buffer(ZSTD_DStreamOutSize());
@@ -84,7 +84,7 @@ uint64_t hashBytes(std::span<const std::byte> bytes)
 
 bool decompress(std::span<const std::byte> stored, std::span<std::byte> out)
 {
-    return isFrameOf(stored, out.size()) &&
+    return isSingleFrame(stored, out.size()) &&
            ZSTD_decompress(out.data(), out.size(), stored.data(), stored.size()) == out.size();
 }
 
@@ -205,10 +205,10 @@ Status ContainerReader::checkStructure()
     entries_by_id_.resize(table_.size());
     std::iota(entries_by_id_.begin(), entries_by_id_.end(), 0u);
     std::sort(entries_by_id_.begin(), entries_by_id_.end(),
-              [this](uint32_t a, uint32_t b) { return idOf(table_[a]) < idOf(table_[b]); });
-    const auto twice =
-        std::adjacent_find(entries_by_id_.begin(), entries_by_id_.end(),
-                           [this](uint32_t a, uint32_t b) { return idOf(table_[a]) == idOf(table_[b]); });
+              [this](uint32_t a, uint32_t b) { return chunkKey(table_[a]) < chunkKey(table_[b]); });
+    const auto twice = std::adjacent_find(entries_by_id_.begin(), entries_by_id_.end(),
+                                          [this](uint32_t a, uint32_t b)
+                                          { return chunkKey(table_[a]) == chunkKey(table_[b]); });
     if (twice != entries_by_id_.end())
         return fail(Issue::container_table, "the chunk stands twice",
                     chunkName(table_[*twice].type, table_[*twice].index));
@@ -238,8 +238,8 @@ const ChunkEntry* ContainerReader::find(uint32_t type, uint32_t index) const
     const std::pair<uint32_t, uint32_t> id{type, index};
     const auto found =
         std::lower_bound(entries_by_id_.begin(), entries_by_id_.end(), id,
-                         [this](uint32_t entry, const auto& key) { return idOf(table_[entry]) < key; });
-    return found == entries_by_id_.end() || idOf(table_[*found]) != id ? nullptr : &table_[*found];
+                         [this](uint32_t entry, const auto& key) { return chunkKey(table_[entry]) < key; });
+    return found == entries_by_id_.end() || chunkKey(table_[*found]) != id ? nullptr : &table_[*found];
 }
 
 std::span<const std::byte> ContainerReader::stored(const ChunkEntry& entry) const
@@ -291,12 +291,12 @@ Status ContainerReader::checkDecodes(const ChunkEntry& entry) const
     const std::span<const std::byte> bytes = stored(entry);
     if (check_ == Check::structure && hashBytes(bytes) != entry.hash)
         return Error{Issue::chunk_hash, name_, chunkName(entry.type, entry.index), ""};
-    if (entry.codec == static_cast<uint32_t>(Codec::zstd) && !decodesTo(bytes, entry.size))
+    if (entry.codec == static_cast<uint32_t>(Codec::zstd) && !decompressesTo(bytes, entry.size))
         return Error{Issue::chunk_codec, name_, chunkName(entry.type, entry.index), ""};
     return success();
 }
 
-Error ContainerReader::sizeError(const ChunkEntry& entry, size_t element_size) const
+Error ContainerReader::makeSizeError(const ChunkEntry& entry, size_t element_size) const
 {
     return {Issue::chunk_size, name_, chunkName(entry.type, entry.index),
             "records of " + std::to_string(entry.element_size) + " bytes, expected " +

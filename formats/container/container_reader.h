@@ -97,14 +97,14 @@ public:
     {
         const ChunkEntry* entry = find(type, index);
         if (entry != nullptr && entry->element_size != sizeof(T))
-            return sizeError(*entry, sizeof(T));
+            return makeSizeError(*entry, sizeof(T));
         HEARTH_ASSIGN_OR_RETURN(ChunkData data, read(type, index));
         return Records<T>(std::move(data));
     }
 
 private:
     Status checkStructure();
-    Error sizeError(const ChunkEntry& entry, size_t element_size) const;
+    Error makeSizeError(const ChunkEntry& entry, size_t element_size) const;
 
     std::string name_;
     std::span<const std::byte> bytes_;

@@ -47,7 +47,7 @@ struct ContainerWriter::State
         }
     }
 
-    Error failure(const char* what) const
+    Error makeWriteError(const char* what) const
     {
         return {Issue::cannot_write, path, "", std::string(what) + ": " + std::strerror(errno)};
     }
@@ -60,7 +60,7 @@ struct ContainerWriter::State
             if (written < 0 && errno == EINTR)
                 continue;
             if (written <= 0)
-                return failure("cannot write");
+                return makeWriteError("cannot write");
             bytes = bytes.subspan(static_cast<size_t>(written));
             position += static_cast<uint64_t>(written);
         }
@@ -90,7 +90,7 @@ Result<ContainerWriter> ContainerWriter::create(const std::string& path, Contain
         state->temporary_path = path + ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(attempt);
         state->file = ::open(state->temporary_path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (state->file < 0 && errno != EEXIST)
-            return state->failure("cannot create");
+            return state->makeWriteError("cannot create");
     }
     const FileHeader blank{};
     HEARTH_TRY(state->write(std::as_bytes(std::span(&blank, 1))));
@@ -199,11 +199,11 @@ Status ContainerWriter::finish()
 
     HEARTH_TRY(s.write(std::as_bytes(std::span(s.table))));
     if (::pwrite(s.file, &header, sizeof(header), 0) != static_cast<ssize_t>(sizeof(header)))
-        return s.failure("cannot write");
+        return s.makeWriteError("cannot write");
     if (!flushFile(s.file))
-        return s.failure("cannot write");
+        return s.makeWriteError("cannot write");
     if (::rename(s.temporary_path.c_str(), s.path.c_str()) != 0)
-        return s.failure("cannot rename into place");
+        return s.makeWriteError("cannot rename into place");
     ::close(s.file);
     s.file = -1;
     return success();

@@ -42,14 +42,14 @@ HEARTH_FUNCTION float clippedConeOcclusion(float cos_theta, float cos_aperture)
 }
 
 /// Approximate sin^2(a pi / 2), a in [0, 1], by a smoothstep. Error at most 0.010.
-HEARTH_FUNCTION float smoothstepShare(float a)
+HEARTH_FUNCTION float smoothstepSinSquared(float a)
 {
     return a * a * (3.0f - 2.0f * a);
 }
 
 /// Approximate sin^2(a pi / 2), a in [0, 1], by two parabolas. Error at most 0.029. Continuous, unlike a^2
 /// and 1 - (1 - a)^2.
-HEARTH_FUNCTION float quadraticShare(float a)
+HEARTH_FUNCTION float quadraticSinSquared(float a)
 {
     float b = 1.0f - a;
     return a < 0.5f ? 2.0f * a * a : 1.0f - 2.0f * b * b;
@@ -82,8 +82,8 @@ HEARTH_FUNCTION float ambientOcclusion(uint mode, float scale, float cos_apertur
         // away from the axis more light remains than the product says: the horizon hides half of a
         // hemisphere's loss
         float cosine = cos_geometric + (bend < 0.0f ? bend * (1.0f - 0.5f * a * a * a) : bend);
-        share =
-            max(cosine, 0.0f) * (mode == kAmbientOcclusionQuadratic ? quadraticShare(a) : smoothstepShare(a));
+        share = max(cosine, 0.0f) *
+                (mode == kAmbientOcclusionQuadratic ? quadraticSinSquared(a) : smoothstepSinSquared(a));
     }
     return min(max(scale * share, 0.0f), 1.0f);
 }

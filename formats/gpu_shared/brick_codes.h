@@ -9,10 +9,10 @@
 HEARTH_SHARED_BEGIN
 
 // The unsigned floats have 5 bits of exponent, as halves, above 6 or 5 bits of mantissa. The smallest code
-// above 0 is 2^-20 or 2^-19, the largest is kMostRedGreen or kMostBlue. Codes below 2^-14 are denormals.
+// above 0 is 2^-20 or 2^-19, the largest is kMaxRadianceRedGreen or kMaxRadianceBlue. Codes below 2^-14 are denormals.
 // Exponent 31 would be infinity or NaN, and no code has it.
-HEARTH_CONSTANT float kMostRedGreen = 65024.0f;
-HEARTH_CONSTANT float kMostBlue = 64512.0f;
+HEARTH_CONSTANT float kMaxRadianceRedGreen = 65024.0f;
+HEARTH_CONSTANT float kMaxRadianceBlue = 64512.0f;
 
 /// Return the nearest unsigned float of 5 + mantissa_bits bits, the even one of two. Negative values and NaN
 /// give 0, too large values the largest code.
@@ -50,8 +50,8 @@ HEARTH_FUNCTION float decodeUnsignedFloat(uint code, uint mantissa_bits)
     uint mantissa = code & ((1u << mantissa_bits) - 1u);
     uint exponent = code >> mantissa_bits;
     if (exponent == 0u)
-        return float(mantissa) * floatOfBits((113u - mantissa_bits) << 23);
-    return floatOfBits((exponent + 112u) << 23 | mantissa << (23u - mantissa_bits));
+        return float(mantissa) * floatFromBits((113u - mantissa_bits) << 23);
+    return floatFromBits((exponent + 112u) << 23 | mantissa << (23u - mantissa_bits));
 }
 
 /// Encode radiance as R11G11B10F: r in bits 0 to 10, g in 11 to 21, b in 22 to 31.
@@ -69,7 +69,7 @@ HEARTH_FUNCTION Float3 decodeRadiance(uint code)
 }
 
 /// True if no exponent of the code is 31 (infinity or NaN).
-HEARTH_FUNCTION bool legalRadiance(uint code)
+HEARTH_FUNCTION bool isLegalRadiance(uint code)
 {
     return (code >> 6 & 31u) != 31u && (code >> 17 & 31u) != 31u && code >> 27 != 31u;
 }

@@ -16,7 +16,7 @@
 HEARTH_SHARED_BEGIN
 
 /// Upper bound of a face's albedo: below 1, so that light without a source fades.
-HEARTH_CONSTANT float kBrickMostAlbedo = 0.95f;
+HEARTH_CONSTANT float kMaxBrickAlbedo = 0.95f;
 
 /// Distance in voxels by which ray origins are lifted off a slanted surface, along its normal through the
 /// air. At this distance the surface's own stair-stepped voxels do not occlude it.
@@ -28,11 +28,11 @@ HEARTH_CONSTANT float kBrickLift = 1.0f;
 HEARTH_CONSTANT float kBrickSlantSine = 0.01f;
 
 /// Voxels along the normal within which a ray from a surface point must reach the air.
-HEARTH_CONSTANT float kBrickMostBuried = 3.0f;
+HEARTH_CONSTANT float kMaxBrickDepth = 3.0f;
 
 /// Radius of a lamp in metres. A point light has no size, so irradiance grows without bound near it. Faces
 /// nearer than this plus half a voxel count as part of the lamp and get no light from it.
-HEARTH_CONSTANT float kBrickLampMetres = 0.1f;
+HEARTH_CONSTANT float kBrickLampRadius = 0.1f;
 
 HEARTH_CONSTANT float kBrickPi = 3.14159265f;
 
@@ -61,21 +61,21 @@ HEARTH_FUNCTION uint brickSliceEnd(uint brick_count, uint frame, uint period)
 /// Position from which a face or a surface point gathers light.
 struct BrickStart
 {
-    Float3 place; ///< position in the air, in voxels
+    Float3 position; ///< position in the air, in voxels
     Float3 normal;
-    uint buried; ///< 1: no air within kBrickMostBuried; the point gets no light
+    uint is_interior; ///< 1: no air within kMaxBrickDepth; the point gets no light
     /// Mean radiance of the solid voxel right in front of the surface, if rays start beyond that voxel.
     Float3 close;
     float close_opacity; ///< [0, 1]; 0: no such voxel
 };
 
 /// Return a start with no voxel close to it.
-HEARTH_FUNCTION BrickStart brickStartAt(Float3 place, Float3 normal)
+HEARTH_FUNCTION BrickStart brickStartAt(Float3 position, Float3 normal)
 {
     BrickStart start;
-    start.place = place;
+    start.position = position;
     start.normal = normal;
-    start.buried = 0u;
+    start.is_interior = 0u;
     start.close = Float3(0.0f, 0.0f, 0.0f);
     start.close_opacity = 0.0f;
     return start;
@@ -83,7 +83,7 @@ HEARTH_FUNCTION BrickStart brickStartAt(Float3 place, Float3 normal)
 
 /// Return 0 for a surface whose normal lies along an axis (its voxels are as flat as it is), 1 for a slanted
 /// one.
-HEARTH_FUNCTION float brickSlant(Float3 normal)
+HEARTH_FUNCTION float brickSlantedness(Float3 normal)
 {
     float along = max(max(abs(normal.x), abs(normal.y)), abs(normal.z));
     return min(sqrt(max(1.0f - along * along, 0.0f)) / kBrickSlantSine, 1.0f);
@@ -95,17 +95,17 @@ HEARTH_FUNCTION float brickSlant(Float3 normal)
 /// normal  normal that the face is lit by
 HEARTH_FUNCTION Float3 brickFaceSurface(uint x, uint y, uint z, uint face, Float3 normal)
 {
-    return brickFaceMiddle(x, y, z, face) - brickFaceAxis(face) * (0.5f * brickSlant(normal));
+    return brickFaceMiddle(x, y, z, face) - brickFaceAxis(face) * (0.5f * brickSlantedness(normal));
 }
 
 /// Lift a position in the air along the normal: by kBrickLift for a slanted surface, but at most half the
 /// distance to the next solid voxel.
-HEARTH_FUNCTION Float3 brickLifted(HEARTH_IN(BrickScene) scene, Float3 place, Float3 normal)
+HEARTH_FUNCTION Float3 liftBrickPosition(HEARTH_IN(BrickScene) scene, Float3 position, Float3 normal)
 {
-    float lift = kBrickLift * brickSlant(normal);
-    BrickRay ray = brickMarch(brickMasksOf(scene),
-                              brickRayInVoxels(brickGridOf(brickMasksOf(scene)), place, normal, lift));
-    return place + normal * (ray.inside != 0u ? 0.5f * (ray.start_t + ray.t) : lift);
+    float lift = kBrickLift * brickSlantedness(normal);
+    BrickRay ray = brickMarch(brickSceneMasks(scene), brickRayInVoxels(brickMasksGrid(brickSceneMasks(scene)),
+                                                                       position, normal, lift));
+    return position + normal * (ray.inside != 0u ? 0.5f * (ray.start_t + ray.t) : lift);
 }
 
 /// Return the start of rays of a face.
@@ -114,41 +114,41 @@ HEARTH_FUNCTION BrickStart brickFaceStart(HEARTH_IN(BrickScene) scene, uint x, u
                                           Float3 surface_normal)
 {
     Float3 normal = brickFaceNormal(surface_normal, face);
-    return brickStartAt(brickLifted(scene, brickFaceMiddle(x, y, z, face), normal), normal);
+    return brickStartAt(liftBrickPosition(scene, brickFaceMiddle(x, y, z, face), normal), normal);
 }
 
 /// True if the ray's voxel is solid: a march without a step began in a solid voxel.
 HEARTH_FUNCTION bool brickIsInSolid(HEARTH_IN(BrickScene) scene, HEARTH_IN(BrickRay) ray)
 {
-    BrickRay met = brickMarch(brickMasksOf(scene), ray);
+    BrickRay met = brickMarch(brickSceneMasks(scene), ray);
     return met.inside != 0u && met.steps == ray.steps;
 }
 
 /// Return the start for a point of a surface, which mostly lies in a solid voxel: march along the normal into
 /// the air.
-/// place   in voxels
+/// position   in voxels
 /// normal  unit, on the lit side
-HEARTH_FUNCTION BrickStart brickSurfaceStart(HEARTH_IN(BrickScene) scene, Float3 place, Float3 normal)
+HEARTH_FUNCTION BrickStart brickSurfaceStart(HEARTH_IN(BrickScene) scene, Float3 position, Float3 normal)
 {
-    BrickRay ray = brickRayInVoxels(brickGridOf(brickMasksOf(scene)), place, normal, kBrickMostBuried);
+    BrickRay ray = brickRayInVoxels(brickMasksGrid(brickSceneMasks(scene)), position, normal, kMaxBrickDepth);
     while (brickIsInSolid(scene, ray))
-        ray = brickPass(brickMasksOf(scene), ray);
+        ray = brickSkipVoxel(brickSceneMasks(scene), ray);
     // without a step, the point is already in the air
     float out_t = ray.steps > 0u ? ray.start_t + ray.t : 0.0f;
-    BrickStart start = brickStartAt(place, normal);
-    start.buried = out_t >= kBrickMostBuried ? 1u : 0u;
+    BrickStart start = brickStartAt(position, normal);
+    start.is_interior = out_t >= kMaxBrickDepth ? 1u : 0u;
     out_t += ray.steps > 0u ? kBrickFaceMargin : 0.0f;
-    if (start.buried == 0u)
-        start.place = brickLifted(scene, place + normal * out_t, normal);
+    if (start.is_interior == 0u)
+        start.position = liftBrickPosition(scene, position + normal * out_t, normal);
     return start;
 }
 
 /// Return the start with the ray's solid voxel as the close voxel in front of it.
-HEARTH_FUNCTION BrickStart brickCloseTo(HEARTH_IN(BrickScene) scene, BrickStart start,
-                                        HEARTH_IN(BrickRay) ray)
+HEARTH_FUNCTION BrickStart withCloseVoxel(HEARTH_IN(BrickScene) scene, BrickStart start,
+                                          HEARTH_IN(BrickRay) ray)
 {
-    BrickRay met = brickMarch(brickMasksOf(scene), ray);
-    Brick brick = brickAt(brickMasksOf(scene), met.brick);
+    BrickRay met = brickMarch(brickSceneMasks(scene), ray);
+    Brick brick = brickAt(brickSceneMasks(scene), met.brick);
     float count = 0.0f;
     for (uint side = 0u; side < kVoxelFaces; ++side)
     {
@@ -167,7 +167,7 @@ HEARTH_FUNCTION BrickStart brickCloseTo(HEARTH_IN(BrickScene) scene, BrickStart 
 /// Return the fraction of a start's light that comes from its close voxel, where rays bring the radiance
 /// `mean`. The fraction is 0 if the close voxel is darker: a grid cannot tell if the voxel occludes the
 /// surface, but it does tell that the voxel emits light.
-HEARTH_FUNCTION float brickCloseShare(HEARTH_IN(BrickStart) start, Float3 mean)
+HEARTH_FUNCTION float brickCloseFraction(HEARTH_IN(BrickStart) start, Float3 mean)
 {
     float more = start.close.x + start.close.y + start.close.z - mean.x - mean.y - mean.z;
     return more > 0.0f ? start.close_opacity : 0.0f;
@@ -176,25 +176,25 @@ HEARTH_FUNCTION float brickCloseShare(HEARTH_IN(BrickStart) start, Float3 mean)
 /// Return the start for a visible surface point: in the air in front of it. Where other bricks stand there,
 /// as in the corners of rooms, the start lies in the air between the point and the eye.
 /// to_eye  unit
-HEARTH_FUNCTION BrickStart brickSeenStart(HEARTH_IN(BrickScene) scene, Float3 place, Float3 normal,
-                                          Float3 to_eye)
+HEARTH_FUNCTION BrickStart brickVisibleStart(HEARTH_IN(BrickScene) scene, Float3 position, Float3 normal,
+                                             Float3 to_eye)
 {
-    BrickStart start = brickSurfaceStart(scene, place, normal);
-    Float3 way = start.place - place;
-    float slant = brickSlant(normal);
-    BrickRay own =
-        brickRayInVoxels(brickGridOf(brickMasksOf(scene)),
-                         place - normal * (kBrickPlaneReach + kBrickFaceMargin), normal, kBrickMostBuried);
-    BrickRay next = brickPass(brickMasksOf(scene), own);
+    BrickStart start = brickSurfaceStart(scene, position, normal);
+    Float3 direction = start.position - position;
+    float slant = brickSlantedness(normal);
+    BrickRay own = brickRayInVoxels(brickMasksGrid(brickSceneMasks(scene)),
+                                    position - normal * (kBrickPlaneTolerance + kBrickFaceMargin), normal,
+                                    kMaxBrickDepth);
+    BrickRay next = brickSkipVoxel(brickSceneMasks(scene), own);
     // beyond this distance the ray has left a voxel that is not the surface's own
     float own_way = brickIsInSolid(scene, own) ? next.start_t + next.t : 1.0f;
     float most = own_way + (1.0f - own_way + kBrickLift) * slant + 0.25f;
-    if (start.buried == 0u && dot(way, way) <= most * most)
+    if (start.is_interior == 0u && dot(direction, direction) <= most * most)
         return start;
-    start = brickSurfaceStart(scene, place, to_eye);
+    start = brickSurfaceStart(scene, position, to_eye);
     start.normal = normal;
     if (brickIsInSolid(scene, next))
-        start = brickCloseTo(scene, start, next);
+        start = withCloseVoxel(scene, start, next);
     return start;
 }
 
@@ -205,30 +205,30 @@ HEARTH_FUNCTION Float3 brickGather(HEARTH_IN(BrickScene) scene, HEARTH_IN(BrickS
 {
     Float3 sum = Float3(0.0f, 0.0f, 0.0f);
     for (uint i = 0u; i < count; ++i)
-        sum =
-            sum +
-            brickRayLight(scene, sky, start.place, brickRayDirection(start.normal, i, count, seed)).radiance;
-    if (start.buried != 0u)
+        sum = sum + brickRayLight(scene, sky, start.position, brickRayDirection(start.normal, i, count, seed))
+                        .radiance;
+    if (start.is_interior != 0u)
         return Float3(0.0f, 0.0f, 0.0f);
     Float3 mean = sum * (1.0f / float(count));
-    return mean + (start.close - mean) * brickCloseShare(start, mean);
+    return mean + (start.close - mean) * brickCloseFraction(start, mean);
 }
 
 // ---- lights
 
 HEARTH_FUNCTION bool brickSolid(HEARTH_IN(BrickScene) scene, int x, int y, int z)
 {
-    BrickGrid grid = brickGridOf(brickMasksOf(scene));
+    BrickGrid grid = brickMasksGrid(brickSceneMasks(scene));
     if (uint(x) >= grid.voxels_x || uint(y) >= grid.voxels_y || uint(z) >= grid.voxels_z)
         return false;
-    uint group_index = (uint(x) >> 4) + brickGroups(grid.voxels_x) *
-                                            ((uint(y) >> 4) + brickGroups(grid.voxels_y) * (uint(z) >> 4));
-    BrickGroup group = brickGroupAt(brickMasksOf(scene), group_index);
+    uint group_index =
+        (uint(x) >> 4) + brickGroupsAlongAxis(grid.voxels_x) *
+                             ((uint(y) >> 4) + brickGroupsAlongAxis(grid.voxels_y) * (uint(z) >> 4));
+    BrickGroup group = brickGroupAt(brickSceneMasks(scene), group_index);
     uint bit = brickBit(uint(x) >> 2, uint(y) >> 2, uint(z) >> 2);
     if (!maskHas(group.brick_mask_low, group.brick_mask_high, bit))
         return false;
     Brick brick =
-        brickAt(brickMasksOf(scene),
+        brickAt(brickSceneMasks(scene),
                 group.first_brick + maskCountBelow(group.brick_mask_low, group.brick_mask_high, bit));
     return maskHas(brick.voxel_mask_low, brick.voxel_mask_high, brickBit(uint(x), uint(y), uint(z)));
 }
@@ -238,60 +238,61 @@ HEARTH_FUNCTION bool brickSolid(HEARTH_IN(BrickScene) scene, int x, int y, int z
 /// of the nearest neighbouring voxel of air, of two the lower one. Without such a voxel the lamp's own
 /// position is returned. The result does not depend on the face, so a frame may compute it once.
 /// lamp  position in voxels
-HEARTH_FUNCTION Float3 brickLampPlace(HEARTH_IN(BrickScene) scene, Float3 lamp)
+HEARTH_FUNCTION Float3 brickLampPosition(HEARTH_IN(BrickScene) scene, Float3 lamp)
 {
     Float3 low = Float3(floor(lamp.x), floor(lamp.y), floor(lamp.z));
     // beyond this bound all is air, and the coordinates would overflow an int
     float most = max(max(abs(lamp.x), abs(lamp.y)), abs(lamp.z));
     if (most > 32768.0f || !brickSolid(scene, int(low.x), int(low.y), int(low.z)))
         return lamp;
-    Float3 place = lamp;
-    float nearest = kBrickFar;
+    Float3 position = lamp;
+    float nearest = kBrickInfinity;
     for (int i = 0; i < 27; ++i)
     {
         int x = i % 3 - 1;
         int z = i / 3 % 3 - 1;
         int y = i / 9 - 1;
         Float3 middle = low + Float3(float(x) + 0.5f, float(y) + 0.5f, float(z) + 0.5f);
-        Float3 way = middle - lamp;
-        float distance2 = dot(way, way);
+        Float3 direction = middle - lamp;
+        float distance2 = dot(direction, direction);
         if (distance2 < nearest && !brickSolid(scene, int(low.x) + x, int(low.y) + y, int(low.z) + z))
         {
             nearest = distance2;
-            place = middle;
+            position = middle;
         }
     }
-    return place;
+    return position;
 }
 
 /// Unoccluded light of a lamp or sun at a face, and the shadow ray that tests it.
-struct BrickIncident
+struct BrickUnshadowedLight
 {
-    Float3 arrived; ///< irradiance over pi; 0: no shadow ray is needed
-    Float3 way;     ///< unit, direction of the shadow ray
-    float far;      ///< distance to the light, in voxels
+    Float3 irradiance;       ///< irradiance over pi; 0: no shadow ray is needed
+    Float3 direction;        ///< unit, direction of the shadow ray
+    float distance_to_light; ///< distance to the light, in voxels
 };
 
 /// Compute the unoccluded light of a face.
 /// surface  point of brickFaceSurface: distance and angle are measured there
-/// lamp     position from which the light shines, in voxels: brickLampPlace, or its own position. Ignored for
+/// lamp     position from which the light shines, in voxels: brickLampPosition, or its own position. Ignored for
 ///          suns
-HEARTH_FUNCTION BrickIncident brickIncident(HEARTH_IN(BrickGrid) grid, HEARTH_IN(BrickStart) start,
-                                            Float3 surface, HEARTH_IN(Light) light, Float3 lamp)
+HEARTH_FUNCTION BrickUnshadowedLight brickUnshadowedLight(HEARTH_IN(BrickGrid) grid,
+                                                          HEARTH_IN(BrickStart) start, Float3 surface,
+                                                          HEARTH_IN(Light) light, Float3 lamp)
 {
-    BrickIncident incident;
-    incident.arrived = Float3(0.0f, 0.0f, 0.0f);
-    incident.way = -light.direction;
-    incident.far = kBrickFar;
+    BrickUnshadowedLight incident;
+    incident.irradiance = Float3(0.0f, 0.0f, 0.0f);
+    incident.direction = -light.direction;
+    incident.distance_to_light = kBrickInfinity;
     if (light.type == kBrickLightDirectional)
     {
-        incident.arrived = light.intensity * (max(dot(start.normal, incident.way), 0.0f) / kBrickPi);
+        incident.irradiance = light.intensity * (max(dot(start.normal, incident.direction), 0.0f) / kBrickPi);
         return incident;
     }
     Float3 to_light = (light.position - grid.origin) * (1.0f / grid.voxel_size) - surface;
     float distance = sqrt(dot(to_light, to_light));
     float metres = distance * grid.voxel_size;
-    if (metres < kBrickLampMetres + 0.5f * grid.voxel_size)
+    if (metres < kBrickLampRadius + 0.5f * grid.voxel_size)
         return incident;
     to_light = to_light * (1.0f / distance);
     float share = max(dot(start.normal, to_light), 0.0f) / (kBrickPi * metres * metres);
@@ -306,10 +307,11 @@ HEARTH_FUNCTION BrickIncident brickIncident(HEARTH_IN(BrickGrid) grid, HEARTH_IN
             min(max(light.cone_offset - dot(light.direction, to_light) * light.cone_scale, 0.0f), 1.0f);
         share *= cone * cone;
     }
-    Float3 way = lamp - start.place;
-    incident.far = sqrt(dot(way, way));
-    incident.way = incident.far > 0.0f ? way * (1.0f / incident.far) : start.normal;
-    incident.arrived = light.intensity * share;
+    Float3 direction = lamp - start.position;
+    incident.distance_to_light = sqrt(dot(direction, direction));
+    incident.direction =
+        incident.distance_to_light > 0.0f ? direction * (1.0f / incident.distance_to_light) : start.normal;
+    incident.irradiance = light.intensity * share;
     return incident;
 }
 
@@ -318,23 +320,25 @@ HEARTH_FUNCTION BrickIncident brickIncident(HEARTH_IN(BrickGrid) grid, HEARTH_IN
 HEARTH_FUNCTION Float3 brickDirect(HEARTH_IN(BrickScene) scene, HEARTH_IN(BrickStart) start, Float3 surface,
                                    HEARTH_IN(Light) light)
 {
-    BrickGrid grid = brickGridOf(brickMasksOf(scene));
+    BrickGrid grid = brickMasksGrid(brickSceneMasks(scene));
     Float3 lamp = Float3(0.0f, 0.0f, 0.0f);
     if (light.type != kBrickLightDirectional)
-        lamp = brickLampPlace(scene, (light.position - grid.origin) * (1.0f / grid.voxel_size));
-    BrickIncident incident = brickIncident(grid, start, surface, light, lamp);
-    if (incident.arrived.x + incident.arrived.y + incident.arrived.z <= 0.0f || incident.far <= 0.0f)
-        return incident.arrived;
-    return incident.arrived * brickRayThrough(scene, start.place, incident.way, incident.far);
+        lamp = brickLampPosition(scene, (light.position - grid.origin) * (1.0f / grid.voxel_size));
+    BrickUnshadowedLight incident = brickUnshadowedLight(grid, start, surface, light, lamp);
+    if (incident.irradiance.x + incident.irradiance.y + incident.irradiance.z <= 0.0f ||
+        incident.distance_to_light <= 0.0f)
+        return incident.irradiance;
+    return incident.irradiance *
+           brickTransmittance(scene, start.position, incident.direction, incident.distance_to_light);
 }
 
 /// Return the outgoing radiance of a face.
-/// arrived  over pi, of lights and of rays
-HEARTH_FUNCTION Float3 brickSentOut(Float3 emission, Float3 albedo, Float3 arrived)
+/// irradiance  over pi, of lights and of rays
+HEARTH_FUNCTION Float3 brickOutgoingRadiance(Float3 emission, Float3 albedo, Float3 irradiance)
 {
-    return emission + Float3(min(albedo.x, kBrickMostAlbedo), min(albedo.y, kBrickMostAlbedo),
-                             min(albedo.z, kBrickMostAlbedo)) *
-                          arrived;
+    return emission + Float3(min(albedo.x, kMaxBrickAlbedo), min(albedo.y, kMaxBrickAlbedo),
+                             min(albedo.z, kMaxBrickAlbedo)) *
+                          irradiance;
 }
 
 HEARTH_SHARED_END

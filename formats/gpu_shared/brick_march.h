@@ -2,9 +2,9 @@
 // group in empty ones. One source for C++ and GLSL, to the same bits. J. Amanatides, A. Woo, "A fast voxel
 // traversal algorithm for ray tracing", 1987. cook/bricks/README.md has the measurements.
 //
-//     BrickRay ray = brickMarch(bricks, brickRay(grid, origin, direction, far));
+//     BrickRay ray = brickMarch(bricks, brickRay(grid, origin, direction, max_distance));
 //     while (ray.inside) // in a solid voxel: ray.brick, ray.bit, entered by ray.face at brickDistance(...)
-//         ray = brickMarch(bricks, brickPass(bricks, ray));
+//         ray = brickMarch(bricks, brickSkipVoxel(bricks, ray));
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #ifndef HEARTH_SHARED_BRICK_MARCH_H
 #define HEARTH_SHARED_BRICK_MARCH_H
@@ -36,7 +36,7 @@ struct BrickMasks
     std::span<const BrickGroup> groups;
     std::span<const Brick> bricks;
 };
-inline const BrickGrid& brickGridOf(const BrickMasks& masks)
+inline const BrickGrid& brickMasksGrid(const BrickMasks& masks)
 {
     return masks.grid;
 }
@@ -53,7 +53,7 @@ inline const Brick& brickAt(const BrickMasks& masks, uint brick)
 #define BrickMasks BrickGrid
 BrickGroup brickGroupAt(BrickGrid grid, uint group);
 Brick brickAt(BrickGrid grid, uint brick);
-BrickGrid brickGridOf(BrickGrid grid)
+BrickGrid brickMasksGrid(BrickGrid grid)
 {
     return grid;
 }
@@ -64,7 +64,7 @@ BrickGrid brickGridOf(BrickGrid grid)
 HEARTH_CONSTANT float kBrickParallel = 1e-30f;
 
 /// Length of rays without an end.
-HEARTH_CONSTANT float kBrickFar = 3e38f;
+HEARTH_CONSTANT float kBrickInfinity = 3e38f;
 
 /// Ray and its current voxel. Lengths in voxels, positions from the grid's origin.
 struct BrickRay
@@ -92,29 +92,29 @@ HEARTH_FUNCTION float brickInverse(float along)
 
 /// Return the voxel coordinate of a position on an axis in the ray's direction: on a plane, the voxel that
 /// the ray enters.
-HEARTH_FUNCTION int brickVoxelAt(float place, float inverse, uint voxels)
+HEARTH_FUNCTION int brickVoxelAt(float position, float inverse, uint voxels)
 {
-    int voxel = int(place);
-    voxel = inverse < 0.0f && float(voxel) == place ? voxel - 1 : voxel;
+    int voxel = int(position);
+    voxel = inverse < 0.0f && float(voxel) == position ? voxel - 1 : voxel;
     voxel = voxel < 0 ? 0 : voxel;
     return voxel < int(voxels) ? voxel : int(voxels) - 1;
 }
 
 /// True if the ray enters its voxel across the plane of an axis. False for an axis that it does not move
 /// along, because no position lies on the other side of the voxel there.
-HEARTH_FUNCTION bool brickEnters(float place, float along, int voxel)
+HEARTH_FUNCTION bool brickEnters(float position, float along, int voxel)
 {
-    return place == float(along > 0.0f ? voxel : voxel + 1);
+    return position == float(along > 0.0f ? voxel : voxel + 1);
 }
 
 /// Return a ray in voxels from the grid's origin.
 ///
 /// origin     finite; outside the grid, the ray begins at its entry into the box
 /// direction  unit length within rounding; a longer direction makes distances too short by the same factor
-/// far        length of the ray, > 0; kBrickFar: to the end of the grid
+/// max_distance        length of the ray, > 0; kBrickInfinity: to the end of the grid
 /// returns    the ray in its first voxel, solid or not; `inside` is 0 where it misses the grid
 HEARTH_FUNCTION BrickRay brickRayInVoxels(HEARTH_IN(BrickGrid) grid, Float3 origin, Float3 direction,
-                                          float far)
+                                          float max_distance)
 {
     BrickRay ray;
     ray.direction = Float3(abs(direction.x) < kBrickParallel ? 0.0f : direction.x,
@@ -153,7 +153,7 @@ HEARTH_FUNCTION BrickRay brickRayInVoxels(HEARTH_IN(BrickGrid) grid, Float3 orig
     HEARTH_PRECISE float end_x = ((up_x ? most.x : 0.0f) - start_x) * ray.inverse.x;
     HEARTH_PRECISE float end_y = ((up_y ? most.y : 0.0f) - start_y) * ray.inverse.y;
     HEARTH_PRECISE float end_z = ((up_z ? most.z : 0.0f) - start_z) * ray.inverse.z;
-    HEARTH_PRECISE float rest = far - enter;
+    HEARTH_PRECISE float rest = max_distance - enter;
     ray.end = min(min(end_x, end_y), min(end_z, rest));
     ray.t = 0.0f;
     ray.inside = ray.end > 0.0f ? 1u : 0u;
@@ -175,14 +175,15 @@ HEARTH_FUNCTION BrickRay brickRayInVoxels(HEARTH_IN(BrickGrid) grid, Float3 orig
 }
 
 /// Return a ray in world space.
-/// far  length in metres
-HEARTH_FUNCTION BrickRay brickRay(HEARTH_IN(BrickGrid) grid, Float3 origin, Float3 direction, float far)
+/// max_distance  length in metres
+HEARTH_FUNCTION BrickRay brickRay(HEARTH_IN(BrickGrid) grid, Float3 origin, Float3 direction,
+                                  float max_distance)
 {
     HEARTH_PRECISE float x = (origin.x - grid.origin.x) / grid.voxel_size;
     HEARTH_PRECISE float y = (origin.y - grid.origin.y) / grid.voxel_size;
     HEARTH_PRECISE float z = (origin.z - grid.origin.z) / grid.voxel_size;
-    HEARTH_PRECISE float far_voxels = far / grid.voxel_size;
-    return brickRayInVoxels(grid, Float3(x, y, z), direction, far_voxels);
+    HEARTH_PRECISE float max_voxels = max_distance / grid.voxel_size;
+    return brickRayInVoxels(grid, Float3(x, y, z), direction, max_voxels);
 }
 
 /// Return the distance in metres from the ray's origin to its entry into the current voxel.
@@ -193,8 +194,8 @@ HEARTH_FUNCTION float brickDistance(HEARTH_IN(BrickGrid) grid, HEARTH_IN(BrickRa
 }
 
 /// Leave the cell of `edge` voxels each way (1, 4 or 16) that the voxel lies in. Sets only the crossed
-/// coordinate; brickCatchUp moves the others, which keep their old values inside the cell.
-HEARTH_FUNCTION BrickRay brickLeave(BrickRay ray, int edge)
+/// coordinate; updateBrickVoxel moves the others, which keep their old values inside the cell.
+HEARTH_FUNCTION BrickRay brickLeaveCell(BrickRay ray, int edge)
 {
     int up_x = ray.inverse.x > 0.0f ? -1 : 0;
     int up_y = ray.inverse.y > 0.0f ? -1 : 0;
@@ -220,29 +221,29 @@ HEARTH_FUNCTION BrickRay brickLeave(BrickRay ray, int edge)
     return ray;
 }
 
-/// Return a coordinate that may have advanced inside its cell of `edge` voxels, to `place`.
-HEARTH_FUNCTION int brickReached(int voxel, int edge, float place, float inverse)
+/// Return a coordinate that may have advanced inside its cell of `edge` voxels, to `position`.
+HEARTH_FUNCTION int advanceBrickVoxel(int voxel, int edge, float position, float inverse)
 {
     int base = voxel & -edge;
     int least = inverse > 0.0f ? voxel : base;
     int most = inverse > 0.0f ? base + edge - 1 : voxel;
-    int reached = int(place);
+    int reached = int(position);
     return reached < least ? least : reached > most ? most : reached;
 }
 
 /// Return the ray with its voxel advanced to the entry into its cell of `edge` voxels each way.
-HEARTH_FUNCTION BrickRay brickCatchUp(BrickRay ray, int edge)
+HEARTH_FUNCTION BrickRay updateBrickVoxel(BrickRay ray, int edge)
 {
     HEARTH_PRECISE float place_x = ray.start.x + ray.t * ray.direction.x;
     HEARTH_PRECISE float place_y = ray.start.y + ray.t * ray.direction.y;
     HEARTH_PRECISE float place_z = ray.start.z + ray.t * ray.direction.z;
     // not along the crossed axis: that coordinate is exact
     if (ray.face > 1u)
-        ray.x = brickReached(ray.x, edge, place_x, ray.inverse.x);
+        ray.x = advanceBrickVoxel(ray.x, edge, place_x, ray.inverse.x);
     if (ray.face < 2u || ray.face > 3u)
-        ray.y = brickReached(ray.y, edge, place_y, ray.inverse.y);
+        ray.y = advanceBrickVoxel(ray.y, edge, place_y, ray.inverse.y);
     if (ray.face < 4u)
-        ray.z = brickReached(ray.z, edge, place_z, ray.inverse.z);
+        ray.z = advanceBrickVoxel(ray.z, edge, place_z, ray.inverse.z);
     return ray;
 }
 
@@ -250,9 +251,9 @@ HEARTH_FUNCTION BrickRay brickCatchUp(BrickRay ray, int edge)
 /// if there is none. A voxel counts as solid whatever its opacity.
 HEARTH_FUNCTION BrickRay brickMarch(HEARTH_IN(BrickMasks) masks, BrickRay ray)
 {
-    BrickGrid grid = brickGridOf(masks);
-    uint groups_x = brickGroups(grid.voxels_x);
-    uint groups_xy = groups_x * brickGroups(grid.voxels_y);
+    BrickGrid grid = brickMasksGrid(masks);
+    uint groups_x = brickGroupsAlongAxis(grid.voxels_x);
+    uint groups_xy = groups_x * brickGroupsAlongAxis(grid.voxels_y);
     // edge of the cell that is known to contain the voxel: the coordinates inside the cell may be old
     int known = 1;
     while (ray.inside != 0u)
@@ -262,25 +263,25 @@ HEARTH_FUNCTION BrickRay brickMarch(HEARTH_IN(BrickMasks) masks, BrickRay ray)
         if ((group.brick_mask_low | group.brick_mask_high) == 0u)
         {
             known = 16;
-            ray = brickLeave(ray, 16);
+            ray = brickLeaveCell(ray, 16);
             continue;
         }
         if (known == 16)
         {
             known = 1;
-            ray = brickCatchUp(ray, 16);
+            ray = updateBrickVoxel(ray, 16);
         }
         uint brick_bit = brickBit(uint(ray.x >> 2), uint(ray.y >> 2), uint(ray.z >> 2));
         if (!maskHas(group.brick_mask_low, group.brick_mask_high, brick_bit))
         {
             known = 4;
-            ray = brickLeave(ray, 4);
+            ray = brickLeaveCell(ray, 4);
             continue;
         }
         if (known == 4)
         {
             known = 1;
-            ray = brickCatchUp(ray, 4);
+            ray = updateBrickVoxel(ray, 4);
         }
         ray.brick =
             group.first_brick + maskCountBelow(group.brick_mask_low, group.brick_mask_high, brick_bit);
@@ -295,16 +296,16 @@ HEARTH_FUNCTION BrickRay brickMarch(HEARTH_IN(BrickMasks) masks, BrickRay ray)
             ray.bit = brickBit(uint(ray.x), uint(ray.y), uint(ray.z));
             if (maskHas(low, high, ray.bit))
                 return ray;
-            ray = brickLeave(ray, 1);
+            ray = brickLeaveCell(ray, 1);
         }
     }
     return ray;
 }
 
 /// Return the ray in the next voxel, to continue behind a voxel that is not opaque.
-HEARTH_FUNCTION BrickRay brickPass(HEARTH_IN(BrickMasks), BrickRay ray)
+HEARTH_FUNCTION BrickRay brickSkipVoxel(HEARTH_IN(BrickMasks), BrickRay ray)
 {
-    return brickLeave(ray, 1);
+    return brickLeaveCell(ray, 1);
 }
 
 HEARTH_SHARED_END

@@ -14,7 +14,7 @@
 HEARTH_SHARED_BEGIN
 
 /// Transmittance below which a ray ends.
-HEARTH_CONSTANT float kBrickLeastThrough = 0.00390625f;
+HEARTH_CONSTANT float kMinBrickTransmittance = 0.00390625f;
 
 /// Distance in voxels off a face at which a ray is certainly in the air beside it: coordinates up to 2^14
 /// round to 2^-11.
@@ -41,7 +41,7 @@ HEARTH_FUNCTION uint brickFaceSeed(uint x, uint y, uint z, uint face)
 }
 
 /// Return a number in [0, 1): the upper 24 bits, which a float holds exactly.
-HEARTH_FUNCTION float brickUnit(uint bits)
+HEARTH_FUNCTION float brickRandomUnit(uint bits)
 {
     return float(bits >> 8) * 5.9604644775390625e-8f;
 }
@@ -53,8 +53,8 @@ HEARTH_FUNCTION float brickUnit(uint bits)
 ///         cook/sampling/maps.h
 HEARTH_FUNCTION Float3 brickRayDirection(Float3 normal, uint index, uint count, uint seed)
 {
-    HEARTH_PRECISE float u = (float(index) + brickUnit(seed)) / float(count);
-    HEARTH_PRECISE float quarters = brickUnit(index * 2654435769u + brickHash(seed)) * 4.0f;
+    HEARTH_PRECISE float u = (float(index) + brickRandomUnit(seed)) / float(count);
+    HEARTH_PRECISE float quarters = brickRandomUnit(index * 2654435769u + brickHash(seed)) * 4.0f;
     uint quarter = uint(quarters + 0.5f);
     HEARTH_PRECISE float angle = (quarters - float(quarter)) * 1.57079633f;
     HEARTH_PRECISE float a = angle * angle;
@@ -123,17 +123,17 @@ struct BrickLight
 HEARTH_FUNCTION float brickCodeStep(float value, uint mantissa_bits)
 {
     uint exponent = floatBits(value) >> 23;
-    return floatOfBits(((exponent > 113u ? exponent : 113u) - mantissa_bits) << 23);
+    return floatFromBits(((exponent > 113u ? exponent : 113u) - mantissa_bits) << 23);
 }
 
-HEARTH_FUNCTION uint brickRestOf(float value, float coded, uint mantissa_bits)
+HEARTH_FUNCTION uint encodeBrickRest(float value, float coded, uint mantissa_bits)
 {
     float steps = (value - coded) / brickCodeStep(coded, mantissa_bits);
     // the largest code stands for all larger values
     return uint(int(floor(min(max(steps, -0.5f), 0.5f) * 1022.0f + 0.5f))) & 1023u;
 }
 
-HEARTH_FUNCTION float brickWithRest(float coded, uint rest, uint mantissa_bits)
+HEARTH_FUNCTION float decodeBrickRest(float coded, uint rest, uint mantissa_bits)
 {
     return coded + float(int(rest << 22) >> 22) / 1022.0f * brickCodeStep(coded, mantissa_bits);
 }
@@ -145,16 +145,16 @@ HEARTH_FUNCTION BrickLight encodeBrickLight(Float3 radiance)
     BrickLight light;
     light.code = encodeRadiance(radiance);
     Float3 coded = decodeRadiance(light.code);
-    light.rest = brickRestOf(radiance.x, coded.x, 6u) | brickRestOf(radiance.y, coded.y, 6u) << 10 |
-                 brickRestOf(radiance.z, coded.z, 5u) << 20;
+    light.rest = encodeBrickRest(radiance.x, coded.x, 6u) | encodeBrickRest(radiance.y, coded.y, 6u) << 10 |
+                 encodeBrickRest(radiance.z, coded.z, 5u) << 20;
     return light;
 }
 
 HEARTH_FUNCTION Float3 decodeBrickLight(BrickLight light)
 {
     Float3 coded = decodeRadiance(light.code);
-    return Float3(brickWithRest(coded.x, light.rest, 6u), brickWithRest(coded.y, light.rest >> 10, 6u),
-                  brickWithRest(coded.z, light.rest >> 20, 5u));
+    return Float3(decodeBrickRest(coded.x, light.rest, 6u), decodeBrickRest(coded.y, light.rest >> 10, 6u),
+                  decodeBrickRest(coded.z, light.rest >> 20, 5u));
 }
 
 // ---- rays
@@ -167,7 +167,7 @@ struct BrickScene
     std::span<const uint8_t> opacity;  ///< one for each solid voxel
     std::span<const BrickLight> light; ///< one for each face
 };
-inline const BrickMasks& brickMasksOf(const BrickScene& scene)
+inline const BrickMasks& brickSceneMasks(const BrickScene& scene)
 {
     return scene.masks;
 }
@@ -186,7 +186,7 @@ inline Float3 brickRadianceAt(const BrickScene& scene, uint face)
 #define BrickScene BrickGrid
 float brickOpacityAt(BrickGrid grid, uint voxel);
 vec3 brickRadianceAt(BrickGrid grid, uint face);
-BrickGrid brickMasksOf(BrickGrid grid)
+BrickGrid brickSceneMasks(BrickGrid grid)
 {
     return grid;
 }
@@ -200,7 +200,7 @@ struct BrickSky
     Float3 ground;
 };
 
-HEARTH_FUNCTION float brickSmooth(float from, float to, float x)
+HEARTH_FUNCTION float brickSmoothstep(float from, float to, float x)
 {
     float t = min(max((x - from) / (to - from), 0.0f), 1.0f);
     return t * t * (3.0f - 2.0f * t);
@@ -210,8 +210,8 @@ HEARTH_FUNCTION float brickSmooth(float from, float to, float x)
 /// 0.2.
 HEARTH_FUNCTION Float3 brickSkyRadiance(HEARTH_IN(BrickSky) sky, Float3 direction)
 {
-    Float3 above = sky.horizon + (sky.zenith - sky.horizon) * brickSmooth(-0.2f, 1.0f, direction.y);
-    return sky.ground + (above - sky.ground) * brickSmooth(-0.296f, 0.296f, direction.y);
+    Float3 above = sky.horizon + (sky.zenith - sky.horizon) * brickSmoothstep(-0.2f, 1.0f, direction.y);
+    return sky.ground + (above - sky.ground) * brickSmoothstep(-0.296f, 0.296f, direction.y);
 }
 
 struct BrickRayLight
@@ -223,7 +223,7 @@ struct BrickRayLight
 /// Return the light along a ray: the radiance of the faces that it meets, weighted by the opacity of their
 /// voxels, and behind them the sky's.
 /// ray  in its first solid voxel, as brickMarch finds it
-HEARTH_FUNCTION BrickRayLight brickLightAlong(HEARTH_IN(BrickScene) scene, HEARTH_IN(BrickSky) sky,
+HEARTH_FUNCTION BrickRayLight traceBrickLight(HEARTH_IN(BrickScene) scene, HEARTH_IN(BrickSky) sky,
                                               BrickRay ray)
 {
     BrickRayLight light;
@@ -232,15 +232,15 @@ HEARTH_FUNCTION BrickRayLight brickLightAlong(HEARTH_IN(BrickScene) scene, HEART
     float through = 1.0f;
     while (ray.inside != 0u)
     {
-        Brick brick = brickAt(brickMasksOf(scene), ray.brick);
+        Brick brick = brickAt(brickSceneMasks(scene), ray.brick);
         float opacity = brickOpacityAt(scene, brickVoxel(brick, ray.bit));
         uint face = brickFace(brick, ray.bit, ray.face);
         if (face != kNoFace)
             light.radiance = light.radiance + brickRadianceAt(scene, face) * (through * opacity);
         through *= 1.0f - opacity;
-        if (through < kBrickLeastThrough)
+        if (through < kMinBrickTransmittance)
             return light;
-        ray = brickMarch(brickMasksOf(scene), brickPass(brickMasksOf(scene), ray));
+        ray = brickMarch(brickSceneMasks(scene), brickSkipVoxel(brickSceneMasks(scene), ray));
     }
     light.radiance = light.radiance + brickSkyRadiance(sky, ray.direction) * through;
     light.sky = through;
@@ -248,30 +248,32 @@ HEARTH_FUNCTION BrickRayLight brickLightAlong(HEARTH_IN(BrickScene) scene, HEART
 }
 
 /// Return the light along a ray from a position.
-/// place      in voxels
+/// position      in voxels
 /// direction  unit
 HEARTH_FUNCTION BrickRayLight brickRayLight(HEARTH_IN(BrickScene) scene, HEARTH_IN(BrickSky) sky,
-                                            Float3 place, Float3 direction)
+                                            Float3 position, Float3 direction)
 {
-    return brickLightAlong(scene, sky,
-                           brickMarch(brickMasksOf(scene), brickRayInVoxels(brickGridOf(brickMasksOf(scene)),
-                                                                            place, direction, kBrickFar)));
+    return traceBrickLight(
+        scene, sky,
+        brickMarch(brickSceneMasks(scene), brickRayInVoxels(brickMasksGrid(brickSceneMasks(scene)), position,
+                                                            direction, kBrickInfinity)));
 }
 
 /// Return the transmittance along a ray, [0, 1].
-/// far  length in voxels
-HEARTH_FUNCTION float brickRayThrough(HEARTH_IN(BrickScene) scene, Float3 place, Float3 direction, float far)
+/// max_distance  length in voxels
+HEARTH_FUNCTION float brickTransmittance(HEARTH_IN(BrickScene) scene, Float3 position, Float3 direction,
+                                         float max_distance)
 {
     float through = 1.0f;
-    BrickRay ray = brickMarch(brickMasksOf(scene),
-                              brickRayInVoxels(brickGridOf(brickMasksOf(scene)), place, direction, far));
+    BrickRay ray = brickMarch(brickSceneMasks(scene), brickRayInVoxels(brickMasksGrid(brickSceneMasks(scene)),
+                                                                       position, direction, max_distance));
     while (ray.inside != 0u)
     {
-        Brick brick = brickAt(brickMasksOf(scene), ray.brick);
+        Brick brick = brickAt(brickSceneMasks(scene), ray.brick);
         through *= 1.0f - brickOpacityAt(scene, brickVoxel(brick, ray.bit));
-        if (through < kBrickLeastThrough)
+        if (through < kMinBrickTransmittance)
             return 0.0f;
-        ray = brickMarch(brickMasksOf(scene), brickPass(brickMasksOf(scene), ray));
+        ray = brickMarch(brickSceneMasks(scene), brickSkipVoxel(brickSceneMasks(scene), ray));
     }
     return through;
 }

@@ -13,9 +13,9 @@ HEARTH_CONSTANT uint kMaxEmissionBoxes = 8;
 /// Box that scales the emission of all faces of voxels with their middle inside by `factor`.
 struct EmissionBox
 {
-    Float3 least; ///< lower corner, voxels from the grid's origin
+    Float3 box_min; ///< lower corner, voxels from the grid's origin
     float factor;
-    Float3 most;
+    Float3 box_max;
     float reserved;
 };
 
@@ -24,8 +24,8 @@ struct BrickView
     BrickGrid grid;
     uint face_count;
     uint first_brick;  ///< first of the bricks whose faces the frame lights
-    uint share_bricks; ///< number of these bricks
-    uint share_faces;  ///< number of their faces, which are contiguous
+    uint slice_bricks; ///< number of these bricks
+    uint slice_faces;  ///< number of their faces, which are contiguous
     uint emission_box_count;
     uint light_rays; ///< rays of one face
     uint reserved0;
@@ -34,7 +34,7 @@ struct BrickView
 };
 
 /// Location of a brick: its first voxel.
-struct BrickPlace
+struct BrickLocation
 {
     uint xy; ///< x, y << 16
     uint z;

@@ -54,10 +54,10 @@ struct BrickGrid
 
 /// Distance in voxels within which a surface near a plane between voxels counts as in the plane: it belongs
 /// to the voxels behind it.
-HEARTH_CONSTANT float kBrickPlaneReach = 0.015625f;
+HEARTH_CONSTANT float kBrickPlaneTolerance = 0.015625f;
 
 /// Return the number of groups along an axis of this many voxels.
-HEARTH_FUNCTION uint brickGroups(uint voxels)
+HEARTH_FUNCTION uint brickGroupsAlongAxis(uint voxels)
 {
     return (voxels + (kGroupVoxels - 1u)) / kGroupVoxels;
 }

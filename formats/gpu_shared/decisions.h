@@ -22,10 +22,10 @@ HEARTH_CONSTANT float kConeMargin = 1e-3f;
 HEARTH_CONSTANT float kApexMargin = 1e-4f;
 
 /// Lower bound of the threshold in pixels for page requests: a threshold may be 0 or negative.
-HEARTH_CONSTANT float kLeastRequestThreshold = 0.015625f;
+HEARTH_CONSTANT float kMinRequestThreshold = 0.015625f;
 
 /// Largest finite error. Errors above are infinite: the group is a root, without a coarser version.
-HEARTH_CONSTANT float kLargestError = 1e38f;
+HEARTH_CONSTANT float kMaxFiniteError = 1e38f;
 
 HEARTH_FUNCTION float dot3(Float3 a, Float3 b)
 {
@@ -50,7 +50,7 @@ HEARTH_FUNCTION Float3 row3(Float4 row)
 }
 
 /// Return a point in object space relative to the eye, in world axes.
-HEARTH_FUNCTION Float3 relativePoint(HEARTH_IN(Instance) instance, Float3 eye, Float3 point)
+HEARTH_FUNCTION Float3 toEyeRelative(HEARTH_IN(Instance) instance, Float3 eye, Float3 point)
 {
     HEARTH_PRECISE float x =
         dot3(row3(instance.world_from_object_x), point) + (instance.world_from_object_x.w - eye.x);
@@ -77,7 +77,7 @@ HEARTH_FUNCTION bool boxOutsideFrustum(HEARTH_IN(FrameView) view, HEARTH_IN(Inst
 {
     HEARTH_PRECISE Float3 center = (box_min + box_max) * 0.5f;
     HEARTH_PRECISE Float3 half_size = (box_max - box_min) * 0.5f;
-    HEARTH_PRECISE Float3 relative = relativePoint(instance, view.eye, center);
+    HEARTH_PRECISE Float3 relative = toEyeRelative(instance, view.eye, center);
     Float3 row_x = abs3(row3(instance.world_from_object_x));
     Float3 row_y = abs3(row3(instance.world_from_object_y));
     Float3 row_z = abs3(row3(instance.world_from_object_z));
@@ -126,7 +126,7 @@ struct ScreenError
 HEARTH_FUNCTION ScreenError screenError(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
                                         Float3 sphere_center, float sphere_radius, float error)
 {
-    HEARTH_PRECISE Float3 relative = relativePoint(instance, view.eye, sphere_center);
+    HEARTH_PRECISE Float3 relative = toEyeRelative(instance, view.eye, sphere_center);
     HEARTH_PRECISE float distance =
         max(sqrt(dot3(relative, relative)) - instance.scale_max * sphere_radius, view.z_near);
     HEARTH_PRECISE float pixels_m =
@@ -142,7 +142,7 @@ HEARTH_FUNCTION ScreenError screenError(HEARTH_IN(FrameView) view, HEARTH_IN(Ins
 HEARTH_FUNCTION bool errorExceeds(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
                                   Float3 sphere_center, float sphere_radius, float error)
 {
-    if (error > kLargestError)
+    if (error > kMaxFiniteError)
         return true;
     ScreenError on_screen = screenError(view, instance, sphere_center, sphere_radius, error);
     HEARTH_PRECISE float allowed_pixels_m = view.threshold * on_screen.distance;
@@ -270,9 +270,9 @@ HEARTH_FUNCTION bool coneFacesAway(HEARTH_IN(InstanceState) state, HEARTH_IN(Clu
 }
 
 /// True if a shadow caster view leaves out the instance.
-HEARTH_FUNCTION bool instanceLeftOut(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance)
+HEARTH_FUNCTION bool isExcludedCaster(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance)
 {
-    uint left_out = (instance.flags & kInstanceMoves) != 0u ? kCullMoving : kCullResting;
+    uint left_out = (instance.flags & kInstanceMoved) != 0u ? kCullMoving : kCullStatic;
     return (view.flags & left_out) != 0u;
 }
 
@@ -292,7 +292,7 @@ HEARTH_FUNCTION InstanceState decideInstance(HEARTH_IN(FrameView) view, HEARTH_I
     if ((view.flags & kCullInstances) != 0u &&
         boxOutsideFrustum(view, instance, bounds.box_min, bounds.box_max))
         state.visible = kInstanceHidden;
-    if (instanceLeftOut(view, instance))
+    if (isExcludedCaster(view, instance))
         state.visible = kInstanceHidden;
     // an empty mesh has an empty box
     if (bounds.box_min.x > bounds.box_max.x)
@@ -306,17 +306,17 @@ HEARTH_FUNCTION InstanceState decideInstance(HEARTH_IN(FrameView) view, HEARTH_I
 /// Return the priority of a group's page, resident or not. 0 if the group's simplified version is good
 /// enough, else higher for a larger ratio of error to threshold: the bits of both as floats are subtracted,
 /// about 2^23 log2(E / threshold), without a division. Roots are always resident and not requested.
-HEARTH_FUNCTION uint groupRequest(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
-                                  HEARTH_IN(Group) group)
+HEARTH_FUNCTION uint groupPriority(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
+                                   HEARTH_IN(Group) group)
 {
-    if (group.error > kLargestError)
+    if (group.error > kMaxFiniteError)
         return 0u;
     ScreenError on_screen =
         screenError(view, instance, group.sphere_center, group.sphere_radius, group.error);
     HEARTH_PRECISE float allowed_pixels_m = view.threshold * on_screen.distance;
     if (!(on_screen.pixels_m > allowed_pixels_m))
         return 0u;
-    HEARTH_PRECISE float least_pixels_m = max(view.threshold, kLeastRequestThreshold) * on_screen.distance;
+    HEARTH_PRECISE float least_pixels_m = max(view.threshold, kMinRequestThreshold) * on_screen.distance;
     uint error_bits = floatBits(on_screen.pixels_m);
     uint least_bits = floatBits(least_pixels_m);
     return error_bits > least_bits ? error_bits - least_bits : 1u;

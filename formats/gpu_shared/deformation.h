@@ -51,10 +51,10 @@ struct Pose
     uint cluster_row; ///< row of cluster 0 of the pack, as if it belonged to this mesh; may wrap around
     uint flags;       ///< bits kPose*
     /// Bounding sphere of the whole instance in a free pose: centre, from the instance's origin.
-    Float3 free_center;
-    float free_radius; ///< in units of the instance's scale_max
+    Float3 free_bounds_center;
+    float free_bounds_radius; ///< in units of the instance's scale_max
     /// Factor of bind boxes around their middles: the largest absolute morph weight, at least 1
-    float free_stretch;
+    float free_box_scale;
     uint unused_x;
     uint unused_y;
     uint unused_z;
@@ -123,42 +123,42 @@ HEARTH_FUNCTION OcclusionView occlusionFromOrigin(HEARTH_IN(OcclusionView) view,
 }
 
 /// Transformed bounding box of a cluster, from the instance's origin.
-struct CarriedBox
+struct TransformedBox
 {
-    Instance carrier;
+    Instance joint_instance;
     Float3 box_min;
     Float3 box_max;
 };
 
-HEARTH_FUNCTION Instance carrierOf(HEARTH_IN(Instance) instance, HEARTH_IN(PaletteRow) joint)
+HEARTH_FUNCTION Instance instanceOfJoint(HEARTH_IN(Instance) instance, HEARTH_IN(PaletteRow) joint)
 {
-    Instance carrier = instance;
-    carrier.world_from_object_x = joint.world_from_bind_x;
-    carrier.world_from_object_y = joint.world_from_bind_y;
-    carrier.world_from_object_z = joint.world_from_bind_z;
-    return carrier;
+    Instance joint_instance = instance;
+    joint_instance.world_from_object_x = joint.world_from_bind_x;
+    joint_instance.world_from_object_y = joint.world_from_bind_y;
+    joint_instance.world_from_object_z = joint.world_from_bind_z;
+    return joint_instance;
 }
 
 /// Return the box of a cluster in a pose of the clips.
 /// joint  palette row of the cluster's joint
-HEARTH_FUNCTION CarriedBox boxInClips(HEARTH_IN(Instance) instance, HEARTH_IN(PaletteRow) joint,
-                                      HEARTH_IN(DeformedCluster) cluster)
+HEARTH_FUNCTION TransformedBox boxInClips(HEARTH_IN(Instance) instance, HEARTH_IN(PaletteRow) joint,
+                                          HEARTH_IN(DeformedCluster) cluster)
 {
-    CarriedBox box;
-    box.carrier = carrierOf(instance, joint);
+    TransformedBox box;
+    box.joint_instance = instanceOfJoint(instance, joint);
     box.box_min = cluster.box_min;
     box.box_max = cluster.box_max;
     return box;
 }
 
-/// Return an empty box for a free pose. Call grownBy for each joint that moves the cluster.
-HEARTH_FUNCTION CarriedBox emptyFreeBox(HEARTH_IN(Instance) instance)
+/// Return an empty box for a free pose. Call growByJoint for each joint that moves the cluster.
+HEARTH_FUNCTION TransformedBox makeEmptyFreeBox(HEARTH_IN(Instance) instance)
 {
-    CarriedBox box;
-    box.carrier = instance;
-    box.carrier.world_from_object_x = Float4(1.0f, 0.0f, 0.0f, 0.0f);
-    box.carrier.world_from_object_y = Float4(0.0f, 1.0f, 0.0f, 0.0f);
-    box.carrier.world_from_object_z = Float4(0.0f, 0.0f, 1.0f, 0.0f);
+    TransformedBox box;
+    box.joint_instance = instance;
+    box.joint_instance.world_from_object_x = Float4(1.0f, 0.0f, 0.0f, 0.0f);
+    box.joint_instance.world_from_object_y = Float4(0.0f, 1.0f, 0.0f, 0.0f);
+    box.joint_instance.world_from_object_z = Float4(0.0f, 0.0f, 1.0f, 0.0f);
     box.box_min = Float3(kUnbounded, kUnbounded, kUnbounded);
     box.box_max = Float3(-kUnbounded, -kUnbounded, -kUnbounded);
     return box;
@@ -168,8 +168,8 @@ HEARTH_FUNCTION CarriedBox emptyFreeBox(HEARTH_IN(Instance) instance)
 /// positions under each single joint, so the union of the boxes contains the cluster whatever the weights.
 /// Morph targets enlarge the bind box beyond the vertices by at most half of its size, so the box scaled by a
 /// weight contains that weight's displacement.
-HEARTH_FUNCTION CarriedBox grownBy(HEARTH_IN(CarriedBox) box, HEARTH_IN(PaletteRow) joint, Float3 bind_min,
-                                   Float3 bind_max, float stretch)
+HEARTH_FUNCTION TransformedBox growByJoint(HEARTH_IN(TransformedBox) box, HEARTH_IN(PaletteRow) joint,
+                                           Float3 bind_min, Float3 bind_max, float stretch)
 {
     HEARTH_PRECISE Float3 center = (bind_min + bind_max) * 0.5f;
     HEARTH_PRECISE Float3 half_size = (bind_max - bind_min) * (0.5f * stretch);
@@ -189,7 +189,7 @@ HEARTH_FUNCTION CarriedBox grownBy(HEARTH_IN(CarriedBox) box, HEARTH_IN(PaletteR
         magnitude * kRoundingSlack;
     HEARTH_PRECISE Float3 low = at - extent;
     HEARTH_PRECISE Float3 high = at + extent;
-    CarriedBox grown = box;
+    TransformedBox grown = box;
     grown.box_min = Float3(min(box.box_min.x, low.x), min(box.box_min.y, low.y), min(box.box_min.z, low.z));
     grown.box_max =
         Float3(max(box.box_max.x, high.x), max(box.box_max.y, high.y), max(box.box_max.z, high.z));
@@ -203,8 +203,8 @@ HEARTH_FUNCTION Group groupInPose(HEARTH_IN(Group) group, HEARTH_IN(Pose) pose)
     Group placed = group;
     if ((pose.flags & kPoseFree) != 0u)
     {
-        placed.sphere_center = pose.free_center;
-        placed.sphere_radius = pose.free_radius;
+        placed.sphere_center = pose.free_bounds_center;
+        placed.sphere_radius = pose.free_bounds_radius;
     }
     return placed;
 }
@@ -220,10 +220,10 @@ HEARTH_FUNCTION bool deformedInCut(HEARTH_IN(FrameView) view, HEARTH_IN(Instance
 
 /// True if the cluster passes the frustum test.
 HEARTH_FUNCTION bool deformedInFrustum(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
-                                       HEARTH_IN(CarriedBox) box)
+                                       HEARTH_IN(TransformedBox) box)
 {
     return (view.flags & kCullFrustum) == 0u ||
-           !boxOutsideFrustum(viewFromOrigin(view, instance), box.carrier, box.box_min, box.box_max);
+           !boxOutsideFrustum(viewFromOrigin(view, instance), box.joint_instance, box.box_min, box.box_max);
 }
 
 /// True if every triangle faces away, in a pose of the clips.

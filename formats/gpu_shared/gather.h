@@ -18,7 +18,7 @@
 HEARTH_SHARED_BEGIN
 
 /// Side of a tile, in pixels.
-HEARTH_CONSTANT uint kGatherPixels = 8;
+HEARTH_CONSTANT uint kGatherTilePixels = 8;
 
 /// Rays of a point in one frame, and number of frames after which their directions repeat.
 HEARTH_CONSTANT uint kGatherRays = 16;
@@ -29,32 +29,32 @@ HEARTH_CONSTANT uint kGatherLobeRays = 8;
 
 /// Roughness of the lobes. Half of the sharp lobe lies within .08 of the mirror direction, as wide as a voxel
 /// at a distance of 12 voxels: a sharper lobe would show voxels.
-HEARTH_CONSTANT float kGatherSharp = 0.2f;
-HEARTH_CONSTANT float kGatherWide = 0.55f;
+HEARTH_CONSTANT float kGatherSharpRoughness = 0.2f;
+HEARTH_CONSTANT float kGatherWideRoughness = 0.55f;
 
 /// Frames that the lobes average, about: short, because lobes depend on the eye.
-HEARTH_CONSTANT float kGatherLobeMemory = 8.0f;
+HEARTH_CONSTANT float kGatherLobeHistoryFrames = 8.0f;
 
 /// Points of a workgroup.
 HEARTH_CONSTANT uint kGatherGroupPoints = 4;
 
 /// Radius of the smoothing filter, in tiles.
-HEARTH_CONSTANT int kGatherReach = 3;
+HEARTH_CONSTANT int kGatherFilterRadius = 3;
 
 /// Frames that a point averages, about: at rest, and after light has changed.
-HEARTH_CONSTANT float kGatherMemory = 32.0f;
-HEARTH_CONSTANT float kGatherShortMemory = 4.0f;
+HEARTH_CONSTANT float kGatherHistoryFrames = 32.0f;
+HEARTH_CONSTANT float kGatherShortHistoryFrames = 4.0f;
 
 /// Gathered light of a tile.
 struct GatherPoint
 {
     Float3 position; ///< relative to the eye of its frame
-    float count;     ///< frames gathered, up to GatherView::memory; 0: its point is enclosed by bricks
-    Float3 normal;   ///< unit, world axes
-    float sky;       ///< fraction of its rays that met no brick
-    Float3 mean;     ///< m0, linear colour
-    float seen;      ///< 0: the tile contains only sky, 1: a surface
-    Float4 red;      ///< m1 of each colour, world axes; w: radiance of the sharp lobe
+    float count;   ///< frames gathered, up to GatherView::history_frames; 0: its point is enclosed by bricks
+    Float3 normal; ///< unit, world axes
+    float sky;     ///< fraction of its rays that met no brick
+    Float3 mean;   ///< m0, linear colour
+    float has_surface; ///< 0: the tile contains only sky, 1: a surface
+    Float4 red;        ///< m1 of each colour, world axes; w: radiance of the sharp lobe
     Float4 green;
     Float4 blue;
     Float3 wide; ///< radiance of the wide lobe
@@ -67,13 +67,13 @@ struct GatherView
     Float4 clip_x; ///< matrix of the frame before, as FrameView
     Float4 clip_y;
     Float4 clip_w;
-    Float3 eye_step; ///< from the eye of the frame before to this frame's eye, metres
-    float memory;    ///< kGatherMemory, or fewer frames
-    Float3 eye;      ///< from the grid's origin, metres
-    uint frame;      ///< frame counter
+    Float3 eye_step;      ///< from the eye of the frame before to this frame's eye, metres
+    float history_frames; ///< kGatherHistoryFrames, or fewer frames
+    Float3 eye;           ///< from the grid's origin, metres
+    uint frame;           ///< frame counter
     uint tiles_x;
     uint tiles_y;
-    uint known;       ///< 0: there is no frame before
+    uint has_history; ///< 0: there is no frame before
     float tile_angle; ///< metres that a tile covers at a distance of one metre
 };
 
@@ -85,13 +85,13 @@ struct GatherLobeShares
     float cosine;
 };
 
-/// Return the weights, linear between kGatherSharp, kGatherWide and 1, where a lobe is close to the cosine's.
-/// Below kGatherSharp the sharp lobe has all the weight.
+/// Return the weights, linear between kGatherSharpRoughness, kGatherWideRoughness and 1, where a lobe is close to the cosine's.
+/// Below kGatherSharpRoughness the sharp lobe has all the weight.
 /// roughness  perceptual
 HEARTH_FUNCTION GatherLobeShares gatherLobeShares(float roughness)
 {
-    float to_wide = (roughness - kGatherSharp) / (kGatherWide - kGatherSharp);
-    float to_cosine = (roughness - kGatherWide) / (1.0f - kGatherWide);
+    float to_wide = (roughness - kGatherSharpRoughness) / (kGatherWideRoughness - kGatherSharpRoughness);
+    float to_cosine = (roughness - kGatherWideRoughness) / (1.0f - kGatherWideRoughness);
     GatherLobeShares shares;
     shares.cosine = min(max(to_cosine, 0.0f), 1.0f);
     shares.sharp = 1.0f - min(max(to_wide, 0.0f), 1.0f);
@@ -101,7 +101,7 @@ HEARTH_FUNCTION GatherLobeShares gatherLobeShares(float roughness)
 
 HEARTH_FUNCTION uint gatherTiles(uint pixels)
 {
-    return (pixels + kGatherPixels - 1u) / kGatherPixels;
+    return (pixels + kGatherTilePixels - 1u) / kGatherTilePixels;
 }
 
 HEARTH_SHARED_END

@@ -16,14 +16,14 @@ struct GatherLobeRay
     float weight;
 };
 
-HEARTH_FUNCTION Float3 gatherUnit(Float3 v)
+HEARTH_FUNCTION Float3 gatherNormalize(Float3 v)
 {
     return v * (1.0f / sqrt(dot(v, v)));
 }
 
 /// Return Lambda of Smith's masking function: hidden microfacets for each one visible from a direction.
 /// cosine  to the normal
-HEARTH_FUNCTION float gatherHidden(float cosine, float alpha)
+HEARTH_FUNCTION float smithLambda(float cosine, float alpha)
 {
     float cosine2 = max(cosine * cosine, 1e-8f);
     return 0.5f * (sqrt(1.0f + alpha * alpha * max(1.0f - cosine2, 0.0f) / cosine2) - 1.0f);
@@ -50,21 +50,21 @@ HEARTH_FUNCTION GatherLobeRay gatherLobeRay(Float3 to_eye, Float3 normal, float 
     float q = normal.x * normal.y * p;
     Float3 first = Float3(1.0f + side * normal.x * normal.x * p, side * q, -side * normal.x);
     Float3 second = Float3(q, side + normal.y * normal.y * p, -normal.y);
-    Float3 eye =
-        gatherUnit(Float3(dot(first, to_eye), dot(second, to_eye), max(dot(normal, to_eye), least_cosine)));
+    Float3 eye = gatherNormalize(
+        Float3(dot(first, to_eye), dot(second, to_eye), max(dot(normal, to_eye), least_cosine)));
     // uniform over the disc, and so over the spherical cap that the eye sees in stretched space
     Float3 disc = brickRayDirection(Float3(0.0f, 0.0f, 1.0f), index, count, seed);
     float u = disc.x * disc.x + disc.y * disc.y;
-    Float3 seen = gatherUnit(Float3(alpha * eye.x, alpha * eye.y, eye.z));
+    Float3 seen = gatherNormalize(Float3(alpha * eye.x, alpha * eye.y, eye.z));
     float up = (1.0f - u) * (1.0f + seen.z) - seen.z;
     float across = sqrt(max(1.0f - up * up, 0.0f) / max(u, 1e-12f));
-    Float3 facet = gatherUnit(Float3(alpha * (disc.x * across + seen.x), alpha * (disc.y * across + seen.y),
-                                     max(up + seen.z, 1e-6f)));
+    Float3 facet = gatherNormalize(Float3(alpha * (disc.x * across + seen.x),
+                                          alpha * (disc.y * across + seen.y), max(up + seen.z, 1e-6f)));
     Float3 light = facet * (2.0f * dot(facet, eye)) - eye;
     GatherLobeRay ray;
-    ray.direction = gatherUnit(first * light.x + second * light.y + normal * light.z);
-    float hidden_eye = gatherHidden(eye.z, alpha);
-    float hidden_light = gatherHidden(light.z, alpha);
+    ray.direction = gatherNormalize(first * light.x + second * light.y + normal * light.z);
+    float hidden_eye = smithLambda(eye.z, alpha);
+    float hidden_light = smithLambda(light.z, alpha);
     ray.weight = light.z > 0.0f ? (1.0f + hidden_eye) / (1.0f + hidden_eye + hidden_light) : 0.0f;
     return ray;
 }

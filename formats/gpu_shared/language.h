@@ -48,7 +48,7 @@ inline uint floatBits(float value)
 {
     return std::bit_cast<uint>(value);
 }
-inline float floatOfBits(uint bits)
+inline float floatFromBits(uint bits)
 {
     return std::bit_cast<float>(bits);
 }
@@ -70,7 +70,7 @@ inline int bitCount(uint bits)
 #define HEARTH_PRECISE precise
 
 #define floatBits floatBitsToUint
-#define floatOfBits uintBitsToFloat
+#define floatFromBits uintBitsToFloat
 #define arcTangent atan
 
 #define Float2 vec2

@@ -28,7 +28,7 @@ HEARTH_CONSTANT uint kFirstTileEntry = 1;
 
 /// Bit of TileDraw::instance_count while the tiles of a material are counted: the material is shaded
 /// full-screen.
-HEARTH_CONSTANT uint kCountedWhole = 0x80000000u;
+HEARTH_CONSTANT uint kFullScreenBit = 0x80000000u;
 
 /// Vertices of a tile: two triangles.
 HEARTH_CONSTANT uint kTileVertices = 6;

@@ -47,7 +47,7 @@ HEARTH_FUNCTION uint pyramidOffset(uint width, uint height, uint level)
 
 /// Texels beyond one that a box may cover each way: it is tested in the finest level where it covers no more.
 /// Larger values find more occlusion and cost more. runtime/gpu/README.md, "Occlusion", has the measurements.
-HEARTH_CONSTANT uint kPyramidSteps = 7;
+HEARTH_CONSTANT uint kMaxPyramidBoxTexels = 7;
 
 /// Texels of a pyramid that cover a box on the screen: (x0, y0) to (x1, y1) of one level.
 struct PyramidBox
@@ -79,7 +79,7 @@ HEARTH_FUNCTION PyramidBox pyramidBox(HEARTH_IN(OcclusionView) view, HEARTH_IN(I
 
     HEARTH_PRECISE Float3 center = (box_min + box_max) * 0.5f;
     HEARTH_PRECISE Float3 half_size = (box_max - box_min) * 0.5f;
-    HEARTH_PRECISE Float3 relative = relativePoint(instance, view.eye, center);
+    HEARTH_PRECISE Float3 relative = toEyeRelative(instance, view.eye, center);
     Float3 row_x = row3(instance.world_from_object_x);
     Float3 row_y = row3(instance.world_from_object_y);
     Float3 row_z = row3(instance.world_from_object_z);
@@ -142,7 +142,8 @@ HEARTH_FUNCTION PyramidBox pyramidBox(HEARTH_IN(OcclusionView) view, HEARTH_IN(I
     uint y1 = uint(floor(min(bottom, height - 1.0f)));
     uint level = 1u;
     uint offset = 0u;
-    while ((x1 >> level) - (x0 >> level) > kPyramidSteps || (y1 >> level) - (y0 >> level) > kPyramidSteps)
+    while ((x1 >> level) - (x0 >> level) > kMaxPyramidBoxTexels ||
+           (y1 >> level) - (y0 >> level) > kMaxPyramidBoxTexels)
     {
         offset += pyramidSize(view.width, level) * pyramidSize(view.height, level);
         ++level;

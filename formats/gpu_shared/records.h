@@ -211,12 +211,12 @@ HEARTH_CONSTANT uint kWorkItemClusters = 64;
 /// Work items that one workgroup of the scan sums.
 HEARTH_CONSTANT uint kScanBlockItems = 1024;
 /// Workgroups of a dispatch in x; the rest go to y (65535 is guaranteed in each).
-HEARTH_CONSTANT uint kDispatchRow = 32768;
+HEARTH_CONSTANT uint kMaxDispatchX = 32768;
 /// Vertices of one instance of a cluster draw: 128 triangles without indices.
 HEARTH_CONSTANT uint kClusterVertices = 384;
 /// Bits of a word address inside a slice. The geometry pool is cut into slices of 128 MiB, the storage buffer
 /// range that every device supports.
-HEARTH_CONSTANT uint kPoolSliceBits = 25;
+HEARTH_CONSTANT uint kPoolSliceAddressBits = 25;
 HEARTH_CONSTANT uint kPoolSlices = 4;
 HEARTH_CONSTANT uint kItemDoubleSided = 1; ///< skip the normal cone
 
@@ -228,13 +228,13 @@ HEARTH_CONSTANT uint kCullEverything = 15;
 /// Bits of shadow caster views: leave out instances that have moved since loading, or instances that have
 /// not.
 HEARTH_CONSTANT uint kCullMoving = 16;
-HEARTH_CONSTANT uint kCullResting = 32;
+HEARTH_CONSTANT uint kCullStatic = 32;
 
 /// Bit of Instance::flags, beside formats::InstanceFlags: the instance has moved since loading.
-HEARTH_CONSTANT uint kInstanceMoves = 0x80000000u;
+HEARTH_CONSTANT uint kInstanceMoved = 0x80000000u;
 /// Bit of Instance::flags: the handedness of the matrix has changed since loading. Its bin would draw the
 /// wrong side of its triangles, so their corners are taken in reverse order.
-HEARTH_CONSTANT uint kInstanceTurned = 0x40000000u;
+HEARTH_CONSTANT uint kInstanceHandednessChanged = 0x40000000u;
 
 /// Culling phase. A frame without the occlusion test has the phase kPhaseWhole; with it, the early and late
 /// phases follow each other.
@@ -250,7 +250,7 @@ HEARTH_CONSTANT uint kInstanceLate = 3;     ///< was deferred, and its clusters 
 
 /// Visibility buffer: slot << kTriangleBits | triangle.
 HEARTH_CONSTANT uint kTriangleBits = 7;
-HEARTH_CONSTANT uint kNothingVisible = 0xFFFFFFFFu;
+HEARTH_CONSTANT uint kVisibilitySky = 0xFFFFFFFFu;
 HEARTH_CONSTANT uint kMaxSlots = (1u << 25) - 2u;
 
 HEARTH_CONSTANT uint kNoGroup = 0xFFFFFFFFu;

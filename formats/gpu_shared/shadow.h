@@ -26,7 +26,7 @@ struct ShadowLight
     float rounding;     ///< depth by which casters are moved back, because depths are rounded
     uint first_map;
     uint map_count; ///< sorted by descending density
-    /// Bound in metres of the distance between the view's eye and the eye of the casters' cuts (eyeCell).
+    /// Bound in metres of the distance between the view's eye and the eye of the casters' cuts (findEyeCell).
     float eye_shift;
 };
 
@@ -67,9 +67,9 @@ struct ShadowBlock
 HEARTH_CONSTANT float kGrazingCosine = 0.0087f;
 
 /// Lower bound in metres of the distance from a spot to a plane: a surface seen edge-on covers no texel.
-HEARTH_CONSTANT float kLeastFacing = 1e-6f;
+HEARTH_CONSTANT float kMinPlaneDistance = 1e-6f;
 
-/// Texels by which a rasteriser may move a vertex: 1/16 at the coarsest that Vulkan allows, after rasterStep.
+/// Texels by which a rasteriser may move a vertex: 1/16 at the coarsest that Vulkan allows, after snapToRaster.
 /// A surface is hit at up to this distance beyond the pixel's centre.
 HEARTH_CONSTANT float kRasterMargin = 0.0625f;
 
@@ -83,7 +83,7 @@ struct ShadowPoint
 };
 
 /// Return the divisor of the light's coordinates.
-HEARTH_FUNCTION float shadowW(HEARTH_IN(ShadowLight) light, float z)
+HEARTH_FUNCTION float shadowDivisor(HEARTH_IN(ShadowLight) light, float z)
 {
     HEARTH_PRECISE float w = z * light.perspective + (1.0f - light.perspective);
     return w;
@@ -92,7 +92,7 @@ HEARTH_FUNCTION float shadowW(HEARTH_IN(ShadowLight) light, float z)
 HEARTH_FUNCTION ShadowPoint shadowPoint(HEARTH_IN(ShadowLight) light, Float3 point)
 {
     HEARTH_PRECISE float z = dot3(light.direction, point);
-    float w = shadowW(light, z);
+    float w = shadowDivisor(light, z);
     ShadowPoint result;
     result.known = w > 0.0f ? 1u : 0u;
     HEARTH_PRECISE float divisor = result.known != 0u ? w : 1.0f;
@@ -123,7 +123,7 @@ HEARTH_FUNCTION float shadowMargin(HEARTH_IN(ShadowMap) map)
 
 /// True if a map covers a point. Maps contain the whole path from the light to the end of the scene, so a
 /// shadow is correct even where it falls outside the sphere that the map was fitted to.
-HEARTH_FUNCTION bool shadowMapHolds(HEARTH_IN(ShadowMap) map, HEARTH_IN(ShadowPoint) point)
+HEARTH_FUNCTION bool isInShadowMap(HEARTH_IN(ShadowMap) map, HEARTH_IN(ShadowPoint) point)
 {
     Float2 texel = shadowTexel(map, point);
     HEARTH_PRECISE float low = shadowMargin(map);
@@ -144,7 +144,7 @@ HEARTH_FUNCTION float shadowSlope(HEARTH_IN(ShadowLight) light, HEARTH_IN(Shadow
 {
     HEARTH_PRECISE Float3 ray = light.direction * (1.0f - light.perspective) + point * light.perspective;
     HEARTH_PRECISE float ray_length = (1.0f - light.perspective) + nearest * light.perspective;
-    HEARTH_PRECISE float least = max(kGrazingCosine * ray_length, kLeastFacing);
+    HEARTH_PRECISE float least = max(kGrazingCosine * ray_length, kMinPlaneDistance);
     HEARTH_PRECISE float facing = max(abs(dot3(normal, ray)), least);
     HEARTH_PRECISE float across =
         abs(dot3(normal, light.right)) / map.scale_x + abs(dot3(normal, light.down)) / map.scale_y;
@@ -153,7 +153,7 @@ HEARTH_FUNCTION float shadowSlope(HEARTH_IN(ShadowLight) light, HEARTH_IN(Shadow
 }
 
 /// Round a texel coordinate to the 1/256 that rasterisers work with.
-HEARTH_FUNCTION float rasterStep(float texel)
+HEARTH_FUNCTION float snapToRaster(float texel)
 {
     HEARTH_PRECISE float steps = floor(texel * 256.0f + 0.5f);
     HEARTH_PRECISE float rounded = steps * 0.00390625f;
@@ -169,7 +169,7 @@ HEARTH_FUNCTION Float4 shadowCasterClip(HEARTH_IN(ShadowLight) light, HEARTH_IN(
                                         Float3 normal, float nearest)
 {
     HEARTH_PRECISE float z = dot3(light.direction, point);
-    float w = shadowW(light, z);
+    float w = shadowDivisor(light, z);
     HEARTH_PRECISE float x = dot3(light.right, point) * map.scale_x;
     HEARTH_PRECISE float y = dot3(light.down, point) * map.scale_y;
     HEARTH_PRECISE float offset =
@@ -179,8 +179,8 @@ HEARTH_FUNCTION Float4 shadowCasterClip(HEARTH_IN(ShadowLight) light, HEARTH_IN(
     {
         // before the offset, which is whole: the map of a sun that has moved is the same, shifted, bit for
         // bit
-        x = rasterStep(x);
-        y = rasterStep(y);
+        x = snapToRaster(x);
+        y = snapToRaster(y);
         // a caster that leaves the scene towards the sun casts its shadow from the scene's boundary
         depth = min(depth, 1.0f);
     }
@@ -194,7 +194,7 @@ HEARTH_FUNCTION Float4 shadowCasterClip(HEARTH_IN(ShadowLight) light, HEARTH_IN(
 
 /// Return the allowed error in metres of a surface at a distance from the eye, where errors count
 /// `error_bias` times less.
-HEARTH_FUNCTION float cutError(HEARTH_IN(FrameView) view, float distance, float error_bias)
+HEARTH_FUNCTION float allowedCutError(HEARTH_IN(FrameView) view, float distance, float error_bias)
 {
     HEARTH_PRECISE float pixels = max(view.threshold, 0.0f) * error_bias;
     HEARTH_PRECISE float error =
@@ -207,11 +207,11 @@ HEARTH_FUNCTION float cutError(HEARTH_IN(FrameView) view, float distance, float 
 /// surface by `error_bias` times as much (makeCasterView), for an eye up to `eye_shift` metres farther away.
 /// Without the offset the coarser surface would shadow the finer one.
 /// distance   from the eye to the point
-HEARTH_FUNCTION float shadowCutOffset(HEARTH_IN(FrameView) view, float distance, float error_bias,
-                                      float eye_shift)
+HEARTH_FUNCTION float shadowNormalOffset(HEARTH_IN(FrameView) view, float distance, float error_bias,
+                                         float eye_shift)
 {
     HEARTH_PRECISE float offset =
-        cutError(view, distance, 1.0f) + cutError(view, distance + eye_shift, error_bias);
+        allowedCutError(view, distance, 1.0f) + allowedCutError(view, distance + eye_shift, error_bias);
     return offset;
 }
 

@@ -16,7 +16,7 @@ HEARTH_SHARED_BEGIN
 HEARTH_CONSTANT uint kSpecularNodes = 16;
 
 /// Roughness of the table's first node; a smaller roughness is clamped to it. The last node is 1.
-HEARTH_CONSTANT float kSpecularLeastRoughness = 0.089f;
+HEARTH_CONSTANT float kMinSpecularRoughness = 0.089f;
 
 /// Spacing of nodes on the axis of beta, the angle between reflection vector and cone axis.
 HEARTH_CONSTANT uint kSpecularSpacingCosine = 0;   ///< uniform in cos(beta)
@@ -32,10 +32,11 @@ HEARTH_FUNCTION float specularClamp(float value, float low, float high)
 /// texel x + 1 in memory, y is 16 texels farther, z 256.
 /// cos_aperture  cosine of the cone's half-angle, 0 to 1
 /// spacing       kSpecularSpacing*, of the table
-HEARTH_FUNCTION Float3 specularTablePlace(float cos_aperture, float roughness, float cos_beta, uint spacing)
+HEARTH_FUNCTION Float3 specularTableCoordinates(float cos_aperture, float roughness, float cos_beta,
+                                                uint spacing)
 {
     float aperture = acos(specularClamp(cos_aperture, 0.0f, 1.0f)) * 0.636619772f;
-    float rough = (roughness - kSpecularLeastRoughness) / (1.0f - kSpecularLeastRoughness);
+    float rough = (roughness - kMinSpecularRoughness) / (1.0f - kMinSpecularRoughness);
     float half_chord = specularClamp(0.5f - 0.5f * cos_beta, 0.0f, 1.0f);
     float beta = spacing == kSpecularSpacingCosine ? 1.0f - half_chord : 1.0f - sqrt(half_chord);
     return Float3(specularClamp(aperture, 0.0f, 1.0f), specularClamp(rough, 0.0f, 1.0f), beta);
@@ -43,7 +44,7 @@ HEARTH_FUNCTION Float3 specularTablePlace(float cos_aperture, float roughness, f
 
 /// Return texture coordinates of a lookup in 16 x 16 x 16 texels, filtered linearly and clamped: nodes are
 /// texel centres.
-HEARTH_FUNCTION Float3 specularTableTexture(Float3 place)
+HEARTH_FUNCTION Float3 specularTextureCoordinates(Float3 place)
 {
     return Float3(place.x * 0.9375f + 0.03125f, place.y * 0.9375f + 0.03125f, place.z * 0.9375f + 0.03125f);
 }
@@ -83,13 +84,13 @@ struct SpecularFit
 HEARTH_CONSTANT SpecularFit kSpecularFit =
     SpecularFit(-0.4416f, 0.1565f, -0.0127f, -0.5816f, 2.0072f, 2.1856f, -2.8820f, 0.3663f);
 
-HEARTH_FUNCTION float specularOcclusionBy(HEARTH_IN(SpecularFit) fit, float cos_aperture, float roughness,
+HEARTH_FUNCTION float evaluateSpecularFit(HEARTH_IN(SpecularFit) fit, float cos_aperture, float roughness,
                                           float n_dot_v, float n_dot_axis, float r_dot_axis)
 {
     float cosine = specularClamp(cos_aperture, 0.0f, 1.0f);
     float facing = specularClamp(n_dot_v, 0.0f, 1.0f);
     float grazing = 1.0f - facing;
-    float rough = specularClamp(roughness, kSpecularLeastRoughness, 1.0f);
+    float rough = specularClamp(roughness, kMinSpecularRoughness, 1.0f);
     float alpha = rough * rough;
     float width =
         alpha * (1.0f + fit.width_alpha * alpha + (fit.width_grazing + fit.width_both * alpha) * grazing);
@@ -120,7 +121,7 @@ HEARTH_FUNCTION float specularOcclusionBy(HEARTH_IN(SpecularFit) fit, float cos_
 HEARTH_FUNCTION float specularOcclusionFit(float cos_aperture, float roughness, float n_dot_v,
                                            float n_dot_axis, float r_dot_axis)
 {
-    return specularOcclusionBy(kSpecularFit, cos_aperture, roughness, n_dot_v, n_dot_axis, r_dot_axis);
+    return evaluateSpecularFit(kSpecularFit, cos_aperture, roughness, n_dot_v, n_dot_axis, r_dot_axis);
 }
 
 HEARTH_SHARED_END

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/codecs/vertex_codec.h"
 #include "formats/gpu_shared/brick_codes.h"
-#include "formats/pack/brick_walk.h"
 #include "formats/pack/check_tools.h"
+#include "formats/pack/for_each_brick.h"
 
 namespace hearth::formats::check
 {
@@ -18,10 +18,12 @@ constexpr const char* kFace = "brick face";
 
 Status checkNoGrid(const PackView& view)
 {
-    const bool none = view.brickGroups().empty() && view.bricks().empty() && view.brickOpacity().empty() &&
-                      view.brickAlbedo().empty() && view.brickNormals().empty() &&
-                      view.brickEmission().empty() && view.brickLighting().empty();
-    return none ? success() : fail(view, Issue::meaning_range, kGrid, 0, "there are bricks without a grid");
+    const bool none = view.brickGroupsAlongAxis().empty() && view.bricks().empty() &&
+                      view.brickOpacity().empty() && view.brickAlbedo().empty() &&
+                      view.brickNormals().empty() && view.brickEmission().empty() &&
+                      view.brickLighting().empty();
+    return none ? success()
+                : makeError(view, Issue::meaning_range, kGrid, 0, "there are bricks without a grid");
 }
 
 /// Check that the counts match the tables, and are within the limits.
@@ -34,7 +36,7 @@ Status checkCounts(const PackView& view, const BrickGridRecord& grid)
         size_t in_table;
         uint32_t most;
     } counts[] = {
-        {"groups", grid.group_count, view.brickGroups().size(), kMaxBrickGroups},
+        {"groups", grid.group_count, view.brickGroupsAlongAxis().size(), kMaxBrickGroups},
         {"bricks", grid.brick_count, view.bricks().size(), kMaxBrickVoxels},
         {"opacities", grid.solid_count, view.brickOpacity().size(), kMaxBrickVoxels},
         {"albedos", grid.face_count, view.brickAlbedo().size(), kMaxBrickFaces},
@@ -45,13 +47,13 @@ Status checkCounts(const PackView& view, const BrickGridRecord& grid)
     for (const auto& count : counts)
     {
         if (count.in_table != count.count)
-            return fail(view, Issue::meaning_range, kGrid, 0,
-                        "says " + std::to_string(count.count) + " " + count.what + ", there are " +
-                            std::to_string(count.in_table));
+            return makeError(view, Issue::meaning_range, kGrid, 0,
+                             "says " + std::to_string(count.count) + " " + count.what + ", there are " +
+                                 std::to_string(count.in_table));
         if (count.count > count.most)
-            return fail(view, Issue::meaning_value, kGrid, 0,
-                        std::to_string(count.count) + " " + count.what + ", " + std::to_string(count.most) +
-                            " at most");
+            return makeError(view, Issue::meaning_value, kGrid, 0,
+                             std::to_string(count.count) + " " + count.what + ", " +
+                                 std::to_string(count.most) + " at most");
     }
     return success();
 }
@@ -62,29 +64,29 @@ Status checkGrid(const PackView& view, const BrickGridRecord& grid)
     for (int axis = 0; axis < 3; ++axis)
         end[axis] += grid.voxel_size * static_cast<float>(grid.voxels[axis]);
     if (!finite(grid.origin) || !finite(grid.voxel_size) || !(grid.voxel_size > 0) || !finite(end))
-        return fail(view, Issue::meaning_value, kGrid, 0,
-                    "its origin or the size of its voxels is not possible");
+        return makeError(view, Issue::meaning_value, kGrid, 0,
+                         "its origin or the size of its voxels is not possible");
     for (const uint32_t along : grid.voxels)
         if (along == 0 || along > kMaxGridVoxels)
-            return fail(view, Issue::meaning_value, kGrid, 0,
-                        std::to_string(along) + " voxels along an axis, 1 to " +
-                            std::to_string(kMaxGridVoxels) + " are possible");
+            return makeError(view, Issue::meaning_value, kGrid, 0,
+                             std::to_string(along) + " voxels along an axis, 1 to " +
+                                 std::to_string(kMaxGridVoxels) + " are possible");
     if (grid.reserved != 0)
-        return fail(view, Issue::meaning_padding, kGrid, 0, "a reserved field is not 0");
+        return makeError(view, Issue::meaning_padding, kGrid, 0, "a reserved field is not 0");
     if (grid.group_count != brickGroupCount(grid.voxels))
-        return fail(view, Issue::meaning_value, kGrid, 0,
-                    std::to_string(grid.group_count) + " groups where its voxels reach into " +
-                        std::to_string(brickGroupCount(grid.voxels)));
+        return makeError(view, Issue::meaning_value, kGrid, 0,
+                         std::to_string(grid.group_count) + " groups where its voxels reach into " +
+                             std::to_string(brickGroupCount(grid.voxels)));
     return checkCounts(view, grid);
 }
 
 /// Check that the bricks of the groups follow each other and cover the table.
 Status checkGroups(const PackView& view)
 {
-    Cursor bricks(view, kGroup, kBrick, view.bricks().size());
-    for (size_t i = 0; i < view.brickGroups().size(); ++i)
+    RangeCursor bricks(view, kGroup, kBrick, view.bricks().size());
+    for (size_t i = 0; i < view.brickGroupsAlongAxis().size(); ++i)
     {
-        const BrickGroupRecord& group = view.brickGroups()[i];
+        const BrickGroupRecord& group = view.brickGroupsAlongAxis()[i];
         HEARTH_TRY(bricks.take(
             i, {group.first_brick, shared::maskCount(group.brick_mask_low, group.brick_mask_high)}));
     }
@@ -97,12 +99,12 @@ uint64_t wholeMask(uint32_t low, uint32_t high)
 }
 
 /// Return the mask of a brick's voxels that lie in the grid.
-uint64_t maskInGrid(const BrickGridRecord& grid, VoxelPlace first)
+uint64_t gridMaskOfBrick(const BrickGridRecord& grid, VoxelCoordinates first)
 {
     uint64_t mask = 0;
     for (uint32_t bit = 0; bit < 64; ++bit)
     {
-        const VoxelPlace voxel = placeOfBit(first, bit, 1);
+        const VoxelCoordinates voxel = voxelAtBit(first, bit, 1);
         if (voxel.x < grid.voxels[0] && voxel.y < grid.voxels[1] && voxel.z < grid.voxels[2])
             mask |= uint64_t{1} << bit;
     }
@@ -119,21 +121,22 @@ public:
     {
     }
 
-    Status check(uint32_t index, VoxelPlace first)
+    Status check(uint32_t index, VoxelCoordinates first)
     {
         const BrickRecord& brick = view_.bricks()[index];
         const uint64_t solid = wholeMask(brick.voxel_mask_low, brick.voxel_mask_high);
         if (solid == 0)
-            return fail(view_, Issue::meaning_value, kBrick, index, "none of its voxels is solid");
-        if ((solid & ~maskInGrid(view_.brickGrid()[0], first)) != 0)
-            return fail(view_, Issue::meaning_bounds, kBrick, index, "a solid voxel lies outside the grid");
+            return makeError(view_, Issue::meaning_value, kBrick, index, "none of its voxels is solid");
+        if ((solid & ~gridMaskOfBrick(view_.brickGrid()[0], first)) != 0)
+            return makeError(view_, Issue::meaning_bounds, kBrick, index,
+                             "a solid voxel lies outside the grid");
         uint32_t face_count = 0;
         for (uint32_t face = 0; face < shared::kVoxelFaces; ++face)
         {
             const uint32_t low = brick.face_masks[2 * face], high = brick.face_masks[2 * face + 1];
             if ((wholeMask(low, high) & ~solid) != 0)
-                return fail(view_, Issue::meaning_value, kBrick, index,
-                            "a voxel that is not solid has a face");
+                return makeError(view_, Issue::meaning_value, kBrick, index,
+                                 "a voxel that is not solid has a face");
             face_count += shared::maskCount(low, high);
         }
         HEARTH_TRY(voxels_.take(
@@ -149,20 +152,20 @@ public:
 
 private:
     const PackView& view_;
-    Cursor voxels_;
-    Cursor faces_;
+    RangeCursor voxels_;
+    RangeCursor faces_;
 };
 
 Status checkBrickTable(const PackView& view)
 {
     BrickCheck check(view);
     Status status = success();
-    forBricks(view.brickGrid()[0], view.brickGroups(),
-              [&](uint32_t brick, VoxelPlace first)
-              {
-                  if (status.ok())
-                      status = check.check(brick, first);
-              });
+    forEachBrickOfGrid(view.brickGrid()[0], view.brickGroupsAlongAxis(),
+                       [&](uint32_t brick, VoxelCoordinates first)
+                       {
+                           if (status.ok())
+                               status = check.check(brick, first);
+                       });
     HEARTH_TRY(std::move(status));
     return check.finish();
 }
@@ -171,17 +174,18 @@ Status checkCodes(const PackView& view)
 {
     for (size_t i = 0; i < view.brickOpacity().size(); ++i)
         if (view.brickOpacity()[i] == 0)
-            return fail(view, Issue::meaning_value, kVoxel, i, "its opacity is 0");
+            return makeError(view, Issue::meaning_value, kVoxel, i, "its opacity is 0");
     for (size_t i = 0; i < view.brickAlbedo().size(); ++i)
     {
         if (view.brickAlbedo()[i] >> 30 != 0)
-            return fail(view, Issue::meaning_padding, kFace, i, "the upper bits of its albedo are not 0");
+            return makeError(view, Issue::meaning_padding, kFace, i,
+                             "the upper bits of its albedo are not 0");
         if (!NormalCode<8>::legal(view.brickNormals()[i]))
-            return fail(view, Issue::meaning_value, kFace, i, "its normal is not a code");
-        if (!shared::legalRadiance(view.brickEmission()[i]))
-            return fail(view, Issue::meaning_value, kFace, i, "its emission is not finite");
-        if (!shared::legalRadiance(view.brickLighting()[i]))
-            return fail(view, Issue::meaning_value, kFace, i, "its lighting is not finite");
+            return makeError(view, Issue::meaning_value, kFace, i, "its normal is not a code");
+        if (!shared::isLegalRadiance(view.brickEmission()[i]))
+            return makeError(view, Issue::meaning_value, kFace, i, "its emission is not finite");
+        if (!shared::isLegalRadiance(view.brickLighting()[i]))
+            return makeError(view, Issue::meaning_value, kFace, i, "its lighting is not finite");
     }
     return success();
 }
@@ -193,7 +197,7 @@ Status checkBrickTables(const PackView& view)
     if (view.brickGrid().empty())
         return checkNoGrid(view);
     if (view.brickGrid().size() > 1)
-        return fail(view, Issue::meaning_value, kGrid, 1, "a pack has one at most");
+        return makeError(view, Issue::meaning_value, kGrid, 1, "a pack has one at most");
     HEARTH_TRY(checkGrid(view, view.brickGrid()[0]));
     HEARTH_TRY(checkGroups(view));
     HEARTH_TRY(checkBrickTable(view));

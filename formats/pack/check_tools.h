@@ -10,7 +10,7 @@ namespace hearth::formats::check
 {
 
 /// Return the error of record `index` of a table: where = "node 3".
-inline Error fail(const PackView& view, Issue issue, const char* kind, size_t index, std::string detail)
+inline Error makeError(const PackView& view, Issue issue, const char* kind, size_t index, std::string detail)
 {
     return {issue, view.name(), std::string(kind) + " " + std::to_string(index), std::move(detail)};
 }
@@ -41,7 +41,7 @@ inline bool finite(const Affine3& t)
 }
 
 /// True if `low` is nowhere above `high`, and both are finite.
-inline bool validBox(Float3 low, Float3 high)
+inline bool isValidBox(Float3 low, Float3 high)
 {
     return finite(low) && finite(high) && low.x <= high.x && low.y <= high.y && low.z <= high.z;
 }
@@ -51,20 +51,20 @@ inline bool inside(float value, float low, float high)
 {
     return value >= low && value <= high;
 }
-inline bool nonNegative(float value)
+inline bool isNonNegative(float value)
 {
     return std::isfinite(value) && value >= 0;
 }
 
-inline bool powerOfTwo(float value)
+inline bool isPowerOfTwo(float value)
 {
     int exponent;
     return std::isfinite(value) && std::frexp(value, &exponent) == 0.5f;
 }
 
-inline bool noneOrBelow(uint32_t index, size_t size)
+inline bool isNoneOrBelow(uint32_t index, size_t size)
 {
-    return index == kNone || index < size;
+    return index == kInvalidIndex || index < size;
 }
 
 template <size_t N>
@@ -73,11 +73,11 @@ bool reservedZero(const uint32_t (&words)[N])
     return std::all_of(std::begin(words), std::end(words), [](uint32_t word) { return word == 0; });
 }
 
-/// Cursor over a table. The records of another table must claim its records as consecutive ranges.
-class Cursor
+/// RangeCursor over a table. The records of another table must claim its records as consecutive ranges.
+class RangeCursor
 {
 public:
-    Cursor(const PackView& view, const char* owner, const char* table, size_t size)
+    RangeCursor(const PackView& view, const char* owner, const char* table, size_t size)
         : view_(view), owner_(owner), table_(table), size_(size)
     {
     }
@@ -86,14 +86,14 @@ public:
     /// last range.
     Status take(size_t owner, Range range)
     {
-        if (!insideTable(range, size_))
-            return fail(view_, Issue::meaning_range, owner_, owner,
-                        std::string(table_) + " " + std::to_string(range.first) + " + " +
-                            std::to_string(range.count) + " of " + std::to_string(size_));
+        if (!isInsideTable(range, size_))
+            return makeError(view_, Issue::meaning_range, owner_, owner,
+                             std::string(table_) + " " + std::to_string(range.first) + " + " +
+                                 std::to_string(range.count) + " of " + std::to_string(size_));
         if (range.first != at_)
-            return fail(view_, Issue::meaning_order, owner_, owner,
-                        std::string(table_) + " start at " + std::to_string(range.first) + ", expected " +
-                            std::to_string(at_));
+            return makeError(view_, Issue::meaning_order, owner_, owner,
+                             std::string(table_) + " start at " + std::to_string(range.first) +
+                                 ", expected " + std::to_string(at_));
         at_ += range.count;
         return success();
     }
@@ -106,7 +106,7 @@ public:
     {
         if (at_ == size_)
             return success();
-        return fail(view_, Issue::meaning_range, table_, at_, std::string("belongs to no ") + owner_);
+        return makeError(view_, Issue::meaning_range, table_, at_, std::string("belongs to no ") + owner_);
     }
 
 private:
@@ -118,10 +118,10 @@ private:
 };
 
 /// Option to read or skip the bulk of a pack: texels, geometry pages, and the padding around them.
-enum class Bulk
+enum class BulkData
 {
     read,
-    left,
+    skip,
 };
 
 /// Return the number of joints of each mesh's skin. Unknown in a part without nodes.
@@ -134,17 +134,17 @@ Status checkPage(const PackView& view, uint32_t page_index, std::span<const std:
 // Phases of checkPack, in order.
 Status checkTexts(const PackView& view);
 Status checkMaterials(const PackView& view);
-Status checkImages(const PackView& view, Bulk bulk);
+Status checkImages(const PackView& view, BulkData bulk);
 Status checkSkins(const PackView& view);
 Status checkAnimations(const PackView& view);
 Status checkNodeTree(const PackView& view);
-Status checkMeshesOfNodes(const PackView& view);
+Status checkNodeMeshes(const PackView& view);
 Status checkInstances(const PackView& view);
 Status checkCameras(const PackView& view);
 Status checkLights(const PackView& view);
 Status checkShadowSpheres(const PackView& view);
 Status checkMeshTables(const PackView& view);
-Status checkPageTables(const PackView& view, Bulk bulk);
+Status checkPageTables(const PackView& view, BulkData bulk);
 Status checkPageGeometry(const PackView& view, const PageLoop& loop);
 Status checkAuthoredLevels(const PackView& view);
 Status checkDeformedMeshes(const PackView& view);

@@ -17,36 +17,36 @@ public:
     ConeCheck(const ClusterRecord& cluster, float grid_step) : axis_(widen(coneAxis(cluster)))
     {
         const double sine = coneCutoff(cluster) + kConeSlack;
-        least_cosine2_ = (1 - sine * sine) * dot(axis_, axis_);
-        const Box3 box = boxOf(cluster, grid_step);
+        min_cosine2_ = (1 - sine * sine) * dot(axis_, axis_);
+        const Box3 box = clusterBox(cluster, grid_step);
         const Double3 center = (widen(box.min) + widen(box.max)) * 0.5;
         const double back = coneBack(cluster, grid_step);
         apex_ = center - axis_ * (back / length(axis_));
-        const double most_in_front = kApexSlack * (length(widen(box.max) - center) + back);
-        most_in_front2_ = most_in_front * most_in_front;
+        const double max_in_front = kApexSlack * (length(widen(box.max) - center) + back);
+        max_in_front2_ = max_in_front * max_in_front;
     }
 
     /// True if a normal lies in the cone.
     /// normal   of any length > 0, whose square is length2
-    bool holds(Double3 normal, double length2) const
+    bool containsNormal(Double3 normal, double length2) const
     {
         const double along = dot(normal, axis_);
-        return along > 0 && along * along >= least_cosine2_ * length2;
+        return along > 0 && along * along >= min_cosine2_ * length2;
     }
 
     /// True if the apex is not in front of the plane through `corner`; `normal` as above.
-    bool isBehind(Double3 normal, double length2, Double3 corner) const
+    bool isApexBehind(Double3 normal, double length2, Double3 corner) const
     {
         const double in_front = dot(normal, apex_ - corner);
-        return in_front <= 0 || in_front * in_front <= most_in_front2_ * length2;
+        return in_front <= 0 || in_front * in_front <= max_in_front2_ * length2;
     }
 
 private:
     Double3 axis_; ///< about unit length
     Double3 apex_;
     /// Times the squared length of the axis; below 0 for a cone wider than a half space.
-    double least_cosine2_;
-    double most_in_front2_; ///< square of a distance
+    double min_cosine2_;
+    double max_in_front2_; ///< square of a distance
 };
 
 } // namespace hearth::formats::check

@@ -13,7 +13,7 @@ namespace
 {
 
 /// True if the weights descend and sum to 1, all joints belong to the skin, and a joint without weight is 0.
-bool legalInfluences(const ClusterGeometry& geometry, uint32_t vertex, uint32_t joint_count)
+bool areLegalInfluences(const ClusterGeometry& geometry, uint32_t vertex, uint32_t joint_count)
 {
     const std::array<uint32_t, 8> joints = geometry.joints(vertex);
     const std::array<uint32_t, 8> weights = geometry.weightCodes(vertex);
@@ -30,15 +30,15 @@ bool legalInfluences(const ClusterGeometry& geometry, uint32_t vertex, uint32_t 
 
 /// Search for the first wrong vertex of a cluster, and the first rule that it breaks. Rules are tested one
 /// after the other over all vertices, because all vertices have the same word layout.
-class FirstWrong
+class FirstBadVertex
 {
 public:
-    explicit FirstWrong(uint32_t vertex_count) : vertex_(vertex_count) {}
+    explicit FirstBadVertex(uint32_t vertex_count) : vertex_(vertex_count) {}
 
     /// Test a rule on all vertices before the first wrong one. Call in the order of importance.
     /// legal  predicate on a vertex number
     template <typename Legal>
-    void look(Issue issue, const char* what, const Legal& legal)
+    void test(Issue issue, const char* what, const Legal& legal)
     {
         for (uint32_t v = 0; v < vertex_; ++v)
             if (!legal(v))
@@ -53,7 +53,8 @@ public:
     {
         if (what_ == nullptr)
             return success();
-        return fail(view, issue_, "cluster", cluster, "vertex " + std::to_string(vertex_) + ": " + what_);
+        return makeError(view, issue_, "cluster", cluster,
+                         "vertex " + std::to_string(vertex_) + ": " + what_);
     }
 
 private:
@@ -62,19 +63,19 @@ private:
     const char* what_ = nullptr;
 };
 
-void lookAtUvs(const ClusterGeometry& geometry, uint32_t set, FirstWrong& wrong)
+void testUvs(const ClusterGeometry& geometry, uint32_t set, FirstBadVertex& wrong)
 {
     constexpr const char* kWhat = "a UV is not finite, or beyond the grid";
-    const auto onGrid = [](int32_t coordinate)
-    { return coordinate >= -kGridMost && coordinate <= kGridMost; };
+    const auto isOnGrid = [](int32_t coordinate)
+    { return coordinate >= -kMaxGridCoordinate && coordinate <= kMaxGridCoordinate; };
     if (uvFractionBits(geometry.layout(), set) == 0)
-        wrong.look(Issue::meaning_geometry, kWhat, [&](uint32_t v) { return finite(geometry.uv(v, set)); });
+        wrong.test(Issue::meaning_geometry, kWhat, [&](uint32_t v) { return finite(geometry.uv(v, set)); });
     else
-        wrong.look(Issue::meaning_geometry, kWhat,
+        wrong.test(Issue::meaning_geometry, kWhat,
                    [&](uint32_t v)
                    {
                        const std::array<int32_t, 2> point = geometry.uvPoint(v, set);
-                       return onGrid(point[0]) && onGrid(point[1]);
+                       return isOnGrid(point[0]) && isOnGrid(point[1]);
                    });
 }
 
@@ -82,35 +83,35 @@ Status checkVertices(const PackView& view, size_t i, const ClusterGeometry& geom
 {
     const ClusterRecord& cluster = view.clusters()[i];
     const uint32_t layout = geometry.layout();
-    FirstWrong wrong(geometry.vertexCount());
+    FirstBadVertex wrong(geometry.vertexCount());
     const std::array<int64_t, 3> most{boxSteps(cluster, 0), boxSteps(cluster, 1), boxSteps(cluster, 2)};
-    wrong.look(Issue::meaning_bounds, "it lies outside the cluster's box",
+    wrong.test(Issue::meaning_bounds, "it lies outside the cluster's box",
                [&](uint32_t v)
                {
                    const std::array<uint32_t, 3> offset = geometry.gridOffset(v);
                    return offset[0] <= most[0] && offset[1] <= most[1] && offset[2] <= most[2];
                });
-    if (!geometry.has(kVertexWide) && (!geometry.has(kVertexNormal) || geometry.has(kVertexFineNormal)))
-        wrong.look(Issue::meaning_padding, "the unused half of a word is not 0",
+    if (!geometry.has(kVertexWideOffsets) && (!geometry.has(kVertexNormal) || geometry.has(kVertexNormal16)))
+        wrong.test(Issue::meaning_padding, "the unused half of a word is not 0",
                    [&](uint32_t v) { return geometry.word(v, 1) >> 16 == 0; });
     if (geometry.has(kVertexNormal))
-        wrong.look(Issue::meaning_geometry, "its normal has no legal code",
-                   [&](uint32_t v) { return legalNormal(layout, geometry.normalCode(v)); });
+        wrong.test(Issue::meaning_geometry, "its normal has no legal code",
+                   [&](uint32_t v) { return isLegalNormal(layout, geometry.normalCode(v)); });
     if (geometry.has(kVertexTangent))
-        wrong.look(Issue::meaning_geometry, "its tangent has no legal code",
+        wrong.test(Issue::meaning_geometry, "its tangent has no legal code",
                    [&, word = attributeWord(layout, kVertexTangent)](uint32_t v)
-                   { return legalTangent(layout, geometry.word(v, word)); });
+                   { return isLegalTangent(layout, geometry.word(v, word)); });
     if (geometry.has(kVertexVisibility))
-        wrong.look(Issue::meaning_geometry, "its visibility has no legal code",
+        wrong.test(Issue::meaning_geometry, "its visibility has no legal code",
                    [&, word = attributeWord(layout, kVertexVisibility)](uint32_t v)
-                   { return legalVisibility(geometry.word(v, word)); });
+                   { return isLegalVisibility(geometry.word(v, word)); });
     for (uint32_t set = 0; set < 4; ++set)
         if (geometry.has(kVertexUv0 << set))
-            lookAtUvs(geometry, set, wrong);
+            testUvs(geometry, set, wrong);
     if (geometry.has(kVertexInfluences))
-        wrong.look(Issue::meaning_geometry,
+        wrong.test(Issue::meaning_geometry,
                    "its weights do not fall, or sum to 1, or one is that of a joint that its skin has not",
-                   [&](uint32_t v) { return legalInfluences(geometry, v, joint_count); });
+                   [&](uint32_t v) { return areLegalInfluences(geometry, v, joint_count); });
     return wrong.status(view, i);
 }
 
@@ -119,8 +120,8 @@ Status checkMorphs(const PackView& view, size_t i, const MeshRecord& mesh, const
 {
     const auto wrong = [&](uint32_t morph, const char* what)
     {
-        return fail(view, Issue::meaning_geometry, "cluster", i,
-                    "morph target " + std::to_string(geometry.morphTarget(morph)) + ": " + what);
+        return makeError(view, Issue::meaning_geometry, "cluster", i,
+                         "morph target " + std::to_string(geometry.morphTarget(morph)) + ": " + what);
     };
     for (uint32_t morph = 0; morph < geometry.morphCount(); ++morph)
     {
@@ -128,7 +129,7 @@ Status checkMorphs(const PackView& view, size_t i, const MeshRecord& mesh, const
             return wrong(morph, "its mesh has not so many");
         if (morph > 0 && geometry.morphTarget(morph) <= geometry.morphTarget(morph - 1))
             return wrong(morph, "targets do not ascend");
-        if (!powerOfTwo(geometry.morphStep(morph)))
+        if (!isPowerOfTwo(geometry.morphStep(morph)))
             return wrong(morph, "its step is not a power of two");
         bool moves = false;
         for (uint32_t v = 0; v < geometry.vertexCount(); ++v)
@@ -144,7 +145,7 @@ Status checkTriangles(const PackView& view, size_t i, float grid_step, const Clu
     const ClusterRecord& cluster = view.clusters()[i];
     const bool has_cone = cluster.cone_cutoff != kNoCone;
     const ConeCheck cone(cluster, grid_step);
-    std::array<Double3, kClusterMaxVertices> positions;
+    std::array<Double3, kMaxClusterVertices> positions;
     for (uint32_t v = 0; v < geometry.vertexCount(); ++v)
         positions[v] = widen(geometry.position(v));
     bool has_area = false;
@@ -153,24 +154,24 @@ Status checkTriangles(const PackView& view, size_t i, float grid_step, const Clu
         const std::array<uint32_t, 3> corners = geometry.triangle(t);
         for (const uint32_t corner : corners)
             if (corner >= geometry.vertexCount())
-                return fail(view, Issue::meaning_geometry, "cluster", i,
-                            "triangle " + std::to_string(t) + " names vertex " + std::to_string(corner) +
-                                " of " + std::to_string(geometry.vertexCount()));
+                return makeError(view, Issue::meaning_geometry, "cluster", i,
+                                 "triangle " + std::to_string(t) + " names vertex " + std::to_string(corner) +
+                                     " of " + std::to_string(geometry.vertexCount()));
         const Double3 a = positions[corners[0]];
         const Double3 normal = cross(positions[corners[1]] - a, positions[corners[2]] - a);
         const double length2 = dot(normal, normal);
         if (!(length2 > 0))
             continue;
         has_area = true;
-        if (has_cone && !cone.holds(normal, length2))
-            return fail(view, Issue::meaning_bounds, "cluster", i,
-                        "a triangle's normal lies outside its normal cone");
-        if (has_cone && !cone.isBehind(normal, length2, a))
-            return fail(view, Issue::meaning_bounds, "cluster", i,
-                        "the apex of its normal cone is in front of a triangle");
+        if (has_cone && !cone.containsNormal(normal, length2))
+            return makeError(view, Issue::meaning_bounds, "cluster", i,
+                             "a triangle's normal lies outside its normal cone");
+        if (has_cone && !cone.isApexBehind(normal, length2, a))
+            return makeError(view, Issue::meaning_bounds, "cluster", i,
+                             "the apex of its normal cone is in front of a triangle");
     }
     if (!has_area)
-        return fail(view, Issue::meaning_geometry, "cluster", i, "none of its triangles has an area");
+        return makeError(view, Issue::meaning_geometry, "cluster", i, "none of its triangles has an area");
     return success();
 }
 
@@ -179,21 +180,21 @@ class FirstError
 {
 public:
     /// True if an item before this one is known to be wrong, so this one does not matter.
-    bool isBefore(uint32_t thing) const { return first_.load(std::memory_order_relaxed) < thing; }
+    bool isBefore(uint32_t item) const { return first_.load(std::memory_order_relaxed) < item; }
 
-    void add(uint32_t thing, Error error)
+    void add(uint32_t item, Error error)
     {
         const std::lock_guard lock(mutex_);
-        if (isBefore(thing))
+        if (isBefore(item))
             return;
-        first_.store(thing, std::memory_order_relaxed);
+        first_.store(item, std::memory_order_relaxed);
         status_ = std::move(error);
     }
 
     Status take() { return std::move(status_); }
 
 private:
-    std::atomic<uint32_t> first_ = kNone;
+    std::atomic<uint32_t> first_ = kInvalidIndex;
     std::mutex mutex_;
     Status status_ = success();
 };
@@ -222,12 +223,14 @@ Status checkPage(const PackView& view, uint32_t page_index, std::span<const std:
         const ClusterRecord& cluster = view.clusters()[i];
         const auto geometry = ClusterGeometry::at(page, cluster, mesh);
         if (!geometry)
-            return fail(view, Issue::meaning_range, "cluster", i, "its geometry lies outside its page");
+            return makeError(view, Issue::meaning_range, "cluster", i, "its geometry lies outside its page");
         const size_t first = size_t{cluster.page_word} * 4;
         if (first < end)
-            return fail(view, Issue::meaning_order, "cluster", i, "its geometry overlaps that of another");
+            return makeError(view, Issue::meaning_order, "cluster", i,
+                             "its geometry overlaps that of another");
         if (!allZero(page.subspan(end, first - end)))
-            return fail(view, Issue::meaning_padding, "cluster", i, "bytes before its geometry are not 0");
+            return makeError(view, Issue::meaning_padding, "cluster", i,
+                             "bytes before its geometry are not 0");
         HEARTH_TRY(checkVertices(view, i, *geometry, joint_count));
         HEARTH_TRY(checkMorphs(view, i, mesh, *geometry));
         HEARTH_TRY(checkTriangles(view, i, mesh.grid_step, *geometry));
@@ -237,17 +240,18 @@ Status checkPage(const PackView& view, uint32_t page_index, std::span<const std:
         const size_t words_end =
             clusterBytes(geometry->layout(), cluster.vertex_count, cluster.triangle_count);
         if (!allZero(page.subspan(first + indices_end, words_end - indices_end)))
-            return fail(view, Issue::meaning_padding, "cluster", i, "bytes behind its indices are not 0");
+            return makeError(view, Issue::meaning_padding, "cluster", i,
+                             "bytes behind its indices are not 0");
     }
     if (!allZero(page.subspan(end)))
-        return fail(view, Issue::meaning_padding, "page", page_index, "bytes at its end are not 0");
+        return makeError(view, Issue::meaning_padding, "page", page_index, "bytes at its end are not 0");
     return success();
 }
 
 Status checkPageGeometry(const PackView& view, const PageLoop& loop)
 {
     PackView checked = view;
-    checked.checkPagesWhenRead();
+    checked.enablePageChecks();
     FirstError error;
     loop(static_cast<uint32_t>(view.pages().size()),
          [&](uint32_t page)

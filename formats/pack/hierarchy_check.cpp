@@ -18,12 +18,12 @@ bool boxContains(Float3 low, Float3 high, const Box3& box)
 }
 
 /// True if the corners of the cluster's box are grid points that floats represent.
-bool onGrid(const ClusterRecord& cluster)
+bool isOnGrid(const ClusterRecord& cluster)
 {
     for (int axis = 0; axis < 3; ++axis)
-        if (cluster.base[axis] < -kGridMost || cluster.base[axis] > kGridMost)
+        if (cluster.base[axis] < -kMaxGridCoordinate || cluster.base[axis] > kMaxGridCoordinate)
             return false;
-    return cluster.extent_shift <= kMostExtentShift;
+    return cluster.extent_shift <= kMaxExtentShift;
 }
 
 bool sphereContains(const GroupRecord& outer, const GroupRecord& inner)
@@ -37,33 +37,34 @@ bool sphereContains(const GroupRecord& outer, const GroupRecord& inner)
 Status checkMesh(const PackView& view, size_t i)
 {
     const MeshRecord& mesh = view.meshes()[i];
-    if (!legalLayout(mesh.attributes))
-        return fail(view, Issue::meaning_value, "mesh", i, "attributes " + std::to_string(mesh.attributes));
-    if (!(mesh.clusters.count == 0 ? mesh.grid_step == 0 : powerOfTwo(mesh.grid_step)) ||
-        !nonNegative(mesh.grid_error))
-        return fail(view, Issue::meaning_value, "mesh", i,
-                    "its grid has a step of " + std::to_string(mesh.grid_step) + ", an error of " +
-                        std::to_string(mesh.grid_error));
+    if (!isLegalLayout(mesh.attributes))
+        return makeError(view, Issue::meaning_value, "mesh", i,
+                         "attributes " + std::to_string(mesh.attributes));
+    if (!(mesh.clusters.count == 0 ? mesh.grid_step == 0 : isPowerOfTwo(mesh.grid_step)) ||
+        !isNonNegative(mesh.grid_error))
+        return makeError(view, Issue::meaning_value, "mesh", i,
+                         "its grid has a step of " + std::to_string(mesh.grid_step) + ", an error of " +
+                             std::to_string(mesh.grid_error));
     if (mesh.skinned > 1)
-        return fail(view, Issue::meaning_value, "mesh", i, "skinned " + std::to_string(mesh.skinned));
-    if (mesh.clusters.count > 0 && (mesh.skinned != 0) != (influencesOf(mesh.attributes) != 0))
-        return fail(view, Issue::meaning_value, "mesh", i,
-                    mesh.skinned != 0 ? "it is skinned, but its vertices have no influences"
-                                      : "its vertices have influences, but it is not skinned");
-    if (!validBox(mesh.box_min, mesh.box_max))
-        return fail(view, Issue::meaning_value, "mesh", i, "its box is empty or not finite");
+        return makeError(view, Issue::meaning_value, "mesh", i, "skinned " + std::to_string(mesh.skinned));
+    if (mesh.clusters.count > 0 && (mesh.skinned != 0) != (influencesPerVertex(mesh.attributes) != 0))
+        return makeError(view, Issue::meaning_value, "mesh", i,
+                         mesh.skinned != 0 ? "it is skinned, but its vertices have no influences"
+                                           : "its vertices have influences, but it is not skinned");
+    if (!isValidBox(mesh.box_min, mesh.box_max))
+        return makeError(view, Issue::meaning_value, "mesh", i, "its box is empty or not finite");
     if (mesh.lod_count != mesh.levels.count)
-        return fail(view, Issue::meaning_value, "mesh", i, "lod_count is not the number of its levels");
+        return makeError(view, Issue::meaning_value, "mesh", i, "lod_count is not the number of its levels");
     if ((mesh.levels.count == 0) != (mesh.clusters.count == 0))
-        return fail(view, Issue::meaning_value, "mesh", i,
-                    "it has levels without clusters or clusters without levels");
+        return makeError(view, Issue::meaning_value, "mesh", i,
+                         "it has levels without clusters or clusters without levels");
     const uint32_t finest = mesh.levels.count == 0 ? 0 : view.levels()[mesh.levels.first].triangle_count;
     if (mesh.degenerate_triangles > mesh.source_triangles ||
         finest != mesh.source_triangles - mesh.degenerate_triangles)
-        return fail(view, Issue::meaning_value, "mesh", i,
-                    "its finest level has " + std::to_string(finest) + " triangles, its source " +
-                        std::to_string(mesh.source_triangles) + ", of them without area " +
-                        std::to_string(mesh.degenerate_triangles));
+        return makeError(view, Issue::meaning_value, "mesh", i,
+                         "its finest level has " + std::to_string(finest) + " triangles, its source " +
+                             std::to_string(mesh.source_triangles) + ", of them without area " +
+                             std::to_string(mesh.degenerate_triangles));
     return success();
 }
 
@@ -76,28 +77,28 @@ Status checkLevels(const PackView& view, const MeshRecord& mesh)
     {
         const size_t i = size_t{mesh.levels.first} + l;
         const LevelRecord& level = view.levels()[i];
-        if (level.clusters.count == 0 || !insideTable(level.clusters, view.clusters().size()))
-            return fail(view, Issue::meaning_range, "level", i, "its clusters lie outside chunk CLUS");
+        if (level.clusters.count == 0 || !isInsideTable(level.clusters, view.clusters().size()))
+            return makeError(view, Issue::meaning_range, "level", i, "its clusters lie outside chunk CLUS");
         if (level.clusters.first != next)
-            return fail(view, Issue::meaning_order, "level", i,
-                        "clusters start at " + std::to_string(level.clusters.first) + ", expected " +
-                            std::to_string(next));
+            return makeError(view, Issue::meaning_order, "level", i,
+                             "clusters start at " + std::to_string(level.clusters.first) + ", expected " +
+                                 std::to_string(next));
         next += level.clusters.count;
 
         uint64_t triangles = 0;
-        for (const ClusterRecord& cluster : recordsOf(view.clusters(), level.clusters))
+        for (const ClusterRecord& cluster : recordsInRange(view.clusters(), level.clusters))
         {
             if (cluster.level != l)
-                return fail(view, Issue::meaning_order, "level", i, "it has a cluster of another level");
+                return makeError(view, Issue::meaning_order, "level", i, "it has a cluster of another level");
             triangles += cluster.triangle_count;
         }
         if (triangles != level.triangle_count)
-            return fail(view, Issue::meaning_value, "level", i,
-                        std::to_string(level.triangle_count) + " triangles, its clusters have " +
-                            std::to_string(triangles));
+            return makeError(view, Issue::meaning_value, "level", i,
+                             std::to_string(level.triangle_count) + " triangles, its clusters have " +
+                                 std::to_string(triangles));
     }
     if (next != mesh.clusters.first + mesh.clusters.count)
-        return fail(view, Issue::meaning_range, "cluster", next, "it belongs to no level");
+        return makeError(view, Issue::meaning_range, "cluster", next, "it belongs to no level");
     return success();
 }
 
@@ -105,23 +106,24 @@ Status checkGroup(const PackView& view, uint32_t mesh_index, uint32_t i)
 {
     const MeshRecord& mesh = view.meshes()[mesh_index];
     const GroupRecord& group = view.groups()[i];
-    if (!finite(group.sphere_center) || !nonNegative(group.sphere_radius) || !(group.error >= 0))
-        return fail(view, Issue::meaning_value, "group", i, "its sphere or error is negative or not finite");
-    if (!nonNegative(group.position_error) || !nonNegative(group.normal_error) ||
-        !nonNegative(group.uv_error) || !(group.position_error <= group.error))
-        return fail(view, Issue::meaning_value, "group", i,
-                    "a part of its error is negative or not finite, or the position's exceeds it");
+    if (!finite(group.sphere_center) || !isNonNegative(group.sphere_radius) || !(group.error >= 0))
+        return makeError(view, Issue::meaning_value, "group", i,
+                         "its sphere or error is negative or not finite");
+    if (!isNonNegative(group.position_error) || !isNonNegative(group.normal_error) ||
+        !isNonNegative(group.uv_error) || !(group.position_error <= group.error))
+        return makeError(view, Issue::meaning_value, "group", i,
+                         "a part of its error is negative or not finite, or the position's exceeds it");
     if (group.page < mesh.pages.first || group.page - mesh.pages.first >= mesh.pages.count)
-        return fail(view, Issue::meaning_reference, "group", i,
-                    "page " + std::to_string(group.page) + " is not of its mesh");
+        return makeError(view, Issue::meaning_reference, "group", i,
+                         "page " + std::to_string(group.page) + " is not of its mesh");
     if (!reservedZero(group.reserved))
-        return fail(view, Issue::meaning_padding, "group", i, "a reserved field is not 0");
+        return makeError(view, Issue::meaning_padding, "group", i, "a reserved field is not 0");
     if (group.clusters.count == 0)
-        return fail(view, Issue::meaning_value, "group", i, "it has no clusters");
-    for (const ClusterRecord& cluster : recordsOf(view.clusters(), group.clusters))
+        return makeError(view, Issue::meaning_value, "group", i, "it has no clusters");
+    for (const ClusterRecord& cluster : recordsInRange(view.clusters(), group.clusters))
         if (cluster.group != i || cluster.level != group.level || cluster.page != group.page)
-            return fail(view, Issue::meaning_reference, "group", i,
-                        "one of its clusters names another group, level or page");
+            return makeError(view, Issue::meaning_reference, "group", i,
+                             "one of its clusters names another group, level or page");
     return success();
 }
 
@@ -133,38 +135,38 @@ Status checkSet(const PackView& view, const MeshRecord& mesh, uint32_t i)
     if (group.set_offset == 0)
         return success();
     if (group.set_offset > i - mesh.groups.first)
-        return fail(view, Issue::meaning_reference, "group", i,
-                    "the first group of its set is not of its mesh");
+        return makeError(view, Issue::meaning_reference, "group", i,
+                         "the first group of its set is not of its mesh");
     const GroupRecord& before = view.groups()[i - 1];
     if (before.set_offset != group.set_offset - 1)
-        return fail(view, Issue::meaning_order, "group", i,
-                    "it does not follow the group before it in its set");
+        return makeError(view, Issue::meaning_order, "group", i,
+                         "it does not follow the group before it in its set");
     if (!(group.sphere_center == before.sphere_center) || group.sphere_radius != before.sphere_radius ||
         group.error != before.error || group.level != before.level ||
         group.position_error != before.position_error || group.normal_error != before.normal_error ||
         group.uv_error != before.uv_error)
-        return fail(view, Issue::meaning_value, "group", i,
-                    "its sphere, errors or level are not those of the group before it in its set");
+        return makeError(view, Issue::meaning_value, "group", i,
+                         "its sphere, errors or level are not those of the group before it in its set");
     return success();
 }
 
 Status checkClusterValues(const PackView& view, const MeshRecord& mesh, size_t i)
 {
     const ClusterRecord& cluster = view.clusters()[i];
-    if (cluster.vertex_count < 1 || cluster.vertex_count > kClusterMaxVertices ||
-        cluster.triangle_count < 1 || cluster.triangle_count > kClusterMaxTriangles)
-        return fail(view, Issue::meaning_value, "cluster", i,
-                    std::to_string(cluster.vertex_count) + " vertices, " +
-                        std::to_string(cluster.triangle_count) + " triangles");
-    if (!onGrid(cluster))
-        return fail(view, Issue::meaning_value, "cluster", i, "its box lies beyond the grid");
-    if (!boxContains(mesh.box_min, mesh.box_max, boxOf(cluster, mesh.grid_step)))
-        return fail(view, Issue::meaning_bounds, "cluster", i, "its box leaves the box of its mesh");
+    if (cluster.vertex_count < 1 || cluster.vertex_count > kMaxClusterVertices ||
+        cluster.triangle_count < 1 || cluster.triangle_count > kMaxClusterTriangles)
+        return makeError(view, Issue::meaning_value, "cluster", i,
+                         std::to_string(cluster.vertex_count) + " vertices, " +
+                             std::to_string(cluster.triangle_count) + " triangles");
+    if (!isOnGrid(cluster))
+        return makeError(view, Issue::meaning_value, "cluster", i, "its box lies beyond the grid");
+    if (!boxContains(mesh.box_min, mesh.box_max, clusterBox(cluster, mesh.grid_step)))
+        return makeError(view, Issue::meaning_bounds, "cluster", i, "its box leaves the box of its mesh");
     if (!NormalCode<8>::legal(cluster.cone_axis))
-        return fail(view, Issue::meaning_value, "cluster", i,
-                    "the axis of its normal cone has no legal code");
+        return makeError(view, Issue::meaning_value, "cluster", i,
+                         "the axis of its normal cone has no legal code");
     if (cluster.reserved != 0)
-        return fail(view, Issue::meaning_padding, "cluster", i, "a reserved field is not 0");
+        return makeError(view, Issue::meaning_padding, "cluster", i, "a reserved field is not 0");
     return success();
 }
 
@@ -173,36 +175,37 @@ Status checkClusterValues(const PackView& view, const MeshRecord& mesh, size_t i
 Status checkRefinement(const PackView& view, const MeshRecord& mesh, size_t i)
 {
     const ClusterRecord& cluster = view.clusters()[i];
-    if ((cluster.refined_group == kNone) != (cluster.level == 0))
-        return fail(view, Issue::meaning_tree, "cluster", i,
-                    "it has no refined group, or has one at level 0");
-    if (cluster.refined_group == kNone)
+    if ((cluster.refined_group == kInvalidIndex) != (cluster.level == 0))
+        return makeError(view, Issue::meaning_tree, "cluster", i,
+                         "it has no refined group, or has one at level 0");
+    if (cluster.refined_group == kInvalidIndex)
         return success();
     if (cluster.refined_group < mesh.groups.first ||
         cluster.refined_group - mesh.groups.first >= mesh.groups.count)
-        return fail(view, Issue::meaning_reference, "cluster", i,
-                    "refined group " + std::to_string(cluster.refined_group) + " is not of its mesh");
+        return makeError(view, Issue::meaning_reference, "cluster", i,
+                         "refined group " + std::to_string(cluster.refined_group) + " is not of its mesh");
     const GroupRecord& finer = view.groups()[cluster.refined_group];
     if (finer.set_offset != 0)
-        return fail(view, Issue::meaning_reference, "cluster", i,
-                    "its refined group is not the first of its set");
+        return makeError(view, Issue::meaning_reference, "cluster", i,
+                         "its refined group is not the first of its set");
     const GroupRecord& own = view.groups()[cluster.group];
     if (finer.level >= cluster.level)
-        return fail(view, Issue::meaning_tree, "cluster", i, "its refined group is not of a finer level");
+        return makeError(view, Issue::meaning_tree, "cluster", i,
+                         "its refined group is not of a finer level");
     if (!std::isfinite(finer.error))
-        return fail(view, Issue::meaning_value, "cluster", i, "it was made from a root");
+        return makeError(view, Issue::meaning_value, "cluster", i, "it was made from a root");
     if (!(finer.error <= own.error))
-        return fail(view, Issue::meaning_monotone, "cluster", i,
-                    "error " + std::to_string(finer.error) + " of its refined group, " +
-                        std::to_string(own.error) + " of its group");
+        return makeError(view, Issue::meaning_monotone, "cluster", i,
+                         "error " + std::to_string(finer.error) + " of its refined group, " +
+                             std::to_string(own.error) + " of its group");
     if (std::isfinite(own.error) &&
         !(finer.position_error <= own.position_error && finer.normal_error <= own.normal_error &&
           finer.uv_error <= own.uv_error))
-        return fail(view, Issue::meaning_monotone, "cluster", i,
-                    "a part of its refined group's error exceeds that of its group's");
+        return makeError(view, Issue::meaning_monotone, "cluster", i,
+                         "a part of its refined group's error exceeds that of its group's");
     if (!sphereContains(own, finer))
-        return fail(view, Issue::meaning_monotone, "cluster", i,
-                    "the sphere of its refined group leaves the sphere of its group");
+        return makeError(view, Issue::meaning_monotone, "cluster", i,
+                         "the sphere of its refined group leaves the sphere of its group");
     return success();
 }
 
@@ -211,10 +214,10 @@ Status checkLevelErrors(const PackView& view, const MeshRecord& mesh)
     for (uint32_t i = mesh.levels.first; i < mesh.levels.first + mesh.levels.count; ++i)
     {
         float max_error = 0;
-        for (const ClusterRecord& cluster : recordsOf(view.clusters(), view.levels()[i].clusters))
-            max_error = std::max(max_error, errorOf(cluster, view.groups()));
+        for (const ClusterRecord& cluster : recordsInRange(view.clusters(), view.levels()[i].clusters))
+            max_error = std::max(max_error, clusterError(cluster, view.groups()));
         if (!(view.levels()[i].max_error == max_error))
-            return fail(view, Issue::meaning_value, "level", i, "max_error is not that of its clusters");
+            return makeError(view, Issue::meaning_value, "level", i, "max_error is not that of its clusters");
     }
     return success();
 }
@@ -224,15 +227,15 @@ Status checkRoots(const PackView& view)
 {
     std::vector<bool> replaced(view.groups().size(), false);
     for (const ClusterRecord& cluster : view.clusters())
-        if (cluster.refined_group != kNone)
+        if (cluster.refined_group != kInvalidIndex)
             replaced[cluster.refined_group] = true;
     for (size_t i = 0; i < replaced.size(); ++i)
     {
         replaced[i] = replaced[i - view.groups()[i].set_offset];
         if (replaced[i] != std::isfinite(view.groups()[i].error))
-            return fail(view, Issue::meaning_tree, "group", i,
-                        replaced[i] ? "a root, yet clusters were made from it"
-                                    : "no cluster was made from it, yet it is not a root");
+            return makeError(view, Issue::meaning_tree, "group", i,
+                             replaced[i] ? "a root, yet clusters were made from it"
+                                         : "no cluster was made from it, yet it is not a root");
     }
     return success();
 }
@@ -241,40 +244,42 @@ Status checkPage(const PackView& view, uint32_t mesh_index, uint32_t i)
 {
     const PageRecord& page = view.pages()[i];
     if (page.mesh != mesh_index)
-        return fail(view, Issue::meaning_reference, "page", i, "it names mesh " + std::to_string(page.mesh));
-    if (page.size > kPageMaxBytes || page.codec > static_cast<uint32_t>(PageCodec::clusters) ||
+        return makeError(view, Issue::meaning_reference, "page", i,
+                         "it names mesh " + std::to_string(page.mesh));
+    if (page.size > kMaxPageBytes || page.codec > static_cast<uint32_t>(PageCodec::clusters) ||
         (page.codec == static_cast<uint32_t>(PageCodec::none) && page.stored_size != page.size))
-        return fail(view, Issue::meaning_value, "page", i,
-                    std::to_string(page.size) + " bytes, stored " + std::to_string(page.stored_size) +
-                        ", codec " + std::to_string(page.codec));
+        return makeError(view, Issue::meaning_value, "page", i,
+                         std::to_string(page.size) + " bytes, stored " + std::to_string(page.stored_size) +
+                             ", codec " + std::to_string(page.codec));
     if (!reservedZero(page.reserved))
-        return fail(view, Issue::meaning_padding, "page", i, "a reserved field is not 0");
+        return makeError(view, Issue::meaning_padding, "page", i, "a reserved field is not 0");
     if (page.clusters.count == 0)
-        return fail(view, Issue::meaning_value, "page", i, "it has no clusters");
-    for (const ClusterRecord& cluster : recordsOf(view.clusters(), page.clusters))
+        return makeError(view, Issue::meaning_value, "page", i, "it has no clusters");
+    for (const ClusterRecord& cluster : recordsInRange(view.clusters(), page.clusters))
         if (cluster.page != i)
-            return fail(view, Issue::meaning_reference, "page", i, "one of its clusters names another page");
+            return makeError(view, Issue::meaning_reference, "page", i,
+                             "one of its clusters names another page");
     return success();
 }
 
 /// Check that pages are contiguous in chunk PAGE, each at a multiple of 64, with zeros between and after.
-Status checkPageBytes(const PackView& view, Bulk bulk)
+Status checkPageBytes(const PackView& view, BulkData bulk)
 {
     const std::span<const std::byte> bytes = view.pageBytes();
     size_t end = 0;
     const auto zeroUntil = [&](size_t until)
-    { return bulk == Bulk::left || allZero(bytes.subspan(end, until - end)); };
+    { return bulk == BulkData::skip || allZero(bytes.subspan(end, until - end)); };
     for (size_t i = 0; i < view.pages().size(); ++i)
     {
         const PageRecord& page = view.pages()[i];
         const size_t start = (end + kChunkAlignment - 1) / kChunkAlignment * kChunkAlignment;
         if (page.offset != start)
-            return fail(view, Issue::meaning_order, "page", i,
-                        "offset " + std::to_string(page.offset) + ", expected " + std::to_string(start));
+            return makeError(view, Issue::meaning_order, "page", i,
+                             "offset " + std::to_string(page.offset) + ", expected " + std::to_string(start));
         if (start > bytes.size() || page.stored_size > bytes.size() - start)
-            return fail(view, Issue::meaning_range, "page", i, "it lies outside chunk PAGE");
+            return makeError(view, Issue::meaning_range, "page", i, "it lies outside chunk PAGE");
         if (!zeroUntil(start))
-            return fail(view, Issue::meaning_padding, "page", i, "bytes before it are not 0");
+            return makeError(view, Issue::meaning_padding, "page", i, "bytes before it are not 0");
         end = start + page.stored_size;
     }
     if (bytes.size() - end >= kChunkAlignment)
@@ -286,7 +291,7 @@ Status checkPageBytes(const PackView& view, Bulk bulk)
 }
 
 /// Return the pages of each set of groups, by the index of the set's first group.
-std::vector<std::vector<uint32_t>> pagesOfSets(const PackView& view)
+std::vector<std::vector<uint32_t>> collectSetPages(const PackView& view)
 {
     std::vector<std::vector<uint32_t>> pages_of_set(view.groups().size());
     for (size_t i = 0; i < pages_of_set.size(); ++i)
@@ -302,12 +307,12 @@ std::vector<std::vector<uint32_t>> pagesOfSets(const PackView& view)
 /// ascending.
 Status checkParents(const PackView& view)
 {
-    const std::vector<std::vector<uint32_t>> pages_of_set = pagesOfSets(view);
+    const std::vector<std::vector<uint32_t>> pages_of_set = collectSetPages(view);
     // clusters are in page order, so that a page's parents are found in ascending order
     std::vector<std::vector<uint32_t>> implied(view.pages().size());
     for (const ClusterRecord& cluster : view.clusters())
     {
-        if (cluster.refined_group == kNone)
+        if (cluster.refined_group == kInvalidIndex)
             continue;
         for (const uint32_t finer_page : pages_of_set[cluster.refined_group])
         {
@@ -318,12 +323,12 @@ Status checkParents(const PackView& view)
     }
     for (size_t i = 0; i < implied.size(); ++i)
     {
-        const auto stored = recordsOf(view.pageParents(), view.pages()[i].parents);
+        const auto stored = recordsInRange(view.pageParents(), view.pages()[i].parents);
         if (std::any_of(stored.begin(), stored.end(), [i](uint32_t parent) { return parent >= i; }))
-            return fail(view, Issue::meaning_order, "page", i, "a parent is not an earlier page");
+            return makeError(view, Issue::meaning_order, "page", i, "a parent is not an earlier page");
         if (!std::equal(stored.begin(), stored.end(), implied[i].begin(), implied[i].end()))
-            return fail(view, Issue::meaning_reference, "page", i,
-                        "its parents are not what its clusters imply");
+            return makeError(view, Issue::meaning_reference, "page", i,
+                             "its parents are not what its clusters imply");
     }
     return success();
 }
@@ -332,10 +337,10 @@ Status checkParents(const PackView& view)
 
 Status checkMeshTables(const PackView& view)
 {
-    Cursor levels(view, "mesh", "level", view.levels().size());
-    Cursor groups(view, "mesh", "group", view.groups().size());
-    Cursor clusters(view, "mesh", "cluster", view.clusters().size());
-    Cursor pages(view, "mesh", "page", view.pages().size());
+    RangeCursor levels(view, "mesh", "level", view.levels().size());
+    RangeCursor groups(view, "mesh", "group", view.groups().size());
+    RangeCursor clusters(view, "mesh", "cluster", view.clusters().size());
+    RangeCursor pages(view, "mesh", "page", view.pages().size());
     for (size_t i = 0; i < view.meshes().size(); ++i)
     {
         const MeshRecord& mesh = view.meshes()[i];
@@ -350,7 +355,7 @@ Status checkMeshTables(const PackView& view)
     HEARTH_TRY(clusters.finish());
     HEARTH_TRY(pages.finish());
 
-    Cursor grouped(view, "group", "cluster", view.clusters().size());
+    RangeCursor grouped(view, "group", "cluster", view.clusters().size());
     for (uint32_t m = 0; m < view.meshes().size(); ++m)
     {
         const MeshRecord& mesh = view.meshes()[m];
@@ -362,7 +367,8 @@ Status checkMeshTables(const PackView& view)
             HEARTH_TRY(checkSet(view, mesh, mesh.groups.first + g));
         }
         if (grouped.at() != size_t{mesh.clusters.first} + mesh.clusters.count)
-            return fail(view, Issue::meaning_range, "mesh", m, "its groups do not have exactly its clusters");
+            return makeError(view, Issue::meaning_range, "mesh", m,
+                             "its groups do not have exactly its clusters");
         for (uint32_t c = 0; c < mesh.clusters.count; ++c)
         {
             HEARTH_TRY(checkClusterValues(view, mesh, mesh.clusters.first + c));
@@ -373,10 +379,10 @@ Status checkMeshTables(const PackView& view)
     return checkRoots(view);
 }
 
-Status checkPageTables(const PackView& view, Bulk bulk)
+Status checkPageTables(const PackView& view, BulkData bulk)
 {
-    Cursor clusters(view, "page", "cluster", view.clusters().size());
-    Cursor parents(view, "page", "parent", view.pageParents().size());
+    RangeCursor clusters(view, "page", "cluster", view.clusters().size());
+    RangeCursor parents(view, "page", "parent", view.pageParents().size());
     for (uint32_t m = 0; m < view.meshes().size(); ++m)
     {
         const Range pages = view.meshes()[m].pages;

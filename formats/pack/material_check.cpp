@@ -15,15 +15,16 @@ namespace
 Status checkTexture(const PackView& view, size_t material, const char* name, const TextureRef& texture)
 {
     const std::string field = std::string(name) + ": ";
-    if (!noneOrBelow(texture.image, view.images().size()))
-        return fail(view, Issue::meaning_reference, "material", material,
-                    field + "image " + std::to_string(texture.image));
+    if (!isNoneOrBelow(texture.image, view.images().size()))
+        return makeError(view, Issue::meaning_reference, "material", material,
+                         field + "image " + std::to_string(texture.image));
     const auto last_wrap = static_cast<uint8_t>(Wrap::clamp_to_edge);
     if (texture.uv_set > 3 || texture.wrap_u > last_wrap || texture.wrap_v > last_wrap || texture.nearest > 1)
-        return fail(view, Issue::meaning_value, "material", material, field + "its sampler is not possible");
+        return makeError(view, Issue::meaning_value, "material", material,
+                         field + "its sampler is not possible");
     if (!finite(texture.uv_transform))
-        return fail(view, Issue::meaning_value, "material", material,
-                    field + "its UV transform is not finite");
+        return makeError(view, Issue::meaning_value, "material", material,
+                         field + "its UV transform is not finite");
     return success();
 }
 
@@ -31,15 +32,16 @@ Status checkMaterial(const PackView& view, size_t i)
 {
     const MaterialRecord& m = view.materials()[i];
     if ((m.flags & ~uint32_t{kMaterialDoubleSided | kMaterialUnlit}) != 0)
-        return fail(view, Issue::meaning_value, "material", i, "flags " + std::to_string(m.flags));
+        return makeError(view, Issue::meaning_value, "material", i, "flags " + std::to_string(m.flags));
     if (m.alpha_mode > static_cast<uint32_t>(AlphaMode::blend))
-        return fail(view, Issue::meaning_value, "material", i, "alpha mode " + std::to_string(m.alpha_mode));
+        return makeError(view, Issue::meaning_value, "material", i,
+                         "alpha mode " + std::to_string(m.alpha_mode));
     const float factors[] = {m.base_color.x, m.base_color.y, m.base_color.z, m.base_color.w,
                              m.emissive.x,   m.emissive.y,   m.emissive.z,   m.alpha_cutoff};
-    if (!std::all_of(std::begin(factors), std::end(factors), nonNegative) || !finite(m.normal_scale))
-        return fail(view, Issue::meaning_value, "material", i, "a factor is negative or not finite");
+    if (!std::all_of(std::begin(factors), std::end(factors), isNonNegative) || !finite(m.normal_scale))
+        return makeError(view, Issue::meaning_value, "material", i, "a factor is negative or not finite");
     if (!inside(m.metallic, 0, 1) || !inside(m.roughness, 0, 1) || !inside(m.occlusion_strength, 0, 1))
-        return fail(view, Issue::meaning_value, "material", i, "a factor is not in 0..1");
+        return makeError(view, Issue::meaning_value, "material", i, "a factor is not in 0..1");
     HEARTH_TRY(checkTexture(view, i, "base_color_texture", m.base_color_texture));
     HEARTH_TRY(checkTexture(view, i, "metallic_roughness_texture", m.metallic_roughness_texture));
     HEARTH_TRY(checkTexture(view, i, "normal_texture", m.normal_texture));
@@ -47,21 +49,22 @@ Status checkMaterial(const PackView& view, size_t i)
     return checkTexture(view, i, "emissive_texture", m.emissive_texture);
 }
 
-Status checkImage(const PackView& view, uint32_t i, Bulk bulk)
+Status checkImage(const PackView& view, uint32_t i, BulkData bulk)
 {
     const ImageRecord& image = view.images()[i];
-    if (image.width < 1 || image.width > kImageMaxSize || image.height < 1 || image.height > kImageMaxSize)
-        return fail(view, Issue::meaning_value, "image", i,
-                    std::to_string(image.width) + " x " + std::to_string(image.height) + " texels");
+    if (image.width < 1 || image.width > kMaxImageSize || image.height < 1 || image.height > kMaxImageSize)
+        return makeError(view, Issue::meaning_value, "image", i,
+                         std::to_string(image.width) + " x " + std::to_string(image.height) + " texels");
     const auto full_chain = static_cast<uint32_t>(std::bit_width(std::max(image.width, image.height)));
     if (image.mip_count < 1 || image.mip_count > full_chain)
-        return fail(view, Issue::meaning_value, "image", i, std::to_string(image.mip_count) + " mips");
+        return makeError(view, Issue::meaning_value, "image", i, std::to_string(image.mip_count) + " mips");
     if (texelBytes(image.format) == 0)
-        return fail(view, Issue::meaning_value, "image", i, "format " + std::to_string(image.format));
+        return makeError(view, Issue::meaning_value, "image", i, "format " + std::to_string(image.format));
     if ((image.flags & ~uint32_t{kImagePlaceholder | kImageNormalMap | kImageAlphaTested}) != 0)
-        return fail(view, Issue::meaning_value, "image", i, "flags " + std::to_string(image.flags));
-    if (!nonNegative(image.alpha_cutoff))
-        return fail(view, Issue::meaning_value, "image", i, "its alpha cutoff is negative or not finite");
+        return makeError(view, Issue::meaning_value, "image", i, "flags " + std::to_string(image.flags));
+    if (!isNonNegative(image.alpha_cutoff))
+        return makeError(view, Issue::meaning_value, "image", i,
+                         "its alpha cutoff is negative or not finite");
 
     const ChunkEntry* data = view.container().find(kChunkImageData, i);
     if (data == nullptr)
@@ -70,31 +73,31 @@ Status checkImage(const PackView& view, uint32_t i, Bulk bulk)
         return Error{Issue::chunk_size, view.name(), chunkName(kChunkImageData, i),
                      std::to_string(data->size) + " bytes, its image has " +
                          std::to_string(mipOffset(image, image.mip_count))};
-    return bulk == Bulk::read ? view.container().checkDecodes(*data) : success();
+    return bulk == BulkData::read ? view.container().checkDecodes(*data) : success();
 }
 
 Status checkJoint(const PackView& view, size_t i)
 {
     const JointRecord& joint = view.joints()[i];
     if (joint.node >= view.nodes().size())
-        return fail(view, Issue::meaning_reference, "joint", i, "node " + std::to_string(joint.node));
+        return makeError(view, Issue::meaning_reference, "joint", i, "node " + std::to_string(joint.node));
     if (!finite(joint.joint_from_bind))
-        return fail(view, Issue::meaning_value, "joint", i, "its matrix is not finite");
+        return makeError(view, Issue::meaning_value, "joint", i, "its matrix is not finite");
     if (!reservedZero(joint.reserved))
-        return fail(view, Issue::meaning_padding, "joint", i, "a reserved field is not 0");
+        return makeError(view, Issue::meaning_padding, "joint", i, "a reserved field is not 0");
     return success();
 }
 
 /// Test that the times of a channel never decrease, in constant time for any channel.
-class TimeOrder
+class TimeOrderTable
 {
 public:
-    explicit TimeOrder(std::span<const float> keys) : steps_back_(keys.size() + 1, 0)
+    explicit TimeOrderTable(std::span<const float> keys) : steps_back_(keys.size() + 1, 0)
     {
         for (size_t i = 1; i < keys.size(); ++i)
             steps_back_[i + 1] = steps_back_[i] + (keys[i] < keys[i - 1] ? 1 : 0);
     }
-    bool ascending(uint32_t first, uint32_t count) const
+    bool isAscending(uint32_t first, uint32_t count) const
     {
         return count == 0 || steps_back_[size_t{first} + 1] == steps_back_[size_t{first} + count];
     }
@@ -115,12 +118,12 @@ Status checkFloatKeys(const PackView& view, size_t i)
     const size_t size = view.keys().size();
     const uint64_t floats =
         uint64_t{channel.components} * (isSpline(channel) ? 3 : 1); // of one key: below 2^34
-    if (!insideTable({channel.first_time, channel.key_count}, size) || channel.first_value > size ||
+    if (!isInsideTable({channel.first_time, channel.key_count}, size) || channel.first_value > size ||
         floats > (size - channel.first_value) / channel.key_count)
-        return fail(view, Issue::meaning_range, "channel", i, "its keys lie outside chunk AKEY");
+        return makeError(view, Issue::meaning_range, "channel", i, "its keys lie outside chunk AKEY");
     if (channel.first_word != 0 || channel.time_bits != 0 || channel.value_bits[0] != 0 ||
         channel.value_bits[1] != 0 || channel.value_bits[2] != 0)
-        return fail(view, Issue::meaning_padding, "channel", i, "a field of packed keys is not 0");
+        return makeError(view, Issue::meaning_padding, "channel", i, "a field of packed keys is not 0");
     return success();
 }
 
@@ -130,69 +133,73 @@ Status checkPackedKeys(const PackView& view, size_t i, uint64_t& next_word)
 {
     const AnimationChannelRecord& channel = view.channels()[i];
     if (isSpline(channel) || channel.path == static_cast<uint32_t>(AnimationPath::weights))
-        return fail(view, Issue::meaning_value, "channel", i, "splines and morph weights cannot be packed");
-    const auto tooWide = [](uint8_t bits) { return bits > kMostKeyFieldBits; };
+        return makeError(view, Issue::meaning_value, "channel", i,
+                         "splines and morph weights cannot be packed");
+    const auto tooWide = [](uint8_t bits) { return bits > kMaxKeyFieldBits; };
     if (std::any_of(std::begin(channel.value_bits), std::end(channel.value_bits), tooWide) ||
         tooWide(channel.time_bits))
-        return fail(view, Issue::meaning_value, "channel", i, "a code of its keys has more than 24 bits");
+        return makeError(view, Issue::meaning_value, "channel", i,
+                         "a code of its keys has more than 24 bits");
     // each stream after the one before: this bounds the checking time by the size of the chunk
     if (channel.first_word < next_word)
-        return fail(view, Issue::meaning_order, "channel", i, "its packed keys are not behind those before");
+        return makeError(view, Issue::meaning_order, "channel", i,
+                         "its packed keys are not behind those before");
     const uint64_t words = (uint64_t{channel.key_count} * keyStride(channel) + 31) / 32;
     if (channel.first_word > view.keyBits().size() || words > view.keyBits().size() - channel.first_word)
-        return fail(view, Issue::meaning_range, "channel", i, "its keys lie outside chunk AKBT");
+        return makeError(view, Issue::meaning_range, "channel", i, "its keys lie outside chunk AKBT");
     next_word = channel.first_word + words;
 
     const size_t size = view.keys().size();
-    if (!insideTable({channel.first_value, 4}, size) ||
-        !insideTable({channel.first_time, channel.time_bits == 0 ? channel.key_count : 1}, size))
-        return fail(view, Issue::meaning_range, "channel", i, "its keys lie outside chunk AKEY");
+    if (!isInsideTable({channel.first_value, 4}, size) ||
+        !isInsideTable({channel.first_time, channel.time_bits == 0 ? channel.key_count : 1}, size))
+        return makeError(view, Issue::meaning_range, "channel", i, "its keys lie outside chunk AKEY");
     if (view.keys()[size_t{channel.first_value} + 3] < 0)
-        return fail(view, Issue::meaning_value, "channel", i, "the step of its codes is negative");
+        return makeError(view, Issue::meaning_value, "channel", i, "the step of its codes is negative");
     const auto stream = view.keyBits().subspan(channel.first_word);
     for (uint32_t key = 0; key < channel.key_count && channel.time_bits > 0; ++key)
         if (readBits(stream, uint64_t{key} * keyStride(channel), channel.time_bits) >=
             size - channel.first_time)
-            return fail(view, Issue::meaning_range, "channel", i,
-                        "the time of key " + std::to_string(key) + " lies outside chunk AKEY");
+            return makeError(view, Issue::meaning_range, "channel", i,
+                             "the time of key " + std::to_string(key) + " lies outside chunk AKEY");
     return success();
 }
 
 /// Check the times of keys that are inside their chunks.
-Status checkTimes(const PackView& view, const TimeOrder& order, size_t i)
+Status checkTimes(const PackView& view, const TimeOrderTable& order, size_t i)
 {
     const AnimationChannelRecord& channel = view.channels()[i];
     const ChannelKeys keys(view.keys(), view.keyBits(), channel);
-    bool ascending = keys.time(0) >= 0;
+    bool isAscending = keys.time(0) >= 0;
     if (channel.time_bits == 0)
-        ascending = ascending && order.ascending(channel.first_time, channel.key_count);
+        isAscending = isAscending && order.isAscending(channel.first_time, channel.key_count);
     else
-        for (uint32_t key = 1; key < keys.count() && ascending; ++key)
-            ascending = keys.time(key) >= keys.time(key - 1);
-    if (!ascending)
-        return fail(view, Issue::meaning_order, "channel", i, "its times decrease or are negative");
+        for (uint32_t key = 1; key < keys.count() && isAscending; ++key)
+            isAscending = keys.time(key) >= keys.time(key - 1);
+    if (!isAscending)
+        return makeError(view, Issue::meaning_order, "channel", i, "its times decrease or are negative");
     return success();
 }
 
 /// Check a channel.
 /// next_word  as for checkPackedKeys
-Status checkChannel(const PackView& view, const TimeOrder& order, size_t i, uint64_t& next_word)
+Status checkChannel(const PackView& view, const TimeOrderTable& order, size_t i, uint64_t& next_word)
 {
     const AnimationChannelRecord& channel = view.channels()[i];
     if (channel.node >= view.nodes().size())
-        return fail(view, Issue::meaning_reference, "channel", i, "node " + std::to_string(channel.node));
+        return makeError(view, Issue::meaning_reference, "channel", i,
+                         "node " + std::to_string(channel.node));
     if (channel.path > static_cast<uint32_t>(AnimationPath::weights) ||
         channel.interpolation > static_cast<uint32_t>(Interpolation::cubic_spline) ||
         channel.encoding > static_cast<uint32_t>(KeyEncoding::packed))
-        return fail(view, Issue::meaning_value, "channel", i,
-                    "its path, interpolation or encoding does not exist");
+        return makeError(view, Issue::meaning_value, "channel", i,
+                         "its path, interpolation or encoding does not exist");
     const bool weights = channel.path == static_cast<uint32_t>(AnimationPath::weights);
     const uint32_t expected = channel.path == static_cast<uint32_t>(AnimationPath::rotation) ? 4 : 3;
     if (weights ? channel.components == 0 : channel.components != expected)
-        return fail(view, Issue::meaning_value, "channel", i,
-                    std::to_string(channel.components) + " components");
+        return makeError(view, Issue::meaning_value, "channel", i,
+                         std::to_string(channel.components) + " components");
     if (channel.key_count == 0)
-        return fail(view, Issue::meaning_value, "channel", i, "it has no keys");
+        return makeError(view, Issue::meaning_value, "channel", i, "it has no keys");
 
     HEARTH_TRY(isPacked(channel) ? checkPackedKeys(view, i, next_word) : checkFloatKeys(view, i));
     return checkTimes(view, order, i);
@@ -203,14 +210,14 @@ Status checkAnimation(const PackView& view, size_t i)
 {
     const AnimationRecord& animation = view.animations()[i];
     float last = 0;
-    for (const AnimationChannelRecord& channel : recordsOf(view.channels(), animation.channels))
+    for (const AnimationChannelRecord& channel : recordsInRange(view.channels(), animation.channels))
         last = std::max(last, ChannelKeys(view.keys(), view.keyBits(), channel).time(channel.key_count - 1));
     if (!finite(animation.duration) || animation.duration < last)
-        return fail(view, Issue::meaning_value, "animation", i,
-                    "duration " + std::to_string(animation.duration) + ", its last key is at " +
-                        std::to_string(last));
-    if (!nonNegative(animation.error))
-        return fail(view, Issue::meaning_value, "animation", i, "its error is negative or not finite");
+        return makeError(view, Issue::meaning_value, "animation", i,
+                         "duration " + std::to_string(animation.duration) + ", its last key is at " +
+                             std::to_string(last));
+    if (!isNonNegative(animation.error))
+        return makeError(view, Issue::meaning_value, "animation", i, "its error is negative or not finite");
     return success();
 }
 
@@ -223,7 +230,7 @@ Status checkMaterials(const PackView& view)
     return success();
 }
 
-Status checkImages(const PackView& view, Bulk bulk)
+Status checkImages(const PackView& view, BulkData bulk)
 {
     for (uint32_t i = 0; i < view.images().size(); ++i)
         HEARTH_TRY(checkImage(view, i, bulk));
@@ -235,13 +242,13 @@ Status checkSkins(const PackView& view)
     for (size_t i = 0; i < view.skins().size(); ++i)
     {
         const SkinRecord& skin = view.skins()[i];
-        if (!noneOrBelow(skin.skeleton_root, view.nodes().size()))
-            return fail(view, Issue::meaning_reference, "skin", i,
-                        "root " + std::to_string(skin.skeleton_root));
-        if (!insideTable(skin.joints, view.joints().size()))
-            return fail(view, Issue::meaning_range, "skin", i, "its joints lie outside chunk JOIN");
+        if (!isNoneOrBelow(skin.skeleton_root, view.nodes().size()))
+            return makeError(view, Issue::meaning_reference, "skin", i,
+                             "root " + std::to_string(skin.skeleton_root));
+        if (!isInsideTable(skin.joints, view.joints().size()))
+            return makeError(view, Issue::meaning_range, "skin", i, "its joints lie outside chunk JOIN");
         if (skin.reserved != 0)
-            return fail(view, Issue::meaning_padding, "skin", i, "a reserved field is not 0");
+            return makeError(view, Issue::meaning_padding, "skin", i, "a reserved field is not 0");
     }
     for (size_t i = 0; i < view.joints().size(); ++i)
         HEARTH_TRY(checkJoint(view, i));
@@ -252,12 +259,12 @@ Status checkAnimations(const PackView& view)
 {
     if (!finite(view.keys()))
         return Error{Issue::meaning_value, view.name(), chunkName(kChunkKeys, 0), "a key is not finite"};
-    Cursor channels(view, "animation", "channel", view.channels().size());
+    RangeCursor channels(view, "animation", "channel", view.channels().size());
     for (size_t i = 0; i < view.animations().size(); ++i)
         HEARTH_TRY(channels.take(i, view.animations()[i].channels));
     HEARTH_TRY(channels.finish());
 
-    const TimeOrder order(view.keys());
+    const TimeOrderTable order(view.keys());
     uint64_t next_word = 0;
     for (size_t i = 0; i < view.channels().size(); ++i)
         HEARTH_TRY(checkChannel(view, order, i, next_word));

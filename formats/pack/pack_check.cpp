@@ -54,21 +54,22 @@ Status checkNames(const PackView& view, const char* kind, std::span<const Record
     for (size_t i = 0; i < records.size(); ++i)
     {
         const StringRef name = records[i].name;
-        if (!insideTable({name.offset, name.length}, all.size()))
-            return fail(view, Issue::meaning_range, kind, i, "its name lies outside chunk STRS");
+        if (!isInsideTable({name.offset, name.length}, all.size()))
+            return makeError(view, Issue::meaning_range, kind, i, "its name lies outside chunk STRS");
         if (cuts(name.offset) || cuts(size_t{name.offset} + name.length))
-            return fail(view, Issue::meaning_text, kind, i, "its name cuts a character of chunk STRS in two");
+            return makeError(view, Issue::meaning_text, kind, i,
+                             "its name cuts a character of chunk STRS in two");
     }
     return success();
 }
 
-Status checkMaterialsOfClusters(const PackView& view)
+Status checkClusterMaterials(const PackView& view)
 {
     for (size_t i = 0; i < view.clusters().size(); ++i)
-        if (!noneOrBelow(view.clusters()[i].material, view.materials().size()))
-            return fail(view, Issue::meaning_reference, "cluster", i,
-                        "material " + std::to_string(view.clusters()[i].material) + " of " +
-                            std::to_string(view.materials().size()));
+        if (!isNoneOrBelow(view.clusters()[i].material, view.materials().size()))
+            return makeError(view, Issue::meaning_reference, "cluster", i,
+                             "material " + std::to_string(view.clusters()[i].material) + " of " +
+                                 std::to_string(view.materials().size()));
     return success();
 }
 
@@ -92,7 +93,7 @@ Status checkTexts(const PackView& view)
 
 } // namespace check
 
-void pageByPage(uint32_t count, const std::function<void(uint32_t)>& work)
+void serialPageLoop(uint32_t count, const std::function<void(uint32_t)>& work)
 {
     for (uint32_t page = 0; page < count; ++page)
         work(page);
@@ -101,11 +102,11 @@ void pageByPage(uint32_t count, const std::function<void(uint32_t)>& work)
 Status checkHierarchy(const PackView& view, const PageLoop& loop)
 {
     HEARTH_TRY(check::checkMeshTables(view));
-    HEARTH_TRY(check::checkPageTables(view, check::Bulk::read));
+    HEARTH_TRY(check::checkPageTables(view, check::BulkData::read));
     return check::checkPageGeometry(view, loop);
 }
 
-Status checkMotion(const PackView& view)
+Status checkAnimationTables(const PackView& view)
 {
     HEARTH_TRY(check::checkSkins(view));
     HEARTH_TRY(check::checkAnimations(view));
@@ -128,21 +129,21 @@ namespace
 /// Check a pack.
 /// check_hierarchy  checks meshes, pages and their tables
 template <typename CheckHierarchy>
-Status checkPackBy(const PackView& view, check::Bulk bulk, const CheckHierarchy& check_hierarchy)
+Status checkPackWith(const PackView& view, check::BulkData bulk, const CheckHierarchy& check_hierarchy)
 {
     if (view.container().kind() != ContainerKind::pack)
         return Error{Issue::container_kind, view.name(), "", "this is a part, not a pack"};
     HEARTH_TRY(check::checkTexts(view));
     HEARTH_TRY(check::checkMaterials(view));
     HEARTH_TRY(check::checkImages(view, bulk));
-    HEARTH_TRY(checkMotion(view));
-    HEARTH_TRY(check::checkMeshesOfNodes(view));
+    HEARTH_TRY(checkAnimationTables(view));
+    HEARTH_TRY(check::checkNodeMeshes(view));
     HEARTH_TRY(check::checkInstances(view));
     HEARTH_TRY(check::checkCameras(view));
     HEARTH_TRY(check::checkLights(view));
     HEARTH_TRY(check::checkShadowSpheres(view));
     HEARTH_TRY(check_hierarchy());
-    HEARTH_TRY(check::checkMaterialsOfClusters(view));
+    HEARTH_TRY(check::checkClusterMaterials(view));
     HEARTH_TRY(check::checkAuthoredLevels(view));
     HEARTH_TRY(check::checkDeformedMeshes(view));
     HEARTH_TRY(check::checkAssets(view));
@@ -154,17 +155,17 @@ Status checkPackBy(const PackView& view, check::Bulk bulk, const CheckHierarchy&
 
 Status checkPack(const PackView& view, const PageLoop& loop)
 {
-    return checkPackBy(view, check::Bulk::read, [&] { return checkHierarchy(view, loop); });
+    return checkPackWith(view, check::BulkData::read, [&] { return checkHierarchy(view, loop); });
 }
 
 Status checkTables(const PackView& view)
 {
-    return checkPackBy(view, check::Bulk::left,
-                       [&]() -> Status
-                       {
-                           HEARTH_TRY(check::checkMeshTables(view));
-                           return check::checkPageTables(view, check::Bulk::left);
-                       });
+    return checkPackWith(view, check::BulkData::skip,
+                         [&]() -> Status
+                         {
+                             HEARTH_TRY(check::checkMeshTables(view));
+                             return check::checkPageTables(view, check::BulkData::skip);
+                         });
 }
 
 } // namespace hearth::formats

@@ -25,21 +25,21 @@ inline constexpr double kApexSlack = 1e-4;
 /// Tolerance of unit vectors: their length is within this of 1.
 inline constexpr double kUnitSlack = 1e-3;
 /// Largest width and height of an image, in texels.
-inline constexpr uint32_t kImageMaxSize = 16384;
+inline constexpr uint32_t kMaxImageSize = 16384;
 
 /// Loop that runs work(0) ... work(count - 1), in any order and on any threads, and returns when all have
 /// ended.
 using PageLoop = std::function<void(uint32_t count, const std::function<void(uint32_t)>& work)>;
 
 /// Run the loop on the calling thread.
-void pageByPage(uint32_t count, const std::function<void(uint32_t)>& work);
+void serialPageLoop(uint32_t count, const std::function<void(uint32_t)>& work);
 
 /// Check everything, with pages checked in `loop`. Returns the first error in reading order, whatever the
 /// loop does: texts, materials, images, skins, animations, nodes, instances, cameras, lights, shadow spheres,
 /// then checkHierarchy, then references between tables. Time linear in the size of the tables and decoded
 /// pages; safe on any container.
 /// errors: container_kind, chunk_*, page_hash, meaning_*.
-Status checkPack(const PackView& view, const PageLoop& loop = pageByPage);
+Status checkPack(const PackView& view, const PageLoop& loop = serialPageLoop);
 
 /// Check everything except the bytes of geometry pages and texels, which are not read. PackView::checkPage
 /// checks a page, PackView::imageData checks texels when it returns them. Returns the first error in the
@@ -47,10 +47,10 @@ Status checkPack(const PackView& view, const PageLoop& loop = pageByPage);
 Status checkTables(const PackView& view);
 
 /// Check only skins, animations and the node tree: the contents of an import part.
-Status checkMotion(const PackView& view);
+Status checkAnimationTables(const PackView& view);
 
 /// Check only meshes, levels, groups, clusters, pages and geometry: the contents of a clusters part.
-Status checkHierarchy(const PackView& view, const PageLoop& loop = pageByPage);
+Status checkHierarchy(const PackView& view, const PageLoop& loop = serialPageLoop);
 
 /// Check only the table of specular occlusion: the contents of a specular part.
 Status checkSpecular(const PackView& view);

@@ -14,10 +14,10 @@ namespace hearth::formats
 std::optional<ClusterGeometry> ClusterGeometry::at(std::span<const std::byte> page,
                                                    const ClusterRecord& cluster, const MeshRecord& mesh)
 {
-    if (!legalLayout(mesh.attributes) || cluster.vertex_count > kClusterMaxVertices ||
-        cluster.triangle_count > kClusterMaxTriangles)
+    if (!isLegalLayout(mesh.attributes) || cluster.vertex_count > kMaxClusterVertices ||
+        cluster.triangle_count > kMaxClusterTriangles)
         return std::nullopt;
-    const uint32_t layout = layoutOf(cluster, mesh.attributes);
+    const uint32_t layout = clusterVertexLayout(cluster, mesh.attributes);
     const uint64_t first = uint64_t{cluster.page_word} * 4;
     const uint64_t size = clusterBytes(layout, cluster.vertex_count, cluster.triangle_count);
     uint32_t morphs = 0;
@@ -28,7 +28,7 @@ std::optional<ClusterGeometry> ClusterGeometry::at(std::span<const std::byte> pa
         if (!count)
             return std::nullopt;
         std::memcpy(&morphs, count->data(), sizeof(morphs));
-        if (morphs > mesh.morph_target_count || morphs > kPageMaxBytes)
+        if (morphs > mesh.morph_target_count || morphs > kMaxPageBytes)
             return std::nullopt;
         morph_bytes = 4 * morphSectionWords(morphs, cluster.vertex_count);
     }
@@ -66,7 +66,7 @@ constexpr uint64_t kSmallBrickTable = uint64_t{1} << 26;
 // far above any real table, and low enough that indices and sums of ranges fit 32 bits
 constexpr uint64_t kMaxTableSize = uint64_t{1} << 32;
 
-constexpr uint64_t plausibleSize(uint32_t type)
+constexpr uint64_t isPlausibleSize(uint32_t type)
 {
     return isBrickChunk(type) ? kSmallBrickTable : kSmallTable;
 }
@@ -83,7 +83,7 @@ Status checkEntry(const ContainerReader& reader, const ChunkEntry& entry)
                      "version " + std::to_string(entry.version) + ", this reads " +
                          std::to_string(info->version)};
     const bool table = !info->one_per_index && entry.type != kChunkPages;
-    if (table && (entry.size > kMaxTableSize || (entry.size > plausibleSize(entry.type) &&
+    if (table && (entry.size > kMaxTableSize || (entry.size > isPlausibleSize(entry.type) &&
                                                  entry.size / kMaxTableRatio > entry.stored_size)))
         return Error{Issue::chunk_size, reader.name(), where,
                      std::to_string(entry.size) + " bytes from " + std::to_string(entry.stored_size) +
@@ -156,8 +156,9 @@ Status PackView::readTables(PageBytes page_bytes)
 
 std::string_view PackView::text(StringRef ref) const
 {
-    return insideTable({ref.offset, ref.length}, strings().size()) ? strings().substr(ref.offset, ref.length)
-                                                                   : std::string_view();
+    return isInsideTable({ref.offset, ref.length}, strings().size())
+               ? strings().substr(ref.offset, ref.length)
+               : std::string_view();
 }
 
 Result<ChunkData> PackView::imageData(uint32_t image) const
@@ -175,7 +176,7 @@ Result<std::span<const std::byte>> PackView::storedPage(uint32_t page, size_t si
         return Error{Issue::meaning_reference, name(), where,
                      "there are " + std::to_string(pages().size()) + " pages"};
     const PageRecord& record = pages()[page];
-    if (record.size != size || record.size > kPageMaxBytes)
+    if (record.size != size || record.size > kMaxPageBytes)
         return Error{Issue::meaning_value, name(), where, "a size of " + std::to_string(record.size)};
     const auto stored = checkedPart(pageBytes(), record.offset, record.stored_size);
     if (!stored)
@@ -205,10 +206,10 @@ Status PackView::decodeStored(std::span<const std::byte> stored, uint32_t page,
         default:
             return false;
         }
-        if (record.mesh >= meshes().size() || !legalLayout(meshes()[record.mesh].attributes))
+        if (record.mesh >= meshes().size() || !isLegalLayout(meshes()[record.mesh].attributes))
             return false;
         thread_local PageDecoder decoder;
-        return decoder.decode(stored, recordsOf(clusters(), record.clusters),
+        return decoder.decode(stored, recordsInRange(clusters(), record.clusters),
                               meshes()[record.mesh].attributes, out);
     };
     if (!decode())
@@ -219,17 +220,17 @@ Status PackView::decodeStored(std::span<const std::byte> stored, uint32_t page,
 /// Decode and check a page in memory of the thread, valid until the next call. The caller gets exactly the
 /// checked bytes, even if the file changes meanwhile, and memory of a device, which is slow to read, is never
 /// read.
-Result<std::span<const std::byte>> PackView::decodeChecked(uint32_t page, size_t size) const
+Result<std::span<const std::byte>> PackView::decodeAndCheckPage(uint32_t page, size_t size) const
 {
     HEARTH_ASSIGN_OR_RETURN(const std::span<const std::byte> stored, storedPage(page, size));
-    thread_local std::vector<std::byte> memory(kPageMaxBytes);
+    thread_local std::vector<std::byte> memory(kMaxPageBytes);
     const std::span<std::byte> decoded = std::span(memory).first(size);
     HEARTH_TRY(decodeStored(stored, page, decoded));
     HEARTH_TRY(check::checkPage(*this, page, decoded, (*joint_counts_)[pages()[page].mesh]));
     return std::span<const std::byte>(decoded);
 }
 
-void PackView::checkPagesWhenRead()
+void PackView::enablePageChecks()
 {
     joint_counts_ = check::jointCounts(*this);
 }
@@ -238,7 +239,8 @@ Status PackView::decodePage(uint32_t page, std::span<std::byte> out) const
 {
     if (joint_counts_)
     {
-        HEARTH_ASSIGN_OR_RETURN(const std::span<const std::byte> decoded, decodeChecked(page, out.size()));
+        HEARTH_ASSIGN_OR_RETURN(const std::span<const std::byte> decoded,
+                                decodeAndCheckPage(page, out.size()));
         std::copy(decoded.begin(), decoded.end(), out.begin());
         return success();
     }
@@ -249,13 +251,13 @@ Status PackView::decodePage(uint32_t page, std::span<std::byte> out) const
 Status PackView::checkPage(uint32_t page) const
 {
     HEARTH_ASSERT(joint_counts_ && page < pages().size());
-    HEARTH_TRY(decodeChecked(page, pages()[page].size));
+    HEARTH_TRY(decodeAndCheckPage(page, pages()[page].size));
     return success();
 }
 
 Result<std::vector<std::byte>> PackView::decodePage(uint32_t page) const
 {
-    const bool legal = page < pages().size() && pages()[page].size <= kPageMaxBytes;
+    const bool legal = page < pages().size() && pages()[page].size <= kMaxPageBytes;
     std::vector<std::byte> bytes(legal ? pages()[page].size : 0);
     HEARTH_TRY(decodePage(page, bytes));
     return bytes;

@@ -23,7 +23,7 @@ namespace hearth::formats
 
 /// Return the records of `range`, or an empty span if it does not lie inside the table.
 template <typename T>
-std::span<const T> recordsOf(std::span<const T> table, Range range)
+std::span<const T> recordsInRange(std::span<const T> table, Range range)
 {
     if (range.first > table.size() || range.count > table.size() - range.first)
         return {};
@@ -31,7 +31,7 @@ std::span<const T> recordsOf(std::span<const T> table, Range range)
 }
 
 /// True if [first, first + count) lies inside a table of `size` records.
-constexpr bool insideTable(Range range, size_t size)
+constexpr bool isInsideTable(Range range, size_t size)
 {
     return range.first <= size && range.count <= size - range.first;
 }
@@ -74,9 +74,9 @@ constexpr uint64_t mipOffset(const ImageRecord& image, uint32_t mip)
 
 /// Return the error of a cluster: the error of its refined group, 0 at level 0. The group must be in the
 /// table.
-inline float errorOf(const ClusterRecord& cluster, std::span<const GroupRecord> groups)
+inline float clusterError(const ClusterRecord& cluster, std::span<const GroupRecord> groups)
 {
-    return cluster.refined_group == kNone ? 0 : groups[cluster.refined_group].error;
+    return cluster.refined_group == kInvalidIndex ? 0 : groups[cluster.refined_group].error;
 }
 
 /// Vertices and triangles of a cluster in a decoded page, which must outlive it. Vertex and triangle numbers
@@ -115,7 +115,7 @@ public:
     /// Return the offset from the cluster's base, in grid steps.
     std::array<uint32_t, 3> gridOffset(uint32_t vertex) const
     {
-        if (has(kVertexWide))
+        if (has(kVertexWideOffsets))
             return {word(vertex, 0), word(vertex, 1), word(vertex, 2)};
         return {word(vertex, 0) & 0xFFFFu, word(vertex, 0) >> 16, word(vertex, 1) & 0xFFFFu};
     }
@@ -124,50 +124,54 @@ public:
         const std::array<uint32_t, 3> offset = gridOffset(vertex);
         Float3 position;
         for (size_t axis = 0; axis < 3; ++axis)
-            position[static_cast<int>(axis)] = fromGrid(sum(base_[axis], offset[axis]), grid_step_);
+            position[static_cast<int>(axis)] =
+                gridToFloat(wrappingAdd(base_[axis], offset[axis]), grid_step_);
         return position;
     }
 
     /// Require has(attribute), like the accessors below.
     uint32_t normalCode(uint32_t vertex) const
     {
-        const uint32_t value = word(vertex, wordOf(kVertexNormal));
-        if (has(kVertexFineNormal))
+        const uint32_t value = word(vertex, attributeWordIndex(kVertexNormal));
+        if (has(kVertexNormal16))
             return value;
-        return has(kVertexWide) ? value : value >> 16;
+        return has(kVertexWideOffsets) ? value : value >> 16;
     }
     Float3 normal(uint32_t vertex) const { return decodeNormal(layout_, normalCode(vertex)); }
     Float4 tangent(uint32_t vertex) const
     {
-        return decodeTangent(layout_, word(vertex, wordOf(kVertexTangent)), normal(vertex));
+        return decodeTangent(layout_, word(vertex, attributeWordIndex(kVertexTangent)), normal(vertex));
     }
     /// Return the grid point of a UV; the set must not be stored as floats.
     std::array<int32_t, 2> uvPoint(uint32_t vertex, uint32_t set) const
     {
         HEARTH_RUNTIME_ASSERT(uvFractionBits(layout_, set) != 0);
-        const uint32_t first = wordOf(kVertexUv0 << set);
+        const uint32_t first = attributeWordIndex(kVertexUv0 << set);
         const uint32_t base = uvBaseWord(layout_, set);
-        const uint32_t u = has(kVertexWide) ? word(vertex, first) : word(vertex, first) & 0xFFFFu;
-        const uint32_t v = has(kVertexWide) ? word(vertex, first + 1) : word(vertex, first) >> 16;
-        return {sum(wordAt(base), u), sum(wordAt(base + 1), v)};
+        const uint32_t u = has(kVertexWideOffsets) ? word(vertex, first) : word(vertex, first) & 0xFFFFu;
+        const uint32_t v = has(kVertexWideOffsets) ? word(vertex, first + 1) : word(vertex, first) >> 16;
+        return {wrappingAdd(wordAt(base), u), wrappingAdd(wordAt(base + 1), v)};
     }
     Float2 uv(uint32_t vertex, uint32_t set) const
     {
-        const uint32_t first = wordOf(kVertexUv0 << set);
+        const uint32_t first = attributeWordIndex(kVertexUv0 << set);
         if (uvFractionBits(layout_, set) == 0)
             return {std::bit_cast<float>(word(vertex, first)), std::bit_cast<float>(word(vertex, first + 1))};
         const std::array<int32_t, 2> point = uvPoint(vertex, set);
         const float step = uvStep(uvFractionBits(layout_, set));
-        return {fromGrid(point[0], step), fromGrid(point[1], step)};
+        return {gridToFloat(point[0], step), gridToFloat(point[1], step)};
     }
     Float4 color(uint32_t vertex) const
     {
-        const uint32_t first = wordOf(kVertexColor);
+        const uint32_t first = attributeWordIndex(kVertexColor);
         return decodeColor(layout_,
-                           {word(vertex, first), has(kVertexFineColor) ? word(vertex, first + 1) : 0u});
+                           {word(vertex, first), has(kVertexColor16) ? word(vertex, first + 1) : 0u});
     }
 
-    uint32_t visibilityCode(uint32_t vertex) const { return word(vertex, wordOf(kVertexVisibility)); }
+    uint32_t visibilityCode(uint32_t vertex) const
+    {
+        return word(vertex, attributeWordIndex(kVertexVisibility));
+    }
     shared::VisibilityMoments visibility(uint32_t vertex) const
     {
         return shared::decodeVisibility(visibilityCode(vertex), normal(vertex));
@@ -175,7 +179,7 @@ public:
 
     /// Return the number of influences of each vertex: 0, 4 or 8. Those without weight come last, and refer
     /// to joint 0.
-    uint32_t influenceCount() const { return influencesOf(layout_); }
+    uint32_t influenceCount() const { return influencesPerVertex(layout_); }
     /// Return joints of the mesh's skin, the largest weight first; only the first influenceCount() are valid.
     std::array<uint32_t, 8> joints(uint32_t vertex) const { return influenceHalves(vertex, 0); }
     /// Return the codes of the weights, which add up to 65535.
@@ -203,17 +207,17 @@ public:
     {
         const float step = morphStep(i);
         const std::array<uint32_t, 3> words = morphWords(i, vertex);
-        return {fromGrid(formats::morphPosition(words[0]), step),
-                fromGrid(formats::morphPosition(words[1]), step),
-                fromGrid(formats::morphPosition(words[2]), step)};
+        return {gridToFloat(formats::morphPosition(words[0]), step),
+                gridToFloat(formats::morphPosition(words[1]), step),
+                gridToFloat(formats::morphPosition(words[2]), step)};
     }
     Float3 morphNormal(uint32_t i, uint32_t vertex) const
     {
         const std::array<uint32_t, 3> words = morphWords(i, vertex);
         constexpr float kStep = 1 / kMorphNormalSteps;
-        return {fromGrid(formats::morphNormal(words[0]), kStep),
-                fromGrid(formats::morphNormal(words[1]), kStep),
-                fromGrid(formats::morphNormal(words[2]), kStep)};
+        return {gridToFloat(formats::morphNormal(words[0]), kStep),
+                gridToFloat(formats::morphNormal(words[1]), kStep),
+                gridToFloat(formats::morphNormal(words[2]), kStep)};
     }
     std::array<uint32_t, 3> morphWords(uint32_t i, uint32_t vertex) const
     {
@@ -228,7 +232,7 @@ private:
     std::array<uint32_t, 8> influenceHalves(uint32_t vertex, uint32_t first_word) const
     {
         std::array<uint32_t, 8> halves{};
-        const uint32_t first = wordOf(kVertexInfluences) + first_word;
+        const uint32_t first = attributeWordIndex(kVertexInfluences) + first_word;
         for (uint32_t i = 0; i < influenceCount(); ++i)
             halves[i] = word(vertex, first + i / 2) >> (i % 2 * 16) & 0xFFFFu;
         return halves;
@@ -244,13 +248,13 @@ private:
         std::memcpy(&value, data_.data() + word * 4, sizeof(value));
         return value;
     }
-    uint32_t wordOf(uint32_t attribute) const
+    uint32_t attributeWordIndex(uint32_t attribute) const
     {
         HEARTH_RUNTIME_ASSERT(has(attribute));
         return attributeWord(layout_, attribute);
     }
     /// Wraps around for inconsistent files.
-    static int32_t sum(uint32_t base, uint32_t offset) { return static_cast<int32_t>(base + offset); }
+    static int32_t wrappingAdd(uint32_t base, uint32_t offset) { return static_cast<int32_t>(base + offset); }
 
     std::span<const std::byte> data_;
     std::array<uint32_t, 3> base_{};
@@ -281,15 +285,15 @@ public:
     /// Check pages when they are decoded from now on, also in copies of the view: decodePage returns an error
     /// unless checkPack accepts the page. The tables must have been checked, by checkTables or another check
     /// of meshes and pages.
-    void checkPagesWhenRead();
+    void enablePageChecks();
 
     const ContainerReader& container() const { return reader_; }
     const std::string& name() const { return reader_.name(); }
 
     /// Return chunk META: JSON text.
-    std::string_view meta() const { return textOf(meta_); }
+    std::string_view meta() const { return asText(meta_); }
     /// Return the whole chunk STRS.
-    std::string_view strings() const { return textOf(strings_); }
+    std::string_view strings() const { return asText(strings_); }
     /// Return a name; empty if it lies outside the string table.
     std::string_view text(StringRef ref) const;
 
@@ -323,7 +327,7 @@ public:
     std::span<const SpecularTableRecord> specularTables() const { return specular_tables_.span(); }
     /// Return one grid or none.
     std::span<const BrickGridRecord> brickGrid() const { return brick_grid_.span(); }
-    std::span<const BrickGroupRecord> brickGroups() const { return brick_groups_.span(); }
+    std::span<const BrickGroupRecord> brickGroupsAlongAxis() const { return brick_groups_.span(); }
     std::span<const BrickRecord> bricks() const { return bricks_.span(); }
     std::span<const uint8_t> brickOpacity() const { return brick_opacity_.span(); }
     std::span<const uint32_t> brickAlbedo() const { return brick_albedo_.span(); }
@@ -355,8 +359,8 @@ private:
     Status readTables(PageBytes page_bytes);
     Result<std::span<const std::byte>> storedPage(uint32_t page, size_t size) const;
     Status decodeStored(std::span<const std::byte> stored, uint32_t page, std::span<std::byte> out) const;
-    Result<std::span<const std::byte>> decodeChecked(uint32_t page, size_t size) const;
-    static std::string_view textOf(const ChunkData& data)
+    Result<std::span<const std::byte>> decodeAndCheckPage(uint32_t page, size_t size) const;
+    static std::string_view asText(const ChunkData& data)
     {
         return {reinterpret_cast<const char*>(data.bytes().data()), data.bytes().size()};
     }

@@ -37,14 +37,14 @@ Status checkInstanceOfAsset(const PackView& view, size_t i, const InstanceRecord
 {
     const AssetRecord& asset = view.assets()[i];
     if (!isInRange(asset.meshes, instance.mesh) || !isInRange(asset.nodes, instance.node))
-        return fail(view, Issue::meaning_reference, kAssetKind, i,
-                    "an instance refers to mesh " + std::to_string(instance.mesh) + " or node " +
-                        std::to_string(instance.node) + " of another asset");
+        return makeError(view, Issue::meaning_reference, kAssetKind, i,
+                         "an instance refers to mesh " + std::to_string(instance.mesh) + " or node " +
+                             std::to_string(instance.node) + " of another asset");
     const MeshRecord& mesh = view.meshes()[instance.mesh];
     const bool is_deformed = mesh.skinned != 0 || mesh.morph_target_count != 0;
     if (mesh.clusters.count > 0 && !is_deformed &&
         !isInBox(asset, transformBox(widened(instance.world_from_object), {mesh.box_min, mesh.box_max})))
-        return fail(view, Issue::meaning_bounds, kAssetKind, i, "an instance sticks out of its box");
+        return makeError(view, Issue::meaning_bounds, kAssetKind, i, "an instance sticks out of its box");
     return success();
 }
 
@@ -54,13 +54,14 @@ Status checkAuthoredLevel(const PackView& view, size_t i)
 {
     const AuthoredLevelRecord& record = view.authoredLevels()[i];
     if (record.mesh >= view.meshes().size())
-        return fail(view, Issue::meaning_reference, kAuthoredLevel, i,
-                    "mesh " + std::to_string(record.mesh) + " of " + std::to_string(view.meshes().size()));
+        return makeError(view, Issue::meaning_reference, kAuthoredLevel, i,
+                         "mesh " + std::to_string(record.mesh) + " of " +
+                             std::to_string(view.meshes().size()));
     const uint32_t level_count = view.meshes()[record.mesh].levels.count;
     if (record.level == 0 || record.level >= level_count)
-        return fail(view, Issue::meaning_reference, kAuthoredLevel, i,
-                    "level " + std::to_string(record.level) + " of a mesh with " +
-                        std::to_string(level_count));
+        return makeError(view, Issue::meaning_reference, kAuthoredLevel, i,
+                         "level " + std::to_string(record.level) + " of a mesh with " +
+                             std::to_string(level_count));
     return success();
 }
 
@@ -70,18 +71,18 @@ Status checkAssets(const PackView& view)
 {
     if (view.assets().empty())
         return success();
-    Cursor instances(view, kAssetKind, "instance", view.instances().size());
-    Cursor meshes(view, kAssetKind, "mesh", view.meshes().size());
-    Cursor nodes(view, kAssetKind, "node", view.nodes().size());
+    RangeCursor instances(view, kAssetKind, "instance", view.instances().size());
+    RangeCursor meshes(view, kAssetKind, "mesh", view.meshes().size());
+    RangeCursor nodes(view, kAssetKind, "node", view.nodes().size());
     for (size_t i = 0; i < view.assets().size(); ++i)
     {
         const AssetRecord& asset = view.assets()[i];
         HEARTH_TRY(instances.take(i, asset.instances));
         HEARTH_TRY(meshes.take(i, asset.meshes));
         HEARTH_TRY(nodes.take(i, asset.nodes));
-        if (!validBox(asset.box_min, asset.box_max))
-            return fail(view, Issue::meaning_value, kAssetKind, i, "its box is not possible");
-        for (const InstanceRecord& instance : recordsOf(view.instances(), asset.instances))
+        if (!isValidBox(asset.box_min, asset.box_max))
+            return makeError(view, Issue::meaning_value, kAssetKind, i, "its box is not possible");
+        for (const InstanceRecord& instance : recordsInRange(view.instances(), asset.instances))
             HEARTH_TRY(checkInstanceOfAsset(view, i, instance));
     }
     HEARTH_TRY(instances.finish());
@@ -98,8 +99,8 @@ Status checkAuthoredLevels(const PackView& view)
         const auto key = [&](size_t record)
         { return std::pair(records[record].mesh, records[record].level); };
         if (i > 0 && key(i) <= key(i - 1))
-            return fail(view, Issue::meaning_order, kAuthoredLevel, i,
-                        "it does not stand behind the one before it by mesh and level");
+            return makeError(view, Issue::meaning_order, kAuthoredLevel, i,
+                             "it does not stand behind the one before it by mesh and level");
     }
     return success();
 }

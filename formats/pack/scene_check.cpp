@@ -25,33 +25,33 @@ bool unitQuaternion(Float4 q)
 Status checkNode(const PackView& view, size_t i)
 {
     const NodeRecord& node = view.nodes()[i];
-    if (!noneOrBelow(node.parent, view.nodes().size()))
-        return fail(view, Issue::meaning_reference, "node", i, "parent " + std::to_string(node.parent));
-    if (!noneOrBelow(node.skin, view.skins().size()))
-        return fail(view, Issue::meaning_reference, "node", i, "skin " + std::to_string(node.skin));
-    if (!insideTable(node.morph_weights, view.morphWeights().size()))
-        return fail(view, Issue::meaning_range, "node", i, "its morph weights lie outside chunk MWGT");
+    if (!isNoneOrBelow(node.parent, view.nodes().size()))
+        return makeError(view, Issue::meaning_reference, "node", i, "parent " + std::to_string(node.parent));
+    if (!isNoneOrBelow(node.skin, view.skins().size()))
+        return makeError(view, Issue::meaning_reference, "node", i, "skin " + std::to_string(node.skin));
+    if (!isInsideTable(node.morph_weights, view.morphWeights().size()))
+        return makeError(view, Issue::meaning_range, "node", i, "its morph weights lie outside chunk MWGT");
     if (node.has_trs > 1)
-        return fail(view, Issue::meaning_value, "node", i, "has_trs " + std::to_string(node.has_trs));
+        return makeError(view, Issue::meaning_value, "node", i, "has_trs " + std::to_string(node.has_trs));
     if (!finite(node.translation) || !finite(node.rotation) || !finite(node.scale) ||
         !finite(node.parent_from_node))
-        return fail(view, Issue::meaning_value, "node", i, "its transform is not finite");
+        return makeError(view, Issue::meaning_value, "node", i, "its transform is not finite");
     if (node.has_trs == 1 && !unitQuaternion(node.rotation))
-        return fail(view, Issue::meaning_value, "node", i, "its rotation is not a unit quaternion");
+        return makeError(view, Issue::meaning_value, "node", i, "its rotation is not a unit quaternion");
     return success();
 }
 
 Status checkMeshOfNode(const PackView& view, size_t i)
 {
     const NodeRecord& node = view.nodes()[i];
-    if (!noneOrBelow(node.mesh, view.meshes().size()))
-        return fail(view, Issue::meaning_reference, "node", i, "mesh " + std::to_string(node.mesh));
-    const uint32_t targets = node.mesh == kNone ? 0 : view.meshes()[node.mesh].morph_target_count;
+    if (!isNoneOrBelow(node.mesh, view.meshes().size()))
+        return makeError(view, Issue::meaning_reference, "node", i, "mesh " + std::to_string(node.mesh));
+    const uint32_t targets = node.mesh == kInvalidIndex ? 0 : view.meshes()[node.mesh].morph_target_count;
     // one weight for each target also keeps the number of targets plausible
     if (node.morph_weights.count != targets)
-        return fail(view, Issue::meaning_value, "node", i,
-                    std::to_string(node.morph_weights.count) + " morph weights for " +
-                        std::to_string(targets) + " targets");
+        return makeError(view, Issue::meaning_value, "node", i,
+                         std::to_string(node.morph_weights.count) + " morph weights for " +
+                             std::to_string(targets) + " targets");
     return success();
 }
 
@@ -66,11 +66,11 @@ Status checkTree(const PackView& view)
         while (walk_of_node[node] == 0)
         {
             walk_of_node[node] = start + 1;
-            if (nodes[node].parent == kNone)
+            if (nodes[node].parent == kInvalidIndex)
                 break;
             node = nodes[node].parent;
             if (walk_of_node[node] == start + 1)
-                return fail(view, Issue::meaning_tree, "node", node, "it is its own ancestor");
+                return makeError(view, Issue::meaning_tree, "node", node, "it is its own ancestor");
         }
     }
     return success();
@@ -78,7 +78,7 @@ Status checkTree(const PackView& view)
 
 /// Return a lower bound of the largest factor by which a transform stretches, tight to a part in a thousand
 /// or better.
-double stretch(const Affine3& t)
+double lowerStretchBound(const Affine3& t)
 {
     double best = 0;
     for (int axis = 0; axis < 3; ++axis)
@@ -123,25 +123,29 @@ Status checkInstance(const PackView& view, size_t i)
 {
     const InstanceRecord& instance = view.instances()[i];
     if (instance.mesh >= view.meshes().size())
-        return fail(view, Issue::meaning_reference, "instance", i, "mesh " + std::to_string(instance.mesh));
+        return makeError(view, Issue::meaning_reference, "instance", i,
+                         "mesh " + std::to_string(instance.mesh));
     if (instance.node >= view.nodes().size())
-        return fail(view, Issue::meaning_reference, "instance", i, "node " + std::to_string(instance.node));
-    if (!finite(instance.world_from_object) || !nonNegative(instance.scale_max))
-        return fail(view, Issue::meaning_value, "instance", i, "its transform is not finite");
+        return makeError(view, Issue::meaning_reference, "instance", i,
+                         "node " + std::to_string(instance.node));
+    if (!finite(instance.world_from_object) || !isNonNegative(instance.scale_max))
+        return makeError(view, Issue::meaning_value, "instance", i, "its transform is not finite");
     if ((instance.flags & ~uint32_t{kInstanceMirrored}) != 0)
-        return fail(view, Issue::meaning_value, "instance", i, "flags " + std::to_string(instance.flags));
+        return makeError(view, Issue::meaning_value, "instance", i,
+                         "flags " + std::to_string(instance.flags));
     const int turned = orientation(instance.world_from_object);
     if (turned != 0 && (turned < 0) != ((instance.flags & kInstanceMirrored) != 0))
-        return fail(view, Issue::meaning_value, "instance", i, "the flag for a mirrored instance is wrong");
-    if (stretch(instance.world_from_object) > instance.scale_max * (1 + kSphereSlack))
-        return fail(view, Issue::meaning_bounds, "instance", i,
-                    "scale_max is less than the transform stretches");
+        return makeError(view, Issue::meaning_value, "instance", i,
+                         "the flag for a mirrored instance is wrong");
+    if (lowerStretchBound(instance.world_from_object) > instance.scale_max * (1 + kSphereSlack))
+        return makeError(view, Issue::meaning_bounds, "instance", i,
+                         "scale_max is less than the transform stretches");
     return success();
 }
 
 bool validPerspective(const CameraRecord& camera)
 {
-    return camera.y_fov_rad > 0 && camera.y_fov_rad < kStraightAngle && nonNegative(camera.aspect) &&
+    return camera.y_fov_rad > 0 && camera.y_fov_rad < kStraightAngle && isNonNegative(camera.aspect) &&
            camera.z_near > 0 && (camera.z_far == 0 || camera.z_far > camera.z_near);
 }
 
@@ -163,7 +167,7 @@ Status checkNodeTree(const PackView& view)
     return checkTree(view);
 }
 
-Status checkMeshesOfNodes(const PackView& view)
+Status checkNodeMeshes(const PackView& view)
 {
     for (size_t i = 0; i < view.nodes().size(); ++i)
         HEARTH_TRY(checkMeshOfNode(view, i));
@@ -183,16 +187,17 @@ Status checkCameras(const PackView& view)
     {
         const CameraRecord& camera = view.cameras()[i];
         if (camera.node >= view.nodes().size())
-            return fail(view, Issue::meaning_reference, "camera", i, "node " + std::to_string(camera.node));
+            return makeError(view, Issue::meaning_reference, "camera", i,
+                             "node " + std::to_string(camera.node));
         if (camera.type > static_cast<uint32_t>(CameraType::orthographic))
-            return fail(view, Issue::meaning_value, "camera", i, "type " + std::to_string(camera.type));
+            return makeError(view, Issue::meaning_value, "camera", i, "type " + std::to_string(camera.type));
         const float lens[] = {camera.y_fov_rad,       camera.aspect, camera.x_magnification,
                               camera.y_magnification, camera.z_near, camera.z_far};
         if (!finite(camera.world_from_camera) || !finite(lens))
-            return fail(view, Issue::meaning_value, "camera", i, "a value is not finite");
+            return makeError(view, Issue::meaning_value, "camera", i, "a value is not finite");
         const bool perspective = camera.type == static_cast<uint32_t>(CameraType::perspective);
         if (!(perspective ? validPerspective(camera) : validOrthographic(camera)))
-            return fail(view, Issue::meaning_value, "camera", i, "its lens is not possible");
+            return makeError(view, Issue::meaning_value, "camera", i, "its lens is not possible");
     }
     return success();
 }
@@ -203,17 +208,18 @@ Status checkLights(const PackView& view)
     {
         const LightRecord& light = view.lights()[i];
         if (light.node >= view.nodes().size())
-            return fail(view, Issue::meaning_reference, "light", i, "node " + std::to_string(light.node));
+            return makeError(view, Issue::meaning_reference, "light", i,
+                             "node " + std::to_string(light.node));
         if (light.type > static_cast<uint32_t>(LightType::spot))
-            return fail(view, Issue::meaning_value, "light", i, "type " + std::to_string(light.type));
-        if (!nonNegative(light.color.x) || !nonNegative(light.color.y) || !nonNegative(light.color.z) ||
-            !nonNegative(light.intensity) || !nonNegative(light.range) || !finite(light.world_from_light))
-            return fail(view, Issue::meaning_value, "light", i, "a value is negative or not finite");
+            return makeError(view, Issue::meaning_value, "light", i, "type " + std::to_string(light.type));
+        if (!isNonNegative(light.color.x) || !isNonNegative(light.color.y) || !isNonNegative(light.color.z) ||
+            !isNonNegative(light.intensity) || !isNonNegative(light.range) || !finite(light.world_from_light))
+            return makeError(view, Issue::meaning_value, "light", i, "a value is negative or not finite");
         if (!inside(light.inner_cone_rad, 0, kRightAngle) ||
             !inside(light.outer_cone_rad, light.inner_cone_rad, kRightAngle))
-            return fail(view, Issue::meaning_value, "light", i, "its cone is not possible");
+            return makeError(view, Issue::meaning_value, "light", i, "its cone is not possible");
         if (light.reserved != 0)
-            return fail(view, Issue::meaning_padding, "light", i, "a reserved field is not 0");
+            return makeError(view, Issue::meaning_padding, "light", i, "a reserved field is not 0");
     }
     return success();
 }
@@ -225,19 +231,19 @@ Status checkShadowSpheres(const PackView& view)
     {
         const ShadowSphereRecord& sphere = view.shadowSpheres()[i];
         if (sphere.node >= view.nodes().size())
-            return fail(view, Issue::meaning_reference, kKind, i, "node " + std::to_string(sphere.node));
-        if (!noneOrBelow(sphere.light, view.lights().size()) ||
-            (sphere.light != kNone &&
+            return makeError(view, Issue::meaning_reference, kKind, i, "node " + std::to_string(sphere.node));
+        if (!isNoneOrBelow(sphere.light, view.lights().size()) ||
+            (sphere.light != kInvalidIndex &&
              view.lights()[sphere.light].type == static_cast<uint32_t>(LightType::point)))
-            return fail(view, Issue::meaning_reference, kKind, i,
-                        "light " + std::to_string(sphere.light) + " is no sun and no spot light");
+            return makeError(view, Issue::meaning_reference, kKind, i,
+                             "light " + std::to_string(sphere.light) + " is no sun and no spot light");
         const float values[] = {sphere.center.x, sphere.center.y, sphere.center.z, sphere.radius};
         if (!finite(values) || !(sphere.radius > 0))
-            return fail(view, Issue::meaning_value, kKind, i, "its centre or radius is not possible");
+            return makeError(view, Issue::meaning_value, kKind, i, "its centre or radius is not possible");
         if (sphere.texels != 0 && !isShadowMapSize(sphere.texels))
-            return fail(view, Issue::meaning_value, kKind, i, std::to_string(sphere.texels) + " texels");
+            return makeError(view, Issue::meaning_value, kKind, i, std::to_string(sphere.texels) + " texels");
         if (sphere.reserved != 0)
-            return fail(view, Issue::meaning_padding, kKind, i, "a reserved field is not 0");
+            return makeError(view, Issue::meaning_padding, kKind, i, "a reserved field is not 0");
     }
     return success();
 }

@@ -10,7 +10,7 @@ namespace
 constexpr const char* kKind = "specular table";
 
 /// True if a wider cone never lets through less.
-bool growsWithAperture(const SpecularTableRecord& table)
+bool isMonotoneInAperture(const SpecularTableRecord& table)
 {
     for (uint32_t i = 0; i < kSpecularTexels; ++i)
         if (i % shared::kSpecularNodes != 0 && table.values[i] < table.values[i - 1])
@@ -23,18 +23,18 @@ Status checkTable(const PackView& view, size_t i)
     const SpecularTableRecord& table = view.specularTables()[i];
     constexpr uint32_t kNodes = shared::kSpecularNodes;
     if (table.aperture_nodes != kNodes || table.roughness_nodes != kNodes || table.beta_nodes != kNodes)
-        return fail(view, Issue::meaning_value, kKind, i, "it is not of 16 x 16 x 16 nodes");
+        return makeError(view, Issue::meaning_value, kKind, i, "it is not of 16 x 16 x 16 nodes");
     if (table.spacing > static_cast<uint32_t>(SpecularSpacing::half_sine))
-        return fail(view, Issue::meaning_value, kKind, i, "spacing " + std::to_string(table.spacing));
+        return makeError(view, Issue::meaning_value, kKind, i, "spacing " + std::to_string(table.spacing));
     if (table.masking > static_cast<uint32_t>(SpecularMasking::correlated))
-        return fail(view, Issue::meaning_value, kKind, i, "masking " + std::to_string(table.masking));
-    if (!inside(table.normal_lambda, 0, 1) || table.least_roughness != shared::kSpecularLeastRoughness)
-        return fail(view, Issue::meaning_value, kKind, i,
-                    "its assumed normal or its roughness is not possible");
+        return makeError(view, Issue::meaning_value, kKind, i, "masking " + std::to_string(table.masking));
+    if (!inside(table.normal_lambda, 0, 1) || table.min_roughness != shared::kMinSpecularRoughness)
+        return makeError(view, Issue::meaning_value, kKind, i,
+                         "its assumed normal or its roughness is not possible");
     if (table.reserved != 0)
-        return fail(view, Issue::meaning_padding, kKind, i, "a reserved field is not 0");
-    if (!growsWithAperture(table))
-        return fail(view, Issue::meaning_monotone, kKind, i, "a value falls while the aperture grows");
+        return makeError(view, Issue::meaning_padding, kKind, i, "a reserved field is not 0");
+    if (!isMonotoneInAperture(table))
+        return makeError(view, Issue::meaning_monotone, kKind, i, "a value falls while the aperture grows");
     return success();
 }
 
@@ -43,7 +43,7 @@ Status checkTable(const PackView& view, size_t i)
 Status checkSpecularTable(const PackView& view)
 {
     if (view.specularTables().size() > 1)
-        return fail(view, Issue::meaning_value, kKind, 1, "a pack has one at most");
+        return makeError(view, Issue::meaning_value, kKind, 1, "a pack has one at most");
     return view.specularTables().empty() ? success() : checkTable(view, 0);
 }
 

@@ -57,14 +57,14 @@ using BrickGroupRecord = shared::BrickGroup;
 using BrickRecord = shared::Brick;
 
 /// Return the name of a face of shared::kVoxelFaces; "none" for kNoFace.
-constexpr std::string_view brickFaceName(uint32_t face)
+constexpr std::string_view voxelFaceName(uint32_t face)
 {
     constexpr std::string_view kNames[] = {"x-", "x+", "y-", "y+", "z-", "z+"};
     return face < shared::kVoxelFaces ? kNames[face] : "none";
 }
 
 /// Return the grid as the march functions take it.
-constexpr shared::BrickGrid brickGridOf(const BrickGridRecord& record)
+constexpr shared::BrickGrid toBrickGrid(const BrickGridRecord& record)
 {
     return {record.origin, record.voxel_size, record.voxels[0], record.voxels[1], record.voxels[2], 0};
 }

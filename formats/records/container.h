@@ -6,6 +6,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "formats/base/index.h"
 #include "formats/records/fields.h"
 
 namespace hearth::formats
@@ -87,9 +88,6 @@ struct Range
     uint32_t first;
     uint32_t count;
 };
-
-/// "No record" in every index field.
-inline constexpr uint32_t kNone = 0xFFFFFFFFu;
 
 } // namespace hearth::formats
 

@@ -61,11 +61,11 @@ constexpr std::string_view fieldTypeName()
 
 /// Fields of a record. HEARTH_RECORD specialises it for every record.
 template <typename T>
-struct FieldsOf;
+struct RecordFields;
 
 /// True if the fields follow each other without a gap and fill the whole struct: no hidden padding in a file.
 template <size_t N>
-constexpr bool gapless(const std::array<Field, N>& fields, size_t size)
+constexpr bool hasNoGaps(const std::array<Field, N>& fields, size_t size)
 {
     size_t at = 0;
     for (const Field& field : fields)
@@ -86,13 +86,13 @@ constexpr bool gapless(const std::array<Field, N>& fields, size_t size)
             sizeof(record::member), note                                                                     \
     }
 
-/// Define FieldsOf of a record. Use at global scope, after the struct: HEARTH_RECORD(hearth::X, size,
+/// Define RecordFields of a record. Use at global scope, after the struct: HEARTH_RECORD(hearth::X, size,
 /// HEARTH_FIELD(...), ...).
 #define HEARTH_RECORD(record, byte_size, ...)                                                                \
     template <>                                                                                              \
-    struct hearth::FieldsOf<record>                                                                          \
+    struct hearth::RecordFields<record>                                                                      \
     {                                                                                                        \
         static constexpr std::array value{__VA_ARGS__};                                                      \
     };                                                                                                       \
     static_assert(sizeof(record) == (byte_size) && std::is_trivially_copyable_v<record>);                    \
-    static_assert(hearth::gapless(hearth::FieldsOf<record>::value, sizeof(record)))
+    static_assert(hearth::hasNoGaps(hearth::RecordFields<record>::value, sizeof(record)))

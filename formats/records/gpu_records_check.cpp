@@ -45,7 +45,7 @@ HEARTH_SAME_OFFSET(Cluster, page, ClusterRecord, page);
 
 #undef HEARTH_SAME_OFFSET
 
-static_assert(hearth::shared::kNoGroup == hearth::formats::kNone);
+static_assert(hearth::shared::kNoGroup == hearth::kInvalidIndex);
 // sizes in std430 and std140 layout
 static_assert(sizeof(hearth::shared::MeshBounds) == 32);
 static_assert(sizeof(hearth::shared::InstanceInverse) == 48);
@@ -57,4 +57,4 @@ static_assert(sizeof(hearth::shared::GroupItem) == 12);
 static_assert(sizeof(hearth::shared::WorkResult) == 20);
 static_assert(sizeof(hearth::shared::OcclusionView) == 80);
 static_assert(sizeof(hearth::shared::ClusterDraw) == 32);
-static_assert(hearth::shared::kClusterVertices == 3 * hearth::formats::kClusterMaxTriangles);
+static_assert(hearth::shared::kClusterVertices == 3 * hearth::formats::kMaxClusterTriangles);

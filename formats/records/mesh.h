@@ -20,9 +20,9 @@ inline constexpr uint32_t kChunkPages = fourCC("PAGE");        ///< pages, each 
 inline constexpr uint32_t kChunkSourceMesh = fourCC("SMSH");   ///< mesh `index` as imported
 inline constexpr uint32_t kChunkAuthoredLods = fourCC("ALOD"); ///< AuthoredLodRecord[]
 
-inline constexpr uint32_t kClusterMaxTriangles = 128;
-inline constexpr uint32_t kClusterMaxVertices = 256;
-inline constexpr uint32_t kPageMaxBytes = 65536;
+inline constexpr uint32_t kMaxClusterTriangles = 128;
+inline constexpr uint32_t kMaxClusterVertices = 256;
+inline constexpr uint32_t kMaxPageBytes = 65536;
 
 /// Vertex layout of a mesh: its attributes, and how each is coded. A vertex is 32-bit words in this order:
 /// position, normal, tangent, UV sets, colour, visibility, joints, weights. The codes are defined in
@@ -38,15 +38,15 @@ enum VertexAttributes : uint32_t
     kVertexColor = 64,
     kVertexVisibility = 128, ///< visibility of the hemisphere; only with a normal
 
-    kVertexFineNormal = 256, ///< normal 2 x 16 bits instead of 2 x 8, tangent 15 bits instead of 7
-    kVertexFineColor = 512,  ///< 4 x 16 bits instead of 4 x 8
-    kVertexWide = 8192,      ///< of a cluster, never of a mesh: grid offsets have 32 bits instead of 16
+    kVertexNormal16 = 256,     ///< normal 2 x 16 bits instead of 2 x 8, tangent 15 bits instead of 7
+    kVertexColor16 = 512,      ///< 4 x 16 bits instead of 4 x 8
+    kVertexWideOffsets = 8192, ///< of a cluster, never of a mesh: grid offsets have 32 bits instead of 16
 
-    kVertexInfluences = 1 << 14,     ///< four joints of the mesh's skin, and their weights
-    kVertexMoreInfluences = 1 << 15, ///< eight instead of four; only with kVertexInfluences
+    kVertexInfluences = 1 << 14,  ///< four joints of the mesh's skin, and their weights
+    kVertexInfluences8 = 1 << 15, ///< eight instead of four; only with kVertexInfluences
 };
 
-inline constexpr uint32_t kVertexInfluenceBits = kVertexInfluences | kVertexMoreInfluences;
+inline constexpr uint32_t kVertexInfluenceBits = kVertexInfluences | kVertexInfluences8;
 
 inline constexpr uint32_t kVertexUvs = kVertexUv0 | kVertexUv1 | kVertexUv2 | kVertexUv3;
 
@@ -67,26 +67,26 @@ constexpr uint32_t gridUvs(uint32_t layout)
 }
 
 /// Return the number of influences of one vertex with this layout: a joint and a weight of 16 bits each.
-constexpr uint32_t influencesOf(uint32_t layout)
+constexpr uint32_t influencesPerVertex(uint32_t layout)
 {
     if ((layout & kVertexInfluences) == 0)
         return 0;
-    return (layout & kVertexMoreInfluences) != 0 ? 8 : 4;
+    return (layout & kVertexInfluences8) != 0 ? 8 : 4;
 }
 
 /// Return the number of words of one vertex with this layout.
 constexpr uint32_t vertexWords(uint32_t layout)
 {
-    const bool own_normal_word = (layout & (kVertexFineNormal | kVertexWide)) != 0;
-    const uint32_t two_word_uvs = (layout & kVertexWide) ? uint32_t{kVertexUvs} : ~gridUvs(layout);
-    uint32_t words = (layout & kVertexWide) ? 3 : 2;
+    const bool own_normal_word = (layout & (kVertexNormal16 | kVertexWideOffsets)) != 0;
+    const uint32_t two_word_uvs = (layout & kVertexWideOffsets) ? uint32_t{kVertexUvs} : ~gridUvs(layout);
+    uint32_t words = (layout & kVertexWideOffsets) ? 3 : 2;
     words += (layout & kVertexNormal) && own_normal_word ? 1 : 0;
     words += (layout & kVertexTangent) ? 1 : 0;
     words += static_cast<uint32_t>(std::popcount(layout & kVertexUvs) +
                                    std::popcount(layout & kVertexUvs & two_word_uvs));
-    words += (layout & kVertexColor) ? ((layout & kVertexFineColor) ? 2 : 1) : 0;
+    words += (layout & kVertexColor) ? ((layout & kVertexColor16) ? 2 : 1) : 0;
     words += (layout & kVertexVisibility) ? 1 : 0;
-    return words + influencesOf(layout);
+    return words + influencesPerVertex(layout);
 }
 
 /// Return the number of words before a cluster's vertices: for each UV set on a grid, u and v of the base

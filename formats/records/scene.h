@@ -243,7 +243,7 @@ enum class KeyEncoding : uint32_t
 };
 
 /// Maximum number of bits of a packed key field: more bits than a float's mantissa gain nothing.
-inline constexpr uint32_t kMostKeyFieldBits = 24;
+inline constexpr uint32_t kMaxKeyFieldBits = 24;
 
 /// Channel of an animation. Floats: key_count times, and key_count * components values, times three
 /// (in-tangent, value, out-tangent) for a cubic spline. Packed: see FORMAT.md. formats/codecs/channel_keys.h

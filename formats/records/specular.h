@@ -39,7 +39,7 @@ struct SpecularTableRecord
     uint32_t spacing;
     uint32_t masking;
     float normal_lambda;
-    float least_roughness;
+    float min_roughness;
     uint32_t reserved;
     uint8_t values[kSpecularTexels];
 };
@@ -51,8 +51,8 @@ constexpr double specularNodeAperture(uint32_t i)
 }
 constexpr double specularNodeRoughness(uint32_t i)
 {
-    constexpr double kLeast = double{shared::kSpecularLeastRoughness};
-    return kLeast + (1 - kLeast) * static_cast<double>(i) / (shared::kSpecularNodes - 1);
+    constexpr double kMinRoughness = double{shared::kMinSpecularRoughness};
+    return kMinRoughness + (1 - kMinRoughness) * static_cast<double>(i) / (shared::kSpecularNodes - 1);
 }
 constexpr double specularNodeCosBeta(uint32_t i, SpecularSpacing spacing)
 {
@@ -72,7 +72,7 @@ HEARTH_RECORD(hearth::formats::SpecularTableRecord, 4128,
                            "Smith's masking-shadowing: 0 separable, 1 height-correlated"),
               HEARTH_FIELD(hearth::formats::SpecularTableRecord, normal_lambda,
                            "0..1: where the normal is assumed"),
-              HEARTH_FIELD(hearth::formats::SpecularTableRecord, least_roughness,
+              HEARTH_FIELD(hearth::formats::SpecularTableRecord, min_roughness,
                            "of the first node: 0.089; that of the last is 1"),
               HEARTH_FIELD(hearth::formats::SpecularTableRecord, reserved, "0"),
               HEARTH_FIELD(hearth::formats::SpecularTableRecord, values,

@@ -11,11 +11,11 @@ namespace hearth::formats
 {
 
 /// Largest texture coordinate: beyond it, floats are too coarse to address texels.
-inline constexpr float kFarthestUv = 1e6f;
+inline constexpr float kMaxUvMagnitude = 1e6f;
 
 /// Return the texel inside the image.
 /// wrap  as in TextureRef: a value of Wrap
-constexpr int64_t wrappedTexel(int64_t texel, int64_t size, uint8_t wrap)
+constexpr int64_t wrapTexel(int64_t texel, int64_t size, uint8_t wrap)
 {
     if (wrap == static_cast<uint8_t>(Wrap::clamp_to_edge))
         return std::clamp<int64_t>(texel, 0, size - 1);

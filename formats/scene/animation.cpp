@@ -32,7 +32,7 @@ Quaternion normalizedOr(const Quaternion& q, const Quaternion& fallback)
     return {q[0] / length, q[1] / length, q[2] / length, q[3] / length};
 }
 
-NodePose poseOf(const NodeRecord& node)
+NodePose nodePoseFromRecord(const NodeRecord& node)
 {
     const Quaternion rotation{node.rotation.x, node.rotation.y, node.rotation.z, node.rotation.w};
     return {widen(node.translation), normalizedOr(rotation, {0, 0, 0, 1}), widen(node.scale)};
@@ -43,14 +43,14 @@ struct KeyInterval
 {
     uint32_t first = 0;
     uint32_t second = 0;
-    double along = 0;   ///< 0 to 1
-    double seconds = 0; ///< from the first key to the second
+    double fraction = 0; ///< 0 to 1
+    double seconds = 0;  ///< from the first key to the second
 };
 
-KeyInterval intervalAt(const ChannelKeys& keys, double time)
+KeyInterval findKeyInterval(const ChannelKeys& keys, double time)
 {
     // of several keys at one time, which are a jump, the last one wins
-    const uint32_t second = keys.keyAfter(time);
+    const uint32_t second = keys.firstKeyAfter(time);
     if (second == 0)
         return {};
     if (second == keys.count())
@@ -61,13 +61,14 @@ KeyInterval intervalAt(const ChannelKeys& keys, double time)
 }
 
 /// Return components [first, first + count) in an interval. Rotations are not normalised.
-KeyValue valueAt(const ChannelKeys& keys, const KeyInterval& interval, uint32_t first, uint32_t count)
+KeyValue interpolateValue(const ChannelKeys& keys, const KeyInterval& interval, uint32_t first,
+                          uint32_t count)
 {
     const KeyValue start = keys.value(interval.first, first, count);
     if (keys.interpolation() == Interpolation::step)
         return start;
     const KeyValue end = keys.value(interval.second, first, count);
-    const double t = interval.along;
+    const double t = interval.fraction;
     KeyValue value{};
     if (keys.interpolation() == Interpolation::linear)
     {
@@ -90,20 +91,20 @@ Quaternion rotationAt(const ChannelKeys& keys, const KeyInterval& interval)
     const Quaternion none{0, 0, 0, 1};
     const Quaternion start = normalizedOr(keys.value(interval.first, 0, 4), none);
     if (keys.interpolation() == Interpolation::linear && interval.seconds > 0)
-        return slerp(start, normalizedOr(keys.value(interval.second, 0, 4), none), interval.along);
-    return normalizedOr(valueAt(keys, interval, 0, 4), start);
+        return slerp(start, normalizedOr(keys.value(interval.second, 0, 4), none), interval.fraction);
+    return normalizedOr(interpolateValue(keys, interval, 0, 4), start);
 }
 
-void sampleChannel(const MotionTables& tables, const AnimationChannelRecord& channel, double time,
+void sampleChannel(const AnimationTables& tables, const AnimationChannelRecord& channel, double time,
                    ScenePose& pose)
 {
     HEARTH_RUNTIME_ASSERT(channel.key_count > 0);
     const ChannelKeys keys(tables.keys, tables.key_bits, channel);
-    const KeyInterval interval = intervalAt(keys, time);
+    const KeyInterval interval = findKeyInterval(keys, time);
     NodePose& node = pose.nodes[channel.node];
     const auto vector = [&]
     {
-        const KeyValue value = valueAt(keys, interval, 0, 3);
+        const KeyValue value = interpolateValue(keys, interval, 0, 3);
         return Double3{value[0], value[1], value[2]};
     };
     switch (static_cast<AnimationPath>(channel.path))
@@ -121,7 +122,7 @@ void sampleChannel(const MotionTables& tables, const AnimationChannelRecord& cha
     {
         const Range weights = tables.nodes[channel.node].morph_weights;
         for (uint32_t i = 0; i < std::min(weights.count, channel.components); ++i)
-            pose.morph_weights[weights.first + i] = valueAt(keys, interval, i, 1)[0];
+            pose.morph_weights[weights.first + i] = interpolateValue(keys, interval, i, 1)[0];
         break;
     }
     }
@@ -129,23 +130,23 @@ void sampleChannel(const MotionTables& tables, const AnimationChannelRecord& cha
 
 } // namespace
 
-MotionTables motionTables(const PackView& pack)
+AnimationTables animationTables(const PackView& pack)
 {
     return {pack.nodes(),    pack.skins(), pack.joints(),       pack.animations(),
             pack.channels(), pack.keys(),  pack.morphWeights(), pack.keyBits()};
 }
 
-ScenePose restPose(const MotionTables& tables)
+ScenePose restPose(const AnimationTables& tables)
 {
     ScenePose pose;
     pose.nodes.reserve(tables.nodes.size());
     for (const NodeRecord& node : tables.nodes)
-        pose.nodes.push_back(node.has_trs != 0 ? poseOf(node) : NodePose{});
+        pose.nodes.push_back(node.has_trs != 0 ? nodePoseFromRecord(node) : NodePose{});
     pose.morph_weights.assign(tables.morph_weights.begin(), tables.morph_weights.end());
     return pose;
 }
 
-void sampleAnimation(const MotionTables& tables, const AnimationRecord& animation, double time,
+void sampleAnimation(const AnimationTables& tables, const AnimationRecord& animation, double time,
                      ScenePose& pose)
 {
     HEARTH_RUNTIME_ASSERT(pose.nodes.size() == tables.nodes.size());
@@ -188,21 +189,21 @@ void blendPoses(const ScenePose& from, const ScenePose& to, double weight, Scene
         result.morph_weights[i] = lerp(from.morph_weights[i], to.morph_weights[i], weight);
 }
 
-std::vector<uint32_t> parentsFirst(std::span<const NodeRecord> nodes)
+std::vector<uint32_t> nodesParentsFirst(std::span<const NodeRecord> nodes)
 {
     enum State : uint8_t
     {
         waiting,
-        placed,
+        visited,
     };
     std::vector<State> states(nodes.size(), waiting);
     std::vector<uint32_t> order, chain;
     order.reserve(nodes.size());
     for (uint32_t node = 0; node < nodes.size(); ++node)
     {
-        for (uint32_t up = node; up != kNone && states[up] == waiting; up = nodes[up].parent)
+        for (uint32_t up = node; up != kInvalidIndex && states[up] == waiting; up = nodes[up].parent)
         {
-            states[up] = placed;
+            states[up] = visited;
             chain.push_back(up);
         }
         order.insert(order.end(), chain.rbegin(), chain.rend());
@@ -211,7 +212,7 @@ std::vector<uint32_t> parentsFirst(std::span<const NodeRecord> nodes)
     return order;
 }
 
-void poseNodes(const MotionTables& tables, const ScenePose& pose, std::span<const uint32_t> parents_first,
+void poseNodes(const AnimationTables& tables, const ScenePose& pose, std::span<const uint32_t> parents_first,
                std::span<Affine3d> world_from_node)
 {
     HEARTH_RUNTIME_ASSERT(pose.nodes.size() == tables.nodes.size() &&
@@ -220,15 +221,15 @@ void poseNodes(const MotionTables& tables, const ScenePose& pose, std::span<cons
     {
         const NodeRecord& node = tables.nodes[i];
         const NodePose& local = pose.nodes[i];
-        const Affine3d parent_from_node = node.has_trs != 0
-                                              ? affineFromTrs(local.translation, local.rotation, local.scale)
-                                              : widened(node.parent_from_node);
+        const Affine3d parent_from_node =
+            node.has_trs != 0 ? makeAffineFromTrs(local.translation, local.rotation, local.scale)
+                              : widened(node.parent_from_node);
         world_from_node[i] =
-            node.parent == kNone ? parent_from_node : world_from_node[node.parent] * parent_from_node;
+            node.parent == kInvalidIndex ? parent_from_node : world_from_node[node.parent] * parent_from_node;
     }
 }
 
-void skinPalette(const MotionTables& tables, const SkinRecord& skin,
+void skinPalette(const AnimationTables& tables, const SkinRecord& skin,
                  std::span<const Affine3d> world_from_node, std::span<Affine3d> world_from_bind)
 {
     HEARTH_RUNTIME_ASSERT(world_from_bind.size() == skin.joints.count);

@@ -17,7 +17,7 @@ namespace hearth::formats
 class PackView;
 
 /// Tables of a pack or a part from which poses are computed.
-struct MotionTables
+struct AnimationTables
 {
     std::span<const NodeRecord> nodes;
     std::span<const SkinRecord> skins;
@@ -30,7 +30,7 @@ struct MotionTables
 };
 
 /// Return the tables of a pack. They are valid as long as the pack.
-MotionTables motionTables(const PackView& pack);
+AnimationTables animationTables(const PackView& pack);
 
 using Quaternion = std::array<double, 4>; ///< x y z w
 
@@ -50,12 +50,12 @@ struct ScenePose
 };
 
 /// Return the pose without animation.
-ScenePose restPose(const MotionTables& tables);
+ScenePose restPose(const AnimationTables& tables);
 
 /// Set all nodes and weights that the animation's channels move, and leave the rest. Allocates nothing.
 /// time  seconds; clamped to the first and last key of each channel
 /// pose  pose of these tables
-void sampleAnimation(const MotionTables& tables, const AnimationRecord& animation, double time,
+void sampleAnimation(const AnimationTables& tables, const AnimationRecord& animation, double time,
                      ScenePose& pose);
 
 /// Blend node by node, in the space of their parents: translations, scales and morph weights linearly,
@@ -65,17 +65,17 @@ void sampleAnimation(const MotionTables& tables, const AnimationRecord& animatio
 void blendPoses(const ScenePose& from, const ScenePose& to, double weight, ScenePose& result);
 
 /// Return the nodes in an order in which each parent comes before its children.
-std::vector<uint32_t> parentsFirst(std::span<const NodeRecord> nodes);
+std::vector<uint32_t> nodesParentsFirst(std::span<const NodeRecord> nodes);
 
 /// Compute the world transform of every node. Allocates nothing.
-/// parents_first    order of parentsFirst
+/// parents_first    order of nodesParentsFirst
 /// world_from_node  one for each node
-void poseNodes(const MotionTables& tables, const ScenePose& pose, std::span<const uint32_t> parents_first,
+void poseNodes(const AnimationTables& tables, const ScenePose& pose, std::span<const uint32_t> parents_first,
                std::span<Affine3d> world_from_node);
 
 /// Compute the matrix palette of a skin. Allocates nothing.
 /// world_from_bind  one for each joint of the skin
-void skinPalette(const MotionTables& tables, const SkinRecord& skin,
+void skinPalette(const AnimationTables& tables, const SkinRecord& skin,
                  std::span<const Affine3d> world_from_node, std::span<Affine3d> world_from_bind);
 
 /// Interpolate between two rotations along the shorter arc; returns a unit quaternion.

@@ -27,7 +27,7 @@ float luminance(Float3 c)
 
 /// Estimate the illuminance in the middle of the scene. The distance of a lamp is at least a quarter of the
 /// scene's radius: its effect on most of the frame matters, not its effect on the lampshade around it.
-float illuminanceAt(const Box3& bounds, const Light& light)
+float estimateIlluminance(const Box3& bounds, const Light& light)
 {
     if (light.type == static_cast<uint32_t>(formats::LightType::directional))
         return luminance(light.intensity);
@@ -37,14 +37,14 @@ float illuminanceAt(const Box3& bounds, const Light& light)
     return luminance(light.intensity) / (distance * distance);
 }
 
-std::span<const formats::LightRecord> thoseThatCount(std::span<const formats::LightRecord> lights)
+std::span<const formats::LightRecord> shadedLights(std::span<const formats::LightRecord> lights)
 {
     return lights.first(std::min<size_t>(lights.size(), kMaxLights));
 }
 
 } // namespace
 
-Light lightOf(const formats::LightRecord& record)
+Light lightFromRecord(const formats::LightRecord& record)
 {
     Light light{};
     light.type = record.type;
@@ -62,8 +62,8 @@ Light lightOf(const formats::LightRecord& record)
 float lightExposure(std::span<const formats::LightRecord> lights, const Box3& bounds)
 {
     float illuminance = 0;
-    for (const formats::LightRecord& record : thoseThatCount(lights))
-        illuminance += illuminanceAt(bounds, lightOf(record));
+    for (const formats::LightRecord& record : shadedLights(lights))
+        illuminance += estimateIlluminance(bounds, lightFromRecord(record));
     return illuminance > kKeyIlluminance ? kKeyIlluminance / illuminance : 1.0f;
 }
 
@@ -73,8 +73,8 @@ Lighting sceneLighting(std::span<const formats::LightRecord> lights, const Box3&
     lighting.sky_zenith = kSkyZenith;
     lighting.sky_horizon = kSkyHorizon;
     lighting.sky_ground = kSkyGround;
-    for (const formats::LightRecord& record : thoseThatCount(lights))
-        lighting.lights[lighting.light_count++] = lightOf(record);
+    for (const formats::LightRecord& record : shadedLights(lights))
+        lighting.lights[lighting.light_count++] = lightFromRecord(record);
     if (lighting.light_count == 0)
         lighting.lights[lighting.light_count++] = defaultSun();
     const float exposure = lightExposure(lights, bounds);

@@ -11,7 +11,7 @@ namespace hearth::shared
 {
 
 /// Convert a light, before exposure, and without a shadow.
-Light lightOf(const formats::LightRecord& record);
+Light lightFromRecord(const formats::LightRecord& record);
 
 /// Return the factor of the exposure rule for all lights, at most 1. The illuminance of all lights together
 /// at a point in the middle of the scene is estimated. If it is more than kKeyIlluminance, all lights are

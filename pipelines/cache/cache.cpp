@@ -20,10 +20,10 @@ constexpr size_t kMaxDamage = 8;
 
 } // namespace
 
-Cache::Cache(std::vector<std::unique_ptr<Level>> levels, std::function<void(const Error&)> warn)
+Cache::Cache(std::vector<std::unique_ptr<CacheLevel>> levels, std::function<void(const Error&)> warn)
     : warn_(std::move(warn))
 {
-    for (std::unique_ptr<Level>& level : levels)
+    for (std::unique_ptr<CacheLevel>& level : levels)
     {
         levels_.emplace_back();
         levels_.back().level = std::move(level);
@@ -33,49 +33,49 @@ Cache::Cache(std::vector<std::unique_ptr<Level>> levels, std::function<void(cons
 bool Cache::isWritable() const
 {
     return std::any_of(levels_.begin(), levels_.end(),
-                       [](const Slot& slot) { return slot.level->isWritable() && !slot.is_left_alone; });
+                       [](const Slot& slot) { return slot.level->isWritable() && !slot.is_disabled; });
 }
 
-void Cache::leaveAlone(Slot& slot, const Error& error)
+void Cache::disable(Slot& slot, const Error& error)
 {
-    slot.is_left_alone = true;
+    slot.is_disabled = true;
     warn_(error);
 }
 
-void Cache::putFailed(Slot& slot, const Error& error)
+void Cache::handlePutError(Slot& slot, const Error& error)
 {
-    slot.is_left_alone = slot.level->isWritable();
+    slot.is_disabled = slot.level->isWritable();
     warn_(error);
 }
 
 void Cache::damaged(Slot& slot, const char* kind, const std::string& name)
 {
     damaged_.insert(name);
-    slot.is_read = !slot.level->isFar() || ++slot.damage_count < kMaxDamage;
+    slot.is_read = !slot.level->isRemote() || ++slot.damage_count < kMaxDamage;
     warn_({Issue::cache_failed, slot.level->name(), "",
            fmt::format("{} {} is damaged{}", kind, name,
                        slot.is_read ? ": it is made again"
                                     : ", as others before it: no more is taken from there")});
 }
 
-std::optional<Fields> Cache::entryOf(Slot& slot, const std::string& key)
+std::optional<Fields> Cache::readEntry(Slot& slot, const std::string& key)
 {
-    if (slot.level->isFar() && before_far_is_asked_)
-        std::exchange(before_far_is_asked_, nullptr)();
+    if (slot.level->isRemote() && before_remote_lookup_)
+        std::exchange(before_remote_lookup_, nullptr)();
     // prefetching may have disabled the level
-    if (slot.is_left_alone || !slot.is_read)
+    if (slot.is_disabled || !slot.is_read)
         return std::nullopt;
-    WantedEntry wanted{key, std::nullopt};
-    if (const auto told = slot.told_ahead.find(key); told != slot.told_ahead.end())
+    EntryRequest wanted{key, std::nullopt};
+    if (const auto told = slot.prefetched.find(key); told != slot.prefetched.end())
         wanted.text = told->second;
-    else if (const Status asked = slot.level->entries({&wanted, 1}); !asked.ok())
-        leaveAlone(slot, asked.error());
+    else if (const Status lookup = slot.level->entries({&wanted, 1}); !lookup.ok())
+        disable(slot, lookup.error());
     if (!wanted.text)
         return std::nullopt;
-    std::optional<Fields> fields = entryFields(*wanted.text);
+    std::optional<Fields> fields = parseEntry(*wanted.text);
     if (!fields)
     {
-        slot.told_ahead[key] = std::nullopt;
+        slot.prefetched[key] = std::nullopt;
         damaged(slot, "entry", key);
         if (slot.level->isWritable())
             slot.level->removeEntry(key);
@@ -83,13 +83,13 @@ std::optional<Fields> Cache::entryOf(Slot& slot, const std::string& key)
     return fields;
 }
 
-void Cache::putEntryInto(Slot& slot, const std::string& key, const Fields& fields)
+void Cache::putEntryAt(Slot& slot, const std::string& key, const Fields& fields)
 {
-    slot.told_ahead.erase(key);
-    if (slot.is_left_alone || !slot.level->isWritable())
+    slot.prefetched.erase(key);
+    if (slot.is_disabled || !slot.level->isWritable())
         return;
-    if (const Status put = slot.level->putEntry(key, entryText(fields)); !put.ok())
-        putFailed(slot, put.error());
+    if (const Status put = slot.level->putEntry(key, formatEntry(fields)); !put.ok())
+        handlePutError(slot, put.error());
 }
 
 std::optional<Fields> Cache::entry(const std::string& key)
@@ -99,19 +99,19 @@ std::optional<Fields> Cache::entry(const std::string& key)
 }
 
 std::optional<Fields> Cache::entry(const std::string& key, const std::function<bool(const Fields&)>& serves,
-                                   const Merge& merge)
+                                   const MergeFields& merge)
 {
     std::vector<Fields> near;
     for (Slot& slot : levels_)
     {
-        std::optional<Fields> fields = slot.is_left_alone ? std::nullopt : entryOf(slot, key);
+        std::optional<Fields> fields = slot.is_disabled ? std::nullopt : readEntry(slot, key);
         if (!fields || !serves(*fields))
         {
             near.push_back(std::move(fields).value_or(Fields()));
             continue;
         }
         for (size_t i = 0; i < near.size(); ++i)
-            putEntryInto(levels_[i], key, merge(*fields, near[i]));
+            putEntryAt(levels_[i], key, merge(*fields, near[i]));
         return fields;
     }
     return std::nullopt;
@@ -120,62 +120,62 @@ std::optional<Fields> Cache::entry(const std::string& key, const std::function<b
 void Cache::putEntry(const std::string& key, const Fields& fields)
 {
     for (Slot& slot : levels_)
-        putEntryInto(slot, key, fields);
+        putEntryAt(slot, key, fields);
 }
 
-void Cache::putEntry(const std::string& key, const Fields& fields, const Merge& merge)
+void Cache::putEntry(const std::string& key, const Fields& fields, const MergeFields& merge)
 {
     for (Slot& slot : levels_)
     {
-        if (slot.is_left_alone || !slot.level->isWritable())
+        if (slot.is_disabled || !slot.level->isWritable())
             continue;
         // another cook may have put one since
-        slot.told_ahead.erase(key);
-        putEntryInto(slot, key, merge(fields, entryOf(slot, key).value_or(Fields())));
+        slot.prefetched.erase(key);
+        putEntryAt(slot, key, merge(fields, readEntry(slot, key).value_or(Fields())));
     }
 }
 
-void Cache::askAhead(std::span<const std::string> keys)
+void Cache::prefetch(std::span<const std::string> keys)
 {
-    std::vector<WantedEntry> wanted;
+    std::vector<EntryRequest> wanted;
     for (const std::string& key : keys)
         wanted.push_back({key, std::nullopt});
     for (Slot& slot : levels_)
     {
-        std::erase_if(wanted, [&](const WantedEntry& entry)
-                      { return entry.text.has_value() || slot.told_ahead.contains(entry.key); });
-        if (slot.is_left_alone || !slot.is_read || wanted.empty())
+        std::erase_if(wanted, [&](const EntryRequest& entry)
+                      { return entry.text.has_value() || slot.prefetched.contains(entry.key); });
+        if (slot.is_disabled || !slot.is_read || wanted.empty())
             continue;
-        if (const Status asked = slot.level->entries(wanted); !asked.ok())
-            leaveAlone(slot, asked.error());
-        else if (slot.level->isFar())
-            for (const WantedEntry& entry : wanted)
-                slot.told_ahead.emplace(entry.key, entry.text);
+        if (const Status lookup = slot.level->entries(wanted); !lookup.ok())
+            disable(slot, lookup.error());
+        else if (slot.level->isRemote())
+            for (const EntryRequest& entry : wanted)
+                slot.prefetched.emplace(entry.key, entry.text);
     }
 }
 
 /// Fetch the missing contents from one level and check their hashes. Return the contents that arrived intact.
-std::vector<const WantedContent*> Cache::fetchFrom(Slot& slot, std::span<WantedContent> wanted)
+std::vector<const ContentRequest*> Cache::fetchAt(Slot& slot, std::span<ContentRequest> wanted)
 {
-    std::vector<WantedContent*> missing;
-    for (WantedContent& content : wanted)
-        if (!content.is_there)
+    std::vector<ContentRequest*> missing;
+    for (ContentRequest& content : wanted)
+        if (!content.is_found)
             missing.push_back(&content);
     if (const Status fetched = slot.level->fetch(wanted); !fetched.ok())
-        leaveAlone(slot, fetched.error());
-    std::vector<const WantedContent*> whole;
-    for (WantedContent* content : missing)
+        disable(slot, fetched.error());
+    std::vector<const ContentRequest*> whole;
+    for (ContentRequest* content : missing)
     {
-        if (!content->is_there)
+        if (!content->is_found)
             continue;
-        if (tools::sha256OfFile(content->path) == content->hash)
+        if (tools::computeFileSha256(content->path) == content->hash)
         {
             whole.push_back(content);
             continue;
         }
-        content->is_there = false;
+        content->is_found = false;
         ::unlink(content->path.c_str());
-        if (slot.is_left_alone)
+        if (slot.is_disabled)
             continue;
         damaged(slot, "content", content->hash);
         if (slot.level->isWritable())
@@ -184,36 +184,36 @@ std::vector<const WantedContent*> Cache::fetchFrom(Slot& slot, std::span<WantedC
     return whole;
 }
 
-void Cache::fetch(std::span<WantedContent> wanted)
+void Cache::fetch(std::span<ContentRequest> wanted)
 {
-    const auto isThere = [](const WantedContent& content) { return content.is_there; };
+    const auto isFound = [](const ContentRequest& content) { return content.is_found; };
     for (size_t i = 0; i < levels_.size(); ++i)
     {
-        if (levels_[i].is_left_alone || !levels_[i].is_read ||
-            std::all_of(wanted.begin(), wanted.end(), isThere))
+        if (levels_[i].is_disabled || !levels_[i].is_read ||
+            std::all_of(wanted.begin(), wanted.end(), isFound))
             continue;
-        for (const WantedContent* content : fetchFrom(levels_[i], wanted))
+        for (const ContentRequest* content : fetchAt(levels_[i], wanted))
             for (size_t near = 0; near < i; ++near)
-                putInto(levels_[near], content->hash, content->path, Use::given_away);
+                putInto(levels_[near], content->hash, content->path, FileAccess::read_write);
     }
 }
 
-bool Cache::fetch(const std::string& hash, const std::string& path, Use use)
+bool Cache::fetch(const std::string& hash, const std::string& path, FileAccess use)
 {
-    WantedContent wanted{hash, path, use};
+    ContentRequest wanted{hash, path, use};
     fetch({&wanted, 1});
-    return wanted.is_there;
+    return wanted.is_found;
 }
 
-void Cache::putInto(Slot& slot, const std::string& hash, const std::string& path, Use use)
+void Cache::putInto(Slot& slot, const std::string& hash, const std::string& path, FileAccess use)
 {
-    if (slot.is_left_alone || !slot.level->isWritable())
+    if (slot.is_disabled || !slot.level->isWritable())
         return;
     if (const Status put = slot.level->put(hash, path, use); !put.ok())
-        putFailed(slot, put.error());
+        handlePutError(slot, put.error());
 }
 
-void Cache::put(const std::string& hash, const std::string& path, Use use)
+void Cache::put(const std::string& hash, const std::string& path, FileAccess use)
 {
     for (Slot& slot : levels_)
         putInto(slot, hash, path, use);

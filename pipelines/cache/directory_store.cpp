@@ -76,7 +76,7 @@ bool copyBytes(int from, int to)
     }
 }
 
-bool makeFolder(const std::string& path)
+bool createFolder(const std::string& path)
 {
     std::error_code error;
     std::filesystem::create_directories(path, error);
@@ -130,12 +130,12 @@ std::optional<std::string> readText(const std::string& path)
     return text;
 }
 
-std::string FolderLevel::path(const char* kind, const std::string& name) const
+std::string DirectoryStore::path(const char* kind, const std::string& name) const
 {
     return folder_ + "/" + kind + "/" + name.substr(0, 2) + "/" + name;
 }
 
-Result<std::optional<std::string>> FolderLevel::entry(const std::string& key)
+Result<std::optional<std::string>> DirectoryStore::entry(const std::string& key)
 {
     const std::string path = entryPath(key);
     std::optional<std::string> text = readText(path);
@@ -148,9 +148,9 @@ Result<std::optional<std::string>> FolderLevel::entry(const std::string& key)
     return text;
 }
 
-Status FolderLevel::entries(std::span<WantedEntry> wanted)
+Status DirectoryStore::entries(std::span<EntryRequest> wanted)
 {
-    for (WantedEntry& one : wanted)
+    for (EntryRequest& one : wanted)
         if (!one.text)
         {
             HEARTH_ASSIGN_OR_RETURN(one.text, entry(one.key));
@@ -160,45 +160,46 @@ Status FolderLevel::entries(std::span<WantedEntry> wanted)
 
 /// Return a file name that is unique on all machines. No file reserves it: ext4 skips inodes freed in the
 /// last minutes, and its search among thousands of them took half of the time of a cook of small sources.
-std::string FolderLevel::temporaryName()
+std::string DirectoryStore::temporaryName()
 {
-    if (own_name_.empty())
+    if (unique_prefix_.empty())
     {
         std::random_device random;
-        own_name_ = fmt::format("{:08x}{:08x}", random(), random());
+        unique_prefix_ = fmt::format("{:08x}{:08x}", random(), random());
     }
-    return fmt::format("{}-{}-{}", own_name_, ::getpid(), temporary_count_++);
+    return fmt::format("{}-{}-{}", unique_prefix_, ::getpid(), temporary_count_++);
 }
 
-Status FolderLevel::appear(const std::string& path, const std::function<bool(const std::string&)>& fill)
+Status DirectoryStore::publish(const std::string& path, const std::function<bool(const std::string&)>& fill)
 {
     const std::string temporary_folder = folder_ + "/tmp";
-    const std::string made = temporary_folder + "/" + temporaryName();
-    if (!makeFolder(temporary_folder) || !makeFolder(path.substr(0, path.rfind('/'))))
+    const std::string temporary_path = temporary_folder + "/" + temporaryName();
+    if (!createFolder(temporary_folder) || !createFolder(path.substr(0, path.rfind('/'))))
         return failed(folder_, path, "cannot write");
-    const bool appeared = fill(made) && ::rename(made.c_str(), path.c_str()) == 0;
+    const bool is_published = fill(temporary_path) && ::rename(temporary_path.c_str(), path.c_str()) == 0;
     const int error = errno;
     // also after success: rename() between two hard links of one file does nothing
-    ::unlink(made.c_str());
+    ::unlink(temporary_path.c_str());
     errno = error;
-    return appeared ? success() : failed(folder_, path, "cannot write");
+    return is_published ? success() : failed(folder_, path, "cannot write");
 }
 
-Status FolderLevel::putEntry(const std::string& key, const std::string& text)
+Status DirectoryStore::putEntry(const std::string& key, const std::string& text)
 {
-    return appear(entryPath(key),
-                  [&](const std::string& made)
-                  {
-                      const File file(::open(made.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-                      bytes_added_ += text.size();
-                      return file.isOpen() && writeAll(file.number(), text.data(), text.size());
-                  });
+    return publish(entryPath(key),
+                   [&](const std::string& temporary_path)
+                   {
+                       const File file(
+                           ::open(temporary_path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+                       bytes_added_ += text.size();
+                       return file.isOpen() && writeAll(file.number(), text.data(), text.size());
+                   });
 }
 
-Result<bool> FolderLevel::fetchOne(const WantedContent& wanted)
+Result<bool> DirectoryStore::fetchOne(const ContentRequest& wanted)
 {
     const std::string content = contentPath(wanted.hash);
-    if (wanted.use == Use::read_only && ::link(content.c_str(), wanted.path.c_str()) == 0)
+    if (wanted.use == FileAccess::read_only && ::link(content.c_str(), wanted.path.c_str()) == 0)
         return true;
     // fallback: another file system, no support for hard links, or too many links
     if (copyFile(content, wanted.path))
@@ -208,17 +209,17 @@ Result<bool> FolderLevel::fetchOne(const WantedContent& wanted)
     return failed(folder_, content, "cannot read");
 }
 
-Status FolderLevel::fetch(std::span<WantedContent> wanted)
+Status DirectoryStore::fetch(std::span<ContentRequest> wanted)
 {
-    for (WantedContent& one : wanted)
-        if (!one.is_there)
+    for (ContentRequest& one : wanted)
+        if (!one.is_found)
         {
-            HEARTH_ASSIGN_OR_RETURN(one.is_there, fetchOne(one));
+            HEARTH_ASSIGN_OR_RETURN(one.is_found, fetchOne(one));
         }
     return success();
 }
 
-Status FolderLevel::put(const std::string& hash, const std::string& path, Use use)
+Status DirectoryStore::put(const std::string& hash, const std::string& path, FileAccess use)
 {
     struct stat there = {};
     struct stat file = {};
@@ -228,24 +229,24 @@ Status FolderLevel::put(const std::string& hash, const std::string& path, Use us
     // a file of another size is a torn write: replace it
     if (::stat(content.c_str(), &there) == 0 && there.st_size == file.st_size)
         return success();
-    HEARTH_TRY(appear(content,
-                      [&](const std::string& made)
-                      {
-                          const bool there_is_one =
-                              (use == Use::read_only && ::link(path.c_str(), made.c_str()) == 0) ||
-                              copyFile(path, made);
-                          return there_is_one && ::chmod(made.c_str(), 0444) == 0;
-                      }));
+    HEARTH_TRY(publish(content,
+                       [&](const std::string& temporary_path)
+                       {
+                           const bool is_created = (use == FileAccess::read_only &&
+                                                    ::link(path.c_str(), temporary_path.c_str()) == 0) ||
+                                                   copyFile(path, temporary_path);
+                           return is_created && ::chmod(temporary_path.c_str(), 0444) == 0;
+                       }));
     bytes_added_ += static_cast<uint64_t>(file.st_size);
     return success();
 }
 
-void FolderLevel::removeEntry(const std::string& key)
+void DirectoryStore::removeEntry(const std::string& key)
 {
     ::unlink(entryPath(key).c_str());
 }
 
-void FolderLevel::removeContent(const std::string& hash)
+void DirectoryStore::removeContent(const std::string& hash)
 {
     ::unlink(contentPath(hash).c_str());
 }

@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "pipelines/cache/level.h"
+#include "pipelines/cache/cache_level.h"
 
 #include <cstdint>
 #include <functional>
@@ -15,18 +15,18 @@ namespace hearth::cache
 /// Cache in a directory. Every file is written under a unique name in tmp/ and renamed, so that readers see
 /// all of it or nothing. Nothing is flushed to the disk: a power failure may leave torn files, which their
 /// hashes reveal.
-class FolderLevel : public Level
+class DirectoryStore : public CacheLevel
 {
 public:
-    FolderLevel(std::string folder, bool writable) : folder_(std::move(folder)), writable_(writable) {}
+    DirectoryStore(std::string folder, bool writable) : folder_(std::move(folder)), writable_(writable) {}
 
     const std::string& name() const override { return folder_; }
     bool isWritable() const override { return writable_; }
-    bool isFar() const override { return false; }
-    Status entries(std::span<WantedEntry> wanted) override;
+    bool isRemote() const override { return false; }
+    Status entries(std::span<EntryRequest> wanted) override;
     Status putEntry(const std::string& key, const std::string& text) override;
-    Status fetch(std::span<WantedContent> wanted) override;
-    Status put(const std::string& hash, const std::string& path, Use use) override;
+    Status fetch(std::span<ContentRequest> wanted) override;
+    Status put(const std::string& hash, const std::string& path, FileAccess use) override;
     void removeEntry(const std::string& key) override;
     void removeContent(const std::string& hash) override;
 
@@ -38,15 +38,15 @@ private:
     std::string contentPath(const std::string& hash) const { return path("cas", hash); }
     std::string path(const char* kind, const std::string& name) const;
     Result<std::optional<std::string>> entry(const std::string& key);
-    Result<bool> fetchOne(const WantedContent& wanted);
+    Result<bool> fetchOne(const ContentRequest& wanted);
     std::string temporaryName();
     /// Create a file with `fill(temporary path)` and rename it to `path`.
-    Status appear(const std::string& path, const std::function<bool(const std::string&)>& fill);
+    Status publish(const std::string& path, const std::function<bool(const std::string&)>& fill);
 
     std::string folder_;
     bool writable_;
     uint64_t bytes_added_ = 0;
-    std::string own_name_; ///< unique among the processes of all machines
+    std::string unique_prefix_; ///< unique among the processes of all machines
     uint64_t temporary_count_ = 0;
 };
 

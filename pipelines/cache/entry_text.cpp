@@ -13,19 +13,19 @@ constexpr std::string_view kStart = "hearth.entry/1 ";
 
 } // namespace
 
-std::string entryText(const Fields& fields)
+std::string formatEntry(const Fields& fields)
 {
-    const std::string text = textOf(fields);
-    return std::string(kStart) + tools::sha256Of(text) + "\n" + text;
+    const std::string text = formatFields(fields);
+    return std::string(kStart) + tools::computeSha256(text) + "\n" + text;
 }
 
-std::optional<Fields> entryFields(std::string_view text)
+std::optional<Fields> parseEntry(std::string_view text)
 {
     const size_t line = text.find('\n');
     if (line == std::string_view::npos || !text.starts_with(kStart) ||
-        text.substr(kStart.size(), line - kStart.size()) != tools::sha256Of(text.substr(line + 1)))
+        text.substr(kStart.size(), line - kStart.size()) != tools::computeSha256(text.substr(line + 1)))
         return std::nullopt;
-    return fieldsOf(text.substr(line + 1));
+    return parseFields(text.substr(line + 1));
 }
 
 } // namespace hearth::cache

@@ -8,9 +8,9 @@ namespace hearth::cache
 {
 
 /// Serialize an entry. First line: "hearth.entry/1", a blank, SHA-256 of the rest.
-std::string entryText(const Fields& fields);
+std::string formatEntry(const Fields& fields);
 
 /// Parse an entry; nullopt where the text is torn or damaged.
-std::optional<Fields> entryFields(std::string_view text);
+std::optional<Fields> parseEntry(std::string_view text);
 
 } // namespace hearth::cache

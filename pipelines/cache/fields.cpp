@@ -28,7 +28,7 @@ void append(std::string& text, std::string_view value)
         }
 }
 
-std::optional<std::string> unescaped(std::string_view text)
+std::optional<std::string> unescape(std::string_view text)
 {
     std::string value;
     value.reserve(text.size());
@@ -50,7 +50,7 @@ std::optional<std::string> unescaped(std::string_view text)
 
 } // namespace
 
-std::string textOf(const Fields& fields)
+std::string formatFields(const Fields& fields)
 {
     std::string text;
     for (const auto& [name, value] : fields)
@@ -63,7 +63,7 @@ std::string textOf(const Fields& fields)
     return text;
 }
 
-std::optional<Fields> fieldsOf(std::string_view text)
+std::optional<Fields> parseFields(std::string_view text)
 {
     Fields fields;
     while (!text.empty())
@@ -72,8 +72,8 @@ std::optional<Fields> fieldsOf(std::string_view text)
         const size_t tab = text.find('\t');
         if (end == std::string_view::npos || tab > end)
             return std::nullopt;
-        std::optional<std::string> name = unescaped(text.substr(0, tab));
-        std::optional<std::string> value = unescaped(text.substr(tab + 1, end - tab - 1));
+        std::optional<std::string> name = unescape(text.substr(0, tab));
+        std::optional<std::string> value = unescape(text.substr(tab + 1, end - tab - 1));
         if (!name || !value)
             return std::nullopt;
         fields.emplace_back(std::move(*name), std::move(*value));
@@ -82,7 +82,7 @@ std::optional<Fields> fieldsOf(std::string_view text)
     return fields;
 }
 
-std::string_view valueOf(const Fields& fields, std::string_view name)
+std::string_view fieldValue(const Fields& fields, std::string_view name)
 {
     const auto found =
         std::find_if(fields.begin(), fields.end(), [&](const auto& field) { return field.first == name; });

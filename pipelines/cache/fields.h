@@ -19,12 +19,12 @@ using Fields = std::vector<std::pair<std::string, std::string>>;
 
 /// Serialize fields, one a line: name, a tab, value. Backslash, tab and line break are written as \\ \t \n.
 /// Different fields give different texts.
-std::string textOf(const Fields& fields);
+std::string formatFields(const Fields& fields);
 
-/// Parse a text that textOf wrote; nullopt where it is malformed.
-std::optional<Fields> fieldsOf(std::string_view text);
+/// Parse a text that formatFields wrote; nullopt where it is malformed.
+std::optional<Fields> parseFields(std::string_view text);
 
 /// Return the value of the first field of that name; empty where there is none.
-std::string_view valueOf(const Fields& fields, std::string_view name);
+std::string_view fieldValue(const Fields& fields, std::string_view name);
 
 } // namespace hearth::cache

@@ -26,7 +26,7 @@ constexpr size_t kConnections = 16;
 // connection.
 constexpr uint64_t kMaxErrorPage = 64 * 1024;
 // Interval at which a wait checks for stalls and signals.
-constexpr int kLook_ms = 100;
+constexpr int kPollInterval_ms = 100;
 
 // ---- the library
 
@@ -85,14 +85,14 @@ const Curl* loadCurl()
 
 // ---- one request
 
-struct Flight
+struct Transfer
 {
     CURL* easy = nullptr;
     HttpRequest* request = nullptr; ///< nullptr: the slot is free
     int file = -1;
-    uint64_t bytes = 0;  ///< received or sent
-    bool is_cut = false; ///< the response exceeds the limit
-    int file_error = 0;  ///< errno of a failed file operation
+    uint64_t bytes = 0;        ///< received or sent
+    bool is_truncated = false; ///< the response exceeds the limit
+    int file_error = 0;        ///< errno of a failed file operation
     size_t text_sent = 0;
     const Curl* curl = nullptr;
     std::array<char, CURL_ERROR_SIZE> error_text{};
@@ -103,31 +103,31 @@ bool isGet(const HttpRequest& request)
     return request.kind == HttpRequest::Kind::get_text || request.kind == HttpRequest::Kind::get_file;
 }
 
-long statusOf(const Flight& flight)
+long httpStatus(const Transfer& transfer)
 {
     long status = 0;
-    flight.curl->get(flight.easy, CURLINFO_RESPONSE_CODE, &status);
+    transfer.curl->get(transfer.easy, CURLINFO_RESPONSE_CODE, &status);
     return status;
 }
 
-bool makeFile(Flight& flight)
+bool createFile(Transfer& transfer)
 {
-    if (flight.file < 0)
-        flight.file = ::open(flight.request->path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    flight.file_error = flight.file < 0 ? errno : 0;
-    return flight.file >= 0;
+    if (transfer.file < 0)
+        transfer.file = ::open(transfer.request->path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    transfer.file_error = transfer.file < 0 ? errno : 0;
+    return transfer.file >= 0;
 }
 
-bool writeAll(Flight& flight, const char* data, size_t size)
+bool writeAll(Transfer& transfer, const char* data, size_t size)
 {
     while (size > 0)
     {
-        const ssize_t written = ::write(flight.file, data, size);
+        const ssize_t written = ::write(transfer.file, data, size);
         if (written < 0 && errno == EINTR)
             continue;
         if (written < 0)
         {
-            flight.file_error = errno;
+            transfer.file_error = errno;
             return false;
         }
         data += written;
@@ -139,21 +139,21 @@ bool writeAll(Flight& flight, const char* data, size_t size)
 /// Write function for libcurl.
 size_t receive(char* data, size_t one, size_t count, void* user)
 {
-    auto& flight = *static_cast<Flight*>(user);
+    auto& transfer = *static_cast<Transfer*>(user);
     const size_t size = one * count;
-    const bool is_wanted = isGet(*flight.request) && statusOf(flight) == kHttpOk;
-    const uint64_t max_bytes = is_wanted ? flight.request->max_bytes : kMaxErrorPage;
-    if (size > max_bytes - std::min(flight.bytes, max_bytes))
+    const bool is_wanted = isGet(*transfer.request) && httpStatus(transfer) == kHttpOk;
+    const uint64_t max_bytes = is_wanted ? transfer.request->max_bytes : kMaxErrorPage;
+    if (size > max_bytes - std::min(transfer.bytes, max_bytes))
     {
-        flight.is_cut = true;
+        transfer.is_truncated = true;
         return 0;
     }
-    flight.bytes += size;
+    transfer.bytes += size;
     if (!is_wanted)
         return size;
-    if (flight.request->kind == HttpRequest::Kind::get_text)
-        flight.request->text.append(data, size);
-    else if (!makeFile(flight) || !writeAll(flight, data, size))
+    if (transfer.request->kind == HttpRequest::Kind::get_text)
+        transfer.request->text.append(data, size);
+    else if (!createFile(transfer) || !writeAll(transfer, data, size))
         return 0;
     return size;
 }
@@ -161,42 +161,42 @@ size_t receive(char* data, size_t one, size_t count, void* user)
 /// Read function for libcurl.
 size_t send(char* data, size_t one, size_t count, void* user)
 {
-    auto& flight = *static_cast<Flight*>(user);
+    auto& transfer = *static_cast<Transfer*>(user);
     const size_t room = one * count;
     size_t size = 0;
-    if (flight.request->kind == HttpRequest::Kind::put_text)
+    if (transfer.request->kind == HttpRequest::Kind::put_text)
     {
-        size = std::min(room, flight.request->text.size() - flight.text_sent);
-        std::memcpy(data, flight.request->text.data() + flight.text_sent, size);
-        flight.text_sent += size;
+        size = std::min(room, transfer.request->text.size() - transfer.text_sent);
+        std::memcpy(data, transfer.request->text.data() + transfer.text_sent, size);
+        transfer.text_sent += size;
     }
     else
     {
-        const ssize_t read = ::read(flight.file, data, room);
+        const ssize_t read = ::read(transfer.file, data, room);
         if (read < 0)
         {
-            flight.file_error = errno;
+            transfer.file_error = errno;
             return CURL_READFUNC_ABORT;
         }
         size = static_cast<size_t>(read);
     }
-    flight.bytes += size;
+    transfer.bytes += size;
     return size;
 }
 
 /// Seek function for libcurl, which resends a request when the server has closed a kept-alive connection.
 int rewind(void* user, curl_off_t offset, int origin)
 {
-    auto& flight = *static_cast<Flight*>(user);
+    auto& transfer = *static_cast<Transfer*>(user);
     if (origin != SEEK_SET || offset < 0)
         return CURL_SEEKFUNC_CANTSEEK;
-    flight.text_sent = static_cast<size_t>(offset);
-    return flight.file < 0 || ::lseek(flight.file, offset, SEEK_SET) == offset ? CURL_SEEKFUNC_OK
-                                                                               : CURL_SEEKFUNC_FAIL;
+    transfer.text_sent = static_cast<size_t>(offset);
+    return transfer.file < 0 || ::lseek(transfer.file, offset, SEEK_SET) == offset ? CURL_SEEKFUNC_OK
+                                                                                   : CURL_SEEKFUNC_FAIL;
 }
 
 /// True if a termination signal is pending: while cookers run, signals that end the process are blocked.
-bool isEndAskedFor()
+bool isTerminationPending()
 {
     sigset_t pending;
     ::sigpending(&pending);
@@ -210,125 +210,126 @@ bool isEndAskedFor()
 
 struct HttpClient::Connections
 {
-    Connections(const Curl& loaded, std::string level, const Pace& wanted_pace)
-        : curl(loaded), name(std::move(level)), pace(wanted_pace), patience(wanted_pace)
+    Connections(const Curl& loaded, std::string level, const StallLimits& stall_limits)
+        : curl(loaded), name(std::move(level)), limits(stall_limits), stall_timer(stall_limits)
     {
         multi = curl.multi_init();
-        for (Flight& flight : flights)
+        for (Transfer& transfer : transfers)
         {
-            flight.curl = &curl;
-            flight.easy = curl.easy_init();
+            transfer.curl = &curl;
+            transfer.easy = curl.easy_init();
         }
     }
     Connections(const Connections&) = delete;
     Connections& operator=(const Connections&) = delete;
     ~Connections()
     {
-        for (const Flight& flight : flights)
-            curl.easy_cleanup(flight.easy);
+        for (const Transfer& transfer : transfers)
+            curl.easy_cleanup(transfer.easy);
         curl.multi_cleanup(multi);
     }
 
     Error failed(const std::string& why) const { return {Issue::cache_failed, name, "", why}; }
     size_t busy() const
     {
-        return static_cast<size_t>(std::count_if(
-            flights.begin(), flights.end(), [](const Flight& flight) { return flight.request != nullptr; }));
+        return static_cast<size_t>(std::count_if(transfers.begin(), transfers.end(),
+                                                 [](const Transfer& transfer)
+                                                 { return transfer.request != nullptr; }));
     }
     uint64_t bytesSoFar() const
     {
-        uint64_t bytes = bytes_landed;
-        for (const Flight& flight : flights)
-            bytes += flight.bytes;
+        uint64_t bytes = bytes_finished;
+        for (const Transfer& transfer : transfers)
+            bytes += transfer.bytes;
         return bytes;
     }
-    Status start(Flight& flight, HttpRequest& request);
-    Status land(Flight& flight, CURLcode end);
-    Status landAll();
-    void giveUp();
+    Status start(Transfer& transfer, HttpRequest& request);
+    Status finish(Transfer& transfer, CURLcode end);
+    Status finishAll();
+    void abortAll();
 
     const Curl& curl;
     std::string name;
-    Pace pace;
-    Patience patience;
+    StallLimits limits;
+    StallTimer stall_timer;
     CURLM* multi = nullptr;
-    std::array<Flight, kConnections> flights;
-    uint64_t bytes_landed = 0;
-    uint64_t requests_landed = 0;
+    std::array<Transfer, kConnections> transfers;
+    uint64_t bytes_finished = 0;
+    uint64_t requests_finished = 0;
 };
 
-Status HttpClient::Connections::start(Flight& flight, HttpRequest& request)
+Status HttpClient::Connections::start(Transfer& transfer, HttpRequest& request)
 {
-    flight.file = -1;
-    flight.bytes = 0;
-    flight.is_cut = false;
-    flight.file_error = 0;
-    flight.text_sent = 0;
-    flight.error_text[0] = '\0';
+    transfer.file = -1;
+    transfer.bytes = 0;
+    transfer.is_truncated = false;
+    transfer.file_error = 0;
+    transfer.text_sent = 0;
+    transfer.error_text[0] = '\0';
     auto put_bytes = static_cast<curl_off_t>(request.text.size());
     if (request.kind == HttpRequest::Kind::put_file)
     {
         struct stat info = {};
-        flight.file = ::open(request.path.c_str(), O_RDONLY | O_CLOEXEC);
-        if (flight.file < 0 || ::fstat(flight.file, &info) != 0)
+        transfer.file = ::open(request.path.c_str(), O_RDONLY | O_CLOEXEC);
+        if (transfer.file < 0 || ::fstat(transfer.file, &info) != 0)
             return failed("cannot read " + request.path + ": " + std::strerror(errno));
         put_bytes = info.st_size;
     }
-    flight.request = &request;
-    curl.easy_reset(flight.easy);
-    curl.set(flight.easy, CURLOPT_URL, request.url.c_str());
-    curl.set(flight.easy, CURLOPT_PROTOCOLS_STR, "http,https");
-    curl.set(flight.easy, CURLOPT_HTTP_VERSION, static_cast<long>(CURL_HTTP_VERSION_1_1));
-    curl.set(flight.easy, CURLOPT_USERAGENT, "hearth");
-    curl.set(flight.easy, CURLOPT_CONNECTTIMEOUT_MS, static_cast<long>(pace.connect_s * 1000));
+    transfer.request = &request;
+    curl.easy_reset(transfer.easy);
+    curl.set(transfer.easy, CURLOPT_URL, request.url.c_str());
+    curl.set(transfer.easy, CURLOPT_PROTOCOLS_STR, "http,https");
+    curl.set(transfer.easy, CURLOPT_HTTP_VERSION, static_cast<long>(CURL_HTTP_VERSION_1_1));
+    curl.set(transfer.easy, CURLOPT_USERAGENT, "hearth");
+    curl.set(transfer.easy, CURLOPT_CONNECTTIMEOUT_MS, static_cast<long>(limits.connect_timeout_s * 1000));
     // a name server that does not answer must not delay the end of the process
-    curl.set(flight.easy, CURLOPT_QUICK_EXIT, 1L);
-    curl.set(flight.easy, CURLOPT_ERRORBUFFER, flight.error_text.data());
-    curl.set(flight.easy, CURLOPT_PRIVATE, &flight);
-    curl.set(flight.easy, CURLOPT_WRITEFUNCTION, &receive);
-    curl.set(flight.easy, CURLOPT_WRITEDATA, &flight);
+    curl.set(transfer.easy, CURLOPT_QUICK_EXIT, 1L);
+    curl.set(transfer.easy, CURLOPT_ERRORBUFFER, transfer.error_text.data());
+    curl.set(transfer.easy, CURLOPT_PRIVATE, &transfer);
+    curl.set(transfer.easy, CURLOPT_WRITEFUNCTION, &receive);
+    curl.set(transfer.easy, CURLOPT_WRITEDATA, &transfer);
     if (!isGet(request))
     {
-        curl.set(flight.easy, CURLOPT_UPLOAD, 1L);
-        curl.set(flight.easy, CURLOPT_INFILESIZE_LARGE, put_bytes);
-        curl.set(flight.easy, CURLOPT_READFUNCTION, &send);
-        curl.set(flight.easy, CURLOPT_READDATA, &flight);
-        curl.set(flight.easy, CURLOPT_SEEKFUNCTION, &rewind);
-        curl.set(flight.easy, CURLOPT_SEEKDATA, &flight);
+        curl.set(transfer.easy, CURLOPT_UPLOAD, 1L);
+        curl.set(transfer.easy, CURLOPT_INFILESIZE_LARGE, put_bytes);
+        curl.set(transfer.easy, CURLOPT_READFUNCTION, &send);
+        curl.set(transfer.easy, CURLOPT_READDATA, &transfer);
+        curl.set(transfer.easy, CURLOPT_SEEKFUNCTION, &rewind);
+        curl.set(transfer.easy, CURLOPT_SEEKDATA, &transfer);
     }
-    curl.add(multi, flight.easy);
+    curl.add(multi, transfer.easy);
     return success();
 }
 
 /// Finish a request that has been answered or has failed.
-Status HttpClient::Connections::land(Flight& flight, CURLcode end)
+Status HttpClient::Connections::finish(Transfer& transfer, CURLcode end)
 {
-    curl.remove(multi, flight.easy);
-    HttpRequest& request = *flight.request;
-    const long status = statusOf(flight);
-    const bool is_answered = end == CURLE_OK || flight.is_cut;
-    const bool makes_file = request.kind == HttpRequest::Kind::get_file && status == kHttpOk && is_answered;
-    const bool is_well = is_answered && (!makes_file || makeFile(flight));
-    const bool has_made_file = request.kind == HttpRequest::Kind::get_file && flight.file >= 0;
-    if (flight.file >= 0)
-        ::close(flight.file);
-    bytes_landed += flight.bytes;
-    flight.bytes = 0;
-    flight.request = nullptr;
-    if (is_well)
+    curl.remove(multi, transfer.easy);
+    HttpRequest& request = *transfer.request;
+    const long status = httpStatus(transfer);
+    const bool is_answered = end == CURLE_OK || transfer.is_truncated;
+    const bool creates_file = request.kind == HttpRequest::Kind::get_file && status == kHttpOk && is_answered;
+    const bool has_succeeded = is_answered && (!creates_file || createFile(transfer));
+    const bool has_created_file = request.kind == HttpRequest::Kind::get_file && transfer.file >= 0;
+    if (transfer.file >= 0)
+        ::close(transfer.file);
+    bytes_finished += transfer.bytes;
+    transfer.bytes = 0;
+    transfer.request = nullptr;
+    if (has_succeeded)
     {
-        ++requests_landed;
+        ++requests_finished;
         request.status = status;
         return success();
     }
-    if (has_made_file)
+    if (has_created_file)
         ::unlink(request.path.c_str());
-    if (flight.file_error != 0)
-        return failed("cannot use " + request.path + ": " + std::strerror(flight.file_error));
-    return failed(flight.error_text[0] != '\0' ? flight.error_text.data() : curl.errorText(end));
+    if (transfer.file_error != 0)
+        return failed("cannot use " + request.path + ": " + std::strerror(transfer.file_error));
+    return failed(transfer.error_text[0] != '\0' ? transfer.error_text.data() : curl.errorText(end));
 }
 
-Status HttpClient::Connections::landAll()
+Status HttpClient::Connections::finishAll()
 {
     int left = 0;
     while (const CURLMsg* message = curl.nextMessage(multi, &left))
@@ -338,23 +339,23 @@ Status HttpClient::Connections::landAll()
         const CURLcode end = message->data.result;
         char* user = nullptr;
         curl.get(message->easy_handle, CURLINFO_PRIVATE, &user);
-        HEARTH_TRY(land(*reinterpret_cast<Flight*>(user), end));
+        HEARTH_TRY(finish(*reinterpret_cast<Transfer*>(user), end));
     }
     return success();
 }
 
-void HttpClient::Connections::giveUp()
+void HttpClient::Connections::abortAll()
 {
-    for (Flight& flight : flights)
-        if (flight.request != nullptr)
-            static_cast<void>(land(flight, CURLE_ABORTED_BY_CALLBACK).ok());
+    for (Transfer& transfer : transfers)
+        if (transfer.request != nullptr)
+            static_cast<void>(finish(transfer, CURLE_ABORTED_BY_CALLBACK).ok());
 }
 
 HttpClient::HttpClient(std::unique_ptr<Connections> connections) : connections_(std::move(connections)) {}
 
 HttpClient::~HttpClient() = default;
 
-Result<std::unique_ptr<HttpClient>> HttpClient::open(const std::string& name, const Pace& pace)
+Result<std::unique_ptr<HttpClient>> HttpClient::open(const std::string& name, const StallLimits& limits)
 {
     const Curl* curl = loadCurl();
     if (curl == nullptr)
@@ -364,43 +365,43 @@ Result<std::unique_ptr<HttpClient>> HttpClient::open(const std::string& name, co
                      std::string("needs libcurl (Debian's libcurl4): ") +
                          (why != nullptr ? why : "it cannot be initialised")};
     }
-    return std::unique_ptr<HttpClient>(new HttpClient(std::make_unique<Connections>(*curl, name, pace)));
+    return std::unique_ptr<HttpClient>(new HttpClient(std::make_unique<Connections>(*curl, name, limits)));
 }
 
 Status HttpClient::run(std::span<HttpRequest> requests)
 {
     Connections& all = *connections_;
     using Clock = std::chrono::steady_clock;
-    const auto flyThem = [&]() -> Status
+    const auto runTransfers = [&]() -> Status
     {
         auto next = requests.begin();
-        for (auto last_look = Clock::now(); next != requests.end() || all.busy() > 0;)
+        for (auto last_check = Clock::now(); next != requests.end() || all.busy() > 0;)
         {
-            for (Flight& flight : all.flights)
-                if (flight.request == nullptr && next != requests.end())
-                    HEARTH_TRY(all.start(flight, *next++));
+            for (Transfer& transfer : all.transfers)
+                if (transfer.request == nullptr && next != requests.end())
+                    HEARTH_TRY(all.start(transfer, *next++));
             const uint64_t bytes_before = all.bytesSoFar();
-            const uint64_t requests_before = all.requests_landed;
+            const uint64_t requests_before = all.requests_finished;
             int running = 0;
             all.curl.perform(all.multi, &running);
-            HEARTH_TRY(all.landAll());
+            HEARTH_TRY(all.finishAll());
             if (all.busy() == kConnections || (all.busy() > 0 && next == requests.end()))
-                all.curl.poll(all.multi, nullptr, 0, kLook_ms, nullptr);
+                all.curl.poll(all.multi, nullptr, 0, kPollInterval_ms, nullptr);
             const auto now = Clock::now();
-            const double waited_s = std::chrono::duration<double>(now - last_look).count();
-            last_look = now;
-            if (!all.patience.spend(waited_s, all.requests_landed - requests_before,
-                                    all.bytesSoFar() - bytes_before))
+            const double waited_s = std::chrono::duration<double>(now - last_check).count();
+            last_check = now;
+            if (!all.stall_timer.addWait(waited_s, all.requests_finished - requests_before,
+                                         all.bytesSoFar() - bytes_before))
                 return all.failed("is too slow to be of use");
-            if (isEndAskedFor())
+            if (isTerminationPending())
                 return all.failed("is not waited for, as a signal ends the cook");
         }
         return success();
     };
-    Status flown = flyThem();
-    if (!flown.ok())
-        all.giveUp();
-    return flown;
+    Status outcome = runTransfers();
+    if (!outcome.ok())
+        all.abortAll();
+    return outcome;
 }
 
 } // namespace hearth::cache

@@ -39,7 +39,7 @@ class HttpClient
 public:
     /// name    of the level, for messages
     /// errors  cache_failed: libcurl is not installed
-    static Result<std::unique_ptr<HttpClient>> open(const std::string& name, const Pace& pace);
+    static Result<std::unique_ptr<HttpClient>> open(const std::string& name, const StallLimits& limits);
 
     HttpClient(const HttpClient&) = delete;
     HttpClient& operator=(const HttpClient&) = delete;

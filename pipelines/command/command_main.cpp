@@ -15,7 +15,7 @@ using namespace hearth;
 using namespace hearth::command;
 
 /// Return the help of the command, followed by the exit codes if a verb was named (else its footer has them).
-std::string helpOf(const cli::CommandLine& app)
+std::string helpText(const cli::CommandLine& app)
 {
     return app.hasSubcommand() ? app.help() + "\n" + exitCodeTable() : app.help();
 }
@@ -23,7 +23,7 @@ std::string helpOf(const cli::CommandLine& app)
 int program(int argc, char** argv)
 {
     cli::CommandLine app("Cook assets into packs that a phone can stream and draw.", "hearth");
-    Work run;
+    VerbAction run;
     app.requireSubcommand();
     app.setFooter("Examples:\n"
                   "  hearth cook house.glb -o house.hearth\n"
@@ -53,19 +53,19 @@ int program(int argc, char** argv)
     app.shareOptions();
 
     Result<std::vector<std::string>> words =
-        withArgumentFiles(std::vector<std::string>(argv + 1, argv + argc));
+        expandArgumentFiles(std::vector<std::string>(argv + 1, argv + argc));
     if (!words.ok())
-        return fail(words.error());
-    const std::string unknown = unknownWord(app.info(), *words);
+        return printError(words.error());
+    const std::string unknown = findUnknownWord(app.info(), *words);
     if (!unknown.empty())
-        return usageError(unknown);
+        return printUsageError(unknown);
     const cli::ParseResult parsed = app.parseWords(std::move(words).value());
     if (parsed.wants_help)
-        return printResult(helpOf(app));
+        return printResult(helpText(app));
     if (!parsed.fault.empty())
-        return usageError(parsed.fault);
+        return printUsageError(parsed.fault);
     const Status applied = applyCommonOptions();
-    return applied.ok() ? run() : fail(applied.error());
+    return applied.ok() ? run() : printError(applied.error());
 }
 
 } // namespace

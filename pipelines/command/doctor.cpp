@@ -5,8 +5,8 @@
 #include "cook/tools/child_processes.h"
 #include "formats/base/temp_directory.h"
 #include "pipelines/cache/directory_store.h"
-#include "pipelines/cache/http_level.h"
-#include "pipelines/cache/upkeep.h"
+#include "pipelines/cache/http_store.h"
+#include "pipelines/cache/maintenance.h"
 #include "pipelines/command/shell/terminal.h"
 
 #include <algorithm>
@@ -25,17 +25,17 @@ namespace
 {
 
 namespace fs = std::filesystem;
-using State = Check::State;
+using State = DoctorCheck::State;
 
 // Least free disk space: ten times what a cook of the demo scene writes.
-constexpr uint64_t kLittleSpace = uint64_t{1} << 30;
+constexpr uint64_t kMinSpace_bytes = uint64_t{1} << 30;
 // Memory that cooking one large mesh takes.
-constexpr uint64_t kLittleMemory = uint64_t{2} << 30;
+constexpr uint64_t kMinMemory_bytes = uint64_t{2} << 30;
 // Text before the version in the binary of every program of Hearth (cmake/program_version.cpp.in).
 constexpr std::string_view kVersionMark = "hearth program version ";
 
 /// Read the version from a program's binary; empty: it is no program of Hearth.
-std::string versionOf(const std::string& program)
+std::string readProgramVersion(const std::string& program)
 {
     const std::string bytes = cache::readText(program).value_or("");
     // this program contains the mark too, as the constant of this search
@@ -48,7 +48,7 @@ std::string versionOf(const std::string& program)
     return "";
 }
 
-Check checkPrograms(const std::string& folder)
+DoctorCheck checkPrograms(const std::string& folder)
 {
     std::vector<std::string> missing;
     std::vector<std::string> others;
@@ -56,7 +56,7 @@ Check checkPrograms(const std::string& folder)
          {"import", "textures", "clusters", "skinning", "visibility", "specular", "bricks", "link", "render"})
     {
         const std::string program = folder + "/hearth-" + name;
-        const std::string version = versionOf(program);
+        const std::string version = readProgramVersion(program);
         if (::access(program.c_str(), X_OK) != 0)
             missing.push_back(std::string("hearth-") + name);
         else if (version != HEARTH_VERSION)
@@ -73,7 +73,7 @@ Check checkPrograms(const std::string& folder)
 }
 
 /// Return the nearest existing folder, at or above `folder`.
-std::string existingFolder(std::string folder)
+std::string nearestExistingFolder(std::string folder)
 {
     std::error_code error;
     while (!folder.empty() && !fs::is_directory(folder, error))
@@ -84,13 +84,13 @@ std::string existingFolder(std::string folder)
     return folder.empty() ? "." : folder;
 }
 
-Check checkSpace(const std::string& what, const std::string& folder)
+DoctorCheck checkSpace(const std::string& what, const std::string& folder)
 {
     std::error_code error;
-    const fs::space_info space = fs::space(existingFolder(folder), error);
+    const fs::space_info space = fs::space(nearestExistingFolder(folder), error);
     const std::string text =
         fmt::format("{} free for {} in {}", readableSize(error ? 0 : space.available), what, folder);
-    if (error || space.available < kLittleSpace)
+    if (error || space.available < kMinSpace_bytes)
         return {"space", State::wrong, text, "make room, or choose another disk: TMPDIR, --cache"};
     return {"space", State::ok, text, ""};
 }
@@ -98,7 +98,7 @@ Check checkSpace(const std::string& what, const std::string& folder)
 /// True if a file can be created in the folder. Tries it, because permissions alone do not tell.
 bool canWriteInto(const std::string& folder)
 {
-    std::string path = existingFolder(folder) + "/.hearth-doctor-XXXXXX";
+    std::string path = nearestExistingFolder(folder) + "/.hearth-doctor-XXXXXX";
     const int file = ::mkstemp(path.data());
     if (file < 0)
         return false;
@@ -106,18 +106,18 @@ bool canWriteInto(const std::string& folder)
     return ::unlink(path.c_str()) == 0;
 }
 
-Check checkCache(const cache::LevelSpec& spec)
+DoctorCheck checkCache(const cache::CacheSpec& spec)
 {
-    const cache::Occupancy occupancy = cache::occupancyOf(spec.place);
+    const cache::Occupancy occupancy = cache::measureOccupancy(spec.place);
     const std::string text =
         fmt::format("{}: {} of {} in {} entries{}", spec.place, readableSize(occupancy.bytes),
                     readableSize(spec.limit_bytes), occupancy.entries, spec.writable ? "" : ", read only");
     std::error_code error;
     if (!spec.writable)
         return fs::is_directory(spec.place, error)
-                   ? Check{"cache", State::ok, text, ""}
-                   : Check{"cache", State::wrong, spec.place + " is not there",
-                           "mount it, or take it out of --cache and hearth.toml"};
+                   ? DoctorCheck{"cache", State::ok, text, ""}
+                   : DoctorCheck{"cache", State::wrong, spec.place + " is not there",
+                                 "mount it, or take it out of --cache and hearth.toml"};
     if (!canWriteInto(spec.place))
         return {"cache", State::wrong, spec.place + " cannot be written",
                 "give yourself rights to it, or choose another: --cache dir:FOLDER"};
@@ -125,10 +125,10 @@ Check checkCache(const cache::LevelSpec& spec)
 }
 
 /// Test a cache server by asking it for a key that no cook has.
-Check checkServer(const cache::LevelSpec& spec)
+DoctorCheck checkServer(const cache::CacheSpec& spec)
 {
-    cache::HttpLevel server(spec.place, false);
-    std::vector<cache::WantedEntry> wanted{{std::string(64, '0'), std::nullopt}};
+    cache::HttpStore server(spec.place, false);
+    std::vector<cache::EntryRequest> wanted{{std::string(64, '0'), std::nullopt}};
     const Status answered = server.entries(wanted);
     if (answered.ok())
         return {"cache", State::ok, server.name() + " answers" + (spec.writable ? "" : ", read only"), ""};
@@ -136,7 +136,7 @@ Check checkServer(const cache::LevelSpec& spec)
             "start it, or take it out of --cache and hearth.toml: cooks go on without it"};
 }
 
-std::vector<Check> checkCaches(const Result<std::vector<cache::LevelSpec>>& caches)
+std::vector<DoctorCheck> checkCaches(const Result<std::vector<cache::CacheSpec>>& caches)
 {
     if (!caches.ok())
         return {{"cache", State::wrong, formatMessage(caches.error()),
@@ -144,8 +144,8 @@ std::vector<Check> checkCaches(const Result<std::vector<cache::LevelSpec>>& cach
     if (caches->empty())
         return {{"cache", State::warning, "no cache is used: every cook runs every cooker",
                  "unset HEARTH_CACHE and HEARTH_CACHE_MODE"}};
-    std::vector<Check> checks;
-    for (const cache::LevelSpec& spec : *caches)
+    std::vector<DoctorCheck> checks;
+    for (const cache::CacheSpec& spec : *caches)
     {
         checks.push_back(spec.is_server ? checkServer(spec) : checkCache(spec));
         if (spec.writable && !spec.is_server)
@@ -162,7 +162,7 @@ std::string shellQuoted(std::string text)
 }
 
 /// True if a command exits with 0; `line` becomes the last line that it prints.
-bool runs(const std::string& command, std::string& line)
+bool commandSucceeds(const std::string& command, std::string& line)
 {
     std::FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
     if (pipe == nullptr)
@@ -175,32 +175,32 @@ bool runs(const std::string& command, std::string& line)
     return ::pclose(pipe) == 0;
 }
 
-Check checkDevice(const std::string& folder)
+DoctorCheck checkDevice(const std::string& folder)
 {
     const std::string program = folder + "/hearth-render";
     if (::access(program.c_str(), X_OK) != 0)
         return {"device", State::wrong, "hearth-render, which would say what draws, is not there",
                 "install Hearth whole: its programs lie in one folder"};
     std::string line;
-    if (runs(shellQuoted(program) + " --name-device", line))
+    if (commandSucceeds(shellQuoted(program) + " --name-device", line))
         return {"device", State::ok, "draws with " + line, ""};
     return {"device", State::wrong, line, "install a Vulkan driver: on Debian mesa-vulkan-drivers"};
 }
 
-Check checkThreads()
+DoctorCheck checkThreads()
 {
     const unsigned threads = std::thread::hardware_concurrency();
     return {"threads", State::ok, fmt::format("{} threads", threads), ""};
 }
 
-Check checkMemory()
+DoctorCheck checkMemory()
 {
     const auto page = static_cast<uint64_t>(::sysconf(_SC_PAGESIZE));
     const uint64_t all = static_cast<uint64_t>(::sysconf(_SC_PHYS_PAGES)) * page;
     const uint64_t free = static_cast<uint64_t>(::sysconf(_SC_AVPHYS_PAGES)) * page;
     const std::string text =
         fmt::format("{} of memory, {} of it free at once", readableSize(all), readableSize(free));
-    if (all < kLittleMemory)
+    if (all < kMinMemory_bytes)
         return {"memory", State::warning, text, "cook large meshes on another machine, or with --jobs 1"};
     return {"memory", State::ok, text, ""};
 }
@@ -212,29 +212,29 @@ const char* stateName(State state)
 
 } // namespace
 
-std::vector<Check> examine(const Result<std::vector<cache::LevelSpec>>& caches)
+std::vector<DoctorCheck> runDoctorChecks(const Result<std::vector<cache::CacheSpec>>& caches)
 {
     const std::string folder = tools::programFolder();
-    std::vector<Check> checks{checkPrograms(folder)};
-    for (Check& check : checkCaches(caches))
+    std::vector<DoctorCheck> checks{checkPrograms(folder)};
+    for (DoctorCheck& check : checkCaches(caches))
         checks.push_back(std::move(check));
-    checks.push_back(checkSpace("temporary files", temporaryOr(fs::temp_directory_path().string())));
+    checks.push_back(checkSpace("temporary files", temporaryFolderOr(fs::temp_directory_path().string())));
     checks.push_back(checkDevice(folder));
     checks.push_back(checkThreads());
     checks.push_back(checkMemory());
     return checks;
 }
 
-bool isWell(const std::vector<Check>& checks)
+bool allPassed(const std::vector<DoctorCheck>& checks)
 {
     return std::none_of(checks.begin(), checks.end(),
-                        [](const Check& check) { return check.state == State::wrong; });
+                        [](const DoctorCheck& check) { return check.state == State::wrong; });
 }
 
-std::string checksText(const std::vector<Check>& checks)
+std::string checksText(const std::vector<DoctorCheck>& checks)
 {
     std::string text;
-    for (const Check& check : checks)
+    for (const DoctorCheck& check : checks)
     {
         text += fmt::format("{:<9}{:<9}{}\n", stateName(check.state), check.name, check.text);
         if (!check.remedy.empty())
@@ -243,10 +243,10 @@ std::string checksText(const std::vector<Check>& checks)
     return text;
 }
 
-std::string checksJson(const std::vector<Check>& checks)
+std::string checksJson(const std::vector<DoctorCheck>& checks)
 {
-    Json json{{"schema", "hearth.doctor/1"}, {"ok", isWell(checks)}, {"checks", Json::array()}};
-    for (const Check& check : checks)
+    Json json{{"schema", "hearth.doctor/1"}, {"ok", allPassed(checks)}, {"checks", Json::array()}};
+    for (const DoctorCheck& check : checks)
     {
         json["checks"].push_back(
             {{"name", check.name}, {"state", stateName(check.state)}, {"text", check.text}});

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "pipelines/cache/open_cache.h"
+#include "pipelines/cache/cache_spec.h"
 
 #include <cstdint>
 #include <string>
@@ -11,7 +11,7 @@
 namespace hearth::command
 {
 
-struct Check
+struct DoctorCheck
 {
     enum class State : uint8_t
     {
@@ -27,11 +27,11 @@ struct Check
 
 /// Run all checks.
 /// caches  caches of the configuration, or the error in how they were named
-std::vector<Check> examine(const Result<std::vector<cache::LevelSpec>>& caches);
+std::vector<DoctorCheck> runDoctorChecks(const Result<std::vector<cache::CacheSpec>>& caches);
 
-bool isWell(const std::vector<Check>& checks);
-std::string checksText(const std::vector<Check>& checks);
+bool allPassed(const std::vector<DoctorCheck>& checks);
+std::string checksText(const std::vector<DoctorCheck>& checks);
 /// Return the checks as JSON, schema hearth.doctor/1.
-std::string checksJson(const std::vector<Check>& checks);
+std::string checksJson(const std::vector<DoctorCheck>& checks);
 
 } // namespace hearth::command

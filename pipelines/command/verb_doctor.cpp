@@ -8,7 +8,7 @@
 namespace hearth::command
 {
 
-void addDoctor(cli::CommandLine& app, Work& run)
+void addDoctor(cli::CommandLine& app, VerbAction& run)
 {
     cli::CommandLine& verb = app.addSubcommand("doctor", "Say whether this machine has what Hearth needs");
     struct Options
@@ -18,21 +18,21 @@ void addDoctor(cli::CommandLine& app, Work& run)
     };
     auto options = std::make_shared<Options>();
     addFormat(verb, options->format);
-    options->settings.addOfCommand(verb, {"cache"});
+    options->settings.addCommandSettings(verb, {"cache"});
     verb.setFooter("Example: hearth doctor\n"
                    "The exit code is 1 where something is wrong; each has its remedy.");
     verb.setAction(
         [options, &run]
         {
-            run = withConfiguration(options->settings,
-                                    [options](const profiles::Configuration& configuration)
-                                    {
-                                        const std::vector<Check> checks = examine(levelsOf(configuration));
-                                        const int printed =
-                                            printResult(options->format == "json" ? checksJson(checks)
-                                                                                  : checksText(checks));
-                                        return isWell(checks) ? printed : 1;
-                                    });
+            run = withConfiguration(
+                options->settings,
+                [options](const profiles::Configuration& configuration)
+                {
+                    const std::vector<DoctorCheck> checks = runDoctorChecks(readCacheSpecs(configuration));
+                    const int printed =
+                        printResult(options->format == "json" ? checksJson(checks) : checksText(checks));
+                    return allPassed(checks) ? printed : 1;
+                });
         });
 }
 

@@ -13,13 +13,13 @@ namespace
 
 constexpr uint64_t kMiB = uint64_t{1} << 20;
 // memory of hearth itself beside its cookers: programs and libraries to be hashed are read in pieces
-constexpr uint64_t kOwnMemory = 64 * kMiB;
+constexpr uint64_t kHearthMemory = 64 * kMiB;
 
-std::string joined(const std::vector<std::string>& words)
+std::string joinQuoted(const std::vector<std::string>& words)
 {
     std::string text;
     for (const std::string& word : words)
-        text += (text.empty() ? "" : " ") + shellQuoted(word);
+        text += (text.empty() ? "" : " ") + quoteForShell(word);
     return text;
 }
 
@@ -28,20 +28,20 @@ std::string commonWords(const FarmJob& job)
 {
     std::string text;
     if (!job.directory.empty())
-        text += " -C " + shellQuoted(job.directory);
+        text += " -C " + quoteForShell(job.directory);
     for (const std::string& cache : job.caches)
-        text += " --cache " + shellQuoted(cache);
+        text += " --cache " + quoteForShell(cache);
     return text;
 }
 
 /// Return the start of the command line of a shard, up to "--shard ".
 std::string shardCommandStart(const FarmJob& job)
 {
-    return joined({job.hearth, "run", job.plan_file}) + commonWords(job) + " --shard ";
+    return joinQuoted({job.hearth, "run", job.plan_file}) + commonWords(job) + " --shard ";
 }
 
 /// Escape text for the value of a Ninja variable.
-std::string inNinja(const std::string& text)
+std::string escapeNinjaValue(const std::string& text)
 {
     std::string escaped;
     for (const char c : text)
@@ -50,7 +50,7 @@ std::string inNinja(const std::string& text)
 }
 
 /// Escape a path for a build line of Ninja.
-std::string ninjaPath(const std::string& path)
+std::string escapeNinjaPath(const std::string& path)
 {
     std::string escaped;
     for (const char c : path)
@@ -95,18 +95,18 @@ std::string slurmMerge(const FarmJob& job, const SlurmOptions& options)
            "\n";
 }
 
-uint64_t mostMemory(const graph::Graph& graph, bool of_sources)
+uint64_t maxMemory(const graph::Graph& graph, bool of_sources)
 {
     uint64_t most = 0;
     for (const graph::Action& action : graph.actions)
         if ((action.source < graph.source_count) == of_sources)
             most = std::max(most, action.estimate.memory_bytes);
-    return most + kOwnMemory;
+    return most + kHearthMemory;
 }
 
 } // namespace
 
-std::string shellQuoted(const std::string& word)
+std::string quoteForShell(const std::string& word)
 {
     constexpr std::string_view kPlain =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./:=,+-@%";
@@ -128,20 +128,21 @@ std::string shardCommands(const FarmJob& job)
 
 std::string mergeCommand(const FarmJob& job)
 {
-    return joined({job.hearth, "merge", job.plan_file, "-o", job.pack}) + commonWords(job);
+    return joinQuoted({job.hearth, "merge", job.plan_file, "-o", job.pack}) + commonWords(job);
 }
 
 std::string ninjaFile(const FarmJob& job, const std::string& launcher)
 {
-    const std::string plan = ninjaPath(job.plan_file);
-    const std::string launched = launcher.empty() ? "" : " --launcher " + inNinja(shellQuoted(launcher));
+    const std::string plan = escapeNinjaPath(job.plan_file);
+    const std::string launched =
+        launcher.empty() ? "" : " --launcher " + escapeNinjaValue(quoteForShell(launcher));
     std::string text = fmt::format(
         "ninja_required_version = 1.5\n\n"
         "# what the launcher says is not believed: hearth run looks at what the shard has left\n"
         "rule shard\n  command = {}$shard/{}{} --record $out\n  description = shard $shard of {}\n\n"
         "rule merge\n  command = {}\n  description = merge\n  restat = 1\n\n",
-        inNinja(shardCommandStart(job)), job.shard_count, launched, job.shard_count,
-        inNinja(mergeCommand(job)));
+        escapeNinjaValue(shardCommandStart(job)), job.shard_count, launched, job.shard_count,
+        escapeNinjaValue(mergeCommand(job)));
     std::string records;
     for (size_t shard = 0; shard < job.shard_count; ++shard)
     {
@@ -149,7 +150,7 @@ std::string ninjaFile(const FarmJob& job, const std::string& launcher)
         text += fmt::format("build {}: shard | {}\n  shard = {}\n", record, plan, shard);
         records += " " + record;
     }
-    return text + fmt::format("build {}: merge | {}{}\n", ninjaPath(job.pack), plan, records);
+    return text + fmt::format("build {}: merge | {}{}\n", escapeNinjaPath(job.pack), plan, records);
 }
 
 std::string slurmScript(const FarmJob& job, const SlurmOptions& options)
@@ -165,13 +166,13 @@ std::string slurmScript(const FarmJob& job, const SlurmOptions& options)
 
 uint64_t shardMemory(const graph::Graph& graph)
 {
-    return mostMemory(graph, true);
+    return maxMemory(graph, true);
 }
 
 uint64_t mergeMemory(const graph::Graph& graph)
 {
     // the merge cooks the results that shards have not delivered
-    return std::max(mostMemory(graph, true), mostMemory(graph, false));
+    return std::max(maxMemory(graph, true), maxMemory(graph, false));
 }
 
 } // namespace hearth::farm

@@ -24,7 +24,7 @@ struct FarmJob
 };
 
 /// Quote a word of a command line for a POSIX shell.
-std::string shellQuoted(const std::string& word);
+std::string quoteForShell(const std::string& word);
 
 /// Return a command line for each shard, for GNU parallel, xargs, OpenCue's cuecmd and other programs that
 /// take lists of them.

@@ -13,13 +13,13 @@ namespace hearth::farm
 namespace
 {
 
-std::string programOf(const std::string& programs, const std::string& cooker)
+std::string cookerPath(const std::string& programs, const std::string& cooker)
 {
     return programs + "/hearth-" + cooker;
 }
 
 /// True if the action belongs to one of the sources, or to all sources together where all are listed.
-bool isMeant(const graph::Graph& graph, const graph::Action& action, const std::vector<size_t>& sources)
+bool isSelected(const graph::Graph& graph, const graph::Action& action, const std::vector<size_t>& sources)
 {
     return std::binary_search(sources.begin(), sources.end(), action.source) ||
            (action.source == graph.source_count && sources.size() == graph.source_count);
@@ -28,7 +28,7 @@ bool isMeant(const graph::Graph& graph, const graph::Action& action, const std::
 Status checkCooker(const Plan& plan, const graph::Action& action, const std::string& programs,
                    graph::FileHashes& hashes)
 {
-    const std::string program = programOf(programs, action.cooker);
+    const std::string program = cookerPath(programs, action.cooker);
     if (graph::cookerVersion(program, hashes) != plan.version_of_cooker.at(action.cooker))
         return Error{Issue::plan_build, program, "", "is not the build that the plan was made with"};
     if (action.depends_on_processor && plan.processor != graph::processorClass())
@@ -43,7 +43,7 @@ Status checkCooker(const Plan& plan, const graph::Action& action, const std::str
 /// Check that the files which a cooker was known to find are unchanged.
 Status checkFound(const graph::Action& action, const graph::Record& found, graph::ActionCache& actions)
 {
-    const graph::Record now = actions.refreshed(action, found);
+    const graph::Record now = actions.withCurrentHashes(action, found);
     for (size_t field = 0; field < now.size(); ++field)
         if (now[field].second != found[field].second)
             return Error{Issue::plan_stale, action.subject, "",
@@ -54,19 +54,19 @@ Status checkFound(const graph::Action& action, const graph::Record& found, graph
 
 } // namespace
 
-Result<Plan> makePlan(const Request& request, const std::string& folder, const Sharing& sharing,
+Result<Plan> makePlan(const Request& request, const std::string& folder, const ShardingOptions& sharding,
                       const std::string& programs, graph::ActionCache& actions, graph::FileHashes& hashes)
 {
     Plan plan;
     plan.request = request;
     plan.folder = folder;
-    HEARTH_ASSIGN_OR_RETURN(plan.settings, settingsOf(request));
+    HEARTH_ASSIGN_OR_RETURN(plan.settings, makeCookSettings(request));
     HEARTH_ASSIGN_OR_RETURN(plan.graph, graph::makeCookGraph(plan.settings));
-    estimateBy(sharing.measured, request.sources, plan.graph);
+    applyMeasurements(sharding.measured, request.sources, plan.graph);
     for (size_t i = 0; i < plan.graph.actions.size(); ++i)
     {
         const graph::Action& action = plan.graph.actions[i];
-        const std::string program = programOf(programs, action.cooker);
+        const std::string program = cookerPath(programs, action.cooker);
         if (action.depends_on_processor)
             plan.processor = graph::processorClass();
         std::string& version = plan.version_of_cooker[action.cooker];
@@ -78,7 +78,7 @@ Result<Plan> makePlan(const Request& request, const std::string& folder, const S
         {
             if (input.action != graph::kNoAction)
                 continue;
-            const auto hash = hashes.hashOf(input.path);
+            const auto hash = hashes.hashFile(input.path);
             if (!hash)
                 return Error{Issue::input_missing, input.path, "", ""};
             plan.hash_of_file[input.path] = *hash;
@@ -86,15 +86,16 @@ Result<Plan> makePlan(const Request& request, const std::string& folder, const S
         if (!action.finds_files)
             continue;
         // the found files are known where this state of the source has been cooked before
-        const auto record = actions.recordOf(action, std::vector<std::string>(action.inputs.size()));
+        const auto record = actions.makeRecord(action, std::vector<std::string>(action.inputs.size()));
         if (!record)
             continue;
         for (const auto& field : actions.find(action, *record).record)
             if (field.first.starts_with(graph::kFound))
                 plan.found_of_action[i].push_back(field);
     }
-    const std::vector<double> seconds = secondsOfSources(plan.graph);
-    plan.shards = distribute(seconds, sharing.shard_count ? *sharing.shard_count : shardCountFor(seconds));
+    const std::vector<double> seconds = estimateSourceTimes(plan.graph);
+    plan.shards =
+        distribute(seconds, sharding.shard_count ? *sharding.shard_count : chooseShardCount(seconds));
     return plan;
 }
 
@@ -105,7 +106,7 @@ Status checkPlan(const Plan& plan, const std::vector<size_t>& sources, const std
     for (size_t i = 0; i < plan.graph.actions.size(); ++i)
     {
         const graph::Action& action = plan.graph.actions[i];
-        if (!isMeant(plan.graph, action, sources))
+        if (!isSelected(plan.graph, action, sources))
             continue;
         if (checked_cookers.insert(action.cooker).second)
             HEARTH_TRY(checkCooker(plan, action, programs, hashes));
@@ -113,7 +114,7 @@ Status checkPlan(const Plan& plan, const std::vector<size_t>& sources, const std
         {
             if (input.action != graph::kNoAction)
                 continue;
-            const auto hash = hashes.hashOf(input.path);
+            const auto hash = hashes.hashFile(input.path);
             if (!hash)
                 return Error{Issue::input_missing, input.path, "", ""};
             if (*hash != plan.hash_of_file.at(input.path))

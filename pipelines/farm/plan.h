@@ -4,7 +4,7 @@
 #pragma once
 
 #include "formats/base/result.h"
-#include "pipelines/farm/measured.h"
+#include "pipelines/farm/measurements.h"
 #include "pipelines/farm/request.h"
 #include "pipelines/farm/shards.h"
 #include "pipelines/graph/action_cache.h"
@@ -21,8 +21,8 @@ namespace hearth::farm
 {
 
 // Upper limits of an estimate, beyond any machine. The executor adds estimates up.
-inline constexpr uint64_t kMostBytes = uint64_t{1} << 50;
-inline constexpr double kMostSeconds = 1e9;
+inline constexpr uint64_t kMaxBytes = uint64_t{1} << 50;
+inline constexpr double kMaxSeconds = 1e9;
 
 struct Plan
 {
@@ -40,17 +40,17 @@ struct Plan
 };
 
 /// Options for the distribution of sources to shards.
-struct Sharing
+struct ShardingOptions
 {
-    std::optional<size_t> shard_count; ///< nullopt: shardCountFor()
-    Measured measured;                 ///< overrides estimates
+    std::optional<size_t> shard_count; ///< nullopt: chooseShardCount()
+    Measurements measured;             ///< overrides estimates
 };
 
 /// Make a plan.
 /// programs  folder of the cookers
 /// errors    those of the request's settings; input_missing, for the first input that cannot be read;
 ///           plan_build, where a cooker is missing
-Result<Plan> makePlan(const Request& request, const std::string& folder, const Sharing& sharing,
+Result<Plan> makePlan(const Request& request, const std::string& folder, const ShardingOptions& sharding,
                       const std::string& programs, graph::ActionCache& actions, graph::FileHashes& hashes);
 
 /// Check that this machine matches the plan, as far as these sources need it: cookers, processor, contents of

@@ -57,7 +57,7 @@ void readEstimates(const Json& actions, graph::Graph& graph)
 }
 
 /// Return the JSON pointer of a value that is not allowed; empty where all are allowed.
-std::string wrongPlace(const Plan& plan)
+std::string findInvalidMember(const Plan& plan)
 {
     const auto isPath = [](const std::string& path)
     // a cooker would take it for an option
@@ -76,8 +76,8 @@ std::string wrongPlace(const Plan& plan)
     {
         cookers.insert(action.cooker);
         needs_processor = needs_processor || action.depends_on_processor;
-        if (action.estimate.memory_bytes > kMostBytes || !(action.estimate.seconds >= 0) ||
-            action.estimate.seconds > kMostSeconds)
+        if (action.estimate.memory_bytes > kMaxBytes || !(action.estimate.seconds >= 0) ||
+            action.estimate.seconds > kMaxSeconds)
             return "/actions";
         for (const graph::Input& input : action.inputs)
             if (input.action == graph::kNoAction)
@@ -105,7 +105,7 @@ std::string wrongPlace(const Plan& plan)
 }
 
 /// True if each source is in exactly one shard, in ascending order.
-bool areShards(const Shards& shards, size_t source_count)
+bool areShardsValid(const Shards& shards, size_t source_count)
 {
     std::vector<size_t> sources;
     for (const std::vector<size_t>& shard : shards)
@@ -213,7 +213,7 @@ Result<Plan> parsePlan(std::string_view text, const std::string& file)
     {
         return wrong("", "a member is missing, or of another type");
     }
-    const Result<graph::CookSettings> settings = settingsOf(plan.request);
+    const Result<graph::CookSettings> settings = makeCookSettings(plan.request);
     if (!settings.ok())
         return wrong("/cook", settings.error().detail);
     plan.settings = *settings;
@@ -229,9 +229,9 @@ Result<Plan> parsePlan(std::string_view text, const std::string& file)
     {
         return wrong("/actions", "are not those that the cook would have");
     }
-    if (const std::string place = wrongPlace(plan); !place.empty())
+    if (const std::string place = findInvalidMember(plan); !place.empty())
         return wrong(place, "has a value that is not allowed");
-    if (!areShards(plan.shards, plan.graph.source_count))
+    if (!areShardsValid(plan.shards, plan.graph.source_count))
         return wrong("/shards", "do not have each source once");
     // serializing the parsed plan must give the same document: nothing was ignored
     if (const auto place = firstDifference(Json::parse(planText(plan)).value(), json, ""))

@@ -12,20 +12,20 @@ namespace
 {
 
 /// Return the texts of a setting that a cooker gets as separate words.
-std::vector<std::string> wordsOf(const std::pair<std::string, profiles::Value>& setting)
+std::vector<std::string> textWords(const std::pair<std::string, profiles::Value>& setting)
 {
     const profiles::Kind kind = profiles::findSetting(profiles::profileSettings(), setting.first)->kind;
     const bool has_texts = kind == profiles::Kind::text || kind == profiles::Kind::texts;
-    return has_texts ? profiles::textsOf(setting.second) : std::vector<std::string>();
+    return has_texts ? profiles::valueTexts(setting.second) : std::vector<std::string>();
 }
 
-Result<profiles::Values> valuesOf(const Assignments& assignments)
+Result<profiles::Values> parseAssignments(const Assignments& assignments)
 {
     profiles::Values values;
     for (const std::string& assignment : assignments)
     {
         HEARTH_ASSIGN_OR_RETURN(auto parsed, profiles::parseAssignment(assignment));
-        for (const std::string& word : wordsOf(parsed))
+        for (const std::string& word : textWords(parsed))
             if (word.starts_with('-'))
                 return Error{Issue::usage, assignment, "", "looks like an option"};
         if (!values.insert(std::move(parsed)).second)
@@ -36,7 +36,7 @@ Result<profiles::Values> valuesOf(const Assignments& assignments)
 
 } // namespace
 
-Result<graph::CookSettings> settingsOf(const Request& request)
+Result<graph::CookSettings> makeCookSettings(const Request& request)
 {
     if (request.sources.empty())
         return Error{Issue::usage, "hearth", "", "there are no sources"};
@@ -49,12 +49,12 @@ Result<graph::CookSettings> settingsOf(const Request& request)
     settings.output = kPackName;
     for (const Assignments& assignments : request.settings_of_source)
     {
-        HEARTH_ASSIGN_OR_RETURN(const profiles::Values values, valuesOf(assignments));
-        HEARTH_ASSIGN_OR_RETURN(graph::SourceSettings told, profiles::toldOfSource(values));
-        settings.settings_of_source.push_back(std::move(told));
+        HEARTH_ASSIGN_OR_RETURN(const profiles::Values values, parseAssignments(assignments));
+        HEARTH_ASSIGN_OR_RETURN(graph::SourceSettings arguments, profiles::makeCookerArguments(values));
+        settings.settings_of_source.push_back(std::move(arguments));
     }
-    HEARTH_ASSIGN_OR_RETURN(const profiles::Values of_pack, valuesOf(request.settings_of_pack));
-    settings.bricks = profiles::toldOfBricks(of_pack);
+    HEARTH_ASSIGN_OR_RETURN(const profiles::Values of_pack, parseAssignments(request.settings_of_pack));
+    settings.bricks = profiles::makeBrickOptions(of_pack);
     return settings;
 }
 

@@ -28,6 +28,6 @@ struct Request
 /// Return the settings of the cook with its cooker arguments, exactly as `hearth cook` makes them: a forged
 /// request cannot pass other arguments.
 /// errors  usage, profile_key, profile_value
-Result<graph::CookSettings> settingsOf(const Request& request);
+Result<graph::CookSettings> makeCookSettings(const Request& request);
 
 } // namespace hearth::farm

@@ -14,7 +14,7 @@ namespace hearth::farm
 namespace
 {
 
-constexpr int kSomeFailed = 1;
+constexpr int kExitMixedFailures = 1;
 
 std::string machineName()
 {
@@ -22,36 +22,36 @@ std::string machineName()
     return ::gethostname(name, sizeof(name) - 1) == 0 ? name : "";
 }
 
-/// Return the common exit code of all failures, kSomeFailed where they differ, and kTryAgain where a retry
+/// Return the common exit code of all failures, kExitMixedFailures where they differ, and kExitRetry where a retry
 /// may help.
-int exitCodeOf(const std::vector<graph::Failure>& failures)
+int combinedExitCode(const std::vector<graph::Failure>& failures)
 {
     if (failures.empty())
         return 0;
     const int first = failures.front().exit_code;
     const auto isTemporary = [](const graph::Failure& failure)
-    { return failure.is_temporary || failure.exit_code == kTryAgain; };
+    { return failure.is_temporary || failure.exit_code == kExitRetry; };
     const auto isLikeFirst = [&](const graph::Failure& failure) { return failure.exit_code == first; };
-    return std::any_of(failures.begin(), failures.end(), isTemporary)   ? kTryAgain
+    return std::any_of(failures.begin(), failures.end(), isTemporary)   ? kExitRetry
            : std::all_of(failures.begin(), failures.end(), isLikeFirst) ? first
-                                                                        : kSomeFailed;
+                                                                        : kExitMixedFailures;
 }
 
 /// Run the shard's actions that the cache does not have; false where a signal ended that.
-/// all_is_kept  true if the cache has every result now
-bool cookActions(const Plan& plan, size_t shard, const Kitchen& kitchen, const ShardOptions& options,
+/// is_all_cached  true if the cache has every result now
+bool cookActions(const Plan& plan, size_t shard, const CacheHandles& caches, const ShardOptions& options,
                  const graph::ExecutorEvents& events, ShardRecord& record,
-                 std::vector<graph::Failure>& failures, bool& all_is_kept)
+                 std::vector<graph::Failure>& failures, bool& is_all_cached)
 {
-    std::vector<size_t> action_of;
-    const graph::Graph graph = actionsOf(plan.graph, plan.shards[shard], action_of);
+    std::vector<size_t> action_ids;
+    const graph::Graph graph = selectActions(plan.graph, plan.shards[shard], action_ids);
     if (graph.actions.empty())
         return true;
     const std::optional<graph::Journal> no_journal;
     graph::Resolver resolver(
-        graph, &kitchen.cache, &kitchen.actions,
+        graph, &caches.cache, &caches.actions,
         [&]() -> const std::optional<graph::Journal>& { return no_journal; }, false);
-    graph::Executor executor(graph, resolver, &kitchen.cache, &kitchen.actions,
+    graph::Executor executor(graph, resolver, &caches.cache, &caches.actions,
                              {options.limits, true, false, options.programs, options.plan_file, false},
                              events);
     if (!executor.run(std::nullopt))
@@ -61,10 +61,10 @@ bool cookActions(const Plan& plan, size_t shard, const Kitchen& kitchen, const S
     {
         const graph::ActionOutcome& outcome = executor.outcomes()[i];
         const bool has_result =
-            outcome.ending == graph::Ending::cooked || outcome.ending == graph::Ending::kept;
+            outcome.ending == graph::Outcome::cooked || outcome.ending == graph::Outcome::cached;
         record.actions.push_back(
-            {action_of[i], outcome.ending, has_result ? outcome.result : graph::KeptResult()});
-        all_is_kept = all_is_kept && outcome.is_kept;
+            {action_ids[i], outcome.ending, has_result ? outcome.result : graph::CachedResult()});
+        is_all_cached = is_all_cached && outcome.is_cached;
     }
     return true;
 }
@@ -72,7 +72,7 @@ bool cookActions(const Plan& plan, size_t shard, const Kitchen& kitchen, const S
 } // namespace
 
 std::optional<ShardRecord> runShard(const Plan& plan, const std::string& plan_hash, size_t shard,
-                                    const Kitchen& kitchen, const ShardOptions& options,
+                                    const CacheHandles& caches, const ShardOptions& options,
                                     const graph::ExecutorEvents& events)
 {
     const auto start = std::chrono::steady_clock::now();
@@ -81,16 +81,16 @@ std::optional<ShardRecord> runShard(const Plan& plan, const std::string& plan_ha
     std::vector<graph::Failure> failures;
     const auto fail = [&](const Error& error)
     {
-        failures.push_back(graph::failureOf(error, plan.graph.source_count));
+        failures.push_back(graph::makeFailure(error, plan.graph.source_count));
         if (events.failed)
             events.failed(failures.back());
     };
-    bool all_is_kept = true;
+    bool is_all_cached = true;
     if (const Status planned =
-            checkPlan(plan, plan.shards[shard], options.programs, kitchen.actions, kitchen.hashes);
+            checkPlan(plan, plan.shards[shard], options.programs, caches.actions, caches.hashes);
         !planned.ok())
         fail(planned.error());
-    else if (!cookActions(plan, shard, kitchen, options, events, record, failures, all_is_kept))
+    else if (!cookActions(plan, shard, caches, options, events, record, failures, is_all_cached))
         return std::nullopt;
 
     const std::string place = fmt::format("shard {}/{}", shard, plan.shards.size());
@@ -99,16 +99,16 @@ std::optional<ShardRecord> runShard(const Plan& plan, const std::string& plan_ha
         fail({Issue::cooker_killed, options.plan_file, place, ""});
     const auto putRecord = [&]
     {
-        record.exit_code = exitCodeOf(failures);
+        record.exit_code = combinedExitCode(failures);
         record.errors.clear();
         for (const graph::Failure& failure : failures)
             record.errors.push_back(failure.error);
         record.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        kitchen.cache.putEntry(recordKey(plan_hash, shard), recordFields(record));
+        caches.cache.putEntry(recordKey(plan_hash, shard), recordFields(record));
     };
     putRecord();
     // also if the record itself could not be stored
-    if (failures.empty() && (!all_is_kept || !kitchen.cache.isWritable()))
+    if (failures.empty() && (!is_all_cached || !caches.cache.isWritable()))
     {
         fail({Issue::results_lost, options.plan_file, place, ""});
         putRecord();

@@ -12,17 +12,17 @@ namespace hearth::farm
 {
 
 /// Exit code for "a retry may succeed" (EX_TEMPFAIL): batch systems requeue a job that ends with it.
-inline constexpr int kTryAgain = 75;
+inline constexpr int kExitRetry = 75;
 
 struct ShardOptions
 {
-    graph::CrewLimits limits;
+    graph::PoolLimits limits;
     std::string programs;  ///< folder of the cookers
     std::string plan_file; ///< name for messages
 };
 
 /// Handles of the caches of a process: contents, results of actions, hashes of files.
-struct Kitchen
+struct CacheHandles
 {
     cache::Cache& cache;
     graph::ActionCache& actions;
@@ -37,7 +37,7 @@ struct Kitchen
 /// returns   the record; its exit code is 0 if every result is in the cache, intact; nullopt where a signal
 ///           ended it: then there is no record of this run
 std::optional<ShardRecord> runShard(const Plan& plan, const std::string& plan_hash, size_t shard,
-                                    const Kitchen& kitchen, const ShardOptions& options,
+                                    const CacheHandles& caches, const ShardOptions& options,
                                     const graph::ExecutorEvents& events);
 
 } // namespace hearth::farm

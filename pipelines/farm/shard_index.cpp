@@ -30,7 +30,7 @@ constexpr std::array kVariables{
     Variable{"PBS_ARRAY_INDEX"},
 };
 
-std::optional<size_t> numberOf(std::string_view text)
+std::optional<size_t> parseNumber(std::string_view text)
 {
     size_t number = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -42,11 +42,11 @@ Error wrong(const std::string& what)
     return {Issue::usage, "--shard", "", what};
 }
 
-Result<size_t> ofOption(const std::string& option, size_t count)
+Result<size_t> indexFromOption(const std::string& option, size_t count)
 {
     const size_t slash = option.find('/');
-    const auto index = numberOf(option.substr(0, slash));
-    const auto of = slash == std::string::npos ? std::nullopt : numberOf(option.substr(slash + 1));
+    const auto index = parseNumber(option.substr(0, slash));
+    const auto of = slash == std::string::npos ? std::nullopt : parseNumber(option.substr(slash + 1));
     if (!index || !of)
         return wrong(fmt::format("'{}' is no shard: write 0/{} for the first", option, count));
     if (*of != count)
@@ -56,15 +56,15 @@ Result<size_t> ofOption(const std::string& option, size_t count)
     return *index;
 }
 
-Result<size_t> ofVariable(const Variable& variable, const std::string& value, size_t count,
-                          const Environment& environment)
+Result<size_t> indexFromVariable(const Variable& variable, const std::string& value, size_t count,
+                                 const Environment& environment)
 {
     const auto numberIn = [&](const char* name) -> std::optional<size_t>
     {
         const char* text = name == nullptr ? nullptr : environment(name);
-        return text == nullptr ? std::nullopt : numberOf(text);
+        return text == nullptr ? std::nullopt : parseNumber(text);
     };
-    const auto index = numberOf(value);
+    const auto index = parseNumber(value);
     if (!index)
         return wrong(fmt::format("{} is '{}', which is no number", variable.index, value));
     const auto first = numberIn(variable.first);
@@ -89,12 +89,12 @@ Result<size_t> ofVariable(const Variable& variable, const std::string& value, si
 Result<size_t> shardIndex(const std::string& option, size_t count, const Environment& environment)
 {
     if (!option.empty())
-        return ofOption(option, count);
+        return indexFromOption(option, count);
     for (const Variable& variable : kVariables)
         // Grid Engine says "undefined" to a job that is no array
         if (const char* value = environment(variable.index);
             value != nullptr && *value != '\0' && std::string_view(value) != "undefined")
-            return ofVariable(variable, value, count, environment);
+            return indexFromVariable(variable, value, count, environment);
     return wrong(fmt::format(
         "is missing, and no batch system says which shard: say --shard 0/{} for the first", count));
 }

@@ -17,7 +17,7 @@ namespace
 {
 
 constexpr const char* kSchema = "hearth.shard/1";
-constexpr std::array<std::string_view, 5> kEndings{"unknown", "cooked", "kept", "failed", "left out"};
+constexpr std::array<std::string_view, 5> kOutcomeNames{"unknown", "cooked", "kept", "failed", "left out"};
 
 std::optional<uint64_t> wholeNumber(std::string_view text)
 {
@@ -32,15 +32,15 @@ std::string milliseconds(double seconds)
 }
 
 /// Read one field of an action; false where the field is invalid.
-bool takeField(const std::string& name, const std::string& value, ShardAction& action)
+bool readField(const std::string& name, const std::string& value, ShardAction& action)
 {
     const std::optional<uint64_t> number = wholeNumber(value);
     if (name == "ending")
     {
-        const auto ending = std::find(kEndings.begin(), kEndings.end(), value);
-        if (ending == kEndings.end())
+        const auto ending = std::find(kOutcomeNames.begin(), kOutcomeNames.end(), value);
+        if (ending == kOutcomeNames.end())
             return false;
-        action.ending = static_cast<graph::Ending>(ending - kEndings.begin());
+        action.ending = static_cast<graph::Outcome>(ending - kOutcomeNames.begin());
         return true;
     }
     if (name == cache::kContentField)
@@ -62,35 +62,37 @@ bool takeField(const std::string& name, const std::string& value, ShardAction& a
 }
 
 /// True if the cache has the content, intact.
-bool isWhole(const std::string& hash, cache::Cache& cache, const std::string& scratch)
+bool isIntact(const std::string& hash, cache::Cache& cache, const std::string& scratch)
 {
     const std::string path = scratch + "/content";
-    const bool fetched = cache.fetch(hash, path, cache::Use::read_only);
+    const bool fetched = cache.fetch(hash, path, cache::FileAccess::read_only);
     ::unlink(path.c_str());
     return fetched;
 }
 
-bool areWhole(const graph::KeptResult& result, cache::Cache& cache, const std::string& scratch)
+bool areIntact(const graph::CachedResult& result, cache::Cache& cache, const std::string& scratch)
 {
     return std::all_of(result.outputs.begin(), result.outputs.end(),
-                       [&](const graph::KeptOutput& output) { return isWhole(output.hash, cache, scratch); });
+                       [&](const graph::CachedOutput& output)
+                       { return isIntact(output.hash, cache, scratch); });
 }
 
 /// True if the record has all actions of the shard, each with all its outputs.
-bool namesAll(const ShardRecord& record, const Plan& plan, size_t shard)
+bool isComplete(const ShardRecord& record, const Plan& plan, size_t shard)
 {
-    std::vector<size_t> action_of;
-    const graph::Graph graph = actionsOf(plan.graph, plan.shards[shard], action_of);
-    return std::equal(record.actions.begin(), record.actions.end(), action_of.begin(), action_of.end(),
-                      [&](const ShardAction& said, size_t action) {
-                          return said.action == action &&
-                                 said.result.outputs.size() == plan.graph.actions[action].outputs.size();
+    std::vector<size_t> action_ids;
+    const graph::Graph graph = selectActions(plan.graph, plan.shards[shard], action_ids);
+    return std::equal(record.actions.begin(), record.actions.end(), action_ids.begin(), action_ids.end(),
+                      [&](const ShardAction& recorded, size_t action)
+                      {
+                          return recorded.action == action &&
+                                 recorded.result.outputs.size() == plan.graph.actions[action].outputs.size();
                       });
 }
 
 } // namespace
 
-size_t countOf(const ShardRecord& record, graph::Ending ending)
+size_t countActions(const ShardRecord& record, graph::Outcome ending)
 {
     return static_cast<size_t>(std::count_if(record.actions.begin(), record.actions.end(),
                                              [&](const ShardAction& action)
@@ -99,7 +101,7 @@ size_t countOf(const ShardRecord& record, graph::Ending ending)
 
 std::string recordKey(const std::string& plan_hash, size_t shard)
 {
-    return tools::sha256Of(fmt::format("shard\n{}\n{}\n", plan_hash, shard));
+    return tools::computeSha256(fmt::format("shard\n{}\n{}\n", plan_hash, shard));
 }
 
 cache::Fields recordFields(const ShardRecord& record)
@@ -113,10 +115,10 @@ cache::Fields recordFields(const ShardRecord& record)
     for (const ShardAction& action : record.actions)
     {
         fields.emplace_back("action", std::to_string(action.action));
-        fields.emplace_back("ending", kEndings[static_cast<size_t>(action.ending)]);
+        fields.emplace_back("ending", kOutcomeNames[static_cast<size_t>(action.ending)]);
         fields.emplace_back("milliseconds", milliseconds(action.result.seconds));
         fields.emplace_back("peak_rss_bytes", std::to_string(action.result.peak_rss_bytes));
-        for (const graph::KeptOutput& output : action.result.outputs)
+        for (const graph::CachedOutput& output : action.result.outputs)
         {
             fields.emplace_back(cache::kContentField, output.hash);
             fields.emplace_back("bytes", std::to_string(output.bytes));
@@ -125,9 +127,9 @@ cache::Fields recordFields(const ShardRecord& record)
     return fields;
 }
 
-std::optional<ShardRecord> recordOf(const cache::Fields& fields)
+std::optional<ShardRecord> parseRecord(const cache::Fields& fields)
 {
-    if (cache::valueOf(fields, "schema") != kSchema)
+    if (cache::fieldValue(fields, "schema") != kSchema)
         return std::nullopt;
     ShardRecord record;
     for (const auto& [name, value] : fields)
@@ -145,7 +147,7 @@ std::optional<ShardRecord> recordOf(const cache::Fields& fields)
             record.seconds = static_cast<double>(*number) * 1e-3;
         else if (name == "action" && number)
             record.actions.emplace_back().action = *number;
-        else if (record.actions.empty() || !takeField(name, value, record.actions.back()))
+        else if (record.actions.empty() || !readField(name, value, record.actions.back()))
             return std::nullopt;
     }
     return record;
@@ -161,38 +163,38 @@ std::string recordJson(const ShardRecord& record, const Plan& plan, size_t shard
               {"seconds", record.seconds},
               {"errors", record.errors},
               {"actions", Json::array()}};
-    for (const ShardAction& said : record.actions)
+    for (const ShardAction& recorded : record.actions)
     {
-        const graph::Action& action = plan.graph.actions[said.action];
+        const graph::Action& action = plan.graph.actions[recorded.action];
         Json outputs = Json::object();
-        for (size_t i = 0; i < said.result.outputs.size(); ++i)
-            outputs[action.outputs[i]] = {{"sha256", said.result.outputs[i].hash},
-                                          {"bytes", said.result.outputs[i].bytes}};
+        for (size_t i = 0; i < recorded.result.outputs.size(); ++i)
+            outputs[action.outputs[i]] = {{"sha256", recorded.result.outputs[i].hash},
+                                          {"bytes", recorded.result.outputs[i].bytes}};
         json["actions"].push_back({{"cooker", action.cooker},
                                    {"subject", action.subject},
-                                   {"state", kEndings[static_cast<size_t>(said.ending)]},
-                                   {"seconds", said.result.seconds},
-                                   {"peak_rss", said.result.peak_rss_bytes},
+                                   {"state", kOutcomeNames[static_cast<size_t>(recorded.ending)]},
+                                   {"seconds", recorded.result.seconds},
+                                   {"peak_rss", recorded.result.peak_rss_bytes},
                                    {"outputs", outputs}});
     }
     return json.dump(1) + "\n";
 }
 
-ShardState stateOf(const Plan& plan, const std::string& plan_hash, size_t shard, cache::Cache& cache,
-                   const std::string& scratch)
+ShardState verifyShard(const Plan& plan, const std::string& plan_hash, size_t shard, cache::Cache& cache,
+                       const std::string& scratch)
 {
     const std::optional<cache::Fields> fields = cache.entry(recordKey(plan_hash, shard));
-    const std::optional<ShardRecord> record = fields ? recordOf(*fields) : std::nullopt;
+    const std::optional<ShardRecord> record = fields ? parseRecord(*fields) : std::nullopt;
     if (!record)
         return {};
     ShardState state{ShardState::Kind::failed, *record};
     if (record->exit_code != 0)
         return state;
     const bool is_whole =
-        namesAll(*record, plan, shard) &&
+        isComplete(*record, plan, shard) &&
         std::all_of(record->actions.begin(), record->actions.end(),
-                    [&](const ShardAction& action) { return areWhole(action.result, cache, scratch); });
-    state.kind = is_whole ? ShardState::Kind::whole : ShardState::Kind::lost;
+                    [&](const ShardAction& action) { return areIntact(action.result, cache, scratch); });
+    state.kind = is_whole ? ShardState::Kind::intact : ShardState::Kind::lost;
     return state;
 }
 
@@ -213,9 +215,9 @@ std::vector<size_t> missingResults(const graph::Graph& graph, cache::Cache& cach
             part_hashes.push_back(input.action == graph::kNoAction ? "" : hash_of_action[input.action]);
             is_known = is_known && (input.action == graph::kNoAction || !part_hashes.back().empty());
         }
-        const auto record = is_known ? actions.recordOf(action, part_hashes) : std::nullopt;
+        const auto record = is_known ? actions.makeRecord(action, part_hashes) : std::nullopt;
         const auto result = record ? actions.find(action, *record).result : std::nullopt;
-        if (result && areWhole(*result, cache, scratch))
+        if (result && areIntact(*result, cache, scratch))
             hash_of_action[i] = result->outputs.front().hash;
         else
             missing.push_back(i);

@@ -16,8 +16,8 @@ namespace hearth::farm
 struct ShardAction
 {
     size_t action = 0; ///< index in the plan's graph
-    graph::Ending ending = graph::Ending::unknown;
-    graph::KeptResult result; ///< outputs, seconds and memory; no outputs where it failed
+    graph::Outcome ending = graph::Outcome::unknown;
+    graph::CachedResult result; ///< outputs, seconds and memory; no outputs where it failed
 };
 
 struct ShardRecord
@@ -30,7 +30,7 @@ struct ShardRecord
 };
 
 /// Return the number of actions with that outcome.
-size_t countOf(const ShardRecord& record, graph::Ending ending);
+size_t countActions(const ShardRecord& record, graph::Outcome ending);
 
 /// Return the cache key of a shard's record: each run of the same shard of the same plan writes the same
 /// entry.
@@ -39,7 +39,7 @@ std::string recordKey(const std::string& plan_hash, size_t shard);
 
 cache::Fields recordFields(const ShardRecord& record);
 /// Parse a record; nullopt where the fields are not those of a record.
-std::optional<ShardRecord> recordOf(const cache::Fields& fields);
+std::optional<ShardRecord> parseRecord(const cache::Fields& fields);
 
 /// Serialize a record as JSON, schema "hearth.shard/1", for people and monitoring programs.
 std::string recordJson(const ShardRecord& record, const Plan& plan, size_t shard);
@@ -51,8 +51,8 @@ struct ShardState
     {
         no_record, ///< not ended, or not started
         failed,    ///< its record reports a failure
-        lost,  ///< results of its record are missing from the cache or damaged, or the record is incomplete
-        whole, ///< all its results are in the cache, byte for byte
+        lost,   ///< results of its record are missing from the cache or damaged, or the record is incomplete
+        intact, ///< all its results are in the cache, byte for byte
     };
     Kind kind = Kind::no_record;
     ShardRecord record; ///< empty where there is none
@@ -60,8 +60,8 @@ struct ShardState
 
 /// Verify a shard: read and hash every result of its record.
 /// scratch  folder for temporary files; nothing remains in it
-ShardState stateOf(const Plan& plan, const std::string& plan_hash, size_t shard, cache::Cache& cache,
-                   const std::string& scratch);
+ShardState verifyShard(const Plan& plan, const std::string& plan_hash, size_t shard, cache::Cache& cache,
+                       const std::string& scratch);
 
 /// Return the actions of sources whose results are not available from the cache, by index, ascending. Actions
 /// are looked up by their current inputs, without trusting records of shards, and results are read and

@@ -15,11 +15,11 @@ namespace
 
 // Target duration of a shard. Starting a task takes half a second of it, as measured with 300 empty tasks of
 // Slurm 22.05 on three nodes.
-constexpr double kSecondsOfShard = 60;
+constexpr double kShardSeconds = 60;
 
 } // namespace
 
-std::vector<double> secondsOfSources(const graph::Graph& graph)
+std::vector<double> estimateSourceTimes(const graph::Graph& graph)
 {
     std::vector<double> seconds(graph.source_count);
     for (const graph::Action& action : graph.actions)
@@ -28,12 +28,12 @@ std::vector<double> secondsOfSources(const graph::Graph& graph)
     return seconds;
 }
 
-size_t shardCountFor(std::span<const double> seconds_of_source)
+size_t chooseShardCount(std::span<const double> seconds_of_source)
 {
     const double seconds = std::accumulate(seconds_of_source.begin(), seconds_of_source.end(), 0.0);
-    const size_t most = std::clamp<size_t>(seconds_of_source.size(), 1, kMaxShards);
+    const size_t max_count = std::clamp<size_t>(seconds_of_source.size(), 1, kMaxShards);
     return static_cast<size_t>(
-        std::clamp(std::floor(seconds / kSecondsOfShard), 1.0, static_cast<double>(most)));
+        std::clamp(std::floor(seconds / kShardSeconds), 1.0, static_cast<double>(max_count)));
 }
 
 Shards distribute(std::span<const double> seconds_of_source, size_t count)
@@ -47,21 +47,21 @@ Shards distribute(std::span<const double> seconds_of_source, size_t count)
     std::vector<double> load(count);
     for (const size_t source : order)
     {
-        const auto least = static_cast<size_t>(std::min_element(load.begin(), load.end()) - load.begin());
-        shards[least].push_back(source);
-        load[least] += seconds_of_source[source];
+        const auto lightest = static_cast<size_t>(std::min_element(load.begin(), load.end()) - load.begin());
+        shards[lightest].push_back(source);
+        load[lightest] += seconds_of_source[source];
     }
     for (std::vector<size_t>& sources : shards)
         std::sort(sources.begin(), sources.end());
     return shards;
 }
 
-graph::Graph actionsOf(const graph::Graph& graph, std::span<const size_t> sources,
-                       std::vector<size_t>& action_of)
+graph::Graph selectActions(const graph::Graph& graph, std::span<const size_t> sources,
+                           std::vector<size_t>& action_ids)
 {
-    graph::Graph some;
-    some.source_count = graph.source_count;
-    action_of.clear();
+    graph::Graph selection;
+    selection.source_count = graph.source_count;
+    action_ids.clear();
     std::vector<size_t> new_from_old(graph.actions.size(), graph::kNoAction);
     for (size_t i = 0; i < graph.actions.size(); ++i)
     {
@@ -74,11 +74,11 @@ graph::Graph actionsOf(const graph::Graph& graph, std::span<const size_t> source
                 input.action = new_from_old[input.action];
                 HEARTH_ASSERT(input.action != graph::kNoAction);
             }
-        new_from_old[i] = some.actions.size();
-        some.actions.push_back(std::move(action));
-        action_of.push_back(i);
+        new_from_old[i] = selection.actions.size();
+        selection.actions.push_back(std::move(action));
+        action_ids.push_back(i);
     }
-    return some;
+    return selection;
 }
 
 } // namespace hearth::farm

@@ -16,11 +16,11 @@ using Shards = std::vector<std::vector<size_t>>;
 inline constexpr size_t kMaxShards = 100000;
 
 /// Return the estimated time of each source's actions, in seconds.
-std::vector<double> secondsOfSources(const graph::Graph& graph);
+std::vector<double> estimateSourceTimes(const graph::Graph& graph);
 
 /// Return the number of shards that gives each about a minute of work, at most one for each source: a batch
 /// system takes half a second of a machine to start one.
-size_t shardCountFor(std::span<const double> seconds_of_source);
+size_t chooseShardCount(std::span<const double> seconds_of_source);
 
 /// Distribute sources: the longest first, each to the shard with the least work. No shard takes more than 4/3
 /// - 1/(3 count) times the longest shard
@@ -34,8 +34,8 @@ Shards distribute(std::span<const double> seconds_of_source, size_t count);
 /// Return the actions of these sources alone; none of them reads from another source. Sources keep their
 /// indices.
 /// sources    ascending
-/// action_of  [actions of the result] index of each in `graph`
-graph::Graph actionsOf(const graph::Graph& graph, std::span<const size_t> sources,
-                       std::vector<size_t>& action_of);
+/// action_ids  [actions of the result] index of each in `graph`
+graph::Graph selectActions(const graph::Graph& graph, std::span<const size_t> sources,
+                           std::vector<size_t>& action_ids);
 
 } // namespace hearth::farm

@@ -4,8 +4,8 @@
 namespace hearth::graph
 {
 
-std::vector<std::string> commandOf(const Action& action, const std::string& programs,
-                                   const ActionPaths& paths)
+std::vector<std::string> commandLine(const Action& action, const std::string& programs,
+                                     const ActionPaths& paths)
 {
     std::vector<std::string> command{programs + "/hearth-" + action.cooker};
     for (const Word& word : action.words)

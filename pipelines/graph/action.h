@@ -71,7 +71,7 @@ struct ActionPaths
 };
 
 /// Return the command line of an action, with the cooker in folder `programs`.
-std::vector<std::string> commandOf(const Action& action, const std::string& programs,
-                                   const ActionPaths& paths);
+std::vector<std::string> commandLine(const Action& action, const std::string& programs,
+                                     const ActionPaths& paths);
 
 } // namespace hearth::graph

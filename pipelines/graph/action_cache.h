@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/tools/read_list.h"
+#include "cook/tools/dependency_list.h"
 #include "pipelines/cache/cache.h"
 #include "pipelines/graph/action_record.h"
 #include "pipelines/graph/file_hashes.h"
@@ -15,16 +15,16 @@
 namespace hearth::graph
 {
 
-struct KeptOutput
+struct CachedOutput
 {
     std::string hash;
     uint64_t bytes = 0;
 };
 
 /// Cached result of an action, with its warnings and resource use.
-struct KeptResult
+struct CachedResult
 {
-    std::vector<KeptOutput> outputs;   ///< in the order of the action's outputs
+    std::vector<CachedOutput> outputs; ///< in the order of the action's outputs
     std::vector<std::string> warnings; ///< lines, with paths as the user typed them
     double seconds = 0;
     double cpu_seconds = 0;
@@ -43,40 +43,40 @@ public:
     /// read, so that no result can be cached.
     /// part_hashes  for each input, SHA-256 of the first output of the action that makes it; empty for user
     ///              files
-    std::optional<Record> recordOf(const Action& action, const std::vector<std::string>& part_hashes);
+    std::optional<Record> makeRecord(const Action& action, const std::vector<std::string>& part_hashes);
 
-    struct Found
+    struct LookupResult
     {
         Record record; ///< with found files, where they are known
-        std::optional<KeptResult> result;
+        std::optional<CachedResult> result;
         bool is_damaged = false; ///< the cache had a result, but a damaged one
     };
-    Found find(const Action& action, const Record& record);
+    LookupResult find(const Action& action, const Record& record);
     /// Return the record of an action that finds files, with the hashes of these files now; nullopt where no
     /// list of found files holds.
-    std::optional<Record> recordByFindings(const Action& action, const Record& record);
+    std::optional<Record> recordFromFindings(const Action& action, const Record& record);
 
     /// Return the record with the files that the action has found; nullopt where the result cannot be cached,
     /// because a file has changed meanwhile.
-    std::optional<Record> recordAfter(const Action& action, const Record& record,
-                                      const tools::ReadList& reads);
+    std::optional<Record> recordFromReads(const Action& action, const Record& record,
+                                          const tools::DependencyList& reads);
     /// Store a result.
-    /// record  from recordAfter, or from recordOf for an action that finds no files
-    void keep(const Action& action, const Record& record, const KeptResult& result);
+    /// record  from recordFromReads, or from makeRecord for an action that finds no files
+    void store(const Action& action, const Record& record, const CachedResult& result);
 
     /// Return the record with the current hashes of its found files.
-    Record refreshed(const Action& action, const Record& record);
+    Record withCurrentHashes(const Action& action, const Record& record);
 
     /// Return the paths of the found files of a record, including files that were missing.
-    std::vector<std::string> filesLookedFor(const Action& action, const Record& record);
+    std::vector<std::string> probedFiles(const Action& action, const Record& record);
 
 private:
-    std::optional<Record> wholeRecord(const Action& action, const Record& record,
-                                      const cache::Fields& findings);
-    std::string versionOf(const std::string& cooker);
-    std::string realFolderOf(const std::string& path);
-    std::string pathOfFound(const Action& action, const std::string& found);
-    std::string hashNow(const Action& action, const std::string& found);
+    std::optional<Record> completeRecord(const Action& action, const Record& record,
+                                         const cache::Fields& findings);
+    std::string versionOfCooker(const std::string& cooker);
+    std::string resolveFolder(const std::string& path);
+    std::string foundFilePath(const Action& action, const std::string& found);
+    std::string currentHash(const Action& action, const std::string& found);
 
     cache::Cache& cache_;
     FileHashes& hashes_;

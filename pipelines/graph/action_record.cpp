@@ -26,8 +26,8 @@ std::string wordText(const Action& action, const Word& word)
 
 } // namespace
 
-Record recordOf(const Action& action, const std::string& cooker_version,
-                const std::vector<std::string>& input_hashes)
+Record makeRecord(const Action& action, const std::string& cooker_version,
+                  const std::vector<std::string>& input_hashes)
 {
     Record record{{"schema", "hearth.action/1"}, {"cooker", action.cooker}, {"version", cooker_version}};
     if (action.depends_on_processor)
@@ -49,12 +49,12 @@ Record recordOf(const Action& action, const std::string& cooker_version,
 
 std::string resultKey(const Record& record)
 {
-    return tools::sha256Of("result\n" + cache::textOf(record));
+    return tools::computeSha256("result\n" + cache::formatFields(record));
 }
 
 std::string findingsKey(const Record& record_without_found)
 {
-    return tools::sha256Of("findings\n" + cache::textOf(record_without_found));
+    return tools::computeSha256("findings\n" + cache::formatFields(record_without_found));
 }
 
 } // namespace hearth::graph

@@ -24,8 +24,8 @@ inline constexpr std::string_view kAbsent = "absent";
 
 /// Return the record of an action without found files.
 /// input_hashes  SHA-256 of each input
-Record recordOf(const Action& action, const std::string& cooker_version,
-                const std::vector<std::string>& input_hashes);
+Record makeRecord(const Action& action, const std::string& cooker_version,
+                  const std::vector<std::string>& input_hashes);
 
 /// Return the cache key of a record's result.
 std::string resultKey(const Record& record);

@@ -17,7 +17,7 @@ using Options = std::map<std::string, std::string>;
 
 constexpr std::string_view kText = "text ";
 
-Options optionsOf(const Record& record)
+Options parseOptions(const Record& record)
 {
     Options options;
     std::string option;
@@ -39,27 +39,27 @@ Options optionsOf(const Record& record)
     return options;
 }
 
-std::string called(const std::string& option, const std::string& value)
+std::string optionText(const std::string& option, const std::string& value)
 {
     return value.empty() ? option : option + " " + value;
 }
 
 void addOptionCauses(const Record& before, const Record& now, std::vector<std::string>& causes)
 {
-    const Options old_options = optionsOf(before);
-    const Options new_options = optionsOf(now);
+    const Options old_options = parseOptions(before);
+    const Options new_options = parseOptions(now);
     for (const auto& [option, value] : new_options)
         if (const auto old = old_options.find(option); old == old_options.end())
-            causes.push_back(fmt::format("parameter {}: new", called(option, value)));
+            causes.push_back(fmt::format("parameter {}: new", optionText(option, value)));
         else if (old->second != value)
             causes.push_back(fmt::format("parameter {}: {} -> {}", option, old->second, value));
     for (const auto& [option, value] : old_options)
         if (!new_options.contains(option))
-            causes.push_back(fmt::format("parameter {}: no longer given", called(option, value)));
+            causes.push_back(fmt::format("parameter {}: no longer given", optionText(option, value)));
 }
 
 /// Return the input and found files of a record with their values, by field name.
-std::map<std::string, std::string> filesOf(const Record& record)
+std::map<std::string, std::string> readFiles(const Record& record)
 {
     std::map<std::string, std::string> files;
     for (const auto& [name, value] : record)
@@ -69,7 +69,7 @@ std::map<std::string, std::string> filesOf(const Record& record)
 }
 
 /// Return the user's name for the file of a field: its path, or the action that made it.
-std::string calledBy(const Action& action, const Graph& graph, const std::string& field)
+std::string fileLabel(const Action& action, const Graph& graph, const std::string& field)
 {
     if (field.starts_with(kFound))
         return field.substr(field.find('/') + 1);
@@ -98,24 +98,24 @@ std::string fileCause(const std::string& name, const std::string& before, const 
 void addFileCauses(const Action& action, const Graph& graph, const Record& before, const Record& now,
                    std::vector<std::string>& causes)
 {
-    const auto old_files = filesOf(before);
-    const auto new_files = filesOf(now);
+    const auto old_files = readFiles(before);
+    const auto new_files = readFiles(now);
     for (const auto& [field, value] : new_files)
     {
         const auto old = old_files.find(field);
         if (old != old_files.end() && old->second != value)
-            causes.push_back(fileCause(calledBy(action, graph, field), old->second, value));
+            causes.push_back(fileCause(fileLabel(action, graph, field), old->second, value));
         else if (old == old_files.end())
-            causes.push_back(calledBy(action, graph, field) + ": is read now");
+            causes.push_back(fileLabel(action, graph, field) + ": is read now");
     }
     for (const auto& [field, value] : old_files)
         // files that only the run will find are no cause
         if (!new_files.contains(field) && !field.starts_with(kFound))
-            causes.push_back(calledBy(action, graph, field) + ": is not read any more");
+            causes.push_back(fileLabel(action, graph, field) + ": is not read any more");
 }
 
 /// Return the sources of a cook, in order.
-std::vector<std::string> sourcesOf(const Graph& graph)
+std::vector<std::string> listSources(const Graph& graph)
 {
     std::vector<std::string> sources(graph.source_count);
     for (const Action& action : graph.actions)
@@ -127,8 +127,8 @@ std::vector<std::string> sourcesOf(const Graph& graph)
 /// Add causes for an action that reads all sources: sources added, removed, reordered.
 void addSourceCauses(const Graph& before, const Graph& now, std::vector<std::string>& causes)
 {
-    const std::vector<std::string> old_sources = sourcesOf(before);
-    const std::vector<std::string> new_sources = sourcesOf(now);
+    const std::vector<std::string> old_sources = listSources(before);
+    const std::vector<std::string> new_sources = listSources(now);
     const size_t causes_before = causes.size();
     const auto addMissing =
         [&](const std::vector<std::string>& from, const std::vector<std::string>& in, const char* what)
@@ -143,14 +143,14 @@ void addSourceCauses(const Graph& before, const Graph& now, std::vector<std::str
         causes.emplace_back("the sources are in another order");
 }
 
-bool isSame(std::string_view field, const Record& a, const Record& b)
+bool hasSameField(std::string_view field, const Record& a, const Record& b)
 {
-    return cache::valueOf(a, field) == cache::valueOf(b, field);
+    return cache::fieldValue(a, field) == cache::fieldValue(b, field);
 }
 
 } // namespace
 
-const JournalAction* lastOf(const Action& action, const Graph& graph, const Journal& journal)
+const JournalAction* findLastAction(const Action& action, const Graph& graph, const Journal& journal)
 {
     const bool is_of_all = action.source == graph.source_count;
     for (size_t i = 0; i < journal.graph.actions.size(); ++i)
@@ -164,38 +164,38 @@ const JournalAction* lastOf(const Action& action, const Graph& graph, const Jour
     return nullptr;
 }
 
-std::vector<std::string> causesOf(const Action& action, const Graph& graph, const Situation& situation,
-                                  const std::optional<Journal>& journal)
+std::vector<std::string> findCauses(const Action& action, const Graph& graph, const ActionState& state,
+                                    const std::optional<Journal>& journal)
 {
-    if (situation.is_forced)
+    if (state.is_forced)
         return {"forced"};
     if (!journal)
         return {"never cooked into this pack before"};
-    const JournalAction* last = lastOf(action, graph, *journal);
+    const JournalAction* last = findLastAction(action, graph, *journal);
     if (last == nullptr)
         return {"new in this pack"};
     std::vector<std::string> causes;
     if (action.source == graph.source_count)
         addSourceCauses(journal->graph, graph, causes);
-    if (last->ending == Ending::failed)
+    if (last->ending == Outcome::failed)
         causes.emplace_back("it failed last time");
-    for (const std::string& cooker : situation.waits_for)
+    for (const std::string& cooker : state.pending_cookers)
         causes.push_back(cooker + " runs before it");
-    if (!situation.waits_for.empty())
+    if (!state.pending_cookers.empty())
         return causes;
-    if (situation.record.empty())
+    if (state.record.empty())
         causes.emplace_back("a file that it reads cannot be read");
     else if (!last->record.empty())
     {
-        if (!isSame("version", last->record, situation.record))
+        if (!hasSameField("version", last->record, state.record))
             causes.push_back("hearth-" + action.cooker + " has changed");
-        if (!isSame("processor", last->record, situation.record))
+        if (!hasSameField("processor", last->record, state.record))
             causes.emplace_back("this processor is of another class");
-        addOptionCauses(last->record, situation.record, causes);
+        addOptionCauses(last->record, state.record, causes);
         if (causes.empty() || action.source < graph.source_count)
-            addFileCauses(action, graph, last->record, situation.record, causes);
+            addFileCauses(action, graph, last->record, state.record, causes);
     }
-    if (situation.is_damaged)
+    if (state.is_damaged)
         causes.emplace_back("its result in the cache is damaged");
     else if (causes.empty())
         causes.emplace_back("its result is not in the cache");

@@ -27,7 +27,7 @@ std::vector<std::string> visibilityFlags(const VisibilityOptions& options)
     return flags;
 }
 
-Action actionOf(const std::string& cooker, size_t source, const std::string& subject)
+Action makeAction(const std::string& cooker, size_t source, const std::string& subject)
 {
     Action action;
     action.cooker = cooker;
@@ -56,15 +56,15 @@ void addOutput(Action& action, const std::string& flag, const std::string& name)
 }
 
 /// Return an input that is the first output of an earlier action.
-Input partOf(const Graph& graph, size_t action)
+Input partInput(const Graph& graph, size_t action)
 {
     return {"part of " + graph.actions[action].cooker, action, ""};
 }
 
-/// Return partOf with the source's index in its role, for actions that read parts of several sources.
-Input partOfSource(const Graph& graph, size_t action)
+/// Return partInput with the source's index in its role, for actions that read parts of several sources.
+Input sourcePartInput(const Graph& graph, size_t action)
 {
-    Input part = partOf(graph, action);
+    Input part = partInput(graph, action);
     part.role += fmt::format(" {}", graph.actions[action].source);
     return part;
 }
@@ -74,7 +74,7 @@ Input partOfSource(const Graph& graph, size_t action)
 Result<std::vector<size_t>> addSource(Graph& graph, size_t index, const CookSettings& settings)
 {
     const std::string& source = settings.sources[index];
-    const SourceSettings told =
+    const SourceSettings arguments =
         settings.settings_of_source.empty() ? SourceSettings() : settings.settings_of_source[index];
     HEARTH_ASSIGN_OR_RETURN(const std::vector<tools::LodFile> lods,
                             tools::parseLodFiles(settings.lods_of_source.empty()
@@ -83,9 +83,9 @@ Result<std::vector<size_t>> addSource(Graph& graph, size_t index, const CookSett
     /// Add an action that runs hearth-`kind` over the parts of earlier actions.
     const auto add = [&](const std::string& kind, const std::vector<size_t>& inputs)
     {
-        Action action = actionOf(kind, index, source);
+        Action action = makeAction(kind, index, source);
         for (const size_t input : inputs)
-            addInput(action, partOf(graph, input));
+            addInput(action, partInput(graph, input));
         if (inputs.empty())
             addInput(action, {"source", kNoAction, source});
         addOutput(action, "-o", kind + ".part");
@@ -102,11 +102,11 @@ Result<std::vector<size_t>> addSource(Graph& graph, size_t index, const CookSett
         addInput(actions[import_action], {fmt::format("lod {}", lod.level), kNoAction, lod.path},
                  fmt::format("{}=", lod.level));
     }
-    addFlags(actions[import_action], told.import);
+    addFlags(actions[import_action], arguments.import);
     const size_t textures = add("textures", {import_action});
-    addFlags(actions[textures], told.textures);
+    addFlags(actions[textures], arguments.textures);
     const size_t clusters = add("clusters", {import_action});
-    addFlags(actions[clusters], told.clusters);
+    addFlags(actions[clusters], arguments.clusters);
     addOutput(actions[import_action], "--stats", kImportStatistics);
     addOutput(actions[textures], "--stats", kTexturesStatistics);
     addOutput(actions[clusters], "--stats", kClustersStatistics);
@@ -114,12 +114,12 @@ Result<std::vector<size_t>> addSource(Graph& graph, size_t index, const CookSett
     // work itself
     addFlags(actions[clusters], {"--no-manual-lods"});
     const size_t skinning = add("skinning", {import_action, clusters});
-    if (!told.visibility)
+    if (!arguments.visibility)
         return std::vector{import_action, clusters, textures, skinning};
     addFlags(actions[clusters], {"--visibility"});
     const size_t visibility = add("visibility", {import_action, clusters});
     actions[visibility].depends_on_processor = true;
-    addFlags(actions[visibility], visibilityFlags(*told.visibility));
+    addFlags(actions[visibility], visibilityFlags(*arguments.visibility));
     addOutput(actions[visibility], "--stats", kVisibilityStatistics);
     addFlags(actions[visibility], {"--no-noise-estimate"});
     addOutput(actions[visibility], "--picture", kVisibilityPicture);
@@ -130,7 +130,7 @@ Result<std::vector<size_t>> addSource(Graph& graph, size_t index, const CookSett
 /// source.
 size_t addSpecular(Graph& graph, const CookSettings& settings)
 {
-    Action specular = actionOf("specular", settings.sources.size(), settings.output);
+    Action specular = makeAction("specular", settings.sources.size(), settings.output);
     addOutput(specular, "-o", "specular.part");
     graph.actions.push_back(std::move(specular));
     return graph.actions.size() - 1;
@@ -139,12 +139,12 @@ size_t addSpecular(Graph& graph, const CookSettings& settings)
 /// Add the action that makes the grid of bricks of all sources' scenes.
 size_t addBricks(Graph& graph, const CookSettings& settings)
 {
-    Action bricks = actionOf("bricks", settings.sources.size(), settings.output);
+    Action bricks = makeAction("bricks", settings.sources.size(), settings.output);
     for (size_t source = 0; source < settings.sources.size(); ++source)
         for (const char* kind : {"import", "clusters", "textures"})
             for (size_t i = 0; i < graph.actions.size(); ++i)
                 if (graph.actions[i].source == source && graph.actions[i].cooker == kind)
-                    addInput(bricks, partOfSource(graph, i));
+                    addInput(bricks, sourcePartInput(graph, i));
     addOutput(bricks, "-o", "bricks.part");
     if (settings.bricks->voxel_size)
         addFlags(bricks, {"--voxel-size", fmt::format("{}", *settings.bricks->voxel_size)});
@@ -164,21 +164,22 @@ size_t addBricks(Graph& graph, const CookSettings& settings)
 /// inputs  actions whose parts the link reads, in this order
 void addLink(Graph& graph, const std::vector<size_t>& inputs, const CookSettings& settings)
 {
-    Action link = actionOf("link", settings.sources.size(), settings.output);
+    Action link = makeAction("link", settings.sources.size(), settings.output);
     for (const size_t input : inputs)
-        addInput(link, partOfSource(graph, input));
-    const auto sees = [](const SourceSettings& told) { return told.visibility.has_value(); };
-    if (std::any_of(settings.settings_of_source.begin(), settings.settings_of_source.end(), sees))
+        addInput(link, sourcePartInput(graph, input));
+    const auto hasVisibility = [](const SourceSettings& arguments)
+    { return arguments.visibility.has_value(); };
+    if (std::any_of(settings.settings_of_source.begin(), settings.settings_of_source.end(), hasVisibility))
     {
         const size_t specular = addSpecular(graph, settings);
         addFlags(link, {"--specular"});
-        addInput(link, partOf(graph, specular));
+        addInput(link, partInput(graph, specular));
     }
     if (settings.bricks)
     {
         const size_t bricks = addBricks(graph, settings);
         addFlags(link, {"--bricks"});
-        addInput(link, partOf(graph, bricks));
+        addInput(link, partInput(graph, bricks));
     }
     addOutput(link, "-o", "pack.hearth");
     graph.actions.push_back(std::move(link));

@@ -13,13 +13,14 @@ namespace
 {
 
 /// True for the exit codes by which a cooker reports an error; any other nonzero code is a defect.
-bool isClearCode(int code)
+bool isErrorCode(int code)
 {
     return code == 2 || code == 65 || code == 66 || code == 70 || code == 73 || code == 74;
 }
 
 /// Describe the crash of a child; its last line of output helps to find the defect.
-Failure crashed(const Action& action, const tools::ChildEnd& end, const std::vector<std::string>& lines)
+Failure crashFailure(const Action& action, const tools::ChildOutcome& end,
+                     const std::vector<std::string>& lines)
 {
     std::string how = "hearth-" + action.cooker;
     if (end.signal == SIGKILL)
@@ -32,30 +33,30 @@ Failure crashed(const Action& action, const tools::ChildEnd& end, const std::vec
         how += fmt::format(" ended with code {} and no error message", end.exit_code);
     if (!lines.empty())
         how += ": " + lines.back();
-    Failure failure = failureOf({Issue::child_failed, action.subject, "", how}, action.source);
+    Failure failure = makeFailure({Issue::child_failed, action.subject, "", how}, action.source);
     failure.is_temporary = end.signal == SIGKILL;
     return failure;
 }
 
 } // namespace
 
-Failure failureOf(const Error& error, size_t source)
+Failure makeFailure(const Error& error, size_t source)
 {
     return {exitCode(error), formatMessage(error), source, false, false};
 }
 
-std::optional<Failure> failureOf(const Action& action, const tools::ChildEnd& end,
-                                 const std::vector<std::string>& lines)
+std::optional<Failure> makeFailure(const Action& action, const tools::ChildOutcome& end,
+                                   const std::vector<std::string>& lines)
 {
     const auto error = std::find_if(lines.begin(), lines.end(), isError);
-    if (end.signal == 0 && isClearCode(end.exit_code) && error != lines.end())
+    if (end.signal == 0 && isErrorCode(end.exit_code) && error != lines.end())
         return Failure{end.exit_code, *error, action.source, true, false};
     if (end.signal != 0 || end.exit_code != 0)
-        return crashed(action, end, lines);
+        return crashFailure(action, end, lines);
     return std::nullopt;
 }
 
-std::vector<std::string> linesOf(const std::string& text)
+std::vector<std::string> splitLines(const std::string& text)
 {
     std::vector<std::string> lines;
     for (size_t at = 0; at < text.size();)

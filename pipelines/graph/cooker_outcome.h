@@ -19,20 +19,20 @@ struct Failure
     std::string error; ///< the error line
     size_t source = 0; ///< index; source_count for actions that belong to no source
     /// True if a cooker has printed the error; else it is still to be reported.
-    bool is_told = false;
+    bool is_reported = false;
     /// True if a retry may succeed: the cooker was killed, and the killer is not known.
     bool is_temporary = false;
 };
 
-Failure failureOf(const Error& error, size_t source);
+Failure makeFailure(const Error& error, size_t source);
 
 /// Return the failure of a cooker: its own error line, or E7001 with the subject and its last line of output
 /// where it printed no error. nullopt after success.
 /// lines  that it wrote to stderr
-std::optional<Failure> failureOf(const Action& action, const tools::ChildEnd& end,
-                                 const std::vector<std::string>& lines);
+std::optional<Failure> makeFailure(const Action& action, const tools::ChildOutcome& end,
+                                   const std::vector<std::string>& lines);
 
-std::vector<std::string> linesOf(const std::string& text);
+std::vector<std::string> splitLines(const std::string& text);
 bool isError(const std::string& line);
 bool isWarning(const std::string& line);
 

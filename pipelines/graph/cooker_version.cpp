@@ -3,7 +3,7 @@
 
 #include "cook/tools/sha256.h"
 #include "pipelines/cache/fields.h"
-#include "pipelines/graph/elf_libraries.h"
+#include "pipelines/graph/shared_libraries.h"
 
 #include <algorithm>
 
@@ -12,20 +12,20 @@ namespace hearth::graph
 
 std::string cookerVersion(const std::string& executable, FileHashes& hashes)
 {
-    const std::optional<std::string> program = hashes.hashOf(executable);
+    const std::optional<std::string> program = hashes.hashFile(executable);
     if (!program)
         return "";
     // by content: folder names do not matter
     std::vector<std::string> libraries;
-    for (const std::string& library : librariesOf(executable))
+    for (const std::string& library : findLibraries(executable))
         // it only computes hashes, and is updated more often than all others together
         if (library.find("/libcrypto.so") == std::string::npos)
-            libraries.push_back(hashes.hashOf(library).value_or(""));
+            libraries.push_back(hashes.hashFile(library).value_or(""));
     std::sort(libraries.begin(), libraries.end());
     cache::Fields fields{{"program", *program}};
     for (const std::string& library : libraries)
         fields.emplace_back("library", library);
-    return tools::sha256Of(cache::textOf(fields));
+    return tools::computeSha256(cache::formatFields(fields));
 }
 
 const char* processorClass()

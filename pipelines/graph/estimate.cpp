@@ -31,16 +31,16 @@ constexpr std::array kCosts{
     Cost{"visibility", 16 * kMiB, 24, 0.35}, Cost{"specular", 16 * kMiB, 0, 0},
     Cost{"bricks", 16 * kMiB, 6, 0.4},       Cost{"link", 16 * kMiB, 3, 0.01},
 };
-constexpr double kLeastSeconds = 0.01;
+constexpr double kMinSeconds = 0.01;
 
-uint64_t bytesOf(const std::string& path)
+uint64_t fileBytes(const std::string& path)
 {
     std::error_code error;
     const uintmax_t size = std::filesystem::file_size(path, error);
     return error ? 0 : size;
 }
 
-Estimate estimateOf(const std::string& cooker, uint64_t source_bytes)
+Estimate makeEstimate(const std::string& cooker, uint64_t source_bytes)
 {
     const auto cost =
         std::find_if(kCosts.begin(), kCosts.end(), [&](const Cost& c) { return c.cooker == cooker; });
@@ -48,7 +48,7 @@ Estimate estimateOf(const std::string& cooker, uint64_t source_bytes)
         return {};
     const auto bytes = static_cast<double>(source_bytes);
     return {cost->base_bytes + static_cast<uint64_t>(bytes * cost->bytes_per_byte),
-            kLeastSeconds + bytes / static_cast<double>(kMiB) * cost->seconds_per_mib};
+            kMinSeconds + bytes / static_cast<double>(kMiB) * cost->seconds_per_mib};
 }
 
 } // namespace
@@ -61,12 +61,12 @@ void addEstimates(Graph& graph)
         for (const Input& input : action.inputs)
             if (input.action == kNoAction)
             {
-                const uint64_t bytes = bytesOf(input.path);
+                const uint64_t bytes = fileBytes(input.path);
                 bytes_of_source[action.source] += bytes;
                 bytes_of_source.back() += bytes;
             }
     for (Action& action : graph.actions)
-        action.estimate = estimateOf(action.cooker, bytes_of_source[action.source]);
+        action.estimate = makeEstimate(action.cooker, bytes_of_source[action.source]);
 }
 
 } // namespace hearth::graph

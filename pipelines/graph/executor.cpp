@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/graph/executor.h"
 
-#include "cook/tools/read_list.h"
+#include "cook/tools/dependency_list.h"
 #include "cook/tools/sha256.h"
 #include "pipelines/cache/directory_store.h"
 
@@ -18,7 +18,7 @@ namespace
 
 constexpr const char* kLost = "its result is not in the cache, or not whole";
 
-std::optional<uint64_t> sizeOf(const std::string& path)
+std::optional<uint64_t> fileSize(const std::string& path)
 {
     std::error_code error;
     const uintmax_t size = std::filesystem::file_size(path, error);
@@ -26,7 +26,7 @@ std::optional<uint64_t> sizeOf(const std::string& path)
 }
 
 /// Replace paths in temporary folders by the subject, which the user knows.
-std::string inUsersWords(std::string text, const std::vector<std::string>& paths, const std::string& subject)
+std::string replacePaths(std::string text, const std::vector<std::string>& paths, const std::string& subject)
 {
     for (const std::string& path : paths)
         for (size_t at = text.find(path); at != std::string::npos; at = text.find(path, at))
@@ -47,7 +47,7 @@ Executor::Executor(const Graph& graph, Resolver& resolver, cache::Cache* cache, 
       actions_(actions),
       options_(std::move(options)),
       events_(std::move(events)),
-      crew_(graph, options_.limits),
+      pool_(graph, options_.limits),
       states_(graph.actions.size(), State::waiting),
       outcomes_(graph.actions.size()),
       has_begun_(graph.actions.size())
@@ -56,26 +56,27 @@ Executor::Executor(const Graph& graph, Resolver& resolver, cache::Cache* cache, 
 
 std::optional<Failure> Executor::makeFolders()
 {
-    if (parts_)
+    if (part_folder_)
         return std::nullopt;
     if (options_.makes_pack)
     {
-        Result<TempDirectory> beside = TempDirectory::create(parentFolder(options_.output), options_.output);
-        if (!beside.ok())
-            return failureOf(beside.error(), graph_.source_count);
-        beside_.emplace(std::move(beside).value());
+        Result<TempDirectory> pack_folder =
+            TempDirectory::create(parentFolder(options_.output), options_.output);
+        if (!pack_folder.ok())
+            return makeFailure(pack_folder.error(), graph_.source_count);
+        pack_folder_.emplace(std::move(pack_folder).value());
     }
-    Result<TempDirectory> parts =
-        TempDirectory::create(temporaryOr(beside_ ? beside_->path() : "/tmp"), options_.output);
+    Result<TempDirectory> parts = TempDirectory::create(
+        temporaryFolderOr(pack_folder_ ? pack_folder_->path() : "/tmp"), options_.output);
     if (!parts.ok())
-        return failureOf(parts.error(), graph_.source_count);
-    parts_.emplace(std::move(parts).value());
+        return makeFailure(parts.error(), graph_.source_count);
+    part_folder_.emplace(std::move(parts).value());
     return std::nullopt;
 }
 
-std::string Executor::readListOf(size_t action) const
+std::string Executor::readListPath(size_t action) const
 {
-    return fmt::format("{}/{}.reads", parts_->path(), action);
+    return fmt::format("{}/{}.reads", part_folder_->path(), action);
 }
 
 bool Executor::isPack(size_t action) const
@@ -84,23 +85,23 @@ bool Executor::isPack(size_t action) const
 }
 
 /// Return the paths that the action's cooker writes to.
-std::vector<std::string> Executor::pathsOf(size_t action) const
+std::vector<std::string> Executor::cookerOutputPaths(size_t action) const
 {
     std::vector<std::string> paths;
     for (const std::string& output : graph_.actions[action].outputs)
         // the pack is on the file system of its destination, so that a rename can move it
-        paths.push_back(isPack(action)
-                            ? beside_->path() + "/" + output
-                            : fmt::format("{}/{}.{}", parts_->path(), graph_.actions[action].source, output));
+        paths.push_back(isPack(action) ? pack_folder_->path() + "/" + output
+                                       : fmt::format("{}/{}.{}", part_folder_->path(),
+                                                     graph_.actions[action].source, output));
     return paths;
 }
 
 /// Return the path of an output with known content. The name is the same in every cook, since a cooker may
 /// write the name of its input into its output. Equal contents share one file.
-std::string Executor::pathOf(size_t action, size_t output) const
+std::string Executor::contentPath(size_t action, size_t output) const
 {
-    return isPack(action) ? pathsOf(action)[output]
-                          : parts_->path() + "/" + outcomes_[action].result.outputs[output].hash;
+    return isPack(action) ? cookerOutputPaths(action)[output]
+                          : part_folder_->path() + "/" + outcomes_[action].result.outputs[output].hash;
 }
 
 bool Executor::materialize(size_t action)
@@ -117,16 +118,17 @@ void Executor::materialize(std::span<const size_t> actions)
                  [&](size_t action) { return outcomes_[action].paths.empty(); });
     if (missing.empty() || cache_ == nullptr || makeFolders())
         return;
-    std::vector<cache::WantedContent> wanted;
+    std::vector<cache::ContentRequest> wanted;
     std::set<std::string> paths_wanted; // equal contents share one file
     for (const size_t action : missing)
         for (size_t i = 0; i < outcomes_[action].result.outputs.size(); ++i)
         {
-            const KeptOutput& output = outcomes_[action].result.outputs[i];
-            const std::string path = pathOf(action, i);
+            const CachedOutput& output = outcomes_[action].result.outputs[i];
+            const std::string path = contentPath(action, i);
             // the pack becomes a user file, which may be written to
-            const cache::Use use = isPack(action) ? cache::Use::given_away : cache::Use::read_only;
-            if (!sizeOf(path) && paths_wanted.insert(path).second)
+            const cache::FileAccess use =
+                isPack(action) ? cache::FileAccess::read_write : cache::FileAccess::read_only;
+            if (!fileSize(path) && paths_wanted.insert(path).second)
                 wanted.push_back({output.hash, path, use, output.bytes});
         }
     cache_->fetch(wanted);
@@ -134,21 +136,21 @@ void Executor::materialize(std::span<const size_t> actions)
     {
         std::vector<std::string> paths;
         for (size_t i = 0; i < outcomes_[action].result.outputs.size(); ++i)
-            paths.push_back(pathOf(action, i));
-        if (std::all_of(paths.begin(), paths.end(), sizeOf))
+            paths.push_back(contentPath(action, i));
+        if (std::all_of(paths.begin(), paths.end(), fileSize))
             outcomes_[action].paths = paths;
     }
 }
 
-std::vector<std::string> Executor::filesLookedFor(size_t index) const
+std::vector<std::string> Executor::probedFiles(size_t index) const
 {
     const Action& action = graph_.actions[index];
     if (!action.finds_files)
         return {};
-    if (outcomes_[index].ending == Ending::kept)
-        return actions_->filesLookedFor(action, outcomes_[index].record);
-    const std::optional<std::string> text = cache::readText(readListOf(index));
-    const auto reads = text ? tools::ReadList::parse(*text) : std::nullopt;
+    if (outcomes_[index].ending == Outcome::cached)
+        return actions_->probedFiles(action, outcomes_[index].record);
+    const std::optional<std::string> text = cache::readText(readListPath(index));
+    const auto reads = text ? tools::DependencyList::parse(*text) : std::nullopt;
     std::vector<std::string> paths;
     if (reads)
         for (const auto& [path, hash] : reads->files())
@@ -163,24 +165,25 @@ std::optional<std::string> Executor::readOutput(size_t action, size_t output)
         return cache::readText(outcome.paths[output]);
     if (cache_ == nullptr || makeFolders())
         return std::nullopt;
-    const std::string path = pathOf(action, output);
-    if (!sizeOf(path) && !cache_->fetch(outcome.result.outputs[output].hash, path, cache::Use::read_only))
+    const std::string path = contentPath(action, output);
+    if (!fileSize(path) &&
+        !cache_->fetch(outcome.result.outputs[output].hash, path, cache::FileAccess::read_only))
         return std::nullopt;
     return cache::readText(path);
 }
 
 /// Make sure that the action's input files exist; an input that the cache has lost is made again first.
-bool Executor::haveInputs(size_t action)
+bool Executor::ensureInputs(size_t action)
 {
-    std::vector<size_t> makers;
+    std::vector<size_t> producers;
     for (const Input& input : graph_.actions[action].inputs)
         if (input.action != kNoAction)
-            makers.push_back(input.action);
-    materialize(makers);
+            producers.push_back(input.action);
+    materialize(producers);
     bool have = true;
-    for (const size_t maker : makers)
+    for (const size_t producer : producers)
     {
-        if (!outcomes_[maker].paths.empty() || haveAgain(maker))
+        if (!outcomes_[producer].paths.empty() || ensureResult(producer))
             continue;
         have = false;
         // the remade input may differ
@@ -204,18 +207,18 @@ std::optional<Failure> Executor::start(size_t index)
     const Action& action = graph_.actions[index];
     if (auto failure = makeFolders())
         return failure;
-    ActionPaths paths{{}, pathsOf(index)};
+    ActionPaths paths{{}, cookerOutputPaths(index)};
     for (const Input& input : action.inputs)
         paths.inputs.push_back(input.action == kNoAction ? input.path
                                                          : outcomes_[input.action].paths.front());
-    std::vector<std::string> command = commandOf(action, options_.programs, paths);
+    std::vector<std::string> command = commandLine(action, options_.programs, paths);
     if (action.finds_files && (cache_ != nullptr || options_.lists_files))
-        command.insert(command.end(), {"--depfile", readListOf(index)});
+        command.insert(command.end(), {"--depfile", readListPath(index)});
     if (events_.starting && !has_begun_[index])
         events_.starting(action, outcomes_[index], command);
     has_begun_[index] = true;
-    if (const Status started = crew_.start(index, partBytes(index), command); !started.ok())
-        return failureOf(started.error(), action.source);
+    if (const Status started = pool_.start(index, partBytes(index), command); !started.ok())
+        return makeFailure(started.error(), action.source);
     states_[index] = State::running;
     return std::nullopt;
 }
@@ -233,7 +236,7 @@ bool Executor::advance(size_t index)
     if (std::any_of(action.inputs.begin(), action.inputs.end(), isIn(State::failed)))
     {
         states_[index] = State::failed;
-        outcome.ending = Ending::left_out;
+        outcome.ending = Outcome::skipped;
         return true;
     }
     const auto isReady = [&](const Input& input)
@@ -245,7 +248,7 @@ bool Executor::advance(size_t index)
     for (const Input& input : action.inputs)
         part_hashes.push_back(
             input.action == kNoAction ? "" : outcomes_[input.action].result.outputs.front().hash);
-    Resolved resolved = resolver_.resolve(index, part_hashes);
+    Resolution resolved = resolver_.resolve(index, part_hashes);
     outcome.record = resolved.record.value_or(Record());
     outcome.causes = std::move(resolved.causes);
     if (!resolved.result)
@@ -254,15 +257,15 @@ bool Executor::advance(size_t index)
         return true;
     }
     states_[index] = State::done;
-    outcome.ending = Ending::kept;
-    outcome.is_kept = true;
+    outcome.ending = Outcome::cached;
+    outcome.is_cached = true;
     outcome.result = std::move(*resolved.result);
     if (events_.ended)
         events_.ended(action, outcome, outcome.result.warnings);
     return true;
 }
 
-std::optional<Failure> Executor::startWhatCan()
+std::optional<Failure> Executor::startReady()
 {
     for (bool has_changed = true; has_changed;)
     {
@@ -275,10 +278,10 @@ std::optional<Failure> Executor::startWhatCan()
             { return input.action == kNoAction || states_[input.action] == State::done; };
             const std::vector<Input>& inputs = graph_.actions[i].inputs;
             if (states_[i] != State::must_run || !std::all_of(inputs.begin(), inputs.end(), isReady) ||
-                !crew_.canStart(i, partBytes(i)))
+                !pool_.canStart(i, partBytes(i)))
                 continue;
             has_changed = true;
-            if (!haveInputs(i))
+            if (!ensureInputs(i))
                 continue;
             if (auto failure = start(i))
                 return failure;
@@ -290,7 +293,7 @@ std::optional<Failure> Executor::startWhatCan()
 void Executor::fail(size_t action, const Failure& failure)
 {
     states_[action] = State::failed;
-    outcomes_[action].ending = Ending::failed;
+    outcomes_[action].ending = Outcome::failed;
     failures_.push_back(failure);
 }
 
@@ -298,27 +301,27 @@ void Executor::fail(size_t action, const Failure& failure)
 std::optional<Failure> Executor::checkOutputs(size_t index)
 {
     ActionOutcome& outcome = outcomes_[index];
-    outcome.paths = pathsOf(index);
+    outcome.paths = cookerOutputPaths(index);
     outcome.result.outputs.clear();
     for (size_t i = 0; i < outcome.paths.size(); ++i)
     {
-        const std::optional<uint64_t> bytes = sizeOf(outcome.paths[i]);
+        const std::optional<uint64_t> bytes = fileSize(outcome.paths[i]);
         if (!bytes)
-            return failureOf({Issue::child_failed, graph_.actions[index].subject, "",
-                              "hearth-" + graph_.actions[index].cooker + " ended well, but made nothing"},
-                             graph_.actions[index].source);
+            return makeFailure({Issue::child_failed, graph_.actions[index].subject, "",
+                                "hearth-" + graph_.actions[index].cooker + " ended well, but made nothing"},
+                               graph_.actions[index].source);
         outcome.result.outputs.push_back({"", *bytes});
         if (cache_ == nullptr)
             continue;
-        outcome.result.outputs.back().hash = tools::sha256OfFile(outcome.paths[i]).value_or("");
-        if (const std::string known = pathOf(index, i);
+        outcome.result.outputs.back().hash = tools::computeFileSha256(outcome.paths[i]).value_or("");
+        if (const std::string known = contentPath(index, i);
             ::rename(outcome.paths[i].c_str(), known.c_str()) == 0)
             outcome.paths[i] = known;
     }
     return std::nullopt;
 }
 
-void Executor::keepResult(size_t index)
+void Executor::cacheResult(size_t index)
 {
     const Action& action = graph_.actions[index];
     ActionOutcome& outcome = outcomes_[index];
@@ -326,9 +329,9 @@ void Executor::keepResult(size_t index)
         return;
     if (action.finds_files)
     {
-        const std::optional<std::string> text = cache::readText(readListOf(index));
-        const auto reads = text ? tools::ReadList::parse(*text) : std::nullopt;
-        const auto whole = reads ? actions_->recordAfter(action, outcome.record, *reads) : std::nullopt;
+        const std::optional<std::string> text = cache::readText(readListPath(index));
+        const auto reads = text ? tools::DependencyList::parse(*text) : std::nullopt;
+        const auto whole = reads ? actions_->recordFromReads(action, outcome.record, *reads) : std::nullopt;
         if (!whole)
             return;
         outcome.record = *whole;
@@ -337,33 +340,34 @@ void Executor::keepResult(size_t index)
         return;
     for (size_t i = 0; i < outcome.paths.size(); ++i)
         cache_->put(outcome.result.outputs[i].hash, outcome.paths[i],
-                    isPack(index) ? cache::Use::given_away : cache::Use::read_only);
-    actions_->keep(action, outcome.record, outcome.result);
-    outcome.is_kept = cache_->isWritable();
+                    isPack(index) ? cache::FileAccess::read_write : cache::FileAccess::read_only);
+    actions_->store(action, outcome.record, outcome.result);
+    outcome.is_cached = cache_->isWritable();
 }
 
-void Executor::takeEnd(const CrewEnd& crew_end)
+void Executor::handleEnd(const ActionEnd& action_end)
 {
-    for (const size_t action : crew_end.not_begun)
+    for (const size_t action : action_end.not_begun)
         states_[action] = State::must_run;
-    if (crew_end.action == kNoAction)
+    if (action_end.action == kNoAction)
         return;
-    const tools::ChildEnd& end = crew_end.end;
-    const size_t index = crew_end.action;
+    const tools::ChildOutcome& end = action_end.end;
+    const size_t index = action_end.action;
     const Action& action = graph_.actions[index];
     ActionOutcome& outcome = outcomes_[index];
 
-    std::vector<std::string> private_paths = pathsOf(index);
+    std::vector<std::string> private_paths = cookerOutputPaths(index);
     for (const Input& input : action.inputs)
         if (input.action != kNoAction)
             private_paths.push_back(outcomes_[input.action].paths.front());
-    const std::vector<std::string> lines = linesOf(inUsersWords(end.messages, private_paths, action.subject));
+    const std::vector<std::string> lines =
+        splitLines(replacePaths(end.messages, private_paths, action.subject));
     outcome.result.warnings.clear();
     std::copy_if(lines.begin(), lines.end(), std::back_inserter(outcome.result.warnings), isWarning);
     outcome.result.seconds = end.seconds;
     outcome.result.cpu_seconds = end.cpu_seconds;
     outcome.result.peak_rss_bytes = end.peak_rss_bytes;
-    std::optional<Failure> failure = failureOf(action, end, lines);
+    std::optional<Failure> failure = makeFailure(action, end, lines);
     if (!failure)
         failure = checkOutputs(index);
     if (failure)
@@ -371,8 +375,8 @@ void Executor::takeEnd(const CrewEnd& crew_end)
     else
     {
         states_[index] = State::done;
-        outcome.ending = Ending::cooked;
-        keepResult(index);
+        outcome.ending = Outcome::cooked;
+        cacheResult(index);
     }
     if (events_.ended)
         events_.ended(action, outcome, lines);
@@ -382,14 +386,14 @@ void Executor::takeEnd(const CrewEnd& crew_end)
 
 /// Make sure that the pack exists as a file, unless the destination has it already. False where it must be
 /// linked again first.
-bool Executor::finishPack(const std::optional<std::string>& hash_there)
+bool Executor::finishPack(const std::optional<std::string>& existing_hash)
 {
     const size_t last = graph_.actions.size() - 1;
     if (states_[last] != State::done)
         return true;
-    if (cache_ != nullptr && hash_there == outcomes_[last].result.outputs.front().hash)
+    if (cache_ != nullptr && existing_hash == outcomes_[last].result.outputs.front().hash)
         return true;
-    if (!haveAgain(last))
+    if (!ensureResult(last))
         return false;
     pack_path_ = outcomes_[last].paths.front();
     return true;
@@ -397,12 +401,12 @@ bool Executor::finishPack(const std::optional<std::string>& hash_there)
 
 /// Make sure that an action's outputs exist as files. False where the cache has lost them; the action must
 /// run then.
-bool Executor::haveAgain(size_t action)
+bool Executor::ensureResult(size_t action)
 {
     if (materialize(action))
         return true;
     states_[action] = State::must_run;
-    outcomes_[action].is_kept = false;
+    outcomes_[action].is_cached = false;
     outcomes_[action].causes = {kLost};
     return false;
 }
@@ -413,15 +417,15 @@ bool Executor::finishParts()
     bool have = true;
     for (size_t i = 0; i < states_.size(); ++i)
         if (states_[i] == State::done)
-            have = haveAgain(i) && have;
+            have = ensureResult(i) && have;
     return have;
 }
 
-bool Executor::run(const std::optional<std::string>& hash_there)
+bool Executor::run(const std::optional<std::string>& existing_hash)
 {
     for (;;)
     {
-        if (const auto failure = startWhatCan())
+        if (const auto failure = startReady())
         {
             // a process or folder cannot be created: nothing else would succeed
             failures_.push_back(*failure);
@@ -429,16 +433,16 @@ bool Executor::run(const std::optional<std::string>& hash_there)
                 events_.failed(*failure);
             return true;
         }
-        if (crew_.isIdle())
+        if (pool_.isIdle())
         {
-            if (options_.makes_pack ? finishPack(hash_there) : finishParts())
+            if (options_.makes_pack ? finishPack(existing_hash) : finishParts())
                 return true;
             continue;
         }
-        const std::optional<CrewEnd> end = crew_.wait(events_.waiting);
+        const std::optional<ActionEnd> end = pool_.wait(events_.waiting);
         if (!end)
             return false;
-        takeEnd(*end);
+        handleEnd(*end);
         if (!failures_.empty() && !options_.keeps_going)
             return true;
     }

@@ -19,9 +19,9 @@ namespace hearth::graph
 
 struct ExecutorOptions
 {
-    CrewLimits limits;
+    PoolLimits limits;
     bool keeps_going = true;  ///< after a failure, run the actions that do not depend on it
-    bool lists_files = false; ///< pass --depfile to cookers even without a cache: for filesLookedFor()
+    bool lists_files = false; ///< pass --depfile to cookers even without a cache: for probedFiles()
     std::string programs;     ///< folder of the cookers
     std::string output;       ///< path of the pack; temporary files are made beside it, or in TMPDIR
     /// True if the last action makes the pack. Else all results go to the cache only, and `output` is just
@@ -31,13 +31,13 @@ struct ExecutorOptions
 
 struct ActionOutcome
 {
-    Ending ending = Ending::unknown;
-    KeptResult result;
+    Outcome ending = Outcome::unknown;
+    CachedResult result;
     std::vector<std::string> causes;
     Record record;
     /// Paths of the outputs while the executor lives; empty: in the cache only.
     std::vector<std::string> paths;
-    bool is_kept = false; ///< the result is in the cache, as far as no write has failed since
+    bool is_cached = false; ///< the result is in the cache, as far as no write has failed since
 };
 
 /// Callbacks for progress; each may be empty.
@@ -68,7 +68,7 @@ public:
     /// Make the pack, unless the destination already has that hash. Without a pack, make sure that the cache
     /// has every result, intact.
     /// returns  false where a signal ended it
-    bool run(const std::optional<std::string>& hash_there);
+    bool run(const std::optional<std::string>& existing_hash);
 
     const std::vector<ActionOutcome>& outcomes() const { return outcomes_; }
     /// Failures, in order of time.
@@ -79,7 +79,7 @@ public:
 
     /// Paths of files the action opened or probed that are not declared inputs. For a failed action, the
     /// files that it got to.
-    std::vector<std::string> filesLookedFor(size_t action) const;
+    std::vector<std::string> probedFiles(size_t action) const;
 
     /// Fetch the outputs of an action that was taken from the cache as files; false where the cache has lost
     /// them.
@@ -99,24 +99,24 @@ private:
         failed,
     };
 
-    std::optional<Failure> startWhatCan();
+    std::optional<Failure> startReady();
     bool advance(size_t action);
     uint64_t partBytes(size_t action) const;
     std::optional<Failure> start(size_t action);
     std::optional<Failure> makeFolders();
     void materialize(std::span<const size_t> actions);
-    bool haveInputs(size_t action);
-    void takeEnd(const CrewEnd& end);
+    bool ensureInputs(size_t action);
+    void handleEnd(const ActionEnd& end);
     std::optional<Failure> checkOutputs(size_t action);
-    void keepResult(size_t action);
-    bool finishPack(const std::optional<std::string>& hash_there);
+    void cacheResult(size_t action);
+    bool finishPack(const std::optional<std::string>& existing_hash);
     bool finishParts();
-    bool haveAgain(size_t action);
+    bool ensureResult(size_t action);
     void fail(size_t action, const Failure& failure);
     bool isPack(size_t action) const;
-    std::string pathOf(size_t action, size_t output) const;
-    std::string readListOf(size_t action) const;
-    std::vector<std::string> pathsOf(size_t action) const;
+    std::string contentPath(size_t action, size_t output) const;
+    std::string readListPath(size_t action) const;
+    std::vector<std::string> cookerOutputPaths(size_t action) const;
 
     const Graph& graph_;
     Resolver& resolver_;
@@ -126,10 +126,10 @@ private:
     ExecutorEvents events_;
 
     // declared before the folders, so that it is destroyed after them: signals wait until they are gone
-    Crew crew_;
+    ProcessPool pool_;
     /// beside the pack's destination, so that a rename can put it in place
-    std::optional<TempDirectory> beside_;
-    std::optional<TempDirectory> parts_;
+    std::optional<TempDirectory> pack_folder_;
+    std::optional<TempDirectory> part_folder_;
 
     std::vector<State> states_;
     std::vector<ActionOutcome> outcomes_;

@@ -16,10 +16,10 @@ namespace hearth::graph
 namespace
 {
 
-constexpr int64_t kTooYoung_s = 2;
+constexpr int64_t kMinAge_s = 2;
 
 /// Return the file's identity and times as text; empty where there is no regular file.
-std::string looksOf(const struct stat& info)
+std::string metadataText(const struct stat& info)
 {
     if (!S_ISREG(info.st_mode))
         return "";
@@ -32,7 +32,7 @@ std::string looksOf(const struct stat& info)
 void FileHashes::load(const std::string& path)
 {
     const std::optional<std::string> text = cache::readText(path);
-    const std::optional<cache::Fields> fields = text ? cache::entryFields(*text) : std::nullopt;
+    const std::optional<cache::Fields> fields = text ? cache::parseEntry(*text) : std::nullopt;
     if (!fields)
         return;
     for (const auto& [file, value] : *fields)
@@ -44,15 +44,15 @@ void FileHashes::load(const std::string& path)
 void FileHashes::save(const std::string& path) const
 {
     cache::Fields fields;
-    for (const auto& [file, known] : seen_)
-        if (!known.looks.empty())
-            fields.emplace_back(file, known.hash + " " + known.looks);
+    for (const auto& [file, known] : current_)
+        if (!known.metadata.empty())
+            fields.emplace_back(file, known.hash + " " + known.metadata);
     // an error does no harm: a stale file is correct or is not used
-    if (const std::string text = cache::entryText(fields); text != loaded_text_)
+    if (const std::string text = cache::formatEntry(fields); text != loaded_text_)
         static_cast<void>(writeText(path, text).ok());
 }
 
-std::optional<std::string> FileHashes::hashOf(const std::string& path)
+std::optional<std::string> FileHashes::hashFile(const std::string& path)
 {
     const std::string key = path.starts_with('/') ? path : folder_ + path;
     if (const auto asked = hash_of_path_.find(key); asked != hash_of_path_.end())
@@ -64,19 +64,20 @@ std::optional<std::string> FileHashes::hashOf(const std::string& path)
     ::clock_gettime(CLOCK_REALTIME, &now);
     if (::stat(key.c_str(), &info) != 0)
         return hash;
-    std::string looks = looksOf(info);
-    if (looks.empty())
+    std::string metadata = metadataText(info);
+    if (metadata.empty())
         return hash;
-    if (const auto known = remembered_.find(key); known != remembered_.end() && known->second.looks == looks)
+    if (const auto known = remembered_.find(key);
+        known != remembered_.end() && known->second.metadata == metadata)
     {
-        seen_[key] = known->second;
+        current_[key] = known->second;
         return hash = known->second.hash;
     }
-    hash = tools::sha256OfFile(key);
+    hash = tools::computeFileSha256(key);
     ++files_read_;
     const int64_t youngest = std::max(info.st_mtim.tv_sec, info.st_ctim.tv_sec);
-    if (hash && youngest + kTooYoung_s < now.tv_sec)
-        seen_[key] = {std::move(looks), *hash};
+    if (hash && youngest + kMinAge_s < now.tv_sec)
+        current_[key] = {std::move(metadata), *hash};
     return hash;
 }
 

@@ -28,20 +28,20 @@ public:
 
     /// Return the SHA-256 of the content; nullopt where there is no readable regular file. A file is read
     /// once: a cook sees one state of each file. Not thread-safe.
-    std::optional<std::string> hashOf(const std::string& path);
+    std::optional<std::string> hashFile(const std::string& path);
 
     /// Number of files that had to be read.
     size_t filesRead() const { return files_read_; }
 
 private:
-    struct Known
+    struct KnownHash
     {
-        std::string looks; ///< metadata of the file, as text
+        std::string metadata; ///< metadata of the file, as text
         std::string hash;
     };
-    std::map<std::string, Known> remembered_; ///< by absolute path
-    /// hashes asked for since load(), by absolute path; empty `looks`: not to be saved
-    std::map<std::string, Known> seen_;
+    std::map<std::string, KnownHash> remembered_; ///< by absolute path
+    /// hashes asked for since load(), by absolute path; empty `metadata`: not to be saved
+    std::map<std::string, KnownHash> current_;
     std::map<std::string, std::optional<std::string>> hash_of_path_;
     std::string folder_;
     std::string loaded_text_;

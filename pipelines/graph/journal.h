@@ -14,18 +14,18 @@ namespace hearth::graph
 {
 
 /// Outcome of an action.
-enum class Ending
+enum class Outcome
 {
-    unknown,  ///< the cook ended before it ran
-    cooked,   ///< its cooker ran
-    kept,     ///< cache hit
-    failed,   ///< its cooker failed
-    left_out, ///< skipped: an action that it depends on failed
+    unknown, ///< the cook ended before it ran
+    cooked,  ///< its cooker ran
+    cached,  ///< cache hit
+    failed,  ///< its cooker failed
+    skipped, ///< skipped: an action that it depends on failed
 };
 
 struct JournalAction
 {
-    Ending ending = Ending::unknown;
+    Outcome ending = Outcome::unknown;
     std::vector<std::string> causes; ///< reasons why it ran
     Record record;                   ///< empty where an input could not be read
 };

@@ -44,7 +44,7 @@ Json actionJson(const Action& action)
     return json;
 }
 
-Word wordOf(const Json& json)
+Word parseWord(const Json& json)
 {
     if (json.is_string())
         return {Word::Kind::text, json.get<std::string>(), 0};
@@ -53,7 +53,7 @@ Word wordOf(const Json& json)
             json.at(is_input ? "input" : "output").get<size_t>()};
 }
 
-Action actionOf(const Json& json)
+Action parseAction(const Json& json)
 {
     Action action;
     json.at("cooker").get_to(action.cooker);
@@ -61,7 +61,7 @@ Action actionOf(const Json& json)
     json.at("subject").get_to(action.subject);
     json.at("outputs").get_to(action.outputs);
     for (const Json& word : json.at("words"))
-        action.words.push_back(wordOf(word));
+        action.words.push_back(parseWord(word));
     for (const Json& input : json.at("inputs"))
         action.inputs.push_back(
             {input.at("role").get<std::string>(), input.value("action", kNoAction), input.value("path", "")});
@@ -73,7 +73,7 @@ Action actionOf(const Json& json)
 }
 
 /// True if every index is in range and each action comes after the actions that it reads from.
-bool holdsTogether(const Graph& graph)
+bool isConsistent(const Graph& graph)
 {
     for (size_t i = 0; i < graph.actions.size(); ++i)
     {
@@ -116,8 +116,8 @@ Result<Graph> parsePlan(std::string_view text, const std::string& file)
             return no_plan;
         json.at("sources").get_to(graph.source_count);
         for (const Json& action : json.at("actions"))
-            graph.actions.push_back(actionOf(action));
-        return holdsTogether(graph) ? Result<Graph>(std::move(graph)) : no_plan;
+            graph.actions.push_back(parseAction(action));
+        return isConsistent(graph) ? Result<Graph>(std::move(graph)) : no_plan;
     }
     catch (const JsonError&)
     {

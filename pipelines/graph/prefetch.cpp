@@ -7,7 +7,7 @@ namespace hearth::graph
 namespace
 {
 
-struct Question
+struct PendingLookup
 {
     size_t action = 0;
     Record record;
@@ -17,7 +17,7 @@ struct Question
 using PartHashes = std::vector<std::optional<std::string>>;
 
 /// Return the hashes of the action's inputs; nullopt where one is not known.
-std::optional<std::vector<std::string>> hashesOfInputs(const Action& action, const PartHashes& hash_of_action)
+std::optional<std::vector<std::string>> inputHashes(const Action& action, const PartHashes& hash_of_action)
 {
     std::vector<std::string> hashes;
     for (const Input& input : action.inputs)
@@ -29,53 +29,53 @@ std::optional<std::vector<std::string>> hashesOfInputs(const Action& action, con
     return hashes;
 }
 
-/// Return the actions that can be looked up now, and remove them from `left`.
-std::vector<Question> nextWave(const Graph& graph, ActionCache& actions, const PartHashes& hash_of_action,
-                               std::vector<size_t>& left)
+/// Return the actions that can be looked up now, and remove them from `remaining`.
+std::vector<PendingLookup> nextWave(const Graph& graph, ActionCache& actions,
+                                    const PartHashes& hash_of_action, std::vector<size_t>& remaining)
 {
-    std::vector<Question> wave;
+    std::vector<PendingLookup> wave;
     std::vector<size_t> later;
-    for (const size_t index : left)
+    for (const size_t index : remaining)
     {
         const Action& action = graph.actions[index];
-        const auto part_hashes = hashesOfInputs(action, hash_of_action);
+        const auto part_hashes = inputHashes(action, hash_of_action);
         if (!part_hashes)
             later.push_back(index);
-        else if (std::optional<Record> record = actions.recordOf(action, *part_hashes))
+        else if (std::optional<Record> record = actions.makeRecord(action, *part_hashes))
             wave.push_back({index, std::move(*record)});
     }
-    left = std::move(later);
+    remaining = std::move(later);
     return wave;
 }
 
 } // namespace
 
-void askAhead(const Graph& graph, cache::Cache& cache, ActionCache& actions)
+void prefetch(const Graph& graph, cache::Cache& cache, ActionCache& actions)
 {
     PartHashes hash_of_action(graph.actions.size());
-    std::vector<size_t> left;
+    std::vector<size_t> remaining;
     for (size_t i = 0; i < graph.actions.size(); ++i)
-        left.push_back(i);
+        remaining.push_back(i);
     for (;;)
     {
-        const std::vector<Question> wave = nextWave(graph, actions, hash_of_action, left);
+        const std::vector<PendingLookup> wave = nextWave(graph, actions, hash_of_action, remaining);
         if (wave.empty())
             return;
         std::vector<std::string> keys;
-        for (const Question& question : wave)
-            keys.push_back(graph.actions[question.action].finds_files ? findingsKey(question.record)
-                                                                      : resultKey(question.record));
-        cache.askAhead(keys);
+        for (const PendingLookup& lookup : wave)
+            keys.push_back(graph.actions[lookup.action].finds_files ? findingsKey(lookup.record)
+                                                                    : resultKey(lookup.record));
+        cache.prefetch(keys);
         keys.clear();
-        for (const Question& question : wave)
-            if (graph.actions[question.action].finds_files)
+        for (const PendingLookup& lookup : wave)
+            if (graph.actions[lookup.action].finds_files)
                 if (const auto record =
-                        actions.recordByFindings(graph.actions[question.action], question.record))
+                        actions.recordFromFindings(graph.actions[lookup.action], lookup.record))
                     keys.push_back(resultKey(*record));
-        cache.askAhead(keys);
-        for (const Question& question : wave)
-            if (const auto result = actions.find(graph.actions[question.action], question.record).result)
-                hash_of_action[question.action] = result->outputs.front().hash;
+        cache.prefetch(keys);
+        for (const PendingLookup& lookup : wave)
+            if (const auto result = actions.find(graph.actions[lookup.action], lookup.record).result)
+                hash_of_action[lookup.action] = result->outputs.front().hash;
     }
 }
 

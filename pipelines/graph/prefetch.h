@@ -8,9 +8,9 @@
 namespace hearth::graph
 {
 
-/// Prefetch, for cache::Cache::beforeFarIsAsked. Each wave has the actions whose input hashes are known by
+/// Prefetch, for cache::Cache::beforeRemoteLookup. Each wave has the actions whose input hashes are known by
 /// then: first those that read user files, then those that read their outputs, and so on. The actions behind
 /// a cache miss are not looked up, so that the only requests in vain are for actions that must run.
-void askAhead(const Graph& graph, cache::Cache& cache, ActionCache& actions);
+void prefetch(const Graph& graph, cache::Cache& cache, ActionCache& actions);
 
 } // namespace hearth::graph

@@ -17,14 +17,14 @@ constexpr double kSmallSeconds = 0.1;
 constexpr uint64_t kSmallPartBytes = uint64_t{1} << 20;
 // Below this number of small actions of a cooker, each starts a process of its own; from it on, a batch
 // process is worth keeping.
-constexpr std::ptrdiff_t kCrowd = 8;
+constexpr std::ptrdiff_t kMinBatchActions = 8;
 // Maximum queue of a batch behind its running action. It bridges the time until this process has handled a
 // result; a longer queue would keep actions from a process that becomes free.
-constexpr size_t kBehind = 4;
+constexpr size_t kMaxQueuedActions = 4;
 
 } // namespace
 
-Crew::Crew(const Graph& graph, const CrewLimits& limits)
+ProcessPool::ProcessPool(const Graph& graph, const PoolLimits& limits)
     : graph_(graph), limits_(limits), is_small_(graph.actions.size())
 {
     std::map<std::string, std::ptrdiff_t> count_of_cooker;
@@ -32,69 +32,70 @@ Crew::Crew(const Graph& graph, const CrewLimits& limits)
     for (const Action& action : graph.actions)
         count_of_cooker[action.cooker] += isQuick(action) ? 1 : 0;
     for (size_t i = 0; i < graph.actions.size(); ++i)
-        is_small_[i] = isQuick(graph.actions[i]) && count_of_cooker[graph.actions[i].cooker] >= kCrowd;
+        is_small_[i] =
+            isQuick(graph.actions[i]) && count_of_cooker[graph.actions[i].cooker] >= kMinBatchActions;
 }
 
-bool Crew::isSmall(size_t action, uint64_t part_bytes) const
+bool ProcessPool::isSmall(size_t action, uint64_t part_bytes) const
 {
     return is_small_[action] && part_bytes <= kSmallPartBytes;
 }
 
-unsigned Crew::busy() const
+unsigned ProcessPool::busyCount() const
 {
     return static_cast<unsigned>(std::count_if(processes_.begin(), processes_.end(),
                                                [](const auto& p) { return !p.second.actions.empty(); }));
 }
 
-bool Crew::isIdle() const
+bool ProcessPool::isIdle() const
 {
-    return busy() == 0;
+    return busyCount() == 0;
 }
 
 /// Return the batch with the shortest queue for a small action; nullopt: start a new one.
-std::optional<size_t> Crew::batchFor(size_t action) const
+std::optional<size_t> ProcessPool::findBatch(size_t action) const
 {
     auto best = processes_.end();
     for (auto process = processes_.begin(); process != processes_.end(); ++process)
         if (process->second.cooker == graph_.actions[action].cooker &&
             (best == processes_.end() || process->second.actions.size() < best->second.actions.size()))
             best = process;
-    if (best == processes_.end() || (!best->second.actions.empty() && busy() < limits_.all))
+    if (best == processes_.end() || (!best->second.actions.empty() && busyCount() < limits_.all))
         return std::nullopt;
     return best->first;
 }
 
 /// True if the action fits the memory limit.
 /// batch  in which the action would run; nullopt: a new process
-bool Crew::hasRoom(size_t action, std::optional<size_t> batch) const
+bool ProcessPool::fitsMemory(size_t action, std::optional<size_t> batch) const
 {
-    uint64_t others = 0;
+    uint64_t other_bytes = 0;
     uint64_t its = graph_.actions[action].estimate.memory_bytes;
     for (const auto& [id, process] : processes_)
         if (id == batch)
             its = std::max(its, process.memory_bytes);
         else
             // idle batches are ended when memory is short
-            others += process.actions.empty() ? 0 : process.memory_bytes;
-    return others == 0 || others + its <= limits_.memory_bytes;
+            other_bytes += process.actions.empty() ? 0 : process.memory_bytes;
+    return other_bytes == 0 || other_bytes + its <= limits_.memory_bytes;
 }
 
-bool Crew::canStart(size_t action, uint64_t part_bytes) const
+bool ProcessPool::canStart(size_t action, uint64_t part_bytes) const
 {
-    const unsigned at_work = busy();
+    const unsigned at_work = busyCount();
     if (!isSmall(action, part_bytes))
     {
         const auto large = std::count_if(processes_.begin(), processes_.end(),
                                          [](const auto& process) { return process.second.cooker.empty(); });
-        return large < limits_.large && at_work < limits_.all && hasRoom(action, std::nullopt);
+        return large < limits_.large && at_work < limits_.all && fitsMemory(action, std::nullopt);
     }
-    const std::optional<size_t> batch = batchFor(action);
+    const std::optional<size_t> batch = findBatch(action);
     const size_t ahead = batch ? processes_.at(*batch).actions.size() : 0;
-    return (ahead > 0 ? ahead <= kBehind : at_work < limits_.all) && hasRoom(action, batch);
+    return (ahead > 0 ? ahead <= kMaxQueuedActions : at_work < limits_.all) && fitsMemory(action, batch);
 }
 
 /// End idle batch processes, except `but`, to free their memory.
-void Crew::retireIdle(std::optional<size_t> but)
+void ProcessPool::endIdle(std::optional<size_t> but)
 {
     for (auto process = processes_.begin(); process != processes_.end();)
     {
@@ -105,28 +106,28 @@ void Crew::retireIdle(std::optional<size_t> but)
     }
 }
 
-Status Crew::startAlone(size_t action, const std::vector<std::string>& command)
+Status ProcessPool::startAlone(size_t action, const std::vector<std::string>& command)
 {
-    retireIdle(std::nullopt);
+    endIdle(std::nullopt);
     HEARTH_ASSIGN_OR_RETURN(const size_t child, children_.start(command));
     processes_[child] = {"", {action}, graph_.actions[action].estimate.memory_bytes};
     return success();
 }
 
-Status Crew::start(size_t action, uint64_t part_bytes, const std::vector<std::string>& command)
+Status ProcessPool::start(size_t action, uint64_t part_bytes, const std::vector<std::string>& command)
 {
     if (!isSmall(action, part_bytes))
         return startAlone(action, command);
-    const auto line = tools::batchLine(std::span(command).subspan(1));
+    const auto line = tools::makeBatchLine(std::span(command).subspan(1));
     if (!line)
         return startAlone(action, command);
 
-    std::optional<size_t> batch = batchFor(action);
-    uint64_t in_all = graph_.actions[action].estimate.memory_bytes;
+    std::optional<size_t> batch = findBatch(action);
+    uint64_t total_bytes = graph_.actions[action].estimate.memory_bytes;
     for (const auto& [id, process] : processes_)
-        in_all += process.memory_bytes;
-    if (in_all > limits_.memory_bytes)
-        retireIdle(batch);
+        total_bytes += process.memory_bytes;
+    if (total_bytes > limits_.memory_bytes)
+        endIdle(batch);
     if (!batch)
     {
         HEARTH_ASSIGN_OR_RETURN(batch, children_.startBatch(command[0]));
@@ -135,32 +136,32 @@ Status Crew::start(size_t action, uint64_t part_bytes, const std::vector<std::st
     Process& process = processes_[*batch];
     process.actions.push_back(action);
     process.memory_bytes = std::max(process.memory_bytes, graph_.actions[action].estimate.memory_bytes);
-    children_.give(*batch, *line);
+    children_.sendCommandLine(*batch, *line);
     return success();
 }
 
-std::optional<CrewEnd> Crew::wait(const std::function<void()>& waiting)
+std::optional<ActionEnd> ProcessPool::wait(const std::function<void()>& waiting)
 {
-    std::optional<tools::ChildEnd> end = children_.wait(waiting);
+    std::optional<tools::ChildOutcome> end = children_.wait(waiting);
     if (!end)
         return std::nullopt;
-    CrewEnd crew_end;
+    ActionEnd action_end;
     if (const auto process = processes_.find(end->id); process != processes_.end())
     {
         std::deque<size_t>& actions = process->second.actions;
         if (!actions.empty())
         {
-            crew_end.action = actions.front();
+            action_end.action = actions.front();
             actions.pop_front();
         }
         if (!end->is_alive)
         {
-            crew_end.not_begun.assign(actions.begin(), actions.end());
+            action_end.not_begun.assign(actions.begin(), actions.end());
             processes_.erase(process);
         }
     }
-    crew_end.end = std::move(*end);
-    return crew_end;
+    action_end.end = std::move(*end);
+    return action_end;
 }
 
 } // namespace hearth::graph

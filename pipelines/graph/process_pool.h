@@ -16,7 +16,7 @@
 namespace hearth::graph
 {
 
-struct CrewLimits
+struct PoolLimits
 {
     unsigned large = 2;        ///< concurrent processes for large actions, which use all cores themselves
     unsigned all = 2;          ///< concurrent processes at work; a batch of small actions uses one core
@@ -24,19 +24,19 @@ struct CrewLimits
 };
 
 /// End of an action.
-struct CrewEnd
+struct ActionEnd
 {
     size_t action = kNoAction; ///< kNoAction where an idle process ended
-    tools::ChildEnd end;
+    tools::ChildOutcome end;
     /// Actions that were queued in a process that has died: they were not begun and must be started again.
     std::vector<size_t> not_begun;
 };
 
 /// Process pool. Signals are handled as in tools::ChildProcesses while it lives.
-class Crew
+class ProcessPool
 {
 public:
-    Crew(const Graph& graph, const CrewLimits& limits);
+    ProcessPool(const Graph& graph, const PoolLimits& limits);
 
     /// True if the action may start now.
     /// part_bytes  size of its inputs that earlier actions made
@@ -51,7 +51,7 @@ public:
     /// Wait until an action ends; nullopt where a signal asks this process to end. Precondition: something
     /// runs.
     /// waiting  as in tools::ChildProcesses::wait()
-    std::optional<CrewEnd> wait(const std::function<void()>& waiting = {});
+    std::optional<ActionEnd> wait(const std::function<void()>& waiting = {});
 
 private:
     struct Process
@@ -62,14 +62,14 @@ private:
     };
 
     bool isSmall(size_t action, uint64_t part_bytes) const;
-    std::optional<size_t> batchFor(size_t action) const;
-    bool hasRoom(size_t action, std::optional<size_t> batch) const;
-    unsigned busy() const;
+    std::optional<size_t> findBatch(size_t action) const;
+    bool fitsMemory(size_t action, std::optional<size_t> batch) const;
+    unsigned busyCount() const;
     Status startAlone(size_t action, const std::vector<std::string>& command);
-    void retireIdle(std::optional<size_t> but);
+    void endIdle(std::optional<size_t> but);
 
     const Graph& graph_;
-    CrewLimits limits_;
+    PoolLimits limits_;
     std::vector<bool> is_small_; ///< for each action, by its estimate
     tools::ChildProcesses children_;
     std::map<size_t, Process> processes_; ///< by child id

@@ -10,7 +10,7 @@ namespace hearth::graph
 
 /// Return the record with the current hashes of the files that the last run found, so that it can be compared
 /// with the record of that run.
-Record Resolver::comparable(size_t action, const std::optional<Record>& record)
+Record Resolver::comparableRecord(size_t action, const std::optional<Record>& record)
 {
     if (!record)
         return {};
@@ -19,33 +19,33 @@ Record Resolver::comparable(size_t action, const std::optional<Record>& record)
     const auto isFound = [](const auto& field) { return field.first.starts_with(kFound); };
     if (!journal || std::any_of(now.begin(), now.end(), isFound) || !graph_.actions[action].finds_files)
         return now;
-    if (const JournalAction* last = lastOf(graph_.actions[action], graph_, *journal))
-        for (const auto& field : actions_->refreshed(graph_.actions[action], last->record))
+    if (const JournalAction* last = findLastAction(graph_.actions[action], graph_, *journal))
+        for (const auto& field : actions_->withCurrentHashes(graph_.actions[action], last->record))
             if (field.first.starts_with(kFound))
                 now.push_back(field);
     return now;
 }
 
-Resolved Resolver::resolve(size_t index, const std::vector<std::string>& part_hashes)
+Resolution Resolver::resolve(size_t index, const std::vector<std::string>& part_hashes)
 {
     const Action& action = graph_.actions[index];
     if (cache_ == nullptr)
         return {std::nullopt, std::nullopt, {"no cache is used"}};
-    Situation situation;
-    Resolved resolved;
-    resolved.record = actions_->recordOf(action, part_hashes);
-    situation.is_forced = is_forced_;
+    ActionState state;
+    Resolution resolved;
+    resolved.record = actions_->makeRecord(action, part_hashes);
+    state.is_forced = is_forced_;
     if (resolved.record && !is_forced_)
     {
-        ActionCache::Found found = actions_->find(action, *resolved.record);
+        ActionCache::LookupResult found = actions_->find(action, *resolved.record);
         resolved.record = std::move(found.record);
         resolved.result = std::move(found.result);
-        situation.is_damaged = found.is_damaged;
+        state.is_damaged = found.is_damaged;
     }
     if (resolved.result)
         return resolved;
-    situation.record = comparable(index, resolved.record);
-    resolved.causes = causesOf(action, graph_, situation, journal_());
+    state.record = comparableRecord(index, resolved.record);
+    resolved.causes = findCauses(action, graph_, state, journal_());
     return resolved;
 }
 
@@ -53,10 +53,10 @@ std::vector<std::string> Resolver::causesAfter(size_t index, const std::vector<s
 {
     if (cache_ == nullptr)
         return {"no cache is used"};
-    Situation situation;
-    situation.is_forced = is_forced_;
-    situation.waits_for = cookers;
-    return causesOf(graph_.actions[index], graph_, situation, journal_());
+    ActionState state;
+    state.is_forced = is_forced_;
+    state.pending_cookers = cookers;
+    return findCauses(graph_.actions[index], graph_, state, journal_());
 }
 
 Forecast forecast(const Graph& graph, Resolver& resolver)
@@ -80,7 +80,7 @@ Forecast forecast(const Graph& graph, Resolver& resolver)
             forecast.actions.push_back({true, resolver.causesAfter(i, runs_before)});
             continue;
         }
-        const Resolved resolved = resolver.resolve(i, part_hashes);
+        const Resolution resolved = resolver.resolve(i, part_hashes);
         forecast.actions.push_back({!resolved.result, resolved.causes});
         if (resolved.result)
             hash_of_action[i] = resolved.result->outputs.front().hash;

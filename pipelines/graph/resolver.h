@@ -13,11 +13,11 @@
 namespace hearth::graph
 {
 
-struct Resolved
+struct Resolution
 {
-    std::optional<Record> record;     ///< nullopt: the result cannot be cached
-    std::optional<KeptResult> result; ///< nullopt: the action must run
-    std::vector<std::string> causes;  ///< reasons to run it
+    std::optional<Record> record;       ///< nullopt: the result cannot be cached
+    std::optional<CachedResult> result; ///< nullopt: the action must run
+    std::vector<std::string> causes;    ///< reasons to run it
 };
 
 using JournalSource = std::function<const std::optional<Journal>&()>;
@@ -35,13 +35,13 @@ public:
 
     /// Look an action up.
     /// part_hashes  SHA-256 of each input that an action makes
-    Resolved resolve(size_t action, const std::vector<std::string>& part_hashes);
+    Resolution resolve(size_t action, const std::vector<std::string>& part_hashes);
 
     /// Return the causes of an action that reads outputs which other actions have yet to make.
     std::vector<std::string> causesAfter(size_t action, const std::vector<std::string>& cookers) const;
 
 private:
-    Record comparable(size_t action, const std::optional<Record>& record);
+    Record comparableRecord(size_t action, const std::optional<Record>& record);
 
     const Graph& graph_;
     cache::Cache* cache_;
@@ -58,8 +58,8 @@ struct Forecast
         bool runs = false;
         std::vector<std::string> causes;
     };
-    std::vector<Entry> actions;       ///< [graph.actions.size()]
-    std::optional<KeptOutput> result; ///< the pack, if nothing has to run
+    std::vector<Entry> actions;         ///< [graph.actions.size()]
+    std::optional<CachedOutput> result; ///< the pack, if nothing has to run
 };
 Forecast forecast(const Graph& graph, Resolver& resolver);
 

@@ -5,8 +5,8 @@
 #include "pipelines/import/images/decode.h"
 #include "pipelines/import/part/import_options.h"
 #include "pipelines/import/part/part_builder.h"
-#include "pipelines/import/scans/file.h"
 #include "pipelines/import/scans/obj_materials.h"
+#include "pipelines/import/scans/scan_polygons.h"
 
 namespace hearth::import
 {

@@ -3,14 +3,14 @@
 #include "cook/animation_compression/clip_settings.h"
 #include "cook/command_line/command_line.h"
 #include "cook/tools/batch.h"
+#include "cook/tools/dependency_list.h"
 #include "cook/tools/lod_files.h"
-#include "cook/tools/read_list.h"
 #include "formats/base/atomic_file.h"
 #include "formats/base/program.h"
 #include "formats/base/temp_directory.h"
 #include "formats/base/text.h"
-#include "pipelines/import/authored_files.h"
-#include "pipelines/import/part/part_clips.h"
+#include "pipelines/import/authored_lods.h"
+#include "pipelines/import/part/compress_part_clips.h"
 #include "pipelines/import/part/source_space.h"
 #include "pipelines/import/read_source.h"
 
@@ -41,12 +41,12 @@ void printWarnings(const import::PartBuilder& part)
 {
     for (const Error& warning : part.warnings())
         std::fprintf(stderr, "%s\n", formatMessage(warning).c_str());
-    if (part.warningsLeftOut() > 0)
+    if (part.omittedWarningCount() > 0)
         std::fprintf(stderr, "and %llu more warnings\n",
-                     static_cast<unsigned long long>(part.warningsLeftOut()));
+                     static_cast<unsigned long long>(part.omittedWarningCount()));
 }
 
-Status readAll(const Arguments& arguments, std::span<const tools::LodFile> lods, tools::ReadList& reads,
+Status readAll(const Arguments& arguments, std::span<const tools::LodFile> lods, tools::DependencyList& reads,
                import::PartBuilder& part)
 {
     import::ImportOptions options;
@@ -58,20 +58,21 @@ Status readAll(const Arguments& arguments, std::span<const tools::LodFile> lods,
         return success();
     HEARTH_ASSIGN_OR_RETURN(
         const TempDirectory folder,
-        TempDirectory::create(temporaryOr(parentFolder(arguments.output)), arguments.output));
-    return import::addAuthoredFiles(lods, folder.path(), options, part);
+        TempDirectory::create(temporaryFolderOr(parentFolder(arguments.output)), arguments.output));
+    return import::addAuthoredLods(lods, folder.path(), options, part);
 }
 
-Result<clips::StatedError> statedError(const Arguments& arguments)
+Result<animation_compression::StatedError> statedError(const Arguments& arguments)
 {
     if (!arguments.profile.empty())
-        return clips::readStatedError(arguments.profile);
-    return clips::parseStatedError(joinLines(arguments.settings), "--set");
+        return animation_compression::readStatedError(arguments.profile);
+    return animation_compression::parseStatedError(joinLines(arguments.settings), "--set");
 }
 
-Status finish(const Arguments& arguments, const clips::StatedError& stated_error, import::PartBuilder& part)
+Status finish(const Arguments& arguments, const animation_compression::StatedError& stated_error,
+              import::PartBuilder& part)
 {
-    HEARTH_TRY(import::bringIntoMetres(
+    HEARTH_TRY(import::convertToMetres(
         {arguments.scale, arguments.up == "z" ? import::UpAxis::z : import::UpAxis::y}, part));
     import::compressClips(part, stated_error);
     HEARTH_TRY(part.finish());
@@ -80,10 +81,10 @@ Status finish(const Arguments& arguments, const clips::StatedError& stated_error
 
 Status run(const Arguments& arguments)
 {
-    tools::ReadList reads;
+    tools::DependencyList reads;
     if (!arguments.profile.empty() && !arguments.depfile.empty())
         reads.addFile(arguments.profile);
-    HEARTH_ASSIGN_OR_RETURN(const clips::StatedError stated_error, statedError(arguments));
+    HEARTH_ASSIGN_OR_RETURN(const animation_compression::StatedError stated_error, statedError(arguments));
     HEARTH_ASSIGN_OR_RETURN(const std::vector<tools::LodFile> lods, tools::parseLodFiles(arguments.lods));
     HEARTH_ASSIGN_OR_RETURN(import::PartBuilder part,
                             import::PartBuilder::create(arguments.output, arguments.source));
@@ -112,7 +113,7 @@ int program(int argc, char** argv)
         .range(0.0, 180.0);
     app.addOption("--scale", arguments.scale, "metres of a unit of the source, as 0.01 of centimetres")
         .showDefault()
-        .range(import::kLeastScale, import::kLargestScale);
+        .range(import::kMinScale, import::kMaxScale);
     app.addOption("--up", arguments.up, "the axis of the source that points up")
         .choices({"y", "z"})
         .showDefault();
@@ -134,7 +135,7 @@ int program(int argc, char** argv)
     if (const std::optional<int> exit_code = app.parse(argc, argv))
         return *exit_code;
     const Status status = run(arguments);
-    return status.ok() ? 0 : reportFailure(import::shortened(status.error()));
+    return status.ok() ? 0 : reportFailure(import::truncateTexts(status.error()));
 }
 
 } // namespace

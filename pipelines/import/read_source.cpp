@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/read_source.h"
 
-#include "pipelines/import/gltf/reader.h"
+#include "pipelines/import/gltf/import_gltf.h"
 #include "pipelines/import/image_card.h"
 #include "pipelines/import/images/decode.h"
 #include "pipelines/import/part/import_options.h"
 #include "pipelines/import/part/part_builder.h"
-#include "pipelines/import/scans/import.h"
+#include "pipelines/import/scans/import_scan.h"
 #include "pipelines/import/source/file_bytes.h"
 
 #include "pipelines/import/source/asset_folder.h"
@@ -42,7 +42,7 @@ Status readSource(const std::string& path, const ImportOptions& options, PartBui
 {
     HEARTH_ASSIGN_OR_RETURN(const FileBytes file, FileBytes::read(path, options.limits.max_file_bytes));
     if (options.reads != nullptr)
-        noteRead(*options.reads, path, file);
+        recordRead(*options.reads, path, file);
     part.addSource(path.substr(path.rfind('/') + 1), file.bytes().size(), file.hash());
     const std::span<const std::byte> bytes = file.bytes();
     if (looksLikeGltf(path, bytes))
@@ -51,7 +51,7 @@ Status readSource(const std::string& path, const ImportOptions& options, PartBui
         HEARTH_TRY(importImage(path, bytes, options, part));
     else
         HEARTH_TRY(importScan(path, bytes, options, part));
-    return file.unchanged();
+    return file.checkUnchanged();
 }
 
 } // namespace hearth::import

@@ -11,8 +11,8 @@ namespace hearth::link
 /// of its meshes, and for deformed meshes from the boxes of their finest clusters, transformed by the joints
 /// that move them. Rounded outwards; empty if nothing is drawn. The parts need not be checked: records with
 /// invalid references are skipped.
-/// errors: those of formats::checkMotion if a mesh is deformed.
-Result<Box3> boundsAtRest(const formats::PackView& import_part, const formats::PackView& clusters_part,
-                          const formats::PackView& skinning_part);
+/// errors: those of formats::checkAnimationTables if a mesh is deformed.
+Result<Box3> computeRestBounds(const formats::PackView& import_part, const formats::PackView& clusters_part,
+                               const formats::PackView& skinning_part);
 
 } // namespace hearth::link

@@ -4,7 +4,7 @@
 #include "formats/container/container_writer.h"
 #include "formats/pack/pack_check.h"
 #include "pipelines/link/asset_bounds.h"
-#include "pipelines/link/merged_meta.h"
+#include "pipelines/link/merge_meta.h"
 #include "pipelines/link/rebase.h"
 #include "pipelines/verify/verify_pack.h"
 
@@ -37,7 +37,7 @@ struct Source
     Records<DeformedGroupRecord> deformed_groups; ///< of the skinning part
     std::string name;                             ///< of the asset
     StringRef name_ref{};                         ///< in the merged strings
-    Offsets offsets{};
+    TableOffsets offsets{};
 };
 
 Result<PackView> openPart(const std::string& path)
@@ -58,7 +58,7 @@ uint64_t countChunks(const ContainerReader& reader, uint32_t type)
 }
 
 /// Check that the parts are of the same source: the cookers keep the numbers of meshes and images.
-Status checkTogether(const Source& source)
+Status checkSameSource(const Source& source)
 {
     const auto differ = [](const PackView& part, const char* what, uint64_t has, uint64_t expected)
     {
@@ -89,17 +89,17 @@ Result<Source> openSource(const SourceParts& parts)
     HEARTH_ASSIGN_OR_RETURN(PackView skinning_part, openPart(parts.skinning_part));
     HEARTH_ASSIGN_OR_RETURN(Records<DeformedGroupRecord> deformed_groups,
                             skinning_part.container().records<DeformedGroupRecord>(kChunkDeformedGroups));
-    std::string name = assetNameOf(import_part.meta());
+    std::string name = readAssetName(import_part.meta());
     Source source{std::move(import_part),   std::move(clusters_part),   std::move(textures_part),
                   std::move(skinning_part), std::move(deformed_groups), std::move(name)};
-    HEARTH_TRY(checkTogether(source));
+    HEARTH_TRY(checkSameSource(source));
     return source;
 }
 
 /// Advance the start of a table by `count` records; return false if the table grows past 32-bit indices.
-bool advance(uint32_t& offset, uint64_t count)
+bool advanceOffset(uint32_t& offset, uint64_t count)
 {
-    if (count >= kNone - uint64_t{offset})
+    if (count >= kInvalidIndex - uint64_t{offset})
         return false;
     offset += static_cast<uint32_t>(count);
     return true;
@@ -111,7 +111,7 @@ uint64_t alignedPageBytes(const PackView& clusters_part)
 }
 
 /// Compute the offsets of the source after `source`. Return false if a table grows past 32-bit indices.
-bool advancePast(const Source& source, Offsets& next)
+bool advanceOffsets(const Source& source, TableOffsets& next)
 {
     const PackView& scene = source.import_part;
     const PackView& meshes = source.clusters_part;
@@ -119,38 +119,45 @@ bool advancePast(const Source& source, Offsets& next)
     next = source.offsets;
     next.strings = source.offsets.mesh_strings;
     next.page_bytes += alignedPageBytes(meshes);
-    return advance(next.strings, meshes.strings().size()) && advance(next.nodes, scene.nodes().size()) &&
-           advance(next.lights, scene.lights().size()) && advance(next.materials, scene.materials().size()) &&
-           advance(next.images, scene.images().size()) && advance(next.skins, scene.skins().size()) &&
-           advance(next.joints, scene.joints().size()) && advance(next.channels, scene.channels().size()) &&
-           advance(next.keys, scene.keys().size()) && advance(next.key_words, scene.keyBits().size()) &&
-           advance(next.morph_weights, scene.morphWeights().size()) &&
-           advance(next.meshes, meshes.meshes().size()) && advance(next.levels, meshes.levels().size()) &&
-           advance(next.groups, meshes.groups().size()) && advance(next.clusters, meshes.clusters().size()) &&
-           advance(next.pages, meshes.pages().size()) &&
-           advance(next.page_parents, meshes.pageParents().size()) &&
-           advance(next.deformed_clusters, deformed.deformedClusters().size()) &&
-           advance(next.cluster_joints, deformed.clusterJoints().size());
+    return advanceOffset(next.strings, meshes.strings().size()) &&
+           advanceOffset(next.nodes, scene.nodes().size()) &&
+           advanceOffset(next.lights, scene.lights().size()) &&
+           advanceOffset(next.materials, scene.materials().size()) &&
+           advanceOffset(next.images, scene.images().size()) &&
+           advanceOffset(next.skins, scene.skins().size()) &&
+           advanceOffset(next.joints, scene.joints().size()) &&
+           advanceOffset(next.channels, scene.channels().size()) &&
+           advanceOffset(next.keys, scene.keys().size()) &&
+           advanceOffset(next.key_words, scene.keyBits().size()) &&
+           advanceOffset(next.morph_weights, scene.morphWeights().size()) &&
+           advanceOffset(next.meshes, meshes.meshes().size()) &&
+           advanceOffset(next.levels, meshes.levels().size()) &&
+           advanceOffset(next.groups, meshes.groups().size()) &&
+           advanceOffset(next.clusters, meshes.clusters().size()) &&
+           advanceOffset(next.pages, meshes.pages().size()) &&
+           advanceOffset(next.page_parents, meshes.pageParents().size()) &&
+           advanceOffset(next.deformed_clusters, deformed.deformedClusters().size()) &&
+           advanceOffset(next.cluster_joints, deformed.clusterJoints().size());
 }
 
 /// Compute the offsets of every source in the merged tables; the sources' names follow all other strings.
-Status placeSources(std::vector<Source>& sources, const std::string& output)
+Status assignOffsets(std::vector<Source>& sources, const std::string& output)
 {
     const Error too_large{Issue::input_too_large, output, "",
                           "the sources together are too large for one pack"};
-    Offsets next;
+    TableOffsets next;
     for (Source& source : sources)
     {
         source.offsets = next;
         source.offsets.mesh_strings = next.strings;
-        if (!advance(source.offsets.mesh_strings, source.import_part.strings().size()) ||
-            !advancePast(source, next))
+        if (!advanceOffset(source.offsets.mesh_strings, source.import_part.strings().size()) ||
+            !advanceOffsets(source, next))
             return too_large;
     }
     for (Source& source : sources)
     {
         source.name_ref = {next.strings, static_cast<uint32_t>(source.name.size())};
-        if (!advance(next.strings, source.name.size()))
+        if (!advanceOffset(next.strings, source.name.size()))
             return too_large;
     }
     return success();
@@ -162,7 +169,7 @@ Status writeMeta(ContainerWriter& writer, std::span<const Source> sources, const
     for (const Source& source : sources)
         metas.push_back(
             {source.import_part.meta(), source.clusters_part.meta(), source.textures_part.meta()});
-    HEARTH_ASSIGN_OR_RETURN(const std::string text, mergedMeta(metas, output));
+    HEARTH_ASSIGN_OR_RETURN(const std::string text, mergeMeta(metas, output));
     return writer.addText(kChunkMeta, text);
 }
 
@@ -187,7 +194,8 @@ Status writeAssets(ContainerWriter& writer, std::span<const Source> sources)
     {
         const auto count = [](auto table) { return static_cast<uint32_t>(table.size()); };
         const PackView& scene = source.import_part;
-        HEARTH_ASSIGN_OR_RETURN(Box3 box, boundsAtRest(scene, source.clusters_part, source.skinning_part));
+        HEARTH_ASSIGN_OR_RETURN(Box3 box,
+                                computeRestBounds(scene, source.clusters_part, source.skinning_part));
         if (box.empty())
             box = {{0, 0, 0}, {0, 0, 0}};
         assets.push_back({.name = source.name_ref,
@@ -396,7 +404,7 @@ Status writePack(const std::string& path, std::span<const Source> sources,
 }
 
 /// Check the pack as the runtime will read it, before it appears under its name.
-Status checkWritten(const std::string& path)
+Status checkPackFile(const std::string& path)
 {
     HEARTH_ASSIGN_OR_RETURN(ContainerReader reader, ContainerReader::open(path));
     HEARTH_ASSIGN_OR_RETURN(const PackView pack, PackView::read(std::move(reader)));
@@ -414,14 +422,14 @@ Status linkPack(std::span<const SourceParts> sources, const std::string& output,
         HEARTH_ASSIGN_OR_RETURN(Source source, openSource(parts));
         opened.push_back(std::move(source));
     }
-    HEARTH_TRY(placeSources(opened, output));
+    HEARTH_TRY(assignOffsets(opened, output));
     HEARTH_ASSIGN_OR_RETURN(const std::vector<SpecularTableRecord> specular, readSpecular(specular_parts));
     HEARTH_ASSIGN_OR_RETURN(const std::optional<PackView> bricks, openBricks(bricks_part));
 
     const std::string unchecked = output + ".unchecked-" + std::to_string(::getpid());
     Status status = writePack(unchecked, opened, specular, bricks);
     if (status.ok())
-        status = checkWritten(unchecked);
+        status = checkPackFile(unchecked);
     if (status.ok() && ::rename(unchecked.c_str(), output.c_str()) != 0)
         status =
             Error{Issue::cannot_write, output, "", std::string("cannot rename: ") + std::strerror(errno)};

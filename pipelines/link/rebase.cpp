@@ -13,162 +13,162 @@ namespace
 
 // Add an offset to an index. A damaged part can make these sums wrap. That is harmless: nothing is looked up
 // with them before checkPack has checked the whole pack.
-void shift(uint32_t& index, uint32_t by)
+void addOffset(uint32_t& index, uint32_t by)
 {
-    if (index != kNone)
+    if (index != kInvalidIndex)
         index += by;
 }
 
-void shift(Range& range, uint32_t by)
+void addOffset(Range& range, uint32_t by)
 {
     range.first += by;
 }
 
-void shift(StringRef& text, uint32_t by)
+void addOffset(StringRef& text, uint32_t by)
 {
     if (text.length > 0)
         text.offset += by;
 }
 
-void shift(TextureRef& texture, uint32_t by)
+void addOffset(TextureRef& texture, uint32_t by)
 {
-    shift(texture.image, by);
+    addOffset(texture.image, by);
 }
 
 } // namespace
 
-void rebase(NodeRecord& node, const Offsets& offsets)
+void rebase(NodeRecord& node, const TableOffsets& offsets)
 {
-    shift(node.name, offsets.strings);
-    shift(node.parent, offsets.nodes);
-    shift(node.mesh, offsets.meshes);
-    shift(node.skin, offsets.skins);
-    shift(node.morph_weights, offsets.morph_weights);
+    addOffset(node.name, offsets.strings);
+    addOffset(node.parent, offsets.nodes);
+    addOffset(node.mesh, offsets.meshes);
+    addOffset(node.skin, offsets.skins);
+    addOffset(node.morph_weights, offsets.morph_weights);
 }
 
-void rebase(InstanceRecord& instance, const Offsets& offsets)
+void rebase(InstanceRecord& instance, const TableOffsets& offsets)
 {
-    shift(instance.mesh, offsets.meshes);
-    shift(instance.node, offsets.nodes);
+    addOffset(instance.mesh, offsets.meshes);
+    addOffset(instance.node, offsets.nodes);
 }
 
-void rebase(CameraRecord& camera, const Offsets& offsets)
+void rebase(CameraRecord& camera, const TableOffsets& offsets)
 {
-    shift(camera.name, offsets.strings);
-    shift(camera.node, offsets.nodes);
+    addOffset(camera.name, offsets.strings);
+    addOffset(camera.node, offsets.nodes);
 }
 
-void rebase(LightRecord& light, const Offsets& offsets)
+void rebase(LightRecord& light, const TableOffsets& offsets)
 {
-    shift(light.name, offsets.strings);
-    shift(light.node, offsets.nodes);
+    addOffset(light.name, offsets.strings);
+    addOffset(light.node, offsets.nodes);
 }
 
-void rebase(ShadowSphereRecord& sphere, const Offsets& offsets)
+void rebase(ShadowSphereRecord& sphere, const TableOffsets& offsets)
 {
-    shift(sphere.node, offsets.nodes);
-    shift(sphere.light, offsets.lights);
+    addOffset(sphere.node, offsets.nodes);
+    addOffset(sphere.light, offsets.lights);
 }
 
-void rebase(MaterialRecord& material, const Offsets& offsets)
+void rebase(MaterialRecord& material, const TableOffsets& offsets)
 {
-    shift(material.name, offsets.strings);
-    shift(material.base_color_texture, offsets.images);
-    shift(material.metallic_roughness_texture, offsets.images);
-    shift(material.normal_texture, offsets.images);
-    shift(material.occlusion_texture, offsets.images);
-    shift(material.emissive_texture, offsets.images);
+    addOffset(material.name, offsets.strings);
+    addOffset(material.base_color_texture, offsets.images);
+    addOffset(material.metallic_roughness_texture, offsets.images);
+    addOffset(material.normal_texture, offsets.images);
+    addOffset(material.occlusion_texture, offsets.images);
+    addOffset(material.emissive_texture, offsets.images);
 }
 
-void rebase(ImageRecord& image, const Offsets& offsets)
+void rebase(ImageRecord& image, const TableOffsets& offsets)
 {
-    shift(image.name, offsets.strings);
+    addOffset(image.name, offsets.strings);
 }
 
-void rebase(SkinRecord& skin, const Offsets& offsets)
+void rebase(SkinRecord& skin, const TableOffsets& offsets)
 {
-    shift(skin.name, offsets.strings);
-    shift(skin.skeleton_root, offsets.nodes);
-    shift(skin.joints, offsets.joints);
+    addOffset(skin.name, offsets.strings);
+    addOffset(skin.skeleton_root, offsets.nodes);
+    addOffset(skin.joints, offsets.joints);
 }
 
-void rebase(JointRecord& joint, const Offsets& offsets)
+void rebase(JointRecord& joint, const TableOffsets& offsets)
 {
-    shift(joint.node, offsets.nodes);
+    addOffset(joint.node, offsets.nodes);
 }
 
-void rebase(AnimationRecord& animation, const Offsets& offsets)
+void rebase(AnimationRecord& animation, const TableOffsets& offsets)
 {
-    shift(animation.name, offsets.strings);
-    shift(animation.channels, offsets.channels);
+    addOffset(animation.name, offsets.strings);
+    addOffset(animation.channels, offsets.channels);
 }
 
-void rebase(AnimationChannelRecord& channel, const Offsets& offsets)
+void rebase(AnimationChannelRecord& channel, const TableOffsets& offsets)
 {
-    shift(channel.node, offsets.nodes);
-    shift(channel.first_time, offsets.keys);
-    shift(channel.first_value, offsets.keys);
+    addOffset(channel.node, offsets.nodes);
+    addOffset(channel.first_time, offsets.keys);
+    addOffset(channel.first_value, offsets.keys);
     if (isPacked(channel))
-        shift(channel.first_word, offsets.key_words);
+        addOffset(channel.first_word, offsets.key_words);
 }
 
-void rebase(MeshRecord& mesh, const Offsets& offsets)
+void rebase(MeshRecord& mesh, const TableOffsets& offsets)
 {
-    shift(mesh.name, offsets.mesh_strings);
-    shift(mesh.levels, offsets.levels);
-    shift(mesh.groups, offsets.groups);
-    shift(mesh.clusters, offsets.clusters);
-    shift(mesh.pages, offsets.pages);
+    addOffset(mesh.name, offsets.mesh_strings);
+    addOffset(mesh.levels, offsets.levels);
+    addOffset(mesh.groups, offsets.groups);
+    addOffset(mesh.clusters, offsets.clusters);
+    addOffset(mesh.pages, offsets.pages);
 }
 
-void rebase(LevelRecord& level, const Offsets& offsets)
+void rebase(LevelRecord& level, const TableOffsets& offsets)
 {
-    shift(level.clusters, offsets.clusters);
+    addOffset(level.clusters, offsets.clusters);
 }
 
-void rebase(GroupRecord& group, const Offsets& offsets)
+void rebase(GroupRecord& group, const TableOffsets& offsets)
 {
-    shift(group.clusters, offsets.clusters);
-    shift(group.page, offsets.pages);
+    addOffset(group.clusters, offsets.clusters);
+    addOffset(group.page, offsets.pages);
 }
 
-void rebase(ClusterRecord& cluster, const Offsets& offsets)
+void rebase(ClusterRecord& cluster, const TableOffsets& offsets)
 {
-    shift(cluster.material, offsets.materials);
-    shift(cluster.page, offsets.pages);
-    shift(cluster.group, offsets.groups);
-    shift(cluster.refined_group, offsets.groups);
+    addOffset(cluster.material, offsets.materials);
+    addOffset(cluster.page, offsets.pages);
+    addOffset(cluster.group, offsets.groups);
+    addOffset(cluster.refined_group, offsets.groups);
 }
 
-void rebase(PageRecord& page, const Offsets& offsets)
+void rebase(PageRecord& page, const TableOffsets& offsets)
 {
     page.offset += offsets.page_bytes;
-    shift(page.mesh, offsets.meshes);
-    shift(page.clusters, offsets.clusters);
-    shift(page.parents, offsets.page_parents);
+    addOffset(page.mesh, offsets.meshes);
+    addOffset(page.clusters, offsets.clusters);
+    addOffset(page.parents, offsets.page_parents);
 }
 
-void rebase(AuthoredLevelRecord& level, const Offsets& offsets)
+void rebase(AuthoredLevelRecord& level, const TableOffsets& offsets)
 {
-    shift(level.mesh, offsets.meshes);
-    shift(level.name, offsets.mesh_strings);
+    addOffset(level.mesh, offsets.meshes);
+    addOffset(level.name, offsets.mesh_strings);
 }
 
-void rebase(DeformedMeshRecord& mesh, const Offsets& offsets)
+void rebase(DeformedMeshRecord& mesh, const TableOffsets& offsets)
 {
-    shift(mesh.mesh, offsets.meshes);
-    shift(mesh.skin, offsets.skins);
-    shift(mesh.clusters, offsets.deformed_clusters);
+    addOffset(mesh.mesh, offsets.meshes);
+    addOffset(mesh.skin, offsets.skins);
+    addOffset(mesh.clusters, offsets.deformed_clusters);
 }
 
-void rebase(DeformedClusterRecord& cluster, const Offsets& offsets)
+void rebase(DeformedClusterRecord& cluster, const TableOffsets& offsets)
 {
-    shift(cluster.joints, offsets.cluster_joints);
+    addOffset(cluster.joints, offsets.cluster_joints);
 }
 
-void rebase(uint32_t& page_parent, const Offsets& offsets)
+void rebase(uint32_t& page_parent, const TableOffsets& offsets)
 {
-    shift(page_parent, offsets.pages);
+    addOffset(page_parent, offsets.pages);
 }
 
 } // namespace hearth::link

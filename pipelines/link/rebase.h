@@ -11,7 +11,7 @@ namespace hearth::link
 {
 
 /// Start of each table of one source in the merged tables.
-struct Offsets
+struct TableOffsets
 {
     uint32_t strings = 0;      ///< bytes; of the import part, which the textures part refers to as well
     uint32_t mesh_strings = 0; ///< bytes; of the clusters part
@@ -36,26 +36,26 @@ struct Offsets
     uint64_t page_bytes = 0; ///< in chunk PAGE
 };
 
-void rebase(formats::NodeRecord& node, const Offsets& offsets);
-void rebase(formats::InstanceRecord& instance, const Offsets& offsets);
-void rebase(formats::CameraRecord& camera, const Offsets& offsets);
-void rebase(formats::LightRecord& light, const Offsets& offsets);
-void rebase(formats::ShadowSphereRecord& sphere, const Offsets& offsets);
-void rebase(formats::MaterialRecord& material, const Offsets& offsets);
-void rebase(formats::ImageRecord& image, const Offsets& offsets);
-void rebase(formats::SkinRecord& skin, const Offsets& offsets);
-void rebase(formats::JointRecord& joint, const Offsets& offsets);
-void rebase(formats::AnimationRecord& animation, const Offsets& offsets);
-void rebase(formats::AnimationChannelRecord& channel, const Offsets& offsets);
-void rebase(formats::MeshRecord& mesh, const Offsets& offsets);
-void rebase(formats::LevelRecord& level, const Offsets& offsets);
-void rebase(formats::GroupRecord& group, const Offsets& offsets);
-void rebase(formats::ClusterRecord& cluster, const Offsets& offsets);
-void rebase(formats::PageRecord& page, const Offsets& offsets);
-void rebase(formats::AuthoredLevelRecord& level, const Offsets& offsets);
-void rebase(formats::DeformedMeshRecord& mesh, const Offsets& offsets);
-void rebase(formats::DeformedClusterRecord& cluster, const Offsets& offsets);
-void rebase(uint32_t& page_parent, const Offsets& offsets);
-inline void rebase(float&, const Offsets&) {} ///< keys and morph weights refer to nothing
+void rebase(formats::NodeRecord& node, const TableOffsets& offsets);
+void rebase(formats::InstanceRecord& instance, const TableOffsets& offsets);
+void rebase(formats::CameraRecord& camera, const TableOffsets& offsets);
+void rebase(formats::LightRecord& light, const TableOffsets& offsets);
+void rebase(formats::ShadowSphereRecord& sphere, const TableOffsets& offsets);
+void rebase(formats::MaterialRecord& material, const TableOffsets& offsets);
+void rebase(formats::ImageRecord& image, const TableOffsets& offsets);
+void rebase(formats::SkinRecord& skin, const TableOffsets& offsets);
+void rebase(formats::JointRecord& joint, const TableOffsets& offsets);
+void rebase(formats::AnimationRecord& animation, const TableOffsets& offsets);
+void rebase(formats::AnimationChannelRecord& channel, const TableOffsets& offsets);
+void rebase(formats::MeshRecord& mesh, const TableOffsets& offsets);
+void rebase(formats::LevelRecord& level, const TableOffsets& offsets);
+void rebase(formats::GroupRecord& group, const TableOffsets& offsets);
+void rebase(formats::ClusterRecord& cluster, const TableOffsets& offsets);
+void rebase(formats::PageRecord& page, const TableOffsets& offsets);
+void rebase(formats::AuthoredLevelRecord& level, const TableOffsets& offsets);
+void rebase(formats::DeformedMeshRecord& mesh, const TableOffsets& offsets);
+void rebase(formats::DeformedClusterRecord& cluster, const TableOffsets& offsets);
+void rebase(uint32_t& page_parent, const TableOffsets& offsets);
+inline void rebase(float&, const TableOffsets&) {} ///< keys and morph weights refer to nothing
 
 } // namespace hearth::link

@@ -38,7 +38,7 @@ std::string_view builtInText()
     return kText;
 }
 
-const ConfigFile& builtIn()
+const ConfigFile& builtInProfiles()
 {
     static const ConfigFile file = parseConfig(kText, "built in", false).value();
     return file;

@@ -8,7 +8,7 @@ namespace hearth::profiles
 {
 
 /// Return the built-in profiles "mobile-high", "mobile-low" and "desktop" as a file of settings.
-const ConfigFile& builtIn();
+const ConfigFile& builtInProfiles();
 
 /// Return the text of that file.
 std::string_view builtInText();

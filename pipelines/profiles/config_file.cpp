@@ -15,13 +15,13 @@ namespace
 
 using tools::TomlNode;
 
-Value placed(std::string text, const TomlNode& node, const Place& place, const std::string& of)
+Value makeValue(std::string text, const TomlNode& node, const TomlLocation& place, const std::string& of)
 {
     return {std::move(text), fmt::format("{}:{}{}", place.file, node.line, of)};
 }
 
 /// Read the settings of `known` whose keys start with `prefix` ("clusters.") from a table.
-Status readGroup(const TomlNode& node, const Place& place, std::span<const Setting> known,
+Status readGroup(const TomlNode& node, const TomlLocation& place, std::span<const Setting> known,
                  const std::string& prefix, const std::string& of, Values& values)
 {
     if (!node.isTable())
@@ -35,13 +35,13 @@ Status readGroup(const TomlNode& node, const Place& place, std::span<const Setti
         const Setting* setting = findSetting(known, prefix + member.key);
         if (setting == nullptr)
             return unknownKey(place, member, member.key, keys);
-        HEARTH_ASSIGN_OR_RETURN(std::string text, checkedTextOf(member, *setting, place.at(member.key)));
-        values[setting->key] = placed(std::move(text), member, place, of);
+        HEARTH_ASSIGN_OR_RETURN(std::string text, canonicalText(member, *setting, place.at(member.key)));
+        values[setting->key] = makeValue(std::move(text), member, place, of);
     }
     return success();
 }
 
-Result<std::string> nameAt(const TomlNode& node, const Place& place)
+Result<std::string> readName(const TomlNode& node, const TomlLocation& place)
 {
     if (!node.isText() || node.text.empty())
         return place.wrong(Issue::profile_value, node, "must be a text that is not empty");
@@ -50,38 +50,38 @@ Result<std::string> nameAt(const TomlNode& node, const Place& place)
 
 /// Return the groups of profileSettings() that a table may have; a rule may have groups of source settings
 /// only.
-Keys groupsOf(bool of_rule)
+Keys settingGroups(bool of_rule)
 {
     Keys groups;
     for (const Setting& setting : profileSettings())
         if ((!of_rule || setting.scope == Scope::source) &&
-            std::find(groups.begin(), groups.end(), groupOf(setting.key)) == groups.end())
-            groups.emplace_back(groupOf(setting.key));
+            std::find(groups.begin(), groups.end(), settingGroup(setting.key)) == groups.end())
+            groups.emplace_back(settingGroup(setting.key));
     return groups;
 }
 
-bool isIn(const Keys& keys, std::string_view key)
+bool contains(const Keys& keys, std::string_view key)
 {
     return std::find(keys.begin(), keys.end(), key) != keys.end();
 }
 
-Result<Profile> readProfile(const TomlNode& table, const std::string& name, const Place& place,
+Result<Profile> readProfile(const TomlNode& table, const std::string& name, const TomlLocation& place,
                             const std::string& of)
 {
     Profile profile;
     profile.name = name;
-    const Keys groups = groupsOf(false);
+    const Keys groups = settingGroups(false);
     Keys known = groups;
     known.emplace_back("inherits");
     for (const TomlNode& member : table.children)
     {
-        const Place at = place.at(member.key);
+        const TomlLocation at = place.at(member.key);
         if (member.key == "inherits")
         {
-            HEARTH_ASSIGN_OR_RETURN(profile.inherits, nameAt(member, at));
+            HEARTH_ASSIGN_OR_RETURN(profile.inherits, readName(member, at));
             profile.place = at.of(member);
         }
-        else if (!isIn(groups, member.key))
+        else if (!contains(groups, member.key))
             return unknownKey(place, member, member.key, known);
         else
             HEARTH_TRY(readGroup(member, at, profileSettings(), member.key + ".", of, profile.values));
@@ -89,7 +89,7 @@ Result<Profile> readProfile(const TomlNode& table, const std::string& name, cons
     return profile;
 }
 
-Result<Rule> readRule(const TomlNode& node, const Place& place)
+Result<Rule> readRule(const TomlNode& node, const TomlLocation& place)
 {
     if (!node.isTable())
         return place.wrong(Issue::profile_value, node, "must be a table");
@@ -98,22 +98,22 @@ Result<Rule> readRule(const TomlNode& node, const Place& place)
     if (match == nullptr)
         return place.at("match").wrong(Issue::profile_value, node,
                                        "is missing: say which sources, as match = \"assets/props/**\"");
-    HEARTH_ASSIGN_OR_RETURN(rule.match, nameAt(*match, place.at("match")));
+    HEARTH_ASSIGN_OR_RETURN(rule.match, readName(*match, place.at("match")));
     rule.place = place.at("match").of(*match);
-    const Keys groups = groupsOf(true);
+    const Keys groups = settingGroups(true);
     Keys known = groups;
     known.insert(known.end(), {"match", "in_profile"});
     for (const TomlNode& member : node.children)
     {
-        const Place at = place.at(member.key);
+        const TomlLocation at = place.at(member.key);
         if (member.key == "in_profile")
         {
-            HEARTH_ASSIGN_OR_RETURN(rule.in_profile, nameAt(member, at));
+            HEARTH_ASSIGN_OR_RETURN(rule.in_profile, readName(member, at));
         }
-        else if (isIn(groups, member.key))
+        else if (contains(groups, member.key))
             HEARTH_TRY(readGroup(member, at, profileSettings(), member.key + ".",
                                  fmt::format(" (rule {})", rule.match), rule.values));
-        else if (isIn(groupsOf(false), member.key))
+        else if (contains(settingGroups(false), member.key))
             return at.wrong(Issue::profile_key, member,
                             "is of all sources together: set it in a profile, not in a rule");
         else if (member.key != "match")
@@ -122,13 +122,13 @@ Result<Rule> readRule(const TomlNode& node, const Place& place)
     return rule;
 }
 
-Status readProfiles(const TomlNode& node, const Place& place, ConfigFile& file)
+Status readProfiles(const TomlNode& node, const TomlLocation& place, ConfigFile& file)
 {
     if (!node.isTable())
         return place.wrong(Issue::profile_value, node, "must be a table: [profile.NAME]");
     for (const TomlNode& member : node.children)
     {
-        const Place at = place.at(member.key);
+        const TomlLocation at = place.at(member.key);
         if (!member.isTable())
             return at.wrong(Issue::profile_value, member, "must be a table: [profile.NAME]");
         HEARTH_ASSIGN_OR_RETURN(
@@ -138,7 +138,7 @@ Status readProfiles(const TomlNode& node, const Place& place, ConfigFile& file)
     return success();
 }
 
-Status readRules(const TomlNode& node, const Place& place, ConfigFile& file)
+Status readRules(const TomlNode& node, const TomlLocation& place, ConfigFile& file)
 {
     if (!node.isArray())
         return place.wrong(Issue::profile_value, node, "must be an array of tables: [[rule]]");
@@ -150,17 +150,17 @@ Status readRules(const TomlNode& node, const Place& place, ConfigFile& file)
     return success();
 }
 
-Result<ConfigFile> configOf(const TomlNode& root, const std::string& path, bool has_rules)
+Result<ConfigFile> readConfig(const TomlNode& root, const std::string& path, bool has_rules)
 {
     ConfigFile file;
     file.path = path;
-    const Place place{path, ""};
+    const TomlLocation place{path, ""};
     Keys known{"defaults", "profile"};
     if (has_rules)
         known.emplace_back("rule");
     for (const TomlNode& node : root.children)
     {
-        const Place at = place.at(node.key);
+        const TomlLocation at = place.at(node.key);
         if (node.key == "defaults")
             HEARTH_TRY(readGroup(node, at, commandSettings(), "", "", file.defaults));
         else if (node.key == "profile")
@@ -177,9 +177,9 @@ Result<ConfigFile> configOf(const TomlNode& root, const std::string& path, bool 
 }
 
 /// Parse the root table of a text. errors: profile_syntax.
-Result<TomlNode> parsed(std::string_view text, const std::string& path)
+Result<TomlNode> parseRoot(std::string_view text, const std::string& path)
 {
-    tools::TomlFault fault;
+    tools::TomlError fault;
     std::optional<TomlNode> root = tools::parseToml(text, fault);
     if (!root)
         return Error{Issue::profile_syntax, path, fmt::format("line {}, column {}", fault.line, fault.column),
@@ -189,20 +189,20 @@ Result<TomlNode> parsed(std::string_view text, const std::string& path)
 
 } // namespace
 
-bool Rule::holdsIn(std::string_view profile) const
+bool Rule::appliesTo(std::string_view profile) const
 {
     return in_profile.empty() || clusters::matchesPattern(in_profile, profile);
 }
 
 Result<ConfigFile> parseConfig(std::string_view text, const std::string& path, bool has_rules)
 {
-    HEARTH_ASSIGN_OR_RETURN(const TomlNode root, parsed(text, path));
-    return configOf(root, path, has_rules);
+    HEARTH_ASSIGN_OR_RETURN(const TomlNode root, parseRoot(text, path));
+    return readConfig(root, path, has_rules);
 }
 
 Result<Profile> parseProfileFile(std::string_view text, const std::string& path)
 {
-    HEARTH_ASSIGN_OR_RETURN(const TomlNode root, parsed(text, path));
+    HEARTH_ASSIGN_OR_RETURN(const TomlNode root, parseRoot(text, path));
     return readProfile(root, path, {path, ""}, "");
 }
 

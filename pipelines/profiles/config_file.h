@@ -29,7 +29,7 @@ struct Rule
     std::string place{}; ///< location of `match`: "line 10, column 9, rule[0].match"
 
     /// True if the rule applies in a cook with that profile; empty: a cook without a profile.
-    bool holdsIn(std::string_view profile) const;
+    bool appliesTo(std::string_view profile) const;
 };
 
 struct ConfigFile

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/profiles/configuration.h"
 
-#include "formats/base/suggest.h"
+#include "formats/base/nearest_match.h"
 #include "formats/base/text.h"
 #include "pipelines/cache/directory_store.h"
 #include "pipelines/profiles/built_in.h"
@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 constexpr const char* kProjectFile = "hearth.toml";
 constexpr const char* kOff = "off";
 
-Result<std::string> textOfFile(const std::string& path, const char* what)
+Result<std::string> readSettingsFile(const std::string& path, const char* what)
 {
     std::error_code error;
     const std::optional<std::string> text =
@@ -60,14 +60,14 @@ std::string userFile(const Environment& environment)
     return home ? *home + "/.config/hearth/config.toml" : "";
 }
 
-std::string folderOfFile(const std::string& path)
+std::string absoluteFolder(const std::string& path)
 {
     std::error_code error;
     const fs::path whole = fs::absolute(path, error).lexically_normal();
     return whole.parent_path().string() + (whole.parent_path() == whole.root_path() ? "" : "/");
 }
 
-void put(const Values& from, Values& into)
+void overlay(const Values& from, Values& into)
 {
     for (const auto& [key, value] : from)
         into[key] = value;
@@ -86,18 +86,18 @@ std::optional<std::string> processEnvironment(const char* name)
     return value == nullptr || *value == '\0' ? std::nullopt : std::optional<std::string>(value);
 }
 
-const Switch* switchSet(const Setting& setting, const Environment& environment)
+const EnvironmentSwitch* findSetSwitch(const Setting& setting, const Environment& environment)
 {
     const auto found =
         std::find_if(setting.switches.begin(), setting.switches.end(),
-                     [&](const Switch& one)
+                     [&](const EnvironmentSwitch& one)
                      { return environment(std::string(one.variable).c_str()).value_or("0") != "0"; });
     return found == setting.switches.end() ? nullptr : &*found;
 }
 
 Status Configuration::readFiles(const Environment& environment)
 {
-    std::string path = given_.config_file;
+    std::string path = command_line_.config_file;
     if (path.empty())
         path = environment("HEARTH_CONFIG").value_or("");
     if (path == kOff)
@@ -106,9 +106,10 @@ Status Configuration::readFiles(const Environment& environment)
         path = nearestProjectFile();
     if (!path.empty())
     {
-        HEARTH_ASSIGN_OR_RETURN(const std::string text, textOfFile(path, "the project's file of settings"));
+        HEARTH_ASSIGN_OR_RETURN(const std::string text,
+                                readSettingsFile(path, "the project's file of settings"));
         HEARTH_ASSIGN_OR_RETURN(ConfigFile file, parseConfig(text, path, true));
-        project_folder_ = folderOfFile(path);
+        project_folder_ = absoluteFolder(path);
         project_file_ = files_.size();
         files_.push_back(std::move(file));
     }
@@ -116,7 +117,7 @@ Status Configuration::readFiles(const Environment& environment)
     std::error_code error;
     if (path.empty() || !fs::exists(path, error))
         return success();
-    HEARTH_ASSIGN_OR_RETURN(const std::string text, textOfFile(path, "the user's file of settings"));
+    HEARTH_ASSIGN_OR_RETURN(const std::string text, readSettingsFile(path, "the user's file of settings"));
     HEARTH_ASSIGN_OR_RETURN(ConfigFile file, parseConfig(text, path, false));
     files_.push_back(std::move(file));
     return success();
@@ -128,7 +129,7 @@ Status Configuration::readEnvironment(const Environment& environment)
     {
         std::string name(setting.variable);
         std::optional<std::string> text = name.empty() ? std::nullopt : environment(name.c_str());
-        if (const Switch* chosen = switchSet(setting, environment))
+        if (const EnvironmentSwitch* chosen = findSetSwitch(setting, environment))
         {
             name = chosen->variable;
             text = chosen->value;
@@ -137,7 +138,7 @@ Status Configuration::readEnvironment(const Environment& environment)
             continue;
         const std::vector<std::string> words =
             setting.kind == Kind::texts ? splitText(*text, ';') : std::vector<std::string>{*text};
-        HEARTH_ASSIGN_OR_RETURN(environment_[setting.key], valueOf(setting, words, name));
+        HEARTH_ASSIGN_OR_RETURN(environment_[setting.key], parseValue(setting, words, name));
     }
     return success();
 }
@@ -149,7 +150,7 @@ const Value* Configuration::command(std::string_view key) const
         const auto found = values.find(key);
         return found == values.end() ? nullptr : &found->second;
     };
-    if (const Value* value = in(given_.command))
+    if (const Value* value = in(command_line_.command))
         return value;
     if (const Value* value = in(environment_))
         return value;
@@ -161,11 +162,11 @@ const Value* Configuration::command(std::string_view key) const
 
 const ConfigFile& Configuration::fileAt(size_t level) const
 {
-    return level < files_.size() ? files_[level] : builtIn();
+    return level < files_.size() ? files_[level] : builtInProfiles();
 }
 
 /// Return the level of the nearest file that has a profile of that name.
-std::optional<size_t> Configuration::levelOf(const std::string& name, size_t from) const
+std::optional<size_t> Configuration::findLevel(const std::string& name, size_t from) const
 {
     for (size_t level = from; level <= files_.size(); ++level)
         for (const Profile& profile : fileAt(level).profiles)
@@ -183,7 +184,7 @@ Status Configuration::addProfile(const Profile& profile, size_t level, const std
         return success();
     // a profile that inherits from its own name overrides the next one of that name
     const std::optional<size_t> found =
-        levelOf(profile.inherits, profile.inherits == profile.name ? level + 1 : 0);
+        findLevel(profile.inherits, profile.inherits == profile.name ? level + 1 : 0);
     if (!found)
     {
         std::vector<std::string> known;
@@ -211,7 +212,7 @@ Status Configuration::chooseProfile()
     const Value* chosen = command("profile");
     if (chosen == nullptr)
         return success();
-    profile_name_ = textsOf(*chosen).front();
+    profile_name_ = valueTexts(*chosen).front();
     // placeholder that inherits from the profile, so that its name is looked up like an inherited one
     Profile wanted;
     wanted.inherits = profile_name_;
@@ -223,22 +224,22 @@ Status Configuration::chooseProfile()
         for (const ConfigFile& config : files_)
             if (chosen->origin.starts_with(config.path + ":") && !fs::path(path).is_absolute())
                 path = (fs::path(config.path).parent_path() / path).string();
-        HEARTH_ASSIGN_OR_RETURN(const std::string text, textOfFile(path, "the profile"));
+        HEARTH_ASSIGN_OR_RETURN(const std::string text, readSettingsFile(path, "the profile"));
         HEARTH_ASSIGN_OR_RETURN(wanted, parseProfileFile(text, path));
         file = path;
     }
-    own_file_ = std::move(wanted);
+    profile_file_ = std::move(wanted);
     std::vector<const Profile*> chain;
-    HEARTH_TRY(addProfile(*own_file_, 0, file, chain));
+    HEARTH_TRY(addProfile(*profile_file_, 0, file, chain));
     for (auto profile = chain.rbegin(); profile != chain.rend(); ++profile)
-        put((*profile)->values, of_profile_);
+        overlay((*profile)->values, profile_values_);
     return success();
 }
 
-Result<Configuration> Configuration::load(Given given, const Environment& environment)
+Result<Configuration> Configuration::load(CommandLineValues given, const Environment& environment)
 {
     Configuration configuration;
-    configuration.given_ = std::move(given);
+    configuration.command_line_ = std::move(given);
     HEARTH_TRY(configuration.readFiles(environment));
     HEARTH_TRY(configuration.readEnvironment(environment));
     HEARTH_TRY(configuration.chooseProfile());
@@ -257,24 +258,24 @@ std::string Configuration::pathInProject(const std::string& source) const
     return path.starts_with(project_folder_) ? path.substr(project_folder_.size()) : "";
 }
 
-Values Configuration::ofSource(const std::string& source) const
+Values Configuration::valuesOfSource(const std::string& source) const
 {
-    Values values = of_profile_;
+    Values values = profile_values_;
     if (project_file_)
     {
         const std::string path = pathInProject(source);
         for (const Rule& rule : files_[*project_file_].rules)
-            if (!path.empty() && matchesPath(rule.match, path) && rule.holdsIn(profile_name_))
-                put(rule.values, values);
+            if (!path.empty() && matchesPath(rule.match, path) && rule.appliesTo(profile_name_))
+                overlay(rule.values, values);
     }
-    put(given_.settings, values);
+    overlay(command_line_.settings, values);
     return values;
 }
 
-Values Configuration::ofPack() const
+Values Configuration::valuesOfPack() const
 {
-    Values values = of_profile_;
-    put(given_.settings, values);
+    Values values = profile_values_;
+    overlay(command_line_.settings, values);
     return values;
 }
 

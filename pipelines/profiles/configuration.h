@@ -18,10 +18,11 @@ using Environment = std::function<std::optional<std::string>(const char* name)>;
 std::optional<std::string> processEnvironment(const char* name);
 
 /// Return the first of a setting's switches that is set; nullptr where none is.
-const Switch* switchSet(const Setting& setting, const Environment& environment = processEnvironment);
+const EnvironmentSwitch* findSetSwitch(const Setting& setting,
+                                       const Environment& environment = processEnvironment);
 
 /// Settings of the command line.
-struct Given
+struct CommandLineValues
 {
     /// --config: path of a project's file, or "off" for no file at all; empty: see Configuration::load
     std::string config_file;
@@ -39,18 +40,19 @@ public:
     /// none.
     ///
     /// errors  input_missing, profile_syntax, profile_key, profile_value, profile_unknown, profile_circle
-    static Result<Configuration> load(Given given, const Environment& environment = processEnvironment);
+    static Result<Configuration> load(CommandLineValues given,
+                                      const Environment& environment = processEnvironment);
 
     /// Return the value of a setting of commandSettings(); nullptr where it is not set.
     const Value* command(std::string_view key) const;
 
     /// Return all values that are set for a source: its profile with inherited values, then the matching
-    /// rules, later ones over earlier ones, then the command line. ofPack: the same without rules, for
+    /// rules, later ones over earlier ones, then the command line. valuesOfPack: the same without rules, for
     /// settings of the pack.
     ///
     /// source  as the user typed it; rules match its path from the folder of the project's file
-    Values ofSource(const std::string& source) const;
-    Values ofPack() const;
+    Values valuesOfSource(const std::string& source) const;
+    Values valuesOfPack() const;
 
     /// Return the name of the chosen profile; empty: none.
     const std::string& profileName() const { return profile_name_; }
@@ -70,17 +72,17 @@ private:
     Status chooseProfile();
     Status addProfile(const Profile& profile, size_t level, const std::string& file,
                       std::vector<const Profile*>& chain);
-    std::optional<size_t> levelOf(const std::string& name, size_t from) const;
+    std::optional<size_t> findLevel(const std::string& name, size_t from) const;
     const ConfigFile& fileAt(size_t level) const;
 
-    Given given_;
+    CommandLineValues command_line_;
     Values environment_;
     std::vector<ConfigFile> files_;      ///< project's file, user's file
     std::string project_folder_;         ///< absolute, with a slash at its end; empty: there is no project
     std::optional<size_t> project_file_; ///< index of files_
     std::string profile_name_;
-    std::optional<Profile> own_file_; ///< chosen profile, if it is a file of its own
-    Values of_profile_;
+    std::optional<Profile> profile_file_; ///< chosen profile, if it is a file of its own
+    Values profile_values_;
 };
 
 } // namespace hearth::profiles

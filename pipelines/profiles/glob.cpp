@@ -11,7 +11,7 @@ namespace hearth::profiles
 namespace
 {
 
-std::vector<std::string_view> namesOf(std::string_view path)
+std::vector<std::string_view> splitNames(std::string_view path)
 {
     std::vector<std::string_view> names;
     for (size_t at = 0; at <= path.size();)
@@ -27,8 +27,8 @@ std::vector<std::string_view> namesOf(std::string_view path)
 
 bool matchesPath(std::string_view pattern, std::string_view path)
 {
-    const std::vector<std::string_view> wanted = namesOf(pattern);
-    const std::vector<std::string_view> names = namesOf(path);
+    const std::vector<std::string_view> pattern_names = splitNames(pattern);
+    const std::vector<std::string_view> names = splitNames(path);
     // after a mismatch, the last ** takes one folder more; earlier ones need not be tried again
     size_t w = 0;
     size_t n = 0;
@@ -36,12 +36,12 @@ bool matchesPath(std::string_view pattern, std::string_view path)
     size_t any_end = 0;
     while (n < names.size())
     {
-        if (w < wanted.size() && wanted[w] == "**")
+        if (w < pattern_names.size() && pattern_names[w] == "**")
         {
             any = w++;
             any_end = n;
         }
-        else if (w < wanted.size() && clusters::matchesPattern(wanted[w], names[n]))
+        else if (w < pattern_names.size() && clusters::matchesPattern(pattern_names[w], names[n]))
         {
             ++w;
             ++n;
@@ -54,9 +54,9 @@ bool matchesPath(std::string_view pattern, std::string_view path)
         else
             return false;
     }
-    while (w < wanted.size() && wanted[w] == "**")
+    while (w < pattern_names.size() && pattern_names[w] == "**")
         ++w;
-    return w == wanted.size();
+    return w == pattern_names.size();
 }
 
 bool isPattern(std::string_view text)

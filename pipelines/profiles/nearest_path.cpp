@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/profiles/nearest_path.h"
 
-#include "formats/base/suggest.h"
+#include "formats/base/nearest_match.h"
 #include "pipelines/profiles/glob.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ std::vector<size_t> nameStarts(std::string_view path)
 }
 
 /// Return the extension, ".glb" of "props/chair.glb"; empty where the name has none.
-std::string_view endingOf(std::string_view path)
+std::string_view extension(std::string_view path)
 {
     const std::string_view name = path.substr(nameStarts(path).back());
     const size_t dot = name.rfind('.');
@@ -40,10 +40,10 @@ bool isGltf(std::string_view ending)
 }
 
 /// Return the pattern with the extension of the path, or with one for all of glTF.
-std::string withEndingOf(const std::string& pattern, const std::string& path)
+std::string withExtension(const std::string& pattern, const std::string& path)
 {
-    const std::string_view old = endingOf(pattern);
-    const std::string_view ending = endingOf(path);
+    const std::string_view old = extension(pattern);
+    const std::string_view ending = extension(path);
     if (old.empty() || ending.empty())
         return pattern;
     return pattern.substr(0, pattern.size() - old.size()) +
@@ -71,12 +71,13 @@ std::string normalized(std::string pattern)
 /// Cost of the changes after which a pattern matches, compared first by folders, then by the extension, then
 /// by letters.
 using Cost = std::tuple<size_t, bool, size_t>;
-constexpr Cost kTooMuch{SIZE_MAX, true, SIZE_MAX};
+constexpr Cost kMaxCost{SIZE_MAX, true, SIZE_MAX};
 
-class Search
+class PatternSearch
 {
 public:
-    explicit Search(const std::string& pattern) : pattern_(normalized(pattern)), starts_(nameStarts(pattern_))
+    explicit PatternSearch(const std::string& pattern)
+        : pattern_(normalized(pattern)), starts_(nameStarts(pattern_))
     {
     }
 
@@ -101,7 +102,7 @@ private:
     {
         for (const bool has_other_ending : {false, true})
         {
-            const std::string tried = has_other_ending ? withEndingOf(pattern, path) : pattern;
+            const std::string tried = has_other_ending ? withExtension(pattern, path) : pattern;
             if (!matchesPath(tried, path))
                 continue;
             const Cost cost{folders_changed, has_other_ending, editDistance(tried, pattern_)};
@@ -116,7 +117,7 @@ private:
 
     std::string pattern_;
     std::vector<size_t> starts_;
-    Cost cost_ = kTooMuch;
+    Cost cost_ = kMaxCost;
     NearestPath best_;
 };
 
@@ -127,7 +128,7 @@ std::optional<NearestPath> nearestPath(const std::string& pattern, std::span<con
     paths = paths.first(std::min(paths.size(), kMaxPaths));
     if (paths.empty())
         return std::nullopt;
-    Search search(pattern);
+    PatternSearch search(pattern);
     for (const std::string& path : paths)
         search.tryPath(path);
     if (!search.best().path.empty())

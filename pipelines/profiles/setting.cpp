@@ -15,54 +15,56 @@ namespace hearth::profiles
 namespace
 {
 
-constexpr double kMostWhole = std::numeric_limits<int32_t>::max();
+constexpr double kMaxWholeNumber = std::numeric_limits<int32_t>::max();
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 // the limits of the cookers; tests compare them with the values that the cookers accept
-constexpr double kMostWeight = double{clusters::kLargestErrorWeight};
-constexpr double kMostAnimationError = 1000;
-constexpr double kMostTexels = textures::kLargestSize;
-constexpr double kMostBounces = 64;
-constexpr double kLeastScale = 1e-9, kLargestScale = 1e9;
+constexpr double kMaxWeight = double{clusters::kMaxErrorWeight};
+constexpr double kMaxAnimationError = 1000;
+constexpr double kMaxTexels = textures::kMaxTextureSize;
+constexpr double kMaxBounces = 64;
+constexpr double kMinScale = 1e-9, kMaxScale = 1e9;
 
-Setting flagOf(std::string key, std::string_view what, Scope scope, std::string_view option)
+Setting flagSetting(std::string key, std::string_view what, Scope scope, std::string_view option)
 {
     Setting setting{std::move(key), Kind::flag, what, "false", scope};
     setting.option = option;
     return setting;
 }
 
-Setting numberOf(std::string key, std::string_view what, std::string_view otherwise, double low, double high)
+Setting numberSetting(std::string key, std::string_view what, std::string_view default_text, double low,
+                      double high)
 {
-    Setting setting{std::move(key), Kind::number, what, otherwise};
+    Setting setting{std::move(key), Kind::number, what, default_text};
     setting.low = low;
     setting.high = high;
     return setting;
 }
 
-Setting wholeOf(std::string key, std::string_view what, std::string_view otherwise, double low, double high)
+Setting wholeNumberSetting(std::string key, std::string_view what, std::string_view default_text, double low,
+                           double high)
 {
-    Setting setting = numberOf(std::move(key), what, otherwise, low, high);
+    Setting setting = numberSetting(std::move(key), what, default_text, low, high);
     setting.kind = Kind::whole;
     return setting;
 }
 
-Setting choiceOf(std::string key, std::string_view what, std::string_view otherwise,
-                 std::vector<std::string_view> choices, Kind kind = Kind::choice)
+Setting choiceSetting(std::string key, std::string_view what, std::string_view default_text,
+                      std::vector<std::string_view> choices, Kind kind = Kind::choice)
 {
-    Setting setting{std::move(key), kind, what, otherwise};
+    Setting setting{std::move(key), kind, what, default_text};
     setting.choices = std::move(choices);
     return setting;
 }
 
-Setting tablesOf(std::string key, std::string_view what, std::string_view otherwise,
-                 std::vector<Setting> members)
+Setting tablesSetting(std::string key, std::string_view what, std::string_view default_text,
+                      std::vector<Setting> members)
 {
-    Setting setting{std::move(key), Kind::tables, what, otherwise};
+    Setting setting{std::move(key), Kind::tables, what, default_text};
     setting.members = std::move(members);
     return setting;
 }
 
-Setting needed(Setting setting)
+Setting asRequired(Setting setting)
 {
     setting.is_required = true;
     return setting;
@@ -82,67 +84,69 @@ Setting withVariable(Setting setting, std::string_view variable)
     return setting;
 }
 
-Setting withSwitches(Setting setting, std::vector<Switch> switches)
+Setting withSwitches(Setting setting, std::vector<EnvironmentSwitch> switches)
 {
     setting.switches = std::move(switches);
     setting.scope = Scope::command;
     return setting;
 }
 
-Setting cheaper(std::string_view cooker, std::string_view advice, Setting setting)
+Setting withSaving(std::string_view cooker, std::string_view advice, Setting setting)
 {
     setting.saving = {cooker, advice};
     return setting;
 }
 
-Setting ofPack(Setting setting)
+Setting withPackScope(Setting setting)
 {
     setting.scope = Scope::pack;
     return setting;
 }
 
-Setting aboveLow(Setting setting)
+Setting excludingLow(Setting setting)
 {
     setting.is_above_low = true;
     return setting;
 }
 
-Setting levelsOf(const std::string& key)
+Setting levelsSetting(const std::string& key)
 {
-    return tablesOf(
+    return tablesSetting(
         key, "entry k says what level of detail k becomes of the level below; the last one repeats",
         "[{keep=0.5,error_weight=1}]",
-        {numberOf("keep", "triangles that a group keeps, as part of what it has", "0.5",
-                  double{clusters::kSmallestKeep}, double{clusters::kLargestKeep}),
-         numberOf("error_weight",
-                  "factor on the stored error: what replaces a group is drawn where so much more error "
-                  "is allowed",
-                  "1", 1, kMostWeight)});
+        {numberSetting("keep", "triangles that a group keeps, as part of what it has", "0.5",
+                       double{clusters::kMinKeep}, double{clusters::kMaxKeep}),
+         numberSetting("error_weight",
+                       "factor on the stored error: what replaces a group is drawn where so much more error "
+                       "is allowed",
+                       "1", 1, kMaxWeight)});
 }
 
 /// Return the settings for all meshes, or for the meshes of a rule.
 std::vector<Setting> meshSettings(const std::string& prefix)
 {
     return {
-        choiceOf(prefix + "influences",
-                 "joints that move a vertex of a skinned mesh at most: those with the largest weights", "8",
-                 {"4", "8"}, Kind::whole),
-        choiceOf(prefix + "normal_bits", "bits of each of the two parts of a normal's code",
-                 "16 where the surface is smooth, else 8", {"8", "16"}, Kind::whole),
-        numberOf(prefix + "normal_error_weight", "what turned normals count in the error", "1", 0,
-                 kMostWeight),
-        numberOf(prefix + "uv_error_weight", "what shifted UVs count in the error", "0.25", 0, kMostWeight),
+        choiceSetting(prefix + "influences",
+                      "joints that move a vertex of a skinned mesh at most: those with the largest weights",
+                      "8", {"4", "8"}, Kind::whole),
+        choiceSetting(prefix + "normal_bits", "bits of each of the two parts of a normal's code",
+                      "16 where the surface is smooth, else 8", {"8", "16"}, Kind::whole),
+        numberSetting(prefix + "normal_error_weight", "what turned normals count in the error", "1", 0,
+                      kMaxWeight),
+        numberSetting(prefix + "uv_error_weight", "what shifted UVs count in the error", "0.25", 0,
+                      kMaxWeight),
     };
 }
 
 std::vector<Setting> meshMembers()
 {
     std::vector<Setting> members{
-        needed({"name", Kind::text, "meshes whose name this pattern matches; * and ? are wildcards", ""}),
-        levelsOf("levels"),
-        tablesOf("targets", "how many triangles a level shall have; levels rise, triangles fall", "",
-                 {needed(wholeOf("level", "the level of detail", "", 1, kMostWhole)),
-                  needed(wholeOf("triangles", "that are drawn at it", "", 1, kMostWhole))}),
+        asRequired({"name", Kind::text, "meshes whose name this pattern matches; * and ? are wildcards", ""}),
+        levelsSetting("levels"),
+        tablesSetting(
+            "targets", "how many triangles a level shall have; levels rise, triangles fall", "",
+            {asRequired(wholeNumberSetting("level", "the level of detail", "", 1, kMaxWholeNumber)),
+             asRequired(wholeNumberSetting("triangles", "that are drawn at it", "", 1, kMaxWholeNumber))}),
     };
     for (Setting& setting : meshSettings(""))
         members.push_back(std::move(setting));
@@ -152,83 +156,92 @@ std::vector<Setting> meshMembers()
 std::vector<Setting> makeProfileSettings()
 {
     std::vector<Setting> settings{
-        withOption(numberOf("import.crease_angle",
-                            "degrees: sharper edges of a mesh without normals stay hard; 180: none does",
-                            "60", 0, 180),
+        withOption(numberSetting("import.crease_angle",
+                                 "degrees: sharper edges of a mesh without normals stay hard; 180: none does",
+                                 "60", 0, 180),
                    "--crease-angle", "DEGREES"),
-        withOption(numberOf("import.scale", "metres of a unit of the source, as 0.01 of centimetres", "1",
-                            kLeastScale, kLargestScale),
+        withOption(numberSetting("import.scale", "metres of a unit of the source, as 0.01 of centimetres",
+                                 "1", kMinScale, kMaxScale),
                    "--scale", "METRES"),
-        withOption(choiceOf("import.up", "the axis of the source that points up", "y", {"y", "z"}), "--up",
-                   "AXIS"),
+        withOption(choiceSetting("import.up", "the axis of the source that points up", "y", {"y", "z"}),
+                   "--up", "AXIS"),
         {std::string(kImportLods), Kind::texts,
          "files from the source's folder that are its levels of detail 1, 2, ..., made by hand; []: none, "
          "and "
          "no name makes the source a level",
          "the files X_LOD1, X_LOD2, ... beside an X_LOD0"},
-        cheaper("import", "0 takes the keys of clips as they are",
-                numberOf("animation.error",
-                         "metres that a vertex may be off when a clip plays; 0: keys as in the source",
-                         "2e-6 of the size of each model", 0, kMostAnimationError)),
-        cheaper("clusters", "a smaller keep makes fewer levels", levelsOf("clusters.levels")),
+        withSaving(
+            "import", "0 takes the keys of clips as they are",
+            numberSetting("animation.error",
+                          "metres that a vertex may be off when a clip plays; 0: keys as in the source",
+                          "2e-6 of the size of each model", 0, kMaxAnimationError)),
+        withSaving("clusters", "a smaller keep makes fewer levels", levelsSetting("clusters.levels")),
     };
     for (Setting& setting : meshSettings("clusters."))
         settings.push_back(std::move(setting));
     const std::vector<Setting> more{
-        tablesOf("clusters.mesh", "rules for meshes: the first whose name matches holds", "", meshMembers()),
-        tablesOf("clusters.material", "rules for materials in any mesh: the first whose name matches holds",
-                 "",
-                 {needed({"name", Kind::text, "materials whose name this pattern matches", ""}),
-                  needed(levelsOf("levels"))}),
-        cheaper("textures", "smaller textures are less to compress",
-                withOption(
-                    wholeOf("textures.max_size",
-                            "texels: the longer side of the textures that are kept; finer mips are left out",
-                            "as in the source", 1, kMostTexels),
-                    "--max-texture-size", "TEXELS")),
-        flagOf("visibility.enabled",
-               "bake what each vertex sees of its surroundings: ambient and specular occlusion",
-               Scope::source, "--visibility"),
-        cheaper("visibility", "draft takes fewer rays",
-                withOption(choiceOf("visibility.quality", "rays that baking takes", "default",
-                                    {"draft", "default", "high"}),
-                           "--visibility-quality", "NAME")),
-        cheaper("visibility", "asset traces each mesh alone, not in its scene",
-                withOption(choiceOf("visibility.occluders",
-                                    "what is in the way: all of the source's scene, or each asset alone",
-                                    "scene", {"scene", "asset"}),
-                           "--visibility-occluders", "NAME")),
-        cheaper(
-            "visibility", "a limit makes rays shorter",
-            withOption(aboveLow(numberOf("visibility.distance", "metres: what is farther away hides nothing",
-                                         "no limit", 0, kNoLimit)),
-                       "--visibility-distance", "METRES")),
-        withOption(numberOf("visibility.power",
-                            "visibility of what is t metres away is (t / distance)^power; needs a distance",
-                            "0", 0, 16),
-                   "--visibility-power", "NUMBER"),
+        tablesSetting("clusters.mesh", "rules for meshes: the first whose name matches holds", "",
+                      meshMembers()),
+        tablesSetting("clusters.material",
+                      "rules for materials in any mesh: the first whose name matches holds", "",
+                      {asRequired({"name", Kind::text, "materials whose name this pattern matches", ""}),
+                       asRequired(levelsSetting("levels"))}),
+        withSaving(
+            "textures", "smaller textures are less to compress",
+            withOption(wholeNumberSetting(
+                           "textures.max_size",
+                           "texels: the longer side of the textures that are kept; finer mips are left out",
+                           "as in the source", 1, kMaxTexels),
+                       "--max-texture-size", "TEXELS")),
+        flagSetting("visibility.enabled",
+                    "bake what each vertex sees of its surroundings: ambient and specular occlusion",
+                    Scope::source, "--visibility"),
+        withSaving("visibility", "draft takes fewer rays",
+                   withOption(choiceSetting("visibility.quality", "rays that baking takes", "default",
+                                            {"draft", "default", "high"}),
+                              "--visibility-quality", "NAME")),
+        withSaving(
+            "visibility", "asset traces each mesh alone, not in its scene",
+            withOption(choiceSetting("visibility.occluders",
+                                     "what is in the way: all of the source's scene, or each asset alone",
+                                     "scene", {"scene", "asset"}),
+                       "--visibility-occluders", "NAME")),
+        withSaving("visibility", "a limit makes rays shorter",
+                   withOption(excludingLow(numberSetting("visibility.distance",
+                                                         "metres: what is farther away hides nothing",
+                                                         "no limit", 0, kNoLimit)),
+                              "--visibility-distance", "METRES")),
+        withOption(
+            numberSetting("visibility.power",
+                          "visibility of what is t metres away is (t / distance)^power; needs a distance",
+                          "0", 0, 16),
+            "--visibility-power", "NUMBER"),
         withOption({"visibility.poses", Kind::texts,
                     "CLIP[@SECONDS,...]: bake deformed meshes in these poses, not in the bind pose; once "
                     "for each clip",
                     "[]"},
                    "--visibility-poses", "POSES"),
-        cheaper("visibility", "false leaves the fit to harmonics out",
-                flagOf("visibility.refine",
-                       "cones by nine harmonics instead of four moments; the report says what that gained",
-                       Scope::source, "--visibility-refine")),
-        flagOf("bricks.enabled", "make the grid of bricks that global illumination is marched through",
-               Scope::pack, "--bricks"),
-        cheaper("bricks", "larger voxels are fewer",
-                ofPack(withOption(aboveLow(numberOf("bricks.voxel_size", "metres, of the bricks' voxels",
-                                                    "as their memory allows", 0, kNoLimit)),
-                                  "--voxel-size", "METRES"))),
-        ofPack(withOption({"bricks.memory", Kind::size, "bytes that the bricks may take on the GPU", "20M"},
-                          "--brick-memory", "SIZE")),
-        cheaper("bricks", "fewer bounces, or none",
-                ofPack(withOption(wholeOf("bricks.bake",
-                                          "bake the light that bricks start with, of so many bounces",
-                                          "none is baked", 0, kMostBounces),
-                                  "--brick-bake", "BOUNCES"))),
+        withSaving(
+            "visibility", "false leaves the fit to harmonics out",
+            flagSetting("visibility.refine",
+                        "cones by nine harmonics instead of four moments; the report says what that gained",
+                        Scope::source, "--visibility-refine")),
+        flagSetting("bricks.enabled", "make the grid of bricks that global illumination is marched through",
+                    Scope::pack, "--bricks"),
+        withSaving("bricks", "larger voxels are fewer",
+                   withPackScope(withOption(
+                       excludingLow(numberSetting("bricks.voxel_size", "metres, of the bricks' voxels",
+                                                  "as their memory allows", 0, kNoLimit)),
+                       "--voxel-size", "METRES"))),
+        withPackScope(
+            withOption({"bricks.memory", Kind::size, "bytes that the bricks may take on the GPU", "20M"},
+                       "--brick-memory", "SIZE")),
+        withSaving(
+            "bricks", "fewer bounces, or none",
+            withPackScope(withOption(
+                wholeNumberSetting("bricks.bake", "bake the light that bricks start with, of so many bounces",
+                                   "none is baked", 0, kMaxBounces),
+                "--brick-bake", "BOUNCES"))),
     };
     settings.insert(settings.end(), more.begin(), more.end());
     return settings;
@@ -243,8 +256,8 @@ std::vector<Setting> makeCommandSettings()
                                  "none: each cooker's defaults"},
                                 "-p,--profile", "NAME"),
                      "HEARTH_PROFILE"),
-        withVariable(withOption(wholeOf("jobs", "cookers that run at once",
-                                        "2, and of small sources one a core", 1, 1024),
+        withVariable(withOption(wholeNumberSetting("jobs", "cookers that run at once",
+                                                   "2, and of small sources one a core", 1, 1024),
                                 "-j,--jobs", "N"),
                      "HEARTH_JOBS"),
         withVariable(withOption({"memory", Kind::size, "what the cookers may take together, as 12G",
@@ -258,24 +271,27 @@ std::vector<Setting> makeCommandSettings()
                  "the user's own"},
                 "--cache", "SPEC"),
             "HEARTH_CACHE"),
-        withVariable(choiceOf("log",
-                              "how much is told: errors alone, or all that cookers say as well; -q and -v "
-                              "of the command line",
-                              "normal", {"quiet", "normal", "verbose"}),
-                     "HEARTH_LOG"),
         withVariable(
-            withOption(choiceOf("progress",
-                                "what is shown meanwhile; auto: a bar on a terminal, else a line for each "
-                                "source and one every ten seconds",
-                                "auto", {"auto", "bar", "plain", "none"}),
-                       "--progress", "NAME"),
+            choiceSetting("log",
+                          "how much is told: errors alone, or all that cookers say as well; -q and -v "
+                          "of the command line",
+                          "normal", {"quiet", "normal", "verbose"}),
+            "HEARTH_LOG"),
+        withVariable(
+            withOption(
+                choiceSetting("progress",
+                              "what is shown meanwhile; auto: a bar on a terminal, else a line for each "
+                              "source and one every ten seconds",
+                              "auto", {"auto", "bar", "plain", "none"}),
+                "--progress", "NAME"),
             "HEARTH_PROGRESS"),
-        withSwitches(withOption(choiceOf("color",
-                                         "of messages; auto: on a terminal, as NO_COLOR, CLICOLOR_FORCE and "
-                                         "CI say",
-                                         "auto", {"auto", "always", "never"}),
-                                "--color", "NAME"),
-                     {{"NO_COLOR", "never"}, {"CLICOLOR_FORCE", "always"}}),
+        withSwitches(
+            withOption(choiceSetting("color",
+                                     "of messages; auto: on a terminal, as NO_COLOR, CLICOLOR_FORCE and "
+                                     "CI say",
+                                     "auto", {"auto", "always", "never"}),
+                       "--color", "NAME"),
+            {{"NO_COLOR", "never"}, {"CLICOLOR_FORCE", "always"}}),
     };
 }
 
@@ -300,7 +316,7 @@ const Setting* findSetting(std::span<const Setting> settings, std::string_view k
     return found == settings.end() ? nullptr : &*found;
 }
 
-std::string_view groupOf(std::string_view key)
+std::string_view settingGroup(std::string_view key)
 {
     return key.substr(0, key.find('.'));
 }
@@ -318,7 +334,7 @@ std::string rangeText(const Setting& setting)
             return fmt::format("{}", fmt::join(setting.choices, " or "));
         if (setting.is_above_low)
             return fmt::format("{} above {:g}", number, setting.low);
-        if (setting.high == kMostWhole)
+        if (setting.high == kMaxWholeNumber)
             return fmt::format("{} from {:g} on", number, setting.low);
         return fmt::format("{} from {:g} to {:g}", number, setting.low, setting.high);
     case Kind::choice:

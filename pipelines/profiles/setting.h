@@ -34,7 +34,7 @@ enum class Scope : uint8_t
 
 /// Variable of the environment that many programs use. If it is set, and neither empty nor 0, it selects a
 /// value.
-struct Switch
+struct EnvironmentSwitch
 {
     std::string_view variable;
     std::string_view value;
@@ -51,21 +51,21 @@ struct Setting
 {
     std::string key; ///< "clusters.influences"; for the command "jobs"; for a member of tables its name
     Kind kind = Kind::text;
-    std::string_view what;      ///< description for help, manual and schema
-    std::string_view otherwise; ///< description of the default; empty: none
+    std::string_view what;         ///< description for help, manual and schema
+    std::string_view default_text; ///< description of the default; empty: none
     Scope scope = Scope::source;
     double low = 0; ///< minimum
     double high = 0;
     bool is_above_low = false; ///< true if `low` itself is not allowed
     /// words of a choice, or the allowed numbers of a whole number
     std::vector<std::string_view> choices{};
-    std::string_view option{};      ///< option of hearth cook, as "--visibility-quality"; empty: --set only
-    std::string_view value_name{};  ///< placeholder of the option's value in help
-    std::string_view variable{};    ///< variable of the environment, for settings of the command; empty: none
-    std::vector<Switch> switches{}; ///< alternatives to `variable`; the first that is set counts
-    bool is_required = false;       ///< true for a mandatory member of a table
-    std::vector<Setting> members{}; ///< members of tables
-    Saving saving{};                ///< for reports of slow cookers
+    std::string_view option{};     ///< option of hearth cook, as "--visibility-quality"; empty: --set only
+    std::string_view value_name{}; ///< placeholder of the option's value in help
+    std::string_view variable{};   ///< variable of the environment, for settings of the command; empty: none
+    std::vector<EnvironmentSwitch> switches{}; ///< alternatives to `variable`; the first that is set counts
+    bool is_required = false;                  ///< true for a mandatory member of a table
+    std::vector<Setting> members{};            ///< members of tables
+    Saving saving{};                           ///< for reports of slow cookers
 };
 
 /// Key of the authored LODs of a source. It selects files, so it is not a cooker argument.
@@ -81,7 +81,7 @@ std::span<const Setting> commandSettings();
 const Setting* findSetting(std::span<const Setting> settings, std::string_view key);
 
 /// Return the group of a key, "clusters" of "clusters.influences".
-std::string_view groupOf(std::string_view key);
+std::string_view settingGroup(std::string_view key);
 
 /// Return the allowed values, to follow "must be": "a number from 0 to 180", "one of rw, ro, off".
 std::string rangeText(const Setting& setting);

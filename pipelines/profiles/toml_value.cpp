@@ -2,8 +2,8 @@
 #include "pipelines/profiles/toml_value.h"
 
 #include "cook/clusters/program/profile.h"
-#include "formats/base/suggest.h"
-#include "pipelines/cache/open_cache.h"
+#include "formats/base/nearest_match.h"
+#include "pipelines/cache/cache_spec.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,9 +20,9 @@ namespace
 {
 
 // A word of a command line may have 128 KiB on Linux; it holds a setting with its key.
-constexpr size_t kLongestValue = 100'000;
+constexpr size_t kMaxValueSize = 100'000;
 
-std::string quotedToml(std::string_view text)
+std::string quoteToml(std::string_view text)
 {
     std::string word = "\"";
     for (const char c : text)
@@ -35,9 +35,9 @@ std::string quotedToml(std::string_view text)
     return word + '"';
 }
 
-Result<std::string> textOf(const TomlNode& node, const Setting& setting, const Place& place);
+Result<std::string> formatNode(const TomlNode& node, const Setting& setting, const TomlLocation& place);
 
-Error outOfRange(const TomlNode& node, const Setting& setting, const Place& place)
+Error outOfRange(const TomlNode& node, const Setting& setting, const TomlLocation& place)
 {
     return place.wrong(Issue::profile_value, node, "must be " + rangeText(setting));
 }
@@ -48,7 +48,7 @@ bool isInRange(double value, const Setting& setting)
     return std::isfinite(value) && is_above && value <= setting.high;
 }
 
-Result<std::string> wholeText(const TomlNode& node, const Setting& setting, const Place& place)
+Result<std::string> wholeText(const TomlNode& node, const Setting& setting, const TomlLocation& place)
 {
     if (!node.isWhole())
         return outOfRange(node, setting, place);
@@ -60,7 +60,7 @@ Result<std::string> wholeText(const TomlNode& node, const Setting& setting, cons
     return is_allowed ? Result<std::string>(std::move(text)) : outOfRange(node, setting, place);
 }
 
-Result<std::string> numberText(const TomlNode& node, const Setting& setting, const Place& place)
+Result<std::string> numberText(const TomlNode& node, const Setting& setting, const TomlLocation& place)
 {
     const double value = node.asNumber().value_or(NAN);
     if (!isInRange(value, setting))
@@ -68,14 +68,14 @@ Result<std::string> numberText(const TomlNode& node, const Setting& setting, con
     return fmt::format("{}", value);
 }
 
-Result<std::string> wordText(const TomlNode& node, const Setting& setting, const Place& place)
+Result<std::string> wordText(const TomlNode& node, const Setting& setting, const TomlLocation& place)
 {
     const bool is_allowed =
         node.isText() && !node.text.empty() &&
         (setting.kind != Kind::choice ||
          std::find(setting.choices.begin(), setting.choices.end(), node.text) != setting.choices.end());
     if (is_allowed)
-        return quotedToml(node.text);
+        return quoteToml(node.text);
     if (!node.isText() || setting.kind != Kind::choice)
         return outOfRange(node, setting, place);
     const Keys choices(setting.choices.begin(), setting.choices.end());
@@ -85,26 +85,26 @@ Result<std::string> wordText(const TomlNode& node, const Setting& setting, const
                                    nearest.empty() ? "" : ": did you mean '" + nearest + "'?"));
 }
 
-Result<std::string> textsText(const TomlNode& node, const Setting& setting, const Place& place)
+Result<std::string> textsText(const TomlNode& node, const Setting& setting, const TomlLocation& place)
 {
     const Setting one{setting.key, Kind::text, "", ""};
     if (!node.isArray())
     {
         if (!node.isText())
             return outOfRange(node, setting, place);
-        HEARTH_ASSIGN_OR_RETURN(const std::string text, textOf(node, one, place));
+        HEARTH_ASSIGN_OR_RETURN(const std::string text, formatNode(node, one, place));
         return "[" + text + "]";
     }
     std::vector<std::string> texts;
     for (size_t i = 0; i < node.children.size(); ++i)
     {
-        HEARTH_ASSIGN_OR_RETURN(std::string text, textOf(node.children[i], one, place.at(i)));
+        HEARTH_ASSIGN_OR_RETURN(std::string text, formatNode(node.children[i], one, place.at(i)));
         texts.push_back(std::move(text));
     }
     return fmt::format("[{}]", fmt::join(texts, ","));
 }
 
-Result<std::string> sizeText(const TomlNode& node, const Setting& setting, const Place& place)
+Result<std::string> sizeText(const TomlNode& node, const Setting& setting, const TomlLocation& place)
 {
     if (node.isWhole() && node.whole > 0)
         return std::to_string(node.whole);
@@ -113,7 +113,7 @@ Result<std::string> sizeText(const TomlNode& node, const Setting& setting, const
     return size.ok() ? Result<std::string>(std::to_string(*size)) : outOfRange(node, setting, place);
 }
 
-Result<std::string> tableText(const TomlNode& table, const Setting& setting, const Place& place)
+Result<std::string> tableText(const TomlNode& table, const Setting& setting, const TomlLocation& place)
 {
     Keys known;
     for (const Setting& member : setting.members)
@@ -130,13 +130,13 @@ Result<std::string> tableText(const TomlNode& table, const Setting& setting, con
                 .wrong(Issue::profile_value, table, "is missing: it must be " + rangeText(member));
         if (node == nullptr)
             continue;
-        HEARTH_ASSIGN_OR_RETURN(const std::string text, textOf(*node, member, place.at(member.key)));
+        HEARTH_ASSIGN_OR_RETURN(const std::string text, formatNode(*node, member, place.at(member.key)));
         members.push_back(member.key + "=" + text);
     }
     return fmt::format("{{{}}}", fmt::join(members, ","));
 }
 
-Result<std::string> tablesText(const TomlNode& node, const Setting& setting, const Place& place)
+Result<std::string> tablesText(const TomlNode& node, const Setting& setting, const TomlLocation& place)
 {
     if (!node.isArray() || node.children.empty())
         return outOfRange(node, setting, place);
@@ -153,7 +153,7 @@ Result<std::string> tablesText(const TomlNode& node, const Setting& setting, con
 }
 
 /// Return the node's value in canonical form. errors: profile_key, profile_value.
-Result<std::string> textOf(const TomlNode& node, const Setting& setting, const Place& place)
+Result<std::string> formatNode(const TomlNode& node, const Setting& setting, const TomlLocation& place)
 {
     switch (setting.kind)
     {
@@ -180,27 +180,27 @@ Result<std::string> textOf(const TomlNode& node, const Setting& setting, const P
 
 } // namespace
 
-Place Place::at(std::string_view name) const
+TomlLocation TomlLocation::at(std::string_view name) const
 {
     return {file, key.empty() ? std::string(name) : key + "." + std::string(name), has_lines};
 }
 
-Place Place::at(size_t index) const
+TomlLocation TomlLocation::at(size_t index) const
 {
     return {file, fmt::format("{}[{}]", key, index), has_lines};
 }
 
-std::string Place::of(const TomlNode& node) const
+std::string TomlLocation::of(const TomlNode& node) const
 {
     return has_lines ? fmt::format("line {}, column {}, {}", node.line, node.column, key) : key;
 }
 
-Error Place::wrong(Issue issue, const TomlNode& node, std::string detail) const
+Error TomlLocation::wrong(Issue issue, const TomlNode& node, std::string detail) const
 {
     return {issue, file, of(node), std::move(detail)};
 }
 
-Error unknownKey(const Place& place, const TomlNode& node, std::string_view key, const Keys& known)
+Error unknownKey(const TomlLocation& place, const TomlNode& node, std::string_view key, const Keys& known)
 {
     const std::string nearest = nearestMatch(key, known);
     return place.at(key).wrong(
@@ -209,13 +209,13 @@ Error unknownKey(const Place& place, const TomlNode& node, std::string_view key,
                         : fmt::format("this key is not known: did you mean '{}'?", nearest));
 }
 
-Result<std::string> checkedTextOf(const TomlNode& node, const Setting& setting, const Place& place)
+Result<std::string> canonicalText(const TomlNode& node, const Setting& setting, const TomlLocation& place)
 {
-    HEARTH_ASSIGN_OR_RETURN(std::string text, textOf(node, setting, place));
-    if (text.size() > kLongestValue)
+    HEARTH_ASSIGN_OR_RETURN(std::string text, formatNode(node, setting, place));
+    if (text.size() > kMaxValueSize)
         return place.wrong(Issue::profile_value, node,
-                           fmt::format("has {} characters, the limit is {}", text.size(), kLongestValue));
-    if (groupOf(setting.key) == "clusters")
+                           fmt::format("has {} characters, the limit is {}", text.size(), kMaxValueSize));
+    if (settingGroup(setting.key) == "clusters")
         if (const auto read = clusters::parseProfile(setting.key + "=" + text, ""); !read.ok())
             return place.wrong(Issue::profile_value, node, read.error().detail);
     return text;

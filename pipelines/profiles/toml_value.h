@@ -14,14 +14,14 @@ namespace hearth::profiles
 {
 
 /// Location of a node in a file, for messages.
-struct Place
+struct TomlLocation
 {
     const std::string& file;
     std::string key;
     bool has_lines = true; ///< false for values of the command line
 
-    Place at(std::string_view name) const;
-    Place at(size_t index) const;
+    TomlLocation at(std::string_view name) const;
+    TomlLocation at(size_t index) const;
 
     std::string of(const tools::TomlNode& node) const;
     Error wrong(Issue issue, const tools::TomlNode& node, std::string detail) const;
@@ -30,11 +30,13 @@ struct Place
 using Keys = std::vector<std::string>;
 
 /// Return the error for an unknown key, with the nearest known key.
-Error unknownKey(const Place& place, const tools::TomlNode& node, std::string_view key, const Keys& known);
+Error unknownKey(const TomlLocation& place, const tools::TomlNode& node, std::string_view key,
+                 const Keys& known);
 
 /// Return the node's value in the form of Value::text. The cooker's own parser checks it too: values of
 /// several members may conflict.
 /// errors  profile_key, profile_value
-Result<std::string> checkedTextOf(const tools::TomlNode& node, const Setting& setting, const Place& place);
+Result<std::string> canonicalText(const tools::TomlNode& node, const Setting& setting,
+                                  const TomlLocation& place);
 
 } // namespace hearth::profiles

@@ -2,7 +2,7 @@
 #include "pipelines/profiles/value.h"
 
 #include "cook/json/json.h"
-#include "formats/base/suggest.h"
+#include "formats/base/nearest_match.h"
 #include "pipelines/profiles/toml_value.h"
 
 #include <fmt/format.h>
@@ -23,14 +23,14 @@ bool isWord(Kind kind)
 
 Result<Value> checkedValue(const TomlNode& node, const Setting& setting, const std::string& origin)
 {
-    HEARTH_ASSIGN_OR_RETURN(std::string text, checkedTextOf(node, setting, {origin, "", false}));
+    HEARTH_ASSIGN_OR_RETURN(std::string text, canonicalText(node, setting, {origin, "", false}));
     return Value{std::move(text), origin};
 }
 
 /// Parse a word in TOML syntax; a word that is not TOML is out of range.
-Result<Value> valueOfToml(const std::string& word, const Setting& setting, const std::string& origin)
+Result<Value> parseTomlValue(const std::string& word, const Setting& setting, const std::string& origin)
 {
-    tools::TomlFault fault;
+    tools::TomlError fault;
     const std::optional<TomlNode> root = tools::parseToml("x=" + word, fault);
     if (!root)
         return Error{Issue::profile_value, origin, "",
@@ -47,13 +47,13 @@ TomlNode textNode(const std::string& text)
 }
 
 /// Parse the text of a value.
-TomlNode nodeOf(const Value& value)
+TomlNode parseNode(const Value& value)
 {
-    tools::TomlFault fault;
+    tools::TomlError fault;
     return *tools::parseToml("x=" + value.text, fault).value().find("x");
 }
 
-Json jsonOf(const TomlNode& node)
+Json toJson(const TomlNode& node)
 {
     switch (node.kind)
     {
@@ -61,14 +61,14 @@ Json jsonOf(const TomlNode& node)
     {
         Json json = Json::object();
         for (const TomlNode& member : node.children)
-            json[member.key] = jsonOf(member);
+            json[member.key] = toJson(member);
         return json;
     }
     case TomlKind::array:
     {
         Json json = Json::array();
         for (const TomlNode& element : node.children)
-            json.push_back(jsonOf(element));
+            json.push_back(toJson(element));
         return json;
     }
     case TomlKind::text:
@@ -87,8 +87,8 @@ Json jsonOf(const TomlNode& node)
 
 } // namespace
 
-Result<Value> valueOf(const Setting& setting, const std::vector<std::string>& words,
-                      const std::string& origin)
+Result<Value> parseValue(const Setting& setting, const std::vector<std::string>& words,
+                         const std::string& origin)
 {
     if (setting.kind == Kind::texts)
     {
@@ -100,7 +100,7 @@ Result<Value> valueOf(const Setting& setting, const std::vector<std::string>& wo
     }
     if (isWord(setting.kind))
         return checkedValue(textNode(words.back()), setting, origin);
-    return valueOfToml(words.back(), setting, origin);
+    return parseTomlValue(words.back(), setting, origin);
 }
 
 Result<std::pair<std::string, Value>> parseAssignment(const std::string& text)
@@ -124,15 +124,15 @@ Result<std::pair<std::string, Value>> parseAssignment(const std::string& text)
     // a text may be written with or without quotation marks
     const bool is_toml = isWord(setting->kind) && !value.empty() &&
                          std::string_view("\"'[").find(value.front()) != std::string_view::npos;
-    HEARTH_ASSIGN_OR_RETURN(Value checked, is_toml ? valueOfToml(value, *setting, origin)
-                                                   : valueOf(*setting, {value}, origin));
+    HEARTH_ASSIGN_OR_RETURN(Value checked, is_toml ? parseTomlValue(value, *setting, origin)
+                                                   : parseValue(*setting, {value}, origin));
     return std::pair(key, std::move(checked));
 }
 
-std::vector<std::string> textsOf(const Value& value)
+std::vector<std::string> valueTexts(const Value& value)
 {
     std::vector<std::string> texts;
-    const TomlNode node = nodeOf(value);
+    const TomlNode node = parseNode(value);
     if (node.isText())
         texts.push_back(node.text);
     if (node.isArray())
@@ -141,9 +141,9 @@ std::vector<std::string> textsOf(const Value& value)
     return texts;
 }
 
-Json jsonOf(const Value& value)
+Json toJson(const Value& value)
 {
-    return jsonOf(nodeOf(value));
+    return toJson(parseNode(value));
 }
 
 } // namespace hearth::profiles

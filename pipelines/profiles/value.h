@@ -31,17 +31,17 @@ using Values = std::map<std::string, Value, std::less<>>;
 
 /// Parse a value from words: one, or several for an array of texts. Numbers and tables are in TOML syntax.
 /// errors: profile_value with `origin` as its file.
-Result<Value> valueOf(const Setting& setting, const std::vector<std::string>& words,
-                      const std::string& origin);
+Result<Value> parseValue(const Setting& setting, const std::vector<std::string>& words,
+                         const std::string& origin);
 
 /// Parse an assignment as it follows --set, such as "clusters.influences=4".
 /// errors: profile_key, profile_value.
 Result<std::pair<std::string, Value>> parseAssignment(const std::string& text);
 
 /// Return the texts of a value of kind texts, or the one text of a choice or text.
-std::vector<std::string> textsOf(const Value& value);
+std::vector<std::string> valueTexts(const Value& value);
 
 /// Convert the value to JSON.
-Json jsonOf(const Value& value);
+Json toJson(const Value& value);
 
 } // namespace hearth::profiles

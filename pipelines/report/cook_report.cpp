@@ -12,32 +12,32 @@ namespace hearth::report
 
 using graph::Action;
 using graph::ActionOutcome;
-using graph::Ending;
+using graph::Outcome;
 
 namespace
 {
 
-const char* stateOf(Ending ending)
+const char* stateName(Outcome ending)
 {
     switch (ending)
     {
-    case Ending::cooked:
+    case Outcome::cooked:
         return "cooked";
-    case Ending::kept:
+    case Outcome::cached:
         return "cached";
-    case Ending::failed:
+    case Outcome::failed:
         return "failed";
-    case Ending::left_out:
+    case Outcome::skipped:
         return "dependency failed";
-    case Ending::unknown:
+    case Outcome::unknown:
         break;
     }
     return "not cooked";
 }
 
-bool hasResult(Ending ending)
+bool hasResult(Outcome ending)
 {
-    return ending == Ending::cooked || ending == Ending::kept;
+    return ending == Outcome::cooked || ending == Outcome::cached;
 }
 
 Json messageJson(const std::string& line)
@@ -56,9 +56,9 @@ Json messageJson(const std::string& line)
 Json stageJson(const CookReport& cook, size_t index)
 {
     const ActionOutcome& outcome = cook.outcomes[index];
-    const graph::KeptResult& result = outcome.result;
-    Json json{{"stage", cook.graph->actions[index].cooker}, {"state", stateOf(outcome.ending)}};
-    if (outcome.ending == Ending::kept)
+    const graph::CachedResult& result = outcome.result;
+    Json json{{"stage", cook.graph->actions[index].cooker}, {"state", stateName(outcome.ending)}};
+    if (outcome.ending == Outcome::cached)
         json["cached"] = true;
     if (!outcome.record.empty())
         json["key"] = graph::resultKey(outcome.record);
@@ -68,7 +68,7 @@ Json stageJson(const CookReport& cook, size_t index)
             json["sha256"] = result.outputs.front().hash;
         json["bytes"] = result.outputs.front().bytes;
     }
-    if (hasResult(outcome.ending) || outcome.ending == Ending::failed)
+    if (hasResult(outcome.ending) || outcome.ending == Outcome::failed)
         json.update({{"seconds", result.seconds},
                      {"cpu_seconds", result.cpu_seconds},
                      {"peak_rss_bytes", result.peak_rss_bytes}});
@@ -84,7 +84,7 @@ Json stageJson(const CookReport& cook, size_t index)
 }
 
 /// Return the statistics that a cooker wrote beside its part; null where there are none.
-Json statisticsOf(const CookReport& cook, size_t index)
+Json parseStatistics(const CookReport& cook, size_t index)
 {
     const auto text = cook.statistics.find(index);
     Json json = text == cook.statistics.end() ? Json() : Json::parse(text->second).value_or(Json());
@@ -92,7 +92,7 @@ Json statisticsOf(const CookReport& cook, size_t index)
 }
 
 /// Return a list of an object, or an empty one.
-Json listOf(const Json& object, const char* key)
+Json listMember(const Json& object, const char* key)
 {
     const Json* list = object.find(key);
     return list != nullptr && list->is_array() ? *list : Json::array();
@@ -122,25 +122,25 @@ std::vector<Asset> assetsOf(const CookReport& cook)
     return assets;
 }
 
-const char* stateOf(const CookReport& cook, const Asset& asset)
+const char* stateName(const CookReport& cook, const Asset& asset)
 {
-    const auto any = [&](Ending ending)
+    const auto any = [&](Outcome ending)
     {
         return std::any_of(asset.actions.begin(), asset.actions.end(),
                            [&](size_t action) { return cook.outcomes[action].ending == ending; });
     };
-    for (const Ending ending : {Ending::failed, Ending::left_out, Ending::unknown, Ending::cooked})
+    for (const Outcome ending : {Outcome::failed, Outcome::skipped, Outcome::unknown, Outcome::cooked})
         if (any(ending))
-            return stateOf(ending);
+            return stateName(ending);
     return asset.actions.empty() ? "not cooked" : "cached";
 }
 
 /// Return the files that the import read besides the source, under the names that the source uses, and the
 /// files that it missed.
-Json dependenciesOf(const CookReport& cook, const Asset& asset, const Json& import_report)
+Json dependenciesJson(const CookReport& cook, const Asset& asset, const Json& import_report)
 {
     Json dependencies = Json::array();
-    const Json files = listOf(import_report, "sources");
+    const Json files = listMember(import_report, "sources");
     for (size_t i = 1; i < files.size(); ++i)
         dependencies.push_back(files[i]);
     for (const size_t action : asset.actions)
@@ -152,9 +152,9 @@ Json dependenciesOf(const CookReport& cook, const Asset& asset, const Json& impo
 
 /// Return the messages about an asset. The import's warnings are taken from its report, which has them
 /// already split into members.
-Json messagesOf(const CookReport& cook, const Asset& asset, const Json& import_report)
+Json messagesJson(const CookReport& cook, const Asset& asset, const Json& import_report)
 {
-    Json messages = listOf(import_report, "messages");
+    Json messages = listMember(import_report, "messages");
     for (const size_t action : asset.actions)
         if (cook.graph->actions[action].cooker != "import" || import_report.is_null())
             for (const std::string& line : cook.outcomes[action].result.warnings)
@@ -169,7 +169,7 @@ Json messagesOf(const CookReport& cook, const Asset& asset, const Json& import_r
 
 Json visibilityJson(const CookReport& cook, size_t action)
 {
-    Json json = statisticsOf(cook, action);
+    Json json = parseStatistics(cook, action);
     if (json.is_null())
         return json;
     json.erase("source");
@@ -188,16 +188,16 @@ uint64_t sumOf(const Json& list, const char* group, const char* key)
 
 Json assetJson(const CookReport& cook, const Asset& asset)
 {
-    Json json{{"source", cook.sources[asset.source]}, {"state", stateOf(cook, asset)}};
-    const auto actionOf = [&](const char* cooker)
+    Json json{{"source", cook.sources[asset.source]}, {"state", stateName(cook, asset)}};
+    const auto findAction = [&](const char* cooker)
     {
         const auto found =
             std::find_if(asset.actions.begin(), asset.actions.end(),
                          [&](size_t action) { return cook.graph->actions[action].cooker == cooker; });
         return found == asset.actions.end() ? graph::kNoAction : *found;
     };
-    const size_t import_action = actionOf("import");
-    const Json import_report = statisticsOf(cook, import_action);
+    const size_t import_action = findAction("import");
+    const Json import_report = parseStatistics(cook, import_action);
     if (import_action != graph::kNoAction)
     {
         const graph::Record& record = cook.outcomes[import_action].record;
@@ -205,7 +205,7 @@ Json assetJson(const CookReport& cook, const Asset& asset)
         {
             json["key"] = graph::resultKey(record);
             // the hash, a space, and the name
-            const std::string_view source = cache::valueOf(record, "input source");
+            const std::string_view source = cache::fieldValue(record, "input source");
             json["sha256"] = source.substr(0, source.find(' '));
         }
     }
@@ -228,25 +228,25 @@ Json assetJson(const CookReport& cook, const Asset& asset)
                 why.push_back(cause);
     }
     json.update({{"seconds", seconds}, {"cpu_seconds", cpu_seconds}, {"peak_rss_bytes", peak}});
-    json["bytes_in"] = sumOf(listOf(import_report, "sources"), nullptr, "bytes");
+    json["bytes_in"] = sumOf(listMember(import_report, "sources"), nullptr, "bytes");
     json["why"] = why;
-    json["deps"] = dependenciesOf(cook, asset, import_report);
+    json["deps"] = dependenciesJson(cook, asset, import_report);
     json["stages"] = stages;
 
-    const Json clusters = statisticsOf(cook, actionOf("clusters"));
-    const Json textures = listOf(statisticsOf(cook, actionOf("textures")), "images");
-    json["sizes"] = {{"geometry", sumOf(listOf(clusters, "meshes"), "bytes", "pages_stored")},
+    const Json clusters = parseStatistics(cook, findAction("clusters"));
+    const Json textures = listMember(parseStatistics(cook, findAction("textures")), "images");
+    json["sizes"] = {{"geometry", sumOf(listMember(clusters, "meshes"), "bytes", "pages_stored")},
                      {"textures", sumOf(textures, nullptr, "bytes_stored")}};
     if (import_report.contains("counts"))
         json["counts"] = import_report["counts"];
     if (!clusters.is_null())
-        json["clusters"] = {{"meshes", listOf(clusters, "meshes")},
+        json["clusters"] = {{"meshes", listMember(clusters, "meshes")},
                             {"totals", clusters.value("totals", Json::object())}};
     json["textures"] = textures;
-    if (const size_t action = actionOf("visibility"); action != graph::kNoAction)
+    if (const size_t action = findAction("visibility"); action != graph::kNoAction)
         json["visibility"] = visibilityJson(cook, action);
-    json["messages"] = messagesOf(cook, asset, import_report);
-    json["dropped"] = listOf(import_report, "dropped");
+    json["messages"] = messagesJson(cook, asset, import_report);
+    json["dropped"] = listMember(import_report, "dropped");
     return json;
 }
 
@@ -317,7 +317,7 @@ Json totalsJson(const CookReport& cook, const Json& assets)
     for (size_t i = 0; i < cook.outcomes.size(); ++i)
     {
         const ActionOutcome& outcome = cook.outcomes[i];
-        Json& count = actions[stateOf(outcome.ending)];
+        Json& count = actions[stateName(outcome.ending)];
         count = count.get<uint64_t>() + 1;
         if (!cook.times.contains(i))
             continue;
@@ -340,7 +340,7 @@ Json totalsJson(const CookReport& cook, const Json& assets)
 }
 
 /// Join the lists of all assets into one; each item gets its source.
-Json gathered(const Json& assets, const char* key)
+Json joinLists(const Json& assets, const char* key)
 {
     Json all = Json::array();
     for (const Json& asset : assets)
@@ -369,13 +369,13 @@ std::string reportJson(const CookReport& cook)
                 {"up_to_date", cook.is_up_to_date},
                 {"totals", totalsJson(cook, assets)},
                 {"failures", failuresJson(cook)},
-                {"messages", gathered(assets, "messages")},
-                {"dropped", gathered(assets, "dropped")}};
+                {"messages", joinLists(assets, "messages")},
+                {"dropped", joinLists(assets, "dropped")}};
     for (size_t i = 0; i < cook.outcomes.size(); ++i)
         if (const Action& action = cook.graph->actions[i]; action.source >= cook.sources.size())
         {
             report[action.cooker] = stageJson(cook, i);
-            if (const Json grid = statisticsOf(cook, i); action.cooker == "bricks" && !grid.is_null())
+            if (const Json grid = parseStatistics(cook, i); action.cooker == "bricks" && !grid.is_null())
                 report["bricks"]["grid"] = grid;
         }
     if (!cook.error.empty())

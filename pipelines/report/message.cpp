@@ -17,10 +17,10 @@ Message parseMessage(std::string_view line)
 {
     Message message;
     // the first severity is the message's own: its text may quote another message
-    const auto placeOf = [&](const std::string& severity)
+    const auto findSeverity = [&](const std::string& severity)
     { return line.starts_with(severity + ": ") ? 0 : line.find(": " + severity + ": "); };
-    const size_t error = placeOf("error");
-    const size_t warning = placeOf("warning");
+    const size_t error = findSeverity("error");
+    const size_t warning = findSeverity("warning");
     const size_t end_of_place = std::min(error, warning);
     if (end_of_place == std::string_view::npos)
     {

@@ -16,7 +16,7 @@ namespace
 {
 
 // Maximum of listed dependencies of an asset; the page shows only the number of the others.
-constexpr size_t kMostDependencies = 100;
+constexpr size_t kMaxDependencies = 100;
 
 Json elementsOf(const Json& object, const char* key)
 {
@@ -97,7 +97,7 @@ Json assetOf(const Json& asset)
     const Json dependencies = elementsOf(asset, "deps");
     slim["dep_count"] = dependencies.size();
     slim["deps"] = Json::array();
-    for (size_t i = 0; i < std::min(dependencies.size(), kMostDependencies); ++i)
+    for (size_t i = 0; i < std::min(dependencies.size(), kMaxDependencies); ++i)
         slim["deps"].push_back(dependencies[i]);
     return slim;
 }
@@ -178,16 +178,16 @@ std::string pageData(const std::string& report_text)
     return data.dump();
 }
 
-std::vector<MeshOfPack> importantMeshes(const std::string& report_text)
+std::vector<PackMesh> importantMeshes(const std::string& report_text)
 {
     const Json report = Json::parse(report_text).value();
-    struct Ranked
+    struct RankedMesh
     {
-        MeshOfPack mesh;
+        PackMesh mesh;
         uint64_t bytes;
         bool is_largest; ///< largest mesh of its asset
     };
-    std::vector<Ranked> ranked;
+    std::vector<RankedMesh> ranked;
     for (const Json& asset : elementsOf(report, "assets"))
     {
         const size_t first = ranked.size();
@@ -196,20 +196,20 @@ std::vector<MeshOfPack> importantMeshes(const std::string& report_text)
                 {{static_cast<uint32_t>(ranked.size()), mesh.value("name", "")}, bytesOf(mesh), false});
         const auto largest =
             std::max_element(ranked.begin() + static_cast<std::ptrdiff_t>(first), ranked.end(),
-                             [](const Ranked& a, const Ranked& b) { return a.bytes < b.bytes; });
+                             [](const RankedMesh& a, const RankedMesh& b) { return a.bytes < b.bytes; });
         if (largest != ranked.end())
             largest->is_largest = true;
     }
     std::stable_sort(ranked.begin(), ranked.end(),
-                     [](const Ranked& a, const Ranked& b)
+                     [](const RankedMesh& a, const RankedMesh& b)
                      { return std::pair(a.is_largest, a.bytes) > std::pair(b.is_largest, b.bytes); });
-    std::vector<MeshOfPack> meshes;
-    for (Ranked& mesh : ranked)
+    std::vector<PackMesh> meshes;
+    for (RankedMesh& mesh : ranked)
         meshes.push_back(std::move(mesh.mesh));
     return meshes;
 }
 
-std::string picturesData(const Pictures& pictures)
+std::string imagesData(const Images& pictures)
 {
     Json data{{"views", pictures.views},  {"is_sheet", pictures.is_sheet}, {"scene", Json::array()},
               {"meshes", Json::object()}, {"left_out", pictures.left_out}, {"why", pictures.why_left_out}};

@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "pipelines/report/pictures.h"
+#include "pipelines/report/images.h"
 
 #include <string>
 #include <vector>
@@ -18,9 +18,9 @@ std::string pageData(const std::string& report);
 
 /// Return the meshes that deserve an image, most important first: the largest of each asset, by size, then
 /// all others by size.
-std::vector<MeshOfPack> importantMeshes(const std::string& report);
+std::vector<PackMesh> importantMeshes(const std::string& report);
 
 /// Return the images as JSON with data URIs, and the number of meshes without one.
-std::string picturesData(const Pictures& pictures);
+std::string imagesData(const Images& pictures);
 
 } // namespace hearth::report

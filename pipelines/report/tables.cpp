@@ -50,7 +50,7 @@ std::string field(std::string text)
     return quoted + "\"";
 }
 
-std::string textOf(const Json& message)
+std::string formatMessage(const Json& message)
 {
     const auto pointer = message.value("pointer", "");
     return fmt::format("{}{}{} [{}]", pointer, pointer.empty() ? "" : ": ", message.value("text", ""),
@@ -64,7 +64,7 @@ std::string failuresXml(const Json& failures, const std::string& subject)
     for (const Json& failure : failures)
         if (failure.at("subject") == subject)
             xml += fmt::format("    <failure type=\"{}\" message=\"{}\">{}</failure>\n",
-                               escapedXml(failure.value("code", "")), escapedXml(textOf(failure)),
+                               escapedXml(failure.value("code", "")), escapedXml(formatMessage(failure)),
                                escapedXml(failure.value("hint", "")));
     return xml;
 }
@@ -128,7 +128,7 @@ std::string assetTable(const std::string& report_text)
         {
             warnings += message.value("severity", "") == "warning" ? size_t{1} : size_t{0};
             if (error.empty() && message.value("severity", "") == "error")
-                error = textOf(message);
+                error = formatMessage(message);
         }
         text += fmt::format(
             "{},{},{:.3f},{:.3f},{},{},{},{},{},{},{},{},{},{}\r\n",

@@ -11,7 +11,7 @@ namespace hearth::report
 {
 
 Status writeReport(const std::string& json, const std::string& path, const std::string& pack,
-                   const std::string& name, const PicturesDrawn& told)
+                   const std::string& name, const ImageProgress& told)
 {
     const auto report = Json::parse(json).value_or(Json());
     if (!report.is_object() || report.value("schema", Json()) != "hearth.report/1")
@@ -21,9 +21,8 @@ Status writeReport(const std::string& json, const std::string& path, const std::
         if (path.ends_with(".html"))
         {
             const std::string data = pageData(json);
-            const Pictures pictures =
-                pack.empty() ? Pictures{} : takePictures(pack, importantMeshes(json), told);
-            return writeText(path, reportPage(data, picturesData(pictures)));
+            const Images pictures = pack.empty() ? Images{} : renderImages(pack, importantMeshes(json), told);
+            return writeText(path, reportPage(data, imagesData(pictures)));
         }
         if (path.ends_with(".xml"))
             return writeText(path, junitXml(json));

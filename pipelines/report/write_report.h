@@ -3,7 +3,7 @@
 #pragma once
 
 #include "formats/base/result.h"
-#include "pipelines/report/pictures.h"
+#include "pipelines/report/images.h"
 
 #include <string>
 
@@ -18,6 +18,6 @@ namespace hearth::report
 /// told     progress of the page's images; may be empty
 /// errors   json_syntax, naming `name`; cannot_write; read_failed for standard output
 Status writeReport(const std::string& json, const std::string& path, const std::string& pack,
-                   const std::string& name = "report", const PicturesDrawn& told = {});
+                   const std::string& name = "report", const ImageProgress& told = {});
 
 } // namespace hearth::report

@@ -10,7 +10,7 @@ namespace hearth::c
 namespace
 {
 
-hearth_result resultOf(const Error& error)
+hearth_result resultFromError(const Error& error)
 {
     switch (error.issue)
     {
@@ -44,7 +44,7 @@ hearth_result resultOf(const Error& error)
 
 /// Text of an error without the hint of Issue::usage, which is about the command line and no help to a
 /// program.
-std::string textOf(const char* function, const Error& error)
+std::string formatCallError(const char* function, const Error& error)
 {
     if (error.issue != Issue::usage)
         return formatMessage(error);
@@ -53,11 +53,11 @@ std::string textOf(const char* function, const Error& error)
 }
 
 /// "2 scenes and 1 player are alive [E1000] hint: destroy them before the pack".
-std::string inUseText(std::initializer_list<LiveObjects> objects, const char* owner)
+std::string inUseText(std::initializer_list<LiveObjectCount> objects, const char* owner)
 {
     std::string list;
     uint32_t total = 0;
-    for (const LiveObjects& kind : objects)
+    for (const LiveObjectCount& kind : objects)
     {
         total += kind.count;
         if (kind.count > 0)
@@ -70,18 +70,18 @@ std::string inUseText(std::initializer_list<LiveObjects> objects, const char* ow
            owner;
 }
 
-void write(MessageRoom message, const char* text, size_t length)
+void write(MessageBuffer message, const char* text, size_t length)
 {
     if (message.text == nullptr || message.size == 0)
         return;
-    const size_t kept = std::min(length, message.size - 1);
-    std::memcpy(message.text, text, kept);
-    message.text[kept] = '\0';
+    const size_t copied = std::min(length, message.size - 1);
+    std::memcpy(message.text, text, copied);
+    message.text[copied] = '\0';
 }
 
 /// Return the text that `make` returns, or the string of the result if there is no memory for it.
 template <typename Make>
-void writeText(MessageRoom message, hearth_result result, const Make& make) noexcept
+void writeText(MessageBuffer message, hearth_result result, const Make& make) noexcept
 try
 {
     const std::string text = make();
@@ -100,17 +100,18 @@ Error usage(std::string detail)
     return {Issue::usage, "", "", std::move(detail)};
 }
 
-hearth_result fail(MessageRoom message, const char* function, const Error& error)
+hearth_result fail(MessageBuffer message, const char* function, const Error& error)
 {
-    const hearth_result result = resultOf(error);
-    writeText(message, result, [&] { return textOf(function, error); });
+    const hearth_result result = resultFromError(error);
+    writeText(message, result, [&] { return formatCallError(function, error); });
     return result;
 }
 
-hearth_result checkUnused(MessageRoom message, const char* function, const char* owner,
-                          std::initializer_list<LiveObjects> objects) noexcept
+hearth_result checkUnused(MessageBuffer message, const char* function, const char* owner,
+                          std::initializer_list<LiveObjectCount> objects) noexcept
 {
-    if (std::all_of(objects.begin(), objects.end(), [](const LiveObjects& kind) { return kind.count == 0; }))
+    if (std::all_of(objects.begin(), objects.end(),
+                    [](const LiveObjectCount& kind) { return kind.count == 0; }))
         return HEARTH_OK;
     writeText(message, HEARTH_ERROR_IN_USE,
               [&] { return std::string(function) + ": error: " + inUseText(objects, owner); });

@@ -13,7 +13,7 @@ namespace hearth::c
 {
 
 /// Buffer for the message of a failed call; zero-terminated, truncated if it is too short.
-struct MessageRoom
+struct MessageBuffer
 {
     char* text = nullptr; ///< or null
     size_t size = 0;
@@ -23,10 +23,10 @@ struct MessageRoom
 Error usage(std::string detail);
 
 /// Write the message of an error, and return its result code. `function` names the failed call.
-hearth_result fail(MessageRoom message, const char* function, const Error& error);
+hearth_result fail(MessageBuffer message, const char* function, const Error& error);
 
 /// Living objects of one kind that were made from a handle.
-struct LiveObjects
+struct LiveObjectCount
 {
     uint32_t count;
     const char* one;     ///< name of the kind, singular
@@ -36,12 +36,12 @@ struct LiveObjects
 /// Return HEARTH_ERROR_IN_USE if any object is alive, else HEARTH_OK. The message counts the objects: "2
 /// scenes and 1 player are alive".
 /// owner  kind of the handle that they were made from: "pack"
-hearth_result checkUnused(MessageRoom message, const char* function, const char* owner,
-                          std::initializer_list<LiveObjects> objects) noexcept;
+hearth_result checkUnused(MessageBuffer message, const char* function, const char* owner,
+                          std::initializer_list<LiveObjectCount> objects) noexcept;
 
 /// Run a call: `body` returns a Status, and changes nothing if it fails.
 template <typename Body>
-hearth_result call(MessageRoom message, const char* function, const Body& body) noexcept
+hearth_result call(MessageBuffer message, const char* function, const Body& body) noexcept
 try
 {
     const Status status = body();

@@ -46,13 +46,13 @@ Status check(const hearth_renderer& renderer, const hearth_frame& frame)
         return usage("depth_scale is not above 0");
     if ((frame.cull_flags & ~uint32_t{HEARTH_CULL_EVERYTHING}) != 0)
         return usage("cull_flags has bits that this version does not know");
-    if (frame.shown > HEARTH_SHOW_GATHERED || frame.shaded_area > HEARTH_SHADE_TILES)
-        return usage("shown or shaded_area has a value that this version does not know");
+    if (frame.debug_view > HEARTH_VIEW_GI || frame.shaded_area > HEARTH_SHADE_TILES)
+        return usage("debug_view or shaded_area has a value that this version does not know");
     if (frame.ambient_occlusion > HEARTH_AMBIENT_OCCLUSION_OFF ||
         frame.specular_occlusion > HEARTH_SPECULAR_OCCLUSION_OFF)
         return usage("ambient_occlusion or specular_occlusion has a value that this version does not know");
-    if (frame.shown == HEARTH_SHOW_OVERDRAW && !renderer.shows_overdraw)
-        return usage("HEARTH_SHOW_OVERDRAW needs a renderer with HEARTH_FEATURE_OVERDRAW");
+    if (frame.debug_view == HEARTH_VIEW_OVERDRAW && !renderer.shows_overdraw)
+        return usage("HEARTH_VIEW_OVERDRAW needs a renderer with HEARTH_FEATURE_OVERDRAW");
     if (frame.lod_knot_count > 0 && frame.lod_knots == nullptr)
         return usage("lod_knots is NULL");
     if (frame.move_count > 0 && frame.moves == nullptr)
@@ -76,10 +76,10 @@ Status checkCall(const hearth_scene& scene, const hearth_targets* targets, VkCom
         return usage("scene and targets are of different renderers");
     HEARTH_TRY(checkStruct("frame", frame));
     HEARTH_TRY(check(*scene.renderer, *frame));
-    if (frame->shown == HEARTH_SHOW_SHADOW_MAPS && scene.scene->shadows == nullptr)
-        return usage("HEARTH_SHOW_SHADOW_MAPS needs a scene with shadows");
-    if (gpu::showsBricks(frame->shown) && scene.scene->bricks == nullptr)
-        return usage("HEARTH_SHOW_BRICKS, _BRICK_LIGHTING and _GATHERED need a scene whose pack has bricks");
+    if (frame->debug_view == HEARTH_VIEW_SHADOW_MAPS && scene.scene->shadows == nullptr)
+        return usage("HEARTH_VIEW_SHADOW_MAPS needs a scene with shadows");
+    if (gpu::viewNeedsBricks(frame->debug_view) && scene.scene->bricks == nullptr)
+        return usage("HEARTH_VIEW_BRICKS, _BRICK_LIGHTING and _GATHERED need a scene whose pack has bricks");
     return success();
 }
 
@@ -94,7 +94,7 @@ Status checkOwner(const hearth_scene& scene, const hearth_targets& targets)
 }
 
 /// Check that a frame of the scene may begin.
-Status checkBegun(const hearth_scene& scene)
+Status checkFrameBegun(const hearth_scene& scene)
 {
     if (scene.scene->stream != nullptr && !scene.to_be_recorded)
         return usage("the scene has a geometry_budget: each frame begins with hearth_scene_begin_frame");
@@ -156,7 +156,7 @@ Status makePoses(hearth_scene& scene, const hearth_frame& frame)
             {.instance = pose.instance,
              .world_from_bind = {reinterpret_cast<const Affine3d*>(pose.world_from_bind), pose.joint_count},
              .morph_weights = {pose.morph_weights, pose.morph_weight_count},
-             .free = pose.free_pose != 0});
+             .free = pose.is_free != 0});
         HEARTH_TRY(gpu::checkPose(*scene.scene, scene.poses.back()));
     }
     return success();
@@ -168,12 +168,12 @@ Result<gpu::FrameInput> makeInput(const hearth_scene& scene, const gpu::FrameTar
 {
     HEARTH_ASSIGN_OR_RETURN(const shared::FrameView view, makeView(scene, targets, frame));
     return gpu::FrameInput{.view = view,
-                           .shading = {.shown = frame.shown,
+                           .shading = {.debug_view = frame.debug_view,
                                        .depth_scale = frame.depth_scale,
                                        .area = static_cast<gpu::ShadedArea>(frame.shaded_area),
                                        .ambient_occlusion = frame.ambient_occlusion,
                                        .specular_occlusion = frame.specular_occlusion,
-                                       .bricks_light = frame.constant_sky == 0},
+                                       .gi = frame.constant_sky == 0},
                            .moves = scene.moves,
                            .poses = scene.poses,
                            .shadow_spheres = scene.shadow_spheres,
@@ -183,7 +183,7 @@ Result<gpu::FrameInput> makeInput(const hearth_scene& scene, const gpu::FrameTar
 }
 
 /// Progress of a frame: recorded by one call, or by three in this order.
-enum PartsRecorded : uint32_t
+enum FrameProgress : uint32_t
 {
     kNothing = 0, ///< or a whole frame
     kCulled = 1,
@@ -193,7 +193,7 @@ enum PartsRecorded : uint32_t
 /// Take the per-frame inputs, before any part of the frame is recorded.
 Status beginFrame(hearth_scene& scene, const hearth_frame& frame)
 {
-    HEARTH_TRY(checkBegun(scene));
+    HEARTH_TRY(checkFrameBegun(scene));
     HEARTH_TRY(makeMoves(scene, frame));
     HEARTH_TRY(makePoses(scene, frame));
     HEARTH_TRY(makeLights(scene, frame));
@@ -201,7 +201,7 @@ Status beginFrame(hearth_scene& scene, const hearth_frame& frame)
     return makeShadowSpheres(scene, frame);
 }
 
-Status checkOrder(const hearth_scene& scene, const hearth_targets* targets, PartsRecorded before)
+Status checkOrder(const hearth_scene& scene, const hearth_targets* targets, FrameProgress before)
 {
     if (scene.parts_recorded != before || scene.parts_targets != targets)
         return usage("the parts of a frame are recorded in order, with the same targets");
@@ -210,7 +210,7 @@ Status checkOrder(const hearth_scene& scene, const hearth_targets* targets, Part
 
 /// Run one record call; `record` is the renderer's function for it.
 template <typename Record>
-hearth_result recordParts(const char* function, PartsRecorded before, PartsRecorded after,
+hearth_result recordParts(const char* function, FrameProgress before, FrameProgress after,
                           const Record& record, hearth_scene* scene, hearth_targets* targets,
                           VkCommandBuffer commands, const hearth_frame* frame)
 {
@@ -272,17 +272,17 @@ hearth_result hearth_record_materials(hearth_scene* scene, hearth_targets* targe
                        commands, frame);
 }
 
-hearth_result hearth_part_inform(uint32_t part, hearth_part_information* information)
+hearth_result hearth_part_get_info(uint32_t part, hearth_part_info* info)
 {
     return call({}, __func__,
                 [&]() -> Status
                 {
-                    HEARTH_TRY(checkStruct("information", information));
+                    HEARTH_TRY(checkStruct("info", info));
                     if (part > HEARTH_PART_MATERIALS)
                         return usage("part is not one that this version knows");
-                    const gpu::PartImages images = gpu::imagesOf(static_cast<gpu::FramePart>(part));
-                    information->color = toC(images.color);
-                    information->visibility = toC(images.visibility);
+                    const gpu::PartImages images = gpu::partImages(static_cast<gpu::FramePart>(part));
+                    info->color = toC(images.color);
+                    info->visibility = toC(images.visibility);
                     return success();
                 });
 }
@@ -297,7 +297,7 @@ hearth_result hearth_record_prefetch(hearth_scene* scene, hearth_targets* target
         [&]() -> Status
         {
             HEARTH_TRY(checkCall(*scene, targets, commands, frame));
-            HEARTH_TRY(checkBegun(*scene));
+            HEARTH_TRY(checkFrameBegun(*scene));
             if (scene->scene->stream == nullptr)
                 return usage("the scene has no geometry_budget: all of it is there");
             HEARTH_ASSIGN_OR_RETURN(const shared::FrameView view, makeView(*scene, targets->targets, *frame));

@@ -19,7 +19,7 @@ struct hearth_pack
     std::atomic<uint32_t> player_count = 0;
     char last_error[256] = ""; ///< of hearth_pack_close
 
-    hearth::c::MessageRoom message() { return {last_error, sizeof(last_error)}; }
+    hearth::c::MessageBuffer message() { return {last_error, sizeof(last_error)}; }
 };
 
 struct hearth_player
@@ -41,7 +41,7 @@ struct hearth_renderer
     uint32_t targets_count = 0;
     char last_error[512] = "";
 
-    hearth::c::MessageRoom message() { return {last_error, sizeof(last_error)}; }
+    hearth::c::MessageBuffer message() { return {last_error, sizeof(last_error)}; }
 };
 
 struct hearth_scene

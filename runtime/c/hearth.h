@@ -81,7 +81,7 @@ HEARTH_API hearth_result hearth_pack_open_memory(const void* bytes, size_t size,
 HEARTH_API hearth_result hearth_pack_check(const hearth_pack* pack, char* message, size_t message_size);
 
 /* Check a page and decode it into `destination`, which has at least the page's size. Writes `destination`
- * from front to back and does not read it. For hearth_read_page; on any thread.
+ * from front to back and does not read it. For hearth_read_page_callback; on any thread.
  * errors: USAGE, OUT_OF_MEMORY; FILE_MALFORMED if the page contradicts its pack: `destination` is not
  * written. */
 HEARTH_API hearth_result hearth_pack_read_page(const hearth_pack* pack, uint32_t page, void* destination,
@@ -104,7 +104,7 @@ HEARTH_API const char* hearth_pack_last_error(const hearth_pack* pack);
 enum
 {
     HEARTH_FEATURE_SAMPLER_ANISOTROPY = 1, /* the caller enabled samplerAnisotropy: use it */
-    HEARTH_FEATURE_OVERDRAW = 2,           /* create the pipelines of HEARTH_SHOW_OVERDRAW */
+    HEARTH_FEATURE_OVERDRAW = 2,           /* create the pipelines of HEARTH_VIEW_OVERDRAW */
     HEARTH_FEATURE_DEBUG_LABELS = 4        /* 1.1: the caller enabled VK_EXT_debug_utils: name the passes */
 };
 
@@ -125,13 +125,13 @@ typedef struct hearth_memory_request
     uint32_t is_image; /* 1: optimally tiled; the allocator must respect bufferImageGranularity */
 } hearth_memory_request;
 
-typedef struct hearth_memory_piece
+typedef struct hearth_memory_allocation
 {
     VkDeviceMemory memory;
     VkDeviceSize offset;
     void* mapped;     /* address of the allocation, for mapped kinds; until it is freed */
     void* allocation; /* private to the allocator */
-} hearth_memory_piece;
+} hearth_memory_allocation;
 
 /* Device memory allocator of the caller: both functions or none. Called by calls that create and destroy
  * objects, on their thread. `allocate` returns memory of a type that `needs` allows, with the properties of
@@ -139,13 +139,13 @@ typedef struct hearth_memory_piece
 typedef struct hearth_memory_hooks
 {
     void* user;
-    VkResult (*allocate)(void* user, const hearth_memory_request* request, hearth_memory_piece* piece);
-    void (*free)(void* user, const hearth_memory_piece* piece);
+    VkResult (*allocate)(void* user, const hearth_memory_request* request, hearth_memory_allocation* piece);
+    void (*free)(void* user, const hearth_memory_allocation* piece);
 } hearth_memory_hooks;
 
 /* Callback for warnings about degraded results that are no error, one line each: lights left out, pages that
  * cannot be read. Called on the thread of the call that finds it; must not call the library. */
-typedef void (*hearth_message)(void* user, const char* message);
+typedef void (*hearth_message_callback)(void* user, const char* message);
 
 typedef struct hearth_renderer_description
 {
@@ -160,8 +160,8 @@ typedef struct hearth_renderer_description
     uint32_t features;                      /* HEARTH_FEATURE_* */
     uint32_t reserved;                      /* 0 */
     /* since 1.1 */
-    hearth_memory_hooks memory; /* or NULLs: the library allocates blocks with vkAllocateMemory */
-    hearth_message message;     /* or NULL */
+    hearth_memory_hooks memory;      /* or NULLs: the library allocates blocks with vkAllocateMemory */
+    hearth_message_callback message; /* or NULL */
     void* message_user;
 } hearth_renderer_description;
 
@@ -187,18 +187,19 @@ HEARTH_API const char* hearth_last_error(const hearth_renderer* renderer);
 /* ---- Scenes ---- */
 
 /* Page read in flight. Pass it to hearth_read_done once. */
-typedef struct hearth_read
+typedef struct hearth_page_read
 {
     unsigned char internal[16];
-} hearth_read;
+} hearth_page_read;
 
 /* Callback that starts to read a page: write its `size` decoded bytes to `destination`, as
  * hearth_pack_read_page does, then call hearth_read_done. May do so at once or later, on any thread, reads in
  * any order. Called by hearth_scene_begin_frame. */
-typedef void (*hearth_read_page)(void* user, uint32_t page, void* destination, size_t size, hearth_read read);
+typedef void (*hearth_read_page_callback)(void* user, uint32_t page, void* destination, size_t size,
+                                          hearth_page_read read);
 
 /* End a read; `ok` is 0 if it failed. Do not write to the destination afterwards. On any thread. */
-HEARTH_API void hearth_read_done(hearth_read read, int ok);
+HEARTH_API void hearth_read_done(hearth_page_read read, int ok);
 
 /* Shadow maps of suns and spots. See runtime/gpu/README.md, "Shadows". */
 typedef struct hearth_shadow_options
@@ -231,7 +232,7 @@ typedef struct hearth_scene_options
      * 512 MiB. */
     uint64_t geometry_budget;
     /* Needed with a budget. Before the scene is destroyed all reads must have ended or been cancelled. */
-    hearth_read_page read;
+    hearth_read_page_callback read;
     void* read_user;
     /* Reads in flight, 1 to 1024; up to 128 KiB of staging memory each, outside of the budget. */
     uint32_t max_loads;
@@ -255,12 +256,12 @@ HEARTH_API hearth_result hearth_scene_upload(hearth_renderer* renderer, hearth_p
                                              hearth_scene** scene);
 
 /* Free the staging memory of the upload. Call it when the commands of the upload have completed. */
-HEARTH_API hearth_result hearth_scene_uploaded(hearth_scene* scene);
+HEARTH_API hearth_result hearth_scene_release_staging(hearth_scene* scene);
 
 /* errors: none. */
 HEARTH_API hearth_result hearth_scene_destroy(hearth_scene* scene);
 
-typedef struct hearth_scene_information
+typedef struct hearth_scene_info
 {
     uint32_t struct_size;
     uint32_t instance_count;
@@ -270,15 +271,14 @@ typedef struct hearth_scene_information
     float box_min[3];
     float box_max[3];
     uint64_t allocated_bytes; /* device memory, including staging memory of streaming */
-} hearth_scene_information;
+} hearth_scene_info;
 
-#define HEARTH_SCENE_INFORMATION_INIT                                                                        \
+#define HEARTH_SCENE_INFO_INIT                                                                               \
     {                                                                                                        \
-        sizeof(hearth_scene_information), 0, 0, 0, {0, 0, 0}, {0, 0, 0}, 0                                   \
+        sizeof(hearth_scene_info), 0, 0, 0, {0, 0, 0}, {0, 0, 0}, 0                                          \
     }
 
-HEARTH_API hearth_result hearth_scene_inform(const hearth_scene* scene,
-                                             hearth_scene_information* information);
+HEARTH_API hearth_result hearth_scene_get_info(const hearth_scene* scene, hearth_scene_info* info);
 
 /* ---- Streaming ---- */
 
@@ -311,7 +311,8 @@ typedef struct hearth_stream_counters
     }
 
 /* errors: USAGE, also if the scene has no budget. */
-HEARTH_API hearth_result hearth_scene_stream(const hearth_scene* scene, hearth_stream_counters* counters);
+HEARTH_API hearth_result hearth_scene_get_stream_counters(const hearth_scene* scene,
+                                                          hearth_stream_counters* counters);
 
 /* Allow failed pages to be read again. errors: USAGE, also if the scene has no budget. */
 HEARTH_API hearth_result hearth_scene_retry_failed(hearth_scene* scene);
@@ -335,7 +336,8 @@ typedef struct hearth_shadow_counters
     }
 
 /* errors: USAGE, also if the scene has no shadows. */
-HEARTH_API hearth_result hearth_scene_shadows(const hearth_scene* scene, hearth_shadow_counters* counters);
+HEARTH_API hearth_result hearth_scene_get_shadow_counters(const hearth_scene* scene,
+                                                          hearth_shadow_counters* counters);
 
 /* ---- Targets: the images of a frame. Each camera has its own, since they hold its temporal history. ----
  *
@@ -366,7 +368,7 @@ typedef struct hearth_image
     hearth_image_state after;  /* state after a frame, visible to these accesses */
 } hearth_image;
 
-typedef struct hearth_targets_information
+typedef struct hearth_targets_info
 {
     uint32_t struct_size;
     uint32_t width, height;  /* pixels */
@@ -374,7 +376,7 @@ typedef struct hearth_targets_information
     hearth_image color;      /* R8G8B8A8_SRGB */
     hearth_image visibility; /* R32_UINT: slot of the visible list << 7 | triangle, or 0xFFFFFFFF */
     uint64_t allocated_bytes;
-} hearth_targets_information;
+} hearth_targets_info;
 
 #define HEARTH_IMAGE_INIT                                                                                    \
     {                                                                                                        \
@@ -383,13 +385,12 @@ typedef struct hearth_targets_information
             VK_IMAGE_LAYOUT_UNDEFINED, 0, 0                                                                  \
         }                                                                                                    \
     }
-#define HEARTH_TARGETS_INFORMATION_INIT                                                                      \
+#define HEARTH_TARGETS_INFO_INIT                                                                             \
     {                                                                                                        \
-        sizeof(hearth_targets_information), 0, 0, 0, HEARTH_IMAGE_INIT, HEARTH_IMAGE_INIT, 0                 \
+        sizeof(hearth_targets_info), 0, 0, 0, HEARTH_IMAGE_INIT, HEARTH_IMAGE_INIT, 0                        \
     }
 
-HEARTH_API hearth_result hearth_targets_inform(const hearth_targets* targets,
-                                               hearth_targets_information* information);
+HEARTH_API hearth_result hearth_targets_get_info(const hearth_targets* targets, hearth_targets_info* info);
 
 /* ---- Frames ---- */
 
@@ -406,27 +407,27 @@ enum
 /* Debug views. */
 enum
 {
-    HEARTH_SHOW_FINAL = 0,
-    HEARTH_SHOW_CLUSTERS = 1,
-    HEARTH_SHOW_LOD = 2,
-    HEARTH_SHOW_TRIANGLES = 3,
-    HEARTH_SHOW_NORMALS = 4,
-    HEARTH_SHOW_DEPTH = 5,
-    HEARTH_SHOW_MATERIALS = 6,
-    HEARTH_SHOW_ERROR = 7,
-    HEARTH_SHOW_CONES = 8,
-    HEARTH_SHOW_OVERDRAW = 9,     /* needs HEARTH_FEATURE_OVERDRAW */
-    HEARTH_SHOW_SHADOW_MAPS = 10, /* map that each pixel reads; needs a scene with shadows */
-    HEARTH_SHOW_BONES = 11,       /* 1.2: main joints of characters */
+    HEARTH_VIEW_FINAL = 0,
+    HEARTH_VIEW_CLUSTERS = 1,
+    HEARTH_VIEW_LOD = 2,
+    HEARTH_VIEW_TRIANGLES = 3,
+    HEARTH_VIEW_NORMALS = 4,
+    HEARTH_VIEW_DEPTH = 5,
+    HEARTH_VIEW_MATERIALS = 6,
+    HEARTH_VIEW_ERROR = 7,
+    HEARTH_VIEW_CONES = 8,
+    HEARTH_VIEW_OVERDRAW = 9,     /* needs HEARTH_FEATURE_OVERDRAW */
+    HEARTH_VIEW_SHADOW_MAPS = 10, /* map that each pixel reads; needs a scene with shadows */
+    HEARTH_VIEW_BONES = 11,       /* 1.2: main joints of characters */
     /* 1.3: for packs with sky visibility; dark red: the mesh has none */
-    HEARTH_SHOW_AMBIENT_OCCLUSION = 12,
-    HEARTH_SHOW_BENT_NORMAL = 13,        /* axis of the visibility cone */
-    HEARTH_SHOW_APERTURE = 14,           /* half-angle of the cone, white: 90 degrees */
-    HEARTH_SHOW_SPECULAR_OCCLUSION = 15, /* for the direction to the eye */
+    HEARTH_VIEW_AMBIENT_OCCLUSION = 12,
+    HEARTH_VIEW_BENT_NORMAL = 13,        /* axis of the visibility cone */
+    HEARTH_VIEW_APERTURE = 14,           /* half-angle of the cone, white: 90 degrees */
+    HEARTH_VIEW_SPECULAR_OCCLUSION = 15, /* for the direction to the eye */
     /* 1.4: need a scene whose pack has bricks */
-    HEARTH_SHOW_BRICKS = 16,         /* albedo of the first voxel that a pixel's ray hits */
-    HEARTH_SHOW_BRICK_LIGHTING = 17, /* radiance of that voxel */
-    HEARTH_SHOW_GATHERED = 18        /* indirect light (GI) alone, on white surfaces */
+    HEARTH_VIEW_BRICKS = 16,         /* albedo of the first voxel that a pixel's ray hits */
+    HEARTH_VIEW_BRICK_LIGHTING = 17, /* radiance of that voxel */
+    HEARTH_VIEW_GI = 18              /* indirect light (GI) alone, on white surfaces */
 };
 
 /* Ambient occlusion of the sky, for packs with sky visibility (1.3). */
@@ -450,7 +451,7 @@ enum
 enum
 {
     HEARTH_SHADE_AUTOMATIC = 0,
-    HEARTH_SHADE_WHOLE_PICTURE = 1,
+    HEARTH_SHADE_WHOLE_FRAME = 1,
     HEARTH_SHADE_TILES = 2
 };
 
@@ -513,7 +514,7 @@ typedef struct hearth_pose
     uint32_t morph_weight_count;             /* the morph targets of its mesh */
     /* 1: not a pose of the pack's clips, nor a blend of two (ragdoll, inverse kinematics, weights outside of
      * 0 to 1): culled by joint positions, which culls less; or 0 */
-    uint32_t free_pose;
+    uint32_t is_free;
 } hearth_pose;
 
 #define HEARTH_ALL_LIGHTS 0xFFFFFFFFu
@@ -559,8 +560,8 @@ typedef struct hearth_frame
     uint32_t lod_knot_count;          /* 0 to 8; 0: no distance curve */
     uint32_t move_count;
     const hearth_move* moves;     /* read while recording; an instance at most once */
-    uint32_t shown;               /* HEARTH_SHOW_* */
-    float depth_scale;            /* metres that HEARTH_SHOW_DEPTH shows as middle grey, above 0 */
+    uint32_t debug_view;          /* HEARTH_SHOW_* */
+    float depth_scale;            /* metres that HEARTH_VIEW_DEPTH shows as middle grey, above 0 */
     uint32_t shaded_area;         /* HEARTH_SHADE_* */
     uint32_t shadow_sphere_count; /* for scenes with shadows; else ignored */
     const hearth_shadow_sphere* shadow_spheres; /* all of this frame; read while recording */
@@ -582,7 +583,7 @@ typedef struct hearth_frame
 #define HEARTH_FRAME_INIT                                                                                    \
     {                                                                                                        \
         sizeof(hearth_frame), HEARTH_CULL_EVERYTHING, {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 0.8f, 0.01f}, 1,    \
-            NULL, 0, 0, NULL, HEARTH_SHOW_FINAL, 1, HEARTH_SHADE_AUTOMATIC, 0, NULL, VK_NULL_HANDLE, NULL,   \
+            NULL, 0, 0, NULL, HEARTH_VIEW_FINAL, 1, HEARTH_SHADE_AUTOMATIC, 0, NULL, VK_NULL_HANDLE, NULL,   \
             0, HEARTH_AMBIENT_OCCLUSION_EXACT, HEARTH_SPECULAR_OCCLUSION_FIT, 0, NULL, NULL, 0, 0            \
     }
 
@@ -703,7 +704,7 @@ HEARTH_API hearth_result hearth_player_go_to(hearth_player* player, const hearth
                                              size_t message_size);
 
 /* Moves and poses that a frame needs to show the pose; valid until the next hearth_player_go_to. */
-typedef struct hearth_player_information
+typedef struct hearth_player_info
 {
     uint32_t struct_size;
     uint32_t move_count;
@@ -711,16 +712,15 @@ typedef struct hearth_player_information
     const hearth_pose* poses; /* all deformed instances */
     uint32_t pose_count;
     uint32_t reserved; /* 0 */
-} hearth_player_information;
+} hearth_player_info;
 
-#define HEARTH_PLAYER_INFORMATION_INIT                                                                       \
+#define HEARTH_PLAYER_INFO_INIT                                                                              \
     {                                                                                                        \
-        sizeof(hearth_player_information), 0, NULL, NULL, 0, 0                                               \
+        sizeof(hearth_player_info), 0, NULL, NULL, 0, 0                                                      \
     }
 
 /* errors: USAGE. */
-HEARTH_API hearth_result hearth_player_inform(const hearth_player* player,
-                                              hearth_player_information* information);
+HEARTH_API hearth_result hearth_player_get_info(const hearth_player* player, hearth_player_info* info);
 
 /* Record culling and drawing, outside a render pass. Clobbers compute and graphics state. Submit the frames
  * of a scene, and the frames with the same targets, to one queue for graphics and compute, in recording
@@ -739,7 +739,7 @@ enum
 
 /* Record a frame in parts, in place of hearth_record_frame: all three in this order, with the same targets
  * and frame, in one command buffer or in several of one queue. They synchronize with each other;
- * hearth_part_inform returns the image states before and after each. In scenes of few materials the parts
+ * hearth_part_get_info returns the image states before and after each. In scenes of few materials the parts
  * cost a tile-based GPU more: hearth_record_frame keeps the visibility buffer in the tile. errors: USAGE. */
 HEARTH_API hearth_result hearth_record_cull(hearth_scene* scene, hearth_targets* targets,
                                             VkCommandBuffer commands, const hearth_frame* frame);
@@ -755,18 +755,17 @@ typedef struct hearth_image_use
     hearth_image_state after;  /* state after the part, visible to these accesses */
 } hearth_image_use;
 
-typedef struct hearth_part_information
+typedef struct hearth_part_info
 {
     uint32_t struct_size;
     uint32_t reserved; /* 0 */
     hearth_image_use color;
     hearth_image_use visibility;
-} hearth_part_information;
+} hearth_part_info;
 
-#define HEARTH_PART_INFORMATION_INIT                                                                         \
+#define HEARTH_PART_INFO_INIT                                                                                \
     {                                                                                                        \
-        sizeof(hearth_part_information), 0,                                                                  \
-            {{VK_IMAGE_LAYOUT_UNDEFINED, 0, 0}, {VK_IMAGE_LAYOUT_UNDEFINED, 0, 0}},                          \
+        sizeof(hearth_part_info), 0, {{VK_IMAGE_LAYOUT_UNDEFINED, 0, 0}, {VK_IMAGE_LAYOUT_UNDEFINED, 0, 0}}, \
         {                                                                                                    \
             {VK_IMAGE_LAYOUT_UNDEFINED, 0, 0},                                                               \
             {                                                                                                \
@@ -776,7 +775,7 @@ typedef struct hearth_part_information
     }
 
 /* part  HEARTH_PART_*; the same for all renderers. errors: USAGE. */
-HEARTH_API hearth_result hearth_part_inform(uint32_t part, hearth_part_information* information);
+HEARTH_API hearth_result hearth_part_get_info(uint32_t part, hearth_part_info* info);
 
 /* Record the page requests of a frame of a scene with a budget, without drawing. Moves nothing. To prefetch a
  * view, record such frames until settled_serial reaches the serial of the first of them. errors: USAGE. */

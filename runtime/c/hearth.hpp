@@ -165,9 +165,9 @@ public:
                                { return hearth_player_go_to(get(), from, to, weight, text, size); });
     }
 
-    [[nodiscard]] hearth_result inform(hearth_player_information& information) const
+    [[nodiscard]] hearth_result getInfo(hearth_player_info& info) const
     {
-        return hearth_player_inform(get(), &information);
+        return hearth_player_get_info(get(), &info);
     }
 };
 
@@ -206,9 +206,9 @@ public:
         return result;
     }
 
-    [[nodiscard]] hearth_result inform(hearth_targets_information& information) const
+    [[nodiscard]] hearth_result getInfo(hearth_targets_info& info) const
     {
-        return hearth_targets_inform(get(), &information);
+        return hearth_targets_get_info(get(), &info);
     }
 };
 
@@ -229,22 +229,22 @@ public:
         return result;
     }
 
-    [[nodiscard]] hearth_result uploaded() { return hearth_scene_uploaded(get()); }
-    [[nodiscard]] hearth_result inform(hearth_scene_information& information) const
+    [[nodiscard]] hearth_result releaseStaging() { return hearth_scene_release_staging(get()); }
+    [[nodiscard]] hearth_result getInfo(hearth_scene_info& info) const
     {
-        return hearth_scene_inform(get(), &information);
+        return hearth_scene_get_info(get(), &info);
     }
     [[nodiscard]] hearth_result beginFrame(uint64_t serial, uint64_t completed_serial)
     {
         return hearth_scene_begin_frame(get(), serial, completed_serial);
     }
-    [[nodiscard]] hearth_result stream(hearth_stream_counters& counters) const
+    [[nodiscard]] hearth_result getStreamCounters(hearth_stream_counters& counters) const
     {
-        return hearth_scene_stream(get(), &counters);
+        return hearth_scene_get_stream_counters(get(), &counters);
     }
-    [[nodiscard]] hearth_result shadows(hearth_shadow_counters& counters) const
+    [[nodiscard]] hearth_result getShadowCounters(hearth_shadow_counters& counters) const
     {
-        return hearth_scene_shadows(get(), &counters);
+        return hearth_scene_get_shadow_counters(get(), &counters);
     }
     [[nodiscard]] hearth_result retryFailed() { return hearth_scene_retry_failed(get()); }
     [[nodiscard]] hearth_result record(Targets& targets, VkCommandBuffer commands, const hearth_frame& frame)

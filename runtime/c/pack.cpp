@@ -15,7 +15,7 @@ bool isAligned(const void* bytes)
     return reinterpret_cast<uintptr_t>(bytes) % formats::kChunkAlignment == 0;
 }
 
-Status handOut(Result<pack::Pack> opened, hearth_pack** pack)
+Status makeHandle(Result<pack::Pack> opened, hearth_pack** pack)
 {
     HEARTH_ASSIGN_OR_RETURN(pack::Pack value, std::move(opened));
     *pack = new hearth_pack(std::move(value));
@@ -31,23 +31,23 @@ hearth_result hearth_pack_open(const char* path, hearth_pack** pack, char* messa
                 {
                     if (path == nullptr || pack == nullptr)
                         return usage("path or pack is NULL");
-                    return handOut(pack::Pack::open(path), pack);
+                    return makeHandle(pack::Pack::open(path), pack);
                 });
 }
 
 hearth_result hearth_pack_open_memory(const void* bytes, size_t size, const char* name, hearth_pack** pack,
                                       char* message, size_t message_size)
 {
-    return call(
-        {message, message_size}, __func__,
-        [&]() -> Status
-        {
-            if (bytes == nullptr || name == nullptr || pack == nullptr)
-                return usage("bytes, name or pack is NULL");
-            if (!isAligned(bytes))
-                return usage("bytes is not aligned to 64");
-            return handOut(pack::Pack::fromBytes({static_cast<const std::byte*>(bytes), size}, name), pack);
-        });
+    return call({message, message_size}, __func__,
+                [&]() -> Status
+                {
+                    if (bytes == nullptr || name == nullptr || pack == nullptr)
+                        return usage("bytes, name or pack is NULL");
+                    if (!isAligned(bytes))
+                        return usage("bytes is not aligned to 64");
+                    return makeHandle(
+                        pack::Pack::fromBytes({static_cast<const std::byte*>(bytes), size}, name), pack);
+                });
 }
 
 hearth_result hearth_pack_check(const hearth_pack* pack, char* message, size_t message_size)

@@ -85,7 +85,7 @@ hearth_result hearth_player_create(hearth_pack* pack, hearth_player** player, ch
                     if (pack == nullptr || player == nullptr)
                         return usage("pack or player is NULL");
                     auto made = std::make_unique<hearth_player>(*pack);
-                    made->moves.reserve(made->player.places().size());
+                    made->moves.reserve(made->player.transforms().size());
                     for (const pack::PosedInstance& posed : made->player.posed())
                         made->poses.push_back(
                             {posed.instance, static_cast<uint32_t>(posed.world_from_bind.size()),
@@ -122,20 +122,20 @@ hearth_result hearth_player_go_to(hearth_player* player, const hearth_clip* from
                 });
 }
 
-hearth_result hearth_player_inform(const hearth_player* player, hearth_player_information* information)
+hearth_result hearth_player_get_info(const hearth_player* player, hearth_player_info* info)
 {
     return call({}, __func__,
                 [&]() -> Status
                 {
                     if (player == nullptr)
                         return usage("player is NULL");
-                    HEARTH_TRY(checkStruct("information", information));
-                    *information = {.struct_size = sizeof(*information),
-                                    .move_count = static_cast<uint32_t>(player->moves.size()),
-                                    .moves = player->moves.data(),
-                                    .poses = player->poses.data(),
-                                    .pose_count = static_cast<uint32_t>(player->poses.size()),
-                                    .reserved = 0};
+                    HEARTH_TRY(checkStruct("info", info));
+                    *info = {.struct_size = sizeof(*info),
+                             .move_count = static_cast<uint32_t>(player->moves.size()),
+                             .moves = player->moves.data(),
+                             .poses = player->poses.data(),
+                             .pose_count = static_cast<uint32_t>(player->poses.size()),
+                             .reserved = 0};
                     return success();
                 });
 }

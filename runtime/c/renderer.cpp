@@ -16,24 +16,24 @@ constexpr uint32_t kFeatures =
 /// Size of the description in version 1.0.
 constexpr size_t kDescriptionBytes10 = offsetof(hearth_renderer_description, memory);
 
-bool understands(uint32_t version)
+bool supportsVersion(uint32_t version)
 {
     return version >> 16 == HEARTH_API_VERSION >> 16 && (version & 0xFFFFu) <= (HEARTH_API_VERSION & 0xFFFFu);
 }
 
 /// Return the description of a caller of any version, with defaults for missing members.
-Result<hearth_renderer_description> complete(const hearth_renderer_description* given)
+Result<hearth_renderer_description> completeDescription(const hearth_renderer_description* caller_description)
 {
-    if (given == nullptr || given->struct_size != kDescriptionBytes10)
-        HEARTH_TRY(checkStruct("description", given));
+    if (caller_description == nullptr || caller_description->struct_size != kDescriptionBytes10)
+        HEARTH_TRY(checkStruct("description", caller_description));
     hearth_renderer_description description = HEARTH_RENDERER_DESCRIPTION_INIT;
-    std::memcpy(&description, given, given->struct_size);
+    std::memcpy(&description, caller_description, caller_description->struct_size);
     return description;
 }
 
 Status check(const hearth_renderer_description& description)
 {
-    if (!understands(description.api_version))
+    if (!supportsVersion(description.api_version))
         return usage("the caller was compiled for version " + std::to_string(description.api_version >> 16) +
                      "." + std::to_string(description.api_version & 0xFFFFu) + ", the library is " +
                      std::to_string(HEARTH_API_VERSION >> 16) + "." +
@@ -48,22 +48,24 @@ Status check(const hearth_renderer_description& description)
     return success();
 }
 
-VkResult allocateFrom(void* hooks, const gpu::MemoryRequest& request, gpu::MemoryPiece& piece)
+VkResult allocateFrom(void* hooks, const gpu::MemoryRequest& request, gpu::MemoryAllocation& piece)
 {
     const auto& memory = *static_cast<const hearth_memory_hooks*>(hooks);
     const hearth_memory_request asked{request.needs, static_cast<uint32_t>(request.kind),
                                       request.image ? 1u : 0u};
-    hearth_memory_piece given{};
-    const VkResult result = memory.allocate(memory.user, &asked, &given);
-    piece = {given.memory, given.offset, static_cast<std::byte*>(given.mapped), given.allocation};
+    hearth_memory_allocation caller_description{};
+    const VkResult result = memory.allocate(memory.user, &asked, &caller_description);
+    piece = {caller_description.memory, caller_description.offset,
+             static_cast<std::byte*>(caller_description.mapped), caller_description.allocation};
     return result;
 }
 
-void freeTo(void* hooks, const gpu::MemoryPiece& piece)
+void freeWithHooks(void* hooks, const gpu::MemoryAllocation& piece)
 {
     const auto& memory = *static_cast<const hearth_memory_hooks*>(hooks);
-    const hearth_memory_piece given{piece.memory, piece.offset, piece.mapped, piece.allocation};
-    memory.free(memory.user, &given);
+    const hearth_memory_allocation caller_description{piece.memory, piece.offset, piece.mapped,
+                                                      piece.allocation};
+    memory.free(memory.user, &caller_description);
 }
 
 gpu::DeviceDescription toDevice(const hearth_renderer_description& description, hearth_memory_hooks& memory)
@@ -79,7 +81,7 @@ gpu::DeviceDescription toDevice(const hearth_renderer_description& description, 
                                   .pipeline_cache = description.pipeline_cache,
                                   .message_hook = {description.message_user, description.message}};
     if (memory.allocate != nullptr)
-        device.memory_hooks = {&memory, allocateFrom, freeTo};
+        device.memory_hooks = {&memory, allocateFrom, freeWithHooks};
     return device;
 }
 
@@ -104,7 +106,8 @@ hearth_result hearth_renderer_create(const hearth_renderer_description* descript
                 {
                     if (renderer == nullptr)
                         return usage("renderer is NULL");
-                    HEARTH_ASSIGN_OR_RETURN(const hearth_renderer_description whole, complete(description));
+                    HEARTH_ASSIGN_OR_RETURN(const hearth_renderer_description whole,
+                                            completeDescription(description));
                     HEARTH_TRY(check(whole));
                     HEARTH_ASSIGN_OR_RETURN(std::unique_ptr<hearth_renderer> made, create(whole));
                     *renderer = made.release();

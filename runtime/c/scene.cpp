@@ -12,22 +12,22 @@ using namespace hearth::c;
 namespace
 {
 
-constexpr uint32_t kMostLoads = 1024;
-constexpr uint32_t kMostFrames = 16;
+constexpr uint32_t kMaxLoads = 1024;
+constexpr uint32_t kMaxFramesInFlight = 16;
 
-using DoneBytes = std::array<unsigned char, sizeof(pack::ReadDone)>;
-static_assert(sizeof(pack::ReadDone) <= sizeof(hearth_read));
+using HearthReadBytes = std::array<unsigned char, sizeof(pack::ReadDone)>;
+static_assert(sizeof(pack::ReadDone) <= sizeof(hearth_page_read));
 
-hearth_read toC(const pack::ReadDone& done)
+hearth_page_read toC(const pack::ReadDone& done)
 {
-    hearth_read read{};
+    hearth_page_read read{};
     std::memcpy(read.internal, &done, sizeof(done));
     return read;
 }
 
-pack::ReadDone fromC(const hearth_read& read)
+pack::ReadDone fromC(const hearth_page_read& read)
 {
-    DoneBytes bytes;
+    HearthReadBytes bytes;
     std::memcpy(bytes.data(), read.internal, bytes.size());
     return std::bit_cast<pack::ReadDone>(bytes);
 }
@@ -41,10 +41,10 @@ Status check(const hearth_scene_options* options)
         return success();
     if (options->read == nullptr)
         return usage("geometry_budget needs a read callback");
-    if (options->max_loads < 1 || options->max_loads > kMostLoads)
-        return usage("max_loads is not from 1 to " + std::to_string(kMostLoads));
-    if (options->frames_in_flight < 1 || options->frames_in_flight > kMostFrames)
-        return usage("frames_in_flight is not from 1 to " + std::to_string(kMostFrames));
+    if (options->max_loads < 1 || options->max_loads > kMaxLoads)
+        return usage("max_loads is not from 1 to " + std::to_string(kMaxLoads));
+    if (options->frames_in_flight < 1 || options->frames_in_flight > kMaxFramesInFlight)
+        return usage("frames_in_flight is not from 1 to " + std::to_string(kMaxFramesInFlight));
     return success();
 }
 
@@ -92,7 +92,7 @@ uint64_t allocatedBytes(const gpu::Scene& scene)
 
 } // namespace
 
-void hearth_read_done(hearth_read read, int ok)
+void hearth_read_done(hearth_page_read read, int ok)
 {
     fromC(read)(ok != 0);
 }
@@ -121,7 +121,7 @@ hearth_result hearth_scene_upload(hearth_renderer* renderer, hearth_pack* pack, 
                 });
 }
 
-hearth_result hearth_scene_uploaded(hearth_scene* scene)
+hearth_result hearth_scene_release_staging(hearth_scene* scene)
 {
     if (scene == nullptr)
         return HEARTH_ERROR_USAGE;
@@ -140,22 +140,22 @@ hearth_result hearth_scene_destroy(hearth_scene* scene)
     return HEARTH_OK;
 }
 
-hearth_result hearth_scene_inform(const hearth_scene* scene, hearth_scene_information* information)
+hearth_result hearth_scene_get_info(const hearth_scene* scene, hearth_scene_info* info)
 {
     if (scene == nullptr)
         return HEARTH_ERROR_USAGE;
     return call(scene->renderer->message(), __func__,
                 [&]() -> Status
                 {
-                    HEARTH_TRY(checkStruct("information", information));
+                    HEARTH_TRY(checkStruct("info", info));
                     const Box3& box = scene->scene->bounds;
-                    *information = {.struct_size = sizeof(*information),
-                                    .instance_count = scene->scene->instance_count,
-                                    .dropped_lights = scene->scene->dropped_lights,
-                                    .reserved = 0,
-                                    .box_min = {box.min.x, box.min.y, box.min.z},
-                                    .box_max = {box.max.x, box.max.y, box.max.z},
-                                    .allocated_bytes = allocatedBytes(*scene->scene)};
+                    *info = {.struct_size = sizeof(*info),
+                             .instance_count = scene->scene->instance_count,
+                             .dropped_lights = scene->scene->dropped_lights,
+                             .reserved = 0,
+                             .box_min = {box.min.x, box.min.y, box.min.z},
+                             .box_max = {box.max.x, box.max.y, box.max.z},
+                             .allocated_bytes = allocatedBytes(*scene->scene)};
                     return success();
                 });
 }
@@ -177,7 +177,7 @@ hearth_result hearth_scene_begin_frame(hearth_scene* scene, uint64_t serial, uin
                 });
 }
 
-hearth_result hearth_scene_stream(const hearth_scene* scene, hearth_stream_counters* counters)
+hearth_result hearth_scene_get_stream_counters(const hearth_scene* scene, hearth_stream_counters* counters)
 {
     if (scene == nullptr)
         return HEARTH_ERROR_USAGE;

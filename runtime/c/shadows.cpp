@@ -12,8 +12,8 @@ namespace hearth::c
 namespace
 {
 
-constexpr uint32_t kMostTexels = 8192;
-constexpr uint32_t kLargestKernel = 3;
+constexpr uint32_t kMaxTexels = 8192;
+constexpr uint32_t kMaxKernel = 3;
 
 bool isLength(float value)
 {
@@ -24,12 +24,12 @@ Status check(const hearth_shadow_options& options)
 {
     if (options.max_maps > shared::kMaxShadowMaps)
         return usage("shadows.max_maps is above " + std::to_string(shared::kMaxShadowMaps));
-    if (options.kernel > kLargestKernel)
-        return usage("shadows.kernel is above " + std::to_string(kLargestKernel));
+    if (options.kernel > kMaxKernel)
+        return usage("shadows.kernel is above " + std::to_string(kMaxKernel));
     if (!std::has_single_bit(options.texels) || options.texels < 4 * (options.kernel + 1) ||
-        options.texels > kMostTexels)
+        options.texels > kMaxTexels)
         return usage("shadows.texels is not a power of two from 4 * (kernel + 1) to " +
-                     std::to_string(kMostTexels));
+                     std::to_string(kMaxTexels));
     if (options.splits > gpu::kMaxSplits)
         return usage("shadows.splits is above " + std::to_string(gpu::kMaxSplits));
     if (!(options.error_bias >= 1) || !std::isfinite(options.error_bias))
@@ -85,7 +85,7 @@ Status makeShadowSpheres(hearth_scene& scene, const hearth_frame& frame)
 using namespace hearth;
 using namespace hearth::c;
 
-hearth_result hearth_scene_shadows(const hearth_scene* scene, hearth_shadow_counters* counters)
+hearth_result hearth_scene_get_shadow_counters(const hearth_scene* scene, hearth_shadow_counters* counters)
 {
     if (scene == nullptr)
         return HEARTH_ERROR_USAGE;

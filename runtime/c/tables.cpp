@@ -47,14 +47,14 @@ auto withRecords(const formats::PackView& view, uint32_t table, const Use& use)
 }
 
 template <typename Record>
-std::string_view nameOf(const formats::PackView& view, const Record& record)
+std::string_view readName(const formats::PackView& view, const Record& record)
 {
     return view.text(record.name);
 }
 
-std::string_view nameOf(const formats::PackView& view, const formats::InstanceRecord& instance)
+std::string_view readName(const formats::PackView& view, const formats::InstanceRecord& instance)
 {
-    return nameOf(view, view.nodes()[instance.node]);
+    return readName(view, view.nodes()[instance.node]);
 }
 
 Status checkTable(const hearth_pack* pack, uint32_t table)
@@ -66,7 +66,7 @@ Status checkTable(const hearth_pack* pack, uint32_t table)
     return success();
 }
 
-uint32_t countOf(const hearth_pack& pack, uint32_t table)
+uint32_t readCount(const hearth_pack& pack, uint32_t table)
 {
     return withRecords(pack.pack.view(), table,
                        [](const auto& records) { return static_cast<uint32_t>(records.size()); });
@@ -76,7 +76,7 @@ uint32_t countOf(const hearth_pack& pack, uint32_t table)
 Status checkRecord(const hearth_pack* pack, uint32_t table, uint32_t index)
 {
     HEARTH_TRY(checkTable(pack, table));
-    if (const uint32_t count = countOf(*pack, table); index >= count)
+    if (const uint32_t count = readCount(*pack, table); index >= count)
         return usage("there is no " + std::string(kRecordNames[table]) + " " + std::to_string(index) +
                      ": the pack has " + std::to_string(count));
     return success();
@@ -96,7 +96,7 @@ void copyVector(Float3 from, float (&to)[3])
 }
 
 /// Convert to the camera of a frame, as hearth-render draws --scene-camera.
-hearth_camera viewOf(const formats::CameraRecord& record)
+hearth_camera makeCamera(const formats::CameraRecord& record)
 {
     const Affine3& world_from_camera = record.world_from_camera;
     const Float3 position = transformPoint(world_from_camera, {});
@@ -119,7 +119,7 @@ hearth_pack_camera toC(const formats::CameraRecord& record)
     camera.half_height = record.y_magnification;
     camera.z_far = record.z_far;
     copyRows(record.world_from_camera, camera.world_from_camera);
-    camera.view = viewOf(record);
+    camera.view = makeCamera(record);
     return camera;
 }
 
@@ -134,7 +134,7 @@ hearth_result hearth_pack_get_count(const hearth_pack* pack, uint32_t table, uin
                     HEARTH_TRY(checkTable(pack, table));
                     if (count == nullptr)
                         return usage("count is NULL");
-                    *count = countOf(*pack, table);
+                    *count = readCount(*pack, table);
                     return success();
                 });
 }
@@ -150,7 +150,7 @@ hearth_result hearth_pack_get_name(const hearth_pack* pack, uint32_t table, uint
                         return usage("name is NULL");
                     const formats::PackView& view = pack->pack.view();
                     const std::string_view text = withRecords(
-                        view, table, [&](const auto& records) { return nameOf(view, records[index]); });
+                        view, table, [&](const auto& records) { return readName(view, records[index]); });
                     *name = {text.empty() ? "" : text.data(), text.size()};
                     return success();
                 });

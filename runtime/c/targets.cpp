@@ -8,7 +8,7 @@ namespace
 {
 
 /// note: must match the dependencies in runtime/gpu/passes/frame_passes.cpp.
-hearth_image imageOf(const gpu::Image& image)
+hearth_image makeImage(const gpu::Image& image)
 {
     return {
         .image = image.handle.get(),
@@ -48,21 +48,21 @@ hearth_result hearth_targets_destroy(hearth_targets* targets)
     return HEARTH_OK;
 }
 
-hearth_result hearth_targets_inform(const hearth_targets* targets, hearth_targets_information* information)
+hearth_result hearth_targets_get_info(const hearth_targets* targets, hearth_targets_info* info)
 {
     if (targets == nullptr)
         return HEARTH_ERROR_USAGE;
     return call(targets->renderer->message(), __func__,
                 [&]() -> Status
                 {
-                    HEARTH_TRY(checkStruct("information", information));
-                    *information = {.struct_size = sizeof(*information),
-                                    .width = targets->targets.extent().width,
-                                    .height = targets->targets.extent().height,
-                                    .reserved = 0,
-                                    .color = imageOf(targets->targets.color()),
-                                    .visibility = imageOf(targets->targets.visibility()),
-                                    .allocated_bytes = targets->targets.allocatedBytes()};
+                    HEARTH_TRY(checkStruct("info", info));
+                    *info = {.struct_size = sizeof(*info),
+                             .width = targets->targets.extent().width,
+                             .height = targets->targets.extent().height,
+                             .reserved = 0,
+                             .color = makeImage(targets->targets.color()),
+                             .visibility = makeImage(targets->targets.visibility()),
+                             .allocated_bytes = targets->targets.allocatedBytes()};
                     return success();
                 });
 }

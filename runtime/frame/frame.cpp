@@ -19,7 +19,7 @@ Float4 row(Float3 a, float w = 0)
 
 /// Return the right vector of a camera, or any unit vector perpendicular to `forward` for cameras that look
 /// along their up vector.
-Float3 rightOf(Float3 forward, Float3 up)
+Float3 rightVector(Float3 forward, Float3 up)
 {
     const Float3 right = cross(forward, up);
     if (length(right) > 1e-4f * length(up))
@@ -34,7 +34,7 @@ FrameView makeFrameView(const Camera& camera, uint32_t width, uint32_t height, f
                         uint32_t instance_count, uint32_t flags)
 {
     const Float3 forward = normalizeOr(camera.target - camera.position, {0, 0, -1});
-    const Float3 right = rightOf(forward, camera.up);
+    const Float3 right = rightVector(forward, camera.up);
     const Float3 up = cross(right, forward);
     const float focal = 1.0f / std::tan(0.5f * camera.y_fov_rad);
     const float aspect = static_cast<float>(width) / static_cast<float>(height);
@@ -119,7 +119,7 @@ std::vector<MeshBounds> makeMeshBounds(std::span<const formats::MeshRecord> mesh
         Box3 box;
         for (const formats::ClusterRecord& cluster :
              clusters.subspan(mesh.clusters.first, mesh.clusters.count))
-            box.add(formats::boxOf(cluster, mesh.grid_step));
+            box.add(formats::clusterBox(cluster, mesh.grid_step));
         bounds.push_back({box.min, mesh.grid_step, box.max, 0});
     }
     return bounds;

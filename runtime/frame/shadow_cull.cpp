@@ -13,14 +13,14 @@ namespace hearth::shared
 namespace
 {
 
-/// Return the plane through an edge of a map. Inside is where the light's coordinate is more than `least`, or
+/// Return the plane through an edge of a map. Inside is where the light's coordinate is more than `min_coordinate`, or
 /// less with side -1.
-Float4 sidePlane(const ShadowLight& light, Double3 eye, Float3 axis, double least, double side)
+Float4 edgePlane(const ShadowLight& light, Double3 eye, Float3 axis, double min_coordinate, double side)
 {
     const Double3 along = widen(light.direction);
-    // least < axis . p / w, times w
-    const Double3 normal = (widen(axis) - along * (least * double{light.perspective})) * side;
-    const double offset = dot(normal, eye) - side * least * (1 - double{light.perspective});
+    // min_coordinate < axis . p / w, times w
+    const Double3 normal = (widen(axis) - along * (min_coordinate * double{light.perspective})) * side;
+    const double offset = dot(normal, eye) - side * min_coordinate * (1 - double{light.perspective});
     const Float3 n = narrow(normal);
     return {n.x, n.y, n.z, static_cast<float>(offset)};
 }
@@ -35,12 +35,12 @@ FrameView makeCasterView(const FrameView& view, const ShadowLight& light, const 
     const auto coordinate = [](float texel, float scale, float offset)
     { return (double{texel} - double{offset}) / double{scale}; };
     FrameView casters = view;
-    casters.planes[0] = sidePlane(light, eye, light.right, coordinate(0, map.scale_x, map.offset_x), 1);
+    casters.planes[0] = edgePlane(light, eye, light.right, coordinate(0, map.scale_x, map.offset_x), 1);
     casters.planes[1] =
-        sidePlane(light, eye, light.right, coordinate(map.size, map.scale_x, map.offset_x), -1);
-    casters.planes[2] = sidePlane(light, eye, light.down, coordinate(0, map.scale_y, map.offset_y), 1);
+        edgePlane(light, eye, light.right, coordinate(map.size, map.scale_x, map.offset_x), -1);
+    casters.planes[2] = edgePlane(light, eye, light.down, coordinate(0, map.scale_y, map.offset_y), 1);
     casters.planes[3] =
-        sidePlane(light, eye, light.down, coordinate(map.size, map.scale_y, map.offset_y), -1);
+        edgePlane(light, eye, light.down, coordinate(map.size, map.scale_y, map.offset_y), -1);
     // a sun has no near plane: use a plane with all points inside
     const Double3 near_normal = widen(light.direction) * double{light.perspective};
     const Float3 n = narrow(near_normal);
@@ -52,17 +52,17 @@ FrameView makeCasterView(const FrameView& view, const ShadowLight& light, const 
     return casters;
 }
 
-EyeCell eyeCell(const FrameView& view, float texel_m, float error_bias)
+EyeCell findEyeCell(const FrameView& view, float texel_m, float error_bias)
 {
     HEARTH_ASSERT(texel_m > 0 && error_bias >= 1);
     // cells above a kilometre or below a millimetre gain nothing
-    constexpr float kSmallestExponent = -10;
-    constexpr float kLargestExponent = 10;
+    constexpr float kMinExponent = -10;
+    constexpr float kMaxExponent = 10;
     constexpr float kHalfDiagonal = 0.8660255f; // of a cube of side 1
     const float error_a_metre = std::max(view.threshold, 0.0f) * error_bias / view.lod_scale;
     const float allowed_shift = 0.5f * texel_m / std::max(error_a_metre, 1e-12f);
     const float exponent = std::floor(std::log2(allowed_shift / kHalfDiagonal));
-    const float side = std::exp2(std::clamp(exponent, kSmallestExponent, kLargestExponent));
+    const float side = std::exp2(std::clamp(exponent, kMinExponent, kMaxExponent));
     const auto middle = [&](float along) { return (std::floor(along / side) + 0.5f) * side; };
     return {{middle(view.eye.x), middle(view.eye.y), middle(view.eye.z)}, side * kHalfDiagonal};
 }

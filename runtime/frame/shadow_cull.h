@@ -32,6 +32,6 @@ struct EyeCell
 ///
 /// texel_m         metres that the finest texel covers; above 0
 /// error_bias      as in makeCasterView
-EyeCell eyeCell(const FrameView& view, float texel_m, float error_bias);
+EyeCell findEyeCell(const FrameView& view, float texel_m, float error_bias);
 
 } // namespace hearth::shared

@@ -16,11 +16,11 @@ namespace
 
 // Maximum texel coordinate. Larger floats have a resolution below 1/16 and would lose the position within a
 // texel.
-constexpr double kLargestTexel = 1 << 20;
+constexpr double kMaxTexelCoordinate = 1 << 20;
 
 // Maximum half-angle of a spot map, 80 degrees: there a map spends a sixth of its texels each way on the
 // inner 45 degrees; beyond, next to none are left.
-constexpr float kWidestConeRad = 1.396263f;
+constexpr float kMaxConeRad = 1.396263f;
 
 // Slack for vertices that are rounded differently from the box of the scene.
 constexpr double kRangeSlack = 1e-4;
@@ -60,16 +60,16 @@ ShadowMap emptyMap(ShadowMapSize size)
 }
 
 /// Interval of one of the light's coordinates.
-struct Span
+struct Interval
 {
     double low, high;
 };
 
 /// Return the bounds of x / z over a disc in front of z = 0, within the cone, from the tangents through the
 /// origin. M. Mara, M. McGuire, "2D polyhedral bounds of a clipped, perspective-projected 3D sphere", 2013.
-Span discBounds(double x, double z, double radius, double cone_tangent)
+Interval discBounds(double x, double z, double radius, double cone_tangent)
 {
-    Span span{-cone_tangent, cone_tangent};
+    Interval span{-cone_tangent, cone_tangent};
     const double reach2 = x * x + z * z - radius * radius;
     if (reach2 <= 0)
         return span;
@@ -85,15 +85,15 @@ Span discBounds(double x, double z, double radius, double cone_tangent)
 }
 
 /// Compute scale and offset of one axis.
-void cropTo(Span span, double cone_tangent, ShadowMapSize size, float& scale, float& offset)
+void cropTo(Interval span, double cone_tangent, ShadowMapSize size, float& scale, float& offset)
 {
-    const double finest = kLargestTexel / cone_tangent;
+    const double finest = kMaxTexelCoordinate / cone_tangent;
     const double texels = std::min(usableTexels(size) / (span.high - span.low), finest);
     scale = static_cast<float>(texels);
     offset = static_cast<float>(0.5 * size.texels - 0.5 * (span.low + span.high) * double{scale});
 }
 
-ShadowMap crop(Span x, Span y, double cone_tangent, ShadowMapSize size)
+ShadowMap crop(Interval x, Interval y, double cone_tangent, ShadowMapSize size)
 {
     ShadowMap map = emptyMap(size);
     cropTo(x, cone_tangent, size, map.scale_x, map.offset_x);
@@ -105,7 +105,7 @@ ShadowMap crop(Span x, Span y, double cone_tangent, ShadowMapSize size)
 /// Return the sphere around the slice [near, far] of a view frustum: on its axis, through the corners of one
 /// end or of both.
 /// corner_tangent2  squared tangent of the angle between the axis and an edge
-Sphere sphereOfSlice(Double3 eye, Double3 forward, double near, double far, double corner_tangent2)
+Sphere makeSliceSphere(Double3 eye, Double3 forward, double near, double far, double corner_tangent2)
 {
     const double center = std::min(far, 0.5 * (near + far) * (1 + corner_tangent2));
     const double radius = std::sqrt((far - center) * (far - center) + far * far * corner_tangent2);
@@ -160,7 +160,7 @@ ShadowMap fitSunMap(const ShadowLight& light, const Sphere& sphere, ShadowMapSiz
     // one texel for the snapping of the centre, half of it to each side
     double scale = (usableTexels(size) - 1) / (2 * double{sphere.radius});
     // by halves: a sphere that moves nearly always keeps its scale
-    while (scale * reach > kLargestTexel)
+    while (scale * reach > kMaxTexelCoordinate)
         scale *= 0.5;
     map.scale_x = map.scale_y = map.density = static_cast<float>(scale);
     const auto snapped = [&](double along)
@@ -172,12 +172,12 @@ ShadowMap fitSunMap(const ShadowLight& light, const Sphere& sphere, ShadowMapSiz
 
 float coneTangent(float outer_cone_rad)
 {
-    return std::tan(std::min(outer_cone_rad, kWidestConeRad));
+    return std::tan(std::min(outer_cone_rad, kMaxConeRad));
 }
 
-ShadowMap wholeConeMap(float cone_tangent, ShadowMapSize size)
+ShadowMap makeConeMap(float cone_tangent, ShadowMapSize size)
 {
-    const Span all{-double{cone_tangent}, double{cone_tangent}};
+    const Interval all{-double{cone_tangent}, double{cone_tangent}};
     return crop(all, all, double{cone_tangent}, size);
 }
 
@@ -192,9 +192,9 @@ std::optional<ShadowMap> fitSpotMap(const ShadowLight& light, float cone_tangent
     if (z + radius <= 0)
         return std::nullopt;
     if (dot(center, center) <= radius * radius)
-        return wholeConeMap(cone_tangent, size);
-    const Span x = discBounds(dot(widen(light.right), center), z, radius, tangent);
-    const Span y = discBounds(dot(widen(light.down), center), z, radius, tangent);
+        return makeConeMap(cone_tangent, size);
+    const Interval x = discBounds(dot(widen(light.right), center), z, radius, tangent);
+    const Interval y = discBounds(dot(widen(light.down), center), z, radius, tangent);
     if (x.low > x.high || y.low > y.high)
         return std::nullopt;
     return crop(x, y, tangent, size);
@@ -210,15 +210,15 @@ void sortByDensity(std::span<ShadowMap> maps)
                     map, map + 1);
 }
 
-const ShadowMap* mapHolding(const ShadowLight& light, std::span<const ShadowMap> maps, Float3 point)
+const ShadowMap* findShadowMap(const ShadowLight& light, std::span<const ShadowMap> maps, Float3 point)
 {
     const ShadowPoint projected = shadowPoint(light, point);
     const auto found = std::find_if(maps.begin(), maps.end(),
-                                    [&](const ShadowMap& map) { return shadowMapHolds(map, projected); });
+                                    [&](const ShadowMap& map) { return isInShadowMap(map, projected); });
     return found == maps.end() ? nullptr : &*found;
 }
 
-void splitSpheres(const FrameView& view, const SplitRange& range, std::span<Sphere> spheres)
+void computeSplitSpheres(const FrameView& view, const SplitRange& range, std::span<Sphere> spheres)
 {
     HEARTH_ASSERT(range.near > 0 && range.far > range.near && range.blend >= 0 && range.blend <= 1);
     // from the size, not from the clip rows, whose lengths round differently for each direction
@@ -236,7 +236,7 @@ void splitSpheres(const FrameView& view, const SplitRange& range, std::span<Sphe
         const double part = static_cast<double>(i + 1) / static_cast<double>(spheres.size());
         const double end =
             blend * near * std::pow(far / near, part) + (1 - blend) * (near + (far - near) * part);
-        spheres[i] = sphereOfSlice(eye, forward, begin, end, corner_tangent2);
+        spheres[i] = makeSliceSphere(eye, forward, begin, end, corner_tangent2);
         begin = end;
     }
 }

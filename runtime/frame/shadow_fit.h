@@ -43,7 +43,7 @@ ShadowMap fitSunMap(const ShadowLight& light, const Sphere& sphere, ShadowMapSiz
 float coneTangent(float outer_cone_rad);
 
 /// Return the map of the whole cone, which every spot has for points outside of all spheres.
-ShadowMap wholeConeMap(float cone_tangent, ShadowMapSize size);
+ShadowMap makeConeMap(float cone_tangent, ShadowMapSize size);
 
 /// Return the map of the part of the cone that covers a sphere: nullopt where the sphere is behind the light
 /// or beside the cone, and the map of the whole cone where the light is inside the sphere. The bounds of the
@@ -61,7 +61,7 @@ void sortByDensity(std::span<ShadowMap> maps);
 /// Return the best map at a point: the first one that covers it; null where there is none.
 ///
 /// point      relative to light.origin, world axes
-const ShadowMap* mapHolding(const ShadowLight& light, std::span<const ShadowMap> maps, Float3 point);
+const ShadowMap* findShadowMap(const ShadowLight& light, std::span<const ShadowMap> maps, Float3 point);
 
 /// Range of view depths with shadows, and its split scheme.
 struct SplitRange
@@ -78,6 +78,6 @@ struct SplitRange
 ///
 /// view       only its eye, direction and lens are used
 /// spheres    output; its size is the number of slices
-void splitSpheres(const FrameView& view, const SplitRange& range, std::span<Sphere> spheres);
+void computeSplitSpheres(const FrameView& view, const SplitRange& range, std::span<Sphere> spheres);
 
 } // namespace hearth::shared

@@ -41,7 +41,7 @@ struct PartImages
 };
 
 /// Return the image states of a part.
-constexpr PartImages imagesOf(FramePart part)
+constexpr PartImages partImages(FramePart part)
 {
     constexpr VkPipelineStageFlags kReaders =
         VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;

@@ -16,7 +16,7 @@ void writeTimestamp(const Device& device, VkCommandBuffer commands, VkQueryPool 
 }
 
 /// True if the frame is culled and drawn in two phases.
-bool inPhases(const FrameInput& input)
+bool hasTwoPhases(const FrameInput& input)
 {
     return (input.view.flags & shared::kCullOcclusion) != 0;
 }
@@ -90,7 +90,7 @@ Result<std::unique_ptr<Scene>> Renderer::upload(const formats::PackView& pack, V
         HEARTH_ASSIGN_OR_RETURN(material.pipelines, shading_.prepare(device_, layouts_, material.variant));
     }
     if (scene->dropped_lights > 0)
-        tell(device_, pack.name(), "",
+        warn(device_, pack.name(), "",
              std::to_string(scene->dropped_lights) + " lights are more than the " +
                  std::to_string(shared::kMaxLights) + " that are drawn");
     return scene;
@@ -121,14 +121,14 @@ void Renderer::record(VkCommandBuffer commands, const Scene& scene, FrameTargets
                       const FrameInput& input) const
 {
     recordCull(commands, scene, targets, input);
-    if (shadesTiles(scene, input.shading.area) || gathers(scene, input.shading))
+    if (shadesTiles(scene, input.shading.area) || usesGi(scene, input.shading))
     {
         recordVisibility(commands, scene, targets, input);
         recordMaterials(commands, scene, targets, input);
         return;
     }
     recordEarly(commands, scene, targets, input);
-    beginPass(commands, targets, (inPhases(input) ? passes_.late : passes_.whole).get());
+    beginPass(commands, targets, (hasTwoPhases(input) ? passes_.late : passes_.whole).get());
     drawVisibility(commands, scene, input);
     writeTimestamp(device_, commands, input.timestamps, kTimestampVisibility);
     writeTimestamp(device_, commands, input.timestamps, kTimestampMaterialTiles);
@@ -144,7 +144,7 @@ void Renderer::recordCull(VkCommandBuffer commands, const Scene& scene, const Fr
     writeTimestamp(device_, commands, input.timestamps, kTimestampBegin);
     const shared::FrameView view = scene.stream == nullptr ? input.view : scene.stream->scaled(input.view);
     trackShadows(scene, input.moves);
-    cull_.recordConstants(device_, commands, scene, targets, view, input.moves, input.poses, input.lights);
+    cull_.recordUpdates(device_, commands, scene, targets, view, input.moves, input.poses, input.lights);
     if (scene.bricks != nullptr)
         recordBrickLight(commands, scene, input);
     if (scene.shadows != nullptr)
@@ -152,8 +152,8 @@ void Renderer::recordCull(VkCommandBuffer commands, const Scene& scene, const Fr
     writeTimestamp(device_, commands, input.timestamps, kTimestampShadows);
     const DebugLabel label(device_, commands, "cull");
     cull_.record(device_, commands, scene, targets,
-                 inPhases(input) ? shared::kPhaseEarly : shared::kPhaseWhole);
-    recordSkinning(commands, scene, inPhases(input) ? shared::kPhaseEarly : shared::kPhaseWhole);
+                 hasTwoPhases(input) ? shared::kPhaseEarly : shared::kPhaseWhole);
+    recordSkinning(commands, scene, hasTwoPhases(input) ? shared::kPhaseEarly : shared::kPhaseWhole);
     if (scene.stream != nullptr)
         recordRequests(commands, scene);
     writeTimestamp(device_, commands, input.timestamps, kTimestampCull);
@@ -164,7 +164,7 @@ void Renderer::recordVisibility(VkCommandBuffer commands, const Scene& scene, Fr
 {
     recordEarly(commands, scene, targets, input);
     beginPass(commands, targets,
-              (inPhases(input) ? passes_.late_visibility : passes_.whole_visibility).get());
+              (hasTwoPhases(input) ? passes_.late_visibility : passes_.whole_visibility).get());
     drawVisibility(commands, scene, input);
     endAtVisibility(commands);
     writeTimestamp(device_, commands, input.timestamps, kTimestampVisibility);
@@ -178,7 +178,7 @@ void Renderer::recordMaterials(VkCommandBuffer commands, const Scene& scene, Fra
         const DebugLabel label(device_, commands, "material tiles");
         material_tiles_.record(device_, commands, scene, targets);
     }
-    if (gathers(scene, input.shading))
+    if (usesGi(scene, input.shading))
     {
         const DebugLabel label(device_, commands, "gather light");
         gather_->record(device_, commands, scene, targets, input.view, scene.bricks->quick_frames > 0);
@@ -194,7 +194,7 @@ void Renderer::recordPrefetch(VkCommandBuffer commands, const Scene& scene, cons
 {
     HEARTH_ASSERT(scene.stream != nullptr && view.instance_count == scene.instance_count);
     trackShadows(scene, moves);
-    cull_.recordConstants(device_, commands, scene, targets, scene.stream->scaled(view), moves, poses);
+    cull_.recordUpdates(device_, commands, scene, targets, scene.stream->scaled(view), moves, poses);
     cull_.record(device_, commands, scene, targets, shared::kPhaseWhole);
     recordRequests(commands, scene);
 }
@@ -205,9 +205,9 @@ void Renderer::recordShadows(VkCommandBuffer commands, const Scene& scene, const
                              const shared::FrameView& view, std::span<const ShadowSphere> spheres) const
 {
     const DebugLabel label(device_, commands, "shadows");
-    const std::span<const ShadowCache::StaleMap> stale = scene.shadows->planFrame(view, spheres);
+    const std::span<const ShadowCache::LayerUpdate> stale = scene.shadows->planFrame(view, spheres);
     shadows_->recordBlock(device_, commands, scene);
-    for (const ShadowCache::StaleMap& map : stale)
+    for (const ShadowCache::LayerUpdate& map : stale)
     {
         cull_.recordView(device_, commands, scene, targets, map.casters);
         cull_.record(device_, commands, scene, targets, shared::kPhaseWhole);
@@ -220,7 +220,7 @@ void Renderer::recordShadows(VkCommandBuffer commands, const Scene& scene, const
 /// Update a share of the brick faces, if the frame shows their light.
 void Renderer::recordBrickLight(VkCommandBuffer commands, const Scene& scene, const FrameInput& input) const
 {
-    if (!input.shading.bricks_light && !showsBricks(input.shading.shown))
+    if (!input.shading.gi && !viewNeedsBricks(input.shading.debug_view))
         return;
     const DebugLabel label(device_, commands, "light bricks");
     brick_light_->record(device_, commands, scene, !input.lights.empty(), input.emission);
@@ -247,7 +247,7 @@ void Renderer::beginPass(VkCommandBuffer commands, const FrameTargets& targets,
 {
     const VkRect2D area{{0, 0}, targets.extent()};
     VkClearValue clear[2] = {};
-    clear[kVisibility].color.uint32[0] = shared::kNothingVisible;
+    clear[kVisibility].color.uint32[0] = shared::kVisibilitySky;
     clear[kDepth].depthStencil.depth = 0; // at infinity
     VkRenderPassBeginInfo begin{};
     begin.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
@@ -268,8 +268,8 @@ void Renderer::beginPass(VkCommandBuffer commands, const FrameTargets& targets,
 void Renderer::recordEarly(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
                            const FrameInput& input) const
 {
-    const bool in_phases = inPhases(input);
-    if (in_phases)
+    const bool has_two_phases = hasTwoPhases(input);
+    if (has_two_phases)
     {
         const DebugLabel label(device_, commands, "early visibility");
         beginPass(commands, targets, passes_.early.get());
@@ -277,14 +277,14 @@ void Renderer::recordEarly(VkCommandBuffer commands, const Scene& scene, FrameTa
         endAtVisibility(commands);
     }
     writeTimestamp(device_, commands, input.timestamps, kTimestampEarlyVisibility);
-    if (in_phases)
+    if (has_two_phases)
     {
         const DebugLabel label(device_, commands, "pyramid");
         pyramid_.record(device_, commands, targets);
         targets.setPyramidView(shared::makeOcclusionView(input.view));
     }
     writeTimestamp(device_, commands, input.timestamps, kTimestampPyramid);
-    if (in_phases)
+    if (has_two_phases)
     {
         const DebugLabel label(device_, commands, "late cull");
         cull_.record(device_, commands, scene, targets, shared::kPhaseLate);
@@ -298,7 +298,7 @@ void Renderer::drawVisibility(VkCommandBuffer commands, const Scene& scene, cons
 {
     const DebugLabel label(device_, commands, "visibility");
     visibility_.record(device_, commands, layouts_, scene,
-                       inPhases(input) ? shared::kPhaseLate : shared::kPhaseWhole);
+                       hasTwoPhases(input) ? shared::kPhaseLate : shared::kPhaseWhole);
 }
 
 /// End the render pass. The other two subpasses exist for compatibility and store nothing.
@@ -333,7 +333,7 @@ void Renderer::recordPicture(VkCommandBuffer commands, const Scene& scene, const
     device_.vk.vkCmdNextSubpass(commands, VK_SUBPASS_CONTENTS_INLINE);
     {
         const DebugLabel label(device_, commands, "shading");
-        if (input.shading.shown == shared::kViewOverdraw)
+        if (input.shading.debug_view == shared::kViewOverdraw)
             recordOverdraw(commands, scene, targets);
         else
             shading_.record(device_, commands, layouts_, scene, targets, input.shading);

@@ -43,7 +43,7 @@ enum FrameTimestamp : uint32_t
 struct FrameInput
 {
     shared::FrameView view; ///< from shared::makeFrameView, with the size of the targets
-    ShadingView shading{};
+    ShadingSettings shading{};
     std::span<const InstanceMove> moves{}; ///< valid from this frame on; read while recording
     /// Poses of deformed instances, which start at rest. Valid from this frame on; read while recording.
     /// Poses that checkPose rejects are ignored.
@@ -88,7 +88,7 @@ public:
                 const FrameInput& input) const;
 
     /// Record a frame in parts, so that the caller can put work between them: all three in this order, with
-    /// the same arguments, each outside a render pass. imagesOf (frame_parts.h) returns the image states
+    /// the same arguments, each outside a render pass. partImages (frame_parts.h) returns the image states
     /// before and after each part. With few materials `record` draws in one render pass, these functions draw
     /// in two: on a tile-based GPU the visibility buffer leaves the tile once more.
     void recordCull(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,

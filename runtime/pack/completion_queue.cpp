@@ -6,10 +6,10 @@
 namespace hearth::pack
 {
 
-CompletionQueue::CompletionQueue(size_t most)
+CompletionQueue::CompletionQueue(size_t max_size)
 {
-    pushed_.reserve(most);
-    taken_.reserve(most);
+    pushed_.reserve(max_size);
+    taken_.reserve(max_size);
 }
 
 void CompletionQueue::push(Completion completion)

@@ -20,8 +20,8 @@ struct Completion
 class CompletionQueue
 {
 public:
-    /// most  maximum of queued completions; later calls allocate nothing
-    explicit CompletionQueue(size_t most);
+    /// max_size  maximum of queued completions; later calls allocate nothing
+    explicit CompletionQueue(size_t max_size);
 
     /// Push a completion, from any thread. Writes before the push are visible to the thread that takes it.
     void push(Completion completion);

@@ -38,7 +38,7 @@ std::vector<uint8_t> residentGroups(const PackView& view, std::span<const uint8_
 bool inCut(const PackView& view, const ClusterRecord& cluster, float error_object,
            std::span<const uint8_t> resident_groups)
 {
-    const bool fine_enough = cluster.refined_group == kNone ||
+    const bool fine_enough = cluster.refined_group == kInvalidIndex ||
                              residentError(view, cluster.refined_group, resident_groups) <= error_object;
     const float coarser = residentError(view, cluster.group, resident_groups);
     // a root stays at any error: nothing replaces it

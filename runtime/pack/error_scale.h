@@ -8,21 +8,22 @@
 namespace hearth::pack
 {
 
-/// Factor on the threshold of the cut, 1 .. kMost. At each update it grows by an eighth of the excess of
-/// wanted over budgeted bytes, by an eighth at most, and it shrinks as slowly when less than kRoom of the
+/// Factor on the threshold of the cut, 1 .. kMaxScale. At each update it grows by an eighth of the excess of
+/// wanted over budgeted bytes, by an eighth at most, and it shrinks as slowly when less than kLowWatermark of the
 /// budget is wanted. Between the two it rests, so that it does not oscillate. Bytes fall with about the
 /// square of the threshold: steps of an eighth do not overshoot, even if feedback is some frames late.
 ///
-/// If the wanted bytes jump from below kRoom to above the budget (levels that switch as a whole), the factor
+/// If the wanted bytes jump from below kLowWatermark to above the budget (levels that switch as a whole), the factor
 /// rests above the jump until the wanted bytes change.
 class ErrorScale
 {
 public:
-    static constexpr float kMost = 1024; ///< after ten halvings of detail, coarsening further does not help
+    static constexpr float kMaxScale =
+        1024; ///< after ten halvings of detail, coarsening further does not help
     static constexpr float kGain = 0.125f;
-    static constexpr float kRoom = 0.875f;
+    static constexpr float kLowWatermark = 0.875f;
     /// maximum number of updates until a change affects the wanted bytes
-    static constexpr uint32_t kFeedback = 16;
+    static constexpr uint32_t kMaxFeedbackUpdates = 16;
 
     float value() const { return value_; }
 
@@ -30,36 +31,37 @@ public:
     {
         const float ratio =
             static_cast<float>(wanted_bytes) / static_cast<float>(std::max<uint64_t>(budget_bytes, 1));
-        const float next = std::clamp(value_ * (1 + kGain * std::min(ratio - 1, 1.0f)), 1.0f, kMost);
+        const float next = std::clamp(value_ * (1 + kGain * std::min(ratio - 1, 1.0f)), 1.0f, kMaxScale);
         if (ratio > 1)
-            too_fine_ = value_;
-        if (ratio > 1 || (ratio < kRoom && (next > too_fine_ || wantsOther(wanted_bytes))))
+            over_budget_value_ = value_;
+        if (ratio > 1 ||
+            (ratio < kLowWatermark && (next > over_budget_value_ || hasDemandChanged(wanted_bytes))))
             set(next);
-        ++rested_;
+        ++updates_at_rest_;
     }
 
 private:
     void set(float value)
     {
-        rested_ = value == value_ ? rested_ : 0;
+        updates_at_rest_ = value == value_ ? updates_at_rest_ : 0;
         value_ = value;
     }
 
     /// True if other bytes are wanted than when the factor came to rest: pages that did not fit may fit now.
-    bool wantsOther(uint64_t wanted_bytes)
+    bool hasDemandChanged(uint64_t wanted_bytes)
     {
-        if (rested_ <= kFeedback)
-            rest_wanted_ = wanted_bytes;
-        if (wanted_bytes == rest_wanted_)
+        if (updates_at_rest_ <= kMaxFeedbackUpdates)
+            demand_at_rest_ = wanted_bytes;
+        if (wanted_bytes == demand_at_rest_)
             return false;
-        too_fine_ = 0;
+        over_budget_value_ = 0;
         return true;
     }
 
     float value_ = 1;
-    float too_fine_ = 0;  ///< last value at which the wanted bytes exceeded the budget
-    uint32_t rested_ = 0; ///< updates since the last change of the value
-    uint64_t rest_wanted_ = 0;
+    float over_budget_value_ = 0;  ///< last value at which the wanted bytes exceeded the budget
+    uint32_t updates_at_rest_ = 0; ///< updates since the last change of the value
+    uint64_t demand_at_rest_ = 0;
 };
 
 } // namespace hearth::pack

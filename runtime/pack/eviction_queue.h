@@ -3,6 +3,7 @@
 #pragma once
 
 #include "formats/base/assert.h"
+#include "formats/base/index.h"
 
 #include <cstdint>
 #include <limits>
@@ -16,39 +17,40 @@ namespace hearth::pack
 class EvictionQueue
 {
 public:
-    explicit EvictionQueue(uint32_t page_count) : place_(page_count, kNowhere), worth_(page_count, 0)
+    explicit EvictionQueue(uint32_t page_count)
+        : heap_index_(page_count, kInvalidIndex), worth_(page_count, 0)
     {
         heap_.reserve(page_count);
     }
 
     bool empty() const { return heap_.empty(); }
-    bool contains(uint32_t page) const { return place_[page] != kNowhere; }
+    bool contains(uint32_t page) const { return heap_index_[page] != kInvalidIndex; }
     /// Return the page to evict first, or its worth. Precondition: the queue is not empty.
-    uint32_t least() const { return heap_.front(); }
-    uint64_t leastWorth() const { return worth_[heap_.front()]; }
+    uint32_t front() const { return heap_.front(); }
+    uint64_t frontWorth() const { return worth_[heap_.front()]; }
 
     /// Precondition: the page is not in the queue.
     void insert(uint32_t page, uint64_t worth)
     {
         HEARTH_RUNTIME_ASSERT(!contains(page));
         worth_[page] = worth;
-        place_[page] = static_cast<uint32_t>(heap_.size());
+        heap_index_[page] = static_cast<uint32_t>(heap_.size());
         heap_.push_back(page);
-        rise(place_[page]);
+        siftUp(heap_index_[page]);
     }
 
     /// Precondition: the page is in the queue.
     void erase(uint32_t page)
     {
         HEARTH_RUNTIME_ASSERT(contains(page));
-        const uint32_t place = place_[page];
+        const uint32_t index = heap_index_[page];
         const uint32_t last = heap_.back();
         heap_.pop_back();
-        place_[page] = kNowhere;
+        heap_index_[page] = kInvalidIndex;
         if (last == page)
             return;
-        put(last, place);
-        settle(place);
+        setAt(last, index);
+        restoreHeap(index);
     }
 
     /// Precondition: the page is in the queue.
@@ -56,56 +58,54 @@ public:
     {
         HEARTH_RUNTIME_ASSERT(contains(page));
         worth_[page] = worth;
-        settle(place_[page]);
+        restoreHeap(heap_index_[page]);
     }
 
 private:
-    static constexpr uint32_t kNowhere = std::numeric_limits<uint32_t>::max();
-
     bool before(uint32_t a, uint32_t b) const
     {
         return worth_[a] != worth_[b] ? worth_[a] < worth_[b] : a > b;
     }
 
-    void put(uint32_t page, uint32_t place)
+    void setAt(uint32_t page, uint32_t index)
     {
-        heap_[place] = page;
-        place_[page] = place;
+        heap_[index] = page;
+        heap_index_[page] = index;
     }
 
-    void settle(uint32_t place)
+    void restoreHeap(uint32_t index)
     {
-        const uint32_t page = heap_[place];
-        rise(place);
-        sink(place_[page]);
+        const uint32_t page = heap_[index];
+        siftUp(index);
+        siftDown(heap_index_[page]);
     }
 
-    void rise(uint32_t place)
+    void siftUp(uint32_t index)
     {
-        const uint32_t page = heap_[place];
-        for (; place > 0 && before(page, heap_[(place - 1) / 2]); place = (place - 1) / 2)
-            put(heap_[(place - 1) / 2], place);
-        put(page, place);
+        const uint32_t page = heap_[index];
+        for (; index > 0 && before(page, heap_[(index - 1) / 2]); index = (index - 1) / 2)
+            setAt(heap_[(index - 1) / 2], index);
+        setAt(page, index);
     }
 
-    void sink(uint32_t place)
+    void siftDown(uint32_t index)
     {
-        const uint32_t page = heap_[place];
-        for (uint32_t child = 2 * place + 1; child < heap_.size(); child = 2 * place + 1)
+        const uint32_t page = heap_[index];
+        for (uint32_t child = 2 * index + 1; child < heap_.size(); child = 2 * index + 1)
         {
             if (child + 1 < heap_.size() && before(heap_[child + 1], heap_[child]))
                 ++child;
             if (!before(heap_[child], page))
                 break;
-            put(heap_[child], place);
-            place = child;
+            setAt(heap_[child], index);
+            index = child;
         }
-        put(page, place);
+        setAt(page, index);
     }
 
     std::vector<uint32_t> heap_;
-    std::vector<uint32_t> place_; ///< for each page its index in heap_, or kNowhere
-    std::vector<uint64_t> worth_; ///< for each page its worth
+    std::vector<uint32_t> heap_index_; ///< for each page its index in heap_, or kInvalidIndex
+    std::vector<uint64_t> worth_;      ///< for each page its worth
 };
 
 } // namespace hearth::pack

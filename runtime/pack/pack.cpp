@@ -26,7 +26,7 @@ Result<Pack> Pack::check(formats::ContainerReader reader)
     HEARTH_ASSIGN_OR_RETURN(formats::PackView view,
                             formats::PackView::read(std::move(reader), formats::PageBytes::left));
     HEARTH_TRY(formats::checkTables(view));
-    view.checkPagesWhenRead();
+    view.enablePageChecks();
     return Pack(std::move(view));
 }
 

@@ -22,7 +22,7 @@ uint32_t firstOfSet(const PackView& view, uint32_t group)
 
 /// Return the pages of each set of groups, ascending, by the index of its first group; a single group is a
 /// set.
-PagesOfSets pagesOfSets(const PackView& view)
+PagesOfSets listPagesOfSets(const PackView& view)
 {
     PagesOfSets pages_of_set(view.groups().size());
     for (uint32_t group = 0; group < pages_of_set.size(); ++group)
@@ -42,14 +42,14 @@ void sortUnique(auto& items)
 
 /// Make the pages that refine a set of several pages need all pages of the set: the clusters of a set are
 /// drawn all or none.
-void needWholeSets(const PackView& view, const PagesOfSets& pages_of_set, std::vector<PageNode>& nodes)
+void addSetDependencies(const PackView& view, const PagesOfSets& pages_of_set, std::vector<PageNode>& nodes)
 {
     // pairs (finer, coarser) of first groups: few, where sets are large
     std::vector<std::pair<uint32_t, uint32_t>> refinements;
     for (const ClusterRecord& cluster : view.clusters())
     {
         const uint32_t coarser = firstOfSet(view, cluster.group);
-        if (cluster.refined_group != kNone && pages_of_set[coarser].size() > 1)
+        if (cluster.refined_group != kInvalidIndex && pages_of_set[coarser].size() > 1)
             refinements.emplace_back(cluster.refined_group, coarser);
     }
     sortUnique(refinements);
@@ -76,7 +76,7 @@ void requestWholeSets(const PagesOfSets& pages_of_set, std::vector<PageNode>& no
 
 } // namespace
 
-void PageGraph::Lists::append(std::span<const uint32_t> list)
+void PageGraph::PageLists::append(std::span<const uint32_t> list)
 {
     items.insert(items.end(), list.begin(), list.end());
     begins.push_back(static_cast<uint32_t>(items.size()));
@@ -122,20 +122,20 @@ PageGraph PageGraph::of(const PackView& view)
     std::vector<PageNode> nodes(view.pages().size());
     for (size_t i = 0; i < nodes.size(); ++i)
     {
-        const auto parents = recordsOf(view.pageParents(), view.pages()[i].parents);
+        const auto parents = recordsInRange(view.pageParents(), view.pages()[i].parents);
         nodes[i].size_bytes = view.pages()[i].size;
         nodes[i].needs.assign(parents.begin(), parents.end());
     }
     for (const GroupRecord& group : view.groups())
         if (group.error == std::numeric_limits<float>::infinity())
             nodes[group.page].holds_root = true;
-    const PagesOfSets pages_of_set = pagesOfSets(view);
-    needWholeSets(view, pages_of_set, nodes);
+    const PagesOfSets pages_of_set = listPagesOfSets(view);
+    addSetDependencies(view, pages_of_set, nodes);
     requestWholeSets(pages_of_set, nodes);
     return PageGraph(nodes);
 }
 
-PageGraph PageGraph::inSlots(uint32_t slot_bytes) const
+PageGraph PageGraph::withSlotSize(uint32_t slot_bytes) const
 {
     PageGraph graph = *this;
     for (uint32_t page = 0; page < pageCount(); ++page)

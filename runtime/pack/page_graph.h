@@ -37,7 +37,7 @@ public:
 
     /// Return the same graph in which each page that is not pinned takes a slot of `slot_bytes`, >= its size
     /// (asserted).
-    PageGraph inSlots(uint32_t slot_bytes) const;
+    PageGraph withSlotSize(uint32_t slot_bytes) const;
 
     uint32_t pageCount() const { return static_cast<uint32_t>(sizes_bytes_.size()); }
     uint32_t sizeBytes(uint32_t page) const { return sizes_bytes_[page]; }
@@ -52,7 +52,7 @@ public:
 
 private:
     /// A list of pages for each page.
-    struct Lists
+    struct PageLists
     {
         std::vector<uint32_t> begins{0};
         std::vector<uint32_t> items;
@@ -65,8 +65,8 @@ private:
     void pin(std::span<const PageNode> nodes);
 
     std::vector<uint32_t> sizes_bytes_;
-    Lists needs_;
-    Lists companions_;
+    PageLists needs_;
+    PageLists companions_;
     std::vector<bool> is_pinned_;
     std::vector<uint32_t> pinned_;
     uint64_t pinned_bytes_ = 0;

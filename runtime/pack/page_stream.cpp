@@ -8,13 +8,11 @@
 namespace hearth::pack
 {
 
-using formats::kNone;
-
 namespace
 {
 
 /// Return a stack of 0 .. count - 1, with 0 on top.
-std::vector<uint32_t> stackOf(uint32_t count)
+std::vector<uint32_t> makeStack(uint32_t count)
 {
     std::vector<uint32_t> stack(count);
     std::iota(stack.rbegin(), stack.rend(), 0u);
@@ -49,10 +47,10 @@ PageStream::PageStream(const formats::PackView& view, Residency residency, const
       residency_(std::move(residency)),
       groups_(view),
       queue_(std::make_unique<CompletionQueue>(options.residency.max_loads)),
-      slot_of_page_(view.pages().size(), kNone),
-      staging_of_page_(view.pages().size(), kNone),
-      free_slots_(stackOf(options.slot_count)),
-      free_staging_(stackOf(static_cast<uint32_t>(staging.size() / options.slot_bytes)))
+      slot_of_page_(view.pages().size(), kInvalidIndex),
+      staging_of_page_(view.pages().size(), kInvalidIndex),
+      free_slots_(makeStack(options.slot_count)),
+      free_staging_(makeStack(static_cast<uint32_t>(staging.size() / options.slot_bytes)))
 {
     for (const uint32_t page : residency_.graph().pinned())
     {
@@ -61,8 +59,8 @@ PageStream::PageStream(const formats::PackView& view, Residency residency, const
         ++statistics_.pages_resident;
     }
     groups_.clearChanges();
-    copying_.reserve(free_staging_.size());
-    waiting_.reserve(options.residency.max_loads);
+    pending_copies_.reserve(free_staging_.size());
+    pending_reads_.reserve(options.residency.max_loads);
     uploads_.reserve(options.residency.max_loads);
     statistics_.budget_bytes = options.residency.budget_bytes;
     updateStatistics();
@@ -98,11 +96,12 @@ StreamChanges PageStream::beginFrame(uint64_t serial, uint64_t completed_serial)
 
 void PageStream::freeStaging(uint64_t completed_serial)
 {
-    const auto end = std::find_if(copying_.begin(), copying_.end(),
-                                  [&](const Copying& copying) { return copying.serial > completed_serial; });
-    for (auto copying = copying_.begin(); copying != end; ++copying)
+    const auto end =
+        std::find_if(pending_copies_.begin(), pending_copies_.end(),
+                     [&](const PendingCopy& copying) { return copying.serial > completed_serial; });
+    for (auto copying = pending_copies_.begin(); copying != end; ++copying)
         free_staging_.push_back(copying->staging_slot);
-    copying_.erase(copying_.begin(), end);
+    pending_copies_.erase(pending_copies_.begin(), end);
 }
 
 void PageStream::takeCompletions(uint64_t serial)
@@ -111,11 +110,11 @@ void PageStream::takeCompletions(uint64_t serial)
     for (const auto& [page, ok] : queue_->take())
     {
         --reads_in_flight_;
-        const uint32_t staging_slot = std::exchange(staging_of_page_[page], kNone);
+        const uint32_t staging_slot = std::exchange(staging_of_page_[page], kInvalidIndex);
         if (ok)
         {
             uploads_.push_back({page, slot_of_page_[page], staging_slot});
-            copying_.push_back({staging_slot, serial});
+            pending_copies_.push_back({staging_slot, serial});
             statistics_.bytes_streamed += view_->pages()[page].size;
         }
         else
@@ -129,7 +128,7 @@ void PageStream::takeCompletions(uint64_t serial)
 
 void PageStream::freeSlot(uint32_t page)
 {
-    free_slots_.push_back(std::exchange(slot_of_page_[page], kNone));
+    free_slots_.push_back(std::exchange(slot_of_page_[page], kInvalidIndex));
 }
 
 void PageStream::request(uint32_t page, float priority)
@@ -146,7 +145,7 @@ void PageStream::schedule(uint64_t feedback_serial)
     for (const uint32_t page : started)
     {
         slot_of_page_[page] = pop(free_slots_);
-        waiting_.push_back(page);
+        pending_reads_.push_back(page);
     }
     if (residency_.atRest() && feedback_serial >= changed_serial_)
         settled_serial_ = feedback_serial;
@@ -157,16 +156,16 @@ void PageStream::schedule(uint64_t feedback_serial)
 void PageStream::startReads()
 {
     size_t count = 0;
-    for (; count < waiting_.size() && !free_staging_.empty(); ++count)
+    for (; count < pending_reads_.size() && !free_staging_.empty(); ++count)
     {
-        const uint32_t page = waiting_[count];
+        const uint32_t page = pending_reads_[count];
         staging_of_page_[page] = pop(free_staging_);
         ++reads_in_flight_;
         const std::span<std::byte> destination =
             staging_.subspan(size_t{staging_of_page_[page]} * options_.slot_bytes, view_->pages()[page].size);
         options_.read(page, destination, ReadDone(*queue_, page));
     }
-    waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<ptrdiff_t>(count));
+    pending_reads_.erase(pending_reads_.begin(), pending_reads_.begin() + static_cast<ptrdiff_t>(count));
 }
 
 void PageStream::updateStatistics()

@@ -38,7 +38,7 @@ struct PageStreamOptions
     ResidencyOptions residency;
     /// slots of the pool; the budget covers the pinned pages plus at most these slots
     uint32_t slot_count = 0;
-    uint32_t slot_bytes = 0; ///< slot size of the graph (PageGraph::inSlots)
+    uint32_t slot_bytes = 0; ///< slot size of the graph (PageGraph::withSlotSize)
     PageReader read;
 };
 
@@ -109,11 +109,11 @@ public:
     void retryFailed() { residency_.retryFailed(); }
 
     const Residency& residency() const { return residency_; }
-    uint32_t slotOf(uint32_t page) const { return slot_of_page_[page]; } ///< kNone: none
+    uint32_t pageSlot(uint32_t page) const { return slot_of_page_[page]; } ///< kInvalidIndex: none
     const StreamStatistics& statistics() const { return statistics_; }
 
 private:
-    struct Copying
+    struct PendingCopy
     {
         uint32_t staging_slot = 0;
         uint64_t serial = 0;
@@ -134,10 +134,10 @@ private:
     ResidentGroups groups_;
     std::unique_ptr<CompletionQueue> queue_; // readers keep its address
 
-    std::vector<uint32_t> slot_of_page_, staging_of_page_; ///< kNone: none
+    std::vector<uint32_t> slot_of_page_, staging_of_page_; ///< kInvalidIndex: none
     std::vector<uint32_t> free_slots_, free_staging_;
-    std::vector<Copying> copying_;  ///< ordered by serial
-    std::vector<uint32_t> waiting_; ///< pages to read as soon as staging memory is free, in order
+    std::vector<PendingCopy> pending_copies_; ///< ordered by serial
+    std::vector<uint32_t> pending_reads_;     ///< pages to read as soon as staging memory is free, in order
     std::vector<PageUpload> uploads_;
     uint32_t reads_in_flight_ = 0;
     uint64_t serial_ = 0;

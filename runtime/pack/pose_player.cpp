@@ -11,7 +11,7 @@ namespace
 {
 
 /// Return for each node 1 where a clip moves the node or one of its ancestors.
-std::vector<uint8_t> findAnimatedNodes(const formats::MotionTables& tables,
+std::vector<uint8_t> findAnimatedNodes(const formats::AnimationTables& tables,
                                        std::span<const uint32_t> parents_first)
 {
     std::vector<uint8_t> animated(tables.nodes.size(), 0);
@@ -20,7 +20,7 @@ std::vector<uint8_t> findAnimatedNodes(const formats::MotionTables& tables,
             animated[channel.node] = 1;
     for (const uint32_t node : parents_first)
         if (const uint32_t parent = tables.nodes[node].parent;
-            parent != formats::kNone && animated[parent] != 0)
+            parent != kInvalidIndex && animated[parent] != 0)
             animated[node] = 1;
     return animated;
 }
@@ -28,12 +28,12 @@ std::vector<uint8_t> findAnimatedNodes(const formats::MotionTables& tables,
 } // namespace
 
 PosePlayer::PosePlayer(const formats::PackView& pack)
-    : tables_(formats::motionTables(pack)),
+    : tables_(formats::animationTables(pack)),
       instances_(pack.instances()),
       rest_(formats::restPose(tables_)),
       from_(rest_),
       to_(rest_),
-      parents_first_(formats::parentsFirst(tables_.nodes)),
+      parents_first_(formats::nodesParentsFirst(tables_.nodes)),
       world_from_node_(tables_.nodes.size())
 {
     formats::poseNodes(tables_, rest_, parents_first_, world_from_node_);
@@ -44,10 +44,10 @@ PosePlayer::PosePlayer(const formats::PackView& pack)
         else if (animated[instances_[i].node] != 0)
             addRigid(i);
     moved_.resize(rigid_.size());
-    for (const Deformed& d : deformed_)
+    for (const DeformedInstance& d : deformed_)
         posed_.push_back({d.instance, std::span(palettes_).subspan(d.first_joint, d.joint_count),
                           std::span(weights_).subspan(d.first_weight, d.target_count)});
-    take(rest_);
+    apply(rest_);
 }
 
 /// Return the transform of instancing between a node and its instance: identity where they coincide.
@@ -65,13 +65,13 @@ void PosePlayer::addRigid(uint32_t instance)
 {
     const formats::InstanceRecord& record = instances_[instance];
     rigid_.push_back({record.node, nodeFromObject(record)});
-    places_.push_back({instance, record.world_from_object});
+    placed_.push_back({instance, record.world_from_object});
 }
 
 void PosePlayer::addDeformed(uint32_t instance, const formats::DeformedMeshRecord& mesh, uint32_t targets)
 {
     const formats::InstanceRecord& record = instances_[instance];
-    const bool skinned = mesh.skin != formats::kNone;
+    const bool skinned = mesh.skin != kInvalidIndex;
     deformed_.push_back({.instance = instance,
                          .skin = mesh.skin,
                          .node = record.node,
@@ -93,14 +93,14 @@ void PosePlayer::resetTo(formats::ScenePose& pose) const
 
 void PosePlayer::rest()
 {
-    take(rest_);
+    apply(rest_);
 }
 
 void PosePlayer::play(ClipTime clip)
 {
     resetTo(from_);
     formats::sampleAnimation(tables_, tables_.animations[clip.animation], clip.seconds, from_);
-    take(from_);
+    apply(from_);
 }
 
 void PosePlayer::blend(ClipTime from, ClipTime to, double weight)
@@ -110,23 +110,23 @@ void PosePlayer::blend(ClipTime from, ClipTime to, double weight)
     formats::sampleAnimation(tables_, tables_.animations[from.animation], from.seconds, from_);
     formats::sampleAnimation(tables_, tables_.animations[to.animation], to.seconds, to_);
     formats::blendPoses(from_, to_, weight, from_);
-    take(from_);
+    apply(from_);
 }
 
-void PosePlayer::take(const formats::ScenePose& pose)
+void PosePlayer::apply(const formats::ScenePose& pose)
 {
     formats::poseNodes(tables_, pose, parents_first_, world_from_node_);
     moved_count_ = 0;
     for (size_t i = 0; i < rigid_.size(); ++i)
         placeRigid(i);
-    for (const Deformed& deformed : deformed_)
+    for (const DeformedInstance& deformed : deformed_)
         poseDeformed(deformed, pose);
 }
 
-void PosePlayer::poseDeformed(const Deformed& deformed, const formats::ScenePose& pose)
+void PosePlayer::poseDeformed(const DeformedInstance& deformed, const formats::ScenePose& pose)
 {
     const auto palette = std::span(palettes_).subspan(deformed.first_joint, deformed.joint_count);
-    if (deformed.skin != formats::kNone)
+    if (deformed.skin != kInvalidIndex)
         formats::skinPalette(tables_, tables_.skins[deformed.skin], world_from_node_, palette);
     else
         palette[0] = world_from_node_[deformed.node] * deformed.node_from_object;
@@ -139,7 +139,7 @@ void PosePlayer::poseDeformed(const Deformed& deformed, const formats::ScenePose
 /// Place a rigid instance. If its transform does not fit into floats, the instance stays where it was.
 void PosePlayer::placeRigid(size_t rigid)
 {
-    MovedInstance& place = places_[rigid];
+    MovedInstance& place = placed_[rigid];
     const auto now = narrowed(world_from_node_[rigid_[rigid].node] * rigid_[rigid].node_from_object);
     if (!now || *now == place.world_from_object)
         return;

@@ -55,18 +55,18 @@ public:
     std::span<const MovedInstance> moved() const { return {moved_.data(), moved_count_}; }
 
     /// Return all rigid instances that clips move, with their current transforms.
-    std::span<const MovedInstance> places() const { return places_; }
+    std::span<const MovedInstance> transforms() const { return placed_; }
 
     /// Return all deformed instances, ascending. Valid until the next call of rest, play or blend.
     std::span<const PosedInstance> posed() const { return posed_; }
 
 private:
-    struct Rigid
+    struct RigidInstance
     {
         uint32_t node;
         Affine3d node_from_object;
     };
-    struct Deformed
+    struct DeformedInstance
     {
         uint32_t instance;
         uint32_t skin; ///< index, or none
@@ -82,20 +82,20 @@ private:
     void addRigid(uint32_t instance);
     void addDeformed(uint32_t instance, const formats::DeformedMeshRecord& mesh, uint32_t targets);
     void resetTo(formats::ScenePose& pose) const;
-    void take(const formats::ScenePose& pose);
+    void apply(const formats::ScenePose& pose);
     void placeRigid(size_t rigid);
-    void poseDeformed(const Deformed& deformed, const formats::ScenePose& pose);
+    void poseDeformed(const DeformedInstance& deformed, const formats::ScenePose& pose);
 
-    formats::MotionTables tables_;
+    formats::AnimationTables tables_;
     std::span<const formats::InstanceRecord> instances_;
     formats::ScenePose rest_, from_, to_;
     std::vector<uint32_t> parents_first_;
     std::vector<Affine3d> world_from_node_;
-    std::vector<Rigid> rigid_;
-    std::vector<Deformed> deformed_;
+    std::vector<RigidInstance> rigid_;
+    std::vector<DeformedInstance> deformed_;
     std::vector<Affine3d> palettes_;
     std::vector<float> weights_;
-    std::vector<MovedInstance> places_; ///< [rigid_.size()]
+    std::vector<MovedInstance> placed_; ///< [rigid_.size()]
     std::vector<MovedInstance> moved_;
     size_t moved_count_ = 0;
     std::vector<PosedInstance> posed_;

@@ -15,8 +15,8 @@ namespace
 
 // bounds between which the bits of positive floats order as their values do, and counting down the exponent
 // halves them
-constexpr float kLeastPriority = std::numeric_limits<float>::min();
-constexpr float kMostPriority = std::numeric_limits<float>::max();
+constexpr float kMinPriority = std::numeric_limits<float>::min();
+constexpr float kMaxPriority = std::numeric_limits<float>::max();
 constexpr uint32_t kMantissaBits = 23;
 
 } // namespace
@@ -55,39 +55,40 @@ FrameChanges Residency::beginFrame(uint64_t serial, uint64_t completed_serial)
 {
     HEARTH_ASSERT(serial > serial_ && completed_serial < serial && completed_serial >= completed_serial_);
     completed_serial_ = completed_serial;
-    retireLeaving();
-    releaseHeld(completed_serial);
+    applyEvictions();
+    releaseRetired(completed_serial);
     publishLoaded();
-    told_failures_.clear();
-    told_failures_.swap(new_failures_);
+    reported_failures_.clear();
+    reported_failures_.swap(new_failures_);
     serial_ = serial;
-    return {evicted_, published_, released_, discarded_, told_failures_};
+    return {evicted_, published_, released_, discarded_, reported_failures_};
 }
 
-void Residency::retireLeaving()
+void Residency::applyEvictions()
 {
     evicted_.clear();
-    evicted_.swap(leaving_);
+    evicted_.swap(evicting_);
     for (const uint32_t page : evicted_)
     {
-        pages_[page].state = State::held;
-        held_.push_back({page, serial_});
+        pages_[page].state = State::retiring;
+        retiring_.push_back({page, serial_});
     }
 }
 
-void Residency::releaseHeld(uint64_t completed_serial)
+void Residency::releaseRetired(uint64_t completed_serial)
 {
     released_.clear();
-    const auto end = std::find_if(held_.begin(), held_.end(),
-                                  [&](const Held& held) { return held.last_serial > completed_serial; });
-    for (auto held = held_.begin(); held != end; ++held)
+    const auto end =
+        std::find_if(retiring_.begin(), retiring_.end(),
+                     [&](const RetiringPage& retiring) { return retiring.last_serial > completed_serial; });
+    for (auto retiring = retiring_.begin(); retiring != end; ++retiring)
     {
-        released_.push_back(held->page);
-        pages_[held->page].state = State::absent;
-        bytes_in_use_ -= graph_.sizeBytes(held->page);
-        bytes_going_ -= graph_.sizeBytes(held->page);
+        released_.push_back(retiring->page);
+        pages_[retiring->page].state = State::absent;
+        bytes_in_use_ -= graph_.sizeBytes(retiring->page);
+        evicting_bytes_ -= graph_.sizeBytes(retiring->page);
     }
-    held_.erase(held_.begin(), end);
+    retiring_.erase(retiring_.begin(), end);
 }
 
 void Residency::publishLoaded()
@@ -99,13 +100,13 @@ void Residency::publishLoaded()
     size_t waiting = 0;
     for (const uint32_t page : loaded_)
     {
-        if (needsAre(page, State::resident))
+        if (allNeedsIn(page, State::resident))
         {
             pages_[page].state = State::resident;
             offerForEviction(page);
             published_.push_back(page);
         }
-        else if (needsAre(page, State::resident, State::loaded, State::loading))
+        else if (allNeedsIn(page, State::resident, State::loaded, State::loading))
             loaded_[waiting++] = page;
         else
         {
@@ -124,7 +125,7 @@ void Residency::request(uint32_t page, float priority)
     float& requested = pages_[page].requested;
     if (requested == 0)
         requested_.push_back(page);
-    requested = std::max(requested, std::clamp(priority, kLeastPriority, kMostPriority));
+    requested = std::max(requested, std::clamp(priority, kMinPriority, kMaxPriority));
 }
 
 /// Sort the requests of the round, greatest priority first, then by page. Companions of companions are not
@@ -154,13 +155,13 @@ void Residency::collectWanted()
         const float priority = request->priority();
         const size_t first = wanted_.size();
         for (; request != requests_.end() && request->priority() == priority; ++request)
-            want(request->page(), priority);
+            addWanted(request->page(), priority);
         std::sort(wanted_.begin() + static_cast<ptrdiff_t>(first), wanted_.end());
     }
 }
 
 /// Add a page and all pages that it needs to the wanted list, except pages that are in it already.
-void Residency::want(uint32_t page, float priority)
+void Residency::addWanted(uint32_t page, float priority)
 {
     const auto reach = [&](uint32_t reached)
     {
@@ -185,7 +186,7 @@ std::span<const uint32_t> Residency::schedule()
     collectWanted();
     for (const uint32_t page : wanted_)
         if (evictable_.contains(page))
-            evictable_.update(page, worthOf(pages_[page].priority, round_));
+            evictable_.update(page, evictionKey(pages_[page].priority, round_));
     measureDemand();
     startLoads();
     ++round_;
@@ -215,7 +216,7 @@ void Residency::startLoads()
     started_.clear();
     uint64_t free = options_.budget_bytes - bytes_in_use_;
     /// free now or soon, less the memory for pages that come before in this order
-    uint64_t unpromised = free + bytes_going_;
+    uint64_t unpromised = free + evicting_bytes_;
     uint32_t loads_left = options_.max_loads - loads_in_flight_;
     for (const uint32_t page : wanted_)
     {
@@ -240,11 +241,11 @@ void Residency::startLoads()
 bool Residency::canStart(uint32_t page) const
 {
     return pages_[page].state == State::absent &&
-           needsAre(page, State::resident, State::loaded, State::loading);
+           allNeedsIn(page, State::resident, State::loaded, State::loading);
 }
 
 /// True if all pages that a page needs are in one of these states.
-bool Residency::needsAre(uint32_t page, auto... states) const
+bool Residency::allNeedsIn(uint32_t page, auto... states) const
 {
     const auto needs = graph_.needs(page);
     return std::all_of(needs.begin(), needs.end(),
@@ -297,37 +298,37 @@ void Residency::retryFailed()
 /// pages that `page` may displace do not free enough.
 uint64_t Residency::makeRoom(uint32_t page, uint64_t bytes)
 {
-    const uint64_t limit = worthOf(pages_[page].priority / options_.hysteresis, round_);
-    const size_t before = leaving_.size();
-    uint64_t given = 0;
-    while (given < bytes && !evictable_.empty() && evictable_.leastWorth() < limit)
+    const uint64_t limit = evictionKey(pages_[page].priority / options_.hysteresis, round_);
+    const size_t before = evicting_.size();
+    uint64_t freed_bytes = 0;
+    while (freed_bytes < bytes && !evictable_.empty() && evictable_.frontWorth() < limit)
     {
-        const uint32_t victim = evictable_.least();
-        leave(victim);
-        given += graph_.sizeBytes(victim);
+        const uint32_t victim = evictable_.front();
+        evict(victim);
+        freed_bytes += graph_.sizeBytes(victim);
     }
-    if (given >= bytes)
-        return given;
-    while (leaving_.size() > before)
-        stay(leaving_.back());
+    if (freed_bytes >= bytes)
+        return freed_bytes;
+    while (evicting_.size() > before)
+        undoEviction(evicting_.back());
     return 0;
 }
 
-void Residency::leave(uint32_t page)
+void Residency::evict(uint32_t page)
 {
     evictable_.erase(page);
-    pages_[page].state = State::leaving;
-    leaving_.push_back(page);
-    bytes_going_ += graph_.sizeBytes(page);
+    pages_[page].state = State::evicting;
+    evicting_.push_back(page);
+    evicting_bytes_ += graph_.sizeBytes(page);
     unclaimNeeded(page);
 }
 
 /// Undo the last eviction.
-void Residency::stay(uint32_t page)
+void Residency::undoEviction(uint32_t page)
 {
     claimNeeded(page);
-    bytes_going_ -= graph_.sizeBytes(page);
-    leaving_.pop_back();
+    evicting_bytes_ -= graph_.sizeBytes(page);
+    evicting_.pop_back();
     pages_[page].state = State::resident;
     offerForEviction(page);
 }
@@ -350,12 +351,12 @@ void Residency::offerForEviction(uint32_t page)
 {
     const Page& offered = pages_[page];
     if (offered.state == State::resident && offered.dependent_count == 0 && !graph_.isPinned(page))
-        evictable_.insert(page, worthOf(offered.priority, offered.round));
+        evictable_.insert(page, evictionKey(offered.priority, offered.round));
 }
 
 /// Return the eviction key of a page: its last priority, halved for each round since. Doubling new priorities
 /// in each round instead is equivalent, and leaves stored keys unchanged.
-uint64_t Residency::worthOf(float priority, uint64_t round)
+uint64_t Residency::evictionKey(float priority, uint64_t round)
 {
     return std::bit_cast<uint32_t>(priority) + (round << kMantissaBits);
 }

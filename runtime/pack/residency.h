@@ -94,13 +94,13 @@ public:
     /// True if the page is resident as of the last beginFrame.
     bool isResident(uint32_t page) const
     {
-        return pages_[page].state == State::resident || pages_[page].state == State::leaving;
+        return pages_[page].state == State::resident || pages_[page].state == State::evicting;
     }
 
     /// True if nothing is pending: no load, no page that waits for its dependencies, no eviction.
     bool atRest() const
     {
-        return loads_in_flight_ == 0 && loaded_.empty() && leaving_.empty() && held_.empty();
+        return loads_in_flight_ == 0 && loaded_.empty() && evicting_.empty() && retiring_.empty();
     }
 
     /// Return the bytes that count against the budget now.
@@ -114,8 +114,8 @@ private:
         loading,
         loaded, ///< published once all pages that it needs are
         resident,
-        leaving, ///< evicted when the next frame begins, resident until then
-        held,    ///< evicted, but frames in flight read it
+        evicting, ///< evicted when the next frame begins, resident until then
+        retiring, ///< evicted, but frames in flight read it
         failed,
     };
 
@@ -129,7 +129,7 @@ private:
         uint64_t round = 0;           ///< last round that wanted it; 0: none
     };
 
-    struct Held
+    struct RetiringPage
     {
         uint32_t page;
         uint64_t last_serial; ///< last frame that reads it
@@ -152,28 +152,28 @@ private:
 
     Residency(PageGraph graph, const ResidencyOptions& options);
 
-    void retireLeaving();
-    void releaseHeld(uint64_t completed_serial);
+    void applyEvictions();
+    void releaseRetired(uint64_t completed_serial);
     void publishLoaded();
 
     void orderRequests();
     void collectWanted();
-    void want(uint32_t page, float priority);
+    void addWanted(uint32_t page, float priority);
     void measureDemand();
     void startLoads();
 
-    bool needsAre(uint32_t page, auto... states) const;
+    bool allNeedsIn(uint32_t page, auto... states) const;
     bool canStart(uint32_t page) const;
     void start(uint32_t page);
     uint64_t makeRoom(uint32_t page, uint64_t bytes);
-    void leave(uint32_t page);
-    void stay(uint32_t page);
+    void evict(uint32_t page);
+    void undoEviction(uint32_t page);
     void dropLoad(uint32_t page, State state);
 
     void claimNeeded(uint32_t page);
     void unclaimNeeded(uint32_t page);
     void offerForEviction(uint32_t page);
-    static uint64_t worthOf(float priority, uint64_t round);
+    static uint64_t evictionKey(float priority, uint64_t round);
 
     PageGraph graph_;
     ResidencyOptions options_;
@@ -184,22 +184,22 @@ private:
     uint64_t completed_serial_ = 0;
     uint64_t round_ = 1; ///< round of requests; ends with schedule
     uint64_t bytes_in_use_ = 0;
-    uint64_t bytes_going_ = 0; ///< bytes in use by pages that are leaving or held
+    uint64_t evicting_bytes_ = 0; ///< bytes in use by pages that are evicting or retiring
     uint32_t loads_in_flight_ = 0;
 
     std::vector<uint32_t> requested_; ///< pages requested in this round, each once
     std::vector<Request> requests_;   ///< requests of the last schedule, with companions
     /// wanted by the last schedule: requested pages and the pages that they need, in order
     std::vector<uint32_t> wanted_;
-    std::vector<uint32_t> started_; ///< started by the last schedule
-    std::vector<uint32_t> leaving_; ///< in order of eviction
+    std::vector<uint32_t> started_;  ///< started by the last schedule
+    std::vector<uint32_t> evicting_; ///< in order of eviction
     std::vector<uint32_t> loaded_;
-    std::vector<Held> held_; ///< ordered by last_serial
+    std::vector<RetiringPage> retiring_; ///< ordered by last_serial
     std::vector<uint32_t> failed_;
     std::vector<uint32_t> new_failures_; ///< not reported yet
 
     // storage of the lists of FrameChanges
-    std::vector<uint32_t> evicted_, published_, released_, discarded_, told_failures_;
+    std::vector<uint32_t> evicted_, published_, released_, discarded_, reported_failures_;
 };
 
 } // namespace hearth::pack

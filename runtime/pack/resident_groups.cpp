@@ -27,14 +27,14 @@ ResidentGroups::ResidentGroups(const formats::PackView& view)
 
 void ResidentGroups::add(uint32_t page)
 {
-    for (const uint32_t group : groupsOf(page))
+    for (const uint32_t group : groupsInPage(page))
         if (--missing_of_set_[first_of_set_[group]] == 0)
             changeSet(first_of_set_[group], true);
 }
 
 void ResidentGroups::remove(uint32_t page)
 {
-    for (const uint32_t group : groupsOf(page))
+    for (const uint32_t group : groupsInPage(page))
         if (missing_of_set_[first_of_set_[group]]++ == 0)
             changeSet(first_of_set_[group], false);
 }

@@ -34,7 +34,7 @@ public:
     bool isResident(uint32_t group) const { return missing_of_set_[first_of_set_[group]] == 0; }
 
 private:
-    std::span<const uint32_t> groupsOf(uint32_t page) const
+    std::span<const uint32_t> groupsInPage(uint32_t page) const
     {
         return std::span(groups_).subspan(begins_[page], begins_[page + 1] - begins_[page]);
     }

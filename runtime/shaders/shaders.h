@@ -45,13 +45,13 @@ extern const std::span<const uint32_t> material_depth_frag;
 extern const std::span<const uint32_t> shaded_area_vert;
 extern const std::span<const uint32_t> shading_frag;
 extern const std::span<const uint32_t> shading_shadowed_frag;
-extern const std::span<const uint32_t> shading_gathered_frag;
-extern const std::span<const uint32_t> shading_shadowed_gathered_frag;
-extern const std::span<const uint32_t> inspect_frag;
-extern const std::span<const uint32_t> inspect_clusters_frag;
-extern const std::span<const uint32_t> inspect_shadows_frag;
-extern const std::span<const uint32_t> inspect_bricks_frag;
-extern const std::span<const uint32_t> inspect_gathered_frag;
+extern const std::span<const uint32_t> shading_gi_frag;
+extern const std::span<const uint32_t> shading_shadowed_gi_frag;
+extern const std::span<const uint32_t> view_surface_frag;
+extern const std::span<const uint32_t> view_clusters_frag;
+extern const std::span<const uint32_t> view_shadow_maps_frag;
+extern const std::span<const uint32_t> view_bricks_frag;
+extern const std::span<const uint32_t> view_gi_frag;
 extern const std::span<const uint32_t> sky_frag;
 
 } // namespace hearth::shaders

@@ -22,7 +22,7 @@ std::string listClips(const formats::PackView& pack)
     return text.empty() ? "none" : text;
 }
 
-Result<pack::ClipTime> clipOfName(const std::string& name, double seconds, const formats::PackView& pack)
+Result<pack::ClipTime> findClipTime(const std::string& name, double seconds, const formats::PackView& pack)
 {
     const auto animation = pack::findAnimation(pack, name);
     if (!animation)
@@ -97,7 +97,7 @@ Result<std::optional<pack::ClipTime>> findClip(const AnimationSettings& settings
     if (!settings.clip)
         return std::optional<pack::ClipTime>{};
     HEARTH_ASSIGN_OR_RETURN(const pack::ClipTime clip,
-                            clipOfName(*settings.clip, settings.seconds.value_or(0), pack));
+                            findClipTime(*settings.clip, settings.seconds.value_or(0), pack));
     return std::optional(clip);
 }
 
@@ -105,7 +105,7 @@ Status FramePose::take(const pack::PosePlayer& player, const gpu::Scene& scene)
 {
     moves_.clear();
     poses_.clear();
-    for (const pack::MovedInstance& moved : player.places())
+    for (const pack::MovedInstance& moved : player.transforms())
     {
         HEARTH_ASSIGN_OR_RETURN(const gpu::InstanceMove move,
                                 gpu::moveInstance(scene, moved.instance, moved.world_from_object));
@@ -127,7 +127,7 @@ Result<Animation> Animation::create(const AnimationSettings& settings, const for
     if (settings.blended)
     {
         HEARTH_ASSIGN_OR_RETURN(animation.blended_,
-                                clipOfName(*settings.blended, settings.blended_seconds, pack));
+                                findClipTime(*settings.blended, settings.blended_seconds, pack));
     }
     return animation;
 }

@@ -12,22 +12,22 @@ namespace
 
 constexpr float kFieldOfView = 0.6f; // 34 degrees: a portrait lens, little distortion
 constexpr float kMargin = 1.08f;
-constexpr Float3 kFrom{0.55f, 0.42f, 0.8f};
+constexpr Float3 kViewDirection{0.55f, 0.42f, 0.8f};
 
 // Scenes with more clusters use the boxes of whole instances.
-constexpr size_t kMostClusterBoxes = size_t{1} << 18;
+constexpr size_t kMaxClusterBoxes = size_t{1} << 18;
 
 size_t countClusters(const formats::PackView& pack, formats::Range instances)
 {
     size_t count = 0;
-    for (const formats::InstanceRecord& instance : formats::recordsOf(pack.instances(), instances))
+    for (const formats::InstanceRecord& instance : formats::recordsInRange(pack.instances(), instances))
         count += pack.meshes()[instance.mesh].clusters.count;
     return count;
 }
 
 /// Call `visit` with the corners of the boxes in world space.
 template <typename Visitor>
-void forEachCorner(std::span<const gpu::PlacedBox> boxes, const Visitor& visit)
+void forEachCorner(std::span<const gpu::TransformedBox> boxes, const Visitor& visit)
 {
     for (const auto& [box, world_from_box] : boxes)
         for (int corner = 0; corner < 8; ++corner)
@@ -37,18 +37,18 @@ void forEachCorner(std::span<const gpu::PlacedBox> boxes, const Visitor& visit)
 }
 
 /// bounds  bounds of the boxes
-shared::Camera frameBoxes(std::span<const gpu::PlacedBox> boxes, const Box3& bounds, float aspect)
+shared::Camera fitToBoxes(std::span<const gpu::TransformedBox> boxes, const Box3& bounds, float aspect)
 {
     shared::Camera camera;
     camera.y_fov_rad = kFieldOfView;
     if (bounds.empty())
     {
-        camera.position = kFrom * 3.0f;
+        camera.position = kViewDirection * 3.0f;
         camera.target = {};
         camera.z_near = nearPlane(3);
         return camera;
     }
-    const Float3 back = normalizeOr(kFrom, {0, 0, 1});
+    const Float3 back = normalizeOr(kViewDirection, {0, 0, 1});
     const Float3 right = normalizeOr(cross({0, 1, 0}, back), {1, 0, 0});
     const Float3 up = cross(back, right);
     const float tan_y = std::tan(0.5f * kFieldOfView);
@@ -98,17 +98,17 @@ shared::Camera fitCamera(const formats::PackView& pack, const pack::PosePlayer& 
                          formats::Range instances, float aspect)
 {
     // the corners of the finest clusters' boxes fit round shapes tighter than the boxes of whole instances
-    const bool by_clusters = countClusters(pack, instances) <= kMostClusterBoxes;
-    return frameBoxes(by_clusters ? gpu::clusterBoxes(pack, player, instances)
+    const bool by_clusters = countClusters(pack, instances) <= kMaxClusterBoxes;
+    return fitToBoxes(by_clusters ? gpu::clusterBoxes(pack, player, instances)
                                   : gpu::instanceBoxes(pack, player, instances),
                       gpu::instanceBounds(pack, player, instances), aspect);
 }
 
-shared::Camera fitCamera(std::span<const gpu::PlacedBox> boxes, float aspect)
+shared::Camera fitCamera(std::span<const gpu::TransformedBox> boxes, float aspect)
 {
     Box3 bounds;
     forEachCorner(boxes, [&](Float3 corner) { bounds.add(corner); });
-    return frameBoxes(boxes, bounds, aspect);
+    return fitToBoxes(boxes, bounds, aspect);
 }
 
 shared::Camera sceneCamera(const formats::PackView& pack, uint32_t index)

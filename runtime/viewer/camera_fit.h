@@ -20,7 +20,7 @@ shared::Camera fitCamera(const formats::PackView& pack, const pack::PosePlayer& 
                          formats::Range instances, float aspect);
 
 /// Fit a camera to boxes.
-shared::Camera fitCamera(std::span<const gpu::PlacedBox> boxes, float aspect);
+shared::Camera fitCamera(std::span<const gpu::TransformedBox> boxes, float aspect);
 
 /// Fit a camera to a pack at rest.
 shared::Camera fitCamera(const formats::PackView& pack, float aspect);

@@ -24,14 +24,14 @@ constexpr uint32_t kMinCell = 8;    // pixels: nobody recognizes a smaller image
 // Pixels of a cell's width per pixel of a letter: 17 letters have room.
 constexpr uint32_t kCellForLetter = 104;
 
-constexpr std::byte kPaper{26};
-constexpr std::byte kInk{214};
+constexpr std::byte kBackgroundGrey{26};
+constexpr std::byte kTextGrey{214};
 
 // Overlap of two unplaced assets, as a share of the smaller one's side along each axis; tiles that meet share
 // nothing.
-constexpr float kHiddenShare = 0.5f;
+constexpr float kOverlapShare = 0.5f;
 
-bool standsAroundOrigin(const formats::AssetRecord& asset)
+bool isNearOrigin(const formats::AssetRecord& asset)
 {
     const float slack = kOriginSlack * formats::largestSide(asset);
     for (int axis = 0; axis < 3; ++axis)
@@ -47,7 +47,7 @@ bool overlapHeavily(const formats::AssetRecord& a, const formats::AssetRecord& b
         const float smaller = std::min(a.box_max[axis] - a.box_min[axis], b.box_max[axis] - b.box_min[axis]);
         const float shared =
             std::min(a.box_max[axis], b.box_max[axis]) - std::max(a.box_min[axis], b.box_min[axis]);
-        if (shared < kHiddenShare * smaller)
+        if (shared < kOverlapShare * smaller)
             return false;
     }
     return true;
@@ -74,7 +74,7 @@ SheetLayout layOut(uint32_t width, uint32_t height, uint32_t columns, uint32_t r
 }
 
 /// Return the name, truncated with dots if it is too long.
-std::string shortened(const std::string& name, size_t max_letters)
+std::string truncateName(const std::string& name, size_t max_letters)
 {
     constexpr std::string_view kDots = "..";
     if (countLetters(name) <= max_letters || max_letters < kDots.size())
@@ -90,8 +90,8 @@ std::string labelText(const std::string& name, float side, size_t max_letters)
     std::snprintf(size, sizeof(size), " %.3g m", double{side});
     const size_t taken = countLetters(size);
     return max_letters < taken + std::min(kMinName, countLetters(name))
-               ? shortened(name, max_letters)
-               : shortened(name, max_letters - taken) + size;
+               ? truncateName(name, max_letters)
+               : truncateName(name, max_letters - taken) + size;
 }
 
 } // namespace
@@ -105,22 +105,22 @@ std::vector<uint32_t> drawnAssets(const formats::PackView& pack)
     return assets;
 }
 
-bool standInOnePlace(const formats::PackView& pack)
+bool areUnplaced(const formats::PackView& pack)
 {
     std::vector<formats::AssetRecord> around;
     for (const uint32_t asset : drawnAssets(pack))
-        if (standsAroundOrigin(pack.assets()[asset]))
+        if (isNearOrigin(pack.assets()[asset]))
             around.push_back(pack.assets()[asset]);
-    size_t heaped = 0;
+    size_t overlapping = 0;
     for (const formats::AssetRecord& asset : around)
     {
         const auto overlaps = static_cast<size_t>(std::count_if(around.begin(), around.end(),
                                                                 [&](const formats::AssetRecord& other)
                                                                 { return overlapHeavily(asset, other); }));
         // counts itself
-        heaped += overlaps >= 2 && (overlaps - 1) * 2 >= around.size() - 1 ? 1 : 0;
+        overlapping += overlaps >= 2 && (overlaps - 1) * 2 >= around.size() - 1 ? 1 : 0;
     }
-    return heaped >= 2 && heaped * 4 >= drawnAssets(pack).size() * 3;
+    return overlapping >= 2 && overlapping * 4 >= drawnAssets(pack).size() * 3;
 }
 
 uint32_t SheetLayout::cellX(size_t cell) const
@@ -171,8 +171,8 @@ Result<Sheet> makeSheet(const formats::PackView& pack, uint32_t width, uint32_t 
     return sheet;
 }
 
-SheetPicture::SheetPicture(const Sheet& sheet)
-    : layout_(sheet.layout), pixels_(size_t{layout_.width} * layout_.height * 4, kPaper)
+SheetImage::SheetImage(const Sheet& sheet)
+    : layout_(sheet.layout), pixels_(size_t{layout_.width} * layout_.height * 4, kBackgroundGrey)
 {
     for (size_t i = 3; i < pixels_.size(); i += 4)
         pixels_[i] = std::byte{255};
@@ -183,10 +183,10 @@ SheetPicture::SheetPicture(const Sheet& sheet)
             raster, layout_.cellX(cell),
             layout_.cellY(cell) + layout_.cell_height + (kLetterRoom - 1) * scale, scale,
             labelText(sheet.names[cell], sheet.sides[cell], layout_.cell_width / (kLetterAdvance * scale)),
-            kInk);
+            kTextGrey);
 }
 
-void SheetPicture::place(size_t cell, std::span<const std::byte> rgba)
+void SheetImage::place(size_t cell, std::span<const std::byte> rgba)
 {
     const size_t row_bytes = size_t{layout_.cell_width} * 4;
     HEARTH_ASSERT(rgba.size() == row_bytes * layout_.cell_height);

@@ -19,7 +19,7 @@ std::vector<uint32_t> drawnAssets(const formats::PackView& pack);
 /// True if the assets were never placed, so they occlude each other: three quarters of the assets that draw
 /// something, and at least two, have boxes around the world's origin that overlap heavily with half of the
 /// others there. False for props side by side, props in a house, and tiles that meet.
-bool standInOnePlace(const formats::PackView& pack);
+bool areUnplaced(const formats::PackView& pack);
 
 /// Layout of the cells of a sheet, in pixels from its top left corner: row by row, in the order of the
 /// assets.
@@ -51,10 +51,10 @@ struct Sheet
 Result<Sheet> makeSheet(const formats::PackView& pack, uint32_t width, uint32_t height);
 
 /// Sheet image that is filled cell by cell.
-class SheetPicture
+class SheetImage
 {
 public:
-    explicit SheetPicture(const Sheet& sheet);
+    explicit SheetImage(const Sheet& sheet);
 
     /// rgba  image of the cell: RGBA8, cell_width x cell_height
     void place(size_t cell, std::span<const std::byte> rgba);

@@ -12,7 +12,7 @@ namespace
 using Outcomes = std::array<uint64_t, shared::kOutcomeCount>;
 
 /// early, drawn  clusters or triangles of the visible list
-CullCounts countsOf(const Outcomes& outcomes, uint64_t early, uint64_t drawn)
+CullCounts makeCounts(const Outcomes& outcomes, uint64_t early, uint64_t drawn)
 {
     CullCounts counts;
     for (const uint64_t count : outcomes)
@@ -69,8 +69,8 @@ CullReport makeCullReport(const shared::CullStatistics& statistics, const shared
         triangles[i] = uint64_t{statistics.triangles_high[i]} << 32 | statistics.triangles_low[i];
     }
     CullReport report;
-    report.clusters = countsOf(clusters, counters.early_clusters, counters.drawn_clusters);
-    report.triangles = countsOf(triangles, early_triangles, drawn_triangles);
+    report.clusters = makeCounts(clusters, counters.early_clusters, counters.drawn_clusters);
+    report.triangles = makeCounts(triangles, early_triangles, drawn_triangles);
     report.empty_instances = statistics.empty_instances;
     CullCounts& instances = report.instances;
     instances.frustum = statistics.outside_instances;

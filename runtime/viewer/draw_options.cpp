@@ -79,7 +79,7 @@ std::string list(std::span<const Named<T>> choices)
 
 /// Return the value of that name, or nullptr.
 template <typename T>
-const T* find(std::span<const Named<T>> choices, std::string_view name)
+const T* findNamed(std::span<const Named<T>> choices, std::string_view name)
 {
     const auto found =
         std::find_if(choices.begin(), choices.end(), [&](const Named<T>& c) { return c.name == name; });
@@ -90,7 +90,7 @@ template <typename T>
 Status parseChoice(const std::string& option, std::span<const Named<T>> choices, std::string_view text,
                    T& value)
 {
-    const T* chosen = find(choices, text);
+    const T* chosen = findNamed(choices, text);
     if (chosen == nullptr)
         return usageError(option + ": " + quoted(text) + " is none of " + list(choices));
     value = *chosen;
@@ -139,7 +139,7 @@ Status parseCull(std::string_view text, FrameSettings& settings)
         return success();
     for (const std::string_view part : splitText(text, ','))
     {
-        const uint32_t* test = find(cullTestNames(), part);
+        const uint32_t* test = findNamed(cullTestNames(), part);
         if (test == nullptr)
             return usageError("--cull: " + quoted(part) + " is neither all nor none nor one of " +
                               list(cullTestNames()));
@@ -152,7 +152,7 @@ Status parseGi(std::string_view text, FrameSettings& settings)
 {
     if (text != "on" && text != "off")
         return usageError("--gi: " + quoted(text) + " is neither off nor on");
-    settings.bricks_light = text == "on";
+    settings.gi = text == "on";
     return success();
 }
 
@@ -260,7 +260,7 @@ Status checkDrawOptions(const DrawOptions& options)
 
 Status checkPack(const DrawOptions& options, const formats::PackView& pack)
 {
-    if (gpu::showsBricks(options.settings.view) && pack.brickGrid().empty())
+    if (gpu::viewNeedsBricks(options.settings.view) && pack.brickGrid().empty())
         return Error{Issue::usage, pack.name(), "",
                      "--view: the pack has no bricks (hearth cook --bricks makes them)"};
     return success();

@@ -26,7 +26,7 @@ std::span<const Named<uint32_t>> viewNames()
         {"specular-occlusion", shared::kViewSpecularOcclusion},
         {"bricks", shared::kViewBricks},
         {"brick-lighting", shared::kViewBrickLighting},
-        {"gi", shared::kViewGathered},
+        {"gi", shared::kViewGi},
         {"shadow-maps", shared::kViewShadowMaps},
     };
     return kViews;
@@ -36,7 +36,7 @@ std::span<const Named<gpu::ShadedArea>> shadedAreaNames()
 {
     static constexpr Named<gpu::ShadedArea> kAreas[] = {
         {"automatic", gpu::ShadedArea::automatic},
-        {"picture", gpu::ShadedArea::wholePicture},
+        {"picture", gpu::ShadedArea::wholeFrame},
         {"tiles", gpu::ShadedArea::tiles},
     };
     return kAreas;
@@ -76,12 +76,12 @@ gpu::FrameInput makeFrame(const FrameSettings& settings, const shared::Camera& c
     const Status curve = shared::setLodCurve(view, settings.lod_curve);
     HEARTH_ASSERT(curve.ok()); // settings are checked when they are parsed
     return {.view = view,
-            .shading = {.shown = settings.view,
+            .shading = {.debug_view = settings.view,
                         .depth_scale = length(camera.target - camera.position),
                         .area = settings.shaded_area,
                         .ambient_occlusion = settings.ambient_occlusion,
                         .specular_occlusion = settings.specular_occlusion,
-                        .bricks_light = settings.bricks_light}};
+                        .gi = settings.gi}};
 }
 
 } // namespace hearth::viewer

@@ -21,7 +21,7 @@ struct FrameSettings
     uint32_t cull_flags = shared::kCullEverything;
     uint32_t ambient_occlusion = shared::kAmbientOcclusionExact; ///< shared::kAmbientOcclusion*
     uint32_t specular_occlusion = shared::kSpecularOcclusionFit; ///< shared::kSpecularOcclusion*
-    bool bricks_light = true;                                    ///< GI, for packs with bricks
+    bool gi = true;                                              ///< GI, for packs with bricks
 };
 
 /// Value and its name for people.

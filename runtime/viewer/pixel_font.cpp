@@ -64,16 +64,16 @@ constexpr Letter kLetters[] = {
     {')', ".#... ..#.. ...#. ...#. ...#. ..#.. .#..."},
     {'+', "..... ..#.. ..#.. ##### ..#.. ..#.. ....."},
 };
-constexpr Letter kUnknown = {'?', "##### #...# #...# #...# #...# #...# #####"};
+constexpr Letter kMissingLetter = {'?', "##### #...# #...# #...# #...# #...# #####"};
 // clang-format on
 
-const Letter& letterOf(char character)
+const Letter& findLetter(char character)
 {
     const char capital =
         character >= 'a' && character <= 'z' ? static_cast<char>(character - 'a' + 'A') : character;
     const auto* found = std::find_if(std::begin(kLetters), std::end(kLetters),
                                      [capital](const Letter& letter) { return letter.character == capital; });
-    return found == std::end(kLetters) ? kUnknown : *found;
+    return found == std::end(kLetters) ? kMissingLetter : *found;
 }
 
 /// True for continuation bytes of a UTF-8 character.
@@ -102,7 +102,7 @@ void drawText(const Raster& raster, uint32_t x, uint32_t y, uint32_t scale, std:
     {
         if (isContinuation(character))
             continue;
-        const Letter& letter = letterOf(character);
+        const Letter& letter = findLetter(character);
         for (uint32_t row = 0; row < kLetterHeight; ++row)
             for (uint32_t column = 0; column < kLetterWidth; ++column)
                 if (letter.pixels[row * (kLetterWidth + 1) + column] == '#')

@@ -13,7 +13,7 @@ Status writeNoise(VulkanHost& host, const gpu::Device& device, gpu::FrameTargets
                   const shared::OcclusionView& view, uint32_t seed)
 {
     // limit of one vkCmdUpdateBuffer
-    constexpr size_t kMostTexels = 65536 / sizeof(float);
+    constexpr size_t kMaxTexels = 65536 / sizeof(float);
     // depths are reciprocals of distances: limits from 1 to 2^-12 reach from the near plane to far away
     constexpr uint32_t kLimits = 13;
     std::mt19937 random(seed);
@@ -24,9 +24,9 @@ Status writeNoise(VulkanHost& host, const gpu::Device& device, gpu::FrameTargets
     HEARTH_TRY(host.run(
         [&](VkCommandBuffer commands)
         {
-            for (size_t at = 0; at < texels.size(); at += kMostTexels)
+            for (size_t at = 0; at < texels.size(); at += kMaxTexels)
                 device.vk.vkCmdUpdateBuffer(commands, targets.pyramid().handle.get(), at * sizeof(float),
-                                            std::min(kMostTexels, texels.size() - at) * sizeof(float),
+                                            std::min(kMaxTexels, texels.size() - at) * sizeof(float),
                                             &texels[at]);
             return success();
         }));

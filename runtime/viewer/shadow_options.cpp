@@ -53,7 +53,7 @@ bool setBias(std::string_view text, float& bias)
 }
 
 /// Parse "texels=2048"; false if the name or the value is invalid.
-bool setOne(std::string_view setting, ShadowSettings& settings)
+bool setByName(std::string_view setting, ShadowSettings& settings)
 {
     gpu::ShadowOptions& options = settings.options;
     const size_t equals = setting.find('=');
@@ -77,7 +77,7 @@ bool setOne(std::string_view setting, ShadowSettings& settings)
 }
 
 /// Return the distances of a point to a box and to its farthest corner.
-std::pair<float, float> distancesTo(const Box3& box, Float3 point)
+std::pair<float, float> boxDistances(const Box3& box, Float3 point)
 {
     const auto nearest = [](float at, float low, float high) {
         return std::max({low - at, at - high, 0.0f});
@@ -99,7 +99,7 @@ Status parseShadows(std::string_view text, ShadowSettings& settings)
     if (text == "off" || text == "on")
         return success();
     for (const std::string_view setting : splitText(text, ','))
-        if (!setOne(setting, settings))
+        if (!setByName(setting, settings))
             return usage("--shadows", setting,
                          "is neither off nor on nor one of maps=1 to 64, texels=16 to 8192 by powers of two, "
                          "kernel=0 to 3, bias=1 and more, splits=0 to 8, near=METRES, far=METRES");
@@ -137,7 +137,7 @@ gpu::ShadowOptions fitShadows(const ShadowSettings& settings, const formats::Pac
     float far = 0;
     for (const shared::Camera& camera : cameras)
     {
-        const auto [nearest, farthest] = distancesTo(bounds, camera.position);
+        const auto [nearest, farthest] = boxDistances(bounds, camera.position);
         near = std::min(near, nearest);
         far = std::max(far, farthest);
     }

@@ -11,7 +11,7 @@ namespace
 {
 
 // Distance by which hidden parts move up. Cameras of fitCamera look down, so they are behind the camera.
-constexpr float kAway = 1e9f; // metres
+constexpr float kHideOffset = 1e9f; // metres
 
 bool isIn(const formats::Range& part, uint32_t instance)
 {
@@ -21,14 +21,14 @@ bool isIn(const formats::Range& part, uint32_t instance)
 } // namespace
 
 Stage::Stage(const formats::PackView& pack, const pack::PosePlayer& player)
-    : is_deformed_(pack.instances().size(), 0), away_(pack.instances().size(), 0)
+    : is_deformed_(pack.instances().size(), 0), hidden_(pack.instances().size(), 0)
 {
     for (const pack::PosedInstance& posed : player.posed())
         is_deformed_[posed.instance] = 1;
 }
 
-Result<Stage> Stage::ofMeshes(const formats::PackView& pack, const pack::PosePlayer& player,
-                              std::span<const uint32_t> meshes, float aspect)
+Result<Stage> Stage::fromMeshes(const formats::PackView& pack, const pack::PosePlayer& player,
+                                std::span<const uint32_t> meshes, float aspect)
 {
     const std::span<const formats::InstanceRecord> instances = pack.instances();
     Stage stage(pack, player);
@@ -47,8 +47,8 @@ Result<Stage> Stage::ofMeshes(const formats::PackView& pack, const pack::PosePla
     return stage;
 }
 
-Stage Stage::ofInstances(const formats::PackView& pack, const pack::PosePlayer& player,
-                         std::span<const formats::Range> parts, float aspect)
+Stage Stage::fromInstances(const formats::PackView& pack, const pack::PosePlayer& player,
+                           std::span<const formats::Range> parts, float aspect)
 {
     Stage stage(pack, player);
     for (const formats::Range part : parts)
@@ -63,24 +63,24 @@ Result<std::vector<gpu::InstanceMove>> Stage::show(const gpu::Scene& scene, size
                                                    std::span<const gpu::InstanceMove> clip_moves)
 {
     std::vector<gpu::InstanceMove> moves;
-    std::vector<uint8_t> has_moved(away_.size(), 0);
+    std::vector<uint8_t> has_moved(hidden_.size(), 0);
     for (const gpu::InstanceMove& move : clip_moves)
         if (isIn(parts_[number], move.instance))
         {
             moves.push_back(move);
             has_moved[move.instance] = 1;
         }
-    for (uint32_t i = 0; i < away_.size(); ++i)
+    for (uint32_t i = 0; i < hidden_.size(); ++i)
     {
-        const bool goes_away = !isIn(parts_[number], i);
-        if (is_deformed_[i] != 0 || (away_[i] != 0) == goes_away)
+        const bool is_hidden = !isIn(parts_[number], i);
+        if (is_deformed_[i] != 0 || (hidden_[i] != 0) == is_hidden)
             continue;
-        away_[i] = goes_away ? 1 : 0;
+        hidden_[i] = is_hidden ? 1 : 0;
         if (has_moved[i] != 0)
             continue;
         Affine3 place = scene.instances[i].world_from_object;
-        if (goes_away)
-            place.m[1][3] += kAway;
+        if (is_hidden)
+            place.m[1][3] += kHideOffset;
         HEARTH_ASSIGN_OR_RETURN(const gpu::InstanceMove move, gpu::moveInstance(scene, i, place));
         moves.push_back(move);
     }
@@ -93,15 +93,15 @@ std::span<const gpu::InstancePose> Stage::poses(const pack::PosePlayer& player, 
     palettes_.resize(player.posed().size());
     for (const pack::PosedInstance& posed : player.posed())
     {
-        const bool goes_away = !isIn(parts_[number], posed.instance);
+        const bool is_hidden = !isIn(parts_[number], posed.instance);
         std::vector<Affine3d>& palette = palettes_[poses_.size()];
         palette.assign(posed.world_from_bind.begin(), posed.world_from_bind.end());
         for (Affine3d& joint : palette)
-            joint.m[1][3] += goes_away ? double{kAway} : 0;
+            joint.m[1][3] += is_hidden ? double{kHideOffset} : 0;
         poses_.push_back({.instance = posed.instance,
                           .world_from_bind = palette,
                           .morph_weights = posed.morph_weights,
-                          .free = goes_away}); // no clip goes there
+                          .free = is_hidden}); // no clip goes there
     }
     return poses_;
 }

@@ -20,18 +20,18 @@ class Stage
 public:
     /// Show each mesh by its first instance. errors: usage if the pack has no such mesh, or no instance of
     /// it.
-    static Result<Stage> ofMeshes(const formats::PackView& pack, const pack::PosePlayer& player,
-                                  std::span<const uint32_t> meshes, float aspect);
+    static Result<Stage> fromMeshes(const formats::PackView& pack, const pack::PosePlayer& player,
+                                    std::span<const uint32_t> meshes, float aspect);
 
     /// Show each of these ranges of instances, such as the instances of an asset.
-    static Stage ofInstances(const formats::PackView& pack, const pack::PosePlayer& player,
-                             std::span<const formats::Range> parts, float aspect);
+    static Stage fromInstances(const formats::PackView& pack, const pack::PosePlayer& player,
+                               std::span<const formats::Range> parts, float aspect);
 
     /// Cameras, one per part.
     const std::vector<shared::Camera>& cameras() const { return cameras_; }
 
     /// Reset after the scene was reloaded: all instances are in their places.
-    void reset() { std::fill(away_.begin(), away_.end(), uint8_t{0}); }
+    void reset() { std::fill(hidden_.begin(), hidden_.end(), uint8_t{0}); }
 
     /// Return the moves with which the scene's next frame shows part `number` alone and hides the part of the
     /// last call; rigid instances only.
@@ -50,7 +50,7 @@ private:
     std::vector<formats::Range> parts_; ///< instances of each part
     std::vector<shared::Camera> cameras_;
     std::vector<uint8_t> is_deformed_; ///< [instance]
-    std::vector<uint8_t> away_;        ///< [instance] moved away by show()
+    std::vector<uint8_t> hidden_;      ///< [instance] moved away by show()
     std::vector<gpu::InstancePose> poses_;
     std::vector<std::vector<Affine3d>> palettes_; ///< of poses_
 };

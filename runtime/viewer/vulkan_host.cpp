@@ -81,7 +81,7 @@ std::string lowerCase(std::string text)
 }
 
 /// Rank of a device type: higher is likely to be faster.
-int rankOf(VkPhysicalDeviceType type)
+int deviceTypeRank(VkPhysicalDeviceType type)
 {
     switch (type)
     {
@@ -260,9 +260,9 @@ Status VulkanHost::chooseDevice(const std::string& name)
         if (!matches || properties.apiVersion < VK_API_VERSION_1_1 ||
             !findQueueFamily(*vk_, device, surface_, family) ||
             (surface_ != VK_NULL_HANDLE && !hasSwapchains(*vk_, device)) ||
-            rankOf(properties.deviceType) <= best)
+            deviceTypeRank(properties.deviceType) <= best)
             continue;
-        best = rankOf(properties.deviceType);
+        best = deviceTypeRank(properties.deviceType);
         physical_device_ = device;
         queue_family_ = family;
         device_name_ = properties.deviceName;

@@ -40,7 +40,7 @@ float gradient2(uint32_t hash, float x, float y)
     return 1.5f * ((hash & 8u) ? a * x : a * y);
 }
 
-float ridgeOf(float noise)
+float ridgeFromNoise(float noise)
 {
     const float r = 1.0f - std::min(std::abs(noise), 1.0f);
     return r * r;
@@ -104,7 +104,7 @@ float ridged(Float3 p, int octaves, uint32_t seed)
     float sum = 0, amplitude = 0.5f, weight = 1;
     for (int octave = 0; octave < octaves; ++octave)
     {
-        const float ridge = ridgeOf(gradientNoise(p, seed + static_cast<uint32_t>(octave))) * weight;
+        const float ridge = ridgeFromNoise(gradientNoise(p, seed + static_cast<uint32_t>(octave))) * weight;
         sum += amplitude * ridge;
         weight = clamp01(ridge * 1.6f);
         p = p * 2.0f + Float3{3.1f, 13.7f, 7.9f};
@@ -144,7 +144,7 @@ float TileNoise::ridged(Float2 uv, int octaves) const
     for (int octave = 0; octave < octaves; ++octave)
     {
         const TileNoise noise{cells << octave, seed + static_cast<uint32_t>(octave)};
-        const float ridge = ridgeOf(noise.gradient(uv)) * weight;
+        const float ridge = ridgeFromNoise(noise.gradient(uv)) * weight;
         sum += amplitude * ridge;
         weight = clamp01(ridge * 1.6f);
         amplitude *= 0.5f;

@@ -15,7 +15,7 @@ namespace hearth::samples
 inline constexpr float kPi = 3.14159265f;
 
 /// Return the sine by its Taylor series after reduction to [-pi/2, pi/2]; error below 1e-11 for |x| < 1e4.
-inline double sineOf(double x)
+inline double taylorSine(double x)
 {
     constexpr double pi = 3.14159265358979323846;
     const double half_turns = std::floor(x / pi + 0.5);
@@ -31,11 +31,11 @@ inline double sineOf(double x)
 
 inline float sine(float x)
 {
-    return static_cast<float>(sineOf(static_cast<double>(x)));
+    return static_cast<float>(taylorSine(static_cast<double>(x)));
 }
 inline float cosine(float x)
 {
-    return static_cast<float>(sineOf(static_cast<double>(x) + 1.57079632679489661923));
+    return static_cast<float>(taylorSine(static_cast<double>(x) + 1.57079632679489661923));
 }
 
 inline float clamp01(float x)

@@ -134,7 +134,7 @@ void append(TriangleMesh& mesh, const TriangleMesh& part)
         mesh.indices.push_back(base + index);
 }
 
-TriangleMesh placed(TriangleMesh mesh, const Placement& placement)
+TriangleMesh transformed(TriangleMesh mesh, const Placement& placement)
 {
     const Float3 s = placement.scale;
     for (Float3& p : mesh.positions)

@@ -25,7 +25,7 @@ TriangleMesh makeLathe(const std::vector<Float2>& profile, uint32_t segments);
 void append(TriangleMesh& mesh, const TriangleMesh& part);
 
 /// Return the mesh scaled, rotated and translated, normals included (scale must not be zero).
-TriangleMesh placed(TriangleMesh mesh, const Placement& placement);
+TriangleMesh transformed(TriangleMesh mesh, const Placement& placement);
 
 /// Set area-weighted normals, smooth across vertices of the same position (UV seams stay invisible).
 void setSmoothNormals(TriangleMesh& mesh);

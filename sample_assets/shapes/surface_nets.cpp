@@ -96,7 +96,7 @@ void addQuad(const Grid& grid, const std::vector<uint32_t>& vertex_of_cell, size
 
 } // namespace
 
-TriangleMesh surfaceOf(const std::function<float(Float3)>& distance, const Box3& bounds, float cell)
+TriangleMesh polygonise(const std::function<float(Float3)>& distance, const Box3& bounds, float cell)
 {
     const Grid grid = sample(distance, bounds, cell);
     TriangleMesh mesh;

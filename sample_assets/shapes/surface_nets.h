@@ -12,6 +12,6 @@ namespace hearth::samples
 
 /// Return positions, normals (the gradient of the distance) and indices. `distance` is negative inside, and
 /// is called from several threads. The surface must lie inside `bounds`.
-TriangleMesh surfaceOf(const std::function<float(Float3)>& distance, const Box3& bounds, float cell);
+TriangleMesh polygonise(const std::function<float(Float3)>& distance, const Box3& bounds, float cell);
 
 } // namespace hearth::samples

@@ -69,12 +69,12 @@ uint8_t encodeSrgb(float linear)
     return static_cast<uint8_t>(above - thresholds.begin() - 1);
 }
 
-Image paintColor(std::string name, uint32_t width, uint32_t height, const Picture& picture)
+Image paintColor(std::string name, uint32_t width, uint32_t height, const ColorFunction& color_function)
 {
     return paint(std::move(name), width, height,
                  [&](Float2 uv, uint8_t* texel)
                  {
-                     const Float4 c = picture(uv);
+                     const Float4 c = color_function(uv);
                      texel[0] = encodeSrgb(c.x);
                      texel[1] = encodeSrgb(c.y);
                      texel[2] = encodeSrgb(c.z);
@@ -82,12 +82,12 @@ Image paintColor(std::string name, uint32_t width, uint32_t height, const Pictur
                  });
 }
 
-Image paintData(std::string name, uint32_t width, uint32_t height, const Picture& picture)
+Image paintData(std::string name, uint32_t width, uint32_t height, const ColorFunction& color_function)
 {
     return paint(std::move(name), width, height,
                  [&](Float2 uv, uint8_t* texel)
                  {
-                     const Float4 c = picture(uv);
+                     const Float4 c = color_function(uv);
                      texel[0] = encodeUnit(c.x);
                      texel[1] = encodeUnit(c.y);
                      texel[2] = encodeUnit(c.z);

@@ -1,4 +1,4 @@
-// How fast hierarchies are built, and what they look like. Report user CPU time on one thread:
+// Benchmarks building cluster hierarchies and reports their shape. Figures are user CPU time on one thread:
 //   hearth_bench_clusters --benchmark_filter=rock2m
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/core/hierarchy.h"

@@ -1,5 +1,5 @@
-// How far the ambient occlusion of one bake is from that of another, at the vertices of the finest level: what noise costs,
-// where the other one has many times the rays or samples. `./dev bench visibility` runs it.
+// Compares the ambient occlusion of two bakes at the vertices of the finest level. Measures the error due to
+// noise if the other bake has many times the rays or samples. `./dev bench visibility` runs it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
 #include "cook/tools/open_part.h"
@@ -20,7 +20,7 @@ using namespace hearth;
 std::vector<float> occlusionOf(const visibility::MeshPages& pages)
 {
     std::vector<float> occlusion;
-    for (const auto& part : visibility::finestOf(pages).parts)
+    for (const auto& part : visibility::extractFinestLevel(pages).parts)
     {
         const formats::ClusterGeometry geometry = pages.cluster(part.cluster);
         for (uint32_t v = 0; v < geometry.vertexCount(); ++v)

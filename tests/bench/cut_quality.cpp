@@ -35,7 +35,7 @@ struct Sums
     }
 };
 
-/// Sums over [0, count); the same for any number of threads.
+/// Sums over [0, count). The result does not depend on the number of threads.
 template <typename AddOne>
 Sums sumOver(size_t count, const AddOne& add_one)
 {
@@ -112,7 +112,7 @@ CutSurface surfaceOfCut(const clusters::Hierarchy& hierarchy, const clusters::De
 {
     CutSurface surface;
     double area = 0, normal2 = 0, uv2 = 0;
-    for (const uint32_t c : clusters::clustersOfCut(hierarchy, cuts::cutAtError(hierarchy, error)))
+    for (const uint32_t c : clusters::findCutClusters(hierarchy, cuts::cutAtError(hierarchy, error)))
     {
         const formats::ClusterRecord& cluster = hierarchy.clusters[c];
         const auto geometry =
@@ -132,10 +132,10 @@ CutSurface surfaceOfCut(const clusters::Hierarchy& hierarchy, const clusters::De
             for (const uint32_t corner : geometry->triangle(t))
                 surface.triangles.push_back(first + corner);
         surface.stored_error =
-            std::max(surface.stored_error, double{formats::errorOf(cluster, hierarchy.groups)});
+            std::max(surface.stored_error, double{formats::clusterError(cluster, hierarchy.groups)});
         const double own = areaOf(surface, surface.positions, first_triangle);
         area += own;
-        if (cluster.refined_group == formats::kNone)
+        if (cluster.refined_group == kInvalidIndex)
             continue;
         const formats::GroupRecord& group = hierarchy.groups[cluster.refined_group];
         normal2 += own * double{group.normal_error} * double{group.normal_error};

@@ -15,30 +15,30 @@ constexpr double kWidth = 300, kHeight = 240, kLeft = 52, kTop = 30, kGap = 30, 
 
 constexpr int kColumns = 4;
 
-// Axes: shares of the triangles from all to a thousandth, rms distance from 1e-5 to 1e-2 of the diagonal.
-constexpr double kLeastShare = -3, kLeastError = -5, kMostError = -2;
+// Axes: share of the triangles from 1 to 1/1000, rms distance from 1e-5 to 1e-2 of the diagonal.
+constexpr double kMinShare = -3, kMinError = -5, kMaxError = -2;
 
 double xOf(double share)
 {
-    return std::log10(share) / kLeastShare * kWidth;
+    return std::log10(share) / kMinShare * kWidth;
 }
 double yOf(double error)
 {
-    return kHeight - (std::log10(error) - kLeastError) / (kMostError - kLeastError) * kHeight;
+    return kHeight - (std::log10(error) - kMinError) / (kMaxError - kMinError) * kHeight;
 }
 
 std::string axes()
 {
     std::string svg =
         fmt::format("<rect width='{}' height='{}' fill='#fff' stroke='#999'/>\n", kWidth, kHeight);
-    for (int power = 0; power >= static_cast<int>(kLeastShare); --power)
+    for (int power = 0; power >= static_cast<int>(kMinShare); --power)
     {
         const double x = xOf(std::pow(10.0, power));
         svg += fmt::format("<line x1='{0:.1f}' x2='{0:.1f}' y2='{1}' stroke='#ddd'/>\n", x, kHeight);
         svg += fmt::format("<text x='{:.1f}' y='{}' text-anchor='middle'>{} %</text>\n", x, kHeight + 16,
                            std::pow(10.0, power + 2));
     }
-    for (int power = static_cast<int>(kLeastError); power <= static_cast<int>(kMostError); ++power)
+    for (int power = static_cast<int>(kMinError); power <= static_cast<int>(kMaxError); ++power)
     {
         const double y = yOf(std::pow(10.0, power));
         svg += fmt::format("<line x2='{0}' y1='{1:.1f}' y2='{1:.1f}' stroke='#ddd'/>\n", kWidth, y);
@@ -62,7 +62,7 @@ std::string panel(const MeshCurve& curve)
             points += fmt::format("{:.1f},{:.1f} ",
                                   xOf(static_cast<double>(cut.triangles) / curve.source_triangles),
                                   yOf(cut.rms / curve.diagonal));
-    // an image inside the image, which ends at the axes
+    // nested <svg> that clips at the axes
     svg += fmt::format("<svg width='{}' height='{}'><polyline points='{}' fill='none' stroke='#c0392b' "
                        "stroke-width='2'/></svg>\n",
                        kWidth, kHeight, points);

@@ -1,4 +1,4 @@
-// The error of cuts over their triangles, as a picture, with the peers' beside it.
+// Plots the error of cuts over their triangle counts, beside the peers' figures.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -20,7 +20,7 @@ struct MeshCurve
     const PeerFigures* peer = nullptr; ///< may be null
 };
 
-/// An SVG document: one panel for each mesh that has a peer's figures, both axes in powers of ten.
+/// SVG document: one panel for each mesh with peer figures; both axes are logarithmic, in powers of ten.
 std::string errorPlot(const std::vector<MeshCurve>& curves);
 
 } // namespace hearth::bench

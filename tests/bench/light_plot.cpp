@@ -13,20 +13,20 @@ namespace
 
 constexpr double kWidth = 340, kHeight = 240, kLeft = 52, kTop = 30, kGap = 30, kBottom = 58;
 
-// Axes: voxels from 2 cm to 2 m, errors from 0.5 % to 200 %.
-constexpr double kLeastSize = 0.02, kMostSize = 2, kLeastError = 0.005, kMostError = 2;
+// Axes: voxel size from 2 cm to 2 m, error from 0.5 % to 200 %.
+constexpr double kMinSize = 0.02, kMaxSize = 2, kMinError = 0.005, kMaxError = 2;
 
-/// What the project holds itself to.
+/// Error limit that the project sets itself.
 constexpr double kLimit = 0.15;
 
 double xOf(double size)
 {
-    return std::log(size / kLeastSize) / std::log(kMostSize / kLeastSize) * kWidth;
+    return std::log(size / kMinSize) / std::log(kMaxSize / kMinSize) * kWidth;
 }
 double yOf(double error)
 {
-    return kHeight - std::log(std::max(error, kLeastError) / kLeastError) /
-                         std::log(kMostError / kLeastError) * kHeight;
+    return kHeight -
+           std::log(std::max(error, kMinError) / kMinError) / std::log(kMaxError / kMinError) * kHeight;
 }
 
 std::string axes()

@@ -1,4 +1,4 @@
-// The error of gathered light over the size of voxels, as a picture.
+// Plots the error of light gathered from bricks over the voxel size.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -17,10 +17,11 @@ struct LightCurve
         double voxel_size; ///< metres
         reference::LightError all, away;
     };
-    std::vector<Size> sizes; ///< of voxels, at least one
+    std::vector<Size> sizes; ///< one for each voxel size, at least one
 };
 
-/// An SVG document: a panel for each scene. Whole light, indirect light, and whole light of points near lamps too.
+/// SVG document: one panel for each scene. Curves: whole light, indirect light, and whole light including
+/// points near lamps.
 std::string lightPlot(const std::vector<LightCurve>& curves);
 
 } // namespace hearth::bench

@@ -1,4 +1,5 @@
-// The march through bricks on one core: rays of hemispheres from the ground of a terrain, one by one and side by side.
+// Benchmarks ray marching through bricks on one core: hemisphere rays from the ground of a terrain, one by
+// one and in SIMD lanes.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/light/march_lanes.h"
 #include "tests/support/brick_model.h"
@@ -64,7 +65,7 @@ private:
                                      4 * std::sin(13 * u + 7 * v));
     }
 
-    /// From the middle of every upper face, directions by cosine.
+    /// Rays from the centre of every upper face, with cosine-distributed directions.
     void addRays(std::mt19937& random, const std::vector<uint32_t>& top, const std::vector<uint32_t>& rock)
     {
         std::uniform_real_distribution<float> uniform(0, 1);
@@ -89,7 +90,7 @@ const Terrain& terrain()
 
 BrickRay rayOf(const BrickMasks& masks, const Ray& ray)
 {
-    return brickRayInVoxels(masks.grid, ray.origin, ray.direction, kBrickFar);
+    return brickRayInVoxels(masks.grid, ray.origin, ray.direction, kBrickInfinity);
 }
 
 /// Counts what rays found.
@@ -115,7 +116,7 @@ struct Count
     }
 };
 
-/// To the first solid voxel, one ray after the other.
+/// March to the first solid voxel, one ray after the other.
 void march(benchmark::State& state, const std::vector<Ray>& rays)
 {
     const BrickMasks masks = terrain().model.masks();
@@ -126,7 +127,7 @@ void march(benchmark::State& state, const std::vector<Ray>& rays)
     count.report(state);
 }
 
-/// The same side by side, in the numbers in which faces are lit.
+/// March the same rays in lanes, as many at a time as for the lighting of faces.
 void marchLanes(benchmark::State& state, const std::vector<Ray>& rays)
 {
     const BrickMasks masks = terrain().model.masks();
@@ -161,7 +162,7 @@ const std::vector<Ray>& fromAnywhere()
     return the_rays;
 }
 
-/// From one face to the next, as lighting takes them; their directions have nothing to do with each other.
+/// March from one face to the next, in the order of the lighting; the rays' directions are unrelated.
 void marchFromFaces(benchmark::State& state)
 {
     march(state, fromFaces());
@@ -174,7 +175,7 @@ void marchLanesFromFaces(benchmark::State& state)
 }
 BENCHMARK(marchLanesFromFaces)->Unit(benchmark::kMillisecond);
 
-/// From anywhere to anywhere: the next ray finds nothing of its bricks in the caches.
+/// March between random points: the next ray finds nothing of its bricks in the CPU caches.
 void marchFromAnywhere(benchmark::State& state)
 {
     march(state, fromAnywhere());

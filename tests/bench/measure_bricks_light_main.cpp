@@ -1,4 +1,5 @@
-// hearth_measure_bricks_light: holds the light that is gathered from bricks against paths through the real geometry.
+// hearth_measure_bricks_light: compares the global illumination gathered from bricks with path tracing of the
+// real geometry.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/voxels/grid_part.h"
 #include "cook/command_line/command_line.h"
@@ -31,7 +32,7 @@ struct Arguments
     std::vector<double> sizes{1, 0.5, 0.2, 0.1, 0.05};
     uint32_t points = 4000, paths = 2048, gather_rays = 4096;
     std::string plot;
-    double picture_voxel = 0; ///< metres; 0: no pictures
+    double picture_voxel = 0; ///< metres; 0: no images
     uint32_t picture_paths = 256;
 };
 
@@ -66,7 +67,7 @@ Result<LightCurve::Size> measureSize(const bricks::StaticScene& scene, const sha
 {
     const auto start = std::chrono::steady_clock::now();
     HEARTH_ASSIGN_OR_RETURN(const bricks::BrickTables tables, cookBricks(scene, voxel_size));
-    const BrickGather gather(bricks::brickViewOf(tables), lighting, kFaceRays);
+    const BrickGather gather(bricks::makeBrickView(tables), lighting, kFaceRays);
     std::vector<Double3> gathered(points.size());
     tbb::parallel_for(size_t{0}, points.size(),
                       [&](size_t i)
@@ -79,7 +80,7 @@ Result<LightCurve::Size> measureSize(const bricks::StaticScene& scene, const sha
     return size;
 }
 
-/// What a camera sees: the scene's first, or one above a corner.
+/// Camera of the comparison: the scene's first camera, or one above a corner of the scene.
 shared::Camera cameraOf(const formats::PackView& pack)
 {
     shared::Camera camera;
@@ -103,7 +104,8 @@ shared::Camera cameraOf(const formats::PackView& pack)
     return camera;
 }
 
-/// Irradiance side by side: by paths, by bricks, and their difference, red where bricks have more and blue where less.
+/// Write irradiance side by side: by path tracing, by bricks, and their difference, red where bricks have
+/// more and blue where they have less.
 Status writePicture(const reference::ShadedScene& scene, const formats::PackView& pack,
                     const BrickGather& gather, uint32_t paths, double mean, const std::string& path)
 {
@@ -160,7 +162,7 @@ Result<LightCurve> measureScene(const std::string& prefix, const Arguments& argu
     HEARTH_ASSIGN_OR_RETURN(formats::PackView images, tools::openPart(prefix + ".textures.part"));
     std::vector<bricks::SourceParts> sources;
     sources.push_back({std::move(import), std::move(clusters), std::move(images)});
-    HEARTH_ASSIGN_OR_RETURN(const bricks::StaticScene scene, bricks::staticScene(sources));
+    HEARTH_ASSIGN_OR_RETURN(const bricks::StaticScene scene, bricks::collectStaticScene(sources));
 
     const auto start = std::chrono::steady_clock::now();
     const std::vector<LitPoint> points =
@@ -185,7 +187,7 @@ Result<LightCurve> measureScene(const std::string& prefix, const Arguments& argu
         double mean = 0;
         for (const LitPoint& point : points)
             mean += length(point.truth.direct + point.truth.indirect) / std::sqrt(3.0);
-        HEARTH_TRY(writePicture(shaded, pack, BrickGather(bricks::brickViewOf(tables), lighting, kFaceRays),
+        HEARTH_TRY(writePicture(shaded, pack, BrickGather(bricks::makeBrickView(tables), lighting, kFaceRays),
                                 arguments.picture_paths, mean / static_cast<double>(points.size()),
                                 prefix + ".light.png"));
     }
@@ -205,7 +207,7 @@ Status run(const Arguments& arguments)
 
 int program(int argc, char** argv)
 {
-    std::setvbuf(stdout, nullptr, _IOLBF, 0); // a line for each size as it is there
+    std::setvbuf(stdout, nullptr, _IOLBF, 0); // print each size's line as soon as it is complete
     cli::CommandLine app(
         "Holds the light that is gathered from bricks against paths through the real geometry.");
     Arguments arguments;

@@ -1,5 +1,6 @@
-// hearth_measure_bricks: voxelises a land from coarse clusters and from its finest triangles: seconds, what differs, memory
-// beside the talk's, and the finest voxels that fit what the talk takes.
+// hearth_measure_bricks: voxelises a landscape from coarse clusters and from its finest triangles. Prints
+// seconds, differences, the memory beside the talk's figures, and the finest voxels that fit into the talk's
+// memory.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/voxels/grid_part.h"
 #include "cook/command_line/command_line.h"
@@ -18,7 +19,7 @@ namespace
 using namespace hearth;
 using namespace hearth::bricks;
 
-// What the talk's tables take together.
+// Memory of all of the talk's tables.
 constexpr uint64_t kTalksBytes = uint64_t{28} << 20;
 constexpr uint64_t kAnyMemory = std::numeric_limits<uint64_t>::max();
 
@@ -33,7 +34,7 @@ GridSettings settingsOf(double voxel_size, double error_share, uint64_t memory)
     return settings;
 }
 
-/// A grid, and the processor's seconds that it took: those of the clock say what else the machine did.
+/// A grid and the CPU seconds that it took. Wall-clock time would include other load of the machine.
 struct Timed
 {
     CookedGrid grid;
@@ -48,7 +49,7 @@ Result<Timed> timed(const StaticScene& scene, const GridSettings& settings)
     return Timed{std::move(grid), static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC};
 }
 
-/// Solid voxels that are not in the other grid; both have the same groups.
+/// Count the solid voxels that the other grid lacks; both have the same groups.
 uint64_t voxelsMissing(const BrickTables& from, const BrickTables& other)
 {
     const auto maskOf = [](uint32_t low, uint32_t high) { return uint64_t{high} << 32 | low; };
@@ -78,7 +79,7 @@ Status measure(const std::vector<std::string>& paths)
     HEARTH_ASSIGN_OR_RETURN(formats::PackView clusters, tools::openPart(paths[1]));
     HEARTH_ASSIGN_OR_RETURN(formats::PackView textures, tools::openPart(paths[2]));
     sources.push_back({std::move(scene_part), std::move(clusters), std::move(textures)});
-    HEARTH_ASSIGN_OR_RETURN(const StaticScene scene, staticScene(sources));
+    HEARTH_ASSIGN_OR_RETURN(const StaticScene scene, collectStaticScene(sources));
     std::printf("512 x 512 x 128 m, %zu instances, voxels of 1 m, %zu threads\n\n", scene.instances.size(),
                 tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
 

@@ -1,9 +1,9 @@
-// Measures the hierarchies of whole meshes: speed, shape, bytes, quality and honesty, with the peers' figures beside
-// them. `./dev bench clusters` makes the meshes and runs it.
+// Measures the hierarchies of whole meshes: speed, shape, bytes, quality and truth of the stored errors,
+// beside the peers' figures. `./dev bench clusters` makes the meshes and runs it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/clusters/levels/authored_levels.h"
+#include "cook/clusters/levels/authored_lods.h"
 #include "cook/clusters/levels/levels.h"
-#include "cook/clusters/program/manual_lods.h"
+#include "cook/clusters/program/discrete_lods.h"
 #include "cook/command_line/command_line.h"
 #include "formats/base/program.h"
 #include "formats/pack/pack_view.h"
@@ -32,7 +32,7 @@ namespace
 
 using namespace hearth;
 
-// From the finest to the coarsest, dense enough to read between them.
+// Cuts from the finest to the coarsest, dense enough to interpolate between them.
 constexpr double kShares[] = {0.9, 0.7, 0.5, 0.4, 0.3, 0.2, 0.1, 0.07, 0.05, 0.03, 0.01, 0.007, 0.005};
 
 struct Times
@@ -48,7 +48,7 @@ double userSeconds()
     return static_cast<double>(usage.ru_utime.tv_sec) + static_cast<double>(usage.ru_utime.tv_usec) * 1e-6;
 }
 
-/// The least of three runs, as the peers were measured.
+/// Minimum of three runs, as for the peers' figures.
 Times timesOf(const std::function<void()>& work)
 {
     Times least{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
@@ -64,7 +64,7 @@ Times timesOf(const std::function<void()>& work)
     return least;
 }
 
-/// Debian's meshoptimizer on the same mesh: what tells one machine from another (clusters once, one halving).
+/// Seconds of Debian's meshoptimizer on the same mesh (clusters once, one halving), to compare machines.
 double calibrationSeconds(const mesh::SourceMesh& mesh)
 {
     constexpr size_t kVertices = 255, kTriangles = 128;
@@ -91,13 +91,13 @@ size_t trianglesAt(const clusters::Hierarchy& hierarchy, double error)
 {
     size_t triangles = 0;
     for (const auto& cluster : hierarchy.clusters)
-        if (formats::errorOf(cluster, hierarchy.groups) <= error &&
+        if (formats::clusterError(cluster, hierarchy.groups) <= error &&
             hierarchy.groups[cluster.group].error > error)
             triangles += cluster.triangle_count;
     return triangles;
 }
 
-/// The least error whose cut has no more than so many triangles.
+/// Least error whose cut has at most this number of triangles.
 double errorFor(const clusters::Hierarchy& hierarchy, std::span<const float> errors, size_t triangles)
 {
     return *std::partition_point(errors.begin(), errors.end() - 1,
@@ -128,7 +128,8 @@ std::vector<bench::CutQuality> measureCuts(const mesh::SourceMesh& mesh, const c
     return cuts;
 }
 
-/// How many triangles reach a value of a figure that grows from cut to cut, between the cuts by powers.
+/// Triangle count at which a figure that grows from cut to cut reaches a value, by power-law interpolation
+/// between the cuts.
 std::optional<double> trianglesFor(std::span<const bench::CutQuality> cuts, double bench::CutQuality::*figure,
                                    double value)
 {
@@ -144,7 +145,7 @@ std::optional<double> trianglesFor(std::span<const bench::CutQuality> cuts, doub
     return std::nullopt;
 }
 
-/// Triangles over the peer's for the same figure, where the cuts have it.
+/// Triangles divided by the peer's for the same figure, if the cuts reach it.
 std::optional<double> ratioToPeer(std::span<const bench::CutQuality> cuts, double bench::CutQuality::*figure,
                                   double value, double of_peer)
 {
@@ -172,7 +173,7 @@ void printRatio(const char* what, std::optional<double> ratio)
         std::printf("  %s beyond the cuts", what);
 }
 
-/// Over all meshes whose cuts reach the peer's figures.
+/// Print medians over all meshes whose cuts reach the peer's figures.
 void printMedians(std::span<const bench::MeshCurve> curves)
 {
     for (size_t k = 0; k < bench::PeerFigures{}.cuts.size(); ++k)
@@ -269,7 +270,8 @@ void printShape(const clusters::Hierarchy& hierarchy)
                 pages.decoded_bytes / pages.seconds * 1e-9, pages.decoded_bytes / pages.zstd_seconds * 1e-9);
 }
 
-/// The clusters of all levels with their groups and errors: what the peers make, who have neither pages nor records.
+/// Build the clusters of all levels with their groups and errors, without pages and records: the same work as
+/// the peers', which have neither.
 void buildLevelsAlone(const mesh::SourceMesh& mesh)
 {
     clusters::JoinedMesh joined = clusters::joinAuthored(mesh, {});

@@ -1,5 +1,5 @@
-// Measures a cook without cache, on one core and on all: seconds, CPU seconds and peak memory of each stage, and of all
-// processes together. `./dev bench cook` runs it.
+// Measures a cook without cache, on one core and on all: seconds, CPU seconds and peak memory of each stage
+// and of all processes together. `./dev bench cook` runs it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
 #include "cook/tools/child_processes.h"
@@ -28,7 +28,7 @@ using namespace hearth;
 constexpr auto kPollEvery = std::chrono::milliseconds(20);
 constexpr double kMiB = 1 << 20;
 
-/// A process and all that it has started, on Linux.
+/// A process and all its descendants, on Linux.
 std::vector<pid_t> familyOf(pid_t process)
 {
     std::vector<pid_t> family{process};
@@ -47,7 +47,7 @@ std::vector<pid_t> familyOf(pid_t process)
     return family;
 }
 
-/// What the processes take together: what several share counts once (the sum of their PSS, proc(5)).
+/// Memory of the processes together. Shared pages count once (sum of PSS, proc(5)).
 uint64_t memoryOf(const std::vector<pid_t>& processes)
 {
     uint64_t kilobytes = 0;
@@ -64,16 +64,16 @@ uint64_t memoryOf(const std::vector<pid_t>& processes)
 struct Cook
 {
     Json report;
-    uint64_t peak_bytes = 0; ///< of all processes together, as often as it was looked at
+    uint64_t peak_bytes = 0; ///< all processes together, sampled periodically
 };
 
-/// on_one_core  else on all
+/// on_one_core  pin to one core; else use all
 std::optional<Cook> cook(const std::string& source, const std::string& output, bool on_one_core)
 {
     const std::string report = output + ".json";
     std::vector<std::string> words;
     if (on_one_core)
-        words = {"/usr/bin/taskset", "--cpu-list", "0"}; // which its children inherit
+        words = {"/usr/bin/taskset", "--cpu-list", "0"}; // the children inherit the CPU list
     const std::vector<std::string> cooking{tools::programFolder() + "/hearth",
                                            "cook",
                                            "-q",
@@ -142,7 +142,7 @@ int measure(const std::string& source, const std::string& output)
     const std::optional<Cook> slow = cook(source, output, true);
     const std::optional<Cook> fast = slow ? cook(source, output, false) : std::nullopt;
     if (!fast)
-        return 1; // hearth has said why
+        return 1; // hearth has printed the reason
     std::printf("| cores | stage      |  seconds |  CPU     | MiB peak |\n|---|---|---|---|---|\n");
     print(1, *slow);
     print(cores, *fast);

@@ -1,5 +1,5 @@
-// Measures what a game waits for before its first page: opening a pack whose file is not in memory and one whose file is,
-// and what the check of a page adds to its decoding. `./dev bench runtime` runs this.
+// Measures the time to a game's first page: opening a pack with a cold and with a warm file cache, and the
+// share of the page check in decoding. `./dev bench runtime` runs it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
 #include "formats/base/program.h"
@@ -29,7 +29,7 @@ double secondsOf(const auto& work)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// That the process had the disk read so far; 0 where the system does not say.
+/// Bytes that the process has read from disk so far; 0 if the system does not say.
 uint64_t bytesFromDisk()
 {
     std::ifstream file("/proc/self/io");
@@ -41,7 +41,7 @@ uint64_t bytesFromDisk()
     return 0;
 }
 
-/// Ask the system to forget what it holds of the file. It may not where others have it open.
+/// Ask the system to drop the file from its page cache. It may refuse if other processes have the file open.
 void forget(const std::string& path)
 {
     const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
@@ -73,10 +73,10 @@ Status measureOpening(const std::string& path)
     return success();
 }
 
-/// Microseconds to decode a page, the mean of every `stride`th.
+/// Mean microseconds to decode a page, over every `stride`th page.
 Result<double> microsecondsOfAPage(const formats::PackView& pack, uint32_t stride)
 {
-    std::vector<std::byte> buffer(formats::kPageMaxBytes);
+    std::vector<std::byte> buffer(formats::kMaxPageBytes);
     const auto count = static_cast<uint32_t>(pack.pages().size());
     Status status = success();
     const auto readPages = [&]
@@ -84,7 +84,7 @@ Result<double> microsecondsOfAPage(const formats::PackView& pack, uint32_t strid
         for (uint32_t page = 0; page < count && status.ok(); page += stride)
             status = pack.decodePage(page, std::span(buffer).first(pack.pages()[page].size));
     };
-    readPages(); // the file is in memory afterwards
+    readPages(); // the file is in the page cache afterwards
     double seconds = secondsOf(readPages);
     for (int i = 1; i < kWarmRuns; ++i)
         seconds = std::min(seconds, secondsOf(readPages));

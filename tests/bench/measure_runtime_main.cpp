@@ -1,5 +1,5 @@
-// Reads what hearth-render left of the scene of the talk and prints it beside the talk's figures. `./dev bench runtime`
-// makes the scene, draws it and runs this.
+// Prints the statistics that hearth-render wrote for the scene of the talk, beside the talk's figures. `./dev
+// bench runtime` makes the scene, draws it and runs this.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
 #include "cook/json/json.h"
@@ -22,14 +22,14 @@ using namespace hearth;
 
 constexpr double kMebi = 1 << 20;
 
-/// A stage of the talk's renderer, and the passes of ours that do the same.
+/// A stage of the talk's renderer and the corresponding passes of this one.
 struct Stage
 {
     const char* name;
     double high_end_ms; ///< the talk's table, Immortalis-G715
     double low_end_ms;  ///< the talk's table, a phone five years older
     const char* passes;
-    std::array<const char*, 3> times; ///< in the statistics; null: none
+    std::array<const char*, 3> times; ///< names in the statistics; null: none
 };
 
 constexpr Stage kStages[] = {
@@ -104,7 +104,7 @@ void printVisible(const char* name, const bench::VisibleFigures& figures, double
                 static_cast<double>(figures.covered_pixels) / frames, figures.trianglesPerPixel());
 }
 
-/// Means over the frames of the path.
+/// Print means over the frames of the camera path.
 Status printCounts(const Arguments& arguments, const formats::PackView& pack, const Json& statistics)
 {
     bench::FiguresOfKind kinds;
@@ -122,7 +122,7 @@ Status printCounts(const Arguments& arguments, const formats::PackView& pack, co
                 "seen", "pixels", "tri/pixel");
     for (const auto& [kind, figures] : kinds)
         printVisible(kind.c_str(), figures, frames);
-    kinds.erase("sky"); // a backdrop: many pixels for next to no triangles
+    kinds.erase("sky"); // a backdrop: many pixels for almost no triangles
     const bench::VisibleFigures all = bench::sumOf(kinds);
     printVisible("scene", all, frames);
     std::printf("  aims: clusters drawn / seen <= 1.6, triangles a covered pixel <= 0.35\n");
@@ -147,7 +147,7 @@ void printBytes(const formats::PackView& pack, const Json& statistics)
         bytes / kMebi, bytes / drawn, drawn * 1e-6, bytes / unique, unique * 1e-6);
 }
 
-/// The first frame from which on all are converged; 0: the last is not.
+/// First frame from which on all frames are converged; 0: the last one is not.
 size_t framesToConverge(const Json& frames)
 {
     size_t converged = 0;

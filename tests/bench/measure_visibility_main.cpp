@@ -1,5 +1,5 @@
-// Measures how fast rays of the visibility cooker are, beside bare loops over the very same rays: what sampling, summing
-// and sharing out of work cost. `./dev bench visibility` runs it.
+// Measures the ray throughput of the visibility cooker against bare loops over the same rays: the cost of
+// sampling, summing and task scheduling. `./dev bench visibility` runs it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
 #include "cook/sampling/hemisphere.h"
@@ -28,10 +28,10 @@ namespace
 using namespace hearth;
 using namespace hearth::visibility;
 
-constexpr uint32_t kRays = 64;        ///< of a point
-constexpr size_t kRunPoints = 1024;   ///< neighbours along the curve
-constexpr size_t kRuns = 32;          ///< of neighbours, all over the mesh
-constexpr size_t kTaskRays = 1 << 15; ///< as the stage shares them out
+constexpr uint32_t kRays = 64;        ///< rays of each point
+constexpr size_t kRunPoints = 1024;   ///< neighbouring points along the curve
+constexpr size_t kRuns = 32;          ///< runs of neighbouring points, all over the mesh
+constexpr size_t kTaskRays = 1 << 15; ///< rays of a task, as in the stage
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 double processorSeconds()
@@ -41,13 +41,14 @@ double processorSeconds()
     return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) * 1e-9;
 }
 
-/// One way to trace all rays. Rounds of all ways take turns, so that whatever else the machine does meets all alike.
+/// A method to trace all rays. The methods take turns round by round, so that other load on the machine
+/// affects all of them alike.
 struct Way
 {
     const char* name;
-    std::function<void()> prepare; ///< not measured
+    std::function<void()> prepare; ///< set-up; not measured
     std::function<void()> trace;
-    std::function<uint64_t()> hidden; ///< rays that met something, in the last round
+    std::function<uint64_t()> hidden; ///< occluded rays of the last round
     double wall_seconds = std::numeric_limits<double>::infinity(), processor_seconds = wall_seconds;
     uint64_t hidden_rays = 0;
 };
@@ -68,7 +69,7 @@ void measure(std::vector<Way>& ways, int rounds)
         }
 }
 
-/// The stage is the last one.
+/// Print the figures; the stage is the last method.
 void print(const std::vector<Way>& ways, uint64_t rays, const char* title)
 {
     std::printf("%s\n  %-32s %12s %26s %10s\n", title, "", "Mrays/s", "Mrays/s of processor time", "hidden");
@@ -91,7 +92,7 @@ void print(const std::vector<Way>& ways, uint64_t rays, const char* title)
                 100 * least_processor / ways.back().processor_seconds);
 }
 
-/// In tasks, as the stage does it, with the processor set as Embree wants it.
+/// Run in tasks, as the stage does, with the floating-point mode that Embree recommends.
 template <typename Trace>
 void inTasks(size_t items, size_t rays_per_item, Trace trace)
 {
@@ -122,7 +123,7 @@ RTCRay rayOf(const SamplePoint& point, float x, float y, float z, float distance
     return ray;
 }
 
-/// Those that the stage makes.
+/// The same rays that the stage makes.
 std::vector<RTCRay> raysOf(std::span<const SamplePoint> points, float distance)
 {
     std::vector<RTCRay> rays;
@@ -130,8 +131,8 @@ std::vector<RTCRay> raysOf(std::span<const SamplePoint> points, float distance)
     std::vector<float> x(kRays), y(kRays), z(kRays);
     for (size_t p = 0; p < points.size(); ++p)
     {
-        sampling::hemisphereDirections(0, sampling::seedOf(0, p), sampling::frameAround(points[p].normal), x,
-                                       y, z);
+        sampling::hemisphereDirections(0, sampling::deriveSeed(0, p), sampling::frameAround(points[p].normal),
+                                       x, y, z);
         for (uint32_t i = 0; i < kRays; ++i)
             rays.push_back(rayOf(points[p], x[i], y[i], z[i], distance));
     }
@@ -158,7 +159,7 @@ std::vector<RTCRay16> packetsOf(std::span<const RTCRay> rays)
     return packets;
 }
 
-/// The stage itself; hidden rays as its moments have them.
+/// The stage itself; it counts occluded rays by its moments.
 Way stageWay(const Occluders& occluders, std::span<const SamplePoint> points, const RaySettings& settings)
 {
     const auto moments = std::make_shared<std::vector<Moments>>();
@@ -244,7 +245,7 @@ void measureAnyHit(const Occluders& occluders, std::span<const SamplePoint> poin
 
 void measureNearestHit(const Occluders& occluders, std::span<const SamplePoint> points, int rounds)
 {
-    constexpr float kDistance = 100; // more than the mesh is wide
+    constexpr float kDistance = 100; // larger than the mesh
     const std::vector<RTCRay> rays = raysOf(points, kDistance);
     std::vector<RTCRayHit> traced(rays.size());
     RTCScene scene = occluders.scene();

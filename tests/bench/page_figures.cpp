@@ -60,33 +60,34 @@ const char* kindOfLane(size_t lane, const VertexLanes& lanes, uint32_t layout)
 {
     if (lane < 3)
         return "positions";
-    if (lane == 3 || (lane < 6 && (layout & kVertexFineNormal)))
+    if (lane == 3 || (lane < 6 && (layout & kVertexNormal16)))
         return "normals";
     if (lanes.kinds[lane] == LaneKind::grid)
         return "UVs";
     return "other attributes";
 }
 
-/// What stands behind the triangles of the page's clusters.
+/// Bytes of the morph data behind the triangles of the page's clusters.
 size_t morphBytes(const PageRecord& page, std::span<const ClusterRecord> clusters, uint32_t mesh_layout)
 {
     size_t bytes = page.size;
     for (const ClusterRecord& cluster : clusters)
-        bytes -= clusterBytes(layoutOf(cluster, mesh_layout), cluster.vertex_count, cluster.triangle_count);
+        bytes -= clusterBytes(clusterVertexLayout(cluster, mesh_layout), cluster.vertex_count,
+                              cluster.triangle_count);
     return bytes;
 }
 
-/// Adds the entropies of a page's streams, scaled to what the page takes.
+/// Add the entropies of a page's streams, scaled to the stored size of the page.
 void addKinds(const PageRecord& page, std::span<const ClusterRecord> clusters, uint32_t mesh_layout,
               std::span<const std::byte> content, std::map<std::string, double>& bytes_of_kind)
 {
     size_t codes = 0, uv_bases = 0, wide = 0;
     for (const ClusterRecord& cluster : clusters)
     {
-        const uint32_t layout = layoutOf(cluster, mesh_layout);
+        const uint32_t layout = clusterVertexLayout(cluster, mesh_layout);
         codes += codeBytes(cluster.triangle_count);
         uv_bases += uvBaseWords(layout) * 4;
-        wide += (layout & kVertexWide) ? cluster.vertex_count * vertexWords(layout) * 4 : 0;
+        wide += (layout & kVertexWideOffsets) ? cluster.vertex_count * vertexWords(layout) * 4 : 0;
     }
     PageHeader header;
     std::memcpy(&header, content.data(), sizeof(header));
@@ -121,7 +122,7 @@ void addKinds(const PageRecord& page, std::span<const ClusterRecord> clusters, u
     takePlanes(false, kPlaneMain);
     takePlanes(true, kPlaneMain);
     takePlanes(true, kPlaneSecond);
-    for (size_t block = 0; block * kLanesOfBlock < lanes.count; ++block)
+    for (size_t block = 0; block * kLanesPerBlock < lanes.count; ++block)
         for (uint32_t plane = 0; plane < lowBitFields(forms, block).planes(); ++plane)
             take("low bits", header.new_vertices);
     double sum = 0;
@@ -132,7 +133,7 @@ void addKinds(const PageRecord& page, std::span<const ClusterRecord> clusters, u
     bytes_of_kind["coding loss"] += page.stored_size - sum;
 }
 
-/// Decompress what a page has in a frame. Returns the bytes of that.
+/// Decompress the zstd frame of a page. Returns its decompressed bytes.
 size_t decompressFrame(ZSTD_DCtx* context, std::span<const std::byte> stored, std::span<std::byte> out)
 {
     const size_t frame = ZSTD_findFrameCompressedSize(stored.data(), stored.size());
@@ -171,7 +172,7 @@ PageFigures pageFiguresOf(const clusters::Hierarchy& hierarchy)
         figures.kinds.push_back({kind, bytes});
 
     PageDecoder decoder;
-    std::vector<std::byte> out(kPageMaxBytes);
+    std::vector<std::byte> out(kMaxPageBytes);
     figures.seconds = leastSeconds(
         [&]
         {

@@ -1,4 +1,4 @@
-// What the pages of a hierarchy take, and how fast they decode.
+// Measures size and decoding speed of a hierarchy's pages.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -15,12 +15,12 @@ struct PageFigures
     struct Kind
     {
         std::string name;
-        double bytes; ///< shares of the pages' stored bytes, by the entropy of the streams
+        double bytes; ///< share of the pages' stored bytes, by the entropy of the streams
     };
     std::vector<Kind> kinds;
     double decoded_bytes = 0;
-    double seconds = 0;      ///< to decode all pages, the least of several times
-    double zstd_seconds = 0; ///< of these, what zstd takes
+    double seconds = 0;      ///< to decode all pages; minimum of several runs
+    double zstd_seconds = 0; ///< zstd's part of `seconds`
 };
 
 PageFigures pageFiguresOf(const clusters::Hierarchy& hierarchy);

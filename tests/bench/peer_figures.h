@@ -1,6 +1,6 @@
-// What meshoptimizer's clusterlod.h does on the same meshes: design notes, PEERS, sections 2 to 4, config "clod"; where
-// these have no cuts, version 1.2 was run so, and its cuts measured by cut_quality.h, which gives the notes' figures on the
-// other meshes.
+// Figures of meshoptimizer's clusterlod.h (config "clod") on the same meshes. Cuts that had not been
+// published were made by running version 1.2 and measured by cut_quality.h, which reproduces the published
+// figures of the other meshes.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,17 +12,19 @@ namespace hearth::bench
 
 struct PeerCut
 {
-    double share;          ///< of the source's triangles
-    double rms;            ///< two-sided, part of the bounding box's diagonal
-    double normal_rms_deg; ///< of the cut against the source
+    double share;          ///< share of the source's triangles
+    double rms;            ///< two-sided, as a part of the bounding box's diagonal
+    double normal_rms_deg; ///< cut against the source
 };
 
 struct PeerFigures
 {
     std::string_view mesh;
-    double ktris_per_second; ///< user time, one thread, -O3 -march=native, where PEERS was measured
-    double calibration; ///< user time of 1.2, -O2, over that of 0.18's meshlets and one halving; 0: not known
-    std::array<PeerCut, 3> cuts{}; ///< share 0: not known
+    /// user time, one thread, -O3 -march=native, on the machine of the published figures
+    double ktris_per_second;
+    /// user time of 1.2, -O2, over the time of 0.18's meshlets and one halving; 0: unknown
+    double calibration;
+    std::array<PeerCut, 3> cuts{}; ///< share 0: unknown
 };
 
 inline constexpr std::array kPeerFigures = {

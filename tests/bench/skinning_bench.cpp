@@ -1,4 +1,4 @@
-// Bounds of a character of 100,000 vertices, 60 joints and 20 clips.
+// Benchmarks the bounds of a character of 100,000 vertices, 60 joints and 20 clips.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/skinning/cluster_bounds.h"
 #include "cook/skinning/group_spheres.h"
@@ -22,20 +22,20 @@ constexpr uint32_t kClips = 20;
 constexpr uint32_t kKeys = 60;
 constexpr uint32_t kLimbs = 6;
 constexpr uint32_t kVertices = 100'000;
-constexpr uint32_t kClusterVertices = 88; ///< as clusters of 128 triangles have
+constexpr uint32_t kClusterVertices = 88; ///< of a typical cluster of 128 triangles
 
-/// Six limbs of ten joints that bend back and forth, in each clip at another pace.
+/// Six limbs of ten joints that bend back and forth, at another speed in each clip.
 struct Character
 {
     std::vector<NodeRecord> nodes;
     std::vector<JointRecord> joints;
-    std::vector<SkinRecord> skins{{{}, kNone, {0, kJoints}, 0}};
+    std::vector<SkinRecord> skins{{{}, kInvalidIndex, {0, kJoints}, 0}};
     std::vector<AnimationRecord> animations;
     std::vector<AnimationChannelRecord> channels;
     std::vector<float> keys;
     std::vector<DeformedCluster> clusters;
 
-    MotionTables tables() const { return {nodes, skins, joints, animations, channels, keys, {}, {}}; }
+    AnimationTables tables() const { return {nodes, skins, joints, animations, channels, keys, {}, {}}; }
 };
 
 void addSkeleton(Character& character)
@@ -44,9 +44,9 @@ void addSkeleton(Character& character)
     for (uint32_t i = 0; i < kJoints; ++i)
     {
         NodeRecord node{};
-        node.mesh = node.skin = kNone;
+        node.mesh = node.skin = kInvalidIndex;
         node.has_trs = 1;
-        node.parent = i == 0 ? kNone : i % kLength == 0 ? 0 : i - 1;
+        node.parent = i == 0 ? kInvalidIndex : i % kLength == 0 ? 0 : i - 1;
         node.translation =
             i % kLength == 0 ? Float3{static_cast<float>(i) * 0.01f, 0, 0} : Float3{0, 0.1f, 0};
         node.rotation = {0, 0, 0, 1};
@@ -89,7 +89,7 @@ void addClip(Character& character, uint32_t clip)
     }
 }
 
-/// A patch of skin around a joint, whose weights go over to the joints before and behind.
+/// Patch of skin around a joint, with weights that blend into the joints before and behind.
 DeformedCluster patch(uint32_t number)
 {
     const uint32_t joint = number % kJoints, limb = joint / (kJoints / kLimbs);
@@ -128,16 +128,16 @@ Character makeCharacter()
     return character;
 }
 
-std::vector<motion::Box3d> reachOf(const Character& character)
+std::vector<animation_bounds::Box3d> reachOf(const Character& character)
 {
-    std::vector<motion::Box3d> reach(kJoints);
+    std::vector<animation_bounds::Box3d> reach(kJoints);
     for (const DeformedCluster& cluster : character.clusters)
         for (size_t i = 0; i < cluster.joints.size(); ++i)
-            motion::add(reach[cluster.joints[i]], widen(cluster.positions[i / cluster.influences]));
+            animation_bounds::add(reach[cluster.joints[i]], widen(cluster.positions[i / cluster.influences]));
     return reach;
 }
 
-/// One level of clusters in groups of 16, as the source's level of a hierarchy has them.
+/// Bound one level of clusters in groups of 16, like the source level of a hierarchy.
 void characterBounds(benchmark::State& state)
 {
     const tbb::global_control two_cores(tbb::global_control::max_allowed_parallelism, 2);
@@ -146,22 +146,22 @@ void characterBounds(benchmark::State& state)
     std::vector<ClusterRecord> clusters(character.clusters.size());
     for (uint32_t i = 0; i < clusters.size(); ++i)
     {
-        clusters[i].refined_group = kNone;
+        clusters[i].refined_group = kInvalidIndex;
         if (i % 16 == 0)
             groups.push_back({});
         groups.back().clusters = {i - i % 16, i % 16 + 1};
     }
     for (auto _ : state)
     {
-        const MotionTables tables = character.tables();
-        const std::vector<motion::NodeMotion> nodes = motion::nodeMotions(tables);
-        const std::vector<motion::Box3d> reach = reachOf(character);
-        const motion::SkinMotion skin(tables, nodes, 0, reach);
-        const motion::PoseRegions regions(tables, nodes);
+        const AnimationTables tables = character.tables();
+        const std::vector<animation_bounds::NodeMotion> nodes = animation_bounds::nodeMotions(tables);
+        const std::vector<animation_bounds::Box3d> reach = reachOf(character);
+        const animation_bounds::SkinMotion skin(tables, nodes, 0, reach);
+        const animation_bounds::PoseRegions regions(tables, nodes);
         const skinning::Deformation deformation{&skin, {}, &regions};
-        benchmark::DoNotOptimize(boundsOf(character.clusters, deformation));
+        benchmark::DoNotOptimize(computeClusterBounds(character.clusters, deformation));
         benchmark::DoNotOptimize(
-            anchoredBounds({groups, clusters, 0, 0}, character.clusters, deformation, reach));
+            computeAnchoredBounds({groups, clusters, 0, 0}, character.clusters, deformation, reach));
     }
     state.counters["vertices"] = kVertices;
     state.counters["joints"] = kJoints;

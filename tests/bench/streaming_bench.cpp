@@ -1,4 +1,5 @@
-// What the streaming policy costs a frame: 28,000 pages, which are 1.7 GiB, and a view that wanders over them.
+// Benchmarks the CPU cost of the streaming policy per frame: 28,000 pages (1.7 GiB) and a view that wanders
+// over them.
 //   hearth_bench_streaming
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/pack/residency.h"
@@ -15,8 +16,8 @@ constexpr uint32_t kPageCount = 28000;
 constexpr uint32_t kPageBytes = 64 * 1024;
 constexpr uint64_t kWantedPages = 2000;
 
-/// Twelve levels, each of twice the pages of the one before; a page needs the two that lie at its place one level up and
-/// the two beside them, as pages of real meshes do (2 to 4).
+/// Make twelve levels, each with twice the pages of the one before. A page needs the two pages at its
+/// location one level up and the two beside them, as pages of real meshes do (2 to 4).
 std::vector<PageNode> makePages()
 {
     std::vector<PageNode> nodes;
@@ -37,7 +38,7 @@ std::vector<PageNode> makePages()
     return nodes;
 }
 
-/// One frame, all of whose loads end in it; the view asks for finest pages that follow each other.
+/// Run one frame; all its loads end in it. The view requests consecutive finest pages.
 void frame(pack::Residency& residency, uint64_t serial, uint32_t first_page)
 {
     residency.beginFrame(serial, serial < 3 ? 0 : serial - 3);
@@ -47,7 +48,7 @@ void frame(pack::Residency& residency, uint64_t serial, uint32_t first_page)
         residency.completed(page, true);
 }
 
-/// range(0): pages that the view moves on by in each frame; range(1): pages that the budget holds.
+/// range(0): pages that the view advances in each frame; range(1): pages in the budget.
 void wander(benchmark::State& state)
 {
     const auto moved = static_cast<uint32_t>(state.range(0));

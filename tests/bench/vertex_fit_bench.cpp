@@ -1,4 +1,4 @@
-// The fit of visibility to 100,000 vertices on one core, stage by stage.
+// Benchmarks fitting visibility to 100,000 vertices on one core, stage by stage.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/visibility/fit/level_fit.h"
 #include "cook/visibility/fit/normal_equations.h"
@@ -15,7 +15,7 @@ namespace
 using namespace hearth;
 using namespace hearth::visibility;
 
-/// A rock of 199,692 triangles, and four samples on each with smooth values and some noise.
+/// A rock of 199,692 triangles with four samples on each; the values are smooth plus some noise.
 struct Scene
 {
     mesh::SourceMesh rock = shapes::rock(129, 0.5f);
@@ -55,19 +55,19 @@ void assembly(benchmark::State& state)
     const OneCore one(kParallelism, 1);
     const Proxy proxy = makeProxy(test::viewOf(scene().rock));
     const std::vector<SurfaceSample> samples =
-        samplesOnProxy(proxy, test::viewOf(scene().rock), scene().samples);
+        mapSamplesToProxy(proxy, test::viewOf(scene().rock), scene().samples);
     for (auto _ : state)
         benchmark::DoNotOptimize(assemble(proxy, samples, scene().values, {}));
 }
 BENCHMARK(assembly)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-/// Four right-hand sides from nothing.
+/// Solve four right-hand sides, starting from zero.
 void solution(benchmark::State& state)
 {
     const OneCore one(kParallelism, 1);
     const Proxy proxy = makeProxy(test::viewOf(scene().rock));
     const std::vector<SurfaceSample> samples =
-        samplesOnProxy(proxy, test::viewOf(scene().rock), scene().samples);
+        mapSamplesToProxy(proxy, test::viewOf(scene().rock), scene().samples);
     const NormalEquations system = assemble(proxy, samples, scene().values, {});
     SolveStatistics statistics;
     for (auto _ : state)
@@ -82,7 +82,7 @@ void solution(benchmark::State& state)
 }
 BENCHMARK(solution)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-/// Ten levels of half the triangles each, by meshes of the same shape.
+/// Fit ten levels, each with half the triangles of the one before, by meshes of the same shape.
 void levels(benchmark::State& state)
 {
     const OneCore cores(kParallelism, static_cast<size_t>(state.range(0)));

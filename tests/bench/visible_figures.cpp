@@ -46,7 +46,7 @@ Result<Dump> readDump(const std::string& path)
     return dump;
 }
 
-/// Pixels of each triangle of each slot.
+/// Count the pixels of each triangle of each slot.
 Result<std::vector<uint32_t>> countPixels(const Dump& dump, const std::string& path)
 {
     std::vector<uint32_t> pixels_of_triangle(dump.slots.size() << kTriangleBits);

@@ -1,4 +1,5 @@
-// What a frame drew and what of it is seen, from the dumps of `hearth-render --dump-visibility`.
+// Counts drawn and visible clusters and triangles of a frame, from dumps of `hearth-render
+// --dump-visibility`.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,20 +14,20 @@ namespace hearth::bench
 struct VisibleFigures
 {
     uint64_t drawn_clusters = 0;
-    uint64_t owning_clusters = 0; ///< seen in one pixel at least
+    uint64_t owning_clusters = 0; ///< visible in at least one pixel
     uint64_t drawn_triangles = 0;
     uint64_t owning_triangles = 0;
     uint64_t covered_pixels = 0;
 
     void add(const VisibleFigures& other);
     double trianglesPerPixel() const;
-    double drawnOverOwning() const; ///< clusters
+    double drawnOverOwning() const; ///< ratio of clusters
 };
 
-/// For each kind of object: what stands before the first '_' of its mesh's name.
+/// Figures of each kind of object. The kind is the part of the mesh's name before the first '_'.
 using FiguresOfKind = std::map<std::string, VisibleFigures>;
 
-/// errors: input_missing; usage, where the file is no dump of that pack.
+/// errors: input_missing; usage if the file is no dump of that pack.
 Result<FiguresOfKind> readVisibleFigures(const std::string& path, const formats::PackView& pack);
 
 VisibleFigures sumOf(const FiguresOfKind& figures);

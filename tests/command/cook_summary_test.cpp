@@ -15,15 +15,15 @@ TEST(CookSummary, repeatsFailuresThatOtherLinesCameAfter)
     CookSummary summary;
     const auto fail = [&](const std::string& line)
     {
-        tell(line);
+        printMessage(line);
         summary.addFailure(line);
     };
     EXPECT_EQ(summary.lines(), Lines());
-    tell("before");
+    printMessage("before");
     fail("a.glb: error: is bad [E1101]");
     fail("b.glb: error: is bad [E1101]");
     EXPECT_EQ(summary.lines(), Lines()) << "nobody can overlook them";
-    tell("after");
+    printMessage("after");
     EXPECT_EQ(summary.lines(),
               (Lines{"all failures again:", "a.glb: error: is bad [E1101]", "b.glb: error: is bad [E1101]"}));
 }

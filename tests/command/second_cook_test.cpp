@@ -1,7 +1,7 @@
 // What a second cook runs, with the real cookers: nothing where nothing has changed, and what it says of what has.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
-#include "cook/tools/read_list.h"
+#include "cook/tools/dependency_list.h"
 #include "pipelines/command/inspect/verify.h"
 #include "tests/support/sandbox.h"
 #include "tests/support/small_sources.h"
@@ -557,7 +557,7 @@ TEST_F(SecondCook, theImportListsAllThatItReads)
         arguments.insert(arguments.end(), {"-o", "a.part", "--depfile", "a.d"});
         EXPECT_EQ(folder.run(arguments).exit_code, 0);
         std::map<std::string, bool> is_there;
-        const tools::ReadList list = tools::ReadList::parse(folder.read("a.d")).value();
+        const tools::DependencyList list = tools::DependencyList::parse(folder.read("a.d")).value();
         for (const auto& [path, hash] : list.files())
             is_there[path.substr(path.rfind('/') + 1)] = hash.has_value();
         return is_there;

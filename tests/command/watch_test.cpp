@@ -238,7 +238,7 @@ TEST(FileWatch, tellsOfFilesThatComeIntoFolders)
     folder.write("there.obj", "");
     const auto change = files->wait();
     EXPECT_EQ(pathOf(change), folder.path());
-    EXPECT_TRUE(change->is_of_folder);
+    EXPECT_TRUE(change->is_in_folder);
     // a file that is watched goes before others that have come
     folder.write("elsewhere.obj", "");
     folder.write("here.obj", "another");

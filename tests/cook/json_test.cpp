@@ -1,4 +1,4 @@
-// Json: it writes what nlohmann's library writes, reads what that reads, and is called as that is.
+// Compares Json with nlohmann's library: same output, same parsing, same interface.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
 #include "cook/json/json_events.h"
@@ -25,7 +25,7 @@ std::string textOf(const Other& other, int indent, char fill)
     return other.dump(indent, fill, false, Other::error_handler_t::replace);
 }
 
-/// Random documents, the same value in both libraries.
+/// Random documents: the same value in both libraries.
 class Documents
 {
 public:
@@ -63,7 +63,7 @@ private:
 
     size_t below(size_t end) { return random_() % end; }
 
-    /// Of all bit patterns, and of those that programs have.
+    /// Return a random number: any bit pattern, or a value that programs commonly have.
     double number()
     {
         const uint64_t bits = random_();
@@ -72,7 +72,8 @@ private:
         return below(2) == 0 ? value : std::round(static_cast<double>(bits % 100000)) / 128;
     }
 
-    /// Mostly letters; quotes, control characters, and bytes that are UTF-8 in parts and by chance.
+    /// Return random text: mostly letters; also quotes, control characters and bytes that are UTF-8 only
+    /// partly.
     std::string text()
     {
         std::string text;
@@ -181,7 +182,7 @@ TEST(Json, readsWhatTheLibraryReads)
     for (int i = 0; i < 5000; ++i)
     {
         std::string text = documents.next(4).first.dump(i % 3 - 1);
-        // half of them are damaged
+        // half of the texts are damaged
         if (i % 2 == 0)
             text[random() % text.size()] = R"({}[],:"\0e.-x )"[random() % 15];
         const auto json = Json::parse(text);
@@ -334,7 +335,7 @@ TEST(Json, isEqualByMeaning)
 namespace
 {
 
-/// Ends when it meets a text.
+/// Handler that stops at the first string.
 class UntilText final : public JsonEvents
 {
 public:

@@ -1,4 +1,5 @@
-// Welding, the exact degenerate test, open edges, the grid, and what deforms a mesh.
+// Tests welding, the exact test for degenerate triangles, open edges, the grid, and deformation data of a
+// mesh.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/mesh/deformation.h"
 #include "cook/mesh/grid.h"
@@ -24,7 +25,7 @@ TEST(WeldPositions, joinsEqualPlacesAndBothZeros)
     const std::vector<Float3> positions{
         {1, 2, 3}, {0.0f, 1, 0}, {-0.0f, 1, -0.0f}, {1, 2, 3}, {1, 2, 3.0000002f}};
     const mesh::Weld weld = mesh::weldPositions(positions);
-    EXPECT_THAT(weld.position_of_vertex, ElementsAre(0, 1, 1, 0, 2));
+    EXPECT_THAT(weld.position_id_of_vertex, ElementsAre(0, 1, 1, 0, 2));
     EXPECT_EQ(weld.position_count, 3u);
 }
 
@@ -134,7 +135,7 @@ TEST(Grid, isFineEnoughForShortEdges)
     EXPECT_FALSE(on_grid.positions[4] == on_grid.positions[5]);
 }
 
-/// A vertex with influences in two sets.
+/// Vertex with two sets of influences.
 mesh::SourceMesh influenced(std::array<uint16_t, 8> joints, std::array<float, 8> weights)
 {
     mesh::SourceMesh mesh;
@@ -154,7 +155,7 @@ TEST(Influences, areTheLargestInCodesThatSumToOne)
     mesh::SourceMesh mesh = influenced({5, 6, 7, 8, 9, 0, 0, 0}, {0.1f, 0.3f, 0.05f, 0.25f, 0.3f, 0, 0, 0});
     const mesh::InfluenceLoss loss = mesh::reduceInfluences(mesh, 4);
     EXPECT_EQ(loss.vertex_count, 1u);
-    EXPECT_NEAR(loss.most_weight, 0.05, 1e-6);
+    EXPECT_NEAR(loss.max_weight, 0.05, 1e-6);
     ASSERT_EQ(mesh.joint_sets.size(), 1u);
     const auto& joint = mesh.joint_sets[0][0].joint;
     EXPECT_EQ((std::array<uint16_t, 4>{joint[0], joint[1], joint[2], joint[3]}),
@@ -197,7 +198,7 @@ TEST(MorphTargets, snapToStepsThatReachThem)
             const float snapped = mesh.morph_targets[0].positions[v][axis];
             EXPECT_NEAR(snapped, before.positions[v][axis], steps[0]);
             EXPECT_EQ(snapped / steps[0], std::round(snapped / steps[0]));
-            EXPECT_LE(std::abs(snapped / steps[0]), formats::kMorphPositionMost);
+            EXPECT_LE(std::abs(snapped / steps[0]), formats::kMaxMorphPositionSteps);
         }
     EXPECT_LE(steps[0], 16.0f / (1 << 18));
     EXPECT_EQ(mesh.morph_targets[1].positions.size(), 2u);

@@ -1,4 +1,4 @@
-// Evenly spread points: that they are a net, that seeds have nothing to do with each other, and what they integrate.
+// Tests low-discrepancy points: (t, m, s)-net property, independence of seeds, and integration error.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/sampling/hemisphere.h"
 #include "cook/sampling/owen_sobol.h"
@@ -27,7 +27,7 @@ TEST(OwenSobol, putsOnePointIntoEachElementaryBoxOfEachBlock)
                     std::vector<int> hits(count);
                     for (uint32_t i = 0; i < count; ++i)
                     {
-                        const SquarePoint p = owenSobol(block * count + i, seedOf(3, seed));
+                        const SquarePoint p = owenSobol(block * count + i, deriveSeed(3, seed));
                         const uint64_t column = uint64_t{p.x} >> (32 - log_columns);
                         const uint64_t row = uint64_t{p.y} >> (32 - log_rows);
                         ++hits[column << log_rows | row];
@@ -39,7 +39,7 @@ TEST(OwenSobol, putsOnePointIntoEachElementaryBoxOfEachBlock)
 
 TEST(OwenSobol, isSobolsSequenceButForTheScramble)
 {
-    // the second coordinate from its direction numbers: 1, 3, 5, 15, 17, ... each the one before times x + 1
+    // second coordinate from its direction numbers 1, 3, 5, 15, 17, ...: each is the one before times x + 1
     for (uint32_t index = 0; index < 5000; ++index)
     {
         uint32_t expected = 0, direction = 1;
@@ -55,9 +55,9 @@ TEST(OwenSobol, flipsABitByWhatTheHigherOnesAre)
     for (uint32_t seed = 0; seed < 50; ++seed)
         for (uint32_t bit = 0; bit < 31; ++bit)
         {
-            const uint32_t low = (1u << bit) - 1, x = static_cast<uint32_t>(seedOf(seed, bit));
-            const auto s = static_cast<uint32_t>(seedOf(7, seed));
-            // reversed bits: those below `bit` stay as they were whatever comes above
+            const uint32_t low = (1u << bit) - 1, x = static_cast<uint32_t>(deriveSeed(seed, bit));
+            const auto s = static_cast<uint32_t>(deriveSeed(7, seed));
+            // bits are reversed: bits below `bit` must not depend on bits above it
             EXPECT_EQ(detail::scrambledReversed(x, s) & low, detail::scrambledReversed(x & low, s) & low);
             EXPECT_NE((detail::scrambledReversed(x, s) ^ detail::scrambledReversed(x ^ (low + 1), s)) >> bit &
                           1,
@@ -73,7 +73,7 @@ TEST(OwenSobol, spreadsEachPointOverTheSquareAsSeedsChange)
         std::vector<double> hits(256);
         for (uint64_t seed = 0; seed < 25600; ++seed)
         {
-            const SquarePoint p = owenSobol(index, seedOf(11, seed));
+            const SquarePoint p = owenSobol(index, deriveSeed(11, seed));
             ++hits[p.x >> 28 << 4 | p.y >> 28];
         }
         double chi2 = 0;
@@ -92,7 +92,7 @@ TEST(OwenSobol, hasSeedsThatHaveNothingToDoWithEachOther)
         double sum = 0;
         for (uint32_t i = 0; i < 64; ++i)
         {
-            const Float2 p = unitPoint(owenSobol(i, seedOf(0, seed)));
+            const Float2 p = unitPoint(owenSobol(i, deriveSeed(0, seed)));
             sum += p.x * p.x + p.y < 0.8f ? 1 : 0;
         }
         errors.push_back(sum);
@@ -111,7 +111,8 @@ TEST(OwenSobol, hasSeedsThatHaveNothingToDoWithEachOther)
 
 TEST(OwenSobol, integratesSmoothFunctionsWithErrorOfPowerThreeHalves)
 {
-    // exp(x + y); N^-3/2 is an eighth for four times as many points; plain random points: a half
+    // exp(x + y): with four times as many points the error N^-3/2 drops to an eighth; plain random points: to
+    // a half
     const double exact = (std::numbers::e - 1) * (std::numbers::e - 1);
     const auto rms = [&](uint32_t count)
     {
@@ -121,7 +122,7 @@ TEST(OwenSobol, integratesSmoothFunctionsWithErrorOfPowerThreeHalves)
             double sum = 0;
             for (uint32_t i = 0; i < count; ++i)
             {
-                const SquarePoint p = owenSobol(i, seedOf(5, seed));
+                const SquarePoint p = owenSobol(i, deriveSeed(5, seed));
                 sum += std::exp((p.x + 0.5) * 0x1p-32 + (p.y + 0.5) * 0x1p-32);
             }
             squares += (sum / count - exact) * (sum / count - exact);
@@ -145,7 +146,7 @@ TEST(SineCosine, areThoseOfTheStandardLibrary)
     for (int i = 0; i <= 100000; ++i)
     {
         const float turns = static_cast<float>(i) / 100000;
-        const SineCosine sc = sineCosineOfTurns(turns);
+        const SineCosine sc = sineCosine(turns);
         ASSERT_NEAR(sc.sine, std::sin(2 * kPi * double{turns}), 2e-7) << turns;
         ASSERT_NEAR(sc.cosine, std::cos(2 * kPi * double{turns}), 2e-7) << turns;
     }
@@ -170,7 +171,7 @@ TEST(FrameAround, isRightHandedWithAxesAtRightAngles)
 
 TEST(TrianglePoint, keepsAreas)
 {
-    // the triangle in 16 equal ones, by the floors of weights times 4; 64^2 points in 16 x 16 boxes of each
+    // split the triangle into 16 equal ones by floor(4 * weight); 64^2 points fall into 16 x 16 boxes of each
     constexpr int kCount = 4096;
     std::vector<int> hits(32);
     double mean_u = 0, mean_v = 0;
@@ -213,7 +214,7 @@ TEST(HemisphereDirections, areUnitAboveTheSurfaceAndThoseOfThePoints)
     }
 }
 
-/// Owen's scramble as it is defined: each node of the tree of prefixes flips a coin of its own.
+/// Owen's scramble by its definition: each node of the prefix tree flips its own coin.
 SquarePoint slowOwenSobol(uint32_t index, uint64_t seed)
 {
     const auto scrambled = [](uint32_t fraction, uint64_t tree)
@@ -222,24 +223,25 @@ SquarePoint slowOwenSobol(uint32_t index, uint64_t seed)
         for (uint32_t bit = 0; bit < 32; ++bit)
         {
             const uint64_t node = (uint64_t{fraction} >> (31 - bit) >> 1) | uint64_t{1} << bit;
-            flips |= static_cast<uint32_t>(seedOf(tree, node) & 1) << (31 - bit);
+            flips |= static_cast<uint32_t>(deriveSeed(tree, node) & 1) << (31 - bit);
         }
         return fraction ^ flips;
     };
-    return {scrambled(reversedBits(index), seedOf(seed, 0)),
-            scrambled(reversedBits(detail::secondReversed(index)), seedOf(seed, 1))};
+    return {scrambled(reverseBits(index), deriveSeed(seed, 0)),
+            scrambled(reverseBits(detail::secondReversed(index)), deriveSeed(seed, 1))};
 }
 
 using Sequence = SquarePoint (*)(uint32_t index, uint64_t seed);
 
-/// RMS error of the ambient occlusion at points of a floor beside a wall and a sphere, where both are known.
+/// RMS error of ambient occlusion at points of a floor beside a wall and a sphere, for which the exact value
+/// is known.
 double occlusionError(Sequence points, uint32_t rays)
 {
     double squares = 0;
     constexpr uint32_t kSeeds = 40, kPlaces = 10;
     for (uint32_t place = 0; place < kPlaces; ++place)
     {
-        // the wall towards +x is seen up to the elevation phi; the sphere is a cap on the other side
+        // the wall towards +x covers elevations up to phi; the sphere covers a cap on the other side
         const double phi = 0.12 * (place + 1), cap = 0.6 - 0.05 * place;
         const Float3 axis{-0.6f, 0, 0.8f};
         const double exact = (1 + std::cos(phi)) / 2 - double{axis.z} * std::sin(cap) * std::sin(cap);
@@ -250,7 +252,7 @@ double occlusionError(Sequence points, uint32_t rays)
             double seen = 0;
             for (uint32_t i = 0; i < rays; ++i)
             {
-                const Float3 w = hemisphereDirection(unitPoint(points(i, seedOf(place, seed))));
+                const Float3 w = hemisphereDirection(unitPoint(points(i, deriveSeed(place, seed))));
                 if (!(w.z < w.x * tangent) && !(dot(w, axis) > cap_cosine))
                     seen += double{w.z} * 2 / rays;
             }
@@ -268,7 +270,7 @@ TEST(OwenSobol, isAsGoodAsAScrambleWithACoinForEachNode)
 
 TEST(OwenSobol, isFarBetterThanRandomDirections)
 {
-    // per octave N^-0.75 where random ones have N^-0.5; random ones: 0.096 at 64 in the design note on baking
+    // per octave the error drops as N^-0.75, for random points as N^-0.5; random points have 0.096 at N = 64
     EXPECT_LT(occlusionError(owenSobol, 64), 0.032);
     EXPECT_LT(occlusionError(owenSobol, 1024), 0.004);
 }

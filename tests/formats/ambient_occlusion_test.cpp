@@ -64,14 +64,14 @@ TEST(CheapShares, areAsNearToTheSquaredSineAsTheySay)
     for (int i = 0; i <= 1000; ++i)
     {
         const double a = i / 1000.0, exact = std::pow(std::sin(a * kPi / 2), 2);
-        smooth = std::max(smooth, std::abs(double{smoothstepShare(f(a))} - exact));
-        quadratic = std::max(quadratic, std::abs(double{quadraticShare(f(a))} - exact));
+        smooth = std::max(smooth, std::abs(double{smoothstepSinSquared(f(a))} - exact));
+        quadratic = std::max(quadratic, std::abs(double{quadraticSinSquared(f(a))} - exact));
     }
     EXPECT_NEAR(smooth, 0.010, 0.0005);
     EXPECT_NEAR(quadratic, 0.0285, 0.0005);
-    EXPECT_EQ(smoothstepShare(1), 1);
-    EXPECT_EQ(quadraticShare(1), 1);
-    EXPECT_NEAR(quadraticShare(0.499999f), quadraticShare(0.5f), 1e-5f) << "no jump in the middle";
+    EXPECT_EQ(smoothstepSinSquared(1), 1);
+    EXPECT_EQ(quadraticSinSquared(1), 1);
+    EXPECT_NEAR(quadraticSinSquared(0.499999f), quadraticSinSquared(0.5f), 1e-5f) << "no jump in the middle";
 }
 
 constexpr std::array kModes{kAmbientOcclusionExact, kAmbientOcclusionSmoothstep, kAmbientOcclusionQuadratic};

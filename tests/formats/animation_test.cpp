@@ -61,7 +61,7 @@ struct Scene
         ++animations[0].channels.count;
     }
 
-    MotionTables tables() const
+    AnimationTables tables() const
     {
         return {nodes, skins, joints, animations, channels, keys, morph_weights, key_bits};
     }
@@ -76,7 +76,7 @@ struct Scene
     std::vector<Affine3d> worldOf(const ScenePose& pose) const
     {
         std::vector<Affine3d> world(nodes.size());
-        poseNodes(tables(), pose, parentsFirst(nodes), world);
+        poseNodes(tables(), pose, nodesParentsFirst(nodes), world);
         return world;
     }
 };
@@ -104,7 +104,7 @@ std::vector<float> joined(std::initializer_list<std::vector<float>> lists)
 TEST(Animation, holdsTheFirstAndTheLastKey)
 {
     Scene scene;
-    const uint32_t node = scene.addNode(kNone);
+    const uint32_t node = scene.addNode(kInvalidIndex);
     scene.addChannel(node, AnimationPath::translation, Interpolation::linear, 3, {1, 2}, {1, 2, 3, 4, 5, 6});
     EXPECT_EQ(scene.at(0).nodes[node].translation.x, 1);
     EXPECT_EQ(scene.at(1).nodes[node].translation.y, 2);
@@ -118,7 +118,7 @@ TEST(Animation, interpolatesAsTheChannelSays)
          {std::pair(Interpolation::step, 0.0), std::pair(Interpolation::linear, 2.5)})
     {
         Scene scene;
-        const uint32_t node = scene.addNode(kNone);
+        const uint32_t node = scene.addNode(kInvalidIndex);
         scene.addChannel(node, AnimationPath::scale, interpolation, 3, {0, 4}, {0, 0, 0, 10, 10, 10});
         EXPECT_DOUBLE_EQ(scene.at(1).nodes[node].scale.x, expected);
     }
@@ -128,7 +128,7 @@ TEST(Animation, cubicSplineIsHermites)
 {
     // through p(t) = t^3 - 2 t: value and slope at 0 and 2
     Scene scene;
-    const uint32_t node = scene.addNode(kNone);
+    const uint32_t node = scene.addNode(kInvalidIndex);
     const auto value = [](float t) { return t * t * t - 2 * t; };
     const auto slope = [](float t) { return 3 * t * t - 2; };
     std::vector<float> values;
@@ -143,7 +143,7 @@ TEST(Animation, cubicSplineIsHermites)
 TEST(Animation, rotationsGoAlongTheShorterArc)
 {
     Scene scene;
-    const uint32_t node = scene.addNode(kNone);
+    const uint32_t node = scene.addNode(kInvalidIndex);
     std::vector<float> far = rotationAboutZ(1.0);
     for (float& component : far)
         component = -component; // the same rotation on the other side of the sphere
@@ -156,7 +156,7 @@ TEST(Animation, rotationsGoAlongTheShorterArc)
 TEST(Animation, ofKeysAtOneTimeTheLastHolds)
 {
     Scene scene;
-    const uint32_t node = scene.addNode(kNone);
+    const uint32_t node = scene.addNode(kInvalidIndex);
     scene.addChannel(node, AnimationPath::translation, Interpolation::linear, 3, {0, 1, 1, 2},
                      {0, 0, 0, 2, 0, 0, 8, 0, 0, 6, 0, 0});
     EXPECT_DOUBLE_EQ(scene.at(0.5).nodes[node].translation.x, 1);
@@ -167,8 +167,8 @@ TEST(Animation, ofKeysAtOneTimeTheLastHolds)
 TEST(Animation, morphWeightsStandWhereTheNodesDo)
 {
     Scene scene;
-    scene.addNode(kNone);
-    const uint32_t node = scene.addNode(kNone);
+    scene.addNode(kInvalidIndex);
+    const uint32_t node = scene.addNode(kInvalidIndex);
     scene.morph_weights = {0.5f, 0.1f, 0.2f};
     scene.nodes[node].morph_weights = {1, 2};
     scene.addChannel(node, AnimationPath::weights, Interpolation::linear, 2, {0, 1}, {0, 1, 1, 0});
@@ -219,7 +219,7 @@ TEST(Animation, parentsMayStandBehindTheirChildren)
 {
     Scene scene;
     scene.addNode(2, {1, 0, 0});
-    scene.addNode(kNone, {0, 0, 5});
+    scene.addNode(kInvalidIndex, {0, 0, 5});
     scene.addNode(1, {0, 1, 0});
     scene.nodes[1].rotation = {0, 0, static_cast<float>(std::sin(kPi / 4)),
                                static_cast<float>(std::cos(kPi / 4))};
@@ -233,7 +233,7 @@ TEST(Animation, parentsMayStandBehindTheirChildren)
 TEST(Animation, aMatrixStaysWhateverThePoseSays)
 {
     Scene scene;
-    const uint32_t node = scene.addNode(kNone);
+    const uint32_t node = scene.addNode(kInvalidIndex);
     scene.nodes[node].has_trs = 0;
     scene.nodes[node].parent_from_node.m[0][3] = 7;
     ScenePose pose = restPose(scene.tables());
@@ -244,7 +244,7 @@ TEST(Animation, aMatrixStaysWhateverThePoseSays)
 TEST(Animation, paletteCarriesTheBindPose)
 {
     Scene scene;
-    const uint32_t root = scene.addNode(kNone, {0, 2, 0});
+    const uint32_t root = scene.addNode(kInvalidIndex, {0, 2, 0});
     const uint32_t tip = scene.addNode(root, {0, 1, 0});
     for (const uint32_t node : {root, tip})
     {
@@ -267,7 +267,7 @@ TEST(Animation, packedKeysAreTheFloatsOfTheirCodes)
 {
     // times 0, 3 and 5 of a table; x and z move in steps of a quarter
     Scene packed;
-    packed.addNode(kNone);
+    packed.addNode(kInvalidIndex);
     packed.animations.push_back({});
     packed.addChannel(0, AnimationPath::translation, Interpolation::linear, 3, {0, 1, 2, 3, 4, 5},
                       {-1, 2, 0, 0.25f});
@@ -290,7 +290,7 @@ TEST(Animation, packedKeysAreTheFloatsOfTheirCodes)
     packed.key_bits = {static_cast<uint32_t>(bits[0]), static_cast<uint32_t>(bits[0] >> 32),
                        static_cast<uint32_t>(bits[1])};
     Scene floats;
-    floats.addNode(kNone);
+    floats.addNode(kInvalidIndex);
     floats.animations.push_back({});
     floats.addChannel(
         0, AnimationPath::translation, Interpolation::linear, 3, {0, 3, 5},
@@ -309,7 +309,7 @@ TEST(Animation, packedRotationsHaveTheLengthOne)
 {
     // one key for each number that can be left out; the three others are .5
     Scene scene;
-    scene.addNode(kNone);
+    scene.addNode(kInvalidIndex);
     scene.animations.push_back({});
     scene.addChannel(0, AnimationPath::rotation, Interpolation::step, 4, {0, 1, 2, 3},
                      {-0.5f, 0.5f, 0.5f, 0.25f});

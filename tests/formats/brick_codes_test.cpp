@@ -58,8 +58,8 @@ TEST(UnsignedFloats, decodeAsTheyAreDefined)
     for (const uint32_t bits : {5u, 6u})
         for (uint32_t code = 0; code < 31u << bits; ++code)
             ASSERT_EQ(double{decodeUnsignedFloat(code, bits)}, valueOf(code, bits)) << code;
-    EXPECT_EQ(decodeUnsignedFloat((31u << 6) - 1, 6), kMostRedGreen);
-    EXPECT_EQ(decodeUnsignedFloat((31u << 5) - 1, 5), kMostBlue);
+    EXPECT_EQ(decodeUnsignedFloat((31u << 6) - 1, 6), kMaxRadianceRedGreen);
+    EXPECT_EQ(decodeUnsignedFloat((31u << 5) - 1, 5), kMaxRadianceBlue);
 }
 
 TEST(UnsignedFloats, encodeWhatTheyDecode)
@@ -116,10 +116,10 @@ TEST(Radiance, hasItsColoursWhereTheFormatSays)
     EXPECT_EQ(encodeRadiance({0, 1, 0}), 0x3C0u << 11);
     EXPECT_EQ(encodeRadiance({0, 0, 1}), 0x1E0u << 22);
     EXPECT_EQ(decodeRadiance(encodeRadiance({0.5f, 3, 20480})), (Float3{0.5f, 3, 20480}));
-    EXPECT_TRUE(legalRadiance(encodeRadiance({kInfinity, kInfinity, kInfinity})));
-    EXPECT_FALSE(legalRadiance(31u << 6));
-    EXPECT_FALSE(legalRadiance(31u << 17));
-    EXPECT_FALSE(legalRadiance(31u << 27));
+    EXPECT_TRUE(isLegalRadiance(encodeRadiance({kInfinity, kInfinity, kInfinity})));
+    EXPECT_FALSE(isLegalRadiance(31u << 6));
+    EXPECT_FALSE(isLegalRadiance(31u << 17));
+    EXPECT_FALSE(isLegalRadiance(31u << 27));
 }
 
 /// Grey light that is stored after each bounce off a grey surface: how far rounding alone moves blue against red.

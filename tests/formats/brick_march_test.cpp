@@ -260,7 +260,7 @@ TEST(BrickMarch, passesThroughAllThatTheRayMeets)
             float t = 0;
             for (BrickRay at =
                      brickMarch(masks, brickRayInVoxels(masks.grid, ray.origin, ray.direction, ray.far));
-                 at.inside; at = brickMarch(masks, brickPass(masks, at)))
+                 at.inside; at = brickMarch(masks, brickSkipVoxel(masks, at)))
             {
                 met.push_back(cellOf(at));
                 EXPECT_TRUE(oracle.mostChord(met.back()).met()) << describe(ray, at);
@@ -296,7 +296,7 @@ TEST(BrickMarch, endsWhateverTheRayIs)
             ray.origin[axis] = static_cast<float>(random() % 60) - 5;
         }
         const BrickRay found =
-            brickMarch(masks, brickRayInVoxels(masks.grid, ray.origin, ray.direction, kBrickFar));
+            brickMarch(masks, brickRayInVoxels(masks.grid, ray.origin, ray.direction, kBrickInfinity));
         ASSERT_LE(found.steps, 50u + 20 + 33) << describe(ray, found);
     }
 }
@@ -324,7 +324,7 @@ TEST(BrickMarch, letsNothingThroughBetweenVoxelsWithACommonEdge)
 namespace
 {
 
-BrickRay marchIn(const BrickModel& model, Float3 origin, Float3 direction, float far = kBrickFar)
+BrickRay marchIn(const BrickModel& model, Float3 origin, Float3 direction, float far = kBrickInfinity)
 {
     const BrickMasks masks = model.masks();
     return brickMarch(masks, brickRay(masks.grid, origin, direction, far));

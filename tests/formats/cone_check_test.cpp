@@ -29,7 +29,7 @@ Beyond beyond(const ClusterRecord& cluster, float grid_step, Double3 any_normal,
     const Double3 normal{any_normal.x / area, any_normal.y / area, any_normal.z / area};
     const Double3 axis = widen(coneAxis(cluster));
     const double sine = length(cross(normal, axis)) / length(axis);
-    const Box3 box = boxOf(cluster, grid_step);
+    const Box3 box = clusterBox(cluster, grid_step);
     const Double3 center = (widen(box.min) + widen(box.max)) * 0.5;
     const double back = coneBack(cluster, grid_step);
     const double reach = length(widen(box.max) - center) + back;
@@ -46,7 +46,7 @@ public:
     {
         ClusterRecord cluster{};
         cluster.extent_shift =
-            static_cast<uint8_t>(random_() % 3 == 0 ? random_() % (kMostExtentShift + 1) : 0);
+            static_cast<uint8_t>(random_() % 3 == 0 ? random_() % (kMaxExtentShift + 1) : 0);
         for (int axis = 0; axis < 3; ++axis)
         {
             cluster.base[axis] = static_cast<int32_t>(random_() % 65536) - 32768;
@@ -79,7 +79,7 @@ public:
     /// About in the plane through the apex, or anywhere in the box.
     Double3 corner(const ClusterRecord& cluster, float grid_step, Double3 normal)
     {
-        const Box3 box = boxOf(cluster, grid_step);
+        const Box3 box = clusterBox(cluster, grid_step);
         const Double3 low = widen(box.min), size = widen(box.max) - low;
         Double3 corner{low.x + size.x * uniform(), low.y + size.y * uniform(), low.z + size.z * uniform()};
         if (random_() % 2 == 0)
@@ -138,8 +138,8 @@ TEST(ConeCheck, isTheDefinitionButForRounding)
             const Double3 normal = random.normal(cluster);
             const Double3 corner = random.corner(cluster, grid_step, normal);
             const Beyond expected = beyond(cluster, grid_step, normal, corner);
-            cones.add(expected.sine, check.holds(normal, dot(normal, normal)));
-            apexes.add(expected.in_front, check.isBehind(normal, dot(normal, normal), corner));
+            cones.add(expected.sine, check.containsNormal(normal, dot(normal, normal)));
+            apexes.add(expected.in_front, check.isApexBehind(normal, dot(normal, normal), corner));
         }
     }
     for (const Counts& counts : {cones, apexes})
@@ -164,10 +164,11 @@ TEST(ConeCheck, keepsItsBoundsOnTheFinestAndTheCoarsestGrid)
         for (const double sine : {0.0, 0.05, 0.0999, 0.1003, 0.5})
         {
             const Double3 normal = Double3{sine, 0, std::sqrt(1 - sine * sine)} * (step * step);
-            EXPECT_EQ(check.holds(normal, dot(normal, normal)), sine < 0.1002) << exponent << ", " << sine;
+            EXPECT_EQ(check.containsNormal(normal, dot(normal, normal)), sine < 0.1002)
+                << exponent << ", " << sine;
             const Double3 middle{step / 2, step / 2, step / 2};
-            EXPECT_TRUE(check.isBehind(normal, dot(normal, normal), middle));
-            EXPECT_FALSE(check.isBehind(normal, dot(normal, normal), {step / 2, step / 2, 0}));
+            EXPECT_TRUE(check.isApexBehind(normal, dot(normal, normal), middle));
+            EXPECT_FALSE(check.isApexBehind(normal, dot(normal, normal), {step / 2, step / 2, 0}));
         }
     }
 }

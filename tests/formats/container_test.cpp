@@ -83,7 +83,7 @@ Issue refusal(const AlignedBytes& bytes)
 /// Pages and texels are the model's, or an error.
 void expectNothingElseIsHandedOut(const pack::Pack& pack, const PackModel& model)
 {
-    std::vector<std::byte> buffer(kPageMaxBytes);
+    std::vector<std::byte> buffer(kMaxPageBytes);
     for (uint32_t i = 0; i < model.decoded_pages.size(); ++i)
         if (const auto page = pack.readPage(i, buffer); page.ok())
         {

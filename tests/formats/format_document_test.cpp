@@ -25,7 +25,7 @@ std::string document()
 
 TEST(FormatDocument, hasFreshTables)
 {
-    EXPECT_EQ(document(), withFreshTables(document()))
+    EXPECT_EQ(document(), regenerateTables(document()))
         << "run build/release/bin/format_dump formats/FORMAT.md";
 }
 
@@ -50,11 +50,11 @@ TEST(FormatDocument, hasNoTableOfAnUnknownName)
 
 TEST(WithFreshTables, replacesWhatStandsInTheBlocks)
 {
-    const std::string fresh = withFreshTables("a\n<!-- table Range -->\nstale\n<!-- end -->\nb\n");
+    const std::string fresh = regenerateTables("a\n<!-- table Range -->\nstale\n<!-- end -->\nb\n");
     EXPECT_EQ(fresh,
               "a\n<!-- table Range -->\n" + formatTable("Range").value_or("none") + "<!-- end -->\nb\n");
     EXPECT_NE(fresh.find("| 4 | 4 | count | u32 | number of records |"), std::string::npos) << fresh;
-    EXPECT_EQ(withFreshTables("no block <!-- table Range -->\n"), "no block <!-- table Range -->\n");
+    EXPECT_EQ(regenerateTables("no block <!-- table Range -->\n"), "no block <!-- table Range -->\n");
 }
 
 } // namespace hearth::test

@@ -106,7 +106,7 @@ double rootMeanSquare(const std::vector<double>& a, const std::vector<double>& b
 TEST(GatherLobe, isTheReflectionOfASurfaceOfItsRoughness)
 {
     for (const double angle : {0.05, 0.7, 1.3})
-        for (const float roughness : {kGatherSharp, kGatherWide})
+        for (const float roughness : {kGatherSharpRoughness, kGatherWideRoughness})
         {
             const Float3 to_eye = eyeAt(angle);
             const std::vector<Radiance> worlds = edgesAbout(to_eye);
@@ -122,7 +122,7 @@ TEST(GatherLobe, turnsWithTheNormal)
 {
     const Float3 normals[] = {{0, 0, 1}, {0, 0, -1}, {0.6f, 0, -0.8f}, {-0.48f, 0.6f, 0.64f}};
     for (const Float3 normal : normals)
-        for (const float roughness : {kGatherSharp, kGatherWide})
+        for (const float roughness : {kGatherSharpRoughness, kGatherWideRoughness})
         {
             // along the normal, so that the lobe is round about it
             Float3 sum;
@@ -139,7 +139,8 @@ TEST(GatherLobe, turnsWithTheNormal)
     // from behind, as smooth normals are seen at silhouettes
     for (uint32_t i = 0; i < kRays; ++i)
     {
-        const GatherLobeRay ray = gatherLobeRay({0.8f, 0, -0.6f}, {0, 0, 1}, kGatherSharp, i, kRays, 0);
+        const GatherLobeRay ray =
+            gatherLobeRay({0.8f, 0, -0.6f}, {0, 0, 1}, kGatherSharpRoughness, i, kRays, 0);
         EXPECT_NEAR(length(ray.direction), 1, 1e-5f);
     }
 }
@@ -156,8 +157,8 @@ TEST(GatherLobe, twoAndTheCosineStandForAllRoughnesses)
             EXPECT_NEAR(shares.sharp + shares.wide + shares.cosine, 1, 1e-6f);
             std::vector<double> found;
             for (const Radiance& world : worlds)
-                found.push_back(double{shares.sharp} * lobeMean(world, to_eye, kGatherSharp) +
-                                double{shares.wide} * lobeMean(world, to_eye, kGatherWide) +
+                found.push_back(double{shares.sharp} * lobeMean(world, to_eye, kGatherSharpRoughness) +
+                                double{shares.wide} * lobeMean(world, to_eye, kGatherWideRoughness) +
                                 double{shares.cosine} * cosineMean(world));
             EXPECT_LT(rootMeanSquare(found, reflectedOf(worlds, to_eye, double{roughness})), 0.045)
                 << "angle " << angle << " roughness " << roughness;

@@ -12,9 +12,9 @@ namespace
 MaterialRecord bareMaterial()
 {
     MaterialRecord material{};
-    material.base_color_texture.image = material.metallic_roughness_texture.image = kNone;
-    material.normal_texture.image = material.occlusion_texture.image = kNone;
-    material.emissive_texture.image = kNone;
+    material.base_color_texture.image = material.metallic_roughness_texture.image = kInvalidIndex;
+    material.normal_texture.image = material.occlusion_texture.image = kInvalidIndex;
+    material.emissive_texture.image = kInvalidIndex;
     return material;
 }
 

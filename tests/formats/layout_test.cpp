@@ -12,11 +12,11 @@ namespace hearth::test
 using namespace formats;
 
 // Records without gaps are asserted by HEARTH_RECORD itself; this pins what it would refuse.
-static_assert(gapless(std::array{Field{"a", "u32", 0, 4, ""}, Field{"b", "u64", 4, 8, ""}}, 12));
-static_assert(!gapless(std::array{Field{"a", "u32", 0, 4, ""}, Field{"b", "u64", 8, 8, ""}}, 16), "a hole");
-static_assert(!gapless(std::array{Field{"a", "u64", 0, 8, ""}, Field{"b", "u32", 8, 4, ""}}, 16),
+static_assert(hasNoGaps(std::array{Field{"a", "u32", 0, 4, ""}, Field{"b", "u64", 4, 8, ""}}, 12));
+static_assert(!hasNoGaps(std::array{Field{"a", "u32", 0, 4, ""}, Field{"b", "u64", 8, 8, ""}}, 16), "a hole");
+static_assert(!hasNoGaps(std::array{Field{"a", "u64", 0, 8, ""}, Field{"b", "u32", 8, 4, ""}}, 16),
               "padding behind");
-static_assert(!gapless(std::array{Field{"b", "u32", 4, 4, ""}, Field{"a", "u32", 0, 4, ""}}, 8),
+static_assert(!hasNoGaps(std::array{Field{"b", "u32", 4, 4, ""}, Field{"a", "u32", 0, 4, ""}}, 8),
               "out of order");
 
 TEST(Issues, haveEachANumberOfTheirOwn)
@@ -65,18 +65,18 @@ TEST(VertexWords, areTheOffsetBehindTheLastAttribute)
 {
     EXPECT_EQ(vertexWords(0), 2u);
     EXPECT_EQ(vertexWords(kVertexNormal), 2u) << "beside z";
-    EXPECT_EQ(vertexWords(kVertexNormal | kVertexFineNormal), 3u);
+    EXPECT_EQ(vertexWords(kVertexNormal | kVertexNormal16), 3u);
     const uint32_t grids = 0xEEEEu << kVertexUvStepShift, second_floats = 0xEE0Eu << kVertexUvStepShift;
     EXPECT_EQ(vertexWords(127), 12u);
     EXPECT_EQ(vertexWords(127 | grids), 8u);
-    EXPECT_EQ(vertexWords(127 | grids | kVertexWide), 14u);
+    EXPECT_EQ(vertexWords(127 | grids | kVertexWideOffsets), 14u);
     EXPECT_EQ(vertexWords(127 | second_floats), 9u);
-    EXPECT_EQ(vertexWords(127 | second_floats | kVertexWide), 14u);
+    EXPECT_EQ(vertexWords(127 | second_floats | kVertexWideOffsets), 14u);
     EXPECT_EQ(vertexWords(255 | grids), 9u);
     EXPECT_EQ(vertexWords(kVertexNormal | kVertexVisibility), 3u);
-    EXPECT_EQ(vertexWords(kVertexColor | kVertexFineColor), 4u);
+    EXPECT_EQ(vertexWords(kVertexColor | kVertexColor16), 4u);
     EXPECT_EQ(vertexWords(kVertexNormal | kVertexInfluences), 6u);
-    EXPECT_EQ(vertexWords(kVertexNormal | kVertexInfluences | kVertexMoreInfluences), 10u);
+    EXPECT_EQ(vertexWords(kVertexNormal | kVertexInfluences | kVertexInfluences8), 10u);
 }
 
 } // namespace hearth::test

@@ -26,7 +26,7 @@ const std::vector<MalformedPack>& malformedDeformations()
              p.cluster_joints.clear();
          }},
         {"deformedMeshWithoutItsSkin", Issue::meaning_reference, "deformed mesh 0",
-         [](PackModel& p) { p.deformed_meshes[0].skin = kNone; }},
+         [](PackModel& p) { p.deformed_meshes[0].skin = kInvalidIndex; }},
         {"deformedMeshSkin", Issue::meaning_reference, "deformed mesh 0",
          [](PackModel& p) { p.deformed_meshes[0].skin = 1; }},
         {"deformedMeshAnchor", Issue::meaning_reference, "deformed mesh 0",

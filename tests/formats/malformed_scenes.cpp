@@ -94,7 +94,8 @@ const std::vector<MalformedPack>& malformedScenes()
              p.skins[0].joints = {1, 2};
          }},
         {"skinReserved", Issue::meaning_padding, "skin 0", [](PackModel& p) { p.skins[0].reserved = 1; }},
-        {"jointNode", Issue::meaning_reference, "joint 1", [](PackModel& p) { p.joints[1].node = kNone; }},
+        {"jointNode", Issue::meaning_reference, "joint 1",
+         [](PackModel& p) { p.joints[1].node = kInvalidIndex; }},
         {"jointMatrix", Issue::meaning_value, "joint 0",
          [](PackModel& p) { p.joints[0].joint_from_bind.m[2][3] = kNaN; }},
         {"jointReserved", Issue::meaning_padding, "joint 0",
@@ -196,7 +197,7 @@ const std::vector<MalformedPack>& malformedScenes()
         {"instanceMesh", Issue::meaning_reference, "instance 0",
          [](PackModel& p) { p.instances[0].mesh = 3; }},
         {"instanceNode", Issue::meaning_reference, "instance 1",
-         [](PackModel& p) { p.instances[1].node = kNone; }},
+         [](PackModel& p) { p.instances[1].node = kInvalidIndex; }},
         {"instanceNaN", Issue::meaning_value, "instance 1",
          [](PackModel& p) { p.instances[1].world_from_object.m[1][3] = kNaN; }},
         {"instanceFlags", Issue::meaning_value, "instance 0", [](PackModel& p) { p.instances[0].flags = 2; }},

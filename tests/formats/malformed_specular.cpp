@@ -26,7 +26,7 @@ const std::vector<MalformedPack>& malformedSpecularTables()
         {"specularLambda", Issue::meaning_value, "specular table 0",
          [](PackModel& p) { p.specular_tables[0].normal_lambda = 1.01f; }},
         {"specularRoughness", Issue::meaning_value, "specular table 0",
-         [](PackModel& p) { p.specular_tables[0].least_roughness = 0.1f; }},
+         [](PackModel& p) { p.specular_tables[0].min_roughness = 0.1f; }},
         {"specularReserved", Issue::meaning_padding, "specular table 0",
          [](PackModel& p) { p.specular_tables[0].reserved = 1; }},
         {"specularFallsWithAperture", Issue::meaning_monotone, "specular table 0",

@@ -23,7 +23,7 @@ namespace
 PackModel widePack()
 {
     PackModel model = smallPack();
-    model.decoded_pages[1].resize(kPageMaxBytes); // zeros at its end are legal
+    model.decoded_pages[1].resize(kMaxPageBytes); // zeros at its end are legal
     model.sealPages();
     model.images[0].width = model.images[0].height = 64;
     model.images[0].mip_count = 1;
@@ -67,7 +67,7 @@ private:
 /// The message of reading a page, "" where it is the model's.
 std::string readingOf(const pack::Pack& pack, const PackModel& model, uint32_t page)
 {
-    std::vector<std::byte> buffer(kPageMaxBytes);
+    std::vector<std::byte> buffer(kMaxPageBytes);
     const auto read = pack.readPage(page, buffer);
     if (!read.ok())
         return formatMessage(read.error());
@@ -145,7 +145,7 @@ TEST(PackOpen, checksWhateverWayAPageIsRead)
     EXPECT_EQ((*pack)->decodePage(page).error().issue, Issue::meaning_bounds);
     // a size that is not the page's is refused as ever
     EXPECT_EQ(copy.decodePage(0, std::span(out).first(4)).error().issue, Issue::meaning_value);
-    std::vector<std::byte> large(kPageMaxBytes + 1);
+    std::vector<std::byte> large(kMaxPageBytes + 1);
     EXPECT_EQ(copy.decodePage(0, large).error().issue, Issue::meaning_value);
     EXPECT_EQ(copy.decodePage(99, out).error().issue, Issue::meaning_reference);
 }

@@ -180,7 +180,7 @@ TEST(ClusterGeometry, refusesDataOutsideThePage)
     cluster.vertex_count = 0xFFFF;
     EXPECT_FALSE(ClusterGeometry::at(page, cluster, mesh).has_value());
     cluster = view->clusters()[3];
-    mesh.attributes = kVertexFineNormal;
+    mesh.attributes = kVertexNormal16;
     EXPECT_FALSE(ClusterGeometry::at(page, cluster, mesh).has_value());
 }
 
@@ -190,7 +190,7 @@ TEST(Pack, readsPagesIntoTheCallersMemory)
     const AlignedBytes bytes = model.bytes();
     const auto pack = pack::Pack::fromBytes(bytes.span(), "small.hearth");
     ASSERT_TRUE(pack.ok());
-    std::vector<std::byte> buffer(kPageMaxBytes, std::byte{0xCD});
+    std::vector<std::byte> buffer(kMaxPageBytes, std::byte{0xCD});
     const auto page = pack->readPage(2, buffer);
     ASSERT_TRUE(page.ok());
     EXPECT_EQ(page->data(), buffer.data());

@@ -114,19 +114,19 @@ TEST(NormalCode, decodesTheBorderToOneDirection)
 
 TEST(NormalCode, knowsWhatIsNoCode)
 {
-    EXPECT_FALSE(legalNormal(kVertexNormal, 0x0080));
-    EXPECT_FALSE(legalNormal(kVertexNormal, 0x8000));
-    EXPECT_FALSE(legalNormal(kVertexNormal, 0x10000));
-    EXPECT_TRUE(legalNormal(kVertexNormal, 0x8181));
-    EXPECT_FALSE(legalNormal(kVertexNormal | kVertexFineNormal, 0x80000000));
-    EXPECT_TRUE(legalNormal(kVertexNormal | kVertexFineNormal, 0x80018001));
+    EXPECT_FALSE(isLegalNormal(kVertexNormal, 0x0080));
+    EXPECT_FALSE(isLegalNormal(kVertexNormal, 0x8000));
+    EXPECT_FALSE(isLegalNormal(kVertexNormal, 0x10000));
+    EXPECT_TRUE(isLegalNormal(kVertexNormal, 0x8181));
+    EXPECT_FALSE(isLegalNormal(kVertexNormal | kVertexNormal16, 0x80000000));
+    EXPECT_TRUE(isLegalNormal(kVertexNormal | kVertexNormal16, 0x80018001));
 }
 
 TEST(TangentCode, keepsTheFlipAndStaysWithinWhatTheFormatStates)
 {
     std::mt19937 random(3);
     for (const auto& [layout, bound] : {std::pair{uint32_t{kVertexNormal}, 1.8 * kDegree},
-                                        std::pair{kVertexNormal | kVertexFineNormal, 0.008 * kDegree}})
+                                        std::pair{kVertexNormal | kVertexNormal16, 0.008 * kDegree}})
     {
         double worst = 0;
         for (int i = 0; i < 200000; ++i)
@@ -135,7 +135,7 @@ TEST(TangentCode, keepsTheFlipAndStaysWithinWhatTheFormatStates)
             const Float3 t = normalizeOr(cross(normal, randomDirection(random)), {1, 0, 0});
             const float flip = i % 2 == 0 ? 1.0f : -1.0f;
             const uint32_t code = encodeTangent(layout, {t.x, t.y, t.z, flip}, normal);
-            ASSERT_TRUE(legalTangent(layout, code));
+            ASSERT_TRUE(isLegalTangent(layout, code));
             const Float4 back = decodeTangent(layout, code, normal);
             ASSERT_EQ(back.w, flip);
             ASSERT_NEAR(dot({back.x, back.y, back.z}, normal), 0, 1e-5);
@@ -151,18 +151,18 @@ TEST(TangentCode, ofAVectorAlongTheNormalIsATangent)
 {
     const Float3 normal{0, 0, 1};
     const uint32_t code = encodeTangent(kVertexNormal, {0, 0, 3, 1}, normal);
-    EXPECT_TRUE(legalTangent(kVertexNormal, code));
+    EXPECT_TRUE(isLegalTangent(kVertexNormal, code));
     EXPECT_EQ(decodeTangent(kVertexNormal, code, normal).z, 0);
-    EXPECT_FALSE(legalTangent(kVertexNormal, 0x100));
-    EXPECT_FALSE(legalTangent(kVertexNormal | kVertexFineNormal, 0x10000));
+    EXPECT_FALSE(isLegalTangent(kVertexNormal, 0x100));
+    EXPECT_FALSE(isLegalTangent(kVertexNormal | kVertexNormal16, 0x10000));
 }
 
 TEST(ColorWords, keepEveryCode)
 {
     for (uint32_t code = 0; code <= 65535; ++code)
         ASSERT_EQ(quantizeUnorm(static_cast<float>(code) / 65535.0f, 65535), code);
-    EXPECT_EQ(encodeColor(kVertexFineColor, {-1, 0, 1, 7})[0], 0u);
-    EXPECT_EQ(encodeColor(kVertexFineColor, {-1, 0, 1, 7})[1], 0xFFFFFFFFu);
+    EXPECT_EQ(encodeColor(kVertexColor16, {-1, 0, 1, 7})[0], 0u);
+    EXPECT_EQ(encodeColor(kVertexColor16, {-1, 0, 1, 7})[1], 0xFFFFFFFFu);
     for (uint32_t code = 0; code <= 255; ++code)
     {
         const float part = static_cast<float>(code) / 255.0f;
@@ -175,18 +175,18 @@ TEST(ColorWords, keepEveryCode)
 TEST(GridCoordinates, areExact)
 {
     std::mt19937 random(4);
-    std::uniform_int_distribution<int32_t> coordinate(-kGridMost, kGridMost);
+    std::uniform_int_distribution<int32_t> coordinate(-kMaxGridCoordinate, kMaxGridCoordinate);
     for (int i = 0; i < 100000; ++i)
     {
         const int32_t c = coordinate(random);
-        ASSERT_EQ(double{fromGrid(c, 0x1p-20f)}, c * 0x1p-20);
+        ASSERT_EQ(double{gridToFloat(c, 0x1p-20f)}, c * 0x1p-20);
     }
     EXPECT_EQ(uvStep(14), 1.0f / 16384);
 }
 
 TEST(AttributeWord, followsTheOrderOfTheBits)
 {
-    const uint32_t fine = kVertexAttributesAll | kVertexFineNormal | kVertexFineColor; // UVs are floats
+    const uint32_t fine = kVertexAttributesAll | kVertexNormal16 | kVertexColor16; // UVs are floats
     EXPECT_EQ(attributeWord(fine, kVertexNormal), 2u);
     EXPECT_EQ(attributeWord(fine, kVertexTangent), 3u);
     EXPECT_EQ(attributeWord(fine, kVertexUv0), 4u);
@@ -199,20 +199,20 @@ TEST(AttributeWord, followsTheOrderOfTheBits)
     EXPECT_EQ(attributeWord(all, kVertexUv2), 5u);
     EXPECT_EQ(attributeWord(all, kVertexColor), 7u);
     EXPECT_EQ(attributeWord(all, kVertexVisibility), 8u);
-    EXPECT_EQ(attributeWord(all | kVertexWide, kVertexNormal), 3u);
-    EXPECT_EQ(attributeWord(all | kVertexWide, kVertexUv1), 7u);
+    EXPECT_EQ(attributeWord(all | kVertexWideOffsets, kVertexNormal), 3u);
+    EXPECT_EQ(attributeWord(all | kVertexWideOffsets, kVertexUv1), 7u);
     const uint32_t grid1 = kVertexUv1 | kVertexColor | 14u << (kVertexUvStepShift + 4);
     EXPECT_EQ(attributeWord(grid1, kVertexUv1), 2u);
     EXPECT_EQ(attributeWord(grid1, kVertexColor), 3u);
-    const uint32_t more = fine | kVertexInfluences | kVertexMoreInfluences;
+    const uint32_t more = fine | kVertexInfluences | kVertexInfluences8;
     EXPECT_EQ(attributeWord(more, kVertexColor), 12u) << "influences stand behind the others";
     EXPECT_EQ(attributeWord(more, kVertexInfluences), 15u);
-    EXPECT_EQ(attributeWord(kVertexInfluences | kVertexWide, kVertexInfluences), 3u);
+    EXPECT_EQ(attributeWord(kVertexInfluences | kVertexWideOffsets, kVertexInfluences), 3u);
 }
 
 TEST(MorphDelta, keepsBothParts)
 {
-    for (const int32_t position : {0, 1, -1, kMorphPositionMost, -kMorphPositionMost - 1})
+    for (const int32_t position : {0, 1, -1, kMaxMorphPositionSteps, -kMaxMorphPositionSteps - 1})
         for (const int32_t normal : {0, 1, -1, 2047, -2048})
         {
             const uint32_t word = packMorphDelta(position, normal);
@@ -238,7 +238,7 @@ TEST(GridUvs, areTheSetsWithSteps)
         uint32_t grids = 0;
         for (uint32_t set = 0; set < 4; ++set)
             grids |= (steps >> 4 * set & 15u) != 0 ? kVertexUv0 << set : 0;
-        ASSERT_EQ(gridUvs(kVertexAttributesAll | kVertexWide | steps << kVertexUvStepShift), grids);
+        ASSERT_EQ(gridUvs(kVertexAttributesAll | kVertexWideOffsets | steps << kVertexUvStepShift), grids);
     }
 }
 
@@ -248,13 +248,13 @@ TEST(LargestLayout, needsTheMostBytesOfAllWithItsAttributes)
     for (int i = 0; i < 100000; ++i)
     {
         const auto layout = static_cast<uint32_t>(random());
-        if (!legalLayout(layout))
+        if (!isLegalLayout(layout))
             continue;
         const auto vertices = static_cast<uint32_t>(random() % 4);
-        ASSERT_LE(clusterBytes(layout, vertices, 1), clusterBytes(largestLayout(layout), vertices, 1))
+        ASSERT_LE(clusterBytes(layout, vertices, 1), clusterBytes(worstCaseLayout(layout), vertices, 1))
             << layout;
-        ASSERT_LE(clusterBytes(layout | kVertexWide, vertices, 1),
-                  clusterBytes(largestLayout(layout), vertices, 1))
+        ASSERT_LE(clusterBytes(layout | kVertexWideOffsets, vertices, 1),
+                  clusterBytes(worstCaseLayout(layout), vertices, 1))
             << layout;
     }
 }
@@ -262,23 +262,23 @@ TEST(LargestLayout, needsTheMostBytesOfAllWithItsAttributes)
 TEST(LegalLayout, saysWhatThereIsAndNothingElse)
 {
     const uint32_t grid0 = 14u << kVertexUvStepShift;
-    EXPECT_TRUE(legalLayout(0));
-    EXPECT_TRUE(legalLayout(kVertexNormal | kVertexTangent | kVertexFineNormal | kVertexUv0 | grid0));
-    EXPECT_TRUE(legalLayout(kVertexUv0)) << "floats";
-    EXPECT_TRUE(legalLayout(kVertexUv0 | kVertexUv2 | grid0));
-    EXPECT_FALSE(legalLayout(grid0)) << "a grid of no set";
-    EXPECT_FALSE(legalLayout(kVertexUv0 | kVertexUv2 | grid0 << 4));
-    EXPECT_TRUE(legalLayout(kVertexNormal | kVertexVisibility));
-    EXPECT_FALSE(legalLayout(kVertexVisibility)) << "above no surface";
-    EXPECT_FALSE(legalLayout(kVertexTangent)) << "an angle about nothing";
+    EXPECT_TRUE(isLegalLayout(0));
+    EXPECT_TRUE(isLegalLayout(kVertexNormal | kVertexTangent | kVertexNormal16 | kVertexUv0 | grid0));
+    EXPECT_TRUE(isLegalLayout(kVertexUv0)) << "floats";
+    EXPECT_TRUE(isLegalLayout(kVertexUv0 | kVertexUv2 | grid0));
+    EXPECT_FALSE(isLegalLayout(grid0)) << "a grid of no set";
+    EXPECT_FALSE(isLegalLayout(kVertexUv0 | kVertexUv2 | grid0 << 4));
+    EXPECT_TRUE(isLegalLayout(kVertexNormal | kVertexVisibility));
+    EXPECT_FALSE(isLegalLayout(kVertexVisibility)) << "above no surface";
+    EXPECT_FALSE(isLegalLayout(kVertexTangent)) << "an angle about nothing";
     for (const uint32_t bit : {1u << 10, 1u << 11, 1u << 12})
-        EXPECT_FALSE(legalLayout(bit)) << "no meaning";
-    EXPECT_FALSE(legalLayout(kVertexFineNormal));
-    EXPECT_FALSE(legalLayout(kVertexFineColor));
-    EXPECT_FALSE(legalLayout(kVertexWide)) << "of a cluster";
-    EXPECT_TRUE(legalLayout(kVertexInfluences));
-    EXPECT_TRUE(legalLayout(kVertexInfluences | kVertexMoreInfluences));
-    EXPECT_FALSE(legalLayout(kVertexMoreInfluences)) << "more than none";
+        EXPECT_FALSE(isLegalLayout(bit)) << "no meaning";
+    EXPECT_FALSE(isLegalLayout(kVertexNormal16));
+    EXPECT_FALSE(isLegalLayout(kVertexColor16));
+    EXPECT_FALSE(isLegalLayout(kVertexWideOffsets)) << "of a cluster";
+    EXPECT_TRUE(isLegalLayout(kVertexInfluences));
+    EXPECT_TRUE(isLegalLayout(kVertexInfluences | kVertexInfluences8));
+    EXPECT_FALSE(isLegalLayout(kVertexInfluences8)) << "more than none";
 }
 
 } // namespace hearth::test

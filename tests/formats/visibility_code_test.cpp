@@ -51,7 +51,7 @@ VisibilityMoments randomMoments(std::mt19937& random, Float3 normal)
     const float m0 = 2 * kPi * std::pow(uniform(random, 0, 1), 2.0f);
     const float size = uniform(random, m0 * m0 / (4 * kPi), m0 * (1 - m0 / (4 * kPi)));
     // within 30 degrees nothing is cut, whatever the length
-    const NormalFrame frame = frameOf(normal);
+    const NormalFrame frame = makeNormalFrame(normal);
     const float tilt = uniform(random, 0, 0.5f), turn = uniform(random, 0, 2 * kPi);
     const Float3 across = frame.first * std::cos(turn) + frame.second * std::sin(turn);
     return {m0, (normal * std::sqrt(1 - tilt * tilt) + across * tilt) * size};
@@ -76,14 +76,14 @@ TEST(VisibilityCode, ofTheOpenHemisphereIsExact)
     for (int i = 0; i < 1000; ++i)
     {
         const Float3 normal = randomNormal(random);
-        ASSERT_EQ(encodeVisibility(2 * kPi, normal * kPi, normal), kVisibilityOpen);
+        ASSERT_EQ(encodeVisibility(2 * kPi, normal * kPi, normal), kVisibilityUnoccluded);
     }
-    const VisibilityMoments open = shared::decodeVisibilityInFrame(kVisibilityOpen);
+    const VisibilityMoments open = shared::decodeVisibilityInFrame(kVisibilityUnoccluded);
     EXPECT_EQ(open.m0, 2 * kPi);
     EXPECT_EQ(open.m1, (Float3{0, 0, kPi}));
     const Float3 up{0, 1, 0};
-    EXPECT_EQ(shared::decodeVisibility(kVisibilityOpen, up).m1, up * kPi);
-    EXPECT_EQ(encodeVisibility(7, up * 4, up), kVisibilityOpen) << "what overshoots is cut";
+    EXPECT_EQ(shared::decodeVisibility(kVisibilityUnoccluded, up).m1, up * kPi);
+    EXPECT_EQ(encodeVisibility(7, up * 4, up), kVisibilityUnoccluded) << "what overshoots is cut";
 }
 
 TEST(VisibilityCode, ofNothingSeenIsNothing)
@@ -105,9 +105,9 @@ TEST(VisibilityCode, staysWithinWhatItStates)
         const Float3 normal = randomNormal(random);
         const VisibilityMoments moments = randomMoments(random, normal);
         const uint32_t code = encodeVisibility(moments.m0, moments.m1, normal);
-        ASSERT_TRUE(legalVisibility(code));
+        ASSERT_TRUE(isLegalVisibility(code));
         const VisibilityMoments back = shared::decodeVisibility(code, normal);
-        const NormalFrame frame = frameOf(normal);
+        const NormalFrame frame = makeNormalFrame(normal);
         const Float3 off = (back.m1 - moments.m1) / kPi;
         worst_along = std::max(worst_along, std::abs(dot(off, normal)));
         worst_across =
@@ -135,7 +135,7 @@ TEST(VisibilityCode, keepsConesOfAllSizes)
     for (int i = 0; i < 50000; ++i)
     {
         const Float3 normal = randomNormal(random);
-        const NormalFrame frame = frameOf(normal);
+        const NormalFrame frame = makeNormalFrame(normal);
         const float aperture = uniform(random, 15 * kDegree, 60 * kDegree);
         const float tilt = uniform(random, 0, 30 * kDegree), scale = uniform(random, 0.5f, 1);
         const Float3 axis = normal * std::cos(tilt) + frame.first * std::sin(tilt);
@@ -233,7 +233,7 @@ TEST(VisibilityCode, hasTheFrameOfTangents)
     for (int i = 0; i < 1000; ++i)
     {
         const Float3 normal = randomNormal(random);
-        const NormalFrame frame = frameOf(normal);
+        const NormalFrame frame = makeNormalFrame(normal);
         const auto code = static_cast<uint32_t>(random());
         const VisibilityMoments local = shared::decodeVisibilityInFrame(code);
         ASSERT_EQ(shared::decodeVisibility(code, normal).m1,
@@ -251,9 +251,9 @@ TEST(VisibilityCode, isCutBelowTheSurfaceAndFarAlongIt)
         shared::decodeVisibility(encodeVisibility(2 * kPi, {3, -3, 0.1f}, up), up);
     EXPECT_EQ(along.m1.x, kPi * (127 / 254.0f));
     EXPECT_EQ(along.m1.y, -kPi * (127 / 254.0f));
-    EXPECT_FALSE(legalVisibility(0x00800000));
-    EXPECT_FALSE(legalVisibility(0x80000000));
-    EXPECT_TRUE(legalVisibility(0x8181FFFF));
+    EXPECT_FALSE(isLegalVisibility(0x00800000));
+    EXPECT_FALSE(isLegalVisibility(0x80000000));
+    EXPECT_TRUE(isLegalVisibility(0x8181FFFF));
 }
 
 TEST(VisibilityCode, givesEveryWordAFiniteCone)

@@ -17,7 +17,7 @@ using namespace formats;
 namespace
 {
 
-// What an optimiser may not remove: every value that is read adds to it.
+// Sink that keeps the optimiser from removing reads: every value that is read is added to it.
 volatile uint64_t sink;
 
 void use(uint64_t value)
@@ -25,7 +25,7 @@ void use(uint64_t value)
     sink = sink + value;
 }
 
-/// Read a page and all its clusters the way a renderer does: without a look at bounds.
+/// Read a page and all its clusters like a renderer: without bounds checks.
 Status usePage(const pack::Pack& pack, uint32_t page_index)
 {
     std::vector<std::byte> buffer(pack.pageSize(page_index));
@@ -46,7 +46,8 @@ Status usePage(const pack::Pack& pack, uint32_t page_index)
     return success();
 }
 
-/// A cut draws something of every mesh that has clusters, and never a cluster with what it was refined from.
+/// Check that a cut draws something of every mesh with clusters, and never a cluster together with its
+/// refinement.
 void useCuts(const PackView& view, uint32_t mesh)
 {
     const bool has_clusters = view.meshes()[mesh].clusters.count > 0;
@@ -59,7 +60,7 @@ void useCuts(const PackView& view, uint32_t mesh)
     }
 }
 
-/// What is drawn of every mesh when nothing is resident but what always is.
+/// Use the cut of every mesh if only the pinned pages are resident.
 void useCoarsest(const PackView& view)
 {
     const pack::PageGraph graph = pack::PageGraph::of(view);
@@ -76,13 +77,13 @@ void useCoarsest(const PackView& view)
     }
 }
 
-/// The scene as a renderer walks it.
+/// Walk the scene like a renderer.
 void useScene(const PackView& view)
 {
     for (const NodeRecord& node : view.nodes())
     {
         size_t depth = 0;
-        for (uint32_t parent = node.parent; parent != kNone; parent = view.nodes()[parent].parent)
+        for (uint32_t parent = node.parent; parent != kInvalidIndex; parent = view.nodes()[parent].parent)
             HEARTH_ASSERT(++depth <= view.nodes().size());
         use(view.text(node.name).size());
         for (const float weight :
@@ -118,7 +119,7 @@ void useScene(const PackView& view)
 Status useImage(const PackView& view, uint32_t index)
 {
     const ImageRecord& image = view.images()[index];
-    // a huge image of few bytes is legal; unpacking each would only slow the search down
+    // A huge image of few bytes is legal; unpacking each would only slow the search down.
     if (view.container().find(kChunkImageData, index)->size > (1u << 20))
         return success();
     HEARTH_ASSIGN_OR_RETURN(const ChunkData texels, view.imageData(index));
@@ -126,10 +127,11 @@ Status useImage(const PackView& view, uint32_t index)
     return success();
 }
 
-/// March through the bricks from corner to corner, and read what each face has.
+/// March through the bricks from corner to corner, and read each face's data.
 void useBricks(const PackView& view)
 {
-    const shared::BrickMasks masks{brickGridOf(view.brickGrid()[0]), view.brickGroups(), view.bricks()};
+    const shared::BrickMasks masks{toBrickGrid(view.brickGrid()[0]), view.brickGroupsAlongAxis(),
+                                   view.bricks()};
     const Float3 end{static_cast<float>(masks.grid.voxels_x), static_cast<float>(masks.grid.voxels_y),
                      static_cast<float>(masks.grid.voxels_z)};
     const float size = length(end);
@@ -137,8 +139,9 @@ void useBricks(const PackView& view)
          {Float3{0, 0, 0}, Float3{end.x, 0, 0}, Float3{0, end.y, 0}, Float3{0, 0, end.z}})
     {
         const Float3 way = (end - corner * 2) / size;
-        shared::BrickRay ray = shared::brickRayInVoxels(masks.grid, corner, way, shared::kBrickFar);
-        for (ray = brickMarch(masks, ray); ray.inside != 0; ray = brickMarch(masks, brickPass(masks, ray)))
+        shared::BrickRay ray = shared::brickRayInVoxels(masks.grid, corner, way, shared::kBrickInfinity);
+        for (ray = brickMarch(masks, ray); ray.inside != 0;
+             ray = brickMarch(masks, brickSkipVoxel(masks, ray)))
         {
             const BrickRecord& brick = view.bricks()[ray.brick];
             use(view.brickOpacity()[brickVoxel(brick, ray.bit)]);
@@ -165,7 +168,7 @@ Status exercisePack(std::span<const std::byte> bytes)
     for (uint32_t image = 0; image < pack->images().size(); ++image)
         reads.push_back(useImage(pack.view(), image));
     for (const MaterialRecord& material : pack->materials())
-        if (material.base_color_texture.image != kNone)
+        if (material.base_color_texture.image != kInvalidIndex)
             use(pack->images()[material.base_color_texture.image].width);
     if (!pack->brickGrid().empty())
         useBricks(pack.view());

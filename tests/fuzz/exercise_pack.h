@@ -1,4 +1,4 @@
-// Everything that a runtime does with a pack, on any bytes: opens it, and if that succeeds uses all of it.
+// Exercises a pack of arbitrary bytes like a runtime: opens it, and if that succeeds uses all of it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,9 +10,9 @@
 namespace hearth::test
 {
 
-/// `bytes` at an address that is a multiple of 64. Returns the first error of opening the pack or reading its pages and texels,
-/// if there is one; aborts where what was handed out breaks a promise that code behind the checker relies on, or where a
-/// read fails that the check of the whole pack knows nothing of.
+/// Exercise `bytes`, whose address is a multiple of 64. Returns the first error of opening the pack or of
+/// reading its pages and texels, if any. Aborts if data that was handed out breaks a guarantee that code
+/// behind the checker relies on, or if a read fails although the check of the whole pack succeeded.
 Status exercisePack(std::span<const std::byte> bytes);
 
 } // namespace hearth::test

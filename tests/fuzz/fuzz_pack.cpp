@@ -1,5 +1,5 @@
-// libFuzzer: the input is a pack. It is tried as it is, which exercises the container, and once more with right hashes,
-// so that the search gets past them to the checker of meaning.
+// Fuzzes a pack with libFuzzer. The input is tried as it is, which exercises the container, and once more
+// with corrected hashes, so that the search reaches the semantic checker.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/fuzz/exercise_pack.h"
 #include "tests/support/container_image.h"

@@ -1,5 +1,5 @@
-// libFuzzer: the input says which clusters a page has, and what is in its frame and behind it. It is packed right, so that
-// the search gets past zstd to the decoder of triangles and vertices.
+// Fuzzes a page with libFuzzer. The input gives the page's clusters, its zstd frame and the data behind it.
+// The page is packed correctly, so that the search gets past zstd to the decoder of triangles and vertices.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/base/byte_reader.h"
 #include "formats/codecs/cluster_bounds.h"
@@ -19,9 +19,9 @@ using namespace hearth::formats;
 constexpr uint32_t kLayouts[] = {0, kVertexNormal | kVertexUv0 | 14u << kVertexUvStepShift,
                                  kVertexNormal | kVertexTangent | kVertexUv0 | kVertexUv1 | kVertexColor |
                                      kVertexVisibility | 14u << kVertexUvStepShift,
-                                 kVertexNormal | kVertexInfluences | kVertexMoreInfluences};
+                                 kVertexNormal | kVertexInfluences | kVertexInfluences8};
 
-/// Records as the input's first bytes say, one behind the other.
+/// Read records from the input's first bytes, one behind the other.
 std::vector<ClusterRecord> readRecords(ByteReader& reader, uint32_t layout, size_t& page_size)
 {
     std::vector<ClusterRecord> records;
@@ -32,7 +32,8 @@ std::vector<ClusterRecord> readRecords(ByteReader& reader, uint32_t layout, size
         record.triangle_count = reader.read<uint8_t>().value_or(1);
         record.extent_shift = reader.read<uint8_t>().value_or(0) % 8 == 7 ? 1 : 0;
         record.page_word = static_cast<uint16_t>(page_size / 4);
-        page_size += clusterBytes(layoutOf(record, layout), record.vertex_count, record.triangle_count);
+        page_size +=
+            clusterBytes(clusterVertexLayout(record, layout), record.vertex_count, record.triangle_count);
         page_size += 4 * size_t{reader.read<uint8_t>().value_or(0) % 16u};
         records.push_back(record);
     }

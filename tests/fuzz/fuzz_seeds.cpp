@@ -1,4 +1,4 @@
-// Writes the packs that the search starts from into a folder.
+// Writes the seed packs of the fuzzers into a folder.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/support/small_pack.h"
 

@@ -14,7 +14,7 @@ namespace hearth::test
 namespace
 {
 
-// What a record's field most often breaks on: ends of ranges, signs, not a number, infinity.
+// Values that often break a record's field: ends of ranges, signs, NaN, infinity.
 constexpr uint32_t kNastyWords[] = {0u,          1u,          2u,          0x7FFFFFFFu, 0x80000000u,
                                     0xFFFFFFFEu, 0xFFFFFFFFu, 0x7F800000u, 0xFF800000u, 0x7FC00000u,
                                     0x3F800000u, 0x00000001u, 0x0000FFFFu, 0x00010000u, 0x42000000u};
@@ -50,7 +50,8 @@ void mutateBlock(std::span<std::byte> bytes, std::mt19937& random)
     std::memmove(bytes.data() + place(random) / 4 * 4, bytes.data() + place(random) / 4 * 4, size);
 }
 
-/// Open `count` mutated packs; returns how often each class of issue (number / 1000, 0 accepted) was met.
+/// Open `count` mutated packs; returns how often each class of issue occurred (issue number / 1000; 0:
+/// accepted).
 std::map<uint32_t, int> exerciseMutations(bool compressed, int count, uint32_t seed)
 {
     const AlignedBytes original = smallPack().bytes(compressed);
@@ -59,7 +60,7 @@ std::map<uint32_t, int> exerciseMutations(bool compressed, int count, uint32_t s
     for (int i = 0; i < count; ++i)
     {
         AlignedBytes bytes = original;
-        // past the header, whose every change is refused at once
+        // mutate behind the header: any change of the header is rejected at once
         const std::span<std::byte> body = bytes.span().subspan(sizeof(formats::FileHeader));
         for (auto changes = 1 + random() % 3; changes > 0; --changes)
             random() % 8 == 0 ? mutateBlock(body, random) : mutateWord(body, random);
@@ -76,7 +77,7 @@ std::map<uint32_t, int> exerciseMutations(bool compressed, int count, uint32_t s
 TEST(MutatedPack, isRefusedOrSafeToUse)
 {
     std::map<uint32_t, int> outcomes = exerciseMutations(false, 20000, 1);
-    // most mutations must get past the container, or the checker was not exercised
+    // Most mutations must get past the container; otherwise the checker was not exercised.
     EXPECT_GT(outcomes[3], 5000);
     EXPECT_GT(outcomes[0], 1000);
     EXPECT_GT(outcomes[2], 500);

@@ -34,7 +34,7 @@ bool isShader(const fs::path& path)
     return extension == ".glsl" || extension == ".comp" || extension == ".vert" || extension == ".frag";
 }
 
-/// Paths, relative to the root, of all sources in C++ and, where `with_shaders`, in GLSL.
+/// Paths, relative to the root, of all C++ sources and, if `with_shaders`, of all GLSL sources.
 std::vector<std::string> sources(bool with_shaders = false)
 {
     std::vector<std::string> paths;
@@ -47,8 +47,8 @@ std::vector<std::string> sources(bool with_shaders = false)
     return paths;
 }
 
-/// The includes of a source. A quoted name without a folder, as in headers that are installed together, is a file
-/// beside it.
+/// Includes of a source. A quoted name without a folder (headers that are installed together) is a file in
+/// the same folder.
 std::vector<Include> includesIn(const std::string& file)
 {
     std::vector<Include> includes = includesOf(contentOf(kRoot / file));
@@ -117,7 +117,7 @@ TEST(Layering, foldersHaveNoCycles)
                 !include.angled && from != to)
                 arrows[from].insert(to);
 
-    std::map<std::string, int> state; // 1: on the way, 2: done
+    std::map<std::string, int> state; // 1: being visited, 2: done
     const auto visit = [&](const auto& self, const std::string& folder) -> void
     {
         state[folder] = 1;
@@ -134,7 +134,7 @@ TEST(Layering, foldersHaveNoCycles)
             visit(visit, folder);
 }
 
-// a folder is read whole before it is changed
+// A folder is read completely before it is changed.
 TEST(Layering, foldersHaveAtMostFortySources)
 {
     std::map<std::string, size_t> counts;
@@ -172,7 +172,7 @@ TEST(Layering, includesHaveNoCycles)
             if (!include.angled)
                 headers_of_file[file].push_back(include.header);
 
-    std::map<std::string, int> state; // 1: on the way, 2: done
+    std::map<std::string, int> state; // 1: being visited, 2: done
     const auto visit = [&](const auto& self, const std::string& file) -> void
     {
         state[file] = 1;
@@ -232,7 +232,7 @@ TEST(WrongArrow, knowsTheTable)
     EXPECT_FALSE(allowed("cook/clusters/partition/split.cpp", "pipelines/link/link.h"));
     EXPECT_FALSE(allowed("cook/command_line/a.cpp", "cook/tools/batch.h"));
     EXPECT_FALSE(allowed("pipelines/cache/cache.cpp", "pipelines/graph/executor.h"));
-    EXPECT_FALSE(allowed("pipelines/import/images/png.cpp", "pipelines/import/gltf/reader.h"));
+    EXPECT_FALSE(allowed("pipelines/import/images/png.cpp", "pipelines/import/gltf/import_gltf.h"));
     EXPECT_FALSE(allowed("runtime/viewer/main.cpp", "cook/command_line/command_line.h"));
     EXPECT_FALSE(allowed("runtime/pack/pack.cpp", "runtime/gpu/vulkan/device.h"));
     EXPECT_FALSE(allowed("runtime/gpu/vulkan/a.cpp", "runtime/gpu/vulkanised/a.h"));

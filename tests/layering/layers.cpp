@@ -13,18 +13,19 @@ namespace
 
 using Folders = std::vector<std::string_view>;
 
-/// A folder and the arrows that leave it. An arrow to a folder goes to its sub-folders, too.
+/// A folder and its outgoing arrows. An arrow to a folder includes its sub-folders.
 struct Layer
 {
     std::string_view folder;
     Folders may_include; ///< besides itself
 };
 
-// From the ground floor up. Cookers do not include each other, and nothing of the runtime includes cook/ or pipelines/.
+// All layers, from the lowest to the highest. Cookers do not include each other, and nothing of the runtime
+// includes cook/ or pipelines/.
 const std::vector<Layer>& layers()
 {
     static const std::vector<Layer> list = {
-        // what a file is
+        // file formats
         {"formats/base", {}},
         {"formats/gpu_shared", {"formats/base"}},
         {"formats/records", {"formats/base", "formats/gpu_shared"}},
@@ -36,7 +37,7 @@ const std::vector<Layer>& layers()
          {"formats/base", "formats/codecs", "formats/gpu_shared", "formats/pack", "formats/records"}},
         {"formats", {"formats/base", "formats/codecs", "formats/pack", "formats/records"}},
 
-        // what cookers share
+        // shared by cookers
         {"cook/command_line", {"formats/base"}},
         {"cook/json", {}},
         {"cook/tools", {"formats", "cook/json"}},
@@ -79,7 +80,7 @@ const std::vector<Layer>& layers()
          {"formats", "cook/command_line", "cook/json", "cook/tools", "cook/mesh", "cook/pages",
           "cook/visibility/rays", "cook/visibility/fit", "cook/visibility/scene"}},
 
-        // from a source to parts
+        // from sources to parts
         {"pipelines/import/part",
          {"formats", "cook/json", "cook/tools", "cook/mesh", "cook/animation_bounds",
           "cook/animation_compression"}},
@@ -97,7 +98,7 @@ const std::vector<Layer>& layers()
           "pipelines/import/images", "pipelines/import/source", "pipelines/import/gltf",
           "pipelines/import/scans"}},
 
-        // from parts to a pack, and the cook as a graph
+        // from parts to a pack, and the build graph
         {"pipelines/verify", {"formats"}},
         {"pipelines/link", {"formats", "cook/command_line", "cook/json", "pipelines/verify"}},
         {"pipelines/schemas", {}},
@@ -110,7 +111,7 @@ const std::vector<Layer>& layers()
          {"formats", "cook/json", "cook/tools", "pipelines/cache", "pipelines/graph", "pipelines/profiles"}},
         {"pipelines/report", {"formats", "cook/json", "cook/tools", "pipelines/graph", "pipelines/profiles"}},
 
-        // hearth
+        // the hearth command
         {"pipelines/command/shell",
          {"formats", "cook/command_line", "cook/json", "pipelines/schemas", "pipelines/cache",
           "pipelines/graph", "pipelines/profiles"}},
@@ -131,7 +132,7 @@ const std::vector<Layer>& layers()
          {"formats", "cook/json", "cook/tools", "pipelines/cache", "pipelines/command/shell",
           "pipelines/command/cook"}},
 
-        // what ships in a game
+        // shipped in a game
         {"runtime/frame", {"formats"}},
         {"runtime/pack", {"formats"}},
         {"runtime/shaders", {}},
@@ -159,9 +160,9 @@ const std::vector<Layer>& layers()
 
 struct Library
 {
-    std::string_view header; ///< whole, or a start that ends in '/'
+    std::string_view header; ///< whole name, or a prefix that ends in '/'
     Folders seen_in;         ///< besides tests/
-    bool in_headers = false; ///< else in .cpp files only: its types stay inside an adapter
+    bool in_headers = false; ///< else in .cpp files only: the adapter hides its types
 };
 
 const std::vector<Library>& libraries()
@@ -194,10 +195,10 @@ const std::vector<Library>& libraries()
         {"toml++/", {"cook/tools/"}},
         {"tbb/", {"cook/", "pipelines/", "sample_assets/"}, true},
         {"embree3/", {"cook/"}},
-        {"xmmintrin.h", {"cook/visibility/"}}, // how Embree wants the processor set
+        {"xmmintrin.h", {"cook/visibility/"}}, // floating-point mode for Embree
         {"Eigen/", {"cook/"}, true},
         {"ceres/", {"cook/"}},
-        {"formats/", {}}, // in brackets as users include what is installed; so are the next two
+        {"formats/", {}}, // in angle brackets, as users include the installed headers; so are the next two
         {"hearth.h", {}},
         {"hearth.hpp", {}},
         {"gtest/", {}, true},
@@ -207,10 +208,10 @@ const std::vector<Library>& libraries()
     return list;
 }
 
-/// A library that takes seconds to compile wherever it is included: all others go through the files that may.
+/// A library that is slow to compile (seconds per inclusion): only the files listed may include it.
 struct SlowLibrary
 {
-    std::string_view header; ///< whole, or a start that ends in '/'
+    std::string_view header; ///< whole name, or a prefix that ends in '/'
     Folders included_by;     ///< files, in tests/ too
 };
 
@@ -224,7 +225,7 @@ const std::vector<SlowLibrary>& slowLibraries()
     return list;
 }
 
-// POSIX and Linux: what the standard library does not give
+// POSIX and Linux headers, for features that the standard library lacks
 constexpr std::array<std::string_view, 16> kPosixHeaders{
     "sys/",     "linux/",   "elf.h",   "malloc.h",  "unistd.h", "fcntl.h",  "poll.h", "spawn.h",
     "dirent.h", "signal.h", "dlfcn.h", "pthread.h", "arpa/",    "netinet/", "pwd.h",  "regex.h"};
@@ -235,7 +236,7 @@ bool isIn(std::string_view path, const Folders& folders)
                        [&](std::string_view f) { return path.starts_with(f); });
 }
 
-/// Whether a folder is `other` or lies in it.
+/// True if a folder is `other` or lies below it.
 bool isBelow(std::string_view folder, std::string_view other)
 {
     return folder == other || (folder.starts_with(other) && folder.substr(other.size()).starts_with('/'));
@@ -294,7 +295,7 @@ std::optional<std::string> wrongLink(std::string_view from, std::string_view to)
 {
     if (isBelow(from, "tests") || isBelow(from, to) || isBelow(to, from))
         return std::nullopt;
-    // a library is made of its folder and the folders below
+    // A library consists of its folder and the folders below.
     for (const Layer& layer : layers())
         if (isBelow(layer.folder, from) && std::any_of(layer.may_include.begin(), layer.may_include.end(),
                                                        [&](std::string_view f) { return isBelow(f, to); }))

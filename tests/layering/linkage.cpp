@@ -1,5 +1,5 @@
-// A program of the runtime alone, linked with all of its objects: it builds only if the runtime needs nothing of cook/
-// or pipelines/. Run, it writes the smallest pack and opens it.
+// Links the runtime alone, with all its objects: the build succeeds only if the runtime needs nothing of
+// cook/ or pipelines/. When run, writes the smallest pack and opens it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/container/container_writer.h"
 #include "formats/records/scene.h"

@@ -3,10 +3,10 @@
 #include "cook/tools/sha256.h"
 #include "formats/base/atomic_file.h"
 #include "pipelines/cache/cache.h"
+#include "pipelines/cache/cache_spec.h"
 #include "pipelines/cache/directory_store.h"
 #include "pipelines/cache/entry_text.h"
-#include "pipelines/cache/open_cache.h"
-#include "pipelines/cache/upkeep.h"
+#include "pipelines/cache/maintenance.h"
 #include "tests/support/sandbox.h"
 
 #include <csignal>
@@ -27,9 +27,9 @@ namespace
 
 namespace fs = std::filesystem;
 using test::Sandbox;
-using tools::sha256Of;
+using tools::computeSha256;
 
-const std::string kKey = sha256Of("key");
+const std::string kKey = computeSha256("key");
 const Fields kEntry{{"made", "abc"}, {"warning", "one\ttwo\nthree\\"}, {"warning", ""}};
 
 class CacheTest : public ::testing::Test
@@ -38,12 +38,12 @@ protected:
     /// A cache over the named folders of the sandbox; "ro" after a name: read only.
     Cache open(const std::vector<std::string>& names)
     {
-        std::vector<std::unique_ptr<Level>> levels;
+        std::vector<std::unique_ptr<CacheLevel>> levels;
         for (const std::string& name : names)
         {
             const bool writable = !name.ends_with(" ro");
             levels.push_back(
-                std::make_unique<FolderLevel>(folder / name.substr(0, name.find(' ')), writable));
+                std::make_unique<DirectoryStore>(folder / name.substr(0, name.find(' ')), writable));
         }
         return Cache(std::move(levels),
                      [this](const Error& error) { warnings.push_back(formatMessage(error)); });
@@ -52,13 +52,13 @@ protected:
     std::string put(Cache& cache, const std::string& content)
     {
         folder.write("content", content);
-        cache.put(sha256Of(content), folder / "content", Use::given_away);
+        cache.put(computeSha256(content), folder / "content", FileAccess::read_write);
         fs::remove(folder / "content");
-        return sha256Of(content);
+        return computeSha256(content);
     }
 
     /// What the cache has under the hash; "nothing" where it has nothing.
-    std::string get(Cache& cache, const std::string& hash, Use use = Use::read_only)
+    std::string get(Cache& cache, const std::string& hash, FileAccess use = FileAccess::read_only)
     {
         fs::remove(folder / "fetched");
         return cache.fetch(hash, folder / "fetched", use) ? folder.read("fetched") : "nothing";
@@ -84,24 +84,24 @@ protected:
 
 TEST(Fields, comeBackFromTheirText)
 {
-    EXPECT_EQ(fieldsOf(textOf(kEntry)), kEntry);
-    EXPECT_EQ(fieldsOf(""), Fields());
-    const std::string text = entryText(kEntry);
-    EXPECT_EQ(entryFields(text), kEntry);
+    EXPECT_EQ(parseFields(formatFields(kEntry)), kEntry);
+    EXPECT_EQ(parseFields(""), Fields());
+    const std::string text = formatEntry(kEntry);
+    EXPECT_EQ(parseEntry(text), kEntry);
     for (size_t size = 0; size < text.size(); ++size)
-        EXPECT_EQ(entryFields(text.substr(0, size)), std::nullopt) << size;
+        EXPECT_EQ(parseEntry(text.substr(0, size)), std::nullopt) << size;
     for (size_t i = 0; i < text.size(); ++i)
     {
         std::string flipped = text;
         flipped[i] = static_cast<char>(flipped[i] ^ 1);
-        EXPECT_EQ(entryFields(flipped), std::nullopt) << i;
+        EXPECT_EQ(parseEntry(flipped), std::nullopt) << i;
     }
 }
 
 TEST(Fields, refuseWhatNobodyWrote)
 {
     for (const char* text : {"a", "a\n", "a\tb", "a\tb\tc\n", "a\t\\x\n", "a\t\\"})
-        EXPECT_EQ(fieldsOf(text), std::nullopt) << text;
+        EXPECT_EQ(parseFields(text), std::nullopt) << text;
 }
 
 TEST_F(CacheTest, handsOutWhatWasPutIn)
@@ -112,7 +112,7 @@ TEST_F(CacheTest, handsOutWhatWasPutIn)
     EXPECT_EQ(cache.entry(kKey), kEntry);
     const std::string hash = put(cache, "some bytes");
     EXPECT_EQ(get(cache, hash), "some bytes");
-    EXPECT_EQ(get(cache, sha256Of("other")), "nothing");
+    EXPECT_EQ(get(cache, computeSha256("other")), "nothing");
     EXPECT_EQ(warnings, std::vector<std::string>{});
     EXPECT_TRUE(fs::is_empty(folder / "a/tmp"));
 }
@@ -121,7 +121,7 @@ TEST_F(CacheTest, whoGetsAFileToKeepCannotHarmTheCache)
 {
     Cache cache = open({"a"});
     const std::string hash = put(cache, "some bytes");
-    ASSERT_EQ(get(cache, hash, Use::given_away), "some bytes");
+    ASSERT_EQ(get(cache, hash, FileAccess::read_write), "some bytes");
     overwrite(folder / "fetched", "scribble");
     EXPECT_EQ(get(cache, hash), "some bytes");
     struct stat stored = {};
@@ -166,15 +166,15 @@ TEST_F(CacheTest, nearLevelsTakeWhatFarOnesHave)
     {
         Cache both = open({"a", "b ro"});
         EXPECT_EQ(both.entry(kKey), kEntry);
-        EXPECT_EQ(get(both, sha256Of("some bytes")), "some bytes");
+        EXPECT_EQ(get(both, computeSha256("some bytes")), "some bytes");
         put(both, "new bytes");
     }
     Cache near = open({"a"});
     EXPECT_EQ(near.entry(kKey), kEntry);
-    EXPECT_EQ(get(near, sha256Of("some bytes")), "some bytes");
-    EXPECT_EQ(get(near, sha256Of("new bytes")), "new bytes");
+    EXPECT_EQ(get(near, computeSha256("some bytes")), "some bytes");
+    EXPECT_EQ(get(near, computeSha256("new bytes")), "new bytes");
     Cache far = open({"b"});
-    EXPECT_EQ(get(far, sha256Of("new bytes")), "nothing") << "it is read only";
+    EXPECT_EQ(get(far, computeSha256("new bytes")), "nothing") << "it is read only";
 }
 
 TEST_F(CacheTest, aLevelThatFailsIsToldOfOnceAndLeftAlone)
@@ -182,7 +182,7 @@ TEST_F(CacheTest, aLevelThatFailsIsToldOfOnceAndLeftAlone)
     folder.write("a", "a file, where a folder should be");
     Cache cache = open({"a", "b"});
     cache.putEntry(kKey, kEntry);
-    cache.putEntry(sha256Of("other"), kEntry);
+    cache.putEntry(computeSha256("other"), kEntry);
     const std::string hash = put(cache, "some bytes");
     EXPECT_EQ(warnings.size(), 1u);
     EXPECT_EQ(cache.entry(kKey), kEntry);
@@ -201,7 +201,7 @@ TEST_F(CacheTest, aFullDiskCostsOnlyWhatIsNotKept)
         const rlimit limit{4096, 4096};
         ::setrlimit(RLIMIT_FSIZE, &limit);
         Cache cache = open({"a"});
-        cache.put(sha256Of(std::string(100000, 'x')), folder / "content", Use::given_away);
+        cache.put(computeSha256(std::string(100000, 'x')), folder / "content", FileAccess::read_write);
         cache.putEntry(kKey, kEntry);
         ::_exit(warnings.size() == 1 && !cache.isWritable() && fs::is_empty(folder / "a/tmp") ? 0 : 1);
     }
@@ -209,7 +209,7 @@ TEST_F(CacheTest, aFullDiskCostsOnlyWhatIsNotKept)
     ::waitpid(child, &status, 0);
     EXPECT_EQ(status, 0);
     Cache cache = open({"a"});
-    EXPECT_EQ(get(cache, sha256Of(std::string(100000, 'x'))), "nothing");
+    EXPECT_EQ(get(cache, computeSha256(std::string(100000, 'x'))), "nothing");
     EXPECT_EQ(warnings, std::vector<std::string>{}) << "nothing torn is there";
 }
 
@@ -230,15 +230,15 @@ TEST_F(CacheTest, sixWritersOfOneKeyLeaveItWhole)
         Cache cache = open({"a"});
         for (int round = 0; round < 20; ++round)
         {
-            cache.put(sha256Of(content), folder / "source", Use::given_away);
+            cache.put(computeSha256(content), folder / "source", FileAccess::read_write);
             cache.putEntry(kKey, kEntry);
             const std::string own = folder / std::to_string(writer);
             static_cast<void>(cache.entry(kKey));
-            static_cast<void>(cache.fetch(sha256Of(content), own, Use::read_only));
+            static_cast<void>(cache.fetch(computeSha256(content), own, FileAccess::read_only));
             fs::remove(own);
             // others still write
             if (writer == 0)
-                FolderLevel(folder / "a", true).removeContent(sha256Of(content));
+                DirectoryStore(folder / "a", true).removeContent(computeSha256(content));
         }
         ::_exit(warnings.empty() ? 0 : 1);
     }
@@ -259,14 +259,14 @@ TEST_F(CacheTest, garbageGoesFromWhatWasUsedLeast)
     for (int i = 0; i < 4; ++i)
     {
         const std::string hash = put(cache, std::string(10000, static_cast<char>('a' + i)));
-        keys.push_back(sha256Of(std::to_string(i)));
+        keys.push_back(computeSha256(std::to_string(i)));
         cache.putEntry(keys.back(), {{std::string(kContentField), hash}});
         fs::last_write_time(pathOf("ac", keys.back()),
                             fs::file_time_type::clock::now() - std::chrono::hours(24 * (4 - i)));
     }
     // asked for, it is the youngest
     EXPECT_TRUE(cache.entry(keys[0]).has_value());
-    EXPECT_EQ(occupancyOf(folder / "a").contents, 4u);
+    EXPECT_EQ(measureOccupancy(folder / "a").contents, 4u);
     // named by no entry, from yesterday
     const std::string lost = put(cache, "lost");
     fs::last_write_time(pathOf("cas", lost), fs::file_time_type::clock::now() - std::chrono::hours(24));
@@ -275,7 +275,7 @@ TEST_F(CacheTest, garbageGoesFromWhatWasUsedLeast)
     EXPECT_EQ(left.entries, 2u);
     EXPECT_EQ(left.contents, 2u);
     EXPECT_LE(left.bytes, 21000u);
-    EXPECT_EQ(occupancyOf(folder / "a").bytes, left.bytes);
+    EXPECT_EQ(measureOccupancy(folder / "a").bytes, left.bytes);
     EXPECT_TRUE(cache.entry(keys[0]).has_value());
     EXPECT_TRUE(cache.entry(keys[3]).has_value());
     EXPECT_EQ(get(cache, lost), "nothing");
@@ -289,11 +289,11 @@ TEST_F(CacheTest, keepsItselfWithinItsLimit)
     for (int i = 0; i < 10; ++i)
     {
         const std::string hash = put(cache, std::string(10000, static_cast<char>('a' + i)));
-        cache.putEntry(sha256Of(std::to_string(i)), {{std::string(kContentField), hash}});
-        noteAdded(folder / "a", 10200, 50000);
-        EXPECT_LE(occupancyOf(folder / "a").bytes, 50000u);
+        cache.putEntry(computeSha256(std::to_string(i)), {{std::string(kContentField), hash}});
+        recordGrowth(folder / "a", 10200, 50000);
+        EXPECT_LE(measureOccupancy(folder / "a").bytes, 50000u);
     }
-    EXPECT_GE(occupancyOf(folder / "a").contents, 3u);
+    EXPECT_GE(measureOccupancy(folder / "a").contents, 3u);
 }
 
 TEST_F(CacheTest, verifyFindsAndRemovesDamage)
@@ -304,13 +304,13 @@ TEST_F(CacheTest, verifyFindsAndRemovesDamage)
     EXPECT_EQ(verifyFolder(folder / "a"), std::vector<std::string>{});
     overwrite(pathOf("cas", hash), "same bytes");
     EXPECT_EQ(verifyFolder(folder / "a"), (std::vector<std::string>{"content " + hash, "entry " + kKey}));
-    EXPECT_EQ(occupancyOf(folder / "a").bytes, 0u);
+    EXPECT_EQ(measureOccupancy(folder / "a").bytes, 0u);
 }
 
 TEST(CacheSpecs, comeFromTheCommandLineElseTheEnvironmentElseTheUser)
 {
     ::setenv("HEARTH_CACHE", "dir:/x;dir:/y,ro,size=3M", 1);
-    const auto specs = cacheSpecs({}).value();
+    const auto specs = resolveCacheSpecs({}).value();
     ASSERT_EQ(specs.size(), 2u);
     EXPECT_EQ(specs[0].place, "/x");
     EXPECT_TRUE(specs[0].writable);
@@ -318,17 +318,17 @@ TEST(CacheSpecs, comeFromTheCommandLineElseTheEnvironmentElseTheUser)
     EXPECT_FALSE(specs[1].writable);
     EXPECT_EQ(specs[1].limit_bytes, 3u << 20);
     const std::vector<std::string> options{"dir:/z"};
-    EXPECT_EQ(cacheSpecs(options).value().at(0).place, "/z");
+    EXPECT_EQ(resolveCacheSpecs(options).value().at(0).place, "/z");
     ::setenv("HEARTH_CACHE", "off", 1);
-    EXPECT_TRUE(cacheSpecs({}).value().empty());
+    EXPECT_TRUE(resolveCacheSpecs({}).value().empty());
     ::unsetenv("HEARTH_CACHE");
     ::setenv("XDG_CACHE_HOME", "/home/x/caches", 1);
-    EXPECT_EQ(cacheSpecs({}).value().at(0).place, "/home/x/caches/hearth");
+    EXPECT_EQ(resolveCacheSpecs({}).value().at(0).place, "/home/x/caches/hearth");
     ::unsetenv("XDG_CACHE_HOME");
     ::setenv("HOME", "/home/x", 1);
-    EXPECT_EQ(cacheSpecs({}).value().at(0).place, "/home/x/.cache/hearth");
+    EXPECT_EQ(resolveCacheSpecs({}).value().at(0).place, "/home/x/.cache/hearth");
     const std::vector<std::string> servers{"http://cache:8080/team/,ro", "https://me:secret@cache"};
-    const auto far = cacheSpecs(servers).value();
+    const auto far = resolveCacheSpecs(servers).value();
     EXPECT_EQ(far.at(0).place, "http://cache:8080/team");
     EXPECT_TRUE(far.at(0).is_server);
     EXPECT_FALSE(far.at(0).writable);
@@ -340,7 +340,7 @@ TEST(CacheSpecs, comeFromTheCommandLineElseTheEnvironmentElseTheUser)
           "dir:/x,size=", "dir:/x,size=0", "dir:/x,size=9P", "dir:/x,size=99999999999T"})
     {
         const std::vector<std::string> option{wrong};
-        const auto refused = cacheSpecs(option);
+        const auto refused = resolveCacheSpecs(option);
         ASSERT_FALSE(refused.ok()) << wrong;
         EXPECT_EQ(refused.error().issue, Issue::usage);
     }

@@ -44,7 +44,7 @@ std::vector<Words> commandsOf(const Graph& graph)
                                        : "{" + graph.actions[input.action].outputs.front() + "}");
         for (const std::string& output : action.outputs)
             paths.outputs.push_back("{" + output + "}");
-        commands.push_back(commandOf(action, "bin", paths));
+        commands.push_back(commandLine(action, "bin", paths));
     }
     return commands;
 }
@@ -166,8 +166,8 @@ TEST(Journal, comesBack)
     journal.output_cause = "it was not there";
     journal.graph = makeCookGraph(allSettings()).value();
     journal.actions.resize(journal.graph.actions.size());
-    journal.actions[1] = {Ending::failed, {"one", "two"}, {{"cooker", "textures"}, {"word", "tab\t"}}};
-    journal.actions[2].ending = Ending::kept;
+    journal.actions[1] = {Outcome::failed, {"one", "two"}, {{"cooker", "textures"}, {"word", "tab\t"}}};
+    journal.actions[2].ending = Outcome::cached;
     const std::string text = journalText(journal);
     const auto again = parseJournal(text);
     ASSERT_TRUE(again.has_value());
@@ -186,20 +186,22 @@ TEST(Causes, tellParametersApart)
     journal.graph = before;
     for (const Action& action : before.actions)
         journal.actions.push_back(
-            {Ending::cooked, {}, recordOf(action, "v", std::vector<std::string>(action.inputs.size(), "h"))});
+            {Outcome::cooked,
+             {},
+             makeRecord(action, "v", std::vector<std::string>(action.inputs.size(), "h"))});
     settings.settings_of_source[0].visibility->quality = "high";
     settings.settings_of_source[0].visibility->distance = 0;
     const Graph now = makeCookGraph(settings).value();
     const Action& visibility = now.actions[4];
     ASSERT_EQ(visibility.cooker, "visibility");
-    Situation situation;
-    situation.record = recordOf(visibility, "v", {"h", "other"});
-    EXPECT_EQ(causesOf(visibility, now, situation, journal),
+    ActionState state;
+    state.record = makeRecord(visibility, "v", {"h", "other"});
+    EXPECT_EQ(findCauses(visibility, now, state, journal),
               (std::vector<std::string>{"parameter --quality: draft -> high",
                                         "parameter --distance 2.5: no longer given",
                                         "parameter --power 1: no longer given",
                                         "what clusters made of props/a.obj: its content has changed"}));
-    EXPECT_EQ(causesOf(visibility, now, situation, std::nullopt),
+    EXPECT_EQ(findCauses(visibility, now, state, std::nullopt),
               std::vector<std::string>{"never cooked into this pack before"});
 }
 

@@ -19,7 +19,7 @@ namespace
 using cache::Cache;
 using cache::Fields;
 using test::Sandbox;
-using tools::sha256Of;
+using tools::computeSha256;
 
 struct Asked
 {
@@ -29,21 +29,21 @@ struct Asked
 };
 
 /// A folder that counts what it is asked, as a server could.
-class FarLevel : public cache::FolderLevel
+class FarLevel : public cache::DirectoryStore
 {
 public:
-    FarLevel(const std::string& folder, Asked& asked) : FolderLevel(folder, true), asked_(asked) {}
-    bool isFar() const override { return true; }
-    Status entries(std::span<cache::WantedEntry> wanted) override
+    FarLevel(const std::string& folder, Asked& asked) : DirectoryStore(folder, true), asked_(asked) {}
+    bool isRemote() const override { return true; }
+    Status entries(std::span<cache::EntryRequest> wanted) override
     {
         ++asked_.rounds;
         asked_.entries += wanted.size();
-        return FolderLevel::entries(wanted);
+        return DirectoryStore::entries(wanted);
     }
     Status putEntry(const std::string& key, const std::string& text) override
     {
         ++asked_.puts;
-        return FolderLevel::putEntry(key, text);
+        return DirectoryStore::putEntry(key, text);
     }
 
 private:
@@ -72,12 +72,12 @@ protected:
     /// A cache over folders of the sandbox, by their names; that called "far" is far.
     Cache open(const std::vector<std::string>& names)
     {
-        std::vector<std::unique_ptr<cache::Level>> levels;
+        std::vector<std::unique_ptr<cache::CacheLevel>> levels;
         for (const std::string& name : names)
             if (name == "far")
                 levels.push_back(std::make_unique<FarLevel>(folder / name, asked));
             else
-                levels.push_back(std::make_unique<cache::FolderLevel>(folder / name, true));
+                levels.push_back(std::make_unique<cache::DirectoryStore>(folder / name, true));
         return Cache(std::move(levels),
                      [this](const Error& error) { warnings.push_back(formatMessage(error)); });
     }
@@ -93,16 +93,16 @@ protected:
             std::vector<std::string> part_hashes;
             for (const Input& input : action.inputs)
                 part_hashes.push_back(input.action == kNoAction ? "" : hash_of_action[input.action]);
-            Record record = *actions.recordOf(action, part_hashes);
+            Record record = *actions.makeRecord(action, part_hashes);
             if (action.finds_files)
             {
-                tools::ReadList reads;
+                tools::DependencyList reads;
                 reads.addFile(folder / "wood.png");
-                record = *actions.recordAfter(action, record, reads);
+                record = *actions.recordFromReads(action, record, reads);
             }
             hash_of_action.push_back(resultKey(record));
-            std::vector<KeptOutput> outputs(action.outputs.size(), {hash_of_action.back(), 1});
-            actions.keep(action, record, {outputs, {}, 1, 1, 1});
+            std::vector<CachedOutput> outputs(action.outputs.size(), {hash_of_action.back(), 1});
+            actions.store(action, record, {outputs, {}, 1, 1, 1});
         }
     }
 
@@ -114,7 +114,7 @@ protected:
         const std::optional<Journal> none;
         Resolver resolver(
             graph, &cache, &actions, [&]() -> const std::optional<Journal>& { return none; }, false);
-        cache.beforeFarIsAsked([&] { askAhead(graph, cache, actions); });
+        cache.beforeRemoteLookup([&] { prefetch(graph, cache, actions); });
         size_t count = 0;
         for (const Forecast::Entry& entry : forecast(graph, resolver).actions)
             count += entry.runs ? 1 : 0;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
 #include "pipelines/farm/emit.h"
-#include "pipelines/farm/measured.h"
+#include "pipelines/farm/measurements.h"
 #include "pipelines/farm/plan.h"
 #include "pipelines/farm/shard_index.h"
 #include "pipelines/farm/shard_record.h"
@@ -67,7 +67,7 @@ protected:
             folder.write(std::string("hearth-") + cooker, cooker, true);
     }
 
-    Result<Plan> make(const Request& request, const Sharing& sharing = {2, {}})
+    Result<Plan> make(const Request& request, const ShardingOptions& sharing = {2, {}})
     {
         graph::FileHashes hashes(folder.path());
         graph::ActionCache actions(cache, hashes, folder.path());
@@ -121,10 +121,10 @@ TEST(Shards, haveEachSourceOnceAndInOrder)
 
 TEST(Shards, areAsManyAsHaveAMinuteToDo)
 {
-    EXPECT_EQ(shardCountFor(std::vector<double>{1, 2}), 1u);
-    EXPECT_EQ(shardCountFor(std::vector<double>(10, 30.0)), 5u);
-    EXPECT_EQ(shardCountFor(std::vector<double>{1000, 1000}), 2u) << "a source is not shared";
-    EXPECT_EQ(shardCountFor({}), 1u);
+    EXPECT_EQ(chooseShardCount(std::vector<double>{1, 2}), 1u);
+    EXPECT_EQ(chooseShardCount(std::vector<double>(10, 30.0)), 5u);
+    EXPECT_EQ(chooseShardCount(std::vector<double>{1000, 1000}), 2u) << "a source is not shared";
+    EXPECT_EQ(chooseShardCount({}), 1u);
 }
 
 TEST(ShardIndex, isWhatIsSaidFirst)
@@ -199,7 +199,7 @@ TEST_F(PlanFile, isSharedOutByTimesOfBefore)
         {"schema", "hearth.report/1"},
         {"assets", {asset(0, 20, 80), asset(2, 5, 25)}},
         {"link", {{"stage", "link"}, {"state", "cooked"}, {"seconds", 7}, {"peak_rss_bytes", 30}}}};
-    const auto measured = measuredOf(report.dump(), "report.json");
+    const auto measured = readMeasurements(report.dump(), "report.json");
     ASSERT_TRUE(measured.ok());
     EXPECT_EQ(countMeasured(*measured, asked.sources), 2u);
 
@@ -236,7 +236,7 @@ TEST(Measured, isOfReportsAlone)
 {
     const auto faultOf = [](const std::string& report)
     {
-        const auto measured = measuredOf(report, "report.json");
+        const auto measured = readMeasurements(report, "report.json");
         if (measured.ok())
             return std::string("taken");
         EXPECT_EQ(exitCode(measured.error()), 65);
@@ -405,10 +405,10 @@ TEST(ShardRecord, comesBack)
     record.machine = "w1";
     record.errors = {"one", "two\nlines"};
     record.actions = {
-        {4, graph::Ending::cooked, {{{std::string(64, 'a'), 7}, {std::string(64, 'b'), 8}}, {}, 2, 0, 9}},
-        {5, graph::Ending::left_out, {}}};
+        {4, graph::Outcome::cooked, {{{std::string(64, 'a'), 7}, {std::string(64, 'b'), 8}}, {}, 2, 0, 9}},
+        {5, graph::Outcome::skipped, {}}};
     const cache::Fields fields = recordFields(record);
-    const auto again = recordOf(fields);
+    const auto again = parseRecord(fields);
     ASSERT_TRUE(again.has_value());
     EXPECT_EQ(recordFields(*again), fields);
     EXPECT_EQ(again->actions[0].result.outputs[1].bytes, 8u);
@@ -416,7 +416,7 @@ TEST(ShardRecord, comesBack)
     {
         cache::Fields damaged = fields;
         damaged[i].first = "strange";
-        EXPECT_FALSE(recordOf(damaged).has_value()) << fields[i].first;
+        EXPECT_FALSE(parseRecord(damaged).has_value()) << fields[i].first;
     }
     EXPECT_NE(recordKey("h", 1), recordKey("h", 11));
 }
@@ -427,7 +427,7 @@ TEST(ShellQuoted, isOneWordToAShell)
     for (const std::string word :
          {"plain-/_.:=,+@%1", "", "two words", "it's", "'", "$HOME `id` \"x\" \\", "a;b&c|d>e\nf", "*", "~"})
     {
-        const test::ProgramEnd end = folder.run({"/bin/sh", "-c", "printf %s " + shellQuoted(word)});
+        const test::ProgramEnd end = folder.run({"/bin/sh", "-c", "printf %s " + quoteForShell(word)});
         EXPECT_EQ(end.out, word);
     }
 }

@@ -40,7 +40,7 @@ TEST(FileBytes, areThoseOfTheFile)
     folder.write("small", "abc");
     const Result<FileBytes> small = FileBytes::read(folder / "small", 3);
     ASSERT_TRUE(small.ok());
-    EXPECT_FALSE(small->isMapping());
+    EXPECT_FALSE(small->isMapped());
     EXPECT_EQ(small->bytes().size(), 3u);
     EXPECT_EQ(small->hash(), formats::hashBytes(std::as_bytes(std::span("abc", 3))));
     EXPECT_EQ(FileBytes::read(folder / "small", 2).error().issue, Issue::input_too_large);
@@ -49,7 +49,7 @@ TEST(FileBytes, areThoseOfTheFile)
 
     const Result<FileBytes> large = FileBytes::read(largeFile(folder), kLarge);
     ASSERT_TRUE(large.ok());
-    EXPECT_TRUE(large->isMapping());
+    EXPECT_TRUE(large->isMapped());
     ASSERT_EQ(large->bytes().size(), kLarge);
     EXPECT_EQ(large->bytes()[0], std::byte{'s'});
     EXPECT_EQ(large->bytes()[kLarge - 1], std::byte{'d'});
@@ -63,7 +63,7 @@ TEST(FileBytes, leaveTheMemory)
     const uint64_t before = residentBytes();
     formats::hashBytes(file.bytes());
     EXPECT_GT(residentBytes(), before + kLarge / 2);
-    file.forget();
+    file.releasePages();
     EXPECT_LT(residentBytes(), before + kLarge / 4);
     file.hash();
     EXPECT_LT(residentBytes(), before + kLarge / 2) << "a piece is left";
@@ -77,9 +77,9 @@ TEST(FileBytes, sayWhenTheFileChanged)
     const test::Sandbox folder;
     const std::string path = largeFile(folder);
     const FileBytes file = FileBytes::read(path, kLarge).value();
-    EXPECT_TRUE(file.unchanged().ok());
+    EXPECT_TRUE(file.checkUnchanged().ok());
     std::ofstream(path, std::ios::app) << "more";
-    const Status changed = file.unchanged();
+    const Status changed = file.checkUnchanged();
     ASSERT_FALSE(changed.ok());
     EXPECT_EQ(changed.error().issue, Issue::read_failed);
     EXPECT_EQ(changed.error().file, path);

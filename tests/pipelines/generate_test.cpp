@@ -30,7 +30,7 @@ mesh::SourceMesh cube()
             {static_cast<float>(i & 1), static_cast<float>(i >> 1 & 1), static_cast<float>(i >> 2)});
     mesh.indices = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
                     2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
-    mesh.triangle_materials.assign(12, formats::kNone);
+    mesh.triangle_materials.assign(12, kInvalidIndex);
     return mesh;
 }
 
@@ -55,7 +55,7 @@ mesh::SourceMesh sphere(uint32_t rows, uint32_t columns)
             const uint32_t b = a + columns + 1;
             mesh.indices.insert(mesh.indices.end(), {a, b, a + 1, a + 1, b, b + 1});
         }
-    mesh.triangle_materials.assign(mesh.indices.size() / 3, formats::kNone);
+    mesh.triangle_materials.assign(mesh.indices.size() / 3, kInvalidIndex);
     return mesh;
 }
 

@@ -138,10 +138,10 @@ TEST(GltfAccessors, refuseASparseIndexBeyondTheElements)
 
 TEST(GltfUri, decodesPercentSignsOnce)
 {
-    EXPECT_EQ(percentDecoded("a%20b.bin"), "a b.bin");
-    EXPECT_EQ(percentDecoded("%252e"), "%2e");
-    EXPECT_EQ(percentDecoded("%zz"), std::nullopt);
-    EXPECT_EQ(percentDecoded("abc%4"), std::nullopt);
+    EXPECT_EQ(decodePercent("a%20b.bin"), "a b.bin");
+    EXPECT_EQ(decodePercent("%252e"), "%2e");
+    EXPECT_EQ(decodePercent("%zz"), std::nullopt);
+    EXPECT_EQ(decodePercent("abc%4"), std::nullopt);
 }
 
 TEST(GltfUri, decodesStrictBase64Only)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/pipelines/gltf_fixture.h"
 
+#include "pipelines/import/gltf/import_gltf.h"
 #include "pipelines/import/source/file_bytes.h"
 
 #include <algorithm>

@@ -120,7 +120,7 @@ std::vector<std::string> labelsOf(const Imported& result)
     const std::string strings = result.text(kChunkStrings);
     std::vector<std::string> labels;
     for (const AuthoredLodRecord& record : result.records<AuthoredLodRecord>(kChunkAuthoredLods))
-        labels.push_back((record.number == kNone ? "-" : std::to_string(record.number)) + " " +
+        labels.push_back((record.number == kInvalidIndex ? "-" : std::to_string(record.number)) + " " +
                          strings.substr(record.name.offset, record.name.length));
     return labels;
 }

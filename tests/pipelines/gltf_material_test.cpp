@@ -41,7 +41,7 @@ TEST(GltfMaterials, haveTheDefaultsOfTheSpecification)
     EXPECT_EQ(materials[0].roughness, 1.0f);
     EXPECT_EQ(materials[0].alpha_cutoff, 0.5f);
     EXPECT_EQ(materials[0].emissive, (Float3{0, 0, 0}));
-    EXPECT_EQ(materials[0].base_color_texture.image, kNone);
+    EXPECT_EQ(materials[0].base_color_texture.image, kInvalidIndex);
     EXPECT_EQ(materials[0].flags, 0u);
 }
 
@@ -102,7 +102,7 @@ TEST(GltfMaterials, dropTexturesOfUvSetsThatNoMeshCanHave)
         const Imported result = GltfData().import(
             std::string(R"("textures":[{}],"materials":[{"emissiveTexture":{"index":0,"texCoord":)") + set +
             "}}]");
-        EXPECT_EQ(materialsOf(result)[0].emissive_texture.image, kNone);
+        EXPECT_EQ(materialsOf(result)[0].emissive_texture.image, kInvalidIndex);
         EXPECT_TRUE(result.warnsOf(Issue::dropped, "UV set"));
     }
 }

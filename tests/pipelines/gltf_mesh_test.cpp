@@ -103,7 +103,7 @@ TEST(GltfPrimitives, shareVerticesAndKeepTheirMaterials)
     EXPECT_EQ(mesh.vertexCount(), 4u);
     EXPECT_EQ(mesh.source_vertex_count, 4u);
     EXPECT_EQ(mesh.face_count, 2u);
-    EXPECT_EQ(mesh.triangle_materials, (std::vector<uint32_t>{1, formats::kNone}));
+    EXPECT_EQ(mesh.triangle_materials, (std::vector<uint32_t>{1, kInvalidIndex}));
 }
 
 TEST(GltfPrimitives, fillAttributesThatOnlySomeHave)

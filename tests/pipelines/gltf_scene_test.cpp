@@ -54,8 +54,8 @@ TEST(GltfScene, multipliesTransformsDownTheTree)
     EXPECT_EQ(instances[0].node, 0u);
     const auto nodes = result.records<NodeRecord>(kChunkNodes);
     EXPECT_EQ(nodes[0].parent, 1u);
-    EXPECT_EQ(nodes[1].parent, kNone);
-    EXPECT_EQ(nodes[1].mesh, kNone);
+    EXPECT_EQ(nodes[1].parent, kInvalidIndex);
+    EXPECT_EQ(nodes[1].mesh, kInvalidIndex);
 }
 
 TEST(GltfScene, readsMatricesByColumns)
@@ -237,7 +237,7 @@ TEST(GltfScene, takesShadowSpheresFromExtras)
     const auto spheres = all.records<ShadowSphereRecord>(kChunkShadowSpheres);
     ASSERT_EQ(spheres.size(), 1u);
     EXPECT_EQ(spheres[0].node, 5u);
-    EXPECT_EQ(spheres[0].light, kNone);
+    EXPECT_EQ(spheres[0].light, kInvalidIndex);
     EXPECT_EQ(spheres[0].center, (Float3{2, 2, 3}));
     EXPECT_NEAR(spheres[0].radius, 6, 1e-5f);
     EXPECT_EQ(spheres[0].texels, 0u);
@@ -382,7 +382,7 @@ TEST(GltfSkins, giveACopyToEachFurtherSkin)
     const auto nodes = result.records<NodeRecord>(kChunkNodes);
     const auto instances = instancesOf(result);
     constexpr std::array<uint32_t, 5> kMeshes{0, 2, 3, 1, 2};
-    constexpr std::array<uint32_t, 5> kSkins{0, 1, kNone, 1, 1};
+    constexpr std::array<uint32_t, 5> kSkins{0, 1, kInvalidIndex, 1, 1};
     for (size_t node = 0; node < kMeshes.size(); ++node)
     {
         EXPECT_EQ(nodes[node].mesh, kMeshes[node]) << node;
@@ -403,7 +403,7 @@ TEST(GltfSkins, leaveTheMeshAtItsNodeWhereTheyCannotMoveIt)
     ASSERT_TRUE(flat.ok()) << flat.message();
     EXPECT_TRUE(flat.warnsOf(Issue::degraded, "does not move its mesh"));
     EXPECT_EQ(instancesOf(flat)[0].world_from_object.m[0][3], 100.0f);
-    EXPECT_EQ(flat.records<NodeRecord>(kChunkNodes)[0].skin, kNone);
+    EXPECT_EQ(flat.records<NodeRecord>(kChunkNodes)[0].skin, kInvalidIndex);
     EXPECT_TRUE(flat.mesh().joint_sets.empty());
     // a place that floats do not have
     const Imported far =

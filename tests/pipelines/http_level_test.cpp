@@ -3,7 +3,7 @@
 #include "cook/tools/sha256.h"
 #include "pipelines/cache/cache.h"
 #include "pipelines/cache/directory_store.h"
-#include "pipelines/cache/http_level.h"
+#include "pipelines/cache/http_store.h"
 #include "tests/support/sandbox.h"
 #include "tests/support/web_server.h"
 
@@ -21,19 +21,19 @@ namespace
 
 namespace fs = std::filesystem;
 using test::Sandbox;
-using tools::sha256Of;
+using tools::computeSha256;
 
-const std::string kKey = sha256Of("key");
+const std::string kKey = computeSha256("key");
 const Fields kEntry{{"made", "abc"}, {"warning", "one\ttwo\nthree\\"}};
-constexpr Pace kShort{0.3, 0.25, 256 * 1024, 0.3};
+constexpr StallLimits kShort{0.3, 0.25, 256 * 1024, 0.3};
 
 class HttpTest : public ::testing::Test
 {
 protected:
-    Cache open(const std::string& url, const Pace& pace = {}, bool writable = true)
+    Cache open(const std::string& url, const StallLimits& pace = {}, bool writable = true)
     {
-        std::vector<std::unique_ptr<Level>> levels;
-        levels.push_back(std::make_unique<HttpLevel>(url, writable, pace));
+        std::vector<std::unique_ptr<CacheLevel>> levels;
+        levels.push_back(std::make_unique<HttpStore>(url, writable, pace));
         return Cache(std::move(levels),
                      [this](const Error& error) { warnings.push_back(formatMessage(error)); });
     }
@@ -41,15 +41,15 @@ protected:
     std::string put(Cache& cache, const std::string& content)
     {
         folder.write("content", content);
-        cache.put(sha256Of(content), folder / "content", Use::given_away);
-        return sha256Of(content);
+        cache.put(computeSha256(content), folder / "content", FileAccess::read_write);
+        return computeSha256(content);
     }
 
     /// What the cache has under the hash; "nothing" where it has nothing.
     std::string get(Cache& cache, const std::string& hash)
     {
         fs::remove(folder / "fetched");
-        if (cache.fetch(hash, folder / "fetched", Use::read_only))
+        if (cache.fetch(hash, folder / "fetched", FileAccess::read_only))
             return folder.read("fetched");
         EXPECT_FALSE(folder.has("fetched"));
         return "nothing";
@@ -91,30 +91,30 @@ protected:
 
 } // namespace
 
-TEST(Patience, endsWhereAServerLiesBehindForLong)
+TEST(StallTimer, endsWhereAServerLiesBehindForLong)
 {
-    const Pace pace{5, 0.25, 1000, 3};
-    Patience stalled(pace);
-    EXPECT_TRUE(stalled.spend(4.9, 0, 0));
-    EXPECT_FALSE(stalled.spend(0.2, 0, 0));
-    Patience fast(pace);
-    EXPECT_TRUE(fast.spend(1, 10000, 0));
-    EXPECT_FALSE(fast.spend(5.1, 0, 0)) << "what it did before is no excuse";
-    Patience steady(pace);
+    const StallLimits pace{5, 0.25, 1000, 3};
+    StallTimer stalled(pace);
+    EXPECT_TRUE(stalled.addWait(4.9, 0, 0));
+    EXPECT_FALSE(stalled.addWait(0.2, 0, 0));
+    StallTimer fast(pace);
+    EXPECT_TRUE(fast.addWait(1, 10000, 0));
+    EXPECT_FALSE(fast.addWait(5.1, 0, 0)) << "what it did before is no excuse";
+    StallTimer steady(pace);
     for (int i = 0; i < 1000; ++i)
-        EXPECT_TRUE(steady.spend(1, 0, 1001));
-    Patience dripping(pace);
+        EXPECT_TRUE(steady.addWait(1, 0, 1001));
+    StallTimer dripping(pace);
     int seconds = 0;
-    while (dripping.spend(1, 0, 500))
+    while (dripping.addWait(1, 0, 500))
         ++seconds;
     EXPECT_EQ(seconds, 10);
 }
 
 TEST(WithoutUser, leavesOutWhatIsNobodysBusiness)
 {
-    EXPECT_EQ(withoutUser("http://cache:8080/a@b"), "http://cache:8080/a@b");
-    EXPECT_EQ(withoutUser("https://me:secret@cache/a"), "https://cache/a");
-    EXPECT_EQ(withoutUser("https://me@cache"), "https://cache");
+    EXPECT_EQ(withoutCredentials("http://cache:8080/a@b"), "http://cache:8080/a@b");
+    EXPECT_EQ(withoutCredentials("https://me:secret@cache/a"), "https://cache/a");
+    EXPECT_EQ(withoutCredentials("https://me@cache"), "https://cache");
 }
 
 TEST_F(NginxTest, handsOutWhatWasPutIn)
@@ -129,31 +129,32 @@ TEST_F(NginxTest, handsOutWhatWasPutIn)
         const std::string hash = put(cache, content);
         EXPECT_EQ(get(cache, hash), content) << size;
     }
-    EXPECT_EQ(get(cache, sha256Of("other")), "nothing");
+    EXPECT_EQ(get(cache, computeSha256("other")), "nothing");
     EXPECT_EQ(warnings, std::vector<std::string>{});
     EXPECT_TRUE(fs::exists(server->store() + "/ac/" + kKey));
     Cache other = open(server->url(), {}, false);
     EXPECT_EQ(other.entry(kKey), kEntry);
-    other.putEntry(sha256Of("other"), kEntry);
-    EXPECT_FALSE(fs::exists(server->store() + "/ac/" + sha256Of("other"))) << "it is read only";
+    other.putEntry(computeSha256("other"), kEntry);
+    EXPECT_FALSE(fs::exists(server->store() + "/ac/" + computeSha256("other"))) << "it is read only";
 }
 
 TEST_F(NginxTest, answersManyQuestionsAtOnceAndKeepsTheirOrder)
 {
     constexpr size_t kCount = 300;
-    HttpLevel level(server->url(), true);
-    std::vector<WantedEntry> entries;
-    std::vector<WantedContent> contents;
+    HttpStore level(server->url(), true);
+    std::vector<EntryRequest> entries;
+    std::vector<ContentRequest> contents;
     for (size_t i = 0; i < kCount; ++i)
     {
         const std::string text = "text " + std::to_string(i);
-        entries.push_back({sha256Of(text), std::nullopt});
-        contents.push_back({sha256Of(text), folder / ("fetched" + std::to_string(i)), Use::read_only});
+        entries.push_back({computeSha256(text), std::nullopt});
+        contents.push_back(
+            {computeSha256(text), folder / ("fetched" + std::to_string(i)), FileAccess::read_only});
         if (i % 3 == 0)
             continue;
         ASSERT_TRUE(level.putEntry(entries[i].key, text).ok());
         folder.write("content", text);
-        ASSERT_TRUE(level.put(contents[i].hash, folder / "content", Use::given_away).ok());
+        ASSERT_TRUE(level.put(contents[i].hash, folder / "content", FileAccess::read_write).ok());
     }
     ASSERT_TRUE(level.entries(entries).ok());
     ASSERT_TRUE(level.fetch(contents).ok());
@@ -161,7 +162,7 @@ TEST_F(NginxTest, answersManyQuestionsAtOnceAndKeepsTheirOrder)
     {
         const std::string text = "text " + std::to_string(i);
         EXPECT_EQ(entries[i].text, i % 3 == 0 ? std::nullopt : std::optional(text));
-        EXPECT_EQ(contents[i].is_there, i % 3 != 0);
+        EXPECT_EQ(contents[i].is_found, i % 3 != 0);
         EXPECT_EQ(folder.has("fetched" + std::to_string(i)), i % 3 != 0);
         EXPECT_TRUE(i % 3 == 0 || folder.read("fetched" + std::to_string(i)) == text);
     }
@@ -174,17 +175,17 @@ TEST_F(NginxTest, nearLevelsTakeWhatTheServerHas)
         far.putEntry(kKey, kEntry);
         put(far, "some bytes");
     }
-    std::vector<std::unique_ptr<Level>> levels;
-    levels.push_back(std::make_unique<FolderLevel>(folder / "near", true));
-    levels.push_back(std::make_unique<HttpLevel>(server->url(), true));
+    std::vector<std::unique_ptr<CacheLevel>> levels;
+    levels.push_back(std::make_unique<DirectoryStore>(folder / "near", true));
+    levels.push_back(std::make_unique<HttpStore>(server->url(), true));
     Cache both(std::move(levels), [](const Error& error) { FAIL() << formatMessage(error); });
     EXPECT_EQ(both.entry(kKey), kEntry);
-    EXPECT_EQ(get(both, sha256Of("some bytes")), "some bytes");
+    EXPECT_EQ(get(both, computeSha256("some bytes")), "some bytes");
     put(both, "new bytes");
     server->stop();
     EXPECT_EQ(both.entry(kKey), kEntry);
-    EXPECT_EQ(get(both, sha256Of("some bytes")), "some bytes");
-    EXPECT_TRUE(fs::exists(server->store() + "/cas/" + sha256Of("new bytes")));
+    EXPECT_EQ(get(both, computeSha256("some bytes")), "some bytes");
+    EXPECT_TRUE(fs::exists(server->store() + "/cas/" + computeSha256("new bytes")));
 }
 
 TEST_F(NginxTest, damageIsToldAndMendedByTheNextWriter)
@@ -216,9 +217,9 @@ TEST_F(NginxTest, takesNoMoreThanItAskedFor)
     Cache cache = open(server->url());
     const std::string hash = put(cache, "some bytes");
     std::ofstream(server->store() + "/cas/" + hash, std::ios::binary) << std::string(1 << 20, 'x');
-    WantedContent wanted{hash, folder / "fetched", Use::read_only, 10};
+    ContentRequest wanted{hash, folder / "fetched", FileAccess::read_only, 10};
     cache.fetch({&wanted, 1});
-    EXPECT_FALSE(wanted.is_there);
+    EXPECT_FALSE(wanted.is_found);
     EXPECT_FALSE(folder.has("fetched"));
     expectWarning("is damaged");
 }
@@ -236,11 +237,11 @@ TEST_F(NginxTest, aServerThatTakesNothingIsStillRead)
         Cache refused = open(server->url());
         put(refused, std::string(5 << 20, 'x'));
         put(refused, std::string(2000, 'y'));
-        refused.putEntry(sha256Of("other"), kEntry);
+        refused.putEntry(computeSha256("other"), kEntry);
         expectWarning("nothing more is put there");
         EXPECT_FALSE(refused.isWritable());
         EXPECT_EQ(refused.entry(kKey), kEntry);
-        EXPECT_FALSE(fs::exists(server->store() + "/ac/" + sha256Of("other")));
+        EXPECT_FALSE(fs::exists(server->store() + "/ac/" + computeSha256("other")));
     }
 }
 
@@ -265,7 +266,7 @@ TEST_F(NginxTest, aServerThatDripsIsGivenUp)
     server->start("limit_rate 1000;");
     Cache cache = open(server->url(), kShort);
     const auto start = std::chrono::steady_clock::now();
-    EXPECT_EQ(get(cache, sha256Of(std::string(100000, 'x'))), "nothing");
+    EXPECT_EQ(get(cache, computeSha256(std::string(100000, 'x'))), "nothing");
     EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
     expectWarning("is too slow to be of use");
 }
@@ -276,7 +277,7 @@ TEST_F(HttpTest, aServerThatIsNotThereIsToldOfOnce)
     EXPECT_EQ(cache.entry(kKey), std::nullopt);
     cache.putEntry(kKey, kEntry);
     put(cache, "some bytes");
-    EXPECT_EQ(get(cache, sha256Of("some bytes")), "nothing");
+    EXPECT_EQ(get(cache, computeSha256("some bytes")), "nothing");
     expectWarning("http://127.0.0.1:");
     EXPECT_EQ(warnings[0].find("secret"), std::string::npos) << warnings[0];
 }
@@ -298,7 +299,7 @@ TEST_F(HttpTest, aServerThatIsSilentIsGivenUp)
 TEST_F(HttpTest, brokenAnswersAreErrorsAndLeaveNoFile)
 {
     const std::string whole = entryAnswer("some bytes");
-    const std::string hash = sha256Of("some bytes");
+    const std::string hash = computeSha256("some bytes");
     {
         const test::FixedServer server(whole);
         Cache cache = open(server.url());

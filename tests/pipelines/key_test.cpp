@@ -5,7 +5,7 @@
 #include "pipelines/graph/action_cache.h"
 #include "pipelines/graph/cook_graph.h"
 #include "pipelines/graph/cooker_version.h"
-#include "pipelines/graph/elf_libraries.h"
+#include "pipelines/graph/shared_libraries.h"
 #include "tests/support/sandbox.h"
 
 #include <algorithm>
@@ -73,13 +73,13 @@ protected:
             std::vector<std::string> part_hashes;
             for (const Input& input : action.inputs)
                 part_hashes.push_back(input.action == kNoAction ? "" : parts[input.action]);
-            std::optional<Record> record = actions.recordOf(action, part_hashes);
+            std::optional<Record> record = actions.makeRecord(action, part_hashes);
             if (record && action.finds_files)
             {
-                tools::ReadList reads;
+                tools::DependencyList reads;
                 reads.addFile(sandbox / "wood.png");
                 reads.addFile(sandbox / "stone.png");
-                record = actions.recordAfter(action, *record, reads);
+                record = actions.recordFromReads(action, *record, reads);
             }
             parts.push_back(record ? resultKey(*record) : "none");
             keys[action.cooker] = parts.back();
@@ -259,9 +259,10 @@ TEST_F(Keys, hideNoPaths)
     ActionCache actions(cache, hashes, folder.path());
     const Graph graph = makeCookGraph(settingsIn(folder)).value();
     for (const Action& action : graph.actions)
-        EXPECT_EQ(cache::textOf(*actions.recordOf(action, std::vector<std::string>(action.inputs.size())))
-                      .find(folder.path()),
-                  std::string::npos)
+        EXPECT_EQ(
+            cache::formatFields(*actions.makeRecord(action, std::vector<std::string>(action.inputs.size())))
+                .find(folder.path()),
+            std::string::npos)
             << action.cooker;
 }
 
@@ -284,7 +285,7 @@ TEST_F(Keys, differentWordsAreDifferentRecords)
     const auto keyOf = [&](std::vector<Word> words)
     {
         action.words = std::move(words);
-        return resultKey(recordOf(action, "v", {}));
+        return resultKey(makeRecord(action, "v", {}));
     };
     const std::set<std::string> keys{keyOf({{Word::Kind::text, "a b", 0}}),
                                      keyOf({{Word::Kind::text, "a", 0}, {Word::Kind::text, "b", 0}}),
@@ -302,8 +303,8 @@ TEST_F(Keys, aResultIsFoundByTheStateOfWhatItRead)
     const std::vector<std::string> parts(import.inputs.size());
     const auto cacheHere = [&]
     {
-        std::vector<std::unique_ptr<cache::Level>> levels;
-        levels.push_back(std::make_unique<cache::FolderLevel>(folder / "cache", true));
+        std::vector<std::unique_ptr<cache::CacheLevel>> levels;
+        levels.push_back(std::make_unique<cache::DirectoryStore>(folder / "cache", true));
         return cache::Cache(std::move(levels), [](const Error&) { FAIL(); });
     };
     const auto found = [&]() -> std::string
@@ -311,7 +312,7 @@ TEST_F(Keys, aResultIsFoundByTheStateOfWhatItRead)
         cache::Cache cache = cacheHere();
         FileHashes hashes("/");
         ActionCache actions(cache, hashes, folder.path());
-        const auto result = actions.find(import, *actions.recordOf(import, parts)).result;
+        const auto result = actions.find(import, *actions.makeRecord(import, parts)).result;
         return result ? result->outputs.at(0).hash + " " + result->warnings.at(0) : "nothing";
     };
     const auto keep = [&](const std::string& hash)
@@ -319,13 +320,13 @@ TEST_F(Keys, aResultIsFoundByTheStateOfWhatItRead)
         cache::Cache cache = cacheHere();
         FileHashes hashes("/");
         ActionCache actions(cache, hashes, folder.path());
-        tools::ReadList reads;
+        tools::DependencyList reads;
         reads.addFile(folder / "a.obj");
         reads.addFile(folder / "wood.png");
         reads.addFile(folder / "stone.png");
-        const auto record = actions.recordAfter(import, *actions.recordOf(import, parts), reads);
-        actions.keep(import, *record,
-                     {{{hash, 3}, {"statistics", 3}}, {import.subject + "|x: warning: y [W1]"}, 1, 1, 1});
+        const auto record = actions.recordFromReads(import, *actions.makeRecord(import, parts), reads);
+        actions.store(import, *record,
+                      {{{hash, 3}, {"statistics", 3}}, {import.subject + "|x: warning: y [W1]"}, 1, 1, 1});
     };
     EXPECT_EQ(found(), "nothing");
     keep("first");
@@ -347,14 +348,14 @@ TEST_F(Keys, whatChangedWhileItWasReadIsNotKept)
     cache::Cache cache({}, [](const Error&) {});
     FileHashes hashes("/");
     ActionCache actions(cache, hashes, folder.path());
-    const Record record = *actions.recordOf(graph.actions[0], std::vector<std::string>(3));
+    const Record record = *actions.makeRecord(graph.actions[0], std::vector<std::string>(3));
     folder.write("a.obj", "edited while hearth-import reads it");
-    tools::ReadList reads;
+    tools::DependencyList reads;
     reads.addFile(folder / "a.obj");
-    EXPECT_EQ(actions.recordAfter(graph.actions[0], record, reads), std::nullopt);
-    tools::ReadList outside;
+    EXPECT_EQ(actions.recordFromReads(graph.actions[0], record, reads), std::nullopt);
+    tools::DependencyList outside;
     outside.addAbsent("/nowhere/b.png");
-    EXPECT_EQ(actions.recordAfter(graph.actions[0], record, outside), std::nullopt);
+    EXPECT_EQ(actions.recordFromReads(graph.actions[0], record, outside), std::nullopt);
 }
 
 TEST_F(Keys, hashesAreRememberedAsLongAsFilesLookUntouched)
@@ -364,9 +365,9 @@ TEST_F(Keys, hashesAreRememberedAsLongAsFilesLookUntouched)
     {
         FileHashes hashes("/");
         hashes.load(folder / "hashes");
-        const auto hash = hashes.hashOf(path);
-        EXPECT_EQ(hash, tools::sha256OfFile(path));
-        EXPECT_EQ(hashes.hashOf(path), hash);
+        const auto hash = hashes.hashFile(path);
+        EXPECT_EQ(hash, tools::computeFileSha256(path));
+        EXPECT_EQ(hashes.hashFile(path), hash);
         EXPECT_EQ(hashes.filesRead(), expected_reads);
         hashes.save(folder / "hashes");
     };
@@ -386,7 +387,7 @@ TEST_F(Keys, hashesAreRememberedAsLongAsFilesLookUntouched)
 
 TEST(ElfLibraries, areThoseOfThisProgram)
 {
-    const std::vector<std::string> libraries = librariesOf("/proc/self/exe");
+    const std::vector<std::string> libraries = findLibraries("/proc/self/exe");
     const auto has = [&](const std::string& name)
     {
         return std::any_of(libraries.begin(), libraries.end(),
@@ -396,8 +397,8 @@ TEST(ElfLibraries, areThoseOfThisProgram)
     EXPECT_TRUE(has("libc.so.6"));
     EXPECT_TRUE(has("libstdc++.so.6"));
     EXPECT_TRUE(has("libcrypto.so")) << "linked for SHA-256";
-    EXPECT_TRUE(librariesOf("/etc/passwd").empty());
-    EXPECT_TRUE(librariesOf("/nowhere").empty());
+    EXPECT_TRUE(findLibraries("/etc/passwd").empty());
+    EXPECT_TRUE(findLibraries("/nowhere").empty());
 }
 
 } // namespace hearth::graph

@@ -135,7 +135,7 @@ TEST(PartBuilder, countsWhatNobodyWouldRead)
     for (int i = 0; i < 1000; ++i)
         part->warn(Issue::repaired, std::string(10000, 'a'), std::string(10000, 'b'));
     EXPECT_EQ(part->warnings().size(), 100u);
-    EXPECT_EQ(part->warningsLeftOut(), 900u);
+    EXPECT_EQ(part->omittedWarningCount(), 900u);
     EXPECT_LT(formatMessage(part->warnings()[0]).size(), 1000u);
 }
 

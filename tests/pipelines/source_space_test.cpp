@@ -73,24 +73,24 @@ Double3 skinned(const mesh::SourceMesh& mesh, size_t vertex, std::span<const Aff
 /// Every vertex of every instance in the world: skinned ones in a pose of the first clip, others at rest.
 Points worldPoints(const Part& part, double time)
 {
-    const MotionTables tables = motionTables(part.view);
+    const AnimationTables tables = animationTables(part.view);
     ScenePose pose = restPose(tables);
     if (!tables.animations.empty())
         sampleAnimation(tables, tables.animations[0], time, pose);
     std::vector<Affine3d> world_from_node(tables.nodes.size());
-    poseNodes(tables, pose, parentsFirst(tables.nodes), world_from_node);
+    poseNodes(tables, pose, nodesParentsFirst(tables.nodes), world_from_node);
     Points points;
     for (const InstanceRecord& instance : part.view.instances())
     {
         const mesh::SourceMesh& mesh = part.meshes[instance.mesh];
         const uint32_t skin = tables.nodes[instance.node].skin;
-        std::vector<Affine3d> palette(skin == kNone ? 0 : tables.skins[skin].joints.count);
-        if (skin != kNone)
+        std::vector<Affine3d> palette(skin == kInvalidIndex ? 0 : tables.skins[skin].joints.count);
+        if (skin != kInvalidIndex)
             skinPalette(tables, tables.skins[skin], world_from_node, palette);
         for (size_t v = 0; v < mesh.positions.size(); ++v)
-            points.push_back(
-                skin == kNone ? transformPoint(widened(instance.world_from_object), widen(mesh.positions[v]))
-                              : skinned(mesh, v, palette));
+            points.push_back(skin == kInvalidIndex ? transformPoint(widened(instance.world_from_object),
+                                                                    widen(mesh.positions[v]))
+                                                   : skinned(mesh, v, palette));
     }
     return points;
 }
@@ -341,22 +341,22 @@ TEST_F(SourceSpace, ofRootsOutsideOfTheSceneIsTheSame)
     auto part = import::PartBuilder::create(sandbox_ / "b.part", "b.gltf");
     ASSERT_TRUE(part.ok());
     NodeRecord node{};
-    node.parent = node.mesh = node.skin = kNone;
+    node.parent = node.mesh = node.skin = kInvalidIndex;
     node.rotation = {0, 0, 0, 1};
     node.parent_from_node = Affine3{};
     part->nodes = {node, node, node};
     part->nodes[2].parent = 1;
-    ASSERT_TRUE(import::bringIntoMetres({0.5, import::UpAxis::y}, *part).ok());
+    ASSERT_TRUE(import::convertToMetres({0.5, import::UpAxis::y}, *part).ok());
     ASSERT_EQ(part->nodes.size(), 4u);
     EXPECT_EQ(part->nodes[0].parent, 3u);
     EXPECT_EQ(part->nodes[1].parent, 3u);
     EXPECT_EQ(part->nodes[2].parent, 1u);
-    EXPECT_EQ(part->nodes[3].parent, kNone);
+    EXPECT_EQ(part->nodes[3].parent, kInvalidIndex);
     LightRecord light{};
     light.world_from_light = Affine3{};
     light.range = 1e35f;
     part->lights = {light};
-    const Status status = import::bringIntoMetres({1e9, import::UpAxis::y}, *part);
+    const Status status = import::convertToMetres({1e9, import::UpAxis::y}, *part);
     ASSERT_FALSE(status.ok());
     EXPECT_EQ(status.error().issue, Issue::input_too_large);
 }

@@ -4,7 +4,7 @@
 #include "pipelines/import/image_card.h"
 #include "pipelines/import/part/import_options.h"
 #include "pipelines/import/part/part_builder.h"
-#include "pipelines/import/scans/import.h"
+#include "pipelines/import/scans/import_scan.h"
 #include "tests/pipelines_scans/frozen_images.h"
 #include "tests/support/temporary_folder.h"
 
@@ -180,7 +180,8 @@ TEST(ImportScan, missingFilesAreWarningsAndPlaceholders)
     EXPECT_TRUE(scan.warned(Issue::degraded, "1 materials"));
     ASSERT_EQ(scan.images.size(), 2u);
     EXPECT_EQ(scan.images[0].flags, kImagePlaceholder);
-    EXPECT_EQ(scan.materials[0].normal_texture.image, kNone); // a placeholder would only disturb the surface
+    EXPECT_EQ(scan.materials[0].normal_texture.image,
+              kInvalidIndex); // a placeholder would only disturb the surface
 }
 
 TEST(ImportScan, missingFilesAreNamedWithTheirMaterialAndTheNearestFile)
@@ -250,7 +251,7 @@ TEST(ImportScan, heightMapsAreNamedAndNormalMapsKept)
         import(importScan, folder, "a.obj",
                "mtllib a.mtl\n" + kQuad + "usemtl m\nf 1/1 2/2 3/3\nusemtl n\nf 1/1 2/2 3/3\n");
     EXPECT_TRUE(scan.warned(Issue::dropped, "g.png"));
-    EXPECT_EQ(scan.materials[0].normal_texture.image, kNone);
+    EXPECT_EQ(scan.materials[0].normal_texture.image, kInvalidIndex);
     EXPECT_EQ(scan.materials[1].normal_texture.image, 0u);
     EXPECT_EQ(scan.materials[1].normal_scale, 0.5f);
     EXPECT_EQ(scan.images.at(0).flags, kImageNormalMap);

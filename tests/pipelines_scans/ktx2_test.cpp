@@ -50,7 +50,8 @@ TEST(DecodeKtx2, readsFloatsAsHalves)
     ASSERT_TRUE(image->is_float);
     std::array<uint16_t, 4> half{};
     std::memcpy(half.data(), image->texels.data(), 8);
-    EXPECT_EQ(half, (std::array<uint16_t, 4>{finiteHalf(1.5f), finiteHalf(-2), 0x7BFF, finiteHalf(0.25f)}));
+    EXPECT_EQ(half, (std::array<uint16_t, 4>{halfFromFloat(1.5f), halfFromFloat(-2), 0x7BFF,
+                                             halfFromFloat(0.25f)}));
 }
 
 TEST(DecodeKtx2, unpacksZstandard)

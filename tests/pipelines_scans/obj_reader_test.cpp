@@ -10,15 +10,13 @@ namespace
 {
 
 using namespace test;
-using formats::kNone;
-
 constexpr std::string_view kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
-ScanFile readGood(const std::string& text)
+ScanPolygons readGood(const std::string& text)
 {
     auto file = readText(readObj, text);
     EXPECT_TRUE(file.ok()) << text << "\n" << outcome(file);
-    return file.ok() ? std::move(file).value() : ScanFile{};
+    return file.ok() ? std::move(file).value() : ScanPolygons{};
 }
 
 TEST(ReadObj, refusesWhatIsNoObj)
@@ -68,7 +66,8 @@ TEST(ReadObj, obeysTheLimits)
 
 TEST(ReadObj, readsNumbersAsTheyAreWritten)
 {
-    const ScanFile file = readGood("v 1 +2. -3e2\nv .5 1E-2 0\t\r\nv 1e-60 -0 7 1.0\nv 1 2 3 # comment\n");
+    const ScanPolygons file =
+        readGood("v 1 +2. -3e2\nv .5 1E-2 0\t\r\nv 1e-60 -0 7 1.0\nv 1 2 3 # comment\n");
     ASSERT_EQ(file.positions.size(), 4u);
     EXPECT_EQ(file.positions[0], (Float3{1, 2, -300}));
     EXPECT_EQ(file.positions[1], (Float3{0.5f, 0.01f, 0}));
@@ -78,7 +77,7 @@ TEST(ReadObj, readsNumbersAsTheyAreWritten)
 
 TEST(ReadObj, mendsTheSignBeforeTheExponent)
 {
-    const ScanFile file = readGood("v 3.1+e2 -2.5-e1 0\n");
+    const ScanPolygons file = readGood("v 3.1+e2 -2.5-e1 0\n");
     EXPECT_EQ(file.positions[0], (Float3{310, -0.25f, 0}));
     EXPECT_TRUE(hasNote(file, Issue::repaired, "2 numbers"));
 }
@@ -97,22 +96,25 @@ TEST(ReadObj, linesMayEndInAnyWay)
 
 TEST(ReadObj, aBackslashJoinsLines)
 {
-    const ScanFile file = readGood(std::string(kTriangle) + "f 1 \\\n2 \\\r\n3\nv 1 \\\n 2 3\n");
+    const ScanPolygons file = readGood(std::string(kTriangle) + "f 1 \\\n2 \\\r\n3\nv 1 \\\n 2 3\n");
     EXPECT_EQ(file.face_ends.size(), 1u);
     EXPECT_EQ(file.positions.size(), 4u);
 }
 
 TEST(ReadObj, readsAllFormsOfCorners)
 {
-    const ScanFile file =
+    const ScanPolygons file =
         readGood(std::string(kTriangle) +
                  "vt 0.25 0.25\nvt 1\nvn 0 0 2\n"
                  "f 1 2 3\nf 1/1 2/2 3/1\nf 1//1 2//1 3//1\nf 1/1/1 2/2/1 3/1/1\nf 1// 2// 3//\n");
     EXPECT_EQ(file.face_ends, (std::vector<uint32_t>{3, 6, 9, 12, 15}));
-    EXPECT_EQ(file.corner_uvs, (std::vector<uint32_t>{kNone, kNone, kNone, 0, 1, 0, kNone, kNone, kNone, 0, 1,
-                                                      0, kNone, kNone, kNone}));
-    EXPECT_EQ(file.corner_normals, (std::vector<uint32_t>{kNone, kNone, kNone, kNone, kNone, kNone, 0, 0, 0,
-                                                          0, 0, 0, kNone, kNone, kNone}));
+    EXPECT_EQ(file.corner_uvs, (std::vector<uint32_t>{kInvalidIndex, kInvalidIndex, kInvalidIndex, 0, 1, 0,
+                                                      kInvalidIndex, kInvalidIndex, kInvalidIndex, 0, 1, 0,
+                                                      kInvalidIndex, kInvalidIndex, kInvalidIndex}));
+    EXPECT_EQ(file.corner_normals,
+              (std::vector<uint32_t>{kInvalidIndex, kInvalidIndex, kInvalidIndex, kInvalidIndex,
+                                     kInvalidIndex, kInvalidIndex, 0, 0, 0, 0, 0, 0, kInvalidIndex,
+                                     kInvalidIndex, kInvalidIndex}));
     // v counts from the bottom in the file and from the top here
     EXPECT_EQ(file.uvs[0], (Float2{0.25f, 0.75f}));
     EXPECT_EQ(file.uvs[1], (Float2{1, 1}));
@@ -120,7 +122,7 @@ TEST(ReadObj, readsAllFormsOfCorners)
 
 TEST(ReadObj, negativeIndicesCountBack)
 {
-    const ScanFile file =
+    const ScanPolygons file =
         readGood("v 9 9 9\n" + std::string(kTriangle) + "f -3 -2 -1\nv 5 5 5\nf -1 -2 -3\n");
     EXPECT_EQ(file.corner_positions, (std::vector<uint32_t>{1, 2, 3, 4, 3, 2}));
 }
@@ -132,26 +134,27 @@ TEST(ReadObj, facesMayStandBeforeTheirVertices)
 
 TEST(ReadObj, cornersWithoutTheirNormalOrUvAreRepaired)
 {
-    const ScanFile file = readGood(std::string(kTriangle) + "vt 0 0\nf 1/1/7 2/2/8 3/1/9\n");
+    const ScanPolygons file = readGood(std::string(kTriangle) + "vt 0 0\nf 1/1/7 2/2/8 3/1/9\n");
     EXPECT_TRUE(file.corner_normals.empty());
-    EXPECT_EQ(file.corner_uvs, (std::vector<uint32_t>{0, kNone, 0}));
+    EXPECT_EQ(file.corner_uvs, (std::vector<uint32_t>{0, kInvalidIndex, 0}));
     EXPECT_TRUE(hasNote(file, Issue::repaired, "3 corners name a normal"));
     EXPECT_TRUE(hasNote(file, Issue::repaired, "1 corners name a texture coordinate"));
 }
 
 TEST(ReadObj, groupsBecomeOneMeshAndMaterialsStay)
 {
-    const ScanFile file = readGood("mtllib some file.mtl\n" + std::string(kTriangle) +
-                                   "f 1 2 3\no a\nusemtl  Red Plastic \nf 1 2 3\ng An f Three Other\nusemtl "
-                                   "b\nf 1 3 2\nusemtl Red Plastic\nf 1 2 3\n");
+    const ScanPolygons file =
+        readGood("mtllib some file.mtl\n" + std::string(kTriangle) +
+                 "f 1 2 3\no a\nusemtl  Red Plastic \nf 1 2 3\ng An f Three Other\nusemtl "
+                 "b\nf 1 3 2\nusemtl Red Plastic\nf 1 2 3\n");
     EXPECT_EQ(file.material_names, (std::vector<std::string>{"Red Plastic", "b"}));
-    EXPECT_EQ(file.face_materials, (std::vector<uint32_t>{kNone, 0, 1, 0}));
+    EXPECT_EQ(file.face_materials, (std::vector<uint32_t>{kInvalidIndex, 0, 1, 0}));
     EXPECT_EQ(file.material_libraries, std::vector<std::string>{"some file.mtl"});
 }
 
 TEST(ReadObj, readsColoursBehindTheCoordinates)
 {
-    const ScanFile file = readGood("v 0 0 0\nv 1 0 0 1 0.5 0\nv 0 1 0 nan 0 0\n");
+    const ScanPolygons file = readGood("v 0 0 0\nv 1 0 0 1 0.5 0\nv 0 1 0 nan 0 0\n");
     ASSERT_EQ(file.colors.size(), 3u);
     EXPECT_EQ(file.colors[0], (Float4{1, 1, 1, 1}));
     EXPECT_NEAR(file.colors[1].y, 0.2140411, 1e-5); // sRGB 0.5 as linear light
@@ -161,7 +164,7 @@ TEST(ReadObj, readsColoursBehindTheCoordinates)
 
 TEST(ReadObj, namesWhatIsNotKept)
 {
-    const ScanFile file =
+    const ScanPolygons file =
         readGood(std::string(kTriangle) + "l 1 2\nl 2 3\np 1\ncstype bezier\nf 1 2\nf\nf 1 2 3\n");
     EXPECT_EQ(file.face_ends.size(), 1u);
     EXPECT_TRUE(hasNote(file, Issue::dropped, "2 statements 'l'"));
@@ -172,10 +175,10 @@ TEST(ReadObj, namesWhatIsNotKept)
 
 TEST(ReadObj, smallFacesLeaveNoCorners)
 {
-    const ScanFile file =
+    const ScanPolygons file =
         readGood(std::string(kTriangle) + "vt 0 0\nf 1/1 2/1\nf 1 2 3\nf 1/1\nf 1/1 2/1 3/1\n");
     EXPECT_EQ(file.corner_positions, (std::vector<uint32_t>{0, 1, 2, 0, 1, 2}));
-    EXPECT_EQ(file.corner_uvs, (std::vector<uint32_t>{kNone, kNone, kNone, 0, 0, 0}));
+    EXPECT_EQ(file.corner_uvs, (std::vector<uint32_t>{kInvalidIndex, kInvalidIndex, kInvalidIndex, 0, 0, 0}));
 }
 
 } // namespace

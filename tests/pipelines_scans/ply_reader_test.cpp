@@ -13,11 +13,11 @@ namespace
 
 using namespace test;
 
-ScanFile readGood(const std::string& text)
+ScanPolygons readGood(const std::string& text)
 {
     auto file = readText(readPly, text);
     EXPECT_TRUE(file.ok()) << text.substr(0, 400) << "\n" << outcome(file);
-    return file.ok() ? std::move(file).value() : ScanFile{};
+    return file.ok() ? std::move(file).value() : ScanPolygons{};
 }
 
 std::string header(std::string_view format, std::string_view rest)
@@ -141,7 +141,7 @@ TEST(ReadPly, readsBothByteOrdersAndAllTypes)
 {
     for (const bool big_endian : {false, true})
     {
-        const ScanFile file = readGood(binaryFile(big_endian));
+        const ScanPolygons file = readGood(binaryFile(big_endian));
         ASSERT_EQ(file.positions.size(), 4u);
         EXPECT_EQ(file.positions[3], (Float3{1.5f, -3, 3e9f}));
         EXPECT_EQ(file.normals[3], (Float3{0, 0, 1}));
@@ -195,7 +195,7 @@ TEST(ReadPly, elementsMayStandInAnyOrder)
 
 TEST(ReadPly, skipsElementsAndPropertiesWithoutAMeaning)
 {
-    const ScanFile file = readGood(
+    const ScanPolygons file = readGood(
         header("ascii", "comment c\nobj_info o\nelement edge 2\nproperty list uchar int a\nproperty int "
                         "b\nelement vertex 3\n" +
                             kXyz +
@@ -209,28 +209,28 @@ TEST(ReadPly, skipsElementsAndPropertiesWithoutAMeaning)
 
 TEST(ReadPly, readsUvsOfCornersAndTheNameOfTheTexture)
 {
-    const ScanFile file =
+    const ScanPolygons file =
         readGood(header("ascii", "comment TextureFile   a b.jpg \nelement vertex 3\n" + kXyz +
                                      "element face 2\n" + kFace + "property list uchar float texcoord\n") +
                  "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 0\n3 0 1 2 6 0 0 1 0.25 0 1\n");
     EXPECT_EQ(file.texture_file, "a b.jpg");
-    EXPECT_EQ(file.corner_uvs,
-              (std::vector<uint32_t>{formats::kNone, formats::kNone, formats::kNone, 0, 1, 2}));
+    EXPECT_EQ(file.corner_uvs, (std::vector<uint32_t>{kInvalidIndex, kInvalidIndex, kInvalidIndex, 0, 1, 2}));
     EXPECT_EQ(file.uvs[1], (Float2{1, 0.75f}));
 }
 
 TEST(ReadPly, pointCloudsHaveNoFaces)
 {
-    const ScanFile file = readGood(header("ascii", "element vertex 2\n" + kXyz + "element face 0\n" + kFace) +
-                                   "\n0 0 0\n\n1 1 1\n\n");
+    const ScanPolygons file = readGood(
+        header("ascii", "element vertex 2\n" + kXyz + "element face 0\n" + kFace) + "\n0 0 0\n\n1 1 1\n\n");
     EXPECT_EQ(file.positions.size(), 2u);
     EXPECT_TRUE(file.face_ends.empty());
 }
 
 TEST(ReadPly, facesWithFewerThanThreeCornersAreNotKept)
 {
-    const ScanFile file = readGood(header("ascii", "element vertex 3\n" + kXyz + "element face 3\n" + kFace) +
-                                   "0 0 0\n1 0 0\n0 1 0\n2 0 1\n0\n3 0 1 2\n");
+    const ScanPolygons file =
+        readGood(header("ascii", "element vertex 3\n" + kXyz + "element face 3\n" + kFace) +
+                 "0 0 0\n1 0 0\n0 1 0\n2 0 1\n0\n3 0 1 2\n");
     EXPECT_EQ(file.face_ends, std::vector<uint32_t>{3});
     EXPECT_TRUE(hasNote(file, Issue::dropped, "2 faces"));
 }

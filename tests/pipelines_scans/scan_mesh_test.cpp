@@ -17,8 +17,6 @@ namespace
 {
 
 using namespace test;
-using formats::kNone;
-
 std::vector<uint32_t> triangulated(const std::vector<Float3>& corners)
 {
     std::vector<uint32_t> triangles;
@@ -175,7 +173,7 @@ mesh::SourceMesh meshOfObj(const std::string& text)
 {
     auto file = readText(readObj, text);
     EXPECT_TRUE(file.ok());
-    file->face_materials.resize(file->face_ends.size(), kNone);
+    file->face_materials.resize(file->face_ends.size(), kInvalidIndex);
     return meshFromScan(std::move(file).value());
 }
 

@@ -2,16 +2,17 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "pipelines/import/scans/file.h"
+#include "pipelines/import/scans/scan_polygons.h"
 
 #include <string>
 
 namespace hearth::import::test
 {
 
-using ScanReader = Result<ScanFile> (*)(const ScanSource&);
+using ScanReader = Result<ScanPolygons> (*)(const ScanSource&);
 
-inline Result<ScanFile> readText(ScanReader reader, std::string_view text, const ImportLimits& limits = {})
+inline Result<ScanPolygons> readText(ScanReader reader, std::string_view text,
+                                     const ImportLimits& limits = {})
 {
     const std::string path = "scan";
     return reader({std::as_bytes(std::span(text)), path, limits});
@@ -27,7 +28,7 @@ struct RefusedFile
 };
 
 /// "error 1200 at line 3", or "read".
-inline std::string outcome(const Result<ScanFile>& result)
+inline std::string outcome(const Result<ScanPolygons>& result)
 {
     if (result.ok())
         return "read";
@@ -40,7 +41,7 @@ inline std::string outcome(const RefusedFile& file)
     return "error " + std::to_string(static_cast<unsigned>(file.issue)) + " at " + file.where;
 }
 
-inline bool hasNote(const ScanFile& file, Issue issue, std::string_view part)
+inline bool hasNote(const ScanPolygons& file, Issue issue, std::string_view part)
 {
     for (const ScanNote& note : file.notes)
         if (note.issue == issue && note.detail.find(part) != std::string::npos)

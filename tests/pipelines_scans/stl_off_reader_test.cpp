@@ -14,11 +14,11 @@ namespace
 
 using namespace test;
 
-ScanFile readGood(ScanReader reader, const std::string& text)
+ScanPolygons readGood(ScanReader reader, const std::string& text)
 {
     auto file = readText(reader, text);
     EXPECT_TRUE(file.ok()) << outcome(file);
-    return file.ok() ? std::move(file).value() : ScanFile{};
+    return file.ok() ? std::move(file).value() : ScanPolygons{};
 }
 
 const std::string kFacet =
@@ -70,10 +70,11 @@ TEST(ReadStl, refusesWhatIsNoStl)
 
 TEST(ReadStl, weldsCornersAndCountsThemAsTheFile)
 {
-    const ScanFile file = readGood(readStl, "SOLID\n" + kFacet +
-                                                "facet normal nan nan nan\nouter loop\nvertex 1 0 -0\nvertex "
-                                                "0 1 0\nvertex 1 1 0\nendloop\nendfacet\nendsolid\n" +
-                                                kSolid);
+    const ScanPolygons file =
+        readGood(readStl, "SOLID\n" + kFacet +
+                              "facet normal nan nan nan\nouter loop\nvertex 1 0 -0\nvertex "
+                              "0 1 0\nvertex 1 1 0\nendloop\nendfacet\nendsolid\n" +
+                              kSolid);
     EXPECT_EQ(file.face_ends.size(), 3u);
     EXPECT_EQ(file.vertex_count, 9u);
     EXPECT_EQ(file.positions.size(), 4u);
@@ -88,7 +89,7 @@ TEST(ReadStl, knowsABinaryFileByItsSize)
 
 TEST(ReadStl, bytesBehindTheTrianglesAreNamed)
 {
-    const ScanFile file = readGood(readStl, binaryStl(2, 2) + "xyz");
+    const ScanPolygons file = readGood(readStl, binaryStl(2, 2) + "xyz");
     EXPECT_EQ(file.face_ends.size(), 2u);
     EXPECT_TRUE(hasNote(file, Issue::dropped, "3 bytes"));
 }
@@ -123,8 +124,9 @@ TEST(ReadOff, refusesWhatIsNoOff)
 
 TEST(ReadOff, readsFacesOfAnySizeAndComments)
 {
-    const ScanFile file = readGood(readOff, "# made\nOFF # here\n\n4 2 0 # counts\n0 0 0\n1 0 0 # "
-                                            "corner\n\n1 1 0\n0 1 0\n# faces\n4 0 1 2 3\n3 0 1 2 255 0 0\n");
+    const ScanPolygons file =
+        readGood(readOff, "# made\nOFF # here\n\n4 2 0 # counts\n0 0 0\n1 0 0 # "
+                          "corner\n\n1 1 0\n0 1 0\n# faces\n4 0 1 2 3\n3 0 1 2 255 0 0\n");
     EXPECT_EQ(file.positions.size(), 4u);
     EXPECT_EQ(file.face_ends, (std::vector<uint32_t>{4, 7}));
     EXPECT_TRUE(hasNote(file, Issue::dropped, "colours of faces"));
@@ -137,10 +139,10 @@ TEST(ReadOff, theKeywordMayBeMissing)
 
 TEST(ReadOff, readsColoursNormalsAndUvs)
 {
-    const ScanFile colored = readGood(readOff, "COFF\n2 0\n0 0 0 255 0 0 255\n1 1 1 0.0 1.0 0.0 0.5\n");
+    const ScanPolygons colored = readGood(readOff, "COFF\n2 0\n0 0 0 255 0 0 255\n1 1 1 0.0 1.0 0.0 0.5\n");
     EXPECT_EQ(colored.colors[0], (Float4{1, 0, 0, 1}));
     EXPECT_EQ(colored.colors[1], (Float4{0, 1, 0, 0.5f}));
-    const ScanFile all = readGood(readOff, "STCNOFF\n1 0\n1 2 3 0 0 1 1 1 1 0.25 0.25\n");
+    const ScanPolygons all = readGood(readOff, "STCNOFF\n1 0\n1 2 3 0 0 1 1 1 1 0.25 0.25\n");
     EXPECT_EQ(all.normals[0], (Float3{0, 0, 1}));
     EXPECT_EQ(all.colors[0], (Float4{1, 1, 1, 1}));
     EXPECT_EQ(all.uvs[0], (Float2{0.25f, 0.75f}));

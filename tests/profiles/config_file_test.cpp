@@ -81,7 +81,7 @@ max_size = 512
     EXPECT_EQ(right->defaults.at("jobs").text, "4");
     EXPECT_EQ(right->defaults.at("jobs").origin, "hearth.toml:3");
     EXPECT_EQ(right->defaults.at("memory").text, "12884901888");
-    EXPECT_EQ(textsOf(right->defaults.at("cache")), (std::vector<std::string>{"dir:/a", "dir:/b,ro"}));
+    EXPECT_EQ(valueTexts(right->defaults.at("cache")), (std::vector<std::string>{"dir:/a", "dir:/b,ro"}));
     ASSERT_EQ(right->profiles.size(), 1u);
     EXPECT_EQ(right->profiles[0].inherits, "desktop");
     EXPECT_EQ(right->profiles[0].values.at("clusters.levels").text, "[{keep=0.6,error_weight=2}]");
@@ -210,7 +210,7 @@ TEST(ProfileSettings, rangesAreThoseOfTheCookers)
     size_t checked = 0;
     for (const Setting& setting : profileSettings())
     {
-        if (groupOf(setting.key) != "clusters" || setting.kind == Kind::tables)
+        if (settingGroup(setting.key) != "clusters" || setting.kind == Kind::tables)
             continue;
         ++checked;
         if (!setting.choices.empty())
@@ -241,10 +241,10 @@ TEST(ProfileSettings, eachSaysWhatItIs)
 
 TEST(BuiltIn, hasTheThreeProfiles)
 {
-    ASSERT_EQ(builtIn().profiles.size(), 3u);
-    EXPECT_EQ(builtIn().profiles[0].name, "desktop");
-    EXPECT_EQ(builtIn().profiles[1].name, "mobile-high");
-    EXPECT_EQ(builtIn().profiles[2].name, "mobile-low");
+    ASSERT_EQ(builtInProfiles().profiles.size(), 3u);
+    EXPECT_EQ(builtInProfiles().profiles[0].name, "desktop");
+    EXPECT_EQ(builtInProfiles().profiles[1].name, "mobile-high");
+    EXPECT_EQ(builtInProfiles().profiles[2].name, "mobile-low");
 }
 
 } // namespace hearth::profiles

@@ -29,7 +29,7 @@ protected:
 
     void enter(const std::string& name) { fs::current_path(folder / name); }
 
-    Result<Configuration> load(Given given = {})
+    Result<Configuration> load(CommandLineValues given = {})
     {
         return Configuration::load(std::move(given),
                                    [&](const char* name) -> std::optional<std::string>
@@ -41,21 +41,21 @@ protected:
     }
 
     /// "512 from hearth.toml:3", of a source; of a command's setting where `source` is empty.
-    std::string what(const std::string& key, const std::string& source, Given given = {})
+    std::string what(const std::string& key, const std::string& source, CommandLineValues given = {})
     {
         const auto configuration = load(std::move(given));
         if (!configuration.ok())
             return formatMessage(configuration.error());
         const Value* command = configuration->command(key);
-        const Values values = configuration->ofSource(source);
+        const Values values = configuration->valuesOfSource(source);
         const auto found = values.find(key);
         const Value* value = source.empty() ? command : found == values.end() ? nullptr : &found->second;
         return value == nullptr ? "none" : value->text + " from " + value->origin;
     }
 
-    static Given withFlag(const char* key, const char* text)
+    static CommandLineValues withFlag(const char* key, const char* text)
     {
-        Given given;
+        CommandLineValues given;
         (findSetting(commandSettings(), key) != nullptr ? given.command : given.settings)[key] = {text,
                                                                                                   "--flag"};
         return given;
@@ -111,7 +111,7 @@ TEST_F(Configurations, theProjectsFileIsFoundUpwards)
     folder.write("other.toml", "[defaults]\njobs = 5\n");
     environment["HEARTH_CONFIG"] = folder / "other.toml";
     EXPECT_EQ(what("jobs", ""), "5 from " + folder / "other.toml:2");
-    Given given;
+    CommandLineValues given;
     given.config_file = "../../hearth.toml";
     EXPECT_EQ(what("jobs", "", given), "2 from ../../hearth.toml:2");
     given.config_file = "off";
@@ -203,20 +203,20 @@ TEST(ToldOfSource, givesEachCookerItsOwnByValue)
                                           "house.toml");
     ASSERT_TRUE(profile.ok()) << formatMessage(profile.error());
     using Words = std::vector<std::string>;
-    const graph::SourceSettings told = toldOfSource(profile->values).value();
-    EXPECT_EQ(told.import, (Words{"--crease-angle", "30", "--scale", "0.01", "--up", "z", "--set",
-                                  "animation.error=0.25"}));
-    EXPECT_EQ(told.textures, (Words{"--max-size", "64"}));
-    EXPECT_EQ(told.clusters,
+    const graph::SourceSettings arguments = makeCookerArguments(profile->values).value();
+    EXPECT_EQ(arguments.import, (Words{"--crease-angle", "30", "--scale", "0.01", "--up", "z", "--set",
+                                       "animation.error=0.25"}));
+    EXPECT_EQ(arguments.textures, (Words{"--max-size", "64"}));
+    EXPECT_EQ(arguments.clusters,
               (Words{"--set", "clusters.influences=4", "--set", "clusters.levels=[{keep=0.6}]"}));
-    ASSERT_TRUE(told.visibility.has_value());
-    EXPECT_EQ(told.visibility->quality, "draft");
-    EXPECT_EQ(told.visibility->occluders, "asset");
-    EXPECT_EQ(told.visibility->distance, 2);
-    EXPECT_EQ(told.visibility->power, 1);
-    EXPECT_EQ(told.visibility->poses, Words{"Run"});
-    EXPECT_TRUE(told.visibility->refine);
-    const auto bricks = toldOfBricks(profile->values);
+    ASSERT_TRUE(arguments.visibility.has_value());
+    EXPECT_EQ(arguments.visibility->quality, "draft");
+    EXPECT_EQ(arguments.visibility->occluders, "asset");
+    EXPECT_EQ(arguments.visibility->distance, 2);
+    EXPECT_EQ(arguments.visibility->power, 1);
+    EXPECT_EQ(arguments.visibility->poses, Words{"Run"});
+    EXPECT_TRUE(arguments.visibility->refine);
+    const auto bricks = makeBrickOptions(profile->values);
     ASSERT_TRUE(bricks.has_value());
     EXPECT_EQ(bricks->voxel_size, 0.5);
     EXPECT_EQ(bricks->memory_bytes, uint64_t{1} << 20);
@@ -225,12 +225,12 @@ TEST(ToldOfSource, givesEachCookerItsOwnByValue)
 
 TEST(ToldOfSource, saysNothingOfWhatNobodyHasSet)
 {
-    const graph::SourceSettings told = toldOfSource({}).value();
-    EXPECT_TRUE(told.import.empty() && told.textures.empty() && told.clusters.empty());
-    EXPECT_FALSE(told.visibility.has_value());
-    EXPECT_FALSE(toldOfBricks({}).has_value());
+    const graph::SourceSettings arguments = makeCookerArguments({}).value();
+    EXPECT_TRUE(arguments.import.empty() && arguments.textures.empty() && arguments.clusters.empty());
+    EXPECT_FALSE(arguments.visibility.has_value());
+    EXPECT_FALSE(makeBrickOptions({}).has_value());
     const auto power = parseProfileFile("visibility.enabled = true\nvisibility.power = 1\n", "house.toml");
-    EXPECT_EQ(toldOfSource(power->values).error().issue, Issue::profile_value);
+    EXPECT_EQ(makeCookerArguments(power->values).error().issue, Issue::profile_value);
 }
 
 } // namespace hearth::profiles

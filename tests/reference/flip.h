@@ -11,6 +11,6 @@ namespace hearth::reference
 using viewer::flip;
 using viewer::FlipMap;
 using viewer::kFlipPixelsPerDegree;
-using viewer::showFlip;
+using viewer::makeFlipImage;
 
 } // namespace hearth::reference

@@ -13,7 +13,7 @@ SceneTables tablesOf(const PackView& view)
 
 bool isDoubleSided(std::span<const MaterialRecord> materials, uint32_t material)
 {
-    return material != kNone && (materials[material].flags & kMaterialDoubleSided) != 0;
+    return material != kInvalidIndex && (materials[material].flags & kMaterialDoubleSided) != 0;
 }
 
 bool isDeformed(const PackView& view, uint32_t instance)

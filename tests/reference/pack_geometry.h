@@ -24,7 +24,7 @@ struct SceneTriangle
 {
     std::array<Float3, 3> corners;
     uint32_t instance = 0;
-    uint32_t material = 0; ///< or formats::kNone
+    uint32_t material = 0; ///< or kInvalidIndex
     uint32_t id = 0;
 };
 

@@ -9,10 +9,10 @@ using namespace formats;
 namespace
 {
 
-std::vector<Affine3d> worldOf(const MotionTables& tables, const ScenePose& pose)
+std::vector<Affine3d> worldOf(const AnimationTables& tables, const ScenePose& pose)
 {
     std::vector<Affine3d> world_from_node(tables.nodes.size());
-    poseNodes(tables, pose, parentsFirst(tables.nodes), world_from_node);
+    poseNodes(tables, pose, nodesParentsFirst(tables.nodes), world_from_node);
     return world_from_node;
 }
 
@@ -44,7 +44,7 @@ Double3 unitOr0(Double3 v)
 Placement::Placement(const PackGeometry& geometry, const ScenePose* pose) : geometry_(&geometry)
 {
     const PackView& view = geometry.view();
-    const MotionTables tables = motionTables(view);
+    const AnimationTables tables = animationTables(view);
     const ScenePose rest = restPose(tables);
     const std::vector<Affine3d> at_rest = worldOf(tables, rest);
     const std::vector<Affine3d> now = pose != nullptr ? worldOf(tables, *pose) : at_rest;

@@ -48,7 +48,7 @@ Result<std::vector<SceneTriangle>> trianglesOfImportPart(const formats::PackView
                 triangle.corners[corner] = place(on_grid, corner);
             triangle.instance = instance;
             triangle.material =
-                source.triangle_materials.empty() ? formats::kNone : source.triangle_materials[t];
+                source.triangle_materials.empty() ? kInvalidIndex : source.triangle_materials[t];
             triangle.id = static_cast<uint32_t>(triangles.size());
             if (hasEdges(triangle.corners))
                 triangles.push_back(triangle);

@@ -106,7 +106,7 @@ TEST(AssetTable, hasARowForEachAsset)
 TEST(ImportantMeshes, areTheLargestOfEachAssetBeforeAllOthers)
 {
     std::vector<std::pair<uint32_t, std::string>> meshes;
-    for (const MeshOfPack& mesh : importantMeshes(smallReport().dump()))
+    for (const PackMesh& mesh : importantMeshes(smallReport().dump()))
         meshes.emplace_back(mesh.index, mesh.name);
     EXPECT_EQ(meshes,
               (std::vector<std::pair<uint32_t, std::string>>{{1, "large"}, {2, "middle"}, {0, "small"}}));
@@ -143,7 +143,7 @@ TEST(ReportPage, cannotBeLeftByWhatIsInIt)
 {
     Json report = smallReport();
     report["assets"][0]["source"] = "</script><script>alert(1)</script><!--@DATA@";
-    const std::string page = reportPage(pageData(report.dump()), picturesData({}));
+    const std::string page = reportPage(pageData(report.dump()), imagesData({}));
     EXPECT_EQ(test::countOf(page, "<script"), 3u);
     EXPECT_EQ(test::countOf(page, "</script"), 3u);
     // as text
@@ -152,7 +152,7 @@ TEST(ReportPage, cannotBeLeftByWhatIsInIt)
 
 TEST(ReportPage, namesNothingThatIsElsewhere)
 {
-    const std::string page = reportPage(pageData(smallReport().dump()), picturesData({}));
+    const std::string page = reportPage(pageData(smallReport().dump()), imagesData({}));
     EXPECT_EQ(test::countOf(page, "http://"), 1u) << "the namespace of SVG";
     EXPECT_EQ(test::countOf(page, "https://"), 0u);
     EXPECT_EQ(test::countOf(page, "@import"), 0u);

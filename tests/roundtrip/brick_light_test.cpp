@@ -48,7 +48,7 @@ TEST_P(BrickLightError, isNoMoreThanWasMeasured)
 
     const std::vector<LitPoint> points = litPoints(scene, seenPoints(scene, view, kPoints), kPaths);
     ASSERT_EQ(points.size(), kPoints);
-    const BrickGather gather(bricks::brickViewOf(view), sharedLighting(scene.lighting()), kFaceRays);
+    const BrickGather gather(bricks::makeBrickView(view), sharedLighting(scene.lighting()), kFaceRays);
     std::vector<reference::Double3> gathered;
     for (uint32_t i = 0; i < kPoints; ++i)
         gathered.push_back(gather.at(points[i].seen, kGatherRays, i));

@@ -29,7 +29,8 @@ std::vector<uint32_t> finestClusters(const formats::PackView& pack, uint32_t mes
 std::vector<float> thresholdsOf(const formats::PackView& pack, uint32_t mesh, size_t count)
 {
     std::vector<float> errors{0};
-    for (const formats::GroupRecord& group : formats::recordsOf(pack.groups(), pack.meshes()[mesh].groups))
+    for (const formats::GroupRecord& group :
+         formats::recordsInRange(pack.groups(), pack.meshes()[mesh].groups))
         errors.push_back(group.error);
     std::sort(errors.begin(), errors.end());
     errors.erase(std::unique(errors.begin(), errors.end()), errors.end());
@@ -40,11 +41,11 @@ std::vector<float> thresholdsOf(const formats::PackView& pack, uint32_t mesh, si
 }
 
 /// The largest error that a cut shows, object space.
-double errorOf(const formats::PackView& pack, std::span<const uint32_t> cut)
+double clusterError(const formats::PackView& pack, std::span<const uint32_t> cut)
 {
     double error = 0;
     for (const uint32_t cluster : cut)
-        error = std::max(error, double{formats::errorOf(pack.clusters()[cluster], pack.groups())});
+        error = std::max(error, double{formats::clusterError(pack.clusters()[cluster], pack.groups())});
     return error;
 }
 
@@ -54,7 +55,7 @@ void checkCut(const CookedSample& sample, uint32_t mesh, const std::vector<uint3
     const reference::CoverageReport coverage = reference::checkCoverage(sample.pack(), mesh, cut);
     EXPECT_EQ(coverage.missing, 0u);
     EXPECT_EQ(coverage.overlapping, 0u);
-    const double error = errorOf(sample.pack(), cut);
+    const double error = clusterError(sample.pack(), cut);
     const reference::EdgeReport edges =
         reference::checkEdges(trianglesOfClusters(sample.geometry(), cut), source, error * 1.0001);
     EXPECT_EQ(edges.cracks, 0u) << "open edges " << edges.open_edges << ", up to " << edges.worst_distance
@@ -130,7 +131,8 @@ TEST(Cut, keepsTheVolumeOfAClosedMesh)
         const auto cut = pack::selectCut(sample.pack(), 0, threshold);
         const double of_cut = reference::signedVolume6(trianglesOfClusters(sample.geometry(), cut));
         // a surface that stays within the error sweeps at most area times error, on both sides
-        EXPECT_NEAR(of_cut, volume, 3 * area2 * errorOf(sample.pack(), cut) + 1e-6 * volume) << threshold;
+        EXPECT_NEAR(of_cut, volume, 3 * area2 * clusterError(sample.pack(), cut) + 1e-6 * volume)
+            << threshold;
     }
 }
 

@@ -68,13 +68,13 @@ std::vector<std::string> TestDevice::takeMessages()
     return messages;
 }
 
-DrawnFrame GpuScene::draw(const shared::FrameView& frame, uint32_t shown_view) const
+DrawnFrame GpuScene::draw(const shared::FrameView& frame, uint32_t debug_view) const
 {
     const gpu::Renderer& renderer = *device_->renderer_;
     viewer::VulkanHost& host = *device_->host_;
     const VkExtent2D extent{static_cast<uint32_t>(frame.width), static_cast<uint32_t>(frame.height)};
     gpu::FrameTargets targets = must(renderer.createTargets(extent));
-    const gpu::FrameInput input{.view = frame, .shading = {.shown = shown_view, .depth_scale = 2}};
+    const gpu::FrameInput input{.view = frame, .shading = {.debug_view = debug_view, .depth_scale = 2}};
     must(host.run(
         [&](VkCommandBuffer commands)
         {

@@ -26,7 +26,7 @@ struct DrawnFrame
 class GpuScene
 {
 public:
-    DrawnFrame draw(const shared::FrameView& frame, uint32_t shown_view = shared::kViewFinal) const;
+    DrawnFrame draw(const shared::FrameView& frame, uint32_t debug_view = shared::kViewFinal) const;
 
 private:
     friend class TestDevice;

@@ -96,7 +96,7 @@ TEST_F(PictureTest, theFinalViewIsWhatRaysGive)
         const reference::FlipMap map = reference::flip(*expected, drawn);
         keep(drawn, spec.kind + "_gpu");
         keep(*expected, spec.kind + "_rays");
-        keep(reference::showFlip(map), spec.kind + "_flip");
+        keep(reference::makeFlipImage(map), spec.kind + "_flip");
         std::printf("%-10s FLIP %.4f\n", spec.kind.c_str(), map.mean());
         EXPECT_LT(map.mean(), 0.05) << spec.kind;
     }
@@ -105,7 +105,7 @@ TEST_F(PictureTest, theFinalViewIsWhatRaysGive)
 /// The clip of a pack at a time.
 formats::ScenePose poseAt(const formats::PackView& pack, uint32_t clip, double seconds)
 {
-    const formats::MotionTables tables = formats::motionTables(pack);
+    const formats::AnimationTables tables = formats::animationTables(pack);
     formats::ScenePose pose = formats::restPose(tables);
     formats::sampleAnimation(tables, tables.animations[clip], seconds, pose);
     return pose;
@@ -153,7 +153,7 @@ void expectWhatRaysGive(const std::string& file, const formats::PackView& pack, 
     const double moved = reference::flip(*expected, *at_rest).mean();
     keep(*drawn, posed.name + "_gpu");
     keep(*expected, posed.name + "_rays");
-    keep(reference::showFlip(map), posed.name + "_flip");
+    keep(reference::makeFlipImage(map), posed.name + "_flip");
     std::printf("%-10s FLIP %.4f, the scene at rest %.4f\n", posed.name.c_str(), map.mean(), moved);
     EXPECT_LT(map.mean(), 0.03);
     EXPECT_GT(moved, 2 * map.mean()) << "the pose must show";

@@ -178,7 +178,7 @@ TEST_F(PoseTest, levelsMadeByHandSwitchAsAWholeInEveryPose)
     const auto opened = pack::Pack::open(cooked);
     ASSERT_TRUE(opened.ok());
     const formats::PackView& pack = opened->view();
-    const auto levels = formats::recordsOf(pack.levels(), pack.meshes()[0].levels);
+    const auto levels = formats::recordsInRange(pack.levels(), pack.meshes()[0].levels);
     const auto found =
         std::find_if(levels.begin(), levels.end(),
                      [&](const formats::LevelRecord& level) { return level.triangle_count == by_hand; });

@@ -25,7 +25,7 @@ struct BrickModel
     std::vector<uint32_t> emission;
     std::vector<uint32_t> lighting;
 
-    shared::BrickMasks masks() const { return {formats::brickGridOf(grid), groups, bricks}; }
+    shared::BrickMasks masks() const { return {formats::toBrickGrid(grid), groups, bricks}; }
 };
 
 /// The grid whose voxel (x, y, z) is solid where `solid(x, y, z)` says so, opaque, white and dark, with a face wherever the

@@ -46,7 +46,7 @@ std::vector<uint8_t> randomCut(const Hierarchy& hierarchy, double chance, std::m
         for (uint32_t c = 0; c < group.clusters.count; ++c)
         {
             const uint32_t refined = hierarchy.clusters[group.clusters.first + c].refined_group;
-            possible &= refined == formats::kNone || replaced[refined] != 0;
+            possible &= refined == kInvalidIndex || replaced[refined] != 0;
         }
         // a set is decided on at its first group, which comes last
         if (group.set_offset != 0)
@@ -64,7 +64,7 @@ std::vector<uint32_t> trianglesOfCut(const Hierarchy& hierarchy, const DecodedHi
                                      std::span<const uint8_t> replaced)
 {
     std::vector<uint32_t> triangles;
-    for (const uint32_t c : clusters::clustersOfCut(hierarchy, replaced))
+    for (const uint32_t c : clusters::findCutClusters(hierarchy, replaced))
         triangles.insert(triangles.end(), decoded.clusters[c].positions.begin(),
                          decoded.clusters[c].positions.end());
     return triangles;

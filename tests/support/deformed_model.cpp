@@ -14,13 +14,13 @@ namespace hearth::test
 
 using namespace formats;
 
-MeshPoses::MeshPoses(const MotionTables& tables, uint32_t node, uint32_t seed)
+MeshPoses::MeshPoses(const AnimationTables& tables, uint32_t node, uint32_t seed)
     : tables_(tables),
       node_(node),
       random_(seed),
       from_(restPose(tables)),
       to_(from_),
-      order_(parentsFirst(tables.nodes)),
+      order_(nodesParentsFirst(tables.nodes)),
       world_from_node_(tables.nodes.size())
 {
 }
@@ -63,13 +63,14 @@ MeshPose MeshPoses::place(const ScenePose& pose)
     const NodeRecord& node = tables_.nodes[node_];
     MeshPose result;
     result.palette = {world_from_node_[node_]};
-    if (node.skin != kNone)
+    if (node.skin != kInvalidIndex)
     {
         const SkinRecord& skin = tables_.skins[node.skin];
         result.palette.resize(skin.joints.count);
         skinPalette(tables_, skin, world_from_node_, result.palette);
     }
-    for (const double weight : recordsOf(std::span<const double>(pose.morph_weights), node.morph_weights))
+    for (const double weight :
+         recordsInRange(std::span<const double>(pose.morph_weights), node.morph_weights))
         result.morph_weights.push_back(weight);
     result.scale = 0;
     for (const Affine3d& matrix : result.palette)

@@ -30,7 +30,7 @@ struct MeshPose
 class MeshPoses
 {
 public:
-    MeshPoses(const formats::MotionTables& tables, uint32_t node, uint32_t seed);
+    MeshPoses(const formats::AnimationTables& tables, uint32_t node, uint32_t seed);
     MeshPose next();
     MeshPose rest();
     /// A clip alone at a time in seconds.
@@ -40,7 +40,7 @@ private:
     void sample(formats::ScenePose& pose);
     MeshPose place(const formats::ScenePose& pose);
 
-    formats::MotionTables tables_;
+    formats::AnimationTables tables_;
     uint32_t node_;
     std::mt19937 random_;
     formats::ScenePose from_, to_;

@@ -40,7 +40,7 @@ std::vector<std::array<uint32_t, 3>> Picture::seen() const
 {
     std::vector<std::array<uint32_t, 3>> result;
     for (const uint32_t id : visibility)
-        if (id == shared::kNothingVisible)
+        if (id == shared::kVisibilitySky)
             result.push_back({id, id, id});
         else
         {
@@ -129,14 +129,14 @@ Picture GpuTest::draw(const gpu::Scene& scene, const shared::Camera& camera, con
 Picture GpuTest::draw(const gpu::Scene& scene, gpu::FrameTargets& targets, const shared::Camera& camera,
                       const DrawOptions& options)
 {
-    if (options.shown == shared::kViewOverdraw)
+    if (options.debug_view == shared::kViewOverdraw)
         HEARTH_ASSERT(renderer().prepareOverdraw().ok());
     const gpu::FrameInput input{.view = viewOf(scene, camera, options),
-                                .shading = {.shown = options.shown,
+                                .shading = {.debug_view = options.debug_view,
                                             .area = options.area,
                                             .ambient_occlusion = options.ambient_occlusion,
                                             .specular_occlusion = options.specular_occlusion,
-                                            .bricks_light = options.bricks_light},
+                                            .gi = options.gi},
                                 .moves = options.moves,
                                 .poses = options.poses,
                                 .shadow_spheres = options.shadow_spheres,

@@ -39,7 +39,7 @@ struct DrawOptions
     uint32_t height = 120;
     float error_pixels = 1;
     uint32_t flags = shared::kCullEverything;
-    uint32_t shown = shared::kViewFinal;
+    uint32_t debug_view = shared::kViewFinal;
     gpu::ShadedArea area = gpu::ShadedArea::automatic;
     uint32_t ambient_occlusion = shared::kAmbientOcclusionExact;
     uint32_t specular_occlusion = shared::kSpecularOcclusionFit;
@@ -49,7 +49,7 @@ struct DrawOptions
     std::span<const gpu::ShadowSphere> shadow_spheres{};
     std::span<const gpu::LightChange> lights{};
     std::span<const gpu::EmissionScale> emission{};
-    bool bricks_light = true;
+    bool gi = true;
 };
 
 /// Skips where there is no device; fails where the validation layers say anything, in any test.

@@ -29,7 +29,7 @@ struct MarchRay
 {
     Float3 origin;
     Float3 direction;
-    float far = shared::kBrickFar;
+    float far = shared::kBrickInfinity;
 };
 
 /// From near and far, from inside, from faces, edges and corners, through them and along them, nearly or exactly; one of eight

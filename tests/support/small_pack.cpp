@@ -123,7 +123,7 @@ void addCluster(PackModel& pack, const Shape& shape, uint32_t refined_group)
 
     const uint32_t layout = pack.meshes.back().attributes;
     ClusterRecord cluster = boundsOf(shape, (layout & kVertexNormal) ? uint16_t{65536 / 5} : kNoCone);
-    cluster.material = mesh == 0 ? 0 : kNone;
+    cluster.material = mesh == 0 ? 0 : kInvalidIndex;
     cluster.page = static_cast<uint32_t>(pack.decoded_pages.size() - 1);
     cluster.page_word = static_cast<uint16_t>(page.size() / 4);
     cluster.group = group;
@@ -199,7 +199,7 @@ void endMesh(PackModel& pack, uint32_t source_triangles)
     mesh.lod_count = mesh.levels.count;
     Box3 box;
     for (uint32_t i = mesh.clusters.first; i < pack.clusters.size(); ++i)
-        box.add(boxOf(pack.clusters[i], kGridStep));
+        box.add(clusterBox(pack.clusters[i], kGridStep));
     mesh.grid_step = box.empty() ? 0 : kGridStep;
     mesh.box_min = box.empty() ? Float3{} : box.min;
     mesh.box_max = box.empty() ? Float3{} : box.max;
@@ -216,8 +216,8 @@ void addStrip(PackModel& pack)
         beginGroup(pack, 0, {x + 1, 0, 0.5f}, 1.5f, kFoldError);
         pack.page_parents.push_back(0);
         pack.pages.back().parents.count = 1;
-        addCluster(pack, quad(x, 0, x + 1, kFold), kNone);
-        addCluster(pack, quad(x + 1, kFold, x + 2, 0), kNone);
+        addCluster(pack, quad(x, 0, x + 1, kFold), kInvalidIndex);
+        addCluster(pack, quad(x + 1, kFold, x + 2, 0), kInvalidIndex);
     }
     pack.levels.push_back({{2, 4}, 8, 0});
     pack.levels.push_back({{0, 2}, 4, kFoldError});
@@ -231,7 +231,7 @@ void addTriangle(PackModel& pack)
     pack.meshes.back().morph_target_count = 1;
     const uint32_t first = static_cast<uint32_t>(pack.clusters.size());
     beginGroup(pack, 0, {0, 0, 0}, 2, kInfinity);
-    addCluster(pack, {{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}}, {0, 1, 2}}, kNone);
+    addCluster(pack, {{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}}, {0, 1, 2}}, kInvalidIndex);
     pack.levels.push_back({{first, 1}, 1, 0});
     endMesh(pack, 1);
 }
@@ -262,7 +262,7 @@ void addSpecularTable(PackModel& pack)
     SpecularTableRecord table{};
     table.aperture_nodes = table.roughness_nodes = table.beta_nodes = shared::kSpecularNodes;
     table.normal_lambda = 0.5f;
-    table.least_roughness = shared::kSpecularLeastRoughness;
+    table.min_roughness = shared::kMinSpecularRoughness;
     for (uint32_t i = 0; i < kSpecularTexels; ++i)
         table.values[i] = static_cast<uint8_t>(17 * (i % shared::kSpecularNodes));
     pack.specular_tables.push_back(table);
@@ -296,9 +296,9 @@ void addAsset(PackModel& pack)
 void addNodes(PackModel& pack)
 {
     NodeRecord node{};
-    node.parent = kNone;
-    node.mesh = kNone;
-    node.skin = kNone;
+    node.parent = kInvalidIndex;
+    node.mesh = kInvalidIndex;
+    node.skin = kInvalidIndex;
     node.has_trs = 1;
     node.rotation = {0, 0, 0, 1};
     node.scale = {1, 1, 1};
@@ -314,12 +314,12 @@ void addNodes(PackModel& pack)
 
     node.name = intern(pack, "between");
     node.parent = 0;
-    node.mesh = kNone;
+    node.mesh = kInvalidIndex;
     node.has_trs = 0;
     pack.nodes.push_back(node);
 
     node.name = intern(pack, "skinned");
-    node.parent = kNone;
+    node.parent = kInvalidIndex;
     node.mesh = 2;
     node.skin = 0;
     node.morph_weights = {0, 1};
@@ -358,7 +358,7 @@ void addScene(PackModel& pack)
         light.world_from_light = Affine3{};
         pack.lights.push_back(light);
     }
-    pack.shadow_spheres.push_back({0, kNone, {1, 2, 3}, 4, 0, 0});
+    pack.shadow_spheres.push_back({0, kInvalidIndex, {1, 2, 3}, 4, 0, 0});
     pack.shadow_spheres.push_back({1, 2, {0, 0, 0}, 1, 512, 0});
 }
 
@@ -379,9 +379,9 @@ void addMaterials(PackModel& pack)
     material.normal_scale = 1;
     material.occlusion_strength = 1;
     material.base_color_texture = texture(0);
-    material.metallic_roughness_texture = texture(kNone);
-    material.normal_texture = texture(kNone);
-    material.occlusion_texture = texture(kNone);
+    material.metallic_roughness_texture = texture(kInvalidIndex);
+    material.normal_texture = texture(kInvalidIndex);
+    material.occlusion_texture = texture(kInvalidIndex);
     material.emissive_texture = texture(1);
     pack.materials.push_back(material);
 
@@ -395,7 +395,7 @@ void addMaterials(PackModel& pack)
 
 void addAnimation(PackModel& pack)
 {
-    pack.skins.push_back({intern(pack, "skin"), kNone, {0, 2}, 0});
+    pack.skins.push_back({intern(pack, "skin"), kInvalidIndex, {0, 2}, 0});
     pack.joints.push_back({0, {}, Affine3{}});
     pack.joints.push_back({2, {}, Affine3{}});
 

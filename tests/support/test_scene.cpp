@@ -62,7 +62,7 @@ void appendHierarchy(PackModel& pack, const clusters::Hierarchy& h)
            {
                r.page += b.page;
                r.group += b.group;
-               r.refined_group += r.refined_group == kNone ? 0 : b.group;
+               r.refined_group += r.refined_group == kInvalidIndex ? 0 : b.group;
            });
     append(pack.pages, h.pages,
            [&](PageRecord& r)
@@ -96,7 +96,7 @@ MaterialRecord plainMaterial()
     for (TextureRef* texture :
          {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
           &material.occlusion_texture, &material.emissive_texture})
-        *texture = textureOf(kNone);
+        *texture = textureOf(kInvalidIndex);
     return material;
 }
 
@@ -137,9 +137,9 @@ uint32_t TestScene::addHierarchy(const clusters::Hierarchy& hierarchy)
 uint32_t TestScene::addNode(uint32_t mesh, const Affine3& parent_from_node)
 {
     NodeRecord node{};
-    node.parent = kNone;
+    node.parent = kInvalidIndex;
     node.mesh = mesh;
-    node.skin = kNone;
+    node.skin = kInvalidIndex;
     node.rotation = {0, 0, 0, 1};
     node.scale = {1, 1, 1};
     node.parent_from_node = parent_from_node;
@@ -157,7 +157,7 @@ void TestScene::addInstance(uint32_t mesh, const Affine3& world_from_object)
 void TestScene::addLight(const LightRecord& light)
 {
     model_.lights.push_back(light);
-    model_.lights.back().node = addNode(kNone, light.world_from_light);
+    model_.lights.back().node = addNode(kInvalidIndex, light.world_from_light);
 }
 
 void TestScene::setVisibility(const Visibility& visibility)
@@ -170,7 +170,7 @@ void TestScene::setVisibility(const Visibility& visibility)
         std::vector<std::byte>& bytes = model_.decoded_pages[p];
         bytes.resize(page.size);
         HEARTH_ASSERT(view.decodePage(p, bytes).ok());
-        for (const ClusterRecord& cluster : recordsOf(view.clusters(), page.clusters))
+        for (const ClusterRecord& cluster : recordsInRange(view.clusters(), page.clusters))
         {
             const auto geometry = ClusterGeometry::at(bytes, cluster, view.meshes()[page.mesh]);
             HEARTH_ASSERT(geometry);
@@ -219,7 +219,7 @@ mesh::SourceMesh makeQuad(float width, float height)
     mesh.tangents.assign(4, {1, 0, 0, 1});
     mesh.uvs[0] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
     mesh.indices = {0, 1, 2, 0, 2, 3};
-    mesh.triangle_materials.assign(2, kNone);
+    mesh.triangle_materials.assign(2, kInvalidIndex);
     mesh.face_count = 2;
     mesh.source_vertex_count = 4;
     return mesh;

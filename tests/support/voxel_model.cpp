@@ -28,8 +28,8 @@ Float3 axisOf(uint32_t face)
 
 uint32_t faceAt(const BrickTables& tables, uint32_t x, uint32_t y, uint32_t z, uint32_t face)
 {
-    const uint32_t groups_x = brickGroups(tables.grid.voxels[0]),
-                   groups_y = brickGroups(tables.grid.voxels[1]);
+    const uint32_t groups_x = brickGroupsAlongAxis(tables.grid.voxels[0]),
+                   groups_y = brickGroupsAlongAxis(tables.grid.voxels[1]);
     const BrickGroup& group = tables.groups[x / 16 + groups_x * (y / 16 + groups_y * (z / 16))];
     const uint32_t bit = brickBit(x / 4, y / 4, z / 4);
     if (!maskHas(group.brick_mask_low, group.brick_mask_high, bit))
@@ -68,8 +68,8 @@ BrickTables VoxelModel::build() const
 {
     BrickTables tables;
     tables.grid = grid_;
-    const uint32_t groups[3] = {brickGroups(grid_.voxels[0]), brickGroups(grid_.voxels[1]),
-                                brickGroups(grid_.voxels[2])};
+    const uint32_t groups[3] = {brickGroupsAlongAxis(grid_.voxels[0]), brickGroupsAlongAxis(grid_.voxels[1]),
+                                brickGroupsAlongAxis(grid_.voxels[2])};
     // by group, then by the brick's bit, then by the voxel's: the order of the tables
     std::map<std::pair<uint32_t, uint32_t>, std::map<uint32_t, Place>> bricks;
     for (const auto& [place, voxel] : voxels_)

@@ -19,7 +19,7 @@ TEST(Half, everyFiniteHalfComesBack)
         const auto half = static_cast<uint16_t>(bits);
         if ((half & 0x7C00u) == 0x7C00u)
             continue;
-        ASSERT_EQ(finiteHalf(floatFromHalf(half)), half);
+        ASSERT_EQ(halfFromFloat(floatFromHalf(half)), half);
     }
 }
 
@@ -31,25 +31,25 @@ TEST(Half, roundsToTheNearestAndTiesToEven)
         const auto high = static_cast<uint16_t>(bits + 1);
         const float middle =
             (floatFromHalf(low) + floatFromHalf(high)) / 2; // exact: one bit more than a half has
-        ASSERT_EQ(finiteHalf(middle), (low & 1u) == 0 ? low : high) << bits;
-        ASSERT_EQ(finiteHalf(std::nextafter(middle, 0.0f)), low) << bits;
-        ASSERT_EQ(finiteHalf(std::nextafter(middle, 1e9f)), high) << bits;
+        ASSERT_EQ(halfFromFloat(middle), (low & 1u) == 0 ? low : high) << bits;
+        ASSERT_EQ(halfFromFloat(std::nextafter(middle, 0.0f)), low) << bits;
+        ASSERT_EQ(halfFromFloat(std::nextafter(middle, 1e9f)), high) << bits;
     }
 }
 
 TEST(Half, knownValues)
 {
-    EXPECT_EQ(finiteHalf(1), 0x3C00);
-    EXPECT_EQ(finiteHalf(-2), 0xC000);
-    EXPECT_EQ(finiteHalf(0x1p-24f), 1);
+    EXPECT_EQ(halfFromFloat(1), 0x3C00);
+    EXPECT_EQ(halfFromFloat(-2), 0xC000);
+    EXPECT_EQ(halfFromFloat(0x1p-24f), 1);
     EXPECT_EQ(floatFromHalf(0x3555), 0.333251953125f);
 }
 
 TEST(Half, whatDoesNotFitBecomesTheLargest)
 {
-    EXPECT_EQ(finiteHalf(1e10f), 0x7BFF);
-    EXPECT_EQ(finiteHalf(-std::numeric_limits<float>::infinity()), 0xFBFF);
-    EXPECT_EQ(finiteHalf(std::numeric_limits<float>::quiet_NaN()), 0);
+    EXPECT_EQ(halfFromFloat(1e10f), 0x7BFF);
+    EXPECT_EQ(halfFromFloat(-std::numeric_limits<float>::infinity()), 0xFBFF);
+    EXPECT_EQ(halfFromFloat(std::numeric_limits<float>::quiet_NaN()), 0);
 }
 
 } // namespace

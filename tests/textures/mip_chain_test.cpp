@@ -198,9 +198,9 @@ TEST(MipChain, opposedNormalsGiveTheFlatOne)
 
 TEST(MipChain, floatImagesKeepTheirRange)
 {
-    const std::array<uint16_t, 8> half = {finiteHalf(60000), finiteHalf(0.25f), finiteHalf(-1),
-                                          finiteHalf(1),     finiteHalf(0),     finiteHalf(0.75f),
-                                          finiteHalf(-2),    finiteHalf(0)};
+    const std::array<uint16_t, 8> half = {halfFromFloat(60000), halfFromFloat(0.25f), halfFromFloat(-1),
+                                          halfFromFloat(1),     halfFromFloat(0),     halfFromFloat(0.75f),
+                                          halfFromFloat(-2),    halfFromFloat(0)};
     std::vector<std::byte> texels(sizeof(half));
     std::memcpy(texels.data(), half.data(), sizeof(half));
     const std::vector<std::byte> chain = buildMipChain(recordOf(2, 1, TexelFormat::rgba16_float), texels);

@@ -129,7 +129,7 @@ TEST(CookTextures, saysWhichMaterialsShowAnImage)
         for (TextureRef* texture :
              {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
               &material.occlusion_texture, &material.emissive_texture})
-            texture->image = kNone;
+            texture->image = kInvalidIndex;
     materials[1].name = {0, 4};
     materials[0].emissive_texture.image = 1;
     materials[1].normal_texture.image = 1;

@@ -161,14 +161,14 @@ public:
 
 TEST(ChildProcesses, leaveFlushingToTheirParent)
 {
-    ASSERT_EQ(::unsetenv(kFlushVariable), 0);
+    ASSERT_EQ(::unsetenv(kFlushEnvironmentVariable), 0);
     EXPECT_FALSE(flushFile(-1));
     ChildProcesses children;
     ASSERT_TRUE(children.start(shell("[ \"$HEARTH_FLUSH\" = off ]")).ok());
     EXPECT_EQ(children.wait()->exit_code, 0);
-    ASSERT_EQ(::setenv(kFlushVariable, "off", 1), 0);
+    ASSERT_EQ(::setenv(kFlushEnvironmentVariable, "off", 1), 0);
     EXPECT_TRUE(flushFile(-1)) << "nothing is asked of the disk";
-    ASSERT_EQ(::unsetenv(kFlushVariable), 0);
+    ASSERT_EQ(::unsetenv(kFlushEnvironmentVariable), 0);
 }
 
 TEST(ChildProcesses, runABatch)
@@ -176,8 +176,8 @@ TEST(ChildProcesses, runABatch)
     const BatchScript script("echo \"$line\" >&2; [ \"$line\" != bad ]");
     ChildProcesses children;
     const size_t batch = children.startBatch("./" + script.path).value();
-    children.give(batch, "good\n");
-    children.give(batch, "bad\n");
+    children.sendCommandLine(batch, "good\n");
+    children.sendCommandLine(batch, "bad\n");
     for (const char* line : {"good", "bad"})
     {
         const auto end = children.wait();
@@ -190,7 +190,7 @@ TEST(ChildProcesses, runABatch)
         EXPECT_EQ(end->cpu_seconds, 0.25);
         EXPECT_EQ(end->peak_rss_bytes, 4096u);
     }
-    children.give(batch, "later\n");
+    children.sendCommandLine(batch, "later\n");
     EXPECT_EQ(children.wait()->messages, "later\n");
     children.close(batch);
     const auto end = children.wait();
@@ -204,7 +204,7 @@ TEST(ChildProcesses, tellWhereABatchDies)
     ChildProcesses children;
     const size_t batch = children.startBatch("./" + script.path).value();
     for (const char* line : {"good\n", "bad\n", "good\n"})
-        children.give(batch, line);
+        children.sendCommandLine(batch, line);
     EXPECT_TRUE(children.wait()->is_alive);
     const auto end = children.wait();
     EXPECT_FALSE(end->is_alive);
@@ -220,11 +220,11 @@ TEST(ChildProcesses, giveNothingToTheDead)
     const size_t batches[] = {children.startBatch("./" + script.path).value(),
                               children.startBatch("./" + script.path).value()};
     for (const size_t batch : batches)
-        children.give(batch, "bad\n");
+        children.sendCommandLine(batch, "bad\n");
     // both are dead when the end of one is told
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     ASSERT_EQ(children.wait()->id, batches[0]);
-    children.give(batches[1], "late\n");
+    children.sendCommandLine(batches[1], "late\n");
     children.close(batches[1]);
     EXPECT_EQ(children.wait()->signal, SIGKILL);
     EXPECT_EQ(children.running(), 0u);
@@ -237,15 +237,15 @@ TEST(ChildProcesses, takeNoiseForMessages)
                              "else head -c 3000000 /dev/zero >&2; fi");
     ChildProcesses children;
     const size_t batch = children.startBatch("./" + script.path).value();
-    children.give(batch, "noise\n");
+    children.sendCommandLine(batch, "noise\n");
     EXPECT_EQ(children.wait()->messages, "\x1Enoise\n");
-    children.give(batch, "much\n");
+    children.sendCommandLine(batch, "much\n");
     EXPECT_EQ(children.wait()->messages.size(), size_t{1} << 20);
 }
 
 TEST(ChildProcesses, sayWhatABatchReads)
 {
-    const auto line = [](const std::vector<std::string>& words) { return batchLine(words); };
+    const auto line = [](const std::vector<std::string>& words) { return makeBatchLine(words); };
     EXPECT_EQ(line({"a b", "\n\"\\", "\xC3\xA4", ""}), "[\"a b\",\"\\n\\\"\\\\\",\"\xC3\xA4\",\"\"]\n");
     EXPECT_EQ(line({}), "[]\n");
     EXPECT_EQ(line({"Latin-1 \xE4"}), std::nullopt);

@@ -1,6 +1,6 @@
 // SHA-256 against published values, and the list of what was read.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/tools/read_list.h"
+#include "cook/tools/dependency_list.h"
 #include "cook/tools/sha256.h"
 #include "formats/base/atomic_file.h"
 #include "formats/base/temp_directory.h"
@@ -28,9 +28,9 @@ TempDirectory temporaryFolder()
 
 TEST(Sha256, hasThePublishedValues)
 {
-    EXPECT_EQ(sha256Of("abc"), kOfAbc);
-    EXPECT_EQ(sha256Of(""), kOfNothing);
-    EXPECT_EQ(sha256Of(std::string(1000000, 'a')), kOfAMillionA);
+    EXPECT_EQ(computeSha256("abc"), kOfAbc);
+    EXPECT_EQ(computeSha256(""), kOfNothing);
+    EXPECT_EQ(computeSha256(std::string(1000000, 'a')), kOfAMillionA);
     EXPECT_TRUE(isSha256(kOfAbc));
     EXPECT_FALSE(isSha256(std::string(63, 'a')));
     EXPECT_FALSE(isSha256(std::string(64, 'A')));
@@ -41,16 +41,16 @@ TEST(Sha256, readsFilesPieceByPiece)
     const TempDirectory folder = temporaryFolder();
     const std::string path = folder.path() + "/a";
     ASSERT_TRUE(writeText(path, std::string(1000000, 'a')).ok());
-    EXPECT_EQ(sha256OfFile(path), kOfAMillionA);
+    EXPECT_EQ(computeFileSha256(path), kOfAMillionA);
     ASSERT_TRUE(writeText(path, "").ok());
-    EXPECT_EQ(sha256OfFile(path), kOfNothing);
-    EXPECT_EQ(sha256OfFile(folder.path()), std::nullopt);
-    EXPECT_EQ(sha256OfFile(folder.path() + "/b"), std::nullopt);
+    EXPECT_EQ(computeFileSha256(path), kOfNothing);
+    EXPECT_EQ(computeFileSha256(folder.path()), std::nullopt);
+    EXPECT_EQ(computeFileSha256(folder.path() + "/b"), std::nullopt);
 }
 
-TEST(ReadList, comesBackFromItsText)
+TEST(DependencyList, comesBackFromItsText)
 {
-    ReadList list;
+    DependencyList list;
     const std::string bytes = "abc";
     list.add("/a/b c.png", std::as_bytes(std::span(bytes)));
     list.addAbsent("/a/missing.png");
@@ -58,15 +58,15 @@ TEST(ReadList, comesBackFromItsText)
     const std::string text = list.text();
     EXPECT_NE(text.find(std::string(kOfAbc) + "  /a/b c.png\n"), std::string::npos) << text;
     EXPECT_NE(text.find("\n\\----"), std::string::npos) << text;
-    const auto again = ReadList::parse(text);
+    const auto again = DependencyList::parse(text);
     ASSERT_TRUE(again.has_value());
     EXPECT_EQ(again->files(), list.files());
     EXPECT_EQ(again->files().size(), 3u);
 }
 
-TEST(ReadList, aFileThatChangedBetweenTwoReadsHasNoHash)
+TEST(DependencyList, aFileThatChangedBetweenTwoReadsHasNoHash)
 {
-    ReadList list;
+    DependencyList list;
     const std::string bytes = "abc";
     list.add("/a", std::as_bytes(std::span(bytes)));
     list.add("/a", std::as_bytes(std::span(bytes)));
@@ -75,14 +75,14 @@ TEST(ReadList, aFileThatChangedBetweenTwoReadsHasNoHash)
     EXPECT_EQ(list.files().at("/a"), std::nullopt);
 }
 
-TEST(ReadList, refusesWhatIsNone)
+TEST(DependencyList, refusesWhatIsNone)
 {
     const std::string line = std::string(kOfAbc) + "  a\n";
-    ASSERT_TRUE(ReadList::parse(line).has_value());
+    ASSERT_TRUE(DependencyList::parse(line).has_value());
     for (size_t size = 1; size < line.size(); ++size)
-        EXPECT_FALSE(ReadList::parse(line.substr(0, size)).has_value()) << size;
-    EXPECT_FALSE(ReadList::parse("g" + line.substr(1)).has_value());
-    EXPECT_TRUE(ReadList::parse("").has_value());
+        EXPECT_FALSE(DependencyList::parse(line.substr(0, size)).has_value()) << size;
+    EXPECT_FALSE(DependencyList::parse("g" + line.substr(1)).has_value());
+    EXPECT_TRUE(DependencyList::parse("").has_value());
 }
 
 TEST(TempDirectory, removesWhatKilledProcessesHaveLeft)

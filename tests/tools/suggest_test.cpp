@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/base/suggest.h"
+#include "formats/base/nearest_match.h"
 
 #include <gtest/gtest.h>
 

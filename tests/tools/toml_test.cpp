@@ -13,7 +13,7 @@ namespace
 
 TomlNode parsed(std::string_view text)
 {
-    TomlFault fault;
+    TomlError fault;
     const std::optional<TomlNode> root = parseToml(text, fault);
     EXPECT_TRUE(root.has_value()) << fault.text;
     return root.value_or(TomlNode());
@@ -66,7 +66,7 @@ TEST(Toml, knowsWhereAValueStands)
 
 TEST(Toml, saysWhyATextIsNone)
 {
-    TomlFault fault;
+    TomlError fault;
     EXPECT_FALSE(parseToml("a = 1\na = 2\n", fault).has_value());
     EXPECT_EQ(fault.line, 2u);
     EXPECT_EQ(fault.column, 5u);

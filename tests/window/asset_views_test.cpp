@@ -1,4 +1,4 @@
-// Where the camera goes for an asset, and what is hidden. No display is needed.
+// Tests the camera's position for each asset, and which instances are hidden. No display is needed.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/window/asset_views.h"
 
@@ -56,8 +56,8 @@ TEST(AssetViews, hideTheOthersWhereTheyStandInOnePlace)
 
 TEST(AssetViews, theWholeSceneIsAPartOfItsOwn)
 {
-    EXPECT_EQ(viewer::AssetViews::partOf(std::nullopt), 0u);
-    EXPECT_EQ(viewer::AssetViews::partOf(0), 1u);
+    EXPECT_EQ(viewer::AssetViews::partIndex(std::nullopt), 0u);
+    EXPECT_EQ(viewer::AssetViews::partIndex(0), 1u);
     const viewer::AssetViews views = viewsOf(heapModel());
     EXPECT_EQ(views.stage->cameras()[2].position, views.list[1].camera.position);
 }

@@ -1,4 +1,4 @@
-// Choosing an asset on the panel, with the validation layer listening.
+// Tests choosing an asset on the panel, with the validation layer enabled.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/shading.h"
 #include "runtime/viewer/window/viewer.h"
@@ -77,7 +77,7 @@ TEST_F(AssetWindow, showsTheChosenOneAloneAndThenAllAgain)
         EXPECT_EQ(picture(), alone[i]) << i;
         EXPECT_NE(picture(), all);
     }
-    viewer_->settings().geometry_budget = uint64_t{4} << 20; // the scene is loaded anew
+    viewer_->settings().geometry_budget = uint64_t{4} << 20; // the scene is reloaded
     EXPECT_EQ(picture(), alone[0]);
     viewer_->settings().asset.reset();
     EXPECT_EQ(picture(), all);

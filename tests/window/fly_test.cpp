@@ -1,4 +1,4 @@
-// The camera that a person flies, and the keys and the mouse that fly it. No window is needed.
+// Tests the fly camera and its keyboard and mouse controls. No window is needed.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/window/fly_controls.h"
 

@@ -1,4 +1,4 @@
-// The small pack as two assets that stand in one place, without lights and bricks.
+// Builds the small pack as two assets in the same place, without lights and bricks.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -26,7 +26,7 @@ inline PackModel heapModel()
     return model;
 }
 
-/// bytes  outlive the view, which is not checked
+/// bytes  must outlive the view, which is not checked
 inline formats::PackView viewOf(const AlignedBytes& bytes)
 {
     return formats::PackView::read(formats::ContainerReader::fromBytes(bytes.span(), "heap").value()).value();

@@ -1,4 +1,5 @@
-// hearth-view where there is no display: one line, and the exit code of a machine that lacks something.
+// Tests hearth-view without a display: one line on stderr, and the exit code for a machine that lacks
+// something.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/roundtrip/cooked_sample.h"
 
@@ -12,7 +13,7 @@ namespace hearth::roundtrip
 namespace
 {
 
-/// The environment of a machine without a screen, in this process and those that it starts.
+/// Environment of a machine without a screen, for this process and its children.
 class NoDisplay : public testing::Test
 {
 protected:
@@ -33,7 +34,7 @@ protected:
             ::setenv(name.c_str(), value.c_str(), 1);
     }
 
-    /// What it writes to stderr, which is one line.
+    /// The single line that hearth-view writes to stderr.
     std::string view() const
     {
         const ProgramEnd end = runProgram(HEARTH_VIEW_PROGRAM, {sample_.packPath(), "--frames", "1"});

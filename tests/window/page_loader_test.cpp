@@ -1,4 +1,4 @@
-// Pages that are read beside the frames.
+// Tests the asynchronous page loader.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/window/page_loader.h"
 #include "tests/support/shapes.h"
@@ -13,12 +13,13 @@ namespace hearth::test
 namespace
 {
 
-// The cooker's tasks are not what is tested here, and the thread sanitizer cannot see how TBB's own library orders them.
+// One task at a time: the cooker's tasks are not tested here, and the thread sanitizer cannot see TBB's own
+// synchronisation.
 const tbb::global_control one_task_at_a_time(tbb::global_control::max_allowed_parallelism, 1);
 
 formats::PackView makePack(TestScene& scene)
 {
-    scene.addInstance(scene.addMesh(withMaterial(shapes::rock(40, 0.2f), formats::kNone)), {});
+    scene.addInstance(scene.addMesh(withMaterial(shapes::rock(40, 0.2f), kInvalidIndex)), {});
     return scene.build();
 }
 
@@ -31,7 +32,7 @@ protected:
             memory_.emplace_back(page.size);
     }
 
-    /// Read them all; what became of each.
+    /// Read all pages; returns the success of each.
     std::vector<bool> readAll()
     {
         pack::CompletionQueue queue(memory_.size());
@@ -68,7 +69,7 @@ TEST_F(LoadedPages, areThoseOfThePack)
 
 TEST_F(LoadedPages, thatCannotBeReadAreTold)
 {
-    memory_[1].pop_back(); // not the page's size: refused
+    memory_[1].pop_back(); // not the page's size: rejected
     std::vector<bool> expected(memory_.size(), true);
     expected[1] = false;
     EXPECT_EQ(readAll(), expected);
@@ -85,7 +86,7 @@ TEST_F(LoadedPages, areLeftWhenTheLoaderEnds)
             for (uint32_t page = 0; page < memory.size(); ++page)
                 loader.reader()(page, memory[page], pack::ReadDone(queue, page));
         }
-        // nothing writes to what has gone, which the sanitizers see
+        // nothing writes to the freed memory; the sanitizers would report it
         EXPECT_LE(queue.take().size(), memory.size());
     }
 }

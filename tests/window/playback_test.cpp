@@ -1,4 +1,4 @@
-// Which moment of which clip a window shows. No window is needed.
+// Tests which time of which clip a window shows. No window is needed.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/window/playback.h"
 
@@ -18,7 +18,7 @@ using viewer::PlaybackSettings;
 
 constexpr double kExact = 1e-12;
 
-/// Of two and three seconds, and a pose that is one key.
+/// Clips of two and three seconds, and a pose of one key.
 Playback threeClips(std::optional<pack::ClipTime> start = std::nullopt)
 {
     return Playback({2, 3, 0}, start);
@@ -84,19 +84,19 @@ TEST(Playback, letsTheNextClipTakeOverWhileBothGoOn)
     Playback playback = threeClips(pack::ClipTime{0, 1});
     PlaybackSettings settings{.clip = 1, .fade_seconds = 0.5f};
     playback.advance(settings, 0.125);
-    ASSERT_TRUE(playback.leaving());
-    EXPECT_EQ(playback.leaving()->animation, 0u);
-    EXPECT_NEAR(playback.leaving()->seconds, 1.125, kExact);
+    ASSERT_TRUE(playback.fadedClip());
+    EXPECT_EQ(playback.fadedClip()->animation, 0u);
+    EXPECT_NEAR(playback.fadedClip()->seconds, 1.125, kExact);
     EXPECT_NEAR(playback.clip()->seconds, 0.125, kExact);
     EXPECT_NEAR(playback.weight(), 0.25, kExact);
 
-    settings.clip = 0; // back again: what has come so far leaves
+    settings.clip = 0; // back again: the mix so far fades out
     playback.advance(settings, 0.125);
-    EXPECT_EQ(playback.leaving()->animation, 1u);
-    EXPECT_NEAR(playback.leaving()->seconds, 0.25, kExact);
+    EXPECT_EQ(playback.fadedClip()->animation, 1u);
+    EXPECT_NEAR(playback.fadedClip()->seconds, 0.25, kExact);
     EXPECT_NEAR(playback.clip()->seconds, 0.125, kExact);
     playback.advance(settings, 0.5);
-    EXPECT_FALSE(playback.leaving());
+    EXPECT_FALSE(playback.fadedClip());
     EXPECT_EQ(playback.weight(), 1);
 }
 
@@ -106,15 +106,15 @@ TEST(Playback, changesAtOnceWhileItStandsStillOrFromRest)
     PlaybackSettings settings{.clip = 1, .playing = false};
     playback.advance(settings, 0.1);
     EXPECT_EQ(playback.clip()->animation, 1u);
-    EXPECT_FALSE(playback.leaving());
+    EXPECT_FALSE(playback.fadedClip());
     settings = {.clip = std::nullopt};
     playback.advance(settings, 0.1);
     EXPECT_FALSE(playback.clip());
-    EXPECT_FALSE(playback.leaving());
+    EXPECT_FALSE(playback.fadedClip());
     settings.clip = 0;
     playback.advance(settings, 0.1);
     EXPECT_EQ(playback.clip()->animation, 0u);
-    EXPECT_FALSE(playback.leaving()) << "nothing is blended with the rest pose";
+    EXPECT_FALSE(playback.fadedClip()) << "nothing is blended with the rest pose";
 }
 
 TEST(Playback, staysWithinClipsAndWeightsWhateverIsSet)
@@ -137,7 +137,7 @@ TEST(Playback, staysWithinClipsAndWeightsWhateverIsSet)
         playback.advance(settings,
                          static_cast<double>(uniform(random, 0, random() % 32 == 0 ? 60.0f : 0.1f)));
         EXPECT_EQ(playback.clip().has_value(), settings.clip.has_value());
-        for (const auto& clip : {playback.clip(), playback.leaving()})
+        for (const auto& clip : {playback.clip(), playback.fadedClip()})
             if (clip)
             {
                 EXPECT_GE(clip->seconds, 0);
@@ -145,7 +145,7 @@ TEST(Playback, staysWithinClipsAndWeightsWhateverIsSet)
             }
         EXPECT_GE(playback.weight(), 0);
         EXPECT_LE(playback.weight(), 1);
-        faded += playback.leaving() ? 1u : 0u;
+        faded += playback.fadedClip() ? 1u : 0u;
     }
     EXPECT_GT(faded, 1000u);
 }
@@ -164,10 +164,10 @@ TEST(Playback, isAsLongInManyStepsAsInOne)
 TEST(Playback, posesThePlayer)
 {
     TestScene test;
-    fillAnimatedRocks(test, test.addMesh(withMaterial(shapes::rock(8, 0.2f), formats::kNone)));
+    fillAnimatedRocks(test, test.addMesh(withMaterial(shapes::rock(8, 0.2f), kInvalidIndex)));
     const formats::PackView pack = test.build();
     pack::PosePlayer player(pack);
-    const auto rock = [&] { return transformPoint(player.places()[0].world_from_object, {}); };
+    const auto rock = [&] { return transformPoint(player.transforms()[0].world_from_object, {}); };
     EXPECT_EQ(viewer::clipDurations(pack), (std::vector<double>{4, 4}));
 
     Playback playback(viewer::clipDurations(pack));
@@ -177,7 +177,7 @@ TEST(Playback, posesThePlayer)
     EXPECT_EQ(rock(), (Float3{4, 0, 0}));
     settings.clip = 1;
     settings.fade_seconds = 4;
-    playback.advance(settings, 1); // of which a quarter rises, by a quarter of four metres
+    playback.advance(settings, 1); // "rise" has weight 1/4 and has risen a quarter of 4 m
     playback.pose(player);
     EXPECT_NEAR(rock().x, 5 - 0.25f * 3, 1e-6f);
     EXPECT_NEAR(rock().y, 0.25f, 1e-6f);

@@ -1,4 +1,4 @@
-// hearth-view and hearth-render show the same.
+// Tests that hearth-view and hearth-render show the same image.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/roundtrip/cooked_sample.h"
 
@@ -21,7 +21,8 @@ std::string contentOf(const std::string& file)
 class Screenshot : public testing::Test
 {
 protected:
-    /// The window's picture is that of hearth-render in every pixel, and the validation layer is silent.
+    /// Expect that the window's image equals hearth-render's in every pixel, and that the validation layer is
+    /// silent.
     void expectSame(const std::vector<std::string>& options) { expectSame(sample_, options); }
 
     void expectSame(const CookedSample& sample, const std::vector<std::string>& options)

@@ -1,4 +1,4 @@
-// The command line of hearth-view; what it shares with hearth-render is tested there.
+// Tests the command line of hearth-view. Options shared with hearth-render are tested with hearth-render.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/window/options.h"
 

@@ -1,4 +1,4 @@
-// A window that is flown through by events: what a person would do, with the validation layer listening.
+// Tests a window that is flown through by synthetic user events, with the validation layer enabled.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/shading.h"
 #include "runtime/viewer/window/viewer.h"
@@ -32,7 +32,7 @@ protected:
         Result<std::unique_ptr<viewer::Viewer>> viewer = viewer::Viewer::create(options, sample.pack());
         ASSERT_TRUE(viewer.ok()) << formatMessage(viewer.error());
         viewer_ = std::move(viewer).value();
-        settings().panel = false; // where the mouse happens to be does not matter then
+        settings().panel = false; // the mouse position has no effect then
         play();
     }
 
@@ -42,7 +42,7 @@ protected:
         EXPECT_EQ(viewer_->host().messages(), std::vector<std::string>());
     }
 
-    /// So many steps; how many of them have shown a picture.
+    /// Run this many steps; returns how many of them presented a frame.
     uint32_t play(uint32_t steps = 3)
     {
         uint32_t shown = 0;
@@ -55,7 +55,7 @@ protected:
         return shown;
     }
 
-    /// Press a key and let it go after so many steps.
+    /// Press a key and release it after this many steps.
     void hold(SDL_Scancode code, uint32_t steps)
     {
         for (const uint32_t type : {SDL_KEYDOWN, SDL_KEYUP})
@@ -121,7 +121,7 @@ TEST_F(WindowTest, showsEveryView)
 {
     for (const viewer::Named<uint32_t>& view : viewer::viewNames())
     {
-        if (gpu::showsBricks(view.value)) // the pack has none
+        if (gpu::viewNeedsBricks(view.value)) // the pack has none
             continue;
         settings().frame.view = view.value;
         EXPECT_EQ(play(2), 2u) << view.name;
@@ -161,7 +161,7 @@ TEST_F(WindowTest, restsWhileItIsMinimized)
     tellWindow(SDL_WINDOWEVENT_MINIMIZED);
     EXPECT_EQ(play(3), 0u);
     tellWindow(SDL_WINDOWEVENT_RESTORED);
-    EXPECT_GE(play(3), 2u); // SDL may hand out the event a step later
+    EXPECT_GE(play(3), 2u); // SDL may deliver the event a step later
 }
 
 TEST_F(WindowTest, takesAnotherBudgetAndKeepsTheSceneWhereThereIsNone)
@@ -178,7 +178,7 @@ TEST_F(WindowTest, takesAnotherBudgetAndKeepsTheSceneWhereThereIsNone)
     EXPECT_TRUE(viewer_->settledSince(first));
     EXPECT_GT(stream->statistics().pages_resident, 1u);
 
-    settings().geometry_budget = 16; // less than what always stays
+    settings().geometry_budget = 16; // less than the pinned data
     play();
     EXPECT_EQ(settings().geometry_budget, 8u << 20);
     EXPECT_EQ(viewer_->scene().scene().stream.get(), stream);
@@ -191,7 +191,7 @@ TEST_F(WindowTest, countsWhatTheTestsLeaveOut)
 {
     settings().count_culling = true;
     play(5);
-    const viewer::FrameFigures& figures = viewer_->figures();
+    const viewer::FrameStatistics& figures = viewer_->figures();
     EXPECT_GT(figures.counters.drawn_clusters, 0u);
     EXPECT_GT(figures.milliseconds[0], 0);
     ASSERT_TRUE(figures.culling);
@@ -217,11 +217,11 @@ TEST_F(WindowTest, playsTheClipsOfACharacter)
     settings().panel = true;
     settings().playback.clip = 1;
     EXPECT_EQ(play(5), 5u);
-    ASSERT_TRUE(viewer_->playback().leaving());
-    EXPECT_EQ(viewer_->playback().leaving()->animation, 0u);
-    settings().geometry_budget = 8u << 20; // the scene is loaded anew, and is where the clip has it
+    ASSERT_TRUE(viewer_->playback().fadedClip());
+    EXPECT_EQ(viewer_->playback().fadedClip()->animation, 0u);
+    settings().geometry_budget = 8u << 20; // the scene is reloaded, posed by the clip at once
     EXPECT_EQ(play(20), 20u);
-    EXPECT_FALSE(viewer_->playback().leaving());
+    EXPECT_FALSE(viewer_->playback().fadedClip());
     settings().playback.clip.reset();
     EXPECT_EQ(play(3), 3u);
     EXPECT_FALSE(viewer_->playback().clip());

@@ -6,7 +6,7 @@ namespace hearth::bricks
 
 using namespace formats;
 
-BrickBytes bytesOf(uint64_t groups, uint64_t bricks, uint64_t voxels, uint64_t faces)
+BrickBytes computeBrickBytes(uint64_t groups, uint64_t bricks, uint64_t voxels, uint64_t faces)
 {
     return {groups * sizeof(BrickGroupRecord), bricks * sizeof(BrickRecord), voxels * sizeof(uint8_t),
             faces * sizeof(uint32_t),          faces * sizeof(uint16_t),     faces * sizeof(uint32_t),

@@ -11,6 +11,12 @@
 namespace hearth::bricks
 {
 
+/// Return the mask of 64 bits whose halves records hold.
+inline uint64_t joinMask(uint32_t low, uint32_t high)
+{
+    return uint64_t{high} << 32 | low;
+}
+
 struct BrickTables
 {
     formats::BrickGridRecord grid{};
@@ -23,7 +29,7 @@ struct BrickTables
     std::vector<uint32_t> lighting; ///< outgoing radiance, emission included
 
     /// Return the masks that ray marching reads.
-    shared::BrickMasks masks() const { return {formats::brickGridOf(grid), groups, bricks}; }
+    shared::BrickMasks masks() const { return {formats::toBrickGrid(grid), groups, bricks}; }
 };
 
 /// GPU memory of a voxel grid, bytes by table.
@@ -40,7 +46,7 @@ struct BrickBytes
     uint64_t total() const { return groups + bricks + opacity + albedo + normals + emission + lighting; }
 };
 
-BrickBytes bytesOf(uint64_t groups, uint64_t bricks, uint64_t voxels, uint64_t faces);
+BrickBytes computeBrickBytes(uint64_t groups, uint64_t bricks, uint64_t voxels, uint64_t faces);
 
 /// Add the chunks of a grid.
 Status writeTables(formats::ContainerWriter& writer, const BrickTables& tables);

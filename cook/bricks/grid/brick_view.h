@@ -23,9 +23,9 @@ struct BrickView
 };
 
 /// Make a view of a file that has a grid. `view` must outlive the result.
-inline BrickView brickViewOf(const formats::PackView& view)
+inline BrickView makeBrickView(const formats::PackView& view)
 {
-    return {{formats::brickGridOf(view.brickGrid()[0]), view.brickGroups(), view.bricks()},
+    return {{formats::toBrickGrid(view.brickGrid()[0]), view.brickGroupsAlongAxis(), view.bricks()},
             view.brickOpacity(),
             view.brickAlbedo(),
             view.brickNormals(),
@@ -34,7 +34,7 @@ inline BrickView brickViewOf(const formats::PackView& view)
 }
 
 /// Make a view of tables. `tables` must outlive the result.
-inline BrickView brickViewOf(const BrickTables& tables)
+inline BrickView makeBrickView(const BrickTables& tables)
 {
     return {tables.masks(), tables.opacity, tables.albedo, tables.normals, tables.emission, tables.lighting};
 }

@@ -13,11 +13,11 @@ namespace
 
 constexpr std::array<double, 11> kSeries{1, 1.25, 1.6, 2, 2.5, 3.2, 4, 5, 6.4, 8, 10};
 
-constexpr double kMostVoxels = formats::kMaxGridVoxels;
+constexpr double kMaxVoxels = formats::kMaxGridVoxels;
 
 // Relative tolerance for counting voxels: an extent of 512 m with 0.1 m voxels means 5120 voxels despite
 // rounding.
-constexpr double kRounding = 1e-4;
+constexpr double kCountTolerance = 1e-4;
 
 std::string text(double value)
 {
@@ -27,7 +27,7 @@ std::string text(double value)
 }
 
 /// Return the smallest number of the series that is at least `size`, from 10^-6 on.
-double roundedUp(double size)
+double roundUpToSeries(double size)
 {
     for (int exponent = -6; exponent < 9; ++exponent)
         for (const double step : kSeries)
@@ -44,7 +44,7 @@ double roundedUp(double size)
     return size;
 }
 
-double longest(const Box3& box)
+double longestSide(const Box3& box)
 {
     const Float3 size = box.max - box.min;
     return box.empty() ? 0 : std::max({size.x, size.y, size.z});
@@ -57,12 +57,12 @@ struct Axis
 };
 
 /// Place the voxels along one axis, where no extent is set.
-Axis around(double min, double max, double size)
+Axis placeAxis(double min, double max, double size)
 {
     // use multiples of the voxel size as planes, so that a surface in a plane has room behind it on both
     // sides
-    const double first = std::ceil(min / size - kRounding) - 1;
-    const double last = std::floor(max / size + kRounding) + 1;
+    const double first = std::ceil(min / size - kCountTolerance) - 1;
+    const double last = std::floor(max / size + kCountTolerance) + 1;
     return {first * size, last - first};
 }
 
@@ -95,16 +95,16 @@ Status checkSettings(const GridSettings& settings)
 
 double firstVoxelSize(const Box3& box)
 {
-    const double side = longest(box);
-    return side > 0 ? roundedUp(std::max(0.9 * side / 512, std::min(0.1, side / 64))) : 1;
+    const double side = longestSide(box);
+    return side > 0 ? roundUpToSeries(std::max(0.9 * side / 512, std::min(0.1, side / 64))) : 1;
 }
 
 double nextVoxelSize(double size)
 {
-    return roundedUp(size * 1.01);
+    return roundUpToSeries(size * 1.01);
 }
 
-Result<GridFrame> frameOf(const GridSettings& settings, const Box3& box, double size)
+Result<GridFrame> makeGridFrame(const GridSettings& settings, const Box3& box, double size)
 {
     HEARTH_TRY(checkSettings(settings));
     GridFrame frame;
@@ -119,16 +119,15 @@ Result<GridFrame> frameOf(const GridSettings& settings, const Box3& box, double 
         {
             const auto at = [&](const Double3& p) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; };
             const double extent = at(*settings.max) - at(*settings.min);
-            along = {at(*settings.min), std::max(1.0, std::ceil(extent / rounded - kRounding))};
+            along = {at(*settings.min), std::max(1.0, std::ceil(extent / rounded - kCountTolerance))};
         }
         else if (!box.empty())
-            along = around(box.min[axis], box.max[axis], rounded);
-        if (!(along.voxels <= kMostVoxels))
-            return usage("--voxel-size", text(size) + " m makes " + text(along.voxels) + " voxels along " +
-                                             "xyz"[axis] + ", " + text(kMostVoxels) +
-                                             " are the most: give at least " +
-                                             text(size * along.voxels / kMostVoxels) +
-                                             ", or a smaller extent (--min, --max)");
+            along = placeAxis(box.min[axis], box.max[axis], rounded);
+        if (!(along.voxels <= kMaxVoxels))
+            return usage("--voxel-size",
+                         text(size) + " m makes " + text(along.voxels) + " voxels along " + "xyz"[axis] +
+                             ", " + text(kMaxVoxels) + " are the most: give at least " +
+                             text(size * along.voxels / kMaxVoxels) + ", or a smaller extent (--min, --max)");
         frame.origin[axis] = static_cast<float>(along.origin);
         if (!std::isfinite(frame.origin[axis]))
             return usage("--min, --max", text(along.origin) + " is not a place that a file can hold");

@@ -37,6 +37,6 @@ double nextVoxelSize(double size);
 /// size  voxel size, metres
 /// errors: usage where the settings make no sense, where a side is longer than formats::kMaxGridVoxels, or
 /// where the empty grid alone needs more than settings.memory
-Result<GridFrame> frameOf(const GridSettings& settings, const Box3& box, double size);
+Result<GridFrame> makeGridFrame(const GridSettings& settings, const Box3& box, double size);
 
 } // namespace hearth::bricks

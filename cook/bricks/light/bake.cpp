@@ -2,7 +2,7 @@
 #include "cook/bricks/light/bake.h"
 
 #include "cook/bricks/grid/brick_view.h"
-#include "cook/bricks/grid/face_places.h"
+#include "cook/bricks/grid/face_locations.h"
 #include "cook/bricks/light/ray_scene.h"
 #include "cook/bricks/light/scene_light.h"
 #include "formats/gpu_shared/brick_lighting.h"
@@ -20,17 +20,17 @@ namespace
 
 /// Offset to either side of a triangle at which its voxel is looked up, in voxels: the triangle may lie in a
 /// plane between two.
-constexpr float kBeside = 0.01f;
+constexpr float kSurfaceOffset = 0.01f;
 
-class Baker
+class LightBaker
 {
 public:
-    Baker(const RayScene& rays, const BrickTables& tables, const Lighting& lighting)
+    LightBaker(const RayScene& rays, const BrickTables& tables, const Lighting& lighting)
         : rays_(rays),
-          bricks_(brickViewOf(tables)),
+          bricks_(makeBrickView(tables)),
           lighting_(lighting),
           sky_{lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground},
-          places_(facePlaces(bricks_.masks)),
+          places_(faceLocations(bricks_.masks)),
           faces_(places_.size())
     {
         for (size_t face = 0; face < faces_.size(); ++face)
@@ -41,7 +41,7 @@ public:
     {
         std::vector<BrickLight> next(faces_.size());
         tbb::parallel_for(size_t{0}, next.size(),
-                          [&](size_t face) { next[face] = encodeBrickLight(lit(face, rays)); });
+                          [&](size_t face) { next[face] = encodeBrickLight(outgoingRadiance(face, rays)); });
         faces_ = std::move(next);
     }
 
@@ -56,74 +56,78 @@ public:
 private:
     BrickScene scene() const { return {bricks_.masks, bricks_.opacity, faces_}; }
 
-    Float3 lit(size_t face, uint32_t rays) const
+    Float3 outgoingRadiance(size_t face, uint32_t rays) const
     {
         const auto [x, y, z, side] = places_[face];
         const BrickStart start =
             brickFaceStart(scene(), x, y, z, side, decodeFaceNormal(bricks_.normals[face]));
         const Float3 surface = brickFaceSurface(x, y, z, side, start.normal);
         const uint32_t seed = brickFaceSeed(x, y, z, side);
-        Float3 arrived;
+        Float3 irradiance;
         for (uint32_t i = 0; i < rays; ++i)
-            arrived += radianceAlong(start.place, brickRayDirection(start.normal, i, rays, seed)) *
-                       (1.0f / static_cast<float>(rays));
+            irradiance += radianceAlong(start.position, brickRayDirection(start.normal, i, rays, seed)) *
+                          (1.0f / static_cast<float>(rays));
         for (uint32_t i = 0; i < lighting_.light_count; ++i)
-            arrived += direct(start, surface, lighting_.lights[i]);
-        return brickSentOut(decodeRadiance(bricks_.emission[face]), decodeAlbedo(bricks_.albedo[face]),
-                            arrived);
+            irradiance += direct(start, surface, lighting_.lights[i]);
+        return brickOutgoingRadiance(decodeRadiance(bricks_.emission[face]),
+                                     decodeAlbedo(bricks_.albedo[face]), irradiance);
     }
 
     Float3 direct(const BrickStart& start, Float3 surface, const Light& light) const
     {
         const BrickGrid& grid = bricks_.masks.grid;
         const Float3 lamp = (light.position - grid.origin) / grid.voxel_size;
-        const BrickIncident incident = brickIncident(grid, start, surface, light, lamp);
-        if (incident.arrived == Float3{} || rays_.occluded(start.place, incident.way, incident.far))
+        const BrickUnshadowedLight incident = brickUnshadowedLight(grid, start, surface, light, lamp);
+        if (incident.irradiance == Float3{} ||
+            rays_.occluded(start.position, incident.direction, incident.distance_to_light))
             return {};
-        return incident.arrived * throughHoles(start.place, incident.way, incident.far);
+        return incident.irradiance *
+               transmittance(start.position, incident.direction, incident.distance_to_light);
     }
 
-    Float3 radianceAlong(Float3 place, Float3 direction) const
+    Float3 radianceAlong(Float3 position, Float3 direction) const
     {
-        const std::optional<RayScene::Hit> hit = rays_.nearest(place, direction);
-        const Float3 radiance = hit ? radianceOf(*hit) : brickSkyRadiance(sky_, direction);
+        const std::optional<RayScene::Hit> hit = rays_.nearest(position, direction);
+        const Float3 radiance = hit ? hitRadiance(*hit) : brickSkyRadiance(sky_, direction);
         if (!rays_.hasHoles())
             return radiance;
-        const float far = hit ? length(hit->place - place) : kBrickFar;
-        return radiance * throughHoles(place, direction, far) + radianceOfHoles(place, direction, far);
+        const float far = hit ? length(hit->position - position) : kBrickInfinity;
+        return radiance * transmittance(position, direction, far) +
+               translucentRadiance(position, direction, far);
     }
 
     /// Return the transmittance of surfaces with holes along a ray. Such surfaces fill no voxel completely.
-    float throughHoles(Float3 place, Float3 direction, float far) const
+    float transmittance(Float3 position, Float3 direction, float far) const
     {
         float through = 1;
         if (rays_.hasHoles())
-            forEachThinVoxel(place, direction, far,
-                             [&](const Brick&, const BrickRay&, float opacity) { through *= 1 - opacity; });
+            forEachTranslucentVoxel(position, direction, far,
+                                    [&](const Brick&, const BrickRay&, float opacity)
+                                    { through *= 1 - opacity; });
         return through;
     }
 
-    Float3 radianceOfHoles(Float3 place, Float3 direction, float far) const
+    Float3 translucentRadiance(Float3 position, Float3 direction, float far) const
     {
         Float3 radiance;
         float through = 1;
-        forEachThinVoxel(place, direction, far,
-                         [&](const Brick& brick, const BrickRay& ray, float opacity)
-                         {
-                             const uint32_t face = brickFace(brick, ray.bit, ray.face);
-                             if (face != kNoFace)
-                                 radiance += decodeBrickLight(faces_[face]) * (through * opacity);
-                             through *= 1 - opacity;
-                         });
+        forEachTranslucentVoxel(position, direction, far,
+                                [&](const Brick& brick, const BrickRay& ray, float opacity)
+                                {
+                                    const uint32_t face = brickFace(brick, ray.bit, ray.face);
+                                    if (face != kNoFace)
+                                        radiance += decodeBrickLight(faces_[face]) * (through * opacity);
+                                    through *= 1 - opacity;
+                                });
         return radiance;
     }
 
     template <typename Visit>
-    void forEachThinVoxel(Float3 place, Float3 direction, float far, const Visit& visit) const
+    void forEachTranslucentVoxel(Float3 position, Float3 direction, float far, const Visit& visit) const
     {
         const BrickMasks& masks = bricks_.masks;
-        for (BrickRay ray = brickMarch(masks, brickRayInVoxels(masks.grid, place, direction, far));
-             ray.inside != 0; ray = brickMarch(masks, brickPass(masks, ray)))
+        for (BrickRay ray = brickMarch(masks, brickRayInVoxels(masks.grid, position, direction, far));
+             ray.inside != 0; ray = brickMarch(masks, brickSkipVoxel(masks, ray)))
         {
             const Brick& brick = masks.bricks[ray.brick];
             const uint8_t opacity = bricks_.opacity[brickVoxel(brick, ray.bit)];
@@ -135,17 +139,17 @@ private:
     /// Return the outgoing radiance at a hit: the mean over the faces of its voxel on the triangle's side,
     /// weighted by how much they face it. Uses the voxel just before or just behind the triangle. Returns 0
     /// where the grid has dropped both.
-    Float3 radianceOf(const RayScene::Hit& hit) const
+    Float3 hitRadiance(const RayScene::Hit& hit) const
     {
-        for (const float beside : {-kBeside, kBeside})
+        for (const float beside : {-kSurfaceOffset, kSurfaceOffset})
         {
-            const Float3 place = hit.place + hit.normal * beside;
+            const Float3 position = hit.position + hit.normal * beside;
             Float3 sum;
             float weights = 0;
             for (uint32_t side = 0; side < kVoxelFaces; ++side)
             {
                 const float facing = dot(hit.normal, brickFaceAxis(side));
-                const uint32_t face = facing > 0 ? faceAt(place, side) : kNoFace;
+                const uint32_t face = facing > 0 ? faceAt(position, side) : kNoFace;
                 if (face == kNoFace)
                     continue;
                 sum += decodeBrickLight(faces_[face]) * (facing * facing);
@@ -157,19 +161,20 @@ private:
         return {};
     }
 
-    uint32_t faceAt(Float3 place, uint32_t side) const
+    uint32_t faceAt(Float3 position, uint32_t side) const
     {
         const BrickMasks& masks = bricks_.masks;
-        if (!(place.x >= 0 && place.y >= 0 && place.z >= 0 &&
-              place.x < static_cast<float>(masks.grid.voxels_x) &&
-              place.y < static_cast<float>(masks.grid.voxels_y) &&
-              place.z < static_cast<float>(masks.grid.voxels_z)))
+        if (!(position.x >= 0 && position.y >= 0 && position.z >= 0 &&
+              position.x < static_cast<float>(masks.grid.voxels_x) &&
+              position.y < static_cast<float>(masks.grid.voxels_y) &&
+              position.z < static_cast<float>(masks.grid.voxels_z)))
             return kNoFace;
-        const auto x = static_cast<uint32_t>(place.x), y = static_cast<uint32_t>(place.y),
-                   z = static_cast<uint32_t>(place.z);
+        const auto x = static_cast<uint32_t>(position.x), y = static_cast<uint32_t>(position.y),
+                   z = static_cast<uint32_t>(position.z);
         const uint32_t group =
-            x / kGroupVoxels + brickGroups(masks.grid.voxels_x) *
-                                   (y / kGroupVoxels + brickGroups(masks.grid.voxels_y) * (z / kGroupVoxels));
+            x / kGroupVoxels +
+            brickGroupsAlongAxis(masks.grid.voxels_x) *
+                (y / kGroupVoxels + brickGroupsAlongAxis(masks.grid.voxels_y) * (z / kGroupVoxels));
         const BrickGroup& record = masks.groups[group];
         const uint32_t bit = brickBit(x / kBrickVoxels, y / kBrickVoxels, z / kBrickVoxels);
         if (!maskHas(record.brick_mask_low, record.brick_mask_high, bit))
@@ -183,7 +188,7 @@ private:
     BrickView bricks_;
     const Lighting& lighting_;
     BrickSky sky_;
-    std::vector<FacePlace> places_;
+    std::vector<FaceLocation> places_;
     std::vector<BrickLight> faces_;
 };
 
@@ -194,10 +199,10 @@ Status bakeLight(const StaticScene& scene, const BakeSettings& settings, CookedG
     HEARTH_ASSERT(settings.rays > 0);
     HEARTH_ASSIGN_OR_RETURN(const RayScene rays,
                             RayScene::build(scene,
-                                            clustersOfCut(scene, static_cast<float>(grid.statistics.error)),
+                                            findCutClusters(scene, static_cast<float>(grid.statistics.error)),
                                             grid.statistics.frame));
-    const Lighting lighting = lightingOf(scene);
-    Baker baker(rays, grid.tables, lighting);
+    const Lighting lighting = makeSceneLighting(scene);
+    LightBaker baker(rays, grid.tables, lighting);
     for (uint32_t bounce = 0; bounce <= settings.bounces; ++bounce)
         baker.sweep(settings.rays);
     grid.tables.lighting = baker.codes();

@@ -21,7 +21,7 @@ constexpr uint32_t kRaysAtOnce = 256;
 } // namespace
 
 FaceLighting::FaceLighting(const BrickView& bricks)
-    : bricks_(bricks), table_(bricks.masks), places_(facePlaces(bricks.masks)), next_(places_.size())
+    : bricks_(bricks), table_(bricks.masks), places_(faceLocations(bricks.masks)), next_(places_.size())
 {
     HEARTH_ASSERT(places_.size() == bricks.lighting.size());
     faces_.reserve(bricks.lighting.size());
@@ -29,7 +29,7 @@ FaceLighting::FaceLighting(const BrickView& bricks)
         faces_.push_back({code, 0});
 }
 
-void FaceLighting::light(const Lighting& lighting, const FrameShare& share)
+void FaceLighting::light(const Lighting& lighting, const FrameBudget& share)
 {
     HEARTH_ASSERT(share.period > 0 && share.rays > 0);
     const std::span<const Brick> bricks = bricks_.masks.bricks;
@@ -77,9 +77,9 @@ void FaceLighting::light(const Lighting& lighting, uint32_t rays, size_t first, 
         starts.push_back(brickFaceStart(scene, x, y, z, side, decodeFaceNormal(bricks_.normals[face])));
         const uint32_t seed = brickFaceSeed(x, y, z, side);
         for (uint32_t i = 0; i < rays; ++i)
-            marched.push_back(brickRayInVoxels(bricks_.masks.grid, starts.back().place,
+            marched.push_back(brickRayInVoxels(bricks_.masks.grid, starts.back().position,
                                                brickRayDirection(starts.back().normal, i, rays, seed),
-                                               kBrickFar));
+                                               kBrickInfinity));
     }
     marchRays(table_, marched);
     const BrickSky sky{lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground};
@@ -89,20 +89,20 @@ void FaceLighting::light(const Lighting& lighting, uint32_t rays, size_t first, 
         // same sum as brickGather
         Float3 sum;
         for (size_t i = 0; i < rays; ++i)
-            sum += brickLightAlong(scene, sky, marched[(face - first) * rays + i]).radiance;
-        Float3 arrived = start.buried != 0 ? Float3{} : sum * (1.0f / static_cast<float>(rays));
+            sum += traceBrickLight(scene, sky, marched[(face - first) * rays + i]).radiance;
+        Float3 irradiance = start.is_interior != 0 ? Float3{} : sum * (1.0f / static_cast<float>(rays));
         const auto [x, y, z, side] = places_[face];
         const Float3 surface = brickFaceSurface(x, y, z, side, start.normal);
         for (uint32_t i = 0; i < lighting.light_count; ++i)
-            arrived += brickDirect(scene, start, surface, lighting.lights[i]);
-        next_[face] = encodeBrickLight(brickSentOut(decodeRadiance(bricks_.emission[face]),
-                                                    decodeAlbedo(bricks_.albedo[face]), arrived));
+            irradiance += brickDirect(scene, start, surface, lighting.lights[i]);
+        next_[face] = encodeBrickLight(brickOutgoingRadiance(decodeRadiance(bricks_.emission[face]),
+                                                             decodeAlbedo(bricks_.albedo[face]), irradiance));
     }
 }
 
-uint32_t sweepsToForget(float most_albedo, float share)
+uint32_t sweepsToDecay(float max_albedo, float share)
 {
-    const double kept = double{std::min(most_albedo, kBrickMostAlbedo)} * 1.0001;
+    const double kept = double{std::min(max_albedo, kMaxBrickAlbedo)} * 1.0001;
     return std::max(1u, static_cast<uint32_t>(std::ceil(std::log(double{share}) / std::log(kept))));
 }
 

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "cook/bricks/grid/brick_view.h"
-#include "cook/bricks/grid/face_places.h"
+#include "cook/bricks/grid/face_locations.h"
 #include "cook/bricks/light/march_lanes.h"
 #include "formats/gpu_shared/brick_lighting.h"
 
@@ -15,7 +15,7 @@ namespace hearth::bricks
 
 /// Work of one frame: it lights the bricks of one of `period` slices, in order, from the previous radiance of
 /// the faces.
-struct FrameShare
+struct FrameBudget
 {
     uint32_t period = 1; ///< frames until all faces are lit once, at least 1
     uint32_t rays = 16;  ///< per face, at least 1
@@ -30,7 +30,7 @@ public:
 
     /// Light one frame. The result has the same bits for any number of threads.
     /// lighting  lights in world space, after exposure
-    void light(const shared::Lighting& lighting, const FrameShare& share);
+    void light(const shared::Lighting& lighting, const FrameBudget& share);
 
     /// Light frames until all faces have been lit `sweeps` times.
     void sweep(const shared::Lighting& lighting, uint32_t rays, uint32_t sweeps);
@@ -50,7 +50,7 @@ private:
 
     BrickView bricks_;
     MarchTable table_;
-    std::vector<FacePlace> places_;
+    std::vector<FaceLocation> places_;
     std::vector<shared::BrickLight> faces_;
     std::vector<shared::BrickLight> next_; ///< results of the current frame
     uint32_t frame_ = 0;
@@ -59,7 +59,7 @@ private:
 /// Return the number of sweeps after which light from a removed lamp is below `share`, in (0, 1), of its
 /// value everywhere. Each sweep leaves at most the albedo of it; rounding adds at most a ten-thousandth of
 /// that.
-/// most_albedo  largest albedo of all faces, in [0, 1]; clamped to kBrickMostAlbedo
-uint32_t sweepsToForget(float most_albedo, float share);
+/// max_albedo  largest albedo of all faces, in [0, 1]; clamped to kMaxBrickAlbedo
+uint32_t sweepsToDecay(float max_albedo, float share);
 
 } // namespace hearth::bricks

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/light/march_lanes.h"
 
+#include "cook/bricks/grid/brick_tables.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -17,12 +19,7 @@ namespace
 constexpr uint32_t kLanes = 16;
 
 /// Number of active rays below which marching one after the other is faster.
-constexpr uint32_t kLeastLanes = 6;
-
-uint64_t joinedMask(uint32_t low, uint32_t high)
-{
-    return uint64_t{high} << 32 | low;
-}
+constexpr uint32_t kMinActiveLanes = 6;
 
 /// One coordinate of all rays. Rays that move down are mirrored at 0: the voxel is ~voxel and floats change
 /// their sign, so all rays move up. Results have the same bits except for that sign.
@@ -34,7 +31,7 @@ struct Axis
     int32_t voxel[kLanes];
     int32_t mirror[kLanes]; ///< -1: mirrored, 0: not
 
-    void take(uint32_t lane, float ray_start, float ray_direction, float ray_inverse, int ray_voxel)
+    void setRay(uint32_t lane, float ray_start, float ray_direction, float ray_inverse, int ray_voxel)
     {
         const bool up = ray_inverse > 0;
         start[lane] = up ? ray_start : -ray_start;
@@ -57,21 +54,21 @@ public:
     {
         for (uint32_t lane = 0; lane < kLanes; ++lane)
             next(lane);
-        while (live_ >= kLeastLanes)
+        while (active_count_ >= kMinActiveLanes)
         {
-            look();
-            leave();
+            classifyVoxels();
+            stepRays();
             for (uint32_t lane = 0; lane < kLanes; ++lane)
                 if (ended_[lane] != 0)
                 {
-                    putBack(lane);
+                    storeRay(lane);
                     next(lane);
                 }
         }
         for (uint32_t lane = 0; lane < kLanes; ++lane)
-            if (rests_[lane] == 0)
+            if (idle_[lane] == 0)
             {
-                putBack(lane);
+                storeRay(lane);
                 rays_[ray_[lane]] = brickMarch(table_.bricks(), rays_[ray_[lane]]);
             }
     }
@@ -82,7 +79,7 @@ private:
     {
         while (next_ < rays_.size() && rays_[next_].inside == 0)
             ++next_;
-        rests_[lane] = next_ < rays_.size() ? 0 : -1;
+        idle_[lane] = next_ < rays_.size() ? 0 : -1;
         if (next_ == rays_.size())
         {
             // reset, because the lane's last ray may have left the grid
@@ -92,19 +89,19 @@ private:
             return;
         }
         const BrickRay& ray = rays_[next_];
-        x_.take(lane, ray.start.x, ray.direction.x, ray.inverse.x, ray.x);
-        y_.take(lane, ray.start.y, ray.direction.y, ray.inverse.y, ray.y);
-        z_.take(lane, ray.start.z, ray.direction.z, ray.inverse.z, ray.z);
+        x_.setRay(lane, ray.start.x, ray.direction.x, ray.inverse.x, ray.x);
+        y_.setRay(lane, ray.start.y, ray.direction.y, ray.inverse.y, ray.y);
+        z_.setRay(lane, ray.start.z, ray.direction.z, ray.inverse.z, ray.z);
         t_[lane] = ray.t;
         end_[lane] = ray.end;
         axis_[lane] = ray.face == kNoFace ? -1 : static_cast<int32_t>(ray.face >> 1);
         steps_[lane] = ray.steps;
         ray_[lane] = next_++;
-        ++live_;
+        ++active_count_;
     }
 
     /// Find the size of the empty cell around each ray's voxel, or that the voxel is solid.
-    void look()
+    void classifyVoxels()
     {
         for (uint32_t lane = 0; lane < kLanes; ++lane)
         {
@@ -124,9 +121,9 @@ private:
         }
     }
 
-    /// Step as brickLeave and brickCatchUp do. Catching up after each step, instead of when it matters, does
+    /// Step as brickLeaveCell and updateBrickVoxel do. Catching up after each step, instead of when it matters, does
     /// not change the result: a position along a ray never moves back, not by rounding either.
-    void leave()
+    void stepRays()
     {
         for (uint32_t lane = 0; lane < kLanes; ++lane)
         {
@@ -148,7 +145,7 @@ private:
                 static_cast<int32_t>(y_.start[lane] + t * y_.direction[lane]) + y_.mirror[lane];
             const int32_t to_z =
                 static_cast<int32_t>(z_.start[lane] + t * z_.direction[lane]) + z_.mirror[lane];
-            const bool stays = (solid_[lane] | rests_[lane]) != 0;
+            const bool stays = (solid_[lane] | idle_[lane]) != 0;
             const int32_t in_x = std::min(std::max(to_x, x), plane_x - 1);
             const int32_t in_y = std::min(std::max(to_y, y), plane_y - 1);
             const int32_t in_z = std::min(std::max(to_z, z), plane_z - 1);
@@ -159,14 +156,14 @@ private:
             t_[lane] = stays ? t_[lane] : t;
             steps_[lane] += stays ? 0u : 1u;
             const bool ends = (solid_[lane] != 0) | (t >= end_[lane]);
-            ended_[lane] = ends & (rests_[lane] == 0);
+            ended_[lane] = ends & (idle_[lane] == 0);
         }
     }
 
-    void putBack(uint32_t lane)
+    void storeRay(uint32_t lane)
     {
         BrickRay& ray = rays_[ray_[lane]];
-        --live_;
+        --active_count_;
         ray.x = x_.voxelIn(lane);
         ray.y = y_.voxelIn(lane);
         ray.z = z_.voxelIn(lane);
@@ -187,8 +184,9 @@ private:
                    z = static_cast<uint32_t>(ray.z);
         const BrickGrid& grid = table_.bricks().grid;
         const BrickGroup& group =
-            table_.bricks().groups[(x >> 4) + brickGroups(grid.voxels_x) *
-                                                  ((y >> 4) + brickGroups(grid.voxels_y) * (z >> 4))];
+            table_.bricks()
+                .groups[(x >> 4) + brickGroupsAlongAxis(grid.voxels_x) *
+                                       ((y >> 4) + brickGroupsAlongAxis(grid.voxels_y) * (z >> 4))];
         ray.brick = group.first_brick + maskCountBelow(group.brick_mask_low, group.brick_mask_high,
                                                        brickBit(x >> 2, y >> 2, z >> 2));
         ray.bit = brickBit(x, y, z);
@@ -196,15 +194,15 @@ private:
 
     const MarchTable& table_;
     std::span<BrickRay> rays_;
-    size_t next_ = 0;   ///< index into rays_
-    uint32_t live_ = 0; ///< number of lanes that do not rest
+    size_t next_ = 0;           ///< index into rays_
+    uint32_t active_count_ = 0; ///< number of lanes that do not rest
     Axis x_{}, y_{}, z_{};
     float t_[kLanes]{};
     float end_[kLanes]{};
     int32_t axis_[kLanes]{}; ///< axis along which the voxel was entered, -1 for none
     uint32_t steps_[kLanes]{};
     int32_t solid_[kLanes]{}; ///< -1: the voxel is solid
-    int32_t rests_[kLanes]{}; ///< -1: the lane has no ray
+    int32_t idle_[kLanes]{};  ///< -1: the lane has no ray
     int32_t ended_[kLanes]{};
     int32_t edge_[kLanes]{}; ///< size of the cell that the ray leaves, voxels
     uint32_t group_[kLanes]{};
@@ -217,8 +215,9 @@ private:
 
 MarchTable::MarchTable(const BrickMasks& bricks) : bricks_(bricks)
 {
-    const uint32_t x = brickGroups(bricks.grid.voxels_x), y = brickGroups(bricks.grid.voxels_y),
-                   z = brickGroups(bricks.grid.voxels_z);
+    const uint32_t x = brickGroupsAlongAxis(bricks.grid.voxels_x),
+                   y = brickGroupsAlongAxis(bricks.grid.voxels_y),
+                   z = brickGroupsAlongAxis(bricks.grid.voxels_z);
     shift_y_ = static_cast<int>(std::bit_width(x - 1));
     shift_z_ = shift_y_ + static_cast<int>(std::bit_width(y - 1));
     groups_.resize(size_t{z} << shift_z_);
@@ -235,8 +234,7 @@ MarchTable::MarchTable(const BrickMasks& bricks) : bricks_(bricks)
         {
             const bool is = maskHas(group.brick_mask_low, group.brick_mask_high, bit);
             voxels_.push_back(
-                is ? joinedMask(bricks.bricks[brick].voxel_mask_low, bricks.bricks[brick].voxel_mask_high)
-                   : 0);
+                is ? joinMask(bricks.bricks[brick].voxel_mask_low, bricks.bricks[brick].voxel_mask_high) : 0);
             brick += is ? 1 : 0;
         }
     }

@@ -30,12 +30,12 @@ struct RayScene::State
 namespace
 {
 
-RTCRay rayFrom(Float3 place, Float3 direction, float far)
+RTCRay rayFrom(Float3 position, Float3 direction, float far)
 {
     RTCRay ray{};
-    ray.org_x = place.x;
-    ray.org_y = place.y;
-    ray.org_z = place.z;
+    ray.org_x = position.x;
+    ray.org_y = position.y;
+    ray.org_z = position.z;
     ray.dir_x = direction.x;
     ray.dir_y = direction.y;
     ray.dir_z = direction.z;
@@ -53,13 +53,14 @@ void addTriangles(const ClusterGeometry& geometry, const Affine3d& voxels_from_o
             corners.push_back(narrow(transformPoint(voxels_from_object, widen(geometry.position(vertex)))));
 }
 
-Result<std::vector<Float3>> cornersOf(const StaticScene& scene, std::span<const PlacedCluster> placed,
-                                      const GridFrame& frame, bool& has_holes)
+Result<std::vector<Float3>> readTriangleCorners(const StaticScene& scene,
+                                                std::span<const InstancedCluster> placed,
+                                                const GridFrame& frame, bool& has_holes)
 {
     std::vector<Float3> corners;
     std::vector<std::byte> page;
-    uint32_t page_source = kNone, page_number = kNone;
-    for (const PlacedCluster& at : placed)
+    uint32_t page_source = kInvalidIndex, page_number = kInvalidIndex;
+    for (const InstancedCluster& at : placed)
     {
         const PackView& part = scene.sources[at.source].clusters;
         const ClusterRecord& record = part.clusters()[at.cluster];
@@ -91,12 +92,12 @@ RayScene::RayScene(RayScene&&) noexcept = default;
 RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 RayScene::~RayScene() = default;
 
-Result<RayScene> RayScene::build(const StaticScene& scene, std::span<const PlacedCluster> placed,
+Result<RayScene> RayScene::build(const StaticScene& scene, std::span<const InstancedCluster> placed,
                                  const GridFrame& frame)
 {
     auto state = std::make_unique<State>();
     HEARTH_ASSIGN_OR_RETURN(const std::vector<Float3> corners,
-                            cornersOf(scene, placed, frame, state->has_holes));
+                            readTriangleCorners(scene, placed, frame, state->has_holes));
     state->device = rtcNewDevice(nullptr);
     HEARTH_ASSERT(state->device != nullptr);
     state->scene = rtcNewScene(state->device);
@@ -120,25 +121,25 @@ Result<RayScene> RayScene::build(const StaticScene& scene, std::span<const Place
     return RayScene(std::move(state));
 }
 
-std::optional<RayScene::Hit> RayScene::nearest(Float3 place, Float3 direction) const
+std::optional<RayScene::Hit> RayScene::nearest(Float3 position, Float3 direction) const
 {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     RTCRayHit ray{};
-    ray.ray = rayFrom(place, direction, std::numeric_limits<float>::infinity());
+    ray.ray = rayFrom(position, direction, std::numeric_limits<float>::infinity());
     ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(state_->scene, &context, &ray);
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return std::nullopt;
     const Float3 normal = normalizeOr({ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z}, -direction);
-    return Hit{place + direction * ray.ray.tfar, dot(normal, direction) > 0 ? -normal : normal};
+    return Hit{position + direction * ray.ray.tfar, dot(normal, direction) > 0 ? -normal : normal};
 }
 
-bool RayScene::occluded(Float3 place, Float3 direction, float far) const
+bool RayScene::occluded(Float3 position, Float3 direction, float far) const
 {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    RTCRay ray = rayFrom(place, direction, far);
+    RTCRay ray = rayFrom(position, direction, far);
     rtcOccluded1(state_->scene, &context, &ray);
     return ray.tfar < 0;
 }

@@ -18,21 +18,21 @@ class RayScene
 public:
     struct Hit
     {
-        Float3 place;
+        Float3 position;
         Float3 normal; ///< unit, of the triangle, on the side of the ray's origin
     };
 
     /// Build from the clusters whose materials have no holes. Triangles block rays from both sides.
     /// errors: errors of decoding pages
-    static Result<RayScene> build(const StaticScene& scene, std::span<const PlacedCluster> placed,
+    static Result<RayScene> build(const StaticScene& scene, std::span<const InstancedCluster> placed,
                                   const GridFrame& frame);
 
     RayScene(RayScene&&) noexcept;
     RayScene& operator=(RayScene&&) noexcept;
     ~RayScene();
 
-    std::optional<Hit> nearest(Float3 place, Float3 direction) const;
-    bool occluded(Float3 place, Float3 direction, float far) const;
+    std::optional<Hit> nearest(Float3 position, Float3 direction) const;
+    bool occluded(Float3 position, Float3 direction, float far) const;
 
     /// True if clusters were excluded because their materials have holes.
     bool hasHoles() const;

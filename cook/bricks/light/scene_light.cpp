@@ -8,7 +8,7 @@
 namespace hearth::bricks
 {
 
-shared::Lighting lightingOf(const StaticScene& scene)
+shared::Lighting makeSceneLighting(const StaticScene& scene)
 {
     std::vector<formats::LightRecord> lights;
     for (const SourceParts& source : scene.sources)

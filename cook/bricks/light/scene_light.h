@@ -12,6 +12,6 @@ namespace hearth::bricks
 /// default sky; and the exposure by the runtime's rule (runtime/gpu/README.md). The scene's box has no
 /// animated or deformed instances here. If these reach beyond the static ones, the runtime's exposure
 /// differs, and its frames correct the lighting.
-shared::Lighting lightingOf(const StaticScene& scene);
+shared::Lighting makeSceneLighting(const StaticScene& scene);
 
 } // namespace hearth::bricks

@@ -1,7 +1,7 @@
 // hearth-bricks: cooks the bricks of one or more sources, or marches rays through the bricks of a file.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/light/bake.h"
-#include "cook/bricks/light/march_rows.h"
+#include "cook/bricks/light/march_csv.h"
 #include "cook/command_line/command_line.h"
 #include "cook/tools/open_part.h"
 #include "formats/base/atomic_file.h"
@@ -70,7 +70,7 @@ void warn(const GridStatistics& statistics, const std::string& output)
 Status cook(const Arguments& arguments)
 {
     HEARTH_ASSIGN_OR_RETURN(const std::vector<SourceParts> sources, openSources(arguments.inputs));
-    HEARTH_ASSIGN_OR_RETURN(const StaticScene scene, staticScene(sources));
+    HEARTH_ASSIGN_OR_RETURN(const StaticScene scene, collectStaticScene(sources));
     HEARTH_ASSIGN_OR_RETURN(CookedGrid grid, cookGrid(scene, arguments.settings));
     if (arguments.bounces)
         HEARTH_TRY(bakeLight(scene, {.bounces = *arguments.bounces}, grid));
@@ -91,7 +91,7 @@ int run(const Arguments& arguments)
                                                       arguments.jobs);
     const Status done = arguments.rays.empty()
                             ? cook(arguments)
-                            : marchFile(arguments.inputs[0], arguments.rays, arguments.output);
+                            : marchCsvFile(arguments.inputs[0], arguments.rays, arguments.output);
     return done.ok() ? 0 : reportFailure(done.error());
 }
 
@@ -101,7 +101,7 @@ Double3 point(const std::vector<double>& values)
 }
 
 /// Return the error message for options that exclude each other; empty if the options are valid.
-std::string faultOf(const Arguments& arguments)
+std::string checkArguments(const Arguments& arguments)
 {
     if (!arguments.rays.empty() && arguments.inputs.size() != 1)
         return "--march: one pack or bricks part is needed";
@@ -175,7 +175,7 @@ void addOptions(cli::CommandLine& app, Arguments& arguments)
         "  hearth-bricks village.hearth --march rays.csv -o hits.csv\n"
         "Exit codes: 0 done, 2 usage, 65 malformed input, 66 input missing, 70 internal, 73 cannot write, "
         "74 I/O");
-    app.setCheck([&arguments] { return faultOf(arguments); });
+    app.setCheck([&arguments] { return checkArguments(arguments); });
     app.setAction([&arguments, voxel_size] { fillSettings(arguments, voxel_size.count() > 0); });
 }
 

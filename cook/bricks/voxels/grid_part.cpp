@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/voxels/grid_part.h"
-#include "cook/bricks/voxels/side_mix.h"
+#include "cook/bricks/voxels/blend_sides.h"
 
 #include "cook/bricks/voxels/opacity.h"
 #include "cook/json/json.h"
@@ -21,7 +21,7 @@ double secondsSince(std::chrono::steady_clock::time_point start)
 }
 
 /// Return the focus points: cameras and seeds; without any, the middle of the static instances.
-std::vector<Float3> fociOf(const StaticScene& scene, const GridSettings& settings)
+std::vector<Float3> findFocusPoints(const StaticScene& scene, const GridSettings& settings)
 {
     std::vector<Float3> foci = scene.cameras;
     foci.insert(foci.end(), settings.seeds.begin(), settings.seeds.end());
@@ -34,9 +34,9 @@ std::vector<Float3> fociOf(const StaticScene& scene, const GridSettings& setting
     return {narrow(sum * (1 / count))};
 }
 
-CookedGrid cooked(const StaticScene& scene, const Voxelised& voxelised, const FacedGrid& faced)
+CookedGrid cooked(const StaticScene& scene, const VoxeliseResult& voxelised, const GridWithFaces& faced)
 {
-    CookedGrid cooked{tablesOf(faced.solid, faced.faces), {}};
+    CookedGrid cooked{makeBrickTables(faced.solid, faced.faces), {}};
     GridStatistics& statistics = cooked.statistics;
     statistics.frame = faced.solid.frame;
     statistics.left_out = scene.left_out;
@@ -58,21 +58,21 @@ CookedGrid cooked(const StaticScene& scene, const Voxelised& voxelised, const Fa
 Result<std::optional<CookedGrid>> cookAt(const StaticScene& scene, const GridSettings& settings, double size,
                                          bool keep_all)
 {
-    HEARTH_ASSIGN_OR_RETURN(const GridFrame frame, frameOf(settings, scene.box(), size));
+    HEARTH_ASSIGN_OR_RETURN(const GridFrame frame, makeGridFrame(settings, scene.box(), size));
     const double error = size * settings.error_share;
     auto start = std::chrono::steady_clock::now();
-    const std::vector<Float3> foci = fociOf(scene, settings);
+    const std::vector<Float3> foci = findFocusPoints(scene, settings);
     HEARTH_ASSIGN_OR_RETURN(
-        Voxelised voxelised,
-        voxelise(scene, clustersOfCut(scene, static_cast<float>(error)), frame, foci, settings.memory));
-    hideSheets(voxelised.grid);
-    mixSides(voxelised.grid);
+        VoxeliseResult voxelised,
+        voxelise(scene, findCutClusters(scene, static_cast<float>(error)), frame, foci, settings.memory));
+    computeOpacities(voxelised.grid);
+    blendSides(voxelised.grid);
     const double voxelise_seconds = secondsSince(start);
 
     start = std::chrono::steady_clock::now();
     std::vector<Float3> seen_points = scene.cameras;
     seen_points.insert(seen_points.end(), settings.seeds.begin(), settings.seeds.end());
-    FacedGrid faced = withinBudget(std::move(voxelised.grid), seen_points, foci, settings.memory);
+    GridWithFaces faced = fitToMemory(std::move(voxelised.grid), seen_points, foci, settings.memory);
     faced.dropped.tiles = voxelised.tiles_skipped;
     if (keep_all && faced.dropped.any())
         return std::optional<CookedGrid>();
@@ -92,7 +92,7 @@ struct Row
     uint64_t bytes;
 };
 
-std::array<Row, 10> rowsOf(const BrickBytes& bytes)
+std::array<Row, 10> memoryRows(const BrickBytes& bytes)
 {
     return {Row{"BrickGroupBitMask", 64, "groups", bytes.groups},
             Row{"BrickTexture", 2048, "in groups", 0},
@@ -168,7 +168,7 @@ std::string statisticsJson(const GridStatistics& statistics)
                        {"tiles", statistics.dropped.tiles},
                        {"from_distance", statistics.dropped.from_distance}};
     json["memory"] = Json::array();
-    for (const Row& row : rowsOf(statistics.bytes))
+    for (const Row& row : memoryRows(statistics.bytes))
         json["memory"].push_back(
             {{"table", row.ours}, {"bytes", row.bytes}, {"talks", row.talks}, {"talks_kib", row.talks_kib}});
     json["seconds"] = {{"voxelise", statistics.voxelise_seconds}, {"faces", statistics.faces_seconds}};
@@ -180,7 +180,7 @@ std::string memoryText(const GridStatistics& statistics)
     char line[128];
     std::snprintf(line, sizeof(line), "%-28s%10s   %-10s%12s\n", "the talk's", "KiB", "here", "KiB");
     std::string text = line;
-    for (const Row& row : rowsOf(statistics.bytes))
+    for (const Row& row : memoryRows(statistics.bytes))
     {
         std::snprintf(line, sizeof(line), "%-28s%10.0f   %-10s%12.1f\n", row.talks, row.talks_kib, row.ours,
                       static_cast<double>(row.bytes) / 1024);

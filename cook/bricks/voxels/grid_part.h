@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cook/bricks/grid/grid_settings.h"
-#include "cook/bricks/voxels/budget.h"
+#include "cook/bricks/voxels/memory_budget.h"
 #include "cook/bricks/voxels/voxelise.h"
 
 #include <string>
@@ -16,16 +16,16 @@ struct GridStatistics
 {
     GridFrame frame;
     double error = 0; ///< metres in world space: LOD error allowed for the clusters
-    LeftOut left_out;
+    ExcludedInstances left_out;
     uint64_t instances = 0;
-    VoxeliseCounts counts;
+    VoxeliseStatistics counts;
     uint64_t bricks = 0;
     uint64_t solid_voxels = 0;
     uint64_t opaque_voxels = 0;
     uint64_t faces = 0;
     uint64_t sealed_spaces = 0;
     uint64_t sealed_sides = 0; ///< voxel sides towards sealed spaces; they are no faces
-    Dropped dropped;
+    DroppedBricks dropped;
     BrickBytes bytes;
     double voxelise_seconds = 0;
     double faces_seconds = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/voxels/material.h"
 
-#include "cook/bricks/voxels/cross_section.h"
+#include "cook/bricks/voxels/coverage.h"
 
 #include <map>
 
@@ -15,15 +15,15 @@ namespace
 
 // Texels per voxel for colours. With two, features between samples are no wider than a texel of the voxel's
 // size.
-constexpr double kTexelsOfLook = 2;
-constexpr double kTexelsOfHoles = kSampleRow;
+constexpr double kColorTexelsPerVoxel = 2;
+constexpr double kCoverageTexelsPerVoxel = kSamplesPerEdge;
 
 Float3 rgb(Float4 color)
 {
     return {color.x, color.y, color.z};
 }
 
-Float3 cutToUnit(Float3 c)
+Float3 clampToUnit(Float3 c)
 {
     return min(max(c, {0, 0, 0}), {1, 1, 1});
 }
@@ -35,8 +35,8 @@ Float2 mixed(const std::array<Float2, 3>& values, const std::array<float, 3>& we
 
 /// Return the number of texels of the finest mip along a voxel's edge, averaged over the directions of the
 /// triangle.
-double texelsOfVoxel(const Texture& texture, const TextureRef& reference, const std::array<Float2, 3>& uvs,
-                     double voxel_area)
+double texelsPerVoxel(const Texture& texture, const TextureRef& reference, const std::array<Float2, 3>& uvs,
+                      double voxel_area)
 {
     std::array<Float2, 3> at;
     for (size_t i = 0; i < 3; ++i)
@@ -48,22 +48,22 @@ double texelsOfVoxel(const Texture& texture, const TextureRef& reference, const 
 
 } // namespace
 
-MaterialUse defaultMaterial()
+SurfaceMaterial defaultMaterial()
 {
-    MaterialUse use{};
+    SurfaceMaterial use{};
     use.record.base_color = {1, 1, 1, 1};
-    use.record.base_color_texture.image = kNone;
-    use.record.emissive_texture.image = kNone;
+    use.record.base_color_texture.image = kInvalidIndex;
+    use.record.emissive_texture.image = kInvalidIndex;
     return use;
 }
 
-Result<std::vector<MaterialUse>> materialsOf(const PackView& scene, const PackView& textures)
+Result<std::vector<SurfaceMaterial>> readMaterials(const PackView& scene, const PackView& textures)
 {
     std::map<uint32_t, std::shared_ptr<const Texture>> images;
-    const auto textureOf = [&](uint32_t material,
-                               const TextureRef& reference) -> Result<std::shared_ptr<const Texture>>
+    const auto findTexture = [&](uint32_t material,
+                                 const TextureRef& reference) -> Result<std::shared_ptr<const Texture>>
     {
-        if (reference.image == kNone)
+        if (reference.image == kInvalidIndex)
             return std::shared_ptr<const Texture>();
         if (reference.image >= textures.images().size())
             return Error{Issue::meaning_reference, textures.name(), "material " + std::to_string(material),
@@ -73,24 +73,24 @@ Result<std::vector<MaterialUse>> materialsOf(const PackView& scene, const PackVi
             image = std::make_shared<const Texture>(textures, reference.image);
         return image;
     };
-    std::vector<MaterialUse> uses;
+    std::vector<SurfaceMaterial> uses;
     for (uint32_t i = 0; i < scene.materials().size(); ++i)
     {
-        MaterialUse use{scene.materials()[i], nullptr, nullptr};
-        HEARTH_ASSIGN_OR_RETURN(use.base_color, textureOf(i, use.record.base_color_texture));
+        SurfaceMaterial use{scene.materials()[i], nullptr, nullptr};
+        HEARTH_ASSIGN_OR_RETURN(use.base_color, findTexture(i, use.record.base_color_texture));
         const Float3 emissive = use.record.emissive;
         if (emissive.x > 0 || emissive.y > 0 || emissive.z > 0)
         {
-            HEARTH_ASSIGN_OR_RETURN(use.emissive, textureOf(i, use.record.emissive_texture));
+            HEARTH_ASSIGN_OR_RETURN(use.emissive, findTexture(i, use.record.emissive_texture));
         }
         uses.push_back(std::move(use));
     }
     return uses;
 }
 
-TriangleSurface::TriangleSurface(const MaterialUse& material, const Polygon& corners,
-                                 const TriangleLook& look)
-    : material_(material), corners_(corners), look_(look)
+TriangleSurface::TriangleSurface(const SurfaceMaterial& material, const Polygon& corners,
+                                 const TriangleAttributes& look)
+    : material_(material), corners_(corners), attributes_(look)
 {
     const Double3 area = doubleArea(corners);
     for (int axis = 1; axis < 3; ++axis)
@@ -100,15 +100,15 @@ TriangleSurface::TriangleSurface(const MaterialUse& material, const Polygon& cor
     const double size = length(area);
     if (material.base_color)
     {
-        const double texels =
-            texelsOfVoxel(*material.base_color, material.record.base_color_texture, look.base_color_uv, size);
-        base_color_mip_ = material.base_color->mipFor(texels, kTexelsOfLook);
-        alpha_mip_ = material.base_color->mipFor(texels, kTexelsOfHoles);
+        const double texels = texelsPerVoxel(*material.base_color, material.record.base_color_texture,
+                                             look.base_color_uv, size);
+        base_color_mip_ = material.base_color->mipFor(texels, kColorTexelsPerVoxel);
+        alpha_mip_ = material.base_color->mipFor(texels, kCoverageTexelsPerVoxel);
     }
     if (material.emissive)
         emissive_mip_ = material.emissive->mipFor(
-            texelsOfVoxel(*material.emissive, material.record.emissive_texture, look.emissive_uv, size),
-            kTexelsOfLook);
+            texelsPerVoxel(*material.emissive, material.record.emissive_texture, look.emissive_uv, size),
+            kColorTexelsPerVoxel);
     plain_ = !material.base_color && !material.emissive && look.color[0] == look.color[1] &&
              look.color[0] == look.color[2];
 }
@@ -116,32 +116,35 @@ TriangleSurface::TriangleSurface(const MaterialUse& material, const Polygon& cor
 std::array<float, 3> TriangleSurface::weightsAt(const Double3& p) const
 {
     const int u = uAxis(axis_), v = vAxis(axis_);
-    const auto doubleAreaOf = [&](const Double3& a, const Double3& b)
+    const auto signedDoubleArea = [&](const Double3& a, const Double3& b)
     {
         return (coordinate(a, u) - coordinate(p, u)) * (coordinate(b, v) - coordinate(p, v)) -
                (coordinate(a, v) - coordinate(p, v)) * (coordinate(b, u) - coordinate(p, u));
     };
     const auto& corner = corners_.points;
-    const auto first = static_cast<float>(std::clamp(doubleAreaOf(corner[1], corner[2]) / area_, 0.0, 1.0));
-    const auto second = static_cast<float>(std::clamp(doubleAreaOf(corner[2], corner[0]) / area_, 0.0, 1.0));
+    const auto first =
+        static_cast<float>(std::clamp(signedDoubleArea(corner[1], corner[2]) / area_, 0.0, 1.0));
+    const auto second =
+        static_cast<float>(std::clamp(signedDoubleArea(corner[2], corner[0]) / area_, 0.0, 1.0));
     return {first, second, 1 - first - second};
 }
 
 float TriangleSurface::alpha(const std::array<float, 3>& weights, uint32_t mip) const
 {
     float alpha = material_.record.base_color.w;
-    alpha *= look_.color[0].w * weights[0] + look_.color[1].w * weights[1] + look_.color[2].w * weights[2];
+    alpha *= attributes_.color[0].w * weights[0] + attributes_.color[1].w * weights[1] +
+             attributes_.color[2].w * weights[2];
     if (material_.base_color)
     {
         const TextureRef& reference = material_.record.base_color_texture;
         alpha *= material_.base_color
-                     ->at(reference, transformed(reference, mixed(look_.base_color_uv, weights)), mip)
+                     ->at(reference, transformed(reference, mixed(attributes_.base_color_uv, weights)), mip)
                      .w;
     }
     return alpha;
 }
 
-float TriangleSurface::hiddenBy(float alpha) const
+float TriangleSurface::coverageFromAlpha(float alpha) const
 {
     switch (material_.alphaMode())
     {
@@ -155,35 +158,36 @@ float TriangleSurface::hiddenBy(float alpha) const
     return std::clamp(alpha, 0.0f, 1.0f);
 }
 
-Look TriangleSurface::at(const Double3& p) const
+SurfaceSample TriangleSurface::at(const Double3& p) const
 {
     const std::array<float, 3> weights = weightsAt(p);
-    Look look;
+    SurfaceSample look;
     look.albedo = rgb(material_.record.base_color);
-    look.albedo = look.albedo * (rgb(look_.color[0]) * weights[0] + rgb(look_.color[1]) * weights[1] +
-                                 rgb(look_.color[2]) * weights[2]);
+    look.albedo =
+        look.albedo * (rgb(attributes_.color[0]) * weights[0] + rgb(attributes_.color[1]) * weights[1] +
+                       rgb(attributes_.color[2]) * weights[2]);
     if (material_.base_color)
     {
         const TextureRef& reference = material_.record.base_color_texture;
-        const Float2 uv = transformed(reference, mixed(look_.base_color_uv, weights));
+        const Float2 uv = transformed(reference, mixed(attributes_.base_color_uv, weights));
         look.albedo = look.albedo * rgb(material_.base_color->at(reference, uv, base_color_mip_));
     }
-    look.albedo = cutToUnit(look.albedo);
+    look.albedo = clampToUnit(look.albedo);
     look.emission = material_.record.emissive;
     if (material_.emissive)
     {
         const TextureRef& reference = material_.record.emissive_texture;
-        const Float2 uv = transformed(reference, mixed(look_.emissive_uv, weights));
+        const Float2 uv = transformed(reference, mixed(attributes_.emissive_uv, weights));
         look.emission = look.emission * rgb(material_.emissive->at(reference, uv, emissive_mip_));
     }
     if (material_.hasHoles())
-        look.hidden = hiddenBy(alpha(weights, alpha_mip_));
+        look.coverage = coverageFromAlpha(alpha(weights, alpha_mip_));
     return look;
 }
 
-float TriangleSurface::hiddenAt(const Double3& p) const
+float TriangleSurface::coverageAt(const Double3& p) const
 {
-    return material_.hasHoles() ? hiddenBy(alpha(weightsAt(p), alpha_mip_)) : 1.0f;
+    return material_.hasHoles() ? coverageFromAlpha(alpha(weightsAt(p), alpha_mip_)) : 1.0f;
 }
 
 } // namespace hearth::bricks

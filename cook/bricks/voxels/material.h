@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "cook/bricks/voxels/polygon_clip.h"
 #include "cook/bricks/voxels/texture.h"
-#include "cook/bricks/voxels/voxel_clip.h"
 
 #include <memory>
 #include <span>
@@ -12,16 +12,16 @@ namespace hearth::bricks
 {
 
 /// Material values at one point of a surface.
-struct Look
+struct SurfaceSample
 {
     /// base colour, linear Rec.709, 0 to 1; also of metals, because their reflections count as diffuse light
     /// here
     Float3 albedo;
-    Float3 emission;  ///< radiance, linear Rec.709
-    float hidden = 1; ///< opacity: 0 in the holes of a mask, alpha of blended materials
+    Float3 emission;    ///< radiance, linear Rec.709
+    float coverage = 1; ///< opacity: 0 in the holes of a mask, alpha of blended materials
 };
 
-struct MaterialUse
+struct SurfaceMaterial
 {
     formats::MaterialRecord record;
     std::shared_ptr<const Texture> base_color; ///< may be null, like `emissive`
@@ -34,15 +34,15 @@ struct MaterialUse
 };
 
 /// Return glTF's default material, for triangles without a material index.
-MaterialUse defaultMaterial();
+SurfaceMaterial defaultMaterial();
 
 /// Read the materials of a source, with the images of its textures part.
 /// errors: meaning_reference for a missing image
-Result<std::vector<MaterialUse>> materialsOf(const formats::PackView& scene,
-                                             const formats::PackView& textures);
+Result<std::vector<SurfaceMaterial>> readMaterials(const formats::PackView& scene,
+                                                   const formats::PackView& textures);
 
 /// Vertex attributes of one triangle's corners.
-struct TriangleLook
+struct TriangleAttributes
 {
     std::array<Float2, 3> base_color_uv; ///< before the texture's transform, like `emissive_uv`
     std::array<Float2, 3> emissive_uv;
@@ -56,24 +56,24 @@ public:
     /// Construct from a material and a triangle.
     /// material, corners, look  must outlive this
     /// corners                  in voxels, with an area above 0
-    TriangleSurface(const MaterialUse& material, const Polygon& corners, const TriangleLook& look);
+    TriangleSurface(const SurfaceMaterial& material, const Polygon& corners, const TriangleAttributes& look);
 
     /// True if the material values are the same at all points.
     bool plain() const { return plain_; }
 
     /// Return the material values at point p of the triangle.
-    Look at(const Double3& p) const;
+    SurfaceSample at(const Double3& p) const;
     /// Return the opacity alone, from a mip fine enough for coverage samples.
-    float hiddenAt(const Double3& p) const;
+    float coverageAt(const Double3& p) const;
 
 private:
     std::array<float, 3> weightsAt(const Double3& p) const;
     float alpha(const std::array<float, 3>& weights, uint32_t mip) const;
-    float hiddenBy(float alpha) const;
+    float coverageFromAlpha(float alpha) const;
 
-    const MaterialUse& material_;
+    const SurfaceMaterial& material_;
     const Polygon& corners_;
-    const TriangleLook& look_;
+    const TriangleAttributes& attributes_;
     bool plain_ = true;
     int axis_ = 0; ///< axis along which the triangle's projection is largest
     double area_ = 0;

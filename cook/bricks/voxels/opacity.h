@@ -18,6 +18,6 @@ namespace hearth::bricks
 inline constexpr uint8_t kOpaque = 255;
 
 /// Set all opacities, to at least 1.
-void hideSheets(SolidGrid& grid);
+void computeOpacities(SolidGrid& grid);
 
 } // namespace hearth::bricks

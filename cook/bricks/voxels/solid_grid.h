@@ -3,7 +3,8 @@
 #pragma once
 
 #include "cook/bricks/grid/grid_frame.h"
-#include "cook/bricks/voxels/cross_section.h"
+#include "cook/bricks/voxels/coverage.h"
+#include "formats/base/index.h"
 #include "formats/gpu_shared/bricks.h"
 
 #include <bit>
@@ -12,16 +13,15 @@
 namespace hearth::bricks
 {
 
-inline constexpr uint32_t kNowhere = 0xFFFFFFFFu;
 inline constexpr uint32_t kFaces = shared::kVoxelFaces;
 
 /// Return the axis of a face.
-constexpr int axisOf(uint32_t face)
+constexpr int faceAxis(uint32_t face)
 {
     return static_cast<int>(face / 2);
 }
 /// True if the face's normal points in the positive direction of its axis.
-constexpr bool looksUp(uint32_t face)
+constexpr bool isPositiveFace(uint32_t face)
 {
     return face % 2 != 0;
 }
@@ -32,9 +32,9 @@ struct SolidVoxel
     std::array<uint32_t, kFaces> albedo;
     std::array<uint32_t, kFaces> emission;
     std::array<uint16_t, kFaces> normal;
-    uint8_t looked_at; ///< bit f: a front face of a surface is visible through side f
-    uint8_t opacity;   ///< > 0; set by hideSheets, then by separateSpaces
-    CrossSections hidden;
+    uint8_t front_visible; ///< bit f: a front face of a surface is visible through side f
+    uint8_t opacity;       ///< > 0; set by computeOpacities, then by separateSpaces
+    CoverageMasks coverage;
 };
 
 /// Block of 4 x 4 x 4 cells, one bit each, and the index of its first set cell. Bit order as in
@@ -52,7 +52,7 @@ struct MaskedCells
 };
 
 /// Return the bit of a voxel in its brick, or with shift 2 the bit of a brick in its group.
-constexpr uint32_t bitOf(const Cell& cell, uint32_t shift = 0)
+constexpr uint32_t cellBit(const Cell& cell, uint32_t shift = 0)
 {
     return (cell[0] >> shift & 3u) | (cell[1] >> shift & 3u) << 2 | (cell[2] >> shift & 3u) << 4;
 }
@@ -64,25 +64,25 @@ struct SolidGrid
     std::vector<MaskedCells> bricks;
     std::vector<SolidVoxel> voxels;
 
-    uint32_t groupOf(const Cell& cell) const
+    uint32_t groupIndex(const Cell& cell) const
     {
         const Cell count = frame.groups();
         return (cell[0] >> 4) + count[0] * ((cell[1] >> 4) + count[1] * (cell[2] >> 4));
     }
-    /// Return the index of a cell's brick, kNowhere where it is empty.
+    /// Return the index of a cell's brick, kInvalidIndex where it is empty.
     uint32_t brickAt(const Cell& cell) const
     {
-        const MaskedCells& group = groups[groupOf(cell)];
-        const uint32_t bit = bitOf(cell, 2);
-        return group.has(bit) ? group.at(bit) : kNowhere;
+        const MaskedCells& group = groups[groupIndex(cell)];
+        const uint32_t bit = cellBit(cell, 2);
+        return group.has(bit) ? group.at(bit) : kInvalidIndex;
     }
-    /// Return the index of a solid voxel, kNowhere for an empty one. The cell must lie in the grid.
+    /// Return the index of a solid voxel, kInvalidIndex for an empty one. The cell must lie in the grid.
     uint32_t voxelAt(const Cell& cell) const
     {
         const uint32_t brick = brickAt(cell);
-        if (brick == kNowhere || !bricks[brick].has(bitOf(cell)))
-            return kNowhere;
-        return bricks[brick].at(bitOf(cell));
+        if (brick == kInvalidIndex || !bricks[brick].has(cellBit(cell)))
+            return kInvalidIndex;
+        return bricks[brick].at(cellBit(cell));
     }
 
     /// Call visit(brick, lowest cell of the brick) for all bricks in their order.
@@ -114,7 +114,7 @@ struct SolidGrid
 
 /// Return the cell of a bit in a brick.
 /// brick  lowest cell of the brick
-constexpr Cell cellOf(const Cell& brick, uint32_t bit)
+constexpr Cell cellFromBit(const Cell& brick, uint32_t bit)
 {
     return {brick[0] + (bit & 3), brick[1] + (bit >> 2 & 3), brick[2] + (bit >> 4)};
 }
@@ -123,7 +123,7 @@ constexpr Cell cellOf(const Cell& brick, uint32_t bit)
 /// because values below 0 wrap.
 constexpr Cell across(Cell cell, uint32_t face)
 {
-    cell[face / 2] += looksUp(face) ? 1u : ~0u;
+    cell[face / 2] += isPositiveFace(face) ? 1u : ~0u;
     return cell;
 }
 

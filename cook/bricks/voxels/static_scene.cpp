@@ -14,7 +14,7 @@ namespace
 {
 
 /// Return for each node whether a clip moves it or one of its ancestors.
-std::vector<bool> movedNodes(const PackView& scene)
+std::vector<bool> findAnimatedNodes(const PackView& scene)
 {
     std::vector<bool> moved(scene.nodes().size());
     for (const AnimationChannelRecord& channel : scene.channels())
@@ -39,7 +39,7 @@ bool isDeformed(const MeshRecord& mesh)
     return mesh.skinned != 0 || mesh.morph_target_count != 0;
 }
 
-Box3 boxOf(const MeshRecord& mesh, const Affine3& world_from_object)
+Box3 instanceBox(const MeshRecord& mesh, const Affine3& world_from_object)
 {
     Box3 box;
     for (uint32_t corner = 0; corner < 8; ++corner)
@@ -49,11 +49,11 @@ Box3 boxOf(const MeshRecord& mesh, const Affine3& world_from_object)
     return box;
 }
 
-Status checkTogether(const SourceParts& source, const std::vector<MaterialUse>& materials)
+Status checkParts(const SourceParts& source, const std::vector<SurfaceMaterial>& materials)
 {
     HEARTH_TRY(checkHierarchy(source.clusters));
     for (const ClusterRecord& cluster : source.clusters.clusters())
-        if (cluster.material != kNone && cluster.material >= materials.size())
+        if (cluster.material != kInvalidIndex && cluster.material >= materials.size())
             return Error{Issue::meaning_reference, source.clusters.name(), "",
                          "material " + std::to_string(cluster.material) + " of a cluster is not in " +
                              source.scene.name()};
@@ -63,7 +63,7 @@ Status checkTogether(const SourceParts& source, const std::vector<MaterialUse>& 
 /// True if all materials of the mesh are unlit.
 bool isUnlit(const StaticScene& scene, uint32_t source, const MeshRecord& mesh)
 {
-    const auto clusters = recordsOf(scene.sources[source].clusters.clusters(), mesh.clusters);
+    const auto clusters = recordsInRange(scene.sources[source].clusters.clusters(), mesh.clusters);
     return std::ranges::all_of(clusters, [&](const ClusterRecord& cluster)
                                { return scene.material(source, cluster.material).unlit(); });
 }
@@ -71,7 +71,7 @@ bool isUnlit(const StaticScene& scene, uint32_t source, const MeshRecord& mesh)
 Status addInstances(StaticScene& scene, uint32_t source)
 {
     const SourceParts& parts = scene.sources[source];
-    const std::vector<bool> moved = movedNodes(parts.scene);
+    const std::vector<bool> moved = findAnimatedNodes(parts.scene);
     for (size_t i = 0; i < parts.scene.instances().size(); ++i)
     {
         const InstanceRecord& instance = parts.scene.instances()[i];
@@ -90,7 +90,7 @@ Status addInstances(StaticScene& scene, uint32_t source)
         else
             scene.instances.push_back({source, instance.mesh, instance.world_from_object, instance.scale_max,
                                        (instance.flags & kInstanceMirrored) != 0,
-                                       boxOf(mesh, instance.world_from_object)});
+                                       instanceBox(mesh, instance.world_from_object)});
     }
     for (const CameraRecord& camera : parts.scene.cameras())
         scene.cameras.push_back({camera.world_from_camera.m[0][3], camera.world_from_camera.m[1][3],
@@ -100,12 +100,12 @@ Status addInstances(StaticScene& scene, uint32_t source)
 
 /// Call visit(index, cluster) for each cluster of a mesh in the LOD cut at an error in object space.
 template <typename Visit>
-void forEachOfCut(const PackView& part, const MeshRecord& mesh, float error, const Visit& visit)
+void forEachCutCluster(const PackView& part, const MeshRecord& mesh, float error, const Visit& visit)
 {
     for (uint32_t c = mesh.clusters.first; c < mesh.clusters.first + mesh.clusters.count; ++c)
     {
         const ClusterRecord& cluster = part.clusters()[c];
-        if (errorOf(cluster, part.groups()) <= error && part.groups()[cluster.group].error > error)
+        if (clusterError(cluster, part.groups()) <= error && part.groups()[cluster.group].error > error)
             visit(c, cluster);
     }
 }
@@ -120,29 +120,29 @@ Box3 StaticScene::box() const
     return box;
 }
 
-const MaterialUse& StaticScene::material(uint32_t source, uint32_t material) const
+const SurfaceMaterial& StaticScene::material(uint32_t source, uint32_t material) const
 {
-    return material == kNone ? default_material_ : materials[source][material];
+    return material == kInvalidIndex ? default_material_ : materials[source][material];
 }
 
-Result<StaticScene> staticScene(std::span<const SourceParts> sources)
+Result<StaticScene> collectStaticScene(std::span<const SourceParts> sources)
 {
     StaticScene scene;
     scene.sources = sources;
     for (uint32_t source = 0; source < sources.size(); ++source)
     {
-        HEARTH_ASSIGN_OR_RETURN(std::vector<MaterialUse> materials,
-                                materialsOf(sources[source].scene, sources[source].textures));
-        HEARTH_TRY(checkTogether(sources[source], materials));
+        HEARTH_ASSIGN_OR_RETURN(std::vector<SurfaceMaterial> materials,
+                                readMaterials(sources[source].scene, sources[source].textures));
+        HEARTH_TRY(checkParts(sources[source], materials));
         scene.materials.push_back(std::move(materials));
         HEARTH_TRY(addInstances(scene, source));
     }
     return scene;
 }
 
-std::vector<PlacedCluster> clustersOfCut(const StaticScene& scene, float error)
+std::vector<InstancedCluster> findCutClusters(const StaticScene& scene, float error)
 {
-    std::vector<PlacedCluster> placed;
+    std::vector<InstancedCluster> placed;
     for (uint32_t i = 0; i < scene.instances.size(); ++i)
     {
         const StaticInstance& instance = scene.instances[i];
@@ -150,18 +150,19 @@ std::vector<PlacedCluster> clustersOfCut(const StaticScene& scene, float error)
         // skip instances of size 0: they have no error and no area
         if (!(instance.scale_max > 0))
             continue;
-        forEachOfCut(part, part.meshes()[instance.mesh], error / instance.scale_max,
-                     [&](uint32_t number, const ClusterRecord& cluster)
-                     {
-                         if (!scene.material(instance.source, cluster.material).unlit())
-                             placed.push_back({instance.source, cluster.page, number, i});
-                     });
+        forEachCutCluster(part, part.meshes()[instance.mesh], error / instance.scale_max,
+                          [&](uint32_t number, const ClusterRecord& cluster)
+                          {
+                              if (!scene.material(instance.source, cluster.material).unlit())
+                                  placed.push_back({instance.source, cluster.page, number, i});
+                          });
     }
     std::ranges::sort(placed);
     return placed;
 }
 
-VoxelBox voxelBoxOf(const StaticScene& scene, const PlacedCluster& placed, const Affine3d& voxels_from_object)
+VoxelBox computeVoxelBox(const StaticScene& scene, const InstancedCluster& placed,
+                         const Affine3d& voxels_from_object)
 {
     const PackView& part = scene.sources[placed.source].clusters;
     const ClusterRecord& cluster = part.clusters()[placed.cluster];
@@ -178,7 +179,10 @@ VoxelBox voxelBoxOf(const StaticScene& scene, const PlacedCluster& placed, const
     const Double3 half = (high - low) * 0.5;
     // margin: rounding moves corners by half a step of the snapping grid, and sides by the error of doubles
     const auto reach = [&](const double(&row)[4])
-    { return std::abs(row[0]) * half.x + std::abs(row[1]) * half.y + std::abs(row[2]) * half.z + 1 / kSnap; };
+    {
+        return std::abs(row[0]) * half.x + std::abs(row[1]) * half.y + std::abs(row[2]) * half.z +
+               1 / kStepsPerVoxel;
+    };
     const Double3 reached{reach(voxels_from_object.m[0]), reach(voxels_from_object.m[1]),
                           reach(voxels_from_object.m[2])};
     return {middle - reached, middle + reached};

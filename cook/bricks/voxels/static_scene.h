@@ -31,7 +31,7 @@ struct StaticInstance
 };
 
 /// Numbers of instances that are excluded, by reason.
-struct LeftOut
+struct ExcludedInstances
 {
     uint32_t animated = 0; ///< animated by a clip, directly or through an ancestor
     uint32_t deformed = 0; ///< with joints or morph targets
@@ -42,44 +42,44 @@ struct LeftOut
 struct StaticScene
 {
     std::span<const SourceParts> sources;
-    std::vector<std::vector<MaterialUse>> materials; ///< by source
+    std::vector<std::vector<SurfaceMaterial>> materials; ///< by source
     std::vector<StaticInstance> instances;
     std::vector<Float3> cameras;
-    LeftOut left_out;
+    ExcludedInstances left_out;
 
     Box3 box() const;
-    const MaterialUse& material(uint32_t source, uint32_t material) const;
+    const SurfaceMaterial& material(uint32_t source, uint32_t material) const;
 
 private:
-    MaterialUse default_material_ = defaultMaterial();
+    SurfaceMaterial default_material_ = defaultMaterial();
 };
 
 /// Collect the static scene. The sources must outlive it.
 /// errors: errors of checkHierarchy; meaning_reference where parts are not of one source, or an index is out
 /// of range
-Result<StaticScene> staticScene(std::span<const SourceParts> sources);
+Result<StaticScene> collectStaticScene(std::span<const SourceParts> sources);
 
 /// Cluster of an instance.
-struct PlacedCluster
+struct InstancedCluster
 {
     uint32_t source;
     uint32_t page;
     uint32_t cluster; ///< index in chunk CLUS
     uint32_t instance;
 
-    friend auto operator<=>(const PlacedCluster&, const PlacedCluster&) = default;
+    friend auto operator<=>(const InstancedCluster&, const InstancedCluster&) = default;
 };
 
 /// Return the clusters of the LOD cut at an error, of all instances, without unlit clusters, sorted.
 /// error  metres in world space, >= 0; an upper bound for the cut of each instance
-std::vector<PlacedCluster> clustersOfCut(const StaticScene& scene, float error);
+std::vector<InstancedCluster> findCutClusters(const StaticScene& scene, float error);
 
 /// Bounding box of a cluster in voxels, in floating point, extended by the rounding to the grid.
 struct VoxelBox
 {
     Double3 min, max;
 };
-VoxelBox voxelBoxOf(const StaticScene& scene, const PlacedCluster& placed,
-                    const Affine3d& voxels_from_object);
+VoxelBox computeVoxelBox(const StaticScene& scene, const InstancedCluster& placed,
+                         const Affine3d& voxels_from_object);
 
 } // namespace hearth::bricks

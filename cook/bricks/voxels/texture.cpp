@@ -66,13 +66,13 @@ Float4 Texture::at(const TextureRef& reference, Float2 uv, uint32_t level) const
         return {};
     const MipExtent extent = mipExtent(record_, level);
     const int64_t width = extent.width, height = extent.height;
-    const float x = std::clamp(uv.x, -kFarthestUv, kFarthestUv) * static_cast<float>(width) - 0.5f;
-    const float y = std::clamp(uv.y, -kFarthestUv, kFarthestUv) * static_cast<float>(height) - 0.5f;
+    const float x = std::clamp(uv.x, -kMaxUvMagnitude, kMaxUvMagnitude) * static_cast<float>(width) - 0.5f;
+    const float y = std::clamp(uv.y, -kMaxUvMagnitude, kMaxUvMagnitude) * static_cast<float>(height) - 0.5f;
     const float left = std::floor(x), top = std::floor(y);
     const auto fetch = [&](int column, int row)
     {
-        const int64_t i = wrappedTexel(static_cast<int64_t>(left) + column, width, reference.wrap_u);
-        const int64_t j = wrappedTexel(static_cast<int64_t>(top) + row, height, reference.wrap_v);
+        const int64_t i = wrapTexel(static_cast<int64_t>(left) + column, width, reference.wrap_u);
+        const int64_t j = wrapTexel(static_cast<int64_t>(top) + row, height, reference.wrap_v);
         return texel(texels, static_cast<uint64_t>(j * width + i));
     };
     return mixed(mixed(fetch(0, 0), fetch(1, 0), x - left), mixed(fetch(0, 1), fetch(1, 1), x - left),

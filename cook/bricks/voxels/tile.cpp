@@ -16,7 +16,7 @@ namespace
 /// Return the dither threshold of a coverage sample. Each of the 64 steps occurs once, so blended surfaces
 /// cover as many samples as their alpha says, evenly spread (B. E. Bayer, "An optimum method for two-level
 /// rendition of continuous-tone pictures", 1973).
-float thresholdOf(uint32_t u, uint32_t v)
+float ditherThreshold(uint32_t u, uint32_t v)
 {
     uint32_t order = 0;
     for (uint32_t bit = 0; bit < 3; ++bit)
@@ -32,8 +32,8 @@ float thresholdOf(uint32_t u, uint32_t v)
 Double3 pointAt(const Polygon& piece, const Double3& normal, const Cell& cell, int axis, uint32_t bit)
 {
     const int u_axis = uAxis(axis), v_axis = vAxis(axis);
-    const double u = cell[static_cast<size_t>(u_axis)] + (bit % kSampleRow + 0.5) / kSampleRow;
-    const double v = cell[static_cast<size_t>(v_axis)] + (bit / kSampleRow + 0.5) / kSampleRow;
+    const double u = cell[static_cast<size_t>(u_axis)] + (bit % kSamplesPerEdge + 0.5) / kSamplesPerEdge;
+    const double v = cell[static_cast<size_t>(v_axis)] + (bit / kSamplesPerEdge + 0.5) / kSamplesPerEdge;
     const Double3& p = piece.points[0];
     const double along = coordinate(p, axis) - ((u - coordinate(p, u_axis)) * coordinate(normal, u_axis) +
                                                 (v - coordinate(p, v_axis)) * coordinate(normal, v_axis)) /
@@ -48,11 +48,11 @@ Double3 pointAt(const Polygon& piece, const Double3& normal, const Cell& cell, i
 
 /// Return the mean over the piece: fan triangles around the first corner, sampled at their centroids,
 /// weighted by area.
-Look meanLook(const Polygon& piece, const TriangleSurface& surface)
+SurfaceSample meanSample(const Polygon& piece, const TriangleSurface& surface)
 {
     if (surface.plain())
         return surface.at(piece.points[0]);
-    double area = 0, hidden = 0;
+    double area = 0, coverage = 0;
     Double3 albedo, emission;
     for (uint32_t i = 2; i < piece.count; ++i)
     {
@@ -60,26 +60,27 @@ Look meanLook(const Polygon& piece, const TriangleSurface& surface)
         const Double3& b = piece.points[i - 1];
         const Double3& c = piece.points[i];
         const double weight = length(cross(b - a, c - a));
-        const Look look = surface.at((a + b + c) * (1.0 / 3));
+        const SurfaceSample look = surface.at((a + b + c) * (1.0 / 3));
         area += weight;
-        hidden += weight * look.hidden;
-        albedo = albedo + widen(look.albedo) * (weight * look.hidden);
-        emission = emission + widen(look.emission) * (weight * look.hidden);
+        coverage += weight * look.coverage;
+        albedo = albedo + widen(look.albedo) * (weight * look.coverage);
+        emission = emission + widen(look.emission) * (weight * look.coverage);
     }
-    Look mean;
-    mean.hidden = static_cast<float>(hidden / area);
-    if (hidden > 0)
+    SurfaceSample mean;
+    mean.coverage = static_cast<float>(coverage / area);
+    if (coverage > 0)
     {
-        mean.albedo = narrow(albedo * (1 / hidden));
-        mean.emission = narrow(emission * (1 / hidden));
+        mean.albedo = narrow(albedo * (1 / coverage));
+        mean.emission = narrow(emission * (1 / coverage));
     }
     return mean;
 }
 
-TriangleLook lookOf(const ClusterGeometry& geometry, const std::array<uint32_t, 3>& corners,
-                    const MaterialUse& material)
+TriangleAttributes readTriangleAttributes(const ClusterGeometry& geometry,
+                                          const std::array<uint32_t, 3>& corners,
+                                          const SurfaceMaterial& material)
 {
-    TriangleLook look;
+    TriangleAttributes look;
     const auto uvs = [&](const TextureRef& reference, std::array<Float2, 3>& out)
     {
         if (reference.uv_set < 4 && geometry.has(kVertexUv0 << reference.uv_set))
@@ -98,7 +99,7 @@ TriangleLook lookOf(const ClusterGeometry& geometry, const std::array<uint32_t, 
 
 } // namespace
 
-Cell tilesOf(const GridFrame& frame)
+Cell tileCounts(const GridFrame& frame)
 {
     Cell count;
     for (size_t axis = 0; axis < 3; ++axis)
@@ -108,11 +109,11 @@ Cell tilesOf(const GridFrame& frame)
 
 Cell tileAt(const GridFrame& frame, uint32_t tile)
 {
-    const Cell count = tilesOf(frame);
+    const Cell count = tileCounts(frame);
     return {tile % count[0], tile / count[0] % count[1], tile / count[0] / count[1]};
 }
 
-SolidGrid mergedTiles(const GridFrame& frame, std::span<const TileVoxels> tiles)
+SolidGrid mergeTiles(const GridFrame& frame, std::span<const TileVoxels> tiles)
 {
     struct Place
     {
@@ -121,12 +122,12 @@ SolidGrid mergedTiles(const GridFrame& frame, std::span<const TileVoxels> tiles)
     };
     SolidGrid grid{frame, {}, {}, {}};
     grid.groups.resize(frame.groupCount());
-    std::vector<Place> place_of_group(grid.groups.size(), {kNowhere, 0});
+    std::vector<Place> place_of_group(grid.groups.size(), {kInvalidIndex, 0});
     size_t bricks = 0, voxels = 0;
     for (uint32_t t = 0; t < tiles.size(); ++t)
     {
         for (uint32_t g = 0; g < tiles[t].groups.size(); ++g)
-            place_of_group[grid.groupOf(tiles[t].groups[g].cell)] = {t, g};
+            place_of_group[grid.groupIndex(tiles[t].groups[g].cell)] = {t, g};
         bricks += tiles[t].bricks.size();
         voxels += tiles[t].voxels.size();
     }
@@ -135,7 +136,7 @@ SolidGrid mergedTiles(const GridFrame& frame, std::span<const TileVoxels> tiles)
     for (size_t g = 0; g < grid.groups.size(); ++g)
     {
         grid.groups[g].first = static_cast<uint32_t>(grid.bricks.size());
-        if (place_of_group[g].tile == kNowhere)
+        if (place_of_group[g].tile == kInvalidIndex)
             continue;
         const TileVoxels& tile = tiles[place_of_group[g].tile];
         const MaskedCells& group = tile.groups[place_of_group[g].group].bricks;
@@ -152,7 +153,7 @@ SolidGrid mergedTiles(const GridFrame& frame, std::span<const TileVoxels> tiles)
 }
 
 Tile::Tile(const GridFrame& frame, const Cell& at)
-    : frame_(frame), index_(size_t{kTileVoxels} * kTileVoxels * kTileVoxels, kNowhere)
+    : frame_(frame), index_(size_t{kTileVoxels} * kTileVoxels * kTileVoxels, kInvalidIndex)
 {
     for (size_t axis = 0; axis < 3; ++axis)
     {
@@ -161,21 +162,21 @@ Tile::Tile(const GridFrame& frame, const Cell& at)
     }
 }
 
-void Tile::add(const ClusterGeometry& geometry, const MaterialUse& material,
+void Tile::add(const ClusterGeometry& geometry, const SurfaceMaterial& material,
                const Affine3d& voxels_from_object, bool mirrored)
 {
-    places_.clear();
+    positions_.clear();
     for (uint32_t v = 0; v < geometry.vertexCount(); ++v)
-        places_.push_back(snapped(transformPoint(voxels_from_object, widen(geometry.position(v)))));
+        positions_.push_back(snapped(transformPoint(voxels_from_object, widen(geometry.position(v)))));
     Polygon triangle;
     for (uint32_t t = 0; t < geometry.triangleCount(); ++t)
     {
         const std::array<uint32_t, 3> corners = geometry.triangle(t);
         triangle.count = 0;
         for (const uint32_t corner : corners)
-            triangle.add(places_[corner]);
+            triangle.add(positions_[corner]);
         if (reaches(triangle))
-            add(triangle, lookOf(geometry, corners, material), material, mirrored ? -1 : 1);
+            add(triangle, readTriangleAttributes(geometry, corners, material), material, mirrored ? -1 : 1);
     }
 }
 
@@ -192,7 +193,8 @@ bool Tile::reaches(const Polygon& triangle) const
     return true;
 }
 
-void Tile::add(const Polygon& triangle, const TriangleLook& look, const MaterialUse& material, double front)
+void Tile::add(const Polygon& triangle, const TriangleAttributes& look, const SurfaceMaterial& material,
+               double front)
 {
     const Double3 normal = doubleArea(triangle) * front;
     if (normal.x == 0 && normal.y == 0 && normal.z == 0)
@@ -203,7 +205,7 @@ void Tile::add(const Polygon& triangle, const TriangleLook& look, const Material
                  {
                      ++pieces_;
                      uint32_t& index = indexAt(cell);
-                     if (index != kNowhere)
+                     if (index != kInvalidIndex)
                      {
                          addPiece(sums_[index], cell, piece, surface, material, front);
                          return;
@@ -218,25 +220,25 @@ void Tile::add(const Polygon& triangle, const TriangleLook& look, const Material
 
 /// Add a piece to a sum. True if its opacity is above 0.
 bool Tile::addPiece(VoxelSum& sum, const Cell& cell, const Polygon& piece, const TriangleSurface& surface,
-                    const MaterialUse& material, double front)
+                    const SurfaceMaterial& material, double front)
 {
     const Double3 double_area = doubleArea(piece) * front;
-    const Look look = meanLook(piece, surface);
-    if (look.hidden == 0)
+    const SurfaceSample look = meanSample(piece, surface);
+    if (look.coverage == 0)
         return false;
     sum.add(double_area, look, material.doubleSided());
     for (int axis = 0; axis < 3; ++axis)
     {
-        uint64_t hidden = hiddenSamples(piece, cell, axis);
+        uint64_t coverage = coveredSamples(piece, cell, axis);
         if (material.hasHoles() && coordinate(double_area, axis) != 0)
-            for (uint64_t rest = hidden; rest != 0; rest &= rest - 1)
+            for (uint64_t rest = coverage; rest != 0; rest &= rest - 1)
             {
                 const auto bit = static_cast<uint32_t>(std::countr_zero(rest));
                 const Double3 at = pointAt(piece, double_area, cell, axis, bit);
-                if (surface.hiddenAt(at) < thresholdOf(bit % kSampleRow, bit / kSampleRow))
-                    hidden &= ~(uint64_t{1} << bit);
+                if (surface.coverageAt(at) < ditherThreshold(bit % kSamplesPerEdge, bit / kSamplesPerEdge))
+                    coverage &= ~(uint64_t{1} << bit);
             }
-        sum.hidden[static_cast<size_t>(axis)] |= hidden;
+        sum.coverage[static_cast<size_t>(axis)] |= coverage;
     }
     return true;
 }
@@ -273,10 +275,10 @@ TileVoxels Tile::finish() const
                 const uint32_t sum =
                     index({group[0] + in_group[0] + in_brick[0], group[1] + in_group[1] + in_brick[1],
                            group[2] + in_group[2] + in_brick[2]});
-                if (sum == kNowhere)
+                if (sum == kInvalidIndex)
                     continue;
                 brick.mask |= uint64_t{1} << v;
-                tile.voxels.push_back(voxelOf(sums_[sum]));
+                tile.voxels.push_back(encodeVoxel(sums_[sum]));
             }
             if (brick.mask == 0)
                 continue;

@@ -27,13 +27,13 @@ struct TileVoxels
 };
 
 /// Return the number of tiles along each axis of a grid.
-Cell tilesOf(const GridFrame& frame);
+Cell tileCounts(const GridFrame& frame);
 
 /// Return the coordinates of a tile from its index, x fastest.
 Cell tileAt(const GridFrame& frame, uint32_t tile);
 
 /// Merge tiles, in any order, into one grid.
-SolidGrid mergedTiles(const GridFrame& frame, std::span<const TileVoxels> tiles);
+SolidGrid mergeTiles(const GridFrame& frame, std::span<const TileVoxels> tiles);
 
 class Tile
 {
@@ -44,27 +44,28 @@ public:
 
     /// Add the part of a cluster that lies in the tile.
     /// mirrored  true if `voxels_from_object` inverts the winding of triangles
-    void add(const formats::ClusterGeometry& geometry, const MaterialUse& material,
+    void add(const formats::ClusterGeometry& geometry, const SurfaceMaterial& material,
              const Affine3d& voxels_from_object, bool mirrored);
 
     /// Add the part of a triangle that lies in the tile.
     /// triangle  three snapped corners, in voxels of the grid
     /// front     1 if the front's normal follows the order of the corners, else -1
-    void add(const Polygon& triangle, const TriangleLook& look, const MaterialUse& material, double front);
+    void add(const Polygon& triangle, const TriangleAttributes& look, const SurfaceMaterial& material,
+             double front);
 
     TileVoxels finish() const;
 
 private:
     bool reaches(const Polygon& triangle) const;
     bool addPiece(VoxelSum& sum, const Cell& cell, const Polygon& piece, const TriangleSurface& surface,
-                  const MaterialUse& material, double front);
+                  const SurfaceMaterial& material, double front);
     uint32_t& indexAt(const Cell& cell);
 
     GridFrame frame_;
     CellBox box_;
     std::vector<uint32_t> index_; ///< index of each voxel's sum, for all voxels of the tile, x fastest
     std::vector<VoxelSum> sums_;
-    std::vector<Double3> places_; ///< positions of the vertices of the current cluster
+    std::vector<Double3> positions_; ///< positions of the vertices of the current cluster
     uint64_t pieces_ = 0;
 };
 

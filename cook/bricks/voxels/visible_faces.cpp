@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/voxels/visible_faces.h"
 
-#include "cook/bricks/voxels/each_voxel.h"
+#include "cook/bricks/voxels/for_each_voxel.h"
 #include "cook/bricks/voxels/opacity.h"
 
 namespace hearth::bricks
 {
 
-std::vector<uint8_t> visibleFaces(const SolidGrid& grid, const OpenSpace& spaces, const SeenSpaces& seen,
+std::vector<uint8_t> visibleFaces(const SolidGrid& grid, const EmptySpaces& spaces, const VisibleSpaces& seen,
                                   std::span<const uint32_t> space_of_voxel)
 {
     const auto isSeen = [&](const Cell& cell)
     {
-        const uint32_t voxel = isInside(grid.frame, cell) ? grid.voxelAt(cell) : kNowhere;
-        if (voxel == kNowhere)
+        const uint32_t voxel = isInside(grid.frame, cell) ? grid.voxelAt(cell) : kInvalidIndex;
+        if (voxel == kInvalidIndex)
             return static_cast<bool>(seen.seen[spaces.at(grid, cell)]);
-        return grid.voxels[voxel].opacity != kOpaque && space_of_voxel[voxel] != kNowhere &&
+        return grid.voxels[voxel].opacity != kOpaque && space_of_voxel[voxel] != kInvalidIndex &&
                seen.seen[space_of_voxel[voxel]];
     };
     std::vector<uint8_t> faces(grid.voxels.size());
@@ -29,7 +29,7 @@ std::vector<uint8_t> visibleFaces(const SolidGrid& grid, const OpenSpace& spaces
     return faces;
 }
 
-BrickTables tablesOf(const SolidGrid& grid, std::span<const uint8_t> faces)
+BrickTables makeBrickTables(const SolidGrid& grid, std::span<const uint8_t> faces)
 {
     BrickTables tables;
     for (const MaskedCells& group : grid.groups)

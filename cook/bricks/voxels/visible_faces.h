@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cook/bricks/grid/brick_tables.h"
-#include "cook/bricks/voxels/open_space.h"
+#include "cook/bricks/voxels/empty_spaces.h"
 
 namespace hearth::bricks
 {
@@ -13,11 +13,11 @@ namespace hearth::bricks
 /// space.
 ///
 /// space_of_voxel  result of separateSpaces
-std::vector<uint8_t> visibleFaces(const SolidGrid& grid, const OpenSpace& spaces, const SeenSpaces& seen,
+std::vector<uint8_t> visibleFaces(const SolidGrid& grid, const EmptySpaces& spaces, const VisibleSpaces& seen,
                                   std::span<const uint32_t> space_of_voxel);
 
 /// Build the tables. The initial lighting of faces is their emission.
 /// faces  result of visibleFaces
-BrickTables tablesOf(const SolidGrid& grid, std::span<const uint8_t> faces);
+BrickTables makeBrickTables(const SolidGrid& grid, std::span<const uint8_t> faces);
 
 } // namespace hearth::bricks

@@ -12,8 +12,8 @@ namespace
 
 Double3 sideNormal(uint32_t face)
 {
-    const double sign = looksUp(face) ? 1 : -1;
-    return {axisOf(face) == 0 ? sign : 0, axisOf(face) == 1 ? sign : 0, axisOf(face) == 2 ? sign : 0};
+    const double sign = isPositiveFace(face) ? 1 : -1;
+    return {faceAxis(face) == 0 ? sign : 0, faceAxis(face) == 1 ? sign : 0, faceAxis(face) == 2 ? sign : 0};
 }
 
 uint16_t normalCode(const Double3& normal, uint32_t face)
@@ -26,11 +26,11 @@ uint16_t normalCode(const Double3& normal, uint32_t face)
 
 } // namespace
 
-void VoxelSum::add(const Double3& double_area, const Look& look, bool double_sided)
+void VoxelSum::add(const Double3& double_area, const SurfaceSample& look, bool double_sided)
 {
     const double size = length(double_area);
     const Double3 unit = double_area * (1 / size);
-    const double piece = size / 2 * look.hidden;
+    const double piece = size / 2 * look.coverage;
     area += piece;
     const Double3 piece_albedo = widen(look.albedo);
     const Double3 piece_emission = widen(look.emission);
@@ -38,7 +38,7 @@ void VoxelSum::add(const Double3& double_area, const Look& look, bool double_sid
     normal = normal + unit * piece;
     for (uint32_t face = 0; face < kFaces; ++face)
     {
-        const double along = coordinate(unit, axisOf(face)) * (looksUp(face) ? 1 : -1);
+        const double along = coordinate(unit, faceAxis(face)) * (isPositiveFace(face) ? 1 : -1);
         if (along == 0 || (along < 0 && !double_sided))
             continue;
         const double weight = piece * std::abs(along);
@@ -50,16 +50,16 @@ void VoxelSum::add(const Double3& double_area, const Look& look, bool double_sid
     }
 }
 
-SolidVoxel voxelOf(const VoxelSum& sum)
+SolidVoxel encodeVoxel(const VoxelSum& sum)
 {
     SolidVoxel voxel{};
-    voxel.hidden = sum.hidden;
+    voxel.coverage = sum.coverage;
     for (uint32_t face = 0; face < kFaces; ++face)
     {
         const SideSum& side = sum.sides[face];
         if (side.weight > 0)
         {
-            voxel.looked_at |= static_cast<uint8_t>(1u << face);
+            voxel.front_visible |= static_cast<uint8_t>(1u << face);
             voxel.albedo[face] = shared::encodeAlbedo(narrow(side.albedo * (1 / side.weight)));
             voxel.emission[face] = shared::encodeRadiance(narrow(side.emission * (1 / side.weight)));
             voxel.normal[face] = normalCode(side.normal, face);

@@ -23,17 +23,17 @@ struct VoxelSum
     double area = 0; ///< total area of all pieces, voxels squared
     Double3 albedo;  ///< weighted by area
     Double3 normal;
-    CrossSections hidden{};
+    CoverageMasks coverage{};
 
     /// Add a piece.
     /// double_area  vector along the front's normal, twice the area long
-    /// look         mean over the piece; look.hidden is its opacity
-    void add(const Double3& double_area, const Look& look, bool double_sided);
+    /// look         mean over the piece; look.coverage is its opacity
+    void add(const Double3& double_area, const SurfaceSample& look, bool double_sided);
 };
 
 /// Encode a voxel. A side without a visible front face gets the mean albedo of all surfaces, no emission, and
 /// the normal of the surfaces whose back faces it shows, or else its own normal. Back faces of single-sided
 /// surfaces are not drawn, but they block light. `opacity` stays 0.
-SolidVoxel voxelOf(const VoxelSum& sum);
+SolidVoxel encodeVoxel(const VoxelSum& sum);
 
 } // namespace hearth::bricks

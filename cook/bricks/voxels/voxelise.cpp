@@ -17,17 +17,17 @@ namespace
 {
 
 // Tiles between two checks of the memory budget: enough for many threads.
-constexpr size_t kBatch = 256;
+constexpr size_t kTilesPerBatch = 256;
 
 /// Cluster in one of the tiles that its bounds overlap.
-struct Item
+struct TileItem
 {
     uint32_t tile;
     uint32_t placed;
-    friend auto operator<=>(const Item&, const Item&) = default;
+    friend auto operator<=>(const TileItem&, const TileItem&) = default;
 };
 
-std::vector<Affine3d> transformsOf(const StaticScene& scene, const GridFrame& frame)
+std::vector<Affine3d> instanceTransforms(const StaticScene& scene, const GridFrame& frame)
 {
     std::vector<Affine3d> transforms;
     for (const StaticInstance& instance : scene.instances)
@@ -36,14 +36,14 @@ std::vector<Affine3d> transformsOf(const StaticScene& scene, const GridFrame& fr
 }
 
 /// Return the clusters of each tile, sorted by tile.
-std::vector<Item> itemsOf(const StaticScene& scene, std::span<const PlacedCluster> placed,
-                          const GridFrame& frame, const std::vector<Affine3d>& transforms)
+std::vector<TileItem> listTileItems(const StaticScene& scene, std::span<const InstancedCluster> placed,
+                                    const GridFrame& frame, const std::vector<Affine3d>& transforms)
 {
-    const Cell tiles = tilesOf(frame);
-    std::vector<Item> items;
+    const Cell tiles = tileCounts(frame);
+    std::vector<TileItem> items;
     for (uint32_t i = 0; i < placed.size(); ++i)
     {
-        const VoxelBox box = voxelBoxOf(scene, placed[i], transforms[placed[i].instance]);
+        const VoxelBox box = computeVoxelBox(scene, placed[i], transforms[placed[i].instance]);
         Cell first, last;
         bool reaches = true;
         for (int axis = 0; axis < 3; ++axis)
@@ -52,11 +52,11 @@ std::vector<Item> itemsOf(const StaticScene& scene, std::span<const PlacedCluste
             const double size = frame.voxels[a];
             // skip boxes that are not finite
             reaches = reaches && coordinate(box.max, axis) >= 0 && coordinate(box.min, axis) <= size;
-            const auto tileOf = [&](double voxel)
+            const auto tileIndex = [&](double voxel)
             { return static_cast<uint32_t>(std::clamp(voxel, 0.0, size - 1)) / kTileVoxels; };
             // include both tiles for surfaces in the plane between them
-            first[a] = reaches ? tileOf(coordinate(box.min, axis) - 1) : 0;
-            last[a] = reaches ? tileOf(coordinate(box.max, axis)) : 0;
+            first[a] = reaches ? tileIndex(coordinate(box.min, axis) - 1) : 0;
+            last[a] = reaches ? tileIndex(coordinate(box.max, axis)) : 0;
         }
         if (!reaches)
             continue;
@@ -73,11 +73,11 @@ std::vector<Item> itemsOf(const StaticScene& scene, std::span<const PlacedCluste
 struct TileRange
 {
     uint32_t tile;
-    std::span<const Item> items;
+    std::span<const TileItem> items;
     double distance = 0; ///< metres from the nearest focus point
 };
 
-std::vector<TileRange> tileRanges(std::span<const Item> items)
+std::vector<TileRange> tileRanges(std::span<const TileItem> items)
 {
     std::vector<TileRange> ranges;
     for (size_t begin = 0; begin < items.size();)
@@ -107,11 +107,11 @@ std::vector<TileRange> nearestFirst(std::vector<TileRange> ranges, const GridFra
 }
 
 /// Sums the memory, without faces, of the bricks within a distance of the focus points.
-class NearBricks
+class NearBrickMemory
 {
 public:
-    NearBricks(const GridFrame& frame, std::span<const Float3> foci)
-        : frame_(frame), foci_(foci), within_(bytesOf(frame.groupCount(), 0, 0, 0).total())
+    NearBrickMemory(const GridFrame& frame, std::span<const Float3> foci)
+        : frame_(frame), foci_(foci), within_(computeBrickBytes(frame.groupCount(), 0, 0, 0).total())
     {
     }
 
@@ -126,7 +126,8 @@ public:
                 const Cell cell{group.cell[0] + (bit & 3) * 4, group.cell[1] + (bit >> 2 & 3) * 4,
                                 group.cell[2] + (bit >> 4) * 4};
                 const auto voxels = static_cast<uint64_t>(std::popcount(tile.bricks[brick].mask));
-                beyond_.push_back({brickDistance(frame_, foci_, cell), bytesOf(0, 1, voxels, 0).total()});
+                beyond_.push_back(
+                    {brickDistance(frame_, foci_, cell), computeBrickBytes(0, 1, voxels, 0).total()});
             }
         }
     }
@@ -158,16 +159,16 @@ private:
 };
 
 /// Voxelise one tile.
-Result<TileVoxels> voxeliseTile(const StaticScene& scene, std::span<const PlacedCluster> placed,
+Result<TileVoxels> voxeliseTile(const StaticScene& scene, std::span<const InstancedCluster> placed,
                                 const TileRange& range, const GridFrame& frame,
                                 const std::vector<Affine3d>& transforms)
 {
     Tile tile(frame, tileAt(frame, range.tile));
     std::vector<std::byte> page;
-    uint32_t page_source = kNone, page_number = kNone;
-    for (const Item& item : range.items)
+    uint32_t page_source = kInvalidIndex, page_number = kInvalidIndex;
+    for (const TileItem& item : range.items)
     {
-        const PlacedCluster& at = placed[item.placed];
+        const InstancedCluster& at = placed[item.placed];
         const PackView& part = scene.sources[at.source].clusters;
         if (at.source != page_source || at.page != page_number)
         {
@@ -189,8 +190,8 @@ Result<TileVoxels> voxeliseTile(const StaticScene& scene, std::span<const Placed
 
 Status textureStatus(const StaticScene& scene)
 {
-    for (const std::vector<MaterialUse>& materials : scene.materials)
-        for (const MaterialUse& material : materials)
+    for (const std::vector<SurfaceMaterial>& materials : scene.materials)
+        for (const SurfaceMaterial& material : materials)
             for (const auto& texture : {material.base_color, material.emissive})
                 if (texture)
                     HEARTH_TRY(texture->status());
@@ -199,19 +200,19 @@ Status textureStatus(const StaticScene& scene)
 
 } // namespace
 
-Result<Voxelised> voxelise(const StaticScene& scene, std::span<const PlacedCluster> placed,
-                           const GridFrame& frame, std::span<const Float3> foci, uint64_t memory)
+Result<VoxeliseResult> voxelise(const StaticScene& scene, std::span<const InstancedCluster> placed,
+                                const GridFrame& frame, std::span<const Float3> foci, uint64_t memory)
 {
-    const std::vector<Affine3d> transforms = transformsOf(scene, frame);
-    const std::vector<Item> items = itemsOf(scene, placed, frame, transforms);
+    const std::vector<Affine3d> transforms = instanceTransforms(scene, frame);
+    const std::vector<TileItem> items = listTileItems(scene, placed, frame, transforms);
     const std::vector<TileRange> ranges = nearestFirst(tileRanges(items), frame, foci);
     std::vector<TileVoxels> tiles(ranges.size());
-    std::vector<Status> ends(ranges.size(), success());
-    NearBricks near(frame, foci);
+    std::vector<Status> statuses(ranges.size(), success());
+    NearBrickMemory near(frame, foci);
     size_t done = 0;
     while (done < ranges.size() && (done == 0 || near.bytesWithin(ranges[done].distance) <= memory))
     {
-        const size_t end = std::min(done + kBatch, ranges.size());
+        const size_t end = std::min(done + kTilesPerBatch, ranges.size());
         tbb::parallel_for(done, end,
                           [&](size_t i)
                           {
@@ -219,18 +220,18 @@ Result<Voxelised> voxelise(const StaticScene& scene, std::span<const PlacedClust
                               if (tile.ok())
                                   tiles[i] = std::move(*tile);
                               else
-                                  ends[i] = tile.error();
+                                  statuses[i] = tile.error();
                           });
         for (; done < end; ++done)
         {
-            HEARTH_TRY(std::move(ends[done]));
+            HEARTH_TRY(std::move(statuses[done]));
             near.add(tiles[done]);
         }
     }
     HEARTH_TRY(textureStatus(scene));
-    Voxelised result{mergedTiles(frame, tiles), {}, ranges.size() - done};
+    VoxeliseResult result{mergeTiles(frame, tiles), {}, ranges.size() - done};
     result.counts.clusters = placed.size();
-    for (const PlacedCluster& at : placed)
+    for (const InstancedCluster& at : placed)
         result.counts.triangles += scene.sources[at.source].clusters.clusters()[at.cluster].triangle_count;
     for (const TileVoxels& tile : tiles)
         result.counts.pieces += tile.pieces;

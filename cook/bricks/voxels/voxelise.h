@@ -8,17 +8,17 @@
 namespace hearth::bricks
 {
 
-struct VoxeliseCounts
+struct VoxeliseStatistics
 {
     uint64_t clusters = 0;  ///< of the cut, counted once for each instance
     uint64_t triangles = 0; ///< in these clusters
     uint64_t pieces = 0;    ///< polygons that the triangles were clipped to
 };
 
-struct Voxelised
+struct VoxeliseResult
 {
     SolidGrid grid; ///< opacities are still 0
-    VoxeliseCounts counts;
+    VoxeliseStatistics counts;
     uint64_t tiles_skipped = 0; ///< tiles so far away that their bricks would certainly be dropped
 };
 
@@ -34,7 +34,7 @@ struct Voxelised
 /// placed  sorted
 /// foci    focus points, world space, at least one
 /// errors: errors of decodePage and of reading textures; meaning_geometry
-Result<Voxelised> voxelise(const StaticScene& scene, std::span<const PlacedCluster> placed,
-                           const GridFrame& frame, std::span<const Float3> foci, uint64_t memory);
+Result<VoxeliseResult> voxelise(const StaticScene& scene, std::span<const InstancedCluster> placed,
+                                const GridFrame& frame, std::span<const Float3> foci, uint64_t memory);
 
 } // namespace hearth::bricks

@@ -13,22 +13,22 @@ namespace
 {
 
 // A sum of normals shorter than this has no direction.
-constexpr float kShortestNormal = 0.01f;
+constexpr float kMinNormalLength = 0.01f;
 
 // Tangents nearer than this to their normal keep no direction.
-constexpr float kShortestTangent = 1e-3f;
+constexpr float kMinTangentLength = 1e-3f;
 
-float partOf(const Float4& weights, size_t i)
+float component(const Float4& weights, size_t i)
 {
     return i == 0 ? weights.x : i == 1 ? weights.y : i == 2 ? weights.z : weights.w;
 }
 
-float weightOf(const mesh::SourceMesh& vertices, uint32_t vertex, uint32_t joint)
+float jointWeight(const mesh::SourceMesh& vertices, uint32_t vertex, uint32_t joint)
 {
     for (size_t set = 0; set < vertices.joint_sets.size(); ++set)
         for (size_t i = 0; i < 4; ++i)
             if (vertices.joint_sets[set][vertex].joint[i] == joint)
-                if (const float weight = partOf(vertices.weight_sets[set][vertex], i); weight > 0)
+                if (const float weight = component(vertices.weight_sets[set][vertex], i); weight > 0)
                     return weight;
     return 0;
 }
@@ -36,7 +36,7 @@ float weightOf(const mesh::SourceMesh& vertices, uint32_t vertex, uint32_t joint
 void setNormal(mesh::SourceMesh& vertices, uint32_t vertex, Float3 sum)
 {
     const float size = length(sum);
-    if (!(size > kShortestNormal))
+    if (!(size > kMinNormalLength))
         return;
     const Float3 normal = sum / size;
     vertices.normals[vertex] = normal;
@@ -45,7 +45,7 @@ void setNormal(mesh::SourceMesh& vertices, uint32_t vertex, Float3 sum)
     Float4& tangent = vertices.tangents[vertex];
     const Float3 along{tangent.x, tangent.y, tangent.z};
     const Float3 upright = along - normal * dot(along, normal);
-    if (const float left = length(upright); left > kShortestTangent)
+    if (const float left = length(upright); left > kMinTangentLength)
         tangent = {upright.x / left, upright.y / left, upright.z / left, tangent.w};
 }
 
@@ -66,7 +66,7 @@ void setJoints(mesh::SourceMesh& vertices, uint32_t vertex, uint32_t main_joint,
             const bool is_new = joint == main_joint || std::any_of(influences.begin(), end,
                                                                    [&](const mesh::Influence& influence)
                                                                    { return influence.joint == joint; });
-            const auto weight = static_cast<double>(partOf(vertices.weight_sets[set][vertex], i));
+            const auto weight = static_cast<double>(component(vertices.weight_sets[set][vertex], i));
             if (is_new || weight == 0)
                 continue;
             influences.push_back({joint, weight});
@@ -106,7 +106,7 @@ void packAttributes(const mesh::SourceMesh& vertices, uint32_t vertex, const Att
             add(c.w * weights.color);
     }
     for (const DeformationWeight& joint : weights.joints)
-        add(weightOf(vertices, vertex, joint.index) * joint.length);
+        add(jointWeight(vertices, vertex, joint.index) * joint.length);
     for (const DeformationWeight& morph : weights.morphs)
     {
         const Float3 delta = vertices.morph_targets[morph.index].positions[vertex] * morph.length;

@@ -27,14 +27,14 @@ constexpr double kConeMargin = 1e-3;
 // Wider cones than about 84 degrees cull next to nothing.
 constexpr double kMinConeCosine = 0.1;
 
-struct WideSphere
+struct DoubleSphere
 {
     Double3 center;
     double radius = 0;
 };
 
 /// Grow the sphere just enough to contain a point.
-void growTo(WideSphere& sphere, Double3 point)
+void growToPoint(DoubleSphere& sphere, Double3 point)
 {
     const Double3 away = point - sphere.center;
     if (dot(away, away) <= sphere.radius * sphere.radius)
@@ -45,7 +45,7 @@ void growTo(WideSphere& sphere, Double3 point)
     sphere.radius = radius;
 }
 
-WideSphere ritterSphere(std::span<const Float3> points)
+DoubleSphere ritterSphere(std::span<const Float3> points)
 {
     size_t low[3] = {};
     size_t high[3] = {};
@@ -57,7 +57,7 @@ WideSphere ritterSphere(std::span<const Float3> points)
             if (points[i][axis] > points[high[axis]][axis])
                 high[axis] = i;
         }
-    WideSphere sphere;
+    DoubleSphere sphere;
     for (int axis = 0; axis < 3; ++axis)
     {
         const Double3 a = widen(points[low[axis]]);
@@ -66,12 +66,12 @@ WideSphere ritterSphere(std::span<const Float3> points)
             sphere = {(a + b) * 0.5, radius};
     }
     for (const Float3 p : points)
-        growTo(sphere, widen(p));
+        growToPoint(sphere, widen(p));
     return sphere;
 }
 
 /// Return the sphere with its center rounded to floats and the radius that this center needs.
-Sphere storedSphere(Double3 center, std::span<const Float3> points)
+Sphere roundedSphere(Double3 center, std::span<const Float3> points)
 {
     const Float3 stored = narrow(center);
     const Double3 from = widen(stored);
@@ -86,7 +86,7 @@ Sphere storedSphere(Double3 center, std::span<const Float3> points)
 
 /// Return the points relative to a sphere around them, four side by side. Floats suffice to search for a
 /// better center.
-std::vector<LaneVector> relativeTo(const WideSphere& sphere, std::span<const Float3> points)
+std::vector<LaneVector> toUnitSphere(const DoubleSphere& sphere, std::span<const Float3> points)
 {
     const double scale = sphere.radius > 0 ? 1 / sphere.radius : 0;
     std::vector<LaneVector> blocks((points.size() + kLanes - 1) / kLanes);
@@ -102,16 +102,16 @@ std::vector<LaneVector> relativeTo(const WideSphere& sphere, std::span<const Flo
     return blocks;
 }
 
-struct Farthest
+struct FarthestPoint
 {
     Float3 point;
     float distance = 0;
 };
 
-Farthest farthestFrom(Float3 center, std::span<const LaneVector> blocks)
+FarthestPoint findFarthest(Float3 center, std::span<const LaneVector> blocks)
 {
-    const LaneVector centers = allLanes(center);
-    Lanes farthest2 = allLanes(-1);
+    const LaneVector centers = splat(center);
+    Lanes farthest2 = splat(-1);
     LaneMask block_of_farthest{};
     for (size_t b = 0; b < blocks.size(); ++b)
     {
@@ -157,11 +157,11 @@ PairVector cross(const PairVector& a, const PairVector& b)
 {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-PairVector pairOf(Float3 a, Float3 b)
+PairVector makePair(Float3 a, Float3 b)
 {
     return {Pair{a.x, b.x}, Pair{a.y, b.y}, Pair{a.z, b.z}};
 }
-PairVector pairOf(Double3 a)
+PairVector makePair(Double3 a)
 {
     return {Pair{a.x, a.x}, Pair{a.y, a.y}, Pair{a.z, a.z}};
 }
@@ -175,15 +175,15 @@ struct PlanePair
 
 /// Compute the planes of the triangles, the last one twice if their number is odd. Empty if a triangle has no
 /// normal in double precision.
-std::vector<PlanePair> planesOf(std::span<const Float3> places)
+std::vector<PlanePair> computePlanes(std::span<const Float3> corners)
 {
-    std::vector<PlanePair> planes((places.size() / 3 + 1) / 2);
+    std::vector<PlanePair> planes((corners.size() / 3 + 1) / 2);
     for (size_t i = 0; i < planes.size(); ++i)
     {
-        const Float3* const first = &places[6 * i];
-        const Float3* const second = &places[std::min(6 * i + 3, places.size() - 3)];
-        const PairVector a = pairOf(first[0], second[0]);
-        const PairVector normal = cross(pairOf(first[1], second[1]) - a, pairOf(first[2], second[2]) - a);
+        const Float3* const first = &corners[6 * i];
+        const Float3* const second = &corners[std::min(6 * i + 3, corners.size() - 3)];
+        const PairVector a = makePair(first[0], second[0]);
+        const PairVector normal = cross(makePair(first[1], second[1]) - a, makePair(first[2], second[2]) - a);
         const Pair area2 = dot(normal, normal);
         const Pair area{std::sqrt(area2[0]), std::sqrt(area2[1])};
         if (!(area[0] > 0 && area[1] > 0))
@@ -194,7 +194,7 @@ std::vector<PlanePair> planesOf(std::span<const Float3> places)
 }
 
 /// Return the normals, four side by side; unused lanes repeat the last. Floats suffice to search for an axis.
-std::vector<LaneVector> normalsOf(std::span<const PlanePair> planes)
+std::vector<LaneVector> gatherNormals(std::span<const PlanePair> planes)
 {
     std::vector<LaneVector> blocks((planes.size() + 1) / 2);
     for (size_t i = 0; i < blocks.size(); ++i)
@@ -211,16 +211,16 @@ std::vector<LaneVector> normalsOf(std::span<const PlanePair> planes)
     return blocks;
 }
 
-struct LeastCosine
+struct MinCosine
 {
     float cosine = 1;
     Float3 normal; ///< the normal farthest from the axis
 };
 
-LeastCosine leastCosine(Float3 axis, std::span<const LaneVector> normals)
+MinCosine findMinCosine(Float3 axis, std::span<const LaneVector> normals)
 {
-    const LaneVector axes = allLanes(axis);
-    Lanes least = allLanes(2);
+    const LaneVector axes = splat(axis);
+    Lanes least = splat(2);
     LaneMask block_of_least{};
     for (size_t b = 0; b < normals.size(); ++b)
     {
@@ -240,7 +240,7 @@ LeastCosine leastCosine(Float3 axis, std::span<const LaneVector> normals)
 
 /// Find an axis near that of the narrowest cone: start at the mean normal, then step towards the farthest
 /// normal.
-Float3 coneAxis(std::span<const LaneVector> normals)
+Float3 findConeAxis(std::span<const LaneVector> normals)
 {
     LaneVector sums{};
     for (const LaneVector& block : normals)
@@ -250,13 +250,13 @@ Float3 coneAxis(std::span<const LaneVector> normals)
         return {};
     Float3 axis = sum / length(sum);
     Float3 best = axis;
-    LeastCosine least = leastCosine(axis, normals);
+    MinCosine least = findMinCosine(axis, normals);
     float best_cosine = least.cosine;
     for (int step = 1; step <= 6; ++step)
     {
         axis += (least.normal - axis) * (0.5f / static_cast<float>(step + 1));
         axis = axis / length(axis);
-        least = leastCosine(axis, normals);
+        least = findMinCosine(axis, normals);
         if (least.cosine > best_cosine)
         {
             best = axis;
@@ -270,9 +270,9 @@ Float3 coneAxis(std::span<const LaneVector> normals)
 
 float roundUp(double value)
 {
-    constexpr float kLargest = std::numeric_limits<float>::max();
-    if (!(value < kLargest))
-        return kLargest;
+    constexpr float kMaxFloat = std::numeric_limits<float>::max();
+    if (!(value < kMaxFloat))
+        return kMaxFloat;
     const auto rounded = static_cast<float>(value);
     // the next float has the next bits
     return std::bit_cast<float>(std::bit_cast<uint32_t>(rounded) + (rounded < value ? 1u : 0u));
@@ -281,14 +281,14 @@ float roundUp(double value)
 Sphere sphereOfPoints(std::span<const Float3> points)
 {
     HEARTH_ASSERT(!points.empty());
-    const WideSphere start = ritterSphere(points);
-    const std::vector<LaneVector> blocks = relativeTo(start, points);
+    const DoubleSphere start = ritterSphere(points);
+    const std::vector<LaneVector> blocks = toUnitSphere(start, points);
     Float3 best;
     float best_radius = 1;
     Float3 center;
     for (int step = 1; step <= kSphereSteps; ++step)
     {
-        const Farthest farthest = farthestFrom(center, blocks);
+        const FarthestPoint farthest = findFarthest(center, blocks);
         if (farthest.distance < best_radius)
         {
             best = center;
@@ -296,7 +296,7 @@ Sphere sphereOfPoints(std::span<const Float3> points)
         }
         center += (farthest.point - center) * (0.3f / static_cast<float>(step + 1));
     }
-    return storedSphere(start.center + widen(best) * start.radius, points);
+    return roundedSphere(start.center + widen(best) * start.radius, points);
 }
 
 Sphere sphereOfSpheres(std::span<const Sphere> spheres, const Sphere& start)
@@ -330,21 +330,21 @@ Sphere sphereOfSpheres(std::span<const Sphere> spheres, const Sphere& start)
     return {stored, roundUp(radiusAround(stored, spheres))};
 }
 
-void growToHold(Sphere& sphere, std::span<const Float3> points)
+void growToContain(Sphere& sphere, std::span<const Float3> points)
 {
-    const float radius = storedSphere(widen(sphere.center), points).radius;
+    const float radius = roundedSphere(widen(sphere.center), points).radius;
     if (radius > sphere.radius)
         sphere.radius = roundUp(radius * kMonotoneSlack);
 }
 
-NormalCone coneOfTriangles(std::span<const Float3> places, Float3 middle)
+NormalCone computeNormalCone(std::span<const Float3> corners, Float3 middle)
 {
     NormalCone cone;
-    const std::vector<PlanePair> planes = planesOf(places);
+    const std::vector<PlanePair> planes = computePlanes(corners);
     // a triangle too thin for a normal in double precision could face anywhere
     if (planes.empty())
         return cone;
-    const Float3 near_axis = coneAxis(normalsOf(planes));
+    const Float3 near_axis = findConeAxis(gatherNormals(planes));
     if (!(length(near_axis) > 0))
         return cone;
     cone.axis = formats::NormalCode<8>::encode(near_axis);
@@ -354,8 +354,8 @@ NormalCone coneOfTriangles(std::span<const Float3> places, Float3 middle)
     Pair cosines{1, 1};
     Pair reaches2{};
     Pair backs{};
-    const PairVector axes = pairOf(axis);
-    const PairVector middles = pairOf(widen(middle));
+    const PairVector axes = makePair(axis);
+    const PairVector middles = makePair(widen(middle));
     for (const PlanePair& plane : planes)
     {
         const PairVector away = middles - plane.point;
@@ -380,7 +380,7 @@ NormalCone coneOfTriangles(std::span<const Float3> places, Float3 middle)
 }
 
 void setBounds(formats::ClusterRecord& record, double grid_step, std::span<const Float3> points,
-               std::span<const Float3> places, bool wide)
+               std::span<const Float3> corners, bool wide)
 {
     HEARTH_ASSERT(!points.empty());
     Box3 box;
@@ -401,7 +401,7 @@ void setBounds(formats::ClusterRecord& record, double grid_step, std::span<const
         record.extent[axis] = static_cast<uint16_t>((steps[axis] + (int64_t{1} << shift) - 1) >> shift);
 
     const NormalCone cone =
-        coneOfTriangles(places, formats::boxOf(record, static_cast<float>(grid_step)).center());
+        computeNormalCone(corners, formats::clusterBox(record, static_cast<float>(grid_step)).center());
     const double cutoff = std::ceil(cone.cutoff * 65536);
     const double back = std::ceil(cone.back / (grid_step * formats::kConeBackSteps * (1 << shift)));
     const bool fits = cutoff < formats::kNoCone && back <= 0xFFFF;

@@ -28,7 +28,7 @@ Sphere sphereOfPoints(std::span<const Float3> points);
 Sphere sphereOfSpheres(std::span<const Sphere> spheres, const Sphere& start);
 
 /// Enlarge the radius, slack included, to contain the points.
-void growToHold(Sphere& sphere, std::span<const Float3> points);
+void growToContain(Sphere& sphere, std::span<const Float3> points);
 
 /// Normal cone of triangles; its apex lies behind `middle`. The runtime may cull the triangles when the eye
 /// sees the cone from behind: dot(normalize(apex - eye), axis) >= cutoff.
@@ -39,15 +39,15 @@ struct NormalCone
     double back = 0;   ///< apex = middle - back * axis
 };
 
-/// places  positions, three for each triangle, finite
-NormalCone coneOfTriangles(std::span<const Float3> places, Float3 middle);
+/// corners  positions, three for each triangle, finite
+NormalCone computeNormalCone(std::span<const Float3> corners, Float3 middle);
 
 /// Set the box and the normal cone of a cluster's record.
 ///
 /// points  positions of its vertices, on the grid, at least one
-/// places  positions, three for each triangle
+/// corners  positions, three for each triangle
 /// wide    its offsets need 32 bits for a reason other than the size of its box
 void setBounds(formats::ClusterRecord& record, double grid_step, std::span<const Float3> points,
-               std::span<const Float3> places, bool wide);
+               std::span<const Float3> corners, bool wide);
 
 } // namespace hearth::clusters

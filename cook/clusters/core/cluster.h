@@ -27,11 +27,11 @@ struct PreparedMesh
     uint32_t attributes = 0;
     uint32_t degenerate_count = 0;
     uint32_t position_count = 0;
-    bool bends_gently = false;                ///< normals need more than 8 bits
-    std::vector<uint32_t> corners;            ///< three vertices for each triangle
-    std::vector<uint32_t> materials;          ///< for each triangle
-    std::vector<uint32_t> position_of_vertex; ///< position id of each vertex
-    const MeshMotion* motion = nullptr;       ///< motion of a deformed mesh; null: nothing moves it
+    bool gently_curved = false;                  ///< normals need more than 8 bits
+    std::vector<uint32_t> corners;               ///< three vertices for each triangle
+    std::vector<uint32_t> materials;             ///< for each triangle
+    std::vector<uint32_t> position_id_of_vertex; ///< position id of each vertex
+    const MeshMotion* motion = nullptr;          ///< motion of a deformed mesh; null: nothing moves it
     mesh::InfluenceLoss influence_loss;
     std::optional<double> influence_displacement; ///< as in BuildCounts
     std::vector<float> morph_steps;               ///< step of each morph target's deltas; a power of two
@@ -41,19 +41,19 @@ struct PreparedMesh
 };
 
 /// First id of the vertices that a simplification makes while its level is unfinished:
-/// kMadeVertex + k is the k-th.
-inline constexpr uint32_t kMadeVertex = 0x80000000u;
+/// kFirstNewVertex + k is the k-th.
+inline constexpr uint32_t kFirstNewVertex = 0x80000000u;
 
 /// Return the maximum vertices of a cluster: below the format's limit where the morph targets of two clusters
 /// would not fit into a page.
 uint32_t clusterVertexLimit(const PreparedMesh& mesh);
 
 /// Round a number of triangles down to full clusters, or return it unchanged if it is less than one cluster.
-inline size_t fullClusters(size_t triangles)
+inline size_t roundToFullClusters(size_t triangles)
 {
-    return triangles < formats::kClusterMaxTriangles
+    return triangles < formats::kMaxClusterTriangles
                ? triangles
-               : triangles / formats::kClusterMaxTriangles * formats::kClusterMaxTriangles;
+               : triangles / formats::kMaxClusterTriangles * formats::kMaxClusterTriangles;
 }
 
 /// Triangles of a cluster: three u8 indices into its own list of vertices.
@@ -75,16 +75,16 @@ struct ClusterStore
     /// Error of each triangle, object space: bounds the distance to the source in both directions.
     std::vector<float> errors;
 
-    std::span<const uint32_t> verticesOf(const ClusterShape& shape) const
+    std::span<const uint32_t> clusterVertices(const ClusterShape& shape) const
     {
         return std::span(vertices).subspan(shape.first_vertex, shape.vertex_count);
     }
-    std::span<const uint8_t> indicesOf(const ClusterShape& shape) const
+    std::span<const uint8_t> clusterIndices(const ClusterShape& shape) const
     {
         return std::span(indices).subspan(shape.first_index, size_t{shape.triangle_count} * 3);
     }
 
-    std::span<const float> errorsOf(const ClusterShape& shape) const
+    std::span<const float> clusterErrors(const ClusterShape& shape) const
     {
         return std::span(errors).subspan(shape.first_index / 3, shape.triangle_count);
     }

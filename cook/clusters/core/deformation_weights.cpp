@@ -16,11 +16,11 @@ namespace
 // More rows cost more than they gain: a group's vertices seldom have more joints, and the error measures all
 // of them anyway.
 constexpr size_t kMaxJoints = 12;
-constexpr size_t kMostMorphs = 4;
+constexpr size_t kMaxMorphs = 4;
 
 // Joints without relative motion in any clip count as if they moved by this part of the group: a game may
 // pose them.
-constexpr double kLeastLength = 0.1;
+constexpr double kMinJointLength = 0.1;
 
 // Joints with unbounded motion count as if they turned over.
 constexpr double kUnboundedTurn = 2;
@@ -49,7 +49,7 @@ std::vector<std::pair<double, uint32_t>> jointSums(const mesh::SourceMesh& verti
 
 /// Bound the distance that a joint moves the group's positions relative to the main joint, as a mean over the
 /// positions.
-double lengthOf(const PreparedMesh& mesh, const GroupMesh& group, uint32_t main, uint32_t joint)
+double jointLength(const PreparedMesh& mesh, const GroupMesh& group, uint32_t main, uint32_t joint)
 {
     if (mesh.motion == nullptr || mesh.motion->skin == nullptr)
         return 0;
@@ -63,7 +63,7 @@ double lengthOf(const PreparedMesh& mesh, const GroupMesh& group, uint32_t main,
     return (departure->rotation * mean + departure->shift) / group.scale;
 }
 
-void weighMorphs(const PreparedMesh& mesh, GroupMesh& group)
+void chooseMorphWeights(const PreparedMesh& mesh, GroupMesh& group)
 {
     std::vector<std::pair<float, uint32_t>> moves;
     for (uint32_t target = 0; target < mesh.vertices.morph_targets.size(); ++target)
@@ -71,25 +71,25 @@ void weighMorphs(const PreparedMesh& mesh, GroupMesh& group)
         float most = 0;
         for (const uint32_t vertex : group.vertex_of_wedge)
             most = std::max(most, hearth::length(mesh.vertices.morph_targets[target].positions[vertex]));
-        const bool known = mesh.motion != nullptr && target < mesh.motion->most_morph_weights.size();
-        const float weight = known ? mesh.motion->most_morph_weights[target] : 1.0f;
+        const bool known = mesh.motion != nullptr && target < mesh.motion->max_morph_weights.size();
+        const float weight = known ? mesh.motion->max_morph_weights[target] : 1.0f;
         if (most * weight > 0)
             moves.push_back({most * weight, target});
     }
     std::stable_sort(moves.begin(), moves.end(),
                      [](const auto& a, const auto& b) { return a.first > b.first; });
-    moves.resize(std::min(moves.size(), kMostMorphs));
+    moves.resize(std::min(moves.size(), kMaxMorphs));
     for (const auto& [most, target] : moves)
     {
-        const bool known = mesh.motion != nullptr && target < mesh.motion->most_morph_weights.size();
-        const float weight = known ? mesh.motion->most_morph_weights[target] : 1.0f;
+        const bool known = mesh.motion != nullptr && target < mesh.motion->max_morph_weights.size();
+        const float weight = known ? mesh.motion->max_morph_weights[target] : 1.0f;
         group.weights.morphs.push_back({target, static_cast<float>(double{weight} / group.scale)});
     }
 }
 
 } // namespace
 
-void weighDeformation(const PreparedMesh& mesh, GroupMesh& group)
+void chooseDeformationWeights(const PreparedMesh& mesh, GroupMesh& group)
 {
     const auto joints = jointSums(mesh.vertices, group.vertex_of_wedge);
     if (!joints.empty())
@@ -97,10 +97,10 @@ void weighDeformation(const PreparedMesh& mesh, GroupMesh& group)
     for (size_t i = 1; i < std::min(joints.size(), kMaxJoints + 1); ++i)
     {
         const uint32_t joint = joints[i].second;
-        const double length = lengthOf(mesh, group, group.weights.main_joint, joint);
-        group.weights.joints.push_back({joint, static_cast<float>(std::max(length, kLeastLength))});
+        const double length = jointLength(mesh, group, group.weights.main_joint, joint);
+        group.weights.joints.push_back({joint, static_cast<float>(std::max(length, kMinJointLength))});
     }
-    weighMorphs(mesh, group);
+    chooseMorphWeights(mesh, group);
 }
 
 } // namespace hearth::clusters

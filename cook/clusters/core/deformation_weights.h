@@ -11,6 +11,6 @@ namespace hearth::clusters
 /// joint moves the group's vertices relative to the main joint, the one with the most weight.
 ///
 /// group   with its vertices and local positions
-void weighDeformation(const PreparedMesh& mesh, GroupMesh& group);
+void chooseDeformationWeights(const PreparedMesh& mesh, GroupMesh& group);
 
 } // namespace hearth::clusters

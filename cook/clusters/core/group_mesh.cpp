@@ -4,6 +4,7 @@
 #include "cook/clusters/core/bounds.h"
 #include "cook/clusters/core/deformation_weights.h"
 #include "cook/clusters/core/set_hash.h"
+#include "formats/base/index.h"
 
 #include <algorithm>
 #include <bit>
@@ -17,16 +18,16 @@ namespace
 {
 
 // Flatter groups count as if their normals changed by this much over a unit of length.
-constexpr float kLeastNormalChange = 1.5f;
+constexpr float kMinNormalChange = 1.5f;
 
 /// Numbers keys 0, 1, ... in order of first use.
-class KeyNumbers
+class KeyNumbering
 {
 public:
-    explicit KeyNumbers(size_t most) : slots_(std::bit_ceil(most * 2 + 1)), mask_(slots_.size() - 1) {}
+    explicit KeyNumbering(size_t most) : slots_(std::bit_ceil(most * 2 + 1)), mask_(slots_.size() - 1) {}
 
     /// Return the key's number; equal to `next` if the key is new.
-    uint32_t numberOf(uint64_t key, uint32_t next)
+    uint32_t findOrAssign(uint64_t key, uint32_t next)
     {
         size_t slot = ((key * 0x9E3779B97F4A7C15u) >> 32) & mask_;
         while (slots_[slot].number_plus_one != 0)
@@ -49,7 +50,7 @@ private:
     size_t mask_;
 };
 
-/// Prefetch the data that placePositions and gatherAttributes read: on large meshes it is not in the
+/// Prefetch the data that setLocalPositions and gatherAttributes read: on large meshes it is not in the
 /// cache.
 void prefetchVertex(const mesh::SourceMesh& vertices, uint32_t vertex)
 {
@@ -73,43 +74,43 @@ std::vector<uint32_t> gatherTriangles(GroupMesh& group, const PreparedMesh& mesh
     }
     group.corners.reserve(triangle_count * 3);
     group.materials.reserve(triangle_count);
-    KeyNumbers wedges(vertex_count);
-    KeyNumbers positions(vertex_count);
+    KeyNumbering wedges(vertex_count);
+    KeyNumbering positions(vertex_count);
     std::vector<uint32_t> wedge_of_local;
     std::vector<uint32_t> material_of_wedge;
     for (const uint32_t member : members)
     {
         const ClusterShape& shape = store.shapes[member];
         wedge_of_local.clear();
-        for (const uint32_t vertex : store.verticesOf(shape))
+        for (const uint32_t vertex : store.clusterVertices(shape))
         {
             const auto next_wedge = static_cast<uint32_t>(group.vertex_of_wedge.size());
-            const uint32_t wedge = wedges.numberOf(uint64_t{shape.material} << 32 | vertex, next_wedge);
+            const uint32_t wedge = wedges.findOrAssign(uint64_t{shape.material} << 32 | vertex, next_wedge);
             wedge_of_local.push_back(wedge);
             if (wedge != next_wedge)
                 continue;
             prefetchVertex(mesh.vertices, vertex);
-            const uint32_t global = mesh.position_of_vertex[vertex];
-            const auto next_position = static_cast<uint32_t>(group.global_position.size());
-            const uint32_t position = positions.numberOf(global, next_position);
+            const uint32_t global = mesh.position_id_of_vertex[vertex];
+            const auto next_position = static_cast<uint32_t>(group.global_position_id.size());
+            const uint32_t position = positions.findOrAssign(global, next_position);
             group.vertex_of_wedge.push_back(vertex);
-            group.position_of_wedge.push_back(position);
+            group.position_id_of_wedge.push_back(position);
             material_of_wedge.push_back(shape.material);
             if (position != next_position)
                 continue;
-            group.global_position.push_back(global);
+            group.global_position_id.push_back(global);
             group.locked.push_back(locked[global]);
         }
-        for (const uint8_t index : store.indicesOf(shape))
+        for (const uint8_t index : store.clusterIndices(shape))
             group.corners.push_back(wedge_of_local[index]);
         group.materials.insert(group.materials.end(), shape.triangle_count, shape.material);
-        const auto errors = store.errorsOf(shape);
+        const auto errors = store.clusterErrors(shape);
         group.errors.insert(group.errors.end(), errors.begin(), errors.end());
     }
     return material_of_wedge;
 }
 
-void placePositions(GroupMesh& group, std::span<const Float3> source_positions)
+void setLocalPositions(GroupMesh& group, std::span<const Float3> source_positions)
 {
     Box3 box;
     for (const uint32_t vertex : group.vertex_of_wedge)
@@ -120,11 +121,11 @@ void placePositions(GroupMesh& group, std::span<const Float3> source_positions)
         group.center[axis] = (double{box.min[axis]} + box.max[axis]) * 0.5;
         group.scale = std::max(group.scale, (double{box.max[axis]} - box.min[axis]) * 0.5);
     }
-    group.positions.resize(group.global_position.size());
+    group.positions.resize(group.global_position_id.size());
     for (size_t w = 0; w < group.vertex_of_wedge.size(); ++w)
     {
         const Float3 p = source_positions[group.vertex_of_wedge[w]];
-        Float3& local = group.positions[group.position_of_wedge[w]];
+        Float3& local = group.positions[group.position_id_of_wedge[w]];
         for (int axis = 0; axis < 3; ++axis)
             local[axis] = static_cast<float>((p[axis] - group.center[axis]) / group.scale);
     }
@@ -138,9 +139,9 @@ float uvScale(const GroupMesh& group, std::span<const Float2> uvs)
     double texture = 0;
     for (size_t t = 0; t < group.corners.size(); t += 3)
     {
-        const Float3 a = group.positions[group.positionAt(t)];
-        const Float3 b = group.positions[group.positionAt(t + 1)];
-        const Float3 c = group.positions[group.positionAt(t + 2)];
+        const Float3 a = group.positions[group.positionIdAt(t)];
+        const Float3 b = group.positions[group.positionIdAt(t + 1)];
+        const Float3 c = group.positions[group.positionIdAt(t + 2)];
         surface += length(cross(b - a, c - a));
         const Float2 ua = uvs[group.vertex_of_wedge[group.corners[t]]];
         const Float2 ub = uvs[group.vertex_of_wedge[group.corners[t + 1]]];
@@ -171,17 +172,17 @@ bool sameChart(const mesh::SourceMesh& source, uint32_t a, uint32_t b)
 }
 
 /// Identify each chart at a position by its first wedge.
-void nameCharts(GroupMesh& group, const mesh::SourceMesh& source, std::span<const uint32_t> material_of_wedge)
+void assignCharts(GroupMesh& group, const mesh::SourceMesh& source,
+                  std::span<const uint32_t> material_of_wedge)
 {
-    constexpr uint32_t kNoWedge = 0xFFFFFFFFu;
-    std::vector<uint32_t> latest(group.global_position.size(), kNoWedge);
+    std::vector<uint32_t> latest(group.global_position_id.size(), kInvalidIndex);
     std::vector<uint32_t> before(group.vertex_of_wedge.size());
     group.chart_of_wedge.resize(group.vertex_of_wedge.size());
     for (uint32_t w = 0; w < group.vertex_of_wedge.size(); ++w)
     {
-        before[w] = std::exchange(latest[group.position_of_wedge[w]], w);
+        before[w] = std::exchange(latest[group.position_id_of_wedge[w]], w);
         group.chart_of_wedge[w] = w;
-        for (uint32_t other = before[w]; other != kNoWedge; other = before[other])
+        for (uint32_t other = before[w]; other != kInvalidIndex; other = before[other])
             if (material_of_wedge[w] == material_of_wedge[other] &&
                 sameChart(source, group.vertex_of_wedge[w], group.vertex_of_wedge[other]))
                 group.chart_of_wedge[w] = group.chart_of_wedge[other];
@@ -201,7 +202,8 @@ float normalChange(const GroupMesh& group, std::span<const Float3> normals)
         for (size_t k = 0; k < 3; ++k)
         {
             const size_t a = t + k, b = t + (k + 1) % 3;
-            const Float3 along = group.positions[group.positionAt(b)] - group.positions[group.positionAt(a)];
+            const Float3 along =
+                group.positions[group.positionIdAt(b)] - group.positions[group.positionIdAt(a)];
             const Float3 change = normals[group.vertex_of_wedge[group.corners[b]]] -
                                   normals[group.vertex_of_wedge[group.corners[a]]];
             change2 += dot(change, change);
@@ -218,14 +220,14 @@ void gatherAttributes(GroupMesh& group, const PreparedMesh& mesh, const Config& 
     const mesh::SourceMesh& vertices = mesh.vertices;
     if (!vertices.normals.empty() && config.normal_weight > 0)
         group.weights.normal =
-            config.normal_weight / std::max(normalChange(group, vertices.normals), kLeastNormalChange);
+            config.normal_weight / std::max(normalChange(group, vertices.normals), kMinNormalChange);
     if (!vertices.uvs[0].empty())
         group.uv_length = uvScale(group, vertices.uvs[0]);
     group.weights.uv = config.uv_weight * group.uv_length;
     if (!vertices.colors.empty())
         group.weights.color = config.color_weight;
     if (mesh.deforms())
-        weighDeformation(mesh, group);
+        chooseDeformationWeights(mesh, group);
     group.attribute_count = group.weights.count();
     group.attribute_rows = group.weights.rows();
     group.attributes.assign(group.attribute_rows * group.vertex_of_wedge.size(), Lanes{});
@@ -242,31 +244,31 @@ GroupMesh gatherGroup(const PreparedMesh& mesh, const ClusterStore& store, std::
     GroupMesh group;
     const std::vector<uint32_t> material_of_wedge = gatherTriangles(group, mesh, store, members, locked);
     group.grid_step = mesh.grid.step;
-    nameCharts(group, mesh.vertices, material_of_wedge);
-    placePositions(group, mesh.vertices.positions);
+    assignCharts(group, mesh.vertices, material_of_wedge);
+    setLocalPositions(group, mesh.vertices.positions);
     gatherAttributes(group, mesh, config);
-    group.keeps_places = !mesh.vertices.morph_targets.empty();
+    group.positions_fixed = !mesh.vertices.morph_targets.empty();
     for (float& error : group.errors)
         error = roundUp(error / group.scale);
     return group;
 }
 
-std::vector<uint32_t> positionsOfCorners(const GroupMesh& group, std::span<const uint32_t> wedges)
+std::vector<uint32_t> gatherPositionIds(const GroupMesh& group, std::span<const uint32_t> wedges)
 {
     std::vector<uint32_t> positions;
     positions.reserve(wedges.size());
     for (const uint32_t wedge : wedges)
-        positions.push_back(group.position_of_wedge[wedge]);
+        positions.push_back(group.position_id_of_wedge[wedge]);
     return positions;
 }
 
-std::vector<uint8_t> openPositions(const GroupMesh& group)
+std::vector<uint8_t> markOpenPositions(const GroupMesh& group)
 {
     std::vector<uint64_t> difference(group.positions.size(), 0);
     for (size_t t = 0; t < group.corners.size(); t += 3)
         for (size_t k = 0; k < 3; ++k)
-            difference[group.positionAt(t + k)] +=
-                hashOf(group.positionAt(t + (k + 1) % 3)) - hashOf(group.positionAt(t + (k + 2) % 3));
+            difference[group.positionIdAt(t + k)] += hashNumber(group.positionIdAt(t + (k + 1) % 3)) -
+                                                     hashNumber(group.positionIdAt(t + (k + 2) % 3));
     std::vector<uint8_t> open(difference.size());
     for (size_t p = 0; p < open.size(); ++p)
         open[p] = difference[p] != 0 ? 1 : 0;

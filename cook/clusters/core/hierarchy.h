@@ -87,7 +87,7 @@ struct Hierarchy
     std::vector<formats::PageRecord> pages;
     std::vector<uint32_t> page_parents;
     std::vector<std::byte> page_bytes; ///< the stored pages, each at a multiple of 64
-    /// Level of each authored mesh; kNone: it was left out.
+    /// Level of each authored mesh; kInvalidIndex: it was left out.
     std::vector<uint32_t> authored_levels;
     BuildCounts counts;
 };

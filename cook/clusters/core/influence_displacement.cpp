@@ -48,7 +48,7 @@ private:
             const float weights[4] = {w.x, w.y, w.z, w.w};
             for (size_t i = 0; i < 4; ++i)
                 if (weights[i] > 0)
-                    of(mesh.joint_sets[set][vertex].joint[i]).*weight += double{weights[i]};
+                    findOrAdd(mesh.joint_sets[set][vertex].joint[i]).*weight += double{weights[i]};
         }
     }
 
@@ -61,7 +61,7 @@ private:
             change.*weight /= sum;
     }
 
-    JointChange& of(uint16_t joint)
+    JointChange& findOrAdd(uint16_t joint)
     {
         for (JointChange& change : changes_)
             if (change.joint == joint)
@@ -79,7 +79,7 @@ Double3 morphReach(const mesh::SourceMesh& mesh, size_t vertex, const MeshMotion
     for (size_t target = 0; target < mesh.morph_targets.size(); ++target)
     {
         const double most =
-            target < motion.most_morph_weights.size() ? double{motion.most_morph_weights[target]} : 1.0;
+            target < motion.max_morph_weights.size() ? double{motion.max_morph_weights[target]} : 1.0;
         const Double3 delta = widen(mesh.morph_targets[target].positions[vertex]);
         reach = reach + Double3{std::abs(delta.x), std::abs(delta.y), std::abs(delta.z)} * most;
     }
@@ -104,34 +104,34 @@ public:
     /// shortest distances first: any transport plan gives a bound.
     std::optional<double> operator()(const JointChanges& changes, size_t vertex, Search search)
     {
-        struct Way
+        struct Transfer
         {
             size_t from, to;
             double length;
         };
         const std::vector<JointChange>& list = changes.list();
-        std::vector<Way> ways;
-        std::vector<double> left;
+        std::vector<Transfer> transfers;
+        std::vector<double> remaining;
         for (const JointChange& change : list)
-            left.push_back(std::abs(change.difference()));
+            remaining.push_back(std::abs(change.difference()));
         for (size_t from = 0; from < list.size(); ++from)
             for (size_t to = 0; to < list.size(); ++to)
                 if (list[from].difference() > 0 && list[to].difference() < 0)
                 {
-                    const auto length = apart(list, list[from].joint, list[to].joint, vertex, search);
+                    const auto length = jointDistance(list, list[from].joint, list[to].joint, vertex, search);
                     if (!length)
                         return std::nullopt;
-                    ways.push_back({from, to, *length});
+                    transfers.push_back({from, to, *length});
                 }
-        std::stable_sort(ways.begin(), ways.end(),
-                         [](const Way& a, const Way& b) { return a.length < b.length; });
+        std::stable_sort(transfers.begin(), transfers.end(),
+                         [](const Transfer& a, const Transfer& b) { return a.length < b.length; });
         double sum = 0;
-        for (const Way& way : ways)
+        for (const Transfer& transfer : transfers)
         {
-            const double sent = std::min(left[way.from], left[way.to]);
-            left[way.from] -= sent;
-            left[way.to] -= sent;
-            sum += sent * way.length;
+            const double sent = std::min(remaining[transfer.from], remaining[transfer.to]);
+            remaining[transfer.from] -= sent;
+            remaining[transfer.to] -= sent;
+            sum += sent * transfer.length;
         }
         return sum;
     }
@@ -139,10 +139,11 @@ public:
 private:
     /// Bound the distance between the positions that two joints give the vertex; over a third joint if
     /// neither bounds it relative to the other.
-    std::optional<double> apart(std::span<const JointChange> joints, uint32_t a, uint32_t b, size_t vertex,
-                                Search search)
+    std::optional<double> jointDistance(std::span<const JointChange> joints, uint32_t a, uint32_t b,
+                                        size_t vertex, Search search)
     {
-        const std::optional<double> there = seen(a, b, vertex, search), back = seen(b, a, vertex, search);
+        const std::optional<double> there = relativeDistance(a, b, vertex, search),
+                                    back = relativeDistance(b, a, vertex, search);
         if (there && back)
             return std::min(*there, *back);
         if (there || back)
@@ -150,7 +151,8 @@ private:
         std::optional<double> least;
         for (const JointChange& hub : joints)
         {
-            const auto to_a = seen(hub.joint, a, vertex, search), to_b = seen(hub.joint, b, vertex, search);
+            const auto to_a = relativeDistance(hub.joint, a, vertex, search),
+                       to_b = relativeDistance(hub.joint, b, vertex, search);
             if (to_a && to_b)
                 least = std::min(least.value_or(*to_a + *to_b), *to_a + *to_b);
         }
@@ -159,9 +161,9 @@ private:
 
     /// Bound the distance that `joint` moves the vertex relative to `main`. Distance is convex: its maximum
     /// is at a corner of the hull.
-    std::optional<double> seen(uint32_t main, uint32_t joint, size_t vertex, Search search)
+    std::optional<double> relativeDistance(uint32_t main, uint32_t joint, size_t vertex, Search search)
     {
-        const std::optional<motion::Departure>& departure = departureOf(main, joint);
+        const std::optional<animation_bounds::IdentityDeviation>& departure = findDeparture(main, joint);
         if (!departure)
             return std::nullopt;
         const Double3 place = widen(mesh_.positions[vertex]);
@@ -169,25 +171,26 @@ private:
         const double quick = departure->rotation * length(place - departure->pivot) + departure->shift;
         if (search == Search::quick || main == joint)
             return quick + morphed;
-        const motion::MatrixSet& set = motion_.skin->relative(main, joint)->set();
-        double far = 0;
+        const animation_bounds::MatrixSet& set = motion_.skin->relative(main, joint)->set();
+        double farthest = 0;
         for (const Affine3d& corner : set.hull)
-            far = std::max(far, length(transformPoint(corner, place) - place));
-        return std::min(quick, far + set.linear_slack * length(place - set.pivot) + set.point_slack) +
+            farthest = std::max(farthest, length(transformPoint(corner, place) - place));
+        return std::min(quick, farthest + set.linear_slack * length(place - set.pivot) + set.point_slack) +
                morphed;
     }
 
-    const std::optional<motion::Departure>& departureOf(uint32_t main, uint32_t joint)
+    const std::optional<animation_bounds::IdentityDeviation>& findDeparture(uint32_t main, uint32_t joint)
     {
         const auto [entry, is_new] = departures_.try_emplace(uint64_t{main} << 32 | joint);
         if (is_new)
-            entry->second = main == joint ? motion::Departure{} : motion_.skin->departure(main, joint);
+            entry->second =
+                main == joint ? animation_bounds::IdentityDeviation{} : motion_.skin->departure(main, joint);
         return entry->second;
     }
 
     const mesh::SourceMesh& mesh_;
     const MeshMotion& motion_;
-    std::unordered_map<uint64_t, std::optional<motion::Departure>> departures_;
+    std::unordered_map<uint64_t, std::optional<animation_bounds::IdentityDeviation>> departures_;
 };
 
 } // namespace

@@ -12,7 +12,7 @@ namespace
 
 // A quarter of a cluster: splitting a larger island costs fewer vertices than keeping it whole wastes
 // triangles.
-constexpr uint32_t kSmallIsland = 32;
+constexpr uint32_t kMaxSmallIsland = 32;
 
 } // namespace
 
@@ -53,20 +53,20 @@ std::vector<uint32_t> islandOfTriangles(std::span<const uint32_t> positions, siz
     return island;
 }
 
-void gatherSmallIslands(std::span<Float3> centers, std::span<const uint32_t> vertices, size_t vertex_count)
+void moveToIslandCenters(std::span<Float3> centers, std::span<const uint32_t> vertices, size_t vertex_count)
 {
     const std::vector<uint32_t> island = islandOfTriangles(vertices, vertex_count);
     std::vector<uint32_t> size(vertex_count, 0);
     for (const uint32_t i : island)
         ++size[i];
-    if (std::none_of(island.begin(), island.end(), [&](uint32_t i) { return size[i] <= kSmallIsland; }))
+    if (std::none_of(island.begin(), island.end(), [&](uint32_t i) { return size[i] <= kMaxSmallIsland; }))
         return;
     std::vector<Float3> island_center(vertex_count);
     for (size_t t = 0; t < centers.size(); ++t)
-        if (size[island[t]] <= kSmallIsland)
+        if (size[island[t]] <= kMaxSmallIsland)
             island_center[island[t]] += centers[t] / static_cast<float>(size[island[t]]);
     for (size_t t = 0; t < centers.size(); ++t)
-        if (size[island[t]] <= kSmallIsland)
+        if (size[island[t]] <= kMaxSmallIsland)
             centers[t] = island_center[island[t]];
 }
 

@@ -34,7 +34,7 @@ std::vector<uint32_t> islandOfTriangles(std::span<const uint32_t> corners, size_
 ///
 /// centers   of the triangles, changed in place
 /// vertices  three for each triangle, all below vertex_count
-void gatherSmallIslands(std::span<Float3> centers, std::span<const uint32_t> vertices, size_t vertex_count);
+void moveToIslandCenters(std::span<Float3> centers, std::span<const uint32_t> vertices, size_t vertex_count);
 
 /// Return the center of a triangle, without overflow for any finite corners.
 inline Float3 triangleCenter(Float3 a, Float3 b, Float3 c)

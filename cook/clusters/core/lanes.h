@@ -23,7 +23,7 @@ inline constexpr size_t kLanes = 4;
 using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
 using LaneMask = int32_t __attribute__((vector_size(kLanes * sizeof(int32_t))));
 
-inline Lanes allLanes(float x)
+inline Lanes splat(float x)
 {
     return Lanes{x, x, x, x};
 }
@@ -44,18 +44,18 @@ inline float sumOfLanes(Lanes x)
 {
     return (x[0] + x[1]) + (x[2] + x[3]);
 }
-inline float leastLane(Lanes x)
+inline float minLane(Lanes x)
 {
     return std::min(std::min(x[0], x[1]), std::min(x[2], x[3]));
 }
-inline float greatestLane(Lanes x)
+inline float maxLane(Lanes x)
 {
     return std::max(std::max(x[0], x[1]), std::max(x[2], x[3]));
 }
 /// Clamp to [0, 1]; NaN becomes 0.
 inline Lanes clampToUnit(Lanes x)
 {
-    return minimum(maximum(x, allLanes(0)), allLanes(1));
+    return minimum(maximum(x, splat(0)), splat(1));
 }
 
 /// Transpose a 4 x 4 matrix of rows.
@@ -91,9 +91,9 @@ inline Lanes dot(LaneVector a, LaneVector b)
 {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
-inline LaneVector allLanes(Float3 p)
+inline LaneVector splat(Float3 p)
 {
-    return {allLanes(p.x), allLanes(p.y), allLanes(p.z)};
+    return {splat(p.x), splat(p.y), splat(p.z)};
 }
 /// Return the sums of x, of y and of z over the lanes, and 0.
 inline Lanes sumsOfLanes(LaneVector v)

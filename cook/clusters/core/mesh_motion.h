@@ -13,8 +13,8 @@ namespace hearth::clusters
 /// Joint motion and morph weights of one mesh.
 struct MeshMotion
 {
-    const motion::SkinMotion* skin = nullptr; ///< null: joints never move relative to each other
-    std::vector<float> most_morph_weights;    ///< largest absolute weight of each target; missing ones are 1
+    const animation_bounds::SkinMotion* skin = nullptr; ///< null: joints never move relative to each other
+    std::vector<float> max_morph_weights; ///< largest absolute weight of each target; missing ones are 1
 };
 
 } // namespace hearth::clusters

@@ -8,7 +8,7 @@
 namespace hearth::clusters
 {
 
-LevelStep stepOfGroup(const Reduction& reduction, uint32_t level, std::span<const uint32_t> materials)
+LevelStep findGroupStep(const Reduction& reduction, uint32_t level, std::span<const uint32_t> materials)
 {
     HEARTH_ASSERT(!materials.empty());
     LevelStep largest{0, 1};

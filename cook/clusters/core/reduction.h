@@ -24,9 +24,9 @@ struct LevelStep
 /// Limits of the settings of a profile. A level that keeps more than nine triangles of ten costs, with the
 /// levels that follow, ten times the memory of its source. A group's locked border is about one triangle of
 /// twenty.
-inline constexpr float kSmallestKeep = 0.05f;
-inline constexpr float kLargestKeep = 0.9f;
-inline constexpr float kLargestErrorWeight = 1e6f;
+inline constexpr float kMinKeep = 0.05f;
+inline constexpr float kMaxKeep = 0.9f;
+inline constexpr float kMaxErrorWeight = 1e6f;
 
 /// Entry k is the step from level k to level k + 1; the last one repeats. Never empty.
 using LevelCurve = std::vector<LevelStep>;
@@ -51,6 +51,6 @@ struct Reduction
 };
 
 /// Return the step for a group of level `level` with these materials, at least one.
-LevelStep stepOfGroup(const Reduction& reduction, uint32_t level, std::span<const uint32_t> materials);
+LevelStep findGroupStep(const Reduction& reduction, uint32_t level, std::span<const uint32_t> materials);
 
 } // namespace hearth::clusters

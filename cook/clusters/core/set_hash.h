@@ -9,7 +9,7 @@ namespace hearth::clusters
 
 /// Hash a number. Sums of hashes, modulo 2^64, are equal only for equal multisets, with an error chance of
 /// 2^-64.
-inline uint64_t hashOf(uint64_t number)
+inline uint64_t hashNumber(uint64_t number)
 {
     number = (number + 1) * 0x9E3779B97F4A7C15u;
     number = (number ^ (number >> 32)) * 0xD6E8FEB86659FD93u;

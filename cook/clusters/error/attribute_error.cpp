@@ -16,7 +16,7 @@ namespace
 {
 
 // UV differences beyond this, in local lengths, count the same: their squares stay finite.
-constexpr float kFarthestUv = 1e6f;
+constexpr float kMaxUvLength = 1e6f;
 
 float dot(Float2 a, Float2 b)
 {
@@ -24,9 +24,9 @@ float dot(Float2 a, Float2 b)
 }
 
 /// Clamp a length; NaN becomes the limit as well.
-float limited(float length)
+float clampLength(float length)
 {
-    return length > -kFarthestUv && length < kFarthestUv ? length : kFarthestUv;
+    return length > -kMaxUvLength && length < kMaxUvLength ? length : kMaxUvLength;
 }
 
 struct Difference
@@ -44,7 +44,7 @@ public:
         : group_(group),
           after_(after),
           simplified_(after.simplified),
-          facets_(after.surface.facets),
+          triangles_(after.surface.triangles),
           has_normals_(!after.mesh.normals.empty()),
           has_uvs_(!after.mesh.uvs[0].empty() && group.uv_length > 0),
           differences_(group.vertex_of_wedge.size())
@@ -56,14 +56,14 @@ public:
         if (!has_normals_ && !has_uvs_)
             return {};
         for (uint32_t wedge = 0; wedge < differences_.size(); ++wedge)
-            if (const FacetPoint& point = after_.points[wedge]; point.facet != kNoFacet)
+            if (const TrianglePoint& point = after_.points[wedge]; point.triangle != kInvalidIndex)
                 differences_[wedge] = differenceAt(wedge, point);
         return {meanOfDifferences(), edgeLength()};
     }
 
 private:
     /// Return the new surface's attributes minus the wedge's.
-    Difference differenceAt(uint32_t wedge, const FacetPoint& point) const
+    Difference differenceAt(uint32_t wedge, const TrianglePoint& point) const
     {
         const uint32_t vertex = group_.vertex_of_wedge[wedge];
         const mesh::SourceMesh& mesh = after_.mesh;
@@ -74,7 +74,7 @@ private:
         if (has_uvs_)
         {
             const Float2 away = valueAt(point, mesh.uvs[0], after_.made.uvs[0]) - mesh.uvs[0][vertex];
-            difference.uv = {limited(away.x * group_.uv_length), limited(away.y * group_.uv_length)};
+            difference.uv = {clampLength(away.x * group_.uv_length), clampLength(away.y * group_.uv_length)};
         }
         difference.normal2 = hearth::dot(difference.normal, difference.normal);
         difference.uv2 = dot(difference.uv, difference.uv);
@@ -83,13 +83,13 @@ private:
 
     /// Interpolate a vertex attribute of the new surface at a point.
     template <typename Value>
-    Value valueAt(const FacetPoint& point, const std::vector<Value>& of_mesh,
+    Value valueAt(const TrianglePoint& point, const std::vector<Value>& of_mesh,
                   const std::vector<Value>& of_made) const
     {
         const auto corner = [&](size_t k)
         {
-            const uint32_t vertex = after_.vertex_of_wedge[simplified_.corners[point.facet * 3 + k]];
-            return vertex < kMadeVertex ? of_mesh[vertex] : of_made[vertex - kMadeVertex];
+            const uint32_t vertex = after_.vertex_of_wedge[simplified_.corners[point.triangle * 3 + k]];
+            return vertex < kFirstNewVertex ? of_mesh[vertex] : of_made[vertex - kFirstNewVertex];
         };
         return corner(0) * (1 - point.v - point.w) + corner(1) * point.v + corner(2) * point.w;
     }
@@ -97,7 +97,7 @@ private:
     bool isPruned(size_t triangle) const
     {
         const auto gone = [&](size_t corner)
-        { return simplified_.target_of_position[group_.positionAt(corner)] == kPruned; };
+        { return simplified_.target_of_position[group_.positionIdAt(corner)] == kPruned; };
         return simplified_.pruned && (gone(triangle * 3) || gone(triangle * 3 + 1) || gone(triangle * 3 + 2));
     }
 
@@ -110,9 +110,9 @@ private:
         {
             if (isPruned(t))
                 continue;
-            const Float3 a = group_.positions[group_.positionAt(t * 3)];
-            const auto own = double{length(cross(group_.positions[group_.positionAt(t * 3 + 1)] - a,
-                                                 group_.positions[group_.positionAt(t * 3 + 2)] - a))};
+            const Float3 a = group_.positions[group_.positionIdAt(t * 3)];
+            const auto own = double{length(cross(group_.positions[group_.positionIdAt(t * 3 + 1)] - a,
+                                                 group_.positions[group_.positionIdAt(t * 3 + 2)] - a))};
             const Difference& d0 = differences_[group_.corners[t * 3]];
             const Difference& d1 = differences_[group_.corners[t * 3 + 1]];
             const Difference& d2 = differences_[group_.corners[t * 3 + 2]];
@@ -126,22 +126,22 @@ private:
         }
         if (!(area > 0))
             return {};
-        return {static_cast<float>(angleOfChord(std::sqrt(normal2 / (12 * area)))),
+        return {static_cast<float>(angleFromChord(std::sqrt(normal2 / (12 * area)))),
                 roundUp(std::sqrt(uv2 / (12 * area)) * group_.scale)};
     }
 
     float edgeLength() const
     {
         double sum = 0;
-        for (const Facet& facet : facets_)
-            sum += double{facet.ab_ab + facet.ac_ac - facet.ab_ac};
-        return roundUp(group_.scale * std::sqrt(sum * 2 / (3 * static_cast<double>(facets_.size()))));
+        for (const DistanceTriangle& triangle : triangles_)
+            sum += double{triangle.ab_ab + triangle.ac_ac - triangle.ab_ac};
+        return roundUp(group_.scale * std::sqrt(sum * 2 / (3 * static_cast<double>(triangles_.size()))));
     }
 
     const GroupMesh& group_;
     const NewSurface& after_;
-    const Simplified& simplified_;
-    std::span<const Facet> facets_;
+    const SimplifiedGroup& simplified_;
+    std::span<const DistanceTriangle> triangles_;
     bool has_normals_;
     bool has_uvs_;
     std::vector<Difference> differences_; ///< for each wedge of the group
@@ -154,7 +154,7 @@ AttributeStep measureAttributes(const GroupMesh& group, const NewSurface& after)
     return AttributeMeasure(group, after).run();
 }
 
-double angleOfChord(double chord)
+double angleFromChord(double chord)
 {
     // halve the half-angle twice: then five terms of the series of asin are exact to 1e-7
     const auto halve = [](double sine) { return sine / std::sqrt(2 * (1 + std::sqrt(1 - sine * sine))); };

@@ -29,13 +29,13 @@ struct AttributeStep
     float edge_length = 0; ///< object space, root mean square over the new triangles
 };
 
-/// Simplified group with its vertices: kMadeVertex + i is vertex i of `made`, others are the mesh's.
+/// SimplifiedGroup group with its vertices: kFirstNewVertex + i is vertex i of `made`, others are the mesh's.
 struct NewSurface
 {
-    const Simplified& simplified;
+    const SimplifiedGroup& simplified;
     const Surface& surface;
     /// For each wedge that was removed or moved, its point on the surface.
-    std::span<const FacetPoint> points;
+    std::span<const TrianglePoint> points;
     const mesh::SourceMesh& mesh;
     const mesh::SourceMesh& made;
     std::span<const uint32_t> vertex_of_wedge;
@@ -48,6 +48,6 @@ AttributeStep measureAttributes(const GroupMesh& group, const NewSurface& after)
 
 /// Return the angle between two unit vectors from the length of their difference, from 0 to pi. Avoids
 /// functions that round differently from one machine to the next.
-double angleOfChord(double chord);
+double angleFromChord(double chord);
 
 } // namespace hearth::clusters

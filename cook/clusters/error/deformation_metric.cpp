@@ -13,12 +13,12 @@ namespace
 {
 
 /// Maximum joints of a vertex: two sets.
-constexpr size_t kMostInfluences = 8;
+constexpr size_t kMaxVertexInfluences = 8;
 
 /// Maximum joints of the triangles of two points.
-constexpr size_t kMaxPairJoints = 6 * kMostInfluences;
+constexpr size_t kMaxPairJoints = 6 * kMaxVertexInfluences;
 
-double partOf(const Float4& weights, size_t i)
+double component(const Float4& weights, size_t i)
 {
     return double{i == 0 ? weights.x : i == 1 ? weights.y : i == 2 ? weights.z : weights.w};
 }
@@ -40,7 +40,7 @@ public:
         for (size_t k = 0; k < 3; ++k)
             for (const auto& influence : point.surface->influences(point.vertices[k]))
             {
-                JointDifference& difference = of(influence.joint);
+                JointDifference& difference = findOrAdd(influence.joint);
                 const double weight = sign * point.parts[k] * influence.weight;
                 difference.weight += weight;
                 difference.moved = difference.moved + point.surface->place(point.vertices[k]) * weight;
@@ -50,7 +50,7 @@ public:
     std::span<const JointDifference> all() const { return std::span(differences_).first(count_); }
 
 private:
-    JointDifference& of(uint32_t joint)
+    JointDifference& findOrAdd(uint32_t joint)
     {
         for (size_t i = 0; i < count_; ++i)
             if (differences_[i].joint == joint)
@@ -64,7 +64,7 @@ private:
     size_t count_ = 0;
 };
 
-Double3 placeOf(const DeformedPoint& point)
+Double3 interpolatePosition(const DeformedPoint& point)
 {
     Double3 place;
     for (size_t k = 0; k < 3; ++k)
@@ -73,7 +73,7 @@ Double3 placeOf(const DeformedPoint& point)
 }
 
 /// Return the sum over the triangle's vertices of part * weight of `joint` * delta of `target`.
-Double3 movedDelta(const DeformedPoint& point, uint32_t joint, size_t target)
+Double3 weightedDelta(const DeformedPoint& point, uint32_t joint, size_t target)
 {
     Double3 sum;
     for (size_t k = 0; k < 3; ++k)
@@ -84,7 +84,7 @@ Double3 movedDelta(const DeformedPoint& point, uint32_t joint, size_t target)
     return sum;
 }
 
-Double3 deltaOf(const DeformedPoint& point, size_t target)
+Double3 interpolateDelta(const DeformedPoint& point, size_t target)
 {
     Double3 sum;
     for (size_t k = 0; k < 3; ++k)
@@ -99,7 +99,7 @@ void DeformedSurface::add(Float3 place, const mesh::SourceMesh& source, uint32_t
     places_.push_back(widen(place));
     for (size_t set = 0; set < source.joint_sets.size(); ++set)
         for (size_t i = 0; i < 4; ++i)
-            if (const double weight = partOf(source.weight_sets[set][vertex], i); weight > 0)
+            if (const double weight = component(source.weight_sets[set][vertex], i); weight > 0)
                 influences_.push_back({source.joint_sets[set][vertex].joint[i], weight});
     first_influence_.push_back(influences_.size());
     delta_count_ = source.morph_targets.size();
@@ -112,21 +112,21 @@ DeformationMetric::DeformationMetric(Double3 center, double scale, const MeshMot
 {
 }
 
-const DeformationMetric::Departure& DeformationMetric::departure(uint32_t main, uint32_t joint)
+const DeformationMetric::IdentityDeviation& DeformationMetric::departure(uint32_t main, uint32_t joint)
 {
-    std::vector<Departure>& row = departures_[main];
+    std::vector<IdentityDeviation>& row = departures_[main];
     if (row.size() <= joint)
         row.resize(joint + size_t{1});
-    Departure& departure = row[joint];
-    if (departure.state != Departure::State::unknown)
+    IdentityDeviation& departure = row[joint];
+    if (departure.state != IdentityDeviation::State::unknown)
         return departure;
-    departure.state = Departure::State::bounded;
+    departure.state = IdentityDeviation::State::bounded;
     if (motion_.skin == nullptr || main == joint)
         return departure;
-    const std::optional<motion::Departure> found = motion_.skin->departure(main, joint);
+    const std::optional<animation_bounds::IdentityDeviation> found = motion_.skin->departure(main, joint);
     if (!found || !std::isfinite(found->rotation) || !std::isfinite(found->shift))
     {
-        departure.state = Departure::State::unbounded;
+        departure.state = IdentityDeviation::State::unbounded;
         return departure;
     }
     departure.pivot = (found->pivot - center_) * (1 / scale_);
@@ -160,7 +160,7 @@ std::optional<uint32_t> DeformationMetric::mainJoint(const DeformedPoint& point,
     {
         return std::all_of(joints.begin(), joints.end(),
                            [&](uint32_t joint)
-                           { return departure(main, joint).state == Departure::State::bounded; });
+                           { return departure(main, joint).state == IdentityDeviation::State::bounded; });
     };
     for (const JointDifference& candidate : candidates)
         if (boundsAll(candidate.joint))
@@ -173,7 +173,7 @@ std::optional<uint32_t> DeformationMetric::mainJoint(const DeformedPoint& point,
 
 double DeformationMetric::between(const DeformedPoint& a, const DeformedPoint& b, uint32_t main)
 {
-    double sum = length(placeOf(a) - placeOf(b));
+    double sum = length(interpolatePosition(a) - interpolatePosition(b));
     JointDifferences differences;
     differences.add(a, 1);
     differences.add(b, -1);
@@ -181,7 +181,7 @@ double DeformationMetric::between(const DeformedPoint& a, const DeformedPoint& b
     {
         if (difference.joint == main)
             continue;
-        const Departure& d = departure(main, difference.joint);
+        const IdentityDeviation& d = departure(main, difference.joint);
         sum += d.rotation * length(difference.moved - d.pivot * difference.weight) +
                d.shift * std::abs(difference.weight);
     }
@@ -194,17 +194,17 @@ double DeformationMetric::morphTerm(const DeformedPoint& a, const DeformedPoint&
     double sum = 0;
     for (size_t target = 0; target < targets; ++target)
     {
-        double difference = length(deltaOf(a, target) - deltaOf(b, target));
+        double difference = length(interpolateDelta(a, target) - interpolateDelta(b, target));
         JointDifferences joints;
         joints.add(a, 1);
         joints.add(b, -1);
         for (const JointDifference& of : joints.all())
             if (of.joint != main)
                 difference += departure(main, of.joint).rotation *
-                              length(movedDelta(a, of.joint, target) - movedDelta(b, of.joint, target));
-        const double most_weight =
-            target < motion_.most_morph_weights.size() ? double{motion_.most_morph_weights[target]} : 1.0;
-        sum += most_weight * difference;
+                              length(weightedDelta(a, of.joint, target) - weightedDelta(b, of.joint, target));
+        const double max_weight =
+            target < motion_.max_morph_weights.size() ? double{motion_.max_morph_weights[target]} : 1.0;
+        sum += max_weight * difference;
     }
     return sum;
 }

@@ -82,8 +82,8 @@ public:
     double between(const DeformedPoint& a, const DeformedPoint& b, uint32_t main);
 
 private:
-    /// motion::Departure in local units.
-    struct Departure
+    /// animation_bounds::IdentityDeviation in local units.
+    struct IdentityDeviation
     {
         enum class State : uint8_t
         {
@@ -97,13 +97,13 @@ private:
         double shift = 0;
     };
 
-    const Departure& departure(uint32_t main, uint32_t joint);
+    const IdentityDeviation& departure(uint32_t main, uint32_t joint);
     double morphTerm(const DeformedPoint& a, const DeformedPoint& b, uint32_t main);
 
     Double3 center_;
     double scale_;
     const MeshMotion& motion_;
-    std::unordered_map<uint32_t, std::vector<Departure>> departures_; ///< by main joint, then joint
+    std::unordered_map<uint32_t, std::vector<IdentityDeviation>> departures_; ///< by main joint, then joint
 };
 
 } // namespace hearth::clusters

@@ -9,7 +9,7 @@
 namespace hearth::clusters
 {
 
-/// Vertices of a simplified group: those of `mesh`, and from kMadeVertex on those of `made`.
+/// Vertices of a simplified group: those of `mesh`, and from kFirstNewVertex on those of `made`.
 struct SimplifiedVertices
 {
     const mesh::SourceMesh& mesh;
@@ -20,9 +20,10 @@ struct SimplifiedVertices
 /// Bound the deviation like boundDeviation, over all poses: errors are for a scale of 1 of the joints'
 /// transforms. Each removed, changed or new triangle is compared with triangles of the other surface near it;
 /// the one that bounds it best counts, piece by piece. An error is infinite if no joint can be the main one
-/// (motion::SkinMotion::relative).
-Deviation boundDeformedDeviation(const GroupMesh& group, const Simplified& simplified, const Surface& after,
-                                 const SimplifiedVertices& vertices, const MeshMotion& motion);
+/// (animation_bounds::SkinMotion::relative).
+Deviation boundDeformedDeviation(const GroupMesh& group, const SimplifiedGroup& simplified,
+                                 const Surface& after, const SimplifiedVertices& vertices,
+                                 const MeshMotion& motion);
 
 /// Bound the two-sided distance of two surfaces of a deformed mesh over all poses, in object space: for
 /// authored LODs. Compares each triangle with the triangles nearest to a few of its points, so the bound may
@@ -32,6 +33,6 @@ double boundDeformedSurfaces(const PreparedMesh& mesh, std::span<const uint32_t>
                              std::span<const uint32_t> level);
 
 /// Return the mesh's motion; if it is unknown, only morph targets move it.
-const MeshMotion& motionOf(const PreparedMesh& mesh);
+const MeshMotion& meshMotion(const PreparedMesh& mesh);
 
 } // namespace hearth::clusters

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/error/deviation.h"
 
-#include "cook/clusters/core/facet_index.h"
+#include "cook/clusters/core/triangle_boxes.h"
 #include "cook/clusters/surface/nearest_bound.h"
 #include "cook/clusters/surface/surface.h"
 #include "cook/clusters/surface/surface_map.h"
@@ -31,52 +31,53 @@ constexpr float kFlat = 1e-4f;
 constexpr float kSlackOfCarried = kSlack - 1;
 
 /// Short list of triangles, each once.
-class Likely
+class LikelyTriangles
 {
 public:
-    explicit Likely(size_t facet_count) : list_of_facet_(facet_count, 0) {}
+    explicit LikelyTriangles(size_t facet_count) : list_of_triangle_(facet_count, 0) {}
 
     void clear()
     {
         ++list_;
-        facets_.clear();
+        triangles_.clear();
     }
 
     void addAround(const Surface& surface, uint32_t position)
     {
-        for (const uint32_t facet : surface.facets_at.of(position))
-            add(facet);
+        for (const uint32_t triangle : surface.triangles_at.list(position))
+            add(triangle);
     }
 
     /// Add the triangles around the corner where a half-edge starts.
-    void addAround(std::span<const uint32_t> twins, uint32_t start)
+    void addAround(std::span<const uint32_t> opposites, uint32_t start)
     {
-        uint32_t side = start;
+        uint32_t half_edge = start;
         do
         {
-            add(side / 3);
-            side = twins[previousSide(side)];
-        } while (side != kNoSide && side != start);
-        if (side == start)
+            add(half_edge / 3);
+            half_edge = opposites[previousHalfEdge(half_edge)];
+        } while (half_edge != kInvalidIndex && half_edge != start);
+        if (half_edge == start)
             return;
-        for (side = twins[start]; side != kNoSide; side = twins[nextSide(side)])
-            add(side / 3);
+        for (half_edge = opposites[start]; half_edge != kInvalidIndex;
+             half_edge = opposites[nextHalfEdge(half_edge)])
+            add(half_edge / 3);
     }
 
-    void add(uint32_t facet)
+    void add(uint32_t triangle)
     {
-        if (list_of_facet_[facet] == list_ || facets_.size() == kMaxLikely)
+        if (list_of_triangle_[triangle] == list_ || triangles_.size() == kMaxLikely)
             return;
-        list_of_facet_[facet] = list_;
-        facets_.push_back(facet);
+        list_of_triangle_[triangle] = list_;
+        triangles_.push_back(triangle);
     }
 
-    std::span<const uint32_t> facets() const { return facets_; }
+    std::span<const uint32_t> triangles() const { return triangles_; }
 
 private:
-    std::vector<uint32_t> list_of_facet_; ///< number of the last list that contained each triangle
+    std::vector<uint32_t> list_of_triangle_; ///< number of the last list that contained each triangle
     uint32_t list_ = 0;
-    std::vector<uint32_t> facets_;
+    std::vector<uint32_t> triangles_;
 };
 
 /// Upper bound of a triangle's total: its carried error plus its distance.
@@ -95,37 +96,37 @@ struct Total
 };
 
 /// Bounds the triangles before that were removed or changed, and the new ones.
-class GroupMeasure
+class DeviationMeasure
 {
 public:
-    GroupMeasure(const GroupMesh& group, const Simplified& simplified, const Surface& after,
-                 std::span<const FacetPoint> points)
+    DeviationMeasure(const GroupMesh& group, const SimplifiedGroup& simplified, const Surface& after,
+                     std::span<const TrianglePoint> points)
         : group_(group),
           simplified_(simplified),
           after_(after),
-          positions_before_(positionsOfCorners(group, group.corners)),
+          positions_before_(gatherPositionIds(group, group.corners)),
           moved_(movedPositions()),
           changed_(changedTriangles()),
           map_(group, simplified, positions_before_, after, points, changed_),
           index_before_(positions_before_, group.positions),
-          index_after_(after.positions, after.place_of_position),
+          index_after_(after.position_ids, after.position_of_id),
           likely_before_(changed_.size()),
-          likely_after_(after.facetCount()),
-          errors_(after.facetCount(), 0)
+          likely_after_(after.triangleCount()),
+          errors_(after.triangleCount(), 0)
     {
     }
 
     Deviation run()
     {
-        for (uint32_t t = 0; t < after_.facetCount(); ++t)
+        for (uint32_t t = 0; t < after_.triangleCount(); ++t)
             if (const uint32_t source = simplified_.source_triangle[t]; changed_[source] == 0)
                 errors_[t] = group_.errors[source];
-        sums_ = map_.sumsOver(group_.errors);
-        settleLargest();
+        sums_ = map_.maxSums(group_.errors);
+        resolveLargest();
         for (uint32_t t = 0; t < errors_.size(); ++t)
         {
             // larger sums come from triangles that were searched
-            give(t, std::min(sums_[t], worst_));
+            raiseError(t, std::min(sums_[t], worst_));
             errors_[t] += kRounding;
         }
         return {std::move(errors_), nearest_.loosePieces()};
@@ -134,7 +135,7 @@ public:
 private:
     std::vector<uint8_t> movedPositions() const
     {
-        std::vector<uint8_t> moved(simplified_.placement.remade);
+        std::vector<uint8_t> moved(simplified_.placement.modified);
         for (uint32_t position = 0; position < moved.size(); ++position)
             moved[position] =
                 simplified_.target_of_position[position] != position ? uint8_t{1} : moved[position];
@@ -150,7 +151,7 @@ private:
         return changed;
     }
 
-    uint32_t targetOf(size_t corner) const
+    uint32_t targetPosition(size_t corner) const
     {
         return simplified_.target_of_position[positions_before_[corner]];
     }
@@ -162,20 +163,21 @@ private:
     template <typename Visit>
     void forEachTotal(const float& least, Visit visit) const
     {
-        const auto upperOf = [](uint8_t changed, bool known, float sum)
+        const auto upperBound = [](uint8_t changed, bool known, float sum)
         {
             const float upper = known ? sum : kInfinity;
             return changed != 0 ? upper : -1.0f;
         };
         for (uint32_t t = 0; t < changed_.size(); ++t)
         {
-            const float upper = upperOf(changed_[t], map_.maps(t), group_.errors[t] + map_.farOf(t));
+            const float upper = upperBound(changed_[t], map_.maps(t), group_.errors[t] + map_.maxDistance(t));
             if (upper >= least)
                 visit(Total{upper, t, true});
         }
         for (uint32_t t = 0; t < sums_.size(); ++t)
         {
-            const float upper = upperOf(changed_[simplified_.source_triangle[t]], map_.covers(t), sums_[t]);
+            const float upper =
+                upperBound(changed_[simplified_.source_triangle[t]], map_.covers(t), sums_[t]);
             if (upper >= least)
                 visit(Total{upper, t, false});
         }
@@ -183,7 +185,7 @@ private:
 
     /// Search the largest totals first: once one needs no search, neither do the others. The largest of all
     /// rules most of them out.
-    void settleLargest()
+    void resolveLargest()
     {
         Total largest{0, 0, false};
         bool changed = false;
@@ -195,7 +197,7 @@ private:
                      });
         if (!changed)
             return;
-        settle(largest);
+        resolve(largest);
         std::vector<Total> larger;
         forEachTotal(worst_,
                      [&](const Total& total)
@@ -206,12 +208,12 @@ private:
         std::make_heap(larger.begin(), larger.end());
         for (; !larger.empty() && larger.front().upper > worst_; larger.pop_back())
         {
-            settle(larger.front());
+            resolve(larger.front());
             std::pop_heap(larger.begin(), larger.end());
         }
     }
 
-    void settle(const Total& total)
+    void resolve(const Total& total)
     {
         if (isRounding(total))
         {
@@ -225,13 +227,16 @@ private:
     bool isRounding(const Total& total) const
     {
         const Corners corners =
-            total.before ? cornersBefore(total.triangle) : after_.cornersOf(total.triangle);
+            total.before ? cornersBefore(total.triangle) : after_.triangleCorners(total.triangle);
         const Float3 e1 = corners[1] - corners[0], e2 = corners[2] - corners[0];
         const float carried = total.before ? group_.errors[total.triangle] : 0.0f;
         return total.upper - carried <= kFlat * std::sqrt(std::max(dot(e1, e1), dot(e2, e2)));
     }
 
-    void give(uint32_t facet, float error) { errors_[facet] = std::max(errors_[facet], error); }
+    void raiseError(uint32_t triangle, float error)
+    {
+        errors_[triangle] = std::max(errors_[triangle], error);
+    }
 
     Corners cornersBefore(size_t t) const
     {
@@ -244,16 +249,16 @@ private:
         const float carried = group_.errors[t];
         likely_after_.clear();
         if (map_.maps(t))
-            map_.forEachFacetOf(t, [&](uint32_t facet) { likely_after_.add(facet); });
+            map_.forEachTriangleOf(t, [&](uint32_t triangle) { likely_after_.add(triangle); });
         for (size_t corner = size_t{t} * 3; corner < size_t{t} * 3 + 3; ++corner)
-            if (const uint32_t target = targetOf(corner); target != kPruned && moved(corner) != 0)
+            if (const uint32_t target = targetPosition(corner); target != kPruned && moved(corner) != 0)
                 likely_after_.addAround(after_, target);
-        if (likely_after_.facets().empty())
+        if (likely_after_.triangles().empty())
             addNeighboursInOrder(t);
-        const float total = carried + nearest_.bound(cornersBefore(t), index_after_, likely_after_.facets(),
-                                                     allowance(carried));
-        for (const uint32_t facet : nearest_.used())
-            give(facet, total);
+        const float total = carried + nearest_.bound(cornersBefore(t), index_after_,
+                                                     likely_after_.triangles(), tolerance(carried));
+        for (const uint32_t triangle : nearest_.used())
+            raiseError(triangle, total);
         worst_ = std::max(worst_, total);
     }
 
@@ -264,20 +269,20 @@ private:
         const size_t source = simplified_.source_triangle[t];
         for (size_t corner = source * 3; corner < source * 3 + 3; ++corner)
             if (moved(corner) != 0)
-                likely_before_.addAround(map_.twinsBefore(), static_cast<uint32_t>(corner));
-        for (const uint32_t facet : likely_before_.facets())
-            carried = std::max(carried, group_.errors[facet]);
-        const float distance =
-            nearest_.bound(after_.cornersOf(t), index_before_, likely_before_.facets(), allowance(carried));
+                likely_before_.addAround(map_.oppositesBefore(), static_cast<uint32_t>(corner));
+        for (const uint32_t triangle : likely_before_.triangles())
+            carried = std::max(carried, group_.errors[triangle]);
+        const float distance = nearest_.bound(after_.triangleCorners(t), index_before_,
+                                              likely_before_.triangles(), tolerance(carried));
         carried = 0;
-        for (const uint32_t facet : nearest_.used())
-            carried = std::max(carried, group_.errors[facet]);
-        give(t, carried + distance);
+        for (const uint32_t triangle : nearest_.used())
+            carried = std::max(carried, group_.errors[triangle]);
+        raiseError(t, carried + distance);
         worst_ = std::max(worst_, carried + distance);
     }
 
     /// Return the tolerance of a search: nothing is gained below the largest total so far.
-    Allowance allowance(float carried) const { return {worst_ - carried, carried * kSlackOfCarried}; }
+    Tolerance tolerance(float carried) const { return {worst_ - carried, carried * kSlackOfCarried}; }
 
     /// Add new triangles that are close to an old one in the clusters' order: a fair guess for islands that
     /// were removed.
@@ -293,17 +298,17 @@ private:
     }
 
     const GroupMesh& group_;
-    const Simplified& simplified_;
+    const SimplifiedGroup& simplified_;
     const Surface& after_;
     std::vector<uint32_t> positions_before_; ///< three position ids for each triangle
     std::vector<uint8_t> moved_;             ///< for each position: it is not where it was
     std::vector<uint8_t> changed_;           ///< for each triangle before: it was removed or changed
     SurfaceMap map_;
-    FacetIndex index_before_;
-    FacetIndex index_after_;
-    std::vector<float> sums_; ///< for each triangle after, SurfaceMap::sumsOver
-    Likely likely_before_;
-    Likely likely_after_;
+    TriangleBoxes index_before_;
+    TriangleBoxes index_after_;
+    std::vector<float> sums_; ///< for each triangle after, SurfaceMap::maxSums
+    LikelyTriangles likely_before_;
+    LikelyTriangles likely_after_;
     NearestBound nearest_;
     float worst_ = 0;           ///< largest total so far, among those that were searched
     std::vector<float> errors_; ///< for each triangle after
@@ -311,11 +316,11 @@ private:
 
 } // namespace
 
-Deviation boundDeviation(const GroupMesh& group, const Simplified& simplified, const Surface& after,
-                         std::span<const FacetPoint> points)
+Deviation boundDeviation(const GroupMesh& group, const SimplifiedGroup& simplified, const Surface& after,
+                         std::span<const TrianglePoint> points)
 {
     HEARTH_ASSERT(simplified.triangleCount() > 0);
-    return GroupMeasure(group, simplified, after, points).run();
+    return DeviationMeasure(group, simplified, after, points).run();
 }
 
 } // namespace hearth::clusters

@@ -29,7 +29,7 @@ struct Deviation
 /// looser.
 /// after   the simplified group's surface
 /// points  points of `after` to which the group's removed or moved positions map
-Deviation boundDeviation(const GroupMesh& group, const Simplified& simplified, const Surface& after,
-                         std::span<const FacetPoint> points);
+Deviation boundDeviation(const GroupMesh& group, const SimplifiedGroup& simplified, const Surface& after,
+                         std::span<const TrianglePoint> points);
 
 } // namespace hearth::clusters

@@ -26,7 +26,7 @@ GroupErrors rootErrors()
     return {std::numeric_limits<float>::infinity(), 0, {}};
 }
 
-void ErrorsBelow::add(const GroupErrors& errors, uint32_t triangles)
+void ErrorAccumulator::add(const GroupErrors& errors, uint32_t triangles)
 {
     largest_.lod = std::max(largest_.lod, errors.lod);
     largest_.position = std::max(largest_.position, errors.position);
@@ -37,7 +37,7 @@ void ErrorsBelow::add(const GroupErrors& errors, uint32_t triangles)
     triangles_ += triangles;
 }
 
-GroupErrors ErrorsBelow::plus(const Replacement& replacement, const Config& config) const
+GroupErrors ErrorAccumulator::errorsOfReplacement(const Replacement& replacement, const Config& config) const
 {
     // each level loses finer waves than the next one: such waves add up by their squares
     const double count = std::max(triangles_, 1.0);
@@ -48,13 +48,13 @@ GroupErrors ErrorsBelow::plus(const Replacement& replacement, const Config& conf
     return errorsWith({static_cast<float>(std::min(normal, kHalfTurn)), roundUp(uv)}, replacement, config);
 }
 
-GroupErrors ErrorsBelow::orOf(const Replacement& replacement, const Config& config) const
+GroupErrors ErrorAccumulator::errorsAgainstSource(const Replacement& replacement, const Config& config) const
 {
     return errorsWith(replacement.attributes.error, replacement, config);
 }
 
-GroupErrors ErrorsBelow::errorsWith(const AttributeError& attributes, const Replacement& replacement,
-                                    const Config& config) const
+GroupErrors ErrorAccumulator::errorsWith(const AttributeError& attributes, const Replacement& replacement,
+                                         const Config& config) const
 {
     GroupErrors errors;
     errors.attributes = {std::max(attributes.normal, largest_.attributes.normal),

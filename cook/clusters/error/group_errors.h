@@ -31,20 +31,20 @@ struct Replacement
 };
 
 /// Accumulated errors of the clusters that a group consists of.
-class ErrorsBelow
+class ErrorAccumulator
 {
 public:
     /// position  position error of the source itself
-    explicit ErrorsBelow(float position) : largest_{position, position, {}} {}
+    explicit ErrorAccumulator(float position) : largest_{position, position, {}} {}
 
     void add(const GroupErrors& errors, uint32_t triangles);
 
     /// Return the errors of a replacement whose attributes were compared with what it replaces. An empty
     /// replacement leaves the errors unchanged.
-    GroupErrors plus(const Replacement& replacement, const Config& config) const;
+    GroupErrors errorsOfReplacement(const Replacement& replacement, const Config& config) const;
 
     /// Return the errors of a replacement whose attributes were compared with the source's.
-    GroupErrors orOf(const Replacement& replacement, const Config& config) const;
+    GroupErrors errorsAgainstSource(const Replacement& replacement, const Config& config) const;
 
 private:
     GroupErrors errorsWith(const AttributeError& attributes, const Replacement& replacement,

@@ -18,11 +18,11 @@ CostStop stopAt(double cost, const GroupGoal& goal)
 {
     const auto part = [&](double share)
     {
-        const double kept = std::min(share * double{goal.keep}, double{kLargestKeep});
-        return std::max<size_t>(1, static_cast<size_t>(kept * static_cast<double>(goal.of)));
+        const double kept = std::min(share * double{goal.keep}, double{kMaxKeep});
+        return std::max<size_t>(1, static_cast<size_t>(kept * static_cast<double>(goal.source_triangles)));
     };
-    return {cost, std::min(part(kLeastOfShare), goal.triangles),
-            std::max(part(kMostOfShare), goal.triangles)};
+    return {cost, std::min(part(kMinShareFactor), goal.triangles),
+            std::max(part(kMaxShareFactor), goal.triangles)};
 }
 
 /// Trial simplification of a group.
@@ -35,14 +35,15 @@ struct Trial
     size_t keptAt(double cost) const
     {
         const CostStop stop = stopAt(cost, goal);
-        const auto dear = std::partition_point(steps.begin(), steps.end(),
-                                               [&](const CollapseStep& step) { return step.cost <= cost; });
+        const auto first_too_costly = std::partition_point(
+            steps.begin(), steps.end(), [&](const CollapseStep& step) { return step.cost <= cost; });
         if (steps.empty())
             return goal.triangles;
-        if (dear == steps.end())
-            return std::max(stop.least, std::min(steps.back().triangles, goal.triangles));
-        const size_t left = dear == steps.begin() ? goal.of : std::prev(dear)->triangles;
-        return std::max(stop.least, fullClusters(std::min(left, stop.most)));
+        if (first_too_costly == steps.end())
+            return std::max(stop.min_triangles, std::min(steps.back().triangles, goal.triangles));
+        const size_t left = first_too_costly == steps.begin() ? goal.source_triangles
+                                                              : std::prev(first_too_costly)->triangles;
+        return std::max(stop.min_triangles, roundToFullClusters(std::min(left, stop.max_triangles)));
     }
 };
 
@@ -76,9 +77,10 @@ void balanceAlike(const LevelView& level, std::span<const size_t> alike, std::sp
                       [&](size_t i)
                       {
                           const size_t g = alike[i];
-                          const GroupMesh group = gatherGroup(
-                              level.mesh, level.store, level.groups.membersOf(g), level.locked, level.config);
-                          trials[i] = {goals[g], collapseCosts(group, stopAt(0, goals[g]).least)};
+                          const GroupMesh group =
+                              gatherGroup(level.mesh, level.store, level.groups.groupMembers(g), level.locked,
+                                          level.config);
+                          trials[i] = {goals[g], collapseCosts(group, stopAt(0, goals[g]).min_triangles)};
                       });
     const double cost = balancedCost(trials);
     for (const size_t g : alike)

@@ -20,8 +20,8 @@ struct LevelView
 };
 
 /// Range of its share of triangles that a group may keep.
-inline constexpr double kLeastOfShare = 0.6;
-inline constexpr double kMostOfShare = 1.5;
+inline constexpr double kMinShareFactor = 0.6;
+inline constexpr double kMaxShareFactor = 1.5;
 
 /// Let groups stop where collapses begin to cost the same in all of them, at a cost that leaves the sum of
 /// their goals. Groups with different `keep` are balanced separately. Takes a third of the time of

@@ -15,7 +15,7 @@ namespace
 void countOutcomes(const Build& build, BuildCounts& counts)
 {
     for (const Level& level : build.levels)
-        for (const BuiltGroup& group : level.built)
+        for (const LevelGroup& group : level.built)
         {
             counts.permissive_groups += group.outcome.permissive ? 1 : 0;
             counts.pruned_groups += group.outcome.pruned ? 1 : 0;
@@ -47,7 +47,7 @@ void fillMeshRecord(const PreparedMesh& prepared, Hierarchy& hierarchy)
     mesh.pages = {0, static_cast<uint32_t>(hierarchy.pages.size())};
     Box3 box;
     for (const ClusterRecord& cluster : hierarchy.clusters)
-        box.add(boxOf(cluster, mesh.grid_step));
+        box.add(clusterBox(cluster, mesh.grid_step));
     mesh.box_min = box.empty() ? Float3{} : box.min;
     mesh.box_max = box.empty() ? Float3{} : box.max;
 }
@@ -60,8 +60,11 @@ Hierarchy buildHierarchy(mesh::SourceMesh source, std::span<const mesh::SourceMe
     Hierarchy hierarchy;
     fillSourceCounts(source, hierarchy.mesh);
     JoinedMesh joined = joinAuthored(std::move(source), authored, config.influences, motion);
-    Build build{
-        std::move(joined.mesh), config, {}, joined.levels, std::vector<uint32_t>(authored.size(), kNone)};
+    Build build{std::move(joined.mesh),
+                config,
+                {},
+                joined.levels,
+                std::vector<uint32_t>(authored.size(), kInvalidIndex)};
     if (config.visibility && (build.mesh.attributes & kVertexNormal))
         build.mesh.attributes |= kVertexVisibility;
     hierarchy.counts.influence_loss = build.mesh.influence_loss;

@@ -11,14 +11,14 @@ namespace hearth::clusters
 namespace
 {
 
-using formats::kClusterMaxTriangles;
+using formats::kMaxClusterTriangles;
 
 // A target counts as met within this; users are promised 3 %.
 constexpr double kTargetSlack = 0.01;
 
 // With more groups, a cut takes finer ones where there is more to lose. With few, each is so large a part of
 // the mesh that a cut cannot: the groups themselves have to keep more or less.
-constexpr size_t kMostBalancedGroups = 12;
+constexpr size_t kMaxBalancedGroups = 12;
 
 struct GroupShare
 {
@@ -26,8 +26,8 @@ struct GroupShare
     LevelStep step;
 };
 
-GroupShare shareOf(const Reduction& reduction, uint32_t level, const ClusterStore& store,
-                   std::span<const uint32_t> members)
+GroupShare groupShare(const Reduction& reduction, uint32_t level, const ClusterStore& store,
+                      std::span<const uint32_t> members)
 {
     GroupShare share;
     std::vector<uint32_t> materials;
@@ -37,7 +37,7 @@ GroupShare shareOf(const Reduction& reduction, uint32_t level, const ClusterStor
         if (materials.empty() || materials.back() != store.shapes[member].material)
             materials.push_back(store.shapes[member].material);
     }
-    share.step = stepOfGroup(reduction, level, materials);
+    share.step = findGroupStep(reduction, level, materials);
     return share;
 }
 
@@ -45,17 +45,17 @@ GroupShare shareOf(const Reduction& reduction, uint32_t level, const ClusterStor
 /// would leave a group unchanged, return the exact count.
 size_t nearestClusters(double triangles, size_t of)
 {
-    const auto clusters = static_cast<size_t>(std::lround(triangles / kClusterMaxTriangles));
-    const size_t rounded = clusters * kClusterMaxTriangles;
+    const auto clusters = static_cast<size_t>(std::lround(triangles / kMaxClusterTriangles));
+    const size_t rounded = clusters * kMaxClusterTriangles;
     return rounded >= 1 && rounded < of ? rounded : std::max<size_t>(1, static_cast<size_t>(triangles));
 }
 
 /// Return the factor on every group's `keep` with which the groups together keep
-/// `wanted` triangles, and each at most `largest_part` of its own.
-double spreadFactor(std::span<const GroupShare> shares, double wanted, double largest_part)
+/// `target_triangles` triangles, and each at most `largest_part` of its own.
+double spreadFactor(std::span<const GroupShare> shares, double target_triangles, double largest_part)
 {
     double low = 0;
-    double high = 1 / double{kSmallestKeep};
+    double high = 1 / double{kMinKeep};
     // far finer than one triangle in 2^31
     constexpr int kHalvings = 60;
     for (int i = 0; i < kHalvings; ++i)
@@ -65,24 +65,24 @@ double spreadFactor(std::span<const GroupShare> shares, double wanted, double la
         for (const GroupShare& share : shares)
             sum += static_cast<double>(share.triangles) *
                    std::min(largest_part, factor * double{share.step.keep});
-        (sum < wanted ? low : high) = factor;
+        (sum < target_triangles ? low : high) = factor;
     }
     return high;
 }
 
-GroupGoal goalOf(const GroupShare& share, double part)
+GroupGoal makeGoal(const GroupShare& share, double part)
 {
     GroupGoal goal;
-    goal.of = share.triangles;
+    goal.source_triangles = share.triangles;
     goal.error_weight = share.step.error_weight;
     goal.keep = share.step.keep;
-    goal.stuck_ratio = static_cast<float>(1 - kLeastProgress * (1 - part));
+    goal.stuck_ratio = static_cast<float>(1 - kMinProgress * (1 - part));
     return goal;
 }
 
 /// Return the next target that is coarser than the current level, or nullptr.
-const LevelTarget* targetAhead(const Reduction& reduction, uint32_t level, uint64_t drawn_below,
-                               uint64_t triangles)
+const LevelTarget* findNextTarget(const Reduction& reduction, uint32_t level, uint64_t drawn_below,
+                                  uint64_t triangles)
 {
     const auto found = std::find_if(reduction.targets.begin(), reduction.targets.end(),
                                     [&](const LevelTarget& target) { return target.level > level; });
@@ -99,7 +99,7 @@ void planExactly(LevelPlan& plan, std::span<const GroupShare> shares, double fac
     for (const GroupShare& share : shares)
     {
         const double part = std::min(largest_part, factor * double{share.step.keep});
-        GroupGoal goal = goalOf(share, part);
+        GroupGoal goal = makeGoal(share, part);
         goal.exact = true;
         exact += part * static_cast<double>(share.triangles);
         goal.triangles = static_cast<size_t>(std::max(1.0, std::round(exact - handed_out)));
@@ -118,34 +118,34 @@ LevelPlan planLevel(const Reduction& reduction, uint32_t level, const ClusterSto
     uint64_t triangles = 0;
     for (size_t g = 0; g < groups.count(); ++g)
     {
-        shares.push_back(shareOf(reduction, level, store, groups.membersOf(g)));
+        shares.push_back(groupShare(reduction, level, store, groups.groupMembers(g)));
         triangles += shares.back().triangles;
     }
-    const LevelTarget* target = targetAhead(reduction, level, drawn_below, triangles);
+    const LevelTarget* target = findNextTarget(reduction, level, drawn_below, triangles);
     if (target == nullptr)
     {
         for (const GroupShare& share : shares)
         {
-            plan.goals.push_back(goalOf(share, double{share.step.keep}));
+            plan.goals.push_back(makeGoal(share, double{share.step.keep}));
             const auto kept = static_cast<size_t>(static_cast<float>(share.triangles) * share.step.keep);
-            plan.goals.back().triangles = std::max<size_t>(1, fullClusters(kept));
-            plan.goals.back().may_go_on = true;
+            plan.goals.back().triangles = std::max<size_t>(1, roundToFullClusters(kept));
+            plan.goals.back().may_exceed = true;
         }
-        plan.balanced = level == 0 && groups.count() <= kMostBalancedGroups;
+        plan.balanced = level == 0 && groups.count() <= kMaxBalancedGroups;
         return plan;
     }
 
     const uint32_t steps = target->level - level;
     const auto remaining = static_cast<double>(target->triangles - drawn_below);
     const double part = std::pow(remaining / static_cast<double>(triangles), 1.0 / steps);
-    const double wanted = part * static_cast<double>(triangles);
+    const double target_triangles = part * static_cast<double>(triangles);
     // no group stands still while others can take its share
-    const double largest_part = std::max(part, double{kLargestKeep});
-    const double factor = spreadFactor(shares, wanted, largest_part);
+    const double largest_part = std::max(part, double{kMaxKeep});
+    const double factor = spreadFactor(shares, target_triangles, largest_part);
     planExactly(plan, shares, factor, largest_part);
     if (steps == 1)
     {
-        plan.wanted = target->triangles - drawn_below;
+        plan.target_triangles = target->triangles - drawn_below;
         plan.largest_part = largest_part;
     }
     else
@@ -157,20 +157,20 @@ LevelPlan planLevel(const Reduction& reduction, uint32_t level, const ClusterSto
 
 bool isStuck(const LevelPlan& plan, std::span<const size_t> kept)
 {
-    double of = 0;
+    double source_triangles = 0;
     double planned = 0;
     for (const GroupGoal& goal : plan.goals)
     {
-        of += static_cast<double>(goal.of);
+        source_triangles += static_cast<double>(goal.source_triangles);
         planned += static_cast<double>(goal.triangles);
     }
     const double left = static_cast<double>(std::accumulate(kept.begin(), kept.end(), size_t{0}));
-    return left > of - kLeastProgress * (of - planned);
+    return left > source_triangles - kMinProgress * (source_triangles - planned);
 }
 
 bool correctPlan(LevelPlan& plan, std::span<const size_t> kept, std::vector<uint8_t>& changed)
 {
-    const auto wanted = static_cast<double>(plan.wanted);
+    const auto target_triangles = static_cast<double>(plan.target_triangles);
     double sum = 0;
     double stiff = 0;    // kept by groups that cannot reach their goals
     double flexible = 0; // kept by the others
@@ -182,17 +182,18 @@ bool correctPlan(LevelPlan& plan, std::span<const size_t> kept, std::vector<uint
         changed[g] = kept[g] <= plan.goals[g].triangles + 4 ? 1 : 0;
         (changed[g] != 0 ? flexible : stiff) += static_cast<double>(kept[g]);
     }
-    if (plan.wanted == 0 || std::abs(sum - wanted) <= kTargetSlack * wanted || flexible == 0 ||
-        stiff >= wanted)
+    if (plan.target_triangles == 0 || std::abs(sum - target_triangles) <= kTargetSlack * target_triangles ||
+        flexible == 0 || stiff >= target_triangles)
         return false;
-    const double factor = (wanted - stiff) / flexible;
+    const double factor = (target_triangles - stiff) / flexible;
     for (size_t g = 0; g < kept.size(); ++g)
     {
         GroupGoal& goal = plan.goals[g];
         const double corrected = std::round(factor * static_cast<double>(goal.triangles));
         if (changed[g] != 0)
             goal.triangles = static_cast<size_t>(
-                std::clamp(corrected, 1.0, std::max(1.0, plan.largest_part * static_cast<double>(goal.of))));
+                std::clamp(corrected, 1.0,
+                           std::max(1.0, plan.largest_part * static_cast<double>(goal.source_triangles))));
     }
     return true;
 }

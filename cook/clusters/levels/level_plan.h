@@ -18,20 +18,20 @@ namespace hearth::clusters
 
 /// A group that achieves three tenths of its goal is no failure: with the default curve 85 triangles of 100
 /// may stay. Halving one that achieves less again would cost more memory than it saves drawing.
-inline constexpr double kLeastProgress = 0.3;
+inline constexpr double kMinProgress = 0.3;
 
 /// Goal of a group's simplification.
 struct GroupGoal
 {
     size_t triangles = 1;
-    size_t of = 1;                ///< triangles before
+    size_t source_triangles = 1;  ///< triangles before
     float keep = 1;               ///< part of its triangles by the curve
     std::optional<CostStop> stop; ///< replaces `triangles`, which it reaches on average
     float error_weight = 1;
     /// A group that keeps more than this part of its triangles is stuck.
     float stuck_ratio = 1;
     /// True if one more cluster may be removed where that loses nothing.
-    bool may_go_on = false;
+    bool may_exceed = false;
     /// True if the count matters more than full clusters: a group with fewer triangles may then have no fewer
     /// clusters.
     bool exact = false;
@@ -41,7 +41,8 @@ struct GroupGoal
 struct LevelPlan
 {
     std::vector<GroupGoal> goals; ///< for each group
-    uint64_t wanted = 0;          ///< triangles of all groups together if the next level has a target, else 0
+    uint64_t target_triangles =
+        0; ///< triangles of all groups together if the next level has a target, else 0
     /// Few groups of the source: some may keep more than their share where others keep less.
     bool balanced = false;
     double largest_part = 1; ///< maximum part of its triangles that a group may keep when goals are corrected

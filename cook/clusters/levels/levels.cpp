@@ -29,9 +29,10 @@ Sphere groupSphere(const Build& build, const Level& level, std::span<const uint3
 {
     // the finer spheres contain the points of the finer groups, and so all of the members' points
     std::vector<Sphere> spheres;
-    uint32_t last_refined = kNone;
+    uint32_t last_refined = kInvalidIndex;
     for (const uint32_t member : members)
-        if (const uint32_t refined = level.refined_group[member]; refined != kNone && refined != last_refined)
+        if (const uint32_t refined = level.refined_group[member];
+            refined != kInvalidIndex && refined != last_refined)
         {
             last_refined = refined;
             spheres.push_back(build.group(refined).sphere);
@@ -41,18 +42,18 @@ Sphere groupSphere(const Build& build, const Level& level, std::span<const uint3
         points.push_back(sphere.center);
     if (spheres.empty())
         for (const uint32_t member : members)
-            for (const uint32_t vertex : level.store.verticesOf(level.store.shapes[member]))
+            for (const uint32_t vertex : level.store.clusterVertices(level.store.shapes[member]))
                 points.push_back(build.mesh.vertices.positions[vertex]);
     const Sphere around_points = sphereOfPoints(points);
     const Sphere sphere = spheres.empty() ? around_points : sphereOfSpheres(spheres, around_points);
     return {sphere.center, roundUp(sphere.radius * kMonotoneSlack)};
 }
 
-ErrorsBelow errorsOf(const Build& build, const Level& level, std::span<const uint32_t> members)
+ErrorAccumulator accumulateErrors(const Build& build, const Level& level, std::span<const uint32_t> members)
 {
-    ErrorsBelow errors(build.mesh.grid.error);
+    ErrorAccumulator errors(build.mesh.grid.error);
     for (const uint32_t member : members)
-        if (level.refined_group[member] != kNone)
+        if (level.refined_group[member] != kInvalidIndex)
             errors.add(build.group(level.refined_group[member]).errors,
                        level.store.shapes[member].triangle_count);
     return errors;
@@ -60,7 +61,7 @@ ErrorsBelow errorsOf(const Build& build, const Level& level, std::span<const uin
 
 /// Pass a stuck group on unchanged if it has retries left or an authored LOD will replace it; else leave it
 /// as a root.
-void passOn(const Build& build, const Level& level, std::span<const uint32_t> members, BuiltGroup& group)
+void retryOrKeep(const Build& build, const Level& level, std::span<const uint32_t> members, LevelGroup& group)
 {
     const auto tries =
         std::min_element(members.begin(), members.end(),
@@ -72,12 +73,12 @@ void passOn(const Build& build, const Level& level, std::span<const uint32_t> me
         return;
     }
     group.retried = true;
-    group.errors = errorsOf(build, level, members).plus({}, build.config);
+    group.errors = accumulateErrors(build, level, members).errorsOfReplacement({}, build.config);
     for (const uint32_t member : members)
         group.clusters.appendCluster(level.store, level.store.shapes[member]);
 }
 
-size_t trianglesOf(const ClusterStore& store)
+size_t countTriangles(const ClusterStore& store)
 {
     size_t count = 0;
     for (const ClusterShape& shape : store.shapes)
@@ -85,41 +86,41 @@ size_t trianglesOf(const ClusterStore& store)
     return count;
 }
 
-GroupErrors errorsOfReduced(const Build& build, const Level& level, std::span<const uint32_t> members,
-                            const Reduced& reduced, const GroupGoal& goal)
+GroupErrors reductionErrors(const Build& build, const Level& level, std::span<const uint32_t> members,
+                            const GroupReduction& reduced, const GroupGoal& goal)
 {
-    return errorsOf(build, level, members)
-        .plus({reduced.distance, reduced.attributes, goal.error_weight}, build.config);
+    return accumulateErrors(build, level, members)
+        .errorsOfReplacement({reduced.distance, reduced.attributes, goal.error_weight}, build.config);
 }
 
 /// True if the group cannot be distinguished from the source on the grid.
 bool losesNothing(const PreparedMesh& mesh, const GroupErrors& errors)
 {
-    constexpr float kOfGrid = 1.5f;
-    return errors.lod <= kOfGrid * mesh.grid.error;
+    constexpr float kGridTolerance = 1.5f;
+    return errors.lod <= kGridTolerance * mesh.grid.error;
 }
 
 /// Simplify a group, or handle a stuck one: pass it on, or leave it as a root.
-BuiltGroup buildGroup(const Build& build, const Level& level, std::span<const uint32_t> members,
+LevelGroup buildGroup(const Build& build, const Level& level, std::span<const uint32_t> members,
                       std::span<const uint8_t> locked, const GroupGoal& goal)
 {
-    BuiltGroup group;
+    LevelGroup group;
     group.sphere = groupSphere(build, level, members);
     group.errors = rootErrors();
     if (level.store.shapes.size() == 1)
         return group;
 
-    Reduced reduced = reduceGroup(build.mesh, level.store, members, locked, goal, build.config);
-    GroupErrors errors = errorsOfReduced(build, level, members, reduced, goal);
-    const size_t left = fullClusters(trianglesOf(reduced.clusters));
-    if (reduced.progressed && goal.may_go_on && losesNothing(build.mesh, errors) &&
-        left > kClusterMaxTriangles)
+    GroupReduction reduced = reduceGroup(build.mesh, level.store, members, locked, goal, build.config);
+    GroupErrors errors = reductionErrors(build, level, members, reduced, goal);
+    const size_t left = roundToFullClusters(countTriangles(reduced.clusters));
+    if (reduced.progressed && goal.may_exceed && losesNothing(build.mesh, errors) &&
+        left > kMaxClusterTriangles)
     {
         GroupGoal further = goal;
-        further.triangles = left - kClusterMaxTriangles;
+        further.triangles = left - kMaxClusterTriangles;
         further.stop.reset();
-        Reduced smaller = reduceGroup(build.mesh, level.store, members, locked, further, build.config);
-        const GroupErrors of_smaller = errorsOfReduced(build, level, members, smaller, further);
+        GroupReduction smaller = reduceGroup(build.mesh, level.store, members, locked, further, build.config);
+        const GroupErrors of_smaller = reductionErrors(build, level, members, smaller, further);
         if (smaller.progressed && losesNothing(build.mesh, of_smaller))
         {
             reduced = std::move(smaller);
@@ -130,10 +131,10 @@ BuiltGroup buildGroup(const Build& build, const Level& level, std::span<const ui
     if (!reduced.progressed ||
         std::max(errors.lod, errors.attributes.uv) >= std::numeric_limits<float>::max())
     {
-        passOn(build, level, members, group);
+        retryOrKeep(build, level, members, group);
         return group;
     }
-    growToHold(group.sphere, reduced.made.positions);
+    growToContain(group.sphere, reduced.made.positions);
     group.errors = errors;
     group.clusters = std::move(reduced.clusters);
     group.outcome = std::move(reduced);
@@ -146,9 +147,9 @@ std::vector<size_t> keptTriangles(const Level& level)
     std::vector<size_t> kept;
     for (size_t g = 0; g < level.built.size(); ++g)
     {
-        kept.push_back(trianglesOf(level.built[g].clusters));
+        kept.push_back(countTriangles(level.built[g].clusters));
         if (level.built[g].isRoot())
-            for (const uint32_t member : level.groups.membersOf(g))
+            for (const uint32_t member : level.groups.groupMembers(g))
                 kept.back() += level.store.shapes[member].triangle_count;
     }
     return kept;
@@ -168,8 +169,8 @@ void buildGroups(const Build& build, Level& level, std::span<const uint8_t> lock
                           [&](size_t g)
                           {
                               if (wanted[g] != 0)
-                                  level.built[g] = buildGroup(build, level, level.groups.membersOf(g), locked,
-                                                              plan.goals[g]);
+                                  level.built[g] = buildGroup(build, level, level.groups.groupMembers(g),
+                                                              locked, plan.goals[g]);
                           });
         if (!correctPlan(plan, keptTriangles(level), wanted))
             return;
@@ -181,24 +182,24 @@ void pinRoots(const PreparedMesh& mesh, const Level& level, std::vector<uint8_t>
 {
     for (uint32_t g = 0; g < level.groups.count(); ++g)
         if (level.built[g].isRoot())
-            for (const uint32_t member : level.groups.membersOf(g))
-                for (const uint32_t vertex : level.store.verticesOf(level.store.shapes[member]))
-                    pinned[mesh.position_of_vertex[vertex]] = 1;
+            for (const uint32_t member : level.groups.groupMembers(g))
+                for (const uint32_t vertex : level.store.clusterVertices(level.store.shapes[member]))
+                    pinned[mesh.position_id_of_vertex[vertex]] = 1;
 }
 
 /// Move the vertices that a group has made to the mesh and renumber its clusters' vertices.
-void takeVertices(PreparedMesh& mesh, Reduced& outcome, ClusterStore& clusters)
+void takeVertices(PreparedMesh& mesh, GroupReduction& outcome, ClusterStore& clusters)
 {
     const auto first_vertex = static_cast<uint32_t>(mesh.vertices.vertexCount());
     for (uint32_t& vertex : clusters.vertices)
-        if (vertex >= kMadeVertex)
-            vertex = vertex - kMadeVertex + first_vertex;
+        if (vertex >= kFirstNewVertex)
+            vertex = vertex - kFirstNewVertex + first_vertex;
     appendVertices(mesh.vertices, outcome.made);
-    for (const uint32_t position : outcome.made_positions)
-        mesh.position_of_vertex.push_back(mesh.position_count + position);
-    mesh.position_count += outcome.made_position_count;
+    for (const uint32_t position : outcome.new_position_ids)
+        mesh.position_id_of_vertex.push_back(mesh.position_count + position);
+    mesh.position_count += outcome.new_position_count;
     outcome.made = {};
-    mesh::freeMemory(outcome.made_positions);
+    mesh::freeMemory(outcome.new_position_ids);
 }
 
 /// Collect the replacements of the level's groups.
@@ -209,8 +210,8 @@ Level nextLevel(PreparedMesh& mesh, Level& level)
     next.drawn_below = level.drawn_below;
     for (uint32_t g = 0; g < level.groups.count(); ++g)
     {
-        BuiltGroup& group = level.built[g];
-        const auto members = level.groups.membersOf(g);
+        LevelGroup& group = level.built[g];
+        const auto members = level.groups.groupMembers(g);
         for (size_t i = 0; i < group.clusters.shapes.size(); ++i)
         {
             next.refined_group.push_back(level.first_group + g);
@@ -229,19 +230,19 @@ Level nextLevel(PreparedMesh& mesh, Level& level)
 }
 
 /// Return a sphere around those of all groups and the vertices of the authored LOD.
-Sphere setSphere(const Build& build, const Level& level, const AuthoredLevel& authored)
+Sphere setSphere(const Build& build, const Level& level, const AuthoredLod& authored)
 {
     std::vector<Sphere> spheres;
     std::vector<Float3> points;
     for (size_t g = 0; g < level.groups.count(); ++g)
-        spheres.push_back(groupSphere(build, level, level.groups.membersOf(g)));
+        spheres.push_back(groupSphere(build, level, level.groups.groupMembers(g)));
     for (const Sphere& sphere : spheres)
         points.push_back(sphere.center);
     Sphere sphere = sphereOfSpheres(spheres, sphereOfPoints(points));
     points.clear();
     for (const uint32_t vertex : authored.corners)
         points.push_back(build.mesh.vertices.positions[vertex]);
-    growToHold(sphere, points);
+    growToContain(sphere, points);
     return {sphere.center, roundUp(sphere.radius * kMonotoneSlack)};
 }
 
@@ -249,7 +250,7 @@ Sphere setSphere(const Build& build, const Level& level, const AuthoredLevel& au
 Level switchToAuthored(Build& build, Level& level, const LevelPlan& plan,
                        std::span<const uint32_t> source_corners)
 {
-    const AuthoredLevel& authored = build.authored.front();
+    const AuthoredLod& authored = build.authored.front();
     const auto& positions = build.mesh.vertices.positions;
     const auto all = std::span<const uint32_t>(level.groups.members);
     // distances below the error of the level below make no difference
@@ -260,17 +261,18 @@ Level switchToAuthored(Build& build, Level& level, const LevelPlan& plan,
                              ? boundDeformedSurfaces(build.mesh, source_corners, authored.corners)
                              : bound.upper;
     // without a bound the level is practically never drawn
-    constexpr double kMost = 1e30;
-    const float distance = roundUp(std::min(upper + double{build.mesh.grid.error}, kMost));
+    constexpr double kMaxDistance = 1e30;
+    const float distance = roundUp(std::min(upper + double{build.mesh.grid.error}, kMaxDistance));
     float weight = 1;
     for (const GroupGoal& goal : plan.goals)
         weight = std::max(weight, goal.error_weight);
 
-    BuiltGroup group;
+    LevelGroup group;
     group.sphere = setSphere(build, level, authored);
     group.errors =
-        errorsOf(build, level, all)
-            .orOf({distance, measureAttributes(build.mesh, source_corners, authored), weight}, build.config);
+        accumulateErrors(build, level, all)
+            .errorsAgainstSource({distance, measureAttributes(build.mesh, source_corners, authored), weight},
+                                 build.config);
     group.outcome.loose_pieces = bound.loose_pieces;
     level.built.assign(level.groups.count(), group);
     for (uint32_t g = 0; g < level.built.size(); ++g)
@@ -330,7 +332,7 @@ void buildLevels(Build& build)
     first.store = splitMesh(build.mesh);
     mesh::freeMemory(build.mesh.corners);
     mesh::freeMemory(build.mesh.materials);
-    first.refined_group.assign(first.store.shapes.size(), kNone);
+    first.refined_group.assign(first.store.shapes.size(), kInvalidIndex);
     first.retries.assign(first.store.shapes.size(), 0);
     build.levels.push_back(std::move(first));
     while (true)

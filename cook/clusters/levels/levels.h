@@ -5,7 +5,7 @@
 #include "cook/clusters/core/cluster.h"
 #include "cook/clusters/core/hierarchy.h"
 #include "cook/clusters/error/group_errors.h"
-#include "cook/clusters/levels/authored_levels.h"
+#include "cook/clusters/levels/authored_lods.h"
 #include "cook/clusters/levels/reduce.h"
 #include "cook/clusters/partition/grouping.h"
 
@@ -17,7 +17,7 @@ namespace hearth::clusters
 {
 
 /// Group of a level under construction. Groups of all levels have consecutive numbers, finest level first.
-struct BuiltGroup
+struct LevelGroup
 {
     Sphere sphere;
     GroupErrors errors;
@@ -25,7 +25,7 @@ struct BuiltGroup
     bool stuck = false;
     bool retried = false;
     uint32_t set_offset = 0; ///< formats::GroupRecord::set_offset
-    Reduced outcome;         ///< for the counters
+    GroupReduction outcome;  ///< for the counters
 
     bool isRoot() const { return std::isinf(errors.lod); }
 };
@@ -34,12 +34,13 @@ struct BuiltGroup
 struct Level
 {
     ClusterStore store;
-    std::vector<uint32_t> refined_group; ///< for each cluster, number of the group it was made from, or kNone
-    std::vector<uint8_t> retries;        ///< for each cluster, number of times it was passed on unchanged
+    std::vector<uint32_t>
+        refined_group; ///< for each cluster, number of the group it was made from, or kInvalidIndex
+    std::vector<uint8_t> retries; ///< for each cluster, number of times it was passed on unchanged
     Groups groups;
     uint32_t first_group = 0; ///< number of its first group
     uint64_t drawn_below = 0; ///< triangles of the roots of finer levels
-    std::vector<BuiltGroup> built;
+    std::vector<LevelGroup> built;
 };
 
 /// Levels so far, and lookups by group number.
@@ -48,10 +49,10 @@ struct Build
     PreparedMesh mesh;
     const Config& config;
     std::vector<Level> levels;
-    std::span<const AuthoredLevel> authored; ///< authored LODs that are still to come
-    std::vector<uint32_t> level_of_authored; ///< level of each authored mesh; kNone: not used
+    std::span<const AuthoredLod> authored;   ///< authored LODs that are still to come
+    std::vector<uint32_t> level_of_authored; ///< level of each authored mesh; kInvalidIndex: not used
 
-    const BuiltGroup& group(uint32_t number) const
+    const LevelGroup& group(uint32_t number) const
     {
         const auto after =
             std::upper_bound(levels.begin(), levels.end(), number,

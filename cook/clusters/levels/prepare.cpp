@@ -37,9 +37,9 @@ void ClusterStore::appendCluster(const ClusterStore& other, const ClusterShape& 
     copy.first_vertex = static_cast<uint32_t>(vertices.size());
     copy.first_index = static_cast<uint32_t>(indices.size());
     shapes.push_back(copy);
-    const auto shape_vertices = other.verticesOf(shape);
-    const auto shape_indices = other.indicesOf(shape);
-    const auto shape_errors = other.errorsOf(shape);
+    const auto shape_vertices = other.clusterVertices(shape);
+    const auto shape_indices = other.clusterIndices(shape);
+    const auto shape_errors = other.clusterErrors(shape);
     vertices.insert(vertices.end(), shape_vertices.begin(), shape_vertices.end());
     indices.insert(indices.end(), shape_indices.begin(), shape_indices.end());
     errors.insert(errors.end(), shape_errors.begin(), shape_errors.end());
@@ -66,7 +66,7 @@ std::vector<uint8_t> degenerateTriangles(const mesh::SourceMesh& source)
 
 /// True if normals bend, but along three edges of four by less than six degrees: then an error of 0.7
 /// degrees, as codes of 8 bits have, is visible. Creases do not hide it on the sheets between them.
-bool bendsGently(const mesh::SourceMesh& source, std::span<const uint32_t> corners)
+bool isGentlyCurved(const mesh::SourceMesh& source, std::span<const uint32_t> corners)
 {
     constexpr float kFlat2 = 1e-6f;
     constexpr float kGentle2 = 1e-2f; // length of the difference of two normals, squared
@@ -135,13 +135,13 @@ uint32_t clusterVertexLimit(const PreparedMesh& mesh)
     using namespace formats;
     const size_t targets = mesh.vertices.morph_targets.size();
     if (targets == 0)
-        return kClusterMaxVertices;
-    const uint32_t layout = largestLayout(mesh.attributes);
-    const size_t fixed = clusterBytes(layout, 0, kClusterMaxTriangles) + 4 * morphSectionWords(targets, 0);
+        return kMaxClusterVertices;
+    const uint32_t layout = worstCaseLayout(mesh.attributes);
+    const size_t fixed = clusterBytes(layout, 0, kMaxClusterTriangles) + 4 * morphSectionWords(targets, 0);
     const size_t of_vertex = 4 * vertexWords(layout) + 12 * targets;
-    const size_t half_page = kPageMaxBytes / 2;
+    const size_t half_page = kMaxPageBytes / 2;
     const size_t limit = fixed < half_page ? (half_page - fixed) / of_vertex : 0;
-    return static_cast<uint32_t>(std::clamp<size_t>(limit, 3, kClusterMaxVertices));
+    return static_cast<uint32_t>(std::clamp<size_t>(limit, 3, kMaxClusterVertices));
 }
 
 PreparedMesh prepareMesh(mesh::SourceMesh source, uint32_t influences, const MeshMotion* motion)
@@ -161,7 +161,7 @@ PreparedMesh prepareMesh(mesh::SourceMesh source, uint32_t influences, const Mes
     else if (motion != nullptr && motion->skin != nullptr)
         prepared.influence_displacement = influenceDisplacement(all, source, *motion);
     all = {};
-    prepared.attributes = mesh::attributesOf(source);
+    prepared.attributes = mesh::attributeBits(source);
     const std::vector<uint8_t> degenerate = degenerateTriangles(source);
     prepared.grid = mesh::snapToGrid(source);
     mesh::Weld weld;
@@ -192,8 +192,8 @@ PreparedMesh prepareMesh(mesh::SourceMesh source, uint32_t influences, const Mes
     }
     prepared.corners.resize(kept * 3);
     prepared.materials.resize(kept);
-    prepared.bends_gently = bendsGently(source, prepared.corners);
-    prepared.position_of_vertex = std::move(weld.position_of_vertex);
+    prepared.gently_curved = isGentlyCurved(source, prepared.corners);
+    prepared.position_id_of_vertex = std::move(weld.position_id_of_vertex);
     prepared.position_count = weld.position_count;
     prepared.vertices = std::move(source);
     return prepared;

@@ -35,7 +35,7 @@ void addLevelRecords(const Build& build, uint32_t l, std::span<const uint32_t> r
     level_record.clusters.first = static_cast<uint32_t>(hierarchy.clusters.size());
     for (uint32_t g = 0; g < level.built.size(); ++g)
     {
-        const BuiltGroup& built = level.built[g];
+        const LevelGroup& built = level.built[g];
         GroupRecord group{};
         group.sphere_center = built.sphere.center;
         group.sphere_radius = built.sphere.radius;
@@ -46,13 +46,13 @@ void addLevelRecords(const Build& build, uint32_t l, std::span<const uint32_t> r
         group.level = l;
         group.set_offset = built.set_offset;
         group.clusters.first = static_cast<uint32_t>(hierarchy.clusters.size());
-        for (const uint32_t member : level.groups.membersOf(g))
+        for (const uint32_t member : level.groups.groupMembers(g))
         {
             ClusterShape shape = level.store.shapes[member];
             ClusterRecord record{};
             record.group = record_of_group[level.first_group + g];
-            record.refined_group = kNone;
-            if (const uint32_t refined = level.refined_group[member]; refined != kNone)
+            record.refined_group = kInvalidIndex;
+            if (const uint32_t refined = level.refined_group[member]; refined != kInvalidIndex)
             {
                 record.refined_group = record_of_group[refined];
                 level_record.max_error = std::max(level_record.max_error, build.group(refined).errors.lod);
@@ -92,7 +92,7 @@ void writeRecords(Build& build, Hierarchy& hierarchy)
     }
     buildPages(build.mesh, store, shapes, build.config, hierarchy);
     if (std::any_of(build.level_of_authored.begin(), build.level_of_authored.end(),
-                    [](uint32_t level) { return level != kNone; }))
+                    [](uint32_t level) { return level != kInvalidIndex; }))
         linkPagesOfSets(hierarchy);
 }
 

@@ -22,11 +22,11 @@ namespace
 
 /// Keeps the influences of coincident vertices equal, like those of wedges on both sides of a texture seam:
 /// else the seam would open in some pose.
-class SharedInfluences
+class CoincidentInfluences
 {
 public:
-    SharedInfluences(const PreparedMesh& mesh, const GroupMesh& group, mesh::SourceMesh& made)
-        : source_(mesh.vertices), group_(group), made_(made), made_at_(group.positions.size())
+    CoincidentInfluences(const PreparedMesh& mesh, const GroupMesh& group, mesh::SourceMesh& made)
+        : source_(mesh.vertices), group_(group), made_(made), new_vertices_at_(group.positions.size())
     {
     }
 
@@ -34,8 +34,8 @@ public:
     /// alike.
     void share(uint32_t wedge, uint32_t vertex)
     {
-        auto& others = made_at_[group_.position_of_wedge[wedge]];
-        for (const Made& other : others)
+        auto& others = new_vertices_at_[group_.position_id_of_wedge[wedge]];
+        for (const NewVertex& other : others)
             if (moveAlike(group_.vertex_of_wedge[other.wedge], group_.vertex_of_wedge[wedge]))
             {
                 for (size_t set = 0; set < made_.joint_sets.size(); ++set)
@@ -49,7 +49,7 @@ public:
     }
 
 private:
-    struct Made
+    struct NewVertex
     {
         uint32_t wedge;
         uint32_t vertex;
@@ -67,12 +67,12 @@ private:
     const mesh::SourceMesh& source_;
     const GroupMesh& group_;
     mesh::SourceMesh& made_;
-    std::vector<std::vector<Made>> made_at_; ///< distinct ones, by position
+    std::vector<std::vector<NewVertex>> new_vertices_at_; ///< distinct ones, by position
 };
 
-/// Return the vertex of each remaining wedge; those of remade positions are new.
+/// Return the vertex of each remaining wedge; those of modified positions are new.
 std::vector<uint32_t> makeVertices(const PreparedMesh& mesh, const GroupMesh& group,
-                                   const Simplified& simplified, Reduced& reduced)
+                                   const SimplifiedGroup& simplified, GroupReduction& reduced)
 {
     constexpr uint32_t kNoNumber = 0xFFFFFFFFu;
     const Placement& placement = simplified.placement;
@@ -80,29 +80,29 @@ std::vector<uint32_t> makeVertices(const PreparedMesh& mesh, const GroupMesh& gr
     std::vector<uint32_t> position_numbers(group.positions.size(), kNoNumber);
     std::vector<uint8_t> done(vertices.size());
     for (size_t wedge = 0; wedge < done.size(); ++wedge)
-        done[wedge] = placement.remade[group.position_of_wedge[wedge]] == 0 ? 1 : 0;
-    SharedInfluences influences(mesh, group, reduced.made);
+        done[wedge] = placement.modified[group.position_id_of_wedge[wedge]] == 0 ? 1 : 0;
+    CoincidentInfluences influences(mesh, group, reduced.made);
     for (const uint32_t wedge : simplified.corners)
     {
         if (std::exchange(done[wedge], uint8_t{1}) != 0)
             continue;
-        const uint32_t position = group.position_of_wedge[wedge];
+        const uint32_t position = group.position_id_of_wedge[wedge];
         if (position_numbers[position] == kNoNumber)
-            position_numbers[position] = reduced.made_position_count++;
+            position_numbers[position] = reduced.new_position_count++;
         const auto made = static_cast<uint32_t>(reduced.made.vertexCount());
         appendVertex(reduced.made, mesh.vertices, group.vertex_of_wedge[wedge]);
-        reduced.made.positions[made] = placement.object_places[position];
+        reduced.made.positions[made] = placement.object_positions[position];
         unpackAttributes(placement.attributes.data() + size_t{wedge} * group.attribute_rows, group.weights,
                          reduced.made, made);
         influences.share(wedge, made);
-        reduced.made_positions.push_back(position_numbers[position]);
-        vertices[wedge] = kMadeVertex + made;
+        reduced.new_position_ids.push_back(position_numbers[position]);
+        vertices[wedge] = kFirstNewVertex + made;
     }
     return vertices;
 }
 
 /// Split the remaining triangles into clusters, material by material in ascending order.
-ClusterStore splitSimplified(const GroupMesh& group, const Simplified& simplified,
+ClusterStore splitSimplified(const GroupMesh& group, const SimplifiedGroup& simplified,
                              std::span<const uint32_t> vertex_of_wedge, std::span<const float> errors,
                              uint32_t vertex_limit)
 {
@@ -111,11 +111,11 @@ ClusterStore splitSimplified(const GroupMesh& group, const Simplified& simplifie
     for (size_t i = 0; i < vertices.size(); ++i)
         vertices[i] = vertex_of_wedge[simplified.corners[i]];
     const auto place = [&](size_t corner)
-    { return simplified.placement.places[group.position_of_wedge[simplified.corners[corner]]]; };
+    { return simplified.placement.positions[group.position_id_of_wedge[simplified.corners[corner]]]; };
     std::vector<Float3> centers(count);
     for (size_t t = 0; t < count; ++t)
         centers[t] = triangleCenter(place(t * 3), place(t * 3 + 1), place(t * 3 + 2));
-    gatherSmallIslands(centers, simplified.corners, group.vertex_of_wedge.size());
+    moveToIslandCenters(centers, simplified.corners, group.vertex_of_wedge.size());
     std::vector<SplitItem> items;
     items.reserve(count);
     for (uint32_t t = 0; t < count; ++t)
@@ -141,19 +141,20 @@ ClusterStore splitSimplified(const GroupMesh& group, const Simplified& simplifie
 
 } // namespace
 
-Reduced reduceGroup(const PreparedMesh& mesh, const ClusterStore& store, std::span<const uint32_t> members,
-                    std::span<const uint8_t> locked, const GroupGoal& goal, const Config& config)
+GroupReduction reduceGroup(const PreparedMesh& mesh, const ClusterStore& store,
+                           std::span<const uint32_t> members, std::span<const uint8_t> locked,
+                           const GroupGoal& goal, const Config& config)
 {
-    Reduced reduced;
+    GroupReduction reduced;
     const GroupMesh group = gatherGroup(mesh, store, members, locked, config);
     // one cluster less than before
-    const size_t most_triangles = goal.exact || members.size() == 1
-                                      ? group.triangleCount()
-                                      : (members.size() - 1) * formats::kClusterMaxTriangles;
-    Simplified simplified = simplifyGroup(group, goal.triangles, most_triangles, goal.stop);
+    const size_t max_triangles = goal.exact || members.size() == 1
+                                     ? group.triangleCount()
+                                     : (members.size() - 1) * formats::kMaxClusterTriangles;
+    SimplifiedGroup simplified = simplifyGroup(group, goal.triangles, max_triangles, goal.stop);
     const auto stuck = [&]
     {
-        return simplified.triangleCount() > most_triangles ||
+        return simplified.triangleCount() > max_triangles ||
                static_cast<float>(simplified.triangleCount()) >
                    goal.stuck_ratio * static_cast<float>(group.triangleCount());
     };
@@ -167,13 +168,13 @@ Reduced reduceGroup(const PreparedMesh& mesh, const ClusterStore& store, std::sp
     reduced.permissive = simplified.permissive;
     reduced.pruned = simplified.pruned;
     reduced.merged = simplified.merged;
-    Surface after(positionsOfCorners(group, simplified.corners), simplified.placement.places);
+    Surface after(gatherPositionIds(group, simplified.corners), simplified.placement.positions);
     SurfacePoints points = findPoints(group, simplified, after);
     fitToGroup(group, simplified, after, points);
     const std::vector<uint32_t> vertices = makeVertices(mesh, group, simplified, reduced);
     Deviation deviation =
         mesh.deforms() ? boundDeformedDeviation(group, simplified, after,
-                                                {mesh.vertices, reduced.made, vertices}, motionOf(mesh))
+                                                {mesh.vertices, reduced.made, vertices}, meshMotion(mesh))
                        : boundDeviation(group, simplified, after, points.of_position);
     reduced.loose_pieces = deviation.loose_pieces;
     for (float& error : deviation.errors)

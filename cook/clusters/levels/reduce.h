@@ -14,13 +14,13 @@ namespace hearth::clusters
 {
 
 /// Result of reducing a group.
-struct Reduced
+struct GroupReduction
 {
-    bool progressed = false;              ///< false: the group is stuck and the other members are not set
-    ClusterStore clusters;                ///< vertices from kMadeVertex on are new ones
-    mesh::SourceMesh made;                ///< attributes of made vertices
-    std::vector<uint32_t> made_positions; ///< position id of each made vertex, from 0
-    uint32_t made_position_count = 0;
+    bool progressed = false;                ///< false: the group is stuck and the other members are not set
+    ClusterStore clusters;                  ///< vertices from kFirstNewVertex on are new ones
+    mesh::SourceMesh made;                  ///< attributes of made vertices
+    std::vector<uint32_t> new_position_ids; ///< position id of each made vertex, from 0
+    uint32_t new_position_count = 0;
     float distance = 0;       ///< object space: largest error of the clusters' triangles
     AttributeStep attributes; ///< of the clusters relative to the group's
     bool permissive = false;
@@ -33,7 +33,8 @@ struct Reduced
 ///
 /// members   clusters of `store`
 /// locked    [position_count] positions that must stay
-Reduced reduceGroup(const PreparedMesh& mesh, const ClusterStore& store, std::span<const uint32_t> members,
-                    std::span<const uint8_t> locked, const GroupGoal& goal, const Config& config);
+GroupReduction reduceGroup(const PreparedMesh& mesh, const ClusterStore& store,
+                           std::span<const uint32_t> members, std::span<const uint8_t> locked,
+                           const GroupGoal& goal, const Config& config);
 
 } // namespace hearth::clusters

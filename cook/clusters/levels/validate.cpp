@@ -71,10 +71,10 @@ Status checkMonotone(const Hierarchy& h)
     for (size_t c = 0; c < h.clusters.size(); ++c)
     {
         const ClusterRecord& cluster = h.clusters[c];
-        if ((cluster.refined_group == kNone) != (cluster.level == 0))
+        if ((cluster.refined_group == kInvalidIndex) != (cluster.level == 0))
             return wrong(Issue::meaning_tree, "cluster", c,
                          "of level 0 was made from a group, or another was not");
-        if (cluster.refined_group == kNone)
+        if (cluster.refined_group == kInvalidIndex)
             continue;
         const GroupRecord& finer = h.groups[cluster.refined_group];
         const GroupRecord& own = h.groups[cluster.group];
@@ -130,7 +130,7 @@ Status checkPages(const Hierarchy& h)
     for (size_t p = 0; p < h.pages.size(); ++p)
     {
         const PageRecord& page = h.pages[p];
-        if (page.size > kPageMaxBytes || page.offset % kChunkAlignment != 0)
+        if (page.size > kMaxPageBytes || page.offset % kChunkAlignment != 0)
             return wrong(Issue::meaning_value, "page", p, "is too large or not aligned");
         if (page.clusters.first != next || page.clusters.count == 0)
             return wrong(Issue::meaning_order, "page", p, "is empty or does not follow the one before");
@@ -143,7 +143,7 @@ Status checkPages(const Hierarchy& h)
     }
     for (size_t c = 0; c < h.clusters.size(); ++c)
     {
-        if (h.clusters[c].refined_group == kNone)
+        if (h.clusters[c].refined_group == kInvalidIndex)
             continue;
         const uint32_t first = h.clusters[c].refined_group;
         for (uint32_t g = first; g < h.groups.size() && h.groups[g].set_offset == g - first; ++g)
@@ -159,7 +159,7 @@ Status checkPages(const Hierarchy& h)
     return success();
 }
 
-Result<ClusterGeometry> geometryOf(const Hierarchy& h, const DecodedHierarchy& decoded, uint32_t c)
+Result<ClusterGeometry> readGeometry(const Hierarchy& h, const DecodedHierarchy& decoded, uint32_t c)
 {
     const auto geometry = ClusterGeometry::at(decoded.pages[h.clusters[c].page], h.clusters[c], h.mesh);
     if (!geometry)
@@ -186,7 +186,7 @@ Status checkCone(const ClusterRecord& cluster, float grid_step, size_t c, Float3
     const double sine = coneCutoff(cluster);
     if (cosine < std::sqrt(1 - sine * sine))
         return wrong(Issue::meaning_bounds, "cluster", c, "a normal leaves the cone");
-    const Box3 box = boxOf(cluster, grid_step);
+    const Box3 box = clusterBox(cluster, grid_step);
     std::array<double, 3> to_apex{};
     for (size_t i = 0; i < 3; ++i)
     {
@@ -202,7 +202,7 @@ Status checkCone(const ClusterRecord& cluster, float grid_step, size_t c, Float3
 /// True if the box is exact, except for the high corner of a box with a shift.
 bool isBoxOf(const ClusterRecord& cluster, float grid_step, const Box3& vertices)
 {
-    const Box3 box = boxOf(cluster, grid_step);
+    const Box3 box = clusterBox(cluster, grid_step);
     for (int axis = 0; axis < 3; ++axis)
     {
         const double slack = ((1 << cluster.extent_shift) - 1) * double{grid_step};
@@ -218,9 +218,9 @@ Status checkGeometry(const Hierarchy& h, const DecodedHierarchy& decoded)
     for (uint32_t c = 0; c < h.clusters.size(); ++c)
     {
         const ClusterRecord& cluster = h.clusters[c];
-        HEARTH_ASSIGN_OR_RETURN(const ClusterGeometry geometry, geometryOf(h, decoded, c));
-        if (cluster.triangle_count < 1 || cluster.triangle_count > kClusterMaxTriangles ||
-            cluster.vertex_count < 3 || cluster.vertex_count > kClusterMaxVertices)
+        HEARTH_ASSIGN_OR_RETURN(const ClusterGeometry geometry, readGeometry(h, decoded, c));
+        if (cluster.triangle_count < 1 || cluster.triangle_count > kMaxClusterTriangles ||
+            cluster.vertex_count < 3 || cluster.vertex_count > kMaxClusterVertices)
             return wrong(Issue::meaning_value, "cluster", c, "has too many or too few vertices or triangles");
         const GroupRecord& group = h.groups[cluster.group];
         Box3 box;
@@ -230,8 +230,9 @@ Status checkGeometry(const Hierarchy& h, const DecodedHierarchy& decoded)
             box.add(p);
             if (distance(p, group.sphere_center) > group.sphere_radius)
                 return wrong(Issue::meaning_bounds, "cluster", c, "a vertex leaves its group's sphere");
-            if (cluster.refined_group != kNone && distance(p, h.groups[cluster.refined_group].sphere_center) >
-                                                      h.groups[cluster.refined_group].sphere_radius)
+            if (cluster.refined_group != kInvalidIndex &&
+                distance(p, h.groups[cluster.refined_group].sphere_center) >
+                    h.groups[cluster.refined_group].sphere_radius)
                 return wrong(Issue::meaning_bounds, "cluster", c,
                              "a vertex leaves the sphere of the finer group");
         }
@@ -347,7 +348,7 @@ uint64_t vertexHash(const ClusterGeometry& geometry, const ClusterRecord& cluste
     {
         const uint32_t first = attributeWord(layout, kVertexColor);
         words.push_back(geometry.word(v, first));
-        words.push_back((layout & kVertexFineColor) ? geometry.word(v, first + 1) : 0);
+        words.push_back((layout & kVertexColor16) ? geometry.word(v, first + 1) : 0);
     }
     const auto joints = geometry.joints(v), weights = geometry.weightCodes(v);
     for (uint32_t i = 0; i < geometry.influenceCount(); ++i)
@@ -376,8 +377,8 @@ mesh::SourceMesh onGrid(const mesh::SourceMesh& source, std::span<const mesh::So
     }
     mesh::snapToGrid(joined);
     joined.positions.resize(source.vertexCount());
-    if (influencesOf(layout) != 0)
-        mesh::reduceInfluences(joined, influencesOf(layout));
+    if (influencesPerVertex(layout) != 0)
+        mesh::reduceInfluences(joined, influencesPerVertex(layout));
     // where authored LODs have larger deltas, the steps are coarser
     if (authored.empty())
         mesh::snapMorphTargets(joined);
@@ -413,7 +414,7 @@ Status checkFinestLevel(const mesh::SourceMesh& source, std::span<const mesh::So
     {
         if (h.clusters[c].level != 0)
             continue;
-        HEARTH_ASSIGN_OR_RETURN(const ClusterGeometry geometry, geometryOf(h, decoded, c));
+        HEARTH_ASSIGN_OR_RETURN(const ClusterGeometry geometry, readGeometry(h, decoded, c));
         std::vector<uint64_t> vertex_hashes;
         for (uint32_t v = 0; v < geometry.vertexCount(); ++v)
             vertex_hashes.push_back(vertexHash(geometry, h.clusters[c], v, on_grid.morph_targets.size()));
@@ -448,15 +449,15 @@ Result<DecodedHierarchy> decodeHierarchy(const Hierarchy& h)
             return wrong(Issue::page_hash, "page", p, "");
         std::vector<std::byte> bytes(page.size);
         if (page.codec != static_cast<uint32_t>(PageCodec::clusters) ||
-            !decoder.decode(stored, recordsOf<ClusterRecord>(h.clusters, page.clusters), h.mesh.attributes,
-                            bytes))
+            !decoder.decode(stored, recordsInRange<ClusterRecord>(h.clusters, page.clusters),
+                            h.mesh.attributes, bytes))
             return wrong(Issue::chunk_codec, "page", p, "");
         decoded.pages.push_back(std::move(bytes));
     }
     std::vector<Float3> places;
     for (uint32_t c = 0; c < h.clusters.size(); ++c)
     {
-        HEARTH_ASSIGN_OR_RETURN(const ClusterGeometry geometry, geometryOf(h, decoded, c));
+        HEARTH_ASSIGN_OR_RETURN(const ClusterGeometry geometry, readGeometry(h, decoded, c));
         DecodedHierarchy::Cluster cluster;
         for (uint32_t t = 0; t < geometry.triangleCount(); ++t)
             for (const uint32_t corner : geometry.triangle(t))
@@ -472,20 +473,20 @@ Result<DecodedHierarchy> decodeHierarchy(const Hierarchy& h)
     const mesh::Weld weld = mesh::weldPositions(places);
     decoded.positions.resize(weld.position_count);
     for (size_t v = 0; v < places.size(); ++v)
-        decoded.positions[weld.position_of_vertex[v]] = places[v];
+        decoded.positions[weld.position_id_of_vertex[v]] = places[v];
     for (DecodedHierarchy::Cluster& cluster : decoded.clusters)
         for (uint32_t& position : cluster.positions)
-            position = weld.position_of_vertex[position];
+            position = weld.position_id_of_vertex[position];
     return decoded;
 }
 
-std::vector<uint32_t> clustersOfCut(const Hierarchy& h, std::span<const uint8_t> replaced)
+std::vector<uint32_t> findCutClusters(const Hierarchy& h, std::span<const uint8_t> replaced)
 {
     std::vector<uint32_t> drawn;
     for (uint32_t c = 0; c < h.clusters.size(); ++c)
     {
         const uint32_t refined = h.clusters[c].refined_group;
-        if ((refined == kNone || replaced[refined] != 0) && replaced[h.clusters[c].group] == 0)
+        if ((refined == kInvalidIndex || replaced[refined] != 0) && replaced[h.clusters[c].group] == 0)
             drawn.push_back(c);
     }
     return drawn;

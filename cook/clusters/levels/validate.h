@@ -30,7 +30,7 @@ Result<DecodedHierarchy> decodeHierarchy(const Hierarchy& hierarchy);
 
 /// Return the clusters that are drawn when exactly the groups with replaced[g] != 0 are replaced.
 /// replaced  monotone: a group may only be replaced if the groups that its clusters were made from are
-std::vector<uint32_t> clustersOfCut(const Hierarchy& hierarchy, std::span<const uint8_t> replaced);
+std::vector<uint32_t> findCutClusters(const Hierarchy& hierarchy, std::span<const uint8_t> replaced);
 
 /// Check that tables are in range and in order; that level 0 has each source triangle with an area once, with
 /// its attributes and material; that errors and spheres are monotone; that boxes, spheres and cones contain;

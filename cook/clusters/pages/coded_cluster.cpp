@@ -45,7 +45,7 @@ int32_t uvPoint(float coordinate, uint32_t fraction_bits)
 /// True if all UVs of the set are in the range of the grid.
 bool fitsGrid(const std::vector<Float2>& uvs, uint32_t fraction_bits)
 {
-    const double most = std::ldexp(static_cast<double>(kGridMost), -static_cast<int>(fraction_bits));
+    const double most = std::ldexp(static_cast<double>(kMaxGridCoordinate), -static_cast<int>(fraction_bits));
     return std::all_of(uvs.begin(), uvs.end(),
                        [&](Float2 uv) { return std::abs(uv.x) < most && std::abs(uv.y) < most; });
 }
@@ -82,7 +82,7 @@ public:
     }
 
     /// True if the UVs of the cluster span more than 16 bits.
-    bool spreadsUvs()
+    bool hasWideUvs()
     {
         for (uint32_t set = 0; set < kUvSets; ++set)
         {
@@ -96,14 +96,15 @@ public:
                 v.add(uvPoint(source_.uvs[set][vertex].y, bits));
             }
             uv_base_[set] = {static_cast<int32_t>(u.low), static_cast<int32_t>(v.low)};
-            spread_ = spread_ || std::max(u.high - u.low, v.high - v.low) > static_cast<double>(kNarrowMost);
+            spread_ =
+                spread_ || std::max(u.high - u.low, v.high - v.low) > static_cast<double>(kMaxNarrowOffset);
         }
         return spread_;
     }
 
     CodedCluster code(const ClusterRecord& record, std::span<const uint8_t> indices)
     {
-        layout_ = layoutOf(record, layout_);
+        layout_ = clusterVertexLayout(record, layout_);
         vertex_words_ = vertexWords(layout_);
         CodedCluster cluster;
         cluster.words.resize(uvBaseWords(layout_) + vertices_.size() * vertex_words_);
@@ -113,7 +114,7 @@ public:
             if (uvFractionBits(layout_, set) != 0)
                 for (const int32_t base : uv_base_[set])
                     *word++ = static_cast<uint32_t>(base);
-        std::array<uint8_t, kClusterMaxVertices> new_of_old;
+        std::array<uint8_t, kMaxClusterVertices> new_of_old;
         for (size_t i = 0; i < vertices_.size(); ++i)
             new_of_old[i] = static_cast<uint8_t>(findOrAppend(record, vertices_[i], word));
         cluster.words.resize(uvBaseWords(layout_) + count_ * vertex_words_);
@@ -130,7 +131,7 @@ private:
     {
         uint32_t* const added = words + count_ * vertex_words_;
         writeVertex(record, vertex, added);
-        const std::span<uint32_t> deltas = deltasOf(count_);
+        const std::span<uint32_t> deltas = vertexDeltas(count_);
         writeDeltas(vertex, deltas);
         uint64_t hash = 0;
         for (size_t i = 0; i < vertex_words_; ++i)
@@ -147,7 +148,7 @@ private:
             const size_t known = slots_[slot] - size_t{1};
             const uint32_t* const other = words + known * vertex_words_;
             if (std::equal(other, other + vertex_words_, added) &&
-                std::ranges::equal(deltasOf(known), deltas))
+                std::ranges::equal(vertexDeltas(known), deltas))
                 return known;
         }
     }
@@ -161,7 +162,7 @@ private:
         const uint32_t normal =
             (layout_ & kVertexNormal) ? encodeNormal(layout_, source_.normals[vertex]) : 0;
         const bool shared_word = attributeWord(layout_, kVertexNormal) == 1;
-        if (layout_ & kVertexWide)
+        if (layout_ & kVertexWideOffsets)
             words = std::copy_n(offset, 3, words);
         else
         {
@@ -178,10 +179,10 @@ private:
         if (layout_ & kVertexColor)
         {
             const std::array<uint32_t, 2> color = encodeColor(layout_, source_.colors[vertex]);
-            words = std::copy_n(color.begin(), (layout_ & kVertexFineColor) ? 2 : 1, words);
+            words = std::copy_n(color.begin(), (layout_ & kVertexColor16) ? 2 : 1, words);
         }
         if (layout_ & kVertexVisibility)
-            *words++ = kVisibilityOpen;
+            *words++ = kVisibilityUnoccluded;
         if (layout_ & kVertexInfluences)
             writeInfluences(vertex, words);
     }
@@ -236,7 +237,7 @@ private:
     }
 
     /// Return the deltas of one of the cluster's vertices, by target.
-    std::span<uint32_t> deltasOf(size_t number)
+    std::span<uint32_t> vertexDeltas(size_t number)
     {
         return std::span(deltas_).subspan(number * 3 * targets_.size(), 3 * targets_.size());
     }
@@ -261,7 +262,7 @@ private:
         for (size_t i = 0; i < targets_.size(); ++i)
             for (size_t v = 0; v < count_; ++v)
             {
-                const auto words = deltasOf(v).subspan(3 * i, 3);
+                const auto words = vertexDeltas(v).subspan(3 * i, 3);
                 section.insert(section.end(), words.begin(), words.end());
             }
         return section;
@@ -279,7 +280,7 @@ private:
         }
         const auto u = static_cast<uint32_t>(uvPoint(uv.x, bits) - uv_base_[set][0]);
         const auto v = static_cast<uint32_t>(uvPoint(uv.y, bits) - uv_base_[set][1]);
-        if (layout_ & kVertexWide)
+        if (layout_ & kVertexWideOffsets)
         {
             *words++ = u;
             *words++ = v;
@@ -310,31 +311,32 @@ uint32_t chooseLayout(const PreparedMesh& mesh, const Config& config)
     uint32_t layout = mesh.attributes;
     if ((layout & kVertexNormal) == 0)
         layout &= ~uint32_t{kVertexTangent | kVertexVisibility};
-    else if (config.normal_bits == 16 || (config.normal_bits == 0 && mesh.bends_gently))
-        layout |= kVertexFineNormal;
+    else if (config.normal_bits == 16 || (config.normal_bits == 0 && mesh.gently_curved))
+        layout |= kVertexNormal16;
     for (uint32_t set = 0; set < kUvSets; ++set)
         if ((layout & kVertexUv0 << set) && fitsGrid(mesh.vertices.uvs[set], config.uv_fraction_bits))
             layout |= config.uv_fraction_bits << (kVertexUvStepShift + 4 * set);
     if ((layout & kVertexColor) && needsFineColors(mesh))
-        layout |= kVertexFineColor;
+        layout |= kVertexColor16;
     return layout;
 }
 
 CodedCluster codeCluster(const PreparedMesh& mesh, const ClusterStore& store, const ClusterShape& shape,
                          uint32_t layout, ClusterRecord& record)
 {
-    const auto vertices = store.verticesOf(shape);
-    const auto indices = store.indicesOf(shape);
+    const auto vertices = store.clusterVertices(shape);
+    const auto indices = store.clusterIndices(shape);
     std::vector<Float3> points(vertices.size()), places(indices.size());
     for (size_t i = 0; i < vertices.size(); ++i)
         points[i] = mesh.vertices.positions[vertices[i]];
     for (size_t i = 0; i < indices.size(); ++i)
         places[i] = points[indices[i]];
-    ClusterCoder coder(mesh, store.verticesOf(shape), layout);
-    setBounds(record, mesh.grid.step, points, places, coder.spreadsUvs());
-    CodedCluster cluster = coder.code(record, store.indicesOf(shape));
+    ClusterCoder coder(mesh, store.clusterVertices(shape), layout);
+    setBounds(record, mesh.grid.step, points, places, coder.hasWideUvs());
+    CodedCluster cluster = coder.code(record, store.clusterIndices(shape));
     const size_t vertex_words = cluster.words.size() - uvBaseWords(layout);
-    record.vertex_count = static_cast<uint16_t>(vertex_words / vertexWords(layoutOf(record, layout)));
+    record.vertex_count =
+        static_cast<uint16_t>(vertex_words / vertexWords(clusterVertexLayout(record, layout)));
     record.triangle_count = static_cast<uint8_t>(shape.triangle_count);
     return cluster;
 }

@@ -19,7 +19,7 @@ namespace
 
 using namespace formats;
 
-uint32_t bytesOf(const CodedCluster& cluster)
+uint32_t encodedBytes(const CodedCluster& cluster)
 {
     return static_cast<uint32_t>(
         4 * (cluster.words.size() + (cluster.indices.size() + 3) / 4 + cluster.morphs.size()));
@@ -58,7 +58,7 @@ private:
     /// Clusters of a batch, enough for many threads: about forty pages.
     static constexpr uint32_t kBatchClusters = 2048;
 
-    const CodedCluster& codedOf(uint32_t cluster) const { return coded_[cluster - first_coded_]; }
+    const CodedCluster& codedCluster(uint32_t cluster) const { return coded_[cluster - first_coded_]; }
 
     /// Reserve the decoded size, which bounds the stored size. Untouched memory costs nothing, but a copy
     /// would.
@@ -89,9 +89,9 @@ private:
         const uint32_t end = group.clusters.first + group.clusters.count;
         uint32_t bytes = 0;
         for (uint32_t c = group.clusters.first; c < end; ++c)
-            bytes += bytesOf(codedOf(c));
-        HEARTH_ASSERT(bytes <= kPageMaxBytes);
-        if (hierarchy_.pages.empty() || hierarchy_.pages.back().size + bytes > kPageMaxBytes)
+            bytes += encodedBytes(codedCluster(c));
+        HEARTH_ASSERT(bytes <= kMaxPageBytes);
+        if (hierarchy_.pages.empty() || hierarchy_.pages.back().size + bytes > kMaxPageBytes)
         {
             PageRecord page{};
             page.clusters.first = group.clusters.first;
@@ -104,7 +104,7 @@ private:
         {
             hierarchy_.clusters[c].page = group.page;
             hierarchy_.clusters[c].page_word = static_cast<uint16_t>(page.size / 4);
-            page.size += bytesOf(codedOf(c));
+            page.size += encodedBytes(codedCluster(c));
         }
     }
 
@@ -157,7 +157,7 @@ void linkPages(Hierarchy& hierarchy)
     std::vector<std::vector<uint32_t>> parents(hierarchy.pages.size());
     for (const ClusterRecord& cluster : hierarchy.clusters)
     {
-        if (cluster.refined_group == kNone)
+        if (cluster.refined_group == kInvalidIndex)
             continue;
         const uint32_t finer = hierarchy.groups[cluster.refined_group].page;
         // clusters are in page order: each list comes out ascending

@@ -17,8 +17,6 @@ namespace hearth::clusters
 namespace
 {
 
-using formats::kNone;
-
 // A shared position that was locked on the previous level weighs this many others: the dense lines that
 // locking leaves must end up inside a group, or they stay forever.
 constexpr float kLockedWeight = 5.0f;
@@ -34,29 +32,29 @@ struct Link
 };
 
 /// Items by key, as offsets and items (compressed sparse rows).
-struct Lists
+struct IndexTable
 {
     std::vector<uint32_t> items;
     std::vector<uint32_t> offsets;
 
-    std::span<const uint32_t> of(size_t key) const
+    std::span<const uint32_t> list(size_t key) const
     {
         return std::span(items).subspan(offsets[key], offsets[key + 1] - offsets[key]);
     }
 };
 
 /// Return the positions of each cluster, each once.
-Lists positionsOfClusters(const PreparedMesh& mesh, const ClusterStore& store)
+IndexTable gatherClusterPositions(const PreparedMesh& mesh, const ClusterStore& store)
 {
-    Lists lists;
+    IndexTable lists;
     lists.offsets.push_back(0);
     lists.items.reserve(store.vertices.size());
-    std::vector<uint32_t> seen(mesh.position_count, kNone);
+    std::vector<uint32_t> seen(mesh.position_count, kInvalidIndex);
     for (uint32_t c = 0; c < store.shapes.size(); ++c)
     {
-        for (const uint32_t vertex : store.verticesOf(store.shapes[c]))
+        for (const uint32_t vertex : store.clusterVertices(store.shapes[c]))
         {
-            const uint32_t position = mesh.position_of_vertex[vertex];
+            const uint32_t position = mesh.position_id_of_vertex[vertex];
             if (seen[position] != c)
                 lists.items.push_back(position);
             seen[position] = c;
@@ -67,9 +65,9 @@ Lists positionsOfClusters(const PreparedMesh& mesh, const ClusterStore& store)
 }
 
 /// Return the clusters that use each position, ascending (the transpose).
-Lists clustersOfPositions(const Lists& positions, size_t position_count)
+IndexTable transposeLists(const IndexTable& positions, size_t position_count)
 {
-    Lists lists;
+    IndexTable lists;
     lists.offsets.assign(position_count + 1, 0);
     for (const uint32_t position : positions.items)
         ++lists.offsets[position + 1];
@@ -77,13 +75,13 @@ Lists clustersOfPositions(const Lists& positions, size_t position_count)
     lists.items.resize(positions.items.size());
     std::vector<uint32_t> next(lists.offsets.begin(), lists.offsets.end() - 1);
     for (uint32_t c = 0; c + 1 < positions.offsets.size(); ++c)
-        for (const uint32_t position : positions.of(c))
+        for (const uint32_t position : positions.list(c))
             lists.items[next[position]++] = c;
     return lists;
 }
 
 /// Return the neighbours of each cluster with the weight of the shared border.
-std::vector<std::vector<Link>> linkClusters(const Lists& positions, const Lists& users,
+std::vector<std::vector<Link>> linkClusters(const IndexTable& positions, const IndexTable& users,
                                             std::span<const uint8_t> locked)
 {
     const size_t cluster_count = positions.offsets.size() - 1;
@@ -99,9 +97,9 @@ std::vector<std::vector<Link>> linkClusters(const Lists& positions, const Lists&
                 touched.push_back(other);
             weight[other] += added;
         };
-        for (const uint32_t position : positions.of(c))
+        for (const uint32_t position : positions.list(c))
         {
-            const auto clusters = users.of(position);
+            const auto clusters = users.list(position);
             const float added = locked[position] != 0 ? kLockedWeight : 1.0f;
             if (clusters.size() <= kMaxLinked)
             {
@@ -127,12 +125,12 @@ std::vector<std::vector<Link>> linkClusters(const Lists& positions, const Lists&
 }
 
 /// Group while groups still merge. A group that was merged into another refers to it by `merged_into`.
-struct Growing
+struct MergingGroup
 {
     std::vector<uint32_t> members;
     std::vector<Link> links;
     uint32_t bytes = 0;
-    uint32_t merged_into = kNone;
+    uint32_t merged_into = kInvalidIndex;
 };
 
 class Merger
@@ -147,7 +145,7 @@ public:
             const ClusterShape& shape = store.shapes[c];
             groups_[c].members = {c};
             groups_[c].links = std::move(links[c]);
-            groups_[c].bytes = formats::clusterBytes(formats::largestLayout(mesh.attributes),
+            groups_[c].bytes = formats::clusterBytes(formats::worstCaseLayout(mesh.attributes),
                                                      shape.vertex_count, shape.triangle_count);
             if (const size_t targets = mesh.vertices.morph_targets.size(); targets > 0)
                 groups_[c].bytes +=
@@ -166,32 +164,33 @@ public:
         };
         std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
         for (uint32_t g = 0; g < groups_.size(); ++g)
-            queue.push({sizeOf(g), g});
+            queue.push({clusterCount(g), g});
         while (!queue.empty())
         {
             const Entry entry = queue.top();
             queue.pop();
             const uint32_t group = entry.group;
-            if (groups_[group].merged_into != kNone || sizeOf(group) != entry.size ||
+            if (groups_[group].merged_into != kInvalidIndex || clusterCount(group) != entry.size ||
                 entry.size >= config_.group_target_clusters)
                 continue;
             const uint32_t neighbour = bestNeighbour(group);
-            if (neighbour == kNone)
+            if (neighbour == kInvalidIndex)
                 continue;
             merge(neighbour, group);
-            queue.push({sizeOf(neighbour), neighbour});
+            queue.push({clusterCount(neighbour), neighbour});
         }
     }
 
     /// Merge small groups that are consecutive in `order`.
     void mergeInOrder(std::span<const uint32_t> order)
     {
-        uint32_t open = kNone;
+        uint32_t open = kInvalidIndex;
         for (const uint32_t group : order)
         {
-            if (sizeOf(group) * 2 >= config_.group_target_clusters)
+            if (clusterCount(group) * 2 >= config_.group_target_clusters)
                 continue;
-            if (open != kNone && fits(open, group) && sizeOf(open) < config_.group_target_clusters)
+            if (open != kInvalidIndex && fits(open, group) &&
+                clusterCount(open) < config_.group_target_clusters)
                 merge(open, group);
             else
                 open = group;
@@ -202,25 +201,28 @@ public:
     {
         std::vector<uint32_t> groups;
         for (uint32_t g = 0; g < groups_.size(); ++g)
-            if (groups_[g].merged_into == kNone)
+            if (groups_[g].merged_into == kInvalidIndex)
                 groups.push_back(g);
         return groups;
     }
 
-    std::span<const uint32_t> membersOf(uint32_t group) const { return groups_[group].members; }
+    std::span<const uint32_t> groupMembers(uint32_t group) const { return groups_[group].members; }
 
 private:
-    uint32_t sizeOf(uint32_t group) const { return static_cast<uint32_t>(groups_[group].members.size()); }
+    uint32_t clusterCount(uint32_t group) const
+    {
+        return static_cast<uint32_t>(groups_[group].members.size());
+    }
 
     bool fits(uint32_t a, uint32_t b) const
     {
-        return sizeOf(a) + sizeOf(b) <= config_.group_max_clusters &&
-               groups_[a].bytes + groups_[b].bytes <= formats::kPageMaxBytes;
+        return clusterCount(a) + clusterCount(b) <= config_.group_max_clusters &&
+               groups_[a].bytes + groups_[b].bytes <= formats::kMaxPageBytes;
     }
 
-    uint32_t current(uint32_t group)
+    uint32_t findMerged(uint32_t group)
     {
-        while (groups_[group].merged_into != kNone)
+        while (groups_[group].merged_into != kInvalidIndex)
             group = groups_[group].merged_into;
         return group;
     }
@@ -232,7 +234,7 @@ private:
         size_t kept = 0;
         for (const Link& link : links)
         {
-            const uint32_t other = current(link.other);
+            const uint32_t other = findMerged(link.other);
             if (other == group)
                 continue;
             if (weight_[other] == 0)
@@ -250,14 +252,14 @@ private:
     uint32_t bestNeighbour(uint32_t group)
     {
         refreshLinks(group);
-        uint32_t best = kNone;
+        uint32_t best = kInvalidIndex;
         float best_score = 0;
         for (const Link& link : groups_[group].links)
         {
             if (!fits(group, link.other))
                 continue;
             // a shared border counts more for a small neighbour, which has little border
-            const float score = link.weight / std::sqrt(static_cast<float>(sizeOf(link.other)));
+            const float score = link.weight / std::sqrt(static_cast<float>(clusterCount(link.other)));
             if (score > best_score || (score == best_score && link.other < best))
             {
                 best = link.other;
@@ -269,8 +271,8 @@ private:
 
     void merge(uint32_t into, uint32_t from)
     {
-        Growing& a = groups_[into];
-        Growing& b = groups_[from];
+        MergingGroup& a = groups_[into];
+        MergingGroup& b = groups_[from];
         a.members.insert(a.members.end(), b.members.begin(), b.members.end());
         a.links.insert(a.links.end(), b.links.begin(), b.links.end());
         a.bytes += b.bytes;
@@ -280,14 +282,14 @@ private:
     }
 
     const Config& config_;
-    std::vector<Growing> groups_;
+    std::vector<MergingGroup> groups_;
     std::vector<float> weight_; ///< scratch of refreshLinks, zero between calls
 };
 
-Box3 boxOfCluster(const PreparedMesh& mesh, const ClusterStore& store, const ClusterShape& shape)
+Box3 clusterBox(const PreparedMesh& mesh, const ClusterStore& store, const ClusterShape& shape)
 {
     Box3 box;
-    for (const uint32_t vertex : store.verticesOf(shape))
+    for (const uint32_t vertex : store.clusterVertices(shape))
         box.add(mesh.vertices.positions[vertex]);
     return box;
 }
@@ -313,7 +315,7 @@ std::vector<uint32_t> spatialOrder(const Merger& merger, std::span<const Box3> c
     for (const uint32_t group : merger.alive())
     {
         Box3 box;
-        for (const uint32_t member : merger.membersOf(group))
+        for (const uint32_t member : merger.groupMembers(group))
             box.add(cluster_boxes[member]);
         keys.push_back({mortonCode(middle(box), all), group});
     }
@@ -332,20 +334,20 @@ Groups groupClusters(const PreparedMesh& mesh, const ClusterStore& store, std::s
                      const Config& config)
 {
     HEARTH_ASSERT(!store.shapes.empty());
-    const Lists positions = positionsOfClusters(mesh, store);
-    const Lists users = clustersOfPositions(positions, mesh.position_count);
+    const IndexTable positions = gatherClusterPositions(mesh, store);
+    const IndexTable users = transposeLists(positions, mesh.position_count);
     Merger merger(mesh, store, linkClusters(positions, users, locked), config);
     merger.mergeNeighbours();
 
     std::vector<Box3> boxes;
     for (const ClusterShape& shape : store.shapes)
-        boxes.push_back(boxOfCluster(mesh, store, shape));
+        boxes.push_back(clusterBox(mesh, store, shape));
     merger.mergeInOrder(spatialOrder(merger, boxes));
 
     Groups groups;
     for (const uint32_t group : spatialOrder(merger, boxes))
     {
-        const auto members = merger.membersOf(group);
+        const auto members = merger.groupMembers(group);
         groups.members.insert(groups.members.end(), members.begin(), members.end());
         std::sort(groups.members.begin() + groups.offsets.back(), groups.members.end());
         groups.offsets.push_back(static_cast<uint32_t>(groups.members.size()));
@@ -357,13 +359,13 @@ std::vector<uint8_t> lockSharedPositions(const PreparedMesh& mesh, const Cluster
                                          const Groups& groups, std::span<const uint8_t> pinned)
 {
     std::vector<uint8_t> locked(pinned.begin(), pinned.end());
-    std::vector<uint32_t> owner(mesh.position_count, kNone);
+    std::vector<uint32_t> owner(mesh.position_count, kInvalidIndex);
     for (uint32_t g = 0; g < groups.count(); ++g)
-        for (const uint32_t member : groups.membersOf(g))
-            for (const uint32_t vertex : store.verticesOf(store.shapes[member]))
+        for (const uint32_t member : groups.groupMembers(g))
+            for (const uint32_t vertex : store.clusterVertices(store.shapes[member]))
             {
-                const uint32_t position = mesh.position_of_vertex[vertex];
-                if (owner[position] == kNone)
+                const uint32_t position = mesh.position_id_of_vertex[vertex];
+                if (owner[position] == kInvalidIndex)
                     owner[position] = g;
                 else if (owner[position] != g)
                     locked[position] = 1;

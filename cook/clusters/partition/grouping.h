@@ -20,7 +20,7 @@ struct Groups
     std::vector<uint32_t> offsets{0};
 
     size_t count() const { return offsets.size() - 1; }
-    std::span<const uint32_t> membersOf(size_t group) const
+    std::span<const uint32_t> groupMembers(size_t group) const
     {
         return std::span(members).subspan(offsets[group], offsets[group + 1] - offsets[group]);
     }

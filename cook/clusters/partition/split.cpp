@@ -21,17 +21,17 @@ namespace hearth::clusters
 namespace
 {
 
-using formats::kClusterMaxTriangles;
-using formats::kClusterMaxVertices;
+using formats::kMaxClusterTriangles;
+using formats::kMaxClusterVertices;
 
 constexpr size_t kBinCount = 32;
 
 // Nodes above this are cut at the median of their longest side: the position of the top cuts does not change
 // the clusters measurably, and a histogram of one axis costs a third of the full search.
-constexpr size_t kMedianOnly = 4096;
+constexpr size_t kMaxSearchedItems = 4096;
 
 // Nodes up to this size are assumed to share vertices uniformly.
-constexpr size_t kEvenNode = 2048;
+constexpr size_t kMaxUniformNode = 2048;
 
 struct Cut
 {
@@ -40,13 +40,13 @@ struct Cut
 };
 
 /// Numbers the vertices of a cluster 0, 1, ... in order of first use.
-class VertexNumbers
+class VertexNumbering
 {
 public:
-    explicit VertexNumbers(uint32_t limit) : limit_(limit) {}
+    explicit VertexNumbering(uint32_t limit) : limit_(limit) {}
 
-    /// Return the number of `vertex`, or kClusterMaxVertices if it exceeds the limit.
-    uint32_t numberOf(uint32_t vertex)
+    /// Return the number of `vertex`, or kMaxClusterVertices if it exceeds the limit.
+    uint32_t findOrAdd(uint32_t vertex)
     {
         // appended in any case, because a branch on its novelty would be unpredictable
         vertices_[count_] = vertex;
@@ -56,7 +56,7 @@ public:
         const uint32_t number = std::min(numbers_[slot], count_);
         numbers_[slot] = number;
         count_ += number == count_ ? 1 : 0;
-        return count_ <= limit_ ? number : kClusterMaxVertices;
+        return count_ <= limit_ ? number : kMaxClusterVertices;
     }
 
     std::span<const uint32_t> vertices() const { return std::span(vertices_).first(count_); }
@@ -73,7 +73,7 @@ private:
     }
 
     std::array<uint32_t, kSlotCount> numbers_ = allFree();
-    std::array<uint32_t, kClusterMaxVertices + 1> vertices_; ///< one more than the limit
+    std::array<uint32_t, kMaxClusterVertices + 1> vertices_; ///< one more than the limit
     uint32_t limit_;
     uint32_t count_ = 0;
 };
@@ -81,14 +81,14 @@ private:
 /// Append the items as one cluster; false if they have too many vertices.
 bool appendLeaf(std::span<const SplitItem> items, const SplitTriangles& triangles, ClusterStore& out)
 {
-    VertexNumbers numbers(triangles.vertex_limit);
-    std::array<uint8_t, kClusterMaxTriangles * 3> indices;
+    VertexNumbering numbers(triangles.vertex_limit);
+    std::array<uint8_t, kMaxClusterTriangles * 3> indices;
     size_t index_count = 0;
     for (const SplitItem& item : items)
         for (size_t k = 0; k < 3; ++k)
         {
-            const uint32_t number = numbers.numberOf(triangles.corners[size_t{item.triangle} * 3 + k]);
-            if (number == kClusterMaxVertices)
+            const uint32_t number = numbers.findOrAdd(triangles.corners[size_t{item.triangle} * 3 + k]);
+            if (number == kMaxClusterVertices)
                 return false;
             indices[index_count++] = static_cast<uint8_t>(number);
         }
@@ -109,8 +109,8 @@ bool appendLeaf(std::span<const SplitItem> items, const SplitTriangles& triangle
 /// Box in the first three lanes.
 struct LaneBox
 {
-    Lanes min = allLanes(std::numeric_limits<float>::infinity());
-    Lanes max = allLanes(-std::numeric_limits<float>::infinity());
+    Lanes min = splat(std::numeric_limits<float>::infinity());
+    Lanes max = splat(-std::numeric_limits<float>::infinity());
 
     void add(Lanes point)
     {
@@ -130,7 +130,7 @@ Lanes centerLanes(const SplitItem& item)
     return Lanes{item.center.x, item.center.y, item.center.z, 0};
 }
 
-LaneBox boxOf(std::span<const SplitItem> items)
+LaneBox boundCenters(std::span<const SplitItem> items)
 {
     LaneBox box;
     for (const SplitItem& item : items)
@@ -152,7 +152,7 @@ class Binning
 {
 public:
     explicit Binning(const LaneBox& box)
-        : half_low_(box.min * allLanes(0.5f)), half_sides_(box.max * allLanes(0.5f) - half_low_)
+        : half_low_(box.min * splat(0.5f)), half_sides_(box.max * splat(0.5f) - half_low_)
     {
         // an axis too short for floats has one bin
         for (size_t axis = 0; axis < 3; ++axis)
@@ -162,8 +162,8 @@ public:
 
     LaneMask operator()(const SplitItem& item) const
     {
-        const Lanes bin = (centerLanes(item) * allLanes(0.5f) - half_low_) * scale_;
-        return __builtin_convertvector(minimum(bin, allLanes(kBinCount - 1)), LaneMask);
+        const Lanes bin = (centerLanes(item) * splat(0.5f) - half_low_) * scale_;
+        return __builtin_convertvector(minimum(bin, splat(kBinCount - 1)), LaneMask);
     }
 
     size_t longestAxis() const
@@ -230,21 +230,21 @@ AxisCost bestCutOfAxis(const Bins& bins, size_t axis, size_t item_count, size_t 
 class NodeCutter
 {
 public:
-    /// most_items  of a node
-    explicit NodeCutter(size_t most_items) : aside_(std::make_unique_for_overwrite<SplitItem[]>(most_items))
+    /// max_items  of a node
+    explicit NodeCutter(size_t max_items) : scratch_(std::make_unique_for_overwrite<SplitItem[]>(max_items))
     {
     }
 
     /// Cut at a multiple of `capacity`. Returns the number of items on the left; they come first.
     size_t operator()(std::span<SplitItem> items, size_t capacity)
     {
-        const Binning binning(boxOf(items));
+        const Binning binning(boundCenters(items));
         Cut cut{binning.longestAxis(), roundToFull(items.size() / 2, items.size(), capacity)};
-        if (items.size() > kMedianOnly)
-            apply(items, cut, binning, countsOf(items, binning, cut.axis));
+        if (items.size() > kMaxSearchedItems)
+            apply(items, cut, binning, countItems(items, binning, cut.axis));
         else
         {
-            const std::array<Bins, 3> bins = binsOf(items, binning);
+            const std::array<Bins, 3> bins = fillBins(items, binning);
             double least = std::numeric_limits<double>::infinity();
             for (size_t axis = 0; axis < 3; ++axis)
                 if (const AxisCost found = bestCutOfAxis(bins[axis], axis, items.size(), capacity);
@@ -259,7 +259,7 @@ public:
     }
 
 private:
-    static BinCounts countsOf(std::span<const SplitItem> items, const Binning& binning, size_t axis)
+    static BinCounts countItems(std::span<const SplitItem> items, const Binning& binning, size_t axis)
     {
         BinCounts counts{};
         for (const SplitItem& item : items)
@@ -267,7 +267,7 @@ private:
         return counts;
     }
 
-    static std::array<Bins, 3> binsOf(std::span<const SplitItem> items, const Binning& binning)
+    static std::array<Bins, 3> fillBins(std::span<const SplitItem> items, const Binning& binning)
     {
         std::array<Bins, 3> bins;
         for (const SplitItem& item : items)
@@ -297,16 +297,16 @@ private:
         {
             const auto b = static_cast<size_t>(binning(item)[cut.axis]);
             items[left] = item;
-            aside_[right] = item;
-            aside_[middle - 1] = item;
+            scratch_[right] = item;
+            scratch_[middle - 1] = item;
             left += b < bin ? 1 : 0;
             right += b > bin ? 1 : 0;
             middle -= b == bin ? 1 : 0;
         }
-        const auto of_bin = std::span(aside_.get() + middle, items.size() - middle);
+        const auto of_bin = std::span(scratch_.get() + middle, items.size() - middle);
         moveToFront(of_bin, cut.axis, cut.left_count - before);
         std::copy(of_bin.begin(), of_bin.end(), items.begin() + static_cast<ptrdiff_t>(left));
-        std::copy_n(aside_.get(), right, items.end() - static_cast<ptrdiff_t>(right));
+        std::copy_n(scratch_.get(), right, items.end() - static_cast<ptrdiff_t>(right));
     }
 
     /// Partition by comparison. Ties are ordered by triangle: one result on every machine.
@@ -320,7 +320,7 @@ private:
         std::nth_element(items.begin(), items.begin() + static_cast<ptrdiff_t>(count), items.end(), order);
     }
 
-    std::unique_ptr<SplitItem[]> aside_; ///< items of the right half and of the bin that contains the cut
+    std::unique_ptr<SplitItem[]> scratch_; ///< items of the right half and of the bin that contains the cut
 };
 
 /// Return the average triangles of a cluster of these items before it reaches the vertex limit.
@@ -333,7 +333,7 @@ size_t clusterCapacity(std::span<const SplitItem> items, const SplitTriangles& t
             vertices.push_back(triangles.corners[size_t{item.triangle} * 3 + k]);
     std::sort(vertices.begin(), vertices.end());
     const auto unique = static_cast<size_t>(std::unique(vertices.begin(), vertices.end()) - vertices.begin());
-    return std::clamp<size_t>(triangles.vertex_limit * items.size() / unique, 1, kClusterMaxTriangles);
+    return std::clamp<size_t>(triangles.vertex_limit * items.size() / unique, 1, kMaxClusterTriangles);
 }
 
 /// Cut `root` into clusters of up to `capacity` triangles, depth first without recursion. A cluster with too
@@ -364,13 +364,13 @@ bool splitNode(std::span<SplitItem> root, size_t capacity, bool halve, const Spl
 
 /// Cut a node whose clusters share vertices uniformly: into full clusters if their vertices fit, else into
 /// smaller ones of the size that fits.
-void splitEvenNode(std::span<SplitItem> items, const SplitTriangles& triangles, NodeCutter& cutNode,
-                   ClusterStore& out)
+void splitUniformNode(std::span<SplitItem> items, const SplitTriangles& triangles, NodeCutter& cutNode,
+                      ClusterStore& out)
 {
     const size_t shape_count = out.shapes.size();
     const size_t vertex_count = out.vertices.size();
     const size_t index_count = out.indices.size();
-    if (splitNode(items, kClusterMaxTriangles, false, triangles, cutNode, out))
+    if (splitNode(items, kMaxClusterTriangles, false, triangles, cutNode, out))
         return;
     out.shapes.resize(shape_count);
     out.vertices.resize(vertex_count);
@@ -391,9 +391,9 @@ std::vector<std::span<SplitItem>> splitTop(std::span<SplitItem> items)
                           [&](size_t i)
                           {
                               halves[i] = {nodes[i], {}};
-                              if (nodes[i].size() <= kMedianOnly)
+                              if (nodes[i].size() <= kMaxSearchedItems)
                                   return;
-                              const size_t left = NodeCutter(nodes[i].size())(nodes[i], kClusterMaxTriangles);
+                              const size_t left = NodeCutter(nodes[i].size())(nodes[i], kMaxClusterTriangles);
                               halves[i] = {nodes[i].first(left), nodes[i].subspan(left)};
                           });
         changed = false;
@@ -410,7 +410,7 @@ std::vector<std::span<SplitItem>> splitTop(std::span<SplitItem> items)
 }
 
 /// Return the triangles ordered by material, with their centers.
-std::vector<SplitItem> itemsOf(const PreparedMesh& mesh)
+std::vector<SplitItem> makeSplitItems(const PreparedMesh& mesh)
 {
     std::vector<Float3> centers(mesh.triangleCount());
     for (size_t t = 0; t < centers.size(); ++t)
@@ -419,7 +419,7 @@ std::vector<SplitItem> itemsOf(const PreparedMesh& mesh)
         const auto place = [&](size_t k) { return mesh.vertices.positions[corner[k]]; };
         centers[t] = triangleCenter(place(0), place(1), place(2));
     }
-    gatherSmallIslands(centers, mesh.corners, mesh.vertices.vertexCount());
+    moveToIslandCenters(centers, mesh.corners, mesh.vertices.vertexCount());
     std::vector<SplitItem> items(centers.size());
     for (uint32_t t = 0; t < items.size(); ++t)
         items[t] = {centers[t], t};
@@ -444,12 +444,12 @@ void splitIntoClusters(std::span<SplitItem> items, const SplitTriangles& triangl
     {
         const std::span<SplitItem> node = stack.back();
         stack.pop_back();
-        if (node.size() <= kEvenNode)
+        if (node.size() <= kMaxUniformNode)
         {
-            splitEvenNode(node, triangles, cutNode, out);
+            splitUniformNode(node, triangles, cutNode, out);
             continue;
         }
-        const size_t left = cutNode(node, kClusterMaxTriangles);
+        const size_t left = cutNode(node, kMaxClusterTriangles);
         stack.push_back(node.subspan(left));
         stack.push_back(node.first(left));
     }
@@ -457,7 +457,7 @@ void splitIntoClusters(std::span<SplitItem> items, const SplitTriangles& triangl
 
 ClusterStore splitMesh(const PreparedMesh& mesh)
 {
-    std::vector<SplitItem> items = itemsOf(mesh);
+    std::vector<SplitItem> items = makeSplitItems(mesh);
     const std::vector<float> errors(mesh.triangleCount(), mesh.grid.error);
     ClusterStore out;
     for (size_t first = 0; first < items.size();)

@@ -27,7 +27,7 @@ struct SplitTriangles
     std::span<const uint32_t> corners; ///< three vertices for each triangle
     std::span<const float> errors;     ///< for each triangle, as in ClusterStore
     uint32_t material;
-    uint32_t vertex_limit = formats::kClusterMaxVertices; ///< for each cluster: clusterVertexLimit
+    uint32_t vertex_limit = formats::kMaxClusterVertices; ///< for each cluster: clusterVertexLimit
 };
 
 /// Split top-down: cut where the surface-area cost is minimal, at multiples of a full cluster, so that all

@@ -34,7 +34,7 @@ struct Tables
 
 void move(uint32_t& index, size_t offset)
 {
-    if (index != kNone)
+    if (index != kInvalidIndex)
         index += static_cast<uint32_t>(offset);
 }
 void move(Range& range, size_t offset)
@@ -93,9 +93,9 @@ StringRef addText(Tables& tables, std::string_view text)
 
 bool fits(const Tables& tables)
 {
-    constexpr size_t kMost = std::numeric_limits<int32_t>::max();
-    return tables.strings.size() < kMost && tables.clusters.size() < kMost &&
-           tables.page_parents.size() < kMost;
+    constexpr size_t kMaxIndex = std::numeric_limits<int32_t>::max();
+    return tables.strings.size() < kMaxIndex && tables.clusters.size() < kMaxIndex &&
+           tables.page_parents.size() < kMaxIndex;
 }
 
 template <typename T>
@@ -127,23 +127,24 @@ namespace
 {
 
 /// Authored LOD: its mesh, and its number and name for users.
-struct AuthoredLod
+struct AuthoredLodMesh
 {
     uint32_t mesh;
-    uint32_t number; ///< kNone: no number
+    uint32_t number; ///< kInvalidIndex: no number
     std::string name;
 };
 
 /// Authored LODs of each mesh, finest first.
 struct LodLists
 {
-    std::vector<std::vector<AuthoredLod>> of_mesh;
+    std::vector<std::vector<AuthoredLodMesh>> of_mesh;
     std::vector<uint8_t> is_lod;
 };
 
 Result<LodLists> readLodLists(const ContainerReader& part, uint32_t mesh_count)
 {
-    LodLists lists{std::vector<std::vector<AuthoredLod>>(mesh_count), std::vector<uint8_t>(mesh_count, 0)};
+    LodLists lists{std::vector<std::vector<AuthoredLodMesh>>(mesh_count),
+                   std::vector<uint8_t>(mesh_count, 0)};
     HEARTH_ASSIGN_OR_RETURN(const Records<AuthoredLodRecord> records,
                             part.records<AuthoredLodRecord>(kChunkAuthoredLods));
     HEARTH_ASSIGN_OR_RETURN(const ChunkData strings, part.read(kChunkStrings));
@@ -154,7 +155,7 @@ Result<LodLists> readLodLists(const ContainerReader& part, uint32_t mesh_count)
         if (record.mesh >= mesh_count || record.lod >= mesh_count || record.mesh == record.lod)
             return Error{Issue::meaning_reference, part.name(), chunkName(kChunkAuthoredLods, 0),
                          "a record names a mesh that does not exist, or one as its own level"};
-        if (!insideTable({record.name.offset, record.name.length}, text.size()))
+        if (!isInsideTable({record.name.offset, record.name.length}, text.size()))
             return Error{Issue::meaning_range, part.name(), chunkName(kChunkAuthoredLods, 0),
                          "a name lies outside chunk STRS"};
         lists.of_mesh[record.mesh].push_back(
@@ -166,10 +167,10 @@ Result<LodLists> readLodLists(const ContainerReader& part, uint32_t mesh_count)
 
 /// Append records of the levels that authored LODs became; `level_of_lod` as Hierarchy::authored_levels.
 void appendAuthoredLevels(Tables& tables, uint32_t mesh, std::span<const uint32_t> level_of_lod,
-                          std::span<const AuthoredLod> lods)
+                          std::span<const AuthoredLodMesh> lods)
 {
     for (size_t i = 0; i < level_of_lod.size(); ++i)
-        if (level_of_lod[i] != kNone)
+        if (level_of_lod[i] != kInvalidIndex)
             tables.authored_levels.push_back(
                 {mesh, level_of_lod[i], lods[i].number, addText(tables, lods[i].name)});
 }
@@ -187,12 +188,12 @@ Result<BuiltMesh> buildMesh(const ContainerReader& part, const LodLists& lods, c
     if (lods.is_lod[index] != 0)
         return built;
     std::vector<mesh::SourceMesh> authored;
-    for (const AuthoredLod& lod : lods.of_mesh[index])
+    for (const AuthoredLodMesh& lod : lods.of_mesh[index])
     {
         HEARTH_ASSIGN_OR_RETURN(mesh::SourceMesh level, mesh::readSourceMesh(part, lod.mesh));
         authored.push_back(std::move(level));
     }
-    HEARTH_ASSIGN_OR_RETURN(const OwnedMotion owned, motion.of(index, source));
+    HEARTH_ASSIGN_OR_RETURN(const OwnedMotion owned, motion.meshMotion(index, source));
     built.hierarchy = buildHierarchy(std::move(source), authored, built.config, &owned.motion);
     built.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return built;

@@ -35,7 +35,7 @@ struct Arguments
     std::vector<std::string> settings;
     std::string statistics;
     bool statistics_with_times = false;
-    bool statistics_without_manual_lods = false;
+    bool statistics_without_discrete_lods = false;
     bool visibility = false;
     uint32_t debug_mesh = 0;
     uint32_t debug_level = 0;
@@ -77,7 +77,7 @@ void printWarnings(const Arguments& arguments, std::span<const clusters::MeshSta
                             displacementText(mesh.counts.influence_displacement)));
     for (const clusters::MeshStatistics& mesh : meshes)
         for (size_t i = 0; i < mesh.authored_levels.size(); ++i)
-            if (mesh.authored_levels[i] == formats::kNone)
+            if (mesh.authored_levels[i] == kInvalidIndex)
                 printWarning(arguments,
                              fmt::format("authored level {} of mesh {} '{}' is left out: it has not fewer "
                                          "triangles than what it would replace, or none",
@@ -119,7 +119,7 @@ Status cook(const Arguments& arguments, const clusters::Profile& profile,
     }
     const auto configure = [&](const std::string& name)
     {
-        clusters::Config config = clusters::configOf(profile, name, materials);
+        clusters::Config config = clusters::resolveConfig(profile, name, materials);
         config.visibility = arguments.visibility;
         return config;
     };
@@ -127,12 +127,12 @@ Status cook(const Arguments& arguments, const clusters::Profile& profile,
     const auto observe = [&](uint32_t index, const clusters::BuiltMesh& mesh) -> Status
     {
         const clusters::Hierarchy& hierarchy = mesh.hierarchy;
-        meshes.push_back(clusters::statisticsOf(hierarchy, mesh.config, index, mesh.name));
+        meshes.push_back(clusters::collectStatistics(hierarchy, mesh.config, index, mesh.name));
         if (arguments.statistics_with_times)
             meshes.back().seconds = mesh.seconds;
-        if (!arguments.statistics.empty() && !arguments.statistics_without_manual_lods)
-            meshes.back().manual_lods = {clusters::measureManualLods(hierarchy),
-                                         clusters::storedBytes(hierarchy)};
+        if (!arguments.statistics.empty() && !arguments.statistics_without_discrete_lods)
+            meshes.back().discrete_lods = {clusters::measureDiscreteLods(hierarchy),
+                                           clusters::storedBytes(hierarchy)};
         if (!arguments.debug_output.empty() && index == arguments.debug_mesh)
             HEARTH_TRY(clusters::writeDebugMesh(hierarchy, arguments.debug_level, arguments.debug_output));
         return success();
@@ -142,7 +142,7 @@ Status cook(const Arguments& arguments, const clusters::Profile& profile,
     return arguments.statistics.empty() ? success() : writeStatistics(arguments, meshes);
 }
 
-Result<clusters::Profile> profileOf(const Arguments& arguments)
+Result<clusters::Profile> loadProfile(const Arguments& arguments)
 {
     if (!arguments.profile.empty())
         return clusters::readProfile(arguments.profile);
@@ -155,7 +155,7 @@ int run(const Arguments& arguments)
     if (arguments.jobs > 0)
         limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
                                                       arguments.jobs);
-    const Result<clusters::Profile> profile = profileOf(arguments);
+    const Result<clusters::Profile> profile = loadProfile(arguments);
     if (!profile.ok())
         return reportFailure(profile.error());
     const clusters::SourcePart source = clusters::openSourcePart(
@@ -191,7 +191,7 @@ int program(int argc, char** argv)
     app.addFlag("--stats-times", arguments.statistics_with_times,
                 "add the seconds that each mesh took, which differ from run to run")
         .needs(statistics);
-    app.addFlag("--no-manual-lods", arguments.statistics_without_manual_lods,
+    app.addFlag("--no-manual-lods", arguments.statistics_without_discrete_lods,
                 "leave out what levels by hand would take, which is a third of the time of small meshes")
         .needs(statistics);
     const cli::Option debug =

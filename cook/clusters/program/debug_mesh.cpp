@@ -24,28 +24,28 @@ bool endsAs(const std::string& path, std::string_view extension)
 }
 
 /// Triangles of a cluster with separate vertices, numbered from 0.
-struct LooseCluster
+struct ClusterMesh
 {
     std::vector<uint32_t> positions; ///< for each vertex, index into DecodedHierarchy::positions
     std::vector<uint32_t> corners;   ///< three vertices for each triangle
 };
 
-LooseCluster loosen(const DecodedHierarchy::Cluster& cluster)
+ClusterMesh makeClusterMesh(const DecodedHierarchy::Cluster& cluster)
 {
-    LooseCluster loose;
-    loose.positions = cluster.positions;
-    std::sort(loose.positions.begin(), loose.positions.end());
-    loose.positions.erase(std::unique(loose.positions.begin(), loose.positions.end()), loose.positions.end());
+    ClusterMesh mesh;
+    mesh.positions = cluster.positions;
+    std::sort(mesh.positions.begin(), mesh.positions.end());
+    mesh.positions.erase(std::unique(mesh.positions.begin(), mesh.positions.end()), mesh.positions.end());
     for (const uint32_t position : cluster.positions)
     {
-        const auto at = std::lower_bound(loose.positions.begin(), loose.positions.end(), position);
-        loose.corners.push_back(static_cast<uint32_t>(at - loose.positions.begin()));
+        const auto at = std::lower_bound(mesh.positions.begin(), mesh.positions.end(), position);
+        mesh.corners.push_back(static_cast<uint32_t>(at - mesh.positions.begin()));
     }
-    return loose;
+    return mesh;
 }
 
 /// Return a bright colour, well distributed, and the same in every run.
-std::array<std::byte, 3> colorOf(uint32_t cluster)
+std::array<std::byte, 3> clusterColor(uint32_t cluster)
 {
     // finaliser of MurmurHash3: neighbouring numbers give unlike colours
     uint32_t hash = cluster;
@@ -71,21 +71,21 @@ void writePly(const DecodedHierarchy& decoded, formats::Range clusters, AtomicFi
     size_t face_count = 0;
     for (uint32_t c = clusters.first; c < clusters.first + clusters.count; ++c)
     {
-        const LooseCluster loose = loosen(decoded.clusters[c]);
-        const auto color = colorOf(c);
-        for (const uint32_t position : loose.positions)
+        const ClusterMesh mesh = makeClusterMesh(decoded.clusters[c]);
+        const auto color = clusterColor(c);
+        for (const uint32_t position : mesh.positions)
         {
             put(vertices, decoded.positions[position]);
             vertices.insert(vertices.end(), color.begin(), color.end());
         }
-        for (size_t corner = 0; corner < loose.corners.size(); ++corner)
+        for (size_t corner = 0; corner < mesh.corners.size(); ++corner)
         {
             if (corner % 3 == 0)
                 put(faces, uint8_t{3});
-            put(faces, vertex_count + loose.corners[corner]);
+            put(faces, vertex_count + mesh.corners[corner]);
         }
-        vertex_count += static_cast<uint32_t>(loose.positions.size());
-        face_count += loose.corners.size() / 3;
+        vertex_count += static_cast<uint32_t>(mesh.positions.size());
+        face_count += mesh.corners.size() / 3;
     }
     file.write(fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\n"
                            "property float y\nproperty float z\nproperty uchar red\nproperty uchar green\n"
@@ -103,18 +103,18 @@ void writeObj(const Hierarchy& hierarchy, const DecodedHierarchy& decoded, uint3
     uint32_t first_vertex = 1; // OBJ counts from 1
     for (uint32_t c = clusters.first; c < clusters.first + clusters.count; ++c)
     {
-        const LooseCluster loose = loosen(decoded.clusters[c]);
+        const ClusterMesh mesh = makeClusterMesh(decoded.clusters[c]);
         std::string text = fmt::format("g cluster_{}_of_group_{}\n", c, hierarchy.clusters[c].group);
-        for (const uint32_t position : loose.positions)
+        for (const uint32_t position : mesh.positions)
         {
             // nine digits restore every float
             const Float3 p = decoded.positions[position];
             text += fmt::format("v {:.9g} {:.9g} {:.9g}\n", p.x, p.y, p.z);
         }
-        for (size_t t = 0; t < loose.corners.size(); t += 3)
-            text += fmt::format("f {} {} {}\n", first_vertex + loose.corners[t],
-                                first_vertex + loose.corners[t + 1], first_vertex + loose.corners[t + 2]);
-        first_vertex += static_cast<uint32_t>(loose.positions.size());
+        for (size_t t = 0; t < mesh.corners.size(); t += 3)
+            text += fmt::format("f {} {} {}\n", first_vertex + mesh.corners[t],
+                                first_vertex + mesh.corners[t + 1], first_vertex + mesh.corners[t + 2]);
+        first_vertex += static_cast<uint32_t>(mesh.positions.size());
         file.write(text);
     }
 }

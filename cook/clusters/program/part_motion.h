@@ -14,7 +14,7 @@ namespace hearth::clusters
 /// Motion of one mesh; valid as long as the PartMotion lives.
 struct OwnedMotion
 {
-    std::unique_ptr<motion::SkinMotion> skin;
+    std::unique_ptr<animation_bounds::SkinMotion> skin;
     MeshMotion motion;
 };
 
@@ -27,14 +27,14 @@ public:
 
     /// Return the motion of mesh `index`, which is `mesh`, over the nodes that use it. errors:
     /// meaning_reference if it refers to joints that its skin has not.
-    Result<OwnedMotion> of(uint32_t index, const mesh::SourceMesh& mesh) const;
+    Result<OwnedMotion> meshMotion(uint32_t index, const mesh::SourceMesh& mesh) const;
 
 private:
     explicit PartMotion(formats::PackView view);
 
     std::shared_ptr<const formats::PackView> view_;
-    formats::MotionTables tables_;
-    std::vector<motion::NodeMotion> nodes_;
+    formats::AnimationTables tables_;
+    std::vector<animation_bounds::NodeMotion> nodes_;
 };
 
 } // namespace hearth::clusters

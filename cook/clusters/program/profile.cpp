@@ -2,7 +2,7 @@
 #include "cook/clusters/program/profile.h"
 
 #include "cook/tools/toml.h"
-#include "formats/base/suggest.h"
+#include "formats/base/nearest_match.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,16 +21,16 @@ namespace
 using tools::TomlNode;
 
 /// Location of a value in the file, for messages.
-struct Place
+struct Location
 {
     const std::string& file;
     std::string key;
 
-    Place at(std::string_view name) const
+    Location at(std::string_view name) const
     {
         return {file, key.empty() ? std::string(name) : key + "." + std::string(name)};
     }
-    Place at(size_t index) const { return {file, fmt::format("{}[{}]", key, index)}; }
+    Location at(size_t index) const { return {file, fmt::format("{}[{}]", key, index)}; }
 
     Error wrong(Issue issue, const TomlNode& node, std::string detail) const
     {
@@ -41,7 +41,7 @@ struct Place
 using Keys = std::vector<std::string>;
 
 /// Errors: profile_value if the node is no table, profile_key if it has a key that is not in `known`.
-Result<const TomlNode*> tableAt(const TomlNode& node, const Place& place, const Keys& known)
+Result<const TomlNode*> tableAt(const TomlNode& node, const Location& place, const Keys& known)
 {
     if (!node.isTable())
         return place.wrong(Issue::profile_value, node, "must be a table");
@@ -58,7 +58,7 @@ Result<const TomlNode*> tableAt(const TomlNode& node, const Place& place, const 
     return &node;
 }
 
-Result<const TomlNode*> arrayAt(const TomlNode& node, const Place& place)
+Result<const TomlNode*> arrayAt(const TomlNode& node, const Location& place)
 {
     if (!node.isArray() || node.children.empty())
         return place.wrong(Issue::profile_value, node, "must be an array of at least one table");
@@ -66,7 +66,7 @@ Result<const TomlNode*> arrayAt(const TomlNode& node, const Place& place)
 }
 
 /// Return the member's number, or `otherwise` if it is missing. errors: profile_value.
-Result<float> numberAt(const TomlNode& table, std::string_view name, const Place& place, float low,
+Result<float> numberAt(const TomlNode& table, std::string_view name, const Location& place, float low,
                        float high, float otherwise)
 {
     const TomlNode* node = table.find(name);
@@ -79,17 +79,17 @@ Result<float> numberAt(const TomlNode& table, std::string_view name, const Place
                                 fmt::format("must be a number from {:g} to {:g}", low, high));
 }
 
-Result<uint32_t> countAt(const TomlNode& table, std::string_view name, const Place& place)
+Result<uint32_t> countAt(const TomlNode& table, std::string_view name, const Location& place)
 {
     const TomlNode* node = table.find(name);
     const TomlNode& culprit = node == nullptr ? table : *node;
-    constexpr int64_t kMost = std::numeric_limits<int32_t>::max();
-    if (node != nullptr && node->isWhole() && node->whole >= 1 && node->whole <= kMost)
+    constexpr int64_t kMaxValue = std::numeric_limits<int32_t>::max();
+    if (node != nullptr && node->isWhole() && node->whole >= 1 && node->whole <= kMaxValue)
         return static_cast<uint32_t>(node->whole);
     return place.at(name).wrong(Issue::profile_value, culprit, "must be a whole number from 1 on");
 }
 
-Result<std::string> patternAt(const TomlNode& table, const Place& place)
+Result<std::string> patternAt(const TomlNode& table, const Location& place)
 {
     const TomlNode* node = table.find("name");
     if (node != nullptr && node->isText() && !node->text.empty())
@@ -98,32 +98,31 @@ Result<std::string> patternAt(const TomlNode& table, const Place& place)
                                   "must be a text: the name that the rule is for, with * and ? as wildcards");
 }
 
-Result<LevelCurve> curveAt(const TomlNode& node, const Place& place)
+Result<LevelCurve> curveAt(const TomlNode& node, const Location& place)
 {
     HEARTH_ASSIGN_OR_RETURN(const TomlNode* array, arrayAt(node, place));
     LevelCurve curve;
     for (size_t i = 0; i < array->children.size(); ++i)
     {
-        const Place at = place.at(i);
+        const Location at = place.at(i);
         HEARTH_ASSIGN_OR_RETURN(const TomlNode* table,
                                 tableAt(array->children[i], at, {"keep", "error_weight"}));
         LevelStep step;
-        HEARTH_ASSIGN_OR_RETURN(step.keep,
-                                numberAt(*table, "keep", at, kSmallestKeep, kLargestKeep, step.keep));
-        HEARTH_ASSIGN_OR_RETURN(step.error_weight, numberAt(*table, "error_weight", at, 1,
-                                                            kLargestErrorWeight, step.error_weight));
+        HEARTH_ASSIGN_OR_RETURN(step.keep, numberAt(*table, "keep", at, kMinKeep, kMaxKeep, step.keep));
+        HEARTH_ASSIGN_OR_RETURN(step.error_weight,
+                                numberAt(*table, "error_weight", at, 1, kMaxErrorWeight, step.error_weight));
         curve.push_back(step);
     }
     return curve;
 }
 
-Result<std::vector<LevelTarget>> targetsAt(const TomlNode& node, const Place& place)
+Result<std::vector<LevelTarget>> targetsAt(const TomlNode& node, const Location& place)
 {
     HEARTH_ASSIGN_OR_RETURN(const TomlNode* array, arrayAt(node, place));
     std::vector<LevelTarget> targets;
     for (size_t i = 0; i < array->children.size(); ++i)
     {
-        const Place at = place.at(i);
+        const Location at = place.at(i);
         HEARTH_ASSIGN_OR_RETURN(const TomlNode* table,
                                 tableAt(array->children[i], at, {"level", "triangles"}));
         LevelTarget target;
@@ -139,18 +138,18 @@ Result<std::vector<LevelTarget>> targetsAt(const TomlNode& node, const Place& pl
 }
 
 /// Return the member's number, if it exists. errors: profile_value.
-Result<std::optional<float>> weightAt(const TomlNode& table, std::string_view name, const Place& place)
+Result<std::optional<float>> weightAt(const TomlNode& table, std::string_view name, const Location& place)
 {
-    constexpr float kMost = 1e6f;
+    constexpr float kMaxValue = 1e6f;
     if (table.find(name) == nullptr)
         return std::optional<float>();
-    HEARTH_ASSIGN_OR_RETURN(const float weight, numberAt(table, name, place, 0, kMost, 0));
+    HEARTH_ASSIGN_OR_RETURN(const float weight, numberAt(table, name, place, 0, kMaxValue, 0));
     return std::optional(weight);
 }
 
 /// Read a key with two legal numbers.
 Result<std::optional<uint32_t>> choiceAt(const TomlNode& table, const char* key, int64_t one, int64_t other,
-                                         const Place& place)
+                                         const Location& place)
 {
     const TomlNode* node = table.find(key);
     if (node == nullptr)
@@ -160,7 +159,7 @@ Result<std::optional<uint32_t>> choiceAt(const TomlNode& table, const char* key,
     return std::optional(static_cast<uint32_t>(node->whole));
 }
 
-Result<MeshSettings> settingsAt(const TomlNode& table, const Place& place)
+Result<MeshSettings> settingsAt(const TomlNode& table, const Location& place)
 {
     MeshSettings settings;
     HEARTH_ASSIGN_OR_RETURN(settings.normal_bits, choiceAt(table, "normal_bits", 8, 16, place));
@@ -177,7 +176,7 @@ Keys withSettings(Keys keys)
     return keys;
 }
 
-Result<MeshRule> meshRuleAt(const TomlNode& node, const Place& place)
+Result<MeshRule> meshRuleAt(const TomlNode& node, const Location& place)
 {
     HEARTH_ASSIGN_OR_RETURN(const TomlNode* table,
                             tableAt(node, place, withSettings({"name", "levels", "targets"})));
@@ -195,7 +194,7 @@ Result<MeshRule> meshRuleAt(const TomlNode& node, const Place& place)
     return rule;
 }
 
-Result<MaterialRule> materialRuleAt(const TomlNode& node, const Place& place)
+Result<MaterialRule> materialRuleAt(const TomlNode& node, const Location& place)
 {
     HEARTH_ASSIGN_OR_RETURN(const TomlNode* table, tableAt(node, place, {"name", "levels"}));
     MaterialRule rule;
@@ -209,8 +208,8 @@ Result<MaterialRule> materialRuleAt(const TomlNode& node, const Place& place)
 
 /// Read one rule for each table of the array `name`, if it exists.
 template <typename Rule>
-Status readRules(const TomlNode& table, std::string_view name, const Place& place,
-                 Result<Rule> (*readRule)(const TomlNode&, const Place&), std::vector<Rule>& rules)
+Status readRules(const TomlNode& table, std::string_view name, const Location& place,
+                 Result<Rule> (*readRule)(const TomlNode&, const Location&), std::vector<Rule>& rules)
 {
     const TomlNode* node = table.find(name);
     if (node == nullptr)
@@ -224,7 +223,7 @@ Status readRules(const TomlNode& table, std::string_view name, const Place& plac
     return success();
 }
 
-Result<Profile> profileOf(const TomlNode& root, const std::string& path)
+Result<Profile> makeProfile(const TomlNode& root, const std::string& path)
 {
     // the other tables are for other cookers, and hearth resolves `inherits`
     HEARTH_TRY(tableAt(root, {path, ""},
@@ -233,7 +232,7 @@ Result<Profile> profileOf(const TomlNode& root, const std::string& path)
     const TomlNode* node = root.find("clusters");
     if (node == nullptr)
         return profile;
-    const Place place{path, "clusters"};
+    const Location place{path, "clusters"};
     HEARTH_ASSIGN_OR_RETURN(const TomlNode* table,
                             tableAt(*node, place, withSettings({"levels", "mesh", "material"})));
     HEARTH_ASSIGN_OR_RETURN(profile.settings, settingsAt(*table, place));
@@ -260,11 +259,11 @@ Result<Profile> readProfile(const std::string& path)
 
 Result<Profile> parseProfile(std::string_view text, const std::string& name)
 {
-    tools::TomlFault fault;
+    tools::TomlError fault;
     const std::optional<TomlNode> root = tools::parseToml(text, fault);
     if (!root)
         return Error{Issue::profile_syntax, name, fmt::format("line {}", fault.line), fault.text};
-    return profileOf(*root, name);
+    return makeProfile(*root, name);
 }
 
 namespace
@@ -280,8 +279,8 @@ void apply(const MeshSettings& settings, Config& config)
 
 } // namespace
 
-Config configOf(const Profile& profile, std::string_view mesh_name,
-                std::span<const std::string> material_names)
+Config resolveConfig(const Profile& profile, std::string_view mesh_name,
+                     std::span<const std::string> material_names)
 {
     Config config;
     apply(profile.settings, config);

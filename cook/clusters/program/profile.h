@@ -58,8 +58,8 @@ Result<Profile> parseProfile(std::string_view text, const std::string& name);
 
 /// Resolve the profile for one mesh: the first rule that matches its name, for unset settings those of all
 /// meshes, and for each material the first rule that matches its name.
-Config configOf(const Profile& profile, std::string_view mesh_name,
-                std::span<const std::string> material_names);
+Config resolveConfig(const Profile& profile, std::string_view mesh_name,
+                     std::span<const std::string> material_names);
 
 /// True if all of `text` matches: * stands for any characters, ? for one, everything else for itself.
 bool matchesPattern(std::string_view pattern, std::string_view text);

@@ -20,17 +20,17 @@ namespace
 
 constexpr int kInterrupted = 130;
 
-SourcePart failed(const Error& error)
+SourcePart makeFailure(const Error& error)
 {
     std::fprintf(stderr, "%s\n", formatMessage(error).c_str());
     return {std::nullopt, exitCode(error)};
 }
 
-SourcePart opened(const std::string& path)
+SourcePart openPart(const std::string& path)
 {
     Result<ContainerReader> reader = ContainerReader::open(path, Check::structure);
     if (!reader.ok())
-        return failed(reader.error());
+        return makeFailure(reader.error());
     return {std::move(reader).value(), 0};
 }
 
@@ -50,7 +50,7 @@ bool isContainer(const std::string& path)
 }
 
 /// Pass on the messages of hearth-import, with the source's path in place of the part's, and its exit code.
-int passOn(const tools::ChildEnd& end, const std::string& source, const std::string& part)
+int relayOutcome(const tools::ChildOutcome& end, const std::string& source, const std::string& part)
 {
     std::string messages = end.messages;
     for (size_t at = messages.find(part); at != std::string::npos; at = messages.find(part, at))
@@ -61,8 +61,8 @@ int passOn(const tools::ChildEnd& end, const std::string& source, const std::str
     std::fwrite(messages.data(), 1, messages.size(), stderr);
     if (end.signal == 0)
         return end.exit_code;
-    return failed({Issue::child_failed, source, "",
-                   std::string("hearth-import was ended by a signal: ") + ::strsignal(end.signal)})
+    return makeFailure({Issue::child_failed, source, "",
+                        std::string("hearth-import was ended by a signal: ") + ::strsignal(end.signal)})
         .exit_code;
 }
 
@@ -71,9 +71,9 @@ SourcePart importSource(const std::string& source, const ImportArguments& argume
 {
     // declared first, so destroyed last: signals wait until the directory is removed
     tools::ChildProcesses children;
-    const auto folder = TempDirectory::create(temporaryOr(parentFolder(output)), output);
+    const auto folder = TempDirectory::create(temporaryFolderOr(parentFolder(output)), output);
     if (!folder.ok())
-        return failed(folder.error());
+        return makeFailure(folder.error());
     const std::string part = folder->path() + "/import.part";
     std::vector<std::string> command{tools::programFolder() + "/hearth-import", source, "-o", part};
     for (const std::string& lod : arguments.lods)
@@ -84,13 +84,13 @@ SourcePart importSource(const std::string& source, const ImportArguments& argume
         command.insert(command.end(), {"--set", setting});
     const auto child = children.start(command);
     if (!child.ok())
-        return failed(child.error());
-    const std::optional<tools::ChildEnd> end = children.wait();
+        return makeFailure(child.error());
+    const std::optional<tools::ChildOutcome> end = children.wait();
     if (!end)
         return {std::nullopt, kInterrupted};
-    if (const int code = passOn(*end, source, part); code != 0)
+    if (const int code = relayOutcome(*end, source, part); code != 0)
         return {std::nullopt, code};
-    return opened(part);
+    return openPart(part);
 }
 
 } // namespace
@@ -101,9 +101,9 @@ SourcePart openSourcePart(const std::string& path, const ImportArguments& argume
     if (!isContainer(path))
         return importSource(path, arguments, output);
     if (!arguments.lods.empty())
-        return failed(
+        return makeFailure(
             {Issue::usage, path, "", "is an import part: --lod is for hearth-import, which wrote it"});
-    return opened(path);
+    return openPart(path);
 }
 
 } // namespace hearth::clusters

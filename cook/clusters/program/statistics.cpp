@@ -20,9 +20,9 @@ ErrorStatistics errorStatistics(const Hierarchy& hierarchy, const LevelRecord& l
 {
     ErrorStatistics errors;
     for (const ClusterRecord& cluster :
-         recordsOf(std::span<const ClusterRecord>(hierarchy.clusters), level.clusters))
+         recordsInRange(std::span<const ClusterRecord>(hierarchy.clusters), level.clusters))
     {
-        if (cluster.refined_group == kNone)
+        if (cluster.refined_group == kInvalidIndex)
             continue;
         const double value{hierarchy.groups[cluster.refined_group].*error};
         errors.max = std::max(errors.max, value);
@@ -42,7 +42,7 @@ LevelStatistics levelStatistics(const Hierarchy& hierarchy, const LevelRecord& l
     statistics.normal = errorStatistics(hierarchy, level, &GroupRecord::normal_error);
     statistics.uv = errorStatistics(hierarchy, level, &GroupRecord::uv_error);
     statistics.fill = static_cast<double>(statistics.triangles) /
-                      (static_cast<double>(statistics.clusters) * kClusterMaxTriangles);
+                      (static_cast<double>(statistics.clusters) * kMaxClusterTriangles);
     return statistics;
 }
 
@@ -106,10 +106,10 @@ Json bytesJson(const MeshStatistics& mesh)
             {"pages_stored_per_triangle", ratio(mesh.stored_page_bytes, mesh.source_triangles)}};
 }
 
-Json manualLodsJson(const ManualLodStatistics& manual)
+Json discreteLodsJson(const DiscreteLodStatistics& manual)
 {
     Json lods = Json::array();
-    for (const ManualLod& lod : manual.chain.lods)
+    for (const DiscreteLod& lod : manual.chain.lods)
         lods.push_back({{"triangles", lod.triangles}, {"vertices", lod.vertices}});
     return {{"lods", lods},
             {"bytes", manual.chain.bytes},
@@ -123,22 +123,22 @@ Json manualLodsJson(const ManualLodStatistics& manual)
 Json totalsJson(std::span<const MeshStatistics> meshes)
 {
     uint64_t triangles = 0;
-    bool has_manual_lods = false;
-    ManualLodStatistics total;
+    bool has_discrete_lods = false;
+    DiscreteLodStatistics total;
     for (const MeshStatistics& mesh : meshes)
     {
         triangles += mesh.source_triangles;
-        if (!mesh.manual_lods)
+        if (!mesh.discrete_lods)
             continue;
-        has_manual_lods = true;
-        total.chain.bytes += mesh.manual_lods->chain.bytes;
-        total.chain.bytes_zstd += mesh.manual_lods->chain.bytes_zstd;
-        total.hierarchy_bytes += mesh.manual_lods->hierarchy_bytes;
+        has_discrete_lods = true;
+        total.chain.bytes += mesh.discrete_lods->chain.bytes;
+        total.chain.bytes_zstd += mesh.discrete_lods->chain.bytes_zstd;
+        total.hierarchy_bytes += mesh.discrete_lods->hierarchy_bytes;
     }
     Json totals{{"triangles", triangles}};
-    if (has_manual_lods)
-        totals["manual_lods"] = manualLodsJson(total);
-    if (has_manual_lods)
+    if (has_discrete_lods)
+        totals["manual_lods"] = discreteLodsJson(total);
+    if (has_discrete_lods)
         totals["manual_lods"].erase("lods");
     return totals;
 }
@@ -158,7 +158,7 @@ Json meshJson(const MeshStatistics& mesh)
         {"loose_pieces", mesh.counts.loose_pieces},
         {"lost_influences",
          {{"vertices", mesh.counts.influence_loss.vertex_count},
-          {"most_weight", mesh.counts.influence_loss.most_weight},
+          {"most_weight", mesh.counts.influence_loss.max_weight},
           {"mean_weight", mesh.counts.influence_loss.mean_weight},
           {"displacement",
            mesh.counts.influence_displacement ? Json(*mesh.counts.influence_displacement) : Json(nullptr)}}},
@@ -172,9 +172,9 @@ Json meshJson(const MeshStatistics& mesh)
     if (!mesh.authored_levels.empty())
         json["authored_levels"] = Json::array();
     for (const uint32_t level : mesh.authored_levels)
-        json["authored_levels"].push_back(level == kNone ? Json(nullptr) : Json(level));
-    if (mesh.manual_lods)
-        json["manual_lods"] = manualLodsJson(*mesh.manual_lods);
+        json["authored_levels"].push_back(level == kInvalidIndex ? Json(nullptr) : Json(level));
+    if (mesh.discrete_lods)
+        json["manual_lods"] = discreteLodsJson(*mesh.discrete_lods);
     if (mesh.seconds)
         json["seconds"] = *mesh.seconds;
     return json;
@@ -188,8 +188,8 @@ bool TargetStatistics::met() const
                             0.03 * static_cast<double>(wanted);
 }
 
-MeshStatistics statisticsOf(const Hierarchy& hierarchy, const Config& config, uint32_t index,
-                            std::string name)
+MeshStatistics collectStatistics(const Hierarchy& hierarchy, const Config& config, uint32_t index,
+                                 std::string name)
 {
     MeshStatistics statistics;
     statistics.index = index;

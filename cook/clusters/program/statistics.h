@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cook/clusters/core/hierarchy.h"
-#include "cook/clusters/program/manual_lods.h"
+#include "cook/clusters/program/discrete_lods.h"
 
 #include <cstdint>
 #include <optional>
@@ -42,9 +42,9 @@ struct TargetStatistics
 };
 
 /// Comparison of the hierarchy with discrete LODs.
-struct ManualLodStatistics
+struct DiscreteLodStatistics
 {
-    ManualLods chain;
+    DiscreteLods chain;
     uint64_t hierarchy_bytes = 0; ///< storedBytes
 };
 
@@ -64,14 +64,14 @@ struct MeshStatistics
     std::vector<TargetStatistics> targets;
     std::vector<uint32_t> authored_levels; ///< as in Hierarchy
     BuildCounts counts;
-    std::optional<ManualLodStatistics> manual_lods; ///< slow to compute, so only on request
+    std::optional<DiscreteLodStatistics> discrete_lods; ///< slow to compute, so only on request
     /// Wall-clock time of the build; differs from run to run, so only on request.
     std::optional<double> seconds;
 };
 
 /// Collect the statistics of a hierarchy that was built with `config`.
-MeshStatistics statisticsOf(const Hierarchy& hierarchy, const Config& config, uint32_t index,
-                            std::string name);
+MeshStatistics collectStatistics(const Hierarchy& hierarchy, const Config& config, uint32_t index,
+                                 std::string name);
 
 /// Format the statistics as JSON, schema "hearth.clusters/1". `source` is the name of the input.
 std::string statisticsJson(const std::string& source, std::span<const MeshStatistics> meshes);

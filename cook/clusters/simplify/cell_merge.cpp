@@ -20,7 +20,7 @@ constexpr float kFinestCell = 1.0f / 256;
 
 using Cell = std::array<int32_t, 4>; ///< and 1 if it is a cell of an open border
 
-struct Members
+struct CellMembers
 {
     Float3 sum;
     float count = 0;
@@ -30,12 +30,15 @@ struct Members
 class CellMerger
 {
 public:
-    CellMerger(const GroupMesh& group, Simplified& simplified)
-        : group_(group), simplified_(simplified), open_(openPositions(group)), goal_(group.positions.size())
+    CellMerger(const GroupMesh& group, SimplifiedGroup& simplified)
+        : group_(group),
+          simplified_(simplified),
+          open_(markOpenPositions(group)),
+          targets_(group.positions.size())
     {
         std::vector<uint8_t> used(group.positions.size(), 0);
         for (const uint32_t wedge : simplified.corners)
-            used[group.position_of_wedge[wedge]] = 1;
+            used[group.position_id_of_wedge[wedge]] = 1;
         for (uint32_t p = 0; p < used.size(); ++p)
             if (used[p] != 0)
                 used_.push_back(p);
@@ -47,58 +50,58 @@ public:
         for (int step = 0; step < kSteps; ++step)
         {
             const float cell = std::sqrt(coarse * fine);
-            findGoals(cell);
+            chooseTargets(cell);
             (keptTriangles().size() <= target_triangles ? coarse : fine) = cell;
         }
-        findGoals(coarse);
+        chooseTargets(coarse);
         apply(keptTriangles());
     }
 
 private:
-    Float3 place(uint32_t position) const { return simplified_.placement.places[position]; }
+    Float3 localPosition(uint32_t position) const { return simplified_.placement.positions[position]; }
 
     /// Choose the target of each position: the nearest locked one in its cell, else the one nearest to the
     /// cell's mean. Positions of open borders merge only with each other, so that open edges lie on the
     /// source's borders.
-    void findGoals(float cell_size)
+    void chooseTargets(float cell_size)
     {
-        std::map<Cell, Members> cells;
+        std::map<Cell, CellMembers> cells;
         for (const uint32_t p : used_)
         {
-            goal_[p] = p;
+            targets_[p] = p;
             Cell cell{0, 0, 0, group_.locked[p] == 0 && open_[p] != 0 ? 1 : 0};
             for (int axis = 0; axis < 3; ++axis)
                 cell[static_cast<size_t>(axis)] =
-                    static_cast<int32_t>(std::floor(place(p)[axis] / cell_size));
-            Members& members = cells[cell];
-            members.sum += place(p);
+                    static_cast<int32_t>(std::floor(localPosition(p)[axis] / cell_size));
+            CellMembers& members = cells[cell];
+            members.sum += localPosition(p);
             members.count += 1;
             members.positions.push_back(p);
         }
         for (const auto& [cell, members] : cells)
         {
-            std::vector<uint32_t> goals;
+            std::vector<uint32_t> locked_targets;
             for (const uint32_t p : members.positions)
                 if (group_.locked[p] != 0)
-                    goals.push_back(p);
-            if (goals.empty())
-                goals.push_back(nearest(members.sum / members.count, members.positions));
+                    locked_targets.push_back(p);
+            if (locked_targets.empty())
+                locked_targets.push_back(nearest(members.sum / members.count, members.positions));
             for (const uint32_t p : members.positions)
                 if (group_.locked[p] == 0)
-                    goal_[p] = nearest(place(p), goals);
+                    targets_[p] = nearest(localPosition(p), locked_targets);
         }
     }
 
     uint32_t nearest(Float3 to, const std::vector<uint32_t>& positions) const
     {
-        const auto distance2 = [&](uint32_t p) { return dot(place(p) - to, place(p) - to); };
+        const auto distance2 = [&](uint32_t p) { return dot(localPosition(p) - to, localPosition(p) - to); };
         return *std::min_element(positions.begin(), positions.end(),
                                  [&](uint32_t a, uint32_t b) { return distance2(a) < distance2(b); });
     }
 
-    uint32_t goalOf(size_t corner) const
+    uint32_t targetPosition(size_t corner) const
     {
-        return goal_[group_.position_of_wedge[simplified_.corners[corner]]];
+        return targets_[group_.position_id_of_wedge[simplified_.corners[corner]]];
     }
 
     /// Return the triangles with three different corners, except pairs that cancel.
@@ -108,8 +111,8 @@ private:
         std::map<std::array<uint32_t, 3>, std::vector<uint32_t>> by_corners;
         for (uint32_t t = 0; t < simplified_.triangleCount(); ++t)
         {
-            std::array<uint32_t, 3> c{goalOf(size_t{t} * 3), goalOf(size_t{t} * 3 + 1),
-                                      goalOf(size_t{t} * 3 + 2)};
+            std::array<uint32_t, 3> c{targetPosition(size_t{t} * 3), targetPosition(size_t{t} * 3 + 1),
+                                      targetPosition(size_t{t} * 3 + 2)};
             if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0])
                 continue;
             std::rotate(c.begin(), std::min_element(c.begin(), c.end()), c.end());
@@ -130,18 +133,19 @@ private:
     {
         if (kept.empty())
             return;
-        std::vector<std::vector<uint32_t>> wedges_at(goal_.size());
+        std::vector<std::vector<uint32_t>> wedges_at(targets_.size());
         for (const uint32_t wedge : simplified_.corners)
         {
-            auto& wedges = wedges_at[group_.position_of_wedge[wedge]];
+            auto& wedges = wedges_at[group_.position_id_of_wedge[wedge]];
             if (std::find(wedges.begin(), wedges.end(), wedge) == wedges.end())
                 wedges.push_back(wedge);
         }
-        Simplified merged;
+        SimplifiedGroup merged;
         for (const uint32_t t : kept)
         {
             for (size_t corner = size_t{t} * 3; corner < size_t{t} * 3 + 3; ++corner)
-                merged.corners.push_back(likeliest(simplified_.corners[corner], wedges_at[goalOf(corner)]));
+                merged.corners.push_back(
+                    nearestWedge(simplified_.corners[corner], wedges_at[targetPosition(corner)]));
             merged.materials.push_back(simplified_.materials[t]);
             merged.source_triangle.push_back(simplified_.source_triangle[t]);
         }
@@ -150,11 +154,11 @@ private:
         simplified_.source_triangle = std::move(merged.source_triangle);
         for (uint32_t& target : simplified_.target_of_position)
             if (target != kPruned)
-                target = goal_[target];
+                target = targets_[target];
     }
 
     /// Return the wedge itself, or the one with the nearest attributes.
-    uint32_t likeliest(uint32_t wedge, const std::vector<uint32_t>& wedges) const
+    uint32_t nearestWedge(uint32_t wedge, const std::vector<uint32_t>& wedges) const
     {
         return *std::min_element(
             wedges.begin(), wedges.end(),
@@ -166,15 +170,15 @@ private:
     }
 
     const GroupMesh& group_;
-    Simplified& simplified_;
+    SimplifiedGroup& simplified_;
     std::vector<uint8_t> open_;
-    std::vector<uint32_t> used_; ///< positions that still have triangles
-    std::vector<uint32_t> goal_; ///< target of each used position
+    std::vector<uint32_t> used_;    ///< positions that still have triangles
+    std::vector<uint32_t> targets_; ///< target of each used position
 };
 
 } // namespace
 
-void mergeByCells(const GroupMesh& group, size_t target_triangles, Simplified& simplified)
+void mergeByCells(const GroupMesh& group, size_t target_triangles, SimplifiedGroup& simplified)
 {
     CellMerger(group, simplified).run(target_triangles);
 }

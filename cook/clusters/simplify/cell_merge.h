@@ -14,6 +14,6 @@ namespace hearth::clusters
 /// positions force. Positions near a locked one move to it. Sheets and shells may touch and close, but no
 /// edge opens: triangles are removed only if two of their corners meet, or in pairs of opposite orientation.
 /// J. Rossignac, P. Borrel, "Multi-resolution 3D approximations for rendering complex scenes", 1993
-void mergeByCells(const GroupMesh& group, size_t target_triangles, Simplified& simplified);
+void mergeByCells(const GroupMesh& group, size_t target_triangles, SimplifiedGroup& simplified);
 
 } // namespace hearth::clusters

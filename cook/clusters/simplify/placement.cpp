@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/simplify/placement.h"
 
-#include "cook/clusters/simplify/turning.h"
+#include "cook/clusters/simplify/triangle_flip.h"
 #include "cook/mesh/grid.h"
 
 #include <cmath>
@@ -16,7 +16,7 @@ namespace
 {
 
 // Maximum distance that a position moves, in parts of its longest edge.
-constexpr float kFarthest = 1.0f;
+constexpr float kMaxMove = 1.0f;
 
 constexpr int kMaxHalvings = 2;
 
@@ -69,22 +69,22 @@ private:
         const std::optional<Float3> best = solve(quadric);
         Float3 offset = best ? *best : Float3{};
         const float longest = longestEdge(position);
-        if (!(dot(offset, offset) <= kFarthest * kFarthest * longest * longest))
+        if (!(dot(offset, offset) <= kMaxMove * kMaxMove * longest * longest))
             offset = {};
-        result_.object_places[position] = objectPlace(group_, group_.positions[position]);
+        result_.object_positions[position] = toObjectSpace(group_, group_.positions[position]);
         for (int halvings = 0; halvings <= kMaxHalvings; ++halvings, offset = offset * 0.5f)
         {
-            const Float3 object_place = objectPlace(group_, group_.positions[position] + offset);
-            const Float3 place = localPlace(group_, object_place);
-            if (turnsOver(position, place))
+            const Float3 object_position = toObjectSpace(group_, group_.positions[position] + offset);
+            const Float3 place = toLocalSpace(group_, object_position);
+            if (flipsTriangle(position, place))
                 continue;
-            result_.places[position] = place;
-            result_.object_places[position] = object_place;
+            result_.positions[position] = place;
+            result_.object_positions[position] = object_position;
             break;
         }
         for (const uint32_t wedge : wedges_)
-            solveAttributes(wedge, result_.places[position] - group_.positions[position]);
-        result_.remade[position] = 1;
+            solveAttributes(wedge, result_.positions[position] - group_.positions[position]);
+        result_.modified[position] = 1;
     }
 
     /// Collect the wedges of a position. False at an open border: its position stays, the next mesh may lie
@@ -110,7 +110,7 @@ private:
         {
             // around a closed star, each neighbour is the next corner once
             const Float3 along =
-                result_.places[mesh_.positionAt(nextCorner(corner))] - group_.positions[position];
+                result_.positions[mesh_.positionIdAt(nextCorner(corner))] - group_.positions[position];
             longest2 = std::max(longest2, dot(along, along));
         }
         return std::sqrt(longest2);
@@ -120,7 +120,7 @@ private:
     /// complement).
     void eliminateAttributes(uint32_t wedge, PositionQuadric& quadric) const
     {
-        const Lanes inverse = allLanes(inverseOr0(quadrics_.wedge_weight[wedge]));
+        const Lanes inverse = splat(inverseOr0(quadrics_.wedge_weight[wedge]));
         PlaneSums sums;
         LaneVector of_b{};
         for (uint32_t r = 0; r < group_.attribute_rows; ++r)
@@ -140,8 +140,8 @@ private:
 
     void solveAttributes(uint32_t wedge, Float3 offset)
     {
-        const Lanes inverse = allLanes(inverseOr0(quadrics_.wedge_weight[wedge]));
-        const LaneVector moved = allLanes(offset);
+        const Lanes inverse = splat(inverseOr0(quadrics_.wedge_weight[wedge]));
+        const LaneVector moved = splat(offset);
         for (uint32_t r = 0; r < group_.attribute_rows; ++r)
         {
             const AttributeGradients& g = quadrics_.gradients[size_t{wedge} * group_.attribute_rows + r];
@@ -150,12 +150,12 @@ private:
         }
     }
 
-    bool turnsOver(uint32_t position, Float3 place) const
+    bool flipsTriangle(uint32_t position, Float3 place) const
     {
         for (const Corner corner : mesh_.star(position))
-            if (turnsTriangle(result_.places[mesh_.positionAt(nextCorner(corner))],
-                              result_.places[mesh_.positionAt(previousCorner(corner))],
-                              result_.places[position], place))
+            if (moveFlipsTriangle(result_.positions[mesh_.positionIdAt(nextCorner(corner))],
+                                  result_.positions[mesh_.positionIdAt(previousCorner(corner))],
+                                  result_.positions[position], place))
                 return true;
         return false;
     }
@@ -169,7 +169,7 @@ private:
 
 } // namespace
 
-Float3 objectPlace(const GroupMesh& group, Float3 local)
+Float3 toObjectSpace(const GroupMesh& group, Float3 local)
 {
     Float3 place;
     for (int axis = 0; axis < 3; ++axis)
@@ -177,7 +177,7 @@ Float3 objectPlace(const GroupMesh& group, Float3 local)
     return place;
 }
 
-Float3 localPlace(const GroupMesh& group, Float3 object)
+Float3 toLocalSpace(const GroupMesh& group, Float3 object)
 {
     Float3 place;
     for (int axis = 0; axis < 3; ++axis)
@@ -185,8 +185,8 @@ Float3 localPlace(const GroupMesh& group, Float3 object)
     return place;
 }
 
-Placement placeOptimally(const GroupMesh& group, StarMesh& mesh, const Quadrics& quadrics,
-                         std::span<const uint8_t> movable)
+Placement optimizePlacement(const GroupMesh& group, StarMesh& mesh, const Quadrics& quadrics,
+                            std::span<const uint8_t> movable)
 {
     return Placer(group, mesh, quadrics).run(movable);
 }
@@ -197,10 +197,10 @@ void growIslands(const GroupMesh& group, const Growth& growth, Placement& placem
     {
         const uint32_t position = growth.positions[i];
         const Float3 center = growth.centers[i];
-        placement.object_places[position] =
-            objectPlace(group, center + (placement.places[position] - center) * growth.factor);
-        placement.places[position] = localPlace(group, placement.object_places[position]);
-        placement.remade[position] = 1;
+        placement.object_positions[position] =
+            toObjectSpace(group, center + (placement.positions[position] - center) * growth.factor);
+        placement.positions[position] = toLocalSpace(group, placement.object_positions[position]);
+        placement.modified[position] = 1;
     }
 }
 

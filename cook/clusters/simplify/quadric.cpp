@@ -35,7 +35,7 @@ void addTriangle(Quadrics& quadrics, const GroupMesh& group, size_t first_corner
     for (size_t k = 0; k < 3; ++k)
     {
         wedge[k] = group.corners[first_corner + k];
-        position[k] = group.position_of_wedge[wedge[k]];
+        position[k] = group.position_id_of_wedge[wedge[k]];
         free[k] = group.locked[position[k]] == 0;
     }
     const Float3 e1 = group.positions[position[1]] - group.positions[position[0]];
@@ -50,17 +50,17 @@ void addTriangle(Quadrics& quadrics, const GroupMesh& group, size_t first_corner
     quadric.addPlane(normal / twice_area, weight);
 
     const GradientBasis basis = gradientBasis(e1, e2);
-    const LaneVector of_e1 = allLanes(basis.of_e1);
-    const LaneVector of_e2 = allLanes(basis.of_e2);
+    const LaneVector of_e1 = splat(basis.of_e1);
+    const LaneVector of_e2 = splat(basis.of_e2);
     const uint32_t rows = group.attribute_rows;
     PlaneSums planes;
     for (uint32_t r = 0; r < rows; ++r)
     {
-        const Lanes s0 = group.attributesOf(wedge[0])[r];
-        const Lanes s1 = group.attributesOf(wedge[1])[r];
-        const Lanes s2 = group.attributesOf(wedge[2])[r];
+        const Lanes s0 = group.wedgeAttributes(wedge[0])[r];
+        const Lanes s1 = group.wedgeAttributes(wedge[1])[r];
+        const Lanes s2 = group.wedgeAttributes(wedge[2])[r];
         const LaneVector gradient = of_e1 * (s1 - s0) + of_e2 * (s2 - s0);
-        const LaneVector weighted = gradient * allLanes(weight);
+        const LaneVector weighted = gradient * splat(weight);
         planes.add(gradient, weighted);
         for (size_t k = 0; k < 3; ++k)
             if (free[k])
@@ -70,7 +70,7 @@ void addTriangle(Quadrics& quadrics, const GroupMesh& group, size_t first_corner
             }
     }
     planes.addTo(quadric);
-    const float spread = kSpread * weight;
+    const float spread = kPointWeight * weight;
     quadric.diagonal_c += Lanes{spread, spread, spread, 0};
     for (size_t k = 0; k < 3; ++k)
         if (free[k])
@@ -85,7 +85,7 @@ void addTriangle(Quadrics& quadrics, const GroupMesh& group, size_t first_corner
 void Quadrics::move(const GroupMesh& group, uint32_t from, uint32_t to, std::span<const WedgeMove> moves)
 {
     const Float3 t = group.positions[to] - group.positions[from];
-    const LaneVector t_lanes = allLanes(t);
+    const LaneVector t_lanes = splat(t);
     const uint32_t rows = group.attribute_rows;
     PositionQuadric moved = position[from];
     Lanes moved_c{};
@@ -96,7 +96,7 @@ void Quadrics::move(const GroupMesh& group, uint32_t from, uint32_t to, std::spa
         wedge_weight[wedge.to] += weight;
         for (uint32_t r = 0; r < rows; ++r)
         {
-            const Lanes delta = group.attributesOf(wedge.to)[r] - group.attributesOf(wedge.from)[r];
+            const Lanes delta = group.wedgeAttributes(wedge.to)[r] - group.wedgeAttributes(wedge.from)[r];
             const AttributeGradients g = gradients[size_t{wedge.from} * rows + r];
             AttributeGradients& goal = gradients[size_t{wedge.to} * rows + r];
             moved_c += delta * (weight * delta - 2 * g.offset);
@@ -110,7 +110,7 @@ void Quadrics::move(const GroupMesh& group, uint32_t from, uint32_t to, std::spa
     position[to].addMoved(moved, t);
 }
 
-Quadrics initialQuadrics(const GroupMesh& group)
+Quadrics computeQuadrics(const GroupMesh& group)
 {
     Quadrics quadrics;
     quadrics.position.resize(group.positions.size());

@@ -28,7 +28,7 @@ struct PositionQuadric
     void addPlane(Float3 unit_normal, float weight)
     {
         const Lanes n{unit_normal.x, unit_normal.y, unit_normal.z, 0};
-        const Lanes weighted = n * allLanes(weight);
+        const Lanes weighted = n * splat(weight);
         diagonal_c += n * weighted;
         mixed += __builtin_shufflevector(n, n, 0, 0, 1, 3) * __builtin_shufflevector(weighted, n, 1, 2, 2, 3);
     }
@@ -60,7 +60,7 @@ struct PositionQuadric
     /// Evaluate at four offsets.
     Lanes at(LaneVector x) const
     {
-        const auto all = [](float value) { return allLanes(value); };
+        const auto all = [](float value) { return splat(value); };
         const Lanes twice{2, 2, 2, 2};
         const Lanes of_x =
             all(diagonal_c[0]) * x.x + twice * (all(mixed[0]) * x.y + all(mixed[1]) * x.z + all(b[0]));
@@ -123,8 +123,8 @@ struct Quadrics
     Lanes attributeError(const GroupMesh& group, WedgeMove move, LaneVector t) const
     {
         const float weight = wedge_weight[move.from];
-        const Lanes* from = group.attributesOf(move.from);
-        const Lanes* to = group.attributesOf(move.to);
+        const Lanes* from = group.wedgeAttributes(move.from);
+        const Lanes* to = group.wedgeAttributes(move.to);
         const AttributeGradients* g = gradients.data() + size_t{move.from} * group.attribute_rows;
         Lanes error{};
         for (uint32_t r = 0; r < group.attribute_rows; ++r)
@@ -141,21 +141,21 @@ struct Quadrics
                        const std::array<uint32_t, kLanes>& to, LaneVector t) const
     {
         Lanes error = position[position_from].at(t);
-        const Lanes weight = allLanes(wedge_weight[wedge]);
-        const Lanes* from = group.attributesOf(wedge);
+        const Lanes weight = splat(wedge_weight[wedge]);
+        const Lanes* from = group.wedgeAttributes(wedge);
         const AttributeGradients* g = gradients.data() + size_t{wedge} * group.attribute_rows;
         for (uint32_t r = 0, left = group.attribute_count; r < group.attribute_rows; ++r)
         {
             const std::array<Lanes, kLanes> of_ends =
-                transposed({group.attributesOf(to[0])[r], group.attributesOf(to[1])[r],
-                            group.attributesOf(to[2])[r], group.attributesOf(to[3])[r]});
+                transposed({group.wedgeAttributes(to[0])[r], group.wedgeAttributes(to[1])[r],
+                            group.wedgeAttributes(to[2])[r], group.wedgeAttributes(to[3])[r]});
             const uint32_t count = std::min(left, uint32_t{kLanes});
             left -= count;
             for (uint32_t i = 0; i < count; ++i)
             {
-                const Lanes delta = of_ends[i] - allLanes(from[r][i]);
-                const Lanes change = allLanes(g[r].gradient.x[i]) * t.x + allLanes(g[r].gradient.y[i]) * t.y +
-                                     allLanes(g[r].gradient.z[i]) * t.z + allLanes(g[r].offset[i]);
+                const Lanes delta = of_ends[i] - splat(from[r][i]);
+                const Lanes change = splat(g[r].gradient.x[i]) * t.x + splat(g[r].gradient.y[i]) * t.y +
+                                     splat(g[r].gradient.z[i]) * t.z + splat(g[r].offset[i]);
                 error += delta * (weight * delta - (change + change));
             }
         }
@@ -163,7 +163,7 @@ struct Quadrics
     }
 
     /// Return the most that optimal attributes at its target could subtract from the error of a wedge.
-    Lanes mostGain(const GroupMesh& group, uint32_t wedge, LaneVector t) const
+    Lanes maxAttributeGain(const GroupMesh& group, uint32_t wedge, LaneVector t) const
     {
         const AttributeGradients* g = gradients.data() + size_t{wedge} * group.attribute_rows;
         Lanes squares{};
@@ -182,8 +182,8 @@ struct Quadrics
 /// Return the squared distance of two wedges' attributes.
 inline float attributeDistance2(const GroupMesh& group, uint32_t a, uint32_t b)
 {
-    const Lanes* attributes_a = group.attributesOf(a);
-    const Lanes* attributes_b = group.attributesOf(b);
+    const Lanes* attributes_a = group.wedgeAttributes(a);
+    const Lanes* attributes_b = group.wedgeAttributes(b);
     Lanes squares{};
     for (uint32_t r = 0; r < group.attribute_rows; ++r)
     {
@@ -196,11 +196,11 @@ inline float attributeDistance2(const GroupMesh& group, uint32_t a, uint32_t b)
 // Weight of the distance to the position itself against the distances to planes. It makes one position
 // optimal where the surface is flat, like uncertain normals would (P. Trettner, L. Kobbelt, "Fast and robust
 // QEF minimization using probabilistic quadrics", 2020).
-inline constexpr float kSpread = 1e-5f;
+inline constexpr float kPointWeight = 1e-5f;
 
 /// Compute the quadrics of all triangles and attributes; those of locked positions are never used and left
 /// out.
-Quadrics initialQuadrics(const GroupMesh& group);
+Quadrics computeQuadrics(const GroupMesh& group);
 
 /// Compute the quadric that holds an edge in place: the plane through it perpendicular to a triangle beside
 /// it.

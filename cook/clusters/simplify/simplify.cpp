@@ -6,9 +6,10 @@
 #include "cook/clusters/simplify/quadric.h"
 #include "cook/clusters/simplify/star_mesh.h"
 #include "cook/clusters/simplify/thinning.h"
-#include "cook/clusters/simplify/turning.h"
+#include "cook/clusters/simplify/triangle_flip.h"
 #include "cook/clusters/simplify/wedge_map.h"
 #include "formats/base/assert.h"
+#include "formats/base/index.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,10 +22,8 @@ namespace hearth::clusters
 namespace
 {
 
-constexpr uint32_t kNoPosition = 0xFFFFFFFFu;
-
 // Collapses without jumps that end within this factor of the target are good enough.
-constexpr double kNearTarget = 1.1;
+constexpr double kTargetTolerance = 1.1;
 
 struct Candidate
 {
@@ -43,14 +42,14 @@ public:
         : group_(group),
           mesh_(group),
           wedges_(group, mesh_),
-          quadrics_(initialQuadrics(group)),
+          quadrics_(computeQuadrics(group)),
           version_(group.positions.size(), 0),
-          best_target_(group.positions.size(), kNoPosition),
+          best_target_(group.positions.size(), kInvalidIndex),
           outdated_(group.positions.size(), 0),
           target_(group.positions.size()),
-          edges_held_(group.positions.size(), 0),
+          edge_planes_added_(group.positions.size(), 0),
           wedge_blocked_(group.positions.size(), 0),
-          grown_(group.positions.size(), 0)
+          is_target_(group.positions.size(), 0)
     {
         for (uint32_t p = 0; p < target_.size(); ++p)
             target_[p] = p;
@@ -72,19 +71,20 @@ public:
     std::optional<size_t> collapseUntil(const CostStop& stop)
     {
         begin(false);
-        size_t target = stop.least;
-        bool dear = false;
+        size_t target = stop.min_triangles;
+        bool too_costly = false;
         while (mesh_.aliveCount() > target && !heap_.empty())
         {
-            if (!dear && nextCost() > stop.cost)
+            if (!too_costly && nextCost() > stop.cost)
             {
-                dear = true;
-                target = std::max(target, fullClusters(std::min(mesh_.aliveCount(), stop.most)));
+                too_costly = true;
+                target =
+                    std::max(target, roundToFullClusters(std::min(mesh_.aliveCount(), stop.max_triangles)));
             }
             else
                 step();
         }
-        return dear || mesh_.aliveCount() <= target ? std::optional(target) : std::nullopt;
+        return too_costly || mesh_.aliveCount() <= target ? std::optional(target) : std::nullopt;
     }
 
     std::vector<CollapseStep> costsUntil(size_t target_triangles)
@@ -105,7 +105,7 @@ public:
 
     bool pruneIslands(size_t target_triangles);
 
-    Simplified result();
+    SimplifiedGroup result();
 
 private:
     void begin(bool permissive)
@@ -122,7 +122,7 @@ private:
         const double scale2 = group_.scale * group_.scale;
         return double{heap_.front().cost()} * scale2 * scale2;
     }
-    void holdEdges(uint32_t position);
+    void addEdgePlanes(uint32_t position);
     void gather(uint32_t position)
     {
         if (!mesh_.gatherFan(position))
@@ -141,22 +141,25 @@ private:
     std::optional<Candidate> nextCandidate(uint32_t position);
     void evaluateGathered(uint32_t position);
     void evaluateValid(uint32_t position, float popped_cost);
-    bool turnsOver(uint32_t from, uint32_t to);
-    bool valid(uint32_t from, uint32_t to) { return mesh_.linkHolds(from, to) && !turnsOver(from, to); }
+    bool flipsTriangle(uint32_t from, uint32_t to);
+    bool valid(uint32_t from, uint32_t to)
+    {
+        return mesh_.satisfiesLinkCondition(from, to) && !flipsTriangle(from, to);
+    }
     void step();
-    void noteAround(uint32_t center);
+    void updateNeighbours(uint32_t center);
 
     const GroupMesh& group_;
     StarMesh mesh_;
     WedgeMap wedges_; ///< of the gathered position
     Quadrics quadrics_;
-    std::vector<uint32_t> version_;      ///< heap entries with another version are stale
-    std::vector<uint32_t> best_target_;  ///< target of the heap entry, or kNoPosition
-    std::vector<uint8_t> outdated_;      ///< 1 if the cost in the heap dates from before a collapse
-    std::vector<uint32_t> target_;       ///< next position for removed ones
-    std::vector<uint8_t> edges_held_;    ///< 1 if holdEdges was called
-    std::vector<uint8_t> wedge_blocked_; ///< 1 if wedges without an edge along it blocked a collapse
-    std::vector<uint8_t> grown_;         ///< 1 for positions that others collapsed to
+    std::vector<uint32_t> version_;          ///< heap entries with another version are stale
+    std::vector<uint32_t> best_target_;      ///< target of the heap entry, or kInvalidIndex
+    std::vector<uint8_t> outdated_;          ///< 1 if the cost in the heap dates from before a collapse
+    std::vector<uint32_t> target_;           ///< next position for removed ones
+    std::vector<uint8_t> edge_planes_added_; ///< 1 if addEdgePlanes was called
+    std::vector<uint8_t> wedge_blocked_;     ///< 1 if wedges without an edge along it blocked a collapse
+    std::vector<uint8_t> is_target_;         ///< 1 for positions that others collapsed to
     CollapseHeap heap_;
     Growth growth_;
 
@@ -167,9 +170,9 @@ private:
 
 /// Add planes that hold open borders, edges of more than two triangles, and seams at the gathered position.
 /// Each end of an edge adds its own when its collapses are first evaluated.
-void Collapser::holdEdges(uint32_t position)
+void Collapser::addEdgePlanes(uint32_t position)
 {
-    edges_held_[position] = 1;
+    edge_planes_added_[position] = 1;
     const Float3 place = group_.positions[position];
     const auto hold = [&](uint32_t end, uint32_t tip)
     {
@@ -183,8 +186,8 @@ void Collapser::holdEdges(uint32_t position)
     };
     for (const Corner corner : mesh_.star(position))
     {
-        const uint32_t next = mesh_.positionAt(nextCorner(corner));
-        const uint32_t previous = mesh_.positionAt(previousCorner(corner));
+        const uint32_t next = mesh_.positionIdAt(nextCorner(corner));
+        const uint32_t previous = mesh_.positionIdAt(previousCorner(corner));
         hold(next, previous);
         hold(previous, next);
     }
@@ -195,14 +198,14 @@ void Collapser::holdEdges(uint32_t position)
 float Collapser::cost(uint32_t from, uint32_t to) const
 {
     const Float3 t = group_.positions[to] - group_.positions[from];
-    const LaneVector t_lanes = allLanes(t);
+    const LaneVector t_lanes = splat(t);
     Lanes attribute_error{};
     for (const WedgeMove& move : wedges_.moves())
         attribute_error += quadrics_.attributeError(group_, move, t_lanes);
     if (!wedges_.complete())
         for (const uint32_t wedge : mesh_.wedges())
             if (!wedges_.has(wedge))
-                attribute_error -= quadrics_.mostGain(group_, wedge, t_lanes);
+                attribute_error -= quadrics_.maxAttributeGain(group_, wedge, t_lanes);
     return std::max(quadrics_.position[from].at(t) + sumOfLanes(attribute_error), 0.0f);
 }
 
@@ -242,17 +245,17 @@ void Collapser::gatherCandidates(uint32_t position, bool along_seams)
     wedge_blocked_[position] = 0;
     if (mesh_.plain())
     {
-        edges_held_[position] = 1;
+        edge_planes_added_[position] = 1;
         forEachOfFan(position, [&](const Candidate& candidate) { candidates_.push_back(candidate); });
         return;
     }
     const auto ring = mesh_.ring();
     if (std::all_of(ring.begin(), ring.end(), [&](const Spoke& s) { return mesh_.emptiesStar(position, s); }))
         return;
-    if (edges_held_[position] == 0)
-        holdEdges(position);
+    if (edge_planes_added_[position] == 0)
+        addEdgePlanes(position);
     // an edge connects two charts at most
-    if (!wedges_.permissive && mesh_.layers() == 1 && wedges_.moreChartsThanTwo())
+    if (!wedges_.permissive && mesh_.layers() == 1 && wedges_.hasMoreThanTwoCharts())
     {
         wedge_blocked_[position] = 1;
         return;
@@ -297,7 +300,7 @@ std::optional<Candidate> Collapser::nextCandidate(uint32_t position)
             return candidate;
         }
         wedges_.mapAlong(position, *mesh_.spokeTo(cheapest->target));
-        wedges_.mapRest(cheapest->target);
+        wedges_.mapRemaining(cheapest->target);
         cheapest->cost = cost(position, cheapest->target);
         cheapest->exact = true;
     }
@@ -309,14 +312,14 @@ void Collapser::evaluateGathered(uint32_t position)
 {
     ++version_[position];
     outdated_[position] = 0;
-    best_target_[position] = kNoPosition;
+    best_target_[position] = kInvalidIndex;
     if (mesh_.plain())
     {
         wedge_blocked_[position] = 0;
-        edges_held_[position] = 1;
-        Candidate best{std::numeric_limits<float>::infinity(), kNoPosition, true};
+        edge_planes_added_[position] = 1;
+        Candidate best{std::numeric_limits<float>::infinity(), kInvalidIndex, true};
         forEachOfFan(position, [&](const Candidate& candidate) { best = std::min(best, candidate); });
-        if (best.target != kNoPosition)
+        if (best.target != kInvalidIndex)
             push(position, best);
         return;
     }
@@ -330,7 +333,7 @@ void Collapser::evaluateValid(uint32_t position, float popped_cost)
 {
     ++version_[position];
     outdated_[position] = 0;
-    best_target_[position] = kNoPosition;
+    best_target_[position] = kInvalidIndex;
     gatherCandidates(position, false);
     while (auto candidate = nextCandidate(position))
         if (valid(position, candidate->target))
@@ -342,15 +345,15 @@ void Collapser::evaluateValid(uint32_t position, float popped_cost)
 }
 
 /// Tests all triangles: few flip, and a branch on the removed ones would be unpredictable.
-bool Collapser::turnsOver(uint32_t from, uint32_t to)
+bool Collapser::flipsTriangle(uint32_t from, uint32_t to)
 {
     uint32_t turned = 0;
     for (const Corner corner : mesh_.star(from))
     {
-        const uint32_t next = mesh_.positionAt(nextCorner(corner));
-        const uint32_t previous = mesh_.positionAt(previousCorner(corner));
-        const bool turns = turnsTriangle(group_.positions[next], group_.positions[previous],
-                                         group_.positions[from], group_.positions[to]);
+        const uint32_t next = mesh_.positionIdAt(nextCorner(corner));
+        const uint32_t previous = mesh_.positionIdAt(previousCorner(corner));
+        const bool turns = moveFlipsTriangle(group_.positions[next], group_.positions[previous],
+                                             group_.positions[from], group_.positions[to]);
         turned |= static_cast<uint32_t>(turns) & static_cast<uint32_t>(next != to) &
                   static_cast<uint32_t>(previous != to);
     }
@@ -360,20 +363,20 @@ bool Collapser::turnsOver(uint32_t from, uint32_t to)
 /// Update the positions around `center` after a collapse to it. Its own cost has probably risen and is
 /// evaluated again when popped, like that of positions whose target is gone. Positions without a candidate
 /// may have one now.
-void Collapser::noteAround(uint32_t center)
+void Collapser::updateNeighbours(uint32_t center)
 {
     outdated_[center] = 1;
     around_.clear();
     const auto note = [&](uint32_t position)
     {
-        if (best_target_[position] == kNoPosition && group_.locked[position] == 0)
+        if (best_target_[position] == kInvalidIndex && group_.locked[position] == 0)
             around_.push_back(position);
     };
     note(center);
     for (const Corner corner : mesh_.star(center))
     {
-        note(mesh_.positionAt(nextCorner(corner)));
-        note(mesh_.positionAt(previousCorner(corner)));
+        note(mesh_.positionIdAt(nextCorner(corner)));
+        note(mesh_.positionIdAt(previousCorner(corner)));
     }
     std::sort(around_.begin(), around_.end());
     around_.erase(std::unique(around_.begin(), around_.end()), around_.end());
@@ -397,14 +400,14 @@ void Collapser::step()
         evaluateValid(entry.position(), entry.cost());
         return;
     }
-    wedges_.mapRest(entry.target());
+    wedges_.mapRemaining(entry.target());
     if (group_.locked[entry.target()] == 0) // quadrics of locked positions are not used
         quadrics_.move(group_, entry.position(), entry.target(), wedges_.moves());
     mesh_.collapse(entry.position(), entry.target(), wedges_.moves());
     target_[entry.position()] = entry.target();
-    grown_[entry.target()] = 1;
+    is_target_[entry.target()] = 1;
     ++version_[entry.position()];
-    noteAround(entry.target());
+    updateNeighbours(entry.target());
 }
 
 bool Collapser::pruneIslands(size_t target_triangles)
@@ -414,15 +417,15 @@ bool Collapser::pruneIslands(size_t target_triangles)
     return thinning.pruned;
 }
 
-Simplified Collapser::result()
+SimplifiedGroup Collapser::result()
 {
-    Simplified result;
+    SimplifiedGroup result;
     result.source_triangle = mesh_.aliveTriangles();
     result.corners.reserve(mesh_.aliveCount() * 3);
     result.materials.reserve(mesh_.aliveCount());
     for (const uint32_t t : result.source_triangle)
     {
-        for (const Corner corner : StarMesh::cornersOf(t))
+        for (const Corner corner : StarMesh::triangleCorners(t))
             result.corners.push_back(mesh_.wedgeAt(corner));
         result.materials.push_back(group_.materials[t]);
     }
@@ -436,11 +439,11 @@ Simplified Collapser::result()
     }
     for (uint32_t p = 0; p < target_.size(); ++p)
     {
-        const bool left = target_[p] == p, free = group_.locked[p] == 0, asked = edges_held_[p] != 0;
-        const bool may_move = left & free & asked & !group_.keeps_places;
-        grown_[p] &= may_move ? 1 : 0;
+        const bool left = target_[p] == p, free = group_.locked[p] == 0, asked = edge_planes_added_[p] != 0;
+        const bool may_move = left & free & asked & !group_.positions_fixed;
+        is_target_[p] &= may_move ? 1 : 0;
     }
-    result.placement = placeOptimally(group_, mesh_, quadrics_, grown_);
+    result.placement = optimizePlacement(group_, mesh_, quadrics_, is_target_);
     growIslands(group_, growth_, result.placement);
     return result;
 }
@@ -452,8 +455,8 @@ std::vector<CollapseStep> collapseCosts(const GroupMesh& group, size_t least)
     return Collapser(group).costsUntil(least);
 }
 
-Simplified simplifyGroup(const GroupMesh& group, size_t target_triangles, size_t most_triangles,
-                         const std::optional<CostStop>& stop)
+SimplifiedGroup simplifyGroup(const GroupMesh& group, size_t target_triangles, size_t max_triangles,
+                              const std::optional<CostStop>& stop)
 {
     HEARTH_ASSERT(target_triangles > 0);
     Collapser collapser(group);
@@ -464,8 +467,8 @@ Simplified simplifyGroup(const GroupMesh& group, size_t target_triangles, size_t
     else
         collapser.collapseUntil(target_triangles, false);
     const auto near_target =
-        std::min(static_cast<size_t>(static_cast<double>(target_triangles) * kNearTarget),
-                 std::max(most_triangles, target_triangles));
+        std::min(static_cast<size_t>(static_cast<double>(target_triangles) * kTargetTolerance),
+                 std::max(max_triangles, target_triangles));
     if (collapser.triangleCount() > near_target)
     {
         const size_t before = collapser.triangleCount();
@@ -474,7 +477,7 @@ Simplified simplifyGroup(const GroupMesh& group, size_t target_triangles, size_t
     }
     if (collapser.triangleCount() > near_target)
         pruned = collapser.pruneIslands(target_triangles);
-    Simplified result = collapser.result();
+    SimplifiedGroup result = collapser.result();
     result.permissive = permissive;
     result.pruned = pruned;
     return result;

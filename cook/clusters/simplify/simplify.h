@@ -17,7 +17,7 @@ namespace hearth::clusters
 inline constexpr uint32_t kPruned = 0xFFFFFFFFu;
 
 /// Result of simplifying a group.
-struct Simplified
+struct SimplifiedGroup
 {
     std::vector<uint32_t> corners;   ///< wedges of the group's mesh, three for each remaining triangle
     std::vector<uint32_t> materials; ///< material of each remaining triangle
@@ -36,9 +36,9 @@ struct Simplified
 /// full clusters.
 struct CostStop
 {
-    double cost = 0;  ///< quadric error, object space: area times squared distance
-    size_t least = 1; ///< triangles that stay whatever they cost
-    size_t most = 1;  ///< triangles that may stay
+    double cost = 0;          ///< quadric error, object space: area times squared distance
+    size_t min_triangles = 1; ///< triangles that stay whatever they cost
+    size_t max_triangles = 1; ///< triangles that may stay
 };
 
 /// Cost and result of a collapse.
@@ -59,12 +59,12 @@ struct CollapseStep
 /// - no triangle flips, no two sheets are joined (link condition), no island disappears.
 /// Collapse targets are then moved to where the quadrics are minimal, with their attributes. If the target is
 /// not reached, whole islands are removed, the smallest first (`pruned`); one triangle always stays.
-/// most_triangles  with more than these nothing is gained: attributes may jump and islands are removed to
+/// max_triangles  with more than these nothing is gained: attributes may jump and islands are removed to
 ///                 avoid it
 /// stop            where collapses end; `target_triangles` then only applies to groups that need jumps or
 ///                 pruning
-Simplified simplifyGroup(const GroupMesh& group, size_t target_triangles, size_t most_triangles,
-                         const std::optional<CostStop>& stop = std::nullopt);
+SimplifiedGroup simplifyGroup(const GroupMesh& group, size_t target_triangles, size_t max_triangles,
+                              const std::optional<CostStop>& stop = std::nullopt);
 
 /// Return the costs of the collapses that simplifyGroup does without jumps, until `least` triangles are left
 /// or no collapse is valid.

@@ -12,7 +12,7 @@ namespace hearth::clusters
 {
 
 StarMesh::StarMesh(const GroupMesh& group)
-    : position_of_corner_(group.triangleCount() * 4),
+    : position_id_of_corner_(group.triangleCount() * 4),
       wedge_of_corner_(group.triangleCount() * 4),
       alive_(group.triangleCount(), 1),
       alive_count_(group.triangleCount()),
@@ -21,14 +21,14 @@ StarMesh::StarMesh(const GroupMesh& group)
       mark_(group.positions.size(), 0)
 {
     for (uint32_t w = 0; w < hash_of_wedge_.size(); ++w)
-        hash_of_wedge_[w] = hashOf(w);
+        hash_of_wedge_[w] = hashNumber(w);
     for (uint32_t t = 0; t < alive_.size(); ++t)
         for (uint32_t k = 0; k < 3; ++k)
         {
             const uint32_t wedge = group.corners[size_t{t} * 3 + k];
-            const uint32_t position = group.position_of_wedge[wedge];
+            const uint32_t position = group.position_id_of_wedge[wedge];
             wedge_of_corner_[t * 4 + k] = wedge;
-            position_of_corner_[t * 4 + k] = position;
+            position_id_of_corner_[t * 4 + k] = position;
             ++stars_[position].alive;
         }
     uint32_t first = 0;
@@ -41,9 +41,9 @@ StarMesh::StarMesh(const GroupMesh& group)
     star_items_.reserve(group.corners.size() * 3);
     star_items_.resize(group.corners.size());
     for (uint32_t t = 0; t < alive_.size(); ++t)
-        for (const Corner corner : cornersOf(t))
+        for (const Corner corner : triangleCorners(t))
         {
-            Star& star = stars_[position_of_corner_[corner]];
+            Star& star = stars_[position_id_of_corner_[corner]];
             star_items_[star.first + star.count++] = corner;
         }
 }
@@ -71,7 +71,7 @@ std::span<const Corner> StarMesh::star(uint32_t position)
         for (uint32_t i = 0; i < star.count; ++i)
         {
             items[kept] = items[i];
-            kept += alive_[triangleOf(items[i])];
+            kept += alive_[cornerTriangle(items[i])];
         }
         star.count = kept;
     }
@@ -107,7 +107,7 @@ bool StarMesh::gatherFan(uint32_t center)
     for (const Corner corner : corners)
     {
         const Corner next = nextCorner(corner);
-        *end = {position_of_corner_[next], wedge_of_corner_[next]};
+        *end = {position_id_of_corner_[next], wedge_of_corner_[next]};
         uint32_t& mark_of_end = mark_[end->position];
         // marks of other positions are smaller
         plain &= wedge_of_corner_[corner] == fan_wedge_ && mark_of_end < mark_value_;
@@ -126,7 +126,7 @@ void StarMesh::gather(uint32_t center)
 {
     clearGathered();
     wedges_.clear();
-    const auto spokeOf = [&](uint32_t position) -> Spoke&
+    const auto findOrAddSpoke = [&](uint32_t position) -> Spoke&
     {
         const uint32_t place = mark_[position] - mark_value_;
         if (place < ring_.size())
@@ -139,10 +139,10 @@ void StarMesh::gather(uint32_t center)
         const Corner next = nextCorner(corner);
         const Corner previous = previousCorner(corner);
         const uint32_t wedge = wedge_of_corner_[corner];
-        Spoke& out = spokeOf(position_of_corner_[next]);
+        Spoke& out = findOrAddSpoke(position_id_of_corner_[next]);
         ++out.out_count;
         out.out = {wedge, wedge_of_corner_[next]};
-        Spoke& in = spokeOf(position_of_corner_[previous]);
+        Spoke& in = findOrAddSpoke(position_id_of_corner_[previous]);
         ++in.in_count;
         in.in = {wedge, wedge_of_corner_[previous]};
         if (std::find(wedges_.begin(), wedges_.end(), wedge) == wedges_.end())
@@ -154,7 +154,7 @@ void StarMesh::gather(uint32_t center)
 }
 
 /// Test the link condition around a plain fan, without branches that depend on the stars except the last.
-bool StarMesh::linkHoldsInFan(uint32_t from, uint32_t to)
+bool StarMesh::satisfiesLinkConditionInFan(uint32_t from, uint32_t to)
 {
     const uint32_t size = fan_size_;
     const auto star_from = star(from);
@@ -163,8 +163,8 @@ bool StarMesh::linkHoldsInFan(uint32_t from, uint32_t to)
     uint32_t tip_out = 0, tip_in = 0;
     for (const Corner corner : star_from)
     {
-        const uint32_t next = position_of_corner_[nextCorner(corner)];
-        const uint32_t previous = position_of_corner_[previousCorner(corner)];
+        const uint32_t next = position_id_of_corner_[nextCorner(corner)];
+        const uint32_t previous = position_id_of_corner_[previousCorner(corner)];
         tip_out = next == to ? previous : tip_out;
         tip_in = previous == to ? next : tip_in;
     }
@@ -172,30 +172,31 @@ bool StarMesh::linkHoldsInFan(uint32_t from, uint32_t to)
     uint32_t others = 0;
     for (const Corner corner : star_to)
         for (const uint32_t p :
-             {position_of_corner_[nextCorner(corner)], position_of_corner_[previousCorner(corner)]})
+             {position_id_of_corner_[nextCorner(corner)], position_id_of_corner_[previousCorner(corner)]})
             others += static_cast<uint32_t>(mark_[p] >= mark_value_) & static_cast<uint32_t>(p != tip_out) &
                       static_cast<uint32_t>(p != tip_in);
     if (others != 0 || star_to.size() <= 2 || size <= 2 || degree(tip_out) <= 1 || degree(tip_in) <= 1)
         return false;
     // the third triangle of a fan of three may coincide with an existing one
-    return size > 3 ||
-           std::none_of(star_to.begin(), star_to.end(),
-                        [&](Corner corner)
-                        { return has(triangleOf(corner), tip_out) && has(triangleOf(corner), tip_in); });
+    return size > 3 || std::none_of(star_to.begin(), star_to.end(),
+                                    [&](Corner corner) {
+                                        return has(cornerTriangle(corner), tip_out) &&
+                                               has(cornerTriangle(corner), tip_in);
+                                    });
 }
 
-bool StarMesh::linkHolds(uint32_t from, uint32_t to)
+bool StarMesh::satisfiesLinkCondition(uint32_t from, uint32_t to)
 {
     if (plain())
-        return linkHoldsInFan(from, to);
+        return satisfiesLinkConditionInFan(from, to);
     const auto star_from = star(from);
     const auto star_to = star(to);
     uint32_t common = 0;
     tips_.clear();
     for (const Corner corner : star_from)
     {
-        const uint32_t next = position_of_corner_[nextCorner(corner)];
-        const uint32_t previous = position_of_corner_[previousCorner(corner)];
+        const uint32_t next = position_id_of_corner_[nextCorner(corner)];
+        const uint32_t previous = position_id_of_corner_[previousCorner(corner)];
         if (next != to && previous != to)
             continue;
         ++common;
@@ -208,7 +209,7 @@ bool StarMesh::linkHolds(uint32_t from, uint32_t to)
     // the tips of the common triangles must be the only common neighbours
     for (const Corner corner : star_to)
         for (const Corner far : {nextCorner(corner), previousCorner(corner)})
-            if (const uint32_t p = position_of_corner_[far]; gathered(p) && !isTip(p))
+            if (const uint32_t p = position_id_of_corner_[far]; gathered(p) && !isTip(p))
                 return false;
     for (const uint32_t tip : tips_)
         if (degree(tip) <= 1)
@@ -217,12 +218,12 @@ bool StarMesh::linkHolds(uint32_t from, uint32_t to)
     // a moved triangle whose far edge joins two tips may coincide with an existing one
     for (const Corner corner : star_from)
     {
-        const uint32_t a = position_of_corner_[nextCorner(corner)];
-        const uint32_t b = position_of_corner_[previousCorner(corner)];
+        const uint32_t a = position_id_of_corner_[nextCorner(corner)];
+        const uint32_t b = position_id_of_corner_[previousCorner(corner)];
         if (a == to || b == to || !isTip(a) || !isTip(b))
             continue;
         for (const Corner other : star_to)
-            if (has(triangleOf(other), a) && has(triangleOf(other), b))
+            if (has(cornerTriangle(other), a) && has(cornerTriangle(other), b))
                 return false;
     }
     return true;
@@ -236,8 +237,8 @@ void StarMesh::collapse(uint32_t from, uint32_t to, std::span<const WedgeMove> m
     size_t removed_count = 0;
     for (const Corner corner : star_from)
     {
-        removed_[removed_count] = triangleOf(corner);
-        removed_count += has(triangleOf(corner), to) ? 1u : 0u;
+        removed_[removed_count] = cornerTriangle(corner);
+        removed_count += has(cornerTriangle(corner), to) ? 1u : 0u;
     }
     for (size_t i = 0; i < removed_count; ++i)
         remove(removed_[i]);
@@ -249,7 +250,7 @@ void StarMesh::collapse(uint32_t from, uint32_t to, std::span<const WedgeMove> m
         for (uint32_t i = star.first; i < star.first + star.count; ++i)
         {
             *end = star_items_[i];
-            end += alive_[triangleOf(*end)];
+            end += alive_[cornerTriangle(*end)];
         }
     };
     copyStar(stars_[to]);
@@ -258,7 +259,7 @@ void StarMesh::collapse(uint32_t from, uint32_t to, std::span<const WedgeMove> m
     for (const Corner corner : std::span(moved, end))
     {
         uint32_t& wedge = wedge_of_corner_[corner];
-        position_of_corner_[corner] = to;
+        position_id_of_corner_[corner] = to;
         wedge = std::find_if(moves.begin(), moves.end(), [&](WedgeMove m) { return m.from == wedge; })->to;
     }
     const auto count = static_cast<uint32_t>(end - star_items_.data() - static_cast<ptrdiff_t>(first));
@@ -271,8 +272,8 @@ void StarMesh::remove(uint32_t triangle)
 {
     alive_[triangle] = 0;
     --alive_count_;
-    for (const Corner corner : cornersOf(triangle))
-        --stars_[position_of_corner_[corner]].alive;
+    for (const Corner corner : triangleCorners(triangle))
+        --stars_[position_id_of_corner_[corner]].alive;
 }
 
 } // namespace hearth::clusters

@@ -39,7 +39,7 @@ struct FanEnd
 /// Corner id: corner k of triangle t is 4 t + k, so steps around a triangle need no division.
 using Corner = uint32_t;
 
-inline uint32_t triangleOf(Corner corner)
+inline uint32_t cornerTriangle(Corner corner)
 {
     return corner >> 2;
 }
@@ -63,11 +63,11 @@ public:
     size_t aliveCount() const { return alive_count_; }
     std::vector<uint32_t> aliveTriangles() const;
 
-    static std::array<Corner, 3> cornersOf(uint32_t triangle)
+    static std::array<Corner, 3> triangleCorners(uint32_t triangle)
     {
         return {triangle * 4, triangle * 4 + 1, triangle * 4 + 2};
     }
-    uint32_t positionAt(Corner corner) const { return position_of_corner_[corner]; }
+    uint32_t positionIdAt(Corner corner) const { return position_id_of_corner_[corner]; }
     uint32_t wedgeAt(Corner corner) const { return wedge_of_corner_[corner]; }
 
     /// Return the number of triangles around a position.
@@ -115,7 +115,7 @@ public:
 
     /// True if the gathered position can collapse to another without joining sheets (link condition), without
     /// a triangle coinciding with another, and without emptying a star.
-    bool linkHolds(uint32_t from, uint32_t to);
+    bool satisfiesLinkCondition(uint32_t from, uint32_t to);
 
     /// Collapse a position: triangles with both positions are removed; triangles with `from` alone get `to`
     /// and its wedges.
@@ -124,7 +124,7 @@ public:
     void remove(uint32_t triangle);
 
 private:
-    bool linkHoldsInFan(uint32_t from, uint32_t to);
+    bool satisfiesLinkConditionInFan(uint32_t from, uint32_t to);
 
     struct Star
     {
@@ -135,7 +135,7 @@ private:
 
     bool has(uint32_t triangle, uint32_t position) const
     {
-        const uint32_t* at = &position_of_corner_[size_t{triangle} * 4];
+        const uint32_t* at = &position_id_of_corner_[size_t{triangle} * 4];
         const bool first = at[0] == position, second = at[1] == position, third = at[2] == position;
         return first | second | third;
     }
@@ -149,7 +149,7 @@ private:
         return std::find(tips_.begin(), tips_.end(), position) != tips_.end();
     }
 
-    std::vector<uint32_t> position_of_corner_;
+    std::vector<uint32_t> position_id_of_corner_;
     std::vector<uint32_t> wedge_of_corner_;
     std::vector<uint8_t> alive_; ///< for each triangle, 1 or 0
     size_t alive_count_;

@@ -14,10 +14,10 @@ namespace
 {
 
 // Twice the area compensates for half of the islands; more would be visible.
-constexpr float kMostGrowth = 1.6f;
+constexpr float kMaxGrowth = 1.6f;
 
 // Less growth than this is not worth new vertices.
-constexpr float kLeastGrowth = 1.01f;
+constexpr float kMinGrowth = 1.01f;
 
 struct Island
 {
@@ -37,8 +37,8 @@ std::vector<Island> looseIslands(const GroupMesh& group, const StarMesh& mesh)
         if (mesh.alive(t))
         {
             triangles.push_back(t);
-            for (const Corner corner : StarMesh::cornersOf(t))
-                positions.push_back(mesh.positionAt(corner));
+            for (const Corner corner : StarMesh::triangleCorners(t))
+                positions.push_back(mesh.positionIdAt(corner));
         }
     const std::vector<uint32_t> island_of = islandOfTriangles(positions, group.positions.size());
     std::vector<Island> islands(group.positions.size());
@@ -78,31 +78,31 @@ void orderForRemoval(std::vector<Island>& islands)
 }
 
 /// Return the area of an island; 0 for islands that do not grow.
-double areaOf(const GroupMesh& group, const StarMesh& mesh, const Island& island)
+double growableArea(const GroupMesh& group, const StarMesh& mesh, const Island& island)
 {
     double area = 0;
     if (island.triangles.size() > kMaxGrownTriangles)
         return area;
     for (const uint32_t t : island.triangles)
     {
-        const auto corners = StarMesh::cornersOf(t);
-        const Float3 a = group.positions[mesh.positionAt(corners[0])];
-        const Float3 b = group.positions[mesh.positionAt(corners[1])];
-        const Float3 c = group.positions[mesh.positionAt(corners[2])];
+        const auto corners = StarMesh::triangleCorners(t);
+        const Float3 a = group.positions[mesh.positionIdAt(corners[0])];
+        const Float3 b = group.positions[mesh.positionIdAt(corners[1])];
+        const Float3 c = group.positions[mesh.positionIdAt(corners[2])];
         area += double{length(cross(b - a, c - a))};
     }
     return area;
 }
 
-void addGrowth(const StarMesh& mesh, const Island& island, std::vector<uint8_t>& known, Growth& growth)
+void addGrowth(const StarMesh& mesh, const Island& island, std::vector<uint8_t>& added, Growth& growth)
 {
     for (const uint32_t t : island.triangles)
-        for (const Corner corner : StarMesh::cornersOf(t))
+        for (const Corner corner : StarMesh::triangleCorners(t))
         {
-            const uint32_t position = mesh.positionAt(corner);
-            if (known[position] != 0)
+            const uint32_t position = mesh.positionIdAt(corner);
+            if (added[position] != 0)
                 continue;
-            known[position] = 1;
+            added[position] = 1;
             growth.positions.push_back(position);
             growth.centers.push_back((island.box.min + island.box.max) * 0.5f);
         }
@@ -118,29 +118,29 @@ Thinning thinIslands(const GroupMesh& group, StarMesh& mesh, size_t target_trian
     orderForRemoval(islands);
     double area = 0;
     for (const Island& island : islands)
-        area += areaOf(group, mesh, island);
+        area += growableArea(group, mesh, island);
     double area_left = area;
-    size_t gone = 0;
-    while (gone < islands.size() && mesh.aliveCount() > target_triangles &&
-           mesh.aliveCount() > islands[gone].triangles.size())
+    size_t removed = 0;
+    while (removed < islands.size() && mesh.aliveCount() > target_triangles &&
+           mesh.aliveCount() > islands[removed].triangles.size())
     {
-        const Island& island = islands[gone++];
-        area_left -= areaOf(group, mesh, island);
+        const Island& island = islands[removed++];
+        area_left -= growableArea(group, mesh, island);
         for (const uint32_t t : island.triangles)
         {
-            for (const Corner corner : StarMesh::cornersOf(t))
-                target_of_position[mesh.positionAt(corner)] = kPruned;
+            for (const Corner corner : StarMesh::triangleCorners(t))
+                target_of_position[mesh.positionIdAt(corner)] = kPruned;
             mesh.remove(t);
         }
     }
-    thinning.pruned = gone > 0;
+    thinning.pruned = removed > 0;
     if (!thinning.pruned || !(area_left > 0))
         return thinning;
-    thinning.growth.factor = std::min(static_cast<float>(std::sqrt(area / area_left)), kMostGrowth);
-    std::vector<uint8_t> known(group.positions.size(), 0);
-    for (size_t i = gone; i < islands.size() && thinning.growth.factor > kLeastGrowth; ++i)
+    thinning.growth.factor = std::min(static_cast<float>(std::sqrt(area / area_left)), kMaxGrowth);
+    std::vector<uint8_t> added(group.positions.size(), 0);
+    for (size_t i = removed; i < islands.size() && thinning.growth.factor > kMinGrowth; ++i)
         if (islands[i].triangles.size() <= kMaxGrownTriangles)
-            addGrowth(mesh, islands[i], known, thinning.growth);
+            addGrowth(mesh, islands[i], added, thinning.growth);
     return thinning;
 }
 

@@ -32,10 +32,10 @@ bool WedgeMap::mapWedges(const Spoke& spoke)
         moves_.push_back(spoke.out);
     if (spoke.in_count > 0 && (moves_.empty() || spoke.in.from != spoke.out.from))
         moves_.push_back(spoke.in);
-    else if (spoke.in_count > 0 && chartOf(spoke.in.to) != chartOf(spoke.out.to) && !permissive)
+    else if (spoke.in_count > 0 && wedgeChart(spoke.in.to) != wedgeChart(spoke.out.to) && !permissive)
         return false;
     return permissive || std::all_of(mesh_.wedges().begin(), mesh_.wedges().end(),
-                                     [&](uint32_t wedge) { return moveOfChart(wedge) != nullptr; });
+                                     [&](uint32_t wedge) { return findMoveOfChart(wedge) != nullptr; });
 }
 
 /// Map the wedges where several sheets coincide.
@@ -46,8 +46,8 @@ bool WedgeMap::mapLayers(uint32_t from, uint32_t to)
     {
         const Corner next = nextCorner(corner);
         const Corner previous = previousCorner(corner);
-        const Corner goal = mesh_.positionAt(next) == to ? next : previous;
-        if (mesh_.positionAt(goal) != to)
+        const Corner goal = mesh_.positionIdAt(next) == to ? next : previous;
+        if (mesh_.positionIdAt(goal) != to)
             continue;
         const WedgeMove move{mesh_.wedgeAt(corner), mesh_.wedgeAt(goal)};
         const auto known =
@@ -61,32 +61,32 @@ bool WedgeMap::mapLayers(uint32_t from, uint32_t to)
 }
 
 /// Return the move of a wedge of the same chart, or nullptr.
-const WedgeMove* WedgeMap::moveOfChart(uint32_t wedge) const
+const WedgeMove* WedgeMap::findMoveOfChart(uint32_t wedge) const
 {
     const auto found = std::find_if(moves_.begin(), moves_.end(),
-                                    [&](WedgeMove m) { return chartOf(m.from) == chartOf(wedge); });
+                                    [&](WedgeMove m) { return wedgeChart(m.from) == wedgeChart(wedge); });
     return found == moves_.end() ? nullptr : &*found;
 }
 
-void WedgeMap::mapRest(uint32_t to)
+void WedgeMap::mapRemaining(uint32_t to)
 {
     if (complete())
         return;
-    goals_.clear();
+    targets_.clear();
     for (const Corner corner : mesh_.star(to))
         if (const uint32_t wedge = mesh_.wedgeAt(corner);
-            std::find(goals_.begin(), goals_.end(), wedge) == goals_.end())
-            goals_.push_back(wedge);
+            std::find(targets_.begin(), targets_.end(), wedge) == targets_.end())
+            targets_.push_back(wedge);
     for (const uint32_t wedge : mesh_.wedges())
     {
         if (has(wedge))
             continue;
-        const WedgeMove* guide = moveOfChart(wedge);
-        uint32_t best = guide != nullptr ? guide->to : goals_.front();
+        const WedgeMove* guide = findMoveOfChart(wedge);
+        uint32_t best = guide != nullptr ? guide->to : targets_.front();
         float best_distance2 = attributeDistance2(group_, wedge, best);
-        for (const uint32_t goal : goals_)
+        for (const uint32_t goal : targets_)
         {
-            if (guide != nullptr && chartOf(goal) != chartOf(guide->to))
+            if (guide != nullptr && wedgeChart(goal) != wedgeChart(guide->to))
                 continue;
             if (const float distance2 = attributeDistance2(group_, wedge, goal); distance2 < best_distance2)
             {
@@ -98,16 +98,16 @@ void WedgeMap::mapRest(uint32_t to)
     }
 }
 
-bool WedgeMap::moreChartsThanTwo() const
+bool WedgeMap::hasMoreThanTwoCharts() const
 {
     const auto wedges = mesh_.wedges();
     if (wedges.size() <= 2)
         return false;
-    const uint32_t first = chartOf(wedges[0]);
+    const uint32_t first = wedgeChart(wedges[0]);
     uint32_t second = first;
     for (const uint32_t wedge : wedges.subspan(1))
     {
-        const uint32_t chart = chartOf(wedge);
+        const uint32_t chart = wedgeChart(wedge);
         if (chart == first || chart == second)
             continue;
         if (second != first)

@@ -31,7 +31,7 @@ public:
 
     /// Map wedges without an edge to the nearest attributes, in the chart that wedges of their own chart map
     /// to, if any.
-    void mapRest(uint32_t to);
+    void mapRemaining(uint32_t to);
 
     std::span<const WedgeMove> moves() const { return moves_; }
     bool has(uint32_t wedge) const
@@ -41,18 +41,18 @@ public:
     bool complete() const { return mesh_.plain() || moves_.size() == mesh_.wedges().size(); }
 
     /// True if the wedges of the position belong to three charts or more.
-    bool moreChartsThanTwo() const;
+    bool hasMoreThanTwoCharts() const;
 
 private:
     bool mapWedges(const Spoke& spoke);
     bool mapLayers(uint32_t from, uint32_t to);
-    uint32_t chartOf(uint32_t wedge) const { return group_.chart_of_wedge[wedge]; }
-    const WedgeMove* moveOfChart(uint32_t wedge) const;
+    uint32_t wedgeChart(uint32_t wedge) const { return group_.chart_of_wedge[wedge]; }
+    const WedgeMove* findMoveOfChart(uint32_t wedge) const;
 
     const GroupMesh& group_;
     StarMesh& mesh_;
     std::vector<WedgeMove> moves_;
-    std::vector<uint32_t> goals_; ///< scratch
+    std::vector<uint32_t> targets_; ///< scratch
 };
 
 } // namespace hearth::clusters

@@ -6,7 +6,7 @@
 namespace hearth::clusters
 {
 
-void LoopFill::makeRoom()
+void LoopFiller::growOrOverflow()
 {
     if (chord_count_ == chords_.size())
         chords_.resize(2 * chords_.size());
@@ -17,14 +17,14 @@ void LoopFill::makeRoom()
     }
 }
 
-void LoopFill::addChord(const Crossing& from, float to)
+void LoopFiller::addChord(const Crossing& from, float to)
 {
     chords_[chord_count_++] = {from.leaving, to - from.t};
     if (chord_count_ == chords_.size())
-        makeRoom();
+        growOrOverflow();
 }
 
-bool LoopFill::close()
+bool LoopFiller::close()
 {
     if (!overflow_)
     {
@@ -49,20 +49,20 @@ bool LoopFill::close()
 
 /// True if the path continues around the left corner after a crossing. Else it continues around the right
 /// one, or comes back.
-bool LoopFill::turnsLeft(size_t i) const
+bool LoopFiller::turnsLeft(size_t i) const
 {
-    return crossings_[(i + 1) % count_].leaving == previousSide(crossings_[i].entering);
+    return crossings_[(i + 1) % count_].leaving == previousHalfEdge(crossings_[i].entering);
 }
 
 /// Return the half-edge, in the entered triangle, that starts at the corner to the left or right of the
 /// crossing.
-uint32_t LoopFill::cornerAt(const Crossing& crossing, bool left) const
+uint32_t LoopFiller::cornerAt(const Crossing& crossing, bool left) const
 {
-    return left ? crossing.entering : nextSide(crossing.entering);
+    return left ? crossing.entering : nextHalfEdge(crossing.entering);
 }
 
 /// Cut where the path comes back over a half-edge.
-void LoopFill::reduce()
+void LoopFiller::reduce()
 {
     size_t kept = 0;
     for (size_t i = 0; i < count_; ++i)
@@ -80,14 +80,14 @@ void LoopFill::reduce()
 }
 
 /// Finish a path that goes once around a single corner.
-bool LoopFill::closeRing()
+bool LoopFiller::closeRing()
 {
     const bool left = turnsLeft(0);
     for (size_t i = 0; i < count_; ++i)
     {
         const uint32_t entering = crossings_[i].entering;
         const uint32_t next = crossings_[(i + 1) % count_].leaving;
-        if (next != (left ? previousSide(entering) : nextSide(entering)) ||
+        if (next != (left ? previousHalfEdge(entering) : nextHalfEdge(entering)) ||
             (i > 0 && entering / 3 == crossings_[0].entering / 3))
             return false;
     }
@@ -99,7 +99,7 @@ bool LoopFill::closeRing()
 }
 
 /// Push the path over a corner that it mostly goes around, so that it becomes shorter.
-bool LoopFill::pushOver()
+bool LoopFiller::pushOver()
 {
     for (size_t start = 0; start < count_; ++start)
     {
@@ -113,23 +113,23 @@ bool LoopFill::pushOver()
             continue;
         // half-edges to cross when going around the corner the other way
         const uint32_t goal = crossings_[(start + run) % count_].entering / 3;
-        std::array<uint32_t, kMaxCrossings> sides;
+        std::array<uint32_t, kMaxCrossings> half_edges;
         size_t found = 0;
         const uint32_t behind = crossings_[start].leaving;
-        uint32_t at = left ? nextSide(behind) : behind; // starts at the corner
+        uint32_t at = left ? nextHalfEdge(behind) : behind; // starts at the corner
         while (at / 3 != goal && found < run)
         {
-            const uint32_t side = left ? at : previousSide(at);
-            if (twins_[side] == kNoSide)
+            const uint32_t half_edge = left ? at : previousHalfEdge(at);
+            if (opposites_[half_edge] == kInvalidIndex)
                 break;
-            sides[found++] = side;
-            at = left ? nextSide(twins_[side]) : twins_[side];
+            half_edges[found++] = half_edge;
+            at = left ? nextHalfEdge(opposites_[half_edge]) : opposites_[half_edge];
         }
         if (at / 3 != goal)
             continue;
         std::rotate(crossings_.begin(), crossings_.begin() + static_cast<ptrdiff_t>(start),
                     crossings_.begin() + static_cast<ptrdiff_t>(count_));
-        replaceRun(run, left, {sides.data(), found});
+        replaceRun(run, left, {half_edges.data(), found});
         return true;
     }
     return false;
@@ -137,17 +137,17 @@ bool LoopFill::pushOver()
 
 /// Replace the first `run` + 1 crossings, between which the path turns left or right around one corner, by
 /// crossings of the given half-edges at that corner.
-void LoopFill::replaceRun(size_t run, bool left, std::span<const uint32_t> sides)
+void LoopFiller::replaceRun(size_t run, bool left, std::span<const uint32_t> half_edges)
 {
     inner_.push_back(cornerAt(crossings_[0], left));
     for (size_t i = 0; i <= run; ++i)
         addChord(crossings_[i], left ? 1.0f : 0.0f);
-    for (size_t i = 0; i < sides.size(); ++i)
-        crossings_[i] = {sides[i], twins_[sides[i]], left ? 0.0f : 1.0f};
+    for (size_t i = 0; i < half_edges.size(); ++i)
+        crossings_[i] = {half_edges[i], opposites_[half_edges[i]], left ? 0.0f : 1.0f};
     const auto rest = crossings_.begin() + static_cast<ptrdiff_t>(run) + 1;
     std::copy(rest, crossings_.begin() + static_cast<ptrdiff_t>(count_),
-              crossings_.begin() + static_cast<ptrdiff_t>(sides.size()));
-    count_ -= run + 1 - sides.size();
+              crossings_.begin() + static_cast<ptrdiff_t>(half_edges.size()));
+    count_ -= run + 1 - half_edges.size();
     reduce();
 }
 

@@ -4,7 +4,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/clusters/surface/side_twins.h"
+#include "cook/clusters/surface/opposite_half_edges.h"
 
 #include <array>
 #include <cstddef>
@@ -18,7 +18,7 @@ namespace hearth::clusters
 /// Cut of a disc along a half-edge, so that each piece of the disc lies in one triangle.
 struct Chord
 {
-    uint32_t side;
+    uint32_t half_edge;
     float length; ///< signed, in parts of the half-edge
 };
 
@@ -26,16 +26,19 @@ struct Chord
 /// Where the path comes back over a half-edge, the disc is cut between the two crossings. The rest may go
 /// around corners of triangles: these corners become points of the disc, and it is cut from there to each of
 /// the crossings.
-class LoopFill
+class LoopFiller
 {
 public:
-    /// twins  opposite half-edges of the surface
-    explicit LoopFill(std::span<const uint32_t> twins) : twins_(twins), chords_(4 * kMaxCrossings) {}
+    /// opposites  opposite half-edges of the surface
+    explicit LoopFiller(std::span<const uint32_t> opposites)
+        : opposites_(opposites), chords_(4 * kMaxCrossings)
+    {
+    }
 
     void begin()
     {
         count_ = 1;
-        begun_ = chord_count_;
+        first_chord_ = chord_count_;
         overflow_ = false;
         inner_.clear();
     }
@@ -51,11 +54,11 @@ public:
         crossings_[count_] = {leaving, entering, t};
         count_ = back ? count_ - 1 : count_ + 1;
         if (count_ == kMaxCrossings || chord_count_ == chords_.size())
-            makeRoom();
+            growOrOverflow();
     }
 
     /// Discard the path and its chords.
-    void drop() { chord_count_ = begun_; }
+    void drop() { chord_count_ = first_chord_; }
 
     /// Close the path. Returns false if it cannot be filled: then it has no chords.
     bool close();
@@ -69,25 +72,25 @@ public:
 private:
     struct Crossing
     {
-        uint32_t leaving = kNoSide;
-        uint32_t entering = kNoSide; ///< opposite half-edge of `leaving`
-        float t = 0;                 ///< along `leaving`
+        uint32_t leaving = kInvalidIndex;
+        uint32_t entering = kInvalidIndex; ///< opposite half-edge of `leaving`
+        float t = 0;                       ///< along `leaving`
     };
     static constexpr size_t kMaxCrossings = 64;
 
-    void makeRoom();
+    void growOrOverflow();
     void addChord(const Crossing& from, float to);
     bool turnsLeft(size_t i) const;
     uint32_t cornerAt(const Crossing& crossing, bool left) const;
     void reduce();
     bool closeRing();
     bool pushOver();
-    void replaceRun(size_t run, bool left, std::span<const uint32_t> sides);
+    void replaceRun(size_t run, bool left, std::span<const uint32_t> half_edges);
 
-    std::span<const uint32_t> twins_;
+    std::span<const uint32_t> opposites_;
     std::vector<Chord> chords_; ///< the first chord_count_ are in use
     size_t chord_count_ = 0;
-    size_t begun_ = 0; ///< chords of earlier paths
+    size_t first_chord_ = 0; ///< chords of earlier paths
     /// Remaining crossings of the path; number 0 is a sentinel.
     std::array<Crossing, kMaxCrossings> crossings_;
     size_t count_ = 1;

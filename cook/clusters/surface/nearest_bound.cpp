@@ -44,7 +44,7 @@ Box3 boxAround(const Corners& corners, float radius)
     return box;
 }
 
-float sizeOf(const Corners& corners)
+float longestEdge(const Corners& corners)
 {
     return std::max(
         {length(corners[1] - corners[0]), length(corners[2] - corners[1]), length(corners[0] - corners[2])});
@@ -72,15 +72,15 @@ std::pair<NearestBound::Piece, NearestBound::Piece> NearestBound::halve(const Pi
             {{middle, q, apex}, {plane_middle, plane_q, plane_apex}}};
 }
 
-float NearestBound::bound(const Corners& triangle, FacetIndex& index, std::span<const uint32_t> likely,
-                          Allowance allowance, SurfaceMetric* metric)
+float NearestBound::bound(const Corners& triangle, TriangleBoxes& index, std::span<const uint32_t> likely,
+                          Tolerance tolerance, SurfaceMetric* metric)
 {
     metric_ = metric;
-    const size_t most_parts = metric == nullptr ? kMaxParts : kMaxMetricParts;
-    const float size = sizeOf(triangle);
-    allowance_ = allowance;
+    const size_t max_parts = metric == nullptr ? kMaxParts : kMaxMetricParts;
+    const float size = longestEdge(triangle);
+    tolerance_ = tolerance;
     floor2_ = size * size * kFinest2;
-    sure2_ = 0;
+    lower2_ = 0;
     used_.clear();
     if (!likely.empty())
         if (const Bound quick = boundByLikely(triangle, index, likely); quick.closed)
@@ -98,8 +98,8 @@ float NearestBound::bound(const Corners& triangle, FacetIndex& index, std::span<
         Bound bound = boundPiece(piece, index, allowed2(), size * kTouching);
         if (!bound.closed && metric == nullptr)
             bound = boundPiece(piece, index, allowed2(), std::sqrt(bound.found2) * 1.01f);
-        sure2_ = std::max(sure2_, bound.sure2);
-        if (!bound.closed && parts < most_parts)
+        lower2_ = std::max(lower2_, bound.sure2);
+        if (!bound.closed && parts < max_parts)
         {
             const auto [first, second] = halve(piece);
             stack_.push_back(first);
@@ -118,7 +118,7 @@ float NearestBound::bound(const Corners& triangle, FacetIndex& index, std::span<
     return std::sqrt(worst2);
 }
 
-Bound NearestBound::boundByLikely(const Corners& triangle, FacetIndex& index,
+Bound NearestBound::boundByLikely(const Corners& triangle, TriangleBoxes& index,
                                   std::span<const uint32_t> likely)
 {
     const auto few = likely.first(std::min(likely.size(), kFewLikely));
@@ -135,39 +135,39 @@ Bound NearestBound::boundByLikely(const Corners& triangle, FacetIndex& index,
 }
 
 /// Load the candidate triangles. False if the metric has no bound.
-bool NearestBound::load(const FacetIndex& index, std::span<const uint32_t> facets)
+bool NearestBound::load(const TriangleBoxes& index, std::span<const uint32_t> triangles)
 {
-    facets_.clear();
-    for (const uint32_t f : facets)
-        facets_.push_back(index.facet(f));
-    candidates_.load(facets_);
-    return metric_ == nullptr || metric_->load(facets);
+    triangles_.clear();
+    for (const uint32_t f : triangles)
+        triangles_.push_back(index.triangle(f));
+    candidates_.load(triangles_);
+    return metric_ == nullptr || metric_->load(triangles);
 }
 
 /// Record the loaded triangles that the last bound was taken from: all of them without a metric, which does
 /// not track them.
-void NearestBound::addUsed(std::span<const uint32_t> facets)
+void NearestBound::addUsed(std::span<const uint32_t> triangles)
 {
-    for (size_t i = 0; i < facets.size(); ++i)
-        if (metric_ == nullptr || bounder_.hasServed(i))
-            used_.push_back(facets[i]);
+    for (size_t i = 0; i < triangles.size(); ++i)
+        if (metric_ == nullptr || bounder_.wasUsed(i))
+            used_.push_back(triangles[i]);
 }
 
 float NearestBound::allowed2() const
 {
-    const float allowed = std::max(allowance_.enough, std::sqrt(sure2_) * kSlack + allowance_.slack);
+    const float allowed = std::max(tolerance_.enough, std::sqrt(lower2_) * kSlack + tolerance_.slack);
     return std::max(allowed * allowed, floor2_);
 }
 
 /// Bound the distance to the triangles within `radius`; if there are none, to those within a larger one. If
 /// there are too many, those with the nearest centers serve.
-Bound NearestBound::boundPiece(const Piece& piece, FacetIndex& index, float allowed2, float radius)
+Bound NearestBound::boundPiece(const Piece& piece, TriangleBoxes& index, float allowed2, float radius)
 {
     index.query(boxAround(piece.corners, radius), found_);
     for (float wider = std::max(radius, 1e-3f); found_.empty(); wider *= 2)
         index.query(boxAround(piece.corners, wider), found_);
     if (found_.size() > kLanes)
-        dropBesides(piece.corners, index, radius);
+        dropDistant(piece.corners, index, radius);
     if (found_.size() > kMaxCandidates)
     {
         keepNearest(piece.corners, index);
@@ -184,7 +184,7 @@ Bound NearestBound::boundPiece(const Piece& piece, FacetIndex& index, float allo
 
 /// Drop triangles that lie beyond an edge of the piece by more than `radius`: the index tests only their
 /// boxes. Keeps all if none would remain.
-void NearestBound::dropBesides(const Corners& piece, FacetIndex& index, float radius)
+void NearestBound::dropDistant(const Corners& piece, TriangleBoxes& index, float radius)
 {
     const Float3 normal = cross(piece[1] - piece[0], piece[2] - piece[0]);
     std::array<Float3, 3> outward;
@@ -198,12 +198,12 @@ void NearestBound::dropBesides(const Corners& piece, FacetIndex& index, float ra
     }
     const auto beside = [&](uint32_t f)
     {
-        const Facet facet = index.facet(f);
+        const DistanceTriangle triangle = index.triangle(f);
         for (size_t k = 0; k < 3; ++k)
         {
-            const float a = hearth::dot(outward[k], facet.a);
-            const float nearest =
-                a + std::min({0.0f, hearth::dot(outward[k], facet.ab), hearth::dot(outward[k], facet.ac)});
+            const float a = hearth::dot(outward[k], triangle.a);
+            const float nearest = a + std::min({0.0f, hearth::dot(outward[k], triangle.ab),
+                                                hearth::dot(outward[k], triangle.ac)});
             if (nearest > limit[k])
                 return true;
         }
@@ -214,14 +214,14 @@ void NearestBound::dropBesides(const Corners& piece, FacetIndex& index, float ra
         found_.erase(kept, found_.end());
 }
 
-void NearestBound::keepNearest(const Corners& piece, FacetIndex& index)
+void NearestBound::keepNearest(const Corners& piece, TriangleBoxes& index)
 {
     const Float3 middle = (piece[0] + piece[1] + piece[2]) / 3.0f;
     by_distance_.clear();
     for (const uint32_t f : found_)
     {
-        const Facet facet = index.facet(f);
-        const Float3 away = facet.a + (facet.ab + facet.ac) / 3.0f - middle;
+        const DistanceTriangle triangle = index.triangle(f);
+        const Float3 away = triangle.a + (triangle.ab + triangle.ac) / 3.0f - middle;
         by_distance_.push_back({hearth::dot(away, away), f});
     }
     std::nth_element(by_distance_.begin(), by_distance_.begin() + kMaxCandidates, by_distance_.end());

@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/clusters/core/facet_index.h"
+#include "cook/clusters/core/triangle_boxes.h"
 #include "cook/clusters/surface/piece_bound.h"
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace hearth::clusters
 {
 
 /// Tolerance below which a bound need not be improved.
-struct Allowance
+struct Tolerance
 {
     float enough = 0; ///< a bound within this distance suffices
     float slack = 0;  ///< a bound that exceeds a real distance by at most 10 % and this suffices
@@ -26,7 +26,7 @@ class SurfaceMetric : public PointMetric
 {
 public:
     /// Set the candidate triangles. False if the metric has no bound among them.
-    virtual bool load(std::span<const uint32_t> facets) = 0;
+    virtual bool load(std::span<const uint32_t> triangles) = 0;
 
     /// Set the corners of the next piece to bound, in multiples of the triangle's edges from corner 0.
     virtual void setPiece(const std::array<Float2, 3>& corners) = 0;
@@ -44,8 +44,8 @@ public:
     ///         searched; may be empty
     /// metric  instead of the distance; then only triangles close to the given one are searched, and the
     ///         bound may be infinite. null: the distance
-    float bound(const Corners& triangle, FacetIndex& index, std::span<const uint32_t> likely,
-                Allowance allowance, SurfaceMetric* metric = nullptr);
+    float bound(const Corners& triangle, TriangleBoxes& index, std::span<const uint32_t> likely,
+                Tolerance tolerance, SurfaceMetric* metric = nullptr);
 
     /// Return the triangles that the last bound was taken from; may contain duplicates.
     std::span<const uint32_t> used() const { return used_; }
@@ -61,26 +61,26 @@ private:
         std::array<Float2, 3> plane;
     };
     static std::pair<Piece, Piece> halve(const Piece& piece);
-    Bound boundByLikely(const Corners& triangle, FacetIndex& index, std::span<const uint32_t> likely);
-    Bound boundPiece(const Piece& piece, FacetIndex& index, float allowed2, float radius);
-    void dropBesides(const Corners& piece, FacetIndex& index, float radius);
-    void keepNearest(const Corners& piece, FacetIndex& index);
-    bool load(const FacetIndex& index, std::span<const uint32_t> facets);
-    void addUsed(std::span<const uint32_t> facets);
+    Bound boundByLikely(const Corners& triangle, TriangleBoxes& index, std::span<const uint32_t> likely);
+    Bound boundPiece(const Piece& piece, TriangleBoxes& index, float allowed2, float radius);
+    void dropDistant(const Corners& piece, TriangleBoxes& index, float radius);
+    void keepNearest(const Corners& piece, TriangleBoxes& index);
+    bool load(const TriangleBoxes& index, std::span<const uint32_t> triangles);
+    void addUsed(std::span<const uint32_t> triangles);
     float allowed2() const;
 
-    Allowance allowance_;
+    Tolerance tolerance_;
     float floor2_ = 0;
-    float sure2_ = 0; ///< lower bound: some point of the triangle is this far away
+    float lower2_ = 0; ///< lower bound: some point of the triangle is this far away
     uint64_t loose_pieces_ = 0;
     std::vector<std::pair<float, uint32_t>> by_distance_;
     SurfaceMetric* metric_ = nullptr;
     std::vector<Piece> stack_;
     std::vector<uint32_t> found_;
     std::vector<uint32_t> used_;
-    std::vector<Facet> facets_;
+    std::vector<DistanceTriangle> triangles_;
     Candidates candidates_;
-    Bounder bounder_;
+    PieceBounder bounder_;
 };
 
 } // namespace hearth::clusters

@@ -17,20 +17,20 @@ float area2(Float2 a, Float2 b, Float2 c)
 }
 
 /// Return the parameter in [0, 1] where a coordinate that runs from x to y becomes negative.
-Lanes leavesAt(Lanes x, Lanes y)
+Lanes exitParameter(Lanes x, Lanes y)
 {
-    const Lanes start = maximum(x, allLanes(0));
-    return y < allLanes(0) ? start / (start - y) : allLanes(1);
+    const Lanes start = maximum(x, splat(0));
+    return y < splat(0) ? start / (start - y) : splat(1);
 }
 
 } // namespace
 
-Bound Bounder::bound(const Corners& piece, std::span<const FacetBlock> blocks, float allowed2, float radius,
-                     size_t max_points, const PointMetric* metric)
+Bound PieceBounder::bound(const Corners& piece, std::span<const TriangleBlock> blocks, float allowed2,
+                          float radius, size_t max_points, const PointMetric* metric)
 {
     blocks_ = blocks;
     metric_ = metric;
-    served_ = 0;
+    used_ = 0;
     allowed2_ = allowed2;
     radius2_ = radius * radius;
     point_count_ = 0;
@@ -46,12 +46,12 @@ Bound Bounder::bound(const Corners& piece, std::span<const FacetBlock> blocks, f
         if (lower2_ > std::max(allowed2, radius2_ * kSlack2))
             return {kInfinity, lower2_, std::min(lower2_, radius2_), false};
         const Part part = stack_[--stack_size];
-        const float best2 = common(part);
+        const float best2 = commonDistance2(part);
         if (best2 <= std::max(tolerance2(), upper2) || point_count_ >= max_points)
         {
             upper2 = std::max(upper2, best2);
             if (metric_ != nullptr)
-                served_ |= uint64_t{1} << best(part);
+                used_ |= uint64_t{1} << best(part);
             continue;
         }
         if (!corners_found_)
@@ -74,32 +74,32 @@ Bound Bounder::bound(const Corners& piece, std::span<const FacetBlock> blocks, f
 }
 
 /// Return the squared distance below which bounds need not be improved.
-float Bounder::tolerance2() const
+float PieceBounder::tolerance2() const
 {
     return std::max(allowed2_, std::min(lower2_, radius2_) * kSlack2);
 }
 
-uint8_t Bounder::addPoint(Float3 place, Float2 plane)
+uint8_t PieceBounder::addPoint(Float3 place, Float2 plane)
 {
     Probe& probe = points_[point_count_];
     probe.place = place;
     probe.plane = plane;
-    Lanes least = allLanes(kInfinity);
+    Lanes least = splat(kInfinity);
     for (size_t b = 0; b < blocks_.size(); ++b)
     {
         probe.distance2[b] = metric_ == nullptr ? blocks_[b].distance2(place)
                                                 : metric_->distance2(plane, b, blocks_[b].nearest(place));
         least = minimum(least, probe.distance2[b]);
     }
-    lower2_ = std::max(lower2_, leastLane(least));
+    lower2_ = std::max(lower2_, minLane(least));
     return static_cast<uint8_t>(point_count_++);
 }
 
 /// Return the squared distance within which one candidate is near all the given points.
 template <size_t N>
-float Bounder::common(const std::array<uint8_t, N>& names) const
+float PieceBounder::commonDistance2(const std::array<uint8_t, N>& names) const
 {
-    Lanes least = allLanes(kInfinity);
+    Lanes least = splat(kInfinity);
     for (size_t b = 0; b < blocks_.size(); ++b)
     {
         Lanes worst = points_[names[0]].distance2[b];
@@ -107,13 +107,13 @@ float Bounder::common(const std::array<uint8_t, N>& names) const
             worst = maximum(worst, points_[names[i]].distance2[b]);
         least = minimum(least, worst);
     }
-    return leastLane(least);
+    return minLane(least);
 }
 
 /// Return the first candidate with the smallest common distance to a part's points.
-size_t Bounder::best(const Part& part) const
+size_t PieceBounder::best(const Part& part) const
 {
-    const float least = common(part);
+    const float least = commonDistance2(part);
     for (size_t b = 0; b < blocks_.size(); ++b)
     {
         const Lanes worst = maximum(maximum(points_[part[0]].distance2[b], points_[part[1]].distance2[b]),
@@ -126,7 +126,7 @@ size_t Bounder::best(const Part& part) const
 }
 
 /// Find the corners of candidates that project into the piece.
-void Bounder::findCorners()
+void PieceBounder::findCorners()
 {
     corners_found_ = true;
     corner_count_ = 0;
@@ -137,11 +137,11 @@ void Bounder::findCorners()
     const float det = d11 * d22 - d12 * d12;
     if (!(det > 1e-5f * d11 * d22))
         return;
-    const LaneVector f1 = allLanes((e1 * d22 - e2 * d12) / det);
-    const LaneVector f2 = allLanes((e2 * d11 - e1 * d12) / det);
-    for (const FacetBlock& block : blocks_)
+    const LaneVector f1 = splat((e1 * d22 - e2 * d12) / det);
+    const LaneVector f2 = splat((e2 * d11 - e1 * d12) / det);
+    for (const TriangleBlock& block : blocks_)
     {
-        const LaneVector corner_a = block.a - allLanes(origin);
+        const LaneVector corner_a = block.a - splat(origin);
         const Lanes a1 = dot(corner_a, f1), a2 = dot(corner_a, f2);
         keepInside(a1, a2);
         keepInside(a1 + dot(block.ab, f1), a2 + dot(block.ab, f2));
@@ -149,10 +149,10 @@ void Bounder::findCorners()
     }
 }
 
-void Bounder::keepInside(Lanes x, Lanes y)
+void PieceBounder::keepInside(Lanes x, Lanes y)
 {
-    const Lanes margin = allLanes(kCornerMargin);
-    const Lanes inside = minimum(minimum(x, y), allLanes(1) - x - y) - margin;
+    const Lanes margin = splat(kCornerMargin);
+    const Lanes inside = minimum(minimum(x, y), splat(1) - x - y) - margin;
     for (size_t lane = 0; lane < kLanes; ++lane)
     {
         if (!(inside[lane] > 0) || corner_count_ == corners_.size())
@@ -169,14 +169,14 @@ void Bounder::keepInside(Lanes x, Lanes y)
     }
 }
 
-Float3 Bounder::placeAt(Float2 plane) const
+Float3 PieceBounder::positionAt(Float2 plane) const
 {
     return points_[0].place + (points_[1].place - points_[0].place) * plane.x +
            (points_[2].place - points_[0].place) * plane.y;
 }
 
 /// Add a point at a candidate's corner over the part; kNoPoint if there is none.
-uint8_t Bounder::cornerInside(const Part& part)
+uint8_t PieceBounder::cornerInside(const Part& part)
 {
     const Float2 a = points_[part[0]].plane, b = points_[part[1]].plane, c = points_[part[2]].plane;
     const float least = kCornerMargin * std::abs(area2(a, b, c));
@@ -184,13 +184,13 @@ uint8_t Bounder::cornerInside(const Part& part)
     {
         const Float2 corner = corners_[i];
         if (area2(a, b, corner) > least && area2(b, c, corner) > least && area2(c, a, corner) > least)
-            return addPoint(placeAt(corner), corner);
+            return addPoint(positionAt(corner), corner);
     }
     return kNoPoint;
 }
 
 /// Return the edge whose ends have the largest common distance to a candidate.
-size_t Bounder::worstEdge(const Part& part) const
+size_t PieceBounder::worstEdge(const Part& part) const
 {
     size_t edge = 0;
     float edge_value = -1;
@@ -198,7 +198,7 @@ size_t Bounder::worstEdge(const Part& part) const
     for (size_t k = 0; k < 3; ++k)
     {
         const std::array<uint8_t, 2> ends{part[k], part[(k + 1) % 3]};
-        const float value = common(ends);
+        const float value = commonDistance2(ends);
         const Float3 along = points_[ends[1]].place - points_[ends[0]].place;
         const float length2 = hearth::dot(along, along);
         if (value > edge_value || (value == edge_value && length2 > edge_length2))
@@ -213,26 +213,25 @@ size_t Bounder::worstEdge(const Part& part) const
 
 /// Add a point between two, where the edge has left every candidate that it starts on; at the middle if that
 /// fails.
-uint8_t Bounder::cutEdge(uint8_t p, uint8_t q)
+uint8_t PieceBounder::cutEdge(uint8_t p, uint8_t q)
 {
-    const Lanes near2 = allLanes(tolerance2());
-    const LaneVector place_p = allLanes(points_[p].place);
-    const LaneVector place_q = allLanes(points_[q].place);
-    Lanes farthest = allLanes(0);
+    const Lanes near2 = splat(tolerance2());
+    const LaneVector place_p = splat(points_[p].place);
+    const LaneVector place_q = splat(points_[q].place);
+    Lanes farthest = splat(0);
     for (size_t b = 0; b < blocks_.size(); ++b)
     {
-        const LaneMask starts_here =
-            (points_[p].distance2[b] <= near2) & (blocks_[b].inverse_det > allLanes(0));
+        const LaneMask starts_here = (points_[p].distance2[b] <= near2) & (blocks_[b].inverse_det > splat(0));
         if (!anyLane(starts_here))
             continue;
-        const FacetBlock::Coordinates at_p = blocks_[b].project(place_p);
-        const FacetBlock::Coordinates at_q = blocks_[b].project(place_q);
-        const Lanes leaves = minimum(minimum(leavesAt(at_p.v, at_q.v), leavesAt(at_p.w, at_q.w)),
-                                     leavesAt(allLanes(1) - at_p.v - at_p.w, allLanes(1) - at_q.v - at_q.w));
-        farthest = maximum(farthest, starts_here ? leaves : allLanes(0));
+        const TriangleBlock::Coordinates at_p = blocks_[b].project(place_p);
+        const TriangleBlock::Coordinates at_q = blocks_[b].project(place_q);
+        const Lanes leaves = minimum(minimum(exitParameter(at_p.v, at_q.v), exitParameter(at_p.w, at_q.w)),
+                                     exitParameter(splat(1) - at_p.v - at_p.w, splat(1) - at_q.v - at_q.w));
+        farthest = maximum(farthest, starts_here ? leaves : splat(0));
     }
-    const float t = greatestLane(farthest);
-    const float s = t > kShortest && t < 1 - kShortest ? t : 0.5f;
+    const float t = maxLane(farthest);
+    const float s = t > kMinCut && t < 1 - kMinCut ? t : 0.5f;
     return addPoint(points_[p].place * (1 - s) + points_[q].place * s,
                     points_[p].plane * (1 - s) + points_[q].plane * s);
 }

@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/clusters/core/facet.h"
+#include "cook/clusters/core/triangle_block.h"
 #include "formats/base/assert.h"
 #include "formats/base/math.h"
 
@@ -30,24 +30,24 @@ inline constexpr float kSlack2 = kSlack * kSlack;
 class Candidates
 {
 public:
-    void load(std::span<const Facet> facets)
+    void load(std::span<const DistanceTriangle> triangles)
     {
-        HEARTH_ASSERT(!facets.empty() && facets.size() <= kMaxCandidates);
-        block_count_ = (facets.size() + kLanes - 1) / kLanes;
+        HEARTH_ASSERT(!triangles.empty() && triangles.size() <= kMaxCandidates);
+        block_count_ = (triangles.size() + kLanes - 1) / kLanes;
         for (size_t b = 0; b < block_count_; ++b)
         {
             // unused lanes repeat the first triangle
-            std::array<const Facet*, kLanes> lanes;
+            std::array<const DistanceTriangle*, kLanes> lanes;
             for (size_t lane = 0; lane < kLanes; ++lane)
-                lanes[lane] = &facets[b * kLanes + lane < facets.size() ? b * kLanes + lane : 0];
-            blocks_[b] = makeBlock(lanes);
+                lanes[lane] = &triangles[b * kLanes + lane < triangles.size() ? b * kLanes + lane : 0];
+            blocks_[b] = makeTriangleBlock(lanes);
         }
     }
 
-    std::span<const FacetBlock> blocks() const { return std::span(blocks_).first(block_count_); }
+    std::span<const TriangleBlock> blocks() const { return std::span(blocks_).first(block_count_); }
 
 private:
-    std::array<FacetBlock, kMaxBlocks> blocks_;
+    std::array<TriangleBlock, kMaxBlocks> blocks_;
     size_t block_count_ = 0;
 };
 
@@ -60,7 +60,7 @@ public:
     /// Return the squared distances of a point of the piece to points of a block's candidates. The distance
     /// is convex along straight lines on both surfaces.
     /// plane  coordinates of the point: multiples of the piece's edges from corner 0
-    virtual Lanes distance2(Float2 plane, size_t block, const FacetBlock::Nearest& nearest) const = 0;
+    virtual Lanes distance2(Float2 plane, size_t block, const TriangleBlock::Nearest& nearest) const = 0;
 };
 
 /// Bounds of the distance between a piece and its candidates, squared.
@@ -73,7 +73,7 @@ struct Bound
 };
 
 /// Bounds the distance of one piece of a triangle to a few triangles.
-class Bounder
+class PieceBounder
 {
 public:
     /// Cut the piece where the nearest candidate changes, until every part is within allowed2 of one
@@ -84,11 +84,11 @@ public:
     /// blocks    all triangles that are within `radius` of the piece, and perhaps others
     /// metric    instead of the distance, between a point and the nearest one of each candidate; null: the
     ///           distance
-    Bound bound(const Corners& piece, std::span<const FacetBlock> blocks, float allowed2, float radius,
+    Bound bound(const Corners& piece, std::span<const TriangleBlock> blocks, float allowed2, float radius,
                 size_t max_points = kMaxPoints, const PointMetric* metric = nullptr);
 
     /// True if the last bound by a metric was taken from the candidate.
-    bool hasServed(size_t candidate) const { return (served_ >> candidate & 1) != 0; }
+    bool wasUsed(size_t candidate) const { return (used_ >> candidate & 1) != 0; }
 
 private:
     using Part = std::array<uint8_t, 3>;
@@ -98,7 +98,7 @@ private:
     static constexpr float kCornerMargin = 0.01f;
 
     /// Shortest part of an edge that is worth cutting off.
-    static constexpr float kShortest = 0.01f;
+    static constexpr float kMinCut = 0.01f;
 
     /// Point of the piece, with its coordinates in the piece's plane and its squared distance to each
     /// candidate.
@@ -112,18 +112,18 @@ private:
     float tolerance2() const;
     uint8_t addPoint(Float3 place, Float2 plane);
     template <size_t N>
-    float common(const std::array<uint8_t, N>& names) const;
+    float commonDistance2(const std::array<uint8_t, N>& names) const;
     size_t best(const Part& part) const;
     void findCorners();
     void keepInside(Lanes x, Lanes y);
-    Float3 placeAt(Float2 plane) const;
+    Float3 positionAt(Float2 plane) const;
     uint8_t cornerInside(const Part& part);
     size_t worstEdge(const Part& part) const;
     uint8_t cutEdge(uint8_t p, uint8_t q);
 
-    std::span<const FacetBlock> blocks_;
+    std::span<const TriangleBlock> blocks_;
     const PointMetric* metric_ = nullptr;
-    uint64_t served_ = 0; ///< a bit for each candidate
+    uint64_t used_ = 0; ///< a bit for each candidate
     float allowed2_ = 0;
     float radius2_ = 0;
     float lower2_ = 0; ///< largest distance of a point to the candidates; valid up to radius2_

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/clusters/core/facet.h"
+#include "cook/clusters/core/triangle_block.h"
 #include "cook/clusters/surface/piece_bound.h"
 #include "formats/base/math.h"
 
@@ -14,14 +14,14 @@ namespace hearth::clusters
 {
 
 /// Lists of numbers in one array (compressed sparse rows).
-class NumberLists
+class IndexLists
 {
 public:
     /// Append i / N to list keys[i], or to none if that is not below `list_count`.
     template <uint32_t N>
-    static NumberLists byKey(size_t list_count, std::span<const uint32_t> keys)
+    static IndexLists byKey(size_t list_count, std::span<const uint32_t> keys)
     {
-        NumberLists lists;
+        IndexLists lists;
         lists.offsets_.assign(list_count + 1, 0);
         for (const uint32_t key : keys)
             if (key < list_count)
@@ -36,7 +36,7 @@ public:
         return lists;
     }
 
-    std::span<const uint32_t> of(uint32_t key) const
+    std::span<const uint32_t> list(uint32_t key) const
     {
         return std::span(items_).subspan(offsets_[key], offsets_[key + 1] - offsets_[key]);
     }
@@ -49,55 +49,57 @@ private:
 /// Triangulated surface of a group; all arrays are in local units.
 struct Surface
 {
-    std::vector<uint32_t> positions; ///< position ids, three for each triangle
-    std::vector<Float3> places;      ///< positions of the same corners
-    std::vector<Facet> facets;
-    std::vector<Float3> place_of_position;
-    NumberLists facets_at; ///< triangles at each position
+    std::vector<uint32_t> position_ids;   ///< position ids, three for each triangle
+    std::vector<Float3> corner_positions; ///< positions of the same corners
+    std::vector<DistanceTriangle> triangles;
+    std::vector<Float3> position_of_id;
+    IndexLists triangles_at; ///< triangles at each position
 
-    /// positions          position ids, three for each triangle
-    /// place_of_position  position of every position id
-    Surface(std::vector<uint32_t> corner_positions, std::span<const Float3> all_places)
-        : positions(std::move(corner_positions)),
-          places(placesOf(positions, all_places)),
-          facets(facetsOf(places)),
-          place_of_position(all_places.begin(), all_places.end()),
-          facets_at(NumberLists::byKey<3>(all_places.size(), positions))
+    /// corner_ids         position ids, three for each triangle
+    /// position_of_id  position of every position id
+    Surface(std::vector<uint32_t> corner_ids, std::span<const Float3> all_positions)
+        : position_ids(std::move(corner_ids)),
+          corner_positions(gatherPositions(position_ids, all_positions)),
+          triangles(makeDistanceTriangles(corner_positions)),
+          position_of_id(all_positions.begin(), all_positions.end()),
+          triangles_at(IndexLists::byKey<3>(all_positions.size(), position_ids))
     {
     }
 
     /// Move the positions; the triangles stay the same.
-    void setPlaces(std::span<const Float3> all_places)
+    void setPositions(std::span<const Float3> all_positions)
     {
-        places = placesOf(positions, all_places);
-        facets = facetsOf(places);
-        place_of_position.assign(all_places.begin(), all_places.end());
+        corner_positions = gatherPositions(position_ids, all_positions);
+        triangles = makeDistanceTriangles(corner_positions);
+        position_of_id.assign(all_positions.begin(), all_positions.end());
     }
 
-    size_t facetCount() const { return positions.size() / 3; }
-    Corners cornersOf(size_t facet) const
+    size_t triangleCount() const { return position_ids.size() / 3; }
+    Corners triangleCorners(size_t triangle) const
     {
-        return {places[facet * 3], places[facet * 3 + 1], places[facet * 3 + 2]};
+        return {corner_positions[triangle * 3], corner_positions[triangle * 3 + 1],
+                corner_positions[triangle * 3 + 2]};
     }
 
 private:
-    static std::vector<Facet> facetsOf(std::span<const Float3> places)
+    static std::vector<DistanceTriangle> makeDistanceTriangles(std::span<const Float3> corner_positions)
     {
-        std::vector<Facet> facets;
-        facets.reserve(places.size() / 3);
-        for (size_t corner = 0; corner < places.size(); corner += 3)
-            facets.push_back(makeFacet(places[corner], places[corner + 1], places[corner + 2]));
-        return facets;
+        std::vector<DistanceTriangle> triangles;
+        triangles.reserve(corner_positions.size() / 3);
+        for (size_t corner = 0; corner < corner_positions.size(); corner += 3)
+            triangles.push_back(makeDistanceTriangle(corner_positions[corner], corner_positions[corner + 1],
+                                                     corner_positions[corner + 2]));
+        return triangles;
     }
 
-    static std::vector<Float3> placesOf(std::span<const uint32_t> positions,
-                                        std::span<const Float3> place_of_position)
+    static std::vector<Float3> gatherPositions(std::span<const uint32_t> position_ids,
+                                               std::span<const Float3> position_of_id)
     {
-        std::vector<Float3> places;
-        places.reserve(positions.size());
-        for (const uint32_t position : positions)
-            places.push_back(place_of_position[position]);
-        return places;
+        std::vector<Float3> corner_positions;
+        corner_positions.reserve(position_ids.size());
+        for (const uint32_t position : position_ids)
+            corner_positions.push_back(position_of_id[position]);
+        return corner_positions;
     }
 };
 

@@ -37,31 +37,31 @@ constexpr size_t kRun = 256;
 // Rounding of a distance, in parts of the coordinates: a few times 2^-53, with margin.
 constexpr double kBoundRounding = 1e-14;
 
-constexpr uint32_t kNoTriangle = 0xFFFFFFFFu;
+constexpr uint32_t kNotCut = 0xFFFFFFFFu;
 
 /// Piece of a triangle: a triangle itself.
 struct Piece
 {
     Corners3 corners;
-    uint32_t near = 0;             ///< a nearby triangle of the other surface
-    uint32_t cut_by = kNoTriangle; ///< the triangle that it was cut along
+    uint32_t near = 0;         ///< a nearby triangle of the other surface
+    uint32_t cut_by = kNotCut; ///< the triangle that it was cut along
 };
 
 /// Result of one triangle.
-struct Found
+struct TriangleBound
 {
     double upper = 0;
     double sure = 0;
     uint64_t loose_pieces = 0;
 };
 
-Double3 centerOf(const Corners3& c)
+Double3 pieceCenter(const Corners3& c)
 {
     return (c[0] + c[1] + c[2]) * (1.0 / 3);
 }
 
 /// Return the radius around the center that contains the whole piece.
-double radiusOf(const Corners3& c, Double3 center)
+double pieceRadius(const Corners3& c, Double3 center)
 {
     double radius2 = 0;
     for (const Double3 corner : c)
@@ -153,7 +153,7 @@ void cutAlong(const Piece& piece, const Corners3& border, std::vector<Piece>& pi
 /// True if cutting along a triangle gains more than halving.
 bool worthCutting(const Piece& piece, double radius, const Corners3& triangle)
 {
-    return piece.cut_by != piece.near && radius <= 2 * radiusOf(triangle, centerOf(triangle));
+    return piece.cut_by != piece.near && radius <= 2 * pieceRadius(triangle, pieceCenter(triangle));
 }
 
 /// Bound the distance of one triangle's points to a surface. Branch and bound: a piece is done when it lies
@@ -161,16 +161,16 @@ bool worthCutting(const Piece& piece, double radius, const Corners3& triangle)
 /// farther; else it is cut.
 ///
 /// known   a distance that occurs elsewhere, or that is good enough
-Found boundTriangle(const Corners3& triangle, const SurfaceTree& other, double known)
+TriangleBound boundTriangle(const Corners3& triangle, const SurfaceTree& other, double known)
 {
-    Found found;
+    TriangleBound found;
     std::vector<Piece> open{{triangle}};
     for (size_t pieces = 1; !open.empty(); ++pieces)
     {
         Piece piece = open.back();
         open.pop_back();
-        const Double3 center = centerOf(piece.corners);
-        const double radius = radiusOf(piece.corners, center);
+        const Double3 center = pieceCenter(piece.corners);
+        const double radius = pieceRadius(piece.corners, center);
         const double stop = std::max(0.0, kSearchSlack * std::max(known, found.sure) - radius);
         const SurfaceTree::Nearest nearest = other.nearest(center, stop * stop, piece.near);
         const double distance = std::sqrt(nearest.distance2);
@@ -238,7 +238,7 @@ double distanceOfCenters(const SurfaceTree& from, size_t triangle_count, const S
                           uint32_t near = 0;
                           for (const Piece& piece : pieces)
                           {
-                              const auto nearest = to.nearest(centerOf(piece.corners), farthest2[t], near);
+                              const auto nearest = to.nearest(pieceCenter(piece.corners), farthest2[t], near);
                               near = nearest.triangle;
                               farthest2[t] = std::max(farthest2[t], nearest.distance2);
                           }
@@ -247,13 +247,13 @@ double distanceOfCenters(const SurfaceTree& from, size_t triangle_count, const S
 }
 
 /// Bound the distance of all points of one surface to the other one.
-void addSide(const SurfaceView& surface, const SurfaceTree& from, const SurfaceTree& to, double enough,
-             SurfaceBound& bound)
+void boundOneSide(const SurfaceView& surface, const SurfaceTree& from, const SurfaceTree& to, double enough,
+                  SurfaceBound& bound)
 {
     const size_t triangle_count = surface.triangles.size() / 3;
     bound.sure =
         std::max({bound.sure, distanceOfCorners(surface, to), distanceOfCenters(from, triangle_count, to)});
-    std::vector<Found> found(std::min(triangle_count, kBlock));
+    std::vector<TriangleBound> found(std::min(triangle_count, kBlock));
     for (size_t first = 0; first < triangle_count; first += kBlock)
     {
         const size_t count = std::min(triangle_count - first, kBlock);
@@ -292,8 +292,8 @@ SurfaceBound boundSurfaces(const SurfaceView& a, const SurfaceView& b, double en
     const SurfaceTree tree_a(a);
     const SurfaceTree tree_b(b);
     SurfaceBound bound;
-    addSide(a, tree_a, tree_b, least, bound);
-    addSide(b, tree_b, tree_a, least, bound);
+    boundOneSide(a, tree_a, tree_b, least, bound);
+    boundOneSide(b, tree_b, tree_a, least, bound);
     bound.upper += coordinates * kBoundRounding;
     return bound;
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/surface/surface_fit.h"
 
-#include "cook/clusters/core/facet_fan.h"
 #include "cook/clusters/core/islands.h"
-#include "cook/clusters/simplify/turning.h"
+#include "cook/clusters/core/triangle_fan.h"
+#include "cook/clusters/simplify/triangle_flip.h"
 
 #include <array>
 #include <cmath>
@@ -21,22 +21,22 @@ namespace
 constexpr float kOverrelaxation = 1.3f;
 
 // Tolerance of the foot of a perpendicular, in parts of a triangle's edges.
-constexpr float kUpright = 1e-3f;
+constexpr float kPerpendicularTolerance = 1e-3f;
 
 class SurfaceFit
 {
 public:
-    SurfaceFit(const GroupMesh& group, Simplified& simplified, Surface& after, SurfacePoints& points)
+    SurfaceFit(const GroupMesh& group, SimplifiedGroup& simplified, Surface& after, SurfacePoints& points)
         : group_(group),
           placement_(simplified.placement),
           corners_(simplified.corners),
           after_(after),
           points_(points),
-          place_rests_(group.positions.size()),
+          position_residuals_(group.positions.size()),
           exact_weights_(group.positions.size(), 0),
           exact_distance2_(
               static_cast<float>(group.grid_step * group.grid_step / (group.scale * group.scale))),
-          attribute_rests_(group.attributes.size()),
+          attribute_residuals_(group.attributes.size()),
           attribute_weights_(group.vertex_of_wedge.size(), 0)
     {
     }
@@ -44,27 +44,27 @@ public:
     void run()
     {
         for (uint32_t triangle = 0; triangle < points_.of_middle.size(); ++triangle)
-            if (points_.of_middle[triangle].facet != kNoFacet)
+            if (points_.of_middle[triangle].triangle != kInvalidIndex)
                 addMiddle(triangle);
         for (uint32_t wedge = 0; wedge < attribute_weights_.size(); ++wedge)
         {
-            const bool has_rest = attribute_weights_[wedge] > 0;
-            const bool remade = placement_.remade[group_.position_of_wedge[wedge]] != 0;
-            if (has_rest & remade)
+            const bool has_residual = attribute_weights_[wedge] > 0;
+            const bool modified = placement_.modified[group_.position_id_of_wedge[wedge]] != 0;
+            if (has_residual & modified)
                 changeAttributes(wedge);
         }
-        for (uint32_t position = 0; position < place_rests_.size(); ++position)
+        for (uint32_t position = 0; position < position_residuals_.size(); ++position)
         {
-            const bool has_rest = place_rests_[position][3] > 2 * exact_weights_[position];
-            const bool remade = placement_.remade[position] != 0;
-            if (has_rest & remade)
+            const bool has_residual = position_residuals_[position][3] > 2 * exact_weights_[position];
+            const bool modified = placement_.modified[position] != 0;
+            if (has_residual & modified)
                 move(position);
         }
-        after_.setPlaces(placement_.places);
+        after_.setPositions(placement_.positions);
         for (uint32_t position = 0; position < points_.of_position.size(); ++position)
             measure(points_.of_position[position], position);
         for (uint32_t wedge = 0; wedge < points_.of_wedge.size(); ++wedge)
-            measure(points_.of_wedge[wedge], group_.position_of_wedge[wedge]);
+            measure(points_.of_wedge[wedge], group_.position_id_of_wedge[wedge]);
     }
 
 private:
@@ -73,20 +73,20 @@ private:
     void addMiddle(uint32_t triangle)
     {
         const uint32_t* before = &group_.corners[size_t{triangle} * 3];
-        const FacetPoint& point = points_.of_middle[triangle];
-        const uint32_t* after = &corners_[size_t{point.facet} * 3];
-        const uint32_t* positions = &after_.positions[size_t{point.facet} * 3];
-        const Float3 a = group_.positions[group_.position_of_wedge[before[0]]];
-        const Float3 b = group_.positions[group_.position_of_wedge[before[1]]];
-        const Float3 c = group_.positions[group_.position_of_wedge[before[2]]];
-        const Float3 away = triangleCenter(a, b, c) - placeOf(point, after_.facets);
-        if (!isUpright(point, away))
+        const TrianglePoint& point = points_.of_middle[triangle];
+        const uint32_t* after = &corners_[size_t{point.triangle} * 3];
+        const uint32_t* positions = &after_.position_ids[size_t{point.triangle} * 3];
+        const Float3 a = group_.positions[group_.position_id_of_wedge[before[0]]];
+        const Float3 b = group_.positions[group_.position_id_of_wedge[before[1]]];
+        const Float3 c = group_.positions[group_.position_id_of_wedge[before[2]]];
+        const Float3 away = triangleCenter(a, b, c) - trianglePosition(point, after_.triangles);
+        if (!isPerpendicular(point, away))
             return;
         const float area = length(cross(b - a, c - a));
         const std::array<float, 3> parts = point.parts();
-        const Lanes rest = Lanes{away.x, away.y, away.z, 1} * allLanes(area);
+        const Lanes residual = Lanes{away.x, away.y, away.z, 1} * splat(area);
         for (size_t k = 0; k < 3; ++k)
-            place_rests_[positions[k]] += rest * allLanes(parts[k]);
+            position_residuals_[positions[k]] += residual * splat(parts[k]);
         if (dot(away, away) <= exact_distance2_)
             for (size_t k = 0; k < 3; ++k)
                 exact_weights_[positions[k]] += area * parts[k];
@@ -98,11 +98,11 @@ private:
 
     /// True if the line to a point is perpendicular to the triangle. On the rim of the fan it is not: other
     /// triangles may be nearer there.
-    bool isUpright(const FacetPoint& point, Float3 away) const
+    bool isPerpendicular(const TrianglePoint& point, Float3 away) const
     {
-        const Facet& facet = after_.facets[point.facet];
-        return std::abs(dot(away, facet.ab)) <= kUpright * facet.ab_ab &&
-               std::abs(dot(away, facet.ac)) <= kUpright * facet.ac_ac;
+        const DistanceTriangle& triangle = after_.triangles[point.triangle];
+        return std::abs(dot(away, triangle.ab)) <= kPerpendicularTolerance * triangle.ab_ab &&
+               std::abs(dot(away, triangle.ac)) <= kPerpendicularTolerance * triangle.ac_ac;
     }
 
     void addAttributes(const uint32_t* before, const uint32_t* after, const std::array<float, 3>& parts,
@@ -112,14 +112,14 @@ private:
         const Lanes* of_after = placement_.attributes.data();
         for (uint32_t r = 0; r < rows; ++r)
         {
-            Lanes rest = (group_.attributesOf(before[0])[r] + group_.attributesOf(before[1])[r] +
-                          group_.attributesOf(before[2])[r]) *
-                         allLanes(1.0f / 3);
+            Lanes residual = (group_.wedgeAttributes(before[0])[r] + group_.wedgeAttributes(before[1])[r] +
+                              group_.wedgeAttributes(before[2])[r]) *
+                             splat(1.0f / 3);
             for (size_t k = 0; k < 3; ++k)
-                rest -= of_after[size_t{after[k]} * rows + r] * allLanes(parts[k]);
-            rest *= allLanes(area);
+                residual -= of_after[size_t{after[k]} * rows + r] * splat(parts[k]);
+            residual *= splat(area);
             for (size_t k = 0; k < 3; ++k)
-                attribute_rests_[size_t{after[k]} * rows + r] += rest * allLanes(parts[k]);
+                attribute_residuals_[size_t{after[k]} * rows + r] += residual * splat(parts[k]);
         }
         for (size_t k = 0; k < 3; ++k)
             attribute_weights_[after[k]] += parts[k] * area;
@@ -127,42 +127,44 @@ private:
 
     void changeAttributes(uint32_t wedge)
     {
-        const Lanes step = allLanes(kOverrelaxation / attribute_weights_[wedge]);
+        const Lanes step = splat(kOverrelaxation / attribute_weights_[wedge]);
         const size_t first = size_t{wedge} * group_.attribute_rows;
         for (size_t row = first; row < first + group_.attribute_rows; ++row)
-            placement_.attributes[row] += attribute_rests_[row] * step;
+            placement_.attributes[row] += attribute_residuals_[row] * step;
     }
 
     void move(uint32_t position)
     {
-        const Lanes step = place_rests_[position] * allLanes(kOverrelaxation / place_rests_[position][3]);
-        const Float3 object_place =
-            objectPlace(group_, placement_.places[position] + Float3{step[0], step[1], step[2]});
-        const Float3 place = localPlace(group_, object_place);
-        if (turnsOver(position, place))
+        const Lanes step =
+            position_residuals_[position] * splat(kOverrelaxation / position_residuals_[position][3]);
+        const Float3 object_position =
+            toObjectSpace(group_, placement_.positions[position] + Float3{step[0], step[1], step[2]});
+        const Float3 place = toLocalSpace(group_, object_position);
+        if (flipsTriangle(position, place))
             return;
-        placement_.places[position] = place;
-        placement_.object_places[position] = object_place;
+        placement_.positions[position] = place;
+        placement_.object_positions[position] = object_position;
     }
 
-    bool turnsOver(uint32_t position, Float3 place) const
+    bool flipsTriangle(uint32_t position, Float3 place) const
     {
-        const std::vector<Float3>& places = placement_.places;
-        for (const uint32_t facet : after_.facets_at.of(position))
+        const std::vector<Float3>& positions = placement_.positions;
+        for (const uint32_t triangle : after_.triangles_at.list(position))
         {
-            const uint32_t* p = &after_.positions[size_t{facet} * 3];
+            const uint32_t* p = &after_.position_ids[size_t{triangle} * 3];
             const size_t k = (p[1] == position ? 1u : 0u) + (p[2] == position ? 2u : 0u);
-            if (turnsTriangle(places[p[(k + 1) % 3]], places[p[(k + 2) % 3]], places[position], place))
+            if (moveFlipsTriangle(positions[p[(k + 1) % 3]], positions[p[(k + 2) % 3]], positions[position],
+                                  place))
                 return true;
         }
         return false;
     }
 
-    void measure(FacetPoint& point, uint32_t position) const
+    void measure(TrianglePoint& point, uint32_t position) const
     {
-        if (point.facet == kNoFacet)
+        if (point.triangle == kInvalidIndex)
             return;
-        const Float3 away = group_.positions[position] - placeOf(point, after_.facets);
+        const Float3 away = group_.positions[position] - trianglePosition(point, after_.triangles);
         point.distance2 = dot(away, away);
     }
 
@@ -171,16 +173,16 @@ private:
     std::span<const uint32_t> corners_; ///< wedges of the new surface's triangles
     Surface& after_;
     SurfacePoints& points_;
-    std::vector<Lanes> place_rests_;       ///< sum for each position, and its weight
-    std::vector<float> exact_weights_;     ///< part of the weight that is already on the new surface
-    float exact_distance2_;                ///< resolution of the grid
-    std::vector<Lanes> attribute_rests_;   ///< rows of each wedge
-    std::vector<float> attribute_weights_; ///< for each wedge
+    std::vector<Lanes> position_residuals_;  ///< sum for each position, and its weight
+    std::vector<float> exact_weights_;       ///< part of the weight that is already on the new surface
+    float exact_distance2_;                  ///< resolution of the grid
+    std::vector<Lanes> attribute_residuals_; ///< rows of each wedge
+    std::vector<float> attribute_weights_;   ///< for each wedge
 };
 
 } // namespace
 
-void fitToGroup(const GroupMesh& group, Simplified& simplified, Surface& after, SurfacePoints& points)
+void fitToGroup(const GroupMesh& group, SimplifiedGroup& simplified, Surface& after, SurfacePoints& points)
 {
     if (!points.of_middle.empty())
         SurfaceFit(group, simplified, after, points).run();

@@ -11,9 +11,9 @@
 namespace hearth::clusters
 {
 
-/// Move the remade positions, on the mesh's grid, and change their attributes, so that the triangles of the
+/// Move the modified positions, on the mesh's grid, and change their attributes, so that the triangles of the
 /// group lie nearer to the new surface in the sense of least squares. No triangle flips.
 /// after, points  of `simplified`; updated with it
-void fitToGroup(const GroupMesh& group, Simplified& simplified, Surface& after, SurfacePoints& points);
+void fitToGroup(const GroupMesh& group, SimplifiedGroup& simplified, Surface& after, SurfacePoints& points);
 
 } // namespace hearth::clusters

@@ -5,8 +5,8 @@
 
 #include "cook/clusters/core/group_mesh.h"
 #include "cook/clusters/simplify/simplify.h"
+#include "cook/clusters/surface/edge_path_tracer.h"
 #include "cook/clusters/surface/loop_fill.h"
-#include "cook/clusters/surface/side_ways.h"
 #include "cook/clusters/surface/surface.h"
 
 #include <algorithm>
@@ -26,76 +26,76 @@ public:
     /// positions_before  position ids, three for each triangle before
     /// points            points of the surface after that positions map to
     /// wanted            for each triangle before: 1 to map it; others are still present unchanged
-    SurfaceMap(const GroupMesh& group, const Simplified& simplified,
+    SurfaceMap(const GroupMesh& group, const SimplifiedGroup& simplified,
                std::span<const uint32_t> positions_before, const Surface& after,
-               std::span<const FacetPoint> points, std::span<const uint8_t> wanted);
+               std::span<const TrianglePoint> points, std::span<const uint8_t> wanted);
 
-    std::span<const uint32_t> twinsBefore() const { return twins_; }
+    std::span<const uint32_t> oppositesBefore() const { return opposites_; }
 
-    bool maps(size_t triangle) const { return far_[triangle] >= 0; }
+    bool maps(size_t triangle) const { return distances_[triangle] >= 0; }
 
     /// Return the largest distance of a point of a mapped triangle before to its mapped point.
-    float farOf(size_t triangle) const { return far_[triangle]; }
+    float maxDistance(size_t triangle) const { return distances_[triangle]; }
 
     /// True if each point of a triangle after is the mapped point of some triangle before.
-    bool covers(size_t facet) const { return covered_[facet] != 0; }
+    bool covers(size_t new_triangle) const { return covered_[new_triangle] != 0; }
 
     /// Return, for each triangle after, the largest sum of the value that a mapped triangle carries and the
     /// distance of a corner of its pieces there.
     /// carried  for each triangle before
-    std::vector<float> sumsOver(std::span<const float> carried) const;
+    std::vector<float> maxSums(std::span<const float> carried) const;
 
     /// Call visit(triangle) for the triangles that a mapped triangle's border passes through.
     template <typename Visit>
-    void forEachFacetOf(uint32_t triangle, Visit visit) const
+    void forEachTriangleOf(uint32_t triangle, Visit visit) const
     {
-        for (uint32_t side = triangle * 3; side < triangle * 3 + 3; ++side)
+        for (uint32_t half_edge = triangle * 3; half_edge < triangle * 3 + 3; ++half_edge)
         {
-            const Way& way = ways_.wayOf(std::min(side, twins_[side]));
-            visit(way.from);
-            for (const Crossing& crossing : ways_.crossingsOf(way))
+            const TracedPath& path = tracer_.tracedPath(std::min(half_edge, opposites_[half_edge]));
+            visit(path.from);
+            for (const Crossing& crossing : tracer_.crossings(path))
                 visit(crossing.entering() / 3);
         }
     }
 
 private:
     /// Corner of a triangle's pieces that lies at a position after, in all triangles around it.
-    struct Inner
+    struct InnerPoint
     {
         uint32_t triangle;
         uint32_t position;
-        float far;
+        float distance;
     };
 
     /// Triangle that the border of another one passes through at a single point, where a corner lies at a
     /// position after.
-    struct Passed
+    struct PassedTriangle
     {
         uint32_t triangle;
-        uint32_t facet;
-        float far;
+        uint32_t new_triangle;
+        float distance;
     };
 
-    void findWays(std::span<const uint8_t> wanted);
+    void tracePaths(std::span<const uint8_t> wanted);
     bool mapTriangle(uint32_t t);
-    void follow(const Way& way, bool backwards);
-    bool turn(uint32_t t, const Image& image, uint32_t from, uint32_t to);
-    void addInner(uint32_t triangle, uint32_t position, float far);
+    void follow(const TracedPath& path, bool backwards);
+    bool turn(uint32_t t, const MappedPoint& mapped, uint32_t from, uint32_t to);
+    void addInner(uint32_t triangle, uint32_t position, float distance);
     void findCovered();
-    void openAlong(uint32_t side);
-    void openBetween(uint32_t facet, InFacet a, InFacet b);
+    void markOpenAlong(uint32_t half_edge);
+    void markOpenBetween(uint32_t new_triangle, BarycentricPoint a, BarycentricPoint b);
 
     const GroupMesh& group_;
     std::span<const uint32_t> positions_;
     const Surface& after_;
-    std::vector<uint32_t> twins_; ///< opposite half-edges before
-    SideWays ways_;
-    LoopFill fill_;
-    std::vector<float> far_; ///< for each triangle before; less than 0 if it is not mapped
-    std::vector<Inner> inner_;
-    std::vector<Passed> passed_;
+    std::vector<uint32_t> opposites_; ///< opposite half-edges before
+    EdgePathTracer tracer_;
+    LoopFiller fill_;
+    std::vector<float> distances_; ///< for each triangle before; less than 0 if it is not mapped
+    std::vector<InnerPoint> inner_;
+    std::vector<PassedTriangle> passed_;
     /// 1 for each half-edge after that is covered once and decides for its triangle.
-    std::vector<uint8_t> telling_;
+    std::vector<uint8_t> decides_;
     std::vector<uint8_t> open_; ///< for each triangle after: parts may be covered more often than others
     std::vector<uint8_t> covered_;
 };

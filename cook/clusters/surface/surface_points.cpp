@@ -2,6 +2,7 @@
 #include "cook/clusters/surface/surface_points.h"
 
 #include "cook/clusters/core/islands.h"
+#include "formats/base/index.h"
 
 #include <algorithm>
 #include <limits>
@@ -17,7 +18,7 @@ namespace
 class PointFinder
 {
 public:
-    PointFinder(const GroupMesh& group, const Simplified& simplified, const Surface& after)
+    PointFinder(const GroupMesh& group, const SimplifiedGroup& simplified, const Surface& after)
         : group_(group), simplified_(simplified), after_(after)
     {
         points_.of_position.resize(group.positions.size());
@@ -27,101 +28,102 @@ public:
     SurfacePoints run()
     {
         findSeams();
-        findGoals();
-        const Chains wedges(goals_.size(), points_.of_wedge.size(),
-                            [&](uint32_t wedge) { return goals_[group_.position_of_wedge[wedge]]; });
+        findTargets();
+        const KeyedLists wedges(targets_.size(), points_.of_wedge.size(),
+                                [&](uint32_t wedge) { return targets_[group_.position_id_of_wedge[wedge]]; });
         if (!simplified_.pruned && !simplified_.merged)
             points_.of_middle.resize(group_.triangleCount());
         if (!points_.of_middle.empty())
             for (uint32_t t = 0; t < simplified_.triangleCount(); ++t)
-                takeOwnFacet(simplified_.source_triangle[t], t);
-        const Chains triangles(goals_.size(), points_.of_middle.size(),
-                               [&](uint32_t triangle) {
-                                   return points_.of_middle[triangle].facet != kNoFacet ? kNone
-                                                                                        : firstGoal(triangle);
-                               });
-        for (uint32_t goal = 0; goal < goals_.size(); ++goal)
+                takeOwnTriangle(simplified_.source_triangle[t], t);
+        const KeyedLists triangles(targets_.size(), points_.of_middle.size(),
+                                   [&](uint32_t triangle) {
+                                       return points_.of_middle[triangle].triangle != kInvalidIndex
+                                                  ? kInvalidIndex
+                                                  : firstTarget(triangle);
+                                   });
+        for (uint32_t goal = 0; goal < targets_.size(); ++goal)
         {
-            if ((wedges.isEmpty(goal) && triangles.isEmpty(goal)) || after_.facets_at.of(goal).empty())
+            if ((wedges.isEmpty(goal) && triangles.isEmpty(goal)) || after_.triangles_at.list(goal).empty())
                 continue;
-            fan_.load(after_.facets, after_.facets_at.of(goal));
+            fan_.load(after_.triangles, after_.triangles_at.list(goal));
             wedges.forEach(goal, [&](uint32_t wedge) { locate(wedge, points_.on_seam[goal] != 0); });
             triangles.forEach(goal, [&](uint32_t triangle)
-                              { points_.of_middle[triangle] = fan_.nearest(middleOf(triangle)); });
+                              { points_.of_middle[triangle] = fan_.nearest(triangleMiddle(triangle)); });
         }
         return std::move(points_);
     }
 
 private:
-    static constexpr uint32_t kNone = 0xFFFFFFFFu;
-
     /// Linked lists of items by key.
-    class Chains
+    class KeyedLists
     {
     public:
-        /// keyOf(item) is kNone for items of no list
-        template <typename KeyOf>
-        Chains(size_t key_count, size_t item_count, KeyOf keyOf)
-            : head_(key_count, kNone), behind_(item_count)
+        /// getKey(item) is kInvalidIndex for items of no list
+        template <typename GetKey>
+        KeyedLists(size_t key_count, size_t item_count, GetKey getKey)
+            : head_(key_count, kInvalidIndex), next_(item_count)
         {
             for (uint32_t item = 0; item < item_count; ++item)
-                if (const uint32_t key = keyOf(item); key != kNone)
-                    behind_[item] = std::exchange(head_[key], item);
+                if (const uint32_t key = getKey(item); key != kInvalidIndex)
+                    next_[item] = std::exchange(head_[key], item);
         }
 
-        bool isEmpty(uint32_t key) const { return head_[key] == kNone; }
+        bool isEmpty(uint32_t key) const { return head_[key] == kInvalidIndex; }
 
         template <typename Visit>
         void forEach(uint32_t key, Visit visit) const
         {
-            for (uint32_t item = head_[key]; item != kNone; item = behind_[item])
+            for (uint32_t item = head_[key]; item != kInvalidIndex; item = next_[item])
                 visit(item);
         }
 
     private:
         std::vector<uint32_t> head_;
-        std::vector<uint32_t> behind_;
+        std::vector<uint32_t> next_;
     };
 
-    void findGoals()
+    void findTargets()
     {
-        static_assert(kPruned == kNone);
-        goals_.resize(group_.positions.size());
-        for (uint32_t position = 0; position < goals_.size(); ++position)
+        static_assert(kPruned == kInvalidIndex);
+        targets_.resize(group_.positions.size());
+        for (uint32_t position = 0; position < targets_.size(); ++position)
         {
             const uint32_t target = simplified_.target_of_position[position];
-            const bool stayed = position == target, remade = simplified_.placement.remade[position] != 0;
-            const bool unchanged = stayed & !remade;
-            goals_[position] = unchanged ? kNone : target;
+            const bool stayed = position == target, modified = simplified_.placement.modified[position] != 0;
+            const bool unchanged = stayed & !modified;
+            targets_[position] = unchanged ? kInvalidIndex : target;
         }
     }
 
-    uint32_t firstGoal(uint32_t triangle) const
+    uint32_t firstTarget(uint32_t triangle) const
     {
         const uint32_t* wedges = &group_.corners[size_t{triangle} * 3];
-        const uint32_t goal0 = goals_[group_.position_of_wedge[wedges[0]]];
-        const uint32_t goal1 = goals_[group_.position_of_wedge[wedges[1]]];
-        return goal0 != kNone ? goal0 : goal1 != kNone ? goal1 : goals_[group_.position_of_wedge[wedges[2]]];
+        const uint32_t goal0 = targets_[group_.position_id_of_wedge[wedges[0]]];
+        const uint32_t goal1 = targets_[group_.position_id_of_wedge[wedges[1]]];
+        return goal0 != kInvalidIndex   ? goal0
+               : goal1 != kInvalidIndex ? goal1
+                                        : targets_[group_.position_id_of_wedge[wedges[2]]];
     }
 
     /// Take the triangle's own remainder if its middle lies above it, as most do.
-    void takeOwnFacet(uint32_t triangle, uint32_t number)
+    void takeOwnTriangle(uint32_t triangle, uint32_t number)
     {
-        const Facet& facet = after_.facets[number];
-        const Float3 away = middleOf(triangle) - facet.a;
-        const float ab_ap = dot(facet.ab, away), ac_ap = dot(facet.ac, away);
-        const float v = (facet.ac_ac * ab_ap - facet.ab_ac * ac_ap) * facet.inverse_det;
-        const float w = (facet.ab_ab * ac_ap - facet.ab_ac * ab_ap) * facet.inverse_det;
+        const DistanceTriangle& remainder = after_.triangles[number];
+        const Float3 away = triangleMiddle(triangle) - remainder.a;
+        const float ab_ap = dot(remainder.ab, away), ac_ap = dot(remainder.ac, away);
+        const float v = (remainder.ac_ac * ab_ap - remainder.ab_ac * ac_ap) * remainder.inverse_det;
+        const float w = (remainder.ab_ab * ac_ap - remainder.ab_ac * ab_ap) * remainder.inverse_det;
         if (v > 0 && w > 0 && v + w < 1)
             points_.of_middle[triangle] = {number, v, w, 0};
     }
 
-    Float3 middleOf(uint32_t triangle) const
+    Float3 triangleMiddle(uint32_t triangle) const
     {
         const size_t corner = size_t{triangle} * 3;
-        return triangleCenter(group_.positions[group_.positionAt(corner)],
-                              group_.positions[group_.positionAt(corner + 1)],
-                              group_.positions[group_.positionAt(corner + 2)]);
+        return triangleCenter(group_.positions[group_.positionIdAt(corner)],
+                              group_.positions[group_.positionIdAt(corner + 1)],
+                              group_.positions[group_.positionIdAt(corner + 2)]);
     }
 
     void findSeams()
@@ -129,38 +131,38 @@ private:
         points_.on_seam.assign(group_.positions.size(), 0);
         if (group_.positions.size() == group_.vertex_of_wedge.size())
             return;
-        std::vector<uint32_t> wedge_at(group_.positions.size(), kNone);
+        std::vector<uint32_t> wedge_at(group_.positions.size(), kInvalidIndex);
         for (const uint32_t wedge : simplified_.corners)
         {
-            uint32_t& first = wedge_at[group_.position_of_wedge[wedge]];
-            if (first == kNone)
+            uint32_t& first = wedge_at[group_.position_id_of_wedge[wedge]];
+            if (first == kInvalidIndex)
                 first = wedge;
             else if (first != wedge)
-                points_.on_seam[group_.position_of_wedge[wedge]] = 1;
+                points_.on_seam[group_.position_id_of_wedge[wedge]] = 1;
         }
     }
 
     void locate(uint32_t wedge, bool on_seam)
     {
-        FacetPoint& nearest = points_.of_position[group_.position_of_wedge[wedge]];
-        if (nearest.facet == kNoFacet)
-            nearest = fan_.nearest(group_.positions[group_.position_of_wedge[wedge]]);
+        TrianglePoint& nearest = points_.of_position[group_.position_id_of_wedge[wedge]];
+        if (nearest.triangle == kInvalidIndex)
+            nearest = fan_.nearest(group_.positions[group_.position_id_of_wedge[wedge]]);
         // inside a chart the fan is continuous
-        points_.of_wedge[wedge] = on_seam ? likeliestPoint(wedge) : nearest;
+        points_.of_wedge[wedge] = on_seam ? nearestWithAttributes(wedge) : nearest;
     }
 
     /// Return the nearest point on each of the triangles, and of these the nearest one in position and
     /// attributes: at a seam this is on the wedge's own side.
-    FacetPoint likeliestPoint(uint32_t wedge) const
+    TrianglePoint nearestWithAttributes(uint32_t wedge) const
     {
-        FacetPoint best;
+        TrianglePoint best;
         float least = std::numeric_limits<float>::infinity();
-        fan_.forEachNearest(group_.positions[group_.position_of_wedge[wedge]],
-                            [&](const FacetPoint& point)
+        fan_.forEachNearest(group_.positions[group_.position_id_of_wedge[wedge]],
+                            [&](const TrianglePoint& point)
                             {
                                 const float cost = point.distance2 + attributeDistance2(wedge, point);
                                 // the first serves if distances are NaN
-                                if (cost < least || best.facet == kNoFacet)
+                                if (cost < least || best.triangle == kInvalidIndex)
                                 {
                                     least = std::min(least, cost);
                                     best = point;
@@ -169,14 +171,14 @@ private:
         return best;
     }
 
-    float attributeDistance2(uint32_t wedge, const FacetPoint& point) const
+    float attributeDistance2(uint32_t wedge, const TrianglePoint& point) const
     {
-        const Lanes* before = group_.attributesOf(wedge);
+        const Lanes* before = group_.wedgeAttributes(wedge);
         const Lanes* rows[3];
         for (size_t k = 0; k < 3; ++k)
             rows[k] = simplified_.placement.attributes.data() +
-                      size_t{simplified_.corners[point.facet * 3 + k]} * group_.attribute_rows;
-        const Lanes v = allLanes(point.v), w = allLanes(point.w), u = allLanes(1 - point.v - point.w);
+                      size_t{simplified_.corners[point.triangle * 3 + k]} * group_.attribute_rows;
+        const Lanes v = splat(point.v), w = splat(point.w), u = splat(1 - point.v - point.w);
         Lanes sum{};
         for (size_t row = 0; row < group_.attribute_rows; ++row)
         {
@@ -187,16 +189,17 @@ private:
     }
 
     const GroupMesh& group_;
-    const Simplified& simplified_;
+    const SimplifiedGroup& simplified_;
     const Surface& after_;
     SurfacePoints points_;
-    std::vector<uint32_t> goals_; ///< target of each position that was removed or moved; others: kNone
-    FacetFan fan_;                ///< triangles around one position
+    std::vector<uint32_t>
+        targets_;     ///< target of each position that was removed or moved; others: kInvalidIndex
+    TriangleFan fan_; ///< triangles around one position
 };
 
 } // namespace
 
-SurfacePoints findPoints(const GroupMesh& group, const Simplified& simplified, const Surface& after)
+SurfacePoints findPoints(const GroupMesh& group, const SimplifiedGroup& simplified, const Surface& after)
 {
     return PointFinder(group, simplified, after).run();
 }

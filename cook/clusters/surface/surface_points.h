@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/clusters/core/facet_fan.h"
 #include "cook/clusters/core/group_mesh.h"
+#include "cook/clusters/core/triangle_fan.h"
 #include "cook/clusters/simplify/simplify.h"
 #include "cook/clusters/surface/surface.h"
 
@@ -16,16 +16,16 @@ namespace hearth::clusters
 /// unchanged positions and for pruned ones.
 struct SurfacePoints
 {
-    std::vector<FacetPoint> of_position; ///< nearest point
+    std::vector<TrianglePoint> of_position; ///< nearest point
     /// Nearest point; at a seam the nearest one that takes attributes into account as well.
-    std::vector<FacetPoint> of_wedge;
+    std::vector<TrianglePoint> of_wedge;
     /// Point near the middle of each triangle: in the remainder of the triangle, if the middle lies over
     /// that, else among the triangles around the target of its first changed corner. Empty if islands were
     /// pruned or grown, or positions were merged by cells: the rest is not meant to lie like that.
-    std::vector<FacetPoint> of_middle;
+    std::vector<TrianglePoint> of_middle;
     std::vector<uint8_t> on_seam; ///< for each position: several wedges remain at it
 };
 
-SurfacePoints findPoints(const GroupMesh& group, const Simplified& simplified, const Surface& after);
+SurfacePoints findPoints(const GroupMesh& group, const SimplifiedGroup& simplified, const Surface& after);
 
 } // namespace hearth::clusters

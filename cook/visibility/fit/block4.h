@@ -26,12 +26,12 @@ struct alignas(32) Block4
     }
 };
 
-inline Block4 blockOf(const Moments& m)
+inline Block4 blockFromMoments(const Moments& m)
 {
     return {{m.m0, m.m1.x, m.m1.y, m.m1.z}};
 }
 
-inline Moments momentsOf(const Block4& b)
+inline Moments momentsFromBlock(const Block4& b)
 {
     return {static_cast<float>(b.v[0]),
             {static_cast<float>(b.v[1]), static_cast<float>(b.v[2]), static_cast<float>(b.v[3])}};

@@ -20,13 +20,13 @@ namespace
 {
 
 // Narrower cones have no visible effect on shading, and at 0 all derivatives vanish.
-constexpr double kLeastAperture = 1e-3;
+constexpr double kMinAperture = 1e-3;
 
 // Stops the solver where errors are a quarter of a thousandth of full visibility's norm, far below any noise.
 constexpr double kFunctionTolerance = 1e-10;
 
 template <typename T>
-std::array<T, 9> basisOf(const T& x, const T& y, const T& z)
+std::array<T, 9> evaluateBasis(const T& x, const T& y, const T& z)
 {
     const double band1 = std::sqrt(3 / (4 * std::numbers::pi)),
                  band2 = std::sqrt(15 / (4 * std::numbers::pi));
@@ -51,7 +51,7 @@ std::array<T, 9> coneHarmonics(const T* axis, const T& aperture, const T& scale)
     const T band0 = scale * (1.0 - c) * (2 * std::numbers::pi);
     const T band1 = scale * s * s * std::numbers::pi;
     const T band2 = c * band1;
-    std::array<T, 9> result = basisOf(axis[0], axis[1], axis[2]);
+    std::array<T, 9> result = evaluateBasis(axis[0], axis[1], axis[2]);
     result[0] = result[0] * band0;
     for (size_t i = 1; i < 4; ++i)
         result[i] = result[i] * band1;
@@ -60,7 +60,7 @@ std::array<T, 9> coneHarmonics(const T* axis, const T& aperture, const T& scale)
     return result;
 }
 
-struct Distance
+struct HarmonicsResidual
 {
     Sh9 visibility;
 
@@ -82,16 +82,17 @@ double distance2(const Sh9& a, const Sh9& b)
     return sum;
 }
 
-ConeFit descend(const Sh9& visibility, const ConeFit& start)
+ConeFit solveFrom(const Sh9& visibility, const ConeFit& start)
 {
     std::array<double, 3> axis{start.axis.x, start.axis.y, start.axis.z};
-    std::array<double, 2> shape{std::clamp(start.aperture_rad, kLeastAperture, std::numbers::pi / 2),
+    std::array<double, 2> shape{std::clamp(start.aperture_rad, kMinAperture, std::numbers::pi / 2),
                                 std::clamp(start.scale, 0.0, 1.0)};
     ceres::Problem problem;
-    problem.AddResidualBlock(new ceres::AutoDiffCostFunction<Distance, 9, 3, 2>(new Distance{visibility}),
-                             nullptr, axis.data(), shape.data());
+    problem.AddResidualBlock(
+        new ceres::AutoDiffCostFunction<HarmonicsResidual, 9, 3, 2>(new HarmonicsResidual{visibility}),
+        nullptr, axis.data(), shape.data());
     problem.SetManifold(axis.data(), new ceres::SphereManifold<3>);
-    problem.SetParameterLowerBound(shape.data(), 0, kLeastAperture);
+    problem.SetParameterLowerBound(shape.data(), 0, kMinAperture);
     problem.SetParameterUpperBound(shape.data(), 0, std::numbers::pi / 2);
     problem.SetParameterLowerBound(shape.data(), 1, 0);
     problem.SetParameterUpperBound(shape.data(), 1, 1);
@@ -110,10 +111,10 @@ ConeFit descend(const Sh9& visibility, const ConeFit& start)
 
 Sh9 sphericalHarmonics(Double3 direction)
 {
-    return basisOf(direction.x, direction.y, direction.z);
+    return evaluateBasis(direction.x, direction.y, direction.z);
 }
 
-Sh9 harmonicsOf(const ConeFit& cone)
+Sh9 computeHarmonics(const ConeFit& cone)
 {
     const std::array<double, 3> axis{cone.axis.x, cone.axis.y, cone.axis.z};
     return coneHarmonics(axis.data(), cone.aperture_rad, cone.scale);
@@ -121,17 +122,18 @@ Sh9 harmonicsOf(const ConeFit& cone)
 
 RefinedCone refineCone(const Sh9& visibility, const ConeFit& start, Double3 normal)
 {
-    RefinedCone best{start, distance2(harmonicsOf(start), visibility), 0};
+    RefinedCone best{start, distance2(computeHarmonics(start), visibility), 0};
     best.distance2 = best.start_distance2;
     ConeFit about_normal = start;
     about_normal.axis = normal;
     for (const ConeFit& from : {start, about_normal})
     {
-        const ConeFit found = descend(visibility, from);
-        if (const double left = distance2(harmonicsOf(found), visibility); left < best.distance2)
+        const ConeFit found = solveFrom(visibility, from);
+        if (const double remaining = distance2(computeHarmonics(found), visibility);
+            remaining < best.distance2)
         {
             best.cone = found;
-            best.distance2 = left;
+            best.distance2 = remaining;
         }
     }
     return best;

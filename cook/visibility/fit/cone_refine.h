@@ -27,7 +27,7 @@ struct ConeFit
 };
 
 /// Compute the harmonics of the cone, integrated over all directions.
-Sh9 harmonicsOf(const ConeFit& cone);
+Sh9 computeHarmonics(const ConeFit& cone);
 
 struct RefinedCone
 {

@@ -22,7 +22,7 @@ constexpr size_t kRowsPerTask = 2048;
 
 /// Sum over all rows: `term(row, sum)` adds the term of a row.
 template <typename Term>
-Block4 sumOver(size_t rows, const Term& term)
+Block4 sumRows(size_t rows, const Term& term)
 {
     const size_t blocks = (rows + kRowsPerTask - 1) / kRowsPerTask;
     std::vector<Block4> sums(blocks);
@@ -56,9 +56,9 @@ class Lanczos
 public:
     void add(double step, double beta)
     {
-        diagonal_.push_back(1 / step + carried_);
-        square_.push_back(beta / (step * step));
-        carried_ = beta / step;
+        diagonal_.push_back(1 / step + carry_);
+        off_diagonal2_.push_back(beta / (step * step));
+        carry_ = beta / step;
     }
 
     double condition() const
@@ -67,10 +67,11 @@ public:
             return 1;
         double high = 0; // all eigenvalues are positive and no greater
         for (size_t i = 0; i < diagonal_.size(); ++i)
-            high = std::max(high,
-                            diagonal_[i] + std::sqrt(square_[i]) + (i > 0 ? std::sqrt(square_[i - 1]) : 0));
-        const double least = eigenvalue(1, high), most = eigenvalue(diagonal_.size(), high);
-        return least > 0 ? most / least : std::numeric_limits<double>::infinity();
+            high = std::max(high, diagonal_[i] + std::sqrt(off_diagonal2_[i]) +
+                                      (i > 0 ? std::sqrt(off_diagonal2_[i - 1]) : 0));
+        const double min_eigenvalue = eigenvalue(1, high),
+                     max_eigenvalue = eigenvalue(diagonal_.size(), high);
+        return min_eigenvalue > 0 ? max_eigenvalue / min_eigenvalue : std::numeric_limits<double>::infinity();
     }
 
 private:
@@ -81,7 +82,7 @@ private:
         double pivot = 1;
         for (size_t i = 0; i < diagonal_.size(); ++i)
         {
-            pivot = diagonal_[i] - x - (i > 0 ? square_[i - 1] / pivot : 0);
+            pivot = diagonal_[i] - x - (i > 0 ? off_diagonal2_[i - 1] / pivot : 0);
             if (pivot == 0)
                 pivot = std::numeric_limits<double>::min();
             count += pivot < 0;
@@ -102,8 +103,8 @@ private:
     }
 
     std::vector<double> diagonal_;
-    std::vector<double> square_; ///< squares of the entries beside the diagonal
-    double carried_ = 0;
+    std::vector<double> off_diagonal2_; ///< squares of the entries beside the diagonal
+    double carry_ = 0;
 };
 
 bool allDone(const std::array<bool, 4>& active)
@@ -141,7 +142,7 @@ SolveStatistics solve(const SparseMatrix& matrix, const std::vector<Block4>& b, 
     while (!allDone(active) && statistics.iterations < max_iterations)
     {
         ++statistics.iterations;
-        const Block4 pq = sumOver(rows,
+        const Block4 pq = sumRows(rows,
                                   [&](size_t i, Block4& sum)
                                   {
                                       q[i] = rowTimes(matrix, i, p);

@@ -16,7 +16,7 @@ constexpr size_t kRowsPerBlock = 2048;
 
 // Minimum pivot, as a share of the diagonal: where large entries are left out, pivots become small, then
 // negative, and later entries grow without bound.
-constexpr double kLeastPivot = 0.02;
+constexpr double kMinPivot = 0.02;
 
 // First increase of a block's diagonal after a pivot that is too small; doubled until it is enough. Entries
 // are at most the root of their diagonals' product, so the diagonal times the number of entries in a row is
@@ -83,10 +83,11 @@ bool IncompleteCholesky::factorizeRow(uint32_t row, double shift)
         factors_[matrix_.entryFrom(columns[i], row)] = factor;
     }
     of_row.inverse = 1 / pivot;
-    return pivot >= kLeastPivot * whole;
+    return pivot >= kMinPivot * whole;
 }
 
-void IncompleteCholesky::applyTo(size_t block, const std::vector<Block4>& r, std::vector<Block4>& z) const
+void IncompleteCholesky::applyToBlock(size_t block, const std::vector<Block4>& r,
+                                      std::vector<Block4>& z) const
 {
     const size_t begin = block * kRowsPerBlock, end = std::min(rows_.size(), begin + kRowsPerBlock);
     for (size_t row = begin; row < end; ++row)
@@ -112,7 +113,7 @@ Block4 IncompleteCholesky::apply(const std::vector<Block4>& r, std::vector<Block
     tbb::parallel_for(size_t{0}, sums.size(),
                       [&](size_t block)
                       {
-                          applyTo(block, r, z);
+                          applyToBlock(block, r, z);
                           const size_t end = std::min(rows_.size(), (block + 1) * kRowsPerBlock);
                           for (size_t row = block * kRowsPerBlock; row < end; ++row)
                               sums[block].addProduct(r[row], z[row], 1);

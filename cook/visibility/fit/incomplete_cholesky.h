@@ -43,7 +43,7 @@ private:
     /// Factorize a row, with its diagonal increased by `shift` times itself. True if the pivot is large
     /// enough.
     bool factorizeRow(uint32_t row, double shift);
-    void applyTo(size_t block, const std::vector<Block4>& r, std::vector<Block4>& z) const;
+    void applyToBlock(size_t block, const std::vector<Block4>& r, std::vector<Block4>& z) const;
 
     const SparseMatrix& matrix_;
     std::vector<Row> rows_;

@@ -16,13 +16,13 @@ namespace
 {
 
 // Samples that are looked up in sequence; each search starts at the triangle that the previous one found.
-constexpr size_t kVerticesPerTask = 256;
+constexpr size_t kSamplesPerTask = 256;
 
 // Default of LevelMesh::reach (stored as 0), as a share of the diagonal of the samples' box.
-constexpr double kReach = 0.05;
+constexpr double kDefaultReach = 0.05;
 
 /// Positions of the samples, with the directions that their triangles face.
-struct SamplePoints
+struct SampleGeometry
 {
     std::vector<Float3> positions;
     std::vector<Float3> normals; ///< not of length 1
@@ -30,9 +30,9 @@ struct SamplePoints
     double diagonal = 0;
 };
 
-SamplePoints pointsOf(const MeshView& mesh, std::span<const SurfaceSample> samples)
+SampleGeometry computeSampleGeometry(const MeshView& mesh, std::span<const SurfaceSample> samples)
 {
-    SamplePoints points;
+    SampleGeometry points;
     points.positions.resize(samples.size());
     points.normals.resize(samples.size());
     points.weights.resize(samples.size());
@@ -56,24 +56,24 @@ SamplePoints pointsOf(const MeshView& mesh, std::span<const SurfaceSample> sampl
 }
 
 /// Map the chosen samples of the finest level to a level's proxy.
-std::vector<SurfaceSample> transfer(const SamplePoints& points, const SampleChoice& choice,
-                                    const Proxy& proxy, double reach)
+std::vector<SurfaceSample> moveSamples(const SampleGeometry& points, const SampleSubset& choice,
+                                       const Proxy& proxy, double reach)
 {
     const ClosestPoint surface(proxy.view(), proxy.indices.size() / 3);
     std::vector<SurfaceSample> result(choice.samples.size());
     tbb::parallel_for(
-        size_t{0}, (result.size() + kVerticesPerTask - 1) / kVerticesPerTask,
+        size_t{0}, (result.size() + kSamplesPerTask - 1) / kSamplesPerTask,
         [&](size_t block)
         {
-            uint32_t hint = kNowhere;
-            for (size_t i = block * kVerticesPerTask;
-                 i < std::min(result.size(), (block + 1) * kVerticesPerTask); ++i)
+            uint32_t hint = kInvalidIndex;
+            for (size_t i = block * kSamplesPerTask;
+                 i < std::min(result.size(), (block + 1) * kSamplesPerTask); ++i)
             {
                 const uint32_t sample = choice.samples[i];
-                const ClosestPoint::Found found =
+                const ClosestPoint::Hit found =
                     surface.find(points.positions[sample], points.normals[sample], reach * reach, hint);
                 result[i] = {found.triangle, found.u, found.v, choice.areas[i], points.weights[sample]};
-                if (found.triangle != kNowhere)
+                if (found.triangle != kInvalidIndex)
                     hint = found.triangle;
             }
         });
@@ -81,20 +81,22 @@ std::vector<SurfaceSample> transfer(const SamplePoints& points, const SampleChoi
 }
 
 /// Fixed values of proxy vertices that keep shared vertices equal to those of the finer level.
-struct Held
+struct HeldValues
 {
     std::vector<uint8_t> is_held;
     std::vector<Moments> moments;
 };
 
-Held heldOf(const LevelMesh& level, const Proxy& proxy, std::span<const Moments> finer)
+HeldValues collectHeldValues(const LevelMesh& level, const Proxy& proxy, std::span<const Moments> finer)
 {
-    Held held{std::vector<uint8_t>(proxy.positions.size(), 0), std::vector<Moments>(proxy.positions.size())};
+    HeldValues held{std::vector<uint8_t>(proxy.positions.size(), 0),
+                    std::vector<Moments>(proxy.positions.size())};
     for (size_t v = 0; v < level.finer_vertex.size(); ++v)
     {
         const Binding& binding = proxy.bindings[v];
-        const bool is_one = binding.vertices[0] != kNowhere && binding.vertices[0] == binding.vertices[1];
-        if (level.finer_vertex[v] == kNowhere || !is_one || held.is_held[binding.vertices[0]] != 0)
+        const bool is_one =
+            binding.vertices[0] != kInvalidIndex && binding.vertices[0] == binding.vertices[1];
+        if (level.finer_vertex[v] == kInvalidIndex || !is_one || held.is_held[binding.vertices[0]] != 0)
             continue;
         held.is_held[binding.vertices[0]] = 1;
         held.moments[binding.vertices[0]] = finer[level.finer_vertex[v]];
@@ -106,22 +108,22 @@ LevelFit fitLevel(const LevelMesh& level, const Proxy& proxy, std::span<const Su
                   std::span<const Moments> values, const FitSettings& settings,
                   std::span<const Moments> finer)
 {
-    const Held held = heldOf(level, proxy, finer);
+    const HeldValues held = collectHeldValues(level, proxy, finer);
     FitResult fit = fitVertices(proxy, samples, values, settings, {held.is_held, held.moments});
-    LevelFit result{valuesOfSource(proxy, fit.moments, level.mesh.normals), fit.statistics, proxy.statistics,
-                    static_cast<uint32_t>(samples.size())};
+    LevelFit result{mapValuesToSource(proxy, fit.moments, level.mesh.normals), fit.statistics,
+                    proxy.statistics, static_cast<uint32_t>(samples.size())};
     // several vertices of a level may share one proxy vertex where the finer level had two
     for (size_t v = 0; v < level.finer_vertex.size(); ++v)
-        if (level.finer_vertex[v] != kNowhere)
+        if (level.finer_vertex[v] != kInvalidIndex)
             result.moments[v] = finer[level.finer_vertex[v]];
     return result;
 }
 
 } // namespace
 
-SampleChoice chooseSamples(std::span<const SurfaceSample> samples, size_t count)
+SampleSubset chooseSamples(std::span<const SurfaceSample> samples, size_t count)
 {
-    SampleChoice choice;
+    SampleSubset choice;
     if (samples.size() <= count)
     {
         choice.samples.resize(samples.size());
@@ -134,13 +136,13 @@ SampleChoice chooseSamples(std::span<const SurfaceSample> samples, size_t count)
     for (const SurfaceSample& sample : samples)
         total += sample.area;
     const double step = total / static_cast<double>(count);
-    double passed = 0;
+    double accumulated = 0;
     size_t next = 0;
     for (uint32_t i = 0; i < samples.size(); ++i)
     {
-        passed += samples[i].area;
+        accumulated += samples[i].area;
         const size_t before = next;
-        while (next < count && (static_cast<double>(next) + 0.5) * step < passed)
+        while (next < count && (static_cast<double>(next) + 0.5) * step < accumulated)
             ++next;
         if (next == before)
             continue;
@@ -156,26 +158,26 @@ std::vector<LevelFit> fitLevels(std::span<const LevelMesh> levels, std::span<con
     HEARTH_ASSERT(!levels.empty() && levels[0].finer_vertex.empty() && samples.size() == values.size());
     std::vector<LevelFit> fits;
     const Proxy finest = makeProxy(levels[0].mesh, settings.proxy);
-    fits.push_back(fitLevel(levels[0], finest, samplesOnProxy(finest, levels[0].mesh, samples), values,
+    fits.push_back(fitLevel(levels[0], finest, mapSamplesToProxy(finest, levels[0].mesh, samples), values,
                             settings.fit, {}));
-    const SamplePoints points = pointsOf(levels[0].mesh, samples);
+    const SampleGeometry points = computeSampleGeometry(levels[0].mesh, samples);
     for (const LevelMesh& level : levels.subspan(1))
     {
         HEARTH_ASSERT(level.finer_vertex.empty() || level.finer_vertex.size() == level.mesh.positions.size());
         const Proxy proxy = makeProxy(level.mesh, settings.proxy);
-        const double coarser = static_cast<double>(proxy.positions.size()) /
-                               static_cast<double>(std::max<size_t>(1, finest.positions.size()));
+        const double vertex_ratio = static_cast<double>(proxy.positions.size()) /
+                                    static_cast<double>(std::max<size_t>(1, finest.positions.size()));
         FitSettings fit = settings.fit;
-        fit.alpha *= std::clamp(coarser * coarser, settings.least_alpha, 1.0);
-        const SampleChoice choice =
+        fit.alpha *= std::clamp(vertex_ratio * vertex_ratio, settings.min_alpha_factor, 1.0);
+        const SampleSubset choice =
             chooseSamples(samples, proxy.positions.size() * settings.samples_per_vertex);
-        const double reach = level.reach > 0 ? double{level.reach} : points.diagonal * kReach;
+        const double reach = level.reach > 0 ? double{level.reach} : points.diagonal * kDefaultReach;
         std::vector<Moments> chosen;
         chosen.reserve(choice.samples.size());
         for (const uint32_t sample : choice.samples)
             chosen.push_back(values[sample]);
-        fits.push_back(
-            fitLevel(level, proxy, transfer(points, choice, proxy, reach), chosen, fit, fits.back().moments));
+        fits.push_back(fitLevel(level, proxy, moveSamples(points, choice, proxy, reach), chosen, fit,
+                                fits.back().moments));
     }
     return fits;
 }

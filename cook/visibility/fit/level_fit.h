@@ -15,7 +15,7 @@ struct LevelMesh
 {
     MeshView mesh;
     /// For each vertex, the vertex of the next finer level (the previous element) whose value it must copy,
-    /// or kNowhere. Empty for the finest. Cuts that mix the two levels meet in these vertices.
+    /// or kInvalidIndex. Empty for the finest. Cuts that mix the two levels meet in these vertices.
     std::span<const uint32_t> finer_vertex;
     /// Maximum distance between a sample and this level's surface: larger than the level's error, smaller
     /// than the distance of another side of the object. Units of the positions; 0: a twentieth of the
@@ -35,7 +35,7 @@ struct LevelFitSettings
     /// one function. With one alpha for all levels, coarse ones would be so blurred that copies of vertices
     /// were nearer to the truth. With a smaller factor than this, noise would come through at the samples
     /// that a vertex has.
-    double least_alpha = 0.03;
+    double min_alpha_factor = 0.03;
 };
 
 struct LevelFit
@@ -56,7 +56,7 @@ std::vector<LevelFit> fitLevels(std::span<const LevelMesh> levels, std::span<con
                                 std::span<const Moments> values, const LevelFitSettings& settings = {});
 
 /// Subset of samples: indices, ascending, and the area of each.
-struct SampleChoice
+struct SampleSubset
 {
     std::vector<uint32_t> samples;
     std::vector<float> areas;
@@ -64,6 +64,6 @@ struct SampleChoice
 /// Choose samples evenly: `count` steps of equal area along the samples, and for each step the sample at its
 /// middle. The area of a chosen sample is the number of its steps times the area of a step. Returns all
 /// samples unchanged if there are no more than `count`.
-SampleChoice chooseSamples(std::span<const SurfaceSample> samples, size_t count);
+SampleSubset chooseSamples(std::span<const SurfaceSample> samples, size_t count);
 
 } // namespace hearth::visibility

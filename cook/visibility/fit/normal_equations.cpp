@@ -19,9 +19,9 @@ namespace
 // Share of the determinant that a triangle's mass would have if it were sampled everywhere; a triangle below
 // it is undersampled and gets a membrane. Without that, corners would follow the noise of samples that lie in
 // a row, and the solver would take hundreds of iterations for models of loose triangles.
-constexpr double kPoor = 0.3;
+constexpr double kMinDeterminantShare = 0.3;
 
-double areaOf(std::span<const Float3> positions, const uint32_t* corners)
+double triangleArea(std::span<const Float3> positions, const uint32_t* corners)
 {
     const Double3 a = widen(positions[corners[0]]);
     return length(cross(widen(positions[corners[1]]) - a, widen(positions[corners[2]]) - a)) / 2;
@@ -47,14 +47,14 @@ std::vector<TriangleSums> sumSamples(size_t triangle_count, std::span<const Surf
     for (size_t i = 0; i < samples.size(); ++i)
     {
         const SurfaceSample& sample = samples[i];
-        if (sample.triangle == kNowhere)
+        if (sample.triangle == kInvalidIndex)
             continue;
         TriangleSums& sum = sums[sample.triangle];
         const double u = sample.u, v = sample.v, whole = sample.area, area = whole * double{sample.weight};
         sum.area += area;
         sum.whole += whole;
         const double weights[3] = {1 - u - v, u, v};
-        const Block4 value = blockOf(values[i]);
+        const Block4 value = blockFromMoments(values[i]);
         for (size_t k = 0; k < 3; ++k)
         {
             sum.mass[k] += weights[k] * weights[k] * area;
@@ -69,7 +69,7 @@ std::vector<TriangleSums> sumSamples(size_t triangle_count, std::span<const Surf
 
 /// Create the entries of the matrix: pairs of vertices of one triangle, and of vertices opposite to each
 /// other across an edge.
-SparseMatrix patternOf(const Proxy& proxy)
+SparseMatrix createPattern(const Proxy& proxy)
 {
     const size_t rows = proxy.positions.size();
     std::vector<uint32_t> next(rows + 1, 0);
@@ -148,23 +148,23 @@ void addMass(NormalEquations& system, const Proxy& proxy, const std::vector<Tria
 }
 
 /// Compute the factor of a row that limits each squared coefficient to `stiffness` times its vertex's area.
-double softening(const std::array<double, 4>& jump, const std::array<uint32_t, 4>& vertices,
-                 std::span<const double> areas, double stiffness)
+double rowScale(const std::array<double, 4>& jump, const std::array<uint32_t, 4>& vertices,
+                std::span<const double> areas, double stiffness)
 {
     double factor = 1;
     for (size_t i = 0; i < 4; ++i)
-        if (const double square = jump[i] * jump[i], most = stiffness * areas[vertices[i]]; square > most)
-            factor = std::min(factor, std::sqrt(most / square));
+        if (const double square = jump[i] * jump[i], limit = stiffness * areas[vertices[i]]; square > limit)
+            factor = std::min(factor, std::sqrt(limit / square));
     return factor;
 }
 
 /// Compute for each vertex a third of the area of its triangles.
-std::vector<double> areasOfVertices(const Proxy& proxy)
+std::vector<double> computeVertexAreas(const Proxy& proxy)
 {
     std::vector<double> areas(proxy.positions.size(), 0);
     for (size_t t = 0; t < proxy.indices.size(); t += 3)
     {
-        const double third = areaOf(proxy.positions, &proxy.indices[t]) / 3;
+        const double third = triangleArea(proxy.positions, &proxy.indices[t]) / 3;
         for (size_t k = 0; k < 3; ++k)
             areas[proxy.indices[t + k]] += third;
     }
@@ -172,7 +172,7 @@ std::vector<double> areasOfVertices(const Proxy& proxy)
 }
 
 /// Compute the share of the area around each vertex that counts.
-std::vector<double> sharesOfVertices(const Proxy& proxy, const std::vector<TriangleSums>& sums)
+std::vector<double> computeVertexShares(const Proxy& proxy, const std::vector<TriangleSums>& sums)
 {
     std::vector<double> area(proxy.positions.size(), 0), whole(area.size(), 0);
     for (size_t t = 0; t < sums.size(); ++t)
@@ -199,7 +199,7 @@ void addJumps(NormalEquations& system, const Proxy& proxy, std::span<const doubl
         double share = 1;
         for (const uint32_t vertex : vertices)
             share = std::min(share, shares[vertex]);
-        const double factor = softening(jump, vertices, areas, stiffness) * std::sqrt(share);
+        const double factor = rowScale(jump, vertices, areas, stiffness) * std::sqrt(share);
         for (double& part : jump)
             part *= factor;
         for (size_t i = 0; i < 4; ++i)
@@ -214,24 +214,24 @@ void addJumps(NormalEquations& system, const Proxy& proxy, std::span<const doubl
 /// Return 1 where the samples say nothing about differences within the triangle, 0 where they say enough: by
 /// the determinant of their mass over the determinant of the whole area's mass, which is (A / 12)^3 times the
 /// determinant of ((2, 1, 1), (1, 2, 1), (1, 1, 2)).
-double poverty(const TriangleSums& sums, double area)
+double undersampling(const TriangleSums& sums, double area)
 {
     const double* m = sums.mass;
     const double determinant = m[0] * m[1] * m[2] + 2 * m[3] * m[4] * m[5] - m[0] * m[4] * m[4] -
                                m[1] * m[5] * m[5] - m[2] * m[3] * m[3];
     const double twelfth = area / 12, whole = 4 * twelfth * twelfth * twelfth;
-    return whole > 0 ? std::clamp(1 - determinant / (kPoor * whole), 0.0, 1.0) : 0;
+    return whole > 0 ? std::clamp(1 - determinant / (kMinDeterminantShare * whole), 0.0, 1.0) : 0;
 }
 
-/// Add share * area * poverty times the sum of (u_i - u_j)^2 over the edges of each triangle.
+/// Add share * area * undersampling times the sum of (u_i - u_j)^2 over the edges of each triangle.
 void addMembrane(NormalEquations& system, const Proxy& proxy, const std::vector<TriangleSums>& sums,
                  double share)
 {
     for (size_t t = 0; t < sums.size(); ++t)
     {
         const uint32_t* corners = &proxy.indices[t * 3];
-        const double area = areaOf(proxy.positions, corners) * sums[t].share();
-        const double weight = share * area * poverty(sums[t], area);
+        const double area = triangleArea(proxy.positions, corners) * sums[t].share();
+        const double weight = share * area * undersampling(sums[t], area);
         if (!(weight > 0))
             continue;
         for (size_t k = 0; k < 3; ++k)
@@ -246,7 +246,7 @@ void addMembrane(NormalEquations& system, const Proxy& proxy, const std::vector<
     }
 }
 
-std::vector<uint32_t> islandsOf(const Proxy& proxy)
+std::vector<uint32_t> findIslands(const Proxy& proxy)
 {
     std::vector<uint32_t> island(proxy.positions.size());
     std::iota(island.begin(), island.end(), 0u);
@@ -292,14 +292,14 @@ NormalEquations assemble(const Proxy& proxy, std::span<const SurfaceSample> samp
     HEARTH_ASSERT(samples.size() == values.size());
     const std::vector<TriangleSums> sums = sumSamples(proxy.indices.size() / 3, samples, values);
     NormalEquations system;
-    system.matrix = patternOf(proxy);
+    system.matrix = createPattern(proxy);
     system.right.resize(proxy.positions.size());
     system.mass.assign(proxy.positions.size(), 0);
     addMass(system, proxy, sums);
-    addJumps(system, proxy, areasOfVertices(proxy), sharesOfVertices(proxy, sums), settings.alpha,
+    addJumps(system, proxy, computeVertexAreas(proxy), computeVertexShares(proxy, sums), settings.alpha,
              settings.stiffness);
     addMembrane(system, proxy, sums, settings.membrane);
-    system.island = islandsOf(proxy);
+    system.island = findIslands(proxy);
     return system;
 }
 

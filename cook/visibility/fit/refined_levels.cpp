@@ -18,15 +18,15 @@ namespace
 {
 
 // Share of the open hemisphere's m0; above it the closed form is the hemisphere, and nothing can be nearer.
-constexpr float kOpen = 0.9999f;
+constexpr float kMaxRefinedShare = 0.9999f;
 
 /// First and second moments of a vertex: m0, m1, and xx, yy, xy, xz, yz; zz is the rest of m0.
-using Seen = std::array<float, 9>;
+using VertexMoments = std::array<float, 9>;
 
-Sh9 harmonicsOf(const Seen& seen)
+Sh9 computeHarmonics(const VertexMoments& vertex_moments)
 {
     std::array<double, 9> wide{};
-    std::copy(seen.begin(), seen.end(), wide.begin());
+    std::copy(vertex_moments.begin(), vertex_moments.end(), wide.begin());
     const auto& [m0, x, y, z, xx, yy, xy, xz, yz] = wide;
     const double band1 = std::sqrt(3 / (4 * std::numbers::pi)),
                  band2 = std::sqrt(15 / (4 * std::numbers::pi));
@@ -43,7 +43,7 @@ Sh9 harmonicsOf(const Seen& seen)
 }
 
 /// Compute m0 = 2 pi s (1 - c), m1 = pi s (1 - c^2) d.
-Moments momentsOf(const ConeFit& cone)
+Moments momentsFromCone(const ConeFit& cone)
 {
     const double c = std::cos(cone.aperture_rad), size = std::numbers::pi * cone.scale * (1 - c * c);
     return {static_cast<float>(2 * std::numbers::pi * cone.scale * (1 - c)),
@@ -52,25 +52,27 @@ Moments momentsOf(const ConeFit& cone)
 }
 
 /// Return the vertices to refine, with vertices of equal moments next to each other.
-std::vector<uint32_t> inGroups(const LevelMesh& level, std::span<const Seen> seen)
+std::vector<uint32_t> groupEqualMoments(const LevelMesh& level, std::span<const VertexMoments> vertex_moments)
 {
     std::vector<uint32_t> order;
-    for (uint32_t v = 0; v < seen.size(); ++v)
+    for (uint32_t v = 0; v < vertex_moments.size(); ++v)
     {
-        const bool held = !level.finer_vertex.empty() && level.finer_vertex[v] != kNowhere;
-        if (!held && seen[v][0] > 0 && seen[v][0] < kOpen * 2 * static_cast<float>(std::numbers::pi))
+        const bool held = !level.finer_vertex.empty() && level.finer_vertex[v] != kInvalidIndex;
+        if (!held && vertex_moments[v][0] > 0 &&
+            vertex_moments[v][0] < kMaxRefinedShare * 2 * static_cast<float>(std::numbers::pi))
             order.push_back(v);
     }
     std::sort(order.begin(), order.end(),
-              [&](uint32_t a, uint32_t b) { return std::tie(seen[a], a) < std::tie(seen[b], b); });
+              [&](uint32_t a, uint32_t b)
+              { return std::tie(vertex_moments[a], a) < std::tie(vertex_moments[b], b); });
     return order;
 }
 
 /// Refine the cones of one level. Adds squares of distances to the statistics.
-void refine(const LevelMesh& level, std::span<const Seen> seen, std::vector<Moments>& moments,
-            RefineGain& gain)
+void refine(const LevelMesh& level, std::span<const VertexMoments> vertex_moments,
+            std::vector<Moments>& moments, RefineGain& gain)
 {
-    const std::vector<uint32_t> order = inGroups(level, seen);
+    const std::vector<uint32_t> order = groupEqualMoments(level, vertex_moments);
     std::vector<uint32_t> number(order.size());
     std::vector<Sh9> visibility;
     std::vector<ConeFit> starts;
@@ -78,11 +80,11 @@ void refine(const LevelMesh& level, std::span<const Seen> seen, std::vector<Mome
     for (size_t i = 0; i < order.size(); ++i)
     {
         const uint32_t v = order[i];
-        if (i == 0 || seen[v] != seen[order[i - 1]])
+        if (i == 0 || vertex_moments[v] != vertex_moments[order[i - 1]])
         {
             const Float3 normal = level.mesh.normals[v];
             const shared::VisibilityCone cone = shared::visibilityCone(moments[v].m0, moments[v].m1, normal);
-            visibility.push_back(harmonicsOf(seen[v]));
+            visibility.push_back(computeHarmonics(vertex_moments[v]));
             starts.push_back({widen(cone.axis), double{cone.aperture}, double{cone.scale}});
             normals.push_back(normal);
         }
@@ -90,7 +92,7 @@ void refine(const LevelMesh& level, std::span<const Seen> seen, std::vector<Mome
     }
     const RefinedCones refined = refineCones(visibility, starts, normals);
     for (size_t i = 0; i < order.size(); ++i)
-        moments[order[i]] = momentsOf(refined.cones[number[i]]);
+        moments[order[i]] = momentsFromCone(refined.cones[number[i]]);
     const auto count = static_cast<double>(visibility.size());
     gain.cones += visibility.size();
     gain.statistics.start_rms += count * refined.statistics.start_rms * refined.statistics.start_rms;
@@ -118,15 +120,15 @@ RefineGain refineLevels(std::span<const LevelMesh> levels, std::span<const Surfa
     RefineGain gain;
     for (size_t l = 0; l < levels.size(); ++l)
     {
-        std::vector<Seen> seen(fits[l].moments.size());
-        for (size_t v = 0; v < seen.size(); ++v)
+        std::vector<VertexMoments> vertex_moments(fits[l].moments.size());
+        for (size_t v = 0; v < vertex_moments.size(); ++v)
         {
             const Moments &m = fits[l].moments[v], &x = a[l].moments[v], &y = b[l].moments[v];
-            seen[v] = {m.m0, m.m1.x, m.m1.y, m.m1.z, x.m0, y.m0, x.m1.x, x.m1.y, x.m1.z};
+            vertex_moments[v] = {m.m0, m.m1.x, m.m1.y, m.m1.z, x.m0, y.m0, x.m1.x, x.m1.y, x.m1.z};
         }
-        refine(levels[l], seen, fits[l].moments, gain);
+        refine(levels[l], vertex_moments, fits[l].moments, gain);
         for (size_t v = 0; v < levels[l].finer_vertex.size(); ++v)
-            if (levels[l].finer_vertex[v] != kNowhere)
+            if (levels[l].finer_vertex[v] != kInvalidIndex)
                 fits[l].moments[v] = fits[l - 1].moments[levels[l].finer_vertex[v]];
     }
     const double count = std::max<double>(1, static_cast<double>(gain.cones));

@@ -14,7 +14,7 @@ namespace
 {
 
 /// State of each vertex before the system is solved: true if it is fixed, and the start value of the solver.
-struct Start
+struct StartState
 {
     std::vector<uint8_t> fixed;
     std::vector<Block4> values;
@@ -23,10 +23,10 @@ struct Start
 
 /// Compute the start values: the mean of the samples around each vertex; without samples, the mean of its
 /// island (connected component). An island without samples and without a held vertex is taken for open.
-Start startOf(const Proxy& proxy, const NormalEquations& system, const HeldVertices& held)
+StartState computeStart(const Proxy& proxy, const NormalEquations& system, const HeldVertices& held)
 {
     const size_t count = proxy.positions.size();
-    Start start{std::vector<uint8_t>(count, 0), std::vector<Block4>(count), 0};
+    StartState start{std::vector<uint8_t>(count, 0), std::vector<Block4>(count), 0};
     std::vector<Block4> island_sums(count);
     std::vector<double> island_mass(count, 0);
     const auto isHeld = [&](size_t v) { return !held.is_held.empty() && held.is_held[v] != 0; };
@@ -40,7 +40,7 @@ Start startOf(const Proxy& proxy, const NormalEquations& system, const HeldVerti
     for (size_t v = 0; v < count; ++v)
         if (isHeld(v) && island_mass[system.island[v]] <= 0)
         {
-            island_sums[system.island[v]] = blockOf(held.moments[v]);
+            island_sums[system.island[v]] = blockFromMoments(held.moments[v]);
             island_mass[system.island[v]] = 1;
         }
     for (size_t v = 0; v < count; ++v)
@@ -49,7 +49,7 @@ Start startOf(const Proxy& proxy, const NormalEquations& system, const HeldVerti
         if (isHeld(v))
         {
             start.fixed[v] = 1;
-            start.values[v] = blockOf(held.moments[v]);
+            start.values[v] = blockFromMoments(held.moments[v]);
         }
         else if (system.mass[v] > 0)
             start.values[v].addScaled(system.right[v], 1 / system.mass[v]);
@@ -58,7 +58,7 @@ Start startOf(const Proxy& proxy, const NormalEquations& system, const HeldVerti
         else
         {
             start.fixed[v] = 1;
-            start.values[v] = blockOf(openHemisphere(proxy.normals[v]));
+            start.values[v] = blockFromMoments(openHemisphere(proxy.normals[v]));
             ++start.unseen;
         }
     }
@@ -67,7 +67,7 @@ Start startOf(const Proxy& proxy, const NormalEquations& system, const HeldVerti
 
 /// Move fixed values to the right-hand side; their own rows become x = 0. Vertices without data and without
 /// connections keep their start values.
-void eliminate(NormalEquations& system, Start& start)
+void eliminateFixed(NormalEquations& system, StartState& start)
 {
     SparseMatrix& matrix = system.matrix;
     for (size_t row = 0; row < matrix.rowCount(); ++row)
@@ -101,17 +101,17 @@ FitResult fitVertices(const Proxy& proxy, std::span<const SurfaceSample> samples
     HEARTH_ASSERT(samples.size() == values.size() && held.is_held.size() == held.moments.size());
     HEARTH_ASSERT(held.is_held.empty() || held.is_held.size() == count);
     NormalEquations system = assemble(proxy, samples, values, settings);
-    Start start = startOf(proxy, system, held);
-    eliminate(system, start);
+    StartState start = computeStart(proxy, system, held);
+    eliminateFixed(system, start);
 
     FitResult result;
     FitStatistics& statistics = result.statistics;
     statistics.vertices = static_cast<uint32_t>(count);
     statistics.unseen = start.unseen;
     statistics.entries = system.matrix.columns.size();
-    statistics.lost_samples = static_cast<uint32_t>(std::count_if(samples.begin(), samples.end(),
-                                                                  [](const SurfaceSample& sample)
-                                                                  { return sample.triangle == kNowhere; }));
+    statistics.lost_samples = static_cast<uint32_t>(
+        std::count_if(samples.begin(), samples.end(),
+                      [](const SurfaceSample& sample) { return sample.triangle == kInvalidIndex; }));
     std::vector<Block4> x = start.values;
     for (size_t v = 0; v < count; ++v)
         if (start.fixed[v] != 0)
@@ -127,7 +127,7 @@ FitResult fitVertices(const Proxy& proxy, std::span<const SurfaceSample> samples
             ++statistics.held;
             continue;
         }
-        result.moments[v] = momentsOf(start.fixed[v] != 0 ? start.values[v] : x[v]);
+        result.moments[v] = momentsFromBlock(start.fixed[v] != 0 ? start.values[v] : x[v]);
         if (settings.clamp)
             statistics.clamped += clampMoments(result.moments[v], proxy.normals[v]);
     }

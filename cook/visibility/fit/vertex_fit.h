@@ -38,7 +38,7 @@ struct HeldVertices
 
 /// Fit, and clamp each vertex's moments to what its normal allows (moment_clamp.h). Held vertices keep their
 /// bits. Constants are reproduced exactly; all results are finite. The same bits for any number of threads.
-/// samples  on the proxy: samplesOnProxy()
+/// samples  on the proxy: mapSamplesToProxy()
 /// values   one for each sample
 /// source   L. Kavan, A. W. Bargteil, P.-P. Sloan, "Least squares vertex baking", 2011
 FitResult fitVertices(const Proxy& proxy, std::span<const SurfaceSample> samples,

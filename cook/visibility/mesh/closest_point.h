@@ -20,19 +20,19 @@ public:
     /// triangle_count  number of leading triangles of the mesh that are searched
     ClosestPoint(const MeshView& mesh, size_t triangle_count);
 
-    struct Found
+    struct Hit
     {
-        uint32_t triangle = kNowhere;
+        uint32_t triangle = kInvalidIndex;
         float u = 0; ///< weight of corner 1
         float v = 0; ///< weight of corner 2
         double distance2 = 0;
     };
 
     /// Find the closest point, at most sqrt(`limit2`) away, on a triangle whose plane faces `normal`
-    /// (dot > 0). Triangles without area face nothing. The triangle is kNowhere if there is none.
+    /// (dot > 0). Triangles without area face nothing. The triangle is kInvalidIndex if there is none.
     /// normal  need not have length 1; 0: accept all triangles
-    /// hint    triangle that is probably near, or kNowhere; affects the result only for ties
-    Found find(Float3 point, Float3 normal, double limit2, uint32_t hint) const;
+    /// hint    triangle that is probably near, or kInvalidIndex; affects the result only for ties
+    Hit find(Float3 point, Float3 normal, double limit2, uint32_t hint) const;
 
 private:
     /// Leaf with `count` triangles, or inner node with count 0: its first child follows it, its second child
@@ -44,17 +44,17 @@ private:
         uint32_t count = 0;
         uint32_t second = 0;
     };
-    struct Facet
+    struct Triangle
     {
         std::array<Float3, 3> corners;
         uint32_t triangle = 0;
     };
 
     void build(uint32_t first, uint32_t count);
-    void visit(Double3 point, Double3 normal, const Facet& facet, Found& best) const;
+    void visit(Double3 point, Double3 normal, const Triangle& item, Hit& best) const;
 
-    std::vector<Facet> facets_; ///< in the order of the leaves
-    std::vector<uint32_t> facet_of_triangle_;
+    std::vector<Triangle> triangles_; ///< in the order of the leaves
+    std::vector<uint32_t> slot_of_triangle_;
     std::vector<Node> nodes_;
 };
 

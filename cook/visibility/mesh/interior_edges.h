@@ -24,6 +24,6 @@ struct InteriorEdge
 /// Return the edges that exactly two triangles share, sorted by (a, b). Border edges, and edges where three
 /// or more triangles meet, are left out. Triangles may be oriented differently. Time and memory O(triangles).
 /// indices  three different vertices for each triangle, less than vertex_count
-std::vector<InteriorEdge> interiorEdges(std::span<const uint32_t> indices, size_t vertex_count);
+std::vector<InteriorEdge> findInteriorEdges(std::span<const uint32_t> indices, size_t vertex_count);
 
 } // namespace hearth::visibility

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "formats/base/index.h"
 #include "formats/base/math.h"
 
 #include <cstdint>
@@ -9,9 +10,6 @@
 
 namespace hearth::visibility
 {
-
-/// Invalid index: no triangle, no vertex.
-inline constexpr uint32_t kNowhere = 0xFFFFFFFFu;
 
 struct MeshView
 {
@@ -25,7 +23,7 @@ struct MeshView
 /// Sample point (1 - u - v) corner0 + u corner1 + v corner2 of a triangle.
 struct SurfaceSample
 {
-    uint32_t triangle = kNowhere;
+    uint32_t triangle = kInvalidIndex;
     float u = 0;
     float v = 0;
     float area = 0; ///< represented by the sample, in squared units of the positions; not negative

@@ -13,7 +13,7 @@ namespace
 {
 
 // Tolerance as a share of 2 pi: rounding of a fit where everything is open is not counted as out of bounds.
-constexpr double kRounding = 1e-6;
+constexpr double kTolerance = 1e-6;
 
 } // namespace
 
@@ -29,17 +29,17 @@ bool clampMoments(Moments& moments, Float3 normal)
         moments = {};
         return true;
     }
-    constexpr double kMost = 2 * std::numbers::pi;
-    const double m0 = std::clamp<double>(moments.m0, 0, kMost);
+    constexpr double kMaxM0 = 2 * std::numbers::pi;
+    const double m0 = std::clamp<double>(moments.m0, 0, kMaxM0);
     Double3 m1 = widen(moments.m1);
     const Double3 n = widen(normal);
     m1 = m1 - n * std::min(dot(m1, n), 0.0);
-    const double most = m0 * (1 - m0 / (2 * kMost)), size = length(m1);
-    if (size > most)
-        m1 = m1 * (most / size);
+    const double max_size = m0 * (1 - m0 / (2 * kMaxM0)), size = length(m1);
+    if (size > max_size)
+        m1 = m1 * (max_size / size);
     const Double3 moved = m1 - widen(moments.m1);
     const bool changed =
-        std::abs(m0 - double{moments.m0}) > kMost * kRounding || length(moved) > kMost * kRounding;
+        std::abs(m0 - double{moments.m0}) > kMaxM0 * kTolerance || length(moved) > kMaxM0 * kTolerance;
     // values that were not clamped keep their bits
     moments = {static_cast<float>(m0), narrow(m1)};
     return changed;

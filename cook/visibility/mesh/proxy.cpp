@@ -21,14 +21,14 @@ namespace
 // Maximum distance of a vertex from the rest of the surface at which it is bound to a point there, in units
 // of thinness times the longest edge of its triangles. A corner of a dropped sliver lies within one unit of
 // the other two corners.
-constexpr double kBeside = 10;
+constexpr double kMaxBindDistance = 10;
 
 // Samples that are looked up in sequence; each search starts at the triangle that the previous one found.
 constexpr size_t kSamplesPerTask = 256;
 
-constexpr double kEverywhere = std::numeric_limits<double>::infinity();
+constexpr double kAnyDistance = std::numeric_limits<double>::infinity();
 
-double sizeOf(std::span<const Float3> positions)
+double positionScale(std::span<const Float3> positions)
 {
     Box3 box;
     for (const Float3 p : positions)
@@ -41,16 +41,16 @@ double sizeOf(std::span<const Float3> positions)
 }
 
 /// Source with welded vertices: the same arrays, but indices refer only to the first of equal vertices.
-struct Welded
+struct WeldedSource
 {
     std::vector<uint32_t> first; ///< first equal vertex, for each vertex
     std::vector<uint32_t> indices;
 };
 
-Welded weld(const MeshView& source, const ProxySettings& settings)
+WeldedSource weld(const MeshView& source, const ProxySettings& settings)
 {
-    Welded welded;
-    welded.first = proxyVertices(source, settings);
+    WeldedSource welded;
+    welded.first = findMergedVertices(source, settings);
     welded.indices.reserve(source.indices.size());
     for (const uint32_t vertex : source.indices)
         welded.indices.push_back(welded.first[vertex]);
@@ -75,10 +75,10 @@ bool hasArea(const MeshView& mesh, size_t triangle)
 }
 
 /// Builds a proxy from cleaned triangles. Vertex indices are the source's until compact().
-class Builder
+class ProxyBuilder
 {
 public:
-    Builder(const MeshView& source, const Welded& welded, CleanTriangles clean, double thinness)
+    ProxyBuilder(const MeshView& source, const WeldedSource& welded, CleanTriangles clean, double thinness)
         : source_(source),
           welded_(welded),
           clean_(std::move(clean)),
@@ -95,38 +95,38 @@ public:
 
     Proxy build()
     {
-        const std::vector<double> reach = reachOfVertices();
-        bindBeside(reach);
-        keepLoose();
-        bindRest();
+        const std::vector<double> reach = longestRemovedEdges();
+        bindNearby(reach);
+        keepLooseTriangles();
+        bindRemaining();
         compact();
         return std::move(proxy_);
     }
 
 private:
     /// Return the vertex that a source vertex is merged into, in the numbering of the source.
-    uint32_t imageOf(uint32_t vertex) const { return clean_.vertex_of_vertex[welded_.first[vertex]]; }
+    uint32_t mergedVertex(uint32_t vertex) const { return clean_.collapse_target[welded_.first[vertex]]; }
 
     /// Compute for each vertex the longest edge of its removed triangles, apart from those without area.
-    std::vector<double> reachOfVertices() const
+    std::vector<double> longestRemovedEdges() const
     {
         std::vector<double> reach(source_.positions.size(), 0);
         for (size_t t = 0; t < source_.triangleCount(); ++t)
         {
-            if (clean_.kept_of_source[t] != kNowhere || !hasArea(source_, t))
+            if (clean_.remaining_of_source[t] != kInvalidIndex || !hasArea(source_, t))
                 continue;
             const double longest = longestEdge(source_, t);
             for (size_t k = 0; k < 3; ++k)
             {
-                double& of_vertex = reach[imageOf(source_.indices[t * 3 + k])];
-                of_vertex = std::max(of_vertex, longest);
+                double& vertex_reach = reach[mergedVertex(source_.indices[t * 3 + k])];
+                vertex_reach = std::max(vertex_reach, longest);
             }
         }
         return reach;
     }
 
     /// Bind vertices without a remaining triangle to points of remaining triangles, if these are near.
-    void bindBeside(const std::vector<double>& reach)
+    void bindNearby(const std::vector<double>& reach)
     {
         const MeshView smooth{source_.positions, source_.normals, clean_.indices};
         std::optional<ClosestPoint> surface;
@@ -136,32 +136,32 @@ private:
                 continue;
             if (!surface)
                 surface.emplace(smooth, proxy_.smooth_count);
-            bind(v, *surface, reach[v] * thinness_ * kBeside, smooth);
+            bind(v, *surface, reach[v] * thinness_ * kMaxBindDistance, smooth);
         }
     }
 
     /// Bind vertices that belong to no triangle with area to the nearest point, at any distance.
-    void bindRest()
+    void bindRemaining()
     {
         const MeshView all{source_.positions, source_.normals, clean_.indices};
         std::optional<ClosestPoint> surface;
         for (uint32_t v = 0; v < used_.size(); ++v)
         {
-            if (used_[v] || imageOf(v) != v || bindings_[v].vertices[0] != kNowhere)
+            if (used_[v] || mergedVertex(v) != v || bindings_[v].vertices[0] != kInvalidIndex)
                 continue;
             if (!surface)
                 surface.emplace(all, clean_.indices.size() / 3);
-            bind(v, *surface, kEverywhere, all);
+            bind(v, *surface, kAnyDistance, all);
         }
     }
 
     void bind(uint32_t vertex, const ClosestPoint& surface, double limit, const MeshView& mesh)
     {
         const Float3 p = source_.positions[vertex];
-        ClosestPoint::Found found = surface.find(p, source_.normals[vertex], limit * limit, kNowhere);
-        if (found.triangle == kNowhere && limit == kEverywhere)
-            found = surface.find(p, {}, kEverywhere, kNowhere);
-        if (found.triangle == kNowhere)
+        ClosestPoint::Hit found = surface.find(p, source_.normals[vertex], limit * limit, kInvalidIndex);
+        if (found.triangle == kInvalidIndex && limit == kAnyDistance)
+            found = surface.find(p, {}, kAnyDistance, kInvalidIndex);
+        if (found.triangle == kInvalidIndex)
             return;
         const uint32_t* corners = mesh.indices.data() + size_t{found.triangle} * 3;
         bindings_[vertex] = {{corners[0], corners[1], corners[2]},
@@ -169,20 +169,20 @@ private:
     }
 
     /// Keep removed triangles that have a vertex which is neither on another triangle nor bound to one.
-    void keepLoose()
+    void keepLooseTriangles()
     {
-        proxy_.triangle_of_source = clean_.kept_of_source;
+        proxy_.triangle_of_source = clean_.remaining_of_source;
         std::vector<bool> named = used_;
         for (size_t t = 0; t < source_.triangleCount(); ++t)
         {
-            if (clean_.kept_of_source[t] != kNowhere || !hasArea(source_, t))
+            if (clean_.remaining_of_source[t] != kInvalidIndex || !hasArea(source_, t))
                 continue;
             std::array<uint32_t, 3> corners;
             bool loose = false;
             for (size_t k = 0; k < 3; ++k)
             {
-                corners[k] = imageOf(source_.indices[t * 3 + k]);
-                loose |= !used_[corners[k]] && bindings_[corners[k]].vertices[0] == kNowhere;
+                corners[k] = mergedVertex(source_.indices[t * 3 + k]);
+                loose |= !used_[corners[k]] && bindings_[corners[k]].vertices[0] == kInvalidIndex;
             }
             if (!loose)
                 continue;
@@ -200,7 +200,7 @@ private:
 
     void compact()
     {
-        std::vector<uint32_t> number(used_.size(), kNowhere);
+        std::vector<uint32_t> number(used_.size(), kInvalidIndex);
         for (uint32_t v = 0; v < used_.size(); ++v)
             if (used_[v])
             {
@@ -211,28 +211,28 @@ private:
         for (const uint32_t vertex : clean_.indices)
             proxy_.indices.push_back(number[vertex]);
         const std::span<const uint32_t> smooth(proxy_.indices.data(), proxy_.smooth_count * 3);
-        proxy_.edges = interiorEdges(smooth, proxy_.positions.size());
+        proxy_.edges = findInteriorEdges(smooth, proxy_.positions.size());
         proxy_.bindings.resize(used_.size());
         proxy_.statistics.source_vertices = static_cast<uint32_t>(used_.size());
         for (uint32_t v = 0; v < used_.size(); ++v)
         {
-            const uint32_t image = imageOf(v);
+            const uint32_t merged = mergedVertex(v);
             proxy_.statistics.welded += welded_.first[v] != v;
             Binding& binding = proxy_.bindings[v];
-            if (used_[image])
-                binding.vertices.fill(number[image]);
-            else if (bindings_[image].vertices[0] != kNowhere)
+            if (used_[merged])
+                binding.vertices.fill(number[merged]);
+            else if (bindings_[merged].vertices[0] != kInvalidIndex)
             {
                 for (size_t k = 0; k < 3; ++k)
-                    binding.vertices[k] = number[bindings_[image].vertices[k]];
-                binding.weights = bindings_[image].weights;
+                    binding.vertices[k] = number[bindings_[merged].vertices[k]];
+                binding.weights = bindings_[merged].weights;
                 ++proxy_.statistics.nearest;
             }
         }
     }
 
     const MeshView& source_;
-    const Welded& welded_;
+    const WeldedSource& welded_;
     CleanTriangles clean_;
     double thinness_;
     std::vector<bool> used_; ///< by a triangle of the proxy
@@ -242,37 +242,39 @@ private:
 
 } // namespace
 
-std::vector<uint32_t> proxyVertices(const MeshView& source, const ProxySettings& settings)
+std::vector<uint32_t> findMergedVertices(const MeshView& source, const ProxySettings& settings)
 {
-    const double tolerance = sizeOf(source.positions) * settings.position_tolerance;
+    const double tolerance = positionScale(source.positions) * settings.position_tolerance;
     return weldVertices(source.positions, source.normals, tolerance, settings.normal_tolerance);
 }
 
 Proxy makeProxy(const MeshView& source, const ProxySettings& settings)
 {
     HEARTH_ASSERT(source.normals.size() == source.positions.size());
-    const Welded welded = weld(source, settings);
+    const WeldedSource welded = weld(source, settings);
     CleanTriangles clean = removeThinTriangles(source.positions, welded.indices, settings.thinness);
-    return Builder(source, welded, std::move(clean), settings.thinness).build();
+    return ProxyBuilder(source, welded, std::move(clean), settings.thinness).build();
 }
 
 namespace
 {
 
-/// Return a sample of a proxy triangle that has the corners `own`, perhaps in another order.
-SurfaceSample turned(const SurfaceSample& sample, const std::array<uint32_t, 3>& own, uint32_t triangle,
-                     const uint32_t* corners)
+/// Return a sample of a proxy triangle that has the corners `original_corners`, perhaps in another order.
+SurfaceSample withReorderedCorners(const SurfaceSample& sample,
+                                   const std::array<uint32_t, 3>& original_corners, uint32_t triangle,
+                                   const uint32_t* corners)
 {
     SurfaceSample result = sample;
     result.triangle = triangle;
-    if (own[0] == corners[0] && own[1] == corners[1] && own[2] == corners[2])
+    if (original_corners[0] == corners[0] && original_corners[1] == corners[1] &&
+        original_corners[2] == corners[2])
         return result;
     std::array<float, 3> weights{};
-    const std::array<float, 3> own_weights{(1 - sample.u) - sample.v, sample.u, sample.v};
+    const std::array<float, 3> original_weights{(1 - sample.u) - sample.v, sample.u, sample.v};
     for (size_t k = 0; k < 3; ++k)
         for (size_t j = 0; j < 3; ++j)
-            if (corners[k] == own[j])
-                weights[k] = own_weights[j];
+            if (corners[k] == original_corners[j])
+                weights[k] = original_weights[j];
     result.u = weights[1];
     result.v = weights[2];
     return result;
@@ -280,56 +282,57 @@ SurfaceSample turned(const SurfaceSample& sample, const std::array<uint32_t, 3>&
 
 } // namespace
 
-std::vector<SurfaceSample> samplesOnProxy(const Proxy& proxy, const MeshView& source,
-                                          std::span<const SurfaceSample> samples)
+std::vector<SurfaceSample> mapSamplesToProxy(const Proxy& proxy, const MeshView& source,
+                                             std::span<const SurfaceSample> samples)
 {
-    const auto gone = [&](const SurfaceSample& sample)
-    { return proxy.triangle_of_source[sample.triangle] == kNowhere; };
+    const auto isRemoved = [&](const SurfaceSample& sample)
+    { return proxy.triangle_of_source[sample.triangle] == kInvalidIndex; };
     std::optional<ClosestPoint> surface;
-    if (std::any_of(samples.begin(), samples.end(), gone))
+    if (std::any_of(samples.begin(), samples.end(), isRemoved))
         surface.emplace(proxy.view(), proxy.smooth_count);
     std::vector<SurfaceSample> result(samples.size());
-    const auto place = [&](const SurfaceSample& sample, uint32_t hint)
+    const auto mapSample = [&](const SurfaceSample& sample, uint32_t hint)
     {
         const uint32_t* corners = source.indices.data() + size_t{sample.triangle} * 3;
-        if (const uint32_t triangle = proxy.triangle_of_source[sample.triangle]; triangle != kNowhere)
+        if (const uint32_t triangle = proxy.triangle_of_source[sample.triangle]; triangle != kInvalidIndex)
         {
-            std::array<uint32_t, 3> own;
+            std::array<uint32_t, 3> original_corners;
             for (size_t k = 0; k < 3; ++k)
-                own[k] = proxy.bindings[corners[k]].vertices[0];
-            return turned(sample, own, triangle, proxy.indices.data() + size_t{triangle} * 3);
+                original_corners[k] = proxy.bindings[corners[k]].vertices[0];
+            return withReorderedCorners(sample, original_corners, triangle,
+                                        proxy.indices.data() + size_t{triangle} * 3);
         }
         const Float3 a = source.positions[corners[0]];
         const Float3 ab = source.positions[corners[1]] - a, ac = source.positions[corners[2]] - a;
-        const double reach = longestEdge(source, sample.triangle) * proxy.thinness * kBeside;
-        const ClosestPoint::Found found =
+        const double reach = longestEdge(source, sample.triangle) * proxy.thinness * kMaxBindDistance;
+        const ClosestPoint::Hit found =
             surface->find(a + ab * sample.u + ac * sample.v, cross(ab, ac), reach * reach, hint);
         return SurfaceSample{found.triangle, found.u, found.v, sample.area, sample.weight};
     };
     tbb::parallel_for(size_t{0}, (samples.size() + kSamplesPerTask - 1) / kSamplesPerTask,
                       [&](size_t block)
                       {
-                          uint32_t hint = kNowhere;
+                          uint32_t hint = kInvalidIndex;
                           const size_t end = std::min(samples.size(), (block + 1) * kSamplesPerTask);
                           for (size_t i = block * kSamplesPerTask; i < end; ++i)
                           {
-                              result[i] = place(samples[i], hint);
-                              if (gone(samples[i]) && result[i].triangle != kNowhere)
+                              result[i] = mapSample(samples[i], hint);
+                              if (isRemoved(samples[i]) && result[i].triangle != kInvalidIndex)
                                   hint = result[i].triangle;
                           }
                       });
     return result;
 }
 
-std::vector<Moments> valuesOfSource(const Proxy& proxy, std::span<const Moments> values,
-                                    std::span<const Float3> source_normals)
+std::vector<Moments> mapValuesToSource(const Proxy& proxy, std::span<const Moments> values,
+                                       std::span<const Float3> source_normals)
 {
     HEARTH_ASSERT(values.size() == proxy.positions.size() && source_normals.size() == proxy.bindings.size());
     std::vector<Moments> result(proxy.bindings.size());
     for (size_t v = 0; v < result.size(); ++v)
     {
         const Binding& binding = proxy.bindings[v];
-        if (binding.vertices[0] == kNowhere)
+        if (binding.vertices[0] == kInvalidIndex)
         {
             result[v] = openHemisphere(source_normals[v]);
             continue;
@@ -342,9 +345,9 @@ std::vector<Moments> valuesOfSource(const Proxy& proxy, std::span<const Moments>
         }
         for (size_t k = 0; k < 3; ++k)
         {
-            const Moments& of_corner = values[binding.vertices[k]];
-            result[v].m0 += binding.weights[k] * of_corner.m0;
-            result[v].m1 += of_corner.m1 * binding.weights[k];
+            const Moments& corner_value = values[binding.vertices[k]];
+            result[v].m0 += binding.weights[k] * corner_value.m0;
+            result[v].m1 += corner_value.m1 * binding.weights[k];
         }
     }
     return result;

@@ -32,7 +32,7 @@ struct ProxySettings
 /// one proxy vertex has it three times, with the weights (1, 0, 0): its value is copied bit for bit.
 struct Binding
 {
-    std::array<uint32_t, 3> vertices{kNowhere, kNowhere, kNowhere};
+    std::array<uint32_t, 3> vertices{kInvalidIndex, kInvalidIndex, kInvalidIndex};
     std::array<float, 3> weights{1, 0, 0};
 };
 
@@ -40,7 +40,7 @@ struct ProxyStatistics
 {
     uint32_t source_vertices = 0;
     uint32_t welded = 0; ///< source vertices merged into an earlier one
-    ThinStatistics thin;
+    ThinTriangleStatistics thin;
     uint32_t loose = 0; ///< thin triangles that are kept because nothing else holds their vertices
     /// Source vertices without a remaining triangle; they take the value of the nearest point.
     uint32_t nearest = 0;
@@ -55,8 +55,8 @@ struct Proxy
     size_t smooth_count = 0;         ///< triangles that the regulariser covers
     double thinness = 0;             ///< setting that the proxy was made with
     std::vector<InteriorEdge> edges; ///< interior edges of the smooth triangles
-    std::vector<Binding> bindings;   ///< for each source vertex; kNowhere if the proxy is empty
-    /// For each source triangle, the proxy triangle with the same three vertices, or kNowhere.
+    std::vector<Binding> bindings;   ///< for each source vertex; kInvalidIndex if the proxy is empty
+    /// For each source triangle, the proxy triangle with the same three vertices, or kInvalidIndex.
     std::vector<uint32_t> triangle_of_source;
     ProxyStatistics statistics;
 
@@ -65,20 +65,20 @@ struct Proxy
 
 /// Return for each vertex the first vertex that the proxy merges it with, by position and normal alone; the
 /// vertex itself if there is none.
-std::vector<uint32_t> proxyVertices(const MeshView& source, const ProxySettings& settings = {});
+std::vector<uint32_t> findMergedVertices(const MeshView& source, const ProxySettings& settings = {});
 
 /// Build the proxy. Deterministic. Time O(n log n).
 Proxy makeProxy(const MeshView& source, const ProxySettings& settings = {});
 
 /// Map samples of the source's triangles to the proxy: with the same weights on triangles that still exist,
-/// else to the nearest point that faces the same way. The triangle is kNowhere if no such point is near:
+/// else to the nearest point that faces the same way. The triangle is kInvalidIndex if no such point is near:
 /// a sliver can face anywhere, and its visibility is then unrelated to the surface's.
-std::vector<SurfaceSample> samplesOnProxy(const Proxy& proxy, const MeshView& source,
-                                          std::span<const SurfaceSample> samples);
+std::vector<SurfaceSample> mapSamplesToProxy(const Proxy& proxy, const MeshView& source,
+                                             std::span<const SurfaceSample> samples);
 
 /// Map values of the proxy's vertices back to the source's vertices. If the proxy is empty, return the open
 /// hemisphere about each vertex normal.
-std::vector<Moments> valuesOfSource(const Proxy& proxy, std::span<const Moments> values,
-                                    std::span<const Float3> source_normals);
+std::vector<Moments> mapValuesToSource(const Proxy& proxy, std::span<const Moments> values,
+                                       std::span<const Float3> source_normals);
 
 } // namespace hearth::visibility

@@ -23,17 +23,17 @@ constexpr int kRounds = 16;
 // Maximum length of an edge of a thin triangle that is collapsed, by the longest edge, in units of thinness:
 // a corner this close to an end of the longest edge would leave a thin triangle behind if that edge were
 // flipped.
-constexpr double kShort = 4;
+constexpr double kMaxCollapsedEdge = 4;
 
 struct Shape
 {
-    double ratio;    ///< height / longest edge
-    double shortest; ///< shortest edge / longest edge
-    int opposite;    ///< corner opposite to the longest edge
-    int short_side;  ///< corner opposite to the shortest edge
+    double ratio;      ///< height / longest edge
+    double shortest;   ///< shortest edge / longest edge
+    int opposite;      ///< corner opposite to the longest edge
+    int shortest_edge; ///< corner opposite to the shortest edge
 };
 
-Shape shapeOf(std::span<const Float3> positions, const CornerIndices& corners)
+Shape measureShape(std::span<const Float3> positions, const CornerIndices& corners)
 {
     std::array<double, 3> length2;
     const std::array<Double3, 3> p{widen(positions[corners[0]]), widen(positions[corners[1]]),
@@ -57,30 +57,30 @@ bool isDegenerate(const CornerIndices& c)
 }
 
 /// Triangles during cleaning. A triangle with two equal corners counts as removed.
-class Cleaner
+class TriangleCleaner
 {
 public:
-    Cleaner(std::span<const Float3> positions, std::span<const uint32_t> indices, double thinness)
+    TriangleCleaner(std::span<const Float3> positions, std::span<const uint32_t> indices, double thinness)
         : positions_(positions),
           thinness_(thinness),
           corners_(indices.size() / 3),
           flipped_(corners_.size(), false),
-          busy_(positions.size(), 0)
+          reserved_round_(positions.size(), 0)
     {
         for (size_t t = 0; t < corners_.size(); ++t)
             corners_[t] = {indices[t * 3], indices[t * 3 + 1], indices[t * 3 + 2]};
-        result_.vertex_of_vertex.resize(positions.size());
-        std::iota(result_.vertex_of_vertex.begin(), result_.vertex_of_vertex.end(), 0u);
-        result_.kept_of_source.assign(corners_.size(), kNowhere);
+        result_.collapse_target.resize(positions.size());
+        std::iota(result_.collapse_target.begin(), result_.collapse_target.end(), 0u);
+        result_.remaining_of_source.assign(corners_.size(), kInvalidIndex);
     }
 
     CleanTriangles clean()
     {
-        gather();
+        collectLive();
         result_.statistics.degenerate = static_cast<uint32_t>(corners_.size() - live_.size() - duplicates_);
         result_.statistics.duplicate = duplicates_;
-        for (int round = 0; round < kRounds && thinness_ > 0 && improve(); ++round)
-            gather();
+        for (int round = 0; round < kRounds && thinness_ > 0 && runRound(); ++round)
+            collectLive();
         dropThin();
         finish();
         return std::move(result_);
@@ -88,14 +88,14 @@ public:
 
 private:
     /// Collect live_: the triangles with three different corners, one for each set of three.
-    void gather()
+    void collectLive()
     {
         // vertices collapse into lower ones, which this loop has already resolved
-        for (uint32_t& vertex : result_.vertex_of_vertex)
-            vertex = result_.vertex_of_vertex[vertex];
+        for (uint32_t& vertex : result_.collapse_target)
+            vertex = result_.collapse_target[vertex];
         for (CornerIndices& corners : corners_)
             for (uint32_t& vertex : corners)
-                vertex = result_.vertex_of_vertex[vertex];
+                vertex = result_.collapse_target[vertex];
         struct Key
         {
             CornerIndices sorted;
@@ -115,9 +115,9 @@ private:
                   [](const Key& a, const Key& b)
                   { return a.sorted != b.sorted ? a.sorted < b.sorted : a.triangle < b.triangle; });
         live_.clear();
-        twin_.assign(corners_.size(), kNowhere);
+        duplicate_of_.assign(corners_.size(), kInvalidIndex);
         duplicates_ = 0;
-        uint32_t first = kNowhere;
+        uint32_t first = kInvalidIndex;
         for (size_t i = 0; i < keys.size(); ++i)
         {
             if (i == 0 || keys[i].sorted != keys[i - 1].sorted)
@@ -127,22 +127,22 @@ private:
             }
             else
                 ++duplicates_;
-            twin_[keys[i].triangle] = first;
+            duplicate_of_[keys[i].triangle] = first;
         }
         std::sort(live_.begin(), live_.end());
     }
 
     /// Run one round of collapses and flips that share no vertex. Return false if nothing changed.
-    bool improve()
+    bool runRound()
     {
         ++round_;
         bool changed = false, edges_known = false;
         for (const uint32_t triangle : live_)
         {
-            const Shape shape = shapeOf(positions_, corners_[triangle]);
+            const Shape shape = measureShape(positions_, corners_[triangle]);
             if (shape.ratio >= thinness_)
                 continue;
-            if (shape.shortest <= kShort * thinness_)
+            if (shape.shortest <= kMaxCollapsedEdge * thinness_)
             {
                 changed |= collapse(triangle, shape);
                 continue;
@@ -156,24 +156,24 @@ private:
     }
 
     /// Reserve vertices for this round. False if one of them is already reserved.
-    bool takeAll(std::initializer_list<uint32_t> vertices)
+    bool reserveVertices(std::initializer_list<uint32_t> vertices)
     {
         for (const uint32_t vertex : vertices)
-            if (busy_[vertex] == round_)
+            if (reserved_round_[vertex] == round_)
                 return false;
         for (const uint32_t vertex : vertices)
-            busy_[vertex] = round_;
+            reserved_round_[vertex] = round_;
         return true;
     }
 
     bool collapse(uint32_t triangle, const Shape& shape)
     {
         const CornerIndices& corners = corners_[triangle];
-        const auto [low, high] = std::minmax(corners[static_cast<size_t>(shape.short_side + 1) % 3],
-                                             corners[static_cast<size_t>(shape.short_side + 2) % 3]);
-        if (!takeAll({low, high}))
+        const auto [low, high] = std::minmax(corners[static_cast<size_t>(shape.shortest_edge + 1) % 3],
+                                             corners[static_cast<size_t>(shape.shortest_edge + 2) % 3]);
+        if (!reserveVertices({low, high}))
             return false;
-        result_.vertex_of_vertex[high] = low;
+        result_.collapse_target[high] = low;
         ++result_.statistics.collapsed;
         return true;
     }
@@ -185,7 +185,7 @@ private:
         indices.reserve(live_.size() * 3);
         for (const uint32_t triangle : live_)
             indices.insert(indices.end(), corners_[triangle].begin(), corners_[triangle].end());
-        edges_ = interiorEdges(indices, positions_.size());
+        edges_ = findInteriorEdges(indices, positions_.size());
     }
 
     /// Return the triangle across the edge (a, b), and its third corner.
@@ -196,7 +196,7 @@ private:
                                            [](const InteriorEdge& e, const std::pair<uint32_t, uint32_t>& key)
                                            { return std::pair(e.a, e.b) < key; });
         if (edge == edges_.end() || edge->a != low || edge->b != high)
-            return {kNowhere, kNowhere};
+            return {kInvalidIndex, kInvalidIndex};
         const bool first = live_[edge->triangles[0]] == triangle;
         return {live_[edge->triangles[first ? 1 : 0]], first ? edge->l : edge->k};
     }
@@ -207,12 +207,13 @@ private:
         const auto k = static_cast<size_t>(shape.opposite);
         const uint32_t p = corners[k], a = corners[(k + 1) % 3], b = corners[(k + 2) % 3];
         const auto [other, c] = across(triangle, a, b);
-        if (other == kNowhere || c == p)
+        if (other == kInvalidIndex || c == p)
             return false;
         const CornerIndices one{a, c, p}, two{c, b, p};
-        const double before = std::min(shape.ratio, shapeOf(positions_, corners_[other]).ratio);
-        const double after = std::min(shapeOf(positions_, one).ratio, shapeOf(positions_, two).ratio);
-        if (!(after > before) || !takeAll({a, b, c, p}))
+        const double before = std::min(shape.ratio, measureShape(positions_, corners_[other]).ratio);
+        const double after =
+            std::min(measureShape(positions_, one).ratio, measureShape(positions_, two).ratio);
+        if (!(after > before) || !reserveVertices({a, b, c, p}))
             return false;
         corners_[triangle] = one;
         corners_[other] = two;
@@ -224,7 +225,7 @@ private:
     void dropThin()
     {
         const auto thin = [&](uint32_t triangle)
-        { return thinness_ > 0 && shapeOf(positions_, corners_[triangle]).ratio < thinness_; };
+        { return thinness_ > 0 && measureShape(positions_, corners_[triangle]).ratio < thinness_; };
         const auto end = std::remove_if(live_.begin(), live_.end(), thin);
         result_.statistics.dropped = static_cast<uint32_t>(live_.end() - end);
         live_.erase(end, live_.end());
@@ -232,17 +233,17 @@ private:
 
     void finish()
     {
-        std::vector<uint32_t> kept_of_triangle(corners_.size(), kNowhere);
+        std::vector<uint32_t> remaining_of_triangle(corners_.size(), kInvalidIndex);
         for (const uint32_t triangle : live_)
         {
-            kept_of_triangle[triangle] = static_cast<uint32_t>(result_.source.size());
-            result_.source.push_back(flipped_[triangle] ? kNowhere : triangle);
+            remaining_of_triangle[triangle] = static_cast<uint32_t>(result_.source.size());
+            result_.source.push_back(flipped_[triangle] ? kInvalidIndex : triangle);
             result_.indices.insert(result_.indices.end(), corners_[triangle].begin(),
                                    corners_[triangle].end());
         }
         for (size_t t = 0; t < corners_.size(); ++t)
-            if (twin_[t] != kNowhere && !flipped_[t])
-                result_.kept_of_source[t] = kept_of_triangle[twin_[t]];
+            if (duplicate_of_[t] != kInvalidIndex && !flipped_[t])
+                result_.remaining_of_source[t] = remaining_of_triangle[duplicate_of_[t]];
     }
 
     std::span<const Float3> positions_;
@@ -250,10 +251,10 @@ private:
     std::vector<CornerIndices> corners_;
     std::vector<bool> flipped_;
     std::vector<uint32_t> live_;
-    std::vector<uint32_t> twin_; ///< live triangle with the same corners; kNowhere if degenerate
+    std::vector<uint32_t> duplicate_of_; ///< live triangle with the same corners; kInvalidIndex if degenerate
     uint32_t duplicates_ = 0;
-    std::vector<InteriorEdge> edges_; ///< their triangles index live_
-    std::vector<uint32_t> busy_;      ///< last round that changed each vertex
+    std::vector<InteriorEdge> edges_;      ///< their triangles index live_
+    std::vector<uint32_t> reserved_round_; ///< last round that changed each vertex
     uint32_t round_ = 0;
     CleanTriangles result_;
 };
@@ -263,7 +264,7 @@ private:
 CleanTriangles removeThinTriangles(std::span<const Float3> positions, std::span<const uint32_t> indices,
                                    double thinness)
 {
-    return Cleaner(positions, indices, thinness).clean();
+    return TriangleCleaner(positions, indices, thinness).clean();
 }
 
 } // namespace hearth::visibility

@@ -12,7 +12,7 @@
 namespace hearth::visibility
 {
 
-struct ThinStatistics
+struct ThinTriangleStatistics
 {
     uint32_t degenerate = 0; ///< triangles with two equal corners, before any collapse
     uint32_t duplicate = 0;  ///< triangles with the corners of another, in any orientation
@@ -24,13 +24,13 @@ struct ThinStatistics
 struct CleanTriangles
 {
     std::vector<uint32_t> indices; ///< remaining triangles, in the order of the source
-    /// For each remaining triangle, the source triangle that it equals apart from collapses, or kNowhere
+    /// For each remaining triangle, the source triangle that it equals apart from collapses, or kInvalidIndex
     /// if an edge was flipped.
     std::vector<uint32_t> source;
-    /// For each source triangle, the remaining triangle with its three corners, or kNowhere.
-    std::vector<uint32_t> kept_of_source;
-    std::vector<uint32_t> vertex_of_vertex; ///< target of each vertex's collapse; mostly the vertex itself
-    ThinStatistics statistics;
+    /// For each source triangle, the remaining triangle with its three corners, or kInvalidIndex.
+    std::vector<uint32_t> remaining_of_source;
+    std::vector<uint32_t> collapse_target; ///< target of each vertex's collapse; mostly the vertex itself
+    ThinTriangleStatistics statistics;
 };
 
 /// Clean triangles so that none is lower than `thinness` times its longest edge, no two have the same three

@@ -3,6 +3,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/visibility/mesh/vertex_weld.h"
 
+#include "formats/base/index.h"
+
 #include <array>
 #include <bit>
 #include <cmath>
@@ -13,15 +15,13 @@ namespace hearth::visibility
 namespace
 {
 
-constexpr uint32_t kNone = 0xFFFFFFFFu;
-
 // Cell size in tolerances: larger cells need fewer searches in neighbours, but hold more vertices that are
 // too far away.
-constexpr double kCell = 5;
+constexpr double kCellSize = 5;
 
 using Cell = std::array<int64_t, 6>;
 
-uint64_t hashOf(const Cell& cell)
+uint64_t hashCell(const Cell& cell)
 {
     uint64_t hash = 0;
     for (const int64_t part : cell)
@@ -45,8 +45,8 @@ public:
           position_tolerance_(position_tolerance),
           normal_tolerance_(normal_tolerance),
           first_(positions.size()),
-          next_(positions.size(), kNone),
-          heads_(std::bit_ceil(positions.size() * 2 + 1), kNone)
+          next_(positions.size(), kInvalidIndex),
+          heads_(std::bit_ceil(positions.size() * 2 + 1), kInvalidIndex)
     {
     }
 
@@ -58,13 +58,13 @@ public:
             const Cell own = cellAt(vertex, 0);
             // an exact duplicate is merged and not searched for again: a thousand triangles that meet in one
             // vertex, each with its own copy, cost no time
-            if (const uint32_t equal = equalIn(own, vertex); equal != kNone)
+            if (const uint32_t equal = findEqual(own, vertex); equal != kInvalidIndex)
             {
                 unite(vertex, equal);
                 continue;
             }
             uniteWithNeighbours(vertex);
-            uint32_t& head = headOf(own);
+            uint32_t& head = listHead(own);
             next_[vertex] = head;
             head = vertex;
         }
@@ -80,7 +80,7 @@ private:
                         : normals_[vertex][static_cast<int>(axis) - 3];
     }
 
-    double toleranceOf(size_t axis) const { return axis < 3 ? position_tolerance_ : normal_tolerance_; }
+    double axisTolerance(size_t axis) const { return axis < 3 ? position_tolerance_ : normal_tolerance_; }
 
     /// Return the cell of a vertex that is moved by `tolerances` in every axis.
     Cell cellAt(uint32_t vertex, double tolerances) const
@@ -88,30 +88,30 @@ private:
         Cell cell;
         for (size_t axis = 0; axis < 6; ++axis)
         {
-            const double x = coordinate(vertex, axis), tolerance = toleranceOf(axis);
+            const double x = coordinate(vertex, axis), tolerance = axisTolerance(axis);
             // without a tolerance, the cell is the coordinate itself; + 0.0 turns -0 into 0
             cell[axis] =
                 tolerance > 0
-                    ? static_cast<int64_t>(std::floor((x + tolerances * tolerance) / (kCell * tolerance)))
+                    ? static_cast<int64_t>(std::floor((x + tolerances * tolerance) / (kCellSize * tolerance)))
                     : std::bit_cast<int64_t>(x + 0.0);
         }
         return cell;
     }
 
-    uint32_t& headOf(const Cell& cell) { return heads_[hashOf(cell) & (heads_.size() - 1)]; }
+    uint32_t& listHead(const Cell& cell) { return heads_[hashCell(cell) & (heads_.size() - 1)]; }
 
-    uint32_t equalIn(const Cell& cell, uint32_t vertex)
+    uint32_t findEqual(const Cell& cell, uint32_t vertex)
     {
-        for (uint32_t other = headOf(cell); other != kNone; other = next_[other])
+        for (uint32_t other = listHead(cell); other != kInvalidIndex; other = next_[other])
             if (positions_[other] == positions_[vertex] && normals_[other] == normals_[vertex])
                 return other;
-        return kNone;
+        return kInvalidIndex;
     }
 
-    bool near(uint32_t a, uint32_t b) const
+    bool isNear(uint32_t a, uint32_t b) const
     {
         for (size_t axis = 0; axis < 6; ++axis)
-            if (!(std::abs(coordinate(a, axis) - coordinate(b, axis)) <= toleranceOf(axis)))
+            if (!(std::abs(coordinate(a, axis) - coordinate(b, axis)) <= axisTolerance(axis)))
                 return false;
         return true;
     }
@@ -122,8 +122,8 @@ private:
         const Cell low = cellAt(vertex, -1.001), high = cellAt(vertex, 1.001);
         for (Cell cell = low;;)
         {
-            for (uint32_t other = headOf(cell); other != kNone; other = next_[other])
-                if (near(vertex, other))
+            for (uint32_t other = listHead(cell); other != kInvalidIndex; other = next_[other])
+                if (isNear(vertex, other))
                     unite(vertex, other);
             size_t axis = 0;
             while (axis < 6 && cell[axis] == high[axis])

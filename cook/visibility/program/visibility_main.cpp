@@ -5,7 +5,7 @@
 #include "cook/tools/batch.h"
 #include "cook/tools/open_part.h"
 #include "cook/visibility/program/visibility_part.h"
-#include "cook/visibility/scene/occlusion_picture.h"
+#include "cook/visibility/scene/occlusion_image.h"
 #include "formats/base/atomic_file.h"
 #include "formats/base/program.h"
 
@@ -120,11 +120,11 @@ Status writeStatistics(const Arguments& arguments, const std::vector<visibility:
 }
 
 /// Write the occlusion image of the written part.
-Status writePicture(const Arguments& arguments, const formats::PackView& import_part)
+Status writeOcclusionImage(const Arguments& arguments, const formats::PackView& import_part)
 {
     HEARTH_ASSIGN_OR_RETURN(const formats::PackView baked, tools::openPart(arguments.output));
-    HEARTH_ASSIGN_OR_RETURN(const visibility::GreyPicture picture,
-                            visibility::occlusionPicture(import_part, baked, kWidth, kHeight));
+    HEARTH_ASSIGN_OR_RETURN(const visibility::GreyImage picture,
+                            visibility::renderOcclusion(import_part, baked, kWidth, kHeight));
     HEARTH_ASSIGN_OR_RETURN(AtomicFile file, AtomicFile::create(arguments.picture));
     file.write(visibility::encodePng(picture));
     return file.finish();
@@ -149,7 +149,7 @@ Result<int> cook(const Arguments& arguments)
     if (!arguments.statistics.empty())
         HEARTH_TRY(writeStatistics(arguments, *meshes));
     if (!arguments.picture.empty())
-        HEARTH_TRY(writePicture(arguments, import_part));
+        HEARTH_TRY(writeOcclusionImage(arguments, import_part));
     return 0;
 }
 

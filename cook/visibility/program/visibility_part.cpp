@@ -24,15 +24,15 @@ namespace
 {
 
 // Maximum number of instances of a mesh whose surroundings are averaged.
-constexpr size_t kMostInstances = 8;
+constexpr size_t kMaxInstances = 8;
 
 // Minimum number of samples around a vertex, relative to the average number per vertex. Each sample counts
 // for the three vertices of its triangle, so that three times the average lie around a vertex; a quarter of
 // them are distributed by area. See cook/visibility/README.md, "Noise".
-constexpr double kLeastOfVertex = 2.25;
+constexpr double kMinVertexSamples = 2.25;
 
 // Not 0, so that surfaces with only interior samples have a fit.
-constexpr float kBuriedWeight = 1e-3f;
+constexpr float kInteriorWeight = 1e-3f;
 
 double secondsSince(std::chrono::steady_clock::time_point start)
 {
@@ -51,7 +51,7 @@ bool isBaked(const MeshRecord& mesh)
 
 /// Collect the world transforms of each mesh's instances, and check that the two parts belong together.
 /// errors: meaning_reference for an instance of a mesh that is not there
-Result<std::vector<std::vector<Affine3>>> transformsOf(const PackView& scene, const PackView& part)
+Result<std::vector<std::vector<Affine3>>> collectTransforms(const PackView& scene, const PackView& part)
 {
     std::vector<std::vector<Affine3>> transforms(part.meshes().size());
     for (size_t i = 0; i < scene.instances().size(); ++i)
@@ -80,11 +80,11 @@ public:
     /// returns  nothing if the observer returned false
     Result<std::optional<std::vector<MeshStatistics>>> run()
     {
-        HEARTH_ASSIGN_OR_RETURN(transforms_, transformsOf(scene_, part_));
-        HEARTH_ASSIGN_OR_RETURN(poses_, posesOf(scene_, settings_.poses));
+        HEARTH_ASSIGN_OR_RETURN(transforms_, collectTransforms(scene_, part_));
+        HEARTH_ASSIGN_OR_RETURN(poses_, samplePoses(scene_, settings_.poses));
         Occluders world;
         if (!settings_.alone)
-            HEARTH_TRY(gather(world));
+            HEARTH_TRY(collectOccluders(world));
         uint64_t triangles = 0;
         for (const MeshRecord& mesh : part_.meshes())
             triangles += isBaked(mesh) ? mesh.source_triangles : 0;
@@ -111,7 +111,7 @@ public:
 
 private:
     /// Collect the occluders of the scene. Deformed meshes occlude only themselves.
-    Status gather(Occluders& world)
+    Status collectOccluders(Occluders& world)
     {
         for (uint32_t mesh = 0; mesh < part_.meshes().size(); ++mesh)
         {
@@ -119,7 +119,7 @@ private:
             if (record.clusters.count == 0 || transforms_[mesh].empty() || isDeformed(record))
                 continue;
             HEARTH_ASSIGN_OR_RETURN(const MeshPages pages, MeshPages::read(part_, mesh));
-            HEARTH_TRY(addMesh(world, masks_, pages, finestOf(pages), transforms_[mesh]));
+            HEARTH_TRY(addMesh(world, masks_, pages, extractFinestLevel(pages), transforms_[mesh]));
         }
         world.finish();
         return success();
@@ -128,7 +128,7 @@ private:
     Result<std::optional<MeshStatistics>> bake(uint32_t mesh, const Occluders& world)
     {
         HEARTH_ASSIGN_OR_RETURN(const MeshPages pages, MeshPages::read(part_, mesh));
-        std::vector<LevelArrays> levels = levelsOf(pages);
+        std::vector<LevelArrays> levels = extractLevels(pages);
         const LevelArrays& finest = levels.front();
         const bool deformed = isDeformed(pages.record());
         const bool alone = settings_.alone || deformed || transforms_[mesh].empty();
@@ -138,33 +138,33 @@ private:
         statistics.levels = static_cast<uint32_t>(levels.size());
 
         std::deque<Occluders> itself;
-        std::vector<Place> places;
+        std::vector<Placement> places;
         if (alone)
         {
-            HEARTH_ASSIGN_OR_RETURN(places, alonePlaces(pages, finest, statistics, itself));
+            HEARTH_ASSIGN_OR_RETURN(places, placeAlone(pages, finest, statistics, itself));
         }
         else
-            places = chosen(world, transforms_[mesh], statistics);
+            places = chooseInstances(world, transforms_[mesh], statistics);
         const auto start = std::chrono::steady_clock::now();
-        std::vector<SurfaceSample> samples = samplesOf(finest);
+        std::vector<SurfaceSample> samples = createSamples(finest);
         const std::optional<SampledMoments> seen = trace(finest, samples, places, statistics);
         if (!seen)
             return std::optional<MeshStatistics>();
         for (size_t s = 0; s < samples.size(); ++s)
-            if (seen->buried[s] != 0)
+            if (seen->interior[s] != 0)
             {
-                samples[s].weight = kBuriedWeight;
-                ++statistics.buried;
+                samples[s].weight = kInteriorWeight;
+                ++statistics.interior_samples;
             }
         statistics.ray_seconds = secondsSince(start);
         fit(levels, samples, *seen, statistics);
         return std::optional(std::move(statistics));
     }
 
-    std::vector<SurfaceSample> samplesOf(const LevelArrays& finest) const
+    std::vector<SurfaceSample> createSamples(const LevelArrays& finest) const
     {
         // vertices that clusters share are in the arrays once for each cluster
-        const std::vector<uint32_t> first = proxyVertices(finest.mesh().mesh, settings_.fit.proxy);
+        const std::vector<uint32_t> first = findMergedVertices(finest.mesh().mesh, settings_.fit.proxy);
         std::vector<uint32_t> corners;
         corners.reserve(finest.indices.size());
         for (const uint32_t corner : finest.indices)
@@ -173,15 +173,15 @@ private:
         SurfaceSampleSettings settings;
         settings.samples_per_vertex =
             settings_.samples_per_vertex * positions / static_cast<double>(finest.positions.size());
-        settings.least_per_vertex = kLeastOfVertex * settings_.samples_per_vertex;
+        settings.min_per_vertex = kMinVertexSamples * settings_.samples_per_vertex;
         return surfaceSamples(finest.positions, corners, settings);
     }
 
     /// Create the placements of a mesh alone: one without a pose, or one for each of its poses.
-    Result<std::vector<Place>> alonePlaces(const MeshPages& pages, const LevelArrays& finest,
-                                           MeshStatistics& statistics, std::deque<Occluders>& itself)
+    Result<std::vector<Placement>> placeAlone(const MeshPages& pages, const LevelArrays& finest,
+                                              MeshStatistics& statistics, std::deque<Occluders>& itself)
     {
-        std::vector<Place> places;
+        std::vector<Placement> places;
         const Affine3 identity;
         const auto add = [&](std::string name, const LevelArrays& level, std::vector<Float3> posed) -> Status
         {
@@ -209,22 +209,22 @@ private:
     }
 
     /// Choose a power of two of the instances, so that they can share each sample's rays evenly.
-    std::vector<Place> chosen(const Occluders& world, const std::vector<Affine3>& transforms,
-                              MeshStatistics& statistics) const
+    std::vector<Placement> chooseInstances(const Occluders& world, const std::vector<Affine3>& transforms,
+                                           MeshStatistics& statistics) const
     {
-        const size_t most = std::min(kMostInstances, size_t{settings_.rays.rays_per_sample});
+        const size_t most = std::min(kMaxInstances, size_t{settings_.rays.rays_per_sample});
         const size_t count = std::min(std::bit_ceil(transforms.size()), std::bit_floor(most));
         statistics.poses = {"rest"};
-        std::vector<Place> some;
+        std::vector<Placement> subset;
         for (size_t i = 0; i < count; ++i)
-            some.push_back({&world, transforms[i * transforms.size() / count], {}});
+            subset.push_back({&world, transforms[i * transforms.size() / count], {}});
         statistics.instances = static_cast<uint32_t>(std::min(count, transforms.size()));
-        return some;
+        return subset;
     }
 
     /// Trace the rays. Instances share each sample's rays; poses have all of them each.
     std::optional<SampledMoments> trace(const LevelArrays& finest, std::span<const SurfaceSample> samples,
-                                        std::span<const Place> places, MeshStatistics& statistics)
+                                        std::span<const Placement> places, MeshStatistics& statistics)
     {
         RaySettings rays = settings_.rays;
         if (statistics.instances > 0)
@@ -264,7 +264,8 @@ private:
         for (size_t l = 0; l < levels.size(); ++l)
         {
             const FitStatistics& of_level = fits[l].statistics;
-            statistics.most_iterations = std::max(statistics.most_iterations, of_level.solve.iterations);
+            statistics.max_iterations_used =
+                std::max(statistics.max_iterations_used, of_level.solve.iterations);
             statistics.condition = std::max(statistics.condition, of_level.solve.condition);
             statistics.converged = statistics.converged && of_level.solve.converged;
             statistics.vertices += of_level.vertices;
@@ -274,7 +275,7 @@ private:
         }
         statistics.fit_seconds = secondsSince(start);
         if (settings_.estimate_error)
-            statistics.ao_error = noiseOf(levels.front(), samples, seen.moments);
+            statistics.ao_error = estimateNoise(levels.front(), samples, seen.moments);
     }
 
     /// Encode the moments of a level. Clusters that several cuts draw have equal codes in all of them.
@@ -294,22 +295,22 @@ private:
 
     /// Estimate the noise of ambient occlusion. Two fits, each to every other sample, differ by twice the
     /// noise of the fit to both: the noise of their rays, and of the samples' positions.
-    double noiseOf(const LevelArrays& finest, std::span<const SurfaceSample> samples,
-                   std::span<const Moments> moments) const
+    double estimateNoise(const LevelArrays& finest, std::span<const SurfaceSample> samples,
+                         std::span<const Moments> moments) const
     {
         std::array<std::vector<Moments>, 2> fitted;
         for (size_t half = 0; half < 2; ++half)
         {
-            std::vector<SurfaceSample> some;
+            std::vector<SurfaceSample> subset;
             std::vector<Moments> values;
             for (size_t s = half; s < samples.size(); s += 2)
             {
-                some.push_back(samples[s]);
-                some.back().area *= 2; // each half represents the whole surface
+                subset.push_back(samples[s]);
+                subset.back().area *= 2; // each half represents the whole surface
                 values.push_back(moments[s]);
             }
             const LevelMesh mesh = finest.mesh();
-            fitted[half] = std::move(fitLevels({&mesh, 1}, some, values, settings_.fit).front().moments);
+            fitted[half] = std::move(fitLevels({&mesh, 1}, subset, values, settings_.fit).front().moments);
         }
         double sum = 0;
         for (size_t v = 0; v < finest.normals.size(); ++v)
@@ -334,7 +335,7 @@ private:
     uint64_t rays_before_ = 0;
 };
 
-Json jsonOf(const MeshStatistics& mesh)
+Json meshJson(const MeshStatistics& mesh)
 {
     Json json{
         {"mesh", mesh.mesh},
@@ -355,13 +356,13 @@ Json jsonOf(const MeshStatistics& mesh)
           {"flipped", mesh.proxy.thin.flipped},
           {"dropped", mesh.proxy.thin.dropped}}},
         {"solve",
-         {{"iterations", mesh.most_iterations},
+         {{"iterations", mesh.max_iterations_used},
           {"condition", mesh.condition},
           {"converged", mesh.converged}}},
         {"vertices", mesh.vertices},
         {"clamped", mesh.clamped},
         {"unseen", mesh.unseen},
-        {"buried", mesh.buried},
+        {"buried", mesh.interior_samples},
     };
     if (mesh.refined)
         json["refined"] = {{"cones", mesh.refined->cones},
@@ -403,7 +404,7 @@ std::string statisticsJson(const std::string& source, const BakeSettings& settin
               {"occluders", settings.alone ? "asset" : "scene"},
               {"meshes", Json::array()}};
     for (const MeshStatistics& mesh : meshes)
-        json["meshes"].push_back(jsonOf(mesh));
+        json["meshes"].push_back(meshJson(mesh));
     return json.dump(1) + "\n";
 }
 

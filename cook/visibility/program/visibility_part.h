@@ -40,11 +40,11 @@ struct MeshStatistics
     uint32_t levels = 0;
     uint64_t samples = 0;
     uint64_t rays = 0;
-    uint64_t buried = 0; ///< interior samples: covered so closely that they hardly count
+    uint64_t interior_samples = 0; ///< interior samples: covered so closely that they hardly count
     double ray_seconds = 0;
     double fit_seconds = 0;
     ProxyStatistics proxy; ///< of the finest level
-    uint32_t most_iterations = 0;
+    uint32_t max_iterations_used = 0;
     double condition = 0;              ///< largest of all levels
     bool converged = true;             ///< on all levels
     uint64_t vertices = 0;             ///< of the proxies of all levels

@@ -13,7 +13,7 @@ namespace hearth::visibility
 
 using namespace formats;
 
-Result<AlphaImage> alphaOf(const PackView& part, uint32_t image)
+Result<AlphaImage> readAlpha(const PackView& part, uint32_t image)
 {
     HEARTH_ASSIGN_OR_RETURN(const ChunkData data, part.imageData(image));
     const ImageRecord& record = part.images()[image];
@@ -47,17 +47,18 @@ AlphaMask::AlphaMask(const MaterialRecord& material, std::shared_ptr<const Alpha
 {
 }
 
-bool AlphaMask::blocks(Float2 uv) const
+bool AlphaMask::isOpaque(Float2 uv) const
 {
     if (!image_)
         return alpha_ >= cutoff_;
     const float* m = texture_.uv_transform;
-    const auto place = [&](const float* row, uint32_t size)
+    const auto texelCoordinate = [&](const float* row, uint32_t size)
     {
-        const float value = std::clamp(row[0] * uv.x + row[1] * uv.y + row[2], -kFarthestUv, kFarthestUv);
+        const float value =
+            std::clamp(row[0] * uv.x + row[1] * uv.y + row[2], -kMaxUvMagnitude, kMaxUvMagnitude);
         return value * static_cast<float>(size) - 0.5f;
     };
-    const float x = place(m, image_->width), y = place(m + 3, image_->height);
+    const float x = texelCoordinate(m, image_->width), y = texelCoordinate(m + 3, image_->height);
     const float x0 = std::floor(x), y0 = std::floor(y);
     const auto column = static_cast<int64_t>(x0), row = static_cast<int64_t>(y0);
     const float fx = x - x0, fy = y - y0;
@@ -68,8 +69,8 @@ bool AlphaMask::blocks(Float2 uv) const
 
 float AlphaMask::texel(int64_t x, int64_t y) const
 {
-    const int64_t column = wrappedTexel(x, image_->width, texture_.wrap_u);
-    const int64_t row = wrappedTexel(y, image_->height, texture_.wrap_v);
+    const int64_t column = wrapTexel(x, image_->width, texture_.wrap_u);
+    const int64_t row = wrapTexel(y, image_->height, texture_.wrap_v);
     return static_cast<float>(image_->texels[static_cast<size_t>(row * image_->width + column)]) / 255.0f;
 }
 

@@ -20,7 +20,7 @@ struct AlphaImage
 
 /// Read the alpha channel of an image's finest mip.
 /// errors: those of PackView::imageData
-Result<AlphaImage> alphaOf(const formats::PackView& part, uint32_t image);
+Result<AlphaImage> readAlpha(const formats::PackView& part, uint32_t image);
 
 /// Alpha test like the renderer's at near levels: a bilinear lookup in the finest mip.
 class AlphaMask
@@ -31,7 +31,7 @@ public:
 
     /// True if the surface is opaque at these texture coordinates, which the material's UV transform is still
     /// applied to.
-    bool blocks(Float2 uv) const;
+    bool isOpaque(Float2 uv) const;
 
     uint32_t uvSet() const { return texture_.uv_set; }
 

@@ -17,11 +17,11 @@ namespace
 {
 
 // Share of the hemisphere: a sample that sees more is no candidate.
-constexpr float kAllButNothing = 0.1f;
+constexpr float kMaxVisibleShare = 0.1f;
 
 constexpr uint32_t kRays = 32;
 // Rays that may escape sideways through the gap: below a cover at a tenth of the reach, a tenth do.
-constexpr uint32_t kMayPass = 6;
+constexpr uint32_t kMaxEscapingRays = 6;
 
 bool isCovered(RTCScene scene, const SamplePoint& point, float reach, uint64_t seed)
 {
@@ -30,8 +30,8 @@ bool isCovered(RTCScene scene, const SamplePoint& point, float reach, uint64_t s
     const Float3 origin = rayOrigin(point);
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    uint32_t passed = 0;
-    for (uint32_t i = 0; i < kRays && passed <= kMayPass; ++i)
+    uint32_t escaped = 0;
+    for (uint32_t i = 0; i < kRays && escaped <= kMaxEscapingRays; ++i)
     {
         RTCRay ray{};
         ray.org_x = origin.x;
@@ -43,30 +43,29 @@ bool isCovered(RTCScene scene, const SamplePoint& point, float reach, uint64_t s
         ray.tfar = reach;
         ray.mask = ~0u;
         rtcOccluded1(scene, &context, &ray);
-        passed += ray.tfar < 0 ? 0u : 1u;
+        escaped += ray.tfar < 0 ? 0u : 1u;
     }
-    return passed <= kMayPass;
+    return escaped <= kMaxEscapingRays;
 }
 
 } // namespace
 
-std::vector<uint8_t> buriedPoints(const Occluders& occluders, std::span<const SamplePoint> points,
-                                  std::span<const Moments> moments, std::span<const float> reach,
-                                  uint64_t seed)
+std::vector<uint8_t> findInteriorPoints(const Occluders& occluders, std::span<const SamplePoint> points,
+                                        std::span<const Moments> moments, std::span<const float> reach,
+                                        uint64_t seed)
 {
     HEARTH_ASSERT(moments.size() == points.size() && reach.size() == points.size());
-    constexpr float kMost = kAllButNothing * 2 * std::numbers::pi_v<float>;
-    std::vector<uint8_t> buried(points.size(), 0);
-    tbb::parallel_for(size_t{0}, points.size(),
-                      [&](size_t i)
-                      {
-                          if (moments[i].m0 < kMost)
-                              buried[i] =
-                                  isCovered(occluders.scene(), points[i], reach[i], sampling::seedOf(seed, i))
-                                      ? 1
-                                      : 0;
-                      });
-    return buried;
+    constexpr float kMaxM0 = kMaxVisibleShare * 2 * std::numbers::pi_v<float>;
+    std::vector<uint8_t> interior(points.size(), 0);
+    tbb::parallel_for(
+        size_t{0}, points.size(),
+        [&](size_t i)
+        {
+            if (moments[i].m0 < kMaxM0)
+                interior[i] =
+                    isCovered(occluders.scene(), points[i], reach[i], sampling::deriveSeed(seed, i)) ? 1 : 0;
+        });
+    return interior;
 }
 
 } // namespace hearth::visibility

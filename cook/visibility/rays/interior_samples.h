@@ -18,8 +18,8 @@ namespace hearth::visibility
 /// reach    metres, for each point
 /// seed     of the rays; each point has a sequence of its own
 /// returns  1 for each interior point, else 0
-std::vector<uint8_t> buriedPoints(const Occluders& occluders, std::span<const SamplePoint> points,
-                                  std::span<const Moments> moments, std::span<const float> reach,
-                                  uint64_t seed);
+std::vector<uint8_t> findInteriorPoints(const Occluders& occluders, std::span<const SamplePoint> points,
+                                        std::span<const Moments> moments, std::span<const float> reach,
+                                        uint64_t seed);
 
 } // namespace hearth::visibility

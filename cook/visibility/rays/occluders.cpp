@@ -16,18 +16,18 @@ namespace
 {
 
 /// Filter settings of a mesh. Must not move while Embree holds its address.
-struct Passage
+struct HitFilter
 {
     BackFaces back_faces;
     Mask mask;
 
-    bool isOpen() const { return back_faces == BackFaces::let_through || mask; }
+    bool isActive() const { return back_faces == BackFaces::let_through || mask; }
 };
 
 /// Reject hits in Embree's filter callback, for a single ray or several side by side.
 void rejectHits(const RTCFilterFunctionNArguments* arguments)
 {
-    const auto& passage = *static_cast<const Passage*>(arguments->geometryUserPtr);
+    const auto& filter = *static_cast<const HitFilter*>(arguments->geometryUserPtr);
     const unsigned count = arguments->N;
     for (unsigned i = 0; i < count; ++i)
     {
@@ -37,27 +37,27 @@ void rejectHits(const RTCFilterFunctionNArguments* arguments)
         const RTCHit hit = rtcGetHitFromHitN(arguments->hit, count, i);
         // both in the space of the mesh, where front faces are the same in mirrored instances
         const bool from_behind = ray.dir_x * hit.Ng_x + ray.dir_y * hit.Ng_y + ray.dir_z * hit.Ng_z > 0;
-        if ((from_behind && passage.back_faces == BackFaces::let_through) ||
-            (passage.mask && !passage.mask(hit.primID, hit.u, hit.v)))
+        if ((from_behind && filter.back_faces == BackFaces::let_through) ||
+            (filter.mask && !filter.mask(hit.primID, hit.u, hit.v)))
             arguments->valid[i] = 0;
     }
 }
 
 /// Deleter for Embree's reference-counted objects.
-struct Release
+struct EmbreeRelease
 {
     void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
     void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
     void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
 };
 template <typename T>
-using Held = std::unique_ptr<std::remove_pointer_t<T>, Release>;
+using EmbreePtr = std::unique_ptr<std::remove_pointer_t<T>, EmbreeRelease>;
 
-struct PlacedMesh
+struct EmbreeMesh
 {
-    Held<RTCGeometry> triangles;
-    Held<RTCScene> scene; ///< holds the triangles for instances; created for the first one
-    std::unique_ptr<Passage> passage;
+    EmbreePtr<RTCGeometry> triangles;
+    EmbreePtr<RTCScene> scene; ///< holds the triangles for instances; created for the first one
+    std::unique_ptr<HitFilter> filter;
 };
 
 struct OccluderInstance
@@ -81,19 +81,19 @@ void commit(RTCScene scene)
 
 struct Occluders::State
 {
-    Held<RTCDevice> device{rtcNewDevice(nullptr)};
-    Held<RTCScene> top{rtcNewScene(device.get())};
-    std::vector<PlacedMesh> meshes;
-    std::vector<OccluderInstance> places;
-    std::vector<Held<RTCGeometry>> instances;
+    EmbreePtr<RTCDevice> device{rtcNewDevice(nullptr)};
+    EmbreePtr<RTCScene> top{rtcNewScene(device.get())};
+    std::vector<EmbreeMesh> meshes;
+    std::vector<OccluderInstance> mesh_instances;
+    std::vector<EmbreePtr<RTCGeometry>> instances;
     bool finished = false;
 
-    void put(const OccluderInstance& place);
+    void attach(const OccluderInstance& place);
 };
 
-void Occluders::State::put(const OccluderInstance& place)
+void Occluders::State::attach(const OccluderInstance& place)
 {
-    PlacedMesh& mesh = meshes[place.mesh];
+    EmbreeMesh& mesh = meshes[place.mesh];
     if (mesh.triangles == nullptr)
         return;
     if (place.world_from_mesh == Affine3{})
@@ -126,47 +126,47 @@ Occluders::Mesh Occluders::add(const OccluderMesh& mesh)
     HEARTH_ASSERT(mesh.corners.size() % 3 == 0);
     for (const uint32_t corner : mesh.corners)
         HEARTH_ASSERT(corner < mesh.positions.size());
-    PlacedMesh placed;
-    placed.passage = std::make_unique<Passage>(Passage{mesh.back_faces, mesh.mask});
+    EmbreeMesh added;
+    added.filter = std::make_unique<HitFilter>(HitFilter{mesh.back_faces, mesh.mask});
     if (!mesh.corners.empty())
     {
         RTCGeometry triangles = rtcNewGeometry(state_->device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-        placed.triangles.reset(triangles);
+        added.triangles.reset(triangles);
         void* const positions = rtcSetNewGeometryBuffer(
             triangles, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Float3), mesh.positions.size());
         std::memcpy(positions, mesh.positions.data(), mesh.positions.size_bytes());
         void* const corners = rtcSetNewGeometryBuffer(triangles, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                                       3 * sizeof(uint32_t), mesh.corners.size() / 3);
         std::memcpy(corners, mesh.corners.data(), mesh.corners.size_bytes());
-        if (placed.passage->isOpen())
+        if (added.filter->isActive())
         {
-            rtcSetGeometryUserData(triangles, placed.passage.get());
+            rtcSetGeometryUserData(triangles, added.filter.get());
             rtcSetGeometryIntersectFilterFunction(triangles, rejectHits);
             rtcSetGeometryOccludedFilterFunction(triangles, rejectHits);
         }
         rtcCommitGeometry(triangles);
     }
-    state_->meshes.push_back(std::move(placed));
+    state_->meshes.push_back(std::move(added));
     return static_cast<Mesh>(state_->meshes.size() - 1);
 }
 
 void Occluders::place(Mesh mesh, const Affine3& world_from_mesh)
 {
     HEARTH_ASSERT(!state_->finished && static_cast<size_t>(mesh) < state_->meshes.size());
-    state_->places.push_back({static_cast<size_t>(mesh), world_from_mesh});
+    state_->mesh_instances.push_back({static_cast<size_t>(mesh), world_from_mesh});
 }
 
 void Occluders::finish()
 {
     HEARTH_ASSERT(!state_->finished);
-    for (const OccluderInstance& place : state_->places)
-        state_->put(place);
+    for (const OccluderInstance& place : state_->mesh_instances)
+        state_->attach(place);
     std::vector<RTCScene> instanced;
-    for (const PlacedMesh& mesh : state_->meshes)
+    for (const EmbreeMesh& mesh : state_->meshes)
         if (mesh.scene != nullptr)
             instanced.push_back(mesh.scene.get());
     tbb::parallel_for(size_t{0}, instanced.size(), [&](size_t i) { commit(instanced[i]); });
-    for (const Held<RTCGeometry>& instance : state_->instances)
+    for (const EmbreePtr<RTCGeometry>& instance : state_->instances)
         rtcCommitGeometry(instance.get());
     commit(state_->top.get());
     HEARTH_ASSERT(rtcGetDeviceError(state_->device.get()) == RTC_ERROR_NONE);

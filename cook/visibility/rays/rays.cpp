@@ -52,13 +52,13 @@ struct AnyHit
 {
     using Ray = RTCRay;
     explicit AnyHit(const RaySettings&) {}
-    static RTCRay& rayOf(Ray& ray) { return ray; }
+    static RTCRay& embreeRay(Ray& ray) { return ray; }
     static void reset(Ray&) {}
     static void trace(RTCScene scene, RTCIntersectContext& context, std::span<Ray> rays)
     {
         rtcOccluded1M(scene, &context, rays.data(), static_cast<unsigned>(rays.size()), sizeof(Ray));
     }
-    double hidden(const Ray& ray) const { return ray.tfar < 0 ? 1 : 0; }
+    double occluded(const Ray& ray) const { return ray.tfar < 0 ? 1 : 0; }
 };
 
 /// Query for the nearest hit, for visibility that depends on distance.
@@ -69,7 +69,7 @@ struct NearestHit
         : distance(double{settings.distance}), power(double{settings.power})
     {
     }
-    static RTCRay& rayOf(Ray& ray) { return ray.ray; }
+    static RTCRay& embreeRay(Ray& ray) { return ray.ray; }
     static void reset(Ray& ray)
     {
         ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -79,7 +79,7 @@ struct NearestHit
     {
         rtcIntersect1M(scene, &context, rays.data(), static_cast<unsigned>(rays.size()), sizeof(Ray));
     }
-    double hidden(const Ray& ray) const
+    double occluded(const Ray& ray) const
     {
         if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID)
             return 0;
@@ -91,11 +91,11 @@ struct NearestHit
 
 /// Estimate the integral of V times a function over the hemisphere. Estimates the occluded part and corrects
 /// the open part by the known error of this ray pattern: cook/visibility/README.md, "Exact constants".
-/// hidden, all  sums of the function over the rays: times 1 - V, and unweighted
+/// occluded, all  sums of the function over the rays: times 1 - V, and unweighted
 /// whole        exact integral of the function over the hemisphere
-double integralOf(double hidden, double all, double whole, double hidden_share, double per_ray)
+double estimateIntegral(double occluded, double all, double whole, double occluded_share, double per_ray)
 {
-    return (all * hidden_share - hidden) * per_ray + whole * (1 - hidden_share);
+    return (all * occluded_share - occluded) * per_ray + whole * (1 - occluded_share);
 }
 
 /// Sums over the rays w of one point: 1 - V, (1 - V) w and w.
@@ -103,28 +103,29 @@ struct FirstSums
 {
     using Result = Moments;
 
-    void add(Double3 direction, double is_hidden)
+    void add(Double3 direction, double occlusion)
     {
-        hidden += is_hidden;
-        hidden_directions = hidden_directions + direction * is_hidden;
+        occluded += occlusion;
+        occluded_directions = occluded_directions + direction * occlusion;
         directions = directions + direction;
     }
 
     Moments result(Float3 normal, uint32_t rays) const
     {
-        const double share = hidden / rays, per_ray = kHemisphere / rays;
-        const auto axis = [&](double hidden_sum, double sum, float n) {
+        const double share = occluded / rays, per_ray = kHemisphere / rays;
+        const auto axis = [&](double occluded_sum, double sum, float n)
+        {
             return static_cast<float>(
-                integralOf(hidden_sum, sum, double{n} * kHemisphere / 2, share, per_ray));
+                estimateIntegral(occluded_sum, sum, double{n} * kHemisphere / 2, share, per_ray));
         };
         return {static_cast<float>(kHemisphere * (1 - share)),
-                {axis(hidden_directions.x, directions.x, normal.x),
-                 axis(hidden_directions.y, directions.y, normal.y),
-                 axis(hidden_directions.z, directions.z, normal.z)}};
+                {axis(occluded_directions.x, directions.x, normal.x),
+                 axis(occluded_directions.y, directions.y, normal.y),
+                 axis(occluded_directions.z, directions.z, normal.z)}};
     }
 
-    double hidden = 0;
-    Double3 hidden_directions;
+    double occluded = 0;
+    Double3 occluded_directions;
     Double3 directions;
 };
 
@@ -133,14 +134,14 @@ struct SecondSums
 {
     using Result = HigherMoments;
 
-    void add(Double3 w, double is_hidden)
+    void add(Double3 w, double occlusion)
     {
-        first.add(w, is_hidden);
+        first.add(w, occlusion);
         const std::array<double, 6> products{w.x * w.x, w.y * w.y, w.z * w.z,
                                              w.x * w.y, w.x * w.z, w.y * w.z};
         for (size_t i = 0; i < products.size(); ++i)
         {
-            hidden_products[i] += products[i] * is_hidden;
+            occluded_products[i] += products[i] * occlusion;
             all_products[i] += products[i];
         }
     }
@@ -149,16 +150,16 @@ struct SecondSums
     {
         const auto product = [&](size_t i)
         {
-            return static_cast<float>(integralOf(hidden_products[i], all_products[i],
-                                                 i < 3 ? kHemisphere / 3 : 0, first.hidden / rays,
-                                                 kHemisphere / rays));
+            return static_cast<float>(estimateIntegral(occluded_products[i], all_products[i],
+                                                       i < 3 ? kHemisphere / 3 : 0, first.occluded / rays,
+                                                       kHemisphere / rays));
         };
         return {first.result(normal, rays),
                 {product(0), product(1), product(2), product(3), product(4), product(5)}};
     }
 
     FirstSums first;
-    std::array<double, 6> hidden_products{}, all_products{};
+    std::array<double, 6> occluded_products{}, all_products{};
 };
 
 /// Traces the rays of some points, one stream at a time.
@@ -179,7 +180,7 @@ public:
         sums_.assign(points.size(), {});
         for (uint32_t p = 0; p < points.size(); ++p)
         {
-            const uint64_t seed = sampling::seedOf(settings_.seed, first + p);
+            const uint64_t seed = sampling::deriveSeed(settings_.seed, first + p);
             for (uint32_t ray = 0; ray < settings_.rays_per_sample;)
             {
                 const uint32_t count = std::min(settings_.rays_per_sample - ray, kStreamRays - filled_);
@@ -198,7 +199,7 @@ private:
     using Ray = typename Query::Ray;
 
     /// Rays of one point in the stream.
-    struct Fan
+    struct PointRays
     {
         uint32_t point, first, count;
     };
@@ -211,7 +212,7 @@ private:
         const Float3 origin = rayOrigin(from);
         for (uint32_t i = filled_; i < filled_ + count; ++i)
         {
-            RTCRay& ray = Query::rayOf(rays_[i]);
+            RTCRay& ray = Query::embreeRay(rays_[i]);
             ray.org_x = origin.x;
             ray.org_y = origin.y;
             ray.org_z = origin.z;
@@ -226,24 +227,24 @@ private:
             ray.flags = 0;
             Query::reset(rays_[i]);
         }
-        fans_.push_back({point, filled_, count});
+        point_rays_.push_back({point, filled_, count});
         filled_ += count;
     }
 
     void flush()
     {
         Query::trace(scene_, context_, std::span(rays_).first(filled_));
-        for (const Fan& fan : fans_)
+        for (const PointRays& point_rays : point_rays_)
         {
-            Sums sums = sums_[fan.point];
-            for (uint32_t i = fan.first; i < fan.first + fan.count; ++i)
+            Sums sums = sums_[point_rays.point];
+            for (uint32_t i = point_rays.first; i < point_rays.first + point_rays.count; ++i)
             {
                 const Double3 direction{double{x_[i]}, double{y_[i]}, double{z_[i]}};
-                sums.add(direction, query_.hidden(rays_[i]));
+                sums.add(direction, query_.occluded(rays_[i]));
             }
-            sums_[fan.point] = sums;
+            sums_[point_rays.point] = sums;
         }
-        fans_.clear();
+        point_rays_.clear();
         filled_ = 0;
     }
 
@@ -253,16 +254,16 @@ private:
     RTCIntersectContext context_;
     std::vector<Ray> rays_;
     std::array<float, kStreamRays> x_, y_, z_;
-    std::vector<Fan> fans_;
+    std::vector<PointRays> point_rays_;
     std::vector<Sums> sums_;
     uint32_t filled_ = 0; ///< rays in the stream
 };
 
 /// Counts the rays of all threads and reports progress.
-class Counter
+class RayCounter
 {
 public:
-    Counter(const RayProgress& progress, uint64_t total) : progress_(progress), total_(total) {}
+    RayCounter(const RayProgress& progress, uint64_t total) : progress_(progress), total_(total) {}
 
     bool stopped() const { return stopped_.load(std::memory_order_relaxed); }
 
@@ -293,7 +294,7 @@ template <typename Query, typename Sums>
 bool traceAll(const Occluders& occluders, std::span<const SamplePoint> points, const RaySettings& settings,
               const RayProgress& progress, std::span<typename Sums::Result> moments)
 {
-    Counter counter(progress, uint64_t{points.size()} * settings.rays_per_sample);
+    RayCounter counter(progress, uint64_t{points.size()} * settings.rays_per_sample);
     // whole streams, if both are powers of two
     const size_t points_per_task = std::max<uint64_t>(1, kTaskRays / settings.rays_per_sample);
     tbb::parallel_for(tbb::blocked_range<size_t>(0, points.size(), points_per_task),
@@ -314,8 +315,8 @@ bool traceAll(const Occluders& occluders, std::span<const SamplePoint> points, c
 
 template <typename Sums>
 std::optional<std::vector<typename Sums::Result>>
-momentsBy(const Occluders& occluders, std::span<const SamplePoint> points, const RaySettings& settings,
-          const RayProgress& progress)
+traceMoments(const Occluders& occluders, std::span<const SamplePoint> points, const RaySettings& settings,
+             const RayProgress& progress)
 {
     HEARTH_ASSERT(settings.rays_per_sample > 0);
     HEARTH_ASSERT(settings.nearest >= 0 && settings.nearest < settings.distance);
@@ -336,7 +337,7 @@ std::optional<std::vector<Moments>> visibilityMoments(const Occluders& occluders
                                                       const RaySettings& settings,
                                                       const RayProgress& progress)
 {
-    return momentsBy<FirstSums>(occluders, points, settings, progress);
+    return traceMoments<FirstSums>(occluders, points, settings, progress);
 }
 
 std::optional<std::vector<HigherMoments>> visibilityHigherMoments(const Occluders& occluders,
@@ -344,7 +345,7 @@ std::optional<std::vector<HigherMoments>> visibilityHigherMoments(const Occluder
                                                                   const RaySettings& settings,
                                                                   const RayProgress& progress)
 {
-    return momentsBy<SecondSums>(occluders, points, settings, progress);
+    return traceMoments<SecondSums>(occluders, points, settings, progress);
 }
 
 } // namespace hearth::visibility

@@ -57,7 +57,7 @@ inline Float3 rayOrigin(const SamplePoint& point)
 
 /// Compute the moments of each point by rays into the hemisphere about its normal, uniform in solid angle:
 /// the directions of sampling::hemisphereDirections under the seed
-/// sampling::seedOf(settings.seed, index of the point). An unoccluded point has exactly 2 pi and pi n, a
+/// sampling::deriveSeed(settings.seed, index of the point). An unoccluded point has exactly 2 pi and pi n, a
 /// fully occluded one exactly 0: cook/visibility/README.md, "Exact constants". The same for any number of
 /// threads.
 ///

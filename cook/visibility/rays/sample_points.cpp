@@ -14,7 +14,7 @@ namespace hearth::visibility
 namespace
 {
 
-constexpr double kUnit = 0x1p-24; ///< maximum relative error of rounding to a float
+constexpr double kUnitRoundoff = 0x1p-24; ///< maximum relative error of rounding to a float
 
 // The sample's position, the corners that it lies between and the ray's origin are rounded to floats: three
 // roundings, and one more for all products of them.
@@ -31,7 +31,7 @@ constexpr double kPlaneRoundings = 8;
 constexpr double kCrossRoundings = 6;
 
 // Thinner triangles have no reliable normal: they would lift their samples out of sight.
-constexpr double kMostThinness = 1000;
+constexpr double kMaxThinness = 1000;
 
 Double3 absolute(Double3 a)
 {
@@ -39,10 +39,10 @@ Double3 absolute(Double3 a)
 }
 
 /// Transform of an instance, applied to points, normals and error bounds.
-class Placing
+class InstanceTransform
 {
 public:
-    explicit Placing(const Affine3& world_from_mesh)
+    explicit InstanceTransform(const Affine3& world_from_mesh)
         : world_from_mesh_(widened(world_from_mesh)), is_identity_(world_from_mesh == Affine3{})
     {
         const auto inverse = inverted(world_from_mesh_);
@@ -54,7 +54,7 @@ public:
                 double sum = 0;
                 for (size_t k = 0; k < 3; ++k)
                     sum += std::abs(world_from_mesh_.m[row][k] * mesh_from_world_.m[k][column]);
-                there_and_back_.m[row][column] = sum;
+                round_trip_.m[row][column] = sum;
             }
     }
 
@@ -72,21 +72,21 @@ public:
     /// Bound the error of a ray origin along each axis.
     Double3 error(Double3 point) const
     {
-        Double3 error = absolute(point) * (kWorldRoundings * kUnit);
+        Double3 error = absolute(point) * (kWorldRoundings * kUnitRoundoff);
         if (is_identity_)
             return error;
         const Double3 translation{world_from_mesh_.m[0][3], world_from_mesh_.m[1][3],
                                   world_from_mesh_.m[2][3]};
         // errors of the inverse itself are transformed back and forth once more
-        const Double3 once = transformVector(there_and_back_, absolute(point) + absolute(translation));
-        const Double3 twice = transformVector(there_and_back_, once);
-        return error + twice * (kInstanceRoundings * kUnit);
+        const Double3 once = transformVector(round_trip_, absolute(point) + absolute(translation));
+        const Double3 twice = transformVector(round_trip_, once);
+        return error + twice * (kInstanceRoundings * kUnitRoundoff);
     }
 
 private:
     Affine3d world_from_mesh_;
     Affine3d mesh_from_world_;
-    Affine3d there_and_back_; ///< |world_from_mesh| |mesh_from_world|, without translations
+    Affine3d round_trip_; ///< |world_from_mesh| |mesh_from_world|, without translations
     bool is_identity_;
 };
 
@@ -94,8 +94,8 @@ private:
 double planeError(Double3 e1, Double3 e2, double twice_area)
 {
     const double a = length(e1), b = length(e2), c = length(e1 - e2);
-    const double thinness = std::min(a * b / twice_area, kMostThinness);
-    return kUnit * std::max({a, b, c}) * (kPlaneRoundings + kCrossRoundings * thinness);
+    const double thinness = std::min(a * b / twice_area, kMaxThinness);
+    return kUnitRoundoff * std::max({a, b, c}) * (kPlaneRoundings + kCrossRoundings * thinness);
 }
 
 } // namespace
@@ -103,7 +103,7 @@ double planeError(Double3 e1, Double3 e2, double twice_area)
 std::vector<SamplePoint> samplePoints(std::span<const Float3> positions, std::span<const uint32_t> corners,
                                       std::span<const SurfaceSample> samples, const Affine3& world_from_mesh)
 {
-    const Placing placing(world_from_mesh);
+    const InstanceTransform transform(world_from_mesh);
     std::vector<SamplePoint> points(samples.size());
     tbb::parallel_for(
         size_t{0}, samples.size(),
@@ -116,13 +116,13 @@ std::vector<SamplePoint> samplePoints(std::span<const Float3> positions, std::sp
             const Double3 perpendicular = cross(e1, e2);
             const double twice_area = length(perpendicular);
             HEARTH_ASSERT(twice_area > 0);
-            const Double3 in_world = placing.normal(perpendicular * (1 / twice_area));
-            const double stretch = 1 / length(in_world);
-            const Double3 normal = in_world * stretch;
-            const Double3 place = placing.point(a + e1 * double{sample.u} + e2 * double{sample.v});
-            const double lift =
-                dot(absolute(normal), placing.error(place)) + planeError(e1, e2, twice_area) * stretch;
-            points[i] = {narrow(place), narrow(normal),
+            const Double3 scaled_normal = transform.normal(perpendicular * (1 / twice_area));
+            const double stretch = 1 / length(scaled_normal);
+            const Double3 normal = scaled_normal * stretch;
+            const Double3 world_position = transform.point(a + e1 * double{sample.u} + e2 * double{sample.v});
+            const double lift = dot(absolute(normal), transform.error(world_position)) +
+                                planeError(e1, e2, twice_area) * stretch;
+            points[i] = {narrow(world_position), narrow(normal),
                          std::nextafter(static_cast<float>(lift), std::numeric_limits<float>::infinity())};
         });
     return points;

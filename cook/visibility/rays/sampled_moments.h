@@ -13,31 +13,31 @@ namespace hearth::visibility
 {
 
 /// Placement of a mesh among occluders.
-struct Place
+struct Placement
 {
     const Occluders* occluders = nullptr; ///< finished
     Affine3 world_from_mesh;
     /// Positions of the mesh in a pose, in its own space; empty: no pose. Moments in a pose are rotated back
     /// with each triangle.
-    std::vector<Float3> posed;
+    std::vector<Float3> posed_positions;
 };
 
 struct SampledMoments
 {
     std::vector<Moments> moments;      ///< one for each sample, in the space of the mesh
     std::vector<SecondMoments> second; ///< empty unless requested
-    std::vector<uint8_t> buried;       ///< 1: interior, closely covered in all places and never visible
+    std::vector<uint8_t> interior;     ///< 1: interior, closely covered in all places and never visible
     uint64_t rays = 0;
 };
 
 /// Progress callback: finished rays of a place. Returns false to stop.
-using PlaceProgress = std::function<bool(size_t place, uint64_t rays_done, uint64_t rays_total)>;
+using PlacementProgress = std::function<bool(size_t place, uint64_t rays_done, uint64_t rays_total)>;
 
 /// Compute the mean over the places. Each place takes the next settings.rays_per_sample rays of each sample's
 /// sequence.
 /// returns  nothing if `progress` returned false
 std::optional<SampledMoments> sampledMoments(const MeshView& mesh, std::span<const SurfaceSample> samples,
-                                             std::span<const Place> places, RaySettings settings,
-                                             bool with_second, const PlaceProgress& progress);
+                                             std::span<const Placement> places, RaySettings settings,
+                                             bool with_second, const PlacementProgress& progress);
 
 } // namespace hearth::visibility

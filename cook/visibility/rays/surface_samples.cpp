@@ -19,17 +19,17 @@ namespace
 {
 
 // Maximum share of all samples for the minimum counts of vertices; the rest is distributed by area.
-constexpr double kMostForVertices = 0.9;
+constexpr double kMaxVertexShare = 0.9;
 
 using Corners = std::array<Float3, 3>;
 
-Corners cornersOf(std::span<const Float3> positions, std::span<const uint32_t> corners, size_t triangle)
+Corners triangleCorners(std::span<const Float3> positions, std::span<const uint32_t> corners, size_t triangle)
 {
     return {positions[corners[triangle * 3]], positions[corners[triangle * 3 + 1]],
             positions[corners[triangle * 3 + 2]]};
 }
 
-double areaOf(const Corners& c)
+double triangleArea(const Corners& c)
 {
     return length(cross(widen(c[1]) - widen(c[0]), widen(c[2]) - widen(c[0]))) / 2;
 }
@@ -43,7 +43,7 @@ public:
         Box3 box;
         for (const Float3 p : positions)
             box.add(p);
-        least_ = widen(box.min);
+        origin_ = widen(box.min);
         double extent = 0;
         for (int axis = 0; axis < 3; ++axis)
             extent = std::max(extent, double{box.max[axis]} - double{box.min[axis]});
@@ -52,7 +52,7 @@ public:
 
     uint64_t code(Double3 p) const
     {
-        const Double3 cell = (p - least_) * cells_per_metre_;
+        const Double3 cell = (p - origin_) * cells_per_metre_;
         return spreadBits(cell.x) | spreadBits(cell.y) << 1 | spreadBits(cell.z) << 2;
     }
 
@@ -68,27 +68,27 @@ private:
         return (x | x << 2) & 0x1249249249249249u;
     }
 
-    Double3 least_;
+    Double3 origin_;
     double cells_per_metre_ = 0;
 };
 
 /// Item with its code on the curve; equal codes are ordered by item, so that the order is the same in every
 /// run.
-struct OnCurve
+struct CurveItem
 {
     uint64_t code;
     uint64_t item;
-    friend auto operator<=>(const OnCurve&, const OnCurve&) = default;
+    friend auto operator<=>(const CurveItem&, const CurveItem&) = default;
 };
 
 /// Compute the minimum number of samples of each triangle with area. `total`: number of all samples.
-std::vector<double> leastCounts(std::span<const uint32_t> corners, std::span<const double> areas,
-                                const SurfaceSampleSettings& settings, size_t vertex_count, double total)
+std::vector<double> minCounts(std::span<const uint32_t> corners, std::span<const double> areas,
+                              const SurfaceSampleSettings& settings, size_t vertex_count, double total)
 {
     std::vector<uint32_t> degrees(vertex_count, 0);
     for (size_t i = 0; i < corners.size(); ++i)
         degrees[corners[i]] += areas[i / 3] > 0;
-    std::vector<double> least(areas.size(), 0);
+    std::vector<double> min_counts(areas.size(), 0);
     double floor = 0, more = 0;
     for (size_t t = 0; t < areas.size(); ++t)
     {
@@ -96,20 +96,20 @@ std::vector<double> leastCounts(std::span<const uint32_t> corners, std::span<con
             continue;
         const uint32_t degree =
             std::min({degrees[corners[t * 3]], degrees[corners[t * 3 + 1]], degrees[corners[t * 3 + 2]]});
-        least[t] = std::max<double>(settings.least_per_triangle, settings.least_per_vertex / degree);
-        floor += settings.least_per_triangle;
-        more += least[t] - settings.least_per_triangle;
+        min_counts[t] = std::max<double>(settings.min_per_triangle, settings.min_per_vertex / degree);
+        floor += settings.min_per_triangle;
+        more += min_counts[t] - settings.min_per_triangle;
     }
-    const double share = more > 0 ? std::clamp((kMostForVertices * total - floor) / more, 0.0, 1.0) : 0;
-    for (double& count : least)
+    const double share = more > 0 ? std::clamp((kMaxVertexShare * total - floor) / more, 0.0, 1.0) : 0;
+    for (double& count : min_counts)
         if (count > 0)
-            count = settings.least_per_triangle + share * (count - settings.least_per_triangle);
-    return least;
+            count = settings.min_per_triangle + share * (count - settings.min_per_triangle);
+    return min_counts;
 }
 
 /// Compute the samples per square metre for which all counts, raised to the triangles' minimums, sum to
 /// `total`.
-double densityFor(std::span<const double> areas, std::span<const double> least, double total)
+double solveDensity(std::span<const double> areas, std::span<const double> min_counts, double total)
 {
     struct Triangle
     {
@@ -121,7 +121,7 @@ double densityFor(std::span<const double> areas, std::span<const double> least, 
     for (size_t t = 0; t < areas.size(); ++t)
         if (areas[t] > 0)
         {
-            sorted.push_back({least[t] / areas[t], t});
+            sorted.push_back({min_counts[t] / areas[t], t});
             area_left += areas[t];
         }
     std::sort(sorted.begin(), sorted.end(),
@@ -134,28 +134,28 @@ double densityFor(std::span<const double> areas, std::span<const double> least, 
         // done
         if (samples_left <= 0 || samples_left >= triangle.density * area_left)
             break;
-        samples_left -= least[triangle.index];
+        samples_left -= min_counts[triangle.index];
         area_left -= areas[triangle.index];
     }
     return samples_left > 0 && area_left > 0 ? samples_left / area_left : 0;
 }
 
 /// Count samples along the curve: if rounding gives a triangle too many, its neighbour gets fewer.
-std::vector<uint32_t> countSamples(std::span<const double> areas, std::span<const double> least,
-                                   std::span<const OnCurve> order, double total)
+std::vector<uint32_t> countSamples(std::span<const double> areas, std::span<const double> min_counts,
+                                   std::span<const CurveItem> order, double total)
 {
-    const double density = densityFor(areas, least, total);
+    const double density = solveDensity(areas, min_counts, total);
     std::vector<uint32_t> counts(areas.size());
-    double owed = 0.5;
-    for (const OnCurve& place : order)
+    double carried = 0.5;
+    for (const CurveItem& place : order)
     {
         const double area = areas[place.item];
         if (!(area > 0))
             continue;
-        owed += std::max(density * area, least[place.item]);
-        const double count = std::floor(owed);
+        carried += std::max(density * area, min_counts[place.item]);
+        const double count = std::floor(carried);
         counts[place.item] = static_cast<uint32_t>(count);
-        owed -= count;
+        carried -= count;
     }
     return counts;
 }
@@ -166,7 +166,7 @@ std::vector<SurfaceSample> surfaceSamples(std::span<const Float3> positions,
                                           std::span<const uint32_t> corners,
                                           const SurfaceSampleSettings& settings)
 {
-    HEARTH_ASSERT(corners.size() % 3 == 0 && settings.least_per_triangle > 0);
+    HEARTH_ASSERT(corners.size() % 3 == 0 && settings.min_per_triangle > 0);
     HEARTH_ASSERT(settings.samples_per_vertex >= 0);
     for (const uint32_t corner : corners)
         HEARTH_ASSERT(corner < positions.size());
@@ -175,30 +175,30 @@ std::vector<SurfaceSample> surfaceSamples(std::span<const Float3> positions,
 
     // Count by area, in the order of the curve.
     std::vector<double> areas(triangle_count);
-    std::vector<OnCurve> order(triangle_count);
+    std::vector<CurveItem> order(triangle_count);
     tbb::parallel_for(size_t{0}, triangle_count,
                       [&](size_t t)
                       {
-                          const Corners c = cornersOf(positions, corners, t);
-                          areas[t] = areaOf(c);
+                          const Corners c = triangleCorners(positions, corners, t);
+                          areas[t] = triangleArea(c);
                           order[t] = {curve.code((widen(c[0]) + widen(c[1]) + widen(c[2])) * (1.0 / 3)), t};
                       });
     tbb::parallel_sort(order);
     const double total = settings.samples_per_vertex * static_cast<double>(positions.size());
-    const std::vector<double> least = leastCounts(corners, areas, settings, positions.size(), total);
-    const std::vector<uint32_t> counts = countSamples(areas, least, order, total);
+    const std::vector<double> min_counts = minCounts(corners, areas, settings, positions.size(), total);
+    const std::vector<uint32_t> counts = countSamples(areas, min_counts, order, total);
 
     // Generate a low-discrepancy net of points in each triangle.
     std::vector<size_t> first(triangle_count + 1);
     for (size_t t = 0; t < triangle_count; ++t)
         first[t + 1] = first[t] + counts[t];
     std::vector<SurfaceSample> samples(first.back());
-    std::vector<OnCurve> sample_order(samples.size());
+    std::vector<CurveItem> sample_order(samples.size());
     tbb::parallel_for(size_t{0}, triangle_count,
                       [&](size_t t)
                       {
-                          const Corners c = cornersOf(positions, corners, t);
-                          const uint64_t seed = sampling::seedOf(settings.seed, t);
+                          const Corners c = triangleCorners(positions, corners, t);
+                          const uint64_t seed = sampling::deriveSeed(settings.seed, t);
                           for (uint32_t i = 0; i < counts[t]; ++i)
                           {
                               const Float2 at =

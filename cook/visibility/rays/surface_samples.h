@@ -13,12 +13,12 @@ struct SurfaceSampleSettings
 {
     double samples_per_vertex = 8; ///< samples of the whole mesh, for each of its positions; at least 0
     /// Minimum for each triangle, so that triangles with little area are sampled, too; at least 1.
-    uint32_t least_per_triangle = 1;
+    uint32_t min_per_triangle = 1;
     /// Minimum for all triangles around a vertex together. Each triangle gets the share of its corner with
     /// the fewest triangles, up to nine tenths of all samples. Around a vertex with little area, such as a
     /// single small triangle at a hard edge or a border, counts by area alone are so small that their noise
     /// becomes the vertex's.
-    double least_per_vertex = 0;
+    double min_per_vertex = 0;
     uint64_t seed = 0;
 };
 

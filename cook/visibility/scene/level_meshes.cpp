@@ -17,7 +17,7 @@ namespace
 {
 
 // Default of LevelMesh::reach (stored as 0), in diagonals.
-constexpr float kUsualReach = 0.05f;
+constexpr float kDefaultReach = 0.05f;
 
 /// Vertex as position and normal: bit-identical vertices look alike in any cut.
 struct VertexKey
@@ -42,11 +42,11 @@ struct KeyHash
     }
 };
 
-using VertexOfKey = std::unordered_map<VertexKey, uint32_t, KeyHash>;
+using VertexIdMap = std::unordered_map<VertexKey, uint32_t, KeyHash>;
 
-VertexOfKey numberVertices(const LevelArrays& level)
+VertexIdMap numberVertices(const LevelArrays& level)
 {
-    VertexOfKey numbers;
+    VertexIdMap numbers;
     numbers.reserve(level.positions.size());
     for (uint32_t v = 0; v < level.positions.size(); ++v)
         numbers.emplace(VertexKey{level.positions[v], level.normals[v]}, v);
@@ -78,7 +78,7 @@ void addCluster(LevelArrays& arrays, const MeshPages& pages, uint32_t number, bo
                                          pages.part().clusters()[number].material);
 }
 
-LevelArrays cutAt(const MeshPages& pages, uint32_t level)
+LevelArrays extractLevel(const MeshPages& pages, uint32_t level)
 {
     const MeshRecord& mesh = pages.record();
     LevelArrays arrays;
@@ -86,20 +86,20 @@ LevelArrays cutAt(const MeshPages& pages, uint32_t level)
         if (isDrawnAt(pages.part(), pages.part().clusters()[c], level))
             addCluster(arrays, pages, c, level == 0);
     // far from the root, the default reach exceeds the deviation of the coarse surface
-    const float off = 2 * pages.part().levels()[mesh.levels.first + level].max_error;
-    if (off > kUsualReach * length(mesh.box_max - mesh.box_min))
-        arrays.reach = off;
+    const float max_deviation = 2 * pages.part().levels()[mesh.levels.first + level].max_error;
+    if (max_deviation > kDefaultReach * length(mesh.box_max - mesh.box_min))
+        arrays.reach = max_deviation;
     return arrays;
 }
 
 /// Link vertices to equal ones of the finer level: cuts that mix levels meet in vertices of both.
-void holdToFiner(LevelArrays& level, const VertexOfKey& finer)
+void linkToFiner(LevelArrays& level, const VertexIdMap& finer)
 {
     level.finer_vertex.reserve(level.positions.size());
     for (size_t v = 0; v < level.positions.size(); ++v)
     {
         const auto found = finer.find({level.positions[v], level.normals[v]});
-        level.finer_vertex.push_back(found == finer.end() ? kNowhere : found->second);
+        level.finer_vertex.push_back(found == finer.end() ? kInvalidIndex : found->second);
     }
 }
 
@@ -111,7 +111,7 @@ Result<MeshPages> MeshPages::read(const PackView& part, uint32_t mesh)
     pages.part_ = &part;
     pages.record_ = &part.meshes()[mesh];
     pages.pages_.resize(pages.record_->pages.count);
-    std::vector<Status> ends(pages.pages_.size(), success());
+    std::vector<Status> statuses(pages.pages_.size(), success());
     tbb::parallel_for(size_t{0}, pages.pages_.size(),
                       [&](size_t i)
                       {
@@ -119,9 +119,9 @@ Result<MeshPages> MeshPages::read(const PackView& part, uint32_t mesh)
                           if (page.ok())
                               pages.pages_[i] = std::move(*page);
                           else
-                              ends[i] = page.error();
+                              statuses[i] = page.error();
                       });
-    for (Status& end : ends)
+    for (Status& end : statuses)
         HEARTH_TRY(std::move(end));
     return pages;
 }
@@ -134,20 +134,20 @@ ClusterGeometry MeshPages::cluster(uint32_t number) const
     return *geometry;
 }
 
-LevelArrays finestOf(const MeshPages& pages)
+LevelArrays extractFinestLevel(const MeshPages& pages)
 {
-    return cutAt(pages, 0);
+    return extractLevel(pages, 0);
 }
 
-std::vector<LevelArrays> levelsOf(const MeshPages& pages)
+std::vector<LevelArrays> extractLevels(const MeshPages& pages)
 {
     std::vector<LevelArrays> levels;
-    VertexOfKey finer;
+    VertexIdMap finer;
     for (uint32_t level = 0; level < pages.record().lod_count; ++level)
     {
-        levels.push_back(cutAt(pages, level));
+        levels.push_back(extractLevel(pages, level));
         if (level > 0)
-            holdToFiner(levels.back(), finer);
+            linkToFiner(levels.back(), finer);
         finer = numberVertices(levels.back());
     }
     return levels;

@@ -49,9 +49,9 @@ struct LevelArrays
 };
 
 /// Extract the finest level of a mesh. Fills normals only if its vertices have them.
-LevelArrays finestOf(const MeshPages& pages);
+LevelArrays extractFinestLevel(const MeshPages& pages);
 
 /// Extract all levels of a mesh whose vertices have normals, finest first.
-std::vector<LevelArrays> levelsOf(const MeshPages& pages);
+std::vector<LevelArrays> extractLevels(const MeshPages& pages);
 
 } // namespace hearth::visibility

@@ -14,15 +14,15 @@ namespace
 {
 
 /// Format seconds, such as "0.25", with the fewest digits that read back as the same float.
-std::string textOf(double seconds)
+std::string formatSeconds(double seconds)
 {
     char buffer[32];
     return {buffer, std::to_chars(buffer, buffer + sizeof(buffer), static_cast<float>(seconds)).ptr};
 }
 
-const AnimationRecord* clipOf(const PackView& scene, const std::string& name)
+const AnimationRecord* findClip(const PackView& scene, const std::string& name)
 {
-    uint32_t index = kNone;
+    uint32_t index = kInvalidIndex;
     std::from_chars(name.data(), name.data() + name.size(), index);
     for (uint32_t i = 0; i < scene.animations().size(); ++i)
     {
@@ -33,7 +33,7 @@ const AnimationRecord* clipOf(const PackView& scene, const std::string& name)
     return nullptr;
 }
 
-Error noClip(const PackView& scene, const std::string& name)
+Error missingClipError(const PackView& scene, const std::string& name)
 {
     std::string names;
     for (uint32_t i = 0; i < scene.animations().size(); ++i)
@@ -47,7 +47,7 @@ Error noClip(const PackView& scene, const std::string& name)
 }
 
 /// Find the node of the mesh's first instance, else any node that has the mesh.
-uint32_t nodeOf(const PackView& scene, uint32_t mesh)
+uint32_t findNode(const PackView& scene, uint32_t mesh)
 {
     for (const InstanceRecord& instance : scene.instances())
         if (instance.mesh == mesh)
@@ -55,22 +55,22 @@ uint32_t nodeOf(const PackView& scene, uint32_t mesh)
     for (uint32_t node = 0; node < scene.nodes().size(); ++node)
         if (scene.nodes()[node].mesh == mesh)
             return node;
-    return kNone;
+    return kInvalidIndex;
 }
 
-std::vector<Affine3d> paletteOf(const PackView& scene, uint32_t skin, const ScenePose& pose)
+std::vector<Affine3d> computePalette(const PackView& scene, uint32_t skin, const ScenePose& pose)
 {
-    const MotionTables tables = motionTables(scene);
+    const AnimationTables tables = animationTables(scene);
     std::vector<Affine3d> nodes(tables.nodes.size());
-    poseNodes(tables, pose, parentsFirst(tables.nodes), nodes);
+    poseNodes(tables, pose, nodesParentsFirst(tables.nodes), nodes);
     const SkinRecord& record = tables.skins[skin];
     std::vector<Affine3d> palette(record.joints.count);
     skinPalette(tables, record, nodes, palette);
     return palette;
 }
 
-Double3 skinned(const ClusterGeometry& geometry, uint32_t vertex, std::span<const Affine3d> palette,
-                Double3 p)
+Double3 skinPosition(const ClusterGeometry& geometry, uint32_t vertex, std::span<const Affine3d> palette,
+                     Double3 p)
 {
     const std::array<uint32_t, 8> joints = geometry.joints(vertex);
     const std::array<uint32_t, 8> codes = geometry.weightCodes(vertex);
@@ -104,21 +104,21 @@ std::optional<ClipTimes> parseClipTimes(std::string_view text)
     }
 }
 
-Result<std::vector<NamedPose>> posesOf(const PackView& scene, const std::vector<ClipTimes>& clips)
+Result<std::vector<NamedPose>> samplePoses(const PackView& scene, const std::vector<ClipTimes>& clips)
 {
-    const MotionTables tables = motionTables(scene);
+    const AnimationTables tables = animationTables(scene);
     std::vector<NamedPose> poses;
     for (const ClipTimes& times : clips)
     {
-        const AnimationRecord* clip = clipOf(scene, times.clip);
+        const AnimationRecord* clip = findClip(scene, times.clip);
         if (clip == nullptr)
-            return noClip(scene, times.clip);
+            return missingClipError(scene, times.clip);
         std::vector<double> seconds = times.seconds;
-        for (size_t i = 0; i < kPosesOfClip && times.seconds.empty(); ++i)
-            seconds.push_back((static_cast<double>(i) + 0.5) / kPosesOfClip * double{clip->duration});
+        for (size_t i = 0; i < kDefaultPosesPerClip && times.seconds.empty(); ++i)
+            seconds.push_back((static_cast<double>(i) + 0.5) / kDefaultPosesPerClip * double{clip->duration});
         for (const double time : seconds)
         {
-            poses.push_back({times.clip + "@" + textOf(time), restPose(tables)});
+            poses.push_back({times.clip + "@" + formatSeconds(time), restPose(tables)});
             sampleAnimation(tables, *clip, time, poses.back().pose);
         }
     }
@@ -128,14 +128,14 @@ Result<std::vector<NamedPose>> posesOf(const PackView& scene, const std::vector<
 std::vector<Float3> posedPositions(const PackView& scene, const MeshPages& pages, const LevelArrays& finest,
                                    uint32_t mesh, const ScenePose& pose)
 {
-    const uint32_t number = nodeOf(scene, mesh);
-    if (number == kNone)
+    const uint32_t number = findNode(scene, mesh);
+    if (number == kInvalidIndex)
         return {};
     const NodeRecord& node = scene.nodes()[number];
     const std::span<const double> weights =
-        recordsOf(std::span<const double>(pose.morph_weights), node.morph_weights);
+        recordsInRange(std::span<const double>(pose.morph_weights), node.morph_weights);
     const std::vector<Affine3d> palette =
-        node.skin == kNone ? std::vector<Affine3d>() : paletteOf(scene, node.skin, pose);
+        node.skin == kInvalidIndex ? std::vector<Affine3d>() : computePalette(scene, node.skin, pose);
     std::vector<Float3> positions;
     positions.reserve(finest.positions.size());
     for (const LevelArrays::Part& part : finest.parts)
@@ -148,7 +148,7 @@ std::vector<Float3> posedPositions(const PackView& scene, const MeshPages& pages
                 if (const uint32_t target = geometry.morphTarget(i); target < weights.size())
                     p = p + widen(geometry.morphPosition(i, v)) * weights[target];
             if (!palette.empty() && geometry.influenceCount() > 0)
-                p = skinned(geometry, v, palette, p);
+                p = skinPosition(geometry, v, palette, p);
             positions.push_back(narrow(p));
         }
     }

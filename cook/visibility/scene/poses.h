@@ -13,14 +13,14 @@
 namespace hearth::visibility
 {
 
-/// Times of a clip in a user's notation: "walk@0.2,0.7", or "walk" alone for kPosesOfClip times.
+/// Times of a clip in a user's notation: "walk@0.2,0.7", or "walk" alone for kDefaultPosesPerClip times.
 struct ClipTimes
 {
     std::string clip;            ///< name, or index of a clip without a name
     std::vector<double> seconds; ///< from the clip's start; empty: evenly distributed
 };
 
-inline constexpr size_t kPosesOfClip = 4; ///< the middles of the clip's four quarters
+inline constexpr size_t kDefaultPosesPerClip = 4; ///< the middles of the clip's four quarters
 
 /// Parse the notation of ClipTimes.
 /// errors: nullopt if the text after the @ is no list of times, or one of them is negative
@@ -34,7 +34,8 @@ struct NamedPose
 
 /// Sample the poses of clips.
 /// errors: meaning_reference if the scene has no such clip
-Result<std::vector<NamedPose>> posesOf(const formats::PackView& scene, const std::vector<ClipTimes>& clips);
+Result<std::vector<NamedPose>> samplePoses(const formats::PackView& scene,
+                                           const std::vector<ClipTimes>& clips);
 
 /// Compute the vertex positions of a mesh's finest level in a pose, as its first instance has them: in the
 /// world if the mesh has a skin, else in its own space. Empty if no node has the mesh.

@@ -11,11 +11,11 @@ using namespace formats;
 namespace
 {
 
-/// Corner indices of the triangles of each material with a mask; key kNone: of all triangles without a mask.
-using TrianglesOfMaterial = std::map<uint32_t, std::vector<uint32_t>>;
+/// Corner indices of the triangles of each material with a mask; key kInvalidIndex: of all triangles without a mask.
+using TrianglesByMaterial = std::map<uint32_t, std::vector<uint32_t>>;
 
 /// Collect the UVs of a set at all vertices of the level; vertices without the set get 0.
-std::vector<Float2> uvsOf(const MeshPages& pages, const LevelArrays& level, uint32_t set)
+std::vector<Float2> collectUvs(const MeshPages& pages, const LevelArrays& level, uint32_t set)
 {
     std::vector<Float2> uvs(level.positions.size());
     for (const LevelArrays::Part& part : level.parts)
@@ -30,14 +30,14 @@ std::vector<Float2> uvsOf(const MeshPages& pages, const LevelArrays& level, uint
 
 /// Create the mask of triangles.
 /// uvs  at the corners, three for each triangle
-Mask maskOver(std::shared_ptr<const AlphaMask> mask, std::vector<Float2> uvs)
+Mask createMask(std::shared_ptr<const AlphaMask> mask, std::vector<Float2> uvs)
 {
     return [mask = std::move(mask), uvs = std::move(uvs)](uint32_t triangle, float u, float v)
     {
         const Float2* corner = &uvs[size_t{triangle} * 3];
         const float w = 1 - u - v;
-        return mask->blocks({corner[0].x * w + corner[1].x * u + corner[2].x * v,
-                             corner[0].y * w + corner[1].y * u + corner[2].y * v});
+        return mask->isOpaque({corner[0].x * w + corner[1].x * u + corner[2].x * v,
+                               corner[0].y * w + corner[1].y * u + corner[2].y * v});
     };
 }
 
@@ -48,57 +48,57 @@ const MaterialRecord* SceneMasks::record(uint32_t material) const
     return material < scene_->materials().size() ? &scene_->materials()[material] : nullptr;
 }
 
-bool SceneMasks::letsThrough(uint32_t material) const
+bool SceneMasks::isTransparent(uint32_t material) const
 {
     const MaterialRecord* found = record(material);
     return found != nullptr && found->alpha_mode == static_cast<uint32_t>(AlphaMode::blend);
 }
 
-Result<std::shared_ptr<const AlphaMask>> SceneMasks::of(uint32_t material)
+Result<std::shared_ptr<const AlphaMask>> SceneMasks::find(uint32_t material)
 {
     const MaterialRecord* found = record(material);
     if (found == nullptr || found->alpha_mode != static_cast<uint32_t>(AlphaMode::mask))
         return std::shared_ptr<const AlphaMask>();
     const uint32_t image = found->base_color_texture.image;
-    if (image != kNone && image >= images_.size())
+    if (image != kInvalidIndex && image >= images_.size())
         return Error{Issue::meaning_reference, scene_->name(), "material " + std::to_string(material),
                      "image " + std::to_string(image)};
-    if (image != kNone && !images_[image])
+    if (image != kInvalidIndex && !images_[image])
     {
-        HEARTH_ASSIGN_OR_RETURN(AlphaImage alpha, alphaOf(*scene_, image));
+        HEARTH_ASSIGN_OR_RETURN(AlphaImage alpha, readAlpha(*scene_, image));
         images_[image] = std::make_shared<const AlphaImage>(std::move(alpha));
     }
-    return std::make_shared<const AlphaMask>(*found, image == kNone ? nullptr : images_[image]);
+    return std::make_shared<const AlphaMask>(*found, image == kInvalidIndex ? nullptr : images_[image]);
 }
 
 Status addMesh(Occluders& occluders, SceneMasks& masks, const MeshPages& pages, const LevelArrays& finest,
                std::span<const Affine3> world_from_mesh)
 {
     std::map<uint32_t, std::shared_ptr<const AlphaMask>> mask_of_material;
-    TrianglesOfMaterial triangles;
+    TrianglesByMaterial triangles;
     for (size_t t = 0; t < finest.triangle_materials.size(); ++t)
     {
         const uint32_t material = finest.triangle_materials[t];
-        if (masks.letsThrough(material))
+        if (masks.isTransparent(material))
             continue;
         if (!mask_of_material.contains(material))
         {
-            HEARTH_ASSIGN_OR_RETURN(mask_of_material[material], masks.of(material));
+            HEARTH_ASSIGN_OR_RETURN(mask_of_material[material], masks.find(material));
         }
-        std::vector<uint32_t>& corners = triangles[mask_of_material[material] ? material : kNone];
+        std::vector<uint32_t>& corners = triangles[mask_of_material[material] ? material : kInvalidIndex];
         corners.insert(corners.end(), &finest.indices[t * 3], &finest.indices[t * 3] + 3);
     }
     for (const auto& [material, corners] : triangles)
     {
         OccluderMesh mesh{finest.positions, corners};
-        if (material != kNone)
+        if (material != kInvalidIndex)
         {
             const auto& mask = mask_of_material[material];
-            const std::vector<Float2> uvs = uvsOf(pages, finest, mask->uvSet());
+            const std::vector<Float2> uvs = collectUvs(pages, finest, mask->uvSet());
             std::vector<Float2> at_corners;
             for (const uint32_t corner : corners)
                 at_corners.push_back(uvs[corner]);
-            mesh.mask = maskOver(mask, std::move(at_corners));
+            mesh.mask = createMask(mask, std::move(at_corners));
         }
         const Occluders::Mesh added = occluders.add(mesh);
         for (const Affine3& transform : world_from_mesh)

@@ -20,11 +20,11 @@ public:
     explicit SceneMasks(const formats::PackView& scene) : scene_(&scene), images_(scene.images().size()) {}
 
     /// Return the mask of a material, nullptr if it has none; images are read once.
-    /// errors: those of alphaOf; meaning_reference for a missing image
-    Result<std::shared_ptr<const AlphaMask>> of(uint32_t material);
+    /// errors: those of readAlpha; meaning_reference for a missing image
+    Result<std::shared_ptr<const AlphaMask>> find(uint32_t material);
 
     /// True if a material lets all rays through: blended surfaces dim light, but do not occlude.
-    bool letsThrough(uint32_t material) const;
+    bool isTransparent(uint32_t material) const;
 
 private:
     const formats::MaterialRecord* record(uint32_t material) const;
@@ -34,7 +34,7 @@ private:
 };
 
 /// Add the finest level of a mesh once for each of the transforms.
-/// errors: those of SceneMasks::of
+/// errors: those of SceneMasks::find
 Status addMesh(Occluders& occluders, SceneMasks& masks, const MeshPages& pages, const LevelArrays& finest,
                std::span<const Affine3> world_from_mesh);
 

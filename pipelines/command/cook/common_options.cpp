@@ -32,17 +32,19 @@ CommonOptions& common()
 
 /// Read the color setting from the command line, the environment or a configuration file. Errors of a file
 /// are ignored here: the verbs that need the file report them.
-ColorWish colorWish()
+ColorChoice readColorChoice()
 {
-    const Result<profiles::Given> given = common().settings.given();
+    const Result<profiles::CommandLineValues> overrides = common().settings.overrides();
     const Result<profiles::Configuration> configuration = loadConfiguration({});
     const profiles::Value* color = nullptr;
-    if (given.ok() && given->command.contains("color"))
-        color = &given->command.find("color")->second;
+    if (overrides.ok() && overrides->command.contains("color"))
+        color = &overrides->command.find("color")->second;
     else if (configuration.ok())
         color = configuration->command("color");
-    const std::string word = color == nullptr ? "auto" : profiles::textsOf(*color).front();
-    return word == "always" ? ColorWish::always : word == "never" ? ColorWish::never : ColorWish::automatic;
+    const std::string word = color == nullptr ? "auto" : profiles::valueTexts(*color).front();
+    return word == "always"  ? ColorChoice::always
+           : word == "never" ? ColorChoice::never
+                             : ColorChoice::automatic;
 }
 
 } // namespace
@@ -53,7 +55,7 @@ void addCommonOptions(cli::CommandLine& app)
     app.addOption("--config", common().config_file,
                   "file of settings, instead of hearth.toml here or above; off: none")
         .typeName("FILE");
-    common().settings.addOfCommand(app, {"color"});
+    common().settings.addCommandSettings(app, {"color"});
     app.addOption("--log-format", common().log_format, "of messages; json: an object a line")
         .choices({"text", "json"}, "text|json");
 }
@@ -61,37 +63,37 @@ void addCommonOptions(cli::CommandLine& app)
 Status applyCommonOptions()
 {
     if (common().log_format == "json")
-        setMessageForm(MessageForm::json);
+        setMessageFormat(MessageFormat::json);
     const std::string& directory = common().directory;
     if (!directory.empty() && ::chdir(directory.c_str()) != 0)
         return Error{Issue::input_missing, directory, "", "is no folder that can be entered"};
     // after chdir: hearth.toml is searched from the working folder
-    setColor(colorWish());
+    setColorChoice(readColorChoice());
     return success();
 }
 
-Result<profiles::Configuration> loadConfiguration(profiles::Given given)
+Result<profiles::Configuration> loadConfiguration(profiles::CommandLineValues overrides)
 {
-    given.config_file = common().config_file;
-    HEARTH_ASSIGN_OR_RETURN(profiles::Given of_all_verbs, common().settings.given());
-    given.command.merge(of_all_verbs.command);
-    return profiles::Configuration::load(std::move(given));
+    overrides.config_file = common().config_file;
+    HEARTH_ASSIGN_OR_RETURN(profiles::CommandLineValues common_overrides, common().settings.overrides());
+    overrides.command.merge(common_overrides.command);
+    return profiles::Configuration::load(std::move(overrides));
 }
 
-std::vector<std::string> cachesOf(const profiles::Configuration& configuration)
+std::vector<std::string> cacheSettings(const profiles::Configuration& configuration)
 {
     const profiles::Value* caches = configuration.command("cache");
     // HEARTH_CACHE is read where caches are opened: it may be "off"
     return caches == nullptr || caches->origin == "HEARTH_CACHE" ? std::vector<std::string>()
-                                                                 : profiles::textsOf(*caches);
+                                                                 : profiles::valueTexts(*caches);
 }
 
-Result<std::vector<cache::LevelSpec>> levelsOf(const profiles::Configuration& configuration)
+Result<std::vector<cache::CacheSpec>> readCacheSpecs(const profiles::Configuration& configuration)
 {
-    return cache::cacheSpecs(cachesOf(configuration));
+    return cache::resolveCacheSpecs(cacheSettings(configuration));
 }
 
-Result<std::vector<std::string>> withArgumentFiles(const std::vector<std::string>& words)
+Result<std::vector<std::string>> expandArgumentFiles(const std::vector<std::string>& words)
 {
     std::vector<std::string> all;
     for (const std::string& word : words)

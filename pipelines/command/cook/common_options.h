@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cook/command_line/command_line.h"
-#include "pipelines/cache/open_cache.h"
+#include "pipelines/cache/cache_spec.h"
 #include "pipelines/profiles/configuration.h"
 
 #include <string>
@@ -21,16 +21,16 @@ Status applyCommonOptions();
 
 /// Load the configuration with the settings of the command line, --config included. errors: those of
 /// Configuration::load.
-Result<profiles::Configuration> loadConfiguration(profiles::Given given);
+Result<profiles::Configuration> loadConfiguration(profiles::CommandLineValues overrides);
 
-/// Return the caches of the configuration; none: cache::cacheSpecs decides.
-std::vector<std::string> cachesOf(const profiles::Configuration& configuration);
+/// Return the caches of the configuration; none: cache::resolveCacheSpecs decides.
+std::vector<std::string> cacheSettings(const profiles::Configuration& configuration);
 
 /// Parse the caches of the configuration. errors: usage.
-Result<std::vector<cache::LevelSpec>> levelsOf(const profiles::Configuration& configuration);
+Result<std::vector<cache::CacheSpec>> readCacheSpecs(const profiles::Configuration& configuration);
 
 /// Replace each word "@FILE" of a command line by the lines of that file, without empty lines and lines that
 /// start with #. A file whose name starts with @ is written as ./@FILE. errors: input_missing.
-Result<std::vector<std::string>> withArgumentFiles(const std::vector<std::string>& words);
+Result<std::vector<std::string>> expandArgumentFiles(const std::vector<std::string>& words);
 
 } // namespace hearth::command

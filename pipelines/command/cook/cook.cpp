@@ -11,14 +11,14 @@
 #include "pipelines/command/cook/cook_tools.h"
 #include "pipelines/command/cook/depfile.h"
 #include "pipelines/command/cook/dry_run.h"
-#include "pipelines/command/cook/picture_progress.h"
+#include "pipelines/command/cook/render_progress.h"
 #include "pipelines/command/shell/event_log.h"
 #include "pipelines/command/shell/messages.h"
 #include "pipelines/command/shell/progress.h"
 #include "pipelines/command/shell/progress_lines.h"
-#include "pipelines/command/sources/left_out_files.h"
 #include "pipelines/command/sources/size_outliers.h"
 #include "pipelines/command/sources/source_list.h"
+#include "pipelines/command/sources/unused_files.h"
 #include "pipelines/graph/causes.h"
 #include "pipelines/graph/executor.h"
 #include "pipelines/report/write_report.h"
@@ -36,8 +36,8 @@ namespace hearth::command
 {
 
 using namespace tools;
-using graph::Ending;
 using graph::Failure;
+using graph::Outcome;
 
 namespace
 {
@@ -54,28 +54,28 @@ bool isFatalWarning(const std::string& line, const CookOptions& options)
     if (!options.fatal_warnings || !graph::isWarning(line))
         return false;
     const std::vector<std::string>& codes = *options.fatal_warnings;
-    return codes.empty() || std::find(codes.begin(), codes.end(), partsOf(line).code) != codes.end();
+    return codes.empty() || std::find(codes.begin(), codes.end(), splitMessage(line).code) != codes.end();
 }
 
 /// True if the cook ends with a summary. Summaries are for people; programs get each message once.
 bool hasSummary(const CookOptions& options)
 {
-    return options.verbosity != Verbosity::quiet && messageForm() == MessageForm::text;
+    return options.verbosity != Verbosity::quiet && messageFormat() == MessageFormat::text;
 }
 
 /// Print a child's messages and count its warnings. Prints errors always, warnings unless quiet, all others
 /// only with Verbosity::all.
-/// were_told  the previous cook has printed the same: warnings are only counted, except with Verbosity::all
+/// were_printed  the previous cook has printed the same: warnings are only counted, except with Verbosity::all
 /// returns    the number of warnings that count as errors
-size_t passOn(const std::vector<std::string>& lines, bool were_told, const CookOptions& options,
-              CookSummary& summary)
+size_t printMessages(const std::vector<std::string>& lines, bool were_printed, const CookOptions& options,
+                     CookSummary& summary)
 {
     size_t fatal_count = 0;
     for (const std::string& line : lines)
     {
         const bool is_fatal = isFatalWarning(line, options);
         const bool is_warning = graph::isWarning(line);
-        const bool is_folded = is_warning && were_told && !is_fatal && hasSummary(options) &&
+        const bool is_folded = is_warning && were_printed && !is_fatal && hasSummary(options) &&
                                options.verbosity != Verbosity::all;
         fatal_count += is_fatal ? 1 : 0;
         if (is_warning)
@@ -83,24 +83,24 @@ size_t passOn(const std::vector<std::string>& lines, bool were_told, const CookO
         if (graph::isError(line) || is_fatal ||
             (is_warning && !is_folded && options.verbosity != Verbosity::quiet) ||
             options.verbosity == Verbosity::all)
-            print(line);
+            printMessage(line);
     }
     return fatal_count;
 }
 
 /// True if the last cook into the pack had the same result for an action, and so has printed its warnings.
-/// memory  state of previous cooks; null: none
-bool wasTold(const graph::Action& action, const graph::ActionOutcome& outcome, const graph::Graph& graph,
-             CookMemory* memory)
+/// state  state of previous cooks; null: none
+bool wasPrintedBefore(const graph::Action& action, const graph::ActionOutcome& outcome,
+                      const graph::Graph& graph, CookState* state)
 {
-    if (outcome.ending != Ending::kept || memory == nullptr || !memory->journal())
+    if (outcome.ending != Outcome::cached || state == nullptr || !state->journal())
         return false;
-    const graph::JournalAction* last = graph::lastOf(action, graph, *memory->journal());
-    return last != nullptr && (last->ending == Ending::cooked || last->ending == Ending::kept) &&
+    const graph::JournalAction* last = graph::findLastAction(action, graph, *state->journal());
+    return last != nullptr && (last->ending == Outcome::cooked || last->ending == Outcome::cached) &&
            last->record == outcome.record;
 }
 
-std::string joined(const std::vector<std::string>& words, const char* between)
+std::string joinWords(const std::vector<std::string>& words, const char* between)
 {
     std::string text;
     for (const std::string& word : words)
@@ -108,7 +108,7 @@ std::string joined(const std::vector<std::string>& words, const char* between)
     return text;
 }
 
-ProgressStyle styleOf(const CookOptions& options)
+ProgressStyle chooseProgressStyle(const CookOptions& options)
 {
     return options.verbosity == Verbosity::quiet ? ProgressStyle::none : progressStyle(options.progress);
 }
@@ -124,9 +124,9 @@ struct Listeners
 };
 
 /// Make executor events that feed the listeners and the recorder, which must outlive the events.
-/// memory  state of previous cooks; null: none
-graph::ExecutorEvents eventsFor(const graph::Graph& graph, const CookOptions& options, CookMemory* memory,
-                                Listeners& listeners, CookRecorder& recorder)
+/// state  state of previous cooks; null: none
+graph::ExecutorEvents makeCookEvents(const graph::Graph& graph, const CookOptions& options, CookState* state,
+                                     Listeners& listeners, CookRecorder& recorder)
 {
     EventLog* const log = listeners.log;
     graph::ExecutorEvents events;
@@ -138,23 +138,24 @@ graph::ExecutorEvents eventsFor(const graph::Graph& graph, const CookOptions& op
         if (log != nullptr)
             log->start(action, outcome);
         if (options.explain)
-            print(fmt::format("{:<11}{}: {}", action.cooker, action.subject, joined(outcome.causes, "; ")));
+            printMessage(
+                fmt::format("{:<11}{}: {}", action.cooker, action.subject, joinWords(outcome.causes, "; ")));
         if (options.verbosity == Verbosity::all)
-            print(faint(joined(command, " ")));
+            printMessage(faint(joinWords(command, " ")));
         listeners.bar.started(action.cooker + " " + action.subject);
         if (listeners.lines)
             listeners.lines->starting(action);
     };
-    events.ended = [&graph, &options, memory, &listeners, log,
+    events.ended = [&graph, &options, state, &listeners, log,
                     &recorder](const graph::Action& action, const graph::ActionOutcome& outcome,
                                const std::vector<std::string>& messages)
     {
         recorder.ended(action, outcome);
         if (log != nullptr)
             log->end(action, outcome);
-        const bool were_told = !messages.empty() && wasTold(action, outcome, graph, memory);
-        listeners.fatal_warnings += passOn(messages, were_told, options, listeners.summary);
-        if (outcome.ending == Ending::cooked && options.verbosity == Verbosity::all)
+        const bool were_printed = !messages.empty() && wasPrintedBefore(action, outcome, graph, state);
+        listeners.fatal_warnings += printMessages(messages, were_printed, options, listeners.summary);
+        if (outcome.ending == Outcome::cooked && options.verbosity == Verbosity::all)
             printStage(action, outcome);
         listeners.bar.ended();
         if (listeners.lines)
@@ -170,8 +171,8 @@ graph::ExecutorEvents eventsFor(const graph::Graph& graph, const CookOptions& op
         recorder.failed(failure);
         if (log != nullptr)
             log->error(failure.error);
-        if (!failure.is_told)
-            print(failure.error);
+        if (!failure.is_reported)
+            printMessage(failure.error);
         // in a cook of one source the failure is near the end anyway
         if (graph.source_count > 1)
             listeners.summary.addFailure(failure.error);
@@ -180,39 +181,41 @@ graph::ExecutorEvents eventsFor(const graph::Graph& graph, const CookOptions& op
 }
 
 /// Warn of sources whose scale differs from the others', by the linked pack.
-void passOnOutliers(const graph::Graph& graph, const graph::Executor& executor, const CookOptions& options,
-                    CookMemory* memory, Listeners& listeners, CookRecorder& recorder)
+void warnOfOutliers(const graph::Graph& graph, const graph::Executor& executor, const CookOptions& options,
+                    CookState* state, Listeners& listeners, CookRecorder& recorder)
 {
     const std::string& linked = executor.packPath().empty() ? options.output : executor.packPath();
-    const bool were_told = wasTold(graph.actions.back(), executor.outcomes().back(), graph, memory);
+    const bool were_printed =
+        wasPrintedBefore(graph.actions.back(), executor.outcomes().back(), graph, state);
     for (const SizeOutlier& outlier : findSizeOutliers(linked, options.sources))
     {
-        listeners.fatal_warnings += passOn({outlier.warning}, were_told, options, listeners.summary);
+        listeners.fatal_warnings +=
+            printMessages({outlier.warning}, were_printed, options, listeners.summary);
         recorder.report().source_warnings[outlier.source] = outlier.warning;
     }
 }
 
 /// Print how many sources have failed, if the cook has several. Actions that depend on a failed one are no
 /// failures of their own.
-void printLeftOut(const graph::Graph& graph, const graph::Executor& executor, const CookOptions& options)
+void printFailedCount(const graph::Graph& graph, const graph::Executor& executor, const CookOptions& options)
 {
     const auto failed = static_cast<size_t>(
         std::count_if(executor.failures().begin(), executor.failures().end(),
                       [&](const Failure& failure) { return failure.source < graph.source_count; }));
     if (failed > 0 && graph.source_count > 1 && options.verbosity != Verbosity::quiet)
-        print(fmt::format("{}: not linked, because a dependency failed: {} of {} sources", options.output,
-                          failed, graph.source_count));
+        printMessage(fmt::format("{}: not linked, because a dependency failed: {} of {} sources",
+                                 options.output, failed, graph.source_count));
 }
 
 /// Print which files of cooked folders no cooker has read. Only for a cook that succeeded: the import of a
 /// failed source may not have reached its textures.
-void printLeftOutFiles(const std::vector<std::string>& files, const CookOptions& options,
-                       std::vector<std::string> read)
+void printUnusedFiles(const std::vector<std::string>& files, const CookOptions& options,
+                      std::vector<std::string> read)
 {
     read.insert(read.end(), {options.output, options.depfile, options.events_file});
     read.insert(read.end(), options.report_files.begin(), options.report_files.end());
-    if (const std::string text = leftOutText(files, read); !text.empty())
-        print(text);
+    if (const std::string text = unusedFilesText(files, read); !text.empty())
+        printMessage(text);
 }
 
 // ---- before and after
@@ -249,9 +252,9 @@ Status checkOutput(const CookOptions& options)
 
 /// Make the journal of this cook.
 /// last  journal of the previous cook: supplies the records of actions that this cook did not reach
-graph::Journal journalOf(const graph::Graph& graph, const graph::Executor& executor,
-                         const CookOptions& options, const std::string& output_cause,
-                         const std::optional<graph::Journal>& last)
+graph::Journal makeJournal(const graph::Graph& graph, const graph::Executor& executor,
+                           const CookOptions& options, const std::string& output_cause,
+                           const std::optional<graph::Journal>& last)
 {
     graph::Journal journal;
     journal.folder = graph::workingFolder();
@@ -262,7 +265,8 @@ graph::Journal journalOf(const graph::Graph& graph, const graph::Executor& execu
     {
         const graph::ActionOutcome& outcome = executor.outcomes()[i];
         journal.actions.push_back({outcome.ending, outcome.causes, outcome.record});
-        const graph::JournalAction* before = last ? graph::lastOf(graph.actions[i], graph, *last) : nullptr;
+        const graph::JournalAction* before =
+            last ? graph::findLastAction(graph.actions[i], graph, *last) : nullptr;
         if (outcome.record.empty() && before != nullptr)
             journal.actions.back().record = before->record;
     }
@@ -271,25 +275,25 @@ graph::Journal journalOf(const graph::Graph& graph, const graph::Executor& execu
 
 // ---- the cook
 
-void fail(const Error& error, CookOutcome& outcome)
+void failCook(const Error& error, CookOutcome& outcome)
 {
-    print(formatMessage(error));
+    printMessage(formatMessage(error));
     outcome.exit_code = exitCode(error);
     outcome.error = formatMessage(error);
 }
 
 /// Fail because warnings count as errors. The results stay in the cache and warn again in the next cook; the
 /// pack is not written.
-void failByWarnings(size_t count, const CookOptions& options, CookOutcome& outcome)
+void failForWarnings(size_t count, const CookOptions& options, CookOutcome& outcome)
 {
     outcome.exit_code = kSomeFailed;
     outcome.error =
         fmt::format("{}: error: not written, because warnings count as errors: {}", options.output, count);
-    print(outcome.error);
+    printMessage(outcome.error);
 }
 
 /// Store the failures in the outcome: their exit code if all have the same one, else kSomeFailed.
-void takeFailures(const std::vector<Failure>& failures, CookOutcome& outcome)
+void storeFailures(const std::vector<Failure>& failures, CookOutcome& outcome)
 {
     outcome.error = failures.front().error;
     outcome.exit_code = failures.front().exit_code;
@@ -299,9 +303,9 @@ void takeFailures(const std::vector<Failure>& failures, CookOutcome& outcome)
 }
 
 /// Return the reason why the pack is put into place although no action has made it.
-std::string outputCause(const std::optional<std::string>& hash_there)
+std::string outputCause(const std::optional<std::string>& old_pack_hash)
 {
-    return hash_there ? "it was not what had been cooked: changed since, or damaged" : "it was not there";
+    return old_pack_hash ? "it was not what had been cooked: changed since, or damaged" : "it was not there";
 }
 
 /// Flush a file to the disk, before it replaces the old pack.
@@ -319,10 +323,10 @@ bool writeDepfile(const graph::Graph& graph, const graph::Executor& executor, co
 {
     if (options.depfile.empty())
         return true;
-    const Result<std::string> text = depfileOf(graph, executor, options.output);
+    const Result<std::string> text = makeDepfile(graph, executor, options.output);
     const Status written = text.ok() ? writeText(options.depfile, *text) : Status(text.error());
     if (!written.ok())
-        fail(written.error(), outcome);
+        failCook(written.error(), outcome);
     return written.ok();
 }
 
@@ -330,59 +334,59 @@ bool haveSameContent(const std::string& a, const std::string& b)
 {
     std::error_code error;
     return std::filesystem::file_size(a, error) == std::filesystem::file_size(b, error) && !error &&
-           sha256OfFile(a) == sha256OfFile(b);
+           computeFileSha256(a) == computeFileSha256(b);
 }
 
 /// Move the pack into place, unless the same pack is there already: build tools compare its time.
-/// hash_there  hash of the old pack; nullopt if there is none, or no cache: without a cache the old pack is
+/// old_pack_hash  hash of the old pack; nullopt if there is none, or no cache: without a cache the old pack is
 ///             not hashed
-bool placePack(const graph::Executor& executor, const std::optional<std::string>& hash_there,
+bool placePack(const graph::Executor& executor, const std::optional<std::string>& old_pack_hash,
                const CookOptions& options, CookOutcome& outcome)
 {
-    const graph::KeptOutput& pack = executor.outcomes().back().result.outputs.front();
+    const graph::CachedOutput& pack = executor.outcomes().back().result.outputs.front();
     outcome.output_bytes = pack.bytes;
-    outcome.is_up_to_date = executor.packPath().empty() || (hash_there && *hash_there == pack.hash);
-    if (!outcome.is_up_to_date && !hash_there && haveSameContent(executor.packPath(), options.output))
+    outcome.is_up_to_date = executor.packPath().empty() || (old_pack_hash && *old_pack_hash == pack.hash);
+    if (!outcome.is_up_to_date && !old_pack_hash && haveSameContent(executor.packPath(), options.output))
         return true;
     if (outcome.is_up_to_date ||
         (flush(executor.packPath()) && ::rename(executor.packPath().c_str(), options.output.c_str()) == 0))
         return true;
-    fail({Issue::cannot_write, options.output, "", std::string("cannot write: ") + std::strerror(errno)},
-         outcome);
+    failCook({Issue::cannot_write, options.output, "", std::string("cannot write: ") + std::strerror(errno)},
+             outcome);
     return false;
 }
 
 /// Run the actions of the graph, and put the pack into place.
-/// memory  state of previous cooks; null: none
-void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions& options, EventLog* log,
+/// state  state of previous cooks; null: none
+void cookGraph(const graph::Graph& graph, CookState* state, const CookOptions& options, EventLog* log,
                CookRecorder& recorder)
 {
     CookOutcome& outcome = recorder.report();
-    cache::Cache* cache = memory == nullptr ? nullptr : &memory->cache();
-    graph::ActionCache* actions = memory == nullptr ? nullptr : &memory->actions();
-    const std::optional<std::string> hash_there =
-        memory == nullptr ? std::nullopt : memory->hashes().hashOf(options.output);
+    cache::Cache* cache = state == nullptr ? nullptr : &state->cache();
+    graph::ActionCache* actions = state == nullptr ? nullptr : &state->actions();
+    const std::optional<std::string> old_pack_hash =
+        state == nullptr ? std::nullopt : state->hashes().hashFile(options.output);
     graph::Resolver resolver(
-        graph, cache, actions, [&]() -> const std::optional<graph::Journal>& { return memory->journal(); },
+        graph, cache, actions, [&]() -> const std::optional<graph::Journal>& { return state->journal(); },
         options.force);
-    const ProgressStyle style = styleOf(options);
+    const ProgressStyle style = chooseProgressStyle(options);
     Listeners listeners{log, {style, graph.actions.size()}, std::nullopt, 0, {}};
     if (style == ProgressStyle::plain)
         listeners.lines.emplace(graph, printFaint);
-    listeners.fatal_warnings = passOn(options.setting_warnings, false, options, listeners.summary);
+    listeners.fatal_warnings = printMessages(options.setting_warnings, false, options, listeners.summary);
     graph::Executor executor(graph, resolver, cache, actions,
-                             {limitsOf(options.jobs, options.memory_bytes), !options.fail_fast,
+                             {makePoolLimits(options.jobs, options.memory_bytes), !options.fail_fast,
                               options.lists_files, programFolder(), options.output},
-                             eventsFor(graph, options, memory, listeners, recorder));
-    const bool interrupted = !executor.run(hash_there);
+                             makeCookEvents(graph, options, state, listeners, recorder));
+    const bool interrupted = !executor.run(old_pack_hash);
     clearBar();
     if (!interrupted && executor.failures().empty())
-        passOnOutliers(graph, executor, options, memory, listeners, recorder);
+        warnOfOutliers(graph, executor, options, state, listeners, recorder);
     if (!interrupted && hasSummary(options))
         for (const std::string& line : listeners.summary.lines())
-            print(line);
+            printMessage(line);
     if (options.lists_files)
-        recorder.takeFiles(executor);
+        recorder.copyDependencies(executor);
     std::string output_cause;
     if (interrupted)
     {
@@ -391,29 +395,29 @@ void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions&
     }
     else if (!executor.failures().empty())
     {
-        takeFailures(executor.failures(), outcome);
-        printLeftOut(graph, executor, options);
+        storeFailures(executor.failures(), outcome);
+        printFailedCount(graph, executor, options);
     }
     else if (listeners.fatal_warnings > 0)
-        failByWarnings(listeners.fatal_warnings, options, outcome);
+        failForWarnings(listeners.fatal_warnings, options, outcome);
     // before the pack: whoever finds a new pack finds its depfile, too
     else if (writeDepfile(graph, executor, options, outcome) &&
-             placePack(executor, hash_there, options, outcome))
+             placePack(executor, old_pack_hash, options, outcome))
     {
-        if (!outcome.is_up_to_date && executor.outcomes().back().ending == Ending::kept)
-            output_cause = outputCause(hash_there);
+        if (!outcome.is_up_to_date && executor.outcomes().back().ending == Outcome::cached)
+            output_cause = outputCause(old_pack_hash);
     }
     if (!options.report_files.empty())
-        recorder.takeOutcomes(executor);
-    if (memory == nullptr)
+        recorder.copyOutcomes(executor);
+    if (state == nullptr)
         return;
-    const auto has_run = [](const graph::ActionOutcome& end) { return end.ending != Ending::kept; };
+    const auto has_run = [](const graph::ActionOutcome& end) { return end.ending != Outcome::cached; };
     // an interrupted cook is not recorded: the next cook has the same causes
     if (!interrupted && (!output_cause.empty() ||
                          std::any_of(executor.outcomes().begin(), executor.outcomes().end(), has_run)))
-        memory->write(journalOf(graph, executor, options, output_cause, memory->journal()));
+        state->write(makeJournal(graph, executor, options, output_cause, state->journal()));
     if (options.explain && !output_cause.empty())
-        print(fmt::format("{:<11}{}: {}", "pack", options.output, output_cause));
+        printMessage(fmt::format("{:<11}{}: {}", "pack", options.output, output_cause));
 }
 
 /// Check the output, make the graph, open the caches and cook.
@@ -421,7 +425,7 @@ void cookGraph(const graph::Graph& graph, CookMemory* memory, const CookOptions&
 void cookInto(const CookOptions& options, EventLog* log, std::optional<graph::Graph>& graph,
               CookRecorder& recorder)
 {
-    const auto failed = [&](const Error& error) { fail(error, recorder.report()); };
+    const auto failed = [&](const Error& error) { failCook(error, recorder.report()); };
     if (const Status status = checkOutput(options); !status.ok())
         return failed(status.error());
     Result<graph::Graph> made = graph::makeCookGraph(options);
@@ -436,15 +440,15 @@ void cookInto(const CookOptions& options, EventLog* log, std::optional<graph::Gr
     const auto warn = [&](const Error& warning)
     {
         if (options.verbosity != Verbosity::quiet)
-            print(formatMessage(warning));
+            printMessage(formatMessage(warning));
     };
-    const auto memory = CookMemory::open(options.caches, options.output, graph::workingFolder(), warn);
-    if (!memory.ok())
-        return failed(memory.error());
+    const auto state = CookState::open(options.caches, options.output, graph::workingFolder(), warn);
+    if (!state.ok())
+        return failed(state.error());
     if (!options.force)
-        (*memory)->expect(*graph);
-    cookGraph(*graph, (*memory)->cache().isEmpty() ? nullptr : memory->get(), options, log, recorder);
-    (*memory)->finish();
+        (*state)->enablePrefetch(*graph);
+    cookGraph(*graph, (*state)->cache().isEmpty() ? nullptr : state->get(), options, log, recorder);
+    (*state)->finish();
 }
 
 /// Write the reports. Return the exit code of the cook; if it is 0, that of the first report that cannot be
@@ -452,18 +456,18 @@ void cookInto(const CookOptions& options, EventLog* log, std::optional<graph::Gr
 int writeReports(const CookOptions& options, CookOutcome& outcome)
 {
     if (outcome.exit_code == 0)
-        outcome.bytes_of_chunks = bytesOfChunks(options.output);
+        outcome.bytes_of_chunks = readChunkBytes(options.output);
     const std::string json = report::reportJson(outcome);
     for (const std::string& file : options.report_files)
     {
-        PictureProgress progress(styleOf(options), printFaint);
+        RenderProgress progress(chooseProgressStyle(options), printFaint);
         const Status status =
             report::writeReport(json, file, outcome.exit_code == 0 ? options.output : "", "report",
                                 [&](size_t drawn, size_t count) { progress.show(drawn, count); });
         progress.end();
         if (status.ok())
             continue;
-        print(formatMessage(status.error()));
+        printMessage(formatMessage(status.error()));
         return outcome.exit_code != 0 ? outcome.exit_code : exitCode(status.error());
     }
     return outcome.exit_code;
@@ -471,16 +475,16 @@ int writeReports(const CookOptions& options, CookOutcome& outcome)
 
 } // namespace
 
-int cook(const CookOptions& chosen, std::vector<std::string>* looked_for)
+int cook(const CookOptions& chosen, std::vector<std::string>* dependencies)
 {
     CookOptions options = chosen;
-    const std::vector<std::string> files_of_folders = options.verbosity == Verbosity::quiet
+    const std::vector<std::string> files_in_folders = options.verbosity == Verbosity::quiet
                                                           ? std::vector<std::string>()
-                                                          : filesOfFolders(options.source_words);
-    options.lists_files = looked_for != nullptr || !options.depfile.empty() || !files_of_folders.empty();
+                                                          : filesInFolders(options.source_words);
+    options.lists_files = dependencies != nullptr || !options.depfile.empty() || !files_in_folders.empty();
     if (options.dry_run)
     {
-        command::passOn(options.setting_warnings, options.verbosity);
+        command::printMessages(options.setting_warnings, options.verbosity);
         return dryRun(options);
     }
     std::optional<graph::Graph> graph;
@@ -495,14 +499,14 @@ int cook(const CookOptions& chosen, std::vector<std::string>* looked_for)
         Result<EventLog> created = EventLog::create(options.events_file);
         if (!created.ok())
         {
-            print(formatMessage(created.error()));
+            printMessage(formatMessage(created.error()));
             return exitCode(created.error());
         }
         log.emplace(std::move(created).value());
     }
     cookInto(options, log ? &*log : nullptr, graph, recorder);
-    if (looked_for != nullptr)
-        *looked_for = recorder.lookedFor();
+    if (dependencies != nullptr)
+        *dependencies = recorder.dependencies();
     outcome.seconds = recorder.seconds();
     int exit_code = outcome.exit_code;
     if (!options.report_files.empty() && exit_code != kInterrupted)
@@ -512,10 +516,11 @@ int cook(const CookOptions& chosen, std::vector<std::string>* looked_for)
     if (log)
         log->done(exit_code, seconds);
     if (outcome.exit_code == 0)
-        printLeftOutFiles(files_of_folders, options, recorder.lookedFor());
+        printUnusedFiles(files_in_folders, options, recorder.dependencies());
     if (outcome.exit_code == 0 && options.verbosity != Verbosity::quiet)
-        print(fmt::format("{:<10}{:>8.2f} s {:>12}  {}", outcome.is_up_to_date ? "up to date" : "cooked",
-                          seconds, readableSize(outcome.output_bytes), options.output));
+        printMessage(fmt::format("{:<10}{:>8.2f} s {:>12}  {}",
+                                 outcome.is_up_to_date ? "up to date" : "cooked", seconds,
+                                 readableSize(outcome.output_bytes), options.output));
     return exit_code;
 }
 

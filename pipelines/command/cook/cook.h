@@ -16,11 +16,12 @@ namespace hearth::command
 using graph::BrickOptions;
 using graph::VisibilityOptions;
 
-struct CookOptions : graph::CookSettings, Effort
+struct CookOptions : graph::CookSettings, RunLimits
 {
-    std::vector<std::string> lods;   ///< values of --lod, "N=FILE": authored LODs of the only source
-    bool fail_fast = false;          ///< stop at the first failure; else cook all that does not depend on it
-    std::vector<std::string> caches; ///< values of --cache, nearest first; none: cache::cacheSpecs decides
+    std::vector<std::string> lods; ///< values of --lod, "N=FILE": authored LODs of the only source
+    bool fail_fast = false;        ///< stop at the first failure; else cook all that does not depend on it
+    std::vector<std::string>
+        caches; ///< values of --cache, nearest first; none: cache::resolveCacheSpecs decides
     bool no_cache = false;
     bool force = false;                  ///< run every cooker, whatever the cache has
     bool explain = false;                ///< print why each cooker runs
@@ -29,7 +30,7 @@ struct CookOptions : graph::CookSettings, Effort
     std::string dry_run_format = "text"; ///< "text", or "json": the plan
     /// Warnings that count as errors, as "W1302"; nullopt: none, an empty list: all.
     std::optional<std::vector<std::string>> fatal_warnings;
-    std::string depfile; ///< file for the list of files read, see depfileOf; empty: none
+    std::string depfile; ///< file for the list of files read, see makeDepfile; empty: none
     /// Reports, written whatever the outcome: .html is the page, .xml JUnit's, .csv a table, all else JSON.
     std::vector<std::string> report_files;
     std::string events_file;  ///< empty: none
@@ -44,8 +45,8 @@ struct CookOptions : graph::CookSettings, Effort
 /// Cook all sources into one pack, their scenes side by side: run the actions whose result is not in the
 /// cache (incremental build). The output appears whole or not at all. After a failure or an interruption an
 /// old output is unchanged, and nothing else is left behind.
-/// looked_for  receives the files that were read or probed; null: not needed
+/// dependencies  receives the files that were read or probed; null: not needed
 /// returns     the exit code; every problem has been printed on stderr
-int cook(const CookOptions& options, std::vector<std::string>* looked_for = nullptr);
+int cook(const CookOptions& options, std::vector<std::string>* dependencies = nullptr);
 
 } // namespace hearth::command

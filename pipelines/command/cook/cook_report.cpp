@@ -12,9 +12,9 @@
 namespace hearth::command
 {
 
-using graph::Ending;
+using graph::Outcome;
 
-size_t CookRecorder::indexOf(const graph::Action& action) const
+size_t CookRecorder::actionIndex(const graph::Action& action) const
 {
     return static_cast<size_t>(&action - report_.graph->actions.data());
 }
@@ -36,15 +36,15 @@ void CookRecorder::starting(const graph::Action& action)
     if (lane == lane_is_busy_.end())
         lane_is_busy_.push_back(true);
     lane_is_busy_[index] = true;
-    report_.times[indexOf(action)] = {seconds(), static_cast<unsigned>(index)};
+    report_.times[actionIndex(action)] = {seconds(), static_cast<unsigned>(index)};
 }
 
 void CookRecorder::ended(const graph::Action& action, const graph::ActionOutcome& outcome)
 {
-    const size_t index = indexOf(action);
+    const size_t index = actionIndex(action);
     if (const auto time = report_.times.find(index); time != report_.times.end())
         lane_is_busy_[time->second.lane] = false;
-    last_failed_ = outcome.ending == Ending::failed ? index : graph::kNoAction;
+    last_failed_ = outcome.ending == Outcome::failed ? index : graph::kNoAction;
 }
 
 void CookRecorder::failed(const graph::Failure& failure)
@@ -54,16 +54,16 @@ void CookRecorder::failed(const graph::Failure& failure)
     last_failed_ = graph::kNoAction;
 }
 
-void CookRecorder::takeOutcomes(graph::Executor& executor)
+void CookRecorder::copyOutcomes(graph::Executor& executor)
 {
     report_.outcomes = executor.outcomes();
     for (size_t i = 0; i < report_.outcomes.size(); ++i)
     {
         const std::vector<std::string>& outputs = report_.graph->actions[i].outputs;
-        const Ending ending = report_.outcomes[i].ending;
+        const Outcome ending = report_.outcomes[i].ending;
         for (size_t output = 1; output < outputs.size(); ++output)
         {
-            if (ending != Ending::cooked && ending != Ending::kept)
+            if (ending != Outcome::cooked && ending != Outcome::cached)
                 continue;
             std::optional<std::string> text = executor.readOutput(i, output);
             const bool is_picture = outputs[output] == graph::kVisibilityPicture;
@@ -73,19 +73,19 @@ void CookRecorder::takeOutcomes(graph::Executor& executor)
     }
 }
 
-void CookRecorder::takeFiles(const graph::Executor& executor)
+void CookRecorder::copyDependencies(const graph::Executor& executor)
 {
     for (size_t i = 0; i < report_.graph->actions.size(); ++i)
     {
         for (const graph::Input& input : report_.graph->actions[i].inputs)
             if (input.action == graph::kNoAction)
-                looked_for_.push_back(input.path);
-        const std::vector<std::string> found = executor.filesLookedFor(i);
-        looked_for_.insert(looked_for_.end(), found.begin(), found.end());
+                dependencies_.push_back(input.path);
+        const std::vector<std::string> found = executor.probedFiles(i);
+        dependencies_.insert(dependencies_.end(), found.begin(), found.end());
     }
 }
 
-std::map<std::string, uint64_t> bytesOfChunks(const std::string& pack)
+std::map<std::string, uint64_t> readChunkBytes(const std::string& pack)
 {
     std::map<std::string, uint64_t> bytes;
     const auto reader = formats::ContainerReader::open(pack, formats::Check::structure);

@@ -24,28 +24,28 @@ public:
     /// Assign the failure to the action that ended last, if that action has failed.
     void failed(const graph::Failure& failure);
     /// Copy the outcomes and small outputs of all actions, while the executor still has its files.
-    void takeOutcomes(graph::Executor& executor);
+    void copyOutcomes(graph::Executor& executor);
     /// Copy the paths that were read or probed, while the executor still has its files.
-    void takeFiles(const graph::Executor& executor);
+    void copyDependencies(const graph::Executor& executor);
 
     double seconds() const;
     report::CookReport& report() { return report_; }
     /// Paths of files that were read or probed, whether they exist or not.
-    const std::vector<std::string>& lookedFor() const { return looked_for_; }
+    const std::vector<std::string>& dependencies() const { return dependencies_; }
 
 private:
-    size_t indexOf(const graph::Action& action) const;
+    size_t actionIndex(const graph::Action& action) const;
 
     std::chrono::steady_clock::time_point start_;
     report::CookReport report_;
-    std::vector<std::string> looked_for_;
+    std::vector<std::string> dependencies_;
     std::vector<bool> lane_is_busy_;
     size_t last_failed_ = graph::kNoAction;
 };
 
 /// Return the stored bytes of a pack by the types of its chunks, all chunks of bricks together as "bricks";
 /// empty if the pack cannot be read.
-std::map<std::string, uint64_t> bytesOfChunks(const std::string& pack);
+std::map<std::string, uint64_t> readChunkBytes(const std::string& pack);
 
 /// Return the present time as ISO 8601 in UTC, to the second.
 std::string utcNow();

@@ -3,8 +3,8 @@
 
 #include "cook/tools/child_processes.h"
 #include "formats/base/atomic_file.h"
-#include "pipelines/cache/http_level.h"
-#include "pipelines/cache/upkeep.h"
+#include "pipelines/cache/http_store.h"
+#include "pipelines/cache/maintenance.h"
 #include "pipelines/graph/prefetch.h"
 
 #include <algorithm>
@@ -21,47 +21,47 @@ constexpr const char* kHashesEnding = ".hashes";
 
 } // namespace
 
-std::unique_ptr<CookMemory> CookMemory::over(const std::vector<cache::LevelSpec>& caches,
-                                             const std::string& output, const std::string& folder,
-                                             const std::function<void(const Error&)>& warn)
+std::unique_ptr<CookState> CookState::openSpecs(const std::vector<cache::CacheSpec>& caches,
+                                                const std::string& output, const std::string& folder,
+                                                const std::function<void(const Error&)>& warn)
 {
-    std::unique_ptr<CookMemory> memory(new CookMemory(folder));
-    std::vector<std::unique_ptr<cache::Level>> levels;
-    for (const cache::LevelSpec& spec : caches)
+    std::unique_ptr<CookState> state(new CookState(folder));
+    std::vector<std::unique_ptr<cache::CacheLevel>> levels;
+    for (const cache::CacheSpec& spec : caches)
     {
         if (spec.is_server)
         {
-            levels.push_back(std::make_unique<cache::HttpLevel>(spec.place, spec.writable));
+            levels.push_back(std::make_unique<cache::HttpStore>(spec.place, spec.writable));
             continue;
         }
-        auto level = std::make_unique<cache::FolderLevel>(graph::absolutePath(spec.place), spec.writable);
-        if (spec.writable && memory->journal_path_.empty())
-            memory->journal_path_ = graph::journalPath(level->name(), output);
-        memory->folders_.emplace_back(level.get(), spec.limit_bytes);
+        auto level = std::make_unique<cache::DirectoryStore>(graph::absolutePath(spec.place), spec.writable);
+        if (spec.writable && state->journal_path_.empty())
+            state->journal_path_ = graph::journalPath(level->name(), output);
+        state->folders_.emplace_back(level.get(), spec.limit_bytes);
         levels.push_back(std::move(level));
     }
-    memory->cache_ = std::make_unique<cache::Cache>(std::move(levels), warn);
-    if (!memory->journal_path_.empty())
-        memory->hashes_.load(memory->journal_path_ + kHashesEnding);
-    memory->actions_ =
-        std::make_unique<graph::ActionCache>(*memory->cache_, memory->hashes_, tools::programFolder());
-    return memory;
+    state->cache_ = std::make_unique<cache::Cache>(std::move(levels), warn);
+    if (!state->journal_path_.empty())
+        state->hashes_.load(state->journal_path_ + kHashesEnding);
+    state->actions_ =
+        std::make_unique<graph::ActionCache>(*state->cache_, state->hashes_, tools::programFolder());
+    return state;
 }
 
-Result<std::unique_ptr<CookMemory>> CookMemory::open(const std::vector<std::string>& caches,
-                                                     const std::string& output, const std::string& folder,
-                                                     const std::function<void(const Error&)>& warn)
+Result<std::unique_ptr<CookState>> CookState::open(const std::vector<std::string>& caches,
+                                                   const std::string& output, const std::string& folder,
+                                                   const std::function<void(const Error&)>& warn)
 {
-    HEARTH_ASSIGN_OR_RETURN(const std::vector<cache::LevelSpec> levels, cache::cacheSpecs(caches));
-    return over(levels, output, folder, warn);
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<cache::CacheSpec> levels, cache::resolveCacheSpecs(caches));
+    return openSpecs(levels, output, folder, warn);
 }
 
-void CookMemory::expect(const graph::Graph& graph)
+void CookState::enablePrefetch(const graph::Graph& graph)
 {
-    cache_->beforeFarIsAsked([this, &graph] { graph::askAhead(graph, *cache_, *actions_); });
+    cache_->beforeRemoteLookup([this, &graph] { graph::prefetch(graph, *cache_, *actions_); });
 }
 
-const std::optional<graph::Journal>& CookMemory::journal()
+const std::optional<graph::Journal>& CookState::journal()
 {
     if (!journal_is_read_ && !journal_path_.empty())
         if (const std::optional<std::string> text = cache::readText(journal_path_ + kJournalEnding))
@@ -70,7 +70,7 @@ const std::optional<graph::Journal>& CookMemory::journal()
     return journal_;
 }
 
-void CookMemory::write(const graph::Journal& journal)
+void CookState::write(const graph::Journal& journal)
 {
     // if it cannot be written, only explanations of the next cook are lost
     std::error_code error;
@@ -80,19 +80,19 @@ void CookMemory::write(const graph::Journal& journal)
     static_cast<void>(writeText(journal_path_ + kJournalEnding, graph::journalText(journal)).ok());
 }
 
-void CookMemory::finish()
+void CookState::finish()
 {
     if (!journal_path_.empty())
         hashes_.save(journal_path_ + kHashesEnding);
     for (const auto& [level, limit_bytes] : folders_)
         if (level->isWritable())
-            cache::noteAdded(level->name(), level->bytesAdded(), limit_bytes);
+            cache::recordGrowth(level->name(), level->bytesAdded(), limit_bytes);
 }
 
-std::vector<graph::Journal> allJournals(const std::vector<cache::LevelSpec>& caches)
+std::vector<graph::Journal> readAllJournals(const std::vector<cache::CacheSpec>& caches)
 {
     std::vector<graph::Journal> journals;
-    for (const cache::LevelSpec& spec : caches)
+    for (const cache::CacheSpec& spec : caches)
     {
         if (spec.is_server)
             continue;

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "pipelines/cache/cache.h"
+#include "pipelines/cache/cache_spec.h"
 #include "pipelines/cache/directory_store.h"
-#include "pipelines/cache/open_cache.h"
 #include "pipelines/graph/action_cache.h"
 #include "pipelines/graph/file_hashes.h"
 #include "pipelines/graph/journal.h"
@@ -20,23 +20,23 @@ namespace hearth::command
 {
 
 /// Caches, hashes of files and journal of the cooks into one pack.
-class CookMemory
+class CookState
 {
 public:
     /// Open the caches, and the state of cooks into a pack.
     /// output  path of the pack
     /// folder  base of the sources' relative paths
     /// warn    receives the errors of a cache
-    static std::unique_ptr<CookMemory> over(const std::vector<cache::LevelSpec>& caches,
-                                            const std::string& output, const std::string& folder,
-                                            const std::function<void(const Error&)>& warn);
+    static std::unique_ptr<CookState> openSpecs(const std::vector<cache::CacheSpec>& caches,
+                                                const std::string& output, const std::string& folder,
+                                                const std::function<void(const Error&)>& warn);
 
     /// Same, from values of --cache.
-    /// caches  values of --cache; see cache::cacheSpecs
+    /// caches  values of --cache; see cache::resolveCacheSpecs
     /// errors: usage
-    static Result<std::unique_ptr<CookMemory>> open(const std::vector<std::string>& caches,
-                                                    const std::string& output, const std::string& folder,
-                                                    const std::function<void(const Error&)>& warn);
+    static Result<std::unique_ptr<CookState>> open(const std::vector<std::string>& caches,
+                                                   const std::string& output, const std::string& folder,
+                                                   const std::function<void(const Error&)>& warn);
 
     cache::Cache& cache() { return *cache_; }
     graph::ActionCache& actions() { return *actions_; }
@@ -44,7 +44,7 @@ public:
 
     /// Prefetch: when a cache server has to be asked for the first time, ask it at once for everything that
     /// the graph will ask for. `graph` must stay alive.
-    void expect(const graph::Graph& graph);
+    void enablePrefetch(const graph::Graph& graph);
 
     /// Return the journal of the last cook, which is read at the first call.
     const std::optional<graph::Journal>& journal();
@@ -55,9 +55,9 @@ public:
     void finish();
 
 private:
-    explicit CookMemory(const std::string& folder) : hashes_(folder) {}
+    explicit CookState(const std::string& folder) : hashes_(folder) {}
 
-    std::vector<std::pair<const cache::FolderLevel*, uint64_t>> folders_; ///< with their limits in bytes
+    std::vector<std::pair<const cache::DirectoryStore*, uint64_t>> folders_; ///< with their limits in bytes
     std::unique_ptr<cache::Cache> cache_;
     graph::FileHashes hashes_;
     std::unique_ptr<graph::ActionCache> actions_;
@@ -67,6 +67,6 @@ private:
 };
 
 /// Return the journals of all packs that the caches have, sorted by output.
-std::vector<graph::Journal> allJournals(const std::vector<cache::LevelSpec>& caches);
+std::vector<graph::Journal> readAllJournals(const std::vector<cache::CacheSpec>& caches);
 
 } // namespace hearth::command

@@ -14,7 +14,7 @@ namespace hearth::command
 namespace
 {
 
-size_t sumOf(const std::map<std::string, size_t>& counts)
+size_t sumCounts(const std::map<std::string, size_t>& counts)
 {
     return std::accumulate(counts.begin(), counts.end(), size_t{0},
                            [](size_t sum, const auto& count) { return sum + count.second; });
@@ -22,7 +22,7 @@ size_t sumOf(const std::map<std::string, size_t>& counts)
 
 /// Return the meaning of a code: "an image is missing; a placeholder is drawn" for "W1302"; empty for an
 /// unknown code.
-std::string_view meaningOf(const std::string& code)
+std::string_view issueSummary(const std::string& code)
 {
     const auto issues = allIssues();
     const auto found = std::find_if(
@@ -31,11 +31,11 @@ std::string_view meaningOf(const std::string& code)
     return found == issues.end() ? "" : found->summary;
 }
 
-std::string toldText(const std::map<std::string, size_t>& counts)
+std::string printedText(const std::map<std::string, size_t>& counts)
 {
     std::string text;
     for (const auto& [code, count] : counts)
-        text += fmt::format("{}{} {} ({})", text.empty() ? "" : ", ", count, code, meaningOf(code));
+        text += fmt::format("{}{} {} ({})", text.empty() ? "" : ", ", count, code, issueSummary(code));
     return text;
 }
 
@@ -56,28 +56,28 @@ std::string warningsWord(size_t count)
 
 void CookSummary::addWarning(const std::string& line, bool is_folded)
 {
-    ++(is_folded ? folded_ : told_)[partsOf(line).code];
+    ++(is_folded ? folded_ : printed_)[splitMessage(line).code];
 }
 
 void CookSummary::addFailure(const std::string& line)
 {
     if (failures_.empty())
-        lines_at_first_failure_ = countTold();
+        lines_at_first_failure_ = countPrinted();
     failures_.push_back(line);
 }
 
 std::vector<std::string> CookSummary::lines() const
 {
     std::vector<std::string> lines;
-    const size_t told_since = countTold() - lines_at_first_failure_;
-    if (!failures_.empty() && told_since >= failures_.size())
+    const size_t printed_since = countPrinted() - lines_at_first_failure_;
+    if (!failures_.empty() && printed_since >= failures_.size())
     {
         lines.push_back(failures_.size() == 1 ? "the failure again:" : "all failures again:");
         lines.insert(lines.end(), failures_.begin(), failures_.end());
     }
-    if (const size_t count = sumOf(told_); count > 0)
-        lines.push_back(fmt::format("{}: {}", warningsWord(count), toldText(told_)));
-    if (const size_t count = sumOf(folded_); count > 0)
+    if (const size_t count = sumCounts(printed_); count > 0)
+        lines.push_back(fmt::format("{}: {}", warningsWord(count), printedText(printed_)));
+    if (const size_t count = sumCounts(folded_); count > 0)
         lines.push_back(
             fmt::format("{} of unchanged sources, as in the cook before: {}; hearth cook -v lists them",
                         warningsWord(count), foldedText(folded_)));

@@ -28,7 +28,7 @@ public:
 private:
     using Counts = std::map<std::string, size_t>; ///< count by code, "W1302"
 
-    Counts told_;
+    Counts printed_;
     Counts folded_;
     std::vector<std::string> failures_;
     size_t lines_at_first_failure_ = 0; ///< number of lines printed until then, including that failure

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/cook/cook_tools.h"
-#include "pipelines/command/shell/messages.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -10,28 +9,17 @@
 namespace hearth::command
 {
 
-void print(const std::string& line)
-{
-    tell(line);
-}
-
-int tell(const Error& error)
-{
-    print(formatMessage(error));
-    return exitCode(error);
-}
-
-void passOn(const std::vector<std::string>& lines, Verbosity verbosity)
+void printMessages(const std::vector<std::string>& lines, Verbosity verbosity)
 {
     for (const std::string& line : lines)
         if (graph::isError(line) || (graph::isWarning(line) && verbosity != Verbosity::quiet) ||
             verbosity == Verbosity::all)
-            print(line);
+            printMessage(line);
 }
 
 void printFaint(const std::string& line)
 {
-    print(faint(line));
+    printMessage(faint(line));
 }
 
 void printStage(const graph::Action& action, const graph::ActionOutcome& outcome)
@@ -40,7 +28,7 @@ void printStage(const graph::Action& action, const graph::ActionOutcome& outcome
                            readableSize(outcome.result.outputs.front().bytes), action.subject));
 }
 
-graph::CrewLimits limitsOf(unsigned jobs, uint64_t memory_bytes)
+graph::PoolLimits makePoolLimits(unsigned jobs, uint64_t memory_bytes)
 {
     constexpr unsigned kLarge = 2;
     const uint64_t machine_bytes =

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "pipelines/command/shell/messages.h"
 #include "pipelines/command/shell/terminal.h"
 #include "pipelines/graph/executor.h"
 
@@ -14,14 +15,8 @@ namespace hearth::command
 
 inline constexpr int kInterrupted = 130;
 
-/// Print a line on stderr.
-void print(const std::string& line);
-
-/// Print an error or a warning on stderr. returns  its exit code
-int tell(const Error& error);
-
 /// Print a child's messages: errors always, warnings unless quiet, all others only with Verbosity::all.
-void passOn(const std::vector<std::string>& lines, Verbosity verbosity);
+void printMessages(const std::vector<std::string>& lines, Verbosity verbosity);
 
 /// Print a line on stderr, in grey if stderr shows colours.
 void printFaint(const std::string& line);
@@ -31,6 +26,6 @@ void printStage(const graph::Action& action, const graph::ActionOutcome& outcome
 
 /// Return the limits of all cookers together. jobs 0: two at once, of small sources one per core;
 /// memory_bytes 0: three quarters of the machine's memory.
-graph::CrewLimits limitsOf(unsigned jobs, uint64_t memory_bytes);
+graph::PoolLimits makePoolLimits(unsigned jobs, uint64_t memory_bytes);
 
 } // namespace hearth::command

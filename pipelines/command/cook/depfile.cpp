@@ -12,7 +12,7 @@ namespace hearth::command
 namespace
 {
 
-std::string escaped(const std::string& path)
+std::string escapeMakePath(const std::string& path)
 {
     std::string text;
     size_t backslashes = 0; // directly before the character
@@ -31,7 +31,7 @@ std::string escaped(const std::string& path)
 }
 
 /// Set of files by canonical path, so that each is listed once, whatever its spelling.
-class Files
+class UniqueFiles
 {
 public:
     void add(const std::string& path)
@@ -54,14 +54,14 @@ private:
 Result<std::string> depfileText(const std::string& output, const std::vector<std::string>& named,
                                 const std::vector<std::string>& found)
 {
-    std::string rule = escaped(output) + ":";
+    std::string rule = escapeMakePath(output) + ":";
     std::string empty_rules;
     for (const std::vector<std::string>* paths : {&named, &found})
         for (const std::string& path : *paths)
         {
-            rule += " \\\n  " + escaped(path);
+            rule += " \\\n  " + escapeMakePath(path);
             if (paths == &found)
-                empty_rules += "\n" + escaped(path) + ":\n";
+                empty_rules += "\n" + escapeMakePath(path) + ":\n";
         }
     const auto has_line_break = [](const std::string& path) { return path.find('\n') != std::string::npos; };
     for (const std::vector<std::string>& paths : {std::vector{output}, named, found})
@@ -71,17 +71,17 @@ Result<std::string> depfileText(const std::string& output, const std::vector<std
     return rule + "\n" + empty_rules;
 }
 
-Result<std::string> depfileOf(const graph::Graph& graph, const graph::Executor& executor,
-                              const std::string& output)
+Result<std::string> makeDepfile(const graph::Graph& graph, const graph::Executor& executor,
+                                const std::string& output)
 {
-    Files files;
+    UniqueFiles files;
     for (const graph::Action& action : graph.actions)
         for (const graph::Input& input : action.inputs)
             if (input.action == graph::kNoAction)
                 files.add(input.path);
     const std::vector<std::string> named = files.takeNew();
     for (size_t i = 0; i < graph.actions.size(); ++i)
-        for (const std::string& path : executor.filesLookedFor(i))
+        for (const std::string& path : executor.probedFiles(i))
             if (std::error_code error; std::filesystem::exists(path, error))
                 files.add(path);
     return depfileText(output, named, files.takeNew());

@@ -21,7 +21,7 @@ Result<std::string> depfileText(const std::string& output, const std::vector<std
                                 const std::vector<std::string>& found);
 
 /// Write the dependencies of a cook that succeeded: everything that its actions have read, as depfileText.
-Result<std::string> depfileOf(const graph::Graph& graph, const graph::Executor& executor,
-                              const std::string& output);
+Result<std::string> makeDepfile(const graph::Graph& graph, const graph::Executor& executor,
+                                const std::string& output);
 
 } // namespace hearth::command

@@ -45,18 +45,19 @@ Result<DryRun> forecastCook(const CookOptions& options)
     const bool is_json = options.dry_run_format == "json";
     if (is_json && !options.dry_run_checks)
         return DryRun{graph::planJson(graph)};
-    HEARTH_ASSIGN_OR_RETURN(const auto memory,
-                            CookMemory::open(options.caches, options.output, graph::workingFolder(),
-                                             [](const Error& warning) { tell(formatMessage(warning)); }));
-    memory->expect(graph);
-    const bool has_cache = !options.no_cache && !memory->cache().isEmpty();
+    HEARTH_ASSIGN_OR_RETURN(const auto state,
+                            CookState::open(options.caches, options.output, graph::workingFolder(),
+                                            [](const Error& warning)
+                                            { printMessage(formatMessage(warning)); }));
+    state->enablePrefetch(graph);
+    const bool has_cache = !options.no_cache && !state->cache().isEmpty();
     graph::Resolver resolver(
-        graph, has_cache ? &memory->cache() : nullptr, &memory->actions(),
-        [&]() -> const std::optional<graph::Journal>& { return memory->journal(); }, options.force);
+        graph, has_cache ? &state->cache() : nullptr, &state->actions(),
+        [&]() -> const std::optional<graph::Journal>& { return state->journal(); }, options.force);
     const graph::Forecast forecast = graph::forecast(graph, resolver);
     const auto runs = std::count_if(forecast.actions.begin(), forecast.actions.end(),
                                     [](const graph::Forecast::Entry& entry) { return entry.runs; });
-    const std::string cause = packCause(forecast, memory->hashes().hashOf(options.output));
+    const std::string cause = packCause(forecast, state->hashes().hashFile(options.output));
     const bool is_up_to_date = runs == 0 && cause.empty();
     if (is_json)
         return DryRun{graph::planJson(graph), is_up_to_date};
@@ -69,11 +70,11 @@ Result<DryRun> forecastCook(const CookOptions& options)
 
 } // namespace
 
-std::string packCause(const graph::Forecast& forecast, const std::optional<std::string>& hash_there)
+std::string packCause(const graph::Forecast& forecast, const std::optional<std::string>& old_pack_hash)
 {
-    if (!forecast.result || hash_there == forecast.result->hash)
+    if (!forecast.result || old_pack_hash == forecast.result->hash)
         return "";
-    return hash_there ? "it is not what was cooked: changed since, or damaged" : "it is not there";
+    return old_pack_hash ? "it is not what was cooked: changed since, or damaged" : "it is not there";
 }
 
 int dryRun(const CookOptions& options)
@@ -82,7 +83,7 @@ int dryRun(const CookOptions& options)
     const Status printed = dry_run.ok() ? writeText("-", dry_run->text) : Status(dry_run.error());
     if (printed.ok())
         return options.dry_run_checks && !dry_run->is_up_to_date ? kSomethingWouldRun : 0;
-    tell(formatMessage(printed.error()));
+    printMessage(formatMessage(printed.error()));
     return exitCode(printed.error());
 }
 

@@ -16,6 +16,6 @@ namespace hearth::command
 int dryRun(const CookOptions& options);
 
 /// Return the reason why the pack would be put into place although nothing runs; empty if it is up to date.
-std::string packCause(const graph::Forecast& forecast, const std::optional<std::string>& hash_there);
+std::string packCause(const graph::Forecast& forecast, const std::optional<std::string>& old_pack_hash);
 
 } // namespace hearth::command

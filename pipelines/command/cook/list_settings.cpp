@@ -17,7 +17,7 @@ using profiles::Setting;
 using profiles::Value;
 
 constexpr const char* kSchema = "hearth.settings/1";
-constexpr std::string_view kBuiltIn = "default";
+constexpr std::string_view kDefaultOrigin = "default";
 
 struct Row
 {
@@ -25,7 +25,7 @@ struct Row
     std::optional<Value> value; ///< nullopt: the default applies
 };
 
-std::vector<Row> rowsOf(const Configuration& configuration, const std::string& source)
+std::vector<Row> makeRows(const Configuration& configuration, const std::string& source)
 {
     std::vector<Row> rows;
     for (const Setting& setting : profiles::commandSettings())
@@ -33,8 +33,8 @@ std::vector<Row> rowsOf(const Configuration& configuration, const std::string& s
         const Value* value = configuration.command(setting.key);
         rows.push_back({&setting, value == nullptr ? std::nullopt : std::optional(*value)});
     }
-    const profiles::Values of_pack = configuration.ofPack();
-    const profiles::Values of_source = source.empty() ? of_pack : configuration.ofSource(source);
+    const profiles::Values of_pack = configuration.valuesOfPack();
+    const profiles::Values of_source = source.empty() ? of_pack : configuration.valuesOfSource(source);
     for (const Setting& setting : profiles::profileSettings())
     {
         const profiles::Values& values = setting.scope == profiles::Scope::source ? of_source : of_pack;
@@ -46,24 +46,24 @@ std::vector<Row> rowsOf(const Configuration& configuration, const std::string& s
 
 std::string valueText(const Row& row)
 {
-    return row.value                        ? row.value->text
-           : row.setting->otherwise.empty() ? "(none)"
-                                            : fmt::format("({})", row.setting->otherwise);
+    return row.value                           ? row.value->text
+           : row.setting->default_text.empty() ? "(none)"
+                                               : fmt::format("({})", row.setting->default_text);
 }
 
 } // namespace
 
 std::string settingsText(const Configuration& configuration, const std::string& source, bool shows_origin)
 {
-    const std::vector<Row> rows = rowsOf(configuration, source);
+    const std::vector<Row> rows = makeRows(configuration, source);
     size_t key_width = 0;
     size_t value_width = 0;
     // columns do not grow for longer values
-    constexpr size_t kWidest = 40;
+    constexpr size_t kMaxValueWidth = 40;
     for (const Row& row : rows)
     {
         key_width = std::max(key_width, row.setting->key.size());
-        value_width = std::max(value_width, std::min(valueText(row).size(), kWidest));
+        value_width = std::max(value_width, std::min(valueText(row).size(), kMaxValueWidth));
     }
     std::string text;
     for (const Row& row : rows)
@@ -71,7 +71,7 @@ std::string settingsText(const Configuration& configuration, const std::string& 
         std::string line = fmt::format("{:<{}}  {}", row.setting->key, key_width, valueText(row));
         if (shows_origin)
             line = fmt::format("{:<{}}  {}", line, key_width + 2 + value_width,
-                               row.value ? std::string_view(row.value->origin) : kBuiltIn);
+                               row.value ? std::string_view(row.value->origin) : kDefaultOrigin);
         text += line + '\n';
     }
     return text;
@@ -87,13 +87,13 @@ std::string settingsJson(const Configuration& configuration, const std::string& 
     if (!source.empty())
         json["source"] = source;
     json["settings"] = Json::array();
-    for (const Row& row : rowsOf(configuration, source))
+    for (const Row& row : makeRows(configuration, source))
     {
         Json entry{{"key", row.setting->key}};
-        entry["value"] = row.value ? profiles::jsonOf(*row.value) : Json();
-        if (!row.value && !row.setting->otherwise.empty())
-            entry["default"] = row.setting->otherwise;
-        entry["origin"] = row.value ? row.value->origin : std::string(kBuiltIn);
+        entry["value"] = row.value ? profiles::toJson(*row.value) : Json();
+        if (!row.value && !row.setting->default_text.empty())
+            entry["default"] = row.setting->default_text;
+        entry["origin"] = row.value ? row.value->origin : std::string(kDefaultOrigin);
         json["settings"].push_back(std::move(entry));
     }
     return json.dump(2) + "\n";

@@ -30,18 +30,18 @@ void ReasonGroups::add(const graph::Action& action, const std::string& ending,
                        const std::vector<std::string>& causes)
 {
     std::string reason = ending;
-    std::string own_reason = ending;
+    std::string first_reason = ending;
     for (const std::string& cause : causes)
     {
         const char* between = &cause == &causes.front() ? ": " : "; ";
         reason += between + withoutSubject(cause, action.subject);
-        own_reason += between + cause;
+        first_reason += between + cause;
     }
     auto group = std::find_if(groups_.begin(), groups_.end(),
                               [&](const Group& known)
                               { return known.cooker == action.cooker && known.reason == reason; });
     if (group == groups_.end())
-        group = groups_.insert(groups_.end(), {action.cooker, reason, own_reason, {}});
+        group = groups_.insert(groups_.end(), {action.cooker, reason, first_reason, {}});
     group->subjects.push_back(action.subject);
 }
 
@@ -50,7 +50,7 @@ std::string ReasonGroups::text() const
     std::string text;
     for (const Group& group : groups_)
         text += group.subjects.size() == 1
-                    ? fmt::format("  {:<11}{}{}\n", group.cooker, group.subjects.front(), group.own_reason)
+                    ? fmt::format("  {:<11}{}{}\n", group.cooker, group.subjects.front(), group.first_reason)
                     : fmt::format("  {:<11}{} sources ({}){}\n", group.cooker, group.subjects.size(),
                                   namesText(group.subjects), group.reason);
     return text;

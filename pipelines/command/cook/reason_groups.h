@@ -28,8 +28,8 @@ private:
     struct Group
     {
         std::string cooker;
-        std::string reason;     ///< ending, and causes behind ": ", without the name of a source
-        std::string own_reason; ///< the same in the words of the first source
+        std::string reason;       ///< ending, and causes behind ": ", without the name of a source
+        std::string first_reason; ///< the same in the words of the first source
         std::vector<std::string> subjects;
     };
     std::vector<Group> groups_;

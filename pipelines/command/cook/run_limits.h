@@ -11,7 +11,7 @@ namespace hearth::command
 {
 
 /// Limits on running cookers, and the verbosity of their verb.
-struct Effort
+struct RunLimits
 {
     /// Number of cookers at once; 0: two, and of small sources as many as there are cores. Cookers of large
     /// sources are parallel themselves: two are enough to hide their serial parts, and each more costs the

@@ -16,7 +16,7 @@ namespace hearth::command
 namespace
 {
 
-using profiles::Given;
+using profiles::CommandLineValues;
 using profiles::Kind;
 using profiles::Setting;
 using profiles::Value;
@@ -24,14 +24,14 @@ using profiles::Value;
 std::string describe(const Setting& setting)
 {
     std::string text(setting.what);
-    if (setting.kind != Kind::flag && setting.otherwise != "[]" && !setting.otherwise.empty())
-        text += "; by default " + std::string(setting.otherwise);
+    if (setting.kind != Kind::flag && setting.default_text != "[]" && !setting.default_text.empty())
+        text += "; by default " + std::string(setting.default_text);
     return text;
 }
 
-std::string fault(const Setting& setting, const std::string& text)
+std::string valueFault(const Setting& setting, const std::string& text)
 {
-    const auto value = profiles::valueOf(setting, {text}, "");
+    const auto value = profiles::parseValue(setting, {text}, "");
     if (value.ok())
         return "";
     // for lists, the error already quotes the wrong word
@@ -45,24 +45,24 @@ std::string longName(std::string_view option)
     return std::string(option.substr(option.find("--")));
 }
 
-uint64_t numberOf(const Value& value)
+uint64_t parseNumber(const Value& value)
 {
     uint64_t number = 0;
     std::from_chars(value.text.data(), value.text.data() + value.text.size(), number);
     return number;
 }
 
-Verbosity verbosityOf(const std::string& word)
+Verbosity parseVerbosity(const std::string& word)
 {
     return word == "quiet" ? Verbosity::quiet : word == "verbose" ? Verbosity::all : Verbosity::normal;
 }
 
 /// Refuse options of visibility or bricks if these are not baked: an option without effect is a mistake.
-Status checkInUse(const profiles::Values& values, bool has_visibility, bool has_bricks)
+Status checkOptionsHaveEffect(const profiles::Values& values, bool has_visibility, bool has_bricks)
 {
     for (const auto& [key, value] : values)
     {
-        const std::string_view group = profiles::groupOf(key);
+        const std::string_view group = profiles::settingGroup(key);
         const bool is_idle = (group == "visibility" && !has_visibility) || (group == "bricks" && !has_bricks);
         if (is_idle && value.text != "false" && value.origin.starts_with("--"))
             return Error{Issue::usage, value.origin, "",
@@ -73,7 +73,7 @@ Status checkInUse(const profiles::Values& values, bool has_visibility, bool has_
 }
 
 /// Return the settings of a scope as KEY=VALUE, without import.lods: a request has LODs beside its sources.
-farm::Assignments assignmentsOf(const profiles::Values& values, profiles::Scope scope)
+farm::Assignments makeAssignments(const profiles::Values& values, profiles::Scope scope)
 {
     farm::Assignments assignments;
     for (const auto& [key, value] : values)
@@ -96,27 +96,27 @@ void SettingOptions::add(cli::CommandLine& verb, const Setting& setting)
         entry.option = verb.addOption(names, entry.words, describe(setting)).oneValueEach();
     else
         entry.option = verb.addOption(names, entry.word, describe(setting))
-                           .check([&setting](const std::string& text) { return fault(setting, text); });
+                           .check([&setting](const std::string& text) { return valueFault(setting, text); });
     if (setting.kind == Kind::choice)
-        entry.option->typeName(joined({setting.choices.begin(), setting.choices.end()}, "|"));
+        entry.option->typeName(joinWords({setting.choices.begin(), setting.choices.end()}, "|"));
     else if (setting.kind != Kind::flag)
         entry.option->typeName(std::string(setting.value_name));
 }
 
-void SettingOptions::addOfCommand(cli::CommandLine& verb, const std::vector<std::string>& keys)
+void SettingOptions::addCommandSettings(cli::CommandLine& verb, const std::vector<std::string>& keys)
 {
     for (const std::string& key : keys)
         add(verb, *profiles::findSetting(profiles::commandSettings(), key));
 }
 
-void SettingOptions::addLog(cli::CommandLine& verb, const std::string& all)
+void SettingOptions::addVerbosityOptions(cli::CommandLine& verb, const std::string& all)
 {
     const cli::Option quiet = verb.addFlag("-q,--quiet", is_quiet_, "print errors only");
     if (!all.empty())
         verb.addFlag("-v,--verbose", is_verbose_, all).excludes(quiet);
 }
 
-void SettingOptions::addOfProfiles(cli::CommandLine& verb)
+void SettingOptions::addProfileSettings(cli::CommandLine& verb)
 {
     for (const Setting& setting : profiles::profileSettings())
         if (!setting.option.empty())
@@ -132,19 +132,19 @@ Result<Value> SettingOptions::valueOf(const Entry& entry)
     const std::string origin = longName(entry.setting->option);
     if (entry.setting->kind == Kind::flag)
         return Value{"true", origin};
-    return profiles::valueOf(
+    return profiles::parseValue(
         *entry.setting, entry.setting->kind == Kind::texts ? entry.words : std::vector{entry.word}, origin);
 }
 
-Result<Given> SettingOptions::given() const
+Result<CommandLineValues> SettingOptions::overrides() const
 {
-    Given given;
+    CommandLineValues overrides;
     for (const std::string& assignment : assignments_)
     {
         auto parsed = profiles::parseAssignment(assignment);
         if (!parsed.ok())
             return Error{Issue::usage, parsed.error().file, parsed.error().where, parsed.error().detail};
-        given.settings[parsed->first] = std::move(parsed->second);
+        overrides.settings[parsed->first] = std::move(parsed->second);
     }
     for (const auto& [key, entry] : entries_)
     {
@@ -153,42 +153,43 @@ Result<Given> SettingOptions::given() const
         auto value = valueOf(entry);
         if (!value.ok())
             return Error{Issue::usage, value.error().file, value.error().where, value.error().detail};
-        (entry.setting->scope == profiles::Scope::command ? given.command : given.settings)[key] =
+        (entry.setting->scope == profiles::Scope::command ? overrides.command : overrides.settings)[key] =
             std::move(value).value();
     }
     if (is_quiet_ || is_verbose_)
-        given.command["log"] = is_quiet_ ? Value{"\"quiet\"", "--quiet"} : Value{"\"verbose\"", "--verbose"};
-    return given;
+        overrides.command["log"] =
+            is_quiet_ ? Value{"\"quiet\"", "--quiet"} : Value{"\"verbose\"", "--verbose"};
+    return overrides;
 }
 
 Result<profiles::Configuration> SettingOptions::configuration() const
 {
-    HEARTH_ASSIGN_OR_RETURN(Given said, given());
-    return loadConfiguration(std::move(said));
+    HEARTH_ASSIGN_OR_RETURN(CommandLineValues values, overrides());
+    return loadConfiguration(std::move(values));
 }
 
-Work withConfiguration(const SettingOptions& settings,
-                       const std::function<int(const profiles::Configuration&)>& work)
+VerbAction withConfiguration(const SettingOptions& settings,
+                             const std::function<int(const profiles::Configuration&)>& work)
 {
     return [&settings, work]
     {
         const auto configuration = settings.configuration();
-        return configuration.ok() ? work(*configuration) : fail(configuration.error());
+        return configuration.ok() ? work(*configuration) : printError(configuration.error());
     };
 }
 
-Effort effortOf(const profiles::Configuration& configuration)
+RunLimits readRunLimits(const profiles::Configuration& configuration)
 {
-    Effort effort;
+    RunLimits limits;
     if (const Value* jobs = configuration.command("jobs"))
-        effort.jobs = static_cast<unsigned>(numberOf(*jobs));
+        limits.jobs = static_cast<unsigned>(parseNumber(*jobs));
     if (const Value* memory = configuration.command("memory"))
-        effort.memory_bytes = numberOf(*memory);
+        limits.memory_bytes = parseNumber(*memory);
     if (const Value* log = configuration.command("log"))
-        effort.verbosity = verbosityOf(profiles::textsOf(*log).front());
+        limits.verbosity = parseVerbosity(profiles::valueTexts(*log).front());
     if (const Value* progress = configuration.command("progress"))
-        effort.progress = profiles::textsOf(*progress).front();
-    return effort;
+        limits.progress = profiles::valueTexts(*progress).front();
+    return limits;
 }
 
 namespace
@@ -196,8 +197,8 @@ namespace
 
 /// Split the files into sources and their LODs. --lod overrides names and rules.
 /// errors: usage, profile_value
-Status takeSources(const profiles::Configuration& configuration, std::vector<std::string> files,
-                   CookOptions& options)
+Status splitSources(const profiles::Configuration& configuration, std::vector<std::string> files,
+                    CookOptions& options)
 {
     if (!options.lods.empty() && files.size() > 1)
         return Error{Issue::usage, "--lod", "",
@@ -218,43 +219,43 @@ Status takeSources(const profiles::Configuration& configuration, std::vector<std
 
 } // namespace
 
-Status configure(const profiles::Configuration& configuration, CookOptions& options)
+Status applyConfiguration(const profiles::Configuration& configuration, CookOptions& options)
 {
     options.source_words = options.sources;
-    HEARTH_ASSIGN_OR_RETURN(const std::vector<std::string> files, sourcesOf(options.sources));
-    HEARTH_TRY(takeSources(configuration, files, options));
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<std::string> files, expandSources(options.sources));
+    HEARTH_TRY(splitSources(configuration, files, options));
     bool has_visibility = false;
     for (const std::string& source : options.sources)
     {
-        auto told = profiles::toldOfSource(configuration.ofSource(source));
-        if (!told.ok() && told.error().file.starts_with("--"))
-            return Error{Issue::usage, told.error().file, "", told.error().detail};
-        if (!told.ok())
-            return told.error();
-        has_visibility |= told->visibility.has_value();
-        options.settings_of_source.push_back(std::move(told).value());
+        auto cooker_arguments = profiles::makeCookerArguments(configuration.valuesOfSource(source));
+        if (!cooker_arguments.ok() && cooker_arguments.error().file.starts_with("--"))
+            return Error{Issue::usage, cooker_arguments.error().file, "", cooker_arguments.error().detail};
+        if (!cooker_arguments.ok())
+            return cooker_arguments.error();
+        has_visibility |= cooker_arguments->visibility.has_value();
+        options.settings_of_source.push_back(std::move(cooker_arguments).value());
     }
-    const profiles::Values of_pack = configuration.ofPack();
-    options.bricks = profiles::toldOfBricks(of_pack);
-    HEARTH_TRY(checkInUse(of_pack, has_visibility, options.bricks.has_value()));
-    static_cast<Effort&>(options) = effortOf(configuration);
-    options.caches = cachesOf(configuration);
-    for (const Error& warning : unmatchedRules(configuration, files))
+    const profiles::Values of_pack = configuration.valuesOfPack();
+    options.bricks = profiles::makeBrickOptions(of_pack);
+    HEARTH_TRY(checkOptionsHaveEffect(of_pack, has_visibility, options.bricks.has_value()));
+    static_cast<RunLimits&>(options) = readRunLimits(configuration);
+    options.caches = cacheSettings(configuration);
+    for (const Error& warning : findUnmatchedRules(configuration, files))
         options.setting_warnings.push_back(formatMessage(warning));
     return success();
 }
 
-Result<farm::Request> requestOf(const profiles::Configuration& configuration, CookOptions& options)
+Result<farm::Request> makeRequest(const profiles::Configuration& configuration, CookOptions& options)
 {
-    // configure() reports errors with the place where the setting was written
-    HEARTH_TRY(configure(configuration, options));
+    // applyConfiguration() reports errors with the place where the setting was written
+    HEARTH_TRY(applyConfiguration(configuration, options));
     farm::Request request;
     request.sources = options.sources;
     request.lods_of_source = options.lods_of_source;
     for (const std::string& source : request.sources)
         request.settings_of_source.push_back(
-            assignmentsOf(configuration.ofSource(source), profiles::Scope::source));
-    request.settings_of_pack = assignmentsOf(configuration.ofPack(), profiles::Scope::pack);
+            makeAssignments(configuration.valuesOfSource(source), profiles::Scope::source));
+    request.settings_of_pack = makeAssignments(configuration.valuesOfPack(), profiles::Scope::pack);
     return request;
 }
 

@@ -24,14 +24,14 @@ public:
     // Must live as long as the verb's command line.
 
     /// Add options for the settings of the command with these keys.
-    void addOfCommand(cli::CommandLine& verb, const std::vector<std::string>& keys);
+    void addCommandSettings(cli::CommandLine& verb, const std::vector<std::string>& keys);
     /// Add -q, and -v if its help text `all` is not empty: the command's setting "log".
-    void addLog(cli::CommandLine& verb, const std::string& all);
+    void addVerbosityOptions(cli::CommandLine& verb, const std::string& all);
     /// Add options for the settings of profiles, and --set.
-    void addOfProfiles(cli::CommandLine& verb);
+    void addProfileSettings(cli::CommandLine& verb);
 
     /// Return the settings on the command line. errors: usage.
-    Result<profiles::Given> given() const;
+    Result<profiles::CommandLineValues> overrides() const;
     /// Load the configuration, which these settings override. errors: usage, and those of Configuration::load
     Result<profiles::Configuration> configuration() const;
 
@@ -56,20 +56,20 @@ private:
 
 /// Return the work of a verb that needs the configuration, which is loaded when the work runs. `settings`
 /// must outlive the work.
-Work withConfiguration(const SettingOptions& settings,
-                       const std::function<int(const profiles::Configuration&)>& work);
+VerbAction withConfiguration(const SettingOptions& settings,
+                             const std::function<int(const profiles::Configuration&)>& work);
 
-Effort effortOf(const profiles::Configuration& configuration);
+RunLimits readRunLimits(const profiles::Configuration& configuration);
 
 /// Apply the configuration to `options`: expand folders and patterns, find which files are LODs of others,
 /// set the settings of each source and of the pack, and the options of the command that the command line
 /// leaves open.
 /// errors: no_source, usage, profile_value
-Status configure(const profiles::Configuration& configuration, CookOptions& options);
+Status applyConfiguration(const profiles::Configuration& configuration, CookOptions& options);
 
 /// Same, as data for a plan: the settings of each source, wherever they were written.
 /// options  as the user typed them; they are configured as for hearth cook
-/// errors: those of configure
-Result<farm::Request> requestOf(const profiles::Configuration& configuration, CookOptions& options);
+/// errors: those of applyConfiguration
+Result<farm::Request> makeRequest(const profiles::Configuration& configuration, CookOptions& options);
 
 } // namespace hearth::command

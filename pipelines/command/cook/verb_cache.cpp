@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/command/cook/cache_verbs.h"
+#include "pipelines/command/cook/cache_maintenance.h"
 #include "pipelines/command/cook/common_options.h"
 #include "pipelines/command/cook/setting_options.h"
 #include "pipelines/command/shell/verb_tools.h"
@@ -13,25 +13,26 @@ namespace
 
 /// Run hearth cache stat, gc or verify.
 /// limit  value of --max-size; empty: none
-int lookAfter(const std::vector<cache::LevelSpec>& caches, const std::string& work, const std::string& limit)
+int maintainCaches(const std::vector<cache::CacheSpec>& caches, const std::string& work,
+                   const std::string& limit)
 {
     if (work == "stat")
-        return printResult(cacheStat(caches));
+        return printResult(cacheStatistics(caches));
     if (work == "gc")
     {
         std::optional<uint64_t> bytes;
         if (!limit.empty())
             bytes = cache::parseSize(limit, "").value();
-        return printResult(cacheGc(caches, bytes));
+        return printResult(collectCacheGarbage(caches, bytes));
     }
-    const CacheVerification verified = cacheVerify(caches);
+    const CacheVerification verified = verifyCaches(caches);
     const int printed = printResult(verified.text);
-    return verified.is_whole ? printed : 1;
+    return verified.is_intact ? printed : 1;
 }
 
 } // namespace
 
-void addCache(cli::CommandLine& app, Work& run)
+void addCache(cli::CommandLine& app, VerbAction& run)
 {
     cli::CommandLine& verb = app.addSubcommand("cache", "Look after the cache of results");
     struct Options
@@ -47,7 +48,7 @@ void addCache(cli::CommandLine& app, Work& run)
             "is damaged")
         .required()
         .choices({"stat", "gc", "verify"});
-    options->settings.addOfCommand(verb, {"cache"});
+    options->settings.addCommandSettings(verb, {"cache"});
     verb.addOption("--max-size", options->limit, "gc: how much may stay, as 5G; the cache's limit by default")
         .check(sizeFault);
     verb.setFooter("Examples:\n"
@@ -59,9 +60,10 @@ void addCache(cli::CommandLine& app, Work& run)
             run = withConfiguration(options->settings,
                                     [options](const profiles::Configuration& configuration)
                                     {
-                                        const auto caches = levelsOf(configuration);
-                                        return caches.ok() ? lookAfter(*caches, options->work, options->limit)
-                                                           : fail(caches.error());
+                                        const auto caches = readCacheSpecs(configuration);
+                                        return caches.ok()
+                                                   ? maintainCaches(*caches, options->work, options->limit)
+                                                   : printError(caches.error());
                                     });
         });
 }

@@ -9,7 +9,7 @@
 namespace hearth::command
 {
 
-void addConfig(cli::CommandLine& app, Work& run)
+void addConfig(cli::CommandLine& app, VerbAction& run)
 {
     cli::CommandLine& verb = app.addSubcommand("config", "Say which settings hold, and where they come from");
     struct Options
@@ -24,8 +24,8 @@ void addConfig(cli::CommandLine& app, Work& run)
                    "what holds for this source: rules may match it; by default what holds for all");
     verb.addFlag("--show-origin", options->shows_origin, "say where each was set");
     addFormat(verb, options->format);
-    options->settings.addOfCommand(verb, {"profile", "jobs", "memory", "cache", "progress"});
-    options->settings.addOfProfiles(verb);
+    options->settings.addCommandSettings(verb, {"profile", "jobs", "memory", "cache", "progress"});
+    options->settings.addProfileSettings(verb);
     verb.setFooter("Examples:\n"
                    "  hearth config --show-origin\n"
                    "  hearth config props/barrel.glb --profile mobile-low --show-origin");
@@ -36,8 +36,8 @@ void addConfig(cli::CommandLine& app, Work& run)
                                     [options](const profiles::Configuration& configuration)
                                     {
                                         if (options->source.empty())
-                                            for (const Error& warning : unmatchedRules(configuration, {}))
-                                                tell(formatMessage(warning));
+                                            for (const Error& warning : findUnmatchedRules(configuration, {}))
+                                                printMessage(formatMessage(warning));
                                         return printResult(options->format == "json"
                                                                ? settingsJson(configuration, options->source)
                                                                : settingsText(configuration, options->source,

@@ -14,7 +14,7 @@ namespace
 {
 
 /// Split "W1302,W1303" into codes; "all" has none.
-std::vector<std::string> codesOf(const std::string& text)
+std::vector<std::string> parseCodes(const std::string& text)
 {
     std::vector<std::string> codes;
     std::istringstream list(text);
@@ -29,41 +29,41 @@ std::string codesFault(const std::string& text)
     for (const IssueInfo& info : allIssues())
         if (info.kind == IssueClass::warning)
             known.push_back("W" + std::to_string(static_cast<unsigned>(info.issue)));
-    for (const std::string& code : codesOf(text))
+    for (const std::string& code : parseCodes(text))
         if (std::find(known.begin(), known.end(), code) == known.end())
-            return "'" + code + "' is no warning: they are " + joined(known, ", ");
+            return "'" + code + "' is no warning: they are " + joinWords(known, ", ");
     return "";
 }
 
 /// Return the options with what the configuration adds.
 /// files    receives the paths of the configuration files
-Result<CookOptions> configured(const CookOptions& options, const SettingOptions& settings,
-                               std::vector<std::string>& files)
+Result<CookOptions> makeConfiguredOptions(const CookOptions& options, const SettingOptions& settings,
+                                          std::vector<std::string>& files)
 {
     HEARTH_ASSIGN_OR_RETURN(const profiles::Configuration configuration, settings.configuration());
     for (const profiles::ConfigFile& file : configuration.files())
         files.push_back(file.path);
     CookOptions all = options;
-    HEARTH_TRY(configure(configuration, all));
+    HEARTH_TRY(applyConfiguration(configuration, all));
     return all;
 }
 
-int cookConfigured(const CookOptions& options, const SettingOptions& settings)
+int configureAndCook(const CookOptions& options, const SettingOptions& settings)
 {
     std::vector<std::string> files;
-    const Result<CookOptions> all = configured(options, settings, files);
-    return all.ok() ? cook(*all) : fail(all.error());
+    const Result<CookOptions> all = makeConfiguredOptions(options, settings, files);
+    return all.ok() ? cook(*all) : printError(all.error());
 }
 
-int watchConfigured(const CookOptions& options, const SettingOptions& settings)
+int configureAndWatch(const CookOptions& options, const SettingOptions& settings)
 {
-    return watch(options.sources,
-                 [&](std::vector<std::string>& files) { return configured(options, settings, files); });
+    return watch(options.sources, [&](std::vector<std::string>& files)
+                 { return makeConfiguredOptions(options, settings, files); });
 }
 
 } // namespace
 
-void addCook(cli::CommandLine& app, Work& run)
+void addCook(cli::CommandLine& app, VerbAction& run)
 {
     cli::CommandLine& verb = app.addSubcommand("cook", "Turn sources into a pack");
     struct Options : CookOptions
@@ -81,8 +81,8 @@ void addCook(cli::CommandLine& app, Work& run)
     verb.addOption("--lod", options->lods,
                    "N=FILE: level of detail N of the source's only mesh, made by hand")
         .oneValueEach();
-    options->settings.addOfCommand(verb, {"profile", "jobs", "memory", "cache", "progress"});
-    options->settings.addOfProfiles(verb);
+    options->settings.addCommandSettings(verb, {"profile", "jobs", "memory", "cache", "progress"});
+    options->settings.addProfileSettings(verb);
     verb.addOption("--report", options->report_files,
                    "write what became of it: FILE.html is a page with pictures, .xml JUnit's, .csv a table, "
                    "all else JSON; may be repeated")
@@ -116,7 +116,7 @@ void addCook(cli::CommandLine& app, Work& run)
             "Ctrl-C ends it")
         .excludes(dry_run);
     verb.addFlag("--explain", options->explain, "say why each cooker runs");
-    options->settings.addLog(verb, "print the command line of every stage");
+    options->settings.addVerbosityOptions(verb, "print the command line of every stage");
     verb.setFooter("Examples:\n"
                    "  hearth cook house.glb tree.glb -o village.hearth\n"
                    "  hearth cook assets/ --profile mobile-low -o village.hearth\n"
@@ -126,11 +126,11 @@ void addCook(cli::CommandLine& app, Work& run)
         [options, &run]
         {
             if (!options->fatal.empty())
-                options->fatal_warnings = codesOf(options->fatal);
+                options->fatal_warnings = parseCodes(options->fatal);
             run = [options]
             {
-                return options->watches ? watchConfigured(*options, options->settings)
-                                        : cookConfigured(*options, options->settings);
+                return options->watches ? configureAndWatch(*options, options->settings)
+                                        : configureAndCook(*options, options->settings);
             };
         });
 }

@@ -8,7 +8,7 @@
 namespace hearth::command
 {
 
-void addWhy(cli::CommandLine& app, Work& run)
+void addWhy(cli::CommandLine& app, VerbAction& run)
 {
     cli::CommandLine& verb = app.addSubcommand("why", "Say why cookers ran, and why they would run again");
     struct Options
@@ -18,7 +18,7 @@ void addWhy(cli::CommandLine& app, Work& run)
     };
     auto options = std::make_shared<Options>();
     verb.addOption("FILE", options->file, "pack that was cooked here, or a source of one").required();
-    options->settings.addOfCommand(verb, {"cache"});
+    options->settings.addCommandSettings(verb, {"cache"});
     verb.setFooter("Example: hearth why village.hearth");
     verb.setAction(
         [options, &run]
@@ -26,9 +26,9 @@ void addWhy(cli::CommandLine& app, Work& run)
             run = withConfiguration(options->settings,
                                     [options](const profiles::Configuration& configuration)
                                     {
-                                        const auto caches = levelsOf(configuration);
+                                        const auto caches = readCacheSpecs(configuration);
                                         return caches.ok() ? printResult(why(options->file, *caches))
-                                                           : fail(caches.error());
+                                                           : printError(caches.error());
                                     });
         });
 }

@@ -19,9 +19,9 @@ constexpr int kUsage = 2;
 
 /// Return the files that the words stand for now; none if a word stands for nothing, which the next cook
 /// reports.
-std::vector<std::string> sourcesNow(const std::vector<std::string>& words)
+std::vector<std::string> currentSources(const std::vector<std::string>& words)
 {
-    const Result<std::vector<std::string>> sources = sourcesOf(words);
+    const Result<std::vector<std::string>> sources = expandSources(words);
     return sources.ok() ? *sources : std::vector<std::string>();
 }
 
@@ -42,59 +42,59 @@ Result<std::optional<std::string>> waitForChange(FileWatch& watch, const std::ve
 {
     for (;;)
     {
-        if (const std::vector<std::string> now = sourcesNow(words); now != sources)
+        if (const std::vector<std::string> now = currentSources(words); now != sources)
             return std::optional(firstChange(sources, now));
         const std::optional<FileWatch::Change> change = watch.wait();
         if (!change)
             return std::optional<std::string>();
-        if (!change->is_of_folder)
+        if (!change->is_in_folder)
             return std::optional(change->path);
         // there may be new folders
-        HEARTH_TRY(watch.watch(files, since, foldersOf(words)));
+        HEARTH_TRY(watch.watch(files, since, sourceFolders(words)));
     }
 }
 
 } // namespace
 
-int watch(const std::vector<std::string>& words, const Configure& configure)
+int watch(const std::vector<std::string>& words, const MakeOptions& make_options)
 {
     auto files = FileWatch::create();
     if (!files.ok())
-        return tell(files.error());
+        return printError(files.error());
     Verbosity verbosity = Verbosity::normal;
-    std::vector<std::string> looked_for;
+    std::vector<std::string> dependencies;
     for (bool is_first = true;; is_first = false)
     {
         const auto start = std::filesystem::file_time_type::clock::now();
-        const std::vector<std::string> sources = sourcesNow(words);
+        const std::vector<std::string> sources = currentSources(words);
         std::vector<std::string> settings;
-        Result<CookOptions> options = configure(settings);
+        Result<CookOptions> options = make_options(settings);
         if (!options.ok() && is_first)
-            return tell(options.error());
+            return printError(options.error());
         if (options.ok())
         {
             verbosity = options->verbosity;
             options->force = options->force && is_first;
-            looked_for.clear();
-            const int exit_code = cook(*options, &looked_for);
+            dependencies.clear();
+            const int exit_code = cook(*options, &dependencies);
             // no edit of a file repairs the command line
-            if (exit_code == kInterrupted || (exit_code == kUsage && looked_for.empty()))
+            if (exit_code == kInterrupted || (exit_code == kUsage && dependencies.empty()))
                 return exit_code;
-            looked_for.insert(looked_for.end(), settings.begin(), settings.end());
+            dependencies.insert(dependencies.end(), settings.begin(), settings.end());
         }
         else
-            tell(options.error());
-        if (const Status status = files->watch(looked_for, start, foldersOf(words)); !status.ok())
-            return tell(status.error());
+            printError(options.error());
+        if (const Status status = files->watch(dependencies, start, sourceFolders(words)); !status.ok())
+            return printError(status.error());
         if (verbosity != Verbosity::quiet)
-            print(faint(fmt::format("watching {} files; Ctrl-C ends", files->size())));
-        const auto changed = waitForChange(*files, looked_for, start, words, sources);
+            printMessage(faint(fmt::format("watching {} files; Ctrl-C ends", files->size())));
+        const auto changed = waitForChange(*files, dependencies, start, words, sources);
         if (!changed.ok())
-            return tell(changed.error());
+            return printError(changed.error());
         if (!*changed)
             return kInterrupted;
         if (verbosity != Verbosity::quiet)
-            print(faint(**changed + " has changed"));
+            printMessage(faint(**changed + " has changed"));
     }
 }
 

@@ -17,32 +17,32 @@ namespace
 {
 
 /// Index of the only source whose actions are shown; nullopt: all actions are.
-using OnlySource = std::optional<size_t>;
+using SourceFilter = std::optional<size_t>;
 
-const char* endingText(graph::Ending ending)
+const char* outcomeText(graph::Outcome ending)
 {
     switch (ending)
     {
-    case graph::Ending::failed:
+    case graph::Outcome::failed:
         return " (failed)";
-    case graph::Ending::left_out:
+    case graph::Outcome::skipped:
         return " (left out: a dependency failed)";
-    case graph::Ending::unknown:
+    case graph::Outcome::unknown:
         return " (did not come to its end)";
     default:
         return "";
     }
 }
 
-std::string lastCookText(const graph::Journal& journal, OnlySource only)
+std::string lastCookText(const graph::Journal& journal, SourceFilter only)
 {
     ReasonGroups groups;
     for (size_t i = 0; i < journal.actions.size(); ++i)
     {
         const graph::JournalAction& last = journal.actions[i];
         const graph::Action& action = journal.graph.actions[i];
-        if (last.ending != graph::Ending::kept && (!only || action.source == *only))
-            groups.add(action, endingText(last.ending), last.causes);
+        if (last.ending != graph::Outcome::cached && (!only || action.source == *only))
+            groups.add(action, outcomeText(last.ending), last.causes);
     }
     std::string text = groups.text();
     if (!journal.output_cause.empty() && !only)
@@ -50,22 +50,22 @@ std::string lastCookText(const graph::Journal& journal, OnlySource only)
     return text.empty() ? "  nothing\n" : text;
 }
 
-Result<std::string> nextCookText(const graph::Journal& journal, const std::vector<cache::LevelSpec>& caches,
-                                 OnlySource only)
+Result<std::string> nextCookText(const graph::Journal& journal, const std::vector<cache::CacheSpec>& caches,
+                                 SourceFilter only)
 {
     // relative paths of the user start here
     std::error_code error;
     const std::string here = graph::workingFolder();
-    const auto memory = CookMemory::over(caches, journal.output, journal.folder, tell);
+    const auto state = CookState::openSpecs(caches, journal.output, journal.folder, printError);
     std::filesystem::current_path(journal.folder, error);
     if (error)
         return std::string("  the folder of the last cook is not there any more\n");
-    memory->expect(journal.graph);
+    state->enablePrefetch(journal.graph);
     graph::Resolver resolver(
-        journal.graph, &memory->cache(), &memory->actions(),
-        [&]() -> const std::optional<graph::Journal>& { return memory->journal(); }, false);
+        journal.graph, &state->cache(), &state->actions(),
+        [&]() -> const std::optional<graph::Journal>& { return state->journal(); }, false);
     const graph::Forecast forecast = graph::forecast(journal.graph, resolver);
-    const std::string cause = packCause(forecast, memory->hashes().hashOf(journal.output));
+    const std::string cause = packCause(forecast, state->hashes().hashFile(journal.output));
     std::filesystem::current_path(here, error);
     ReasonGroups groups;
     for (size_t i = 0; i < forecast.actions.size(); ++i)
@@ -80,15 +80,15 @@ Result<std::string> nextCookText(const graph::Journal& journal, const std::vecto
     return text.empty() ? std::string("  nothing: it is up to date\n") : text;
 }
 
-Result<std::string> textOf(const graph::Journal& journal, const std::vector<cache::LevelSpec>& caches,
-                           OnlySource only)
+Result<std::string> explainJournal(const graph::Journal& journal, const std::vector<cache::CacheSpec>& caches,
+                                   SourceFilter only)
 {
     HEARTH_ASSIGN_OR_RETURN(const std::string next, nextCookText(journal, caches, only));
     return fmt::format("{}\nran in the last cook:\n{}would run now:\n{}", journal.output,
                        lastCookText(journal, only), next);
 }
 
-OnlySource sourceAt(const graph::Journal& journal, const std::string& absolute)
+SourceFilter findSourceOfFile(const graph::Journal& journal, const std::string& absolute)
 {
     for (const graph::Action& action : journal.graph.actions)
     {
@@ -105,17 +105,18 @@ OnlySource sourceAt(const graph::Journal& journal, const std::string& absolute)
 
 } // namespace
 
-Result<std::string> why(const std::string& file, const std::vector<cache::LevelSpec>& caches)
+Result<std::string> why(const std::string& file, const std::vector<cache::CacheSpec>& caches)
 {
     const std::string absolute = graph::absolutePath(file);
     std::string text;
-    for (const graph::Journal& journal : allJournals(caches))
+    for (const graph::Journal& journal : readAllJournals(caches))
     {
-        const OnlySource source = sourceAt(journal, absolute);
+        const SourceFilter source = findSourceOfFile(journal, absolute);
         if (journal.output != absolute && !source)
             continue;
-        HEARTH_ASSIGN_OR_RETURN(const std::string about,
-                                textOf(journal, caches, journal.output == absolute ? std::nullopt : source));
+        HEARTH_ASSIGN_OR_RETURN(
+            const std::string about,
+            explainJournal(journal, caches, journal.output == absolute ? std::nullopt : source));
         text += about;
     }
     if (text.empty())

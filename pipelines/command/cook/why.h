@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "pipelines/cache/open_cache.h"
+#include "pipelines/cache/cache_spec.h"
 
 #include <string>
 #include <vector>
@@ -13,6 +13,6 @@ namespace hearth::command
 /// Return the explanation as text.
 /// file    a pack that was cooked here, or a source: then its actions in all packs that contain it
 /// errors: usage if no cook is recorded
-Result<std::string> why(const std::string& file, const std::vector<cache::LevelSpec>& caches);
+Result<std::string> why(const std::string& file, const std::vector<cache::CacheSpec>& caches);
 
 } // namespace hearth::command

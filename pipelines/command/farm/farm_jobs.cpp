@@ -23,11 +23,11 @@ namespace
 
 using Kind = farm::ShardState::Kind;
 
-constexpr int kNotAll = 1;
+constexpr int kIncomplete = 1;
 
-int tellEnd(const Status& status)
+int printStatus(const Status& status)
 {
-    return status.ok() ? 0 : tell(status.error());
+    return status.ok() ? 0 : printError(status.error());
 }
 
 /// Run the script in a shell, with this process's input and output.
@@ -43,7 +43,7 @@ Status runScript(const std::string& script)
     return Error{Issue::submit_failed, "sbatch", "", ""};
 }
 
-const char* wordOf(Kind kind)
+const char* shardStateName(Kind kind)
 {
     switch (kind)
     {
@@ -53,7 +53,7 @@ const char* wordOf(Kind kind)
         return "failed";
     case Kind::lost:
         return "lost";
-    case Kind::whole:
+    case Kind::intact:
         break;
     }
     return "done";
@@ -67,16 +67,18 @@ std::string statusText(const farm::Plan& plan, const std::vector<farm::ShardStat
     {
         const farm::ShardRecord& record = states[shard].record;
         const std::string error = record.errors.empty() ? "" : ": " + record.errors.front();
-        text +=
-            fmt::format("{:>5}  {:<9} {:>7} ", shard, wordOf(states[shard].kind), plan.shards[shard].size());
+        text += fmt::format("{:>5}  {:<9} {:>7} ", shard, shardStateName(states[shard].kind),
+                            plan.shards[shard].size());
         text += states[shard].kind == Kind::no_record
                     ? "\n"
-                    : fmt::format(
-                          "{:>7} {:>7} {:>9.2f}  {}{}\n", farm::countOf(record, graph::Ending::cooked),
-                          farm::countOf(record, graph::Ending::kept), record.seconds, record.machine, error);
+                    : fmt::format("{:>7} {:>7} {:>9.2f}  {}{}\n",
+                                  farm::countActions(record, graph::Outcome::cooked),
+                                  farm::countActions(record, graph::Outcome::cached), record.seconds,
+                                  record.machine, error);
     }
-    const auto whole = std::count_if(states.begin(), states.end(),
-                                     [](const farm::ShardState& state) { return state.kind == Kind::whole; });
+    const auto whole =
+        std::count_if(states.begin(), states.end(),
+                      [](const farm::ShardState& state) { return state.kind == Kind::intact; });
     return text + fmt::format("{} of {} shards are done\n", whole, states.size());
 }
 
@@ -88,12 +90,12 @@ std::string statusJson(const farm::Plan& plan, const std::vector<farm::ShardStat
         Json sources = Json::array();
         for (const size_t source : plan.shards[shard])
             sources.push_back(plan.request.sources[source]);
-        Json entry{{"shard", shard}, {"state", wordOf(states[shard].kind)}, {"sources", sources}};
+        Json entry{{"shard", shard}, {"state", shardStateName(states[shard].kind)}, {"sources", sources}};
         const farm::ShardRecord& record = states[shard].record;
         if (states[shard].kind != Kind::no_record)
             entry.update({{"exit", record.exit_code},
-                          {"cooked", farm::countOf(record, graph::Ending::cooked)},
-                          {"kept", farm::countOf(record, graph::Ending::kept)},
+                          {"cooked", farm::countActions(record, graph::Outcome::cooked)},
+                          {"kept", farm::countActions(record, graph::Outcome::cached)},
                           {"seconds", record.seconds},
                           {"machine", record.machine},
                           {"errors", record.errors}});
@@ -104,49 +106,49 @@ std::string statusJson(const farm::Plan& plan, const std::vector<farm::ShardStat
 
 } // namespace
 
-int farmSlurm(const SlurmVerbOptions& options)
+int submitToSlurm(const SlurmVerbOptions& options)
 {
     const Result<OpenedPlan> opened = openPlan(options);
     if (!opened.ok())
-        return tell(opened.error());
+        return printError(opened.error());
     const graph::Graph& graph = opened->plan.graph;
     const std::string script = farm::slurmScript(
-        jobOf(*opened, options.pack),
+        makeFarmJob(*opened, options.pack),
         {options.partition, options.memory_bytes.value_or(farm::shardMemory(graph)),
          std::max(farm::mergeMemory(graph), options.memory_bytes.value_or(0)), options.retries});
-    return tellEnd(options.prints ? writeText("-", script) : runScript(script));
+    return printStatus(options.prints ? writeText("-", script) : runScript(script));
 }
 
-int farmNinja(const NinjaVerbOptions& options)
+int writeNinjaFile(const NinjaVerbOptions& options)
 {
     const Result<OpenedPlan> opened = openPlan(options);
     if (!opened.ok())
-        return tell(opened.error());
-    return tellEnd(
-        writeText(options.output, farm::ninjaFile(jobOf(*opened, options.pack), options.launcher)));
+        return printError(opened.error());
+    return printStatus(
+        writeText(options.output, farm::ninjaFile(makeFarmJob(*opened, options.pack), options.launcher)));
 }
 
-int farmStatus(const PlanOptions& options, const std::string& format)
+int printFarmStatus(const PlanOptions& options, const std::string& format)
 {
     const Result<OpenedPlan> opened = openPlan(options);
     if (!opened.ok())
-        return tell(opened.error());
-    const auto memory = CookMemory::open(opened->caches, opened->file, opened->plan.folder, tell);
-    if (!memory.ok())
-        return tell(memory.error());
-    const auto scratch = TempDirectory::create(temporaryOr("/tmp"), options.plan_file);
+        return printError(opened.error());
+    const auto cook_state = CookState::open(opened->caches, opened->file, opened->plan.folder, printError);
+    if (!cook_state.ok())
+        return printError(cook_state.error());
+    const auto scratch = TempDirectory::create(temporaryFolderOr("/tmp"), options.plan_file);
     if (!scratch.ok())
-        return tell(scratch.error());
+        return printError(scratch.error());
     std::vector<farm::ShardState> states;
     for (size_t shard = 0; shard < opened->plan.shards.size(); ++shard)
         states.push_back(
-            farm::stateOf(opened->plan, opened->hash, shard, (*memory)->cache(), scratch->path()));
-    const int printed = tellEnd(writeText("-", format == "json" ? statusJson(opened->plan, states)
-                                                                : statusText(opened->plan, states)));
+            farm::verifyShard(opened->plan, opened->hash, shard, (*cook_state)->cache(), scratch->path()));
+    const int printed = printStatus(writeText("-", format == "json" ? statusJson(opened->plan, states)
+                                                                    : statusText(opened->plan, states)));
     const bool are_whole =
         std::all_of(states.begin(), states.end(),
-                    [](const farm::ShardState& state) { return state.kind == Kind::whole; });
-    return printed != 0 ? printed : are_whole ? 0 : kNotAll;
+                    [](const farm::ShardState& state) { return state.kind == Kind::intact; });
+    return printed != 0 ? printed : are_whole ? 0 : kIncomplete;
 }
 
 } // namespace hearth::command

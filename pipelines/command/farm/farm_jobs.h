@@ -28,10 +28,10 @@ struct NinjaVerbOptions : PlanOptions
 
 // Each returns the exit code; every problem has been printed on stderr.
 
-int farmSlurm(const SlurmVerbOptions& options);
-int farmNinja(const NinjaVerbOptions& options);
+int submitToSlurm(const SlurmVerbOptions& options);
+int writeNinjaFile(const NinjaVerbOptions& options);
 
 /// Read and hash the results of every shard. returns  1 if a shard is incomplete
-int farmStatus(const PlanOptions& options, const std::string& format);
+int printFarmStatus(const PlanOptions& options, const std::string& format);
 
 } // namespace hearth::command

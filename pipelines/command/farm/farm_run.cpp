@@ -22,15 +22,15 @@ namespace
 
 /// Make executor events that write to a log, which has no bar.
 /// lines  progress lines of the shard; null: none. They must outlive the events
-graph::ExecutorEvents eventsFor(const Effort& effort, ProgressLines* lines)
+graph::ExecutorEvents makeShardEvents(const RunLimits& limits, ProgressLines* lines)
 {
     graph::ExecutorEvents events;
-    events.ended = [verbosity = effort.verbosity, lines](const graph::Action& action,
+    events.ended = [verbosity = limits.verbosity, lines](const graph::Action& action,
                                                          const graph::ActionOutcome& outcome,
                                                          const std::vector<std::string>& messages)
     {
-        passOn(messages, verbosity);
-        if (outcome.ending == graph::Ending::cooked && verbosity == Verbosity::all)
+        printMessages(messages, verbosity);
+        if (outcome.ending == graph::Outcome::cooked && verbosity == Verbosity::all)
             printStage(action, outcome);
         if (lines != nullptr)
             lines->ended(action, outcome);
@@ -43,25 +43,25 @@ graph::ExecutorEvents eventsFor(const Effort& effort, ProgressLines* lines)
     }
     events.failed = [](const graph::Failure& failure)
     {
-        if (!failure.is_told)
-            print(failure.error);
+        if (!failure.is_reported)
+            printMessage(failure.error);
     };
     return events;
 }
 
 /// Open the caches and the cook state of a shard; each shard has its own state.
-Result<std::unique_ptr<CookMemory>> memoryOf(const OpenedPlan& opened, size_t shard)
+Result<std::unique_ptr<CookState>> openShardState(const OpenedPlan& opened, size_t shard)
 {
-    return CookMemory::open(opened.caches, fmt::format("{}.{}", opened.file, shard), opened.plan.folder,
-                            tell);
+    return CookState::open(opened.caches, fmt::format("{}.{}", opened.file, shard), opened.plan.folder,
+                           printError);
 }
 
-void printEnd(const farm::ShardRecord& record, const std::string& place)
+void printShardEnd(const farm::ShardRecord& record, const std::string& place)
 {
-    print(fmt::format("{:<10}{:>8.2f} s {:>12}  {} cooked, {} kept",
-                      record.exit_code == 0 ? "done" : "failed", record.seconds, place,
-                      farm::countOf(record, graph::Ending::cooked),
-                      farm::countOf(record, graph::Ending::kept)));
+    printMessage(fmt::format("{:<10}{:>8.2f} s {:>12}  {} cooked, {} kept",
+                             record.exit_code == 0 ? "done" : "failed", record.seconds, place,
+                             farm::countActions(record, graph::Outcome::cooked),
+                             farm::countActions(record, graph::Outcome::cached)));
 }
 
 int writeRecord(const RunOptions& options, const farm::ShardRecord& record, const farm::Plan& plan,
@@ -70,39 +70,41 @@ int writeRecord(const RunOptions& options, const farm::ShardRecord& record, cons
     if (options.record_file.empty())
         return 0;
     const Status written = writeText(options.record_file, farm::recordJson(record, plan, shard));
-    return written.ok() ? 0 : tell(written.error());
+    return written.ok() ? 0 : printError(written.error());
 }
 
-int runHere(const RunOptions& options, const OpenedPlan& opened, size_t shard)
+int runLocally(const RunOptions& options, const OpenedPlan& opened, size_t shard)
 {
-    const auto memory = memoryOf(opened, shard);
-    if (!memory.ok())
-        return tell(memory.error());
-    if (!(*memory)->cache().isWritable())
-        return tell(
+    const auto cook_state = openShardState(opened, shard);
+    if (!cook_state.ok())
+        return printError(cook_state.error());
+    if (!(*cook_state)->cache().isWritable())
+        return printError(
             {Issue::usage, "--cache", "", "a shard keeps its results in a cache that it may write to"});
-    if (const Status entered = enterFolder(opened); !entered.ok())
-        return tell(entered.error());
+    if (const Status entered = enterSourceFolder(opened); !entered.ok())
+        return printError(entered.error());
     std::vector<size_t> action_of;
     std::optional<ProgressLines> lines;
     if (options.verbosity != Verbosity::quiet && options.progress != "none")
-        lines.emplace(farm::actionsOf(opened.plan.graph, opened.plan.shards[shard], action_of), printFaint);
+        lines.emplace(farm::selectActions(opened.plan.graph, opened.plan.shards[shard], action_of),
+                      printFaint);
     const auto record = farm::runShard(
-        opened.plan, opened.hash, shard, {(*memory)->cache(), (*memory)->actions(), (*memory)->hashes()},
-        {limitsOf(options.jobs, options.memory_bytes), tools::programFolder(), options.plan_file},
-        eventsFor(options, lines ? &*lines : nullptr));
-    (*memory)->finish();
+        opened.plan, opened.hash, shard,
+        {(*cook_state)->cache(), (*cook_state)->actions(), (*cook_state)->hashes()},
+        {makePoolLimits(options.jobs, options.memory_bytes), tools::programFolder(), options.plan_file},
+        makeShardEvents(options, lines ? &*lines : nullptr));
+    (*cook_state)->finish();
     if (!record)
         return kInterrupted;
     if (options.verbosity != Verbosity::quiet)
-        printEnd(*record, fmt::format("{}/{}", shard, opened.plan.shards.size()));
+        printShardEnd(*record, fmt::format("{}/{}", shard, opened.plan.shards.size()));
     if (record->exit_code != 0)
         return record->exit_code;
     return writeRecord(options, *record, opened.plan, shard);
 }
 
 /// Return the command line of a launcher with the shard that it starts.
-std::vector<std::string> launchedCommand(const RunOptions& options, const OpenedPlan& opened, size_t shard)
+std::vector<std::string> launcherCommand(const RunOptions& options, const OpenedPlan& opened, size_t shard)
 {
     // env searches PATH for the launcher, as a shell would
     std::vector<std::string> command{"/usr/bin/env"};
@@ -128,15 +130,15 @@ std::vector<std::string> launchedCommand(const RunOptions& options, const Opened
     return command;
 }
 
-int runThere(const RunOptions& options, const OpenedPlan& opened, size_t shard)
+int runThroughLauncher(const RunOptions& options, const OpenedPlan& opened, size_t shard)
 {
     std::string how = "ended well";
     {
         tools::ChildProcesses children;
-        const Result<size_t> started = children.start(launchedCommand(options, opened, shard));
+        const Result<size_t> started = children.start(launcherCommand(options, opened, shard));
         if (!started.ok())
-            return tell(started.error());
-        const std::optional<tools::ChildEnd> end = children.wait();
+            return printError(started.error());
+        const std::optional<tools::ChildOutcome> end = children.wait();
         if (!end)
             return kInterrupted;
         std::fputs(end->messages.c_str(), stderr);
@@ -145,46 +147,46 @@ int runThere(const RunOptions& options, const OpenedPlan& opened, size_t shard)
         else if (end->exit_code != 0)
             how = fmt::format("ended with code {}", end->exit_code);
     }
-    const auto memory = memoryOf(opened, shard);
-    if (!memory.ok())
-        return tell(memory.error());
-    const auto scratch = TempDirectory::create(temporaryOr("/tmp"), options.plan_file);
+    const auto cook_state = openShardState(opened, shard);
+    if (!cook_state.ok())
+        return printError(cook_state.error());
+    const auto scratch = TempDirectory::create(temporaryFolderOr("/tmp"), options.plan_file);
     if (!scratch.ok())
-        return tell(scratch.error());
+        return printError(scratch.error());
     const farm::ShardState state =
-        farm::stateOf(opened.plan, opened.hash, shard, (*memory)->cache(), scratch->path());
-    if (state.kind == farm::ShardState::Kind::whole)
+        farm::verifyShard(opened.plan, opened.hash, shard, (*cook_state)->cache(), scratch->path());
+    if (state.kind == farm::ShardState::Kind::intact)
         return writeRecord(options, state.record, opened.plan, shard);
     if (state.kind == farm::ShardState::Kind::failed)
     {
         for (const std::string& error : state.record.errors)
-            print(error);
+            printMessage(error);
         return state.record.exit_code;
     }
-    return tell({Issue::shard_unverified, options.plan_file,
-                 fmt::format("shard {}/{}", shard, opened.plan.shards.size()),
-                 fmt::format("the launcher {}, but {}", how,
-                             state.kind == farm::ShardState::Kind::no_record
-                                 ? "the shard has left no record in the cache"
-                                 : "results of the shard are not in the cache, or not whole")});
+    return printError({Issue::shard_unverified, options.plan_file,
+                       fmt::format("shard {}/{}", shard, opened.plan.shards.size()),
+                       fmt::format("the launcher {}, but {}", how,
+                                   state.kind == farm::ShardState::Kind::no_record
+                                       ? "the shard has left no record in the cache"
+                                       : "results of the shard are not in the cache, or not whole")});
 }
 
-Result<farm::Measured> measuredBefore(const std::string& estimates_file)
+Result<farm::Measurements> readEstimates(const std::string& estimates_file)
 {
     if (estimates_file.empty())
-        return farm::Measured();
+        return farm::Measurements();
     const std::optional<std::string> report = cache::readText(estimates_file);
     if (!report)
         return Error{Issue::input_missing, estimates_file, "", "cannot be read"};
-    return farm::measuredOf(*report, estimates_file);
+    return farm::readMeasurements(*report, estimates_file);
 }
 
-Result<std::string> planOf(const MakePlanOptions& options, const farm::Measured& measured, CookMemory& memory,
-                           farm::Plan& plan)
+Result<std::string> makePlanText(const MakePlanOptions& options, const farm::Measurements& measured,
+                                 CookState& cook_state, farm::Plan& plan)
 {
     HEARTH_ASSIGN_OR_RETURN(plan, farm::makePlan(options.request, graph::workingFolder(),
                                                  {options.shard_count, measured}, tools::programFolder(),
-                                                 memory.actions(), memory.hashes()));
+                                                 cook_state.actions(), cook_state.hashes()));
     const std::string text = farm::planText(plan);
     // parse it again: every machine would refuse a plan whose names are not UTF-8, or look like options
     HEARTH_TRY(farm::parsePlan(text, options.output));
@@ -193,15 +195,15 @@ Result<std::string> planOf(const MakePlanOptions& options, const farm::Measured&
 
 void printPlan(const farm::Plan& plan, const std::string& output)
 {
-    const std::vector<double> seconds = farm::secondsOfSources(plan.graph);
+    const std::vector<double> seconds = farm::estimateSourceTimes(plan.graph);
     double longest = 0;
     for (const std::vector<size_t>& shard : plan.shards)
         longest = std::max(longest,
                            std::accumulate(shard.begin(), shard.end(), 0.0,
                                            [&](double sum, size_t source) { return sum + seconds[source]; }));
-    print(fmt::format("{:<10}{} sources, {} actions, {} shards of at most about {:.0f} s  {}", "planned",
-                      plan.graph.source_count, plan.graph.actions.size(), plan.shards.size(),
-                      std::max(1.0, longest), output));
+    printMessage(fmt::format("{:<10}{} sources, {} actions, {} shards of at most about {:.0f} s  {}",
+                             "planned", plan.graph.source_count, plan.graph.actions.size(),
+                             plan.shards.size(), std::max(1.0, longest), output));
 }
 
 } // namespace
@@ -209,34 +211,35 @@ void printPlan(const farm::Plan& plan, const std::string& output)
 int makePlanFile(const MakePlanOptions& options)
 {
     if (options.emits_commands && options.output == "-")
-        return tell({Issue::usage, "--emit", "", "needs a plan in a file, not on stdout"});
-    const auto memory = CookMemory::open(options.caches, options.output, graph::workingFolder(), tell);
-    if (!memory.ok())
-        return tell(memory.error());
-    const Result<farm::Measured> measured = measuredBefore(options.estimates_file);
+        return printError({Issue::usage, "--emit", "", "needs a plan in a file, not on stdout"});
+    const auto cook_state =
+        CookState::open(options.caches, options.output, graph::workingFolder(), printError);
+    if (!cook_state.ok())
+        return printError(cook_state.error());
+    const Result<farm::Measurements> measured = readEstimates(options.estimates_file);
     if (!measured.ok())
-        return tell(measured.error());
+        return printError(measured.error());
     farm::Plan plan;
-    const Result<std::string> text = planOf(options, *measured, **memory, plan);
+    const Result<std::string> text = makePlanText(options, *measured, **cook_state, plan);
     if (!text.ok())
-        return tell(text.error());
+        return printError(text.error());
     if (const Status written = writeText(options.output, *text); !written.ok())
-        return tell(written.error());
-    (*memory)->finish();
+        return printError(written.error());
+    (*cook_state)->finish();
     if (!options.quiet)
         printPlan(plan, options.output);
     if (!options.quiet && !options.estimates_file.empty())
-        print(fmt::format("{:<10}{} of {} sources have their times from {}", "",
-                          farm::countMeasured(*measured, options.request.sources),
-                          options.request.sources.size(), options.estimates_file));
+        printMessage(fmt::format("{:<10}{} of {} sources have their times from {}", "",
+                                 farm::countMeasured(*measured, options.request.sources),
+                                 options.request.sources.size(), options.estimates_file));
     if (!options.emits_commands)
         return 0;
     const farm::FarmJob job =
-        jobOf({plan, graph::absolutePath(options.output), "", "", absoluteCaches(options.caches)}, "");
+        makeFarmJob({plan, graph::absolutePath(options.output), "", "", absoluteCaches(options.caches)}, "");
     if (!options.quiet)
-        print("after them: " + farm::mergeCommand(job));
+        printMessage("after them: " + farm::mergeCommand(job));
     const Status printed = writeText("-", farm::shardCommands(job));
-    return printed.ok() ? 0 : tell(printed.error());
+    return printed.ok() ? 0 : printError(printed.error());
 }
 
 int runShard(const RunOptions& chosen)
@@ -246,12 +249,13 @@ int runShard(const RunOptions& chosen)
         options.record_file = graph::absolutePath(options.record_file);
     const Result<OpenedPlan> opened = openPlan(options);
     if (!opened.ok())
-        return tell(opened.error());
+        return printError(opened.error());
     const Result<size_t> shard = farm::shardIndex(options.shard, opened->plan.shards.size(),
                                                   [](const char* name) { return std::getenv(name); });
     if (!shard.ok())
-        return tell(shard.error());
-    return options.launcher.empty() ? runHere(options, *opened, *shard) : runThere(options, *opened, *shard);
+        return printError(shard.error());
+    return options.launcher.empty() ? runLocally(options, *opened, *shard)
+                                    : runThroughLauncher(options, *opened, *shard);
 }
 
 } // namespace hearth::command

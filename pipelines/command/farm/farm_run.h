@@ -25,14 +25,14 @@ struct MakePlanOptions
     bool quiet = false;
 };
 
-struct RunOptions : PlanOptions, Effort
+struct RunOptions : PlanOptions, RunLimits
 {
     std::string shard;       ///< "I/N"; empty: index that the batch system gives
     std::string launcher;    ///< words before the shard's command line; empty: run here
     std::string record_file; ///< empty: none
 };
 
-struct MergeOptions : PlanOptions, Effort
+struct MergeOptions : PlanOptions, RunLimits
 {
     std::string output;
     bool cooks_missing = true;             ///< false: list missing results instead

@@ -19,7 +19,7 @@ namespace
 {
 
 /// Shards whose results are missing for the same reason.
-struct Incomplete
+struct MissingGroup
 {
     std::string reason;
     std::vector<size_t> shards; ///< ascending
@@ -27,7 +27,7 @@ struct Incomplete
 };
 
 /// Return the missing actions of a shard.
-std::vector<size_t> missingOf(const farm::Plan& plan, size_t shard, const std::vector<size_t>& missing)
+std::vector<size_t> missingInShard(const farm::Plan& plan, size_t shard, const std::vector<size_t>& missing)
 {
     std::vector<size_t> of_shard;
     for (const size_t action : missing)
@@ -37,10 +37,10 @@ std::vector<size_t> missingOf(const farm::Plan& plan, size_t shard, const std::v
     return of_shard;
 }
 
-std::string reasonOf(const OpenedPlan& opened, size_t shard, cache::Cache& cache)
+std::string missingReason(const OpenedPlan& opened, size_t shard, cache::Cache& cache)
 {
     const auto fields = cache.entry(farm::recordKey(opened.hash, shard));
-    const auto record = fields ? farm::recordOf(*fields) : std::nullopt;
+    const auto record = fields ? farm::parseRecord(*fields) : std::nullopt;
     if (!record)
         return "no record was left";
     const std::string where = record->machine.empty() ? "" : " on " + record->machine;
@@ -51,18 +51,18 @@ std::string reasonOf(const OpenedPlan& opened, size_t shard, cache::Cache& cache
                        record->errors.empty() ? "" : ": " + record->errors.front());
 }
 
-std::vector<Incomplete> incompleteShards(const OpenedPlan& opened, const std::vector<size_t>& missing,
-                                         cache::Cache& cache)
+std::vector<MissingGroup> groupMissingResults(const OpenedPlan& opened, const std::vector<size_t>& missing,
+                                              cache::Cache& cache)
 {
-    std::vector<Incomplete> groups;
+    std::vector<MissingGroup> groups;
     for (size_t shard = 0; shard < opened.plan.shards.size(); ++shard)
     {
-        const size_t results = missingOf(opened.plan, shard, missing).size();
+        const size_t results = missingInShard(opened.plan, shard, missing).size();
         if (results == 0)
             continue;
-        const std::string reason = reasonOf(opened, shard, cache);
+        const std::string reason = missingReason(opened, shard, cache);
         auto group = std::find_if(groups.begin(), groups.end(),
-                                  [&](const Incomplete& known) { return known.reason == reason; });
+                                  [&](const MissingGroup& known) { return known.reason == reason; });
         if (group == groups.end())
             group = groups.insert(groups.end(), {reason, {}, 0});
         group->shards.push_back(shard);
@@ -72,7 +72,7 @@ std::vector<Incomplete> incompleteShards(const OpenedPlan& opened, const std::ve
 }
 
 /// Name shards: "shard 3/16" for one, "shards 0, 3-5 of 16" for several.
-std::string namesOf(const std::vector<size_t>& shards, size_t count)
+std::string shardNames(const std::vector<size_t>& shards, size_t count)
 {
     if (shards.size() == 1)
         return fmt::format("shard {}/{}", shards.front(), count);
@@ -93,10 +93,11 @@ std::string namesOf(const std::vector<size_t>& shards, size_t count)
 void printMissing(const OpenedPlan& opened, const std::vector<size_t>& missing, const MergeOptions& options,
                   cache::Cache& cache)
 {
-    for (const Incomplete& group : incompleteShards(opened, missing, cache))
-        tell({Issue::shard_incomplete, options.plan_file, namesOf(group.shards, opened.plan.shards.size()),
-              fmt::format("{} results are missing{}: {}", group.results,
-                          options.cooks_missing ? ", and cooked here" : "", group.reason)});
+    for (const MissingGroup& group : groupMissingResults(opened, missing, cache))
+        printError({Issue::shard_incomplete, options.plan_file,
+                    shardNames(group.shards, opened.plan.shards.size()),
+                    fmt::format("{} results are missing{}: {}", group.results,
+                                options.cooks_missing ? ", and cooked here" : "", group.reason)});
 }
 
 /// Print a line after the cook's: the sources that shards should have cooked, and this machine has.
@@ -107,17 +108,18 @@ void printCookedHere(const farm::Plan& plan, const std::vector<size_t>& missing)
         sources.insert(plan.graph.actions[action].source);
     std::vector<size_t> shards;
     for (size_t shard = 0; shard < plan.shards.size(); ++shard)
-        if (!missingOf(plan, shard, missing).empty())
+        if (!missingInShard(plan, shard, missing).empty())
             shards.push_back(shard);
-    print(fmt::format("{:<10}{} of {} sources were cooked here: those of {} were missing", "merged",
-                      sources.size(), plan.graph.source_count, namesOf(shards, plan.shards.size())));
+    printMessage(fmt::format("{:<10}{} of {} sources were cooked here: those of {} were missing", "merged",
+                             sources.size(), plan.graph.source_count,
+                             shardNames(shards, plan.shards.size())));
 }
 
-std::string listOf(const farm::Plan& plan, const std::vector<size_t>& missing)
+std::string missingList(const farm::Plan& plan, const std::vector<size_t>& missing)
 {
     std::string text;
     for (size_t shard = 0; shard < plan.shards.size(); ++shard)
-        for (const size_t action : missingOf(plan, shard, missing))
+        for (const size_t action : missingInShard(plan, shard, missing))
             text += fmt::format("{:<11}{}  shard {}/{}\n", plan.graph.actions[action].cooker,
                                 plan.graph.actions[action].subject, shard, plan.shards.size());
     return text;
@@ -125,19 +127,19 @@ std::string listOf(const farm::Plan& plan, const std::vector<size_t>& missing)
 
 /// Check the plan against the present files and programs. Return the actions whose results the cache lacks.
 Result<std::vector<size_t>> findMissing(const OpenedPlan& opened, const MergeOptions& options,
-                                        CookMemory& memory)
+                                        CookState& cook_state)
 {
     std::vector<size_t> all_sources(opened.plan.graph.source_count);
     for (size_t i = 0; i < all_sources.size(); ++i)
         all_sources[i] = i;
-    HEARTH_TRY(
-        farm::checkPlan(opened.plan, all_sources, tools::programFolder(), memory.actions(), memory.hashes()));
+    HEARTH_TRY(farm::checkPlan(opened.plan, all_sources, tools::programFolder(), cook_state.actions(),
+                               cook_state.hashes()));
     HEARTH_ASSIGN_OR_RETURN(const TempDirectory scratch,
-                            TempDirectory::create(temporaryOr("/tmp"), options.output));
+                            TempDirectory::create(temporaryFolderOr("/tmp"), options.output));
     std::vector<size_t> missing =
-        farm::missingResults(opened.plan.graph, memory.cache(), memory.actions(), scratch.path());
+        farm::missingResults(opened.plan.graph, cook_state.cache(), cook_state.actions(), scratch.path());
     if (options.verbosity != Verbosity::quiet || !options.cooks_missing)
-        printMissing(opened, missing, options, memory.cache());
+        printMissing(opened, missing, options, cook_state.cache());
     return missing;
 }
 
@@ -146,7 +148,7 @@ int cookPack(const OpenedPlan& opened, const MergeOptions& options)
 {
     CookOptions cooked;
     static_cast<graph::CookSettings&>(cooked) = opened.plan.settings;
-    static_cast<Effort&>(cooked) = options;
+    static_cast<RunLimits&>(cooked) = options;
     cooked.output = options.output;
     cooked.caches = opened.caches;
     cooked.report_files = options.report_files;
@@ -156,16 +158,16 @@ int cookPack(const OpenedPlan& opened, const MergeOptions& options)
 Result<int> mergePlan(const MergeOptions& options)
 {
     HEARTH_ASSIGN_OR_RETURN(const OpenedPlan opened, openPlan(options));
-    HEARTH_ASSIGN_OR_RETURN(const auto memory,
-                            CookMemory::open(opened.caches, opened.file, opened.plan.folder, tell));
-    if (memory->cache().isEmpty())
+    HEARTH_ASSIGN_OR_RETURN(const auto cook_state,
+                            CookState::open(opened.caches, opened.file, opened.plan.folder, printError));
+    if (cook_state->cache().isEmpty())
         return Error{Issue::usage, "--cache", "", "results of shards are in a cache: say which"};
-    HEARTH_TRY(enterFolder(opened));
-    HEARTH_ASSIGN_OR_RETURN(const std::vector<size_t> missing, findMissing(opened, options, *memory));
+    HEARTH_TRY(enterSourceFolder(opened));
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<size_t> missing, findMissing(opened, options, *cook_state));
     if (!missing.empty() && !options.cooks_missing)
     {
-        HEARTH_TRY(writeText("-", listOf(opened.plan, missing)));
-        return farm::kTryAgain;
+        HEARTH_TRY(writeText("-", missingList(opened.plan, missing)));
+        return farm::kExitRetry;
     }
     const int exit_code = cookPack(opened, options);
     if (exit_code == 0 && !missing.empty() && options.verbosity != Verbosity::quiet)
@@ -183,7 +185,7 @@ int merge(const MergeOptions& chosen)
         if (file != "-")
             file = graph::absolutePath(file);
     const Result<int> merged = mergePlan(options);
-    return merged.ok() ? *merged : tell(merged.error());
+    return merged.ok() ? *merged : printError(merged.error());
 }
 
 } // namespace hearth::command

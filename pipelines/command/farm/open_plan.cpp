@@ -29,7 +29,7 @@ std::string absoluteCache(const std::string& cache)
                           : std::string(kFolderScheme) + graph::absolutePath(folder) + cache.substr(options);
 }
 
-std::string withoutEnding(const std::string& text, std::string_view ending)
+std::string withoutSuffix(const std::string& text, std::string_view ending)
 {
     return text.ends_with(ending) && text.size() > ending.size() ? text.substr(0, text.size() - ending.size())
                                                                  : text;
@@ -63,12 +63,12 @@ Result<OpenedPlan> openPlan(const PlanOptions& options)
     if (!options.directory.empty())
         opened.plan.folder = opened.directory = graph::absolutePath(options.directory);
     opened.file = graph::absolutePath(options.plan_file);
-    opened.hash = tools::sha256Of(*text);
+    opened.hash = tools::computeSha256(*text);
     opened.caches = absoluteCaches(options.caches);
     return opened;
 }
 
-Status enterFolder(const OpenedPlan& opened)
+Status enterSourceFolder(const OpenedPlan& opened)
 {
     std::error_code error;
     std::filesystem::current_path(opened.plan.folder, error);
@@ -78,12 +78,12 @@ Status enterFolder(const OpenedPlan& opened)
     return success();
 }
 
-farm::FarmJob jobOf(const OpenedPlan& opened, const std::string& pack)
+farm::FarmJob makeFarmJob(const OpenedPlan& opened, const std::string& pack)
 {
     farm::FarmJob job;
     job.hearth = tools::programFolder() + "/hearth";
     job.plan_file = opened.file;
-    job.pack = pack.empty() ? withoutEnding(withoutEnding(opened.file, ".json"), ".plan") + ".hearth"
+    job.pack = pack.empty() ? withoutSuffix(withoutSuffix(opened.file, ".json"), ".plan") + ".hearth"
                             : graph::absolutePath(pack);
     job.directory = opened.directory;
     job.caches = opened.caches;

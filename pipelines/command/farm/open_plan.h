@@ -36,10 +36,10 @@ Result<OpenedPlan> openPlan(const PlanOptions& options);
 
 /// Change to the folder of the sources. Relative paths from before have another meaning afterwards.
 /// errors: input_missing
-Status enterFolder(const OpenedPlan& opened);
+Status enterSourceFolder(const OpenedPlan& opened);
 
 /// Return the job for a batch system. pack  empty: beside the plan, "village.hearth" for "village.plan.json"
-farm::FarmJob jobOf(const OpenedPlan& opened, const std::string& pack);
+farm::FarmJob makeFarmJob(const OpenedPlan& opened, const std::string& pack);
 
 /// Return the caches as OpenedPlan::caches describes them.
 std::vector<std::string> absoluteCaches(const std::vector<std::string>& caches);

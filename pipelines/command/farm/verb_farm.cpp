@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/cache/open_cache.h"
+#include "pipelines/cache/cache_spec.h"
 #include "pipelines/command/cook/common_options.h"
 #include "pipelines/command/farm/farm_jobs.h"
-#include "pipelines/command/farm/verb_plan.h"
+#include "pipelines/command/farm/plan_file_options.h"
 #include "pipelines/command/shell/verb_tools.h"
 #include "pipelines/command/shell/verbs.h"
 
@@ -26,7 +26,7 @@ void addPack(cli::CommandLine& verb, std::string& pack)
     verb.addOption("--pack", pack, "what the merge writes; by default beside the plan, and named after it");
 }
 
-void addSlurm(cli::CommandLine& farm, Work& run)
+void addSlurm(cli::CommandLine& farm, VerbAction& run)
 {
     cli::CommandLine& verb =
         farm.addSubcommand("slurm", "Submit shards to Slurm as an array, and the merge after them");
@@ -57,13 +57,13 @@ void addSlurm(cli::CommandLine& farm, Work& run)
             run = withConfiguration(options->settings,
                                     [options](const profiles::Configuration& configuration)
                                     {
-                                        options->caches = cachesOf(configuration);
-                                        return farmSlurm(*options);
+                                        options->caches = cacheSettings(configuration);
+                                        return submitToSlurm(*options);
                                     });
         });
 }
 
-void addNinja(cli::CommandLine& farm, Work& run)
+void addNinja(cli::CommandLine& farm, VerbAction& run)
 {
     cli::CommandLine& verb = farm.addSubcommand("ninja", "Write a build file for Ninja");
     struct Options : NinjaVerbOptions
@@ -83,13 +83,13 @@ void addNinja(cli::CommandLine& farm, Work& run)
             run = withConfiguration(options->settings,
                                     [options](const profiles::Configuration& configuration)
                                     {
-                                        options->caches = cachesOf(configuration);
-                                        return farmNinja(*options);
+                                        options->caches = cacheSettings(configuration);
+                                        return writeNinjaFile(*options);
                                     });
         });
 }
 
-void addStatus(cli::CommandLine& farm, Work& run)
+void addStatus(cli::CommandLine& farm, VerbAction& run)
 {
     cli::CommandLine& verb =
         farm.addSubcommand("status", "Say what each shard has left; code 1 where that is not all");
@@ -108,15 +108,15 @@ void addStatus(cli::CommandLine& farm, Work& run)
             run = withConfiguration(options->settings,
                                     [options](const profiles::Configuration& configuration)
                                     {
-                                        options->caches = cachesOf(configuration);
-                                        return farmStatus(*options, options->format);
+                                        options->caches = cacheSettings(configuration);
+                                        return printFarmStatus(*options, options->format);
                                     });
         });
 }
 
 } // namespace
 
-void addFarm(cli::CommandLine& app, Work& run)
+void addFarm(cli::CommandLine& app, VerbAction& run)
 {
     cli::CommandLine& verb = app.addSubcommand("farm", "Hand a plan to a batch system");
     verb.requireSubcommand();

@@ -16,7 +16,7 @@ namespace
 
 constexpr float kFieldOfView_degrees = 34;
 constexpr float kFieldOfView_rad = 0.593412F;
-constexpr Float3 kFrom{0.55F, 0.42F, 0.8F};
+constexpr Float3 kViewDirection{0.55F, 0.42F, 0.8F};
 
 void addInstances(const formats::PackView& pack, Box3& bounds)
 {
@@ -32,7 +32,7 @@ void addInstances(const formats::PackView& pack, Box3& bounds)
 }
 
 /// Parse "WIDTHxHEIGHT" and return width over height; 1 if it is invalid.
-float aspectOf(const std::string& size)
+float parseAspectRatio(const std::string& size)
 {
     unsigned width = 0;
     unsigned height = 0;
@@ -45,7 +45,7 @@ float aspectOf(const std::string& size)
 
 } // namespace
 
-std::string cameraOfBoth(const formats::PackView& a, const formats::PackView& b, const std::string& size)
+std::string makeDiffCamera(const formats::PackView& a, const formats::PackView& b, const std::string& size)
 {
     Box3 bounds;
     addInstances(a, bounds);
@@ -55,8 +55,9 @@ std::string cameraOfBoth(const formats::PackView& a, const formats::PackView& b,
     const Float3 target = bounds.center();
     // the bounding sphere touches the narrower pair of the view's sides
     const float radius = std::max(length(bounds.max - target), 1e-3F);
-    const float tangent = std::tan(0.5F * kFieldOfView_rad) * std::min(1.0F, aspectOf(size));
-    const Float3 position = target + normalizeOr(kFrom, {0, 0, 1}) * (radius / std::sin(std::atan(tangent)));
+    const float tangent = std::tan(0.5F * kFieldOfView_rad) * std::min(1.0F, parseAspectRatio(size));
+    const Float3 position =
+        target + normalizeOr(kViewDirection, {0, 0, 1}) * (radius / std::sin(std::atan(tangent)));
     return fmt::format("{},{},{},{},{},{},{}", position.x, position.y, position.z, target.x, target.y,
                        target.z, kFieldOfView_degrees);
 }

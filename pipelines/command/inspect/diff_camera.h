@@ -13,6 +13,6 @@ namespace hearth::command
 /// images use it, so that they differ only where the packs do.
 /// size     of the image, "WIDTHxHEIGHT"; treated as square if it is invalid, which hearth-render reports
 /// returns  PX,PY,PZ,TX,TY,TZ,FOV, as hearth-render takes it
-std::string cameraOfBoth(const formats::PackView& a, const formats::PackView& b, const std::string& size);
+std::string makeDiffCamera(const formats::PackView& a, const formats::PackView& b, const std::string& size);
 
 } // namespace hearth::command

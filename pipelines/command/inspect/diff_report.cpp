@@ -13,15 +13,15 @@ namespace hearth::command
 namespace
 {
 
-const char* nameOf(ThingChange::How how)
+const char* changeName(EntryChange::ChangeType type)
 {
-    switch (how)
+    switch (type)
     {
-    case ThingChange::How::added:
+    case EntryChange::ChangeType::added:
         return "added";
-    case ThingChange::How::removed:
+    case EntryChange::ChangeType::removed:
         return "removed";
-    case ThingChange::How::changed:
+    case EntryChange::ChangeType::changed:
         break;
     }
     return "changed";
@@ -32,21 +32,21 @@ std::string orNothing(const std::string& value)
     return value.empty() ? "nothing" : value;
 }
 
-std::string factLine(const FactChange& fact, bool shows_hashes)
+std::string propertyLine(const PropertyChange& property, bool shows_hashes)
 {
-    if (fact.is_hash && !shows_hashes)
-        return fmt::format("    {}: {}\n", fact.what,
-                           fact.a.empty()   ? "nothing -> some"
-                           : fact.b.empty() ? "some -> nothing"
-                                            : "other content");
-    return fmt::format("    {}: {} -> {}\n", fact.what, orNothing(fact.a), orNothing(fact.b));
+    if (property.is_hash && !shows_hashes)
+        return fmt::format("    {}: {}\n", property.name,
+                           property.a.empty()   ? "nothing -> some"
+                           : property.b.empty() ? "some -> nothing"
+                                                : "other content");
+    return fmt::format("    {}: {} -> {}\n", property.name, orNothing(property.a), orNothing(property.b));
 }
 
-std::string thingLine(const ThingChange& change)
+std::string entryLine(const EntryChange& change)
 {
     const std::string name = change.name.empty() ? "" : " " + change.name;
     const std::string note = change.note.empty() ? "" : " (" + change.note + ")";
-    return fmt::format("{:<8} {}{}{}\n", nameOf(change.how), change.kind, name, note);
+    return fmt::format("{:<8} {}{}{}\n", changeName(change.type), change.kind, name, note);
 }
 
 std::string chunkLine(const ChunkBytes& kind)
@@ -56,19 +56,21 @@ std::string chunkLine(const ChunkBytes& kind)
 }
 
 /// Numbers of changed, added and removed entries, of one kind or of all.
-struct Counts
+struct ChangeCounts
 {
     size_t changed = 0;
     size_t added = 0;
     size_t removed = 0;
 
-    void add(ThingChange::How how)
+    void add(EntryChange::ChangeType type)
     {
-        ++(how == ThingChange::How::added ? added : how == ThingChange::How::removed ? removed : changed);
+        ++(type == EntryChange::ChangeType::added     ? added
+           : type == EntryChange::ChangeType::removed ? removed
+                                                      : changed);
     }
 };
 
-std::string countsText(const Counts& counts)
+std::string countsText(const ChangeCounts& counts)
 {
     return fmt::format("{} changed, {} added, {} removed", counts.changed, counts.added, counts.removed);
 }
@@ -83,16 +85,16 @@ std::string sizesText(uint64_t a, uint64_t b)
 /// Return the totals: differences by kind of entry, and bytes by type of chunk.
 std::string totalsText(const PackDiff& diff)
 {
-    Counts all;
-    std::vector<std::pair<std::string, Counts>> kinds; // in the order of their first entries
-    for (const ThingChange& change : diff.things)
+    ChangeCounts all;
+    std::vector<std::pair<std::string, ChangeCounts>> kinds; // in the order of their first entries
+    for (const EntryChange& change : diff.entries)
     {
         auto kind = std::find_if(kinds.begin(), kinds.end(),
                                  [&](const auto& known) { return known.first == change.kind; });
         if (kind == kinds.end())
             kind = kinds.insert(kinds.end(), {change.kind, {}});
-        kind->second.add(change.how);
-        all.add(change.how);
+        kind->second.add(change.type);
+        all.add(change.type);
     }
     std::string text =
         diff.isSameByMeaning() ? "the same by meaning, in other bytes\n" : countsText(all) + "\n";
@@ -113,16 +115,16 @@ std::string totalsText(const PackDiff& diff)
     return text;
 }
 
-Json factsJson(const std::vector<FactChange>& facts)
+Json propertiesJson(const std::vector<PropertyChange>& properties)
 {
     Json list = Json::array();
-    for (const FactChange& fact : facts)
-        list.push_back({{"what", fact.what}, {"a", fact.a}, {"b", fact.b}});
+    for (const PropertyChange& property : properties)
+        list.push_back({{"what", property.name}, {"a", property.a}, {"b", property.b}});
     return list;
 }
 
 /// Describe the figures of hearth-compare; absent numbers are 0.
-std::string pictureText(const PictureFigures& picture)
+std::string imageDiffText(const ImageFigures& picture)
 {
     if (picture.json.empty())
         return "";
@@ -141,28 +143,28 @@ std::string pictureText(const PictureFigures& picture)
 
 } // namespace
 
-std::string diffText(const PackDiff& diff, const PictureFigures& picture, bool shows_hashes)
+std::string diffText(const PackDiff& diff, const ImageFigures& picture, bool shows_hashes)
 {
     if (diff.isSame())
-        return "the same\n" + pictureText(picture);
-    std::string text = totalsText(diff) + pictureText(picture);
+        return "the same\n" + imageDiffText(picture);
+    std::string text = totalsText(diff) + imageDiffText(picture);
     if (!diff.settings.empty())
         text += "\nsettings\n";
-    for (const FactChange& setting : diff.settings)
-        text += factLine(setting, shows_hashes);
-    if (!diff.things.empty())
+    for (const PropertyChange& setting : diff.settings)
+        text += propertyLine(setting, shows_hashes);
+    if (!diff.entries.empty())
         text += '\n';
-    for (const ThingChange& change : diff.things)
+    for (const EntryChange& change : diff.entries)
     {
-        text += thingLine(change);
-        for (const FactChange& fact : change.facts)
-            text += factLine(fact, shows_hashes);
+        text += entryLine(change);
+        for (const PropertyChange& property : change.properties)
+            text += propertyLine(property, shows_hashes);
     }
     return text;
 }
 
 std::string diffJson(const PackDiff& diff, const std::string& file_a, const std::string& file_b,
-                     const PictureFigures& picture)
+                     const ImageFigures& picture)
 {
     Json json{{"schema", "hearth.diff/1"},
               {"a", file_a},
@@ -170,14 +172,14 @@ std::string diffJson(const PackDiff& diff, const std::string& file_a, const std:
               {"same", diff.isSame()},
               {"same_by_meaning", diff.isSameByMeaning()},
               {"changes", Json::array()},
-              {"settings", factsJson(diff.settings)},
+              {"settings", propertiesJson(diff.settings)},
               {"chunks", Json::array()}};
-    for (const ThingChange& change : diff.things)
+    for (const EntryChange& change : diff.entries)
     {
         json["changes"].push_back({{"kind", change.kind},
                                    {"name", change.name},
-                                   {"change", nameOf(change.how)},
-                                   {"facts", factsJson(change.facts)}});
+                                   {"change", changeName(change.type)},
+                                   {"facts", propertiesJson(change.properties)}});
         if (!change.note.empty())
             json["changes"].back()["note"] = change.note;
     }

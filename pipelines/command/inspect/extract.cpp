@@ -20,7 +20,7 @@ class PageCache
 public:
     explicit PageCache(const PackView& pack) : pack_(pack) {}
 
-    Result<ClusterGeometry> geometryOf(const ClusterRecord& cluster, const MeshRecord& mesh)
+    Result<ClusterGeometry> clusterGeometry(const ClusterRecord& cluster, const MeshRecord& mesh)
     {
         if (cluster.page != page_)
         {
@@ -36,7 +36,7 @@ public:
 
 private:
     const PackView& pack_;
-    uint32_t page_ = kNone;
+    uint32_t page_ = kInvalidIndex;
     std::vector<std::byte> bytes_;
 };
 
@@ -128,14 +128,14 @@ void writeFaces(AtomicFile& file, const ClusterGeometry& geometry, uint32_t firs
 
 } // namespace
 
-std::vector<uint32_t> clustersOfCut(const PackView& pack, const MeshRecord& mesh, float error)
+std::vector<uint32_t> findCutClusters(const PackView& pack, const MeshRecord& mesh, float error)
 {
     std::vector<uint32_t> cut;
     for (uint32_t i = 0; i < mesh.clusters.count; ++i)
     {
         const ClusterRecord& cluster = pack.clusters()[mesh.clusters.first + i];
         const bool fine_enough =
-            cluster.refined_group == kNone || pack.groups()[cluster.refined_group].error <= error;
+            cluster.refined_group == kInvalidIndex || pack.groups()[cluster.refined_group].error <= error;
         if (fine_enough && pack.groups()[cluster.group].error > error)
             cut.push_back(mesh.clusters.first + i);
     }
@@ -150,7 +150,7 @@ Status extractCut(const std::string& path, uint32_t mesh, float error, const std
         return Error{Issue::usage, path, "",
                      fmt::format("there is no mesh {}: the file has {}", mesh, pack.meshes().size())};
     const MeshRecord& record = pack.meshes()[mesh];
-    const std::vector<uint32_t> cut = clustersOfCut(pack, record, error);
+    const std::vector<uint32_t> cut = findCutClusters(pack, record, error);
     std::optional<PosedMesh> pose;
     if (clip || isDeformed(record))
     {
@@ -164,14 +164,14 @@ Status extractCut(const std::string& path, uint32_t mesh, float error, const std
     for (const uint32_t cluster : cut)
     {
         HEARTH_ASSIGN_OR_RETURN(const ClusterGeometry geometry,
-                                pages.geometryOf(pack.clusters()[cluster], record));
+                                pages.clusterGeometry(pack.clusters()[cluster], record));
         writeVertices(file, geometry, posed);
     }
     uint32_t first_vertex = 0;
     for (const uint32_t cluster : cut)
     {
         HEARTH_ASSIGN_OR_RETURN(const ClusterGeometry geometry,
-                                pages.geometryOf(pack.clusters()[cluster], record));
+                                pages.clusterGeometry(pack.clusters()[cluster], record));
         writeFaces(file, geometry, first_vertex, posed);
         first_vertex += geometry.vertexCount();
     }

@@ -3,7 +3,7 @@
 
 #include "formats/base/atomic_file.h"
 #include "formats/gpu_shared/brick_codes.h"
-#include "formats/pack/brick_walk.h"
+#include "formats/pack/for_each_brick.h"
 #include "pipelines/command/inspect/open_pack.h"
 
 #include <fmt/format.h>
@@ -23,12 +23,12 @@ void appendPoint(std::string& text, Float3 p)
     fmt::format_to(std::back_inserter(text), ",{:.7g},{:.7g},{:.7g}", p.x, p.y, p.z);
 }
 
-void appendRow(std::string& text, const PackView& file, VoxelPlace voxel, uint32_t face, uint32_t face_index,
-               uint8_t opacity)
+void appendRow(std::string& text, const PackView& file, VoxelCoordinates voxel, uint32_t face,
+               uint32_t face_index, uint8_t opacity)
 {
     const bool none = face_index == shared::kNoFace;
     fmt::format_to(std::back_inserter(text), "{},{},{},{},{:.7g}", voxel.x, voxel.y, voxel.z,
-                   brickFaceName(face), opacity / 255.0);
+                   voxelFaceName(face), opacity / 255.0);
     appendPoint(text, none ? Float3{} : shared::decodeAlbedo(file.brickAlbedo()[face_index]));
     appendPoint(text, none ? Float3{} : shared::decodeFaceNormal(file.brickNormals()[face_index]));
     appendPoint(text, none ? Float3{} : shared::decodeRadiance(file.brickEmission()[face_index]));
@@ -37,7 +37,7 @@ void appendRow(std::string& text, const PackView& file, VoxelPlace voxel, uint32
 }
 
 void appendVoxel(std::string& text, const PackView& file, const BrickRecord& brick, uint32_t bit,
-                 VoxelPlace voxel)
+                 VoxelCoordinates voxel)
 {
     const uint8_t opacity = file.brickOpacity()[shared::brickVoxel(brick, bit)];
     bool has_face = false;
@@ -65,16 +65,16 @@ Status extractBricks(const std::string& path, const std::string& output)
         "x,y,z,face,opacity,albedo_r,albedo_g,albedo_b,normal_x,normal_y,normal_z,emissive_r,emissive_g,"
         "emissive_b,lighting_r,lighting_g,lighting_b\n");
     std::string text;
-    forBricks(file.brickGrid()[0], file.brickGroups(),
-              [&](uint32_t index, VoxelPlace first)
-              {
-                  const BrickRecord& brick = file.bricks()[index];
-                  text.clear();
-                  for (uint32_t bit = 0; bit < 64; ++bit)
-                      if (shared::maskHas(brick.voxel_mask_low, brick.voxel_mask_high, bit))
-                          appendVoxel(text, file, brick, bit, placeOfBit(first, bit, 1));
-                  csv.write(text);
-              });
+    forEachBrickOfGrid(file.brickGrid()[0], file.brickGroupsAlongAxis(),
+                       [&](uint32_t index, VoxelCoordinates first)
+                       {
+                           const BrickRecord& brick = file.bricks()[index];
+                           text.clear();
+                           for (uint32_t bit = 0; bit < 64; ++bit)
+                               if (shared::maskHas(brick.voxel_mask_low, brick.voxel_mask_high, bit))
+                                   appendVoxel(text, file, brick, bit, voxelAtBit(first, bit, 1));
+                           csv.write(text);
+                       });
     return csv.finish();
 }
 

@@ -20,7 +20,7 @@ LevelSummary summarizeLevel(const PackView& pack, const LevelRecord& level)
     summary.clusters = level.clusters.count;
     summary.triangles = level.triangle_count;
     summary.max_error = level.max_error;
-    for (const ClusterRecord& cluster : recordsOf(pack.clusters(), level.clusters))
+    for (const ClusterRecord& cluster : recordsInRange(pack.clusters(), level.clusters))
     {
         // no group, or an invalid index in a part, whose records are not checked
         if (cluster.refined_group >= pack.groups().size())
@@ -40,7 +40,7 @@ void addAuthoredLevels(const PackView& pack, uint32_t mesh, std::span<LevelSumma
         {
             AuthoredSummary& authored = levels[record.level].authored.emplace();
             authored.name = pack.text(record.name);
-            if (record.number != kNone)
+            if (record.number != kInvalidIndex)
                 authored.number = record.number;
         }
 }
@@ -49,7 +49,7 @@ void addClusters(MeshSummary& summary, std::span<const ClusterRecord> clusters)
 {
     for (const ClusterRecord& cluster : clusters)
     {
-        const uint32_t layout = layoutOf(cluster, summary.attributes);
+        const uint32_t layout = clusterVertexLayout(cluster, summary.attributes);
         const uint64_t vertex_bytes = clusterBytes(layout, cluster.vertex_count, 0);
         summary.triangles += cluster.triangle_count;
         summary.vertices += cluster.vertex_count;
@@ -78,7 +78,8 @@ uint64_t boundsBytes(const PackView& pack, uint32_t mesh)
         if (record.mesh == mesh)
         {
             bytes += sizeof(DeformedMeshRecord);
-            for (const DeformedClusterRecord& cluster : recordsOf(pack.deformedClusters(), record.clusters))
+            for (const DeformedClusterRecord& cluster :
+                 recordsInRange(pack.deformedClusters(), record.clusters))
                 bytes += sizeof(cluster) + cluster.joints.count * sizeof(uint32_t);
         }
     return bytes;
@@ -101,14 +102,14 @@ MeshSummary summarizeMesh(const PackView& pack, uint32_t index)
     summary.groups = mesh.groups.count;
     summary.clusters = mesh.clusters.count;
     summary.pages = mesh.pages.count;
-    for (const LevelRecord& level : recordsOf(pack.levels(), mesh.levels))
+    for (const LevelRecord& level : recordsInRange(pack.levels(), mesh.levels))
         summary.levels.push_back(summarizeLevel(pack, level));
     addAuthoredLevels(pack, index, summary.levels);
     summary.record_bytes = sizeof(MeshRecord) + mesh.levels.count * sizeof(LevelRecord) +
                            mesh.groups.count * sizeof(GroupRecord) +
                            mesh.clusters.count * sizeof(ClusterRecord);
-    addClusters(summary, recordsOf(pack.clusters(), mesh.clusters));
-    addPages(summary, recordsOf(pack.pages(), mesh.pages));
+    addClusters(summary, recordsInRange(pack.clusters(), mesh.clusters));
+    addPages(summary, recordsInRange(pack.pages(), mesh.pages));
     summary.bounds_bytes = boundsBytes(pack, index);
     return summary;
 }
@@ -130,26 +131,26 @@ uint64_t countInstancedTriangles(const PackView& pack, std::span<const MeshSumma
     return triangles;
 }
 
-std::string stringOf(const Json& object, const char* key)
+std::string readString(const Json& object, const char* key)
 {
     const Json* found = object.find(key);
     return found != nullptr && found->is_string() ? found->get<std::string>() : std::string();
 }
 
-uint64_t countOf(const Json& object, const char* key)
+uint64_t readCount(const Json& object, const char* key)
 {
     const Json* found = object.find(key);
     return found != nullptr && found->is_number_unsigned() ? found->get<uint64_t>() : 0;
 }
 
-double numberOf(const Json& object, const char* key)
+double readNumber(const Json& object, const char* key)
 {
     const Json* found = object.find(key);
     return found != nullptr && found->is_number() ? found->get<double>() : 0;
 }
 
 /// Return the objects in the array at `key`.
-std::vector<Json> objectsOf(const Json& object, const char* key)
+std::vector<Json> readObjects(const Json& object, const char* key)
 {
     std::vector<Json> objects;
     const Json* found = object.find(key);
@@ -169,21 +170,21 @@ MetaSummary readMeta(std::string_view json)
     if (!root.is_object())
         return meta;
     if (const Json* tool = root.find("tool"); tool != nullptr && tool->is_object())
-        meta.tool_version = stringOf(*tool, "version");
-    for (const Json& source : objectsOf(root, "sources"))
+        meta.tool_version = readString(*tool, "version");
+    for (const Json& source : readObjects(root, "sources"))
         meta.sources.push_back(
-            {stringOf(source, "name"), countOf(source, "bytes"), stringOf(source, "xxh3")});
+            {readString(source, "name"), readCount(source, "bytes"), readString(source, "xxh3")});
     if (const Json* counts = root.find("counts"); counts != nullptr && counts->is_object())
         for (const auto& [key, value] : counts->items())
             if (value.is_number_unsigned())
                 meta.counts[key] = value.get<uint64_t>();
-    for (const Json& clip : objectsOf(root, "clips"))
-        meta.clips.push_back({countOf(clip, "keys_before"), countOf(clip, "keys"),
-                              countOf(clip, "bytes_before"), countOf(clip, "bytes"),
-                              numberOf(clip, "stated_error"), numberOf(clip, "proven_error")});
-    for (const Json& message : objectsOf(root, "messages"))
-        meta.messages.push_back({stringOf(message, "source"), stringOf(message, "code"),
-                                 stringOf(message, "pointer"), stringOf(message, "text")});
+    for (const Json& clip : readObjects(root, "clips"))
+        meta.clips.push_back({readCount(clip, "keys_before"), readCount(clip, "keys"),
+                              readCount(clip, "bytes_before"), readCount(clip, "bytes"),
+                              readNumber(clip, "stated_error"), readNumber(clip, "proven_error")});
+    for (const Json& message : readObjects(root, "messages"))
+        meta.messages.push_back({readString(message, "source"), readString(message, "code"),
+                                 readString(message, "pointer"), readString(message, "text")});
     if (const Json* dropped = root.find("dropped"); dropped != nullptr && dropped->is_array())
         for (const Json& item : *dropped)
             if (item.is_string())

@@ -35,7 +35,7 @@ std::map<uint32_t, uint32_t> firstTriangles(const PackView& pack, const MeshReco
 {
     std::map<uint32_t, uint32_t> first;
     uint32_t triangles = 0;
-    for (const uint32_t cluster : clustersOfCut(pack, mesh, 0))
+    for (const uint32_t cluster : findCutClusters(pack, mesh, 0))
     {
         first[cluster] = triangles;
         triangles += pack.clusters()[cluster].triangle_count;
@@ -58,7 +58,7 @@ Result<Json> meshJson(const PackView& pack, uint32_t mesh_number, const std::opt
     {
         const uint32_t number = mesh.clusters.first + i;
         const ClusterRecord& cluster = pack.clusters()[number];
-        Box3 box = boxOf(cluster, mesh.grid_step);
+        Box3 box = clusterBox(cluster, mesh.grid_step);
         size_t joint = 0;
         if (deformed != nullptr)
         {

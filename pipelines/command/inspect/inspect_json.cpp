@@ -54,7 +54,7 @@ Json meshJson(const MeshSummary& mesh, uint32_t index)
         json["levels"].push_back(levelJson(level));
     json["fill"] = {{"triangles_per_cluster", ratio(mesh.triangles, mesh.clusters)},
                     {"vertices_per_cluster", ratio(mesh.vertices, mesh.clusters)},
-                    {"triangles", ratio(mesh.triangles, uint64_t{mesh.clusters} * kClusterMaxTriangles)}};
+                    {"triangles", ratio(mesh.triangles, uint64_t{mesh.clusters} * kMaxClusterTriangles)}};
     json["bytes"] = {{"vertices", mesh.vertex_bytes}, {"indices", mesh.index_bytes},
                      {"pages", mesh.page_bytes},      {"pages_stored", mesh.stored_page_bytes},
                      {"records", mesh.record_bytes},  {"bounds", mesh.bounds_bytes}};
@@ -139,7 +139,7 @@ Json sceneJson(const PackView& pack, const PackSummary& summary)
         const ShadowSphereRecord& record = pack.shadowSpheres()[i];
         return {{"index", i},
                 {"name", pack.text(pack.nodes()[record.node].name)},
-                {"light", record.light == kNone ? Json() : Json(record.light)},
+                {"light", record.light == kInvalidIndex ? Json() : Json(record.light)},
                 {"center", {record.center.x, record.center.y, record.center.z}},
                 {"radius", record.radius},
                 {"texels", record.texels}};

@@ -128,7 +128,7 @@ std::string meshText(const MeshSummary& mesh, size_t index)
         "  groups: {}; clusters: {}, on average {:.1f} triangles and {:.1f} vertices ({:.0f} % full)\n",
         mesh.groups, mesh.clusters, static_cast<double>(mesh.triangles) / clusters,
         static_cast<double>(mesh.vertices) / clusters,
-        100.0 * static_cast<double>(mesh.triangles) / (clusters * kClusterMaxTriangles));
+        100.0 * static_cast<double>(mesh.triangles) / (clusters * kMaxClusterTriangles));
     return text + fmt::format("  pages: {}, {} stored of {} (vertices {}, indices {}); records {}\n",
                               mesh.pages, readableSize(mesh.stored_page_bytes), readableSize(mesh.page_bytes),
                               readableSize(mesh.vertex_bytes), readableSize(mesh.index_bytes),

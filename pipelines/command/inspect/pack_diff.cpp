@@ -12,81 +12,81 @@ using namespace formats;
 namespace
 {
 
-std::vector<FactChange> diffFacts(std::span<const Fact> a, std::span<const Fact> b)
+std::vector<PropertyChange> diffProperties(std::span<const Property> a, std::span<const Property> b)
 {
     std::map<std::string, std::string> values_of_b;
-    for (const Fact& fact : b)
-        values_of_b.emplace(fact.what, fact.value);
-    std::vector<FactChange> changes;
-    for (const Fact& fact : a)
+    for (const Property& property : b)
+        values_of_b.emplace(property.name, property.value);
+    std::vector<PropertyChange> changes;
+    for (const Property& property : a)
     {
-        const auto other = values_of_b.extract(fact.what);
+        const auto other = values_of_b.extract(property.name);
         const std::string value = other.empty() ? "" : other.mapped();
-        if (other.empty() || value != fact.value)
-            changes.push_back({fact.what, fact.value, value, fact.is_hash});
+        if (other.empty() || value != property.value)
+            changes.push_back({property.name, property.value, value, property.is_hash});
     }
-    for (const Fact& fact : b)
-        if (values_of_b.contains(fact.what))
-            changes.push_back({fact.what, "", fact.value, fact.is_hash});
+    for (const Property& property : b)
+        if (values_of_b.contains(property.name))
+            changes.push_back({property.name, "", property.value, property.is_hash});
     return changes;
 }
 
 /// All entries of the same kind and name, in both packs.
-struct Namesakes
+struct SameNameEntries
 {
-    std::vector<const Thing*> a;
-    std::vector<const Thing*> b;
+    std::vector<const PackEntry*> a;
+    std::vector<const PackEntry*> b;
 };
 
-std::string allFacts(const Thing& thing)
+std::string allProperties(const PackEntry& entry)
 {
     std::string text;
-    for (const Fact& fact : thing.facts)
-        text += fact.what + '\t' + fact.value + '\n';
+    for (const Property& property : entry.properties)
+        text += property.name + '\t' + property.value + '\n';
     return text;
 }
 
 /// Remove pairs of equal entries.
-void leaveOutEqual(Namesakes& things)
+void removeEqual(SameNameEntries& entries)
 {
-    std::map<std::string, size_t> count_of_facts;
-    for (const Thing* thing : things.b)
-        ++count_of_facts[allFacts(*thing)];
+    std::map<std::string, size_t> count_of_properties;
+    for (const PackEntry* entry : entries.b)
+        ++count_of_properties[allProperties(*entry)];
     std::map<std::string, size_t> paired;
-    const auto leaves = [](std::map<std::string, size_t>& left, const Thing* thing)
+    const auto takeOne = [](std::map<std::string, size_t>& left, const PackEntry* entry)
     {
-        const auto found = left.find(allFacts(*thing));
+        const auto found = left.find(allProperties(*entry));
         if (found == left.end() || found->second == 0)
             return false;
         --found->second;
         return true;
     };
-    std::erase_if(things.a,
-                  [&](const Thing* thing)
+    std::erase_if(entries.a,
+                  [&](const PackEntry* entry)
                   {
-                      const bool is_paired = leaves(count_of_facts, thing);
-                      paired[allFacts(*thing)] += is_paired ? 1 : 0;
+                      const bool is_paired = takeOne(count_of_properties, entry);
+                      paired[allProperties(*entry)] += is_paired ? 1 : 0;
                       return is_paired;
                   });
-    std::erase_if(things.b, [&](const Thing* thing) { return leaves(paired, thing); });
+    std::erase_if(entries.b, [&](const PackEntry* entry) { return takeOne(paired, entry); });
 }
 
 /// Move pairs with the same note to the front of both sides, each in its order.
-void alignNotes(Namesakes& things)
+void pairByNote(SameNameEntries& entries)
 {
-    const auto moveTo = [](std::vector<const Thing*>& side, size_t place, size_t from)
+    const auto moveTo = [](std::vector<const PackEntry*>& side, size_t place, size_t from)
     {
         const auto begin = side.begin();
         std::rotate(begin + static_cast<std::ptrdiff_t>(place), begin + static_cast<std::ptrdiff_t>(from),
                     begin + static_cast<std::ptrdiff_t>(from) + 1);
     };
     size_t aligned = 0;
-    for (size_t i = 0; i < things.a.size(); ++i)
-        for (size_t k = aligned; k < things.b.size(); ++k)
-            if (things.a[i]->note == things.b[k]->note)
+    for (size_t i = 0; i < entries.a.size(); ++i)
+        for (size_t k = aligned; k < entries.b.size(); ++k)
+            if (entries.a[i]->note == entries.b[k]->note)
             {
-                moveTo(things.b, aligned, k);
-                moveTo(things.a, aligned++, i);
+                moveTo(entries.b, aligned, k);
+                moveTo(entries.a, aligned++, i);
                 break;
             }
 }
@@ -126,41 +126,42 @@ bool PackDiff::isSame() const
            std::all_of(chunks.begin(), chunks.end(), [](const ChunkBytes& kind) { return kind.is_same; });
 }
 
-std::vector<ThingChange> diffThings(std::span<const Thing> a, std::span<const Thing> b)
+std::vector<EntryChange> diffEntries(std::span<const PackEntry> a, std::span<const PackEntry> b)
 {
     // in the order of A, then of B
     using Key = std::pair<std::string, std::string>;
-    std::map<Key, Namesakes> namesakes;
+    std::map<Key, SameNameEntries> same_name_entries;
     std::vector<Key> order;
-    const auto take = [&](std::span<const Thing> things, std::vector<const Thing*> Namesakes::*side)
+    const auto take =
+        [&](std::span<const PackEntry> entries, std::vector<const PackEntry*> SameNameEntries::*side)
     {
-        for (const Thing& thing : things)
+        for (const PackEntry& entry : entries)
         {
-            const auto [found, is_new] = namesakes.try_emplace({thing.kind, thing.name});
+            const auto [found, is_new] = same_name_entries.try_emplace({entry.kind, entry.name});
             if (is_new)
                 order.push_back(found->first);
-            (found->second.*side).push_back(&thing);
+            (found->second.*side).push_back(&entry);
         }
     };
-    take(a, &Namesakes::a);
-    take(b, &Namesakes::b);
+    take(a, &SameNameEntries::a);
+    take(b, &SameNameEntries::b);
 
-    std::vector<ThingChange> changes;
+    std::vector<EntryChange> changes;
     for (const Key& key : order)
     {
-        Namesakes& things = namesakes[key];
-        leaveOutEqual(things);
-        alignNotes(things);
-        for (size_t i = 0; i < std::max(things.a.size(), things.b.size()); ++i)
+        SameNameEntries& entries = same_name_entries[key];
+        removeEqual(entries);
+        pairByNote(entries);
+        for (size_t i = 0; i < std::max(entries.a.size(), entries.b.size()); ++i)
         {
-            ThingChange change{key.first, key.second};
-            change.note = (i < things.b.size() ? things.b : things.a)[i]->note;
-            if (i >= things.b.size())
-                change.how = ThingChange::How::removed;
-            else if (i >= things.a.size())
-                change.how = ThingChange::How::added;
+            EntryChange change{key.first, key.second};
+            change.note = (i < entries.b.size() ? entries.b : entries.a)[i]->note;
+            if (i >= entries.b.size())
+                change.type = EntryChange::ChangeType::removed;
+            else if (i >= entries.a.size())
+                change.type = EntryChange::ChangeType::added;
             else
-                change.facts = diffFacts(things.a[i]->facts, things.b[i]->facts);
+                change.properties = diffProperties(entries.a[i]->properties, entries.b[i]->properties);
             changes.push_back(std::move(change));
         }
     }
@@ -171,13 +172,13 @@ Result<PackDiff> diffPacks(const PackView& a, const PackView& b)
 {
     PackDiff diff;
     diff.chunks = diffChunks(a, b);
-    diff.settings = diffFacts(settingsOf(a), settingsOf(b));
+    diff.settings = diffProperties(readMetaSettings(a), readMetaSettings(b));
     const auto sameBytes = [](const ChunkBytes& kind) { return kind.is_same; };
     if (std::all_of(diff.chunks.begin(), diff.chunks.end(), sameBytes))
         return diff;
-    HEARTH_ASSIGN_OR_RETURN(const std::vector<Thing> things_a, thingsOf(a));
-    HEARTH_ASSIGN_OR_RETURN(const std::vector<Thing> things_b, thingsOf(b));
-    diff.things = diffThings(things_a, things_b);
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<PackEntry> entries_a, listEntries(a));
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<PackEntry> entries_b, listEntries(b));
+    diff.entries = diffEntries(entries_a, entries_b);
     return diff;
 }
 

@@ -13,18 +13,18 @@ namespace hearth::command
 {
 
 /// Property of one entry in both packs; empty in a pack that lacks it.
-struct FactChange
+struct PropertyChange
 {
-    std::string what;
+    std::string name;
     std::string a;
     std::string b;
-    bool is_hash = false; ///< as Fact::is_hash
+    bool is_hash = false; ///< as Property::is_hash
 };
 
 /// Difference of one entry between packs A and B.
-struct ThingChange
+struct EntryChange
 {
-    enum class How
+    enum class ChangeType
     {
         added, ///< only in B
         removed,
@@ -32,9 +32,9 @@ struct ThingChange
     };
     std::string kind;
     std::string name;
-    How how = How::changed;
-    std::vector<FactChange> facts{}; ///< differing properties, if it is changed
-    std::string note{};              ///< as Thing::note; from B if the entry is in B
+    ChangeType type = ChangeType::changed;
+    std::vector<PropertyChange> properties{}; ///< differing properties, if it is changed
+    std::string note{};                       ///< as PackEntry::note; from B if the entry is in B
 };
 
 /// Stored bytes of all chunks of one type.
@@ -48,23 +48,23 @@ struct ChunkBytes
 
 struct PackDiff
 {
-    std::vector<ThingChange> things;
-    std::vector<FactChange> settings; ///< by JSON pointer into META
-    std::vector<ChunkBytes> chunks;   ///< all types, in the order of A's file
+    std::vector<EntryChange> entries;
+    std::vector<PropertyChange> settings; ///< by JSON pointer into META
+    std::vector<ChunkBytes> chunks;       ///< all types, in the order of A's file
 
-    bool isSameByMeaning() const { return things.empty() && settings.empty(); }
+    bool isSameByMeaning() const { return entries.empty() && settings.empty(); }
     bool isSame() const;
 };
 
 /// Compare entries, which correspond if their kind and name are equal. If several have the same name, equal
 /// entries are paired first, then entries with the same note, then the rest in order.
-std::vector<ThingChange> diffThings(std::span<const Thing> a, std::span<const Thing> b);
+std::vector<EntryChange> diffEntries(std::span<const PackEntry> a, std::span<const PackEntry> b);
 
-/// Compare two packs. errors: those of thingsOf
+/// Compare two packs. errors: those of listEntries
 Result<PackDiff> diffPacks(const formats::PackView& a, const formats::PackView& b);
 
 /// Figures of hearth-compare for the rendered images of both packs.
-struct PictureFigures
+struct ImageFigures
 {
     std::string heat_map; ///< path of the heat map
     std::string json;     ///< schema hearth.compare/1; empty: no image was requested
@@ -73,10 +73,10 @@ struct PictureFigures
 /// Return the differences as text for people: first the numbers of entries that differ and the bytes of both
 /// packs, then the entries.
 /// shows_hashes  print the hashes of contents; else only that they differ
-std::string diffText(const PackDiff& diff, const PictureFigures& picture = {}, bool shows_hashes = false);
+std::string diffText(const PackDiff& diff, const ImageFigures& picture = {}, bool shows_hashes = false);
 
 /// Return the differences as JSON, schema "hearth.diff/1".
 std::string diffJson(const PackDiff& diff, const std::string& file_a, const std::string& file_b,
-                     const PictureFigures& picture = {});
+                     const ImageFigures& picture = {});
 
 } // namespace hearth::command

@@ -12,20 +12,20 @@ namespace hearth::command
 {
 
 /// Property of an entry.
-struct Fact
+struct Property
 {
-    std::string what;
+    std::string name;
     std::string value;
     bool is_hash = false; ///< the value is a hash of many bytes, or the start of one
-    friend bool operator==(const Fact&, const Fact&) = default;
+    friend bool operator==(const Property&, const Property&) = default;
 };
 
 /// Entry: one named item of a pack.
-struct Thing
+struct PackEntry
 {
     std::string kind; ///< "mesh", "material", ...
     std::string name; ///< may be empty, or equal to that of other entries
-    std::vector<Fact> facts;
+    std::vector<Property> properties;
     /// Text that tells entries of the same name apart, for people: "baseColor of Bark" for a texture; else
     /// empty.
     std::string note{};
@@ -35,9 +35,9 @@ struct Thing
 /// instances, lights, cameras, shadow spheres, specular tables and bricks, then the sources, messages and
 /// dropped data of chunk META.
 /// errors: those of PackView::decodePage and PackView::imageData
-Result<std::vector<Thing>> thingsOf(const formats::PackView& pack);
+Result<std::vector<PackEntry>> listEntries(const formats::PackView& pack);
 
 /// Return all other values of META, each with its JSON pointer.
-std::vector<Fact> settingsOf(const formats::PackView& pack);
+std::vector<Property> readMetaSettings(const formats::PackView& pack);
 
 } // namespace hearth::command

@@ -18,7 +18,7 @@ namespace
 /// Find an animation by its name, or one without a name by its index. errors: usage, with a list of all.
 Result<const AnimationRecord*> findAnimation(const PackView& pack, const std::string& name)
 {
-    uint32_t index = kNone;
+    uint32_t index = kInvalidIndex;
     std::from_chars(name.data(), name.data() + name.size(), index);
     std::string names;
     for (uint32_t i = 0; i < pack.animations().size(); ++i)
@@ -36,13 +36,13 @@ Result<const AnimationRecord*> findAnimation(const PackView& pack, const std::st
 }
 
 /// Placement of one copy of a mesh.
-struct Copy
+struct MeshPlacement
 {
-    uint32_t node = kNone;
+    uint32_t node = kInvalidIndex;
     const InstanceRecord* instance = nullptr; ///< null if the scene does not draw it
 };
 
-Copy findCopy(const PackView& pack, uint32_t mesh)
+MeshPlacement findPlacement(const PackView& pack, uint32_t mesh)
 {
     for (const InstanceRecord& instance : pack.instances())
         if (instance.mesh == mesh)
@@ -55,7 +55,7 @@ Copy findCopy(const PackView& pack, uint32_t mesh)
 
 /// Return the transform of a copy in the pose. If a node has several instances, each moves from its rest
 /// transform by the same motion as the node.
-Affine3d worldFromObject(const Copy& copy, const Affine3d& rest, const Affine3d& posed)
+Affine3d worldFromObject(const MeshPlacement& copy, const Affine3d& rest, const Affine3d& posed)
 {
     if (copy.instance == nullptr || narrowed(rest) == copy.instance->world_from_object)
         return posed;
@@ -71,7 +71,7 @@ Double3 column(const Affine3d& t, size_t i)
 
 /// Turn a vector at a vertex with the pose: the part along the normal stays along it, the part along the
 /// surface turns with the surface, and both keep their lengths.
-Float3 turnedVector(const Affine3d& world_from_vertex, Double3 vector, Double3 normal, Double3 posed_normal)
+Float3 turnVector(const Affine3d& world_from_vertex, Double3 vector, Double3 normal, Double3 posed_normal)
 {
     const double along = dot(vector, normal);
     const Double3 across = vector - normal * along;
@@ -91,9 +91,9 @@ bool isDeformed(const MeshRecord& mesh)
 
 Result<PosedMesh> PosedMesh::make(const PackView& pack, uint32_t mesh, const std::optional<ClipTime>& clip)
 {
-    const MotionTables tables = motionTables(pack);
+    const AnimationTables tables = animationTables(pack);
     ScenePose pose = restPose(tables);
-    const std::vector<uint32_t> order = parentsFirst(tables.nodes);
+    const std::vector<uint32_t> order = nodesParentsFirst(tables.nodes);
     std::vector<Affine3d> rest(tables.nodes.size()), posed(tables.nodes.size());
     poseNodes(tables, pose, order, rest);
     if (clip)
@@ -104,16 +104,17 @@ Result<PosedMesh> PosedMesh::make(const PackView& pack, uint32_t mesh, const std
     poseNodes(tables, pose, order, posed);
 
     PosedMesh result;
-    const Copy copy = findCopy(pack, mesh);
-    if (copy.node == kNone)
+    const MeshPlacement copy = findPlacement(pack, mesh);
+    if (copy.node == kInvalidIndex)
     {
         result.palette_ = {Affine3d{}};
         return result;
     }
     const NodeRecord& node = pack.nodes()[copy.node];
-    for (const double weight : recordsOf(std::span<const double>(pose.morph_weights), node.morph_weights))
+    for (const double weight :
+         recordsInRange(std::span<const double>(pose.morph_weights), node.morph_weights))
         result.morph_weights_.push_back(weight);
-    if (node.skin == kNone)
+    if (node.skin == kInvalidIndex)
         result.palette_ = {worldFromObject(copy, rest[copy.node], posed[copy.node])};
     else
     {
@@ -166,8 +167,8 @@ PosedVertex PosedMesh::vertex(const ClusterGeometry& geometry, uint32_t vertex) 
     const double size = length(turned) * (posed.mirrored ? -1 : 1);
     posed.normal = size != 0 && std::isfinite(size) ? narrow(turned * (1 / size)) : narrow(normal);
     if (geometry.has(kVertexVisibility))
-        posed.m1 = turnedVector(world_from_vertex, widen(geometry.visibility(vertex).m1),
-                                widen(geometry.normal(vertex)), widen(posed.normal));
+        posed.m1 = turnVector(world_from_vertex, widen(geometry.visibility(vertex).m1),
+                              widen(geometry.normal(vertex)), widen(posed.normal));
     return posed;
 }
 

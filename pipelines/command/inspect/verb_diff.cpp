@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/inspect/diff_camera.h"
+#include "pipelines/command/inspect/image_diff.h"
 #include "pipelines/command/inspect/open_pack.h"
 #include "pipelines/command/inspect/pack_diff.h"
-#include "pipelines/command/inspect/picture_diff.h"
 #include "pipelines/command/shell/verb_tools.h"
 #include "pipelines/command/shell/verbs.h"
 
@@ -29,16 +29,16 @@ struct DiffOptions
     std::string view = "final";
 };
 
-PictureOptions pictureOptions(const DiffOptions& options, const formats::PackView& a,
-                              const formats::PackView& b)
+ImageDiffOptions makeImageDiffOptions(const DiffOptions& options, const formats::PackView& a,
+                                      const formats::PackView& b)
 {
-    PictureOptions picture{options.picture, {"--size", options.size, "--view", options.view}};
+    ImageDiffOptions picture{options.picture, {"--size", options.size, "--view", options.view}};
     if (!options.scene_camera.empty())
         picture.view.insert(picture.view.end(), {"--scene-camera", options.scene_camera});
     else
         picture.view.insert(
             picture.view.end(),
-            {"--camera", options.camera.empty() ? cameraOfBoth(a, b, options.size) : options.camera});
+            {"--camera", options.camera.empty() ? makeDiffCamera(a, b, options.size) : options.camera});
     return picture;
 }
 
@@ -46,17 +46,17 @@ int diff(const DiffOptions& options)
 {
     const auto a = openPack(options.a);
     if (!a.ok())
-        return fail(a.error());
+        return printError(a.error());
     const auto b = openPack(options.b);
     if (!b.ok())
-        return fail(b.error());
+        return printError(b.error());
     const Result<PackDiff> difference = diffPacks(*a, *b);
     if (!difference.ok())
-        return fail(difference.error());
-    PictureFigures picture;
+        return printError(difference.error());
+    ImageFigures picture;
     if (!options.picture.empty())
     {
-        const PictureDiff drawn = diffPictures(options.a, options.b, pictureOptions(options, *a, *b));
+        const ImageDiff drawn = diffImages(options.a, options.b, makeImageDiffOptions(options, *a, *b));
         if (drawn.exit_code != 0)
         {
             std::fprintf(stderr, "%s\n", drawn.error.c_str());
@@ -72,7 +72,7 @@ int diff(const DiffOptions& options)
 
 } // namespace
 
-void addDiff(cli::CommandLine& app, Work& run)
+void addDiff(cli::CommandLine& app, VerbAction& run)
 {
     cli::CommandLine& verb =
         app.addSubcommand("diff", "Say what differs between two packs, by what it means");

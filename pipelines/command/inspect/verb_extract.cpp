@@ -10,7 +10,7 @@
 namespace hearth::command
 {
 
-void addExtract(cli::CommandLine& app, Work& run)
+void addExtract(cli::CommandLine& app, VerbAction& run)
 {
     cli::CommandLine& verb =
         app.addSubcommand("extract", "Write a level of detail of a mesh as PLY, or a table as CSV");
@@ -53,18 +53,18 @@ void addExtract(cli::CommandLine& app, Work& run)
                     const Status status = options->part == "bricks"
                                               ? extractBricks(options->file, options->output)
                                               : extractSpecular(options->file, options->output);
-                    return status.ok() ? 0 : fail(status.error());
+                    return status.ok() ? 0 : printError(status.error());
                 }
                 if (!(options->error >= 0) || !std::isfinite(options->error))
-                    return usageError("--error must be a number from 0 on");
+                    return printUsageError("--error must be a number from 0 on");
                 if (!std::isfinite(options->time))
-                    return usageError("--time must be a number");
+                    return printUsageError("--time must be a number");
                 std::optional<ClipTime> clip;
                 if (animation.count() > 0)
                     clip = ClipTime{options->animation, options->time};
                 const Status status =
                     extractCut(options->file, options->mesh, options->error, clip, options->output);
-                return status.ok() ? 0 : fail(status.error());
+                return status.ok() ? 0 : printError(status.error());
             };
         });
 }

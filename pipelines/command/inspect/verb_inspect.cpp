@@ -17,14 +17,14 @@ int inspect(const std::string& file, const std::string& format)
 {
     const auto pack = openContainer(file);
     if (!pack.ok())
-        return fail(pack.error());
+        return printError(pack.error());
     const PackSummary summary = summarize(*pack);
     return printResult(format == "json" ? inspectJson(*pack, summary) : inspectText(*pack, summary));
 }
 
 } // namespace
 
-void addInspect(cli::CommandLine& app, Work& run)
+void addInspect(cli::CommandLine& app, VerbAction& run)
 {
     cli::CommandLine& verb = app.addSubcommand("inspect", "Say what is in a pack");
     struct Options
@@ -55,9 +55,9 @@ void addInspect(cli::CommandLine& app, Work& run)
                 if (!options->bounds)
                     return inspect(options->file, options->format);
                 if (options->format != "json")
-                    return usageError("--bounds needs --format json");
+                    return printUsageError("--bounds needs --format json");
                 if (!std::isfinite(options->time))
-                    return usageError("--time must be a number");
+                    return printUsageError("--time must be a number");
                 std::optional<ClipTime> clip;
                 if (animation.count() > 0)
                     clip = ClipTime{options->animation, options->time};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/cache/directory_store.h"
 #include "pipelines/command/cook/cook_tools.h"
-#include "pipelines/command/cook/picture_progress.h"
+#include "pipelines/command/cook/render_progress.h"
 #include "pipelines/command/shell/verb_tools.h"
 #include "pipelines/command/shell/verbs.h"
 #include "pipelines/report/write_report.h"
@@ -22,40 +22,41 @@ struct Options
 };
 
 /// Return a message if the file lacks the extension that its option needs; else empty.
-std::string endingFault(const std::string& path, const std::string& ending)
+std::string extensionFault(const std::string& path, const std::string& ending)
 {
     return path.empty() || path.ends_with(ending) ? "" : path + " does not end in " + ending;
 }
 
 int report(const Options& options)
 {
-    for (const std::string& fault : {endingFault(options.page, ".html"), endingFault(options.junit, ".xml"),
-                                     endingFault(options.table, ".csv")})
+    for (const std::string& fault :
+         {extensionFault(options.page, ".html"), extensionFault(options.junit, ".xml"),
+          extensionFault(options.table, ".csv")})
         if (!fault.empty())
-            return usageError(fault);
+            return printUsageError(fault);
     if (options.page.empty() && options.junit.empty() && options.table.empty())
-        return usageError("report: nothing is asked for: name --html, --junit or --csv");
+        return printUsageError("report: nothing is asked for: name --html, --junit or --csv");
     const std::optional<std::string> json = cache::readText(options.file);
     if (!json)
-        return fail({Issue::input_missing, options.file, "", "cannot be read"});
+        return printError({Issue::input_missing, options.file, "", "cannot be read"});
     for (const std::string& path : {options.page, options.junit, options.table})
     {
         if (path.empty())
             continue;
-        PictureProgress progress(progressStyle("auto"), printFaint);
+        RenderProgress progress(progressStyle("auto"), printFaint);
         const Status status =
             report::writeReport(*json, path, options.pack, options.file,
                                 [&](size_t drawn, size_t count) { progress.show(drawn, count); });
         progress.end();
         if (!status.ok())
-            return fail(status.error());
+            return printError(status.error());
     }
     return 0;
 }
 
 } // namespace
 
-void addReport(cli::CommandLine& app, Work& run)
+void addReport(cli::CommandLine& app, VerbAction& run)
 {
     cli::CommandLine& verb =
         app.addSubcommand("report", "Turn the report of a cook into a page, or what machines read");

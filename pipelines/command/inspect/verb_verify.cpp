@@ -6,7 +6,7 @@
 namespace hearth::command
 {
 
-void addVerify(cli::CommandLine& app, Work& run)
+void addVerify(cli::CommandLine& app, VerbAction& run)
 {
     cli::CommandLine& verb = app.addSubcommand("verify", "Check every byte of a pack, and what it means");
     struct Options
@@ -27,7 +27,7 @@ void addVerify(cli::CommandLine& app, Work& run)
                 if (options->format == "text")
                     return printResult(result);
                 const int printed = printResult(verifyJson(options->file, result));
-                return result.ok() ? printed : fail(result.error());
+                return result.ok() ? printed : printError(result.error());
             };
         });
 }

@@ -11,7 +11,7 @@ namespace hearth::command
 namespace
 {
 
-std::vector<cli::OptionInfo> optionsOf(const cli::CommandInfo& verb, const cli::CommandInfo& hearth)
+std::vector<cli::OptionInfo> allOptions(const cli::CommandInfo& verb, const cli::CommandInfo& hearth)
 {
     std::vector<cli::OptionInfo> options = verb.options;
     for (const cli::OptionInfo& common : hearth.options)
@@ -22,7 +22,7 @@ std::vector<cli::OptionInfo> optionsOf(const cli::CommandInfo& verb, const cli::
     return options;
 }
 
-std::string namesOf(const std::vector<cli::OptionInfo>& options)
+std::string joinOptionNames(const std::vector<cli::OptionInfo>& options)
 {
     std::vector<std::string> names;
     for (const cli::OptionInfo& option : options)
@@ -76,9 +76,9 @@ std::string bashCompletion(const cli::CommandInfo& hearth)
     for (const cli::CommandInfo& verb : hearth.subcommands)
     {
         verbs += (verbs.empty() ? "" : " ") + verb.name;
-        const std::vector<cli::OptionInfo> options = optionsOf(verb, hearth);
+        const std::vector<cli::OptionInfo> options = allOptions(verb, hearth);
         cases += fmt::format("    {})\n      options={}\n      words={}\n      ;;\n", verb.name,
-                             singleQuoted(namesOf(options)),
+                             singleQuoted(joinOptionNames(options)),
                              singleQuoted(fmt::format("{}", fmt::join(firstChoices(verb), " "))));
         for (const cli::OptionInfo& option : options)
             if (!option.value.empty())
@@ -121,7 +121,7 @@ _hearth()
 }}
 complete -F _hearth hearth
 )",
-        singleQuoted(verbs), singleQuoted(namesOf(hearth.options)), cases, values);
+        singleQuoted(verbs), singleQuoted(joinOptionNames(hearth.options)), cases, values);
 }
 
 std::string zshCompletion(const cli::CommandInfo& hearth)
@@ -132,7 +132,7 @@ std::string zshCompletion(const cli::CommandInfo& hearth)
     {
         verbs += "    " + singleQuoted(verb.name + ":" + zshText(verb.description)) + "\n";
         cases += fmt::format("  {})\n    _arguments", verb.name);
-        for (const cli::OptionInfo& option : optionsOf(verb, hearth))
+        for (const cli::OptionInfo& option : allOptions(verb, hearth))
             for (const std::string& name : option.names)
                 cases += " \\\n      " + zshOption(option, name);
         const std::vector<std::string> choices = firstChoices(verb);

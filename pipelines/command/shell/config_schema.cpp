@@ -16,29 +16,29 @@ using profiles::Kind;
 using profiles::Scope;
 using profiles::Setting;
 
-Json schemaOf(const Setting& setting);
+Json settingSchema(const Setting& setting);
 
-Json objectOf(Json properties)
+Json objectSchema(Json properties)
 {
     return {{"type", "object"}, {"properties", std::move(properties)}, {"additionalProperties", false}};
 }
 
-Json tableOf(const std::vector<Setting>& members)
+Json tableSchema(const std::vector<Setting>& members)
 {
     Json properties = Json::object();
     Json required = Json::array();
     for (const Setting& member : members)
     {
-        properties[member.key] = schemaOf(member);
+        properties[member.key] = settingSchema(member);
         if (member.is_required)
             required.push_back(member.key);
     }
-    Json table = objectOf(std::move(properties));
+    Json table = objectSchema(std::move(properties));
     table["required"] = std::move(required);
     return table;
 }
 
-Json numberOf(const Setting& setting)
+Json numberSchema(const Setting& setting)
 {
     Json json{{"type", setting.kind == Kind::whole ? "integer" : "number"}};
     if (!setting.choices.empty())
@@ -51,7 +51,7 @@ Json numberOf(const Setting& setting)
     return json;
 }
 
-Json typeOf(const Setting& setting)
+Json typeSchema(const Setting& setting)
 {
     const Json text{{"type", "string"}, {"minLength", 1}};
     switch (setting.kind)
@@ -60,7 +60,7 @@ Json typeOf(const Setting& setting)
         return {{"type", "boolean"}};
     case Kind::whole:
     case Kind::number:
-        return numberOf(setting);
+        return numberSchema(setting);
     case Kind::choice:
         return {{"enum", setting.choices}};
     case Kind::text:
@@ -72,33 +72,33 @@ Json typeOf(const Setting& setting)
                  {{{"type", "integer"}, {"minimum", 1}},
                   {{"type", "string"}, {"pattern", "^[1-9][0-9]*[KMGT]?$"}}}}};
     case Kind::tables:
-        return {{"type", "array"}, {"minItems", 1}, {"items", tableOf(setting.members)}};
+        return {{"type", "array"}, {"minItems", 1}, {"items", tableSchema(setting.members)}};
     }
     return {};
 }
 
-Json schemaOf(const Setting& setting)
+Json settingSchema(const Setting& setting)
 {
-    Json json = typeOf(setting);
+    Json json = typeSchema(setting);
     std::string what(setting.what);
-    if (!setting.otherwise.empty())
-        what += ". By default " + std::string(setting.otherwise);
+    if (!setting.default_text.empty())
+        what += ". By default " + std::string(setting.default_text);
     json["description"] = what;
     return json;
 }
 
 /// Return the groups of settings as tables: of a profile, or of a rule, which has only settings of sources.
-Json groupsOf(bool of_rule)
+Json groupSchemas(bool for_rule)
 {
     Json groups = Json::object();
     for (const Setting& setting : profiles::profileSettings())
     {
-        if (of_rule && setting.scope != Scope::source)
+        if (for_rule && setting.scope != Scope::source)
             continue;
-        const std::string group(profiles::groupOf(setting.key));
+        const std::string group(profiles::settingGroup(setting.key));
         if (!groups.contains(group))
-            groups[group] = objectOf(Json::object());
-        groups[group]["properties"][setting.key.substr(group.size() + 1)] = schemaOf(setting);
+            groups[group] = objectSchema(Json::object());
+        groups[group]["properties"][setting.key.substr(group.size() + 1)] = settingSchema(setting);
     }
     return groups;
 }
@@ -109,25 +109,25 @@ std::string configSchema()
 {
     Json defaults = Json::object();
     for (const Setting& setting : profiles::commandSettings())
-        defaults[setting.key] = schemaOf(setting);
+        defaults[setting.key] = settingSchema(setting);
     const Json text{{"type", "string"}, {"minLength", 1}};
-    Json profile = groupsOf(false);
+    Json profile = groupSchemas(false);
     profile["inherits"] = text;
     profile["inherits"]["description"] =
         "the name of another profile: mobile-high, mobile-low and desktop are built in";
-    Json rule = groupsOf(true);
+    Json rule = groupSchemas(true);
     rule["match"] = text;
     rule["match"]["description"] = "which sources, by their path from here: * in a name, ** for any folders";
     rule["in_profile"] = text;
     rule["in_profile"]["description"] = "only where the profile is called so; * and ? are wildcards";
-    Json rule_table = objectOf(std::move(rule));
+    Json rule_table = objectSchema(std::move(rule));
     rule_table["required"] = {"match"};
     Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"},
                 {"title", "hearth.toml: the settings of a project"}};
-    schema.update(
-        objectOf({{"defaults", objectOf(std::move(defaults))},
-                  {"profile", {{"type", "object"}, {"additionalProperties", objectOf(std::move(profile))}}},
-                  {"rule", {{"type", "array"}, {"items", std::move(rule_table)}}}}));
+    schema.update(objectSchema(
+        {{"defaults", objectSchema(std::move(defaults))},
+         {"profile", {{"type", "object"}, {"additionalProperties", objectSchema(std::move(profile))}}},
+         {"rule", {{"type", "array"}, {"items", std::move(rule_table)}}}}));
     return schema.dump(1) + "\n";
 }
 

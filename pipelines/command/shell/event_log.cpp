@@ -15,14 +15,14 @@ namespace
 constexpr const char* kSchema = "hearth.events/1";
 
 /// Write JSON on one line.
-std::string lineOf(const Json& json)
+std::string toJsonLine(const Json& json)
 {
     return json.dump();
 }
 
-const char* stateOf(graph::Ending ending)
+const char* outcomeName(graph::Outcome ending)
 {
-    return ending == graph::Ending::cooked ? "cooked" : ending == graph::Ending::kept ? "kept" : "failed";
+    return ending == graph::Outcome::cooked ? "cooked" : ending == graph::Outcome::cached ? "kept" : "failed";
 }
 
 } // namespace
@@ -43,38 +43,38 @@ void EventLog::write(const std::string& line)
 
 void EventLog::cook(const graph::Graph& graph)
 {
-    write(lineOf({{"event", "cook"}, {"schema", kSchema}, {"actions", graph.actions.size()}}));
+    write(toJsonLine({{"event", "cook"}, {"schema", kSchema}, {"actions", graph.actions.size()}}));
 }
 
 void EventLog::start(const graph::Action& action, const graph::ActionOutcome& outcome)
 {
-    write(lineOf({{"event", "start"},
-                  {"cooker", action.cooker},
-                  {"subject", action.subject},
-                  {"why", outcome.causes}}));
+    write(toJsonLine({{"event", "start"},
+                      {"cooker", action.cooker},
+                      {"subject", action.subject},
+                      {"why", outcome.causes}}));
 }
 
 void EventLog::end(const graph::Action& action, const graph::ActionOutcome& outcome)
 {
     uint64_t bytes = 0;
-    for (const graph::KeptOutput& output : outcome.result.outputs)
+    for (const graph::CachedOutput& output : outcome.result.outputs)
         bytes += output.bytes;
-    write(lineOf({{"event", "end"},
-                  {"cooker", action.cooker},
-                  {"subject", action.subject},
-                  {"state", stateOf(outcome.ending)},
-                  {"seconds", outcome.result.seconds},
-                  {"bytes", bytes}}));
+    write(toJsonLine({{"event", "end"},
+                      {"cooker", action.cooker},
+                      {"subject", action.subject},
+                      {"state", outcomeName(outcome.ending)},
+                      {"seconds", outcome.result.seconds},
+                      {"bytes", bytes}}));
 }
 
 void EventLog::error(const std::string& message)
 {
-    write(lineOf({{"event", "error"}, {"message", message}}));
+    write(toJsonLine({{"event", "error"}, {"message", message}}));
 }
 
 void EventLog::done(int exit_code, double seconds)
 {
-    write(lineOf({{"event", "done"}, {"exit", exit_code}, {"seconds", seconds}}));
+    write(toJsonLine({{"event", "done"}, {"exit", exit_code}, {"seconds", seconds}}));
 }
 
 } // namespace hearth::command

@@ -10,15 +10,15 @@ namespace hearth::command
 namespace
 {
 
-std::string codeOf(const IssueInfo& info)
+std::string issueCode(const IssueInfo& info)
 {
     return fmt::format("{}{}", info.kind == IssueClass::warning ? 'W' : 'E',
                        static_cast<unsigned>(info.issue));
 }
 
-std::string page(const IssueInfo& info)
+std::string issueText(const IssueInfo& info)
 {
-    std::string text = fmt::format("{} {}\n  {}\n", codeOf(info), info.name, info.summary);
+    std::string text = fmt::format("{} {}\n  {}\n", issueCode(info), info.name, info.summary);
     if (!info.hint.empty())
         text += fmt::format("  What to do: {}.\n", info.hint);
     if (info.kind == IssueClass::warning)
@@ -35,7 +35,7 @@ Result<std::string> explain(std::string_view code)
     {
         std::string list;
         for (const IssueInfo& info : allIssues())
-            list += fmt::format("{:<6} {}\n", codeOf(info), info.summary);
+            list += fmt::format("{:<6} {}\n", issueCode(info), info.summary);
         return list;
     }
     std::string_view digits = code;
@@ -46,7 +46,7 @@ Result<std::string> explain(std::string_view code)
     if (parsed.ec == std::errc() && parsed.ptr == digits.data() + digits.size())
         for (const IssueInfo& info : allIssues())
             if (static_cast<unsigned>(info.issue) == number)
-                return page(info);
+                return issueText(info);
     return Error{Issue::usage, "hearth explain", "",
                  fmt::format("there is no issue {}; 'hearth explain' lists all", code)};
 }

@@ -62,7 +62,7 @@ std::string block(const std::string& text)
     return roff + ".fi\n";
 }
 
-std::string head(const std::string& name, int section, const std::string& what)
+std::string pageHead(const std::string& name, int section, const std::string& what)
 {
     std::string title = name;
     std::transform(title.begin(), title.end(), title.begin(),
@@ -102,9 +102,9 @@ std::string synopsis(const cli::CommandInfo& verb)
     return text + "\n";
 }
 
-ManualPage pageOf(const cli::CommandInfo& verb)
+ManualPage verbPage(const cli::CommandInfo& verb)
 {
-    std::string text = head("hearth-" + verb.name, 1, verb.description) + synopsis(verb);
+    std::string text = pageHead("hearth-" + verb.name, 1, verb.description) + synopsis(verb);
     if (!verb.positionals.empty())
         text += ".SH ARGUMENTS\n";
     for (const cli::OptionInfo& positional : verb.positionals)
@@ -121,7 +121,7 @@ ManualPage pageOf(const cli::CommandInfo& verb)
 
 ManualPage commandPage(const cli::CommandInfo& hearth)
 {
-    std::string text = head("hearth", 1, "cook assets into packs that a phone can stream and draw");
+    std::string text = pageHead("hearth", 1, "cook assets into packs that a phone can stream and draw");
     text += ".SH SYNOPSIS\n" + bold("hearth") + " [" + italic("OPTIONS") + "] " + italic("VERB") + " ...\n";
     text += ".SH DESCRIPTION\nTurns glTF scenes and scans into one packed file, and looks into such files. "
             "Results go to standard output,\nmessages to standard error, each in one line with a number that "
@@ -139,7 +139,7 @@ ManualPage commandPage(const cli::CommandInfo& hearth)
         if (!setting.variable.empty())
             text += ".TP\n" + bold(setting.variable) + "\n" + plain(setting.what) +
                     (setting.kind == Kind::choice ? ": " + plain(profiles::rangeText(setting)) : "") + ".\n";
-        for (const profiles::Switch& one : setting.switches)
+        for (const profiles::EnvironmentSwitch& one : setting.switches)
             text += ".TP\n" + bold(one.variable) + "\nset, and not 0: " + plain(setting.key) + " is " +
                     plain(one.value) + ".\n";
     }
@@ -161,8 +161,8 @@ std::string settingText(const Setting& setting, const std::string& name)
 {
     std::string text = ".TP\n" + bold(name) + "\n" + plain(setting.what) + ": " +
                        plain(profiles::rangeText(setting)) + ".\n";
-    if (!setting.otherwise.empty())
-        text += "By default " + plain(setting.otherwise) + ".\n";
+    if (!setting.default_text.empty())
+        text += "By default " + plain(setting.default_text) + ".\n";
     if (!setting.option.empty())
         text += "On the command line " + bold(setting.option.substr(setting.option.find("--"))) + ".\n";
     if (setting.members.empty())
@@ -175,7 +175,7 @@ std::string settingText(const Setting& setting, const std::string& name)
 
 ManualPage configPage()
 {
-    std::string text = head("hearth.toml", 5, "settings of a project");
+    std::string text = pageHead("hearth.toml", 5, "settings of a project");
     text +=
         ".SH DESCRIPTION\nA TOML file at the root of a project. hearth looks for it in the working folder "
         "and "
@@ -211,7 +211,7 @@ std::vector<ManualPage> manualPages(const cli::CommandInfo& hearth)
 {
     std::vector<ManualPage> pages{commandPage(hearth)};
     for (const cli::CommandInfo& verb : hearth.subcommands)
-        pages.push_back(pageOf(verb));
+        pages.push_back(verbPage(verb));
     pages.push_back(configPage());
     return pages;
 }

@@ -18,13 +18,13 @@ constexpr std::string_view kError = "error: ";
 constexpr std::string_view kWarning = "warning: ";
 constexpr std::string_view kHint = " hint: ";
 
-MessageForm& form()
+MessageFormat& form()
 {
-    static MessageForm form = MessageForm::text;
+    static MessageFormat form = MessageFormat::text;
     return form;
 }
 
-size_t& toldCount()
+size_t& printedCount()
 {
     static size_t count = 0;
     return count;
@@ -45,7 +45,7 @@ bool isCode(std::string_view text)
            text.find_first_not_of("0123456789", 1) == std::string_view::npos;
 }
 
-std::string jsonOf(const MessageParts& parts)
+std::string messageJson(const MessageParts& parts)
 {
     Json json{{"severity", parts.severity}};
     for (const auto& [name, text] :
@@ -68,17 +68,17 @@ std::string colored(const std::string& line)
 
 } // namespace
 
-void setMessageForm(MessageForm chosen)
+void setMessageFormat(MessageFormat chosen)
 {
     form() = chosen;
 }
 
-MessageForm messageForm()
+MessageFormat messageFormat()
 {
     return form();
 }
 
-MessageParts partsOf(std::string_view line)
+MessageParts splitMessage(std::string_view line)
 {
     MessageParts parts;
     const size_t error = severityAt(line, kError);
@@ -115,19 +115,25 @@ MessageParts partsOf(std::string_view line)
     return parts;
 }
 
-void tell(const std::string& line)
+void printMessage(const std::string& line)
 {
     clearBar();
-    const std::string text = form() == MessageForm::json ? jsonOf(partsOf(line))
-                             : colorOnStderr()           ? colored(line)
-                                                         : line;
+    const std::string text = form() == MessageFormat::json ? messageJson(splitMessage(line))
+                             : isStderrColored()           ? colored(line)
+                                                           : line;
     std::fprintf(stderr, "%s\n", text.c_str());
-    ++toldCount();
+    ++printedCount();
 }
 
-size_t countTold()
+int printError(const Error& error)
 {
-    return toldCount();
+    printMessage(formatMessage(error));
+    return exitCode(error);
+}
+
+size_t countPrinted()
+{
+    return printedCount();
 }
 
 } // namespace hearth::command

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "formats/base/result.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -10,15 +12,15 @@
 namespace hearth::command
 {
 
-enum class MessageForm : uint8_t
+enum class MessageFormat : uint8_t
 {
     text,
     json, ///< an object per line
 };
 
 /// Set the form of all later messages. It is global, because a process has one stderr.
-void setMessageForm(MessageForm form);
-MessageForm messageForm();
+void setMessageFormat(MessageFormat form);
+MessageFormat messageFormat();
 
 /// Parts of "file|where: error: text [E1203] hint: what to do". A line of another form is all `text`, with
 /// severity "note".
@@ -32,12 +34,15 @@ struct MessageParts
     std::string hint;
 };
 /// Split a line into its parts.
-MessageParts partsOf(std::string_view line);
+MessageParts splitMessage(std::string_view line);
 
 /// Print a line, with its "error:" or "warning:" in colour if stderr shows colours; or as JSON.
-void tell(const std::string& line);
+void printMessage(const std::string& line);
 
-/// Return the number of lines that tell() has printed.
-size_t countTold();
+/// Print an error or a warning on stderr. returns  its exit code
+int printError(const Error& error);
+
+/// Return the number of lines that printMessage() has printed.
+size_t countPrinted();
 
 } // namespace hearth::command

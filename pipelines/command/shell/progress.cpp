@@ -15,17 +15,17 @@ namespace
 {
 
 // Least time between two drawings: more often is not visible, and loads remote terminals.
-constexpr std::chrono::milliseconds kBetweenDrawings{50};
+constexpr std::chrono::milliseconds kMinRedrawInterval{50};
 constexpr size_t kBarWidth = 24;
 
 /// Return the state of the bar: global, because a process has one stderr.
-bool& isBarShown()
+bool& barShown()
 {
     static bool shown = false;
     return shown;
 }
 
-size_t columnsOfTerminal()
+size_t terminalColumns()
 {
     winsize size{};
     return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
@@ -93,19 +93,19 @@ void ProgressBar::show(size_t ended, const std::string& what)
 void ProgressBar::draw()
 {
     const auto now = std::chrono::steady_clock::now();
-    if (!is_shown_ || (isBarShown() && now - last_drawn_ < kBetweenDrawings))
+    if (!is_shown_ || (barShown() && now - last_drawn_ < kMinRedrawInterval))
         return;
     last_drawn_ = now;
-    isBarShown() = true;
-    std::fprintf(stderr, "\r\033[K%s", barText(ended_, count_, what_, columnsOfTerminal()).c_str());
+    barShown() = true;
+    std::fprintf(stderr, "\r\033[K%s", barText(ended_, count_, what_, terminalColumns()).c_str());
     std::fflush(stderr);
 }
 
 void clearBar()
 {
-    if (!isBarShown())
+    if (!barShown())
         return;
-    isBarShown() = false;
+    barShown() = false;
     std::fputs("\r\033[K", stderr);
 }
 

@@ -13,12 +13,12 @@ namespace
 // Most names of running actions on a line. More would not fit, because batches of small actions are long.
 constexpr size_t kMaxNames = 3;
 
-std::string nameOf(const graph::Action& action)
+std::string actionName(const graph::Action& action)
 {
     return action.cooker + " " + action.subject;
 }
 
-std::string listOf(const std::vector<std::string>& names)
+std::string actionList(const std::vector<std::string>& names)
 {
     std::string text;
     for (size_t i = 0; i < std::min(names.size(), kMaxNames); ++i)
@@ -38,7 +38,7 @@ double LineTimer::elapsedSeconds() const
 bool LineTimer::isDue()
 {
     const auto now = clock_();
-    if (now - last_ < kBetweenProgressLines)
+    if (now - last_ < kProgressInterval)
         return false;
     last_ = now;
     return true;
@@ -51,37 +51,37 @@ ProgressLines::ProgressLines(const graph::Graph& graph, PrintLine print, Monoton
       pack_(graph.source_count)
 {
     for (const graph::Action& action : graph.actions)
-        sources_[action.source].open.insert(action.outputs.front());
+        sources_[action.source].unfinished.insert(action.outputs.front());
 }
 
 size_t ProgressLines::countEnded() const
 {
     size_t ended = action_count_;
     for (const auto& [index, source] : sources_)
-        ended -= source.open.size();
+        ended -= source.unfinished.size();
     return ended;
 }
 
 void ProgressLines::starting(const graph::Action& action)
 {
-    running_.push_back(nameOf(action));
+    running_.push_back(actionName(action));
     waiting();
 }
 
 void ProgressLines::ended(const graph::Action& action, const graph::ActionOutcome& outcome)
 {
-    if (const auto found = std::find(running_.begin(), running_.end(), nameOf(action));
+    if (const auto found = std::find(running_.begin(), running_.end(), actionName(action));
         found != running_.end())
         running_.erase(found);
     Source& source = sources_[action.source];
-    if (outcome.ending == graph::Ending::cooked)
+    if (outcome.ending == graph::Outcome::cooked)
     {
         source.seconds += outcome.result.seconds;
         ++source.cooked;
     }
-    source.has_failed |= outcome.ending == graph::Ending::failed;
+    source.has_failed |= outcome.ending == graph::Outcome::failed;
     // an action ends a second time if the cache has lost its result: its source has been printed then
-    const bool is_last = source.open.erase(action.outputs.front()) == 1 && source.open.empty();
+    const bool is_last = source.unfinished.erase(action.outputs.front()) == 1 && source.unfinished.empty();
     if (is_last && source.cooked > 0 && !source.has_failed && action.source != pack_)
         printSource(source, action.subject);
     waiting();
@@ -97,7 +97,7 @@ void ProgressLines::waiting()
 {
     if (timer_.isDue())
         print_(fmt::format("{:<10}{:>8.2f} s {:>12}  {}", "so far", timer_.elapsedSeconds(),
-                           fmt::format("{} of {}", countEnded(), action_count_), listOf(running_)));
+                           fmt::format("{} of {}", countEnded(), action_count_), actionList(running_)));
 }
 
 } // namespace hearth::command

@@ -20,7 +20,7 @@ using PrintLine = std::function<void(const std::string& line)>;
 using MonotonicClock = std::function<std::chrono::steady_clock::time_point()>;
 
 /// Time between two lines of overall progress.
-inline constexpr std::chrono::seconds kBetweenProgressLines{10};
+inline constexpr std::chrono::seconds kProgressInterval{10};
 
 /// Timer that says when the next line is due.
 class LineTimer
@@ -30,7 +30,7 @@ public:
 
     /// Return the seconds since construction.
     double elapsedSeconds() const;
-    /// True if kBetweenProgressLines have passed since it last returned true, or since construction.
+    /// True if kProgressInterval have passed since it last returned true, or since construction.
     bool isDue();
 
 private:
@@ -56,9 +56,9 @@ public:
 private:
     struct Source
     {
-        std::set<std::string> open; ///< first outputs of actions that have not ended
-        double seconds = 0;         ///< of the cookers that ran, in total
-        size_t cooked = 0;          ///< number of cookers that ran
+        std::set<std::string> unfinished; ///< first outputs of actions that have not ended
+        double seconds = 0;               ///< of the cookers that ran, in total
+        size_t cooked = 0;                ///< number of cookers that ran
         bool has_failed = false;
     };
 

@@ -12,18 +12,18 @@ namespace hearth::command
 namespace
 {
 
-ColorWish& wish()
+ColorChoice& choice()
 {
-    static ColorWish wish = ColorWish::automatic;
-    return wish;
+    static ColorChoice choice = ColorChoice::automatic;
+    return choice;
 }
 
 bool decideColor()
 {
-    if (wish() != ColorWish::automatic)
-        return wish() == ColorWish::always;
+    if (choice() != ColorChoice::automatic)
+        return choice() == ColorChoice::always;
     using namespace profiles;
-    if (const Switch* chosen = switchSet(*findSetting(commandSettings(), "color")))
+    if (const EnvironmentSwitch* chosen = findSetSwitch(*findSetting(commandSettings(), "color")))
         return chosen->value == "always";
     const bool is_automatic_build = processEnvironment("CI").value_or("0") != "0";
     return ::isatty(STDERR_FILENO) == 1 && !is_automatic_build &&
@@ -32,12 +32,12 @@ bool decideColor()
 
 } // namespace
 
-void setColor(ColorWish chosen)
+void setColorChoice(ColorChoice chosen)
 {
-    wish() = chosen;
+    choice() = chosen;
 }
 
-bool colorOnStderr()
+bool isStderrColored()
 {
     static const bool color = decideColor();
     return color;
@@ -45,7 +45,7 @@ bool colorOnStderr()
 
 std::string faint(std::string_view text)
 {
-    return colorOnStderr() ? fmt::format("\033[2m{}\033[0m", text) : std::string(text);
+    return isStderrColored() ? fmt::format("\033[2m{}\033[0m", text) : std::string(text);
 }
 
 std::string readableSize(uint64_t bytes)

@@ -16,7 +16,7 @@ enum class Verbosity
     all,    ///< also the command line of each stage
 };
 
-enum class ColorWish
+enum class ColorChoice
 {
     automatic,
     always,
@@ -24,11 +24,11 @@ enum class ColorWish
 };
 
 /// Set the user's choice, before anything is printed; automatic if there is none.
-void setColor(ColorWish wish);
+void setColorChoice(ColorChoice choice);
 
 /// True if stderr gets colours. If the choice is automatic, NO_COLOR disables them and CLICOLOR_FORCE enables
 /// them; else they are used if stderr is a terminal, unless TERM=dumb or CI is set.
-bool colorOnStderr();
+bool isStderrColored();
 
 /// Return `text` in faint style if stderr shows colours.
 std::string faint(std::string_view text);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/shell/typing_errors.h"
 
-#include "formats/base/suggest.h"
+#include "formats/base/nearest_match.h"
 
 #include <algorithm>
 #include <utility>
@@ -12,7 +12,7 @@ namespace hearth::command
 namespace
 {
 
-std::string describe(const std::string& kind, const std::string& word, const std::string& nearest)
+std::string describeUnknown(const std::string& kind, const std::string& word, const std::string& nearest)
 {
     return "unknown " + kind + " '" + word + "'" +
            (nearest.empty() ? std::string() : ": did you mean '" + nearest + "'?");
@@ -36,7 +36,7 @@ std::string unknownOption(const cli::CommandInfo& hearth, const cli::CommandInfo
             for (const std::string& known_name : option.names)
                 if (known_name.starts_with("--"))
                     names.push_back(known_name);
-    return describe("option", name, nearestMatch(name, names));
+    return describeUnknown("option", name, nearestMatch(name, names));
 }
 
 std::string unknownVerb(const cli::CommandInfo& command, const std::string& word)
@@ -44,12 +44,12 @@ std::string unknownVerb(const cli::CommandInfo& command, const std::string& word
     std::vector<std::string> names;
     for (const cli::CommandInfo& known : command.subcommands)
         names.push_back(known.name);
-    return describe("verb", word, nearestMatch(word, names));
+    return describeUnknown("verb", word, nearestMatch(word, names));
 }
 
 } // namespace
 
-std::string unknownWord(const cli::CommandInfo& hearth, const std::vector<std::string>& words)
+std::string findUnknownWord(const cli::CommandInfo& hearth, const std::vector<std::string>& words)
 {
     const cli::CommandInfo* verb = &hearth;
     bool is_value = false; // the word is the value of an option before the verb

@@ -12,6 +12,6 @@ namespace hearth::command
 
 /// Find the first of `words` that is no known verb or option.
 /// returns  a message about it, with the nearest known word; empty if all are known
-std::string unknownWord(const cli::CommandInfo& hearth, const std::vector<std::string>& words);
+std::string findUnknownWord(const cli::CommandInfo& hearth, const std::vector<std::string>& words);
 
 } // namespace hearth::command

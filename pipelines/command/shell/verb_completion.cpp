@@ -6,7 +6,7 @@
 namespace hearth::command
 {
 
-void addCompletion(cli::CommandLine& app, Work& run)
+void addCompletion(cli::CommandLine& app, VerbAction& run)
 {
     cli::CommandLine& verb =
         app.addSubcommand("completion", "Print a script that completes command lines in a shell");

@@ -6,7 +6,7 @@
 namespace hearth::command
 {
 
-void addExplain(cli::CommandLine& app, Work& run)
+void addExplain(cli::CommandLine& app, VerbAction& run)
 {
     cli::CommandLine& verb = app.addSubcommand("explain", "Say what the number of a message means");
     auto code = std::make_shared<std::string>();

@@ -14,7 +14,7 @@ int writePages(const std::vector<ManualPage>& pages, const std::string& folder)
 {
     for (const ManualPage& page : pages)
         if (const Status written = writeText(folder + "/" + page.name, page.text); !written.ok())
-            return fail(written.error());
+            return printError(written.error());
     return 0;
 }
 
@@ -24,12 +24,12 @@ int printPage(const std::vector<ManualPage>& pages, const std::string& name)
         if (page.name.substr(0, page.name.rfind('.')) == name ||
             page.name.starts_with("hearth-" + name + "."))
             return printResult(page.text);
-    return usageError("there is no manual page of '" + name + "'");
+    return printUsageError("there is no manual page of '" + name + "'");
 }
 
 } // namespace
 
-void addMan(cli::CommandLine& app, Work& run)
+void addMan(cli::CommandLine& app, VerbAction& run)
 {
     cli::CommandLine& verb = app.addSubcommand("man", "Print a manual page, for man to show");
     struct Options

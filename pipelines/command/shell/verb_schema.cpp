@@ -30,7 +30,7 @@ int printSchema(const std::string& name)
 
 } // namespace
 
-void addSchema(cli::CommandLine& app, Work& run)
+void addSchema(cli::CommandLine& app, VerbAction& run)
 {
     cli::CommandLine& verb =
         app.addSubcommand("schema", "Print the JSON Schema of something that Hearth writes or reads");

@@ -1,27 +1,19 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/shell/verb_tools.h"
 
-#include "formats/base/program.h"
-#include "pipelines/cache/open_cache.h"
-#include "pipelines/command/shell/messages.h"
+#include "pipelines/cache/cache_spec.h"
 
 #include <cstdio>
 
 namespace hearth::command
 {
 
-int fail(const Error& error)
+int printUsageError(const std::string& what)
 {
-    tell(formatMessage(error));
-    return exitCode(error);
+    return printError({Issue::usage, "hearth", "", what});
 }
 
-int usageError(const std::string& what)
-{
-    return fail({Issue::usage, "hearth", "", what});
-}
-
-std::string joined(const std::vector<std::string>& words, std::string_view separator)
+std::string joinWords(const std::vector<std::string>& words, std::string_view separator)
 {
     std::string text;
     for (size_t i = 0; i < words.size(); ++i)
@@ -33,12 +25,12 @@ int printResult(const std::string& text)
 {
     if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0)
         return 0;
-    return fail({Issue::read_failed, "stdout", "", "cannot be written"});
+    return printError({Issue::read_failed, "stdout", "", "cannot be written"});
 }
 
 int printResult(const Result<std::string>& result)
 {
-    return result.ok() ? printResult(*result) : fail(result.error());
+    return result.ok() ? printResult(*result) : printError(result.error());
 }
 
 void addFormat(cli::CommandLine& verb, std::string& format)

@@ -4,6 +4,7 @@
 
 #include "cook/command_line/command_line.h"
 #include "formats/base/result.h"
+#include "pipelines/command/shell/messages.h"
 
 #include <string>
 #include <string_view>
@@ -12,14 +13,10 @@
 namespace hearth::command
 {
 
-/// Print an error on stderr.
-/// returns    its exit code
-int fail(const Error& error);
-
-int usageError(const std::string& what);
+int printUsageError(const std::string& what);
 
 /// Join words: "a, b, c" with the separator ", ".
-std::string joined(const std::vector<std::string>& words, std::string_view separator);
+std::string joinWords(const std::vector<std::string>& words, std::string_view separator);
 
 /// Print a result to stdout. A pipe that does not take it is an error like any other.
 /// returns    the exit code

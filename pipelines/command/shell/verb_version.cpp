@@ -5,7 +5,7 @@
 namespace hearth::command
 {
 
-void addVersion(cli::CommandLine& app, Work& run)
+void addVersion(cli::CommandLine& app, VerbAction& run)
 {
     cli::CommandLine& verb = app.addSubcommand("version", "Print the version");
     verb.setAction([&run] { run = [] { return printResult(std::string("hearth " HEARTH_VERSION "\n")); }; });

@@ -11,26 +11,26 @@ namespace hearth::command
 {
 
 /// Action of the chosen verb, with its parsed options; returns the exit code.
-using Work = std::function<int()>;
+using VerbAction = std::function<int()>;
 
-void addCook(cli::CommandLine& app, Work& run);
-void addInspect(cli::CommandLine& app, Work& run);
-void addDiff(cli::CommandLine& app, Work& run);
-void addVerify(cli::CommandLine& app, Work& run);
-void addExtract(cli::CommandLine& app, Work& run);
-void addWhy(cli::CommandLine& app, Work& run);
-void addCache(cli::CommandLine& app, Work& run);
-void addPlan(cli::CommandLine& app, Work& run);
-void addRun(cli::CommandLine& app, Work& run);
-void addMerge(cli::CommandLine& app, Work& run);
-void addFarm(cli::CommandLine& app, Work& run);
-void addConfig(cli::CommandLine& app, Work& run);
-void addCompletion(cli::CommandLine& app, Work& run);
-void addDoctor(cli::CommandLine& app, Work& run);
-void addReport(cli::CommandLine& app, Work& run);
-void addExplain(cli::CommandLine& app, Work& run);
-void addMan(cli::CommandLine& app, Work& run);
-void addSchema(cli::CommandLine& app, Work& run);
-void addVersion(cli::CommandLine& app, Work& run);
+void addCook(cli::CommandLine& app, VerbAction& run);
+void addInspect(cli::CommandLine& app, VerbAction& run);
+void addDiff(cli::CommandLine& app, VerbAction& run);
+void addVerify(cli::CommandLine& app, VerbAction& run);
+void addExtract(cli::CommandLine& app, VerbAction& run);
+void addWhy(cli::CommandLine& app, VerbAction& run);
+void addCache(cli::CommandLine& app, VerbAction& run);
+void addPlan(cli::CommandLine& app, VerbAction& run);
+void addRun(cli::CommandLine& app, VerbAction& run);
+void addMerge(cli::CommandLine& app, VerbAction& run);
+void addFarm(cli::CommandLine& app, VerbAction& run);
+void addConfig(cli::CommandLine& app, VerbAction& run);
+void addCompletion(cli::CommandLine& app, VerbAction& run);
+void addDoctor(cli::CommandLine& app, VerbAction& run);
+void addReport(cli::CommandLine& app, VerbAction& run);
+void addExplain(cli::CommandLine& app, VerbAction& run);
+void addMan(cli::CommandLine& app, VerbAction& run);
+void addSchema(cli::CommandLine& app, VerbAction& run);
+void addVersion(cli::CommandLine& app, VerbAction& run);
 
 } // namespace hearth::command

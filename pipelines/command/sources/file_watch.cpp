@@ -19,9 +19,10 @@ namespace
 
 namespace fs = std::filesystem;
 
-constexpr int kQuietMilliseconds = 100;
-constexpr uint32_t kComings = IN_CREATE | IN_DELETE | IN_MOVED_FROM | IN_MOVED_TO;
-constexpr uint32_t kChanges = kComings | IN_CLOSE_WRITE | IN_DELETE_SELF | IN_MOVE_SELF | IN_ONLYDIR;
+constexpr int kQuietPeriod_ms = 100;
+constexpr uint32_t kAppearanceEvents = IN_CREATE | IN_DELETE | IN_MOVED_FROM | IN_MOVED_TO;
+constexpr uint32_t kWatchedEvents =
+    kAppearanceEvents | IN_CLOSE_WRITE | IN_DELETE_SELF | IN_MOVE_SELF | IN_ONLYDIR;
 
 Error cannotWatch(const std::string& path)
 {
@@ -29,10 +30,10 @@ Error cannotWatch(const std::string& path)
 }
 
 /// SIGINT, SIGTERM and SIGHUP as a file descriptor, while the object lives.
-class Signals
+class SignalDescriptor
 {
 public:
-    Signals()
+    SignalDescriptor()
     {
         sigset_t signals;
         ::sigemptyset(&signals);
@@ -42,16 +43,16 @@ public:
         file_ = ::signalfd(-1, &signals, SFD_CLOEXEC | SFD_NONBLOCK);
         HEARTH_ASSERT(file_ >= 0);
     }
-    ~Signals()
+    ~SignalDescriptor()
     {
         ::close(file_);
         ::sigprocmask(SIG_SETMASK, &before_, nullptr);
     }
-    Signals(const Signals&) = delete;
-    Signals& operator=(const Signals&) = delete;
+    SignalDescriptor(const SignalDescriptor&) = delete;
+    SignalDescriptor& operator=(const SignalDescriptor&) = delete;
 
     int file() const { return file_; }
-    bool have() const
+    bool isPending() const
     {
         signalfd_siginfo signal{};
         return ::read(file_, &signal, sizeof(signal)) == sizeof(signal);
@@ -78,7 +79,7 @@ FileWatch::FileWatch(FileWatch&& other) noexcept
       watch_of_folder_(std::move(other.watch_of_folder_)),
       names_(std::move(other.names_)),
       folder_of_watch_(std::move(other.folder_of_watch_)),
-      changed_before_(std::move(other.changed_before_))
+      earlier_change_(std::move(other.earlier_change_))
 {
 }
 
@@ -94,9 +95,9 @@ namespace
 using Change = FileWatch::Change;
 
 /// Choose which of two changes to report: the first, but a watched file before other files of a folder.
-std::optional<Change> firstOf(std::optional<Change> first, std::optional<Change> second)
+std::optional<Change> preferredChange(std::optional<Change> first, std::optional<Change> second)
 {
-    return !first || (second && first->is_of_folder && !second->is_of_folder) ? std::move(second)
+    return !first || (second && first->is_in_folder && !second->is_in_folder) ? std::move(second)
                                                                               : std::move(first);
 }
 
@@ -116,21 +117,21 @@ Status FileWatch::add(const fs::path& path, const std::map<std::string, int>& be
         folder = folder.parent_path();
     }
     const auto known = before.find(folder.string());
-    const int watch = ::inotify_add_watch(events_, folder.c_str(), kChanges);
+    const int watch = ::inotify_add_watch(events_, folder.c_str(), kWatchedEvents);
     if (watch < 0)
         return cannotWatch(folder.string());
     watch_of_folder_[folder.string()] = watch;
     names_[watch][name.filename().string()] = path.string();
     const auto written = fs::last_write_time(path, error);
     if ((known == before.end() || known->second != watch) && !error && written >= since)
-        changed_before_ = firstOf(changed_before_, Change{path.string()});
+        earlier_change_ = preferredChange(earlier_change_, Change{path.string()});
     return success();
 }
 
 Status FileWatch::watch(const std::vector<std::string>& paths, fs::file_time_type since,
                         const std::vector<std::string>& folders)
 {
-    changed_before_ = takeEvents();
+    earlier_change_ = readEvents();
     const std::map<std::string, int> before = std::exchange(watch_of_folder_, {});
     names_.clear();
     paths_.clear();
@@ -164,7 +165,7 @@ Status FileWatch::watch(const std::vector<std::string>& paths, fs::file_time_typ
 
 /// Read all pending events. Return the change to report; nullopt if no event concerns the watched files and
 /// folders.
-std::optional<FileWatch::Change> FileWatch::takeEvents()
+std::optional<FileWatch::Change> FileWatch::readEvents()
 {
     std::optional<Change> changed;
     alignas(inotify_event) std::array<char, 16384> buffer;
@@ -179,34 +180,34 @@ std::optional<FileWatch::Change> FileWatch::takeEvents()
             at += static_cast<ssize_t>(sizeof(inotify_event) + event->len);
             const auto names = names_.find(event->wd);
             if ((event->mask & IN_Q_OVERFLOW) != 0)
-                changed = firstOf(changed, Change{"more than can be told"});
+                changed = preferredChange(changed, Change{"more than can be told"});
             if (names == names_.end())
                 continue;
             const auto name = names->second.find(event->len > 0 ? event->name : "");
             if (name != names->second.end())
-                changed = firstOf(changed, Change{name->second});
+                changed = preferredChange(changed, Change{name->second});
             else if ((event->mask & (IN_DELETE_SELF | IN_MOVE_SELF)) != 0)
-                changed = firstOf(changed, Change{names->second.begin()->second});
+                changed = preferredChange(changed, Change{names->second.begin()->second});
             else if (const auto folder = folder_of_watch_.find(event->wd);
-                     folder != folder_of_watch_.end() && (event->mask & kComings) != 0)
-                changed = firstOf(changed, Change{folder->second, true});
+                     folder != folder_of_watch_.end() && (event->mask & kAppearanceEvents) != 0)
+                changed = preferredChange(changed, Change{folder->second, true});
         }
     }
 }
 
 std::optional<FileWatch::Change> FileWatch::wait()
 {
-    const Signals signals;
-    std::optional<Change> changed = std::exchange(changed_before_, std::nullopt);
+    const SignalDescriptor signals;
+    std::optional<Change> changed = std::exchange(earlier_change_, std::nullopt);
     for (;;)
     {
         std::array<pollfd, 2> files{{{signals.file(), POLLIN, 0}, {events_, POLLIN, 0}}};
-        const int ready = ::poll(files.data(), files.size(), changed ? kQuietMilliseconds : -1);
-        if (signals.have())
+        const int ready = ::poll(files.data(), files.size(), changed ? kQuietPeriod_ms : -1);
+        if (signals.isPending())
             return std::nullopt;
         if (ready == 0)
             return changed;
-        changed = firstOf(changed, takeEvents());
+        changed = preferredChange(changed, readEvents());
     }
 }
 

@@ -39,7 +39,7 @@ public:
     {
         std::string path; ///< first changed file, or the folder
         /// No watched file has changed, but a file has appeared or vanished in this folder.
-        bool is_of_folder = false;
+        bool is_in_folder = false;
     };
 
     /// Wait until one of them changes, appears or vanishes, and then until nothing has changed for a tenth of
@@ -51,7 +51,7 @@ private:
     explicit FileWatch(int events) : events_(events) {}
     Status add(const std::filesystem::path& path, const std::map<std::string, int>& before,
                std::filesystem::file_time_type since);
-    std::optional<Change> takeEvents();
+    std::optional<Change> readEvents();
 
     int events_ = -1;
     std::set<std::string> paths_;
@@ -59,7 +59,7 @@ private:
     /// By watch: name in its folder, and the watched path that it belongs to.
     std::map<int, std::map<std::string, std::string>> names_;
     std::map<int, std::string> folder_of_watch_; ///< folders in which any file counts
-    std::optional<Change> changed_before_;       ///< change that happened before wait()
+    std::optional<Change> earlier_change_;       ///< change that happened before wait()
 };
 
 } // namespace hearth::command

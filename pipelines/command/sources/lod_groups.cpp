@@ -28,7 +28,7 @@ std::string normalPath(const std::string& file)
     return fs::path(file).lexically_normal().string();
 }
 
-std::string wordOf(size_t level, const std::string& file)
+std::string lodArgument(size_t level, const std::string& file)
 {
     return fmt::format("{}={}", level, file);
 }
@@ -54,10 +54,10 @@ struct NamedGroup
     std::vector<NamedLevel> repeated;              ///< further files of a level that has one
 };
 
-class Grouper
+class LodGrouper
 {
 public:
-    Grouper(const std::vector<std::string>& files, const profiles::Configuration& configuration)
+    LodGrouper(const std::vector<std::string>& files, const profiles::Configuration& configuration)
         : files_(files), configuration_(configuration)
     {
     }
@@ -65,12 +65,12 @@ public:
     Result<LodGroups> group()
     {
         readSettings();
-        HEARTH_TRY(takeListed());
-        takeNamed();
+        HEARTH_TRY(takeListedLods());
+        takeNamedLods();
         for (const std::string& file : files_)
         {
             const std::string path = normalPath(file);
-            if (taken_.contains(path))
+            if (level_files_.contains(path))
                 continue;
             groups_.sources.push_back(file);
             groups_.lods_of_source.push_back(lods_of_file_[path]);
@@ -83,53 +83,53 @@ private:
     {
         for (const std::string& file : files_)
         {
-            const profiles::Values values = configuration_.ofSource(file);
+            const profiles::Values values = configuration_.valuesOfSource(file);
             const auto found = values.find(profiles::kImportLods);
             if (found == values.end())
                 continue;
             ListedLevels& listed = listed_[normalPath(file)];
             listed = {{}, found->second.origin};
-            for (const std::string& name : profiles::textsOf(found->second))
+            for (const std::string& name : profiles::valueTexts(found->second))
                 listed.files.push_back(normalPath((fs::path(file).parent_path() / name).string()));
         }
     }
 
     /// Take the LODs that settings list. A rule may match the levels as well as their source, so a file that
     /// another file lists is a level, whatever it lists itself.
-    Status takeListed()
+    Status takeListedLods()
     {
         for (const auto& [file, listed] : listed_)
             for (const std::string& level : listed.files)
                 if (level != file)
-                    taken_.insert(level);
+                    level_files_.insert(level);
         std::set<std::string> used;
         for (const auto& [file, listed] : listed_)
-            if (!taken_.contains(file))
+            if (!level_files_.contains(file))
                 used.insert(listed.files.begin(), listed.files.end());
         for (const auto& [file, listed] : listed_)
         {
             for (const std::string& level : listed.files)
-                if (level == file ? !taken_.contains(file) : !used.contains(level))
+                if (level == file ? !level_files_.contains(file) : !used.contains(level))
                     return Error{Issue::profile_value, listed.origin, std::string(profiles::kImportLods),
                                  fmt::format("makes {} a level of {}, which {}", level, file,
                                              level == file ? "is the same file" : "is a level itself")};
-            if (!taken_.contains(file))
+            if (!level_files_.contains(file))
                 for (size_t i = 0; i < listed.files.size(); ++i)
-                    lods_of_file_[file].push_back(wordOf(i + 1, listed.files[i]));
+                    lods_of_file_[file].push_back(lodArgument(i + 1, listed.files[i]));
         }
         return success();
     }
 
     /// Take the LODs that names give, only of files without a setting.
-    void takeNamed()
+    void takeNamedLods()
     {
         std::map<std::pair<std::string, std::string>, NamedGroup> group_of_stem;
         for (const std::string& file : files_)
         {
             const fs::path path(normalPath(file));
             const auto name = tools::parseLodName(path.stem().string());
-            if (!name || !isModel(path.string()) || listed_.contains(path.string()) ||
-                taken_.contains(path.string()))
+            if (!name || !isModelFile(path.string()) || listed_.contains(path.string()) ||
+                level_files_.contains(path.string()))
                 continue;
             NamedGroup& group = group_of_stem[{path.parent_path().string(), name->stem}];
             const auto [first, is_new] = group.file_of_level.emplace(name->level, path.string());
@@ -147,8 +147,8 @@ private:
         for (const auto& [level, file] : group.file_of_level)
             if (level > 0)
             {
-                lods_of_file_[source].push_back(wordOf(level, file));
-                taken_.insert(file);
+                lods_of_file_[source].push_back(lodArgument(level, file));
+                level_files_.insert(file);
             }
         std::set<std::string> warned;
         for (const NamedLevel& repeated : group.repeated)
@@ -157,7 +157,7 @@ private:
                 continue;
             const std::string& first = group.file_of_level.at(repeated.level);
             if (repeated.level > 0)
-                taken_.insert(repeated.file);
+                level_files_.insert(repeated.file);
             groups_.warnings.push_back(
                 {Issue::lod_repeated, repeated.file, "",
                  repeated.level > 0
@@ -173,7 +173,7 @@ private:
     const profiles::Configuration& configuration_;
     std::map<std::string, ListedLevels> listed_; ///< by file; all paths here and below are normal
     std::map<std::string, Words> lods_of_file_;
-    std::set<std::string> taken_; ///< files that are levels, not sources
+    std::set<std::string> level_files_; ///< files that are levels, not sources
     LodGroups groups_;
 };
 
@@ -182,7 +182,7 @@ private:
 Result<LodGroups> groupLods(const std::vector<std::string>& files,
                             const profiles::Configuration& configuration)
 {
-    return Grouper(files, configuration).group();
+    return LodGrouper(files, configuration).group();
 }
 
 } // namespace hearth::command

@@ -19,7 +19,7 @@ constexpr double kOutlierFactor = 20;
 // With two sources, nothing tells which of them is wrong.
 constexpr size_t kMinSources = 3;
 
-std::string warningOf(const std::string& source, double side, double median, size_t count)
+std::string outlierWarning(const std::string& source, double side, double median, size_t count)
 {
     const bool is_larger = side > median;
     return formatMessage(
@@ -55,7 +55,7 @@ std::vector<SizeOutlier> findSizeOutliers(const std::string& pack, const std::ve
     {
         const double side = double{formats::largestSide(assets->span()[i])};
         if (side > 0 && (side >= kOutlierFactor * median || side * kOutlierFactor <= median))
-            outliers.push_back({i, warningOf(sources[i], side, median, sides.size())});
+            outliers.push_back({i, outlierWarning(sources[i], side, median, sides.size())});
     }
     return outliers;
 }

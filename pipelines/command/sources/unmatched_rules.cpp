@@ -37,7 +37,7 @@ void removeMatched(std::vector<const Rule*>& rules, const std::vector<std::strin
                   });
 }
 
-std::string detailOf(const Rule& rule, const std::vector<std::string>& paths)
+std::string describeMismatch(const Rule& rule, const std::vector<std::string>& paths)
 {
     const std::optional<profiles::NearestPath> nearest = profiles::nearestPath(rule.match, paths);
     if (!nearest)
@@ -49,12 +49,13 @@ std::string detailOf(const Rule& rule, const std::vector<std::string>& paths)
 
 } // namespace
 
-std::vector<Error> unmatchedRules(const Configuration& configuration, const std::vector<std::string>& sources)
+std::vector<Error> findUnmatchedRules(const Configuration& configuration,
+                                      const std::vector<std::string>& sources)
 {
     std::vector<const Rule*> rules;
     const profiles::ConfigFile* project = configuration.projectFile();
     for (size_t i = 0; project != nullptr && i < project->rules.size(); ++i)
-        if (project->rules[i].holdsIn(configuration.profileName()))
+        if (project->rules[i].appliesTo(configuration.profileName()))
             rules.push_back(&project->rules[i]);
     std::vector<std::string> paths;
     addPaths(configuration, sources, paths);
@@ -62,14 +63,15 @@ std::vector<Error> unmatchedRules(const Configuration& configuration, const std:
     if (rules.empty())
         return {};
     // search the folder only now, because few cooks need it
-    if (const auto models = sourcesOf({configuration.projectFolder()}); models.ok())
+    if (const auto models = expandSources({configuration.projectFolder()}); models.ok())
         addPaths(configuration, *models, paths);
     removeMatched(rules, paths);
     if (paths.empty() && sources.empty())
         return {};
     std::vector<Error> warnings;
     for (const Rule* rule : rules)
-        warnings.push_back({Issue::rule_unmatched, project->path, rule->place, detailOf(*rule, paths)});
+        warnings.push_back(
+            {Issue::rule_unmatched, project->path, rule->place, describeMismatch(*rule, paths)});
     return warnings;
 }
 

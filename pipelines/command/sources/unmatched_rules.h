@@ -16,7 +16,7 @@ namespace hearth::command
 /// rule for models that are not cooked this time is fine.
 /// sources  as the user typed them; none: only the models of the project count, and if it has none there is
 ///          no warning
-std::vector<Error> unmatchedRules(const profiles::Configuration& configuration,
-                                  const std::vector<std::string>& sources);
+std::vector<Error> findUnmatchedRules(const profiles::Configuration& configuration,
+                                      const std::vector<std::string>& sources);
 
 } // namespace hearth::command

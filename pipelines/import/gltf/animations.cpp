@@ -27,7 +27,7 @@ struct Curve
 };
 
 /// Location of a curve in the part.
-struct CurvePlace
+struct CurveLocation
 {
     uint32_t first_time = 0;
     uint32_t first_value = 0;
@@ -41,7 +41,7 @@ bool allFinite(const std::vector<float>& values)
 }
 
 /// Drop the keys whose time is not greater than the previous one. True if no key was dropped.
-bool keepIncreasing(Curve& curve)
+bool dropNonIncreasingKeys(Curve& curve)
 {
     const size_t stride = curve.values.size() / curve.times.size();
     size_t kept = 0;
@@ -93,7 +93,8 @@ private:
     Status checkSamplers() const;
     Status writeChannel(const GltfAnimationChannel& channel);
     Status checkOutput(const GltfAnimationSampler& sampler, AnimationPath path) const;
-    Result<CurvePlace> place(const GltfAnimationSampler& sampler, AnimationPath path, size_t components);
+    Result<CurveLocation> findOrWriteCurve(const GltfAnimationSampler& sampler, AnimationPath path,
+                                           size_t components);
     Result<Curve> readCurve(const GltfAnimationSampler& sampler, AnimationPath path, size_t components);
 
     const GltfModel& model_;
@@ -104,7 +105,7 @@ private:
     std::string where_;
     /// Location of the keys by sampler, path and component count: channels that share a sampler share its
     /// keys.
-    std::map<std::tuple<uint32_t, AnimationPath, size_t>, CurvePlace> places_;
+    std::map<std::tuple<uint32_t, AnimationPath, size_t>, CurveLocation> locations_;
 };
 
 bool isScalarFloat(const GltfAccessor& accessor)
@@ -156,7 +157,7 @@ Result<Curve> AnimationWriter::readCurve(const GltfAnimationSampler& sampler, An
         return accessors_.error(sampler.input, Issue::gltf_data, "a time is negative");
     if (!allFinite(curve.values))
         return accessors_.error(sampler.output, Issue::gltf_data, "an animated value is not finite");
-    if (!keepIncreasing(curve))
+    if (!dropNonIncreasingKeys(curve))
         tally_.repaired("animation keys whose time does not grow were left out", where_);
     if (path == AnimationPath::rotation &&
         !normalizeRotations(curve.values, per_key == 3 ? 4 : 0, 4 * per_key))
@@ -164,26 +165,26 @@ Result<Curve> AnimationWriter::readCurve(const GltfAnimationSampler& sampler, An
     return curve;
 }
 
-Result<CurvePlace> AnimationWriter::place(const GltfAnimationSampler& sampler, AnimationPath path,
-                                          size_t components)
+Result<CurveLocation> AnimationWriter::findOrWriteCurve(const GltfAnimationSampler& sampler,
+                                                        AnimationPath path, size_t components)
 {
     const auto number = static_cast<uint32_t>(&sampler - animation_->samplers.data());
-    const auto found = places_.find({number, path, components});
-    if (found != places_.end())
+    const auto found = locations_.find({number, path, components});
+    if (found != locations_.end())
         return found->second;
     HEARTH_ASSIGN_OR_RETURN(const Curve curve, readCurve(sampler, path, components));
     std::vector<float>& keys = context_.part.keys;
     if (keys.size() + curve.times.size() + curve.values.size() > kMaxKeyFloats)
         return context_.error(Issue::input_too_large, where_, "too many animation keys");
-    CurvePlace place;
-    place.key_count = static_cast<uint32_t>(curve.times.size());
-    place.first_time = static_cast<uint32_t>(keys.size());
-    place.first_value = place.first_time + place.key_count;
-    place.end_time = curve.times.back();
+    CurveLocation findOrWriteCurve;
+    findOrWriteCurve.key_count = static_cast<uint32_t>(curve.times.size());
+    findOrWriteCurve.first_time = static_cast<uint32_t>(keys.size());
+    findOrWriteCurve.first_value = findOrWriteCurve.first_time + findOrWriteCurve.key_count;
+    findOrWriteCurve.end_time = curve.times.back();
     keys.insert(keys.end(), curve.times.begin(), curve.times.end());
     keys.insert(keys.end(), curve.values.begin(), curve.values.end());
-    places_.emplace(std::tuple(number, path, components), place);
-    return place;
+    locations_.emplace(std::tuple(number, path, components), findOrWriteCurve);
+    return findOrWriteCurve;
 }
 
 Status AnimationWriter::writeChannel(const GltfAnimationChannel& channel)
@@ -192,7 +193,7 @@ Status AnimationWriter::writeChannel(const GltfAnimationChannel& channel)
     const uint32_t mesh = model_.nodes[channel.node].mesh;
     size_t components = channel.path == AnimationPath::rotation ? 4 : 3;
     if (channel.path == AnimationPath::weights)
-        components = mesh == kNone ? 0 : morphTargetCount(model_.meshes[mesh]);
+        components = mesh == kInvalidIndex ? 0 : morphTargetCount(model_.meshes[mesh]);
     if (components == 0)
     {
         tally_.dropped("animation of morph weights without morph targets is not kept", where_);
@@ -200,7 +201,7 @@ Status AnimationWriter::writeChannel(const GltfAnimationChannel& channel)
     }
     if (!model_.nodes[channel.node].has_trs && channel.path != AnimationPath::weights)
         tally_.degraded("animation of a node that has a matrix", where_);
-    HEARTH_ASSIGN_OR_RETURN(const CurvePlace curve, place(sampler, channel.path, components));
+    HEARTH_ASSIGN_OR_RETURN(const CurveLocation curve, findOrWriteCurve(sampler, channel.path, components));
 
     AnimationChannelRecord record{};
     record.node = channel.node;
@@ -221,7 +222,7 @@ Status AnimationWriter::write(uint32_t index)
 {
     animation_ = &model_.animations[index];
     where_ = fmt::format("/animations/{}", index);
-    places_.clear();
+    locations_.clear();
     HEARTH_TRY(checkSamplers());
     AnimationRecord record{};
     record.name = context_.part.intern(animation_->name);

@@ -25,7 +25,7 @@ constexpr std::array<uint8_t, 4> kFlatNormal{128, 128, 255, 255};
 /// property of the surface looks wrong.
 DecodedImage placeholder(ImagePurpose purpose)
 {
-    DecodedImage image = placeholderImage();
+    DecodedImage image = makePlaceholderImage();
     if (purpose == ImagePurpose::color)
         return image;
     const auto& texel = purpose == ImagePurpose::normal ? kFlatNormal : kWhite;
@@ -45,9 +45,9 @@ ImageRecord recordFor(ImagePurpose purpose)
 
 } // namespace
 
-std::string GltfImages::nameOf(uint32_t image) const
+std::string GltfImages::imageName(uint32_t image) const
 {
-    if (image == kNone)
+    if (image == kInvalidIndex)
         return "missing";
     const GltfImage& source = model_.images[image];
     if (!source.name.empty())
@@ -59,34 +59,34 @@ std::string GltfImages::nameOf(uint32_t image) const
 
 Result<DecodedImage> GltfImages::read(uint32_t image, const std::string& where)
 {
-    if (image == kNone)
+    if (image == kInvalidIndex)
         return context_.error(Issue::input_missing, where, "the texture has no image");
     const GltfImage& source = model_.images[image];
     if (source.uri)
     {
         HEARTH_ASSIGN_OR_RETURN(const FileBytes file, readUri(*source.uri, where, context_));
-        return decodeImage(file.bytes(), nameOf(image), context_.options.limits);
+        return decodeImage(file.bytes(), imageName(image), context_.options.limits);
     }
-    if (source.buffer_view == kNone)
+    if (source.buffer_view == kInvalidIndex)
         return context_.error(Issue::input_missing, where, "the image has neither a URI nor a buffer view");
-    return decodeImage(buffers_.view(source.buffer_view), nameOf(image), context_.options.limits);
+    return decodeImage(buffers_.view(source.buffer_view), imageName(image), context_.options.limits);
 }
 
 std::optional<DecodedImage> GltfImages::decode(uint32_t image, const std::string& where,
                                                const std::string& user)
 {
-    asked_for_[image] = true;
+    requested_[image] = true;
     Result<DecodedImage> read_image = read(image, where);
     if (read_image.ok())
         return std::move(read_image).value();
     const Error& error = read_image.error();
     const bool missing = error.issue == Issue::input_missing;
-    const bool has_uri = image != kNone && model_.images[image].uri.has_value();
+    const bool has_uri = image != kInvalidIndex && model_.images[image].uri.has_value();
     context_.part.warn(
         missing ? Issue::image_missing : Issue::image_replaced, where,
-        fmt::format("image \"{}\" of {}: {}", nameOf(image), user,
+        fmt::format("image \"{}\" of {}: {}", imageName(image), user,
                     error.detail.empty() ? issueInfo(error.issue).summary : std::string_view(error.detail)),
-        has_uri ? suggestionForUri(*model_.images[image].uri, error.issue, context_) : "");
+        has_uri ? suggestNearestForUri(*model_.images[image].uri, error.issue, context_) : "");
     return std::nullopt;
 }
 
@@ -96,10 +96,10 @@ Result<uint32_t> GltfImages::write(uint32_t image, ImagePurpose purpose, const s
     const auto found = written_.find({image, purpose});
     if (found != written_.end())
         return found->second;
-    const std::string image_where = image == kNone ? where : fmt::format("/images/{}", image);
+    const std::string image_where = image == kInvalidIndex ? where : fmt::format("/images/{}", image);
     const std::optional<DecodedImage> decoded = decode(image, image_where, user);
     ImageRecord record = recordFor(purpose);
-    record.name = context_.part.intern(nameOf(image));
+    record.name = context_.part.intern(imageName(image));
     if (!decoded)
         record.flags |= kImagePlaceholder;
     const auto cutoff = alpha_cutoff_of_image_.find(image);
@@ -114,8 +114,8 @@ Result<uint32_t> GltfImages::write(uint32_t image, ImagePurpose purpose, const s
     return index;
 }
 
-Result<uint32_t> GltfImages::writeMade(const DecodedImage& image, ImagePurpose purpose,
-                                       const std::string& name, std::optional<float> alpha_cutoff)
+Result<uint32_t> GltfImages::writeComputed(const DecodedImage& image, ImagePurpose purpose,
+                                           const std::string& name, std::optional<float> alpha_cutoff)
 {
     ImageRecord record = recordFor(purpose);
     record.name = context_.part.intern(name);
@@ -130,10 +130,10 @@ Result<uint32_t> GltfImages::writeMade(const DecodedImage& image, ImagePurpose p
 void GltfImages::reportUnused() const
 {
     for (uint32_t image = 0; image < model_.images.size(); ++image)
-        if (!asked_for_.contains(image))
+        if (!requested_.contains(image))
             context_.part.warn(
                 Issue::dropped, fmt::format("/images/{}", image),
-                fmt::format("image \"{}\", which no material uses, is not kept", nameOf(image)));
+                fmt::format("image \"{}\", which no material uses, is not kept", imageName(image)));
 }
 
 } // namespace hearth::import

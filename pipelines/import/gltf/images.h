@@ -29,7 +29,7 @@ public:
     /// written.
     void setAlphaCutoff(uint32_t image, float cutoff) { alpha_cutoff_of_image_.emplace(image, cutoff); }
 
-    /// Return the part's image for a source image (kNone: a texture without an image) and a purpose. The
+    /// Return the part's image for a source image (kInvalidIndex: a texture without an image) and a purpose. The
     /// image is decoded and written on first use; a missing or broken one becomes a placeholder, with a
     /// warning.
     /// user  the image's user, for the warning: "material \"oak\""
@@ -40,22 +40,22 @@ public:
     std::optional<DecodedImage> decode(uint32_t image, const std::string& where, const std::string& user);
 
     /// Write an image that the importer has computed.
-    Result<uint32_t> writeMade(const DecodedImage& image, ImagePurpose purpose, const std::string& name,
-                               std::optional<float> alpha_cutoff);
+    Result<uint32_t> writeComputed(const DecodedImage& image, ImagePurpose purpose, const std::string& name,
+                                   std::optional<float> alpha_cutoff);
 
     /// Report the images that nothing uses.
     void reportUnused() const;
 
 private:
     Result<DecodedImage> read(uint32_t image, const std::string& where);
-    std::string nameOf(uint32_t image) const;
+    std::string imageName(uint32_t image) const;
 
     const GltfModel& model_;
     const GltfBuffers& buffers_;
     const GltfContext& context_;
     std::map<uint32_t, float> alpha_cutoff_of_image_;
     std::map<std::pair<uint32_t, ImagePurpose>, uint32_t> written_;
-    std::map<uint32_t, bool> asked_for_;
+    std::map<uint32_t, bool> requested_;
 };
 
 } // namespace hearth::import

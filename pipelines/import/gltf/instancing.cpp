@@ -9,8 +9,6 @@
 namespace hearth::import
 {
 
-using formats::kNone;
-
 namespace
 {
 
@@ -37,7 +35,7 @@ Result<std::vector<float>> readAttribute(const GltfAttributes& attributes, std::
                                          GltfAccessors& accessors)
 {
     const uint32_t index = findAttribute(attributes, name);
-    if (index == kNone)
+    if (index == kInvalidIndex)
         return std::vector<float>{};
     HEARTH_ASSIGN_OR_RETURN(std::vector<float> values, accessors.floats(index));
     if (!std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); }))

@@ -13,8 +13,6 @@
 namespace hearth::import
 {
 
-using formats::kNone;
-
 namespace
 {
 
@@ -36,7 +34,7 @@ public:
         // a node is visited twice: on the way down, and after all nodes below it
         std::vector<std::pair<uint32_t, bool>> open;
         for (uint32_t node = 0; node < model.nodes.size(); ++node)
-            if (model.nodes[node].parent == kNone)
+            if (model.nodes[node].parent == kInvalidIndex)
                 open.push_back({node, false});
         while (!open.empty())
         {
@@ -48,7 +46,8 @@ public:
                 continue;
             }
             spans_[node].begin = meshes_before_.size() - 1;
-            meshes_before_.push_back(meshes_before_.back() + (model.nodes[node].mesh == kNone ? 0 : 1));
+            meshes_before_.push_back(meshes_before_.back() +
+                                     (model.nodes[node].mesh == kInvalidIndex ? 0 : 1));
             open.push_back({node, true});
             for (const uint32_t child : model.nodes[node].children)
                 open.push_back({child, false});
@@ -96,7 +95,7 @@ public:
     {
         for (uint32_t node = 0; node < model_.nodes.size(); ++node)
             if (!model_.nodes[node].lods.empty())
-                addListed(node);
+                addMsftLods(node);
         findByName();
         findUnusedMeshes();
         std::stable_sort(lods_.chains.begin(), lods_.chains.end(),
@@ -126,7 +125,7 @@ private:
     }
 
     /// Add the levels that the extension MSFT_lod of a node lists.
-    void addListed(uint32_t node)
+    void addMsftLods(uint32_t node)
     {
         if (is_lod_[node])
             return drop(node, "a level of detail cannot have levels of its own: its list is not kept");
@@ -153,15 +152,16 @@ private:
             is_lod_[node] = true;
             hide(node);
             // a node outside of all scenes takes the place of the finer one
-            if (model_.nodes[node].parent == kNone && !in_scene_[node] && model_.nodes[base].parent != kNone)
+            if (model_.nodes[node].parent == kInvalidIndex && !in_scene_[node] &&
+                model_.nodes[base].parent != kInvalidIndex)
                 lods_.world_from_node[node] =
                     lods_.world_from_node[model_.nodes[base].parent] * model_.nodes[node].parent_from_node;
             if (isUsable(chain, node))
                 chain.lods.push_back({model_.nodes[node].mesh, node});
         }
-        if (chain.mesh == kNone && !nodes.empty())
+        if (chain.mesh == kInvalidIndex && !nodes.empty())
             return drop(base, "levels of detail of a node without a mesh are not kept");
-        addUnlessThere(std::move(chain));
+        addIfNew(std::move(chain));
     }
 
     bool isUsable(const GltfLodChain& chain, uint32_t node) const
@@ -172,11 +172,11 @@ private:
                                           [&](const GltfLod& lod) { return lod.mesh == n.mesh; });
         if (subtrees_.hasMeshBelow(node))
             drop(node, "meshes below a level of detail are not kept");
-        if (model_.nodes[base].mesh == kNone)
+        if (model_.nodes[base].mesh == kInvalidIndex)
             return false;
-        if (n.mesh == kNone)
+        if (n.mesh == kInvalidIndex)
             drop(node, fmt::format("a level of detail of node {} has no mesh: it is not kept", base));
-        else if ((n.skin == kNone) != (model_.nodes[base].skin == kNone))
+        else if ((n.skin == kInvalidIndex) != (model_.nodes[base].skin == kInvalidIndex))
             drop(node,
                  fmt::format("a level of detail of node {} must be skinned like it: it is not kept", base));
         else if (n.mesh == model_.nodes[base].mesh || repeated)
@@ -190,7 +190,7 @@ private:
     }
 
     /// Add a chain unless its mesh has one: nodes that share a mesh share its chain.
-    void addUnlessThere(GltfLodChain chain)
+    void addIfNew(GltfLodChain chain)
     {
         if (chain.lods.empty())
             return;
@@ -206,11 +206,11 @@ private:
                                          chain.mesh, same_mesh->node));
     }
 
-    std::optional<tools::LodName> nameOf(uint32_t node) const
+    std::optional<tools::LodName> parseNodeName(uint32_t node) const
     {
         const GltfNode& n = model_.nodes[node];
         std::optional<tools::LodName> name = tools::parseLodName(n.name);
-        return name || n.mesh == kNone ? name : tools::parseLodName(model_.meshes[n.mesh].name);
+        return name || n.mesh == kInvalidIndex ? name : tools::parseLodName(model_.meshes[n.mesh].name);
     }
 
     /// Find sibling nodes whose names differ only in the level number.
@@ -219,13 +219,13 @@ private:
         std::map<std::pair<uint32_t, std::string>, std::map<uint32_t, uint32_t>> node_of_level;
         for (uint32_t node = 0; node < model_.nodes.size(); ++node)
         {
-            const std::optional<tools::LodName> name = nameOf(node);
+            const std::optional<tools::LodName> name = parseNodeName(node);
             if (!name || lods_.hidden[node] || is_base_[node])
                 continue;
             const auto [first, fresh] =
                 node_of_level[{model_.nodes[node].parent, name->stem}].try_emplace(name->level, node);
             if (!fresh && name->level > 0)
-                repeated_.push_back({first->second, node});
+                duplicates_.push_back({first->second, node});
         }
         for (const auto& [key, levels] : node_of_level)
         {
@@ -237,7 +237,7 @@ private:
                     nodes.push_back(node);
             addChain(levels.begin()->second, nodes);
         }
-        for (const auto& [first, node] : repeated_)
+        for (const auto& [first, node] : duplicates_)
             if (is_lod_[first])
             {
                 hide(node);
@@ -248,14 +248,15 @@ private:
     /// Find meshes that no node has, named as levels of a mesh that is drawn.
     void findUnusedMeshes()
     {
-        std::vector<uint32_t> node_of_mesh(model_.meshes.size(), kNone);
+        std::vector<uint32_t> node_of_mesh(model_.meshes.size(), kInvalidIndex);
         for (uint32_t node = 0; node < model_.nodes.size(); ++node)
-            if (const uint32_t mesh = model_.nodes[node].mesh; mesh != kNone && node_of_mesh[mesh] == kNone)
+            if (const uint32_t mesh = model_.nodes[node].mesh;
+                mesh != kInvalidIndex && node_of_mesh[mesh] == kInvalidIndex)
                 node_of_mesh[mesh] = node;
         std::map<std::string, std::map<uint32_t, uint32_t>> mesh_of_level;
         for (uint32_t mesh = 0; mesh < model_.meshes.size(); ++mesh)
             if (const auto name = tools::parseLodName(model_.meshes[mesh].name))
-                if ((node_of_mesh[mesh] == kNone) != (name->level == 0))
+                if ((node_of_mesh[mesh] == kInvalidIndex) != (name->level == 0))
                     mesh_of_level[name->stem].try_emplace(name->level, mesh);
         for (const auto& [stem, levels] : mesh_of_level)
         {
@@ -264,8 +265,8 @@ private:
             GltfLodChain chain{levels.begin()->second, node_of_mesh[levels.begin()->second], {}};
             for (const auto& [level, mesh] : levels)
                 if (level > 0)
-                    chain.lods.push_back({mesh, kNone});
-            addUnlessThere(std::move(chain));
+                    chain.lods.push_back({mesh, kInvalidIndex});
+            addIfNew(std::move(chain));
         }
     }
 
@@ -276,7 +277,7 @@ private:
             for (const GltfLod& lod : chain.lods)
                 lods_.lod_only[lod.mesh] = true;
         for (uint32_t node = 0; node < model_.nodes.size(); ++node)
-            if (model_.nodes[node].mesh != kNone && !lods_.hidden[node])
+            if (model_.nodes[node].mesh != kInvalidIndex && !lods_.hidden[node])
                 lods_.lod_only[model_.nodes[node].mesh] = false;
         for (const GltfLodChain& chain : lods_.chains)
             lods_.lod_only[chain.mesh] = false;
@@ -289,7 +290,7 @@ private:
     std::vector<bool> is_lod_;
     std::vector<bool> in_scene_; ///< roots of scenes
     std::vector<bool> is_base_;
-    std::vector<std::pair<uint32_t, uint32_t>> repeated_; ///< a level, and a later node with the same name
+    std::vector<std::pair<uint32_t, uint32_t>> duplicates_; ///< a level, and a later node with the same name
 };
 
 } // namespace

@@ -12,15 +12,15 @@ namespace hearth::import
 /// Level of detail of a mesh: another mesh, with the transform of a node.
 struct GltfLod
 {
-    uint32_t mesh = formats::kNone;
-    uint32_t node = formats::kNone; ///< kNone: no node has it, and the finer mesh's node places it
+    uint32_t mesh = kInvalidIndex;
+    uint32_t node = kInvalidIndex; ///< kInvalidIndex: no node has it, and the finer mesh's node places it
 };
 
 /// Mesh with its levels, finest first, from the first node that lists any.
 struct GltfLodChain
 {
-    uint32_t mesh = formats::kNone;
-    uint32_t node = formats::kNone;
+    uint32_t mesh = kInvalidIndex;
+    uint32_t node = kInvalidIndex;
     std::vector<GltfLod> lods;
 };
 

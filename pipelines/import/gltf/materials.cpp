@@ -16,7 +16,7 @@ using namespace formats;
 namespace
 {
 
-constexpr TextureRef kNoTexture{kNone, 0, 0, 0, 0, {1, 0, 0, 0, 1, 0}};
+constexpr TextureRef kNoTexture{kInvalidIndex, 0, 0, 0, 0, {1, 0, 0, 0, 1, 0}};
 
 class MaterialWriter
 {
@@ -29,15 +29,15 @@ public:
     Status writeAll();
 
 private:
-    void noteAlphaCutoffs();
+    void registerAlphaCutoffs();
     Result<MaterialRecord> convert(const GltfMaterial& material);
-    Status convertSpecularGlossinessOf(const GltfMaterial& material, MaterialRecord& record);
+    Status convertSpecularGlossinessMaterial(const GltfMaterial& material, MaterialRecord& record);
     Status convertTextures(const GltfMaterial& material, MaterialRecord& record);
     Result<TextureRef> reference(const GltfTextureUse& use, ImagePurpose purpose, std::string_view name);
     TextureRef referenceTo(uint32_t part_image, const GltfTextureUse& use) const;
-    uint32_t imageOf(const GltfTextureUse& use) const
+    uint32_t sourceImage(const GltfTextureUse& use) const
     {
-        return use.texture == kNone ? kNone : model_.textures[use.texture].image;
+        return use.texture == kInvalidIndex ? kInvalidIndex : model_.textures[use.texture].image;
     }
 
     const GltfModel& model_;
@@ -45,7 +45,7 @@ private:
     GltfImages images_;
     // the material that is being written
     std::string where_;
-    std::string called_; ///< for messages: "material \"oak\""
+    std::string display_name_; ///< for messages: "material \"oak\""
 };
 
 /// Return the threshold for the texture's own alpha, which the shader multiplies with the factor's.
@@ -56,14 +56,15 @@ float textureCutoff(float cutoff, float alpha_factor)
 
 /// Register the alpha cutoffs before any image is written: a later material may test an image that an earlier
 /// one uses.
-void MaterialWriter::noteAlphaCutoffs()
+void MaterialWriter::registerAlphaCutoffs()
 {
     for (const GltfMaterial& material : model_.materials)
     {
         const auto& converted = material.specular_glossiness;
-        const uint32_t image = imageOf(converted ? converted->diffuse_texture : material.base_color_texture);
+        const uint32_t image =
+            sourceImage(converted ? converted->diffuse_texture : material.base_color_texture);
         const float alpha_factor = converted ? converted->diffuse[3] : material.base_color[3];
-        if (material.alpha_mode == AlphaMode::mask && image != kNone)
+        if (material.alpha_mode == AlphaMode::mask && image != kInvalidIndex)
             images_.setAlphaCutoff(image, textureCutoff(material.alpha_cutoff, alpha_factor));
     }
 }
@@ -84,7 +85,7 @@ TextureRef MaterialWriter::referenceTo(uint32_t part_image, const GltfTextureUse
 Result<TextureRef> MaterialWriter::reference(const GltfTextureUse& use, ImagePurpose purpose,
                                              std::string_view name)
 {
-    if (use.texture == kNone)
+    if (use.texture == kInvalidIndex)
         return kNoTexture;
     if (use.uv_set >= mesh::kUvSetCount)
     {
@@ -94,29 +95,30 @@ Result<TextureRef> MaterialWriter::reference(const GltfTextureUse& use, ImagePur
     }
     HEARTH_ASSIGN_OR_RETURN(
         const uint32_t image,
-        images_.write(imageOf(use), purpose, fmt::format("/textures/{}", use.texture), called_));
+        images_.write(sourceImage(use), purpose, fmt::format("/textures/{}", use.texture), display_name_));
     return referenceTo(image, use);
 }
 
 /// Convert a material. Only the factors are converted without textures, or if the two textures have different
 /// UV mappings.
-Status MaterialWriter::convertSpecularGlossinessOf(const GltfMaterial& material, MaterialRecord& record)
+Status MaterialWriter::convertSpecularGlossinessMaterial(const GltfMaterial& material, MaterialRecord& record)
 {
     const GltfSpecularGlossiness& source = *material.specular_glossiness;
     const GltfTextureUse& diffuse = source.diffuse_texture;
     const GltfTextureUse& specular = source.specular_glossiness_texture;
     context_.part.warn(Issue::degraded, where_, "specular-glossiness was converted to metallic-roughness");
 
-    const bool same_place = diffuse.texture == kNone || (diffuse.uv_set == specular.uv_set &&
-                                                         diffuse.uv_transform == specular.uv_transform);
-    if (specular.texture != kNone && specular.uv_set < mesh::kUvSetCount && same_place)
+    const bool same_place =
+        diffuse.texture == kInvalidIndex ||
+        (diffuse.uv_set == specular.uv_set && diffuse.uv_transform == specular.uv_transform);
+    if (specular.texture != kInvalidIndex && specular.uv_set < mesh::kUvSetCount && same_place)
     {
         const auto decoded = [&](const GltfTextureUse& use)
         {
-            const auto texels =
-                use.texture == kNone
-                    ? std::nullopt
-                    : images_.decode(imageOf(use), fmt::format("/textures/{}", use.texture), called_);
+            const auto texels = use.texture == kInvalidIndex
+                                    ? std::nullopt
+                                    : images_.decode(sourceImage(use),
+                                                     fmt::format("/textures/{}", use.texture), display_name_);
             return texels && !texels->is_float ? *texels : DecodedImage{};
         };
         const DecodedImage specular_image = decoded(specular);
@@ -127,15 +129,17 @@ Status MaterialWriter::convertSpecularGlossinessOf(const GltfMaterial& material,
             const auto cutoff =
                 material.alpha_mode == AlphaMode::mask ? std::optional(material.alpha_cutoff) : std::nullopt;
             HEARTH_ASSIGN_OR_RETURN(const uint32_t base,
-                                    images_.writeMade(images.base_color, ImagePurpose::color,
-                                                      material.name + " base colour", cutoff));
+                                    images_.writeComputed(images.base_color, ImagePurpose::color,
+                                                          material.name + " base colour", cutoff));
             HEARTH_ASSIGN_OR_RETURN(const uint32_t surface,
-                                    images_.writeMade(images.metallic_roughness, ImagePurpose::data,
-                                                      material.name + " metallic-roughness", std::nullopt));
+                                    images_.writeComputed(images.metallic_roughness, ImagePurpose::data,
+                                                          material.name + " metallic-roughness",
+                                                          std::nullopt));
             record.base_color = {1, 1, 1, 1};
             record.metallic = 1;
             record.roughness = 1;
-            record.base_color_texture = referenceTo(base, diffuse.texture != kNone ? diffuse : specular);
+            record.base_color_texture =
+                referenceTo(base, diffuse.texture != kInvalidIndex ? diffuse : specular);
             record.metallic_roughness_texture = referenceTo(surface, specular);
             return success();
         }
@@ -155,7 +159,7 @@ Status MaterialWriter::convertSpecularGlossinessOf(const GltfMaterial& material,
 Status MaterialWriter::convertTextures(const GltfMaterial& material, MaterialRecord& record)
 {
     if (material.specular_glossiness)
-        HEARTH_TRY(convertSpecularGlossinessOf(material, record));
+        HEARTH_TRY(convertSpecularGlossinessMaterial(material, record));
     else
     {
         HEARTH_ASSIGN_OR_RETURN(
@@ -203,12 +207,13 @@ Result<MaterialRecord> MaterialWriter::convert(const GltfMaterial& material)
 
 Status MaterialWriter::writeAll()
 {
-    noteAlphaCutoffs();
+    registerAlphaCutoffs();
     for (size_t i = 0; i < model_.materials.size(); ++i)
     {
         where_ = fmt::format("/materials/{}", i);
-        called_ = model_.materials[i].name.empty() ? fmt::format("material {}", i)
-                                                   : fmt::format("material \"{}\"", model_.materials[i].name);
+        display_name_ = model_.materials[i].name.empty()
+                            ? fmt::format("material {}", i)
+                            : fmt::format("material \"{}\"", model_.materials[i].name);
         HEARTH_ASSIGN_OR_RETURN(const MaterialRecord record, convert(model_.materials[i]));
         context_.part.materials.push_back(record);
     }

@@ -7,18 +7,16 @@
 namespace hearth::import
 {
 
-using formats::kNone;
-
 namespace
 {
 
 /// Return the nodes in an order with parents before children; the model has no cycles.
-std::vector<uint32_t> parentsFirst(const GltfModel& model)
+std::vector<uint32_t> orderParentsFirst(const GltfModel& model)
 {
     std::vector<uint32_t> order;
     order.reserve(model.nodes.size());
     for (uint32_t node = 0; node < model.nodes.size(); ++node)
-        if (model.nodes[node].parent == kNone)
+        if (model.nodes[node].parent == kInvalidIndex)
             order.push_back(node);
     for (size_t i = 0; i < order.size(); ++i)
     {
@@ -49,28 +47,28 @@ uint32_t MeshUses::find(uint32_t mesh, uint32_t skin) const
 {
     const auto found = std::find_if(uses.begin(), uses.end(),
                                     [&](const MeshUse& use) { return use.mesh == mesh && use.skin == skin; });
-    return found == uses.end() ? kNone : static_cast<uint32_t>(found - uses.begin());
+    return found == uses.end() ? kInvalidIndex : static_cast<uint32_t>(found - uses.begin());
 }
 
 MeshUses findMeshUses(const GltfModel& model)
 {
     MeshUses uses;
     uses.uses.resize(model.meshes.size());
-    uses.of_node.assign(model.nodes.size(), kNone);
+    uses.of_node.assign(model.nodes.size(), kInvalidIndex);
     std::vector<bool> seen(model.meshes.size());
     for (uint32_t mesh = 0; mesh < model.meshes.size(); ++mesh)
         uses.uses[mesh].mesh = mesh;
     for (uint32_t node = 0; node < model.nodes.size(); ++node)
     {
         const auto [mesh, skin] = MeshUse{model.nodes[node].mesh, model.nodes[node].skin};
-        if (mesh == kNone)
+        if (mesh == kInvalidIndex)
             continue;
         if (!seen[mesh])
         {
             seen[mesh] = true;
             uses.uses[mesh].skin = skin;
         }
-        if (uses.find(mesh, skin) == kNone)
+        if (uses.find(mesh, skin) == kInvalidIndex)
             uses.uses.push_back({mesh, skin});
         uses.of_node[node] = uses.find(mesh, skin);
     }
@@ -80,11 +78,11 @@ MeshUses findMeshUses(const GltfModel& model)
 std::vector<Transform> worldTransforms(const GltfModel& model)
 {
     std::vector<Transform> world_from_node(model.nodes.size());
-    for (const uint32_t node : parentsFirst(model))
+    for (const uint32_t node : orderParentsFirst(model))
     {
         const GltfNode& n = model.nodes[node];
         world_from_node[node] =
-            n.parent == kNone ? n.parent_from_node : world_from_node[n.parent] * n.parent_from_node;
+            n.parent == kInvalidIndex ? n.parent_from_node : world_from_node[n.parent] * n.parent_from_node;
     }
     return world_from_node;
 }

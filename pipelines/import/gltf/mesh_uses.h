@@ -13,17 +13,17 @@ namespace hearth::import
 /// Mesh of the part: a mesh of the source with the skin of its nodes.
 struct MeshUse
 {
-    uint32_t mesh = formats::kNone; ///< of the source
-    uint32_t skin = formats::kNone;
+    uint32_t mesh = kInvalidIndex; ///< of the source
+    uint32_t skin = kInvalidIndex;
 };
 
 struct MeshUses
 {
     /// the source's meshes, each with the skin of its first node; then copies for other skins
     std::vector<MeshUse> uses;
-    std::vector<uint32_t> of_node; ///< mesh of the part for each node, or kNone
+    std::vector<uint32_t> of_node; ///< mesh of the part for each node, or kInvalidIndex
 
-    /// Return the part's mesh for mesh `mesh` of the source with this skin, or kNone.
+    /// Return the part's mesh for mesh `mesh` of the source with this skin, or kInvalidIndex.
     uint32_t find(uint32_t mesh, uint32_t skin) const;
 };
 

@@ -10,8 +10,6 @@
 namespace hearth::import
 {
 
-using formats::kNone;
-
 namespace
 {
 
@@ -43,14 +41,14 @@ public:
     std::vector<MeshSummary> summaries() { return std::move(summaries_); }
 
 private:
-    struct Read
+    struct MeshWithSummary
     {
         mesh::SourceMesh mesh;
         MeshSummary summary;
     };
-    Result<Read> read(const MeshUse& use);
-    MeshUse useOf(const GltfLodChain& chain, const GltfLod& lod) const;
-    tools::LodLabel labelOf(const GltfLod& lod) const;
+    Result<MeshWithSummary> read(const MeshUse& use);
+    MeshUse meshUseForLod(const GltfLodChain& chain, const GltfLod& lod) const;
+    tools::LodLabel makeLabel(const GltfLod& lod) const;
     std::optional<Transform> objectFromLod(const GltfLodChain& chain, const GltfLod& lod,
                                            const MeshSummary& summary) const;
 
@@ -65,11 +63,11 @@ private:
     std::vector<MeshSummary> summaries_;
 };
 
-Result<MeshWriter::Read> MeshWriter::read(const MeshUse& use)
+Result<MeshWriter::MeshWithSummary> MeshWriter::read(const MeshUse& use)
 {
     HEARTH_ASSIGN_OR_RETURN(mesh::SourceMesh mesh, reader_.read(use.mesh));
     MeshSummary summary{mesh.triangleCount() > 0, {}, SkinState::idle, false, mesh.morph_targets.size()};
-    if (use.skin != kNone)
+    if (use.skin != kInvalidIndex)
     {
         summary.used_joints = usedJoints(mesh);
         // writeScene refuses a skin with too few joints
@@ -89,7 +87,7 @@ Result<MeshWriter::Read> MeshWriter::read(const MeshUse& use)
         context_.part.counts.faces += mesh.face_count;
         context_.part.counts.morph_targets += mesh.morph_targets.size();
     }
-    return Read{std::move(mesh), std::move(summary)};
+    return MeshWithSummary{std::move(mesh), std::move(summary)};
 }
 
 Status MeshWriter::writeMesh(const MeshUse& use)
@@ -101,22 +99,22 @@ Status MeshWriter::writeMesh(const MeshUse& use)
         summaries_.emplace_back();
         return context_.part.addMesh(empty);
     }
-    HEARTH_ASSIGN_OR_RETURN(Read read, this->read(use));
+    HEARTH_ASSIGN_OR_RETURN(MeshWithSummary read, this->read(use));
     summaries_.push_back(std::move(read.summary));
     return context_.part.addMesh(read.mesh);
 }
 
 /// Return the mesh of the part for a level. A level without a node is moved by the skin of the finer mesh.
-MeshUse MeshWriter::useOf(const GltfLodChain& chain, const GltfLod& lod) const
+MeshUse MeshWriter::meshUseForLod(const GltfLodChain& chain, const GltfLod& lod) const
 {
-    return {lod.mesh, model_.nodes[lod.node == kNone ? chain.node : lod.node].skin};
+    return {lod.mesh, model_.nodes[lod.node == kInvalidIndex ? chain.node : lod.node].skin};
 }
 
 /// Return the transform from the level's vertices to its mesh. If joints move both, they share a bind pose.
 std::optional<Transform> MeshWriter::objectFromLod(const GltfLodChain& chain, const GltfLod& lod,
                                                    const MeshSummary& summary) const
 {
-    if (lod.node == kNone || summary.skin == SkinState::usable)
+    if (lod.node == kInvalidIndex || summary.skin == SkinState::usable)
         return Transform{};
     const Transform& world_from_object = lods_.world_from_node[chain.node];
     const Transform& world_from_lod = lods_.world_from_node[lod.node];
@@ -127,14 +125,14 @@ std::optional<Transform> MeshWriter::objectFromLod(const GltfLodChain& chain, co
 }
 
 /// Return the name of the node, or of its mesh if only that has a level number or the node has no name.
-tools::LodLabel MeshWriter::labelOf(const GltfLod& lod) const
+tools::LodLabel MeshWriter::makeLabel(const GltfLod& lod) const
 {
-    const std::string& of_mesh = model_.meshes[lod.mesh].name;
-    const std::string& of_node = lod.node == kNone ? of_mesh : model_.nodes[lod.node].name;
-    for (const std::string& name : {of_node, of_mesh})
+    const std::string& mesh_name = model_.meshes[lod.mesh].name;
+    const std::string& of_node = lod.node == kInvalidIndex ? mesh_name : model_.nodes[lod.node].name;
+    for (const std::string& name : {of_node, mesh_name})
         if (const auto parsed = tools::parseLodName(name))
             return {parsed->level, name};
-    return {std::nullopt, of_node.empty() ? of_mesh : of_node};
+    return {std::nullopt, of_node.empty() ? mesh_name : of_node};
 }
 
 Status MeshWriter::writeLods(const GltfLodChain& chain)
@@ -145,8 +143,8 @@ Status MeshWriter::writeLods(const GltfLodChain& chain)
         return success();
     for (const GltfLod& lod : chain.lods)
     {
-        const MeshUse use = useOf(chain, lod);
-        HEARTH_ASSIGN_OR_RETURN(Read level, read(use));
+        const MeshUse use = meshUseForLod(chain, lod);
+        HEARTH_ASSIGN_OR_RETURN(MeshWithSummary level, read(use));
         const std::string where = fmt::format("/meshes/{}", lod.mesh);
         const auto drop = [&](const char* why)
         {
@@ -163,7 +161,7 @@ Status MeshWriter::writeLods(const GltfLodChain& chain)
         else if (!object_from_lod || !bakeTransform(level.mesh, *object_from_lod))
             drop("cannot be moved to where that stands");
         else
-            HEARTH_TRY(context_.part.addLod(finest, level.mesh, labelOf(lod)));
+            HEARTH_TRY(context_.part.addLod(finest, level.mesh, makeLabel(lod)));
     }
     return success();
 }

@@ -17,8 +17,6 @@
 namespace hearth::import
 {
 
-using formats::kNone;
-
 namespace
 {
 
@@ -26,7 +24,7 @@ namespace
 constexpr float kFlat = 0;
 
 // a triangle that all targets move still fits into a geometry page; models of faces have a hundred or two
-constexpr size_t kMostMorphTargets = 1024;
+constexpr size_t kMaxMorphTargets = 1024;
 
 std::string_view modeName(PrimitiveMode mode)
 {
@@ -47,7 +45,7 @@ Result<mesh::SourceMesh> GltfMeshReader::read(uint32_t mesh_index)
 {
     const GltfMesh& mesh = model_.meshes[mesh_index];
     // drop data of the previous mesh
-    buffers_.forget();
+    buffers_.releasePages();
     piece_of_key_.clear();
     pieces_.clear();
     for (size_t i = 0; i < mesh.primitives.size(); ++i)
@@ -56,11 +54,11 @@ Result<mesh::SourceMesh> GltfMeshReader::read(uint32_t mesh_index)
         const std::string where = fmt::format("/meshes/{}/primitives/{}", mesh_index, i);
         if (primitive.mode < PrimitiveMode::triangles)
             tally_.dropped(fmt::format("primitive of {} is not kept", modeName(primitive.mode)), where);
-        else if (findAttribute(primitive.attributes, "POSITION") == kNone)
+        else if (findAttribute(primitive.attributes, "POSITION") == kInvalidIndex)
             tally_.dropped("primitive without POSITION is not kept", where);
         else
         {
-            HEARTH_ASSIGN_OR_RETURN(const uint32_t piece, pieceOf(primitive, where));
+            HEARTH_ASSIGN_OR_RETURN(const uint32_t piece, findOrAddPiece(primitive, where));
             HEARTH_TRY(addTriangles(primitive, where, pieces_[piece]));
         }
     }
@@ -71,7 +69,7 @@ Result<mesh::SourceMesh> GltfMeshReader::read(uint32_t mesh_index)
         finishPiece(piece);
         parts.push_back(std::move(piece.vertices.mesh));
     }
-    mesh::SourceMesh result = mergedPieces(std::move(parts));
+    mesh::SourceMesh result = mergePieces(std::move(parts));
     keepEmptyTargets(result);
     result.name = mesh.name;
     result.face_count = static_cast<uint32_t>(result.triangleCount());
@@ -81,7 +79,7 @@ Result<mesh::SourceMesh> GltfMeshReader::read(uint32_t mesh_index)
         return context_.error(
             Issue::input_too_large, fmt::format("/meshes/{}", mesh_index),
             fmt::format("{} vertices and {} triangles", result.vertexCount(), result.triangleCount()));
-    if (result.morph_targets.size() > kMostMorphTargets)
+    if (result.morph_targets.size() > kMaxMorphTargets)
         return context_.error(Issue::input_too_large, fmt::format("/meshes/{}", mesh_index),
                               fmt::format("{} morph targets", result.morph_targets.size()));
     return result;
@@ -92,14 +90,14 @@ uint64_t GltfMeshReader::sourceVertexCount(const GltfMesh& mesh) const
     std::set<uint32_t> positions;
     for (const GltfPrimitive& primitive : mesh.primitives)
         positions.insert(findAttribute(primitive.attributes, "POSITION"));
-    positions.erase(kNone);
+    positions.erase(kInvalidIndex);
     uint64_t count = 0;
     for (const uint32_t accessor : positions)
         count += model_.accessors[accessor].count;
     return std::min<uint64_t>(count, UINT32_MAX);
 }
 
-Result<uint32_t> GltfMeshReader::pieceOf(const GltfPrimitive& primitive, const std::string& where)
+Result<uint32_t> GltfMeshReader::findOrAddPiece(const GltfPrimitive& primitive, const std::string& where)
 {
     const auto next = static_cast<uint32_t>(pieces_.size());
     const auto [found, added] =
@@ -118,7 +116,7 @@ Result<std::vector<uint32_t>> GltfMeshReader::readIndices(const GltfPrimitive& p
     const size_t vertex_count = piece.vertices.mesh.vertexCount();
     if (piece.vertices.draco_indices)
         return *piece.vertices.draco_indices;
-    if (primitive.indices == kNone)
+    if (primitive.indices == kInvalidIndex)
     {
         std::vector<uint32_t> indices(vertex_count);
         std::iota(indices.begin(), indices.end(), 0u);
@@ -146,7 +144,7 @@ Status GltfMeshReader::addTriangles(const GltfPrimitive& primitive, const std::s
     // Draco decodes triangles, whatever the mode says
     const PrimitiveMode mode = piece.vertices.draco_indices ? PrimitiveMode::triangles : primitive.mode;
     const size_t index_count = indices.size();
-    const std::vector<uint32_t> triangles = triangulated(std::move(indices), mode);
+    const std::vector<uint32_t> triangles = makeTriangleList(std::move(indices), mode);
     const bool whole = mode == PrimitiveMode::triangles ? index_count % 3 == 0 : index_count >= 3;
     if (!whole)
         tally_.dropped("indices that make no whole triangle are not kept", where);
@@ -175,9 +173,11 @@ void GltfMeshReader::finishPiece(Piece& piece)
 void GltfMeshReader::finishTangents(Piece& piece)
 {
     mesh::SourceMesh& mesh = piece.vertices.mesh;
-    const auto material = std::find_if(
-        mesh.triangle_materials.begin(), mesh.triangle_materials.end(),
-        [&](uint32_t m) { return m != kNone && model_.materials[m].normal_texture.texture != kNone; });
+    const auto material = std::find_if(mesh.triangle_materials.begin(), mesh.triangle_materials.end(),
+                                       [&](uint32_t m) {
+                                           return m != kInvalidIndex &&
+                                                  model_.materials[m].normal_texture.texture != kInvalidIndex;
+                                       });
     if (material == mesh.triangle_materials.end())
     {
         if (!mesh.tangents.empty())
@@ -193,16 +193,17 @@ void GltfMeshReader::finishTangents(Piece& piece)
 void GltfMeshReader::reportMissingUvs(const Piece& piece)
 {
     const mesh::SourceMesh& mesh = piece.vertices.mesh;
-    uint32_t last = kNone;
+    uint32_t last = kInvalidIndex;
     for (const uint32_t material : mesh.triangle_materials)
     {
-        if (material == kNone || material == last)
+        if (material == kInvalidIndex || material == last)
             continue;
         last = material;
         const GltfMaterial& m = model_.materials[material];
         for (const GltfTextureUse* use : {&m.base_color_texture, &m.metallic_roughness_texture,
                                           &m.normal_texture, &m.occlusion_texture, &m.emissive_texture})
-            if (use->texture != kNone && use->uv_set < mesh::kUvSetCount && mesh.uvs[use->uv_set].empty())
+            if (use->texture != kInvalidIndex && use->uv_set < mesh::kUvSetCount &&
+                mesh.uvs[use->uv_set].empty())
                 tally_.degraded(fmt::format("material {} needs TEXCOORD_{}, which the primitive lacks",
                                             material, use->uv_set),
                                 piece.where);

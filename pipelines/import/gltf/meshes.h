@@ -32,7 +32,7 @@ private:
     };
 
     uint64_t sourceVertexCount(const GltfMesh& mesh) const;
-    Result<uint32_t> pieceOf(const GltfPrimitive& primitive, const std::string& where);
+    Result<uint32_t> findOrAddPiece(const GltfPrimitive& primitive, const std::string& where);
     Status addTriangles(const GltfPrimitive& primitive, const std::string& where, Piece& piece);
     Result<std::vector<uint32_t>> readIndices(const GltfPrimitive& primitive, const Piece& piece);
     void finishPiece(Piece& piece);

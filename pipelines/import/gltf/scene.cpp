@@ -24,7 +24,7 @@ std::string nodePointer(uint32_t node)
 }
 
 /// Return a flag for each node: true if it belongs to the scene that is drawn.
-std::vector<bool> findDrawn(const GltfModel& model, const GltfContext& context)
+std::vector<bool> findDrawnNodes(const GltfModel& model, const GltfContext& context)
 {
     std::vector<bool> drawn(model.nodes.size());
     if (model.scenes.empty())
@@ -32,7 +32,7 @@ std::vector<bool> findDrawn(const GltfModel& model, const GltfContext& context)
         drawn.assign(model.nodes.size(), true);
         return drawn;
     }
-    const uint32_t scene = model.scene == kNone ? 0 : model.scene;
+    const uint32_t scene = model.scene == kInvalidIndex ? 0 : model.scene;
     if (model.scenes.size() > 1)
         context.part.warn(
             Issue::dropped, "/scenes",
@@ -41,7 +41,7 @@ std::vector<bool> findDrawn(const GltfModel& model, const GltfContext& context)
     std::vector<uint32_t> open;
     for (const uint32_t root : model.scenes[scene].nodes)
     {
-        if (model.nodes[root].parent != kNone)
+        if (model.nodes[root].parent != kInvalidIndex)
             context.part.warn(Issue::repaired, where, fmt::format("node {} is not a root", root));
         open.push_back(root);
     }
@@ -86,7 +86,7 @@ private:
     Status writeInstance(uint32_t node, const Transform& world_from_object);
     Status writeCamera(uint32_t node);
     Status writeLight(uint32_t node);
-    std::vector<uint32_t> lightsCalled(const std::string& name) const;
+    std::vector<uint32_t> findLightsByName(const std::string& name) const;
     Result<Affine3> narrow(const Transform& transform, uint32_t node) const;
 
     const GltfModel& model_;
@@ -109,7 +109,7 @@ Result<Affine3> SceneWriter::narrow(const Transform& transform, uint32_t node) c
 
 void SceneWriter::writeMorphWeights(uint32_t node, NodeRecord& record)
 {
-    const size_t count = record.mesh == kNone ? 0 : meshes_[record.mesh].morph_target_count;
+    const size_t count = record.mesh == kInvalidIndex ? 0 : meshes_[record.mesh].morph_target_count;
     if (count == 0)
         return;
     const std::vector<float> weights = morphWeights(model_, node, count);
@@ -121,7 +121,7 @@ void SceneWriter::writeMorphWeights(uint32_t node, NodeRecord& record)
 Status SceneWriter::checkSkin(uint32_t node) const
 {
     const GltfNode& n = model_.nodes[node];
-    if (n.mesh == kNone || n.skin == kNone)
+    if (n.mesh == kInvalidIndex || n.skin == kInvalidIndex)
         return success();
     const size_t used = meshes_[uses_.of_node[node]].used_joints.size();
     if (used > model_.skins[n.skin].joints.size())
@@ -139,7 +139,9 @@ Status SceneWriter::writeNode(uint32_t node)
     record.name = context_.part.intern(n.name);
     record.parent = n.parent;
     record.mesh = uses_.of_node[node];
-    record.skin = record.mesh != kNone && meshes_[record.mesh].skin == SkinState::usable ? n.skin : kNone;
+    record.skin = record.mesh != kInvalidIndex && meshes_[record.mesh].skin == SkinState::usable
+                      ? n.skin
+                      : kInvalidIndex;
     record.has_trs = n.has_trs ? 1 : 0;
     record.translation = {n.translation[0], n.translation[1], n.translation[2]};
     record.rotation = {n.rotation[0], n.rotation[1], n.rotation[2], n.rotation[3]};
@@ -154,7 +156,7 @@ Status SceneWriter::writeNode(uint32_t node)
 /// transform does not count. The instance tells the winding of the triangles: it mirrors where the joints do.
 Transform SceneWriter::objectTransform(uint32_t node)
 {
-    if (model_.nodes[node].skin == kNone)
+    if (model_.nodes[node].skin == kInvalidIndex)
         return world_from_node_[node];
     const MeshSummary& mesh = meshes_[uses_.of_node[node]];
     switch (mesh.skin)
@@ -196,7 +198,7 @@ Status SceneWriter::writeInstance(uint32_t node, const Transform& world_from_obj
 Status SceneWriter::writeInstances(uint32_t node)
 {
     const GltfNode& n = model_.nodes[node];
-    if (n.mesh == kNone || !meshes_[uses_.of_node[node]].has_triangles)
+    if (n.mesh == kInvalidIndex || !meshes_[uses_.of_node[node]].has_triangles)
         return success();
     const Transform world_from_object = objectTransform(node);
     if (!n.has_instancing)
@@ -216,7 +218,7 @@ Status SceneWriter::writeInstances(uint32_t node)
 
 Status SceneWriter::writeCamera(uint32_t node)
 {
-    if (model_.nodes[node].camera == kNone)
+    if (model_.nodes[node].camera == kInvalidIndex)
         return success();
     const GltfCamera& camera = model_.cameras[model_.nodes[node].camera];
     CameraRecord record{};
@@ -236,7 +238,7 @@ Status SceneWriter::writeCamera(uint32_t node)
 
 Status SceneWriter::writeLight(uint32_t node)
 {
-    if (model_.nodes[node].light == kNone)
+    if (model_.nodes[node].light == kInvalidIndex)
         return success();
     const GltfLight& light = model_.lights[model_.nodes[node].light];
     LightRecord record{};
@@ -254,7 +256,7 @@ Status SceneWriter::writeLight(uint32_t node)
 }
 
 /// Return the lights that a sphere names, by their own name or their node's. Point lights cast no shadow.
-std::vector<uint32_t> SceneWriter::lightsCalled(const std::string& name) const
+std::vector<uint32_t> SceneWriter::findLightsByName(const std::string& name) const
 {
     const auto& lights = context_.part.lights;
     std::vector<uint32_t> found;
@@ -282,9 +284,9 @@ Status SceneWriter::writeShadowSphere(uint32_t node)
     if (!(record.radius > 0) || !std::isfinite(record.radius))
         return context_.error(Issue::gltf_value, nodePointer(node),
                               "the shadow sphere has no size in the world");
-    std::vector<uint32_t> lights{kNone};
+    std::vector<uint32_t> lights{kInvalidIndex};
     if (!sphere->light.empty())
-        lights = lightsCalled(sphere->light);
+        lights = findLightsByName(sphere->light);
     if (lights.empty())
         context_.part.warn(
             Issue::dropped, nodePointer(node),
@@ -319,7 +321,7 @@ Status writeScene(const GltfModel& model, const MeshUses& uses, std::span<const 
                   const std::vector<bool>& hidden, GltfAccessors& accessors, const GltfContext& context,
                   GltfTally& tally)
 {
-    const std::vector<bool> drawn = findDrawn(model, context);
+    const std::vector<bool> drawn = findDrawnNodes(model, context);
     SceneWriter writer(model, uses, meshes, accessors, context, tally);
     for (uint32_t node = 0; node < model.nodes.size(); ++node)
         HEARTH_TRY(writer.writeNode(node));

@@ -19,7 +19,7 @@ Result<InverseBinds> readInverseBinds(const GltfSkin& skin, GltfAccessors& acces
 {
     InverseBinds matrices(skin.joints.size());
     const uint32_t index = skin.inverse_bind_matrices;
-    if (index == kNone)
+    if (index == kInvalidIndex)
         return matrices;
     const GltfAccessor& accessor = accessors.accessor(index);
     if (accessor.type != ElementType::mat4 || accessor.component != ComponentType::f32)

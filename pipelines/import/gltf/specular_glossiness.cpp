@@ -55,10 +55,10 @@ std::byte toByte(float value)
 }
 
 /// Image sampled at another size by nearest texel; white if it is empty.
-class Stretched
+class ResizedImage
 {
 public:
-    Stretched(const DecodedImage& image, uint32_t width, uint32_t height)
+    ResizedImage(const DecodedImage& image, uint32_t width, uint32_t height)
         : image_(image), width_(width), height_(height)
     {
         HEARTH_ASSERT(!image.is_float);
@@ -122,8 +122,8 @@ MetallicRoughnessImages convertSpecularGlossiness(const GltfSpecularGlossiness& 
     static const std::array<float, 256> kLinear = linearTable();
     const uint32_t width = std::max(diffuse.width, specular_glossiness.width);
     const uint32_t height = std::max(diffuse.height, specular_glossiness.height);
-    const Stretched diffuse_texels(diffuse, width, height);
-    const Stretched specular_texels(specular_glossiness, width, height);
+    const ResizedImage diffuse_texels(diffuse, width, height);
+    const ResizedImage specular_texels(specular_glossiness, width, height);
     MetallicRoughnessImages images{blankImage(width, height), blankImage(width, height)};
     std::byte* base_color = images.base_color.texels.data();
     std::byte* metallic_roughness = images.metallic_roughness.texels.data();

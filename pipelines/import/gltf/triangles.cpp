@@ -4,7 +4,7 @@
 namespace hearth::import
 {
 
-std::vector<uint32_t> triangulated(std::vector<uint32_t> indices, PrimitiveMode mode)
+std::vector<uint32_t> makeTriangleList(std::vector<uint32_t> indices, PrimitiveMode mode)
 {
     if (mode == PrimitiveMode::triangles)
     {

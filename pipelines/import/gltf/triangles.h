@@ -9,6 +9,6 @@ namespace hearth::import
 
 /// Return the triangles of a list, strip or fan, all with the winding of the first. Indices at the end that
 /// form no whole triangle are dropped.
-std::vector<uint32_t> triangulated(std::vector<uint32_t> indices, PrimitiveMode mode);
+std::vector<uint32_t> makeTriangleList(std::vector<uint32_t> indices, PrimitiveMode mode);
 
 } // namespace hearth::import

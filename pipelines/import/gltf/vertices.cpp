@@ -12,8 +12,6 @@
 namespace hearth::import
 {
 
-using formats::kNone;
-
 namespace
 {
 
@@ -61,7 +59,7 @@ constexpr AttributeFormat kTargetFormats[] = {
 };
 
 /// Return the format that an attribute must have, or nullptr for one that Hearth does not read.
-const AttributeFormat* formatOf(std::string_view semantic, std::span<const AttributeFormat> formats)
+const AttributeFormat* findFormat(std::string_view semantic, std::span<const AttributeFormat> formats)
 {
     const auto matches = [&](const AttributeFormat& f)
     { return f.prefix.ends_with('_') ? semantic.starts_with(f.prefix) : semantic == f.prefix; };
@@ -100,7 +98,7 @@ private:
     Result<std::vector<Float3>> deltas(const GltfAttributes& target, std::string_view semantic);
     bool has(std::string_view semantic) const
     {
-        return findAttribute(primitive_.attributes, semantic) != kNone;
+        return findAttribute(primitive_.attributes, semantic) != kInvalidIndex;
     }
 
     const GltfPrimitive& primitive_;
@@ -113,7 +111,7 @@ private:
 Status VertexReader::checkFormat(const GltfAttribute& attribute,
                                  std::span<const AttributeFormat> formats) const
 {
-    const AttributeFormat* format = formatOf(attribute.semantic, formats);
+    const AttributeFormat* format = findFormat(attribute.semantic, formats);
     if (format == nullptr)
         return success();
     const GltfAccessor& accessor = accessors_.accessor(attribute.accessor);
@@ -153,10 +151,10 @@ Status VertexReader::decodeCompressed(const GltfModel& model, const GltfBuffers&
     std::vector<DracoAttribute> wanted;
     for (const GltfAttribute& compressed : primitive_.draco->attributes)
     {
-        if (formatOf(compressed.semantic, kVertexFormats) == nullptr)
+        if (findFormat(compressed.semantic, kVertexFormats) == nullptr)
             continue;
         const uint32_t accessor = findAttribute(primitive_.attributes, compressed.semantic);
-        if (accessor == kNone)
+        if (accessor == kInvalidIndex)
             return context.error(Issue::gltf_value, where,
                                  fmt::format("{} is not an attribute of the primitive", compressed.semantic));
         const GltfAccessor& format = model.accessors[accessor];
@@ -172,8 +170,8 @@ Status VertexReader::decodeCompressed(const GltfModel& model, const GltfBuffers&
     for (const GltfAttribute& attribute : primitive_.attributes)
     {
         const GltfAccessor& format = model.accessors[attribute.accessor];
-        const bool has_data = format.buffer_view != kNone || format.sparse.has_value();
-        if (!has_data && formatOf(attribute.semantic, kVertexFormats) != nullptr &&
+        const bool has_data = format.buffer_view != kInvalidIndex || format.sparse.has_value();
+        if (!has_data && findFormat(attribute.semantic, kVertexFormats) != nullptr &&
             !is_compressed(attribute.semantic))
             return context.error(Issue::gltf_value, where, fmt::format("{} has no data", attribute.semantic));
     }
@@ -251,32 +249,32 @@ Status VertexReader::readFrame()
         return success();
     }
     HEARTH_ASSIGN_OR_RETURN(result.mesh.normals, vectors<Float3>("NORMAL"));
-    bool mended = false;
+    bool any_repaired = false;
     for (Float3& normal : result.mesh.normals)
     {
         // a comparison with NaN is false too
         const bool usable =
             length(normal) > kMinLength && length(normal) < std::numeric_limits<float>::infinity();
-        mended = mended || !usable;
+        any_repaired = any_repaired || !usable;
         normal = usable ? normal / length(normal) : Float3{};
     }
-    if (mended)
+    if (any_repaired)
         tally_.repaired("normals without a direction were replaced", where_);
     if (!has("TANGENT"))
         return success();
 
     HEARTH_ASSIGN_OR_RETURN(result.mesh.tangents, vectors<Float4>("TANGENT"));
-    mended = false;
+    any_repaired = false;
     for (Float4& tangent : result.mesh.tangents)
     {
         const Float3 direction{tangent.x, tangent.y, tangent.z};
         const bool usable =
             length(direction) > kMinLength && length(direction) < std::numeric_limits<float>::infinity();
-        mended = mended || !usable;
+        any_repaired = any_repaired || !usable;
         const Float3 unit = usable ? direction / length(direction) : Float3{1, 0, 0};
         tangent = {unit.x, unit.y, unit.z, tangent.w < 0 ? -1.0f : 1.0f};
     }
-    if (mended)
+    if (any_repaired)
         tally_.repaired("tangents without a direction were replaced", where_);
     return success();
 }
@@ -289,14 +287,14 @@ Status VertexReader::readUvs()
         if (!has(semantic))
             continue;
         HEARTH_ASSIGN_OR_RETURN(result.mesh.uvs[set], vectors<Float2>(semantic));
-        bool mended = false;
+        bool any_repaired = false;
         for (Float2& uv : result.mesh.uvs[set])
             if (!std::isfinite(uv.x) || !std::isfinite(uv.y))
             {
                 uv = {};
-                mended = true;
+                any_repaired = true;
             }
-        if (mended)
+        if (any_repaired)
             tally_.repaired("texture coordinates that are not finite were set to 0", where_);
     }
     return success();
@@ -305,7 +303,7 @@ Status VertexReader::readUvs()
 Status VertexReader::readColors()
 {
     const uint32_t index = findAttribute(primitive_.attributes, "COLOR_0");
-    if (index == kNone)
+    if (index == kInvalidIndex)
         return success();
     const GltfAccessor& accessor = accessors_.accessor(index);
     HEARTH_ASSIGN_OR_RETURN(const std::vector<float> floats, values("COLOR_0"));
@@ -313,18 +311,18 @@ Status VertexReader::readColors()
     const float scale = accessor.normalized || accessor.component == ComponentType::f32 ? 1.0f
                         : accessor.component == ComponentType::u8                       ? 1.0f / 255.0f
                                                                                         : 1.0f / 65535.0f;
-    bool mended = scale != 1.0f;
+    bool any_repaired = scale != 1.0f;
     const auto channel = [&](size_t i)
     {
         const float value = floats[i] * scale;
         const float inside = value >= 0.0f ? std::min(value, 1.0f) : 0.0f; // NaN becomes 0
-        mended = mended || inside != value;
+        any_repaired = any_repaired || inside != value;
         return inside;
     };
     for (size_t i = 0; i + components <= floats.size(); i += components)
         result.mesh.colors.push_back(
             {channel(i), channel(i + 1), channel(i + 2), components == 4 ? channel(i + 3) : 1.0f});
-    if (mended)
+    if (any_repaired)
         tally_.repaired("vertex colours outside 0 to 1 were clamped", where_);
     return success();
 }
@@ -357,7 +355,7 @@ Status VertexReader::readInfluences()
 Result<std::vector<Float3>> VertexReader::deltas(const GltfAttributes& target, std::string_view semantic)
 {
     const uint32_t index = findAttribute(target, semantic);
-    if (index == kNone)
+    if (index == kInvalidIndex)
         return std::vector<Float3>{};
     // targets and base may both have a POSITION, but only the base sets the count
     HEARTH_TRY(checkCount(index, "target"));
@@ -425,7 +423,7 @@ uint32_t findAttribute(const GltfAttributes& attributes, std::string_view semant
 {
     const auto found = std::find_if(attributes.begin(), attributes.end(),
                                     [&](const GltfAttribute& a) { return a.semantic == semantic; });
-    return found == attributes.end() ? kNone : found->accessor;
+    return found == attributes.end() ? kInvalidIndex : found->accessor;
 }
 
 Result<GltfVertices> readVertices(const GltfPrimitive& primitive, const std::string& where,

@@ -48,7 +48,7 @@ Result<GltfVertices> readVertices(const GltfPrimitive& primitive, const std::str
                                   GltfAccessors& accessors, const GltfModel& model,
                                   const GltfBuffers& buffers, const GltfContext& context, GltfTally& tally);
 
-/// Return the accessor of an attribute, or kNone.
+/// Return the accessor of an attribute, or kInvalidIndex.
 uint32_t findAttribute(const GltfAttributes& attributes, std::string_view semantic);
 
 } // namespace hearth::import

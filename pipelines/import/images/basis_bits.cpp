@@ -21,7 +21,7 @@ constexpr uint32_t kLongRepeat = 20;   ///< 7 bits, from 7
 constexpr std::array<uint8_t, 21> kLengthOrder = {17, 18, 19, 20, 0,  8, 7,  9, 6,  10, 5,
                                                   11, 4,  12, 3,  13, 2, 14, 1, 15, 16};
 
-uint32_t reversed(uint32_t code, uint32_t length)
+uint32_t reverseBits(uint32_t code, uint32_t length)
 {
     uint32_t result = 0;
     for (uint32_t i = 0; i < length; ++i)
@@ -31,7 +31,7 @@ uint32_t reversed(uint32_t code, uint32_t length)
 
 } // namespace
 
-uint32_t BasisBitReader::variableLength(uint32_t group_bits)
+uint32_t BasisBitReader::readVariableLength(uint32_t group_bits)
 {
     uint32_t value = 0;
     for (uint32_t shift = 0; shift < 32; shift += group_bits)
@@ -71,7 +71,7 @@ bool BasisPrefixCode::build(std::span<const uint8_t> lengths)
         const uint32_t length = lengths[symbol];
         if (length == 0)
             continue;
-        for (size_t at = reversed(next_code[length]++, length); at < lookup_.size();
+        for (size_t at = reverseBits(next_code[length]++, length); at < lookup_.size();
              at += size_t{1} << length)
             lookup_[at] = {static_cast<uint16_t>(symbol), static_cast<uint8_t>(length)};
     }

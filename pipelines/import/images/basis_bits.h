@@ -45,7 +45,7 @@ public:
 
     /// Read a number in groups of `group_bits`, the lowest first; a bit after each group says if another
     /// follows.
-    uint32_t variableLength(uint32_t group_bits);
+    uint32_t readVariableLength(uint32_t group_bits);
 
     bool failed() const { return failed_; }
     void fail() { failed_ = true; }

@@ -224,7 +224,7 @@ private:
         {
             const uint32_t symbol = books_.endpoint_prediction.decode(reader);
             if (symbol == kRepeat)
-                repeats_ = reader.variableLength(4) + 3 - 1;
+                repeats_ = reader.readVariableLength(4) + 3 - 1;
             else
                 last_symbol_ = symbol;
         }
@@ -278,7 +278,7 @@ private:
         if (symbol != count + history_.size())
             return symbol;
         const uint32_t length = books_.selector_run.decode(reader);
-        run_ = (length == kLongRun ? reader.variableLength(7) : length) + kShortestRun - 1;
+        run_ = (length == kLongRun ? reader.readVariableLength(7) : length) + kShortestRun - 1;
         return count;
     }
 

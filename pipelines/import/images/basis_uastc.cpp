@@ -57,8 +57,8 @@ constexpr std::array<uint16_t, 30> kSeeds2 = {28,  20,  16,  29,  91,  9,   107,
                                               116, 210, 476, 273, 684, 359, 246, 195, 694, 524};
 constexpr std::array<uint16_t, 11> kSeeds3 = {260, 74, 32, 156, 183, 15, 745, 0, 335, 902, 254};
 /// Seeds of mode 7: BC7 patterns of three subsets that ASTC patterns of two subsets can represent.
-constexpr std::array<uint16_t, 19> kSeedsOfMode7 = {36,  48,  61,  137, 161, 183, 226, 281, 302, 307,
-                                                    479, 495, 593, 594, 605, 799, 812, 988, 993};
+constexpr std::array<uint16_t, 19> kMode7Seeds = {36,  48,  61,  137, 161, 183, 226, 281, 302, 307,
+                                                  479, 495, 593, 594, 605, 799, 812, 988, 993};
 
 class BlockBits
 {
@@ -74,7 +74,7 @@ public:
     }
 
     /// Return the first 7 bits of the block without consuming them.
-    uint32_t low7() const { return static_cast<uint32_t>(words_[0] & 127u); }
+    uint32_t peek7() const { return static_cast<uint32_t>(words_[0] & 127u); }
 
 private:
     std::array<uint64_t, 2> words_{};
@@ -83,7 +83,7 @@ private:
 
 /// Read the endpoint values of a block: first the trits or quints, packed in fives or threes, then all plain
 /// bits. The last pack is as short as its values allow.
-void takeValues(BlockBits& bits, ValueRange range, std::span<uint32_t> values)
+void readValues(BlockBits& bits, ValueRange range, std::span<uint32_t> values)
 {
     const size_t per_pack = range.base == 3 ? 5 : 3;
     constexpr std::array<uint32_t, 6> kTritBits = {0, 2, 4, 5, 7, 8};
@@ -155,11 +155,11 @@ using Block = std::array<Texel, 16>;
 /// Endpoints as RGBA, indexed [subset][endpoint].
 using Endpoints = std::array<std::array<std::array<uint32_t, 4>, 2>, 3>;
 
-Endpoints takeEndpoints(BlockBits& bits, const UastcMode& mode)
+Endpoints readEndpoints(BlockBits& bits, const UastcMode& mode)
 {
     std::array<uint32_t, 18> values{};
     const size_t count = size_t{2} * mode.components * mode.subsets;
-    takeValues(bits, mode.endpoints, std::span(values).first(count));
+    readValues(bits, mode.endpoints, std::span(values).first(count));
     Endpoints endpoints{};
     for (size_t subset = 0; subset < mode.subsets; ++subset)
         for (size_t which = 0; which < 2; ++which)
@@ -199,7 +199,7 @@ std::optional<Block> decodeBlock(const std::byte* data, bool srgb)
     BlockBits bits(data);
     const auto found = std::find_if(kModes.begin(), kModes.end(),
                                     [&](const UastcMode& m)
-                                    { return (bits.low7() & ((1u << m.code_bits) - 1u)) == m.code; });
+                                    { return (bits.peek7() & ((1u << m.code_bits) - 1u)) == m.code; });
     if (found == kModes.end())
         return std::nullopt;
     const UastcMode& mode = *found;
@@ -212,7 +212,7 @@ std::optional<Block> decodeBlock(const std::byte* data, bool srgb)
     if (mode.subsets > 1 && pattern >= uastcSeeds(number).size())
         return std::nullopt;
     const uint32_t plane_channel = mode.plane_bits > 0 ? bits.take(mode.plane_bits) : 3;
-    const Endpoints endpoints = takeEndpoints(bits, mode);
+    const Endpoints endpoints = readEndpoints(bits, mode);
 
     Block block;
     std::array<bool, 3> subset_seen{};
@@ -281,7 +281,7 @@ std::span<const uint16_t> uastcSeeds(uint32_t mode)
     if (mode == 3)
         return kSeeds3;
     if (mode == 7)
-        return kSeedsOfMode7;
+        return kMode7Seeds;
     return kSeeds2;
 }
 

@@ -148,7 +148,7 @@ Result<DecodedImage> decodeBmp(const EncodedImage& source)
         return source.malformed("BMP: the file ends too early");
 
     HEARTH_ASSIGN_OR_RETURN(DecodedImage image, allocateImage(source, width, height, false));
-    uint8_t* texel = bytesOf(image);
+    uint8_t* texel = imageBytes(image);
     for (uint64_t y = 0; y < height; ++y)
     {
         const auto* row = reinterpret_cast<const uint8_t*>(rows->data()) +

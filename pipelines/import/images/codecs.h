@@ -34,7 +34,7 @@ Result<DecodedImage> allocateImage(const EncodedImage& source, uint64_t width, u
 /// Check the size as allocateImage does, without allocating an image.
 Status checkImageSize(const EncodedImage& source, uint64_t width, uint64_t height);
 
-inline uint8_t* bytesOf(DecodedImage& image)
+inline uint8_t* imageBytes(DecodedImage& image)
 {
     return reinterpret_cast<uint8_t*>(image.texels.data());
 }

@@ -52,7 +52,7 @@ constexpr std::array kSignatures = {
 constexpr std::array kExtensions = {".png"sv, ".jpg"sv, ".jpeg"sv, ".webp"sv, ".tga"sv,
                                     ".bmp"sv, ".hdr"sv, ".exr"sv,  ".ktx2"sv};
 
-const Signature* signatureOf(std::span<const std::byte> bytes)
+const Signature* findSignature(std::span<const std::byte> bytes)
 {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     const auto* found =
@@ -113,7 +113,7 @@ Result<DecodedImage> decodeImage(std::span<const std::byte> bytes, const std::st
                                  const ImportLimits& limits)
 {
     const EncodedImage source{bytes, name, limits};
-    if (const Signature* signature = signatureOf(bytes))
+    if (const Signature* signature = findSignature(bytes))
     {
         if (signature->decode == nullptr)
             return source.unsupported(std::string(signature->format) + " images are not read");
@@ -126,7 +126,7 @@ Result<DecodedImage> decodeImage(std::span<const std::byte> bytes, const std::st
 
 bool looksLikeImage(const std::string& path, std::span<const std::byte> bytes)
 {
-    const Signature* signature = signatureOf(bytes);
+    const Signature* signature = findSignature(bytes);
     // two letters are not enough to identify a BMP: a text may start with them
     const bool certain = signature != nullptr && signature->bytes.size() > 2;
     return certain || std::any_of(kExtensions.begin(), kExtensions.end(),

@@ -200,9 +200,10 @@ Result<DecodedImage> decodeHdr(const EncodedImage& source)
             const size_t y = header->y_descends ? along_y : image.height - 1 - along_y;
             const Rgbe& t = scanline[k];
             const double scale = t[3] == 0 ? 0.0 : std::ldexp(1.0 / header->exposure, t[3] - (128 + 8));
-            const std::array<uint16_t, 4> half = {
-                finiteHalf(static_cast<float>(t[0] * scale)), finiteHalf(static_cast<float>(t[1] * scale)),
-                finiteHalf(static_cast<float>(t[2] * scale)), finiteHalf(1)};
+            const std::array<uint16_t, 4> half = {halfFromFloat(static_cast<float>(t[0] * scale)),
+                                                  halfFromFloat(static_cast<float>(t[1] * scale)),
+                                                  halfFromFloat(static_cast<float>(t[2] * scale)),
+                                                  halfFromFloat(1)};
             std::memcpy(image.texels.data() + (y * image.width + x) * sizeof(half), half.data(),
                         sizeof(half));
         }

@@ -102,7 +102,7 @@ bool readTexels(JpegState& state, uint8_t* texels)
 /// all known CMYK files have it.
 void rgbFromCmyk(DecodedImage& image, bool inverted)
 {
-    uint8_t* texel = bytesOf(image);
+    uint8_t* texel = imageBytes(image);
     const size_t count = size_t{image.width} * image.height;
     for (size_t i = 0; i < count; ++i, texel += 4)
     {
@@ -126,7 +126,7 @@ Result<DecodedImage> decodeJpeg(const EncodedImage& source)
         return failed();
     HEARTH_ASSIGN_OR_RETURN(DecodedImage image, allocateImage(source, state.decoder.image_width,
                                                               state.decoder.image_height, false));
-    if (!readTexels(state, bytesOf(image)))
+    if (!readTexels(state, imageBytes(image)))
         return failed();
     if (state.decoder.out_color_space == JCS_CMYK)
         rgbFromCmyk(image, state.decoder.saw_Adobe_marker != FALSE);

@@ -53,7 +53,7 @@ constexpr std::array kLayouts = {
     TexelLayout{106, Component::float32, 3},     TexelLayout{109, Component::float32, 4},
 };
 
-uint32_t bytesOfComponent(Component component)
+uint32_t componentBytes(Component component)
 {
     return component == Component::unorm8 ? 1 : component == Component::float32 ? 4 : 2;
 }
@@ -77,10 +77,10 @@ uint16_t convert(const uint8_t* bytes, Component component)
         return static_cast<uint16_t>((word * 255u + 32767u) / 65535u);
     case Component::float16:
         std::memcpy(&word, bytes, sizeof(word));
-        return finiteHalf(floatFromHalf(word));
+        return halfFromFloat(floatFromHalf(word));
     case Component::float32:
         std::memcpy(&value, bytes, sizeof(value));
-        return finiteHalf(value);
+        return halfFromFloat(value);
     }
     return 0;
 }
@@ -88,8 +88,8 @@ uint16_t convert(const uint8_t* bytes, Component component)
 void copyTexels(std::span<const std::byte> bytes, const TexelLayout& layout, DecodedImage& image)
 {
     const auto* in = reinterpret_cast<const uint8_t*>(bytes.data());
-    const uint32_t step = bytesOfComponent(layout.component);
-    const uint16_t one = isFloat(layout.component) ? finiteHalf(1) : uint16_t{255};
+    const uint32_t step = componentBytes(layout.component);
+    const uint16_t one = isFloat(layout.component) ? halfFromFloat(1) : uint16_t{255};
     const size_t count = size_t{image.width} * image.height;
     for (size_t i = 0; i < count; ++i)
     {
@@ -104,7 +104,7 @@ void copyTexels(std::span<const std::byte> bytes, const TexelLayout& layout, Dec
         if (isFloat(layout.component))
             std::memcpy(image.texels.data() + i * sizeof(texel), texel.data(), sizeof(texel));
         else
-            std::transform(texel.begin(), texel.end(), bytesOf(image) + i * 4,
+            std::transform(texel.begin(), texel.end(), imageBytes(image) + i * 4,
                            [](uint16_t c) { return static_cast<uint8_t>(c); });
     }
 }
@@ -141,7 +141,8 @@ bool levelsFit(const EncodedImage& source, const Ktx2File& file, BlockSize block
 }
 
 /// Return the finest level, decompressed.
-Result<std::vector<std::byte>> finestLevel(const EncodedImage& source, const Ktx2File& file, BlockSize block)
+Result<std::vector<std::byte>> readFinestLevel(const EncodedImage& source, const Ktx2File& file,
+                                               BlockSize block)
 {
     if (!levelsFit(source, file, block))
         return source.malformed("KTX2: a mip level does not have the size or place that the format asks for");
@@ -159,8 +160,8 @@ Result<std::vector<std::byte>> finestLevel(const EncodedImage& source, const Ktx
 Result<DecodedImage> decodeUncompressed(const EncodedImage& source, const Ktx2File& file,
                                         const TexelLayout& layout)
 {
-    const BlockSize texel{1, uint64_t{layout.channels} * bytesOfComponent(layout.component)};
-    HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> texels, finestLevel(source, file, texel));
+    const BlockSize texel{1, uint64_t{layout.channels} * componentBytes(layout.component)};
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> texels, readFinestLevel(source, file, texel));
     HEARTH_ASSIGN_OR_RETURN(DecodedImage image,
                             allocateImage(source, file.width, file.height, isFloat(layout.component)));
     copyTexels(texels, layout, image);
@@ -180,7 +181,7 @@ Result<DecodedImage> decodeUastcImage(const EncodedImage& source, const Ktx2File
 {
     HEARTH_TRY(checkBasisSize(source, file));
     HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> blocks,
-                            finestLevel(source, file, {4, kUastcBlockBytes}));
+                            readFinestLevel(source, file, {4, kUastcBlockBytes}));
     HEARTH_ASSIGN_OR_RETURN(DecodedImage image, allocateImage(source, file.width, file.height, false));
     if (!decodeUastc(blocks, file.is_srgb, image))
         return source.malformed("KTX2: UASTC: a block is damaged");

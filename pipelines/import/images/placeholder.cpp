@@ -4,7 +4,7 @@
 namespace hearth::import
 {
 
-DecodedImage placeholderImage()
+DecodedImage makePlaceholderImage()
 {
     constexpr uint32_t kSize = 64;
     constexpr uint32_t kSquare = 8;

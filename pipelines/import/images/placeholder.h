@@ -8,6 +8,6 @@ namespace hearth::import
 {
 
 /// Return magenta and black squares: conspicuous, and unlike any artwork.
-DecodedImage placeholderImage();
+DecodedImage makePlaceholderImage();
 
 } // namespace hearth::import

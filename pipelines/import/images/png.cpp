@@ -94,7 +94,7 @@ Result<DecodedImage> decodePng(const EncodedImage& source)
                                           png_get_image_height(state.png, state.info), false));
     std::vector<png_bytep> rows(image.height);
     for (size_t y = 0; y < rows.size(); ++y)
-        rows[y] = bytesOf(image) + y * image.width * 4;
+        rows[y] = imageBytes(image) + y * image.width * 4;
     if (!readTexels(state, rows.data()))
         return failed();
     return image;

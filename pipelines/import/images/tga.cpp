@@ -51,7 +51,7 @@ uint8_t from5Bits(uint32_t value)
 
 /// Return a colour of 15, 16, 24 or 32 bits, blue first. Without alpha bits in the descriptor the fourth byte
 /// is ignored.
-Texel colorOf(const uint8_t* bytes, uint32_t depth, bool has_alpha)
+Texel decodeColor(const uint8_t* bytes, uint32_t depth, bool has_alpha)
 {
     if (depth <= 16)
     {
@@ -87,7 +87,7 @@ struct TexelReader
         case kTgaGrey:
             return Texel{bytes[0], bytes[0], bytes[0], header.depth == 16 ? bytes[1] : uint8_t{255}};
         default:
-            return colorOf(bytes, header.depth, has_alpha);
+            return decodeColor(bytes, header.depth, has_alpha);
         }
     }
 };
@@ -123,7 +123,7 @@ std::optional<std::vector<Texel>> readMap(ByteReader& reader, const TgaHeader& h
         return std::nullopt;
     for (size_t at = 0; at < bytes->size(); at += entry_bytes)
         map.push_back(
-            colorOf(reinterpret_cast<const uint8_t*>(bytes->data()) + at, header.map_depth, has_alpha));
+            decodeColor(reinterpret_cast<const uint8_t*>(bytes->data()) + at, header.map_depth, has_alpha));
     return map;
 }
 
@@ -191,7 +191,7 @@ Result<DecodedImage> decodeTga(const EncodedImage& source)
     {
         const size_t column = from_right ? image.width - 1 - x : x;
         const size_t row = from_top ? y : image.height - 1 - y;
-        std::copy(texel.begin(), texel.end(), bytesOf(image) + (row * image.width + column) * 4);
+        std::copy(texel.begin(), texel.end(), imageBytes(image) + (row * image.width + column) * 4);
         if (++x == image.width)
         {
             x = 0;

@@ -20,7 +20,7 @@ Result<DecodedImage> decodeWebp(const EncodedImage& source)
         return source.unsupported("animated WebP images are not read");
     HEARTH_ASSIGN_OR_RETURN(DecodedImage image, allocateImage(source, static_cast<uint64_t>(features.width),
                                                               static_cast<uint64_t>(features.height), false));
-    if (WebPDecodeRGBAInto(source.data(), source.bytes.size(), bytesOf(image), image.texels.size(),
+    if (WebPDecodeRGBAInto(source.data(), source.bytes.size(), imageBytes(image), image.texels.size(),
                            features.width * 4) == nullptr)
         return source.malformed("WebP: the data is damaged or ends too early");
     return image;

@@ -12,21 +12,21 @@ namespace
 {
 
 // Limit of positions (pipelines/import/README.md): beyond it the squares of areas leave the range of floats.
-constexpr double kFarthest = 1e9;
+constexpr double kMaxBakedCoordinate = 1e9;
 
 using Direction = std::array<double, 3>;
 
-Float3 unitOr(const Direction& d, Float3 otherwise)
+Float3 unitOr(const Direction& d, Float3 fallback)
 {
     const double length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     if (!(length > 0) || !std::isfinite(length))
-        return otherwise;
+        return fallback;
     return {static_cast<float>(d[0] / length), static_cast<float>(d[1] / length),
             static_cast<float>(d[2] / length)};
 }
 
 /// Return the linear part, or its transpose, times a direction.
-Direction turned(const Transform& t, Float3 v, bool transposed)
+Direction transformDirection(const Transform& t, Float3 v, bool transposed)
 {
     Direction d{};
     for (size_t i = 0; i < 3; ++i)
@@ -46,10 +46,11 @@ bool bakeTransform(mesh::SourceMesh& mesh, const Transform& transform)
     positions.reserve(mesh.positions.size());
     for (const Float3 p : mesh.positions)
     {
-        Direction moved = turned(transform, p, false);
+        Direction moved = transformDirection(transform, p, false);
         for (size_t i = 0; i < 3; ++i)
             moved[i] += transform.m[i][3];
-        if (std::any_of(moved.begin(), moved.end(), [](double c) { return !(std::abs(c) <= kFarthest); }))
+        if (std::any_of(moved.begin(), moved.end(),
+                        [](double c) { return !(std::abs(c) <= kMaxCoordinate); }))
             return false;
         positions.push_back(
             {static_cast<float>(moved[0]), static_cast<float>(moved[1]), static_cast<float>(moved[2])});
@@ -57,12 +58,12 @@ bool bakeTransform(mesh::SourceMesh& mesh, const Transform& transform)
     mesh.positions = std::move(positions);
     // normals are transformed by the inverse transpose
     for (Float3& normal : mesh.normals)
-        normal = unitOr(turned(*inverse, normal, true), normal);
+        normal = unitOr(transformDirection(*inverse, normal, true), normal);
     const bool mirrored = determinant(transform) < 0;
     for (Float4& tangent : mesh.tangents)
     {
         const Float3 t = {tangent.x, tangent.y, tangent.z};
-        const Float3 moved = unitOr(turned(transform, t, false), t);
+        const Float3 moved = unitOr(transformDirection(transform, t, false), t);
         tangent = {moved.x, moved.y, moved.z, mirrored ? -tangent.w : tangent.w};
     }
     if (mirrored)

@@ -49,7 +49,7 @@ std::vector<FaceNormal> faceNormals(const mesh::SourceMesh& mesh)
 
 /// Return a point index for each vertex. Vertices at the same position share a point, so that an unindexed
 /// triangle soup is smooth too.
-std::vector<uint32_t> pointOfVertex(const mesh::SourceMesh& mesh)
+std::vector<uint32_t> computePointIds(const mesh::SourceMesh& mesh)
 {
     const auto& p = mesh.positions;
     std::vector<uint32_t> order(p.size());
@@ -70,15 +70,15 @@ std::vector<uint32_t> pointOfVertex(const mesh::SourceMesh& mesh)
 
 /// Corners (3 * triangle + k) sorted by point; the corners of point i are
 /// corners[offsets[i] .. offsets[i + 1]).
-struct CornersOfPoints
+struct PointCorners
 {
     std::vector<uint32_t> offsets;
     std::vector<uint32_t> corners;
 };
 
-CornersOfPoints groupCorners(const mesh::SourceMesh& mesh, const std::vector<uint32_t>& point_of_vertex)
+PointCorners groupCorners(const mesh::SourceMesh& mesh, const std::vector<uint32_t>& point_of_vertex)
 {
-    CornersOfPoints groups;
+    PointCorners groups;
     const uint32_t point_count =
         point_of_vertex.empty() ? 0 : *std::max_element(point_of_vertex.begin(), point_of_vertex.end()) + 1;
     groups.offsets.assign(point_count + 1, 0);
@@ -183,7 +183,7 @@ std::vector<Float3> cornerNormals(const mesh::SourceMesh& mesh, float crease_ang
     constexpr double kCosineRounding = 1e-6;
     const double min_cosine = std::cos(static_cast<double>(crease_angle_rad)) - kCosineRounding;
     const std::vector<FaceNormal> faces = faceNormals(mesh);
-    const CornersOfPoints groups = groupCorners(mesh, pointOfVertex(mesh));
+    const PointCorners groups = groupCorners(mesh, computePointIds(mesh));
     std::vector<Float3> normals(mesh.indices.size());
     tbb::parallel_for(tbb::blocked_range<size_t>(0, groups.offsets.size() - 1),
                       [&](const tbb::blocked_range<size_t>& points)

@@ -59,7 +59,7 @@ FaceTangent faceTangent(const mesh::SourceMesh& mesh, const std::vector<Float2>&
 
 /// Return an id for each vertex. Vertices with equal position, normal and UV share it, so that an unindexed
 /// triangle soup is smooth too.
-std::vector<uint32_t> weldedVertices(const mesh::SourceMesh& mesh, const std::vector<Float2>& uvs)
+std::vector<uint32_t> weldVertices(const mesh::SourceMesh& mesh, const std::vector<Float2>& uvs)
 {
     const auto key = [&](uint32_t v)
     {
@@ -135,23 +135,23 @@ std::vector<Float3> sumTangents(const mesh::SourceMesh& mesh, const std::vector<
     return sums;
 }
 
-/// Vertices that a vertex is split into: an index for each handedness, or kNone.
-using Copies = std::array<uint32_t, 2>;
+/// Vertices that a vertex is split into: an index for each handedness, or kInvalidIndex.
+using VertexCopies = std::array<uint32_t, 2>;
 
 /// Find the copies that the triangles need; a vertex without any keeps a right-handed one.
-std::vector<Copies> findCopies(const mesh::SourceMesh& mesh, const std::vector<FaceTangent>& faces)
+std::vector<VertexCopies> findCopies(const mesh::SourceMesh& mesh, const std::vector<FaceTangent>& faces)
 {
-    std::vector<Copies> copies(mesh.vertexCount(), {formats::kNone, formats::kNone});
+    std::vector<VertexCopies> copies(mesh.vertexCount(), {kInvalidIndex, kInvalidIndex});
     for (size_t corner = 0; corner < mesh.indices.size(); ++corner)
         if (const Handedness handedness = faces[corner / 3].handedness; handedness != Handedness::none)
             copies[mesh.indices[corner]][static_cast<size_t>(handedness)] = 0;
     uint32_t next = 0;
-    for (Copies& copy : copies)
+    for (VertexCopies& copy : copies)
     {
-        if (copy[0] == formats::kNone && copy[1] == formats::kNone)
+        if (copy[0] == kInvalidIndex && copy[1] == kInvalidIndex)
             copy[0] = 0;
         for (uint32_t& vertex : copy)
-            if (vertex != formats::kNone)
+            if (vertex != kInvalidIndex)
                 vertex = next++;
     }
     return copies;
@@ -167,15 +167,15 @@ void generateTangents(mesh::SourceMesh& mesh, uint32_t uv_set)
     std::vector<FaceTangent> faces(mesh.triangleCount());
     tbb::parallel_for(size_t{0}, faces.size(),
                       [&](size_t i) { faces[i] = faceTangent(mesh, uvs, mesh.indices.data() + 3 * i); });
-    const std::vector<uint32_t> welded = weldedVertices(mesh, uvs);
+    const std::vector<uint32_t> welded = weldVertices(mesh, uvs);
     const std::vector<Float3> sums = sumTangents(mesh, faces, welded);
-    const std::vector<Copies> copies = findCopies(mesh, faces);
+    const std::vector<VertexCopies> copies = findCopies(mesh, faces);
 
     std::vector<uint32_t> old_from_new;
     std::vector<Float4> tangents;
     for (uint32_t vertex = 0; vertex < copies.size(); ++vertex)
         for (size_t handedness = 0; handedness < 2; ++handedness)
-            if (copies[vertex][handedness] != formats::kNone)
+            if (copies[vertex][handedness] != kInvalidIndex)
             {
                 const Float3 fallback = anyTangent(mesh.normals[vertex]);
                 const Float3 t = normalizeOr(sums[size_t{welded[vertex]} * 2 + handedness], fallback);
@@ -184,9 +184,9 @@ void generateTangents(mesh::SourceMesh& mesh, uint32_t uv_set)
             }
     for (size_t corner = 0; corner < mesh.indices.size(); ++corner)
     {
-        const Copies& copy = copies[mesh.indices[corner]];
+        const VertexCopies& copy = copies[mesh.indices[corner]];
         const Handedness handedness = faces[corner / 3].handedness;
-        const bool mirrored = handedness == Handedness::mirrored || copy[0] == formats::kNone;
+        const bool mirrored = handedness == Handedness::mirrored || copy[0] == kInvalidIndex;
         mesh.indices[corner] = copy[mirrored ? 1 : 0];
     }
     mesh.tangents.clear();

@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/tools/read_list.h"
+#include "cook/tools/dependency_list.h"
 
 #include <cstdint>
 
@@ -26,7 +26,7 @@ struct ImportOptions
     ImportLimits limits;
     /// Edges sharper than this stay hard in a mesh without normals: 60 degrees.
     float crease_angle_rad = 1.0471976f;
-    tools::ReadList* reads = nullptr; ///< records the files that are read; null: not recorded
+    tools::DependencyList* reads = nullptr; ///< records the files that are read; null: not recorded
 };
 
 } // namespace hearth::import

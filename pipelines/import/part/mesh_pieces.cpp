@@ -117,7 +117,7 @@ void gatherVertices(mesh::SourceMesh& mesh, std::span<const uint32_t> old_from_n
                        });
 }
 
-mesh::SourceMesh mergedPieces(std::vector<mesh::SourceMesh> pieces)
+mesh::SourceMesh mergePieces(std::vector<mesh::SourceMesh> pieces)
 {
     if (pieces.empty())
         return {};

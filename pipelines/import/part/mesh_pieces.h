@@ -17,7 +17,7 @@ void gatherVertices(mesh::SourceMesh& mesh, std::span<const uint32_t> old_from_n
 /// Merge meshes into one, in their order. An attribute that only some pieces have is filled with its default
 /// in the others: white, UV (0, 0), a tangent perpendicular to the normal, joint 0, no morph displacement.
 /// Either every piece with vertices has normals, or none has.
-mesh::SourceMesh mergedPieces(std::vector<mesh::SourceMesh> pieces);
+mesh::SourceMesh mergePieces(std::vector<mesh::SourceMesh> pieces);
 
 /// Set each zero normal to the area-weighted average of the normals of its triangles.
 void fillZeroNormals(mesh::SourceMesh& mesh);

@@ -54,7 +54,7 @@ std::string messageJson(const Error& warning)
                        quoteJson(info.hint));
 }
 
-std::string joined(const std::vector<std::string>& items)
+std::string joinItems(const std::vector<std::string>& items)
 {
     std::string text;
     for (const std::string& item : items)
@@ -70,7 +70,7 @@ std::string countsJson(const SourceCounts& counts, size_t meshes, size_t images,
                        counts.materials, counts.joints, counts.animations, counts.morph_targets);
 }
 
-std::string clipJson(const clips::ClipStatistics& clip)
+std::string clipJson(const animation_compression::ClipStatistics& clip)
 {
     return fmt::format(R"({{"keys_before":{},"keys":{},"bytes_before":{},"bytes":{},"stated_error":{},)"
                        R"("proven_error":{}}})",
@@ -78,7 +78,7 @@ std::string clipJson(const clips::ClipStatistics& clip)
                        clip.stated_error, clip.proven_error);
 }
 
-void cut(std::string& text)
+void truncateText(std::string& text)
 {
     constexpr size_t kMaxLength = 300;
     if (text.size() > kMaxLength)
@@ -87,10 +87,10 @@ void cut(std::string& text)
 
 } // namespace
 
-Error shortened(Error error)
+Error truncateTexts(Error error)
 {
-    cut(error.where);
-    cut(error.detail);
+    truncateText(error.where);
+    truncateText(error.detail);
     return error;
 }
 
@@ -121,16 +121,16 @@ StringRef PartBuilder::intern(std::string_view text)
 
 Status PartBuilder::addMesh(const mesh::SourceMesh& mesh)
 {
-    moved_vertices_.push_back(movedVertices(mesh));
+    vertex_bounds_.push_back(computeVertexBounds(mesh));
     return mesh::writeSourceMesh(writer_, mesh_count_++, mesh);
 }
 
 Status PartBuilder::addLod(uint32_t of, const mesh::SourceMesh& mesh, const tools::LodLabel& label)
 {
     HEARTH_ASSERT(of < mesh_count_);
-    lods_.push_back({of, mesh_count_, label.number.value_or(kNone), intern(label.name)});
+    lods_.push_back({of, mesh_count_, label.number.value_or(kInvalidIndex), intern(label.name)});
     HEARTH_TRY(addMesh(mesh));
-    add(moved_vertices_[of], moved_vertices_.back());
+    add(vertex_bounds_[of], vertex_bounds_.back());
     return success();
 }
 
@@ -160,12 +160,12 @@ void PartBuilder::warn(Issue issue, std::string where, std::string detail, std::
     HEARTH_ASSERT(issueInfo(issue).kind == IssueClass::warning);
     if (warnings_.size() >= kMaxWarnings)
     {
-        ++warnings_left_out_;
+        ++omitted_warning_count_;
         return;
     }
-    Error error = shortened({issue, source_name_, std::move(where), std::move(detail)});
+    Error error = truncateTexts({issue, source_name_, std::move(where), std::move(detail)});
     warnings_.push_back({std::move(error), std::string(remark)});
-    cut(warnings_.back().remark);
+    truncateText(warnings_.back().remark);
 }
 
 std::vector<Error> PartBuilder::warnings() const
@@ -189,15 +189,15 @@ void PartBuilder::addSource(std::string name, uint64_t size, uint64_t hash)
     sources_.push_back({std::move(name), size, hash});
 }
 
-void PartBuilder::adoptReport(const PartBuilder& other)
+void PartBuilder::mergeReport(const PartBuilder& other)
 {
     sources_.insert(sources_.end(), other.sources_.begin(), other.sources_.end());
-    warnings_left_out_ += other.warnings_left_out_;
+    omitted_warning_count_ += other.omitted_warning_count_;
     for (const Warning& warning : other.warnings_)
         if (warnings_.size() < kMaxWarnings)
             warnings_.push_back(warning);
         else
-            ++warnings_left_out_;
+            ++omitted_warning_count_;
 }
 
 std::string PartBuilder::report() const
@@ -215,14 +215,14 @@ std::string PartBuilder::report() const
             dropped.push_back(quoteJson(warning.error.detail));
     }
     std::vector<std::string> clips;
-    for (const clips::ClipStatistics& clip : clip_statistics)
+    for (const animation_compression::ClipStatistics& clip : clip_statistics)
         clips.push_back(clipJson(clip));
     return fmt::format(
         R"({{"schema":"hearth.import/1","tool":{{"name":"hearth-import","version":{}}},"source":{},)"
         R"("sources":{},"counts":{},"clips":{},"messages":{},"messages_left_out":{},"dropped":{}}})",
         quoteJson(HEARTH_VERSION), quoteJson(source_name_.substr(source_name_.rfind('/') + 1)),
-        joined(sources), countsJson(counts, mesh_count_ - lods_.size(), images_.size(), instances.size()),
-        joined(clips), joined(messages), warnings_left_out_, joined(dropped));
+        joinItems(sources), countsJson(counts, mesh_count_ - lods_.size(), images_.size(), instances.size()),
+        joinItems(clips), joinItems(messages), omitted_warning_count_, joinItems(dropped));
 }
 
 Status PartBuilder::finish()

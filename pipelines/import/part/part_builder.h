@@ -7,7 +7,7 @@
 #include "cook/tools/lod_files.h"
 #include "formats/container/container_writer.h"
 #include "formats/records/scene.h"
-#include "pipelines/import/part/moved_vertices.h"
+#include "pipelines/import/part/vertex_bounds.h"
 
 #include <map>
 #include <string>
@@ -39,7 +39,7 @@ struct SourceCounts
 };
 
 /// Truncate the texts of an error to a readable length: names in a hostile file can be megabytes long.
-Error shortened(Error error);
+Error truncateTexts(Error error);
 
 /// Import part being written. Small records collect in the public vectors. Meshes and images go to the file
 /// immediately, so that only one mesh and one image are in memory at a time.
@@ -94,23 +94,24 @@ public:
     std::vector<float> keys;
     std::vector<uint32_t> key_bits;
     std::vector<float> morph_weights;
-    std::vector<clips::ClipStatistics> clip_statistics; ///< of compressed animations, for the report
+    std::vector<animation_compression::ClipStatistics>
+        clip_statistics; ///< of compressed animations, for the report
     SourceCounts counts;
 
     const std::string& sourceName() const { return source_name_; }
     uint32_t imageCount() const { return static_cast<uint32_t>(images_.size()); }
     /// Bounds of the moved vertices of a mesh and its levels of detail.
-    const MovedVertices& movedVerticesOf(uint32_t mesh) const { return moved_vertices_[mesh]; }
+    const VertexBounds& vertexBounds(uint32_t mesh) const { return vertex_bounds_[mesh]; }
     bool hasLods() const { return !lods_.empty(); }
 
     /// Add the sources and messages of another part, whose meshes become part of this one.
-    void adoptReport(const PartBuilder& other);
+    void mergeReport(const PartBuilder& other);
 
     /// Return the warnings as shown to the user, with their remarks.
     std::vector<Error> warnings() const;
 
     /// Number of messages beyond the first hundred, which are counted but not stored.
-    uint64_t warningsLeftOut() const { return warnings_left_out_; }
+    uint64_t omittedWarningCount() const { return omitted_warning_count_; }
 
     /// Return the text of chunk META, schema hearth.import/1.
     std::string report() const;
@@ -138,9 +139,9 @@ private:
     std::vector<formats::ImageRecord> images_;
     uint32_t mesh_count_ = 0;
     std::vector<formats::AuthoredLodRecord> lods_;
-    std::vector<MovedVertices> moved_vertices_; ///< for each mesh
+    std::vector<VertexBounds> vertex_bounds_; ///< for each mesh
     std::vector<Warning> warnings_;
-    uint64_t warnings_left_out_ = 0;
+    uint64_t omitted_warning_count_ = 0;
     std::vector<SourceFile> sources_;
 };
 

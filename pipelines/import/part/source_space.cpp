@@ -15,7 +15,7 @@ using namespace formats;
 namespace
 {
 
-Affine3d turnOf(UpAxis up)
+Affine3d rotationFromUpAxis(UpAxis up)
 {
     Affine3d turn;
     if (up == UpAxis::z)
@@ -36,45 +36,45 @@ Affine3d scaled(Affine3d transform, double factor)
     return transform;
 }
 
-std::vector<Affine3d> restPlaces(std::span<const NodeRecord> nodes)
+std::vector<Affine3d> computeRestTransforms(std::span<const NodeRecord> nodes)
 {
-    MotionTables tables;
+    AnimationTables tables;
     tables.nodes = nodes;
     std::vector<Affine3d> world_from_node(nodes.size());
-    poseNodes(tables, restPose(tables), parentsFirst(nodes), world_from_node);
+    poseNodes(tables, restPose(tables), nodesParentsFirst(nodes), world_from_node);
     return world_from_node;
 }
 
 /// Converts everything in a part that has a place in the world.
-class Mover
+class SpaceConverter
 {
 public:
-    Mover(const SourceSpace& space, PartBuilder& part)
+    SpaceConverter(const SourceSpace& space, PartBuilder& part)
         : factor_(space.metres_per_unit),
-          turn_(turnOf(space.up)),
-          world_from_source_(scaled(turn_, factor_)),
+          rotation_(rotationFromUpAxis(space.up)),
+          world_from_source_(scaled(rotation_, factor_)),
           part_(part)
     {
     }
 
     Status move()
     {
-        const std::vector<Affine3d> before = restPlaces(part_.nodes);
+        const std::vector<Affine3d> before = computeRestTransforms(part_.nodes);
         HEARTH_TRY(addRoot());
-        const std::vector<Affine3d> after = restPlaces(part_.nodes);
+        const std::vector<Affine3d> after = computeRestTransforms(part_.nodes);
         for (InstanceRecord& instance : part_.instances)
-            HEARTH_TRY(moveInstance(instance, before, after));
+            HEARTH_TRY(convertInstance(instance, before, after));
         for (CameraRecord& camera : part_.cameras)
-            HEARTH_TRY(moveCamera(camera));
+            HEARTH_TRY(convertCamera(camera));
         for (LightRecord& light : part_.lights)
-            HEARTH_TRY(moveLight(light));
+            HEARTH_TRY(convertLight(light));
         for (ShadowSphereRecord& sphere : part_.shadow_spheres)
-            HEARTH_TRY(moveSphere(sphere));
+            HEARTH_TRY(convertSphere(sphere));
         return success();
     }
 
 private:
-    Error outOfRange() const
+    Error outOfRangeError() const
     {
         return {Issue::input_too_large, part_.sourceName(), "",
                 fmt::format("scaled by {}, a place or a length does not fit 32-bit numbers", factor_)};
@@ -83,7 +83,7 @@ private:
     Result<Affine3> narrow(const Affine3d& transform) const
     {
         const std::optional<Affine3> result = narrowed(transform);
-        return result ? Result<Affine3>(*result) : outOfRange();
+        return result ? Result<Affine3>(*result) : outOfRangeError();
     }
 
     /// Scale a length. 0 means no limit and stays 0; no other length may become 0.
@@ -91,7 +91,7 @@ private:
     {
         const auto metres = static_cast<float>(double{length} * factor_);
         if (!std::isfinite(metres) || (metres == 0) != (length == 0))
-            return outOfRange();
+            return outOfRangeError();
         length = metres;
         return success();
     }
@@ -99,13 +99,13 @@ private:
     Status addRoot()
     {
         NodeRecord root{};
-        root.parent = root.mesh = root.skin = kNone;
+        root.parent = root.mesh = root.skin = kInvalidIndex;
         root.rotation = {0, 0, 0, 1};
         root.scale = {1, 1, 1};
         HEARTH_ASSIGN_OR_RETURN(root.parent_from_node, narrow(world_from_source_));
         const auto index = static_cast<uint32_t>(part_.nodes.size());
         for (NodeRecord& node : part_.nodes)
-            if (node.parent == kNone)
+            if (node.parent == kInvalidIndex)
                 node.parent = index;
         part_.nodes.push_back(root);
         return success();
@@ -114,14 +114,14 @@ private:
     /// Move an instance. An instance whose transform equals its node's must equal it bit by bit afterwards:
     /// the runtime concludes from equality that nothing lies between them. A skinned instance is placed by
     /// its joints, which have moved already.
-    Status moveInstance(InstanceRecord& instance, std::span<const Affine3d> before,
-                        std::span<const Affine3d> after)
+    Status convertInstance(InstanceRecord& instance, std::span<const Affine3d> before,
+                           std::span<const Affine3d> after)
     {
-        if (part_.nodes[instance.node].skin != kNone)
+        if (part_.nodes[instance.node].skin != kInvalidIndex)
             return success();
-        const bool stands_at_node = narrowed(before[instance.node]) == instance.world_from_object;
+        const bool equals_node = narrowed(before[instance.node]) == instance.world_from_object;
         HEARTH_ASSIGN_OR_RETURN(instance.world_from_object,
-                                narrow(stands_at_node
+                                narrow(equals_node
                                            ? after[instance.node]
                                            : world_from_source_ * widened(instance.world_from_object)));
         instance.scale_max = scaleBound(instance.world_from_object);
@@ -130,51 +130,51 @@ private:
 
     /// Return the transform of a camera or light, rotated and moved without a change to the length of its
     /// axes: its own lengths are scaled separately.
-    Result<Affine3> placeOf(const Affine3& world_from_thing) const
+    Result<Affine3> convertTransform(const Affine3& world_from_local) const
     {
-        Affine3d place = turn_ * widened(world_from_thing);
+        Affine3d place = rotation_ * widened(world_from_local);
         for (auto& row : place.m)
             row[3] *= factor_;
         return narrow(place);
     }
 
-    Status moveCamera(CameraRecord& camera)
+    Status convertCamera(CameraRecord& camera)
     {
-        HEARTH_ASSIGN_OR_RETURN(camera.world_from_camera, placeOf(camera.world_from_camera));
+        HEARTH_ASSIGN_OR_RETURN(camera.world_from_camera, convertTransform(camera.world_from_camera));
         for (float* length :
              {&camera.z_near, &camera.z_far, &camera.x_magnification, &camera.y_magnification})
             HEARTH_TRY(scaleLength(*length));
         return success();
     }
 
-    Status moveLight(LightRecord& light)
+    Status convertLight(LightRecord& light)
     {
-        HEARTH_ASSIGN_OR_RETURN(light.world_from_light, placeOf(light.world_from_light));
+        HEARTH_ASSIGN_OR_RETURN(light.world_from_light, convertTransform(light.world_from_light));
         return scaleLength(light.range);
     }
 
-    Status moveSphere(ShadowSphereRecord& sphere)
+    Status convertSphere(ShadowSphereRecord& sphere)
     {
         const Double3 center = transformPoint(world_from_source_, widen(sphere.center));
         if (!isFinite(hearth::narrow(center)))
-            return outOfRange();
+            return outOfRangeError();
         sphere.center = hearth::narrow(center);
         return scaleLength(sphere.radius);
     }
 
     const double factor_;
-    const Affine3d turn_;
+    const Affine3d rotation_;
     const Affine3d world_from_source_;
     PartBuilder& part_;
 };
 
 } // namespace
 
-Status bringIntoMetres(const SourceSpace& space, PartBuilder& part)
+Status convertToMetres(const SourceSpace& space, PartBuilder& part)
 {
     if (space.metres_per_unit == 1 && space.up == UpAxis::y)
         return success();
-    return Mover(space, part).move();
+    return SpaceConverter(space, part).move();
 }
 
 } // namespace hearth::import

@@ -8,8 +8,8 @@ namespace hearth::import
 {
 
 /// Limits of SourceSpace::metres_per_unit: beyond any unit in use, and far inside the range of 32-bit floats.
-inline constexpr double kLeastScale = 1e-9;
-inline constexpr double kLargestScale = 1e9;
+inline constexpr double kMinScale = 1e-9;
+inline constexpr double kMaxScale = 1e9;
 
 enum class UpAxis : uint8_t
 {
@@ -19,7 +19,7 @@ enum class UpAxis : uint8_t
 
 struct SourceSpace
 {
-    double metres_per_unit = 1; ///< kLeastScale to kLargestScale
+    double metres_per_unit = 1; ///< kMinScale to kMaxScale
     UpAxis up = UpAxis::y;
 };
 
@@ -29,6 +29,6 @@ struct SourceSpace
 /// cameras, and radii of shadow spheres are converted. Candela and lux are not: they do not depend on the
 /// unit of length. A part in metres with +Y up stays unchanged.
 /// errors  input_too_large, where a position or a length does not fit 32-bit floats
-Status bringIntoMetres(const SourceSpace& space, PartBuilder& part);
+Status convertToMetres(const SourceSpace& space, PartBuilder& part);
 
 } // namespace hearth::import

@@ -11,8 +11,8 @@ Transform transformFromTrs(const std::array<float, 3>& translation, const std::a
                            const std::array<float, 3>& scale)
 {
     const auto wide = [](const std::array<float, 3>& v) { return widen(Float3{v[0], v[1], v[2]}); };
-    return affineFromTrs(wide(translation), {rotation[0], rotation[1], rotation[2], rotation[3]},
-                         wide(scale));
+    return makeAffineFromTrs(wide(translation), {rotation[0], rotation[1], rotation[2], rotation[3]},
+                             wide(scale));
 }
 
 Transform transformFromColumns(std::span<const float, 16> columns)

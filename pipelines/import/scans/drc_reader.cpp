@@ -1,6 +1,6 @@
 // Reads bare Draco files (.drc): meshes and point clouds.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/import/scans/file.h"
+#include "pipelines/import/scans/scan_polygons.h"
 
 #include <draco/compression/decode.h>
 
@@ -47,7 +47,7 @@ float colorScale(const draco::PointAttribute& attribute)
     }
 }
 
-bool readPositions(const draco::PointCloud& cloud, ScanFile& file)
+bool readPositions(const draco::PointCloud& cloud, ScanPolygons& file)
 {
     const draco::PointAttribute* attribute = cloud.GetNamedAttribute(draco::GeometryAttribute::POSITION);
     const auto convert = [](const std::array<float, 3>& v) { return Float3{v[0], v[1], v[2]}; };
@@ -56,7 +56,7 @@ bool readPositions(const draco::PointCloud& cloud, ScanFile& file)
            std::all_of(file.positions.begin(), file.positions.end(), isFinite);
 }
 
-bool readOthers(const draco::PointCloud& cloud, ScanFile& file)
+bool readOthers(const draco::PointCloud& cloud, ScanPolygons& file)
 {
     if (const auto* normals = cloud.GetNamedAttribute(draco::GeometryAttribute::NORMAL))
         if (!readAttribute<Float3, 3>(cloud, *normals, file.normals,
@@ -84,7 +84,7 @@ bool readOthers(const draco::PointCloud& cloud, ScanFile& file)
 }
 
 /// Decode into `file`. Return a description of the damage; empty on success.
-std::string decode(const ScanSource& source, ScanFile& file)
+std::string decode(const ScanSource& source, ScanPolygons& file)
 {
     draco::DecoderBuffer buffer;
     buffer.Init(reinterpret_cast<const char*>(source.bytes.data()), source.bytes.size());
@@ -131,14 +131,14 @@ std::string decode(const ScanSource& source, ScanFile& file)
 
 } // namespace
 
-Result<ScanFile> readDrc(const ScanSource& source)
+Result<ScanPolygons> readDrc(const ScanSource& source)
 {
     const auto failure = [&](const std::string& reason) {
         return Error{Issue::codec_failed, source.path, "", "Draco: " + reason};
     };
     try
     {
-        ScanFile file;
+        ScanPolygons file;
         const std::string problem = decode(source, file);
         if (!problem.empty())
             return failure(problem);

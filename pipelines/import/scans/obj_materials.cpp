@@ -20,8 +20,6 @@ namespace hearth::import
 namespace
 {
 
-using formats::kNone;
-
 constexpr float kAlphaCutoff = 0.5f;
 // Roughness of a surface with unspecified gloss, such as clay or plaster: scans carry light and shade in
 // their colours.
@@ -36,7 +34,7 @@ enum class Purpose : uint32_t
 class ScanMaterials
 {
 public:
-    ScanMaterials(const ScanFile& scan, const std::string& path, const ImportOptions& options,
+    ScanMaterials(const ScanPolygons& scan, const std::string& path, const ImportOptions& options,
                   PartBuilder& part)
         : scan_(scan), options_(options), part_(part), folder_(path, options.reads)
     {
@@ -58,8 +56,8 @@ public:
                 ++undefined_;
             HEARTH_ASSIGN_OR_RETURN(
                 const formats::MaterialRecord record,
-                materialOf(found == library_.materials.end() ? MtlMaterial{} : found->second));
-            indices.of_name.push_back(static_cast<uint32_t>(part_.materials.size()));
+                convertMaterial(found == library_.materials.end() ? MtlMaterial{} : found->second));
+            indices.by_name.push_back(static_cast<uint32_t>(part_.materials.size()));
             part_.materials.push_back(record);
             part_.materials.back().name = part_.intern(name);
         }
@@ -106,7 +104,7 @@ private:
         if (!file)
         {
             failure_ = file.error().detail;
-            suggestion_ = folder_.suggestionFor(name, file.error().issue);
+            suggestion_ = folder_.suggestNearest(name, file.error().issue);
             return false;
         }
         libraries_read_.push_back(name);
@@ -116,7 +114,7 @@ private:
         return true;
     }
 
-    Result<formats::MaterialRecord> materialOf(const MtlMaterial& mtl)
+    Result<formats::MaterialRecord> convertMaterial(const MtlMaterial& mtl)
     {
         formats::MaterialRecord record = defaultScanMaterial();
         const bool has_map = !mtl.diffuse_map.file.empty();
@@ -155,7 +153,7 @@ private:
                                  ? DecodedImage{}
                                  : load(mtl.diffuse_map.file, placeholder);
         if (has_opacity)
-            takeOpacity(mtl, image);
+            mergeOpacity(mtl, image);
         const uint32_t flags =
             (placeholder ? formats::kImagePlaceholder : 0u) | (has_opacity ? formats::kImageAlphaTested : 0u);
         HEARTH_ASSIGN_OR_RETURN(const uint32_t index, addImage(placement.file, image, Purpose::color, flags));
@@ -199,7 +197,7 @@ private:
         if (height_map)
             part_.warn(Issue::dropped, "", "height map '" + texture.file + "' is not kept (normal maps are)");
         // a placeholder holds no normals
-        uint32_t index = kNone;
+        uint32_t index = kInvalidIndex;
         if (!height_map && (!placeholder || purpose != Purpose::normals))
         {
             HEARTH_ASSIGN_OR_RETURN(
@@ -250,7 +248,7 @@ private:
         if (image.ok())
             return std::move(image).value();
         warnOfImage(file, image.error());
-        return placeholderImage();
+        return makePlaceholderImage();
     }
 
     void warnOfImage(const std::string& file, const Error& error)
@@ -259,7 +257,7 @@ private:
         part_.warn(missing ? Issue::image_missing : Issue::image_replaced, "",
                    "image '" + file + "'" + (material_.empty() ? "" : " of material '" + material_ + "'") +
                        " beside " + folder_.assetName() + ": " + error.detail,
-                   folder_.suggestionFor(file, error.issue));
+                   folder_.suggestNearest(file, error.issue));
     }
 
     /// True if the image may be a height map, which is grey; the flat normal is (128, 128, 255).
@@ -273,7 +271,7 @@ private:
 
     /// Put the opacity map into the alpha of `image` (a white image if there is none): the map's alpha if it
     /// has transparent texels, else its brightness.
-    void takeOpacity(const MtlMaterial& mtl, DecodedImage& image)
+    void mergeOpacity(const MtlMaterial& mtl, DecodedImage& image)
     {
         const auto opacity = read(mtl.opacity_map.file);
         if (!opacity.ok() || opacity->is_float || image.is_float)
@@ -282,7 +280,7 @@ private:
                                                   ? Error{Issue::image_replaced, "", "", "floating point"}
                                                   : opacity.error());
             if (image.texels.empty())
-                image = placeholderImage();
+                image = makePlaceholderImage();
             return;
         }
         if (image.texels.empty())
@@ -302,7 +300,7 @@ private:
             }
     }
 
-    const ScanFile& scan_;
+    const ScanPolygons& scan_;
     const ImportOptions& options_;
     PartBuilder& part_;
     AssetFolder folder_;
@@ -329,13 +327,13 @@ formats::MaterialRecord defaultScanMaterial()
          {&record.base_color_texture, &record.metallic_roughness_texture, &record.normal_texture,
           &record.occlusion_texture, &record.emissive_texture})
     {
-        ref->image = kNone;
+        ref->image = kInvalidIndex;
         ref->uv_transform[0] = ref->uv_transform[4] = 1;
     }
     return record;
 }
 
-Result<ScanMaterialIndices> addScanMaterials(const ScanFile& scan, const std::string& path,
+Result<ScanMaterialIndices> addScanMaterials(const ScanPolygons& scan, const std::string& path,
                                              const ImportOptions& options, PartBuilder& part)
 {
     return ScanMaterials(scan, path, options, part).add();

@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "pipelines/import/scans/file.h"
+#include "pipelines/import/scans/scan_polygons.h"
 
 #include <map>
 
@@ -50,7 +50,7 @@ float roughnessFromShininess(float shininess);
 
 struct ScanMaterialIndices
 {
-    std::vector<uint32_t> of_name;    ///< for each of ScanFile::material_names, a material of the part
+    std::vector<uint32_t> by_name;    ///< for each of ScanPolygons::material_names, a material of the part
     formats::MaterialRecord fallback; ///< for faces without a material; not in the part yet
 };
 
@@ -59,7 +59,7 @@ formats::MaterialRecord defaultScanMaterial();
 
 /// Add the materials that the scan uses, with their images, to the part; all files come from the asset's
 /// folder. A missing file is a warning. errors: cannot_write.
-Result<ScanMaterialIndices> addScanMaterials(const ScanFile& scan, const std::string& path,
+Result<ScanMaterialIndices> addScanMaterials(const ScanPolygons& scan, const std::string& path,
                                              const ImportOptions& options, PartBuilder& part);
 
 } // namespace hearth::import

@@ -1,7 +1,7 @@
 // Parses material libraries.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/scans/obj_materials.h"
-#include "pipelines/import/scans/text.h"
+#include "pipelines/import/scans/text_cursor.h"
 
 #include <fmt/format.h>
 
@@ -24,8 +24,8 @@ constexpr std::array kIgnoredMaterialKeywords = {"illum"sv, "Ka"sv, "Ks"sv,     
 struct TextureOption
 {
     std::string_view name;
-    int least;
-    int most;
+    int min_words;
+    int max_words;
 };
 constexpr std::array kOptions = {
     TextureOption{"-blendu", 1, 1}, TextureOption{"-blendv", 1, 1},  TextureOption{"-cc", 1, 1},
@@ -35,7 +35,7 @@ constexpr std::array kOptions = {
     TextureOption{"-t", 1, 3},
 };
 
-std::optional<float> numberOf(std::string_view word)
+std::optional<float> parseNumber(std::string_view word)
 {
     TextCursor text(word);
     const auto value = text.number();
@@ -73,7 +73,7 @@ private:
         }
         if (material_ == nullptr)
             return;
-        if (MtlTexture* texture = textureOf(keyword))
+        if (MtlTexture* texture = findTexture(keyword))
             readTexture(*texture);
         else if (keyword == "Kd")
             material_->has_diffuse = readColor(material_->diffuse);
@@ -97,7 +97,7 @@ private:
             library_.notes.push_back({issue, name_ + " " + text_.where(), std::move(detail)});
     }
 
-    MtlTexture* textureOf(std::string_view keyword)
+    MtlTexture* findTexture(std::string_view keyword)
     {
         if (keyword == "map_Kd")
             return &material_->diffuse_map;
@@ -116,7 +116,7 @@ private:
 
     bool readScalar(float& value)
     {
-        const auto number = numberOf(text_.word());
+        const auto number = parseNumber(text_.word());
         if (!number)
             note(Issue::repaired, "a number is missing; the default is used");
         else
@@ -129,7 +129,7 @@ private:
         Float3 read;
         for (int c = 0; c < 3; ++c)
         {
-            const auto number = numberOf(text_.word());
+            const auto number = parseNumber(text_.word());
             if (!number && c == 0)
             {
                 note(Issue::repaired, "a colour is no three numbers; the default is used");
@@ -181,12 +181,12 @@ private:
     {
         std::array<std::string_view, 3> words;
         std::array<float, 3> values{};
-        for (int i = 0; i < option.most; ++i)
+        for (int i = 0; i < option.max_words; ++i)
         {
             TextCursor ahead = text_;
             words[static_cast<size_t>(i)] = ahead.word();
-            const auto value = numberOf(words[static_cast<size_t>(i)]);
-            if (i >= option.least && !value)
+            const auto value = parseNumber(words[static_cast<size_t>(i)]);
+            if (i >= option.min_words && !value)
                 break;
             values[static_cast<size_t>(i)] = value.value_or(0);
             text_ = ahead;
@@ -194,7 +194,7 @@ private:
         if (option.name == "-o")
             texture.offset = {values[0], values[1]};
         else if (option.name == "-s")
-            texture.scale = {values[0], option.most > 1 && numberOf(words[1]) ? values[1] : 1.0f};
+            texture.scale = {values[0], option.max_words > 1 && parseNumber(words[1]) ? values[1] : 1.0f};
         else if (option.name == "-clamp")
             texture.clamp = words[0] == "on";
         else if (option.name == "-bm")

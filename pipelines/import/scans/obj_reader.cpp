@@ -2,8 +2,8 @@
 // manual, with the vertex colours that scanners write after the coordinates. Groups and objects become one
 // mesh.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/import/scans/file.h"
-#include "pipelines/import/scans/text.h"
+#include "pipelines/import/scans/scan_polygons.h"
+#include "pipelines/import/scans/text_cursor.h"
 
 #include <fmt/format.h>
 
@@ -19,15 +19,13 @@ namespace
 {
 
 using namespace std::string_view_literals;
-using formats::kNone;
-
 /// Statements of the manual that draw nothing here; other unsupported statements are named in a warning.
 constexpr std::array kIgnoredKeywords = {"g"sv,          "o"sv,         "s"sv,      "mg"sv,
                                          "bevel"sv,      "c_interp"sv,  "lod"sv,    "d_interp"sv,
                                          "shadow_obj"sv, "trace_obj"sv, "maplib"sv, "usemap"sv};
 
 /// Number of occurrences of an unsupported statement, and the line of the first.
-struct Dropped
+struct Occurrences
 {
     size_t count = 0;
     size_t first_line = 0;
@@ -53,7 +51,7 @@ class ObjReader
 public:
     explicit ObjReader(const ScanSource& source) : source_(source), text_(source.text()) {}
 
-    Result<ScanFile> read()
+    Result<ScanPolygons> read()
     {
         for (; !text_.atEnd(); text_.nextLine())
         {
@@ -92,7 +90,7 @@ private:
             file_.material_libraries.emplace_back(text_.restOfLine());
         else if (std::find(kIgnoredKeywords.begin(), kIgnoredKeywords.end(), keyword) ==
                  kIgnoredKeywords.end())
-            return drop(keyword);
+            return countUnsupported(keyword);
         return success();
     }
 
@@ -108,7 +106,7 @@ private:
             const auto value = readNumber();
             if (!value || count == N)
                 return syntax(value ? "more than " + std::to_string(N) + " numbers"
-                                    : fmt::format("'{}' is not a number", shortened(text_.word())));
+                                    : fmt::format("'{}' is not a number", truncateWord(text_.word())));
             values[count++] = *value;
         }
         return count;
@@ -128,7 +126,7 @@ private:
         const auto value = TextCursor(word).number();
         if (value)
         {
-            countDropped(mended_);
+            countDropped(repaired_);
             text_ = ahead;
         }
         return value;
@@ -149,7 +147,7 @@ private:
         return true;
     }
 
-    static std::string shortened(std::string_view word)
+    static std::string truncateWord(std::string_view word)
     {
         return word.size() <= 40 ? std::string(word) : std::string(word.substr(0, 40)) + "...";
     }
@@ -228,9 +226,9 @@ private:
             return error(Issue::input_too_large,
                          "more than " + std::to_string(source_.limits.max_triangles) + " triangles");
         file_.face_ends.push_back(static_cast<uint32_t>(file_.corner_positions.size()));
-        if (!file_.face_materials.empty() || material_ != kNone)
+        if (!file_.face_materials.empty() || material_ != kInvalidIndex)
         {
-            file_.face_materials.resize(file_.face_ends.size() - 1, kNone);
+            file_.face_materials.resize(file_.face_ends.size() - 1, kInvalidIndex);
             file_.face_materials.push_back(material_);
         }
         return success();
@@ -247,7 +245,7 @@ private:
     /// be empty.
     Status readCorner()
     {
-        std::array<uint32_t, 3> index = {kNone, kNone, kNone};
+        std::array<uint32_t, 3> index = {kInvalidIndex, kInvalidIndex, kInvalidIndex};
         for (size_t kind = kPosition; kind <= kNormal; ++kind)
         {
             const bool empty = text_.startsWith('/') || atCornerEnd();
@@ -258,7 +256,7 @@ private:
             text_.skip(1);
         }
         if (!atCornerEnd())
-            return syntax(fmt::format("'{}' follows a corner", shortened(text_.word())));
+            return syntax(fmt::format("'{}' follows a corner", truncateWord(text_.word())));
         addIndex(file_.corner_uvs, index[kUv]);
         addIndex(file_.corner_normals, index[kNormal]);
         file_.corner_positions.push_back(index[kPosition]);
@@ -274,13 +272,13 @@ private:
     /// Append the UV or normal index of a corner; indices are stored from the first corner that has one.
     void addIndex(std::vector<uint32_t>& indices, uint32_t index)
     {
-        if (indices.empty() && index == kNone)
+        if (indices.empty() && index == kInvalidIndex)
             return;
-        indices.resize(file_.corner_positions.size(), kNone);
+        indices.resize(file_.corner_positions.size(), kInvalidIndex);
         indices.push_back(index);
     }
 
-    size_t countOf(size_t kind) const
+    size_t elementCount(size_t kind) const
     {
         return kind == kPosition ? file_.positions.size()
                : kind == kUv     ? file_.uvs.size()
@@ -292,10 +290,10 @@ private:
     {
         const auto number = text_.integer();
         if (!number)
-            return syntax(fmt::format("'{}' is not an index", shortened(text_.word())));
-        const auto count = static_cast<int64_t>(countOf(kind));
+            return syntax(fmt::format("'{}' is not an index", truncateWord(text_.word())));
+        const auto count = static_cast<int64_t>(elementCount(kind));
         const int64_t from_zero = *number < 0 ? count + *number : *number - 1;
-        if (*number == 0 || from_zero < 0 || from_zero >= kNone)
+        if (*number == 0 || from_zero < 0 || from_zero >= kInvalidIndex)
             return error(Issue::index_out_of_range, std::string(kKindNames[kind]) + " index " +
                                                         std::to_string(*number) + " with " +
                                                         std::to_string(count) + " defined");
@@ -313,25 +311,25 @@ private:
             return Error{
                 Issue::index_out_of_range, source_.path, "line " + std::to_string(position.line),
                 fmt::format("vertex index {} with {} in the file", position.index, file_.positions.size())};
-        forgetMissing(kUv, file_.corner_uvs);
-        forgetMissing(kNormal, file_.corner_normals);
+        removeMissing(kUv, file_.corner_uvs);
+        removeMissing(kNormal, file_.corner_normals);
         return success();
     }
 
-    void forgetMissing(size_t kind, std::vector<uint32_t>& indices)
+    void removeMissing(size_t kind, std::vector<uint32_t>& indices)
     {
         size_t missing = 0;
         for (uint32_t& index : indices)
-            if (index != kNone && index >= countOf(kind))
+            if (index != kInvalidIndex && index >= elementCount(kind))
             {
-                index = kNone;
+                index = kInvalidIndex;
                 ++missing;
             }
         if (missing > 0)
             file_.note(
                 Issue::repaired, "line " + std::to_string(forward_[kind].line),
                 fmt::format("{} corners name a {} that the file does not have", missing, kKindNames[kind]));
-        if (countOf(kind) == 0)
+        if (elementCount(kind) == 0)
             indices.clear();
     }
 
@@ -348,14 +346,14 @@ private:
         material_of_name_.emplace(name, material_);
     }
 
-    void countDropped(Dropped& dropped)
+    void countDropped(Occurrences& dropped)
     {
         if (dropped.count++ == 0)
             dropped.first_line = text_.line();
     }
 
     /// Count a statement that is not supported. Bytes that no text contains mean that the file is not a text.
-    Status drop(std::string_view keyword)
+    Status countUnsupported(std::string_view keyword)
     {
         if (std::any_of(keyword.begin(), keyword.end(), isControlByte))
             return syntax("a byte that no text has");
@@ -364,11 +362,11 @@ private:
         if (found != dropped_.end())
             ++found->second.count;
         else if (dropped_.size() < kMaxKinds)
-            countDropped(dropped_[shortened(keyword)]);
+            countDropped(dropped_[truncateWord(keyword)]);
         return success();
     }
 
-    void noteDropped(const Dropped& dropped, Issue issue, const std::string& what)
+    void noteDropped(const Occurrences& dropped, Issue issue, const std::string& what)
     {
         if (dropped.count > 0)
             file_.note(issue, "line " + std::to_string(dropped.first_line),
@@ -380,28 +378,28 @@ private:
         for (const auto& [keyword, dropped] : dropped_)
             noteDropped(dropped, Issue::dropped, fmt::format("statements '{}' are not kept", keyword));
         noteDropped(small_faces_, Issue::dropped, "faces with fewer than three corners are not kept");
-        noteDropped(mended_, Issue::repaired, "numbers have the sign of the exponent before the letter");
+        noteDropped(repaired_, Issue::repaired, "numbers have the sign of the exponent before the letter");
         noteDropped(bad_colors_, Issue::repaired, "vertex colours are not finite and became white");
         noteDropped(bad_uvs_, Issue::repaired, "texture coordinates are not finite and became 0");
     }
 
     const ScanSource& source_;
     TextCursor text_;
-    ScanFile file_;
-    uint32_t material_ = kNone;
+    ScanPolygons file_;
+    uint32_t material_ = kInvalidIndex;
     std::map<std::string, uint32_t, std::less<>> material_of_name_;
     uint64_t triangles_ = 0;
     std::array<ForwardReference, 3> forward_{};
-    std::map<std::string, Dropped, std::less<>> dropped_;
-    Dropped small_faces_;
-    Dropped mended_;
-    Dropped bad_colors_;
-    Dropped bad_uvs_;
+    std::map<std::string, Occurrences, std::less<>> dropped_;
+    Occurrences small_faces_;
+    Occurrences repaired_;
+    Occurrences bad_colors_;
+    Occurrences bad_uvs_;
 };
 
 } // namespace
 
-Result<ScanFile> readObj(const ScanSource& source)
+Result<ScanPolygons> readObj(const ScanSource& source)
 {
     return ObjReader(source).read();
 }

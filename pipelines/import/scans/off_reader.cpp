@@ -1,8 +1,8 @@
 // Reads OFF: Geomview's Object File Format as text, with the prefixes ST, C and N in any combination.
 // Source: Geomview manual, "OFF files".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/import/scans/file.h"
-#include "pipelines/import/scans/text.h"
+#include "pipelines/import/scans/scan_polygons.h"
+#include "pipelines/import/scans/text_cursor.h"
 
 #include <array>
 #include <cmath>
@@ -28,7 +28,7 @@ class OffReader
 public:
     explicit OffReader(const ScanSource& source) : source_(source), text_(source.text()) {}
 
-    Result<ScanFile> read()
+    Result<ScanPolygons> read()
     {
         HEARTH_TRY(readKeyword());
         HEARTH_TRY(readCounts());
@@ -225,12 +225,12 @@ private:
     uint64_t face_count_ = 0;
     bool face_colors_ = false;
     uint64_t small_faces_ = 0;
-    ScanFile file_;
+    ScanPolygons file_;
 };
 
 } // namespace
 
-Result<ScanFile> readOff(const ScanSource& source)
+Result<ScanPolygons> readOff(const ScanSource& source)
 {
     return OffReader(source).read();
 }

@@ -18,7 +18,7 @@ using namespace std::string_view_literals;
 constexpr size_t kMaxHeaderBytes = size_t{1} << 20;
 constexpr size_t kMaxWords = 6;
 
-std::optional<PlyType> typeOf(std::string_view name)
+std::optional<PlyType> parseType(std::string_view name)
 {
     constexpr std::array kNames = {
         std::pair{"char"sv, PlyType::int8},      std::pair{"int8"sv, PlyType::int8},
@@ -35,7 +35,7 @@ std::optional<PlyType> typeOf(std::string_view name)
     return found == kNames.end() ? std::nullopt : std::optional(found->second);
 }
 
-std::vector<std::string_view> wordsOf(std::string_view line)
+std::vector<std::string_view> splitWords(std::string_view line)
 {
     std::vector<std::string_view> words;
     while (words.size() <= kMaxWords)
@@ -73,7 +73,7 @@ public:
             if (trimmed(*line) == "end_header")
                 break;
             if (!line->starts_with("comment") && !line->starts_with("obj_info") && !trimmed(*line).empty())
-                HEARTH_TRY(readLine(wordsOf(*line)));
+                HEARTH_TRY(readLine(splitWords(*line)));
             else
                 readComment(*line);
         }
@@ -157,8 +157,8 @@ private:
         if (header_.elements.empty())
             return failure("a property stands before the first element");
         const bool is_list = words.size() == 5;
-        const auto type = typeOf(words[is_list ? 3 : 1]);
-        const auto count_type = is_list ? typeOf(words[2]) : PlyType::uint8;
+        const auto type = parseType(words[is_list ? 3 : 1]);
+        const auto count_type = is_list ? parseType(words[2]) : PlyType::uint8;
         if (!type || !count_type || isFloat(*count_type))
             return failure("the type of a property is not known");
         PlyElement& element = header_.elements.back();

@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "pipelines/import/scans/file.h"
+#include "pipelines/import/scans/scan_polygons.h"
 
 namespace hearth::import
 {

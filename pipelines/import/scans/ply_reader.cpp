@@ -16,8 +16,6 @@ namespace
 {
 
 using namespace std::string_view_literals;
-using formats::kNone;
-
 /// Meaning of a property. The first group belongs to vertices, the second to faces.
 enum class Role : uint8_t
 {
@@ -102,7 +100,7 @@ double colorScale(PlyType type)
 }
 
 /// Return the minimum size in bytes of a row of the element, to refuse counts that the file cannot hold.
-uint64_t smallestRow(const PlyElement& element, PlyFormat format)
+uint64_t minRowBytes(const PlyElement& element, PlyFormat format)
 {
     uint64_t size = 0;
     for (const PlyProperty& property : element.properties)
@@ -111,7 +109,7 @@ uint64_t smallestRow(const PlyElement& element, PlyFormat format)
     return size;
 }
 
-/// Reads the body into a ScanFile.
+/// Reads the body into a ScanPolygons.
 template <typename Values>
 class BodyReader
 {
@@ -121,7 +119,7 @@ public:
     {
     }
 
-    Result<ScanFile> read()
+    Result<ScanPolygons> read()
     {
         for (const PlyElement& element : header_.elements)
         {
@@ -147,7 +145,7 @@ public:
 private:
     Error failure(Issue issue, std::string detail) const
     {
-        return {issue, source_.path, Values::describe(values_.place()), std::move(detail)};
+        return {issue, source_.path, Values::describe(values_.location()), std::move(detail)};
     }
     Error tooShort(const PlyElement& element, uint64_t row) const
     {
@@ -159,7 +157,7 @@ private:
     {
         if (element.count > 0 && element.properties.empty())
             return failure(Issue::mesh_syntax, "element " + element.name + " has no properties");
-        const uint64_t row = smallestRow(element, header_.format);
+        const uint64_t row = minRowBytes(element, header_.format);
         // the last line of a text needs no line end
         if (element.count > 0 && element.count > (values_.remaining() + 1) / row)
             return failure(Issue::mesh_counts, std::to_string(element.count) + " times element " +
@@ -184,13 +182,13 @@ private:
 
         bool has(Role role) const { return property_of_role[static_cast<size_t>(role)] != nullptr; }
         bool hasAll(Role a, Role b, Role c) const { return has(a) && has(b) && has(c); }
-        double scaleOf(Role role) const
+        double scaleForRole(Role role) const
         {
             return has(role) ? 1 / colorScale(property_of_role[static_cast<size_t>(role)]->type) : 1;
         }
     };
 
-    Result<VertexLayout> layoutOf(const PlyElement& element)
+    Result<VertexLayout> makeLayout(const PlyElement& element)
     {
         VertexLayout layout;
         for (const PlyProperty& property : element.properties)
@@ -218,7 +216,7 @@ private:
             return failure(Issue::mesh_syntax, "there are two elements 'vertex'");
         if (element.count > source_.limits.max_vertices)
             return failure(Issue::input_too_large, std::to_string(element.count) + " vertices");
-        HEARTH_ASSIGN_OR_RETURN(const VertexLayout layout, layoutOf(element));
+        HEARTH_ASSIGN_OR_RETURN(const VertexLayout layout, makeLayout(element));
         file_.positions.reserve(static_cast<size_t>(element.count));
         VertexRow row{};
         row[static_cast<size_t>(Role::alpha)] = 1;
@@ -250,11 +248,11 @@ private:
             addUv(value(Role::u), value(Role::v));
         if (layout.hasAll(Role::red, Role::green, Role::blue))
         {
-            const double scale = layout.scaleOf(Role::red);
+            const double scale = layout.scaleForRole(Role::red);
             file_.colors.push_back(linearColor(
                 static_cast<float>(value(Role::red) * scale), static_cast<float>(value(Role::green) * scale),
                 static_cast<float>(value(Role::blue) * scale),
-                static_cast<float>(value(Role::alpha) * layout.scaleOf(Role::alpha))));
+                static_cast<float>(value(Role::alpha) * layout.scaleForRole(Role::alpha))));
         }
         return true;
     }
@@ -388,14 +386,14 @@ private:
             const auto index = values_.read(property.type);
             if (!index)
                 return tooShort(element, row);
-            if (*index < 0 || *index >= kNone || *index != std::floor(*index))
+            if (*index < 0 || *index >= kInvalidIndex || *index != std::floor(*index))
                 return failure(Issue::index_out_of_range, "a vertex index of face " + std::to_string(row) +
                                                               " is negative or no integer");
             const auto position = static_cast<uint32_t>(*index);
-            if (position >= largest_index_)
+            if (position >= max_index_)
             {
-                largest_index_ = position;
-                largest_index_place_ = values_.place();
+                max_index_ = position;
+                max_index_location_ = values_.location();
             }
             file_.corner_positions.push_back(position);
         }
@@ -425,11 +423,11 @@ private:
             return;
         if (file_.corner_uvs.empty())
             file_.uvs.clear(); // UVs of corners replace UVs of vertices
-        file_.corner_uvs.resize(first, kNone);
+        file_.corner_uvs.resize(first, kInvalidIndex);
         for (size_t i = 0; i < corners; ++i)
         {
             const bool given = uvs.size() == corners;
-            file_.corner_uvs.push_back(given ? static_cast<uint32_t>(file_.uvs.size()) : kNone);
+            file_.corner_uvs.push_back(given ? static_cast<uint32_t>(file_.uvs.size()) : kInvalidIndex);
             if (given)
                 file_.uvs.push_back(uvs[i]);
         }
@@ -437,9 +435,9 @@ private:
 
     Status checkIndices() const
     {
-        if (!file_.corner_positions.empty() && largest_index_ >= file_.positions.size())
-            return Error{Issue::index_out_of_range, source_.path, Values::describe(largest_index_place_),
-                         "vertex index " + std::to_string(largest_index_) + " of " +
+        if (!file_.corner_positions.empty() && max_index_ >= file_.positions.size())
+            return Error{Issue::index_out_of_range, source_.path, Values::describe(max_index_location_),
+                         "vertex index " + std::to_string(max_index_) + " of " +
                              std::to_string(file_.positions.size()) + " vertices"};
         return success();
     }
@@ -447,17 +445,17 @@ private:
     const ScanSource& source_;
     const PlyHeader& header_;
     Values values_;
-    ScanFile file_;
+    ScanPolygons file_;
     std::string dropped_;
     uint64_t small_faces_ = 0;
-    uint32_t largest_index_ = 0;
-    size_t largest_index_place_ = 0;
+    uint32_t max_index_ = 0;
+    size_t max_index_location_ = 0;
     std::vector<Float2> uv_scratch_;
 };
 
 } // namespace
 
-Result<ScanFile> readPly(const ScanSource& source)
+Result<ScanPolygons> readPly(const ScanSource& source)
 {
     HEARTH_ASSIGN_OR_RETURN(const PlyHeader header, readPlyHeader(source));
     if (header.format == PlyFormat::ascii)

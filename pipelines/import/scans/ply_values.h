@@ -4,7 +4,7 @@
 
 #include "formats/base/byte_reader.h"
 #include "pipelines/import/scans/ply_header.h"
-#include "pipelines/import/scans/text.h"
+#include "pipelines/import/scans/text_cursor.h"
 
 #include <bit>
 
@@ -29,8 +29,8 @@ public:
     }
     std::optional<double> read(PlyType) { return text_.number(); }
     size_t remaining() const { return text_.remaining(); }
-    size_t place() const { return first_line_ + text_.line() - 1; }
-    static std::string describe(size_t place) { return "line " + std::to_string(place); }
+    size_t location() const { return first_line_ + text_.line() - 1; }
+    static std::string describe(size_t location) { return "line " + std::to_string(location); }
 
 private:
     TextCursor text_;
@@ -49,8 +49,8 @@ public:
     bool startRow() const { return true; }
     bool endRow() const { return true; }
     size_t remaining() const { return reader_.remaining(); }
-    size_t place() const { return reader_.position(); }
-    static std::string describe(size_t place) { return "byte " + std::to_string(place); }
+    size_t location() const { return reader_.position(); }
+    static std::string describe(size_t location) { return "byte " + std::to_string(location); }
 
     std::optional<double> read(PlyType type)
     {

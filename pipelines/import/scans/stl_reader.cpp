@@ -2,10 +2,10 @@
 // one vertex.
 // Source: 3D Systems, "StereoLithography Interface Specification", 1988.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/import/scans/file.h"
+#include "pipelines/import/scans/scan_polygons.h"
 
 #include "formats/base/byte_reader.h"
-#include "pipelines/import/scans/text.h"
+#include "pipelines/import/scans/text_cursor.h"
 
 #include <array>
 #include <bit>
@@ -17,8 +17,6 @@ namespace hearth::import
 namespace
 {
 
-using formats::kNone;
-
 constexpr uint64_t kHeaderBytes = 80;
 constexpr uint64_t kTriangleBytes = 50; ///< normal, three corners, two unused bytes
 
@@ -27,12 +25,12 @@ constexpr uint64_t kTriangleBytes = 50; ///< normal, three corners, two unused b
 class PositionTable
 {
 public:
-    uint32_t indexOf(Float3 position)
+    uint32_t findOrAdd(Float3 position)
     {
         if ((positions.size() + 1) * 2 > slots_.size())
             grow();
         const size_t slot = find(position);
-        if (slots_[slot] == kNone)
+        if (slots_[slot] == kInvalidIndex)
         {
             slots_[slot] = static_cast<uint32_t>(positions.size());
             positions.push_back(position);
@@ -50,14 +48,14 @@ private:
         hash = (hash ^ (hash >> 32) ^ std::bit_cast<uint32_t>(p.z)) * 0x94D049BB133111EBu;
         const size_t mask = slots_.size() - 1;
         size_t slot = (hash ^ (hash >> 31)) & mask;
-        while (slots_[slot] != kNone && !(positions[slots_[slot]] == p))
+        while (slots_[slot] != kInvalidIndex && !(positions[slots_[slot]] == p))
             slot = (slot + 1) & mask;
         return slot;
     }
 
     void grow()
     {
-        slots_.assign(std::max<size_t>(1024, slots_.size() * 2), kNone);
+        slots_.assign(std::max<size_t>(1024, slots_.size() * 2), kInvalidIndex);
         for (uint32_t i = 0; i < positions.size(); ++i)
             slots_[find(positions[i])] = i;
     }
@@ -70,7 +68,7 @@ class StlReader
 public:
     explicit StlReader(const ScanSource& source) : source_(source) {}
 
-    Result<ScanFile> read()
+    Result<ScanPolygons> read()
     {
         HEARTH_TRY(isBinary() ? readBinary() : readAscii());
         file_.positions = std::move(table_.positions);
@@ -206,7 +204,7 @@ private:
         if (!isFinite(position))
             return false;
         // -0 and 0 are the same coordinate
-        file_.corner_positions.push_back(table_.indexOf(position + Float3{0, 0, 0}));
+        file_.corner_positions.push_back(table_.findOrAdd(position + Float3{0, 0, 0}));
         return true;
     }
 
@@ -221,12 +219,12 @@ private:
 
     const ScanSource& source_;
     PositionTable table_;
-    ScanFile file_;
+    ScanPolygons file_;
 };
 
 } // namespace
 
-Result<ScanFile> readStl(const ScanSource& source)
+Result<ScanPolygons> readStl(const ScanSource& source)
 {
     return StlReader(source).read();
 }

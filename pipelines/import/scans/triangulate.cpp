@@ -11,7 +11,7 @@ namespace
 {
 
 /// Limit of point tests per corner of a polygon; only artificial files come near it.
-constexpr size_t kTestsPerCorner = 512;
+constexpr size_t kMaxTestsPerCorner = 512;
 
 struct Point2
 {
@@ -40,18 +40,18 @@ double dot(Vector3 a, Vector3 b)
 }
 
 /// Return twice the signed area of the triangle, positive if it is counter-clockwise.
-double turn(Point2 a, Point2 b, Point2 c)
+double signedArea2(Point2 a, Point2 b, Point2 c)
 {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
 bool contains(Point2 a, Point2 b, Point2 c, Point2 p)
 {
-    return turn(a, b, p) >= 0 && turn(b, c, p) >= 0 && turn(c, a, p) >= 0;
+    return signedArea2(a, b, p) >= 0 && signedArea2(b, c, p) >= 0 && signedArea2(c, a, p) >= 0;
 }
 
 /// Return Newell's mean normal of a polygon; its length is twice the area.
-Vector3 normalOf(std::span<const Float3> corners)
+Vector3 newellNormal(std::span<const Float3> corners)
 {
     Vector3 sum;
     for (size_t i = 0; i < corners.size(); ++i)
@@ -89,7 +89,7 @@ public:
         : points_(std::move(points)),
           next_(points_.size()),
           previous_(points_.size()),
-          tests_left_(points_.size() * kTestsPerCorner)
+          tests_left_(points_.size() * kMaxTestsPerCorner)
     {
         const auto count = static_cast<uint32_t>(points_.size());
         for (uint32_t i = 0; i < count; ++i)
@@ -99,7 +99,7 @@ public:
         }
         is_concave_.resize(count);
         for (uint32_t i = 0; i < count; ++i)
-            if (turnAt(i) < 0)
+            if (signedArea2At(i) < 0)
             {
                 concave_.push_back(i);
                 is_concave_[i] = 1;
@@ -130,14 +130,17 @@ public:
     }
 
 private:
-    double turnAt(uint32_t i) const { return turn(points_[previous_[i]], points_[i], points_[next_[i]]); }
+    double signedArea2At(uint32_t i) const
+    {
+        return signedArea2(points_[previous_[i]], points_[i], points_[next_[i]]);
+    }
 
     bool isEar(uint32_t i)
     {
         if (tests_left_ <= concave_.size())
             return true;
         --tests_left_;
-        if (turnAt(i) < 0)
+        if (signedArea2At(i) < 0)
             return false;
         tests_left_ -= concave_.size();
         const Point2 a = points_[previous_[i]];
@@ -161,7 +164,7 @@ private:
         previous_[after] = before;
         markConvex(i);
         for (uint32_t neighbour : {before, after})
-            if (turnAt(neighbour) >= 0)
+            if (signedArea2At(neighbour) >= 0)
                 markConvex(neighbour);
         if (convex_in_list_ * 2 > concave_.size())
         {
@@ -210,7 +213,7 @@ void triangulatePolygon(std::span<const Float3> corners, std::vector<uint32_t>& 
     else if (corners.size() == 4)
         triangulateQuad(corners, triangles);
     else
-        EarClipper(project(corners, normalOf(corners))).run(triangles);
+        EarClipper(project(corners, newellNormal(corners))).run(triangles);
 }
 
 } // namespace hearth::import

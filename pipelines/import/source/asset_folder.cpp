@@ -17,7 +17,7 @@ namespace hearth::import
 namespace
 {
 
-std::optional<std::string> resolved(const std::string& path)
+std::optional<std::string> resolvePath(const std::string& path)
 {
     const std::unique_ptr<char, decltype(&std::free)> real(::realpath(path.c_str(), nullptr), &std::free);
     return real ? std::optional<std::string>(real.get()) : std::nullopt;
@@ -29,7 +29,7 @@ bool startsWithScheme(std::string_view path)
     return path.substr(0, path.find_first_of("/\\")).find(':') != std::string_view::npos;
 }
 
-bool climbs(std::string_view path)
+bool hasParentStep(std::string_view path)
 {
     // a backslash separates folders on other systems, and the same asset must be refused there and here
     while (!path.empty())
@@ -44,20 +44,20 @@ bool climbs(std::string_view path)
 
 } // namespace
 
-void noteRead(tools::ReadList& reads, const std::string& path, const FileBytes& file)
+void recordRead(tools::DependencyList& reads, const std::string& path, const FileBytes& file)
 {
-    // a mapping is read again, a piece at a time; unchanged() detects a change
-    if (file.isMapping())
+    // a mapping is read again, a piece at a time; checkUnchanged() detects a change
+    if (file.isMapped())
         reads.addFile(path);
     else
         reads.add(path, file.bytes());
 }
 
-AssetFolder::AssetFolder(const std::string& asset_path, tools::ReadList* reads)
+AssetFolder::AssetFolder(const std::string& asset_path, tools::DependencyList* reads)
     : asset_name_(asset_path.substr(asset_path.rfind('/') + 1)), // npos + 1 is 0
       reads_(reads)
 {
-    const std::string file = resolved(asset_path).value_or(asset_path);
+    const std::string file = resolvePath(asset_path).value_or(asset_path);
     const size_t slash = file.rfind('/');
     folder_ = slash == std::string::npos ? "./" : file.substr(0, slash + 1);
 }
@@ -74,15 +74,15 @@ Result<std::string> AssetFolder::locate(std::string_view relative_path) const
                     [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }))
         return failure(Issue::uri_malformed, "the path has control characters");
     if (name.front() == '/' || name.front() == '\\' || startsWithScheme(relative_path) ||
-        climbs(relative_path))
+        hasParentStep(relative_path))
         return failure(Issue::uri_outside, "the path is not below the folder of the asset");
     if (name.size() >= PATH_MAX)
         return failure(Issue::uri_malformed, "the path is too long");
 
-    const std::optional<std::string> real = resolved(folder_ + name);
+    const std::optional<std::string> real = resolvePath(folder_ + name);
     if (!real)
         return failure(Issue::input_missing, std::strerror(errno));
-    const std::optional<std::string> root = resolved(folder_);
+    const std::optional<std::string> root = resolvePath(folder_);
     if (!root || !(*real + "/").starts_with(*root == "/" ? *root : *root + "/"))
         return failure(Issue::uri_outside, "a symbolic link leads out of the folder of the asset");
     struct stat info = {};
@@ -93,20 +93,20 @@ Result<std::string> AssetFolder::locate(std::string_view relative_path) const
 
 Result<FileBytes> AssetFolder::read(std::string_view relative_path, uint64_t max_bytes) const
 {
-    const auto readThere = [&]() -> Result<FileBytes>
+    const auto locateAndRead = [&]() -> Result<FileBytes>
     {
         HEARTH_ASSIGN_OR_RETURN(const std::string path, locate(relative_path));
         return FileBytes::read(path, max_bytes);
     };
-    Result<FileBytes> file = readThere();
+    Result<FileBytes> file = locateAndRead();
     if (reads_ != nullptr && file.ok())
-        noteRead(*reads_, folder_ + std::string(relative_path), *file);
+        recordRead(*reads_, folder_ + std::string(relative_path), *file);
     else if (reads_ != nullptr)
         reads_->addAbsent(folder_ + std::string(relative_path));
     return file;
 }
 
-std::string AssetFolder::suggestionFor(std::string_view relative_path, Issue issue) const
+std::string AssetFolder::suggestNearest(std::string_view relative_path, Issue issue) const
 {
     if (issue != Issue::input_missing && issue != Issue::uri_outside)
         return "";

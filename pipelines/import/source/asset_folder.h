@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/tools/read_list.h"
+#include "cook/tools/dependency_list.h"
 #include "formats/base/result.h"
 #include "pipelines/import/source/file_bytes.h"
 #include "pipelines/import/source/nearest_file.h"
@@ -18,14 +18,14 @@ namespace hearth::import
 {
 
 /// Record in `reads` that `path` was read, with the content of `file`.
-void noteRead(tools::ReadList& reads, const std::string& path, const FileBytes& file);
+void recordRead(tools::DependencyList& reads, const std::string& path, const FileBytes& file);
 
 class AssetFolder
 {
 public:
     /// Open the folder of the file `asset_path`, which exists.
     /// reads  records every file that is read or found missing; null: not recorded
-    AssetFolder(const std::string& asset_path, tools::ReadList* reads);
+    AssetFolder(const std::string& asset_path, tools::DependencyList* reads);
 
     /// Resolve a relative path (plain text, not percent-encoded) and its symbolic links.
     /// errors: uri_malformed (empty, control characters), uri_outside (absolute, a drive or scheme, "..", a
@@ -41,13 +41,13 @@ public:
     /// Return "; nearest: ...", to append to the message of a failed read(): the file that the path probably
     /// means. Empty if no file is near, and if the failure has another cause. The suggestion may go to
     /// stderr, but into no part: it depends on a folder listing, which is not an input of the cached results.
-    std::string suggestionFor(std::string_view relative_path, Issue issue) const;
+    std::string suggestNearest(std::string_view relative_path, Issue issue) const;
 
 private:
     std::string folder_; ///< resolved, ends with '/'
     std::string asset_name_;
-    tools::ReadList* reads_ = nullptr;
-    mutable std::optional<FileNames> names_; ///< listed on first use
+    tools::DependencyList* reads_ = nullptr;
+    mutable std::optional<FileListing> names_; ///< listed on first use
 };
 
 } // namespace hearth::import

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/source/file_bytes.h"
 
-#include "formats/base/hash_pieces.h"
+#include "formats/base/hash_stream.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -18,8 +18,8 @@ namespace
 {
 
 // Smaller files are copied: nobody can change or truncate a copy, and it costs no more than the mapping.
-constexpr size_t kMappedFrom = size_t{64} << 20;
-constexpr size_t kPiece = size_t{16} << 20;
+constexpr size_t kMinMappedBytes = size_t{64} << 20;
+constexpr size_t kPieceBytes = size_t{16} << 20;
 
 struct FileDescriptor
 {
@@ -45,7 +45,7 @@ Error failure(Issue issue, const std::string& path, std::string detail)
     return {issue, path, "", std::move(detail)};
 }
 
-Result<std::vector<std::byte>> copyOf(int file, size_t size, const std::string& path)
+Result<std::vector<std::byte>> readCopy(int file, size_t size, const std::string& path)
 {
     std::vector<std::byte> bytes(size);
     size_t filled = 0;
@@ -80,16 +80,16 @@ Result<FileBytes> FileBytes::read(const std::string& path, uint64_t max_bytes)
         return failure(Issue::input_too_large, path, std::to_string(info.st_size) + " bytes");
 
     const auto size = static_cast<size_t>(info.st_size);
-    if (size >= kMappedFrom)
+    if (size >= kMinMappedBytes)
         if (void* at = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.number, 0); at != MAP_FAILED)
         {
             FileBytes mapping{std::vector<std::byte>()};
             mapping.mapped_ = {static_cast<const std::byte*>(at), size};
             mapping.path_ = path;
-            mapping.then_ = info;
+            mapping.stat_at_open_ = info;
             return mapping;
         }
-    HEARTH_ASSIGN_OR_RETURN(std::vector<std::byte> bytes, copyOf(file.number, size, path));
+    HEARTH_ASSIGN_OR_RETURN(std::vector<std::byte> bytes, readCopy(file.number, size, path));
     return FileBytes(std::move(bytes));
 }
 
@@ -97,7 +97,7 @@ FileBytes::FileBytes(FileBytes&& other) noexcept
     : owned_(std::move(other.owned_)),
       mapped_(std::exchange(other.mapped_, {})),
       path_(std::move(other.path_)),
-      then_(other.then_)
+      stat_at_open_(other.stat_at_open_)
 {
 }
 
@@ -110,26 +110,26 @@ FileBytes::~FileBytes()
 uint64_t FileBytes::hash() const
 {
     std::span<const std::byte> rest = bytes();
-    return hashPieces(
+    return hashStream(
         [&]
         {
-            forget();
-            const std::span<const std::byte> piece = rest.first(std::min(rest.size(), kPiece));
+            releasePages();
+            const std::span<const std::byte> piece = rest.first(std::min(rest.size(), kPieceBytes));
             rest = rest.subspan(piece.size());
             return piece;
         });
 }
 
-void FileBytes::forget() const
+void FileBytes::releasePages() const
 {
     if (!mapped_.empty())
         ::madvise(const_cast<std::byte*>(mapped_.data()), mapped_.size(), MADV_DONTNEED);
 }
 
-Status FileBytes::unchanged() const
+Status FileBytes::checkUnchanged() const
 {
     struct stat now = {};
-    if (mapped_.empty() || (::stat(path_.c_str(), &now) == 0 && isSame(now, then_)))
+    if (mapped_.empty() || (::stat(path_.c_str(), &now) == 0 && isSame(now, stat_at_open_)))
         return success();
     return failure(Issue::read_failed, path_, "the file changed while it was read");
 }

@@ -33,19 +33,19 @@ public:
     /// Return the XXH3-64, as formats::hashBytes, with one piece at a time in memory.
     uint64_t hash() const;
 
-    bool isMapping() const { return !mapped_.empty(); }
+    bool isMapped() const { return !mapped_.empty(); }
 
     /// Drop the pages of a mapping from this process's memory until they are accessed again.
-    void forget() const;
+    void releasePages() const;
 
     /// Check that the file of a mapping has not changed since it was mapped. errors: read_failed.
-    Status unchanged() const;
+    Status checkUnchanged() const;
 
 private:
     std::vector<std::byte> owned_;
     std::span<const std::byte> mapped_;
     std::string path_; ///< of a mapping
-    struct stat then_ = {};
+    struct stat stat_at_open_ = {};
 };
 
 } // namespace hearth::import

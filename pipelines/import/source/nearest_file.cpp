@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/source/nearest_file.h"
 
-#include "formats/base/suggest.h"
+#include "formats/base/nearest_match.h"
 #include "pipelines/import/images/decode.h"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ constexpr std::array<std::string_view, 5> kDifferences{
     ", with '/' between folders, not '\\'", ", whose letters differ in case", ", in another folder",
     ", in another format", ", in another folder and format"};
 
-std::string lowered(std::string_view text)
+std::string toLower(std::string_view text)
 {
     std::string lower(text);
     std::transform(lower.begin(), lower.end(), lower.begin(),
@@ -51,12 +51,12 @@ struct PathParts
         const size_t end = dot <= name ? path.size() : dot;
         folder = path.substr(0, name);
         stem = path.substr(name, end - name);
-        ending = path.substr(end);
+        extension = path.substr(end);
     }
 
     std::string_view folder;
     std::string_view stem;
-    std::string_view ending;
+    std::string_view extension;
 };
 
 bool isImageName(std::string_view name)
@@ -66,18 +66,19 @@ bool isImageName(std::string_view name)
 
 /// Classify the difference between a requested path and a listed one.
 /// wanted  with '/' between folders
-Difference differenceOf(const std::string& wanted, const std::string& wanted_lower, const std::string& path)
+Difference classifyDifference(const std::string& wanted, const std::string& wanted_lower,
+                              const std::string& path)
 {
     if (path == wanted)
         return Difference::separators;
-    const std::string lower = lowered(path);
+    const std::string lower = toLower(path);
     if (lower == wanted_lower)
         return Difference::letter_case;
     const PathParts asked(wanted_lower);
     const PathParts there(lower);
     if (asked.stem != there.stem)
         return Difference::none_of_these;
-    if (asked.ending == there.ending)
+    if (asked.extension == there.extension)
         return Difference::folder;
     if (!isImageName(wanted_lower) || !isImageName(lower))
         return Difference::none_of_these;
@@ -86,7 +87,7 @@ Difference differenceOf(const std::string& wanted, const std::string& wanted_low
 
 } // namespace
 
-FileNames::FileNames(const std::string& folder)
+FileListing::FileListing(const std::string& folder)
 {
     namespace fs = std::filesystem;
     std::error_code error;
@@ -101,30 +102,31 @@ FileNames::FileNames(const std::string& folder)
     std::sort(paths_.begin(), paths_.end());
 }
 
-std::string FileNames::suggest(std::string_view path) const
+std::string FileListing::suggest(std::string_view path) const
 {
     if (std::binary_search(paths_.begin(), paths_.end(), path))
         return "";
     std::string wanted(path);
     std::replace(wanted.begin(), wanted.end(), '\\', '/');
     wanted = std::filesystem::path(wanted).lexically_normal().string();
-    const std::string wanted_lower = lowered(wanted);
+    const std::string wanted_lower = toLower(wanted);
     const std::string* best = nullptr;
-    Difference least = Difference::none_of_these;
+    Difference best_difference = Difference::none_of_these;
     for (const std::string& there : paths_)
-        if (const Difference difference = differenceOf(wanted, wanted_lower, there); difference < least)
+        if (const Difference difference = classifyDifference(wanted, wanted_lower, there);
+            difference < best_difference)
         {
-            least = difference;
+            best_difference = difference;
             best = &there;
         }
     if (best != nullptr)
-        return fmt::format("\"{}\"{}", *best, kDifferences[static_cast<size_t>(least)]);
-    return suggestBySlip(wanted);
+        return fmt::format("\"{}\"{}", *best, kDifferences[static_cast<size_t>(best_difference)]);
+    return suggestByTypo(wanted);
 }
 
 /// Return the file in the same folder whose name is a typing error away; empty if none is.
 /// wanted  with '/' between folders
-std::string FileNames::suggestBySlip(const std::string& wanted) const
+std::string FileListing::suggestByTypo(const std::string& wanted) const
 {
     const PathParts asked(wanted);
     std::vector<std::string> stems;
@@ -136,9 +138,9 @@ std::string FileNames::suggestBySlip(const std::string& wanted) const
             stems.emplace_back(parts.stem);
             path_of_stem.push_back(&there);
         }
-    const std::string slip = nearestMatch(asked.stem, stems);
-    const auto found = std::find(stems.begin(), stems.end(), slip);
-    return slip.empty() ? ""
+    const std::string typo = nearestMatch(asked.stem, stems);
+    const auto found = std::find(stems.begin(), stems.end(), typo);
+    return typo.empty() ? ""
                         : fmt::format("\"{}\"", *path_of_stem[static_cast<size_t>(found - stems.begin())]);
 }
 

@@ -11,11 +11,11 @@ namespace hearth::import
 
 /// Names of the files in a folder and its sub-folders at the time of listing. Links to folders are not
 /// followed, and no file is opened.
-class FileNames
+class FileListing
 {
 public:
     /// folder  ends with '/'; of a very large folder only the first files are listed
-    explicit FileNames(const std::string& folder);
+    explicit FileListing(const std::string& folder);
 
     /// Find the file nearest to a path that does not exist: the same but for '\' or letter case, else the
     /// same name in another folder, else an image of the same name and another format, else a file in the
@@ -26,7 +26,7 @@ public:
     std::string suggest(std::string_view path) const;
 
 private:
-    std::string suggestBySlip(const std::string& wanted) const;
+    std::string suggestByTypo(const std::string& wanted) const;
 
     std::vector<std::string> paths_; ///< relative to the folder, sorted
 };

@@ -64,13 +64,13 @@ function showPage() {
     mesh: mesh => into('meshes', meshes.choose, mesh),
     texture: texture => into('textures', textures.choose, texture),
   };
-  const assets = assetsOf(data, go);
-  const meshes = meshesOf(data, pictures);
-  const textures = texturesOf(data);
-  const slow = slowOf(data, go);
-  const timeline = timelineOf(data, go);
-  const parts = [failuresOf(data), totalsOf(data), sceneOf(pictures), assets.part, sizesOf(data, go), meshes && meshes.part, textures && textures.part,
-                 slow, timeline.part, causesOf(data), messagesOf(data, go)].filter(Boolean);
+  const assets = assetsSection(data, go);
+  const meshes = meshesSection(data, pictures);
+  const textures = texturesSection(data);
+  const slow = slowSection(data, go);
+  const timeline = timelineSection(data, go);
+  const parts = [failuresSection(data), totalsSection(data), sceneSection(pictures), assets.part, sizesSection(data, go), meshes && meshes.part, textures && textures.part,
+                 slow, timeline.part, causesSection(data), messagesSection(data, go)].filter(Boolean);
   $('main').replaceChildren(...parts);
 
   const ok = data.status === 'ok';
@@ -81,7 +81,7 @@ function showPage() {
     el('span.faint', {}, [when, `hearth ${data.tool.version}`].filter(Boolean).join(' · ')),
     el('nav', {'aria-label': 'Sections'}, parts.filter(part => part.id !== 'totals').map(part =>
        el('a', {href: '#' + part.id}, part.querySelector('h2').textContent.split(' and ')[0])), themeButton(timeline.draw)));
-  kFits.forEach(fit => fit());
+  kLayoutCallbacks.forEach(fit => fit());
   timeline.draw();
   // preselect a mesh and an asset, so that there is something to see
   if (meshes) meshes.choose(meshes.first());

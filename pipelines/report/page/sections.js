@@ -9,7 +9,7 @@ function section(id, title, note, ...content) {
 /** Adds buttons or a filter to the head of a section. */
 const withTools = (part, ...tools) => { part.querySelector('.head').append(el('div.tools', {}, ...tools)); return part; };
 
-function totalsOf(data) {
+function totalsSection(data) {
   const totals = data.totals, actions = totals.actions || {};
   const kept = actions.cached || 0, all = Object.values(actions).reduce((sum, n) => sum + n, 0);
   const total = (figure, name, more) => el('div.total', {}, el('b', {}, figure), el('span', {}, name), more ? el('div.faint', {}, more) : null);
@@ -28,7 +28,7 @@ function totalsOf(data) {
     total(count(data.warnings), data.warnings === 1 ? 'warning' : 'warnings', plural(data.dropped, 'part') + ' of sources left out'));
 }
 
-function failuresOf(data) {
+function failuresSection(data) {
   if (!data.failures.length) return null;
   return section('failures', plural(data.failures.length, 'failure'), 'the root causes; what only depends on them is listed below each',
     data.failures.map(failure => {
@@ -45,22 +45,22 @@ function failuresOf(data) {
     }));
 }
 
-function picturesOf(views, uris, name) {
+function imageFigures(views, uris, name) {
   if (!uris || !uris.some(Boolean)) return null;
   const titles = {final: 'as it is drawn', clusters: 'clusters', lod: 'level of detail', ao: 'ambient occlusion'};
   return el('div.pictures', {}, views.map((view, i) => uris[i]
     ? el('figure', {}, el('img', {src: uris[i], alt: `${name}: ${titles[view] || view}`, loading: 'lazy'}), el('figcaption', {}, titles[view] || view)) : null));
 }
 
-function sceneOf(pictures) {
+function sceneSection(pictures) {
   if (!pictures.scene.length) return null;
-  const part = section('scene', 'Scene', pictures.is_sheet ? 'contact sheet: the assets stand in one place' : 'all of the pack, framed', picturesOf(pictures.views, pictures.scene, 'the scene'));
+  const part = section('scene', 'Scene', pictures.is_sheet ? 'contact sheet: the assets stand in one place' : 'all of the pack, framed', imageFigures(pictures.views, pictures.scene, 'the scene'));
   part.classList.add('scene');
   if (pictures.is_sheet) part.classList.add('sheet');
   return part;
 }
 
-function assetsOf(data, go) {
+function assetsSection(data, go) {
   const detail = el('div.detail', {'aria-live': 'polite'}, el('p.faint', {}, 'Choose an asset to see what it is made of, what ran for it and why.'));
   const slowest = data.assets.reduce((most, asset) => Math.max(most, asset.seconds), 1e-9);
   const table = makeTable('Assets', data.assets, [
@@ -109,7 +109,7 @@ const path = source => el('span', {title: source}, nameOf(source), el('span.fain
 const messageText = message => el('span', {}, el('span.' + (message.severity === 'error' ? 'bad' : 'warn'), {}, message.code), ' ',
                                   message.pointer ? el('span.mono', {}, message.pointer + ' ') : null, message.text);
 
-function sizesOf(data, go) {
+function sizesSection(data, go) {
   const items = [
     ...data.meshes.map(mesh => ({name: mesh.name || 'mesh', asset: mesh.asset, kind: 'geometry', color: 'geometry', bytes: mesh.bytes, open: () => go.mesh(mesh)})),
     ...data.textures.map(texture => ({name: `${texture.material} · ${texture.role || texture.name}`, asset: texture.asset, kind: 'textures', color: 'textures', bytes: texture.bytes, open: () => go.texture(texture)}))];
@@ -140,7 +140,7 @@ function sizesOf(data, go) {
        kinds[kind] === undefined ? '' : ' ' + bytes(kinds[kind]))))), ...buttons);
 }
 
-function meshesOf(data, pictures) {
+function meshesSection(data, pictures) {
   if (!data.meshes.length) return null;
   const curves = makeCurves(data.meshes, 400, 250);
   const about = el('div');
@@ -159,7 +159,7 @@ function meshesOf(data, pictures) {
   ], {select: show, sort: 7, text: mesh => mesh.name + ' ' + mesh.asset.source});
   function show(mesh) {
     curves.show(mesh);
-    about.replaceChildren(...[el('h3', {}, mesh.name || '(no name)'), picturesOf(pictures.views, pictures.meshes[mesh.index], mesh.name),
+    about.replaceChildren(...[el('h3', {}, mesh.name || '(no name)'), imageFigures(pictures.views, pictures.meshes[mesh.index], mesh.name),
       el('h3', {}, 'Levels'),
       el('table.plain', {}, el('thead', {}, el('tr', {}, ['level', 'clusters', 'triangles', 'error', 'mean', 'normals'].map(name => el('th', {}, name)))),
          el('tbody', {}, mesh.levels.map((level, i) => el('tr', {}, el('td', {}, String(i)), el('td', {}, count(level[0])), el('td', {}, count(level[1])),
@@ -171,7 +171,7 @@ function meshesOf(data, pictures) {
   return {part: table.filter ? withTools(part, table.filter) : part, choose: table.choose, first: table.first};
 }
 
-function texturesOf(data) {
+function texturesSection(data) {
   if (!data.textures.length) return null;
   const decibels = (value, known) => known === false ? '–' : value === null ? 'exact' : value.toFixed(1) + ' dB';
   const table = makeTable('Textures', data.textures, [
@@ -196,7 +196,7 @@ function texturesOf(data) {
 const usesText = texture => texture.uses.map(([material, role]) => `${material || '(no name)'} · ${role}`).join('\n');
 
 /** Shows the time of each cooker, and the settings that make it cheaper. */
-function slowOf(data, go) {
+function slowSection(data, go) {
   const rows = new Map();
   const add = (stage, asset) => {
     if (stage.start === null) return;
@@ -222,7 +222,7 @@ function slowOf(data, go) {
   return section('slow', 'What was slow', 'time of the cookers that ran, and the settings that make each cheaper', el('div.wide', {}, table));
 }
 
-function timelineOf(data, go) {
+function timelineSection(data, go) {
   const bars = [];
   const add = (stage, subject, open) => {
     if (stage.start !== null) bars.push({...stage, subject, open, failed: stage.state === 'failed'});
@@ -240,7 +240,7 @@ function timelineOf(data, go) {
 }
 
 /** Lists the causes for which actions ran, with the number of actions of each. */
-function causesOf(data) {
+function causesSection(data) {
   const counts = new Map();
   const stages = [...data.assets.flatMap(asset => asset.stages), ...data.stages];
   for (const stage of stages) for (const cause of stage.why) counts.set(cause, (counts.get(cause) || 0) + 1);
@@ -254,7 +254,7 @@ function causesOf(data) {
   return table.filter ? withTools(part, table.filter) : part;
 }
 
-function messagesOf(data, go) {
+function messagesSection(data, go) {
   const rows = data.assets.flatMap(asset => [
     ...asset.messages.map(message => ({asset, code: message.code, severity: message.severity, pointer: message.pointer || '', text: message.text, hint: message.hint || ''}))]);
   const known = new Set(rows.map(row => row.text));

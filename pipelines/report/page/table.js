@@ -3,27 +3,27 @@
 
 const kRowHeight = 30;
 const kRowsAtOnce = 14;
-const kRowsOfPrint = 500; // maximum of printed rows
+const kMaxPrintedRows = 500; // maximum of printed rows
 const kColumnGap = 12; // as in report.css
 const kRowPadding = 20;
 
-const widthOf = column => column.width || (column.number ? '84px' : 'minmax(120px, 1fr)');
-const leastWidthOf = column => parseInt(widthOf(column).match(/\d+(?=px)/)[0]);
-const leastWidth = columns => columns.reduce((sum, column) => sum + leastWidthOf(column) + kColumnGap, kRowPadding - kColumnGap);
+const columnWidth = column => column.width || (column.number ? '84px' : 'minmax(120px, 1fr)');
+const minColumnWidth = column => parseInt(columnWidth(column).match(/\d+(?=px)/)[0]);
+const minTableWidth = columns => columns.reduce((sum, column) => sum + minColumnWidth(column) + kColumnGap, kRowPadding - kColumnGap);
 
 /** Returns the columns that fit: the largest `drop` is left out first, columns without one stay. */
 function columnsThatFit(columns, width) {
   const fitting = [...columns];
   const droppable = columns.filter(column => column.drop).sort((a, b) => b.drop - a.drop);
   for (const column of droppable) {
-    if (leastWidth(fitting) <= width) break;
+    if (minTableWidth(fitting) <= width) break;
     fitting.splice(fitting.indexOf(column), 1);
   }
   return fitting;
 }
 
-const kFits = []; // layout functions of all tables, called when the width of the page is known
-addEventListener('resize', () => kFits.forEach(fit => fit()));
+const kLayoutCallbacks = []; // layout functions of all tables, called when the width of the page is known
+addEventListener('resize', () => kLayoutCallbacks.forEach(fit => fit()));
 
 /**
  * columns   {name, of: row => value, show: row => text or element, width, number, tip, drop: rank of removal when space is short}
@@ -45,8 +45,8 @@ function makeTable(label, rows, columns, options = {}) {
 
   function layOut() {
     names.replaceChildren(...visible.map(column => heads[columns.indexOf(column)]));
-    grid.style.setProperty('--columns', visible.map(widthOf).join(' '));
-    grid.style.setProperty('--width', leastWidth(visible) + 'px');
+    grid.style.setProperty('--columns', visible.map(columnWidth).join(' '));
+    grid.style.setProperty('--width', minTableWidth(visible) + 'px');
     const missing = columns.filter(column => !visible.includes(column) && column.name).map(column => column.name);
     dropped.hidden = missing.length === 0;
     dropped.textContent = missing.length ? `No room for: ${missing.join(', ')}.` : '';
@@ -89,7 +89,7 @@ function makeTable(label, rows, columns, options = {}) {
   let printing = false;
   function draw() {
     const first = printing ? 0 : Math.max(0, Math.floor(body.scrollTop / kRowHeight) - 4);
-    const last = Math.min(shown.length, printing ? kRowsOfPrint : first + kRowsAtOnce + 9);
+    const last = Math.min(shown.length, printing ? kMaxPrintedRows : first + kRowsAtOnce + 9);
     const space = el('div', {style: `height:${(printing ? last : shown.length) * kRowHeight}px`});
     const elements = [space];
     for (let i = first; i < last; ++i) elements.push(rowAt(i));
@@ -134,6 +134,6 @@ function makeTable(label, rows, columns, options = {}) {
   }
   layOut();
   update();
-  kFits.push(fit);
+  kLayoutCallbacks.push(fit);
   return {table, filter, choose: row => choose(row, true), first: () => shown[0]};
 }

@@ -2,7 +2,7 @@
 // Squarified treemap that shows bytes as areas, in two levels (M. Bruls, K. Huizing, J. van Wijk,
 // "Squarified Treemaps", 2000).
 
-const kLeastCell = 60; // square pixels: smaller items are merged into one cell
+const kMinCellArea = 60; // square pixels: smaller items are merged into one cell
 
 /** Lays out items {bytes} in a rectangle; calls place(item, x, y, w, h). */
 function squarify(items, x, y, w, h, place) {
@@ -34,10 +34,10 @@ function squarify(items, x, y, w, h, place) {
 }
 
 /** Returns the items that are large enough for a cell, largest first, and the rest merged into one. */
-function worthACell(items, area) {
+function mergeSmall(items, area) {
   const sorted = items.filter(item => item.bytes > 0).sort((a, b) => b.bytes - a.bytes);
   const total = sorted.reduce((sum, item) => sum + item.bytes, 0);
-  const cut = sorted.findIndex((item, i) => i >= 400 || item.bytes / total * area < kLeastCell);
+  const cut = sorted.findIndex((item, i) => i >= 400 || item.bytes / total * area < kMinCellArea);
   if (cut < 0 || cut === sorted.length - 1) return sorted;
   const rest = sorted.slice(cut);
   const sum = rest.reduce((all, item) => all + item.bytes, 0);
@@ -49,18 +49,18 @@ function makeTreemap(groups, width, height) {
   const total = groups.reduce((sum, group) => sum + group.items.reduce((all, item) => all + item.bytes, 0), 0);
   const picture = svg('svg.treemap', {viewBox: `0 0 ${width} ${height}`, role: 'group', 'aria-label': 'Bytes of the pack as areas'});
   const sized = groups.map(group => ({...group, bytes: group.items.reduce((all, item) => all + item.bytes, 0)}));
-  squarify(worthACell(sized, width * height), 0, 0, width, height, (group, x, y, w, h) => {
+  squarify(mergeSmall(sized, width * height), 0, 0, width, height, (group, x, y, w, h) => {
     const title = group.items && w > 70 && h > 34 ? 17 : 0;
     if (title) picture.append(svg('text.title', {x: x + 3, y: y + 12.5},
-                                  fitted(`${group.name}  ${bytes(group.bytes)} · ${percent(group.bytes / total)}`, w - 6)));
-    const items = worthACell(group.items || [group], w * (h - title));
+                                  shorten(`${group.name}  ${bytes(group.bytes)} · ${percent(group.bytes / total)}`, w - 6)));
+    const items = mergeSmall(group.items || [group], w * (h - title));
     squarify(items, x, y + title, w - 2, h - title - 2, (item, cx, cy, cw, ch) => {
       const cell = svg('g.cell', {tabindex: item.open ? 0 : undefined, role: item.open ? 'button' : undefined,
                                   'aria-label': `${item.name}, ${bytes(item.bytes)}`, onclick: item.open,
                                   onkeydown: event => { if (event.key === 'Enter' && item.open) item.open(); }},
                        svg('rect', {x: cx, y: cy, width: cw, height: ch, fill: color(item.color || group.color)}));
-      if (cw > 44 && ch > 15) cell.append(svg('text', {x: cx + 4, y: cy + 12}, fitted(nameOf(item.name), cw - 8)));
-      if (cw > 52 && ch > 30) cell.append(svg('text', {x: cx + 4, y: cy + 25, 'fill-opacity': .8}, fitted(bytes(item.bytes), cw - 8)));
+      if (cw > 44 && ch > 15) cell.append(svg('text', {x: cx + 4, y: cy + 12}, shorten(nameOf(item.name), cw - 8)));
+      if (cw > 52 && ch > 30) cell.append(svg('text', {x: cx + 4, y: cy + 25, 'fill-opacity': .8}, shorten(bytes(item.bytes), cw - 8)));
       picture.append(tip(cell, `${item.name}\n${bytes(item.bytes)}, ${percent(item.bytes / total)} of the pack`));
     });
   });
@@ -68,7 +68,7 @@ function makeTreemap(groups, width, height) {
 }
 
 /** Shortens a text to about the available width; characters are 6 pixels wide. */
-function fitted(text, width) {
+function shorten(text, width) {
   const most = Math.floor(width / 6.1);
   return text.length <= most ? text : most < 3 ? '' : text.slice(0, most - 1) + '…';
 }

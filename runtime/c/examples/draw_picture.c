@@ -23,19 +23,19 @@ static void check(hearth_result result, const char* message)
 static hearth_camera choose_camera(const hearth_pack* pack, const hearth_scene* scene)
 {
     hearth_pack_camera camera = HEARTH_PACK_CAMERA_INIT;
-    hearth_scene_information information = HEARTH_SCENE_INFORMATION_INIT;
+    hearth_scene_info info = HEARTH_SCENE_INFO_INIT;
     if (hearth_pack_get_camera(pack, 0, &camera, NULL, 0) == HEARTH_OK &&
         camera.type == HEARTH_CAMERA_PERSPECTIVE)
         return camera.view;
-    check(hearth_scene_inform(scene, &information), "");
-    return hearth_fit_camera(information.box_min, information.box_max, (float)WIDTH / HEIGHT);
+    check(hearth_scene_get_info(scene, &info), "");
+    return hearth_fit_camera(info.box_min, info.box_max, (float)WIDTH / HEIGHT);
 }
 
 /* Upload the pack, and draw one frame into `pixels`. */
 static void draw(hearth_device* device, hearth_renderer* renderer, hearth_pack* pack)
 {
     hearth_scene_options options = HEARTH_SCENE_OPTIONS_INIT;
-    hearth_targets_information images = HEARTH_TARGETS_INFORMATION_INIT;
+    hearth_targets_info images = HEARTH_TARGETS_INFO_INIT;
     hearth_frame frame = HEARTH_FRAME_INIT;
     hearth_scene* scene = NULL;
     hearth_targets* targets = NULL;
@@ -43,10 +43,10 @@ static void draw(hearth_device* device, hearth_renderer* renderer, hearth_pack* 
     check(hearth_device_begin(device, &commands), hearth_device_last_error(device));
     check(hearth_scene_upload(renderer, pack, commands, &options, &scene), hearth_last_error(renderer));
     check(hearth_device_submit(device), hearth_device_last_error(device));
-    check(hearth_scene_uploaded(scene), hearth_last_error(renderer));
+    check(hearth_scene_release_staging(scene), hearth_last_error(renderer));
 
     check(hearth_targets_create(renderer, WIDTH, HEIGHT, &targets), hearth_last_error(renderer));
-    check(hearth_targets_inform(targets, &images), hearth_last_error(renderer));
+    check(hearth_targets_get_info(targets, &images), hearth_last_error(renderer));
     frame.camera = choose_camera(pack, scene);
     check(hearth_device_begin(device, &commands), hearth_device_last_error(device));
     check(hearth_record_frame(scene, targets, commands, &frame), hearth_last_error(renderer));

@@ -70,7 +70,7 @@ Status BinPass::prepareDeformed(const Device& device)
     if (!deformed_)
     {
         deformed_.emplace();
-        HEARTH_TRY(createPipelines(device, casters_ ? kDeformedHere : kDeformedInScratch, *deformed_));
+        HEARTH_TRY(createPipelines(device, casters_ ? kSkinnedOnDemand : kPreSkinned, *deformed_));
     }
     return success();
 }

@@ -17,23 +17,23 @@ constexpr uint32_t kGroupFaces = 64; // as in light_faces.comp
 constexpr VkPipelineStageFlags kReaders =
     VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
 
-shared::BrickView viewOf(const SceneBricks& bricks, std::span<const EmissionScale> emission)
+shared::BrickView makeView(const SceneBricks& bricks, std::span<const EmissionScale> emission)
 {
     shared::BrickView view{};
-    view.grid = formats::brickGridOf(bricks.grid);
+    view.grid = formats::toBrickGrid(bricks.grid);
     view.face_count = bricks.grid.face_count;
     view.first_brick = bricks.share.first_brick;
-    view.share_bricks = bricks.share.brick_count;
-    view.share_faces = bricks.share.face_count;
+    view.slice_bricks = bricks.share.brick_count;
+    view.slice_faces = bricks.share.face_count;
     view.light_rays = bricks.rays;
     const float scale = 1 / view.grid.voxel_size;
     for (const EmissionScale& change :
          emission.first(std::min<size_t>(emission.size(), shared::kMaxEmissionBoxes)))
-        view.emission_boxes[view.emission_box_count++] = {.least =
-                                                              (change.box.min - view.grid.origin) * scale,
-                                                          .factor = change.factor,
-                                                          .most = (change.box.max - view.grid.origin) * scale,
-                                                          .reserved = 0};
+        view.emission_boxes[view.emission_box_count++] = {
+            .box_min = (change.box.min - view.grid.origin) * scale,
+            .factor = change.factor,
+            .box_max = (change.box.max - view.grid.origin) * scale,
+            .reserved = 0};
     return view;
 }
 
@@ -63,8 +63,8 @@ void BrickLightPass::record(const Device& device, VkCommandBuffer commands, cons
                             bool lights_change, std::span<const EmissionScale> emission) const
 {
     SceneBricks& bricks = *scene.bricks;
-    bricks.share = brickShare(bricks, bricks.frame++);
-    const shared::BrickView view = viewOf(bricks, emission);
+    bricks.share = nextBrickShare(bricks, bricks.frame++);
+    const shared::BrickView view = makeView(bricks, emission);
     if (lights_change || !sameEmission(view, bricks.last_view))
         bricks.quick_frames = kQuickSweeps * bricks.period + kQuickFrames;
     else if (bricks.quick_frames > 0)
@@ -85,8 +85,8 @@ void BrickLightPass::record(const Device& device, VkCommandBuffer commands, cons
     device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, faces_.layout.get(), 0, 2,
                                       sets, 0, nullptr);
     const uint32_t groups = (bricks.share.face_count + kGroupFaces - 1) / kGroupFaces;
-    device.vk.vkCmdDispatch(commands, std::min(groups, shared::kDispatchRow),
-                            (groups + shared::kDispatchRow - 1) / shared::kDispatchRow, 1);
+    device.vk.vkCmdDispatch(commands, std::min(groups, shared::kMaxDispatchX),
+                            (groups + shared::kMaxDispatchX - 1) / shared::kMaxDispatchX, 1);
     // all threads have read the old values: a frame sees the light of the frame before, whatever the order of
     // threads
     barrier(device, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,

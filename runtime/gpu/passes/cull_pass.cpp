@@ -43,7 +43,7 @@ struct EmitDrawsPush
     uint32_t phase;
 };
 
-uint32_t groupsOf(uint32_t count, uint32_t group_size)
+uint32_t divideRoundUp(uint32_t count, uint32_t group_size)
 {
     return (count + group_size - 1) / group_size;
 }
@@ -59,8 +59,8 @@ void dispatch(const Device& device, VkCommandBuffer commands, const ComputePipel
                                       static_cast<uint32_t>(sets.size()), sets.begin(), 0, nullptr);
     device.vk.vkCmdPushConstants(commands, pipeline.layout.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                  sizeof(Push), &push);
-    device.vk.vkCmdDispatch(commands, std::min(groups, shared::kDispatchRow),
-                            groupsOf(groups, shared::kDispatchRow), 1);
+    device.vk.vkCmdDispatch(commands, std::min(groups, shared::kMaxDispatchX),
+                            divideRoundUp(groups, shared::kMaxDispatchX), 1);
 }
 
 void computeBarrier(const Device& device, VkCommandBuffer commands)
@@ -75,7 +75,7 @@ namespace
 {
 
 /// Wait for everything that still reads the constants and counters of the view before.
-void beginChanges(const Device& device, VkCommandBuffer commands)
+void barrierBeforeUpdates(const Device& device, VkCommandBuffer commands)
 {
     barrier(device, commands,
             VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT |
@@ -86,7 +86,7 @@ void beginChanges(const Device& device, VkCommandBuffer commands)
             VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_SHADER_WRITE_BIT);
 }
 
-void endChanges(const Device& device, VkCommandBuffer commands)
+void barrierAfterUpdates(const Device& device, VkCommandBuffer commands)
 {
     barrier(device, commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
             VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
@@ -105,27 +105,27 @@ void writeView(const Device& device, VkCommandBuffer commands, const Scene& scen
 
 } // namespace
 
-void CullPass::recordConstants(const Device& device, VkCommandBuffer commands, const Scene& scene,
-                               const FrameTargets& targets, const shared::FrameView& view,
-                               std::span<const InstanceMove> moves, std::span<const InstancePose> poses,
-                               std::span<const LightChange> lights) const
+void CullPass::recordUpdates(const Device& device, VkCommandBuffer commands, const Scene& scene,
+                             const FrameTargets& targets, const shared::FrameView& view,
+                             std::span<const InstanceMove> moves, std::span<const InstancePose> poses,
+                             std::span<const LightChange> lights) const
 {
-    beginChanges(device, commands);
+    barrierBeforeUpdates(device, commands);
     writeView(device, commands, scene, targets, view);
     recordMoves(device, commands, scene, moves);
     recordPoses(device, commands, scene, poses);
     recordLights(device, commands, scene, lights);
     if (scene.stream != nullptr)
         scene.stream->recordChanges(commands, scene.buffers);
-    endChanges(device, commands);
+    barrierAfterUpdates(device, commands);
 }
 
 void CullPass::recordView(const Device& device, VkCommandBuffer commands, const Scene& scene,
                           const FrameTargets& targets, const shared::FrameView& view) const
 {
-    beginChanges(device, commands);
+    barrierBeforeUpdates(device, commands);
     writeView(device, commands, scene, targets, view);
-    endChanges(device, commands);
+    barrierAfterUpdates(device, commands);
 }
 
 Result<CullPass> CullPass::create(const Device& device, const DrawLayouts& layouts)
@@ -222,7 +222,7 @@ void CullPass::record(const Device& device, VkCommandBuffer commands, const Scen
         barrier(device, commands, VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT,
                 0, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0);
     dispatch(device, commands, instances_, {sets.instances, targets.occlusionSet()},
-             groupsOf(scene.instance_count, 64), phase);
+             divideRoundUp(scene.instance_count, 64), phase);
     computeBarrier(device, commands);
     const uint32_t rigid = rigidItems(scene);
     dispatch(device, commands, clusters_, {sets.clusters, targets.occlusionSet()}, rigid,
@@ -238,7 +238,7 @@ void CullPass::record(const Device& device, VkCommandBuffer commands, const Scen
     computeBarrier(device, commands);
     dispatch(device, commands, emit_visible_, {sets.emit_visible}, items,
              EmitPush{items, scene.slot_capacity});
-    dispatch(device, commands, emit_draws_, {sets.emit_draws}, groupsOf(bins, 64),
+    dispatch(device, commands, emit_draws_, {sets.emit_draws}, divideRoundUp(bins, 64),
              EmitDrawsPush{bins, items, blocks, scene.slot_capacity, phase});
     barrier(device, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
             VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |

@@ -27,12 +27,12 @@ public:
 
     /// Record the frame update: constants, moves, poses, lights and streamed pages. Outside a render pass;
     /// waits for earlier frames of the scene on the same queue.
-    void recordConstants(const Device& device, VkCommandBuffer commands, const Scene& scene,
-                         const FrameTargets& targets, const shared::FrameView& view,
-                         std::span<const InstanceMove> moves, std::span<const InstancePose> poses,
-                         std::span<const LightChange> lights = {}) const;
+    void recordUpdates(const Device& device, VkCommandBuffer commands, const Scene& scene,
+                       const FrameTargets& targets, const shared::FrameView& view,
+                       std::span<const InstanceMove> moves, std::span<const InstancePose> poses,
+                       std::span<const LightChange> lights = {}) const;
 
-    /// Switch the same frame to another view: other constants, and cleared counters. After recordConstants.
+    /// Switch the same frame to another view: other constants, and cleared counters. After recordUpdates.
     void recordView(const Device& device, VkCommandBuffer commands, const Scene& scene,
                     const FrameTargets& targets, const shared::FrameView& view) const;
 

@@ -11,7 +11,7 @@ namespace hearth::gpu
 namespace
 {
 
-struct CountingPush
+struct StatisticsPush
 {
     uint32_t first_item;
     uint32_t item_count;
@@ -29,29 +29,28 @@ Result<CullStatisticsPass> CullStatisticsPass::create(const Device& device, cons
                                                                            VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                                                        MemoryKind::device));
     HEARTH_ASSIGN_OR_RETURN(pass.pool_, createDescriptorPool(device, 2, {.uniforms = 2, .storages = 16}));
-    HEARTH_ASSIGN_OR_RETURN(pass.rigid_, pass.createCounting(device, scene, shaders::cull_statistics_comp,
+    HEARTH_ASSIGN_OR_RETURN(pass.rigid_, pass.createPipeline(device, scene, shaders::cull_statistics_comp,
                                                              scene.buffers.clusters));
     if (scene.deformation != nullptr)
     {
         HEARTH_ASSIGN_OR_RETURN(pass.deformed_,
-                                pass.createCounting(device, scene, shaders::cull_statistics_deformed_comp,
+                                pass.createPipeline(device, scene, shaders::cull_statistics_deformed_comp,
                                                     scene.deformation->buffer));
     }
     return pass;
 }
 
-Result<CullStatisticsPass::Counting> CullStatisticsPass::createCounting(const Device& device,
-                                                                        const Scene& scene,
-                                                                        std::span<const uint32_t> shader,
-                                                                        const Buffer& clusters) const
+Result<CullStatisticsPass::StatisticsPipeline>
+CullStatisticsPass::createPipeline(const Device& device, const Scene& scene, std::span<const uint32_t> shader,
+                                   const Buffer& clusters) const
 {
     constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    Counting counting;
+    StatisticsPipeline counting;
     HEARTH_ASSIGN_OR_RETURN(
         counting.pipeline, createComputePipeline(device, shader,
                                                  {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kStorage, kStorage,
                                                   kStorage, kStorage, kStorage, kStorage, kStorage, kStorage},
-                                                 sizeof(CountingPush)));
+                                                 sizeof(StatisticsPush)));
     HEARTH_ASSIGN_OR_RETURN(counting.set,
                             allocateSet(device, pool_.get(), counting.pipeline.set_layout.get()));
     const SceneBuffers& b = scene.buffers;
@@ -79,7 +78,7 @@ void CullStatisticsPass::record(const Device& device, VkCommandBuffer commands, 
     device.vk.vkCmdFillBuffer(commands, statistics_.handle.get(), 0, VK_WHOLE_SIZE, 0);
     barrier(device, commands, kTransfer, VK_ACCESS_TRANSFER_WRITE_BIT, kCompute,
             VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
-    const auto count = [&](const Counting& counting, const CountingPush& push)
+    const auto count = [&](const StatisticsPipeline& counting, const StatisticsPush& push)
     {
         const VkPipelineLayout layout = counting.pipeline.layout.get();
         device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
@@ -89,8 +88,8 @@ void CullStatisticsPass::record(const Device& device, VkCommandBuffer commands, 
         device.vk.vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(push), &push);
         const uint32_t groups = std::max(push.item_count, (push.instance_count + 63) / 64);
         if (groups > 0)
-            device.vk.vkCmdDispatch(commands, std::min(groups, shared::kDispatchRow),
-                                    (groups + shared::kDispatchRow - 1) / shared::kDispatchRow, 1);
+            device.vk.vkCmdDispatch(commands, std::min(groups, shared::kMaxDispatchX),
+                                    (groups + shared::kMaxDispatchX - 1) / shared::kMaxDispatchX, 1);
     };
     const uint32_t rigid = rigidItems(scene);
     count(rigid_, {0, rigid, scene.instance_count});

@@ -30,17 +30,17 @@ private:
 
     MemoryArena arena_;
     Buffer statistics_;
-    struct Counting
+    struct StatisticsPipeline
     {
         ComputePipeline pipeline;
         VkDescriptorSet set = VK_NULL_HANDLE;
     };
-    Result<Counting> createCounting(const Device& device, const Scene& scene,
-                                    std::span<const uint32_t> shader, const Buffer& clusters) const;
+    Result<StatisticsPipeline> createPipeline(const Device& device, const Scene& scene,
+                                              std::span<const uint32_t> shader, const Buffer& clusters) const;
 
     UniqueDescriptorPool pool_;
-    Counting rigid_;
-    std::optional<Counting> deformed_;
+    StatisticsPipeline rigid_;
+    std::optional<StatisticsPipeline> deformed_;
 };
 
 } // namespace hearth::gpu

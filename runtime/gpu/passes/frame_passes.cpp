@@ -33,19 +33,20 @@ constexpr VkAccessFlags kDepthAccess =
 
 // The last frame may still draw to the same images or copy from them. A compute shader builds the pyramid
 // from the depth buffer of the early phase.
-constexpr VkPipelineStageFlags kFrameBefore = VK_PIPELINE_STAGE_TRANSFER_BIT |
-                                              VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | kDepthStages |
-                                              VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
-constexpr VkAccessFlags kWrittenBefore =
+constexpr VkPipelineStageFlags kStagesOfLastFrame = VK_PIPELINE_STAGE_TRANSFER_BIT |
+                                                    VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT |
+                                                    kDepthStages | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
+constexpr VkAccessFlags kWritesOfLastFrame =
     VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
 
 constexpr VkSubpassDependency kDependencies[] = {
-    {VK_SUBPASS_EXTERNAL, kSubpassVisibility, kFrameBefore,
-     VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | kDepthStages, kWrittenBefore,
+    {VK_SUBPASS_EXTERNAL, kSubpassVisibility, kStagesOfLastFrame,
+     VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | kDepthStages, kWritesOfLastFrame,
      VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | kDepthAccess, 0},
-    {VK_SUBPASS_EXTERNAL, kSubpassMaterialDepth, kFrameBefore, kDepthStages, kWrittenBefore, kDepthAccess, 0},
-    {VK_SUBPASS_EXTERNAL, kSubpassShading, kFrameBefore, VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
-     kWrittenBefore, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT, 0},
+    {VK_SUBPASS_EXTERNAL, kSubpassMaterialDepth, kStagesOfLastFrame, kDepthStages, kWritesOfLastFrame,
+     kDepthAccess, 0},
+    {VK_SUBPASS_EXTERNAL, kSubpassShading, kStagesOfLastFrame, VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
+     kWritesOfLastFrame, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT, 0},
     {kSubpassVisibility, kSubpassMaterialDepth, VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
      VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
      VK_ACCESS_INPUT_ATTACHMENT_READ_BIT, VK_DEPENDENCY_BY_REGION_BIT},

@@ -135,7 +135,7 @@ Status FrameTargets::createSets(const Device& device, const DrawLayouts& layouts
     DescriptorWriter(set_)
         .input(kAttachmentVisibility, visibility_.view.get())
         .storage(kAttachmentTileLists, tile_lists_)
-        .texture(kAttachmentGathered, gather_->texels().view.get(), texel_sampler_.get())
+        .texture(kAttachmentGi, gather_->texels().view.get(), texel_sampler_.get())
         .write(device);
     HEARTH_ASSIGN_OR_RETURN(occlusion_set_, allocateSet(device, pool_.get(), layouts.occlusion.get()));
     DescriptorWriter(occlusion_set_)

@@ -30,7 +30,7 @@ Result<GatherPass> GatherPass::create(const Device& device, const DrawLayouts& l
         for (const size_t deformed : {size_t{0}, size_t{1}})
         {
             const uint32_t constants[] = {slices == 0 ? 1 : shared::kPoolSlices, 0, 0, 0,
-                                          deformed == 0 ? kRigid : kDeformedInScratch};
+                                          deformed == 0 ? kRigid : kPreSkinned};
             HEARTH_ASSIGN_OR_RETURN(
                 pass.points_[slices][deformed],
                 createComputePipeline(device, shaders::gather_points_comp, point_sets, constants));

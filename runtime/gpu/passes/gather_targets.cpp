@@ -46,7 +46,7 @@ Result<GatherTargets> GatherTargets::create(const Device& device, const DrawLayo
         DescriptorWriter(t.gather_sets_[i])
             .uniform(kGatherView, t.view_)
             .storage(kGatherPoints, t.points_[i])
-            .storage(kGatherBefore, t.points_[1 - i])
+            .storage(kGatherHistory, t.points_[1 - i])
             .image(kGatherTexels, t.texels_.view.get())
             .write(device);
     }
@@ -61,15 +61,15 @@ shared::GatherView GatherTargets::beginFrame(const shared::FrameView& view, Floa
     gather.clip_y = before_.clip_y;
     gather.clip_w = before_.clip_w;
     gather.eye_step = view.eye - before_.eye;
-    gather.memory = light_changes ? shared::kGatherShortMemory : shared::kGatherMemory;
+    gather.history_frames = light_changes ? shared::kGatherShortHistoryFrames : shared::kGatherHistoryFrames;
     gather.eye = view.eye - grid_origin;
     gather.frame = frame_;
     gather.tiles_x = tiles_.width;
     gather.tiles_y = tiles_.height;
-    gather.known = known_ ? 1 : 0;
-    gather.tile_angle = static_cast<float>(shared::kGatherPixels) / view.lod_scale;
+    gather.has_history = has_history_ ? 1 : 0;
+    gather.tile_angle = static_cast<float>(shared::kGatherTilePixels) / view.lod_scale;
     before_ = view;
-    known_ = true;
+    has_history_ = true;
     current_ = 1 - current_;
     ++frame_;
     return gather;

@@ -36,7 +36,7 @@ public:
     shared::GatherView beginFrame(const shared::FrameView& view, Float3 grid_origin, bool light_changes);
 
     /// Discard the history.
-    void forget() { known_ = false; }
+    void forget() { has_history_ = false; }
 
 private:
     explicit GatherTargets(VkExtent2D tiles) : tiles_(tiles) {}
@@ -51,7 +51,7 @@ private:
 
     uint32_t current_ = 0;
     uint32_t frame_ = 0;
-    bool known_ = false;
+    bool has_history_ = false;
     shared::FrameView before_{};
 };
 

@@ -79,8 +79,8 @@ void MaterialTilesPass::record(const Device& device, VkCommandBuffer commands, c
     wait();
     dispatch(offsets_, 1, 1);
     wait();
-    dispatch(lists_, std::min(push.draw_count, shared::kDispatchRow),
-             (push.draw_count + shared::kDispatchRow - 1) / shared::kDispatchRow);
+    dispatch(lists_, std::min(push.draw_count, shared::kMaxDispatchX),
+             (push.draw_count + shared::kMaxDispatchX - 1) / shared::kMaxDispatchX);
     barrier(device, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
             VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
                 VK_PIPELINE_STAGE_TRANSFER_BIT,

@@ -85,8 +85,8 @@ void PageRequestPass::record(const Device& device, VkCommandBuffer commands, con
         device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0,
                                           nullptr);
         device.vk.vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(push), &push);
-        device.vk.vkCmdDispatch(commands, std::min(push.item_count, shared::kDispatchRow),
-                                (push.item_count + shared::kDispatchRow - 1) / shared::kDispatchRow, 1);
+        device.vk.vkCmdDispatch(commands, std::min(push.item_count, shared::kMaxDispatchX),
+                                (push.item_count + shared::kMaxDispatchX - 1) / shared::kMaxDispatchX, 1);
     };
     const uint32_t items = scene.group_item_count;
     const uint32_t rigid = scene.deformation == nullptr ? items : scene.deformation->rigid_group_items;

@@ -26,7 +26,7 @@ GraphicsDescription describe(std::span<const uint32_t> fragment, VkPipelineLayou
 
 uint32_t deformedVertices(const ShadingVariant& variant)
 {
-    return variant.deformed != 0 ? kDeformedInScratch : kRigid;
+    return variant.deformed != 0 ? kPreSkinned : kRigid;
 }
 
 bool showsDeformed(const Scene& scene)
@@ -35,7 +35,7 @@ bool showsDeformed(const Scene& scene)
                        [](const SceneMaterial& m) { return m.variant.deformed != 0; });
 }
 
-uint32_t skyOcclusion(const Scene& scene, const ShadingView& view)
+uint32_t skyOcclusion(const Scene& scene, const ShadingSettings& view)
 {
     const bool no_table = view.specular_occlusion == shared::kSpecularOcclusionTable &&
                           scene.specular_table.view.get() == VK_NULL_HANDLE;
@@ -54,30 +54,29 @@ Result<ShadingPass> ShadingPass::create(const Device& device, const DrawLayouts&
     HEARTH_ASSIGN_OR_RETURN(
         pass.sky_,
         createGraphicsPipeline(device, describe(shaders::sky_frag, layouts.picture.get(), render_pass)));
-    GraphicsDescription clusters =
-        describe(shaders::inspect_clusters_frag, layouts.clusters.get(), render_pass);
+    GraphicsDescription clusters = describe(shaders::view_clusters_frag, layouts.clusters.get(), render_pass);
     clusters.vertex = shaders::fullscreen_vert;
     clusters.depth_compare = VK_COMPARE_OP_LESS; // drawn at depth 0, which is the depth of the sky
-    HEARTH_ASSIGN_OR_RETURN(pass.clusters_, createGraphicsPipeline(device, clusters));
+    HEARTH_ASSIGN_OR_RETURN(pass.cluster_views_, createGraphicsPipeline(device, clusters));
     return pass;
 }
 
 Result<ShadingPipelines> ShadingPass::prepare(const Device& device, const DrawLayouts& layouts,
                                               const ShadingVariant& variant)
 {
-    UniquePipeline& shadow_maps = shadow_maps_[variant.deformed];
+    UniquePipeline& shadow_maps = shadow_map_views_[variant.deformed];
     if (variant.shadows != 0 && shadow_maps.get() == VK_NULL_HANDLE)
     {
         const uint32_t constants[] = {shared::kPoolSlices, 0, 0, 0, deformedVertices(variant)};
         GraphicsDescription maps =
-            describe(shaders::inspect_shadows_frag, layouts.picture.get(), render_pass_);
+            describe(shaders::view_shadow_maps_frag, layouts.picture.get(), render_pass_);
         maps.vertex = shaders::fullscreen_vert;
         maps.constants = constants;
         maps.depth_compare = VK_COMPARE_OP_LESS; // as clusters
         HEARTH_ASSIGN_OR_RETURN(shadow_maps, createGraphicsPipeline(device, maps));
     }
     if (variant.bricks != 0)
-        HEARTH_TRY(prepareBricks(device, layouts, variant));
+        HEARTH_TRY(prepareBrickViews(device, layouts, variant));
     const auto [entry, fresh] = variants_.try_emplace(variant);
     Variant& pipelines = entry->second;
     if (fresh)
@@ -88,38 +87,37 @@ Result<ShadingPipelines> ShadingPass::prepare(const Device& device, const DrawLa
             describe(variant.shadows != 0 ? shaders::shading_shadowed_frag : shaders::shading_frag,
                      layouts.picture.get(), render_pass_);
         description.constants = constants;
-        HEARTH_ASSIGN_OR_RETURN(pipelines.final_view, createGraphicsPipeline(device, description));
+        HEARTH_ASSIGN_OR_RETURN(pipelines.final_pipeline, createGraphicsPipeline(device, description));
         if (variant.bricks != 0)
         {
-            description.fragment = variant.shadows != 0 ? shaders::shading_shadowed_gathered_frag
-                                                        : shaders::shading_gathered_frag;
-            HEARTH_ASSIGN_OR_RETURN(pipelines.gathered_view, createGraphicsPipeline(device, description));
+            description.fragment =
+                variant.shadows != 0 ? shaders::shading_shadowed_gi_frag : shaders::shading_gi_frag;
+            HEARTH_ASSIGN_OR_RETURN(pipelines.final_gi_pipeline, createGraphicsPipeline(device, description));
         }
-        description.fragment = shaders::inspect_frag;
-        HEARTH_ASSIGN_OR_RETURN(pipelines.inspection, createGraphicsPipeline(device, description));
+        description.fragment = shaders::view_surface_frag;
+        HEARTH_ASSIGN_OR_RETURN(pipelines.debug_view_pipeline, createGraphicsPipeline(device, description));
     }
-    return ShadingPipelines{pipelines.final_view.get(), pipelines.gathered_view.get(),
-                            pipelines.inspection.get()};
+    return ShadingPipelines{pipelines.final_pipeline.get(), pipelines.final_gi_pipeline.get(),
+                            pipelines.debug_view_pipeline.get()};
 }
 
 /// Create the pipelines of the debug views of bricks and GI.
-Status ShadingPass::prepareBricks(const Device& device, const DrawLayouts& layouts,
-                                  const ShadingVariant& variant)
+Status ShadingPass::prepareBrickViews(const Device& device, const DrawLayouts& layouts,
+                                      const ShadingVariant& variant)
 {
-    if (bricks_.get() == VK_NULL_HANDLE)
+    if (brick_views_.get() == VK_NULL_HANDLE)
     {
         GraphicsDescription bricks =
-            describe(shaders::inspect_bricks_frag, layouts.brick_views.get(), render_pass_);
+            describe(shaders::view_bricks_frag, layouts.brick_views.get(), render_pass_);
         bricks.vertex = shaders::fullscreen_vert;
         bricks.depth_compare = VK_COMPARE_OP_ALWAYS;
-        HEARTH_ASSIGN_OR_RETURN(bricks_, createGraphicsPipeline(device, bricks));
+        HEARTH_ASSIGN_OR_RETURN(brick_views_, createGraphicsPipeline(device, bricks));
     }
-    UniquePipeline& gathered = gathered_[variant.deformed];
+    UniquePipeline& gathered = gi_views_[variant.deformed];
     if (gathered.get() == VK_NULL_HANDLE)
     {
         const uint32_t constants[] = {shared::kPoolSlices, 0, 0, 0, deformedVertices(variant)};
-        GraphicsDescription light =
-            describe(shaders::inspect_gathered_frag, layouts.picture.get(), render_pass_);
+        GraphicsDescription light = describe(shaders::view_gi_frag, layouts.picture.get(), render_pass_);
         light.vertex = shaders::fullscreen_vert;
         light.constants = constants;
         light.depth_compare = VK_COMPARE_OP_LESS; // as clusters
@@ -129,23 +127,24 @@ Status ShadingPass::prepareBricks(const Device& device, const DrawLayouts& layou
 }
 
 void ShadingPass::record(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
-                         const Scene& scene, const FrameTargets& targets, const ShadingView& view) const
+                         const Scene& scene, const FrameTargets& targets, const ShadingSettings& view) const
 {
     recordSky(device, commands, layouts, scene, targets, view);
-    if (view.shown == shared::kViewError || view.shown == shared::kViewCones)
-        recordClusters(device, commands, layouts, scene, targets, view);
-    else if (view.shown == shared::kViewShadowMaps)
-        recordShadowMaps(device, commands, layouts, scene, view);
-    else if (view.shown == shared::kViewBricks || view.shown == shared::kViewBrickLighting)
-        recordBricks(device, commands, layouts, scene, view);
-    else if (view.shown == shared::kViewGathered)
-        recordGathered(device, commands, layouts, scene, view);
+    if (view.debug_view == shared::kViewError || view.debug_view == shared::kViewCones)
+        recordClusterView(device, commands, layouts, scene, targets, view);
+    else if (view.debug_view == shared::kViewShadowMaps)
+        recordShadowMapView(device, commands, layouts, scene, view);
+    else if (view.debug_view == shared::kViewBricks || view.debug_view == shared::kViewBrickLighting)
+        recordBrickView(device, commands, layouts, scene, view);
+    else if (view.debug_view == shared::kViewGi)
+        recordGiView(device, commands, layouts, scene, view);
     else
         recordMaterials(device, commands, layouts, scene, view);
 }
 
 void ShadingPass::recordSky(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
-                            const Scene& scene, const FrameTargets& targets, const ShadingView& view) const
+                            const Scene& scene, const FrameTargets& targets,
+                            const ShadingSettings& view) const
 {
     const VkPipelineLayout layout = layouts.picture.get();
     const VkDescriptorSet attachments = targets.attachments();
@@ -153,7 +152,7 @@ void ShadingPass::recordSky(const Device& device, VkCommandBuffer commands, cons
                                       &scene.draw_set, 0, nullptr);
     device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 2, 1, &attachments,
                                       0, nullptr);
-    const DrawPush push{.depth = 0, .shown_view = view.shown, .depth_scale = view.depth_scale};
+    const DrawPush push{.depth = 0, .debug_view = view.debug_view, .depth_scale = view.depth_scale};
     device.vk.vkCmdPushConstants(commands, layout, kDrawPushStages, 0, sizeof(push), &push);
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, sky_.get());
     if (shadesTiles(scene, view.area))
@@ -163,14 +162,14 @@ void ShadingPass::recordSky(const Device& device, VkCommandBuffer commands, cons
         device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
 }
 
-void ShadingPass::recordClusters(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
-                                 const Scene& scene, const FrameTargets& targets,
-                                 const ShadingView& view) const
+void ShadingPass::recordClusterView(const Device& device, VkCommandBuffer commands,
+                                    const DrawLayouts& layouts, const Scene& scene,
+                                    const FrameTargets& targets, const ShadingSettings& view) const
 {
     const VkPipelineLayout layout = layouts.clusters.get();
-    const VkDescriptorSet sets[] = {scene.inspection_set, targets.attachments()};
-    const DrawPush push{.depth = 0, .shown_view = view.shown};
-    device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, clusters_.get());
+    const VkDescriptorSet sets[] = {scene.cluster_view_set, targets.attachments()};
+    const DrawPush push{.depth = 0, .debug_view = view.debug_view};
+    device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, cluster_views_.get());
     device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 2, sets, 0,
                                       nullptr);
     device.vk.vkCmdPushConstants(commands, layout, kDrawPushStages, 0, sizeof(push), &push);
@@ -178,25 +177,26 @@ void ShadingPass::recordClusters(const Device& device, VkCommandBuffer commands,
 }
 
 /// Uses the sets that recordSky has bound.
-void ShadingPass::recordShadowMaps(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
-                                   const Scene& scene, const ShadingView& view) const
+void ShadingPass::recordShadowMapView(const Device& device, VkCommandBuffer commands,
+                                      const DrawLayouts& layouts, const Scene& scene,
+                                      const ShadingSettings& view) const
 {
     HEARTH_ASSERT(scene.shadows != nullptr);
-    const DrawPush push{.depth = 0, .shown_view = view.shown};
+    const DrawPush push{.depth = 0, .debug_view = view.debug_view};
     device.vk.vkCmdPushConstants(commands, layouts.picture.get(), kDrawPushStages, 0, sizeof(push), &push);
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                                shadow_maps_[showsDeformed(scene) ? 1 : 0].get());
+                                shadow_map_views_[showsDeformed(scene) ? 1 : 0].get());
     device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
 }
 
 /// Replaces the sky as well.
-void ShadingPass::recordBricks(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
-                               const Scene& scene, const ShadingView& view) const
+void ShadingPass::recordBrickView(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
+                                  const Scene& scene, const ShadingSettings& view) const
 {
     HEARTH_ASSERT(scene.bricks != nullptr);
     const VkPipelineLayout layout = layouts.brick_views.get();
-    const DrawPush push{.depth = 0, .shown_view = view.shown};
-    device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, bricks_.get());
+    const DrawPush push{.depth = 0, .debug_view = view.debug_view};
+    device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, brick_views_.get());
     device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 1,
                                       &scene.bricks->set, 0, nullptr);
     device.vk.vkCmdPushConstants(commands, layout, kDrawPushStages, 0, sizeof(push), &push);
@@ -204,20 +204,20 @@ void ShadingPass::recordBricks(const Device& device, VkCommandBuffer commands, c
 }
 
 /// Uses the sets that recordSky has bound.
-void ShadingPass::recordGathered(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
-                                 const Scene& scene, const ShadingView& view) const
+void ShadingPass::recordGiView(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
+                               const Scene& scene, const ShadingSettings& view) const
 {
     HEARTH_ASSERT(scene.bricks != nullptr);
-    const DrawPush push{.depth = 0, .shown_view = view.shown};
+    const DrawPush push{.depth = 0, .debug_view = view.debug_view};
     device.vk.vkCmdPushConstants(commands, layouts.picture.get(), kDrawPushStages, 0, sizeof(push), &push);
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                                gathered_[showsDeformed(scene) ? 1 : 0].get());
+                                gi_views_[showsDeformed(scene) ? 1 : 0].get());
     device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
 }
 
 /// Uses the sets that recordSky has bound.
 void ShadingPass::recordMaterials(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
-                                  const Scene& scene, const ShadingView& view) const
+                                  const Scene& scene, const ShadingSettings& view) const
 {
     const VkPipelineLayout layout = layouts.picture.get();
     const VkBuffer draws =
@@ -228,12 +228,13 @@ void ShadingPass::recordMaterials(const Device& device, VkCommandBuffer commands
     {
         const SceneMaterial& material = scene.materials[row];
         device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                                    view.shown != shared::kViewFinal ? material.pipelines.inspection
-                                    : gathers(scene, view)           ? material.pipelines.gathered_view
-                                                                     : material.pipelines.final_view);
+                                    view.debug_view != shared::kViewFinal
+                                        ? material.pipelines.debug_view_pipeline
+                                    : usesGi(scene, view) ? material.pipelines.final_gi_pipeline
+                                                          : material.pipelines.final_pipeline);
         const uint32_t number = row + 1; // 0 is the sky
         const DrawPush push{.depth = static_cast<float>(number) / 65535.0f,
-                            .shown_view = view.shown,
+                            .debug_view = view.debug_view,
                             .depth_scale = view.depth_scale,
                             .sky_occlusion = sky_occlusion};
         device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 1, 1,

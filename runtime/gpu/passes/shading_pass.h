@@ -16,46 +16,46 @@ namespace hearth::gpu
 /// Area in which each material is shaded. The result is the same.
 enum class ShadedArea : uint8_t
 {
-    automatic,    ///< its tiles, in scenes of more than kWholePictureMaterials materials
-    wholePicture, ///< the whole frame: pixels of other materials fail the depth test
-    tiles,        ///< its tiles
+    automatic,  ///< its tiles, in scenes of more than kWholeFrameMaterials materials
+    wholeFrame, ///< the whole frame: pixels of other materials fail the depth test
+    tiles,      ///< its tiles
 };
 
 /// Largest number of materials that a scene shades in one render pass. See runtime/gpu/README.md, "Material
 /// tiles".
-inline constexpr uint32_t kWholePictureMaterials = 8;
+inline constexpr uint32_t kWholeFrameMaterials = 8;
 
 /// Shading settings of a frame.
-struct ShadingView
+struct ShadingSettings
 {
-    uint32_t shown = shared::kViewFinal; ///< one of shared::kView*
-    float depth_scale = 1;               ///< metres that the depth view shows as middle grey
+    uint32_t debug_view = shared::kViewFinal; ///< one of shared::kView*
+    float depth_scale = 1;                    ///< metres that the depth view shows as middle grey
     ShadedArea area = ShadedArea::automatic;
     uint32_t ambient_occlusion = shared::kAmbientOcclusionExact; ///< for meshes with visibility
     uint32_t specular_occlusion = shared::kSpecularOcclusionFit; ///< for meshes with visibility
     /// Indirect light for scenes with bricks (GI); false: constant sky.
-    bool bricks_light = true;
+    bool gi = true;
 };
 
 /// True if the frame lists material tiles before shading.
 inline bool shadesTiles(const Scene& scene, ShadedArea area)
 {
     return area == ShadedArea::tiles ||
-           (area == ShadedArea::automatic && scene.materials.size() > kWholePictureMaterials);
+           (area == ShadedArea::automatic && scene.materials.size() > kWholeFrameMaterials);
 }
 
 /// True if the frame uses gathered light (GI).
-inline bool gathers(const Scene& scene, const ShadingView& view)
+inline bool usesGi(const Scene& scene, const ShadingSettings& view)
 {
     return scene.bricks != nullptr &&
-           (view.shown == shared::kViewGathered || (view.shown == shared::kViewFinal && view.bricks_light));
+           (view.debug_view == shared::kViewGi || (view.debug_view == shared::kViewFinal && view.gi));
 }
 
 /// True if the debug view needs bricks, which not all scenes have.
-inline bool showsBricks(uint32_t shown)
+inline bool viewNeedsBricks(uint32_t debug_view)
 {
-    return shown == shared::kViewBricks || shown == shared::kViewBrickLighting ||
-           shown == shared::kViewGathered;
+    return debug_view == shared::kViewBricks || debug_view == shared::kViewBrickLighting ||
+           debug_view == shared::kViewGi;
 }
 
 class ShadingPass
@@ -71,35 +71,36 @@ public:
 
     /// Record inside subpass kSubpassShading, with viewport and scissor set. Clobbers the graphics state.
     void record(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
-                const Scene& scene, const FrameTargets& targets, const ShadingView& view) const;
+                const Scene& scene, const FrameTargets& targets, const ShadingSettings& view) const;
 
 private:
-    Status prepareBricks(const Device& device, const DrawLayouts& layouts, const ShadingVariant& variant);
+    Status prepareBrickViews(const Device& device, const DrawLayouts& layouts, const ShadingVariant& variant);
     struct Variant
     {
-        UniquePipeline final_view;
-        UniquePipeline gathered_view;
-        UniquePipeline inspection;
+        UniquePipeline final_pipeline;
+        UniquePipeline final_gi_pipeline;
+        UniquePipeline debug_view_pipeline;
     };
     void recordSky(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
-                   const Scene& scene, const FrameTargets& targets, const ShadingView& view) const;
-    void recordClusters(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
-                        const Scene& scene, const FrameTargets& targets, const ShadingView& view) const;
-    void recordShadowMaps(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
-                          const Scene& scene, const ShadingView& view) const;
-    void recordBricks(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
-                      const Scene& scene, const ShadingView& view) const;
-    void recordGathered(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
-                        const Scene& scene, const ShadingView& view) const;
+                   const Scene& scene, const FrameTargets& targets, const ShadingSettings& view) const;
+    void recordClusterView(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
+                           const Scene& scene, const FrameTargets& targets,
+                           const ShadingSettings& view) const;
+    void recordShadowMapView(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
+                             const Scene& scene, const ShadingSettings& view) const;
+    void recordBrickView(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
+                         const Scene& scene, const ShadingSettings& view) const;
+    void recordGiView(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
+                      const Scene& scene, const ShadingSettings& view) const;
     void recordMaterials(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
-                         const Scene& scene, const ShadingView& view) const;
+                         const Scene& scene, const ShadingSettings& view) const;
 
     VkRenderPass render_pass_ = VK_NULL_HANDLE;
     UniquePipeline sky_;
-    UniquePipeline clusters_;
-    UniquePipeline shadow_maps_[2]; ///< set once a scene has shadows: [1] for deformed meshes
-    UniquePipeline bricks_;         ///< set once a scene has bricks
-    UniquePipeline gathered_[2];    ///< as shadow_maps_, once a scene has bricks
+    UniquePipeline cluster_views_;
+    UniquePipeline shadow_map_views_[2]; ///< set once a scene has shadows: [1] for deformed meshes
+    UniquePipeline brick_views_;         ///< set once a scene has bricks
+    UniquePipeline gi_views_[2];         ///< as shadow_map_views_, once a scene has bricks
     std::map<ShadingVariant, Variant> variants_;
 };
 

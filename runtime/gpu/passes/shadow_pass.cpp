@@ -108,11 +108,11 @@ void recordCopy(const Device& device, VkCommandBuffer commands, const Image& ima
 Result<ShadowPass> ShadowPass::create(const Device& device, const DrawLayouts& layouts)
 {
     ShadowPass pass;
-    HEARTH_ASSIGN_OR_RETURN(pass.from_nothing_,
+    HEARTH_ASSIGN_OR_RETURN(pass.clear_pass_,
                             createRenderPass(device, VK_ATTACHMENT_LOAD_OP_CLEAR, VK_IMAGE_LAYOUT_UNDEFINED));
-    HEARTH_ASSIGN_OR_RETURN(pass.over_copy_, createRenderPass(device, VK_ATTACHMENT_LOAD_OP_LOAD,
+    HEARTH_ASSIGN_OR_RETURN(pass.load_pass_, createRenderPass(device, VK_ATTACHMENT_LOAD_OP_LOAD,
                                                               VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL));
-    HEARTH_ASSIGN_OR_RETURN(pass.casters_, BinPass::createCasters(device, layouts, pass.from_nothing_.get()));
+    HEARTH_ASSIGN_OR_RETURN(pass.casters_, BinPass::createCasters(device, layouts, pass.clear_pass_.get()));
     return pass;
 }
 
@@ -120,12 +120,12 @@ Status ShadowPass::createMaps(const Device& device, const formats::PackView& pac
                               const ShadowOptions& options, VkCommandBuffer commands, Scene& scene) const
 {
     HEARTH_ASSIGN_OR_RETURN(scene.shadows,
-                            SceneShadows::create(device, from_nothing_.get(), pack, scene.bounds, options));
+                            SceneShadows::create(device, clear_pass_.get(), pack, scene.bounds, options));
     const SceneShadows& shadows = *scene.shadows;
     if (scene.deformation != nullptr)
     {
         const DeformationLayout& deformed = scene.deformation->layout;
-        const std::vector<PosedRows> poses = posesAtRest(pack, deformed);
+        const std::vector<PoseRows> poses = makeRestPoses(pack, deformed);
         for (size_t i = 0; i < poses.size(); ++i)
             scene.shadows->pose(deformed.instances[i], poses[i]);
     }
@@ -149,7 +149,7 @@ void ShadowPass::recordBlock(const Device& device, VkCommandBuffer commands, con
 }
 
 void ShadowPass::recordMap(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
-                           const Scene& scene, const ShadowCache::StaleMap& map) const
+                           const Scene& scene, const ShadowCache::LayerUpdate& map) const
 {
     const SceneShadows& shadows = *scene.shadows;
     const shared::ShadowMap& target = shadows.plan().block.maps[map.map];
@@ -160,12 +160,12 @@ void ShadowPass::recordMap(const Device& device, VkCommandBuffer commands, const
 
     const auto side = static_cast<uint32_t>(target.size);
     const VkRect2D area{{0, 0}, {side, side}};
-    if (map.over)
-        recordCopy(device, commands, shadows.image(), *map.over, map.layer, area.extent);
+    if (map.copy_from)
+        recordCopy(device, commands, shadows.image(), *map.copy_from, map.layer, area.extent);
     const VkClearValue nothing{.depthStencil = {0, 0}}; // at infinity
     VkRenderPassBeginInfo begin{};
     begin.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
-    begin.renderPass = (map.over ? over_copy_ : from_nothing_).get();
+    begin.renderPass = (map.copy_from ? load_pass_ : clear_pass_).get();
     begin.framebuffer = shadows.framebuffer(map.layer);
     begin.renderArea = area;
     begin.clearValueCount = 1;

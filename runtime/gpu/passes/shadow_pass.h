@@ -28,11 +28,11 @@ public:
     /// Record a layer, after the culling pass has found its casters. Outside a render pass. Results are
     /// visible to later fragment shaders and transfers. Clobbers the graphics state.
     void recordMap(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
-                   const Scene& scene, const ShadowCache::StaleMap& map) const;
+                   const Scene& scene, const ShadowCache::LayerUpdate& map) const;
 
 private:
-    UniqueRenderPass from_nothing_;
-    UniqueRenderPass over_copy_;
+    UniqueRenderPass clear_pass_;
+    UniqueRenderPass load_pass_;
     BinPass casters_;
 };
 

@@ -63,7 +63,7 @@ float largestCoordinate(const Box3& box)
     return largest;
 }
 
-Box3 widenedBy(const Box3& box, float margin)
+Box3 expandBox(const Box3& box, float margin)
 {
     const Float3 all{margin, margin, margin};
     return box.empty() ? box : Box3{box.min - all, box.max + all};
@@ -84,9 +84,9 @@ public:
         const shared::MeshBounds& bounds = bounds_[mesh.mesh];
         float reach = 0;
         for (const formats::DeformedClusterRecord& cluster :
-             recordsOf(pack_.deformedClusters(), mesh.clusters))
+             recordsInRange(pack_.deformedClusters(), mesh.clusters))
             reach = std::max(reach, cluster.morph_reach);
-        return widenedBy({bounds.box_min, bounds.box_max}, reach * kMorphRounding);
+        return expandBox({bounds.box_min, bounds.box_max}, reach * kMorphRounding);
     }
 
     float slack(const formats::DeformedMeshRecord& mesh) const
@@ -111,9 +111,9 @@ private:
                                 uint32_t first_joint_word) const
     {
         const formats::MeshRecord& record = pack_.meshes()[mesh.mesh];
-        const Box3 box = widenedBy({deformed.box_min, deformed.box_max}, slack(mesh));
+        const Box3 box = expandBox({deformed.box_min, deformed.box_max}, slack(mesh));
         const Box3 bind =
-            widenedBy(formats::boxOf(cluster, record.grid_step), deformed.morph_reach * kMorphRounding);
+            expandBox(formats::clusterBox(cluster, record.grid_step), deformed.morph_reach * kMorphRounding);
         return {.box_min = box.min,
                 .joint = deformed.joint,
                 .box_max = box.max,
@@ -138,12 +138,12 @@ uint32_t scratchWords(const formats::PackView& pack, const formats::DeformedMesh
     const uint32_t vectors = 1u + ((record.attributes & formats::kVertexNormal) != 0 ? 1u : 0u) +
                              ((record.attributes & formats::kVertexTangent) != 0 ? 1u : 0u);
     uint32_t words = 0;
-    for (const formats::ClusterRecord& cluster : recordsOf(pack.clusters(), record.clusters))
+    for (const formats::ClusterRecord& cluster : recordsInRange(pack.clusters(), record.clusters))
         words = std::max(words, cluster.vertex_count * 3 * vectors);
     return words;
 }
 
-void applyRows(const DeformedInstance& instance, const PosedRows& rows, DeformationLayout& layout,
+void applyRows(const DeformedInstance& instance, const PoseRows& rows, DeformationLayout& layout,
                std::vector<shared::MeshBounds>& bounds, std::vector<shared::Instance>& instances)
 {
     std::copy(rows.words.begin(), rows.words.end(),
@@ -153,21 +153,21 @@ void applyRows(const DeformedInstance& instance, const PosedRows& rows, Deformat
 }
 
 /// Return a pose whose numbers fit into floats everywhere.
-InstancePose unitPose(const DeformedInstance& instance, std::vector<Affine3d>& palette,
-                      std::vector<float>& weights)
+InstancePose makeUnitPose(const DeformedInstance& instance, std::vector<Affine3d>& palette,
+                          std::vector<float>& weights)
 {
     palette.assign(instance.joint_count, Affine3d{});
     weights.assign(instance.target_count, 0.0f);
     return {.instance = instance.instance, .world_from_bind = palette, .morph_weights = weights};
 }
 
-Float4 rowOf(const Affine3& t, int row)
+Float4 matrixRow(const Affine3& t, int row)
 {
     return {t.m[row][0], t.m[row][1], t.m[row][2], t.m[row][3]};
 }
 
 /// Transform relative to the origin of the instance, where the anchor is.
-Affine3d relativeTo(const Affine3d& anchor, Affine3d transform)
+Affine3d makeRelative(const Affine3d& anchor, Affine3d transform)
 {
     for (int row = 0; row < 3; ++row)
         transform.m[row][3] -= anchor.m[row][3];
@@ -177,14 +177,14 @@ Affine3d relativeTo(const Affine3d& anchor, Affine3d transform)
 /// Cones tell front from back as the instance's bin does; this fails if a joint mirrors the triangles.
 shared::PaletteRow paletteRow(const Affine3& origin_from_bind, bool mirrored)
 {
-    formats::InstanceRecord carrier{};
-    carrier.world_from_object = origin_from_bind;
-    shared::InstanceInverse inverse = shared::makeInstanceInverse(carrier);
+    formats::InstanceRecord joint_instance{};
+    joint_instance.world_from_object = origin_from_bind;
+    shared::InstanceInverse inverse = shared::makeInstanceInverse(joint_instance);
     if ((determinant(origin_from_bind) < 0) != mirrored)
         inverse.object_from_world_x.w = 0;
-    return {.world_from_bind_x = rowOf(origin_from_bind, 0),
-            .world_from_bind_y = rowOf(origin_from_bind, 1),
-            .world_from_bind_z = rowOf(origin_from_bind, 2),
+    return {.world_from_bind_x = matrixRow(origin_from_bind, 0),
+            .world_from_bind_y = matrixRow(origin_from_bind, 1),
+            .world_from_bind_z = matrixRow(origin_from_bind, 2),
             .bind_from_world_x = inverse.object_from_world_x,
             .bind_from_world_y = inverse.object_from_world_y,
             .bind_from_world_z = inverse.object_from_world_z};
@@ -192,31 +192,31 @@ shared::PaletteRow paletteRow(const Affine3& origin_from_bind, bool mirrored)
 
 void setTransform(shared::Instance& record, const Affine3& linear, Float3 origin)
 {
-    record.world_from_object_x = rowOf(linear, 0);
-    record.world_from_object_y = rowOf(linear, 1);
-    record.world_from_object_z = rowOf(linear, 2);
+    record.world_from_object_x = matrixRow(linear, 0);
+    record.world_from_object_y = matrixRow(linear, 1);
+    record.world_from_object_z = matrixRow(linear, 2);
     record.world_from_object_x.w = origin.x;
     record.world_from_object_y.w = origin.y;
     record.world_from_object_z.w = origin.z;
 }
 
-void setFree(const Box3& box, shared::Pose& pose, PosedRows& rows)
+void setFree(const Box3& box, shared::Pose& pose, PoseRows& rows)
 {
     constexpr float kRounding = 1.0001f;
     rows.bounds.box_min = box.min;
     rows.bounds.box_max = box.max;
     pose.flags |= shared::kPoseFree;
-    pose.free_center = box.center();
+    pose.free_bounds_center = box.center();
     const float scale = rows.record.scale_max;
-    pose.free_radius = scale > 0 ? kRounding * 0.5f * length(box.max - box.min) / scale : 0.0f;
+    pose.free_bounds_radius = scale > 0 ? kRounding * 0.5f * length(box.max - box.min) / scale : 0.0f;
 }
 
 /// Appends the tables one after the other.
-class LayoutMaker
+class DeformationLayoutBuilder
 {
 public:
-    LayoutMaker(const formats::PackView& pack, std::vector<shared::MeshBounds>& bounds,
-                std::vector<shared::Instance>& instances)
+    DeformationLayoutBuilder(const formats::PackView& pack, std::vector<shared::MeshBounds>& bounds,
+                             std::vector<shared::Instance>& instances)
         : pack_(pack), clusters_(pack, bounds), bounds_(bounds), instances_(instances)
     {
     }
@@ -232,7 +232,7 @@ public:
             if (const auto* mesh = pack::findDeformedMesh(pack_, instances_[i].mesh))
                 addInstance(i, *mesh);
         std::memcpy(layout_.words.data(), &header_, sizeof(header_));
-        const std::vector<PosedRows> poses = posesAtRest(pack_, layout_);
+        const std::vector<PoseRows> poses = makeRestPoses(pack_, layout_);
         for (size_t i = 0; i < poses.size(); ++i)
             applyRows(layout_.instances[i], poses[i], layout_, bounds_, instances_);
         return std::move(layout_);
@@ -259,21 +259,21 @@ private:
         DeformedInstance instance{
             .instance = number,
             .anchor = mesh.anchor,
-            .joint_count = mesh.skin == formats::kNone ? 1 : pack_.skins()[mesh.skin].joints.count,
+            .joint_count = mesh.skin == kInvalidIndex ? 1 : pack_.skins()[mesh.skin].joints.count,
             .target_count = record.morph_target_count,
             .pose_row = rows_.nextRow(),
             .cluster_row = cluster_rows_[static_cast<size_t>(&mesh - pack_.deformedMeshes().data())],
             .record = instances_[number],
-            .box_in_clips = widenedBy({mesh.box_min, mesh.box_max}, clusters_.slack(mesh)),
-            .box_in_bind = clusters_.bindBox(mesh)};
+            .clip_bounds = expandBox({mesh.box_min, mesh.box_max}, clusters_.slack(mesh)),
+            .bind_bounds = clusters_.bindBox(mesh)};
         instance.row_count =
             shared::kPoseRows + instance.joint_count * shared::kPaletteRows + (instance.target_count + 3) / 4;
         instance.record.mesh = static_cast<uint32_t>(bounds_.size());
-        instance.record.flags |= shared::kInstanceMoves;
+        instance.record.flags |= shared::kInstanceMoved;
         bounds_.push_back(bounds_[mesh.mesh]);
         layout_.words[header_.instance_word + number] = instance.pose_row;
         rows_.addRows(instance.row_count);
-        layout_.most_rows = std::max(layout_.most_rows, instance.row_count);
+        layout_.max_rows = std::max(layout_.max_rows, instance.row_count);
         layout_.instanced_clusters += record.clusters.count;
         layout_.instances.push_back(instance);
     }
@@ -294,7 +294,8 @@ DeformationLayout makeDeformationLayout(const formats::PackView& pack,
                                         std::vector<shared::MeshBounds>& bounds,
                                         std::vector<shared::Instance>& instances)
 {
-    return pack.deformedMeshes().empty() ? DeformationLayout{} : LayoutMaker(pack, bounds, instances).run();
+    return pack.deformedMeshes().empty() ? DeformationLayout{}
+                                         : DeformationLayoutBuilder(pack, bounds, instances).run();
 }
 
 void placeScratch(DeformationLayout& layout, uint64_t bytes)
@@ -310,7 +311,7 @@ void placeScratch(DeformationLayout& layout, uint64_t bytes)
     std::memcpy(layout.words.data(), &header, sizeof(header));
 }
 
-bool poseInstance(const DeformedInstance& instance, const InstancePose& pose, PosedRows& rows)
+bool poseInstance(const DeformedInstance& instance, const InstancePose& pose, PoseRows& rows)
 {
     HEARTH_ASSERT(pose.world_from_bind.size() == instance.joint_count &&
                   pose.morph_weights.size() == instance.target_count);
@@ -323,13 +324,13 @@ bool poseInstance(const DeformedInstance& instance, const InstancePose& pose, Po
     const bool mirrored = (instance.record.flags & formats::kInstanceMirrored) != 0;
     rows.record = instance.record;
     rows.record.scale_max = 0;
-    shared::CarriedBox free_box = shared::emptyFreeBox(instance.record);
+    shared::TransformedBox free_box = shared::makeEmptyFreeBox(instance.record);
     float stretch = 1;
     for (const float weight : pose.morph_weights)
         stretch = std::max(stretch, std::abs(weight));
     for (const Affine3d& world_from_bind : pose.world_from_bind)
     {
-        const auto origin_from_bind = narrowed(relativeTo(anchor, world_from_bind));
+        const auto origin_from_bind = narrowed(makeRelative(anchor, world_from_bind));
         if (!origin_from_bind)
             return false;
         const shared::PaletteRow row = paletteRow(*origin_from_bind, mirrored);
@@ -337,7 +338,7 @@ bool poseInstance(const DeformedInstance& instance, const InstancePose& pose, Po
         next += sizeof(row);
         rows.record.scale_max = std::max(rows.record.scale_max, scaleBound(*origin_from_bind));
         free_box =
-            shared::grownBy(free_box, row, instance.box_in_bind.min, instance.box_in_bind.max, stretch);
+            shared::growByJoint(free_box, row, instance.bind_bounds.min, instance.bind_bounds.max, stretch);
     }
     const auto weights = std::as_bytes(pose.morph_weights);
     std::copy(weights.begin(), weights.end(), next);
@@ -347,17 +348,17 @@ bool poseInstance(const DeformedInstance& instance, const InstancePose& pose, Po
                                                             kRowWords),
                         .cluster_row = instance.cluster_row,
                         .flags = 0,
-                        .free_center = {},
-                        .free_radius = 0,
-                        .free_stretch = stretch,
+                        .free_bounds_center = {},
+                        .free_bounds_radius = 0,
+                        .free_box_scale = stretch,
                         .unused_x = 0,
                         .unused_y = 0,
                         .unused_z = 0};
     const Float3 origin{anchored->m[0][3], anchored->m[1][3], anchored->m[2][3]};
     setTransform(rows.record, pose.free ? Affine3{} : *anchored, origin);
     rows.bounds.grid_step = 0; // no grid: nothing of a deformed instance is found by it
-    rows.bounds.box_min = instance.box_in_clips.min;
-    rows.bounds.box_max = instance.box_in_clips.max;
+    rows.bounds.box_min = instance.clip_bounds.min;
+    rows.bounds.box_max = instance.clip_bounds.max;
     if (pose.free)
         setFree({free_box.box_min, free_box.box_max}, header, rows);
     std::memcpy(rows.words.data(), &header, sizeof(header));
@@ -365,20 +366,20 @@ bool poseInstance(const DeformedInstance& instance, const InstancePose& pose, Po
                        [](float weight) { return std::isfinite(weight); });
 }
 
-std::optional<Sphere> freeSphere(const PosedRows& rows)
+std::optional<Sphere> freeSphere(const PoseRows& rows)
 {
     shared::Pose pose;
     std::memcpy(static_cast<void*>(&pose), rows.words.data(), sizeof(pose));
     if ((pose.flags & shared::kPoseFree) == 0)
         return std::nullopt;
-    return Sphere{pose.free_center, pose.free_radius * rows.record.scale_max};
+    return Sphere{pose.free_bounds_center, pose.free_bounds_radius * rows.record.scale_max};
 }
 
 /// Uses the bind pose if the poses of the nodes do not fit into floats.
-std::vector<PosedRows> posesAtRest(const formats::PackView& pack, const DeformationLayout& layout)
+std::vector<PoseRows> makeRestPoses(const formats::PackView& pack, const DeformationLayout& layout)
 {
     const pack::PosePlayer player(pack);
-    std::vector<PosedRows> poses(layout.instances.size());
+    std::vector<PoseRows> poses(layout.instances.size());
     std::vector<Affine3d> palette;
     std::vector<float> weights;
     for (size_t i = 0; i < poses.size(); ++i)
@@ -390,7 +391,7 @@ std::vector<PosedRows> posesAtRest(const formats::PackView& pack, const Deformat
                            .world_from_bind = posed.world_from_bind,
                            .morph_weights = posed.morph_weights},
                           poses[i]))
-            poseInstance(instance, unitPose(instance, palette, weights), poses[i]);
+            poseInstance(instance, makeUnitPose(instance, palette, weights), poses[i]);
     }
     return poses;
 }

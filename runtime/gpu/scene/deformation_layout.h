@@ -38,12 +38,12 @@ struct DeformedInstance
     uint32_t row_count = 0;
     uint32_t cluster_row = 0;  ///< as shared::Pose
     shared::Instance record{}; ///< all but the transform; `mesh` is a row of its own in the table of bounds
-    Box3 box_in_clips;         ///< bounds over all clips, in the space of the anchor
-    Box3 box_in_bind;
+    Box3 clip_bounds;          ///< bounds over all clips, in the space of the anchor
+    Box3 bind_bounds;
 };
 
 /// Device data of a pose.
-struct PosedRows
+struct PoseRows
 {
     shared::Instance record{};
     shared::MeshBounds bounds{};
@@ -56,7 +56,7 @@ struct DeformationLayout
     std::vector<uint32_t> words;             ///< the buffer without the scratch; all instances at rest
     uint32_t block_words = 0; ///< words of a scratch block: the most that the vertices of one cluster take
     uint64_t instanced_clusters = 0; ///< largest number of deformed clusters of a frame
-    uint32_t most_rows = 0;          ///< largest number of rows of a pose
+    uint32_t max_rows = 0;           ///< largest number of rows of a pose
 };
 
 /// Compute the layout; empty if the scene has no deformed meshes. Changes the rows of `bounds` and
@@ -73,14 +73,14 @@ void placeScratch(DeformationLayout& layout, uint64_t bytes);
 
 /// Compute the device data of a pose. False if a number is not finite or does not fit into floats. Allocates
 /// nothing if `rows` was used for this instance before, or for one with at least as many rows.
-bool poseInstance(const DeformedInstance& instance, const InstancePose& pose, PosedRows& rows);
+bool poseInstance(const DeformedInstance& instance, const InstancePose& pose, PoseRows& rows);
 
 /// Bounding sphere of a free pose, relative to the origin of the instance, in metres; none for other poses.
-std::optional<Sphere> freeSphere(const PosedRows& rows);
+std::optional<Sphere> freeSphere(const PoseRows& rows);
 
 /// Return the poses of all deformed instances at rest, as in the words of the layout, in the order of the
 /// instances.
-std::vector<PosedRows> posesAtRest(const formats::PackView& pack, const DeformationLayout& layout);
+std::vector<PoseRows> makeRestPoses(const formats::PackView& pack, const DeformationLayout& layout);
 
 /// Return the deformed instance with this index; null if the instance is rigid.
 const DeformedInstance* findDeformed(const DeformationLayout& layout, uint32_t instance);

@@ -36,8 +36,9 @@ Result<DrawLayouts> DrawLayouts::create(const Device& device)
                                 {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},
                                 {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT}};
 
-    std::vector<SetBinding> inspection(5, {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_FRAGMENT_BIT});
-    inspection[kInspectionFrame].type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    std::vector<SetBinding> cluster_view(5,
+                                         {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_FRAGMENT_BIT});
+    cluster_view[kClusterViewFrame].type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
 
     std::vector<SetBinding> bricks(
         kBrickBindingCount,
@@ -60,7 +61,7 @@ Result<DrawLayouts> DrawLayouts::create(const Device& device)
     HEARTH_ASSIGN_OR_RETURN(layouts.attachments, createSetLayout(device, attachments));
     HEARTH_ASSIGN_OR_RETURN(layouts.occlusion, createSetLayout(device, occlusion));
     HEARTH_ASSIGN_OR_RETURN(layouts.tiles, createSetLayout(device, tiles));
-    HEARTH_ASSIGN_OR_RETURN(layouts.inspection, createSetLayout(device, inspection));
+    HEARTH_ASSIGN_OR_RETURN(layouts.cluster_view, createSetLayout(device, cluster_view));
     HEARTH_ASSIGN_OR_RETURN(layouts.bricks, createSetLayout(device, bricks));
     HEARTH_ASSIGN_OR_RETURN(layouts.fresh_light, createSetLayout(device, fresh_light));
     HEARTH_ASSIGN_OR_RETURN(layouts.gather_point, createSetLayout(device, gather_point));
@@ -73,7 +74,7 @@ Result<DrawLayouts> DrawLayouts::create(const Device& device)
                             createPipelineLayout(device, visibility_sets, kDrawPushStages, sizeof(DrawPush)));
     HEARTH_ASSIGN_OR_RETURN(layouts.picture,
                             createPipelineLayout(device, picture_sets, kDrawPushStages, sizeof(DrawPush)));
-    const VkDescriptorSetLayout cluster_sets[] = {layouts.inspection.get(), layouts.attachments.get()};
+    const VkDescriptorSetLayout cluster_sets[] = {layouts.cluster_view.get(), layouts.attachments.get()};
     HEARTH_ASSIGN_OR_RETURN(layouts.clusters,
                             createPipelineLayout(device, cluster_sets, kDrawPushStages, sizeof(DrawPush)));
     const VkDescriptorSetLayout brick_sets[] = {layouts.bricks.get()};

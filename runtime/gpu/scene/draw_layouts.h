@@ -30,7 +30,7 @@ enum AttachmentBinding : uint32_t
 {
     kAttachmentVisibility = 0,
     kAttachmentTileLists = 1,
-    kAttachmentGathered = 2, ///< result of GatherPass, for frames with GI
+    kAttachmentGi = 2, ///< result of GatherPass, for frames with GI
 };
 
 /// Bindings of set 1 of the material-tiles pass.
@@ -42,13 +42,13 @@ enum TileBinding : uint32_t
 };
 
 /// Bindings of set 0 of the cluster debug views; set 1 is the attachments set.
-enum InspectionBinding : uint32_t
+enum ClusterViewBinding : uint32_t
 {
-    kInspectionFrame = 0,
-    kInspectionInstances = 1,
-    kInspectionVisible = 2,
-    kInspectionClusters = 3,
-    kInspectionGroups = 4,
+    kClusterViewFrame = 0,
+    kClusterViewInstances = 1,
+    kClusterViewVisible = 2,
+    kClusterViewClusters = 3,
+    kClusterViewGroups = 4,
 };
 
 /// Bindings of set 1 of the culling passes and set 0 of the pyramid pass.
@@ -85,8 +85,8 @@ enum GatherBinding : uint32_t
 {
     kGatherView = 0,
     kGatherPoints = 1,
-    kGatherBefore = 2, ///< points of the last frame
-    kGatherTexels = 3, ///< texels that shading reads
+    kGatherHistory = 2, ///< points of the last frame
+    kGatherTexels = 3,  ///< texels that shading reads
 };
 
 /// Push constants of all drawing pipelines; the visibility pass reads only the bin, shadow casters also the
@@ -98,7 +98,7 @@ struct DrawPush
         float depth = 0; ///< shading: material id / 65535
         uint32_t bin;    ///< visibility pass
     };
-    uint32_t shown_view = 0;
+    uint32_t debug_view = 0;
     float depth_scale = 1;
     uint32_t light_row = 0; ///< casters: row of the ShadowBlock
     uint32_t map_index = 0;
@@ -109,9 +109,9 @@ struct DrawPush
 /// (runtime/shaders/scene/drawn_vertex.glsl).
 enum DeformedVertices : uint32_t
 {
-    kRigid = 0,             ///< no deformed meshes
-    kDeformedHere = 1,      ///< skinned on demand by the shader that draws
-    kDeformedInScratch = 2, ///< pre-skinned as far as the scratch buffer has room
+    kRigid = 0,           ///< no deformed meshes
+    kSkinnedOnDemand = 1, ///< skinned on demand by the shader that draws
+    kPreSkinned = 2,      ///< pre-skinned as far as the scratch buffer has room
 };
 
 inline constexpr VkShaderStageFlags kDrawPushStages =
@@ -121,12 +121,12 @@ struct DrawLayouts
 {
     UniqueSetLayout scene;
     UniqueSetLayout material;
-    UniqueSetLayout bins;        ///< one binding: draws of the bins, then draws of the late phase
-    UniqueSetLayout attachments; ///< bindings AttachmentBinding
-    UniqueSetLayout occlusion;   ///< culling and pyramid passes, bindings OcclusionBinding
-    UniqueSetLayout tiles;       ///< material-tiles pass, bindings TileBinding
-    UniqueSetLayout inspection;  ///< bindings InspectionBinding
-    UniqueSetLayout bricks;      ///< bindings BrickBinding
+    UniqueSetLayout bins;         ///< one binding: draws of the bins, then draws of the late phase
+    UniqueSetLayout attachments;  ///< bindings AttachmentBinding
+    UniqueSetLayout occlusion;    ///< culling and pyramid passes, bindings OcclusionBinding
+    UniqueSetLayout tiles;        ///< material-tiles pass, bindings TileBinding
+    UniqueSetLayout cluster_view; ///< bindings ClusterViewBinding
+    UniqueSetLayout bricks;       ///< bindings BrickBinding
     /// Two bindings: light of faces before the copy, positions of bricks.
     UniqueSetLayout fresh_light;
     UniqueSetLayout gather_point;     ///< bindings GatherPointBinding

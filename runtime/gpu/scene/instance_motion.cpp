@@ -38,10 +38,10 @@ Result<InstanceMove> moveInstance(const Scene& scene, uint32_t instance, const A
     formats::InstanceRecord record = scene.instances[instance];
     const bool mirrored = (record.flags & formats::kInstanceMirrored) != 0;
     if (const float volume = determinant(world_from_object); volume != 0 && (volume < 0) != mirrored)
-        record.flags = (record.flags ^ formats::kInstanceMirrored) | shared::kInstanceTurned;
+        record.flags = (record.flags ^ formats::kInstanceMirrored) | shared::kInstanceHandednessChanged;
     record.world_from_object = world_from_object;
     record.scale_max = scaleBound(world_from_object);
-    record.flags |= shared::kInstanceMoves;
+    record.flags |= shared::kInstanceMoved;
     InstanceMove move{.instance = instance, .record = {}, .inverse = shared::makeInstanceInverse(record)};
     static_assert(sizeof(move.record) == sizeof(record));
     std::memcpy(static_cast<void*>(&move.record), &record, sizeof(record));

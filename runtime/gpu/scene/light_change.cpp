@@ -38,7 +38,7 @@ Result<LightChange> changeLight(const Scene& scene, uint32_t light, const format
         return fail("a light stays a sun, a lamp or a spot");
     if (!isFinite(record))
         return fail("what it shall be is not finite");
-    LightChange change{.light = light, .record = shared::lightOf(record)};
+    LightChange change{.light = light, .record = shared::lightFromRecord(record)};
     change.record.intensity = change.record.intensity * scene.exposure;
     change.record.shadow_row = scene.lights[light].shadow_row;
     return change;

@@ -117,10 +117,10 @@ Result<VkDescriptorSet> createMaterialSet(const Device& device, const DrawLayout
                             allocateSet(device, scene.pool.get(), layouts.material.get()));
     DescriptorWriter writer(set);
     writer.uniform(0, scene.buffers.materials, offset, sizeof(shared::Material));
-    const auto textures = texturesOf(material);
+    const auto textures = materialTextures(material);
     for (uint32_t slot = 0; slot < shared::kTextureCount; ++slot)
     {
-        const bool used = textures[slot].image != formats::kNone;
+        const bool used = textures[slot].image != kInvalidIndex;
         HEARTH_ASSIGN_OR_RETURN(const VkSampler sampler,
                                 samplers.get(used ? textures[slot] : formats::TextureRef{}));
         const Image& image = used ? scene.images[textures[slot].image] : scene.images.back();
@@ -141,8 +141,8 @@ Status uploadMaterials(const Device& device, const DrawLayouts& layouts, const f
     scene.images.resize(pack.images().size());
     std::vector<bool> used(pack.images().size(), false);
     for (const formats::MaterialRecord& material : materials)
-        for (const formats::TextureRef& texture : texturesOf(material))
-            if (texture.image != formats::kNone)
+        for (const formats::TextureRef& texture : materialTextures(material))
+            if (texture.image != kInvalidIndex)
                 used[texture.image] = true;
     for (uint32_t image = 0; image < used.size(); ++image)
         if (used[image])

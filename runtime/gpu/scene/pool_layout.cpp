@@ -14,7 +14,7 @@ namespace hearth::gpu
 namespace
 {
 
-constexpr uint64_t kSliceWords = uint64_t{1} << shared::kPoolSliceBits;
+constexpr uint64_t kSliceWords = uint64_t{1} << shared::kPoolSliceAddressBits;
 constexpr uint32_t kSlotAlignment = 64;
 
 /// Bytes of the pool for pages. The last slice of a scene with deformed meshes holds poses.
@@ -25,10 +25,10 @@ uint64_t poolBytes(const formats::PackView& pack)
 }
 
 /// Allocates words of the pool from its start; no allocation crosses a slice boundary.
-class Placer
+class PoolAllocator
 {
 public:
-    Placer(PoolLayout& layout, uint64_t most_bytes) : layout_(layout), end_(most_bytes / 16 * 4) {}
+    PoolAllocator(PoolLayout& layout, uint64_t max_bytes) : layout_(layout), end_(max_bytes / 16 * 4) {}
 
     std::optional<uint32_t> place(uint32_t bytes)
     {
@@ -61,7 +61,7 @@ Result<PoolLayout> placeAllPages(const formats::PackView& pack)
 {
     PoolLayout layout;
     const uint64_t pool_bytes = poolBytes(pack);
-    Placer placer(layout, pool_bytes);
+    PoolAllocator placer(layout, pool_bytes);
     layout.page_addresses.reserve(pack.pages().size());
     for (const formats::PageRecord& page : pack.pages())
     {
@@ -80,7 +80,7 @@ Result<PoolLayout> placePinnedPages(const formats::PackView& pack, const pack::P
 {
     PoolLayout layout;
     const uint64_t pool_bytes = poolBytes(pack);
-    Placer placer(layout, std::min(budget_bytes, pool_bytes));
+    PoolAllocator placer(layout, std::min(budget_bytes, pool_bytes));
     layout.page_addresses.assign(graph.pageCount(), kNoAddress);
     for (const uint32_t page : graph.pinned())
     {

@@ -76,9 +76,10 @@ struct ShadingVariant
 /// Pipelines of a variant; the shading pass owns them.
 struct ShadingPipelines
 {
-    VkPipeline final_view = VK_NULL_HANDLE;
-    VkPipeline gathered_view = VK_NULL_HANDLE; ///< gathered light (GI) view; null in scenes without bricks
-    VkPipeline inspection = VK_NULL_HANDLE;
+    VkPipeline final_pipeline = VK_NULL_HANDLE;
+    VkPipeline final_gi_pipeline =
+        VK_NULL_HANDLE; ///< gathered light (GI) view; null in scenes without bricks
+    VkPipeline debug_view_pipeline = VK_NULL_HANDLE;
 };
 
 /// Row of the material table.
@@ -104,7 +105,7 @@ struct Scene
     UniqueDescriptorPool pool;
     VkDescriptorSet draw_set = VK_NULL_HANDLE;
     VkDescriptorSet bins_set = VK_NULL_HANDLE;
-    VkDescriptorSet inspection_set = VK_NULL_HANDLE;
+    VkDescriptorSet cluster_view_set = VK_NULL_HANDLE;
     std::vector<SceneMaterial> materials; ///< rows of the material table
     CullSets cull_sets{};
     VkDescriptorSet tile_set = VK_NULL_HANDLE;         ///< material-tiles pass

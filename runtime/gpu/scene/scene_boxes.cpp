@@ -12,20 +12,20 @@ namespace
 {
 
 /// Transforms of all instances in the pose of the player.
-std::vector<Affine3> placesOf(const formats::PackView& pack, const pack::PosePlayer& player)
+std::vector<Affine3> computeTransforms(const formats::PackView& pack, const pack::PosePlayer& player)
 {
-    std::vector<Affine3> places;
-    places.reserve(pack.instances().size());
+    std::vector<Affine3> transforms;
+    transforms.reserve(pack.instances().size());
     for (const formats::InstanceRecord& instance : pack.instances())
-        places.push_back(instance.world_from_object);
-    for (const pack::MovedInstance& moved : player.places())
-        places[moved.instance] = moved.world_from_object;
-    return places;
+        transforms.push_back(instance.world_from_object);
+    for (const pack::MovedInstance& moved : player.transforms())
+        transforms[moved.instance] = moved.world_from_object;
+    return transforms;
 }
 
 /// Add a box in the space of a joint. Skips joints whose transform does not fit into floats: nothing of them
 /// is drawn.
-void addCarried(const Box3& box, const Affine3d& world_from_bind, std::vector<PlacedBox>& boxes)
+void addTransformed(const Box3& box, const Affine3d& world_from_bind, std::vector<TransformedBox>& boxes)
 {
     if (const auto place = narrowed(world_from_bind); place && !box.empty())
         boxes.push_back({box, *place});
@@ -37,7 +37,7 @@ template <typename Rigid, typename Deformed>
 void visitInstances(const formats::PackView& pack, const pack::PosePlayer& player, formats::Range instances,
                     const Rigid& rigid, const Deformed& deformed)
 {
-    const std::vector<Affine3> places = placesOf(pack, player);
+    const std::vector<Affine3> transforms = computeTransforms(pack, player);
     // ascending by instance
     auto posed = std::find_if(player.posed().begin(), player.posed().end(),
                               [&](const pack::PosedInstance& p) { return p.instance >= instances.first; });
@@ -47,7 +47,7 @@ void visitInstances(const formats::PackView& pack, const pack::PosePlayer& playe
         const formats::MeshRecord& mesh = pack.meshes()[number];
         const bool is_posed = posed != player.posed().end() && posed->instance == i;
         if (mesh.clusters.count > 0 && !is_posed)
-            rigid(mesh, places[i]);
+            rigid(mesh, transforms[i]);
         else if (mesh.clusters.count > 0)
             deformed(mesh, *pack::findDeformedMesh(pack, number), *posed);
         posed += is_posed ? 1 : 0;
@@ -55,7 +55,7 @@ void visitInstances(const formats::PackView& pack, const pack::PosePlayer& playe
 }
 
 // Posing takes about 0.1 ms per cluster: more clusters take too long.
-constexpr size_t kMostPosedClusters = 8192;
+constexpr size_t kMaxPosedClusters = 8192;
 
 size_t countDeformedClusters(const formats::PackView& pack, const pack::PosePlayer& player,
                              formats::Range instances)
@@ -101,7 +101,8 @@ Box3 posedBox(const formats::ClusterGeometry& geometry, const pack::PosedInstanc
 }
 
 /// Add boxes of the finest clusters of an instance in its pose. Skips pages that cannot be decoded.
-void addPosed(const formats::PackView& pack, const pack::PosedInstance& pose, std::vector<PlacedBox>& boxes)
+void addPosed(const formats::PackView& pack, const pack::PosedInstance& pose,
+              std::vector<TransformedBox>& boxes)
 {
     const formats::MeshRecord& mesh = pack.meshes()[pack.instances()[pose.instance].mesh];
     for (uint32_t page = mesh.pages.first; page < mesh.pages.first + mesh.pages.count; ++page)
@@ -109,7 +110,8 @@ void addPosed(const formats::PackView& pack, const pack::PosedInstance& pose, st
         const auto bytes = pack.decodePage(page);
         if (!bytes.ok())
             continue;
-        for (const formats::ClusterRecord& cluster : recordsOf(pack.clusters(), pack.pages()[page].clusters))
+        for (const formats::ClusterRecord& cluster :
+             recordsInRange(pack.clusters(), pack.pages()[page].clusters))
             if (cluster.level == 0)
                 if (const auto geometry = formats::ClusterGeometry::at(*bytes, cluster, mesh))
                     boxes.push_back({posedBox(*geometry, pose), Affine3{}});
@@ -123,10 +125,10 @@ formats::Range allInstances(const formats::PackView& pack)
     return {0, static_cast<uint32_t>(pack.instances().size())};
 }
 
-std::vector<PlacedBox> instanceBoxes(const formats::PackView& pack, const pack::PosePlayer& player,
-                                     formats::Range instances)
+std::vector<TransformedBox> instanceBoxes(const formats::PackView& pack, const pack::PosePlayer& player,
+                                          formats::Range instances)
 {
-    std::vector<PlacedBox> boxes;
+    std::vector<TransformedBox> boxes;
     visitInstances(
         pack, player, instances,
         [&](const formats::MeshRecord& mesh, const Affine3& place) {
@@ -134,23 +136,23 @@ std::vector<PlacedBox> instanceBoxes(const formats::PackView& pack, const pack::
         },
         [&](const formats::MeshRecord&, const formats::DeformedMeshRecord& mesh,
             const pack::PosedInstance& pose) {
-            addCarried({mesh.box_min, mesh.box_max}, pose.world_from_bind[mesh.anchor], boxes);
+            addTransformed({mesh.box_min, mesh.box_max}, pose.world_from_bind[mesh.anchor], boxes);
         });
     return boxes;
 }
 
-std::vector<PlacedBox> clusterBoxes(const formats::PackView& pack, const pack::PosePlayer& player,
-                                    formats::Range instances)
+std::vector<TransformedBox> clusterBoxes(const formats::PackView& pack, const pack::PosePlayer& player,
+                                         formats::Range instances)
 {
-    std::vector<PlacedBox> boxes;
-    const bool in_pose = countDeformedClusters(pack, player, instances) <= kMostPosedClusters;
+    std::vector<TransformedBox> boxes;
+    const bool in_pose = countDeformedClusters(pack, player, instances) <= kMaxPosedClusters;
     visitInstances(
         pack, player, instances,
         [&](const formats::MeshRecord& mesh, const Affine3& place)
         {
-            for (const formats::ClusterRecord& cluster : recordsOf(pack.clusters(), mesh.clusters))
+            for (const formats::ClusterRecord& cluster : recordsInRange(pack.clusters(), mesh.clusters))
                 if (cluster.level == 0)
-                    boxes.push_back({formats::boxOf(cluster, mesh.grid_step), place});
+                    boxes.push_back({formats::clusterBox(cluster, mesh.grid_step), place});
         },
         [&](const formats::MeshRecord& mesh, const formats::DeformedMeshRecord& deformed,
             const pack::PosedInstance& pose)
@@ -161,8 +163,8 @@ std::vector<PlacedBox> clusterBoxes(const formats::PackView& pack, const pack::P
                 if (pack.clusters()[mesh.clusters.first + c].level == 0)
                 {
                     const auto& cluster = pack.deformedClusters()[deformed.clusters.first + c];
-                    addCarried({cluster.box_min, cluster.box_max}, pose.world_from_bind[cluster.joint],
-                               boxes);
+                    addTransformed({cluster.box_min, cluster.box_max}, pose.world_from_bind[cluster.joint],
+                                   boxes);
                 }
         });
     return boxes;
@@ -171,7 +173,7 @@ std::vector<PlacedBox> clusterBoxes(const formats::PackView& pack, const pack::P
 Box3 instanceBounds(const formats::PackView& pack, const pack::PosePlayer& player, formats::Range instances)
 {
     Box3 bounds;
-    for (const PlacedBox& placed : instanceBoxes(pack, player, instances))
+    for (const TransformedBox& placed : instanceBoxes(pack, player, instances))
         for (int corner = 0; corner < 8; ++corner)
             bounds.add(
                 transformPoint(placed.world_from_box, {(corner & 1) ? placed.box.max.x : placed.box.min.x,

@@ -10,7 +10,7 @@ namespace hearth::gpu
 {
 
 /// Box with its transform to world space.
-struct PlacedBox
+struct TransformedBox
 {
     Box3 box;
     Affine3 world_from_box;
@@ -21,14 +21,14 @@ formats::Range allInstances(const formats::PackView& pack);
 
 /// Return one box per instance of the range that has clusters: around its source, or for a deformed instance
 /// around all its poses, relative to its anchor.
-std::vector<PlacedBox> instanceBoxes(const formats::PackView& pack, const pack::PosePlayer& player,
-                                     formats::Range instances);
+std::vector<TransformedBox> instanceBoxes(const formats::PackView& pack, const pack::PosePlayer& player,
+                                          formats::Range instances);
 
 /// Return one box per cluster of the finest level of each instance: tighter for round shapes. For deformed
 /// instances, around the posed vertices; for crowds, around all poses, relative to the main joint of the
 /// cluster.
-std::vector<PlacedBox> clusterBoxes(const formats::PackView& pack, const pack::PosePlayer& player,
-                                    formats::Range instances);
+std::vector<TransformedBox> clusterBoxes(const formats::PackView& pack, const pack::PosePlayer& player,
+                                         formats::Range instances);
 
 /// Bounds of instanceBoxes; empty if there are none.
 Box3 instanceBounds(const formats::PackView& pack, const pack::PosePlayer& player, formats::Range instances);

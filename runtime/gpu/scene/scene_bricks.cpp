@@ -30,7 +30,7 @@ Result<Buffer> createTable(const Device& device, const formats::PackView& pack, 
 }
 
 /// Albedo, emission and normals of all faces, in three consecutive arrays.
-std::vector<std::byte> surfacesOf(const formats::PackView& pack)
+std::vector<std::byte> readSurfaces(const formats::PackView& pack)
 {
     const std::span<const std::byte> parts[] = {std::as_bytes(pack.brickAlbedo()),
                                                 std::as_bytes(pack.brickEmission()),
@@ -42,15 +42,15 @@ std::vector<std::byte> surfacesOf(const formats::PackView& pack)
     return bytes;
 }
 
-std::vector<shared::BrickPlace> placesOf(const formats::PackView& pack)
+std::vector<shared::BrickLocation> readPlaces(const formats::PackView& pack)
 {
     const formats::BrickGridRecord& grid = pack.brickGrid()[0];
-    const uint32_t groups_x = shared::brickGroups(grid.voxels[0]),
-                   groups_y = shared::brickGroups(grid.voxels[1]);
-    std::vector<shared::BrickPlace> places;
-    for (uint32_t number = 0; number < pack.brickGroups().size(); ++number)
+    const uint32_t groups_x = shared::brickGroupsAlongAxis(grid.voxels[0]),
+                   groups_y = shared::brickGroupsAlongAxis(grid.voxels[1]);
+    std::vector<shared::BrickLocation> places;
+    for (uint32_t number = 0; number < pack.brickGroupsAlongAxis().size(); ++number)
     {
-        const formats::BrickGroupRecord& group = pack.brickGroups()[number];
+        const formats::BrickGroupRecord& group = pack.brickGroupsAlongAxis()[number];
         const uint32_t x = number % groups_x * shared::kGroupVoxels,
                        y = number / groups_x % groups_y * shared::kGroupVoxels,
                        z = number / (groups_x * groups_y) * shared::kGroupVoxels;
@@ -62,7 +62,7 @@ std::vector<shared::BrickPlace> placesOf(const formats::PackView& pack)
     return places;
 }
 
-std::vector<uint32_t> firstFacesOf(const formats::PackView& pack)
+std::vector<uint32_t> readFirstFaces(const formats::PackView& pack)
 {
     std::vector<uint32_t> first_faces;
     for (const formats::BrickRecord& brick : pack.bricks())
@@ -72,7 +72,7 @@ std::vector<uint32_t> firstFacesOf(const formats::PackView& pack)
 }
 
 /// Initial light as stored in the pack. The encoding is lossless.
-std::vector<shared::BrickLight> lightOf(const formats::PackView& pack)
+std::vector<shared::BrickLight> readLight(const formats::PackView& pack)
 {
     std::vector<shared::BrickLight> light;
     for (const uint32_t code : pack.brickLighting())
@@ -80,11 +80,11 @@ std::vector<shared::BrickLight> lightOf(const formats::PackView& pack)
     return light;
 }
 
-uint32_t mostFacesOfAFrame(const SceneBricks& bricks)
+uint32_t maxFacesPerFrame(const SceneBricks& bricks)
 {
     uint32_t most = 0;
     for (uint32_t frame = 0; frame < bricks.period; ++frame)
-        most = std::max(most, brickShare(bricks, frame).face_count);
+        most = std::max(most, nextBrickShare(bricks, frame).face_count);
     return most;
 }
 
@@ -100,16 +100,16 @@ Status createBuffers(const Device& device, const formats::PackView& pack, Upload
     std::vector<std::byte> opacity(pack.brickOpacity().size_bytes());
     std::memcpy(opacity.data(), pack.brickOpacity().data(), opacity.size());
     opacity.resize((opacity.size() + 3) / 4 * 4);
-    HEARTH_TRY(upload(b.groups, std::as_bytes(pack.brickGroups())));
+    HEARTH_TRY(upload(b.groups, std::as_bytes(pack.brickGroupsAlongAxis())));
     HEARTH_TRY(upload(b.bricks, std::as_bytes(pack.bricks())));
-    const std::vector<shared::BrickPlace> places = placesOf(pack);
-    const std::vector<shared::BrickLight> light = lightOf(pack);
+    const std::vector<shared::BrickLocation> places = readPlaces(pack);
+    const std::vector<shared::BrickLight> light = readLight(pack);
     HEARTH_TRY(upload(b.places, std::as_bytes(std::span(places))));
     HEARTH_TRY(upload(b.opacity, opacity));
-    HEARTH_TRY(upload(b.surfaces, surfacesOf(pack)));
+    HEARTH_TRY(upload(b.surfaces, readSurfaces(pack)));
     HEARTH_TRY(upload(b.lighting, std::as_bytes(std::span(light)), VK_BUFFER_USAGE_TRANSFER_SRC_BIT));
     HEARTH_ASSIGN_OR_RETURN(b.fresh,
-                            createTable(device, pack, sizeof(shared::BrickLight) * mostFacesOfAFrame(b),
+                            createTable(device, pack, sizeof(shared::BrickLight) * maxFacesPerFrame(b),
                                         VK_BUFFER_USAGE_TRANSFER_SRC_BIT, scene));
     HEARTH_ASSIGN_OR_RETURN(b.view, scene.arena.createBuffer(sizeof(shared::BrickView),
                                                              VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
@@ -120,7 +120,7 @@ Status createBuffers(const Device& device, const formats::PackView& pack, Upload
 
 } // namespace
 
-BrickShare brickShare(const SceneBricks& bricks, uint32_t frame)
+BrickShare nextBrickShare(const SceneBricks& bricks, uint32_t frame)
 {
     const auto brick_count = static_cast<uint32_t>(bricks.first_faces.size() - 1);
     const uint32_t first = shared::brickSliceBegin(brick_count, frame, bricks.period);
@@ -138,7 +138,7 @@ Status uploadBricks(const Device& device, const DrawLayouts& layouts, const form
     SceneBricks& b = *scene.bricks;
     b.grid = pack.brickGrid()[0];
     b.rays = options.rays;
-    b.first_faces = firstFacesOf(pack);
+    b.first_faces = readFirstFaces(pack);
     // the period is at most one frame per brick
     const auto brick_count = static_cast<uint32_t>(pack.bricks().size());
     b.period =

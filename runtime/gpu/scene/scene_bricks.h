@@ -54,7 +54,7 @@ struct SceneBricks
 };
 
 /// Return the bricks that a frame lights.
-BrickShare brickShare(const SceneBricks& bricks, uint32_t frame);
+BrickShare nextBrickShare(const SceneBricks& bricks, uint32_t frame);
 
 /// Create scene.bricks if the pack has bricks. Needs scene.pool, and the buffers of frames and lights.
 /// errors: device_limit, device_failed, and the errors of reading chunks.

@@ -32,10 +32,10 @@ bool fits(const DeformedInstance& instance, const InstancePose& pose)
 void recordUpdate(const Device& device, VkCommandBuffer commands, const Buffer& buffer, VkDeviceSize offset,
                   std::span<const std::byte> bytes)
 {
-    constexpr size_t kMostBytes = 65536;
-    for (size_t done = 0; done < bytes.size(); done += kMostBytes)
+    constexpr size_t kMaxBytes = 65536;
+    for (size_t done = 0; done < bytes.size(); done += kMaxBytes)
     {
-        const auto part = bytes.subspan(done, std::min(kMostBytes, bytes.size() - done));
+        const auto part = bytes.subspan(done, std::min(kMaxBytes, bytes.size() - done));
         device.vk.vkCmdUpdateBuffer(commands, buffer.handle.get(), offset + done, part.size(), part.data());
     }
 }
@@ -77,7 +77,7 @@ void recordPoses(const Device& device, VkCommandBuffer commands, const Scene& sc
     for (const InstancePose& pose : poses)
     {
         const DeformedInstance* instance = findDeformed(deformation.layout, pose.instance);
-        PosedRows& rows = deformation.rows;
+        PoseRows& rows = deformation.rows;
         if (instance == nullptr || !fits(*instance, pose) || !poseInstance(*instance, pose, rows))
             continue;
         recordRow(device, commands, scene.buffers.instances, pose.instance, rows.record);

@@ -29,7 +29,7 @@ struct SceneDeformation
     uint32_t rigid_group_items = 0;
     /// Slice shared::kDeformationSlice of the geometry pool; starts with a shared::DeformationHeader.
     Buffer buffer;
-    PosedRows rows;                            ///< of the pose that is being recorded
+    PoseRows rows;                             ///< of the pose that is being recorded
     VkDescriptorSet plan_set = VK_NULL_HANDLE; ///< skinning pass
     VkDescriptorSet cull_set = VK_NULL_HANDLE; ///< culling pass over deformed clusters
     VkDescriptorSet page_request_set = VK_NULL_HANDLE;

@@ -40,9 +40,9 @@ Error limitError(const formats::PackView& pack, const std::string& detail)
     return {Issue::device_limit, pack.name(), "", detail};
 }
 
-BinKey keyOfMaterial(const formats::PackView& pack, bool deformed, uint32_t material)
+BinKey makeBinKey(const formats::PackView& pack, bool deformed, uint32_t material)
 {
-    if (material == formats::kNone)
+    if (material == kInvalidIndex)
         return {deformed, false, 0, Facing::culled, false};
     const formats::MaterialRecord& record = pack.materials()[material];
     const bool tested = record.alpha_mode != static_cast<uint32_t>(formats::AlphaMode::opaque);
@@ -67,7 +67,7 @@ std::vector<ClusterRun> orderMesh(const formats::PackView& pack, const formats::
     std::vector<std::pair<BinKey, uint32_t>> clusters;
     clusters.reserve(mesh.clusters.count);
     for (uint32_t c = mesh.clusters.first; c < mesh.clusters.first + mesh.clusters.count; ++c)
-        clusters.emplace_back(keyOfMaterial(pack, deformed, pack.clusters()[c].material), c);
+        clusters.emplace_back(makeBinKey(pack, deformed, pack.clusters()[c].material), c);
     std::stable_sort(clusters.begin(), clusters.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
 
@@ -142,7 +142,7 @@ Status makeWorkList(const formats::PackView& pack, SceneLayout& layout)
 
 uint32_t materialRow(const formats::PackView& pack, uint32_t material)
 {
-    return material == formats::kNone ? static_cast<uint32_t>(pack.materials().size()) : material;
+    return material == kInvalidIndex ? static_cast<uint32_t>(pack.materials().size()) : material;
 }
 
 shared::ClusterDraw makeClusterDraw(const formats::PackView& pack, uint32_t cluster, uint32_t page_address)
@@ -152,7 +152,7 @@ shared::ClusterDraw makeClusterDraw(const formats::PackView& pack, uint32_t clus
     return {.address = page_address + record.page_word + formats::uvBaseWords(mesh.attributes),
             .counts = uint32_t{record.vertex_count} | uint32_t{record.triangle_count} << 9 |
                       uint32_t{record.level} << 17 | (mesh.morph_target_count > 0 ? shared::kDrawMorphs : 0u),
-            .vertex_layout = formats::layoutOf(record, mesh.attributes),
+            .vertex_layout = formats::clusterVertexLayout(record, mesh.attributes),
             .material = 1 + materialRow(pack, record.material),
             .base_x = record.base[0],
             .base_y = record.base[1],

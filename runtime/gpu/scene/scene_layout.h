@@ -48,7 +48,7 @@ struct SceneLayout
     uint32_t material_rows = 0; ///< materials of the pack, then the default material
 };
 
-/// Return the row of the material table for a material index of the pack, which may be formats::kNone.
+/// Return the row of the material table for a material index of the pack, which may be kInvalidIndex.
 uint32_t materialRow(const formats::PackView& pack, uint32_t material);
 
 /// Draw record of a cluster whose page is at `page_address` of the geometry pool.

@@ -8,7 +8,8 @@
 namespace hearth::gpu
 {
 
-std::array<formats::TextureRef, shared::kTextureCount> texturesOf(const formats::MaterialRecord& material)
+std::array<formats::TextureRef, shared::kTextureCount>
+materialTextures(const formats::MaterialRecord& material)
 {
     return {material.base_color_texture, material.metallic_roughness_texture, material.normal_texture,
             material.occlusion_texture, material.emissive_texture};
@@ -26,7 +27,7 @@ formats::MaterialRecord defaultMaterial()
     for (formats::TextureRef* texture :
          {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
           &material.occlusion_texture, &material.emissive_texture})
-        texture->image = formats::kNone;
+        texture->image = kInvalidIndex;
     return material;
 }
 
@@ -42,11 +43,11 @@ shared::Material makeMaterial(const formats::MaterialRecord& record)
     material.occlusion_strength = record.occlusion_strength;
     material.flags = record.flags;
     material.alpha_mode = record.alpha_mode;
-    const auto textures = texturesOf(record);
+    const auto textures = materialTextures(record);
     for (uint32_t slot = 0; slot < shared::kTextureCount; ++slot)
     {
         const formats::TextureRef& texture = textures[slot];
-        if (texture.image == formats::kNone)
+        if (texture.image == kInvalidIndex)
             continue;
         material.textures |= 1u << slot;
         material.uv_sets |= uint32_t{texture.uv_set} << (4 * slot);

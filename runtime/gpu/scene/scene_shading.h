@@ -13,7 +13,8 @@ namespace hearth::gpu
 {
 
 /// Textures of a material in the order of shared::kTexture*.
-std::array<formats::TextureRef, shared::kTextureCount> texturesOf(const formats::MaterialRecord& material);
+std::array<formats::TextureRef, shared::kTextureCount>
+materialTextures(const formats::MaterialRecord& material);
 
 /// Return glTF's default material: white, fully metallic and rough, as in its specification.
 formats::MaterialRecord defaultMaterial();

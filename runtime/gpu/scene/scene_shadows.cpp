@@ -58,11 +58,11 @@ Result<std::unique_ptr<SceneShadows>> SceneShadows::create(const Device& device,
     SceneShadows& s = *shadows;
     s.bounds_ = bounds;
     const shared::Lighting lighting = makeLighting(pack);
-    s.lights_ = makeCastingLights(lighting, bounds, options.spot_near);
-    s.lights_without_row_ = countLights(lighting, formats::LightType::directional) +
-                            countLights(lighting, formats::LightType::spot) -
-                            static_cast<uint32_t>(s.lights_.size());
-    s.spheres_ = shadowSpheresOf(pack);
+    s.lights_ = makeShadowCasters(lighting, bounds, options.spot_near);
+    s.unshadowed_light_count_ = countLights(lighting, formats::LightType::directional) +
+                                countLights(lighting, formats::LightType::spot) -
+                                static_cast<uint32_t>(s.lights_.size());
+    s.spheres_ = readShadowSpheres(pack);
     s.pack_sphere_count_ = s.spheres_.size();
     HEARTH_TRY(s.createImage());
     s.layers_.resize(s.layerCount());
@@ -132,21 +132,21 @@ void SceneShadows::track(std::span<const InstanceMove> moves,
 void SceneShadows::change(uint32_t light, const shared::Light& record)
 {
     if (record.shadow_row < lights_.size())
-        lights_[record.shadow_row] = makeCastingLight(record, light, bounds_, options_.spot_near);
+        lights_[record.shadow_row] = makeShadowCaster(record, light, bounds_, options_.spot_near);
 }
 
-std::span<const ShadowCache::StaleMap> SceneShadows::planFrame(const shared::FrameView& view,
-                                                               std::span<const ShadowSphere> spheres)
+std::span<const ShadowCache::LayerUpdate> SceneShadows::planFrame(const shared::FrameView& view,
+                                                                  std::span<const ShadowSphere> spheres)
 {
     spheres_.resize(pack_sphere_count_);
     spheres_.insert(spheres_.end(), spheres.begin(), spheres.end());
     plan_ = planShadows(lights_, options_, view, spheres_);
-    const std::span<const ShadowCache::StaleMap> stale = cache_.plan(plan_, view);
+    const std::span<const ShadowCache::LayerUpdate> stale = cache_.plan(plan_, view);
     statistics_ = {.maps = plan_.map_count,
                    .dropped_maps = plan_.dropped_maps,
-                   .unshadowed_lights = lights_without_row_};
-    for (const ShadowCache::StaleMap& map : stale)
-        ++(map.over ? statistics_.moved_maps : statistics_.drawn_maps);
+                   .unshadowed_lights = unshadowed_light_count_};
+    for (const ShadowCache::LayerUpdate& map : stale)
+        ++(map.copy_from ? statistics_.moved_maps : statistics_.drawn_maps);
     for (uint32_t row = 0; row < lights_.size(); ++row)
         statistics_.unshadowed_lights += plan_.block.lights[row].map_count == 0 ? 1 : 0;
     return stale;

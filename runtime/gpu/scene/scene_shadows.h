@@ -40,13 +40,13 @@ public:
     void change(uint32_t light, const shared::Light& record);
 
     /// Set a new pose from this frame on.
-    void pose(const DeformedInstance& instance, const PosedRows& rows) { cache_.pose(instance, rows); }
+    void pose(const DeformedInstance& instance, const PoseRows& rows) { cache_.pose(instance, rows); }
 
     /// Plan the maps of a frame; returns the maps that it must draw.
     ///
     /// spheres  beside the spheres of the pack
-    std::span<const ShadowCache::StaleMap> planFrame(const shared::FrameView& view,
-                                                     std::span<const ShadowSphere> spheres);
+    std::span<const ShadowCache::LayerUpdate> planFrame(const shared::FrameView& view,
+                                                        std::span<const ShadowSphere> spheres);
 
     /// Plan of the last frame.
     const ShadowPlan& plan() const { return plan_; }
@@ -80,10 +80,10 @@ private:
 
     ShadowOptions options_;
     Box3 bounds_; ///< of the scene
-    std::vector<CastingLight> lights_;
+    std::vector<ShadowCaster> lights_;
     size_t pack_sphere_count_ = 0;
     std::vector<ShadowSphere> spheres_; ///< of the pack, then of the frame
-    uint32_t lights_without_row_ = 0;
+    uint32_t unshadowed_light_count_ = 0;
     ShadowCache cache_;
     ShadowPlan plan_;
     ShadowStatistics statistics_;

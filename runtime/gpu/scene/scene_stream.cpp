@@ -17,25 +17,25 @@ namespace hearth::gpu
 namespace
 {
 
-/// Decode a request of shared::groupRequest to error / threshold, to within an eighth; > 1.
-float priorityOf(uint32_t request)
+/// Decode a request of shared::groupPriority to error / threshold, to within an eighth; > 1.
+float priorityFromRequest(uint32_t request)
 {
     constexpr auto kOne = std::bit_cast<uint32_t>(1.0f);
-    constexpr auto kMost = std::bit_cast<uint32_t>(std::numeric_limits<float>::max());
-    return std::bit_cast<float>(kOne + std::min(request, kMost - kOne));
+    constexpr auto kMaxBits = std::bit_cast<uint32_t>(std::numeric_limits<float>::max());
+    return std::bit_cast<float>(kOne + std::min(request, kMaxBits - kOne));
 }
 
 /// Slice and offset of a pool address.
-struct PoolPlace
+struct PoolAddress
 {
     uint32_t slice;
     VkDeviceSize offset_bytes;
 };
 
-PoolPlace placeOf(uint32_t address)
+PoolAddress splitAddress(uint32_t address)
 {
-    return {address >> shared::kPoolSliceBits,
-            VkDeviceSize{address & ((1u << shared::kPoolSliceBits) - 1)} * 4};
+    return {address >> shared::kPoolSliceAddressBits,
+            VkDeviceSize{address & ((1u << shared::kPoolSliceAddressBits) - 1)} * 4};
 }
 
 } // namespace
@@ -49,7 +49,7 @@ Result<SceneStream::Memory> SceneStream::createMemory(const Device& device, cons
                                                       VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryKind::staging));
     for (uint32_t frame = 0; frame < options.frames_in_flight; ++frame)
     {
-        Feedback feedback;
+        RequestReadback feedback;
         HEARTH_ASSIGN_OR_RETURN(feedback.requests,
                                 memory.arena.createBuffer(pack.pages().size() * sizeof(uint32_t),
                                                           VK_BUFFER_USAGE_TRANSFER_DST_BIT,
@@ -71,7 +71,7 @@ Result<std::unique_ptr<SceneStream>> SceneStream::create(const Device& device, c
                                        size_t{2} * options.max_loads * pool.slot_bytes);
     HEARTH_ASSIGN_OR_RETURN(
         pack::PageStream pages,
-        pack::PageStream::create(pack, graph.inSlots(pool.slot_bytes),
+        pack::PageStream::create(pack, graph.withSlotSize(pool.slot_bytes),
                                  {.residency = {.budget_bytes = budget_bytes, .max_loads = options.max_loads},
                                   .slot_count = slot_count,
                                   .slot_bytes = pool.slot_bytes,
@@ -88,15 +88,15 @@ void SceneStream::beginFrame(uint64_t serial, uint64_t completed_serial)
     serial_ = serial;
     changes_ = pages_.beginFrame(serial, completed_serial);
     for (const uint32_t page : changes_.failed)
-        tell(device_, pack_.name(), "page " + std::to_string(page),
+        warn(device_, pack_.name(), "page " + std::to_string(page),
              "cannot be read: what it refines stays coarse");
-    listen(completed_serial);
+    readRequests(completed_serial);
 }
 
-void SceneStream::listen(uint64_t completed_serial)
+void SceneStream::readRequests(uint64_t completed_serial)
 {
     uint64_t last = 0;
-    for (Feedback& feedback : memory_.feedback)
+    for (RequestReadback& feedback : memory_.feedback)
         if (feedback.serial != 0 && feedback.serial <= completed_serial)
         {
             takeRequests(feedback);
@@ -107,19 +107,19 @@ void SceneStream::listen(uint64_t completed_serial)
         pages_.schedule(last);
 }
 
-void SceneStream::takeRequests(const Feedback& feedback)
+void SceneStream::takeRequests(const RequestReadback& feedback)
 {
     const auto* requests = reinterpret_cast<const uint32_t*>(feedback.requests.mapped);
     for (uint32_t page = 0; page < pack_.pages().size(); ++page)
         if (requests[page] != 0)
-            pages_.request(page, priorityOf(requests[page]));
+            pages_.request(page, priorityFromRequest(requests[page]));
 }
 
 shared::FrameView SceneStream::scaled(const shared::FrameView& view) const
 {
     shared::FrameView result = view;
     if (const float scale = pages_.residency().errorScale(); scale > 1)
-        result.threshold = std::max(view.threshold, shared::kLeastRequestThreshold) * scale;
+        result.threshold = std::max(view.threshold, shared::kMinRequestThreshold) * scale;
     return result;
 }
 
@@ -144,7 +144,7 @@ void SceneStream::recordUpload(VkCommandBuffer commands, const SceneBuffers& buf
                                const pack::PageUpload& upload) const
 {
     const uint32_t address = slot_addresses_[upload.slot];
-    const auto [slice, offset_bytes] = placeOf(address);
+    const auto [slice, offset_bytes] = splitAddress(address);
     const VkBufferCopy region{upload.staging_slot * VkDeviceSize{slot_bytes_}, offset_bytes,
                               pack_.pages()[upload.page].size};
     device_.vk.vkCmdCopyBuffer(commands, memory_.staging.handle.get(), buffers.pool[slice].handle.get(), 1,
@@ -173,7 +173,7 @@ void SceneStream::recordDraws(VkCommandBuffer commands, const SceneBuffers& buff
 void SceneStream::recordFeedback(VkCommandBuffer commands, const SceneBuffers& buffers)
 {
     const auto free = std::find_if(memory_.feedback.begin(), memory_.feedback.end(),
-                                   [](const Feedback& feedback) { return feedback.serial == 0; });
+                                   [](const RequestReadback& feedback) { return feedback.serial == 0; });
     if (free == memory_.feedback.end())
         return;
     free->serial = serial_;

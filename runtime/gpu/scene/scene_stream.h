@@ -76,7 +76,7 @@ public:
     void recordFeedback(VkCommandBuffer commands, const SceneBuffers& buffers);
 
 private:
-    struct Feedback
+    struct RequestReadback
     {
         Buffer requests;     ///< one word per page
         uint64_t serial = 0; ///< of the frame that writes it; 0: read, or none
@@ -87,7 +87,7 @@ private:
     {
         MemoryArena arena;
         Buffer staging;
-        std::vector<Feedback> feedback;
+        std::vector<RequestReadback> feedback;
     };
 
     SceneStream(const Device& device, const formats::PackView& pack, const PoolLayout& pool, Memory memory,
@@ -102,8 +102,8 @@ private:
     }
     static Result<Memory> createMemory(const Device& device, const formats::PackView& pack,
                                        const PoolLayout& pool, const StreamOptions& options);
-    void listen(uint64_t completed_serial);
-    void takeRequests(const Feedback& feedback);
+    void readRequests(uint64_t completed_serial);
+    void takeRequests(const RequestReadback& feedback);
     void recordUpload(VkCommandBuffer commands, const SceneBuffers& buffers,
                       const pack::PageUpload& upload) const;
     void recordDraws(VkCommandBuffer commands, const SceneBuffers& buffers, uint32_t page,

@@ -172,9 +172,9 @@ Status uploadGeometry(const formats::PackView& pack, const SceneLayout& layout, 
         const uint32_t address = layout.pool.page_addresses[page];
         if (address == kNoAddress)
             continue;
-        const size_t offset = size_t{address & ((1u << shared::kPoolSliceBits) - 1)} * 4;
+        const size_t offset = size_t{address & ((1u << shared::kPoolSliceAddressBits) - 1)} * 4;
         HEARTH_TRY(pack.decodePage(
-            page, slices[address >> shared::kPoolSliceBits].subspan(offset, pack.pages()[page].size)));
+            page, slices[address >> shared::kPoolSliceAddressBits].subspan(offset, pack.pages()[page].size)));
     }
     return success();
 }
@@ -202,14 +202,14 @@ Status createSets(const Device& device, const DrawLayouts& layouts, Scene& scene
     writer.write(device);
     HEARTH_ASSIGN_OR_RETURN(scene.bins_set, allocateSet(device, scene.pool.get(), layouts.bins.get()));
     DescriptorWriter(scene.bins_set).storage(0, b.bin_draws).write(device);
-    HEARTH_ASSIGN_OR_RETURN(scene.inspection_set,
-                            allocateSet(device, scene.pool.get(), layouts.inspection.get()));
-    DescriptorWriter(scene.inspection_set)
-        .uniform(kInspectionFrame, b.frame)
-        .storage(kInspectionInstances, b.instances)
-        .storage(kInspectionVisible, b.visible)
-        .storage(kInspectionClusters, b.clusters)
-        .storage(kInspectionGroups, b.groups)
+    HEARTH_ASSIGN_OR_RETURN(scene.cluster_view_set,
+                            allocateSet(device, scene.pool.get(), layouts.cluster_view.get()));
+    DescriptorWriter(scene.cluster_view_set)
+        .uniform(kClusterViewFrame, b.frame)
+        .storage(kClusterViewInstances, b.instances)
+        .storage(kClusterViewVisible, b.visible)
+        .storage(kClusterViewClusters, b.clusters)
+        .storage(kClusterViewGroups, b.groups)
         .write(device);
     return success();
 }
@@ -221,9 +221,9 @@ std::unique_ptr<SceneDeformation> makeDeformation(const Device& device, const De
 {
     auto deformation = std::make_unique<SceneDeformation>();
     const uint64_t table_bytes = layout.deformation.words.size() * 4;
-    const uint64_t most_bytes = device.limits.maxStorageBufferRange;
+    const uint64_t max_bytes = device.limits.maxStorageBufferRange;
     placeScratch(layout.deformation,
-                 std::min(options.scratch_bytes, most_bytes - std::min(most_bytes, table_bytes)));
+                 std::min(options.scratch_bytes, max_bytes - std::min(max_bytes, table_bytes)));
     const auto first = std::find_if(layout.bins.begin(), layout.bins.end(),
                                     [](const SceneBin& bin) { return bin.deformed; });
     deformation->first_bin = static_cast<uint32_t>(first - layout.bins.begin());
@@ -237,19 +237,19 @@ void findSkyVisibility(const formats::PackView& pack, Scene& scene)
 {
     for (const formats::MeshRecord& mesh : pack.meshes())
         if ((mesh.attributes & formats::kVertexVisibility) != 0)
-            for (const formats::ClusterRecord& cluster : recordsOf(pack.clusters(), mesh.clusters))
+            for (const formats::ClusterRecord& cluster : recordsInRange(pack.clusters(), mesh.clusters))
                 scene.materials[materialRow(pack, cluster.material)].variant.sky_visibility = 1;
 }
 
 /// Keep the parts of the layout that frames need, and mark the materials that deformed meshes use.
-void keepLayout(const formats::PackView& pack, DeformationLayout layout, Scene& scene)
+void storeDeformation(const formats::PackView& pack, DeformationLayout layout, Scene& scene)
 {
     for (const formats::DeformedMeshRecord& mesh : pack.deformedMeshes())
         for (const formats::ClusterRecord& cluster :
-             recordsOf(pack.clusters(), pack.meshes()[mesh.mesh].clusters))
+             recordsInRange(pack.clusters(), pack.meshes()[mesh.mesh].clusters))
             scene.materials[materialRow(pack, cluster.material)].variant.deformed = 1;
     SceneDeformation& deformation = *scene.deformation;
-    deformation.rows.words.reserve(size_t{layout.most_rows} * 4);
+    deformation.rows.words.reserve(size_t{layout.max_rows} * 4);
     deformation.layout = std::move(layout);
     deformation.layout.words = {};
 }
@@ -314,7 +314,7 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
     scene->staging->finish();
     scene->bins = std::move(layout.bins);
     if (scene->deformation != nullptr)
-        keepLayout(pack, std::move(layout.deformation), *scene);
+        storeDeformation(pack, std::move(layout.deformation), *scene);
     return scene;
 }
 

@@ -26,7 +26,7 @@ Box3 worldBox(const Box3& box, const Affine3& world_from_object)
     return world;
 }
 
-Affine3 transformOf(const shared::Instance& instance)
+Affine3 readTransform(const shared::Instance& instance)
 {
     Affine3 t;
     const Float4 rows[] = {instance.world_from_object_x, instance.world_from_object_y,
@@ -42,7 +42,7 @@ Affine3 transformOf(const shared::Instance& instance)
 }
 
 /// Bounds of a mesh's clusters and of the spheres that decide its cut.
-std::vector<Box3> makeReaches(const formats::PackView& pack)
+std::vector<Box3> computeReaches(const formats::PackView& pack)
 {
     std::vector<Box3> reaches;
     for (const shared::MeshBounds& bounds : shared::makeMeshBounds(pack.meshes(), pack.clusters()))
@@ -51,7 +51,7 @@ std::vector<Box3> makeReaches(const formats::PackView& pack)
         reaches[mesh.mesh] = {mesh.box_min, mesh.box_max};
     for (size_t mesh = 0; mesh < reaches.size(); ++mesh)
         for (const formats::GroupRecord& group :
-             formats::recordsOf(pack.groups(), pack.meshes()[mesh].groups))
+             formats::recordsInRange(pack.groups(), pack.meshes()[mesh].groups))
         {
             const Float3 reach = Float3{1, 1, 1} * group.sphere_radius;
             reaches[mesh].add(group.sphere_center - reach);
@@ -60,7 +60,7 @@ std::vector<Box3> makeReaches(const formats::PackView& pack)
     return reaches;
 }
 
-bool touches(const shared::FrameView& casters, const Box3& box)
+bool intersects(const shared::FrameView& casters, const Box3& box)
 {
     shared::Instance unmoved{};
     unmoved.world_from_object_x.x = unmoved.world_from_object_y.y = unmoved.world_from_object_z.z = 1;
@@ -84,7 +84,7 @@ bool mayExceed(const shared::FrameView& casters, const Box3& box, float error_wo
 }
 
 /// Return the light without the members that do not affect the depth in its maps.
-shared::ShadowLight projectionOf(shared::ShadowLight light)
+shared::ShadowLight projectionKey(shared::ShadowLight light)
 {
     light.first_map = light.map_count = 0;
     light.eye_shift = 0;
@@ -92,7 +92,7 @@ shared::ShadowLight projectionOf(shared::ShadowLight light)
 }
 
 /// Return the view without the members that do not affect which casters it finds.
-shared::FrameView decisionsOf(shared::FrameView casters)
+shared::FrameView cullingKey(shared::FrameView casters)
 {
     casters.clip_x = casters.clip_y = casters.clip_w = {};
     casters.width = casters.height = 0;
@@ -112,17 +112,17 @@ bool sameBits(const T& a, const T& b)
 
 ShadowCache::ShadowCache(const formats::PackView& pack, const ShadowOptions& options)
     : pack_(pack),
-      reach_of_mesh_(makeReaches(pack)),
-      changed_of_mesh_(pack.meshes().size(), kUnchanged),
-      moves_(pack.instances().size(), 0),
+      mesh_bounds_(computeReaches(pack)),
+      changed_errors_(pack.meshes().size(), kUnchanged),
+      has_moved_(pack.instances().size(), 0),
       moving_layers_(options.moving_layers),
       layers_(options.max_maps)
 {
     for (const formats::InstanceRecord& instance : pack.instances())
     {
         mesh_of_instance_.push_back(instance.mesh);
-        scale_of_instance_.push_back(instance.scale_max);
-        box_of_instance_.push_back(worldBox(reach_of_mesh_[instance.mesh], instance.world_from_object));
+        instance_scales_.push_back(instance.scale_max);
+        instance_bounds_.push_back(worldBox(mesh_bounds_[instance.mesh], instance.world_from_object));
     }
     movers_.reserve(pack.instances().size());
     stale_.reserve(2 * size_t{options.max_maps});
@@ -132,33 +132,33 @@ void ShadowCache::move(std::span<const InstanceMove> moves)
 {
     for (const InstanceMove& move : moves)
         place(move.instance,
-              worldBox(reach_of_mesh_[mesh_of_instance_[move.instance]], transformOf(move.record)),
+              worldBox(mesh_bounds_[mesh_of_instance_[move.instance]], readTransform(move.record)),
               move.record.scale_max);
 }
 
-void ShadowCache::pose(const DeformedInstance& instance, const PosedRows& rows)
+void ShadowCache::pose(const DeformedInstance& instance, const PoseRows& rows)
 {
-    Box3 reach = reach_of_mesh_[mesh_of_instance_[instance.instance]];
+    Box3 reach = mesh_bounds_[mesh_of_instance_[instance.instance]];
     if (const auto sphere = freeSphere(rows))
     {
         const Float3 radius = Float3{1, 1, 1} * sphere->radius;
         reach = {sphere->center - radius, sphere->center + radius};
     }
-    place(instance.instance, worldBox(reach, transformOf(rows.record)), rows.record.scale_max);
+    place(instance.instance, worldBox(reach, readTransform(rows.record)), rows.record.scale_max);
 }
 
 /// Move the bounds of an instance, and invalidate the maps that intersect its old or new bounds.
 void ShadowCache::place(uint32_t instance, const Box3& box, float scale)
 {
-    touch(box_of_instance_[instance], moves_[instance] != 0);
-    if (moving_layers_ && moves_[instance] == 0)
+    invalidate(instance_bounds_[instance], has_moved_[instance] != 0);
+    if (moving_layers_ && has_moved_[instance] == 0)
     {
-        moves_[instance] = 1;
+        has_moved_[instance] = 1;
         movers_.push_back(instance);
     }
-    box_of_instance_[instance] = box;
-    touch(box, moves_[instance] != 0);
-    scale_of_instance_[instance] = scale;
+    instance_bounds_[instance] = box;
+    invalidate(box, has_moved_[instance] != 0);
+    instance_scales_[instance] = scale;
 }
 
 void ShadowCache::publish(std::span<const pack::ResidentGroups::Change> groups)
@@ -168,58 +168,58 @@ void ShadowCache::publish(std::span<const pack::ResidentGroups::Change> groups)
     for (const auto& [group, resident] : groups)
     {
         const formats::GroupRecord& record = pack_.groups()[group];
-        float& changed = changed_of_mesh_[pack_.pages()[record.page].mesh];
+        float& changed = changed_errors_[pack_.pages()[record.page].mesh];
         changed = std::max(changed, record.error);
     }
-    for (size_t instance = 0; instance < box_of_instance_.size(); ++instance)
-        if (const float changed = changed_of_mesh_[mesh_of_instance_[instance]]; changed != kUnchanged)
-            touchFiner(instance, changed);
-    std::fill(changed_of_mesh_.begin(), changed_of_mesh_.end(), kUnchanged);
+    for (size_t instance = 0; instance < instance_bounds_.size(); ++instance)
+        if (const float changed = changed_errors_[mesh_of_instance_[instance]]; changed != kUnchanged)
+            invalidateFiner(instance, changed);
+    std::fill(changed_errors_.begin(), changed_errors_.end(), kUnchanged);
 }
 
 /// Invalidate the maps that intersect the box, for moving or for resting instances.
-void ShadowCache::touch(const Box3& box, bool moves)
+void ShadowCache::invalidate(const Box3& box, bool moves)
 {
     for (Layer& layer : layers_)
-        if (bool& drawn = moves ? layer.moving_drawn : layer.drawn; drawn && touches(layer.casters, box))
+        if (bool& drawn = moves ? layer.moving_drawn : layer.drawn; drawn && intersects(layer.casters, box))
             drawn = false;
 }
 
-void ShadowCache::touchFiner(size_t instance, float error_object)
+void ShadowCache::invalidateFiner(size_t instance, float error_object)
 {
-    const Box3& box = box_of_instance_[instance];
-    const float error_world = error_object * scale_of_instance_[instance];
+    const Box3& box = instance_bounds_[instance];
+    const float error_world = error_object * instance_scales_[instance];
     for (Layer& layer : layers_)
-        if (bool& drawn = moves_[instance] != 0 ? layer.moving_drawn : layer.drawn;
-            drawn && mayExceed(layer.casters, box, error_world) && touches(layer.casters, box))
+        if (bool& drawn = has_moved_[instance] != 0 ? layer.moving_drawn : layer.drawn;
+            drawn && mayExceed(layer.casters, box, error_world) && intersects(layer.casters, box))
             drawn = false;
 }
 
-bool ShadowCache::isMoverIn(const shared::FrameView& casters) const
+bool ShadowCache::hasMoverIn(const shared::FrameView& casters) const
 {
     return std::any_of(movers_.begin(), movers_.end(),
-                       [&](uint32_t mover) { return touches(casters, box_of_instance_[mover]); });
+                       [&](uint32_t mover) { return intersects(casters, instance_bounds_[mover]); });
 }
 
-std::span<const ShadowCache::StaleMap> ShadowCache::plan(ShadowPlan& plan, const shared::FrameView& view)
+std::span<const ShadowCache::LayerUpdate> ShadowCache::plan(ShadowPlan& plan, const shared::FrameView& view)
 {
     stale_.clear();
     for (uint32_t i = 0; i < plan.map_count; ++i)
     {
         const shared::ShadowMap map = plan.block.maps[i];
         const uint32_t row = plan.row_of[i];
-        const shared::ShadowLight light = projectionOf(plan.block.lights[row]);
+        const shared::ShadowLight light = projectionKey(plan.block.lights[row]);
         shared::FrameView seen = view;
-        seen.eye = shared::eyeCell(view, plan.finest_m[row], plan.block.error_bias).eye;
+        seen.eye = shared::findEyeCell(view, plan.finest_m[row], plan.block.error_bias).eye;
         shared::FrameView casters = shared::makeCasterView(seen, light, map, plan.block.error_bias);
         if (moving_layers_)
             casters.flags |= shared::kCullMoving;
         Layer& layer = layers_[map.layer];
         if (!layer.drawn || !sameBits(layer.light, light) || !sameBits(layer.map, map) ||
-            !sameBits(layer.casters, decisionsOf(casters)))
+            !sameBits(layer.casters, cullingKey(casters)))
         {
-            layer = {.drawn = true, .light = light, .map = map, .casters = decisionsOf(casters)};
-            stale_.push_back({.map = i, .layer = map.layer, .over = {}, .casters = casters});
+            layer = {.drawn = true, .light = light, .map = map, .casters = cullingKey(casters)};
+            stale_.push_back({.map = i, .layer = map.layer, .copy_from = {}, .casters = casters});
         }
         planMoving(i, casters, layer, plan);
     }
@@ -229,7 +229,7 @@ std::span<const ShadowCache::StaleMap> ShadowCache::plan(ShadowPlan& plan, const
 /// casters  view of the map's resting casters
 void ShadowCache::planMoving(uint32_t map, const shared::FrameView& casters, Layer& layer, ShadowPlan& plan)
 {
-    if (!isMoverIn(casters))
+    if (!hasMoverIn(casters))
     {
         layer.moving_drawn = false;
         return;
@@ -240,8 +240,8 @@ void ShadowCache::planMoving(uint32_t map, const shared::FrameView& casters, Lay
     if (layer.moving_drawn)
         return;
     layer.moving_drawn = true;
-    stale_.push_back({.map = map, .layer = moving, .over = resting, .casters = casters});
-    stale_.back().casters.flags ^= shared::kCullMoving | shared::kCullResting;
+    stale_.push_back({.map = map, .layer = moving, .copy_from = resting, .casters = casters});
+    stale_.back().casters.flags ^= shared::kCullMoving | shared::kCullStatic;
 }
 
 void ShadowCache::forget()

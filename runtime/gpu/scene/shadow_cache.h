@@ -30,17 +30,17 @@ public:
     void move(std::span<const InstanceMove> moves);
 
     /// Set a deformed instance that has a new pose from this frame on.
-    void pose(const DeformedInstance& instance, const PosedRows& rows);
+    void pose(const DeformedInstance& instance, const PoseRows& rows);
 
     /// Set groups that became resident or were evicted with this frame.
     void publish(std::span<const pack::ResidentGroups::Change> groups);
 
     /// Layer that must be drawn, and the view that culls its casters.
-    struct StaleMap
+    struct LayerUpdate
     {
         uint32_t map = 0; ///< index in the plan
         uint32_t layer = 0;
-        std::optional<uint32_t> over; ///< starts as a copy of this layer
+        std::optional<uint32_t> copy_from; ///< starts as a copy of this layer
         shared::FrameView casters{};
     };
 
@@ -49,7 +49,7 @@ public:
     ///
     /// plan  gets the layer of each map
     /// view  of the frame
-    std::span<const StaleMap> plan(ShadowPlan& plan, const shared::FrameView& view);
+    std::span<const LayerUpdate> plan(ShadowPlan& plan, const shared::FrameView& view);
 
     /// Invalidate all maps.
     void forget();
@@ -66,24 +66,24 @@ private:
     };
 
     void place(uint32_t instance, const Box3& box, float scale);
-    void touch(const Box3& box, bool moves);
-    void touchFiner(size_t instance, float error_object);
-    bool isMoverIn(const shared::FrameView& casters) const;
+    void invalidate(const Box3& box, bool moves);
+    void invalidateFiner(size_t instance, float error_object);
+    bool hasMoverIn(const shared::FrameView& casters) const;
     void planMoving(uint32_t map, const shared::FrameView& casters, Layer& layer, ShadowPlan& plan);
 
     const formats::PackView& pack_;
     /// Per mesh: bounds of its clusters and of the spheres of its groups, in object space or in the space of
     /// a deformed mesh's anchor.
-    std::vector<Box3> reach_of_mesh_;
+    std::vector<Box3> mesh_bounds_;
     std::vector<uint32_t> mesh_of_instance_;
-    std::vector<float> scale_of_instance_;
-    std::vector<Box3> box_of_instance_;  ///< world
-    std::vector<float> changed_of_mesh_; ///< the largest error of a changed group; scratch
-    std::vector<uint8_t> moves_;         ///< per instance: 1 if it has moved, with moving layers
+    std::vector<float> instance_scales_;
+    std::vector<Box3> instance_bounds_; ///< world
+    std::vector<float> changed_errors_; ///< the largest error of a changed group; scratch
+    std::vector<uint8_t> has_moved_;    ///< per instance: 1 if it has moved, with moving layers
     std::vector<uint32_t> movers_;
     bool moving_layers_;
     std::vector<Layer> layers_;
-    std::vector<StaleMap> stale_;
+    std::vector<LayerUpdate> stale_;
 };
 
 } // namespace hearth::gpu

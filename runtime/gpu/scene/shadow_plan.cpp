@@ -15,18 +15,18 @@ namespace hearth::gpu
 namespace
 {
 
-bool isOfType(const shared::Light& light, formats::LightType type)
+bool hasType(const shared::Light& light, formats::LightType type)
 {
     return light.type == static_cast<uint32_t>(type);
 }
 
 /// Assigns the layers of a frame, light by light.
-class Planner
+class ShadowPlanner
 {
 public:
-    Planner(const ShadowOptions& options, ShadowPlan& plan) : options_(options), plan_(plan) {}
+    ShadowPlanner(const ShadowOptions& options, ShadowPlan& plan) : options_(options), plan_(plan) {}
 
-    void begin(uint32_t row, const CastingLight& light)
+    void begin(uint32_t row, const ShadowCaster& light)
     {
         row_ = row;
         shared::ShadowLight& projection = plan_.block.lights[row];
@@ -56,12 +56,12 @@ public:
         shared::sortByDensity(std::span(plan_.block.maps).subspan(light.first_map, light.map_count));
     }
 
-    shared::ShadowMapSize sizeOf(const ShadowSphere& sphere) const
+    shared::ShadowMapSize mapSize(const ShadowSphere& sphere) const
     {
         // a map that is smaller than its filter holds nothing
-        const uint32_t least = std::bit_ceil(4 * (options_.kernel + 1));
+        const uint32_t min_texels = std::bit_ceil(4 * (options_.kernel + 1));
         const uint32_t texels = sphere.texels == 0 ? options_.texels : std::bit_floor(sphere.texels);
-        return {.texels = std::clamp(texels, least, options_.texels), .kernel = options_.kernel};
+        return {.texels = std::clamp(texels, min_texels, options_.texels), .kernel = options_.kernel};
     }
 
 private:
@@ -70,14 +70,14 @@ private:
     uint32_t row_ = 0;
 };
 
-bool isFor(const ShadowSphere& sphere, const CastingLight& light)
+bool affects(const ShadowSphere& sphere, const ShadowCaster& light)
 {
     HEARTH_ASSERT(sphere.radius > 0);
     return sphere.light == ShadowSphere::kAllLights || sphere.light == light.light;
 }
 
-void planSun(const CastingLight& light, const ShadowOptions& options, const shared::FrameView& view,
-             std::span<const ShadowSphere> spheres, Planner& planner)
+void planSun(const ShadowCaster& light, const ShadowOptions& options, const shared::FrameView& view,
+             std::span<const ShadowSphere> spheres, ShadowPlanner& planner)
 {
     const auto add = [&](const Sphere& sphere, shared::ShadowMapSize size)
     {
@@ -85,33 +85,33 @@ void planSun(const CastingLight& light, const ShadowOptions& options, const shar
         planner.add(map, 1 / map.density);
     };
     for (const ShadowSphere& sphere : spheres)
-        if (isFor(sphere, light))
-            add({sphere.center, sphere.radius}, planner.sizeOf(sphere));
+        if (affects(sphere, light))
+            add({sphere.center, sphere.radius}, planner.mapSize(sphere));
     std::array<Sphere, kMaxSplits> splits;
     const auto used = std::span(splits).first(options.splits);
-    shared::splitSpheres(view, options.split_range, used);
+    shared::computeSplitSpheres(view, options.split_range, used);
     for (const Sphere& split : used)
         add(split, {.texels = options.texels, .kernel = options.kernel});
 }
 
-void planSpot(const CastingLight& light, const ShadowOptions& options, std::span<const ShadowSphere> spheres,
-              Planner& planner)
+void planSpot(const ShadowCaster& light, const ShadowOptions& options, std::span<const ShadowSphere> spheres,
+              ShadowPlanner& planner)
 {
     const shared::ShadowMap whole =
-        shared::wholeConeMap(light.cone_tangent, {.texels = options.texels, .kernel = options.kernel});
+        shared::makeConeMap(light.cone_tangent, {.texels = options.texels, .kernel = options.kernel});
     planner.add(whole, 1 / whole.density); // at a distance of one metre from the light
     for (const ShadowSphere& sphere : spheres)
-        if (isFor(sphere, light))
+        if (affects(sphere, light))
             if (const auto map = shared::fitSpotMap(light.projection, light.cone_tangent,
-                                                    {sphere.center, sphere.radius}, planner.sizeOf(sphere)))
+                                                    {sphere.center, sphere.radius}, planner.mapSize(sphere)))
                 planner.add(*map, length(sphere.center - light.projection.origin) / map->density);
 }
 
 } // namespace
 
-std::vector<ShadowSphere> shadowSpheresOf(const formats::PackView& pack)
+std::vector<ShadowSphere> readShadowSpheres(const formats::PackView& pack)
 {
-    static_assert(formats::kNone == ShadowSphere::kAllLights);
+    static_assert(kInvalidIndex == ShadowSphere::kAllLights);
     std::vector<ShadowSphere> spheres;
     for (const formats::ShadowSphereRecord& record : pack.shadowSpheres())
         spheres.push_back({.center = record.center,
@@ -129,13 +129,13 @@ void assignShadowRows(shared::Lighting& lighting)
         light.shadow_row = shared::kNoShadow;
     for (const formats::LightType type : {formats::LightType::directional, formats::LightType::spot})
         for (shared::Light& light : lights)
-            if (isOfType(light, type) && row < shared::kMaxShadowLights)
+            if (hasType(light, type) && row < shared::kMaxShadowLights)
                 light.shadow_row = row++;
 }
 
-CastingLight makeCastingLight(const shared::Light& light, uint32_t number, const Box3& scene, float spot_near)
+ShadowCaster makeShadowCaster(const shared::Light& light, uint32_t number, const Box3& scene, float spot_near)
 {
-    if (isOfType(light, formats::LightType::directional))
+    if (hasType(light, formats::LightType::directional))
         return {.light = number, .projection = shared::makeSunShadow(light.direction, scene)};
     const float cos_outer = std::clamp(-light.cone_offset / light.cone_scale, 0.0f, 1.0f);
     return {.light = number,
@@ -144,10 +144,10 @@ CastingLight makeCastingLight(const shared::Light& light, uint32_t number, const
             .cone_tangent = std::max(shared::coneTangent(std::acos(cos_outer)), 1e-3f)};
 }
 
-std::vector<CastingLight> makeCastingLights(const shared::Lighting& lighting, const Box3& scene,
+std::vector<ShadowCaster> makeShadowCasters(const shared::Lighting& lighting, const Box3& scene,
                                             float spot_near)
 {
-    std::vector<CastingLight> casting;
+    std::vector<ShadowCaster> casting;
     if (scene.empty())
         return casting;
     for (uint32_t i = 0; i < lighting.light_count; ++i)
@@ -156,21 +156,21 @@ std::vector<CastingLight> makeCastingLights(const shared::Lighting& lighting, co
         if (light.shadow_row == shared::kNoShadow)
             continue;
         casting.resize(std::max<size_t>(casting.size(), light.shadow_row + 1));
-        casting[light.shadow_row] = makeCastingLight(light, i, scene, spot_near);
+        casting[light.shadow_row] = makeShadowCaster(light, i, scene, spot_near);
     }
     return casting;
 }
 
-ShadowPlan planShadows(std::span<const CastingLight> lights, const ShadowOptions& options,
+ShadowPlan planShadows(std::span<const ShadowCaster> lights, const ShadowOptions& options,
                        const shared::FrameView& view, std::span<const ShadowSphere> spheres)
 {
     ShadowPlan plan;
     plan.block.error_bias = options.error_bias;
     plan.block.layer_size = static_cast<float>(options.texels);
-    Planner planner(options, plan);
+    ShadowPlanner planner(options, plan);
     for (uint32_t row = 0; row < lights.size(); ++row)
     {
-        const CastingLight& light = lights[row];
+        const ShadowCaster& light = lights[row];
         planner.begin(row, light);
         if (light.cone_tangent == 0)
             planSun(light, options, view, spheres, planner);
@@ -179,7 +179,7 @@ ShadowPlan planShadows(std::span<const CastingLight> lights, const ShadowOptions
         planner.end();
         shared::ShadowLight& projection = plan.block.lights[row];
         if (projection.map_count > 0)
-            projection.eye_shift = shared::eyeCell(view, plan.finest_m[row], options.error_bias).shift;
+            projection.eye_shift = shared::findEyeCell(view, plan.finest_m[row], options.error_bias).shift;
     }
     return plan;
 }

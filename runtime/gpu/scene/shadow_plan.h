@@ -51,7 +51,7 @@ struct ShadowSphere
 };
 
 /// Light that casts shadows; its index in a list of them is its row of the ShadowBlock.
-struct CastingLight
+struct ShadowCaster
 {
     uint32_t light = 0; ///< index in the pack
     shared::ShadowLight projection{};
@@ -59,7 +59,7 @@ struct CastingLight
 };
 
 /// Return the spheres that artists placed in the scene.
-std::vector<ShadowSphere> shadowSpheresOf(const formats::PackView& pack);
+std::vector<ShadowSphere> readShadowSpheres(const formats::PackView& pack);
 
 /// Assign shadow rows to the lights that cast shadows: the suns, then the spots, as many as fit.
 void assignShadowRows(shared::Lighting& lighting);
@@ -67,13 +67,13 @@ void assignShadowRows(shared::Lighting& lighting);
 /// Return the caster record of a light.
 ///
 /// number  index of the light
-CastingLight makeCastingLight(const shared::Light& light, uint32_t number, const Box3& scene,
+ShadowCaster makeShadowCaster(const shared::Light& light, uint32_t number, const Box3& scene,
                               float spot_near);
 
 /// Return the lights that have rows, in the order of the rows.
 ///
 /// scene      world bounds of all casters and receivers; if empty nothing casts
-std::vector<CastingLight> makeCastingLights(const shared::Lighting& lighting, const Box3& scene,
+std::vector<ShadowCaster> makeShadowCasters(const shared::Lighting& lighting, const Box3& scene,
                                             float spot_near);
 
 /// Shadow maps of a frame. Layers are assigned in the order light, sphere, so unchanged maps keep their
@@ -93,7 +93,7 @@ struct ShadowPlan
 ///
 /// view       of the frame
 /// spheres    spheres of lights that cast no shadow are ignored
-ShadowPlan planShadows(std::span<const CastingLight> lights, const ShadowOptions& options,
+ShadowPlan planShadows(std::span<const ShadowCaster> lights, const ShadowOptions& options,
                        const shared::FrameView& view, std::span<const ShadowSphere> spheres);
 
 } // namespace hearth::gpu

@@ -60,10 +60,10 @@ Result<Device> makeDevice(const DeviceDescription& description)
     return device;
 }
 
-void tell(const Device& device, const std::string& name, const std::string& where, const std::string& what)
+void warn(const Device& device, const std::string& name, const std::string& where, const std::string& what)
 {
-    if (device.message_hook.tell != nullptr)
-        device.message_hook.tell(device.message_hook.user,
+    if (device.message_hook.warn != nullptr)
+        device.message_hook.warn(device.message_hook.user,
                                  formatMessage({Issue::degraded, name, where, what}).c_str());
 }
 

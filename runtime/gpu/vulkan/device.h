@@ -17,7 +17,7 @@ struct MessageHook
     void* user = nullptr;
     /// Gets one line, formatted like an error, on the thread of the call that finds it; must not call the
     /// library.
-    void (*tell)(void* user, const char* message) = nullptr;
+    void (*warn)(void* user, const char* message) = nullptr;
 };
 
 /// Objects that the caller created and keeps alive longer than everything created from them. Vulkan 1.1; no
@@ -55,7 +55,7 @@ struct Device
 Result<Device> makeDevice(const DeviceDescription& description);
 
 /// Warn the caller that something is degraded. Allocates only if the caller has set a hook.
-void tell(const Device& device, const std::string& name, const std::string& where, const std::string& what);
+void warn(const Device& device, const std::string& name, const std::string& where, const std::string& what);
 
 /// Make the Error of a Vulkan call that failed; `what` names the operation.
 Error vulkanError(VkResult result, const char* what);

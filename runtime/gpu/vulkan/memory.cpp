@@ -46,10 +46,10 @@ VkDeviceSize alignUp(VkDeviceSize value, VkDeviceSize alignment)
 
 } // namespace
 
-Result<MemoryPiece> MemoryArena::allocateHooked(const MemoryRequest& request)
+Result<MemoryAllocation> MemoryArena::allocateHooked(const MemoryRequest& request)
 {
     const MemoryHooks& hooks = device_->memory_hooks;
-    MemoryPiece piece;
+    MemoryAllocation piece;
     HEARTH_TRY_VK(hooks.allocate(hooks.user, request, piece), "allocate device memory");
     hooked_.emplace_back(hooks, piece, request.needs.size);
     if (request.kind != MemoryKind::device && piece.mapped == nullptr)
@@ -78,7 +78,7 @@ Result<MemoryArena::Block> MemoryArena::allocateBlock(const MemoryRequest& reque
     return block;
 }
 
-Result<MemoryPiece> MemoryArena::allocate(const MemoryRequest& request)
+Result<MemoryAllocation> MemoryArena::allocate(const MemoryRequest& request)
 {
     if (device_->memory_hooks.allocate != nullptr)
         return allocateHooked(request);
@@ -101,9 +101,9 @@ Result<MemoryPiece> MemoryArena::allocate(const MemoryRequest& request)
     }
     const VkDeviceSize offset = alignUp(block->used, needs.alignment);
     block->used = offset + needs.size;
-    return MemoryPiece{.memory = block->memory.get(),
-                       .offset = offset,
-                       .mapped = block->mapped == nullptr ? nullptr : block->mapped + offset};
+    return MemoryAllocation{.memory = block->memory.get(),
+                            .offset = offset,
+                            .mapped = block->mapped == nullptr ? nullptr : block->mapped + offset};
 }
 
 Result<Buffer> MemoryArena::createBuffer(VkDeviceSize size, VkBufferUsageFlags usage, MemoryKind kind)
@@ -122,7 +122,7 @@ Result<Buffer> MemoryArena::createBuffer(VkDeviceSize size, VkBufferUsageFlags u
 
     VkMemoryRequirements needs;
     device_->vk.vkGetBufferMemoryRequirements(device_->handle, handle, &needs);
-    HEARTH_ASSIGN_OR_RETURN(const MemoryPiece piece, allocate({needs, kind, false}));
+    HEARTH_ASSIGN_OR_RETURN(const MemoryAllocation piece, allocate({needs, kind, false}));
     HEARTH_TRY_VK(device_->vk.vkBindBufferMemory(device_->handle, handle, piece.memory, piece.offset),
                   "bind a buffer's memory");
     buffer.mapped = piece.mapped;
@@ -154,7 +154,7 @@ Result<Image> MemoryArena::createImage(const ImageDescription& description)
 
     VkMemoryRequirements needs;
     device_->vk.vkGetImageMemoryRequirements(device_->handle, handle, &needs);
-    HEARTH_ASSIGN_OR_RETURN(const MemoryPiece piece, allocate({needs, MemoryKind::device, true}));
+    HEARTH_ASSIGN_OR_RETURN(const MemoryAllocation piece, allocate({needs, MemoryKind::device, true}));
     HEARTH_TRY_VK(device_->vk.vkBindImageMemory(device_->handle, handle, piece.memory, piece.offset),
                   "bind an image's memory");
 
@@ -176,7 +176,7 @@ VkDeviceSize MemoryArena::allocatedBytes() const
     VkDeviceSize bytes = 0;
     for (const Block& block : blocks_)
         bytes += block.size;
-    for (const HookedMemory& memory : hooked_)
+    for (const HookAllocation& memory : hooked_)
         bytes += memory.size();
     return bytes;
 }

@@ -38,25 +38,25 @@ struct ImageDescription
 };
 
 /// Allocation from MemoryHooks, freed on destruction.
-class HookedMemory
+class HookAllocation
 {
 public:
-    HookedMemory(const MemoryHooks& hooks, const MemoryPiece& piece, VkDeviceSize size)
+    HookAllocation(const MemoryHooks& hooks, const MemoryAllocation& piece, VkDeviceSize size)
         : hooks_(&hooks), piece_(piece), size_(size)
     {
     }
-    HookedMemory(HookedMemory&& other) noexcept
+    HookAllocation(HookAllocation&& other) noexcept
         : hooks_(std::exchange(other.hooks_, nullptr)), piece_(other.piece_), size_(other.size_)
     {
     }
-    HookedMemory& operator=(HookedMemory&& other) noexcept
+    HookAllocation& operator=(HookAllocation&& other) noexcept
     {
         std::swap(hooks_, other.hooks_);
         std::swap(piece_, other.piece_);
         std::swap(size_, other.size_);
         return *this;
     }
-    ~HookedMemory()
+    ~HookAllocation()
     {
         if (hooks_ != nullptr)
             hooks_->free(hooks_->user, piece_);
@@ -66,7 +66,7 @@ public:
 
 private:
     const MemoryHooks* hooks_;
-    MemoryPiece piece_;
+    MemoryAllocation piece_;
     VkDeviceSize size_;
 };
 
@@ -100,14 +100,14 @@ private:
         VkDeviceSize used = 0;
         std::byte* mapped = nullptr;
     };
-    Result<MemoryPiece> allocate(const MemoryRequest& request);
-    Result<MemoryPiece> allocateHooked(const MemoryRequest& request);
+    Result<MemoryAllocation> allocate(const MemoryRequest& request);
+    Result<MemoryAllocation> allocateHooked(const MemoryRequest& request);
     Result<Block> allocateBlock(const MemoryRequest& request, uint32_t type) const;
 
     const Device* device_;
     VkDeviceSize block_bytes_;
     std::vector<Block> blocks_;
-    std::vector<HookedMemory> hooked_;
+    std::vector<HookAllocation> hooked_;
 };
 
 } // namespace hearth::gpu

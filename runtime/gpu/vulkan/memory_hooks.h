@@ -24,7 +24,7 @@ struct MemoryRequest
     bool image; ///< optimally tiled: the allocator must respect bufferImageGranularity
 };
 
-struct MemoryPiece
+struct MemoryAllocation
 {
     VkDeviceMemory memory = VK_NULL_HANDLE;
     VkDeviceSize offset = 0;
@@ -39,9 +39,9 @@ struct MemoryHooks
     void* user = nullptr;
     /// Allocate from a type that `needs` allows and that has the properties of the kind. Mapped kinds stay
     /// mapped until they are freed.
-    VkResult (*allocate)(void* user, const MemoryRequest& request, MemoryPiece& piece) = nullptr;
+    VkResult (*allocate)(void* user, const MemoryRequest& request, MemoryAllocation& piece) = nullptr;
     /// Free an allocation. Nothing bound to it is in use any more.
-    void (*free)(void* user, const MemoryPiece& piece) = nullptr;
+    void (*free)(void* user, const MemoryAllocation& piece) = nullptr;
 };
 
 } // namespace hearth::gpu

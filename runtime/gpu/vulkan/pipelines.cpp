@@ -248,7 +248,7 @@ DescriptorWriter& DescriptorWriter::image(uint32_t binding, VkImageView view)
 void DescriptorWriter::write(const Device& device)
 {
     std::vector<VkWriteDescriptorSet> writes;
-    for (const Entry& entry : entries_)
+    for (const PendingWrite& entry : entries_)
     {
         VkWriteDescriptorSet write{};
         write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;

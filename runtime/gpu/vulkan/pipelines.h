@@ -83,7 +83,7 @@ private:
     void add(uint32_t binding, VkDescriptorType type, VkDescriptorBufferInfo buffer,
              VkDescriptorImageInfo image);
 
-    struct Entry
+    struct PendingWrite
     {
         uint32_t binding;
         VkDescriptorType type;
@@ -91,7 +91,7 @@ private:
         VkDescriptorImageInfo image;
     };
     VkDescriptorSet set_;
-    std::vector<Entry> entries_;
+    std::vector<PendingWrite> entries_;
 };
 
 struct DescriptorPoolSizes

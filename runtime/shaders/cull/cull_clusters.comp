@@ -7,7 +7,7 @@
 
 layout(set = 0, binding = 5, std430) readonly buffer Clusters { Cluster clusters[]; };
 
-bool inFrame(WorkItem item, uint number)
+bool passesTests(WorkItem item, uint number)
 {
     Cluster cluster = clusters[number];
     uint refined = cluster.refined_group == kNoGroup ? cluster.group : cluster.refined_group;
@@ -15,7 +15,7 @@ bool inFrame(WorkItem item, uint number)
                          groups[refined], (item.flags & kItemDoubleSided) != 0u);
 }
 
-bool isBehind(OcclusionView seen_from, WorkItem item, uint number)
+bool isOccluded(OcclusionView seen_from, WorkItem item, uint number)
 {
     Cluster cluster = clusters[number];
     float grid_step = states[item.instance].grid_step;

@@ -23,16 +23,16 @@ layout(push_constant) uniform Push
 
 // subgroups are not required of the device, so shared memory gathers the masks
 shared uint drawn[2];
-shared uint later[2];
+shared uint retest[2];
 
-// inFrame: true if the cluster is drawn unless it is occluded. isBehind: true if the depth seen from that
+// passesTests: true if the cluster is drawn unless it is occluded. isOccluded: true if the depth seen from that
 // view occludes it.
-bool inFrame(WorkItem item, uint cluster);
-bool isBehind(OcclusionView seen_from, WorkItem item, uint cluster);
+bool passesTests(WorkItem item, uint cluster);
+bool isOccluded(OcclusionView seen_from, WorkItem item, uint cluster);
 
 void main()
 {
-    uint group = gl_WorkGroupID.y * kDispatchRow + gl_WorkGroupID.x;
+    uint group = gl_WorkGroupID.y * kMaxDispatchX + gl_WorkGroupID.x;
     if (group >= item_count)
         return;
     uint item_index = first_item + group;
@@ -40,7 +40,7 @@ void main()
     if (lane < 2u)
     {
         drawn[lane] = 0u;
-        later[lane] = 0u;
+        retest[lane] = 0u;
     }
     barrier();
 
@@ -55,19 +55,19 @@ void main()
         if (phase == kPhaseLate && seen == kInstanceVisible)
             candidate = ((word == 0u ? results[item_index].later_low : results[item_index].later_high) & bit) != 0u;
         else
-            candidate = inFrame(item, cluster);
+            candidate = passesTests(item, cluster);
         bool hidden = false;
         if (candidate && phase == kPhaseLate)
-            hidden = isBehind(current_view, item, cluster);
+            hidden = isOccluded(current_view, item, cluster);
         else if (candidate && phase == kPhaseEarly)
-            hidden = isBehind(last_view, item, cluster);
+            hidden = isOccluded(last_view, item, cluster);
         if (candidate && !hidden)
             atomicOr(drawn[word], bit);
         if (hidden && phase == kPhaseEarly)
-            atomicOr(later[word], bit);
+            atomicOr(retest[word], bit);
     }
     barrier();
 
     if (lane == 0u)
-        results[item_index] = WorkResult(drawn[0], drawn[1], 0u, later[0], later[1]);
+        results[item_index] = WorkResult(drawn[0], drawn[1], 0u, retest[0], retest[1]);
 }

@@ -8,10 +8,10 @@
 #define DEFORMATION_BINDING 5
 #include "runtime/shaders/scene/deformation.glsl"
 
-bool inFrame(WorkItem item, uint number)
+bool passesTests(WorkItem item, uint number)
 {
     Instance instance = instances[item.instance];
-    Pose pose = loadPose(poseRowOf(item.instance));
+    Pose pose = loadPose(readPoseRow(item.instance));
     DeformedCluster cluster = loadDeformedCluster(pose, number);
     uint refined = cluster.refined_group == kNoGroup ? cluster.group : cluster.refined_group;
     if (!deformedInCut(view, instance, pose, cluster, groups[cluster.group], groups[refined]))
@@ -22,10 +22,10 @@ bool inFrame(WorkItem item, uint number)
            !deformedFacesAway(view, instance, pose, loadJoint(pose, cluster.joint), cluster);
 }
 
-bool isBehind(OcclusionView seen_from, WorkItem item, uint number)
+bool isOccluded(OcclusionView seen_from, WorkItem item, uint number)
 {
     Instance instance = instances[item.instance];
-    Pose pose = loadPose(poseRowOf(item.instance));
-    CarriedBox box = boxInPose(instance, pose, loadDeformedCluster(pose, number));
-    return isHidden(occlusionFromOrigin(seen_from, instance), box.carrier, box.box_min, box.box_max);
+    Pose pose = loadPose(readPoseRow(item.instance));
+    TransformedBox box = boxInPose(instance, pose, loadDeformedCluster(pose, number));
+    return isHidden(occlusionFromOrigin(seen_from, instance), box.joint_instance, box.box_min, box.box_max);
 }

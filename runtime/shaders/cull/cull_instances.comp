@@ -17,7 +17,7 @@ layout(push_constant) uniform Push { uint phase; };
 
 void main()
 {
-    uint i = gl_GlobalInvocationID.y * (kDispatchRow * 64u) + gl_GlobalInvocationID.x;
+    uint i = gl_GlobalInvocationID.y * (kMaxDispatchX * 64u) + gl_GlobalInvocationID.x;
     if (i >= view.instance_count)
         return;
     Instance instance = instances[i];

@@ -7,7 +7,7 @@
 
 layout(set = 0, binding = 6, std430) readonly buffer Clusters { Cluster clusters[]; };
 
-uint outcomeOfTests(WorkItem item, uint number)
+uint clusterOutcome(WorkItem item, uint number)
 {
     Cluster cluster = clusters[number];
     Instance instance = instances[item.instance];
@@ -22,4 +22,4 @@ uint outcomeOfTests(WorkItem item, uint number)
     return clusterInFrustum(view, instance, state, cluster) ? kOutcomeCone : kOutcomeFrustum;
 }
 
-uint trianglesOf(WorkItem item, uint number) { return clusters[number].counts & 0xFFFFu; }
+uint clusterTriangles(WorkItem item, uint number) { return clusters[number].counts & 0xFFFFu; }

@@ -43,22 +43,22 @@ void countInstance(uint i)
 
 // Return kOutcomeCandidate, or the test that culled a cluster. The instance of the cluster has passed
 // instance culling.
-uint outcomeOfTests(WorkItem item, uint cluster);
-uint trianglesOf(WorkItem item, uint cluster);
+uint clusterOutcome(WorkItem item, uint cluster);
+uint clusterTriangles(WorkItem item, uint cluster);
 
-uint outcomeOf(WorkItem item, uint cluster)
+uint instanceOutcome(WorkItem item, uint cluster)
 {
     uint seen = states[item.instance].visible;
     if (seen == kInstanceHidden)
         return kOutcomeInstance;
-    uint outcome = outcomeOfTests(item, cluster);
+    uint outcome = clusterOutcome(item, cluster);
     return outcome == kOutcomeCandidate && seen == kInstanceLate ? kOutcomeLateCandidate : outcome;
 }
 
 void main()
 {
     uint lane = gl_LocalInvocationIndex;
-    uint group = gl_WorkGroupID.y * kDispatchRow + gl_WorkGroupID.x;
+    uint group = gl_WorkGroupID.y * kMaxDispatchX + gl_WorkGroupID.x;
     if (lane < kOutcomeCount)
         cluster_counts[lane] = triangle_counts[lane] = 0u;
     barrier();
@@ -68,9 +68,9 @@ void main()
     {
         WorkItem item = items[first_item + group];
         uint cluster = order[item.first + lane];
-        uint outcome = outcomeOf(item, cluster);
+        uint outcome = instanceOutcome(item, cluster);
         atomicAdd(cluster_counts[outcome], 1u);
-        atomicAdd(triangle_counts[outcome], trianglesOf(item, cluster));
+        atomicAdd(triangle_counts[outcome], clusterTriangles(item, cluster));
     }
     barrier();
     if (lane < kOutcomeCount)

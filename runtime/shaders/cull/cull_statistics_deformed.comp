@@ -8,10 +8,10 @@
 #define DEFORMATION_BINDING 6
 #include "runtime/shaders/scene/deformation.glsl"
 
-uint outcomeOfTests(WorkItem item, uint number)
+uint clusterOutcome(WorkItem item, uint number)
 {
     Instance instance = instances[item.instance];
-    Pose pose = loadPose(poseRowOf(item.instance));
+    Pose pose = loadPose(readPoseRow(item.instance));
     DeformedCluster cluster = loadDeformedCluster(pose, number);
     uint refined = cluster.refined_group == kNoGroup ? cluster.group : cluster.refined_group;
     if (!deformedInCut(view, instance, pose, cluster, groups[cluster.group], groups[refined]))
@@ -24,7 +24,7 @@ uint outcomeOfTests(WorkItem item, uint number)
     return kOutcomeCandidate;
 }
 
-uint trianglesOf(WorkItem item, uint number)
+uint clusterTriangles(WorkItem item, uint number)
 {
-    return loadDeformedCluster(loadPose(poseRowOf(item.instance)), number).triangle_count;
+    return loadDeformedCluster(loadPose(readPoseRow(item.instance)), number).triangle_count;
 }

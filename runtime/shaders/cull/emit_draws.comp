@@ -20,7 +20,7 @@ layout(push_constant) uniform Push
     uint phase;
 };
 
-uint slotOfItem(uint item)
+uint slotBeforeItem(uint item)
 {
     uint slot = item < item_count ? totals[item / kScanBlockItems] + results[item].offset : totals[block_count];
     return min(slot, slot_capacity);
@@ -31,8 +31,8 @@ void main()
     uint i = gl_GlobalInvocationID.x;
     if (i >= bin_count)
         return;
-    uint first = slotOfItem(bins[i].first_item);
-    uint end = slotOfItem(bins[i].first_item + bins[i].item_count);
+    uint first = slotBeforeItem(bins[i].first_item);
+    uint end = slotBeforeItem(bins[i].first_item + bins[i].item_count);
     BinDraw draw = BinDraw(kClusterVertices, end - first, 0u, 0u, first, 0u, 0u, 0u);
     // the draws of the late phase follow the early draws of all bins
     if (phase == kPhaseLate)

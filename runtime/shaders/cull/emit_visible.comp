@@ -24,7 +24,7 @@ layout(push_constant) uniform Push
 
 void main()
 {
-    uint item_index = gl_WorkGroupID.y * kDispatchRow + gl_WorkGroupID.x;
+    uint item_index = gl_WorkGroupID.y * kMaxDispatchX + gl_WorkGroupID.x;
     if (item_index >= item_count)
         return;
     uint lane = gl_LocalInvocationIndex;

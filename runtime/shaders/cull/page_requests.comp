@@ -5,7 +5,7 @@
 #include "formats/gpu_shared/decisions.h"
 #include "runtime/shaders/cull/page_requests.glsl"
 
-Group placedGroup(uint instance, uint group) { return groups[group]; }
+Group transformedGroup(uint instance, uint group) { return groups[group]; }
 
 bool inFrustum(uint instance, uint cluster)
 {

@@ -18,13 +18,13 @@ layout(push_constant) uniform Push
     uint item_count;
 };
 
-// placedGroup: the group with the bounds that the cut test uses. inFrustum: true if the cluster passes the
+// transformedGroup: the group with the bounds that the cut test uses. inFrustum: true if the cluster passes the
 // frustum test.
-Group placedGroup(uint instance, uint group);
+Group transformedGroup(uint instance, uint group);
 bool inFrustum(uint instance, uint cluster);
 
 // Request the set of pages of a group. The first page of a set represents the whole set.
-void ask(uint group, uint request)
+void requestPage(uint group, uint request)
 {
     if (request != 0u)
         atomicMax(requests[groups[group - groups[group].set_offset].page], request);
@@ -32,7 +32,7 @@ void ask(uint group, uint request)
 
 void main()
 {
-    uint item_index = gl_WorkGroupID.y * kDispatchRow + gl_WorkGroupID.x;
+    uint item_index = gl_WorkGroupID.y * kMaxDispatchX + gl_WorkGroupID.x;
     if (item_index >= item_count)
         return;
     GroupItem item = items[first_item + item_index];
@@ -40,10 +40,10 @@ void main()
     if (gl_LocalInvocationIndex >= item.count || states[item.instance].visible == kInstanceHidden)
         return;
     uint own = item.first + gl_LocalInvocationIndex;
-    Group group = placedGroup(item.instance, own);
-    uint request = groupRequest(view, instances[item.instance], group);
+    Group group = transformedGroup(item.instance, own);
+    uint request = groupPriority(view, instances[item.instance], group);
     // errors do not grow towards the source, so nothing finer is needed either
-    if (request == 0u && group.error <= kLargestError)
+    if (request == 0u && group.error <= kMaxFiniteError)
         return;
     bool seen = false;
     for (uint c = group.first_cluster; c < group.first_cluster + group.cluster_count; ++c)
@@ -54,8 +54,8 @@ void main()
         // the finer group is requested even outside of the frustum, or else the coarser cluster would stay
         uint refined = clusters[c].refined_group;
         if (refined != kNoGroup)
-            ask(refined, groupRequest(view, instances[item.instance], placedGroup(item.instance, refined)));
+            requestPage(refined, groupPriority(view, instances[item.instance], transformedGroup(item.instance, refined)));
     }
     if (seen)
-        ask(own, request);
+        requestPage(own, request);
 }

@@ -8,11 +8,11 @@
 #define DEFORMATION_BINDING 7
 #include "runtime/shaders/scene/deformation.glsl"
 
-Group placedGroup(uint instance, uint group) { return groupInPose(groups[group], loadPose(poseRowOf(instance))); }
+Group transformedGroup(uint instance, uint group) { return groupInPose(groups[group], loadPose(readPoseRow(instance))); }
 
 bool inFrustum(uint instance, uint cluster)
 {
-    Pose pose = loadPose(poseRowOf(instance));
+    Pose pose = loadPose(readPoseRow(instance));
     return deformedInFrustum(view, instances[instance],
                              boxInPose(instances[instance], pose, loadDeformedCluster(pose, cluster)));
 }

@@ -29,5 +29,5 @@ void main()
     uint before = phase == kPhaseLate ? min(slots.y - slots.x, deformation[0].w) : 0u;
     uint count = min(end - first, deformation[0].w - before);
     deformation[1] = slots;
-    deformation[2] = uvec4(min(count, kDispatchRow), (count + kDispatchRow - 1u) / kDispatchRow, 1u, count);
+    deformation[2] = uvec4(min(count, kMaxDispatchX), (count + kMaxDispatchX - 1u) / kMaxDispatchX, 1u, count);
 }

@@ -24,14 +24,14 @@ void writeVector(uint word, vec3 v)
 
 void main()
 {
-    uint at = gl_WorkGroupID.y * kDispatchRow + gl_WorkGroupID.x;
+    uint at = gl_WorkGroupID.y * kMaxDispatchX + gl_WorkGroupID.x;
     if (at >= deformation[2].w)
         return;
     uint slot = (phase == kPhaseLate ? deformation[1].z : deformation[1].x) + at;
     VisibleCluster shown = visible[slot];
     ClusterDraw draw = cluster_draws[shown.cluster];
-    Pose pose = loadPose(poseRowOf(shown.instance));
-    uint scratch = scratchOf(slot);
+    Pose pose = loadPose(readPoseRow(shown.instance));
+    uint scratch = readScratchBlock(slot);
     uint count = vertexCount(draw);
     for (uint i = gl_LocalInvocationIndex; i < count; i += 64u)
     {

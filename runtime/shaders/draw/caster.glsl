@@ -7,7 +7,7 @@ layout(set = 2, binding = 0, std430) readonly buffer BinDraws { BinDraw bin_draw
 layout(push_constant) uniform Push
 {
     uint bin_index;
-    uint shown_view;
+    uint debug_view;
     float depth_scale;
     uint light_row;
     uint map_index;
@@ -16,7 +16,7 @@ layout(push_constant) uniform Push
 struct CasterCorner
 {
     ClusterDraw draw;
-    uint vertex; // address, or kNothingVisible for the unused rest of the 128 triangles
+    uint vertex; // address, or kVisibilitySky for the unused rest of the 128 triangles
     vec4 position;
 };
 
@@ -28,7 +28,7 @@ CasterCorner casterCorner()
     uint triangle = gl_VertexIndex / 3u;
     CasterCorner corner;
     corner.draw = cluster_draws[visible[slot].cluster];
-    corner.vertex = kNothingVisible;
+    corner.vertex = kVisibilitySky;
     corner.position = vec4(0.0, 0.0, 0.0, 1.0); // three of these form a triangle without area
     if (triangle >= triangleCount(corner.draw))
         return corner;

@@ -11,6 +11,6 @@ layout(input_attachment_index = 0, set = 2, binding = 0) uniform usubpassInput v
 void main()
 {
     uint id = subpassLoad(visibility).x;
-    uint material = id == kNothingVisible ? 0u : cluster_draws[visible[id >> kTriangleBits].cluster].material;
+    uint material = id == kVisibilitySky ? 0u : cluster_draws[visible[id >> kTriangleBits].cluster].material;
     gl_FragDepth = float(material) / 65535.0; // exact in D16
 }

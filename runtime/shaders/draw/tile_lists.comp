@@ -24,7 +24,7 @@ bool tileHas(uint tile, uint material)
 
 void main()
 {
-    uint material = gl_WorkGroupID.y * kDispatchRow + gl_WorkGroupID.x;
+    uint material = gl_WorkGroupID.y * kMaxDispatchX + gl_WorkGroupID.x;
     if (material >= draw_count)
         return;
     TileDraw draw = tile_draws[material];

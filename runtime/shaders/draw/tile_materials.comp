@@ -17,7 +17,7 @@ layout(set = 1, binding = 1, std430) writeonly buffer TileMaterials { uint tile_
 
 const uint kPixelsPerThread = kMaterialTilePixels * kMaterialTilePixels / 256u;
 
-shared uint seen[kTileRoundMaterials / 32u]; // bit m: material first_material + m is visible
+shared uint visible_bits[kTileRoundMaterials / 32u]; // bit m: material first_material + m is visible
 
 // Material id of a pixel. 0 is the sky.
 uint materialAt(uvec2 pixel)
@@ -25,7 +25,7 @@ uint materialAt(uvec2 pixel)
     if (pixel.x >= width || pixel.y >= height)
         return kNoTileMaterial;
     uint id = texelFetch(visibility, ivec2(pixel), 0).x;
-    return id == kNothingVisible ? 0u : cluster_draws[visible[id >> kTriangleBits].cluster].material;
+    return id == kVisibilitySky ? 0u : cluster_draws[visible[id >> kTriangleBits].cluster].material;
 }
 
 // Append the materials of this thread's word after the `rank` materials of the words before.
@@ -40,7 +40,7 @@ void appendMaterials(uint word, uint first_material, uint tile, uint rank)
             atomicAdd(tile_draws[material].instance_count, 1u);
         }
         else
-            atomicOr(tile_draws[material].instance_count, kCountedWhole);
+            atomicOr(tile_draws[material].instance_count, kFullScreenBit);
     }
 }
 
@@ -59,17 +59,17 @@ void main()
     uint found = 0u;
     for (uint first = 0u; first < draw_count; first += kTileRoundMaterials)
     {
-        seen[lane] = 0u;
+        visible_bits[lane] = 0u;
         barrier();
         for (uint i = 0u; i < kPixelsPerThread; ++i)
         {
             // neighbours mostly have the same material: one atomic for all of them
             uint bit = materials[i] - first;
             if (bit < kTileRoundMaterials && (i == 0u || materials[i] != materials[i - 1u]))
-                atomicOr(seen[bit >> 5], 1u << (bit & 31u));
+                atomicOr(visible_bits[bit >> 5], 1u << (bit & 31u));
         }
         barrier();
-        uint word = seen[lane];
+        uint word = visible_bits[lane];
         uint total;
         uint rank = exclusiveScan256(uint(bitCount(word)), total);
         appendMaterials(word, first + lane * 32u, tile, found + rank);

@@ -17,7 +17,7 @@ void main()
     {
         uint i = first + gl_LocalInvocationIndex;
         uint count = i < draw_count ? tile_draws[i].instance_count : 0u;
-        bool whole = (count & kCountedWhole) != 0u;
+        bool whole = (count & kFullScreenBit) != 0u;
         uint total;
         uint entry = end + exclusiveScan256(whole ? 0u : count, total);
         if (i < draw_count)

@@ -5,22 +5,22 @@
 layout(set = 2, binding = 0, std430) readonly buffer BinDraws { BinDraw bin_draws[]; };
 layout(push_constant) uniform Push { uint bin_index; };
 
-struct CornerOfSlot
+struct VisibleCorner
 {
     ClusterDraw draw;
-    uint vertex; // address, or kNothingVisible for the unused rest of the 128 triangles
+    uint vertex; // address, or kVisibilitySky for the unused rest of the 128 triangles
     uint id;
     vec4 position;
 };
 
-CornerOfSlot cornerOfSlot()
+VisibleCorner visibleCorner()
 {
     uint slot = bin_draws[bin_index].first_slot + gl_InstanceIndex;
     uint triangle = gl_VertexIndex / 3u;
-    CornerOfSlot corner;
+    VisibleCorner corner;
     corner.draw = cluster_draws[visible[slot].cluster];
     corner.id = slot << kTriangleBits | triangle;
-    corner.vertex = kNothingVisible;
+    corner.vertex = kVisibilitySky;
     corner.position = vec4(0.0, 0.0, 0.0, 1.0); // three of these form a triangle without area
     if (triangle < triangleCount(corner.draw))
     {

@@ -11,7 +11,7 @@ layout(location = 0) flat out uint out_id;
 
 void main()
 {
-    CornerOfSlot corner = cornerOfSlot();
+    VisibleCorner corner = visibleCorner();
     gl_Position = corner.position;
     out_id = corner.id;
 }

@@ -14,12 +14,12 @@ layout(location = 2) out float out_alpha;
 
 void main()
 {
-    CornerOfSlot corner = cornerOfSlot();
+    VisibleCorner corner = visibleCorner();
     gl_Position = corner.position;
     out_id = corner.id;
     out_uv = vec2(0.0);
     out_alpha = 1.0;
-    if (corner.vertex == kNothingVisible)
+    if (corner.vertex == kVisibilitySky)
         return;
     out_uv = transformUv(kTextureBaseColor, vertexUv(corner.draw, corner.vertex, material.uv_sets & 15u));
     out_alpha = material.base_color.a * vertexColor(corner.draw, corner.vertex).a;

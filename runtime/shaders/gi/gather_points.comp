@@ -26,11 +26,11 @@ void main()
     uvec2 tiles = uvec2(gatherTiles(size.x), gatherTiles(size.y));
     if (any(greaterThanEqual(tile, tiles)))
         return;
-    uint id = kNothingVisible;
+    uint id = kVisibilitySky;
     uvec2 pixel = uvec2(0u);
-    for (uint i = 0u; i < kCandidates && id == kNothingVisible; ++i)
+    for (uint i = 0u; i < kCandidates && id == kVisibilitySky; ++i)
     {
-        pixel = min(tile * kGatherPixels + kCandidatePixels[i], size - 1u);
+        pixel = min(tile * kGatherTilePixels + kCandidatePixels[i], size - 1u);
         id = texelFetch(visibility, ivec2(pixel), 0).x;
     }
     GatherPoint point;
@@ -39,11 +39,11 @@ void main()
     point.normal = vec3(0.0, 1.0, 0.0);
     point.sky = 0.0;
     point.mean = vec3(0.0);
-    point.seen = id != kNothingVisible ? 1.0 : 0.0;
+    point.has_surface = id != kVisibilitySky ? 1.0 : 0.0;
     point.red = point.green = point.blue = vec4(0.0);
     point.wide = vec3(0.0);
     point.reserved = 0.0;
-    if (id != kNothingVisible)
+    if (id != kVisibilitySky)
     {
         Surface s = resolveSurface(id, vec2(pixel) + 0.5);
         point.position = s.position;

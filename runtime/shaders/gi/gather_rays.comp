@@ -21,17 +21,17 @@ shared vec4 lobe_light[kGatherGroupPoints][2u * kGatherLobeRays];
 shared BrickStart starts[kGatherGroupPoints];
 
 // Trace ray `index` of the two lobes. Returns its weighted radiance.
-vec4 lobeLight(GatherPoint point, vec3 place, uint index, uint seed)
+vec4 traceLobeRay(GatherPoint point, vec3 position, uint index, uint seed)
 {
-    GatherLobeRay ray = gatherLobeRay(-normalize(point.position), point.normal, index < kGatherLobeRays ? kGatherSharp : kGatherWide,
+    GatherLobeRay ray = gatherLobeRay(-normalize(point.position), point.normal, index < kGatherLobeRays ? kGatherSharpRoughness : kGatherWideRoughness,
                                       index % kGatherLobeRays * kGatherFrames + gather.frame % kGatherFrames,
                                       kGatherLobeRays * kGatherFrames, seed);
     if (ray.weight == 0.0)
         return vec4(0.0);
-    return vec4(brickRayLight(brick_view.grid, brickSky(), place, ray.direction).radiance * ray.weight, ray.weight);
+    return vec4(brickRayLight(brick_view.grid, brickSky(), position, ray.direction).radiance * ray.weight, ray.weight);
 }
 
-vec3 lobeMean(uint row, uint first)
+vec3 averageLobe(uint row, uint first)
 {
     vec4 sum = vec4(0.0);
     for (uint i = 0u; i < kGatherLobeRays; ++i)
@@ -40,7 +40,7 @@ vec3 lobeMean(uint row, uint first)
 }
 
 // Average the rays of this frame.
-GatherPoint meanOf(GatherPoint point, uint row)
+GatherPoint averageRays(GatherPoint point, uint row)
 {
     for (uint i = 0u; i < kGatherRays; ++i)
     {
@@ -53,9 +53,9 @@ GatherPoint meanOf(GatherPoint point, uint row)
         point.blue.xyz += across * light.b;
     }
     float share = 1.0 / float(kGatherRays);
-    vec3 sharp = lobeMean(row, 0u);
+    vec3 sharp = averageLobe(row, 0u);
     point.mean *= share;
-    float close = brickCloseShare(starts[row], point.mean);
+    float close = brickCloseFraction(starts[row], point.mean);
     share *= 1.0 - close;
     point.mean = mix(point.mean, starts[row].close, close);
     point.sky *= share;
@@ -65,7 +65,7 @@ GatherPoint meanOf(GatherPoint point, uint row)
     point.red.w = sharp.r;
     point.green.w = sharp.g;
     point.blue.w = sharp.b;
-    point.wide = lobeMean(row, kGatherLobeRays);
+    point.wide = averageLobe(row, kGatherLobeRays);
     return point;
 }
 
@@ -82,7 +82,7 @@ void add(inout GatherPoint sum, GatherPoint p, float weight)
 
 // Return the weight that the result at `before` has for a point, both relative to the current eye. It is 1 if
 // `before` lies in the plane of the point, within a quarter of a tile, and has the same normal.
-float likeness(GatherPoint point, GatherPoint before, float reach)
+float historyWeight(GatherPoint point, GatherPoint before, float reach)
 {
     vec3 apart = before.position - gather.eye_step - point.position;
     float off_plane = abs(dot(point.normal, apart));
@@ -91,22 +91,22 @@ float likeness(GatherPoint point, GatherPoint before, float reach)
 }
 
 // Reproject the result of the last frame at the position of a point. count 0: no history.
-GatherPoint knownBefore(GatherPoint point)
+GatherPoint reprojectHistory(GatherPoint point)
 {
     GatherPoint known = point;
     known.count = known.sky = 0.0;
     known.mean = vec3(0.0);
     known.red = known.green = known.blue = vec4(0.0);
     known.wide = vec3(0.0);
-    if (gather.known == 0u)
+    if (gather.has_history == 0u)
         return known;
-    vec3 place = point.position + gather.eye_step;
-    float w = dot(gather.clip_w.xyz, place);
+    vec3 position = point.position + gather.eye_step;
+    float w = dot(gather.clip_w.xyz, position);
     if (w < view.z_near)
         return known;
-    vec2 ndc = vec2(dot(gather.clip_x.xyz, place), dot(gather.clip_y.xyz, place)) / w;
+    vec2 ndc = vec2(dot(gather.clip_x.xyz, position), dot(gather.clip_y.xyz, position)) / w;
     // in texels of tiles: a point represents the middle of its tile
-    vec2 at = (ndc * 0.5 + 0.5) * vec2(view.width, view.height) / float(kGatherPixels) - 0.5;
+    vec2 at = (ndc * 0.5 + 0.5) * vec2(view.width, view.height) / float(kGatherTilePixels) - 0.5;
     // exactly the tile itself where nothing moves
     at = mix(at, round(at), lessThan(abs(at - round(at)), vec2(0.35)));
     vec2 low = floor(at);
@@ -121,7 +121,7 @@ GatherPoint knownBefore(GatherPoint point)
         if (any(lessThan(texel, vec2(0.0))) || texel.x >= float(gather.tiles_x) || texel.y >= float(gather.tiles_y))
             continue;
         GatherPoint before = points_before[uint(texel.y) * gather.tiles_x + uint(texel.x)];
-        float weight = weights.x * weights.y * likeness(point, before, reach);
+        float weight = weights.x * weights.y * historyWeight(point, before, reach);
         if (weight > 0.0)
             add(known, before, weight);
         sum += weight;
@@ -143,11 +143,11 @@ GatherPoint knownBefore(GatherPoint point)
 }
 
 // Blend the rays of this frame into the history, as the next of its frames.
-GatherPoint goOn(GatherPoint fresh, GatherPoint known)
+GatherPoint accumulate(GatherPoint fresh, GatherPoint known)
 {
-    float count = min(known.count + 1.0, gather.memory);
+    float count = min(known.count + 1.0, gather.history_frames);
     float share = 1.0 / count;
-    float lobe_share = 1.0 / min(count, kGatherLobeMemory);
+    float lobe_share = 1.0 / min(count, kGatherLobeHistoryFrames);
     fresh.mean = mix(known.mean, fresh.mean, share);
     fresh.sky = mix(known.sky, fresh.sky, share);
     vec4 shares = vec4(vec3(share), lobe_share);
@@ -160,7 +160,7 @@ GatherPoint goOn(GatherPoint fresh, GatherPoint known)
 }
 
 // Index of a tile in its block, by the bits of a Bayer matrix, so that neighbours are far apart in the order.
-uint placeInBlock(uvec2 tile)
+uint orderInBlock(uvec2 tile)
 {
     uint x = tile.x & 3u;
     uint y = tile.y & 3u;
@@ -176,30 +176,30 @@ void main()
     bool inside = tile.x < gather.tiles_x;
     uint number = tile.y * gather.tiles_x + tile.x;
     GatherPoint point;
-    point.seen = 0.0;
+    point.has_surface = 0.0;
     if (inside)
         point = gather_points[number];
-    bool seen = point.seen > 0.0;
+    bool seen = point.has_surface > 0.0;
     if (seen && index == 0u)
-        starts[row] = brickSeenStart(brick_view.grid, (gather.eye + point.position) / brick_view.grid.voxel_size, point.normal,
+        starts[row] = brickVisibleStart(brick_view.grid, (gather.eye + point.position) / brick_view.grid.voxel_size, point.normal,
                                      -normalize(point.position));
     barrier();
-    bool open = seen && starts[row].buried == 0u;
+    bool open = seen && starts[row].is_interior == 0u;
     if (open)
     {
         BrickStart start = starts[row];
-        uint seed = placeInBlock(tile) << 28;
+        uint seed = orderInBlock(tile) << 28;
         // takes every kGatherFrames-th ray of a spiral, so that one frame covers the hemisphere evenly and a
         // cycle of frames more finely; the upper bits of the seed rotate the spirals, so the tiles of a block
         // interleave
         vec3 direction = brickRayDirection(start.normal, index * kGatherFrames + gather.frame % kGatherFrames,
                                            kGatherRays * kGatherFrames, seed);
         ray_direction[row][index] = direction;
-        BrickRayLight light = brickRayLight(brick_view.grid, brickSky(), start.place, direction);
+        BrickRayLight light = brickRayLight(brick_view.grid, brickSky(), start.position, direction);
         ray_light[row][index] = vec4(light.radiance, light.sky);
-        lobe_light[row][index] = lobeLight(point, start.place, index, seed);
+        lobe_light[row][index] = traceLobeRay(point, start.position, index, seed);
     }
     barrier();
     if (open && index == 0u)
-        gather_points[number] = goOn(meanOf(point, row), knownBefore(point));
+        gather_points[number] = accumulate(averageRays(point, row), reprojectHistory(point));
 }

@@ -5,7 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "formats/gpu_shared/brick_codes.h"
 #include "formats/gpu_shared/gather.h"
-#include "runtime/shaders/gi/gather_code.glsl"
+#include "runtime/shaders/gi/gather_encoding.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -15,7 +15,7 @@ layout(set = 0, binding = 3, rgba32ui) uniform writeonly uimage2D gather_texels;
 
 // Weight of a neighbour tile's point: high if both lie on the same surface. Never quite 0, so that enclosed
 // points borrow from their neighbours.
-float likeness(GatherPoint point, GatherPoint other)
+float surfaceSimilarity(GatherPoint point, GatherPoint other)
 {
     float tile = max(length(point.position), 1e-6) * gather.tile_angle;
     float off_plane = abs(dot(point.normal, other.position - point.position)) / tile;
@@ -38,8 +38,8 @@ void main()
     sum.wide = vec3(0.0);
     float weights = 0.0;
     ivec2 last = ivec2(gather.tiles_x, gather.tiles_y) - 1;
-    for (int y = -kGatherReach; y <= kGatherReach; ++y)
-        for (int x = -kGatherReach; x <= kGatherReach; ++x)
+    for (int y = -kGatherFilterRadius; y <= kGatherFilterRadius; ++y)
+        for (int x = -kGatherFilterRadius; x <= kGatherFilterRadius; ++x)
         {
             ivec2 at = ivec2(tile) + ivec2(x, y);
             if (any(notEqual(at, clamp(at, ivec2(0), last))))
@@ -47,9 +47,9 @@ void main()
             GatherPoint other = gather_points[uint(at.y) * gather.tiles_x + uint(at.x)];
             if (other.count == 0.0)
                 continue;
-            float reach = float(kGatherReach + 1);
+            float reach = float(kGatherFilterRadius + 1);
             float near = max(1.0 - float(x * x + y * y) / (reach * reach), 0.0);
-            float weight = near * near * likeness(point, other);
+            float weight = near * near * surfaceSimilarity(point, other);
             sum.mean += other.mean * weight;
             sum.sky += other.sky * weight;
             sum.red += other.red * weight;
@@ -58,8 +58,8 @@ void main()
             sum.wide += other.wide * weight;
             weights += weight;
         }
-    if (point.seen == 0.0 || weights == 0.0)
-        sum.seen = 0.0;
+    if (point.has_surface == 0.0 || weights == 0.0)
+        sum.has_surface = 0.0;
     else
     {
         float scale = 1.0 / weights;
@@ -70,7 +70,7 @@ void main()
         sum.blue *= scale;
         sum.wide *= scale;
     }
-    GatherTexels texels = encodeGathered(sum);
+    GatherTexels texels = encodeGatherTexels(sum);
     imageStore(gather_texels, ivec2(tile.x * 2u, tile.y), texels.mean);
     imageStore(gather_texels, ivec2(tile.x * 2u + 1u, tile.y), texels.lobes);
 }

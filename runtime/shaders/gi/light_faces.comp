@@ -9,13 +9,13 @@ layout(local_size_x = 64) in;
 
 // lights of the faces due in this frame, in order; copied to the buffer that is read when all are done
 layout(set = 1, binding = 0, std430) writeonly buffer FreshLights { BrickLight fresh_lights[]; };
-layout(set = 1, binding = 1, std430) readonly buffer BrickPlaces { BrickPlace brick_places[]; };
+layout(set = 1, binding = 1, std430) readonly buffer BrickPlaces { BrickLocation brick_places[]; };
 
 // Find the last due brick whose first face is not after this one. Bricks without faces come before it.
-uint brickOfFace(uint face)
+uint findBrickOfFace(uint face)
 {
     uint least = brick_view.first_brick;
-    uint most = least + brick_view.share_bricks - 1u;
+    uint most = least + brick_view.slice_bricks - 1u;
     while (least < most)
     {
         uint middle = (least + most + 1u) >> 1;
@@ -31,7 +31,7 @@ uint brickOfFace(uint face)
 uvec2 faceMask(uint brick, uint side) { return uvec2(bricks[brick].face_masks[2u * side], bricks[brick].face_masks[2u * side + 1u]); }
 
 // Find the set bit of a mask that has `rank` set bits below it.
-uint bitOfRank(uint low, uint high, uint rank)
+uint findNthBit(uint low, uint high, uint rank)
 {
     uint low_count = uint(bitCount(low));
     uint word = rank < low_count ? low : high;
@@ -46,7 +46,7 @@ float emissionFactor(vec3 middle)
     for (uint i = 0u; i < brick_view.emission_box_count; ++i)
     {
         EmissionBox box = brick_view.emission_boxes[i];
-        if (all(greaterThanEqual(middle, box.least)) && all(lessThanEqual(middle, box.most)))
+        if (all(greaterThanEqual(middle, box.box_min)) && all(lessThanEqual(middle, box.box_max)))
             factor = box.factor;
     }
     return factor;
@@ -54,11 +54,11 @@ float emissionFactor(vec3 middle)
 
 void main()
 {
-    uint in_share = (gl_WorkGroupID.x + gl_WorkGroupID.y * kDispatchRow) * 64u + gl_LocalInvocationID.x;
-    if (in_share >= brick_view.share_faces)
+    uint in_share = (gl_WorkGroupID.x + gl_WorkGroupID.y * kMaxDispatchX) * 64u + gl_LocalInvocationID.x;
+    if (in_share >= brick_view.slice_faces)
         return;
     uint face = bricks[brick_view.first_brick].first_face + in_share;
-    uint number = brickOfFace(face);
+    uint number = findBrickOfFace(face);
     uint side = 0u;
     uint rank = face - bricks[number].first_face;
     uvec2 mask = faceMask(number, side);
@@ -67,8 +67,8 @@ void main()
         rank -= count;
         mask = faceMask(number, ++side);
     }
-    uint bit = bitOfRank(mask.x, mask.y, rank);
-    BrickPlace place = brick_places[number];
+    uint bit = findNthBit(mask.x, mask.y, rank);
+    BrickLocation place = brick_places[number];
     uint x = (place.xy & 0xFFFFu) + (bit & 3u);
     uint y = (place.xy >> 16) + (bit >> 2 & 3u);
     uint z = place.z + (bit >> 4);
@@ -80,5 +80,5 @@ void main()
     for (uint i = 0u; i < lighting.light_count; ++i)
         arrived += brickDirect(grid, start, surface, lighting.lights[i]);
     vec3 emission = brickEmissionAt(face) * emissionFactor(vec3(x, y, z) + 0.5);
-    fresh_lights[in_share] = encodeBrickLight(brickSentOut(emission, brickAlbedoAt(face), arrived));
+    fresh_lights[in_share] = encodeBrickLight(brickOutgoingRadiance(emission, brickAlbedoAt(face), arrived));
 }

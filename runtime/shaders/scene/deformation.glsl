@@ -13,7 +13,7 @@ uint deformationWord(uint word) { return deformation[word >> 2][word & 3u]; }
 vec4 deformationFloats(uint row) { return uintBitsToFloat(deformation[row]); }
 
 /// Row of the pose of an instance; 0: the instance is rigid.
-uint poseRowOf(uint instance) { return deformationWord(deformation[0].x + instance); }
+uint readPoseRow(uint instance) { return deformationWord(deformation[0].x + instance); }
 
 Pose loadPose(uint row)
 {
@@ -42,22 +42,22 @@ DeformedCluster loadDeformedCluster(Pose pose, uint cluster)
                            uintBitsToFloat(c.w), uintBitsToFloat(d.xyz), d.w, e.x, e.y, e.z, e.w);
 }
 
-CarriedBox boxInPose(Instance instance, Pose pose, DeformedCluster cluster)
+TransformedBox boxInPose(Instance instance, Pose pose, DeformedCluster cluster)
 {
     PaletteRow main_joint = loadJoint(pose, cluster.joint);
     if ((pose.flags & kPoseFree) == 0u)
         return boxInClips(instance, main_joint, cluster);
-    CarriedBox box = grownBy(emptyFreeBox(instance), main_joint, cluster.bind_min, cluster.bind_max,
-                             pose.free_stretch);
+    TransformedBox box = growByJoint(makeEmptyFreeBox(instance), main_joint, cluster.bind_min, cluster.bind_max,
+                             pose.free_box_scale);
     // joint 0 of the list is the main one; without a skin there are none
     for (uint i = 1u; i < cluster.joint_count; ++i)
-        box = grownBy(box, loadJoint(pose, deformationWord(cluster.first_joint + i)), cluster.bind_min, cluster.bind_max,
-                      pose.free_stretch);
+        box = growByJoint(box, loadJoint(pose, deformationWord(cluster.first_joint + i)), cluster.bind_min, cluster.bind_max,
+                      pose.free_box_scale);
     return box;
 }
 
 /// Word of the block with the skinned vertices of a slot; 0: none, its vertices are skinned on demand.
-uint scratchOf(uint slot)
+uint readScratchBlock(uint slot)
 {
     uvec4 constants = deformation[0];
     uvec4 slots = deformation[1];

@@ -8,8 +8,8 @@
 
 // gpu::DeformedVertices. Rigid scenes and bins pay nothing for deformation.
 layout(constant_id = 4) const uint kDeformed = 0u;
-const uint kDeformedHere = 1u;      // skinned on demand by the shader that draws
-const uint kDeformedInScratch = 2u; // skinned by an earlier pass, as far as the scratch buffer has room
+const uint kSkinnedOnDemand = 1u;      // skinned on demand by the shader that draws
+const uint kPreSkinned = 2u; // skinned by an earlier pass, as far as the scratch buffer has room
 
 struct DrawnPose
 {
@@ -22,9 +22,9 @@ DrawnPose drawnPose(uint instance, uint slot)
     DrawnPose pose = DrawnPose(0u, 0u);
     if (kDeformed == 0u)
         return pose;
-    pose.row = poseRowOf(instance);
-    if (kDeformed == kDeformedInScratch && pose.row != 0u)
-        pose.scratch = scratchOf(slot);
+    pose.row = readPoseRow(instance);
+    if (kDeformed == kPreSkinned && pose.row != 0u)
+        pose.scratch = readScratchBlock(slot);
     return pose;
 }
 
@@ -37,7 +37,7 @@ vec3 scratchVector(uint word)
 vec3 drawnPosition(Instance instance, ClusterDraw draw, DrawnPose pose, uint index, vec3 eye)
 {
     if (kDeformed == 0u || pose.row == 0u)
-        return relativePoint(instance, eye, vertexPosition(draw, vertexAddress(draw, index)));
+        return toEyeRelative(instance, eye, vertexPosition(draw, vertexAddress(draw, index)));
     precise vec3 position = pose.scratch != 0u ? scratchVector(pose.scratch + index * 3u)
                                                : posedPosition(draw, loadPose(pose.row), index);
     precise vec3 origin = vec3(instance.world_from_object_x.w - eye.x, instance.world_from_object_y.w - eye.y,

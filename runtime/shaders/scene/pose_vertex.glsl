@@ -77,13 +77,13 @@ MorphDelta morphDelta(ClusterDraw draw, Pose pose, uint index)
     return delta;
 }
 
-vec3 crossOf(vec3 a, vec3 b)
+vec3 cofactorRow(vec3 a, vec3 b)
 {
     precise vec3 c = vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
     return c;
 }
 
-vec3 carried(BlendedJoints joints, vec3 v) { return vec3(dot3(joints.x.xyz, v), dot3(joints.y.xyz, v), dot3(joints.z.xyz, v)); }
+vec3 transformVector(BlendedJoints joints, vec3 v) { return vec3(dot3(joints.x.xyz, v), dot3(joints.y.xyz, v), dot3(joints.z.xyz, v)); }
 
 // Deformed position in world axes, relative to the instance's origin. index: index of the vertex in its
 // cluster.
@@ -92,7 +92,7 @@ vec3 posedPosition(ClusterDraw draw, Pose pose, uint index)
     uint vertex = vertexAddress(draw, index);
     precise vec3 bind = vertexPosition(draw, vertex) + morphDelta(draw, pose, index).position;
     BlendedJoints joints = blendedJoints(draw, pose, vertex);
-    precise vec3 position = carried(joints, bind) + vec3(joints.x.w, joints.y.w, joints.z.w);
+    precise vec3 position = transformVector(joints, bind) + vec3(joints.x.w, joints.y.w, joints.z.w);
     return position;
 }
 
@@ -103,9 +103,9 @@ vec3 posedNormal(ClusterDraw draw, Pose pose, uint index)
     uint vertex = vertexAddress(draw, index);
     precise vec3 bind = vertexNormal(draw, vertex) + morphDelta(draw, pose, index).normal;
     BlendedJoints joints = blendedJoints(draw, pose, vertex);
-    vec3 cofactor_x = crossOf(joints.y.xyz, joints.z.xyz);
-    vec3 cofactor_y = crossOf(joints.z.xyz, joints.x.xyz);
-    vec3 cofactor_z = crossOf(joints.x.xyz, joints.y.xyz);
+    vec3 cofactor_x = cofactorRow(joints.y.xyz, joints.z.xyz);
+    vec3 cofactor_y = cofactorRow(joints.z.xyz, joints.x.xyz);
+    vec3 cofactor_z = cofactorRow(joints.x.xyz, joints.y.xyz);
     precise vec3 normal = vec3(dot3(cofactor_x, bind), dot3(cofactor_y, bind), dot3(cofactor_z, bind));
     if (dot3(joints.x.xyz, cofactor_x) < 0.0)
         normal = -normal;
@@ -118,5 +118,5 @@ vec3 posedTangent(ClusterDraw draw, Pose pose, uint index)
 {
     uint vertex = vertexAddress(draw, index);
     vec3 bind = vertexTangent(draw, vertex, vertexNormal(draw, vertex)).xyz;
-    return carried(blendedJoints(draw, pose, vertex), bind);
+    return transformVector(blendedJoints(draw, pose, vertex), bind);
 }

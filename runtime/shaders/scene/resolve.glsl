@@ -101,13 +101,13 @@ SurfaceUvs surfaceUvs(Surface s)
             continue;
         bool known = false;
         for (uint before = 0u; before < slot; ++before)
-            if (hasTexture(before) && uvSetOf(before) == uvSetOf(slot) && !known)
+            if (hasTexture(before) && textureUvSet(before) == textureUvSet(slot) && !known)
             {
                 uvs.slots[slot] = uvs.slots[before];
                 known = true;
             }
         if (!known)
-            uvs.slots[slot] = surfaceUv(s, uvSetOf(slot));
+            uvs.slots[slot] = surfaceUv(s, textureUvSet(slot));
     }
     return uvs;
 }
@@ -200,9 +200,9 @@ vec3 posedMoment(Surface s, uint corner, vec3 normal, vec3 m1)
     float along = dot(normal, m1);
     vec3 across = m1 - normal * along;
     vec3 posed_normal = drawnNormal(s.draw, s.pose, s.indices[corner]);
-    vec3 carried_across = carried(blendedJoints(s.draw, loadPose(s.pose.row), s.vertices[corner]), across);
-    carried_across -= posed_normal * dot(posed_normal, carried_across);
-    return posed_normal * along + normalizeOr(carried_across, vec3(0.0)) * length(across);
+    vec3 posed_tangential = transformVector(blendedJoints(s.draw, loadPose(s.pose.row), s.vertices[corner]), across);
+    posed_tangential -= posed_normal * dot(posed_normal, posed_tangential);
+    return posed_normal * along + normalizeOr(posed_tangential, vec3(0.0)) * length(across);
 }
 
 // Interpolate the sky visibility of the vertices. Visibility moments are linear in the light, so
@@ -236,7 +236,7 @@ SurfacePoint surfacePoint(Surface s)
     point.flat_normal = s.front ? flat_normal : -flat_normal;
     point.tangent = point.bitangent = vec3(0.0);
     if (hasTexture(kTextureNormal))
-        tangentFrame(s, point.normal, uvSetOf(kTextureNormal), point.tangent, point.bitangent);
+        tangentFrame(s, point.normal, textureUvSet(kTextureNormal), point.tangent, point.bitangent);
     point.color = surfaceColor(s);
     point.front = s.front;
     point.sky = surfaceSky(s, point.normal);

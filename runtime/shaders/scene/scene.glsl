@@ -16,8 +16,8 @@ layout(constant_id = 0) const uint kUsedSlices = kPoolSlices;
 
 uint poolWord(uint address)
 {
-    uint slice = address >> kPoolSliceBits;
-    uint word = address & ((1u << kPoolSliceBits) - 1u);
+    uint slice = address >> kPoolSliceAddressBits;
+    uint word = address & ((1u << kPoolSliceAddressBits) - 1u);
     if (kUsedSlices == 1u || slice == 0u)
         return pool0[word];
     if (slice == 1u)
@@ -36,11 +36,11 @@ const uint kVertexUv0 = 4u;
 const uint kVertexUvs = 60u;
 const uint kVertexColor = 64u;
 const uint kVertexVisibility = 128u;
-const uint kVertexFineNormal = 256u;
-const uint kVertexFineColor = 512u;
-const uint kVertexWide = 8192u;
+const uint kVertexNormal16 = 256u;
+const uint kVertexColor16 = 512u;
+const uint kVertexWideOffsets = 8192u;
 const uint kVertexInfluences = 16384u;
-const uint kVertexMoreInfluences = 32768u;
+const uint kVertexInfluences8 = 32768u;
 const uint kVertexUvStepShift = 16u;
 
 // UV sets that are stored on a grid: formats::gridUvs.
@@ -58,9 +58,9 @@ uint gridUvs(uint layout_bits)
 // are left.
 uint uvEnd(uint layout_bits, uint sets)
 {
-    bool wide = (layout_bits & kVertexWide) != 0u;
+    bool wide = (layout_bits & kVertexWideOffsets) != 0u;
     uint words = wide ? 3u : 2u;
-    if ((layout_bits & kVertexNormal) != 0u && (layout_bits & (kVertexFineNormal | kVertexWide)) != 0u)
+    if ((layout_bits & kVertexNormal) != 0u && (layout_bits & (kVertexNormal16 | kVertexWideOffsets)) != 0u)
         words += 1u;
     if ((layout_bits & kVertexTangent) != 0u)
         words += 1u;
@@ -73,7 +73,7 @@ uint visibilityWord(uint layout_bits)
 {
     uint words = uvEnd(layout_bits, kVertexUvs);
     if ((layout_bits & kVertexColor) != 0u)
-        words += (layout_bits & kVertexFineColor) != 0u ? 2u : 1u;
+        words += (layout_bits & kVertexColor16) != 0u ? 2u : 1u;
     return words;
 }
 
@@ -88,14 +88,14 @@ uint influenceCount(uint layout_bits)
 {
     if ((layout_bits & kVertexInfluences) == 0u)
         return 0u;
-    return (layout_bits & kVertexMoreInfluences) != 0u ? 8u : 4u;
+    return (layout_bits & kVertexInfluences8) != 0u ? 8u : 4u;
 }
 
 uint vertexWords(uint layout_bits) { return influenceWord(layout_bits) + influenceCount(layout_bits); }
 
 uint vertexCount(ClusterDraw draw) { return draw.counts & 0x1FFu; }
 uint triangleCount(ClusterDraw draw) { return draw.counts >> 9 & 0xFFu; }
-uint levelOf(ClusterDraw draw) { return draw.counts >> 17 & 0xFFu; }
+uint clusterLevel(ClusterDraw draw) { return draw.counts >> 17 & 0xFFu; }
 
 // Index of a triangle corner's vertex in its cluster. Indices are bytes stored after the vertices.
 uint cornerVertex(ClusterDraw draw, uint triangle, uint corner)
@@ -108,7 +108,7 @@ uint cornerVertex(ClusterDraw draw, uint triangle, uint corner)
 // Map a corner 0..2 to the winding order in which the bin of the instance sees the front of its triangles.
 uint cornerInBin(Instance instance, uint corner)
 {
-    return (instance.flags & kInstanceTurned) == 0u ? corner : (3u - corner) % 3u;
+    return (instance.flags & kInstanceHandednessChanged) == 0u ? corner : (3u - corner) % 3u;
 }
 
 // Address of the first word of a vertex of a cluster.
@@ -119,7 +119,7 @@ vec3 vertexPosition(ClusterDraw draw, uint vertex)
 {
     uint x = poolWord(vertex);
     uint y = poolWord(vertex + 1u);
-    ivec3 offset = (draw.vertex_layout & kVertexWide) != 0u ? ivec3(x, y, poolWord(vertex + 2u))
+    ivec3 offset = (draw.vertex_layout & kVertexWideOffsets) != 0u ? ivec3(x, y, poolWord(vertex + 2u))
                                                             : ivec3(x & 0xFFFFu, x >> 16, y & 0xFFFFu);
     return vec3(ivec3(draw.base_x, draw.base_y, draw.base_z) + offset) * draw.grid_step;
 }
@@ -136,9 +136,9 @@ vec3 directionFromOctahedral(vec2 p)
 vec3 vertexNormal(ClusterDraw draw, uint vertex)
 {
     uint layout_bits = draw.vertex_layout;
-    if ((layout_bits & kVertexFineNormal) != 0u)
-        return directionFromOctahedral(unpackSnorm2x16(poolWord(vertex + ((layout_bits & kVertexWide) != 0u ? 3u : 2u))));
-    uint code = (layout_bits & kVertexWide) != 0u ? poolWord(vertex + 3u) : poolWord(vertex + 1u) >> 16;
+    if ((layout_bits & kVertexNormal16) != 0u)
+        return directionFromOctahedral(unpackSnorm2x16(poolWord(vertex + ((layout_bits & kVertexWideOffsets) != 0u ? 3u : 2u))));
+    uint code = (layout_bits & kVertexWideOffsets) != 0u ? poolWord(vertex + 3u) : poolWord(vertex + 1u) >> 16;
     return directionFromOctahedral(unpackSnorm4x8(code).xy);
 }
 
@@ -146,7 +146,7 @@ vec3 vertexNormal(ClusterDraw draw, uint vertex)
 vec4 vertexTangent(ClusterDraw draw, uint vertex, vec3 normal)
 {
     uint code = poolWord(vertex + uvEnd(draw.vertex_layout, 0u) - 1u);
-    uint quarter_bits = (draw.vertex_layout & kVertexFineNormal) != 0u ? 13u : 5u;
+    uint quarter_bits = (draw.vertex_layout & kVertexNormal16) != 0u ? 13u : 5u;
     uint angle = code >> 1;
     float along = float(angle & ((1u << quarter_bits) - 1u)) / float(1u << quarter_bits);
     uint turn = angle >> quarter_bits;
@@ -176,7 +176,7 @@ vec2 vertexUv(ClusterDraw draw, uint vertex, uint set)
     uint later_grids = uint(bitCount(grids & ~before));
     uint base = draw.address - 2u * later_grids;
     uint word = poolWord(at);
-    ivec2 offset = (layout_bits & kVertexWide) != 0u ? ivec2(word, poolWord(at + 1u)) : ivec2(word & 0xFFFFu, word >> 16);
+    ivec2 offset = (layout_bits & kVertexWideOffsets) != 0u ? ivec2(word, poolWord(at + 1u)) : ivec2(word & 0xFFFFu, word >> 16);
     uint fraction_bits = layout_bits >> (kVertexUvStepShift + 4u * set) & 15u;
     return vec2(ivec2(poolWord(base), poolWord(base + 1u)) + offset) * uintBitsToFloat((127u - fraction_bits) << 23);
 }
@@ -187,7 +187,7 @@ vec4 vertexColor(ClusterDraw draw, uint vertex)
     if ((layout_bits & kVertexColor) == 0u)
         return vec4(1.0);
     uint at = vertex + uvEnd(layout_bits, kVertexUvs);
-    if ((layout_bits & kVertexFineColor) == 0u)
+    if ((layout_bits & kVertexColor16) == 0u)
         return unpackUnorm4x8(poolWord(at));
     return vec4(unpackUnorm2x16(poolWord(at)), unpackUnorm2x16(poolWord(at + 1u)));
 }

@@ -34,7 +34,7 @@ struct SurfaceUvs
 
 bool hasTexture(uint slot) { return (kTextures >> slot & 1u) != 0u; }
 
-uint uvSetOf(uint slot) { return kUvSets >> (slot * 4u) & 15u; }
+uint textureUvSet(uint slot) { return kUvSets >> (slot * 4u) & 15u; }
 
 // Visibility of an unoccluded sky on the side of the normal.
 VisibilityMoments openSky(vec3 normal) { return VisibilityMoments(2.0 * kVisibilityPi, normal * kVisibilityPi); }

@@ -1,5 +1,5 @@
 // Shades a surface point: its material under the lights and the sky. See runtime/gpu/README.md for units and
-// exposure. Needs `lightShare` (shadowing of a light) from shadow.glsl or unshadowed.glsl, and
+// exposure. Needs `lightVisibility` (shadowing of a light) from shadow.glsl or unshadowed.glsl, and
 // `surroundingLight` (light of the environment) from surrounding_sky.glsl or surrounding_bricks.glsl.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 
@@ -16,7 +16,7 @@ const uint kLightDirectional = 0u;
 const uint kLightSpot = 2u;
 
 // Irradiance of a light on a surface that faces it, and the direction to the light. KHR_lights_punctual.
-vec3 irradianceOf(Light light, vec3 position, out vec3 to_light)
+vec3 lightIrradiance(Light light, vec3 position, out vec3 to_light)
 {
     if (light.type == kLightDirectional)
     {
@@ -61,8 +61,8 @@ vec3 lit(SurfacePoint point, SurfaceUvs uvs, vec3 base)
     for (uint i = 0u; i < lighting.light_count; ++i)
     {
         vec3 to_light;
-        vec3 irradiance = irradianceOf(lighting.lights[i], point.position, to_light);
-        float share = lightShare(lighting.lights[i].shadow_row, point.position, point.flat_normal);
+        vec3 irradiance = lightIrradiance(lighting.lights[i], point.position, to_light);
+        float share = lightVisibility(lighting.lights[i].shadow_row, point.position, point.flat_normal);
         radiance += irradiance * reflected(shading, to_light) * share;
     }
 

@@ -7,7 +7,7 @@
 layout(set = 0, binding = 10) uniform sampler2DArrayShadow shadow_maps;
 
 // Point in the space of a light, and the densest of the light's shadow maps that contains it.
-struct Lookup
+struct ShadowLookup
 {
     ShadowPoint point;
     uint map; // kNoShadow: no map, the point counts as lit
@@ -15,21 +15,21 @@ struct Lookup
 
 // position     relative to the eye
 // flat_normal  unit, of the triangle, towards the visible side
-Lookup lookUp(uint light_row, vec3 position, vec3 flat_normal)
+ShadowLookup findShadowMap(uint light_row, vec3 position, vec3 flat_normal)
 {
     ShadowLight light = shadows.lights[light_row];
-    float offset = shadowCutOffset(view, length(position), shadows.error_bias, light.eye_shift);
-    Lookup found;
+    float offset = shadowNormalOffset(view, length(position), shadows.error_bias, light.eye_shift);
+    ShadowLookup found;
     found.point = shadowPoint(light, position + (view.eye - light.origin) + flat_normal * offset);
     found.map = kNoShadow;
     for (uint i = 0u; i < light.map_count && found.map == kNoShadow; ++i)
-        if (shadowMapHolds(shadows.maps[light.first_map + i], found.point))
+        if (isInShadowMap(shadows.maps[light.first_map + i], found.point))
             found.map = light.first_map + i;
     return found;
 }
 
 // Percentage-closer filtering: the lit share of (2 kernel + 1)^2 texels.
-float litTexels(Lookup at)
+float filterShadow(ShadowLookup at)
 {
     ShadowMap map = shadows.maps[at.map];
     vec2 middle = floor(shadowTexel(map, at.point)) + 0.5;
@@ -45,10 +45,10 @@ float litTexels(Lookup at)
 }
 
 // Share of the light that reaches the point: 0 in shadow, 1 fully lit.
-float lightShare(uint light_row, vec3 position, vec3 flat_normal)
+float lightVisibility(uint light_row, vec3 position, vec3 flat_normal)
 {
     if (light_row == kNoShadow)
         return 1.0;
-    Lookup at = lookUp(light_row, position, flat_normal);
-    return at.map == kNoShadow ? 1.0 : litTexels(at);
+    ShadowLookup at = findShadowMap(light_row, position, flat_normal);
+    return at.map == kNoShadow ? 1.0 : filterShadow(at);
 }

@@ -13,7 +13,7 @@ layout(set = 0, binding = 8, std140) readonly buffer LightingBlock { Lighting li
 layout(push_constant) uniform Push
 {
     float depth;
-    uint shown_view;
+    uint debug_view;
 };
 layout(early_fragment_tests) in;
 layout(location = 0) out vec4 out_color;
@@ -25,6 +25,6 @@ void main()
     vec3 x = view.clip_x.xyz;
     vec3 y = view.clip_y.xyz;
     vec3 direction = normalize(view.clip_w.xyz + x * (ndc.x / dot(x, x)) + y * (ndc.y / dot(y, y)));
-    vec3 color = shown_view == kViewFinal ? toneMap(skyRadiance(direction, 0.4)) : linearFromSrgb(vec3(0.08));
+    vec3 color = debug_view == kViewFinal ? toneMap(skyRadiance(direction, 0.4)) : linearFromSrgb(vec3(0.08));
     out_color = vec4(color, 1.0);
 }

@@ -12,7 +12,7 @@ layout(set = 0, binding = 11) uniform sampler2D specular_table;
 layout(push_constant) uniform Push
 {
     float depth;
-    uint shown_view;
+    uint debug_view;
     float depth_scale; // metres that the depth view shows as half brightness
     layout(offset = 20) uint sky_occlusion; // skyOcclusionBits
 };
@@ -62,7 +62,7 @@ float specularSky(SkyView sky, float roughness, float n_dot_v, vec3 mirror)
         return 1.0;
     float r_dot_axis = dot(mirror, sky.cone.axis);
     float share = mode == kSpecularOcclusionTable
-                      ? specularTableShare(specularTablePlace(sky.cone.cos_aperture, roughness, r_dot_axis,
+                      ? specularTableShare(specularTableCoordinates(sky.cone.cos_aperture, roughness, r_dot_axis,
                                                               sky_occlusion >> 16))
                       : specularOcclusionFit(sky.cone.cos_aperture, roughness, n_dot_v, sky.shading, r_dot_axis);
     return share * sky.cone.scale;

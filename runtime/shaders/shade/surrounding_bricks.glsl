@@ -1,7 +1,7 @@
 // Environment light of scenes with bricks (GI): the gathered light, which includes the sky. In place of
 // surrounding_sky.glsl.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "runtime/shaders/gi/gathered.glsl"
+#include "runtime/shaders/gi/sample_gi.glsl"
 
 // Margin added to the openness of the cone and to the sky share of the bricks. Where both see next to no sky
 // the cone has no say.
@@ -20,7 +20,7 @@ vec3 surroundingLight(SurfacePoint point, Shading shading, float occlusion)
 {
     vec2 scale_bias = specularScaleBias(shading.roughness, shading.n_dot_v);
     vec3 specular = shading.f0 * scale_bias.x + scale_bias.y;
-    GatheredLight light = gatheredLight(gl_FragCoord.xy, point.position, shading.normal, shading.roughness);
+    GiSample light = sampleGi(gl_FragCoord.xy, point.position, shading.normal, shading.roughness);
     float fine = min(occlusion, fineOcclusion(point, shading.normal, light.sky));
     return fine * (1.0 - specular) * shading.diffuse * light.diffuse + occlusion * specular * light.mirror;
 }

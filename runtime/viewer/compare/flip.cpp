@@ -129,7 +129,7 @@ constexpr ContrastSensitivity kRedGreen{1, 0.0053, 0, 1e-5};
 constexpr ContrastSensitivity kBlueYellow{34.1, 0.04, 13.5, 0.025};
 
 /// Blur away the detail that the eye cannot resolve at this distance.
-Field blurredAsSeen(const Field& opponent, double pixels_per_degree)
+Field filterByContrastSensitivity(const Field& opponent, double pixels_per_degree)
 {
     const auto radius =
         static_cast<long>(std::ceil(3 * std::sqrt(kBlueYellow.b1 / (2 * kPi * kPi)) * pixels_per_degree));
@@ -172,7 +172,7 @@ double largestColorDifference()
 }
 
 /// Remap to 0..1: the lower 40 % of the range fill 95 % of the scale.
-double redistributed(double difference, double largest)
+double remapColorDifference(double difference, double largest)
 {
     constexpr double kKneeIn = 0.4, kKneeOut = 0.95;
     const double knee = kKneeIn * largest;
@@ -209,7 +209,7 @@ struct DerivativeKernel
     }
 
     /// Length of the derivative in x and y at a pixel of channel x.
-    double strengthAt(const Field& field, long x, long y) const
+    double convolve(const Field& field, long x, long y) const
     {
         double along_x = 0, along_y = 0;
         size_t i = 0;
@@ -224,19 +224,18 @@ struct DerivativeKernel
 };
 
 /// Strength of edges (x) and points (y) at each pixel.
-Field featuresOf(const Field& opponent, double pixels_per_degree)
+Field detectFeatures(const Field& opponent, double pixels_per_degree)
 {
     const Field luminance = opponent.mapped([](Double3 c) { return Double3{(c.x + 16) / 116, 0, 0}; });
     const DerivativeKernel edge(pixels_per_degree, false), point(pixels_per_degree, true);
     Field features{opponent.width, opponent.height, {}};
     for (long y = 0; y < opponent.height; ++y)
         for (long x = 0; x < opponent.width; ++x)
-            features.values.push_back(
-                {edge.strengthAt(luminance, x, y), point.strengthAt(luminance, x, y), 0});
+            features.values.push_back({edge.convolve(luminance, x, y), point.convolve(luminance, x, y), 0});
     return features;
 }
 
-Field opponentOf(const Picture& picture)
+Field toOpponentSpace(const Picture& picture)
 {
     Field field{static_cast<long>(picture.width), static_cast<long>(picture.height), {}};
     for (size_t i = 0; i < picture.rgb.size(); i += 3)
@@ -248,17 +247,17 @@ Field opponentOf(const Picture& picture)
 }
 
 /// Precomputed fields of one image.
-struct Seen
+struct ImageFields
 {
     Field lab;
     Field features;
 
-    Seen(const Picture& picture, double pixels_per_degree)
+    ImageFields(const Picture& picture, double pixels_per_degree)
     {
-        const Field opponent = opponentOf(picture);
-        lab = blurredAsSeen(opponent, pixels_per_degree)
+        const Field opponent = toOpponentSpace(picture);
+        lab = filterByContrastSensitivity(opponent, pixels_per_degree)
                   .mapped([](Double3 c) { return huntLabFromRgb(clampedToUnit(rgbFromOpponent(c))); });
-        features = featuresOf(opponent, pixels_per_degree);
+        features = detectFeatures(opponent, pixels_per_degree);
     }
 };
 
@@ -275,14 +274,14 @@ double FlipMap::mean() const
 FlipMap flip(const Picture& reference, const Picture& test, double pixels_per_degree)
 {
     HEARTH_ASSERT(reference.width == test.width && reference.height == test.height && !reference.rgb.empty());
-    const Seen a(reference, pixels_per_degree), b(test, pixels_per_degree);
+    const ImageFields a(reference, pixels_per_degree), b(test, pixels_per_degree);
     const double largest = largestColorDifference();
     FlipMap map{reference.width, reference.height, {}};
     map.error.reserve(a.lab.values.size());
     for (size_t i = 0; i < a.lab.values.size(); ++i)
     {
         const double color =
-            redistributed(std::pow(hyAb(a.lab.values[i], b.lab.values[i]), kColorExponent), largest);
+            remapColorDifference(std::pow(hyAb(a.lab.values[i], b.lab.values[i]), kColorExponent), largest);
         const Double3 edges = abs(a.features.values[i] - b.features.values[i]);
         const double feature = std::sqrt(std::max(edges.x, edges.y) / std::sqrt(2.0));
         map.error.push_back(static_cast<float>(std::pow(color, 1 - std::min(feature, 1.0))));
@@ -290,7 +289,7 @@ FlipMap flip(const Picture& reference, const Picture& test, double pixels_per_de
     return map;
 }
 
-Picture showFlip(const FlipMap& map)
+Picture makeFlipImage(const FlipMap& map)
 {
     Picture picture(map.width, map.height);
     for (size_t i = 0; i < map.error.size(); ++i)

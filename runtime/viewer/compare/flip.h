@@ -24,6 +24,6 @@ inline constexpr double kFlipPixelsPerDegree = 67.0206;
 FlipMap flip(const Picture& reference, const Picture& test, double pixels_per_degree = kFlipPixelsPerDegree);
 
 /// Map the errors to colours: black over violet and orange to pale yellow.
-Picture showFlip(const FlipMap& map);
+Picture makeFlipImage(const FlipMap& map);
 
 } // namespace hearth::viewer

@@ -52,16 +52,16 @@ Result<CompareOptions> parseCompareOptions(std::span<const char* const> argument
 }
 
 /// Differences over all channels, in units of 1/255.
-struct Steps
+struct Difference
 {
     double rms = 0;
     int largest = 0;
     uint64_t pixels = 0; ///< pixels that differ
 };
 
-Steps countSteps(const Picture& a, const Picture& b)
+Difference computeDifference(const Picture& a, const Picture& b)
 {
-    Steps steps;
+    Difference difference;
     double sum = 0;
     for (size_t pixel = 0; pixel < a.rgb.size(); pixel += 3)
     {
@@ -72,11 +72,11 @@ Steps countSteps(const Picture& a, const Picture& b)
             sum += double(step) * double(step);
             largest = std::max(largest, step);
         }
-        steps.pixels += largest > 0 ? 1 : 0;
-        steps.largest = std::max(steps.largest, largest);
+        difference.pixels += largest > 0 ? 1 : 0;
+        difference.largest = std::max(difference.largest, largest);
     }
-    steps.rms = std::sqrt(sum / static_cast<double>(a.rgb.size()));
-    return steps;
+    difference.rms = std::sqrt(sum / static_cast<double>(a.rgb.size()));
+    return difference;
 }
 
 /// Return the error that this many of a thousand pixels do not exceed.
@@ -87,7 +87,7 @@ double quantile(std::vector<float> errors, size_t of_thousand)
     return double{errors[index]};
 }
 
-std::string statsJson(const FlipMap& map, const Steps& steps)
+std::string statsJson(const FlipMap& map, const Difference& difference)
 {
     char text[512];
     const int size =
@@ -96,13 +96,13 @@ std::string statsJson(const FlipMap& map, const Steps& steps)
                       " \"flip\": {\"mean\": %.6g, \"percentile_99\": %.6g, \"percentile_99.9\": %.6g},\n"
                       " \"rms\": %.6g, \"largest_step\": %d, \"different_pixels\": %llu}\n",
                       map.width, map.height, map.mean(), quantile(map.error, 990), quantile(map.error, 999),
-                      steps.rms, steps.largest, static_cast<unsigned long long>(steps.pixels));
+                      difference.rms, difference.largest, static_cast<unsigned long long>(difference.pixels));
     return {text, static_cast<size_t>(size)};
 }
 
 Status writeHeatMap(const std::string& path, const FlipMap& map)
 {
-    const Picture picture = showFlip(map);
+    const Picture picture = makeFlipImage(map);
     std::vector<std::byte> rgba;
     for (size_t i = 0; i < picture.rgb.size(); ++i)
     {
@@ -123,7 +123,7 @@ Status compare(const CompareOptions& options)
     const FlipMap map = flip(a, b);
     if (!options.heat_map.empty())
         HEARTH_TRY(writeHeatMap(options.heat_map, map));
-    const std::string stats = statsJson(map, countSteps(a, b));
+    const std::string stats = statsJson(map, computeDifference(a, b));
     if (!options.stats.empty())
         return writeFile(options.stats, std::as_bytes(std::span(stats)));
     if (std::fputs(stats.c_str(), stdout) < 0 || std::fflush(stdout) != 0)

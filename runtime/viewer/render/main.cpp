@@ -62,7 +62,7 @@ FrameSettings frameSettings(const RenderOptions& options, bool on_sheet)
 {
     FrameSettings settings = options.settings;
     settings.error_pixels *= static_cast<float>(sampleScale(options));
-    settings.bricks_light = settings.bricks_light && !on_sheet;
+    settings.gi = settings.gi && !on_sheet;
     return settings;
 }
 
@@ -70,8 +70,7 @@ FrameSettings frameSettings(const RenderOptions& options, bool on_sheet)
 Result<std::optional<Sheet>> chooseSheet(const RenderOptions& options, const formats::PackView& pack)
 {
     const bool automatic = options.sheet == SheetChoice::automatic;
-    if (options.sheet == SheetChoice::off ||
-        (automatic && !(fitsWholeScene(options) && standInOnePlace(pack))))
+    if (options.sheet == SheetChoice::off || (automatic && !(fitsWholeScene(options) && areUnplaced(pack))))
         return std::optional<Sheet>();
     Result<Sheet> sheet = makeSheet(pack, options.width, options.height);
     if (sheet.ok())
@@ -104,13 +103,13 @@ void warnAboutShadows(const ShadowCounts& counts, const std::string& name)
 }
 
 /// Draws the requested frames, and writes the requested files.
-class Run
+class FrameRecorder
 {
 public:
     /// stage  null: the whole scene is shown
-    Run(const RenderOptions& options, const FrameSettings& settings, const formats::PackView& pack,
-        Animation& animation, Stage* stage, VulkanHost& host, const gpu::Renderer& renderer,
-        const gpu::Scene& scene, gpu::FrameTargets& targets, VkQueryPool timestamps)
+    FrameRecorder(const RenderOptions& options, const FrameSettings& settings, const formats::PackView& pack,
+                  Animation& animation, Stage* stage, VulkanHost& host, const gpu::Renderer& renderer,
+                  const gpu::Scene& scene, gpu::FrameTargets& targets, VkQueryPool timestamps)
         : options_(options),
           pack_(pack),
           animation_(animation),
@@ -134,11 +133,11 @@ public:
             return success();
         // 256 frames fill the largest pool, and 60 raise the error scale to its maximum: more frames mean it
         // never settles
-        constexpr uint64_t kMostFrames = 1000;
-        const shared::FrameView view = frameOf(camera).view;
+        constexpr uint64_t kMaxFrames = 1000;
+        const shared::FrameView view = makeFrameInput(camera).view;
         const uint64_t first = serial_ + 1;
         HEARTH_TRY(goTo(number));
-        while (scene_.stream->settledSerial() < first && serial_ < first + kMostFrames)
+        while (scene_.stream->settledSerial() < first && serial_ < first + kMaxFrames)
         {
             beginFrame();
             HEARTH_TRY(host_.run(
@@ -154,7 +153,7 @@ public:
     /// Let the indirect light settle, if the frame shows it.
     Status settle(const shared::Camera& camera)
     {
-        if (scene_.bricks == nullptr || !(settings_.bricks_light || gpu::showsBricks(settings_.view)))
+        if (scene_.bricks == nullptr || !(settings_.gi || gpu::viewNeedsBricks(settings_.view)))
             return success();
         for (uint32_t i = 0; i < options_.gi_frames; ++i)
             HEARTH_TRY(draw(camera, 0));
@@ -164,7 +163,7 @@ public:
 
     Status draw(const shared::Camera& camera, size_t number)
     {
-        gpu::FrameInput frame = frameOf(camera);
+        gpu::FrameInput frame = makeFrameInput(camera);
         frame.timestamps = timestamps_;
         HEARTH_TRY(goTo(number));
         frame.moves = moves_;
@@ -194,7 +193,7 @@ public:
     }
 
     /// Warn about objects that the last frame left out, and count them for the statistics.
-    Status note()
+    Status checkDropped()
     {
         HEARTH_ASSIGN_OR_RETURN(const VisibleList list, readVisibleList(host_, renderer_, scene_));
         warnAboutLimits(scene_, list, pack_.name());
@@ -268,7 +267,7 @@ private:
         return success();
     }
 
-    gpu::FrameInput frameOf(const shared::Camera& camera) const
+    gpu::FrameInput makeFrameInput(const shared::Camera& camera) const
     {
         gpu::FrameInput frame = makeFrame(settings_, camera, scene_.instance_count, targets_.extent());
         frame.shadow_spheres = options_.shadows.spheres;
@@ -361,33 +360,34 @@ gpu::SceneOptions sceneOptions(const RenderOptions& options, const formats::Pack
 }
 
 /// Cameras of the output images; with a stage each of them shows one part of the scene alone.
-struct Pictures
+struct OutputCameras
 {
     std::optional<Stage> stage;
     std::vector<shared::Camera> cameras;
 };
 
-float aspectOf(uint32_t width, uint32_t height)
+float aspectRatio(uint32_t width, uint32_t height)
 {
     return static_cast<float>(width) / static_cast<float>(height);
 }
 
-Result<Pictures> choosePictures(const RenderOptions& options, const formats::PackView& pack,
-                                const pack::PosePlayer& player, const std::optional<Sheet>& sheet)
+Result<OutputCameras> choosePictures(const RenderOptions& options, const formats::PackView& pack,
+                                     const pack::PosePlayer& player, const std::optional<Sheet>& sheet)
 {
-    Pictures pictures;
+    OutputCameras pictures;
     if (sheet)
     {
         std::vector<formats::Range> parts;
         for (const uint32_t asset : sheet->assets)
             parts.push_back(pack.assets()[asset].instances);
-        pictures.stage = Stage::ofInstances(pack, player, parts,
-                                            aspectOf(sheet->layout.cell_width, sheet->layout.cell_height));
+        pictures.stage = Stage::fromInstances(
+            pack, player, parts, aspectRatio(sheet->layout.cell_width, sheet->layout.cell_height));
     }
     else if (!options.meshes.empty())
     {
-        HEARTH_ASSIGN_OR_RETURN(pictures.stage, Stage::ofMeshes(pack, player, options.meshes,
-                                                                aspectOf(options.width, options.height)));
+        HEARTH_ASSIGN_OR_RETURN(
+            pictures.stage,
+            Stage::fromMeshes(pack, player, options.meshes, aspectRatio(options.width, options.height)));
     }
     if (pictures.stage)
         pictures.cameras = pictures.stage->cameras();
@@ -398,7 +398,7 @@ Result<Pictures> choosePictures(const RenderOptions& options, const formats::Pac
     return pictures;
 }
 
-std::vector<Named<uint32_t>> viewsOf(const RenderOptions& options)
+std::vector<Named<uint32_t>> chooseViews(const RenderOptions& options)
 {
     return options.views.empty() ? std::vector<Named<uint32_t>>{{"", options.settings.view}} : options.views;
 }
@@ -410,7 +410,7 @@ Status writePicture(const RenderOptions& options, const std::string& file, std::
 }
 
 /// Write a file per camera and view; of --frames only the last frame.
-Status drawPictures(const RenderOptions& options, const Pictures& pictures, Run& run)
+Status drawPictures(const RenderOptions& options, const OutputCameras& pictures, FrameRecorder& run)
 {
     const std::vector<shared::Camera>& cameras = pictures.cameras;
     const bool is_sequence = !options.camera_path.empty() || pictures.stage;
@@ -418,7 +418,7 @@ Status drawPictures(const RenderOptions& options, const Pictures& pictures, Run&
         HEARTH_TRY(run.prefetch(cameras.front(), 0));
     HEARTH_TRY(run.settle(cameras.front()));
     for (size_t i = 0; i < cameras.size(); ++i)
-        for (const Named<uint32_t>& view : viewsOf(options))
+        for (const Named<uint32_t>& view : chooseViews(options))
         {
             run.setView(view.value);
             HEARTH_TRY(run.draw(cameras[i], i));
@@ -431,7 +431,7 @@ Status drawPictures(const RenderOptions& options, const Pictures& pictures, Run&
             };
             HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> picture, run.picture());
             HEARTH_TRY(writePicture(options, file(options.output), picture));
-            HEARTH_TRY(run.note());
+            HEARTH_TRY(run.checkDropped());
             if (!options.visibility.empty())
                 HEARTH_TRY(run.writeVisibility(file(options.visibility)));
         }
@@ -439,10 +439,11 @@ Status drawPictures(const RenderOptions& options, const Pictures& pictures, Run&
 }
 
 /// Write a file per view, once all cells are drawn.
-Status drawSheet(const RenderOptions& options, const Pictures& pictures, const Sheet& sheet, Run& run)
+Status drawSheet(const RenderOptions& options, const OutputCameras& pictures, const Sheet& sheet,
+                 FrameRecorder& run)
 {
-    const std::vector<Named<uint32_t>> views = viewsOf(options);
-    std::vector<SheetPicture> sheets(views.size(), SheetPicture(sheet));
+    const std::vector<Named<uint32_t>> views = chooseViews(options);
+    std::vector<SheetImage> sheets(views.size(), SheetImage(sheet));
     for (size_t cell = 0; cell < pictures.cameras.size(); ++cell)
     {
         HEARTH_TRY(run.prefetch(pictures.cameras[cell], cell));
@@ -452,7 +453,7 @@ Status drawSheet(const RenderOptions& options, const Pictures& pictures, const S
             HEARTH_TRY(run.draw(pictures.cameras[cell], cell));
             HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> picture, run.picture());
             sheets[view].place(cell, picture);
-            HEARTH_TRY(run.note());
+            HEARTH_TRY(run.checkDropped());
         }
     }
     for (size_t view = 0; view < views.size(); ++view)
@@ -469,7 +470,7 @@ Status drawPack(const RenderOptions& options, const formats::PackView& pack, Vul
     HEARTH_ASSIGN_OR_RETURN(Animation animation, Animation::create(options.animation, pack));
     animation.goTo(0);
     HEARTH_ASSIGN_OR_RETURN(const std::optional<Sheet> sheet, chooseSheet(options, pack));
-    HEARTH_ASSIGN_OR_RETURN(Pictures pictures, choosePictures(options, pack, animation.player(), sheet));
+    HEARTH_ASSIGN_OR_RETURN(OutputCameras pictures, choosePictures(options, pack, animation.player(), sheet));
     HEARTH_ASSIGN_OR_RETURN(const std::unique_ptr<gpu::Renderer> renderer,
                             gpu::Renderer::create(host.description()));
     if (options.settings.view == shared::kViewOverdraw)
@@ -490,8 +491,9 @@ Status drawPack(const RenderOptions& options, const formats::PackView& pack, Vul
         renderer->createTargets({(sheet ? sheet->layout.cell_width : options.width) * scale,
                                  (sheet ? sheet->layout.cell_height : options.height) * scale}));
     HEARTH_ASSIGN_OR_RETURN(const VkQueryPool timestamps, host.createTimestamps(gpu::kTimestampCount));
-    Run run(options, frameSettings(options, sheet.has_value()), pack, animation,
-            pictures.stage ? &*pictures.stage : nullptr, host, *renderer, *scene, targets, timestamps);
+    FrameRecorder run(options, frameSettings(options, sheet.has_value()), pack, animation,
+                      pictures.stage ? &*pictures.stage : nullptr, host, *renderer, *scene, targets,
+                      timestamps);
     HEARTH_TRY(sheet ? drawSheet(options, pictures, *sheet, run) : drawPictures(options, pictures, run));
     return run.writeStats(sheet);
 }
@@ -510,7 +512,7 @@ Status nameDevice(const RenderOptions& options)
 
 Status render(const RenderOptions& options)
 {
-    if (options.names_device)
+    if (options.print_device_name)
         return nameDevice(options);
     HEARTH_ASSIGN_OR_RETURN(const pack::Pack pack, pack::Pack::open(options.pack));
     HEARTH_ASSIGN_OR_RETURN(

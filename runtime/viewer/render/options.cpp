@@ -93,11 +93,11 @@ Status parseSamples(std::string_view text, RenderOptions& options)
 
 bool fitsWholeScene(const RenderOptions& options)
 {
-    const auto showsBricks = [](const Named<uint32_t>& view) { return gpu::showsBricks(view.value); };
+    const auto viewNeedsBricks = [](const Named<uint32_t>& view) { return gpu::viewNeedsBricks(view.value); };
     return !options.camera && !options.scene_camera && options.camera_path.empty() &&
            options.meshes.empty() && options.frames == 1 && !options.animation.clip &&
-           options.visibility.empty() && !gpu::showsBricks(options.settings.view) &&
-           std::none_of(options.views.begin(), options.views.end(), showsBricks);
+           options.visibility.empty() && !gpu::viewNeedsBricks(options.settings.view) &&
+           std::none_of(options.views.begin(), options.views.end(), viewNeedsBricks);
 }
 
 std::string renderHelp()
@@ -169,9 +169,9 @@ Result<RenderOptions> parseRenderOptions(std::span<const char* const> arguments)
     command_line.addValue("--gi-frames", [&](std::string_view text) { return parseGiFrames(text, options); });
     command_line.addText("--dump-visibility", options.visibility);
     command_line.addValue("--hzb", [&](std::string_view text) { return parsePyramid(text, options); });
-    command_line.addSwitch("--name-device", options.names_device);
+    command_line.addSwitch("--name-device", options.print_device_name);
     HEARTH_TRY(command_line.parse(arguments, options.pack));
-    if (options.help || options.names_device)
+    if (options.help || options.print_device_name)
         return options;
     if (options.pack.empty())
         return usageError("no pack is named");

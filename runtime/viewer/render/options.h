@@ -40,7 +40,7 @@ struct RenderOptions : DrawOptions
     uint32_t noise_seed = 0;
     std::string stats;
     std::string visibility;
-    bool names_device = false; ///< only prints the name of the device
+    bool print_device_name = false; ///< only prints the name of the device
 };
 
 /// True if the whole scene is drawn once at rest from a fitted camera, so that a sheet can replace it.

@@ -30,11 +30,11 @@ AssetViews makeAssetViews(const formats::PackView& pack, const pack::PosePlayer&
     std::vector<formats::Range> parts{gpu::allInstances(pack)};
     for (const uint32_t asset : drawn)
         parts.push_back(pack.assets()[asset].instances);
-    Stage stage = Stage::ofInstances(pack, player, parts, aspect);
+    Stage stage = Stage::fromInstances(pack, player, parts, aspect);
     for (size_t i = 0; i < drawn.size(); ++i)
         views.list.push_back(
-            {nameWithSize(pack, pack.assets()[drawn[i]]), stage.cameras()[AssetViews::partOf(i)]});
-    if (standInOnePlace(pack))
+            {nameWithSize(pack, pack.assets()[drawn[i]]), stage.cameras()[AssetViews::partIndex(i)]});
+    if (areUnplaced(pack))
         views.stage = std::move(stage);
     return views;
 }

@@ -20,11 +20,11 @@ struct AssetViews
 {
     /// Assets that draw something; empty if there are fewer than two.
     std::vector<AssetView> list;
-    /// Hides all parts but partOf(choice). None if the assets do not stand in one place.
+    /// Hides all parts but partIndex(choice). None if the assets do not stand in one place.
     std::optional<Stage> stage;
 
     /// choice  index in the list; none: the whole scene
-    static size_t partOf(std::optional<size_t> choice) { return choice ? *choice + 1 : 0; }
+    static size_t partIndex(std::optional<size_t> choice) { return choice ? *choice + 1 : 0; }
 };
 
 /// player  current pose of the scene

@@ -13,7 +13,7 @@ namespace
 {
 
 constexpr Float3 kWorldUp{0, 1, 0};
-constexpr float kSteepest = 1.55f; // 89 degrees: keeps the horizon defined
+constexpr float kMaxPitch = 1.55f; // 89 degrees: keeps the horizon defined
 
 } // namespace
 
@@ -26,7 +26,7 @@ void FlyCamera::look(float right_rad, float up_rad)
     const Float3 facing = steep ? camera_.up * (forward.y > 0 ? -1.0f : 1.0f) : forward;
     const float yaw = std::atan2(facing.x, -facing.z) + right_rad;
     const float pitch =
-        std::clamp(std::asin(std::clamp(forward.y, -1.0f, 1.0f)) + up_rad, -kSteepest, kSteepest);
+        std::clamp(std::asin(std::clamp(forward.y, -1.0f, 1.0f)) + up_rad, -kMaxPitch, kMaxPitch);
     const Float3 turned{std::sin(yaw) * std::cos(pitch), std::sin(pitch), -std::cos(yaw) * std::cos(pitch)};
     camera_.target = camera_.position + turned * distance;
     camera_.up = kWorldUp;

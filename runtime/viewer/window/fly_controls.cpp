@@ -23,10 +23,10 @@ constexpr FlyKey kFlyKeys[] = {
 };
 
 constexpr float kRadiansPerPixel = 0.003f; // half a turn for a thousand pixels
-constexpr float kFast = 4;
+constexpr float kFastFactor = 4;
 
 /// Return the bit of a fly key, or 0 for other keys.
-uint32_t bitOf(SDL_Scancode key)
+uint32_t keyBit(SDL_Scancode key)
 {
     const auto* found =
         std::find_if(std::begin(kFlyKeys), std::end(kFlyKeys), [&](const FlyKey& k) { return k.key == key; });
@@ -40,39 +40,39 @@ bool isShift(SDL_Scancode key)
 
 } // namespace
 
-void FlyControls::handle(const SDL_Event& event, Kept by_panel, FlyCamera& camera)
+void FlyControls::handle(const SDL_Event& event, CapturedInput captured, FlyCamera& camera)
 {
     switch (event.type)
     {
     case SDL_KEYDOWN:
-        if (!by_panel.keys)
-            held_ |= bitOf(event.key.keysym.scancode);
-        fast_ = fast_ || isShift(event.key.keysym.scancode);
+        if (!captured.keys)
+            pressed_keys_ |= keyBit(event.key.keysym.scancode);
+        is_fast_ = is_fast_ || isShift(event.key.keysym.scancode);
         break;
     case SDL_KEYUP:
-        held_ &= ~bitOf(event.key.keysym.scancode);
-        fast_ = fast_ && !isShift(event.key.keysym.scancode);
+        pressed_keys_ &= ~keyBit(event.key.keysym.scancode);
+        is_fast_ = is_fast_ && !isShift(event.key.keysym.scancode);
         break;
     case SDL_MOUSEBUTTONDOWN:
-        looking_ = looking_ || (event.button.button == SDL_BUTTON_RIGHT && !by_panel.mouse);
-        SDL_SetRelativeMouseMode(looking_ ? SDL_TRUE : SDL_FALSE);
+        is_looking_ = is_looking_ || (event.button.button == SDL_BUTTON_RIGHT && !captured.mouse);
+        SDL_SetRelativeMouseMode(is_looking_ ? SDL_TRUE : SDL_FALSE);
         break;
     case SDL_MOUSEBUTTONUP:
-        looking_ = looking_ && event.button.button != SDL_BUTTON_RIGHT;
-        SDL_SetRelativeMouseMode(looking_ ? SDL_TRUE : SDL_FALSE);
+        is_looking_ = is_looking_ && event.button.button != SDL_BUTTON_RIGHT;
+        SDL_SetRelativeMouseMode(is_looking_ ? SDL_TRUE : SDL_FALSE);
         break;
     case SDL_MOUSEMOTION:
-        if (looking_)
+        if (is_looking_)
             camera.look(static_cast<float>(event.motion.xrel) * kRadiansPerPixel,
                         -static_cast<float>(event.motion.yrel) * kRadiansPerPixel);
         break;
     case SDL_MOUSEWHEEL:
-        if (!by_panel.mouse)
+        if (!captured.mouse)
             camera.changeSpeed(static_cast<float>(event.wheel.y));
         break;
     case SDL_WINDOWEVENT:
         if (event.window.event == SDL_WINDOWEVENT_FOCUS_LOST)
-            letGo();
+            releaseAll();
         break;
     default:
         break;
@@ -80,11 +80,11 @@ void FlyControls::handle(const SDL_Event& event, Kept by_panel, FlyCamera& camer
 }
 
 /// Release all keys: a window without the focus gets no key-up events.
-void FlyControls::letGo()
+void FlyControls::releaseAll()
 {
-    held_ = 0;
-    fast_ = false;
-    looking_ = false;
+    pressed_keys_ = 0;
+    is_fast_ = false;
+    is_looking_ = false;
     SDL_SetRelativeMouseMode(SDL_FALSE);
 }
 
@@ -92,9 +92,9 @@ void FlyControls::fly(FlyCamera& camera, float seconds) const
 {
     Float3 push;
     for (size_t i = 0; i < std::size(kFlyKeys); ++i)
-        if ((held_ >> i & 1u) != 0)
+        if ((pressed_keys_ >> i & 1u) != 0)
             push += kFlyKeys[i].push;
-    camera.fly(push, fast_ ? seconds * kFast : seconds);
+    camera.fly(push, is_fast_ ? seconds * kFastFactor : seconds);
 }
 
 } // namespace hearth::viewer

@@ -16,23 +16,23 @@ class FlyControls
 {
 public:
     /// Events that the panel captures: presses there do not fly. Releases always count.
-    struct Kept
+    struct CapturedInput
     {
         bool keys = false;
         bool mouse = false;
     };
 
-    void handle(const SDL_Event& event, Kept by_panel, FlyCamera& camera);
+    void handle(const SDL_Event& event, CapturedInput captured, FlyCamera& camera);
 
     /// Fly by the pressed keys. seconds >= 0
     void fly(FlyCamera& camera, float seconds) const;
 
 private:
-    void letGo();
+    void releaseAll();
 
-    uint32_t held_ = 0; ///< bit i: key i
-    bool fast_ = false;
-    bool looking_ = false;
+    uint32_t pressed_keys_ = 0; ///< bit i: key i
+    bool is_fast_ = false;
+    bool is_looking_ = false;
 };
 
 } // namespace hearth::viewer

@@ -14,7 +14,7 @@ namespace
 constexpr size_t kTimedFrames = 16; // a quarter of a second: steady enough to read, quick enough to follow
 
 template <typename T>
-T copyOf(const gpu::Buffer& buffer)
+T readMapped(const gpu::Buffer& buffer)
 {
     T value;
     std::memcpy(&value, buffer.mapped, sizeof(value));
@@ -43,7 +43,7 @@ void FrameMeter::record(VkCommandBuffer commands, const LoadedScene& scene, uint
 {
     Slot& slot = slots_[index];
     slot.recorded = true;
-    slot.counted = count_culling;
+    slot.has_statistics = count_culling;
     const auto copy = [&](const gpu::Buffer& from, const gpu::Buffer& to)
     {
         const VkBufferCopy region{0, 0, to.size};
@@ -61,7 +61,7 @@ void FrameMeter::record(VkCommandBuffer commands, const LoadedScene& scene, uint
                  VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
 }
 
-Status FrameMeter::take(uint32_t index)
+Status FrameMeter::readSlot(uint32_t index)
 {
     const Slot& slot = slots_[index];
     if (!slot.recorded)
@@ -72,11 +72,11 @@ Status FrameMeter::take(uint32_t index)
         times_.emplace_back();
     times_[frame_count_++ % times_.size()] = std::move(times);
     figures_.milliseconds = medianPassTimes(times_);
-    figures_.counters = copyOf<shared::FrameCounters>(slot.counters);
+    figures_.counters = readMapped<shared::FrameCounters>(slot.counters);
     figures_.culling.reset();
-    if (slot.counted)
+    if (slot.has_statistics)
         figures_.culling =
-            makeCullReport(copyOf<shared::CullStatistics>(slot.statistics), figures_.counters, 0, 0);
+            makeCullReport(readMapped<shared::CullStatistics>(slot.statistics), figures_.counters, 0, 0);
     return success();
 }
 

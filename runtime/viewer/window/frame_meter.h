@@ -9,7 +9,7 @@
 namespace hearth::viewer
 {
 
-struct FrameFigures
+struct FrameStatistics
 {
     std::array<double, gpu::kTimestampCount> milliseconds{}; ///< as FrameReport, medians of the last frames
     shared::FrameCounters counters{};
@@ -31,9 +31,9 @@ public:
 
     /// Read the results of the completed frame that was in this slot; nothing if there was none. errors:
     /// device_failed.
-    Status take(uint32_t slot);
+    Status readSlot(uint32_t slot);
 
-    const FrameFigures& figures() const { return figures_; }
+    const FrameStatistics& figures() const { return figures_; }
 
 private:
     struct Slot
@@ -42,7 +42,7 @@ private:
         gpu::Buffer counters;   ///< FrameCounters
         gpu::Buffer statistics; ///< CullStatistics
         bool recorded = false;
-        bool counted = false;
+        bool has_statistics = false;
     };
 
     FrameMeter(VulkanHost& host, const gpu::Device& device) : host_(host), device_(device), arena_(device, 0)
@@ -55,7 +55,7 @@ private:
     std::array<Slot, kFramesInFlight> slots_;
     std::vector<std::vector<double>> times_; ///< of the last frames, a ring
     size_t frame_count_ = 0;
-    FrameFigures figures_;
+    FrameStatistics figures_;
 };
 
 } // namespace hearth::viewer

@@ -86,7 +86,7 @@ void ImguiLayer::handle(const SDL_Event& event)
     ImGui_ImplSDL2_ProcessEvent(&event);
 }
 
-FlyControls::Kept ImguiLayer::kept() const
+FlyControls::CapturedInput ImguiLayer::capturedInput() const
 {
     const ImGuiIO& io = ImGui::GetIO();
     return {io.WantCaptureKeyboard, io.WantCaptureMouse};

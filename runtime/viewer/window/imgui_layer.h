@@ -21,7 +21,7 @@ public:
 
     void handle(const SDL_Event& event);
     /// Return the keys and mouse events that the panel captures, as of the last frame.
-    FlyControls::Kept kept() const;
+    FlyControls::CapturedInput capturedInput() const;
 
     /// Build the panel between beginFrame and endFrame.
     void beginFrame();

@@ -33,9 +33,9 @@ private:
 /// Save a frame with all the geometry that it needs.
 Status takeScreenshot(Viewer& viewer, const std::string& file)
 {
-    constexpr uint64_t kMostFrames = 10000; // a scene that has not settled after minutes never does
+    constexpr uint64_t kMaxFrames = 10000; // a scene that has not settled after minutes never does
     const uint64_t first = viewer.serial() + 1;
-    while (viewer.isOpen() && !viewer.settledSince(first) && viewer.serial() < first + kMostFrames)
+    while (viewer.isOpen() && !viewer.settledSince(first) && viewer.serial() < first + kMaxFrames)
         HEARTH_TRY(viewer.step(0));
     for (bool saved = false; viewer.isOpen() && !saved;)
     {

@@ -12,7 +12,7 @@ PageLoader::~PageLoader()
 {
     {
         const std::scoped_lock lock(mutex_);
-        ending_ = true;
+        stopping_ = true;
     }
     changed_.notify_one();
     thread_.join();
@@ -24,7 +24,7 @@ pack::PageReader PageLoader::reader()
     {
         {
             const std::scoped_lock lock(mutex_);
-            waiting_.push_back({page, destination, done});
+            queue_.push_back({page, destination, done});
         }
         changed_.notify_one();
     };
@@ -35,11 +35,11 @@ void PageLoader::work()
     for (;;)
     {
         std::unique_lock lock(mutex_);
-        changed_.wait(lock, [this] { return ending_ || !waiting_.empty(); });
-        if (ending_)
+        changed_.wait(lock, [this] { return stopping_ || !queue_.empty(); });
+        if (stopping_)
             return;
-        const Read read = waiting_.front();
-        waiting_.pop_front();
+        const Read read = queue_.front();
+        queue_.pop_front();
         lock.unlock();
         read.done(decode_(read.page, read.destination));
     }

@@ -41,8 +41,8 @@ private:
     Decode decode_;
     std::mutex mutex_;
     std::condition_variable changed_;
-    std::deque<Read> waiting_; ///< in request order
-    bool ending_ = false;
+    std::deque<Read> queue_; ///< in request order
+    bool stopping_ = false;
     std::thread thread_; ///< last member: starts after everything else is initialized
 };
 

@@ -11,7 +11,7 @@ namespace
 {
 
 constexpr uint64_t kMib = uint64_t{1} << 20;
-constexpr float kMostError = 64; // pixels: coarser than anybody wants to see
+constexpr float kMaxError = 64; // pixels: coarser than anybody wants to see
 
 double mib(uint64_t bytes)
 {
@@ -46,7 +46,7 @@ void showCount(const char* name, uint64_t count)
     ImGui::Text("%-16s %12llu", name, static_cast<unsigned long long>(count));
 }
 
-void showTimes(const FrameFigures& figures)
+void showTimes(const FrameStatistics& figures)
 {
     constexpr const char* kPasses[] = {"frame",          "shadows",   "cull",       "early visibility",
                                        "pyramid",        "late cull", "visibility", "material tiles",
@@ -58,7 +58,7 @@ void showTimes(const FrameFigures& figures)
         ImGui::Text("%-16s %9.3f ms", kPasses[pass], figures.milliseconds[pass]);
 }
 
-void chooseCamera(ViewSettings& settings, const PanelFacts& facts)
+void chooseCamera(ViewSettings& settings, const PanelData& facts)
 {
     if (!ImGui::BeginCombo("Camera", "go to ..."))
         return;
@@ -106,7 +106,7 @@ void chooseClip(PlaybackSettings& settings, std::span<const std::string> clips)
     ImGui::EndCombo();
 }
 
-void showClip(PlaybackSettings& settings, const PanelFacts& facts)
+void showClip(PlaybackSettings& settings, const PanelData& facts)
 {
     const std::optional<pack::ClipTime> clip = facts.playback.clip();
     if (!clip)
@@ -116,12 +116,12 @@ void showClip(PlaybackSettings& settings, const PanelFacts& facts)
     if (ImGui::SliderScalar("Time", ImGuiDataType_Double, &seconds, &first, &last, "%.3f s",
                             ImGuiSliderFlags_AlwaysClamp))
         settings.go_to = seconds;
-    if (const std::optional<pack::ClipTime> leaving = facts.playback.leaving())
+    if (const std::optional<pack::ClipTime> faded_clip = facts.playback.fadedClip())
         ImGui::Text("%.0f %% of it, the rest %s", facts.playback.weight() * 100,
-                    facts.clips[leaving->animation].c_str());
+                    facts.clips[faded_clip->animation].c_str());
 }
 
-void buildAnimation(PlaybackSettings& settings, const PanelFacts& facts)
+void buildAnimation(PlaybackSettings& settings, const PanelData& facts)
 {
     if (facts.clips.empty() || !ImGui::CollapsingHeader("Animation", ImGuiTreeNodeFlags_DefaultOpen))
         return;
@@ -142,14 +142,14 @@ Panel::Panel(const ViewSettings& settings, uint64_t geometry_bytes)
     : streamed_(settings.geometry_budget > 0), curve_(settings.frame.lod_curve)
 {
     // slots are larger than their pages: half as much again holds everything
-    const uint64_t largest = std::clamp(geometry_bytes * 3 / 2 / kMib + 1, uint64_t{16}, uint64_t{1} << 20);
-    largest_budget_mib_ = static_cast<int>(largest);
+    const uint64_t max_budget =
+        std::clamp(geometry_bytes * 3 / 2 / kMib + 1, uint64_t{16}, uint64_t{1} << 20);
+    max_budget_mib_ = static_cast<int>(max_budget);
     const uint64_t budget = settings.geometry_budget / kMib;
-    budget_mib_ =
-        streamed_ ? static_cast<int>(std::clamp(budget, uint64_t{1}, largest)) : largest_budget_mib_;
+    budget_mib_ = streamed_ ? static_cast<int>(std::clamp(budget, uint64_t{1}, max_budget)) : max_budget_mib_;
 }
 
-void Panel::build(ViewSettings& settings, const PanelFacts& facts)
+void Panel::build(ViewSettings& settings, const PanelData& facts)
 {
     ImGui::SetNextWindowPos({10, 10}, ImGuiCond_FirstUseEver);
     ImGui::SetNextWindowSize({380, 560}, ImGuiCond_FirstUseEver);
@@ -177,12 +177,12 @@ void Panel::buildPicture(FrameSettings& settings, const gpu::Scene& scene)
     std::vector<Named<uint32_t>> views;
     for (const Named<uint32_t>& view : viewNames())
         if ((scene.shadows != nullptr || view.value != shared::kViewShadowMaps) &&
-            (scene.bricks != nullptr || !gpu::showsBricks(view.value)))
+            (scene.bricks != nullptr || !gpu::viewNeedsBricks(view.value)))
             views.push_back(view);
     chooseNamed("View", std::span<const Named<uint32_t>>(views), settings.view);
     if (scene.bricks != nullptr)
-        ImGui::Checkbox("Light of bricks", &settings.bricks_light);
-    ImGui::SliderFloat("Error, pixels", &settings.error_pixels, 0, kMostError, "%.2f",
+        ImGui::Checkbox("Light of bricks", &settings.gi);
+    ImGui::SliderFloat("Error, pixels", &settings.error_pixels, 0, kMaxError, "%.2f",
                        ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     chooseNamed("Shaded area", shadedAreaNames(), settings.shaded_area);
     if (gpu::hasSkyVisibility(scene))
@@ -233,14 +233,14 @@ void Panel::buildCurve(FrameSettings& settings)
     showProblem(curve_problem_);
 }
 
-void Panel::buildStreaming(ViewSettings& settings, const PanelFacts& facts)
+void Panel::buildStreaming(ViewSettings& settings, const PanelData& facts)
 {
     if (!ImGui::CollapsingHeader("Memory", ImGuiTreeNodeFlags_DefaultOpen))
         return;
     bool changed = ImGui::Checkbox("Stream the geometry", &streamed_);
     if (streamed_)
     {
-        ImGui::SliderInt("Budget", &budget_mib_, 1, largest_budget_mib_, "%d MiB",
+        ImGui::SliderInt("Budget", &budget_mib_, 1, max_budget_mib_, "%d MiB",
                          ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
         // the scene is reloaded, so once per drag and not for every pixel of it
         changed |= ImGui::IsItemDeactivatedAfterEdit();
@@ -260,7 +260,7 @@ void Panel::buildStreaming(ViewSettings& settings, const PanelFacts& facts)
                 stream->pages().readsInFlight(), s.failures);
 }
 
-void Panel::buildCulling(ViewSettings& settings, const PanelFacts& facts)
+void Panel::buildCulling(ViewSettings& settings, const PanelData& facts)
 {
     if (!ImGui::CollapsingHeader("Culling", ImGuiTreeNodeFlags_DefaultOpen))
         return;
@@ -270,7 +270,7 @@ void Panel::buildCulling(ViewSettings& settings, const PanelFacts& facts)
         ImGui::SameLine();
     }
     ImGui::NewLine();
-    const FrameFigures& figures = facts.figures;
+    const FrameStatistics& figures = facts.figures;
     showCount("clusters drawn", figures.counters.drawn_clusters);
     showCount("of these early", figures.counters.early_clusters);
     if (figures.counters.dropped_clusters > 0)

@@ -19,8 +19,8 @@ struct ViewSettings
     uint64_t geometry_budget = 0; ///< bytes; 0: all geometry is resident
     bool count_culling = false;
     bool panel = true;
-    std::optional<size_t> camera{}; ///< request: go to this one of PanelFacts::cameras
-    std::optional<size_t> asset{};  ///< this one of PanelFacts::assets; none: the whole scene
+    std::optional<size_t> camera{}; ///< request: go to this one of PanelData::cameras
+    std::optional<size_t> asset{};  ///< this one of PanelData::assets; none: the whole scene
 };
 
 struct NamedCamera
@@ -30,12 +30,12 @@ struct NamedCamera
 };
 
 /// Values that the panel displays.
-struct PanelFacts
+struct PanelData
 {
     const std::string& device;
     VkExtent2D extent;
     double frame_seconds; ///< from one frame to the next
-    const FrameFigures& figures;
+    const FrameStatistics& figures;
     const LoadedScene& scene;
     VkDeviceSize target_bytes;
     const FlyCamera& camera;
@@ -54,15 +54,15 @@ public:
     Panel(const ViewSettings& settings, uint64_t geometry_bytes);
 
     /// Build within a frame of ImguiLayer. The resulting settings are valid.
-    void build(ViewSettings& settings, const PanelFacts& facts);
+    void build(ViewSettings& settings, const PanelData& facts);
 
 private:
     void buildPicture(FrameSettings& settings, const gpu::Scene& scene);
     void buildCurve(FrameSettings& settings);
-    void buildStreaming(ViewSettings& settings, const PanelFacts& facts);
-    void buildCulling(ViewSettings& settings, const PanelFacts& facts);
+    void buildStreaming(ViewSettings& settings, const PanelData& facts);
+    void buildCulling(ViewSettings& settings, const PanelData& facts);
 
-    int largest_budget_mib_;
+    int max_budget_mib_;
     bool streamed_; ///< state of the panel's checkbox
     int budget_mib_;
     std::vector<shared::LodKnot> curve_; ///< being edited, perhaps invalid

@@ -38,20 +38,20 @@ void Playback::advance(PlaybackSettings& settings, double seconds)
     if (!settings.playing)
         return;
     pass(settings, seconds, clip_);
-    pass(settings, seconds, leaving_);
-    if (!leaving_)
+    pass(settings, seconds, faded_clip_);
+    if (!faded_clip_)
         return;
     weight_ += seconds / static_cast<double>(settings.fade_seconds);
     if (weight_ >= 1)
-        leaving_.reset();
+        faded_clip_.reset();
 }
 
 void Playback::choose(const PlaybackSettings& settings)
 {
-    leaving_.reset();
+    faded_clip_.reset();
     const bool fades = settings.clip && clip_ && settings.playing && settings.fade_seconds > 0;
     if (fades)
-        leaving_ = clip_;
+        faded_clip_ = clip_;
     weight_ = 0;
     clip_.reset();
     if (settings.clip)
@@ -70,8 +70,8 @@ void Playback::pose(pack::PosePlayer& player) const
 {
     if (!clip_)
         player.rest();
-    else if (leaving_)
-        player.blend(*leaving_, *clip_, weight_);
+    else if (faded_clip_)
+        player.blend(*faded_clip_, *clip_, weight_);
     else
         player.play(*clip_);
 }

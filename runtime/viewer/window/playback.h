@@ -35,8 +35,8 @@ public:
 
     std::optional<pack::ClipTime> clip() const { return clip_; }
     /// Return the clip that is faded out; none: no crossfade.
-    std::optional<pack::ClipTime> leaving() const { return leaving_; }
-    double weight() const { return leaving_ ? weight_ : 1; } ///< of clip(), 0 to 1
+    std::optional<pack::ClipTime> fadedClip() const { return faded_clip_; }
+    double weight() const { return faded_clip_ ? weight_ : 1; } ///< of clip(), 0 to 1
     double duration(uint32_t clip) const { return durations_[clip]; }
 
     /// Apply the current pose.
@@ -48,7 +48,7 @@ private:
 
     std::vector<double> durations_;
     std::optional<pack::ClipTime> clip_;
-    std::optional<pack::ClipTime> leaving_;
+    std::optional<pack::ClipTime> faded_clip_;
     double weight_ = 0;
 };
 

@@ -15,7 +15,7 @@ namespace
 constexpr VkImageUsageFlags kUsage =
     VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
 
-VkSurfaceCapabilitiesKHR capabilitiesOf(const VulkanHost& host, const WindowTable& vk)
+VkSurfaceCapabilitiesKHR queryCapabilities(const VulkanHost& host, const WindowTable& vk)
 {
     VkSurfaceCapabilitiesKHR surface{};
     vk.vkGetPhysicalDeviceSurfaceCapabilitiesKHR(host.description().physical_device, host.surface(),
@@ -23,15 +23,15 @@ VkSurfaceCapabilitiesKHR capabilitiesOf(const VulkanHost& host, const WindowTabl
     return surface;
 }
 
-/// Return the window's own size, or the wanted size if the surface accepts any.
-VkExtent2D sizeOf(const VkSurfaceCapabilitiesKHR& surface, VkExtent2D wanted)
+/// Return the window's own size, or the requested size if the surface accepts any.
+VkExtent2D chooseExtent(const VkSurfaceCapabilitiesKHR& surface, VkExtent2D requested)
 {
     constexpr uint32_t kAny = 0xffffffff;
     if (surface.currentExtent.width != kAny)
         return surface.currentExtent;
     const VkExtent2D least = surface.minImageExtent, most = surface.maxImageExtent;
-    return {std::clamp(wanted.width, least.width, most.width),
-            std::clamp(wanted.height, least.height, most.height)};
+    return {std::clamp(requested.width, least.width, most.width),
+            std::clamp(requested.height, least.height, most.height)};
 }
 
 } // namespace
@@ -41,7 +41,7 @@ Result<std::unique_ptr<Swapchain>> Swapchain::create(const VulkanHost& host, con
 {
     std::unique_ptr<Swapchain> swapchain(new Swapchain(host, device, vk));
     HEARTH_TRY(swapchain->chooseFormat());
-    if ((capabilitiesOf(host, vk).supportedUsageFlags & kUsage) != kUsage)
+    if ((queryCapabilities(host, vk).supportedUsageFlags & kUsage) != kUsage)
         return Error{Issue::device, "", "", "pictures cannot be copied to the window and back"};
     HEARTH_TRY(swapchain->createOverlayPass());
     return swapchain;
@@ -109,11 +109,11 @@ Status Swapchain::createOverlayPass()
     return success();
 }
 
-Status Swapchain::resize(VkExtent2D wanted)
+Status Swapchain::resize(VkExtent2D requested)
 {
-    const VkSurfaceCapabilitiesKHR surface = capabilitiesOf(host_, vk_);
+    const VkSurfaceCapabilitiesKHR surface = queryCapabilities(host_, vk_);
     destroyImages();
-    extent_ = sizeOf(surface, wanted);
+    extent_ = chooseExtent(surface, requested);
     if (extent_.width == 0 || extent_.height == 0)
     {
         extent_ = {};

@@ -20,9 +20,9 @@ public:
     ~Swapchain();
 
     /// Recreate the images at the size of the window. No frame is in flight.
-    /// wanted  pixels; used if the window system leaves the size to the application
+    /// requested  pixels; used if the window system leaves the size to the application
     /// errors: device_failed.
-    Status resize(VkExtent2D wanted);
+    Status resize(VkExtent2D requested);
 
     /// 0 x 0: the window has no area, and there are no images.
     VkExtent2D extent() const { return extent_; }

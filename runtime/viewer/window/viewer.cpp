@@ -16,7 +16,7 @@ namespace hearth::viewer
 namespace
 {
 
-constexpr double kLongestStep = 0.1; // seconds: limits the jump after a long pause
+constexpr double kMaxStep = 0.1; // seconds: limits the jump after a long pause
 
 /// Fly speed in metres per second that reaches most of the scene in a few seconds: a quarter of the median
 /// distance of the instances. Their bounds would include a sky dome.
@@ -36,8 +36,8 @@ float flySpeed(const formats::PackView& pack, Float3 eye)
     return std::max(*median / 4, 1e-4f);
 }
 
-std::vector<NamedCamera> camerasOf(const formats::PackView& pack, const pack::PosePlayer& player,
-                                   const shared::Camera& start, float aspect)
+std::vector<NamedCamera> listCameras(const formats::PackView& pack, const pack::PosePlayer& player,
+                                     const shared::Camera& start, float aspect)
 {
     std::vector<NamedCamera> cameras{{"start", start}, {"whole scene", fitCamera(pack, player, aspect)}};
     for (uint32_t i = 0; i < pack.cameras().size(); ++i)
@@ -68,8 +68,8 @@ PlaybackSettings playbackSettings(const AnimationSettings& options, const Playba
 }
 
 /// Fit the shadow options to flights between these cameras.
-gpu::ShadowOptions shadowsOf(const ShadowSettings& settings, const formats::PackView& pack,
-                             std::span<const NamedCamera> named)
+gpu::ShadowOptions fitShadowOptions(const ShadowSettings& settings, const formats::PackView& pack,
+                                    std::span<const NamedCamera> named)
 {
     std::vector<shared::Camera> cameras;
     for (const NamedCamera& camera : named)
@@ -98,11 +98,11 @@ Viewer::Viewer(const ViewOptions& options, const formats::PackView& pack, Playba
       clips_(clipNames(pack)),
       playback_(std::move(playback)),
       player_(pack),
-      cameras_(camerasOf(pack, player, start,
-                         static_cast<float>(options.width) / static_cast<float>(options.height))),
+      cameras_(listCameras(pack, player, start,
+                           static_cast<float>(options.width) / static_cast<float>(options.height))),
       assets_(makeAssetViews(pack, player,
                              static_cast<float>(options.width) / static_cast<float>(options.height))),
-      shadows_(shadowsOf(options.shadows, pack, cameras_)),
+      shadows_(fitShadowOptions(options.shadows, pack, cameras_)),
       shadow_spheres_(options.shadows.spheres)
 {
 }
@@ -151,9 +151,9 @@ Result<bool> Viewer::step(double seconds)
 {
     frame_seconds_ = seconds;
     handleEvents();
-    controls_.fly(camera_, static_cast<float>(std::clamp(seconds, 0.0, kLongestStep)));
+    controls_.fly(camera_, static_cast<float>(std::clamp(seconds, 0.0, kMaxStep)));
     playback_.advance(settings_.playback, std::max(seconds, 0.0));
-    HEARTH_TRY(followSettings());
+    HEARTH_TRY(applySettings());
     if (resized_ && !minimized_)
         HEARTH_TRY(resize());
     if (minimized_ || !targets_)
@@ -175,16 +175,17 @@ void Viewer::handleEvents()
 void Viewer::handle(const SDL_Event& event)
 {
     imgui_->handle(event);
-    const FlyControls::Kept kept = settings_.panel ? imgui_->kept() : FlyControls::Kept{};
-    controls_.handle(event, kept, camera_);
+    const FlyControls::CapturedInput captured =
+        settings_.panel ? imgui_->capturedInput() : FlyControls::CapturedInput{};
+    controls_.handle(event, captured, camera_);
     switch (event.type)
     {
     case SDL_QUIT:
         open_ = false;
         break;
     case SDL_KEYDOWN:
-        if (!kept.keys && event.key.repeat == 0)
-            pressed(event.key.keysym.sym);
+        if (!captured.keys && event.key.repeat == 0)
+            handleKey(event.key.keysym.sym);
         break;
     case SDL_WINDOWEVENT:
         if (event.window.event == SDL_WINDOWEVENT_MINIMIZED)
@@ -200,7 +201,7 @@ void Viewer::handle(const SDL_Event& event)
 }
 
 /// Handle the keys of README.md that do not fly.
-void Viewer::pressed(int32_t key)
+void Viewer::handleKey(int32_t key)
 {
     if (key == SDLK_ESCAPE)
         open_ = false;
@@ -224,7 +225,7 @@ void Viewer::pressed(int32_t key)
 }
 
 /// Apply the settings that are no part of a frame: camera, asset, and the budget, which reloads the scene.
-Status Viewer::followSettings()
+Status Viewer::applySettings()
 {
     if (settings_.camera)
         camera_ = FlyCamera(cameras_[*settings_.camera].camera, camera_.speed());
@@ -269,7 +270,7 @@ Status Viewer::poseScene()
     poses_ = pose_.poses();
     if (!assets_.stage)
         return success();
-    const size_t part = AssetViews::partOf(asset_);
+    const size_t part = AssetViews::partIndex(asset_);
     HEARTH_ASSIGN_OR_RETURN(moves_, assets_.stage->show(scene_->scene(), part, pose_.moves()));
     poses_ = assets_.stage->poses(player_, part);
     return success();
@@ -311,7 +312,7 @@ Result<bool> Viewer::drawFrame(bool panel, const gpu::Buffer* screenshot)
     if (!targets_)
         return false;
     HEARTH_TRY(frames_->wait());
-    HEARTH_TRY(meter_->take(frames_->slot()));
+    HEARTH_TRY(meter_->readSlot(frames_->slot()));
     HEARTH_ASSIGN_OR_RETURN(const std::optional<uint32_t> image, swapchain_->acquire(frames_->available()));
     if (!image)
     {

@@ -37,7 +37,7 @@ public:
 
     ViewSettings& settings() { return settings_; }
     const FlyCamera& camera() const { return camera_; }
-    const FrameFigures& figures() const { return meter_->figures(); }
+    const FrameStatistics& figures() const { return meter_->figures(); }
     const LoadedScene& scene() const { return *scene_; }
     const Playback& playback() const { return playback_; }
     VkExtent2D extent() const { return swapchain_->extent(); }
@@ -49,8 +49,8 @@ private:
     Status open(const ViewOptions& options);
     void handleEvents();
     void handle(const SDL_Event& event);
-    void pressed(int32_t key);
-    Status followSettings();
+    void handleKey(int32_t key);
+    Status applySettings();
     void lookAtAsset();
     Status resize();
     Result<bool> drawFrame(bool panel, const gpu::Buffer* screenshot);

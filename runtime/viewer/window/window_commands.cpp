@@ -11,15 +11,15 @@ namespace
 
 constexpr VkPipelineStageFlags kTransfer = VK_PIPELINE_STAGE_TRANSFER_BIT;
 
-struct Access
+struct ImageAccess
 {
     VkPipelineStageFlags stage;
     VkAccessFlags access;
     VkImageLayout layout;
 };
 
-void transition(const gpu::Device& device, VkCommandBuffer commands, VkImage image, const Access& from,
-                const Access& to)
+void transition(const gpu::Device& device, VkCommandBuffer commands, VkImage image, const ImageAccess& from,
+                const ImageAccess& to)
 {
     VkImageMemoryBarrier barrier{};
     barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER;
@@ -34,15 +34,17 @@ void transition(const gpu::Device& device, VkCommandBuffer commands, VkImage ima
     device.vk.vkCmdPipelineBarrier(commands, from.stage, to.stage, 0, 0, nullptr, 0, nullptr, 1, &barrier);
 }
 
-constexpr Access kWritten{kTransfer, VK_ACCESS_TRANSFER_WRITE_BIT, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL};
-constexpr Access kRead{kTransfer, VK_ACCESS_TRANSFER_READ_BIT, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
+constexpr ImageAccess kTransferWrite{kTransfer, VK_ACCESS_TRANSFER_WRITE_BIT,
+                                     VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL};
+constexpr ImageAccess kTransferRead{kTransfer, VK_ACCESS_TRANSFER_READ_BIT,
+                                    VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
 
 } // namespace
 
 void recordPicture(const gpu::Device& device, const WindowTable& vk, VkCommandBuffer commands,
                    const gpu::FrameTargets& targets, VkImage window)
 {
-    transition(device, commands, window, {kTransfer, 0, VK_IMAGE_LAYOUT_UNDEFINED}, kWritten);
+    transition(device, commands, window, {kTransfer, 0, VK_IMAGE_LAYOUT_UNDEFINED}, kTransferWrite);
     // texel by texel: a blit converts the order of channels to the window's, which a copy would not
     const VkExtent2D extent = targets.extent();
     const VkOffset3D corner{static_cast<int32_t>(extent.width), static_cast<int32_t>(extent.height), 1};
@@ -54,7 +56,7 @@ void recordPicture(const gpu::Device& device, const WindowTable& vk, VkCommandBu
 
 void recordWithoutOverlay(const gpu::Device& device, VkCommandBuffer commands, VkImage window)
 {
-    transition(device, commands, window, kWritten, kRead);
+    transition(device, commands, window, kTransferWrite, kTransferRead);
 }
 
 void recordReadback(const gpu::Device& device, const WindowTable& vk, VkCommandBuffer commands,
@@ -71,7 +73,7 @@ void recordReadback(const gpu::Device& device, const WindowTable& vk, VkCommandB
 
 void recordPresentable(const gpu::Device& device, VkCommandBuffer commands, VkImage window)
 {
-    transition(device, commands, window, kRead,
+    transition(device, commands, window, kTransferRead,
                {VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, 0, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR});
 }
 

@@ -17,10 +17,10 @@ namespace
 {
 
 using namespace formats;
-using command::Fact;
+using command::EntryChange;
 using command::PackDiff;
-using command::Thing;
-using command::ThingChange;
+using command::PackEntry;
+using command::Property;
 
 class Diff : public ::testing::Test
 {
@@ -44,16 +44,16 @@ protected:
     static std::set<std::string> linesOf(const PackDiff& diff)
     {
         std::set<std::string> lines;
-        for (const ThingChange& change : diff.things)
+        for (const EntryChange& change : diff.entries)
         {
-            const char* how = change.how == ThingChange::How::added     ? "added "
-                              : change.how == ThingChange::How::removed ? "removed "
-                                                                        : "changed ";
-            const std::string thing = how + change.kind + " " + change.name;
-            if (change.facts.empty())
-                lines.insert(thing);
-            for (const command::FactChange& fact : change.facts)
-                lines.insert(thing + ": " + fact.what);
+            const char* type = change.type == EntryChange::ChangeType::added     ? "added "
+                               : change.type == EntryChange::ChangeType::removed ? "removed "
+                                                                                 : "changed ";
+            const std::string entry = type + change.kind + " " + change.name;
+            if (change.properties.empty())
+                lines.insert(entry);
+            for (const command::PropertyChange& property : change.properties)
+                lines.insert(entry + ": " + property.name);
         }
         return lines;
     }
@@ -144,13 +144,13 @@ TEST_F(Diff, texelsAreCompared)
     PackModel changed = smallPack();
     changed.image_data[0][3] ^= std::byte{1};
     const PackDiff diff = diffed(smallPack(), changed);
-    ASSERT_EQ(diff.things.size(), 1u) << command::diffText(diff);
-    EXPECT_EQ(diff.things[0].kind, "texture");
-    ASSERT_EQ(diff.things[0].facts.size(), 1u);
-    EXPECT_EQ(diff.things[0].facts[0].what, "texels");
-    EXPECT_EQ(diff.things[0].note, "baseColor of paint");
+    ASSERT_EQ(diff.entries.size(), 1u) << command::diffText(diff);
+    EXPECT_EQ(diff.entries[0].kind, "texture");
+    ASSERT_EQ(diff.entries[0].properties.size(), 1u);
+    EXPECT_EQ(diff.entries[0].properties[0].name, "texels");
+    EXPECT_EQ(diff.entries[0].note, "baseColor of paint");
     EXPECT_EQ(Json::parse(command::diffJson(diff, "a", "b")).value()["changes"][0]["note"],
-              diff.things[0].note);
+              diff.entries[0].note);
 }
 
 TEST_F(Diff, textHasTotalsFirstAndHashesOnDemand)
@@ -168,12 +168,12 @@ TEST_F(Diff, textHasTotalsFirstAndHashesOnDemand)
                                  "bytes    "))
         << text;
     const std::string texture =
-        "changed  texture " + diff.things[1].name + " (" + diff.things[1].note + ")\n";
+        "changed  texture " + diff.entries[1].name + " (" + diff.entries[1].note + ")\n";
     EXPECT_NE(text.find("\n\nchanged  material paint\n    metallic: "), std::string::npos) << text;
     EXPECT_NE(text.find(texture + "    texels: other content\n"), std::string::npos) << text;
     EXPECT_TRUE(text.ends_with("added    light sun\n")) << text;
     const std::string with_hashes = command::diffText(diff, {}, true);
-    const command::FactChange& texels = diff.things[1].facts.at(0);
+    const command::PropertyChange& texels = diff.entries[1].properties.at(0);
     EXPECT_NE(with_hashes.find(texture + "    texels: " + texels.a + " -> " + texels.b + "\n"),
               std::string::npos)
         << with_hashes;
@@ -186,7 +186,7 @@ TEST_F(Diff, placesInTablesMeanNothing)
     addNamed(shifted, shifted.materials, "varnish");
     std::rotate(shifted.materials.begin(), shifted.materials.end() - 1, shifted.materials.end());
     for (ClusterRecord& cluster : shifted.clusters)
-        cluster.material += cluster.material == kNone ? 0 : 1;
+        cluster.material += cluster.material == kInvalidIndex ? 0 : 1;
     EXPECT_EQ(linesOf(diffed(smallPack(), shifted)), std::set<std::string>{"added material varnish"});
     EXPECT_EQ(linesOf(diffed(shifted, smallPack())), std::set<std::string>{"removed material varnish"});
 }
@@ -201,7 +201,7 @@ TEST_F(Diff, metaIsToldNumberByNumber)
     a.meta = R"({"settings":{"clusters":{"levels":[1,2]}},"tool":{"version":"1"}})";
     b.meta = R"({"settings":{"clusters":{"levels":[1,3],"x":true}},"tool":{"version":"2"}})";
     const PackDiff diff = diffed(a, b);
-    EXPECT_TRUE(diff.things.empty());
+    EXPECT_TRUE(diff.entries.empty());
     const Json json = Json::parse(command::diffJson(diff, "a", "b")).value();
     EXPECT_EQ(json["settings"], Json::parse(R"([{"what": "/settings/clusters/levels/1", "a": "2", "b": "3"},
                                                 {"what": "/tool/version", "a": "\"1\"", "b": "\"2\""},
@@ -212,32 +212,32 @@ TEST_F(Diff, metaIsToldNumberByNumber)
 TEST(DiffThings, pairsThoseOfOneNameByWhatTheyAre)
 {
     const auto grass = [](const std::string& place) {
-        return Thing{"instance", "grass", {{"place", place}}};
+        return PackEntry{"instance", "grass", {{"place", place}}};
     };
-    const std::vector<Thing> a{grass("1"), grass("2"), grass("3"), grass("3")};
-    const std::vector<Thing> b{grass("3"), grass("0"), grass("1"), grass("2"), grass("3"), grass("4")};
-    EXPECT_EQ(command::diffThings(a, b).size(), 2u) << "0 and 4 are new, whatever stands where";
+    const std::vector<PackEntry> a{grass("1"), grass("2"), grass("3"), grass("3")};
+    const std::vector<PackEntry> b{grass("3"), grass("0"), grass("1"), grass("2"), grass("3"), grass("4")};
+    EXPECT_EQ(command::diffEntries(a, b).size(), 2u) << "0 and 4 are new, whatever stands where";
     const auto moved =
-        command::diffThings(std::vector{grass("1"), grass("2")}, std::vector{grass("2"), grass("7")});
+        command::diffEntries(std::vector{grass("1"), grass("2")}, std::vector{grass("2"), grass("7")});
     ASSERT_EQ(moved.size(), 1u);
-    EXPECT_EQ(moved[0].how, ThingChange::How::changed);
-    EXPECT_EQ(moved[0].facts[0].a, "1");
-    EXPECT_EQ(moved[0].facts[0].b, "7");
-    EXPECT_EQ(command::diffThings(b, a)[0].how, ThingChange::How::removed);
+    EXPECT_EQ(moved[0].type, EntryChange::ChangeType::changed);
+    EXPECT_EQ(moved[0].properties[0].a, "1");
+    EXPECT_EQ(moved[0].properties[0].b, "7");
+    EXPECT_EQ(command::diffEntries(b, a)[0].type, EntryChange::ChangeType::removed);
     // two images without names of their own
     const auto image = [](const std::string& note, const std::string& texels) {
-        return Thing{"texture", "image 0", {{"texels", texels, true}}, note};
+        return PackEntry{"texture", "image 0", {{"texels", texels, true}}, note};
     };
     const auto textures =
-        command::diffThings(std::vector{image("normal of Bark", "1"), image("normal of Leaf", "2")},
-                            std::vector{image("normal of Leaf", "3"), image("normal of Moss", "4")});
+        command::diffEntries(std::vector{image("normal of Bark", "1"), image("normal of Leaf", "2")},
+                             std::vector{image("normal of Leaf", "3"), image("normal of Moss", "4")});
     ASSERT_EQ(textures.size(), 2u);
     EXPECT_EQ(textures[0].note, "normal of Leaf");
-    EXPECT_EQ(textures[0].facts.at(0).b, "3");
-    EXPECT_EQ(textures[1].facts.at(0).a, "1");
-    EXPECT_EQ(textures[1].facts.at(0).b, "4");
-    const std::vector<Thing> other{{"light", "grass", {{"place", "1"}}}};
-    EXPECT_EQ(command::diffThings(a, other).size(), 5u) << "kinds are not mixed";
+    EXPECT_EQ(textures[0].properties.at(0).b, "3");
+    EXPECT_EQ(textures[1].properties.at(0).a, "1");
+    EXPECT_EQ(textures[1].properties.at(0).b, "4");
+    const std::vector<PackEntry> other{{"light", "grass", {{"place", "1"}}}};
+    EXPECT_EQ(command::diffEntries(a, other).size(), 5u) << "kinds are not mixed";
 }
 
 TEST_F(Diff, theCommandSaysSoByItsExitCode)

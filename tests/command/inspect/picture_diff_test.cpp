@@ -16,7 +16,7 @@ namespace
 
 using reference::Picture;
 
-class PictureDiff : public ::testing::Test
+class ImageDiff : public ::testing::Test
 {
 protected:
     ProgramEnd run(const std::string& program, const std::vector<std::string>& arguments)
@@ -43,7 +43,7 @@ Picture grey(uint32_t width, uint32_t height)
 
 } // namespace
 
-TEST_F(PictureDiff, figuresAreOfThePicturesAlone)
+TEST_F(ImageDiff, figuresAreOfThePicturesAlone)
 {
     write("a.png", grey(32, 16));
     Picture other = grey(32, 16);
@@ -75,7 +75,7 @@ TEST_F(PictureDiff, figuresAreOfThePicturesAlone)
     EXPECT_EQ(int{heat.at(31, 0)[0]}, 0) << "far from it nothing differs";
 }
 
-TEST_F(PictureDiff, whatCannotBeComparedIsAnError)
+TEST_F(ImageDiff, whatCannotBeComparedIsAnError)
 {
     write("a.png", grey(32, 16));
     write("wide.png", grey(33, 16));
@@ -87,13 +87,13 @@ TEST_F(PictureDiff, whatCannotBeComparedIsAnError)
     EXPECT_FALSE(folder.has("heat.png"));
 }
 
-TEST_F(PictureDiff, packsAreDrawnAndCompared)
+TEST_F(ImageDiff, packsAreDrawnAndCompared)
 {
     PackModel model = smallPack();
     model.materials[0].alpha_mode = static_cast<uint32_t>(formats::AlphaMode::opaque);
     writePackFile(model, folder / "a.hearth");
     model.materials[0].emissive = {0, 4, 0};
-    model.materials[0].emissive_texture.image = formats::kNone;
+    model.materials[0].emissive_texture.image = kInvalidIndex;
     writePackFile(model, folder / "b.hearth");
     const ProgramEnd end = run("hearth", {"diff", "a.hearth", "b.hearth", "--picture", "heat.png", "--camera",
                                           "1,1,4,1,0,0,60", "--size", "64x48", "--format", "json"});

@@ -105,7 +105,7 @@ public:
                 std::printf("  mesh %u has more than 8 influences: not compared\n", mesh.index);
                 continue;
             }
-            MeshPoses poses(motionTables(model_->scene()), mesh.node, mesh.index);
+            MeshPoses poses(animationTables(model_->scene()), mesh.node, mesh.index);
             compare(mesh, poses.rest(), {});
             std::mt19937 random(mesh.index);
             const auto clips = static_cast<uint32_t>(model_->scene().animations().size());

@@ -16,7 +16,7 @@ TEST(PartsOf, everyMessageComesApartAsItWasPutTogether)
           Error{Issue::usage, "", "", "what"}, Error{Issue::dropped, "a.glb", "", "left out"},
           Error{Issue::profile_key, "hearth.toml", "line 2, column 3, x", "odd [E12] thing"}})
     {
-        const MessageParts parts = partsOf(formatMessage(error));
+        const MessageParts parts = splitMessage(formatMessage(error));
         const IssueInfo& info = issueInfo(error.issue);
         const bool warns = info.kind == IssueClass::warning;
         EXPECT_EQ(parts.severity, warns ? "warning" : "error");
@@ -26,7 +26,7 @@ TEST(PartsOf, everyMessageComesApartAsItWasPutTogether)
         EXPECT_EQ(parts.code, (warns ? "W" : "E") + std::to_string(static_cast<unsigned>(error.issue)));
         EXPECT_EQ(parts.hint, info.hint);
     }
-    const MessageParts note = partsOf("import  0.10 s  a.glb");
+    const MessageParts note = splitMessage("import  0.10 s  a.glb");
     EXPECT_EQ(note.severity, "note");
     EXPECT_EQ(note.text, "import  0.10 s  a.glb");
     EXPECT_EQ(note.code, "");

@@ -12,7 +12,7 @@ namespace
 
 using graph::Action;
 using graph::ActionOutcome;
-using graph::Ending;
+using graph::Outcome;
 
 /// Two sources of three cookers each, and the pack.
 graph::Graph villageGraph()
@@ -49,7 +49,7 @@ protected:
         return graph.actions.front();
     }
 
-    void end(const std::string& cooker, size_t source, Ending ending = Ending::cooked)
+    void end(const std::string& cooker, size_t source, Outcome ending = Outcome::cooked)
     {
         ActionOutcome outcome;
         outcome.ending = ending;
@@ -80,7 +80,7 @@ TEST_F(Progress, hasALineForEachSourceThatIsDone)
         for (const size_t source : {0u, 1u})
             run(cooker, source);
     EXPECT_EQ(lines, Lines()) << "no line for a cooker";
-    end("clusters", 0, Ending::kept);
+    end("clusters", 0, Outcome::cached);
     EXPECT_EQ(lines, Lines{"source        3.00 s    2 cookers  house.glb"});
     run("clusters", 1);
     run("link", 2);
@@ -92,9 +92,9 @@ TEST_F(Progress, hasALineForEachSourceThatIsDone)
 TEST_F(Progress, saysNothingOfSourcesThatAreCachedOrHaveFailed)
 {
     for (const char* cooker : {"import", "textures", "clusters"})
-        end(cooker, 0, Ending::kept);
+        end(cooker, 0, Outcome::cached);
     run("import", 1);
-    end("textures", 1, Ending::failed);
+    end("textures", 1, Outcome::failed);
     run("clusters", 1);
     EXPECT_EQ(lines, Lines());
 }
@@ -135,7 +135,7 @@ TEST_F(Progress, namesNoMoreThanFitsOnALine)
     for (const char* cooker : {"import", "textures", "clusters"})
         for (const size_t source : {0u, 1u})
             progress.starting(action(cooker, source));
-    now += kBetweenProgressLines;
+    now += kProgressInterval;
     progress.waiting();
     EXPECT_EQ(lines, Lines{"so far       10.00 s       0 of 7  import house.glb, import tree.glb, textures "
                            "house.glb and 3 more"});

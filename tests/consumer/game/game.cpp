@@ -171,12 +171,12 @@ void draw(const std::string& path, const Device& device, const Readback& readbac
     device.begin();
     checkCall(hearth::Scene::upload(renderer, pack, device.commands, options, scene));
     device.submitAndWait();
-    checkCall(scene.uploaded());
+    checkCall(scene.releaseStaging());
 
     hearth::Targets targets;
     checkCall(hearth::Targets::create(renderer, kSize, kSize, targets));
-    hearth_targets_information images = HEARTH_TARGETS_INFORMATION_INIT;
-    checkCall(targets.inform(images));
+    hearth_targets_info images = HEARTH_TARGETS_INFO_INIT;
+    checkCall(targets.getInfo(images));
 
     hearth_frame frame = HEARTH_FRAME_INIT;
     frame.camera.position[2] = 3;

@@ -15,7 +15,7 @@ hearth::Result<uint64_t> triangles(const char* path)
     HEARTH_TRY(checkPack(pack));
     uint64_t count = 0;
     for (const ClusterRecord& cluster : pack.clusters())
-        count += cluster.refined_group == kNone ? cluster.triangle_count : 0;
+        count += cluster.refined_group == kInvalidIndex ? cluster.triangle_count : 0;
     return count;
 }
 

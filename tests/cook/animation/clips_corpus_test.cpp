@@ -1,4 +1,5 @@
-// Clips of real models as hearth-import writes them, against those of the source: every vertex, in whole poses.
+// Compares compressed clips of real models, as hearth-import writes them, with the source's clips: every
+// vertex in whole poses.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/mesh/source_mesh.h"
 #include "formats/base/assert.h"
@@ -33,7 +34,7 @@ struct ImportPart
     std::map<uint32_t, mesh::SourceMesh> meshes;
 };
 
-/// The part of a source whose clips may be off by `error` metres; the default where that is negative.
+/// Import a source with a clip tolerance of `error` metres; negative: the default.
 ImportPart imported(const std::string& source, double error)
 {
     const TemporaryFolder folder;
@@ -53,22 +54,22 @@ ImportPart imported(const std::string& source, double error)
     return {PackView::read(std::move(reader).value()).value(), std::move(meshes)};
 }
 
-/// Where nodes and joints are in a pose.
+/// World transforms of nodes and joints in a pose.
 class Placed
 {
 public:
-    Placed(const MotionTables& tables, const AnimationRecord& animation, double time)
+    Placed(const AnimationTables& tables, const AnimationRecord& animation, double time)
         : tables_(tables), pose_(restPose(tables)), world_(tables.nodes.size())
     {
         sampleAnimation(tables, animation, time, pose_);
-        poseNodes(tables, pose_, parentsFirst(tables.nodes), world_);
+        poseNodes(tables, pose_, nodesParentsFirst(tables.nodes), world_);
     }
 
     std::vector<Double3> vertices(const mesh::SourceMesh& mesh, uint32_t node) const
     {
         const NodeRecord& record = tables_.nodes[node];
         std::vector<Affine3d> palette{world_[node]};
-        if (record.skin != kNone && !mesh.joint_sets.empty())
+        if (record.skin != kInvalidIndex && !mesh.joint_sets.empty())
         {
             palette.resize(tables_.skins[record.skin].joints.count);
             skinPalette(tables_, tables_.skins[record.skin], world_, palette);
@@ -103,12 +104,12 @@ private:
         return sum;
     }
 
-    const MotionTables& tables_;
+    const AnimationTables& tables_;
     ScenePose pose_;
     std::vector<Affine3d> world_;
 };
 
-/// What the clips of a model take, and how much of the error that they say they use.
+/// Compressed size of a model's clips, and the used share of their stated error.
 struct Figures
 {
     size_t source_bytes = 0, bytes = 0;
@@ -122,7 +123,7 @@ size_t clipBytes(const PackView& view)
 
 Figures compare(const ImportPart& source, const ImportPart& compressed)
 {
-    const MotionTables wanted = motionTables(source.view), is = motionTables(compressed.view);
+    const AnimationTables wanted = animationTables(source.view), is = animationTables(compressed.view);
     Figures figures{clipBytes(source.view), clipBytes(compressed.view), 0};
     std::mt19937 random(1);
     for (size_t clip = 0; clip < wanted.animations.size(); ++clip)
@@ -137,7 +138,7 @@ Figures compare(const ImportPart& source, const ImportPart& compressed)
             double worst = 0;
             for (uint32_t node = 0; node < wanted.nodes.size(); ++node)
             {
-                if (wanted.nodes[node].mesh == kNone)
+                if (wanted.nodes[node].mesh == kInvalidIndex)
                     continue;
                 const mesh::SourceMesh& mesh = source.meshes.at(wanted.nodes[node].mesh);
                 const std::vector<Double3> a = source_pose.vertices(mesh, node),
@@ -194,7 +195,7 @@ TEST(ClipsOfRealModels, stayWithinTheErrorThatTheySay)
         }
     }
     EXPECT_GE(models, kSanitized ? 8u : 15u);
-    // were all bounds far too wide, clips would be larger than they need be
+    // if all bounds were far too wide, clips would be larger than necessary
     EXPECT_GT(most_share, 0.1);
 }
 

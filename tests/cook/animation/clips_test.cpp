@@ -1,4 +1,4 @@
-// What compressed clips do to vertices, against the clips of the source, at many times.
+// Compares the vertices of compressed clips with vertices of the source's clips at many times.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/animation_compression/clip_settings.h"
 #include "cook/animation_compression/compress.h"
@@ -24,18 +24,18 @@ namespace
 {
 
 using namespace formats;
-using clips::Carried;
-using clips::CompressedClips;
-using clips::StatedError;
-using motion::Box3d;
+using animation_bounds::Box3d;
+using animation_compression::AttachedVertices;
+using animation_compression::CompressedClips;
+using animation_compression::StatedError;
 
-// Of double precision, in places of vertices: of their distance from the origin.
+// Error of double precision, relative to a vertex's distance from the origin.
 constexpr double kRounding = 1e-13;
 
-/// What the joints of a character's mesh carry, where morph weights go from -1 to 2.
-std::vector<Carried> carriedBy(const Character& character)
+/// Return the vertices attached to each joint of a character's mesh, for morph weights from -1 to 2.
+std::vector<AttachedVertices> carriedBy(const Character& character)
 {
-    constexpr double kMostWeight = 2;
+    constexpr double kMaxWeight = 2;
     std::vector<Box3d> boxes(character.joints.size());
     for (const skinning::DeformedCluster& cluster : character.mesh.clusters)
         for (size_t i = 0; i < cluster.joints.size(); ++i)
@@ -43,12 +43,12 @@ std::vector<Carried> carriedBy(const Character& character)
             const size_t v = i / cluster.influences;
             double moved = 0;
             for (const skinning::MorphDeltas& morph : cluster.morphs)
-                moved += kMostWeight * length(widen(morph.positions[v]));
+                moved += kMaxWeight * length(widen(morph.positions[v]));
             if (cluster.weights[i] > 0)
                 for (const double side : {-moved, moved})
                     add(boxes[cluster.joints[i]], widen(cluster.positions[v]) + Double3{side, side, side});
         }
-    std::vector<Carried> carried;
+    std::vector<AttachedVertices> carried;
     for (size_t i = 0; i < boxes.size(); ++i)
         if (!boxes[i][0].empty())
             carried.push_back(
@@ -56,13 +56,13 @@ std::vector<Carried> carriedBy(const Character& character)
     return carried;
 }
 
-std::vector<Double3> placesAt(const Character& character, const MotionTables& tables,
+std::vector<Double3> placesAt(const Character& character, const AnimationTables& tables,
                               const AnimationRecord& animation, double time)
 {
     ScenePose pose = restPose(tables);
     sampleAnimation(tables, animation, time, pose);
     std::vector<Affine3d> world(tables.nodes.size()), palette(tables.joints.size());
-    poseNodes(tables, pose, parentsFirst(tables.nodes), world);
+    poseNodes(tables, pose, nodesParentsFirst(tables.nodes), world);
     skinPalette(tables, tables.skins[0], world, palette);
     std::vector<Double3> places;
     for (const skinning::DeformedCluster& cluster : character.mesh.clusters)
@@ -79,7 +79,7 @@ std::vector<Double3> placesAt(const Character& character, const MotionTables& ta
     return places;
 }
 
-/// Random times, all key times, and the floats beside them.
+/// Return random times, all key times, and the floats next to these.
 std::vector<double> timesOf(const Character& character, const AnimationRecord& animation, size_t count,
                             uint32_t seed)
 {
@@ -89,7 +89,7 @@ std::vector<double> timesOf(const Character& character, const AnimationRecord& a
     for (size_t i = 0; i < count; ++i)
         times.push_back(any(random));
     for (const AnimationChannelRecord& channel :
-         recordsOf(std::span<const AnimationChannelRecord>(character.channels), animation.channels))
+         recordsInRange(std::span<const AnimationChannelRecord>(character.channels), animation.channels))
         for (uint32_t key = 0; key < channel.key_count; ++key)
         {
             const float time = character.keys[channel.first_time + key];
@@ -102,9 +102,9 @@ std::vector<double> timesOf(const Character& character, const AnimationRecord& a
     return times;
 }
 
-MotionTables tablesOf(const Character& character, const CompressedClips& clips)
+AnimationTables tablesOf(const Character& character, const CompressedClips& clips)
 {
-    MotionTables tables = character.tables();
+    AnimationTables tables = character.tables();
     tables.animations = clips.animations;
     tables.channels = clips.tables.channels;
     tables.keys = clips.tables.keys;
@@ -114,25 +114,25 @@ MotionTables tablesOf(const Character& character, const CompressedClips& clips)
 
 struct Figures
 {
-    double worst_share = 0; ///< of the proven error
+    double worst_share = 0; ///< relative to the proven error
     uint64_t bytes_before = 0, bytes_after = 0;
     uint32_t keys_before = 0, keys_after = 0;
     size_t packed = 0;
 };
 
-/// Holds compressed clips against the source's: sampled <= proven <= stated.
+/// Compare compressed clips with the source's: sampled error <= proven error <= stated error.
 Figures check(const Character& character, const StatedError& stated, size_t times, uint32_t seed)
 {
     Figures figures;
-    const MotionTables source = character.tables();
-    const std::vector<Carried> carried = carriedBy(character);
-    const CompressedClips compressed = clips::compressClips(source, carried, stated);
-    const MotionTables tables = tablesOf(character, compressed);
+    const AnimationTables source = character.tables();
+    const std::vector<AttachedVertices> carried = carriedBy(character);
+    const CompressedClips compressed = animation_compression::compressClips(source, carried, stated);
+    const AnimationTables tables = tablesOf(character, compressed);
     for (const AnimationChannelRecord& channel : tables.channels)
         figures.packed += isPacked(channel) ? 1u : 0u;
     for (size_t clip = 0; clip < source.animations.size(); ++clip)
     {
-        const clips::ClipStatistics& statistics = compressed.statistics[clip];
+        const animation_compression::ClipStatistics& statistics = compressed.statistics[clip];
         EXPECT_LE(statistics.proven_error, statistics.stated_error * (1 + 1e-9));
         EXPECT_GE(double{tables.animations[clip].error}, statistics.proven_error);
         EXPECT_LE(statistics.bytes_after, statistics.bytes_before);
@@ -163,7 +163,7 @@ Figures check(const Character& character, const StatedError& stated, size_t time
     return figures;
 }
 
-/// The same motion with a key every 1 / 60 s, as exporters write it.
+/// Resample the same motion with a key every 1 / 60 s, as exporters write it.
 Character baked(const Character& character)
 {
     constexpr uint32_t kKeys = 61;
@@ -171,7 +171,7 @@ Character baked(const Character& character)
     result.keys.clear();
     for (uint32_t key = 0; key < kKeys; ++key)
         result.keys.push_back(static_cast<float>(key) / 60.0f);
-    const MotionTables tables = character.tables();
+    const AnimationTables tables = character.tables();
     for (size_t c = 0; c < result.channels.size(); ++c)
     {
         AnimationChannelRecord& channel = result.channels[c];
@@ -201,7 +201,7 @@ Character baked(const Character& character)
     return result;
 }
 
-/// The same in other units.
+/// Scale the scene to other units.
 void scaleUnits(Character& character, float scale)
 {
     for (NodeRecord& node : character.nodes)
@@ -223,7 +223,7 @@ void scaleUnits(Character& character, float scale)
     }
 }
 
-constexpr StatedError kDefault{0, clips::kDefaultShareOfSize};
+constexpr StatedError kDefault{0, animation_compression::kDefaultShareOfSize};
 
 } // namespace
 
@@ -354,8 +354,9 @@ TEST(CompressClips, withoutAnErrorPosesAreThoseOfTheSource)
     {
         spec.splines = splines;
         const Character character = randomCharacter(spec, 8);
-        const CompressedClips exact = clips::compressClips(character.tables(), carriedBy(character), {});
-        const MotionTables tables = tablesOf(character, exact);
+        const CompressedClips exact =
+            animation_compression::compressClips(character.tables(), carriedBy(character), {});
+        const AnimationTables tables = tablesOf(character, exact);
         EXPECT_EQ(tables.animations[0].error, 0);
         EXPECT_TRUE(tables.key_bits.empty());
         for (size_t clip = 0; clip < character.animations.size(); ++clip)
@@ -381,8 +382,9 @@ TEST(CompressClips, keepsMorphWeightsExactly)
     spec.keys = 7;
     spec.morph_targets = 3;
     const Character character = randomCharacter(spec, 9);
-    const CompressedClips loose = clips::compressClips(character.tables(), carriedBy(character), {0.1, 0});
-    const MotionTables tables = tablesOf(character, loose);
+    const CompressedClips loose =
+        animation_compression::compressClips(character.tables(), carriedBy(character), {0.1, 0});
+    const AnimationTables tables = tablesOf(character, loose);
     for (const double time : timesOf(character, character.animations[0], 500, 9))
     {
         ScenePose wanted = restPose(tables), is = wanted;
@@ -411,7 +413,7 @@ TEST(CompressClips, channelsThatDoNothingGo)
                                         : 0.25f;
     }
     const CompressedClips compressed =
-        clips::compressClips(character.tables(), carriedBy(character), kDefault);
+        animation_compression::compressClips(character.tables(), carriedBy(character), kDefault);
     EXPECT_TRUE(compressed.tables.channels.empty());
     EXPECT_LE(compressed.statistics[0].proven_error, 1e-13);
 }
@@ -424,10 +426,11 @@ TEST(CompressClips, isTheSameForAnyNumberOfThreads)
     const auto alone = [&]
     {
         const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-        return clips::compressClips(character.tables(), carriedBy(character), kDefault);
+        return animation_compression::compressClips(character.tables(), carriedBy(character), kDefault);
     }();
     const tbb::global_control four(tbb::global_control::max_allowed_parallelism, 4);
-    const CompressedClips together = clips::compressClips(character.tables(), carriedBy(character), kDefault);
+    const CompressedClips together =
+        animation_compression::compressClips(character.tables(), carriedBy(character), kDefault);
     EXPECT_EQ(together.tables.keys, alone.tables.keys);
     EXPECT_EQ(together.tables.key_bits, alone.tables.key_bits);
     EXPECT_EQ(std::memcmp(together.tables.channels.data(), alone.tables.channels.data(),
@@ -442,11 +445,12 @@ TEST(ReadStatedError, readsMetresOrTakesTheDefault)
     const auto read = [&](const char* text)
     {
         std::ofstream(path) << text;
-        return clips::readStatedError(path);
+        return animation_compression::readStatedError(path);
     };
-    EXPECT_EQ(read("")->share_of_size, clips::kDefaultShareOfSize);
-    EXPECT_EQ(read("[clusters]\nnormal_bits = 8\n")->share_of_size, clips::kDefaultShareOfSize);
-    EXPECT_EQ(read("[animation]\n")->share_of_size, clips::kDefaultShareOfSize);
+    EXPECT_EQ(read("")->share_of_size, animation_compression::kDefaultShareOfSize);
+    EXPECT_EQ(read("[clusters]\nnormal_bits = 8\n")->share_of_size,
+              animation_compression::kDefaultShareOfSize);
+    EXPECT_EQ(read("[animation]\n")->share_of_size, animation_compression::kDefaultShareOfSize);
     EXPECT_EQ(read("[animation]\nerror = 0.002\n")->metres, 0.002);
     EXPECT_EQ(read("[animation]\nerror = 0.002\n")->share_of_size, 0);
     EXPECT_EQ(read("[animation]\nerror = 1\n")->metres, 1);
@@ -460,7 +464,8 @@ TEST(ReadStatedError, readsMetresOrTakesTheDefault)
     EXPECT_EQ(unknown.error().where, "line 3, animation.eror");
     EXPECT_EQ(unknown.error().detail, "this key is not known: did you mean 'error'?");
     EXPECT_EQ(read("[animation\n").error().issue, Issue::profile_syntax);
-    EXPECT_EQ(clips::readStatedError(folder.file("none")).error().issue, Issue::input_missing);
+    EXPECT_EQ(animation_compression::readStatedError(folder.file("none")).error().issue,
+              Issue::input_missing);
 }
 
 } // namespace hearth::test

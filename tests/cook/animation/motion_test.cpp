@@ -11,7 +11,7 @@
 #include <numbers>
 #include <numeric>
 
-namespace hearth::motion
+namespace hearth::animation_bounds
 {
 
 using namespace formats;
@@ -37,7 +37,7 @@ Double3 direction(std::mt19937& random)
 /// Whether the hull holds a rotation, as far as `count` directions can tell; how far outside it is.
 double outsideOf(const RotationHull& hull, const Quaternion& q, std::mt19937& random, int count = 20)
 {
-    const Affine3d r = affineFromTrs({}, q, {1, 1, 1});
+    const Affine3d r = makeAffineFromTrs({}, q, {1, 1, 1});
     double worst = -1;
     for (int i = 0; i < count; ++i)
     {
@@ -173,7 +173,7 @@ TEST(RotationSet, splineThroughNothingCanBeAnyRotation)
     const std::vector<float> keys{0,      1, /**/ 0, 0, 0, 0, 0, 0,  0, 1, 0, 0, 0, 0,
                                   /**/ 0, 0, 0,      0, 0, 0, 0, -1, 0, 0, 0, 0};
     AnimationChannelRecord channel = channelOf(Interpolation::cubic_spline, 4, 2);
-    MotionTables tables;
+    AnimationTables tables;
     tables.keys = keys;
     addRotations(tables, channel, points);
     EXPECT_TRUE(points.unbounded);
@@ -186,7 +186,7 @@ TEST(AddValues, splinesOvershootIsInside)
     const std::vector<float> keys{0, 1, /**/ 0, 0, 4, /**/ -4, 0, 0};
     AnimationChannelRecord channel = channelOf(Interpolation::cubic_spline, 1, 2);
     Interval range;
-    MotionTables tables;
+    AnimationTables tables;
     tables.keys = keys;
     addValues(tables, channel, 0, range);
     EXPECT_GE(range.high, 1.0);
@@ -198,7 +198,7 @@ TEST(AddValues, splinesOvershootIsInside)
 TEST(MorphWeightRanges, joinUnitRangeRestAndClips)
 {
     test::Character character = test::randomCharacter({.clips = 2, .splines = true, .morph_targets = 3}, 5);
-    const MotionTables tables = character.tables();
+    const AnimationTables tables = character.tables();
     const std::vector<Interval> ranges = morphWeightRanges(tables, character.mesh.node, 3);
     test::PoseSource poses(tables, 1);
     for (const Interval& range : ranges)
@@ -218,7 +218,7 @@ namespace
 void checkPairs(const test::CharacterSpec& spec, uint32_t seed)
 {
     const test::Character character = test::randomCharacter(spec, seed);
-    const MotionTables tables = character.tables();
+    const AnimationTables tables = character.tables();
     const std::vector<NodeMotion> nodes = nodeMotions(tables);
     Box3d box;
     for (Interval& axis : box)
@@ -244,14 +244,14 @@ void checkPairs(const test::CharacterSpec& spec, uint32_t seed)
                 const Double3 place = transformPoint(seen, x);
                 const double margin = 1e-6 * (1 + length(place));
                 Box3d places{Interval{0, 0}, Interval{0, 0}, Interval{0, 0}};
-                motion->addPlaces(x, {}, 1, places);
+                motion->addPositionBox(x, {}, 1, places);
                 ASSERT_TRUE(places[0].low <= place.x + margin && places[0].high >= place.x - margin &&
                             places[1].low <= place.y + margin && places[1].high >= place.y - margin &&
                             places[2].low <= place.z + margin && places[2].high >= place.z - margin)
                     << main << " " << joint;
                 const MatrixBall& ball = motion->ball();
                 ASSERT_LE(length(place - transformPoint(ball.center, x)), ball.slackAt(x) + margin);
-                const Departure departure = *skin.departure(main, joint);
+                const IdentityDeviation departure = *skin.departure(main, joint);
                 ASSERT_LE(length(place - x),
                           departure.rotation * length(x - departure.pivot) + departure.shift + margin);
             }
@@ -292,7 +292,7 @@ TEST(SkinMotion, aJointThatStandsStillIsAPoint)
     const test::Character character = test::randomCharacter({.clips = 0}, 2);
     const std::vector<NodeMotion> nodes = nodeMotions(character.tables());
     const SkinMotion skin(character.tables(), nodes, 0, std::vector<Box3d>(12));
-    const Departure departure = *skin.departure(3, 7);
+    const IdentityDeviation departure = *skin.departure(3, 7);
     EXPECT_LT(departure.rotation, 1e-5);
     EXPECT_LT(departure.shift, 0.05) << "bind poses are off by 0.02 each";
 }
@@ -310,4 +310,4 @@ TEST(SkinMotion, nothingIsSeenFromAJointThatCanBeFlat)
     EXPECT_TRUE(skin.canMirror(1));
 }
 
-} // namespace hearth::motion
+} // namespace hearth::animation_bounds

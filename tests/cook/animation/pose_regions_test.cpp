@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <numeric>
 
-namespace hearth::motion
+namespace hearth::animation_bounds
 {
 
 using namespace formats;
@@ -31,7 +31,7 @@ std::array<double, N> valueAt(const TaylorModel<N>& model, const std::array<doub
         {
             value[i] += model.terms[kFirstLinear + a][i] * x[a];
             for (size_t b = a; b < 3; ++b)
-                value[i] += model.terms[termOf(a, b)][i] * x[a] * x[b];
+                value[i] += model.terms[termIndex(a, b)][i] * x[a] * x[b];
         }
     }
     return value;
@@ -78,8 +78,8 @@ public:
         const std::vector<PoseRegion> roots = regions.all();
         PoseRegion region = roots[random() % roots.size()];
         for (int cuts = static_cast<int>(random() % static_cast<uint32_t>(most_cuts)); cuts > 0; --cuts)
-            if (const auto halves = regions.halves(region, all))
-                region = (*halves)[random() % 2];
+            if (const auto split = regions.split(region, all))
+                region = (*split)[random() % 2];
         return region;
     }
 
@@ -98,7 +98,7 @@ public:
 
     std::mt19937 random;
     test::Character character;
-    MotionTables tables;
+    AnimationTables tables;
     std::vector<NodeMotion> nodes;
     PoseRegions regions;
     std::vector<uint32_t> all;
@@ -109,7 +109,7 @@ private:
         of_clip = restPose(tables);
         if (clip == 0)
             return;
-        const TimeSpan time = regions.timeOf(clip, span);
+        const TimeSpan time = regions.timeSpan(clip, span);
         // at its very end the next span begins: a step is there
         const double share = time.last ? 0.5 + 0.5 * x : std::min(0.5 + 0.5 * x, 1 - 1e-9);
         x = 2 * share - 1;
@@ -131,7 +131,7 @@ void checkNodes(const test::CharacterSpec& spec, uint32_t seed)
         const std::array<double, 3> x = scene.anyPose(region);
         for (const uint32_t node : scene.all)
         {
-            const NodeModel model = scene.regions.modelOf(region, node);
+            const NodeModel model = scene.regions.nodeModel(region, node);
             const NodePose& local = scene.pose.nodes[node];
             ASSERT_LE(length(vectorAt(model.translation, x) - local.translation),
                       model.translation.remainder + kRounding);
@@ -161,7 +161,7 @@ ChainFigures checkChains(const test::CharacterSpec& spec, uint32_t seed)
     std::vector<uint32_t> joint_nodes;
     for (const JointRecord& joint : joints)
         joint_nodes.push_back(joint.node);
-    const std::vector<uint32_t> order = parentsFirst(scene.tables.nodes);
+    const std::vector<uint32_t> order = nodesParentsFirst(scene.tables.nodes);
     std::vector<Affine3d> world_from_node(scene.tables.nodes.size());
     std::vector<TransformModel> models;
     std::vector<uint32_t> all_joints(joint_nodes.size());
@@ -191,7 +191,7 @@ ChainFigures checkChains(const test::CharacterSpec& spec, uint32_t seed)
                     const Double3 point{scene.uniform() - 0.5, scene.uniform() - 0.5, scene.uniform() - 0.5};
                     const Affine3d seen = *main_from_world * world_from_node[joint_nodes[joint]];
                     const Double3 place = transformPoint(seen, point);
-                    const TransformModel& model = models[chain.linkOf(joint)];
+                    const TransformModel& model = models[chain.linkIndex(joint)];
                     const double off = length(place - placeAt(model, x, point));
                     const double slack = model.slackAt(point);
                     EXPECT_LE(off, slack + kRounding * (1 + length(place)));
@@ -307,9 +307,9 @@ TEST(SlerpModel, holdsAllOfItsArcs)
         }();
         const auto curve = [&](std::span<const float> numbers)
         {
-            MotionTables tables{};
+            AnimationTables tables{};
             tables.keys = numbers;
-            return rotationCurve({0, 1, true}, tables, channel);
+            return fitRotationCurve({0, 1, true}, tables, channel);
         };
         const TaylorModel<4> model = slerpModel(curve(keys[0]), curve(keys[1]), weights);
         known += model.remainder < 0.5 ? 1 : 0;
@@ -360,7 +360,7 @@ TEST(RegionChain, slackFallsWithThirdOrderInSmoothClips)
         const uint32_t span = 1u << depth;
         const double weights = 1.0 / span;
         ASSERT_TRUE(chain.place(scene.regions, {1, span, 2, span, 0.25, 0.25 + weights}, links, models));
-        const double slack = models[chain.linkOf(last_joint[0])].slackAt({0.2, 0.2, 0.2});
+        const double slack = models[chain.linkIndex(last_joint[0])].slackAt({0.2, 0.2, 0.2});
         if (depth > 2)
         {
             EXPECT_GT(last / slack, 6) << depth << ": " << slack;
@@ -369,4 +369,4 @@ TEST(RegionChain, slackFallsWithThirdOrderInSmoothClips)
     }
 }
 
-} // namespace hearth::motion
+} // namespace hearth::animation_bounds

@@ -14,8 +14,8 @@ namespace hearth::test
 {
 
 using namespace formats;
-using motion::Box3d;
-using motion::Interval;
+using animation_bounds::Box3d;
+using animation_bounds::Interval;
 using skinning::DeformedCluster;
 
 namespace
@@ -164,7 +164,7 @@ Result<std::vector<PosedMesh>> posedMeshes(const PackView& pack)
     std::vector<PosedMesh> meshes;
     for (const DeformedMeshRecord& record : pack.deformedMeshes())
     {
-        const uint32_t joints = record.skin == kNone ? 0 : pack.skins()[record.skin].joints.count;
+        const uint32_t joints = record.skin == kInvalidIndex ? 0 : pack.skins()[record.skin].joints.count;
         PosedMesh mesh;
         mesh.skin = record.skin;
         mesh.anchor = record.anchor;
@@ -190,19 +190,19 @@ Result<std::vector<PosedMesh>> posedMeshes(const PackView& pack)
     return meshes;
 }
 
-void computeBounds(const MotionTables& tables, PosedMesh& mesh)
+void computeBounds(const AnimationTables& tables, PosedMesh& mesh)
 {
-    const std::vector<motion::NodeMotion> nodes = motion::nodeMotions(tables);
+    const std::vector<animation_bounds::NodeMotion> nodes = animation_bounds::nodeMotions(tables);
     const std::vector<Interval> morph_weights =
-        motion::morphWeightRanges(tables, mesh.node, targetsOf(mesh.clusters));
-    const uint32_t joints = mesh.skin == kNone ? 0 : tables.skins[mesh.skin].joints.count;
+        animation_bounds::morphWeightRanges(tables, mesh.node, targetsOf(mesh.clusters));
+    const uint32_t joints = mesh.skin == kInvalidIndex ? 0 : tables.skins[mesh.skin].joints.count;
     const std::vector<Box3d> reach = reachOf(mesh.clusters, joints);
-    std::optional<motion::SkinMotion> skin;
-    if (mesh.skin != kNone)
+    std::optional<animation_bounds::SkinMotion> skin;
+    if (mesh.skin != kInvalidIndex)
         skin.emplace(tables, nodes, mesh.skin, reach);
-    const motion::PoseRegions regions(tables, nodes);
+    const animation_bounds::PoseRegions regions(tables, nodes);
     const skinning::Deformation deformation{skin ? &*skin : nullptr, morph_weights, &regions};
-    for (const skinning::DeformedBounds& bounds : boundsOf(mesh.clusters, deformation))
+    for (const skinning::DeformedBounds& bounds : computeClusterBounds(mesh.clusters, deformation))
         mesh.bounds.push_back(bounds.record);
     std::vector<GroupRecord> groups;
     std::vector<ClusterRecord> clusters;
@@ -213,24 +213,24 @@ void computeBounds(const MotionTables& tables, PosedMesh& mesh)
         groups.push_back(group);
         ClusterRecord cluster{};
         cluster.group = i;
-        cluster.refined_group = kNone;
+        cluster.refined_group = kInvalidIndex;
         clusters.push_back(cluster);
     }
     const skinning::AnchoredBounds anchored =
-        skinning::anchoredBounds({groups, clusters, 0, 0}, mesh.clusters, deformation, reach);
+        skinning::computeAnchoredBounds({groups, clusters, 0, 0}, mesh.clusters, deformation, reach);
     mesh.levels.assign(mesh.clusters.size(), 0);
     mesh.anchor = anchored.anchor;
     mesh.box = anchored.box;
     mesh.spheres = anchored.spheres;
 }
 
-PoseSource::PoseSource(const MotionTables& tables, uint32_t seed)
+PoseSource::PoseSource(const AnimationTables& tables, uint32_t seed)
     : tables_(tables),
       random_(seed),
       from_(restPose(tables)),
       to_(from_),
       blend_(from_),
-      parents_first_(parentsFirst(tables.nodes)),
+      parents_first_(nodesParentsFirst(tables.nodes)),
       world_from_node_(tables.nodes.size())
 {
 }
@@ -281,7 +281,7 @@ const ScenePose& PoseSource::next()
 
 std::vector<Affine3d> PoseSource::palette(uint32_t skin, uint32_t node) const
 {
-    if (skin == kNone)
+    if (skin == kInvalidIndex)
         return {world_from_node_[node]};
     std::vector<Affine3d> palette(tables_.skins[skin].joints.count);
     skinPalette(tables_, tables_.skins[skin], world_from_node_, palette);
@@ -302,7 +302,7 @@ BoundsFigures& operator+=(BoundsFigures& a, const BoundsFigures& b)
     return a;
 }
 
-BoundsFigures checkBounds(const MotionTables& tables, const PosedMesh& mesh, size_t poses, uint32_t seed)
+BoundsFigures checkBounds(const AnimationTables& tables, const PosedMesh& mesh, size_t poses, uint32_t seed)
 {
     std::vector<Watched> watched;
     for (size_t i = 0; i < mesh.clusters.size(); ++i)

@@ -19,7 +19,7 @@ namespace hearth::test
 struct PosedMesh
 {
     uint32_t node = 0;
-    uint32_t skin = formats::kNone;
+    uint32_t skin = kInvalidIndex;
     std::vector<skinning::DeformedCluster> clusters;
     std::vector<formats::DeformedClusterRecord> bounds; ///< one for each cluster
     std::vector<uint32_t> levels;                       ///< of each cluster
@@ -32,14 +32,14 @@ struct PosedMesh
 Result<std::vector<PosedMesh>> posedMeshes(const formats::PackView& pack);
 
 /// Bounds of clusters that stand alone, each in a group of its own.
-void computeBounds(const formats::MotionTables& tables, PosedMesh& mesh);
+void computeBounds(const formats::AnimationTables& tables, PosedMesh& mesh);
 
 /// Poses of a scene: the rest pose, then what its clips, or blends of two of them, make of it at random times, half of
 /// them with random morph weights from 0 to 1.
 class PoseSource
 {
 public:
-    PoseSource(const formats::MotionTables& tables, uint32_t seed);
+    PoseSource(const formats::AnimationTables& tables, uint32_t seed);
 
     const formats::ScenePose& next();
     const formats::ScenePose& rest();
@@ -51,7 +51,7 @@ private:
     const formats::ScenePose& place();
     void sample(formats::ScenePose& pose);
 
-    formats::MotionTables tables_;
+    formats::AnimationTables tables_;
     std::mt19937 random_;
     formats::ScenePose from_, to_, blend_;
     std::vector<uint32_t> parents_first_;
@@ -75,7 +75,7 @@ struct BoundsFigures
 BoundsFigures& operator+=(BoundsFigures& a, const BoundsFigures& b);
 
 /// Hold the bounds of a mesh against `poses` poses, computed by the definition.
-BoundsFigures checkBounds(const formats::MotionTables& tables, const PosedMesh& mesh, size_t poses,
+BoundsFigures checkBounds(const formats::AnimationTables& tables, const PosedMesh& mesh, size_t poses,
                           uint32_t seed);
 
 } // namespace hearth::test

@@ -60,7 +60,7 @@ private:
         for (uint32_t i = 0; i <= spec_.joints; ++i)
         {
             NodeRecord node{};
-            node.mesh = node.skin = node.parent = kNone;
+            node.mesh = node.skin = node.parent = kInvalidIndex;
             node.has_trs = 1;
             node.rotation = turn(uniform(0, 1));
             node.scale = {1, 1, 1};
@@ -91,9 +91,9 @@ private:
 
     void addSkin()
     {
-        const MotionTables tables = character_.tables();
+        const AnimationTables tables = character_.tables();
         std::vector<Affine3d> world(tables.nodes.size());
-        poseNodes(tables, restPose(tables), parentsFirst(tables.nodes), world);
+        poseNodes(tables, restPose(tables), nodesParentsFirst(tables.nodes), world);
         for (uint32_t i = 0; i < spec_.joints; ++i)
         {
             // bound where they rest, but a little off
@@ -102,7 +102,7 @@ private:
             places_.push_back(narrow(transformPoint(bind, {})));
             character_.joints.push_back({i, {}, narrowed(inverted(bind).value()).value()});
         }
-        character_.skins.push_back({{}, kNone, {0, spec_.joints}, 0});
+        character_.skins.push_back({{}, kInvalidIndex, {0, spec_.joints}, 0});
     }
 
     Float4 keyRotation(Float4 rest, Float4 last)
@@ -225,7 +225,7 @@ private:
                 joint = below(spec_.joints);
             cluster.joints.push_back(static_cast<uint16_t>(joint));
             // its parent next, if that is a joint
-            if (character_.nodes[joint].parent != kNone)
+            if (character_.nodes[joint].parent != kInvalidIndex)
                 joint = character_.nodes[joint].parent;
             weights.push_back(below(4) == 0 ? 0.0 : uniform(0, 1));
             sum += weights.back();

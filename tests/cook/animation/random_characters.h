@@ -38,7 +38,7 @@ struct Character
     std::vector<float> morph_weights;
     PosedMesh mesh; ///< without bounds
 
-    formats::MotionTables tables() const
+    formats::AnimationTables tables() const
     {
         return {nodes, skins, joints, animations, channels, keys, morph_weights, {}};
     }

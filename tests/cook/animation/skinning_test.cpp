@@ -118,24 +118,24 @@ TEST(DeformedBounds, holdFreePosesWithAnyMorphWeights)
         for (size_t c = 0; c < character.mesh.clusters.size(); ++c)
         {
             const DeformedCluster& cluster = character.mesh.clusters[c];
-            motion::Box3d bind;
+            animation_bounds::Box3d bind;
             for (const Float3 position : cluster.positions)
-                motion::add(bind, widen(position));
+                animation_bounds::add(bind, widen(position));
             const double grown = stretch * double{character.mesh.bounds[c].morph_reach};
             // as FORMAT.md says: the union over the joints of the grown box, carried
             const auto carried = [&](double by)
             {
-                motion::Box3d all;
+                animation_bounds::Box3d all;
                 for (const uint16_t joint : cluster.joints)
                     for (int corner = 0; corner < 8; ++corner)
-                        motion::add(
+                        animation_bounds::add(
                             all, transformPoint(palette[joint],
                                                 {(corner & 1) != 0 ? bind[0].high + by : bind[0].low - by,
                                                  (corner & 2) != 0 ? bind[1].high + by : bind[1].low - by,
                                                  (corner & 4) != 0 ? bind[2].high + by : bind[2].low - by}));
                 return all;
             };
-            const motion::Box3d bound = carried(grown), unmorphed = carried(0);
+            const animation_bounds::Box3d bound = carried(grown), unmorphed = carried(0);
             for (size_t v = 0; v < cluster.positions.size(); ++v, ++vertices)
             {
                 Double3 place = widen(cluster.positions[v]);
@@ -175,7 +175,7 @@ TEST(DeformedBounds, morphTargetsAloneAreTight)
     for (uint32_t seed = 1; seed <= 4; ++seed)
     {
         Character character = test::randomCharacter({.clips = 2, .morph_targets = 4}, seed);
-        character.nodes[character.mesh.node].skin = character.mesh.skin = kNone;
+        character.nodes[character.mesh.node].skin = character.mesh.skin = kInvalidIndex;
         for (DeformedCluster& cluster : character.mesh.clusters)
         {
             cluster.influences = 0;
@@ -211,7 +211,7 @@ TEST(DeformedBounds, withoutAJointThatKeepsItsSizeThereIsNoBox)
     for (NodeRecord& node : character.nodes)
         node.scale = {0, 0, 0};
     for (NodeRecord& node : character.nodes)
-        node.parent = kNone;
+        node.parent = kInvalidIndex;
     for (DeformedCluster& cluster : character.mesh.clusters)
         for (size_t i = 0; i < cluster.joints.size(); ++i)
         {
@@ -233,7 +233,7 @@ TEST(DeformedBounds, jointsThatMoveTogetherGiveTightBoxes)
     Character character = test::randomCharacter({.joints = 8, .clips = 0, .influences = 4}, 3);
     for (uint32_t joint = 0; joint < 8; ++joint)
     {
-        character.nodes[joint].parent = joint == 0 ? kNone : joint - 1;
+        character.nodes[joint].parent = joint == 0 ? kInvalidIndex : joint - 1;
         AnimationChannelRecord channel{};
         channel.node = joint;
         channel.path = static_cast<uint32_t>(AnimationPath::rotation);
@@ -268,10 +268,11 @@ TEST(DeformedBounds, jointsThatMoveTogetherGiveTightBoxes)
 TEST(AnchoredBounds, spheresHoldThoseOfRefinedGroups)
 {
     Character character = test::randomCharacter({}, 7);
-    const MotionTables tables = character.tables();
-    const std::vector<motion::NodeMotion> nodes = motion::nodeMotions(tables);
-    const std::vector<motion::Box3d> reach(12, {motion::Interval{-1, 1}, {-1, 1}, {-1, 1}});
-    const motion::SkinMotion skin(tables, nodes, 0, reach);
+    const AnimationTables tables = character.tables();
+    const std::vector<animation_bounds::NodeMotion> nodes = animation_bounds::nodeMotions(tables);
+    const std::vector<animation_bounds::Box3d> reach(12,
+                                                     {animation_bounds::Interval{-1, 1}, {-1, 1}, {-1, 1}});
+    const animation_bounds::SkinMotion skin(tables, nodes, 0, reach);
     const Deformation deformation{&skin, {}};
     // a root of two clusters, the second made from a set of two groups
     const auto group = [](Range clusters, uint32_t set_offset)
@@ -284,12 +285,13 @@ TEST(AnchoredBounds, spheresHoldThoseOfRefinedGroups)
     const std::vector<GroupRecord> groups{group({5, 2}, 0), group({7, 3}, 0), group({10, 2}, 1)};
     std::vector<ClusterRecord> clusters(7);
     for (ClusterRecord& cluster : clusters)
-        cluster.refined_group = kNone;
+        cluster.refined_group = kInvalidIndex;
     clusters[1].refined_group = 21;
     std::vector<DeformedCluster> deformed;
     for (size_t i = 0; i < clusters.size(); ++i)
         deformed.push_back(character.mesh.clusters[i % character.mesh.clusters.size()]);
-    const AnchoredBounds bounds = anchoredBounds({groups, clusters, 20, 5}, deformed, deformation, reach);
+    const AnchoredBounds bounds =
+        computeAnchoredBounds({groups, clusters, 20, 5}, deformed, deformation, reach);
     ASSERT_EQ(bounds.spheres.size(), 3u);
     EXPECT_EQ(bounds.spheres[1].center, bounds.spheres[2].center);
     EXPECT_EQ(bounds.spheres[1].radius, bounds.spheres[2].radius);

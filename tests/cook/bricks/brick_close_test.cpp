@@ -24,14 +24,14 @@ BrickTables wallWithStrip(const Voxel& strip)
 constexpr BrickSky kDusk{{0.25f, 0.25f, 0.25f}, {0.25f, 0.25f, 0.25f}, {0.25f, 0.25f, 0.25f}};
 
 /// Of a point of the wall that is seen from before it, without other light.
-float lightAt(const BrickTables& tables, Float3 place, BrickSky sky = {})
+float lightAt(const BrickTables& tables, Float3 position, BrickSky sky = {})
 {
-    const BrickView view = brickViewOf(tables);
+    const BrickView view = makeBrickView(tables);
     FaceLighting lighting(view);
     lighting.sweep({}, 1, 1);
     const BrickStart start =
-        brickSeenStart(lighting.scene(), place, {0, 0, 1}, normalizeOr({0, -0.2f, 1}, {0, 0, 1}));
-    EXPECT_EQ(start.buried, 0u);
+        brickVisibleStart(lighting.scene(), position, {0, 0, 1}, normalizeOr({0, -0.2f, 1}, {0, 0, 1}));
+    EXPECT_EQ(start.is_interior, 0u);
     return brickGather(lighting.scene(), sky, start, 1024, 1).x;
 }
 

@@ -38,19 +38,19 @@ TEST_P(Furnace, goesToEmissionOverOneLessAlbedo)
     for (const auto& shape : shapes)
     {
         const Room room(shape.inside, makeVoxel({albedo, albedo, albedo}, emission), shape.voxel_size);
-        const BrickView view = brickViewOf(room.tables);
+        const BrickView view = makeBrickView(room.tables);
         FaceLighting lighting(view);
         Lighting outside = constantSky({5, 5, 5});
         addSun(outside, {1, -2, 0.5f}, {30, 30, 30});
-        lighting.sweep(outside, 16, sweepsToForget(albedo, 1e-3f));
+        lighting.sweep(outside, 16, sweepsToDecay(albedo, 1e-3f));
         const float exact = decodeAlbedo(encodeAlbedo({albedo, albedo, albedo})).x;
         const Float3 expected = decodeRadiance(encodeRadiance(emission)) / (1 - exact);
         const std::vector<uint32_t> codes = lighting.codes();
-        for (const LitFace& place : room.inner)
+        for (const LitFace& position : room.inner)
         {
-            expectRelative(radianceOf(lighting, place.face), expected, 2e-3f);
+            expectRelative(radianceOf(lighting, position.face), expected, 2e-3f);
             // what others read is off by half of a step besides: 1/128, of blue 1/64
-            expectRelative(decodeRadiance(codes[place.face]), expected, 0.018f);
+            expectRelative(decodeRadiance(codes[position.face]), expected, 0.018f);
         }
     }
 }
@@ -62,13 +62,13 @@ TEST(BrickLight, doesNotDriftInHue)
 {
     const Room room({3, 3, 3}, makeVoxel({0.85f, 0.85f, 0.85f}, {0.37f, 0.37f, 0.37f}));
     BrickTables tables = room.tables;
-    const BrickView view = brickViewOf(tables);
+    const BrickView view = makeBrickView(tables);
     FaceLighting lighting(view);
     lighting.sweep(darkness(), 16, 64);
     const Float3 emission = decodeRadiance(tables.emission[0]);
-    for (const LitFace& place : room.inner)
+    for (const LitFace& position : room.inner)
     {
-        const Float3 light = radianceOf(lighting, place.face);
+        const Float3 light = radianceOf(lighting, position.face);
         EXPECT_NEAR(light.z / light.x, emission.z / emission.x, 1e-3f);
         EXPECT_NEAR(light.y / light.x, 1, 1e-3f);
     }
@@ -88,7 +88,7 @@ TEST(FaceLighting, aSealedRoomIsExactlyDark)
             if (i % 2 == 1)
                 side.normal = {number(random), number(random), number(random)};
         const Room room({3 + static_cast<uint32_t>(i), 4, 2}, wall, 0.5f);
-        const BrickView view = brickViewOf(room.tables);
+        const BrickView view = makeBrickView(room.tables);
         FaceLighting lighting(view);
         Lighting outside = constantSky({3, 4, 5});
         for (int sun = 0; sun < 20; ++sun)
@@ -103,15 +103,15 @@ TEST(FaceLighting, aSealedRoomIsExactlyDark)
         for (const BrickLight& face : lighting.faces())
             outer = std::max(outer, largest(decodeBrickLight(face)));
         EXPECT_GT(outer, 1) << "the light is on";
-        for (const LitFace& place : room.inner)
+        for (const LitFace& position : room.inner)
         {
-            EXPECT_EQ(lighting.faces()[place.face].code, 0u);
-            EXPECT_EQ(lighting.faces()[place.face].rest, 0u);
+            EXPECT_EQ(lighting.faces()[position.face].code, 0u);
+            EXPECT_EQ(lighting.faces()[position.face].rest, 0u);
         }
         // and a surface in the room gathers nothing: its point lies in the wall
         const BrickSky sky{{3, 4, 5}, {3, 4, 5}, {3, 4, 5}};
         const BrickStart start = brickSurfaceStart(lighting.scene(), {3.3f, 1.6f, 3.1f}, {0, 1, 0});
-        EXPECT_EQ(start.buried, 0u);
+        EXPECT_EQ(start.is_interior, 0u);
         EXPECT_EQ(largest(brickGather(lighting.scene(), sky, start, 256, 5)), 0);
     }
 }
@@ -127,19 +127,19 @@ TEST_P(Decay, isBelowOneHundredthInTheStatedFrames)
     const float albedo = GetParam();
     constexpr uint32_t kPeriod = 3, kRays = 8;
     const Room room({4, 3, 4}, makeVoxel({albedo, albedo, albedo}));
-    const BrickView view = brickViewOf(room.tables);
+    const BrickView view = makeBrickView(room.tables);
     FaceLighting lighting(view);
     Lighting lit = darkness();
     addLamp(lit, {0.6f, 8.4f, 3.3f}, {40, 30, 20});
-    const uint32_t sweeps = sweepsToForget(albedo, 0.01f);
+    const uint32_t sweeps = sweepsToDecay(albedo, 0.01f);
     // lit until nothing changes; the frames after that begin in the middle of a rotation
     for (uint32_t frame = 0; frame < 3 * kPeriod * sweeps + 1; ++frame)
         lighting.light(lit, {.period = kPeriod, .rays = kRays});
     const auto brightest = [&]
     {
         float most = 0;
-        for (const LitFace& place : room.inner)
-            most = std::max(most, largest(radianceOf(lighting, place.face)));
+        for (const LitFace& position : room.inner)
+            most = std::max(most, largest(radianceOf(lighting, position.face)));
         return most;
     };
     const float before = brightest();
@@ -162,11 +162,11 @@ INSTANTIATE_TEST_SUITE_P(albedos, Decay, ::testing::Values(0.1f, 0.5f, 0.8f, 0.9
 
 TEST(SweepsToForget, areThoseOfThePowersOfTheAlbedo)
 {
-    EXPECT_EQ(sweepsToForget(0, 0.01f), 1u);
-    EXPECT_EQ(sweepsToForget(0.5f, 0.01f), 7u);
-    EXPECT_EQ(sweepsToForget(0.8f, 0.01f), 21u);
-    EXPECT_EQ(sweepsToForget(0.9f, 0.01f), 44u);
-    EXPECT_EQ(sweepsToForget(1, 0.01f), 90u) << "no face returns more than 95 %";
+    EXPECT_EQ(sweepsToDecay(0, 0.01f), 1u);
+    EXPECT_EQ(sweepsToDecay(0.5f, 0.01f), 7u);
+    EXPECT_EQ(sweepsToDecay(0.8f, 0.01f), 21u);
+    EXPECT_EQ(sweepsToDecay(0.9f, 0.01f), 44u);
+    EXPECT_EQ(sweepsToDecay(1, 0.01f), 90u) << "no face returns more than 95 %";
 }
 
 // ---- direct light and the sky
@@ -183,14 +183,14 @@ TEST(FaceLighting, sunOnAPlaneIsItsCosine)
 {
     const BrickTables tables = floorOf(20, 8, makeVoxel({0.5f, 0.5f, 0.5f}));
     const float albedo = decodeAlbedo(tables.albedo[0]).x;
-    const BrickView view = brickViewOf(tables);
+    const BrickView view = makeBrickView(tables);
     FaceLighting lighting(view);
     Lighting sun = darkness();
     addSun(sun, {0.3f, -0.8f, 0.4f}, {3, 2, 1});
     lighting.sweep(sun, 4, 1);
     const float cosine = -sun.lights[0].direction.y;
-    for (const LitFace& place : facesIn(tables, {0, 1, 0}, {20, 2, 20}))
-        expectRelative(radianceOf(lighting, place.face), Float3{3, 2, 1} * (albedo * cosine / kPi), 1e-3f);
+    for (const LitFace& position : facesIn(tables, {0, 1, 0}, {20, 2, 20}))
+        expectRelative(radianceOf(lighting, position.face), Float3{3, 2, 1} * (albedo * cosine / kPi), 1e-3f);
 }
 
 /// Voxels that are not opaque let the rest of the light through.
@@ -201,7 +201,7 @@ TEST(FaceLighting, whatIsNotOpaqueStopsItsShare)
     model.fill({0, 6, 0}, {9, 7, 9}, makeVoxel({0, 0, 0}, {}, 102)); // 0.4
     const BrickTables tables = model.build();
     const float albedo = decodeAlbedo(tables.albedo[faceAt(tables, 4, 0, 4, kUp)]).x;
-    const BrickView view = brickViewOf(tables);
+    const BrickView view = makeBrickView(tables);
     FaceLighting lighting(view);
     Lighting sun = darkness();
     addSun(sun, {0, -1, 0}, {1, 1, 1});
@@ -218,24 +218,24 @@ TEST(FaceLighting, aLampOverAPlaneFollowsTheInverseSquare)
     model.fill({20, 5, 14}, {21, 6, 18}, makeVoxel({0.5f, 0.5f, 0.5f})); // shadows what lies behind it
     const BrickTables tables = model.build();
     const float albedo = decodeAlbedo(tables.albedo[0]).x;
-    const BrickView view = brickViewOf(tables);
+    const BrickView view = makeBrickView(tables);
     FaceLighting lighting(view);
     Lighting lit = darkness();
     const Float3 lamp{4, 2.3f, 4};
     addLamp(lit, lamp, {5, 5, 5}, 6);
     lighting.sweep(lit, 4, 1);
     uint32_t shadowed = 0;
-    for (const LitFace& place : facesIn(tables, {0, 1, 0}, {32, 2, 32}))
+    for (const LitFace& position : facesIn(tables, {0, 1, 0}, {32, 2, 32}))
     {
-        const Float3 middle = brickFaceMiddle(place.x, place.y, place.z, place.side) * kSize;
+        const Float3 middle = brickFaceMiddle(position.x, position.y, position.z, position.side) * kSize;
         const float d = length(lamp - middle);
         const float window = 1 - std::pow(d / 6, 4.0f);
         const float expected = albedo * 5 / kPi * (lamp.y - middle.y) / (d * d * d) * window;
-        const float value = radianceOf(lighting, place.face).x;
+        const float value = radianceOf(lighting, position.face).x;
         if (value == 0)
         {
             ++shadowed;
-            EXPECT_GT(place.x, 20u);
+            EXPECT_GT(position.x, 20u);
         }
         else
             EXPECT_NEAR(value, expected, 2e-3f * expected + 1e-6f);
@@ -251,7 +251,7 @@ TEST(FaceLighting, aLampInsideItsOwnVoxelIsSeen)
     model.fill({0, 0, 0}, {11, 1, 11}, makeVoxel({0.5f, 0.5f, 0.5f}));
     model.fill({5, 8, 5}, {6, 10, 6}, makeVoxel({0.5f, 0.5f, 0.5f}));
     const BrickTables tables = model.build();
-    const BrickView view = brickViewOf(tables);
+    const BrickView view = makeBrickView(tables);
     FaceLighting lighting(view);
     Lighting lit = darkness();
     addLamp(lit, {5.5f, 8.1f, 5.5f}, {5, 5, 5});
@@ -272,7 +272,7 @@ TEST(FaceLighting, aLampBesideASlopeLightsThePlaneNotItsSteps)
     for (uint32_t x = 0; x < kSide; ++x)
         model.fill({x, x, 0}, {x + 1, x + 1, kSide}, slope);
     const BrickTables tables = model.build();
-    const BrickView view = brickViewOf(tables);
+    const BrickView view = makeBrickView(tables);
     FaceLighting lighting(view);
     Lighting lit = darkness();
     constexpr float kAway = 3;
@@ -299,7 +299,7 @@ TEST(FaceLighting, aSlopeIsNotLitAsAStaircase)
     for (uint32_t x = 0; x < kSide; ++x)
         model.fill({x, x / 2, 0}, {x + 1, x / 2 + 1, kSide}, slope);
     const BrickTables tables = model.build();
-    const BrickView view = brickViewOf(tables);
+    const BrickView view = makeBrickView(tables);
     FaceLighting lighting(view);
     Lighting sun = darkness();
     addSun(sun, {0.2f, -1, 0.1f}, {2, 2, 2});
@@ -314,7 +314,7 @@ TEST(FaceLighting, spotsEndAtTheirCone)
 {
     const BrickTables tables = floorOf(21, 12, makeVoxel({0.5f, 0.5f, 0.5f}));
     const float albedo = decodeAlbedo(tables.albedo[0]).x;
-    const BrickView view = brickViewOf(tables);
+    const BrickView view = makeBrickView(tables);
     FaceLighting lighting(view);
     Lighting lit = darkness();
     addLamp(lit, {10.5f, 11, 10.5f}, {100, 100, 100});
@@ -339,7 +339,7 @@ TEST(FaceLighting, spotsEndAtTheirCone)
 TEST(FaceLighting, aConstantSkyLightsAnOpenPlaneByItsRadiance)
 {
     const BrickTables tables = floorOf(12, 6, makeVoxel({0.5f, 0.25f, 0.75f}));
-    const BrickView view = brickViewOf(tables);
+    const BrickView view = makeBrickView(tables);
     FaceLighting lighting(view);
     lighting.sweep(constantSky({2, 2, 2}), 16, 1);
     const uint32_t face = faceAt(tables, 6, 0, 6, kUp);
@@ -366,7 +366,7 @@ TEST(FaceLighting, parallelPlatesExchangeByTheirFormFactor)
     model.fill({0, 0, 0}, {kSide, 1, kSide}, makeVoxel({0.5f, 0.5f, 0.5f}));
     model.fill({0, kGap + 1, 0}, {kSide, kGap + 2, kSide}, makeVoxel({0, 0, 0}, {2, 2, 2}));
     const BrickTables tables = model.build();
-    const BrickView view = brickViewOf(tables);
+    const BrickView view = makeBrickView(tables);
     FaceLighting lighting(view);
     lighting.sweep(darkness(), test::kSanitized ? 1024 : 4096, 2);
     const uint32_t face = faceAt(tables, 8, 0, 8, kUp);
@@ -381,7 +381,7 @@ TEST(FaceLighting, aRedWallReddensTheFloorBesideIt)
     model.fill({0, 0, 0}, {16, 1, 16}, makeVoxel({0.7f, 0.7f, 0.7f}));
     model.fill({0, 1, 0}, {1, 12, 16}, makeVoxel({0.8f, 0.1f, 0.1f}));
     const BrickTables tables = model.build();
-    const BrickView view = brickViewOf(tables);
+    const BrickView view = makeBrickView(tables);
     FaceLighting lighting(view);
     Lighting sun = darkness();
     addSun(sun, {-1, -1, 0}, {3, 3, 3});
@@ -401,7 +401,7 @@ TEST(FaceLighting, aRedWallReddensTheFloorBesideIt)
 TEST(FaceLighting, isTheSameForAnyNumberOfThreads)
 {
     const Room room({9, 7, 11}, makeVoxel({0.6f, 0.5f, 0.4f}, {0.1f, 0, 0.2f}));
-    const BrickView view = brickViewOf(room.tables);
+    const BrickView view = makeBrickView(room.tables);
     Lighting lit = constantSky({1, 2, 3});
     addLamp(lit, {1, 9, 6}, {9, 9, 9});
     const auto run = [&](size_t threads)

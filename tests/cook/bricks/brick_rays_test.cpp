@@ -46,7 +46,8 @@ TEST(BrickLight, keepsValuesToSixteenBits)
               decodeRadiance(encodeRadiance({0.3f, 2, 7})))
         << "no rest: the code itself";
     EXPECT_EQ(decodeBrickLight(encodeBrickLight({0, 0, 0})), (Float3{}));
-    EXPECT_EQ(decodeBrickLight(encodeBrickLight({1e9f, 1e9f, 1e9f})).x, kMostRedGreen * (1 + 0.5f / 127))
+    EXPECT_EQ(decodeBrickLight(encodeBrickLight({1e9f, 1e9f, 1e9f})).x,
+              kMaxRadianceRedGreen * (1 + 0.5f / 127))
         << "what is too bright is the brightest";
 }
 
@@ -94,19 +95,20 @@ TEST(BrickSurfaceStart, leavesItsOwnVoxelsAndSaysWhereThereIsNoAir)
     model.fill({0, 0, 0}, {8, 2, 8}, makeVoxel({0.5f, 0.5f, 0.5f}));
     model.fill({0, 8, 0}, {8, 16, 8}, makeVoxel({0.5f, 0.5f, 0.5f}));
     const BrickTables tables = model.build();
-    const BrickView view = brickViewOf(tables);
+    const BrickView view = makeBrickView(tables);
     const FaceLighting lighting(view);
     const BrickScene scene = lighting.scene();
-    EXPECT_NEAR(brickSurfaceStart(scene, {4.5f, 0.7f, 4.5f}, {0, 1, 0}).place.y, 2, 0.01f);
-    EXPECT_NEAR(brickSurfaceStart(scene, {4.5f, 8.2f, 4.5f}, {0, -1, 0}).place.y, 8, 0.01f);
-    EXPECT_NEAR(brickSurfaceStart(scene, {4.5f, 3, 4.5f}, {0, 1, 0}).place.y, 3, 0.01f)
+    EXPECT_NEAR(brickSurfaceStart(scene, {4.5f, 0.7f, 4.5f}, {0, 1, 0}).position.y, 2, 0.01f);
+    EXPECT_NEAR(brickSurfaceStart(scene, {4.5f, 8.2f, 4.5f}, {0, -1, 0}).position.y, 8, 0.01f);
+    EXPECT_NEAR(brickSurfaceStart(scene, {4.5f, 3, 4.5f}, {0, 1, 0}).position.y, 3, 0.01f)
         << "in the air already";
-    EXPECT_NEAR(brickSurfaceStart(scene, {4.5f, 1.7f, 4.5f}, {0.6f, 0.8f, 0}).place.y, 2 + 0.8f * kBrickLift,
-                0.01f)
+    EXPECT_NEAR(brickSurfaceStart(scene, {4.5f, 1.7f, 4.5f}, {0.6f, 0.8f, 0}).position.y,
+                2 + 0.8f * kBrickLift, 0.01f)
         << "slanted: off its steps";
-    EXPECT_EQ(brickSurfaceStart(scene, {4.5f, 9, 4.5f}, {0, 1, 0}).buried, 1u);
-    EXPECT_EQ(brickSurfaceStart(scene, {4.5f, 15.5f, 4.5f}, {0, 1, 0}).buried, 0u) << "above the grid is air";
-    EXPECT_EQ(brickSurfaceStart(scene, {40, 90, 4}, {0, 1, 0}).buried, 0u) << "as is what lies outside";
+    EXPECT_EQ(brickSurfaceStart(scene, {4.5f, 9, 4.5f}, {0, 1, 0}).is_interior, 1u);
+    EXPECT_EQ(brickSurfaceStart(scene, {4.5f, 15.5f, 4.5f}, {0, 1, 0}).is_interior, 0u)
+        << "above the grid is air";
+    EXPECT_EQ(brickSurfaceStart(scene, {40, 90, 4}, {0, 1, 0}).is_interior, 0u) << "as is what lies outside";
 }
 
 /// Of a wall, just below a ceiling that fills its voxels only in part: neither along its normal nor far along the way to the eye
@@ -117,17 +119,17 @@ TEST(BrickSeenStart, takesTheAirThatAPointIsSeenThrough)
     model.fill({0, 0, 0}, {12, 12, 1}, makeVoxel({0.5f, 0.5f, 0.5f})); // the wall
     model.fill({0, 8, 0}, {12, 9, 12}, makeVoxel({0.5f, 0.5f, 0.5f})); // the ceiling
     const BrickTables tables = model.build();
-    const BrickView view = brickViewOf(tables);
+    const BrickView view = makeBrickView(tables);
     const FaceLighting lighting(view);
     const Float3 to_eye = normalizeOr({0, -0.6f, 0.8f}, {0, 0, 1});
-    const BrickStart start = brickSeenStart(lighting.scene(), {6.5f, 8.3f, 1}, {0, 0, 1}, to_eye);
-    EXPECT_EQ(start.buried, 0u);
+    const BrickStart start = brickVisibleStart(lighting.scene(), {6.5f, 8.3f, 1}, {0, 0, 1}, to_eye);
+    EXPECT_EQ(start.is_interior, 0u);
     EXPECT_EQ(start.normal, (Float3{0, 0, 1}));
-    EXPECT_NEAR(start.place.y, 8, 0.7f);
-    EXPECT_LT(start.place.y, 8);
-    const BrickStart open = brickSeenStart(lighting.scene(), {6.5f, 4.5f, 0.9f}, {0, 0, 1}, to_eye);
-    EXPECT_NEAR(open.place.y, 4.5f, 1e-5f) << "before it, where nothing is in the way";
-    EXPECT_NEAR(open.place.z, 1, 0.01f);
+    EXPECT_NEAR(start.position.y, 8, 0.7f);
+    EXPECT_LT(start.position.y, 8);
+    const BrickStart open = brickVisibleStart(lighting.scene(), {6.5f, 4.5f, 0.9f}, {0, 0, 1}, to_eye);
+    EXPECT_NEAR(open.position.y, 4.5f, 1e-5f) << "before it, where nothing is in the way";
+    EXPECT_NEAR(open.position.z, 1, 0.01f);
 }
 
 /// A strip of one voxel that shines, on a wall: rays that started off the wall would pass by it.
@@ -137,7 +139,7 @@ TEST(BrickFaceStart, seesWhatStandsBesideItOnAWall)
     model.fill({0, 0, 0}, {65, 10, 1}, makeVoxel({0, 0, 0}));
     model.fill({0, 8, 1}, {65, 9, 2}, makeVoxel({0, 0, 0}, {2, 2, 2}));
     const BrickTables tables = model.build();
-    const BrickView view = brickViewOf(tables);
+    const BrickView view = makeBrickView(tables);
     FaceLighting lighting(view);
     lighting.sweep(darkness(), 1, 1);
     for (uint32_t below = 1; below <= 4; ++below)

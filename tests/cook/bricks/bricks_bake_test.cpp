@@ -1,6 +1,6 @@
 // The baked start value of a scene that the real importer and cookers made: a furnace, and a room that is dark.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/bricks/grid/face_places.h"
+#include "cook/bricks/grid/face_locations.h"
 #include "cook/bricks/light/bake.h"
 #include "cook/tools/open_part.h"
 #include "formats/gpu_shared/brick_lighting.h"
@@ -40,7 +40,7 @@ protected:
         const auto open = [&](const char* part) { return tools::openPart(folder_ / part).value(); };
         sources_.clear();
         sources_.push_back({open("import.part"), open("clusters.part"), open("textures.part")});
-        scene_.emplace(staticScene(sources_).value());
+        scene_.emplace(collectStaticScene(sources_).value());
         GridSettings settings;
         settings.voxel_size = 0.25;
         settings.seeds = {{0, 1, 0}};
@@ -57,7 +57,7 @@ protected:
     template <typename Visit>
     void forEachInner(const Visit& visit) const
     {
-        const std::vector<FacePlace> places = facePlaces(grid_->tables.masks());
+        const std::vector<FaceLocation> places = faceLocations(grid_->tables.masks());
         size_t count = 0;
         for (size_t face = 0; face < places.size(); ++face)
         {

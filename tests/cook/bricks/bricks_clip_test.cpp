@@ -16,7 +16,7 @@ using Whole3 = std::array<int64_t, 3>;
 // Separating axes work in sixteenths of the steps that corners are rounded to; grids here are 8 voxels wide, so that
 // products of three lengths fit 64 bits.
 constexpr int64_t kFine = 16;
-constexpr int64_t kVoxel = static_cast<int64_t>(kSnap) * kFine;
+constexpr int64_t kVoxel = static_cast<int64_t>(kStepsPerVoxel) * kFine;
 constexpr uint32_t kSize = 8;
 
 Whole3 whole(const Double3& p)
@@ -268,7 +268,7 @@ TEST(HiddenSamples, giveEachSampleOfASheetToOnePieceAlone)
             forEachPiece(triangle, doubleArea(triangle), {8, 8, 8}, {{0, 0, 0}, {8, 8, 8}},
                          [&](const Cell& cell, const Polygon& piece)
                          {
-                             const uint64_t samples = hiddenSamples(piece, cell, 1);
+                             const uint64_t samples = coveredSamples(piece, cell, 1);
                              hidden[{cell[0], cell[2]}] |= samples;
                              count[{cell[0], cell[2]}] += std::popcount(samples);
                          });
@@ -288,14 +288,14 @@ TEST(HiddenSamples, countWhatIsHidden)
     Polygon piece;
     for (const Double3& p : {Double3{2, 3.5, 5}, Double3{3, 3.5, 5}, Double3{2, 3.5, 6}})
         piece.add(p);
-    EXPECT_NEAR(std::popcount(hiddenSamples(piece, {2, 3, 5}, 1)), 32, 4);
-    EXPECT_EQ(hiddenSamples(piece, {2, 3, 5}, 0), 0u);
-    EXPECT_EQ(hiddenSamples(piece, {2, 3, 5}, 2), 0u);
+    EXPECT_NEAR(std::popcount(coveredSamples(piece, {2, 3, 5}, 1)), 32, 4);
+    EXPECT_EQ(coveredSamples(piece, {2, 3, 5}, 0), 0u);
+    EXPECT_EQ(coveredSamples(piece, {2, 3, 5}, 2), 0u);
     Polygon square;
     for (const Double3& p :
          {Double3{2, 3, 5.5}, Double3{2.5, 3, 5.5}, Double3{2.5, 3.5, 5.5}, Double3{2, 3.5, 5.5}})
         square.add(p);
-    EXPECT_EQ(hiddenSamples(square, {2, 3, 5}, 2), 0x0F0F0F0Fu);
+    EXPECT_EQ(coveredSamples(square, {2, 3, 5}, 2), 0x0F0F0F0Fu);
 }
 
 } // namespace hearth::bricks

@@ -96,11 +96,11 @@ protected:
         EXPECT_TRUE(view.ok() && formats::checkBricks(*view).ok());
         Voxels result;
         result.grid = view->brickGrid()[0];
-        const uint32_t gx = shared::brickGroups(result.grid.voxels[0]),
-                       gy = shared::brickGroups(result.grid.voxels[1]);
-        for (uint32_t g = 0; g < view->brickGroups().size(); ++g)
+        const uint32_t gx = shared::brickGroupsAlongAxis(result.grid.voxels[0]),
+                       gy = shared::brickGroupsAlongAxis(result.grid.voxels[1]);
+        for (uint32_t g = 0; g < view->brickGroupsAlongAxis().size(); ++g)
         {
-            const formats::BrickGroupRecord& group = view->brickGroups()[g];
+            const formats::BrickGroupRecord& group = view->brickGroupsAlongAxis()[g];
             uint32_t brick = group.first_brick;
             for (uint32_t b = 0; b < 64; ++b)
                 if (shared::maskHas(group.brick_mask_low, group.brick_mask_high, b))

@@ -1,7 +1,7 @@
 // What voxels of simple bodies look like, and which of their sides are faces: exact answers.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/grid/grid_settings.h"
-#include "cook/bricks/voxels/side_mix.h"
+#include "cook/bricks/voxels/blend_sides.h"
 #include "formats/codecs/vertex_codec.h"
 #include "formats/gpu_shared/brick_codes.h"
 #include "tests/cook/bricks/bricks_scene.h"
@@ -17,9 +17,9 @@ namespace
 
 constexpr uint32_t kUp = 3, kDown = 2;
 
-MaterialUse colored(Float3 color, Float3 emissive = {}, bool double_sided = false)
+SurfaceMaterial colored(Float3 color, Float3 emissive = {}, bool double_sided = false)
 {
-    MaterialUse material = defaultMaterial();
+    SurfaceMaterial material = defaultMaterial();
     material.record.base_color = {color.x, color.y, color.z, 1};
     material.record.emissive = emissive;
     material.record.flags = double_sided ? uint32_t{formats::kMaterialDoubleSided} : 0u;
@@ -35,7 +35,7 @@ std::vector<Corners> rectangle(double height, Double3 low, Double3 high)
 }
 
 /// The one voxel of triangles that lie in one, each with its material.
-SolidVoxel voxelOf(const std::vector<std::pair<std::vector<Corners>, MaterialUse>>& surfaces)
+SolidVoxel voxelOf(const std::vector<std::pair<std::vector<Corners>, SurfaceMaterial>>& surfaces)
 {
     const GridFrame frame = frameOfSize(4, 4, 4);
     Tile tile(frame, {0, 0, 0});
@@ -58,7 +58,7 @@ Float3 normalOf(const SolidVoxel& voxel, uint32_t face)
     return formats::NormalCode<8>::decode(voxel.normal[face]);
 }
 
-std::array<size_t, kFaces> countFaces(const FacedGrid& grid)
+std::array<size_t, kFaces> countFaces(const GridWithFaces& grid)
 {
     std::array<size_t, kFaces> count{};
     for (const uint8_t faces : grid.faces)
@@ -76,7 +76,7 @@ TEST(Faces, ofABoxOnThePlanesOfTheGridAreItsSides)
 {
     std::vector<Corners> box;
     addBox(box, {6, 6.5, 7}, {2, 0, 0}, {0, 2.5, 0}, {0, 0, 3}, false);
-    const FacedGrid grid = facedOf(solidOf(box, frameOfSize(12, 12, 12)));
+    const GridWithFaces grid = facedOf(solidOf(box, frameOfSize(12, 12, 12)));
     EXPECT_EQ(grid.solid.voxels.size(), 4u * 5 * 6 - 2 * 3 * 4); // behind its sides: inside
     EXPECT_EQ(countFaces(grid), (std::array<size_t, kFaces>{30, 30, 24, 24, 20, 20}));
     EXPECT_EQ(grid.seen.sealed, 1u);
@@ -85,10 +85,10 @@ TEST(Faces, ofABoxOnThePlanesOfTheGridAreItsSides)
     {
         EXPECT_EQ(voxel.opacity, kOpaque);
         for (uint32_t face = 0; face < kFaces; ++face)
-            if ((voxel.looked_at >> face & 1) != 0)
+            if ((voxel.front_visible >> face & 1) != 0)
             {
                 Float3 expected;
-                expected[axisOf(face)] = looksUp(face) ? 1.0f : -1.0f;
+                expected[faceAxis(face)] = isPositiveFace(face) ? 1.0f : -1.0f;
                 expectNear(normalOf(voxel, face), expected, 0);
                 EXPECT_EQ(voxel.albedo[face], shared::encodeAlbedo({1, 1, 1}));
             }
@@ -99,7 +99,7 @@ TEST(Faces, ofARoomAreWallsOfOneVoxelAroundIt)
 {
     std::vector<Corners> room;
     addBox(room, {6, 6.5, 7}, {2, 0, 0}, {0, 2.5, 0}, {0, 0, 3}, true);
-    const FacedGrid grid = facedOf(solidOf(room, frameOfSize(12, 12, 12)));
+    const GridWithFaces grid = facedOf(solidOf(room, frameOfSize(12, 12, 12)));
     const size_t walls = 2 * (4 * 5 + 5 * 6 + 4 * 6);
     EXPECT_EQ(grid.solid.voxels.size(), walls);
     EXPECT_EQ(grid.seen.sealed, 0u);
@@ -107,7 +107,7 @@ TEST(Faces, ofARoomAreWallsOfOneVoxelAroundIt)
     size_t inside = 0;
     for (size_t v = 0; v < grid.solid.voxels.size(); ++v)
         for (uint32_t face = 0; face < kFaces; ++face)
-            if ((grid.faces[v] >> face & 1) != 0 && (grid.solid.voxels[v].looked_at >> face & 1) != 0)
+            if ((grid.faces[v] >> face & 1) != 0 && (grid.solid.voxels[v].front_visible >> face & 1) != 0)
                 ++inside;
     EXPECT_EQ(inside, walls);
     EXPECT_EQ(countFaces(grid)[kUp], 24u + 24 + 2 * (4 + 6));
@@ -121,7 +121,7 @@ TEST(VoxelLook, isWeighedByTheAreaThatASideSees)
                                       {rectangle(1.5, {1.25, 0, 1}, {2, 0, 2}), colored(blue)}});
     expectNear(shared::decodeAlbedo(level.albedo[kUp]), red * 0.25f + blue * 0.75f, kAlbedoStep);
     expectNear(normalOf(level, kUp), {0, 1, 0}, 0);
-    EXPECT_EQ(level.looked_at, 1u << kUp);
+    EXPECT_EQ(level.front_visible, 1u << kUp);
 
     // a step: what looks up is red, what looks along x is blue, and each side sees its own
     const Double3 a{1.5, 1.5, 1}, b{1.5, 1.9, 1}, c{1.5, 1.9, 2}, d{1.5, 1.5, 2};
@@ -130,13 +130,13 @@ TEST(VoxelLook, isWeighedByTheAreaThatASideSees)
         voxelOf({{rectangle(1.5, {1, 0, 1}, {2, 0, 2}), colored(red)}, {riser, colored(blue)}});
     expectNear(shared::decodeAlbedo(step.albedo[kUp]), red, kAlbedoStep);
     expectNear(shared::decodeAlbedo(step.albedo[1]), blue, kAlbedoStep);
-    EXPECT_EQ(step.looked_at, 1u << kUp | 1u << 1);
+    EXPECT_EQ(step.front_visible, 1u << kUp | 1u << 1);
 
     // a slope that faces (3, 4, 0) / 5 has its own normal on both sides that see it
     const std::vector<Corners> slope{
         Corners{{Double3{1.2, 1.8, 1.1}, Double3{1.2, 1.8, 1.9}, Double3{1.6, 1.5, 1.1}}}};
     const SolidVoxel slanted = voxelOf({{slope, colored(red)}});
-    EXPECT_EQ(slanted.looked_at, 1u << kUp | 1u << 1);
+    EXPECT_EQ(slanted.front_visible, 1u << kUp | 1u << 1);
     for (const uint32_t face : {1u, kUp})
         EXPECT_GT(dot(normalOf(slanted, face), Float3{0.6f, 0.8f, 0}), 0.9998f);
 }
@@ -151,10 +151,10 @@ TEST(VoxelLook, ofASheetFromBehindIsItsColourButNotItsLight)
     expectNear(shared::decodeAlbedo(single.albedo[kDown]), green, kAlbedoStep);
     expectNear(normalOf(single, kDown), {0, -1, 0}, 0);
     expectNear(normalOf(single, 0), {-1, 0, 0}, 0);
-    EXPECT_EQ(single.looked_at, 1u << kUp);
+    EXPECT_EQ(single.front_visible, 1u << kUp);
 
     const SolidVoxel both = voxelOf({{sheet, colored(green, shine, true)}});
-    EXPECT_EQ(both.looked_at, 1u << kUp | 1u << kDown);
+    EXPECT_EQ(both.front_visible, 1u << kUp | 1u << kDown);
     EXPECT_EQ(both.emission[kDown], both.emission[kUp]);
     expectNear(normalOf(both, kDown), {0, -1, 0}, 0);
 }
@@ -163,7 +163,7 @@ TEST(VoxelLook, ofBlendedSurfacesHidesAsMuchAsTheirAlpha)
 {
     for (const float alpha : {0.0f, 0.25f, 0.5f, 0.9f})
     {
-        MaterialUse glass = colored({1, 1, 1});
+        SurfaceMaterial glass = colored({1, 1, 1});
         glass.record.alpha_mode = static_cast<uint32_t>(formats::AlphaMode::blend);
         glass.record.base_color.w = alpha;
         const SolidGrid grid = solidOf(rectangle(1.5, {0, 0, 0}, {4, 0, 4}), frameOfSize(4, 4, 4), glass);
@@ -197,7 +197,7 @@ TEST(VoxelLook, ofASphereTurnsWithIt)
             sphere.push_back({{at(ring, sector), at(ring + 1, sector), at(ring + 1, sector + 1)}});
             sphere.push_back({{at(ring, sector), at(ring + 1, sector + 1), at(ring, sector + 1)}});
         }
-    const FacedGrid grid = facedOf(solidOf(sphere, frameOfSize(32, 32, 32)));
+    const GridWithFaces grid = facedOf(solidOf(sphere, frameOfSize(32, 32, 32)));
     EXPECT_EQ(grid.seen.sealed, 1u);
     grid.solid.forEachBrick(
         [&](uint32_t brick, const Cell& least)
@@ -205,11 +205,12 @@ TEST(VoxelLook, ofASphereTurnsWithIt)
             uint32_t v = grid.solid.bricks[brick].first;
             for (uint64_t rest = grid.solid.bricks[brick].mask; rest != 0; rest &= rest - 1, ++v)
             {
-                const Cell cell = cellOf(least, static_cast<uint32_t>(std::countr_zero(rest)));
+                const Cell cell = cellFromBit(least, static_cast<uint32_t>(std::countr_zero(rest)));
                 const Double3 from = Double3{cell[0] + 0.5, cell[1] + 0.5, cell[2] + 0.5} - middle;
                 EXPECT_LT(std::abs(length(from) - kRadius), std::sqrt(0.75) + 0.1);
                 for (uint32_t face = 0; face < kFaces; ++face)
-                    if ((grid.faces[v] >> face & 1) != 0 && (grid.solid.voxels[v].looked_at >> face & 1) != 0)
+                    if ((grid.faces[v] >> face & 1) != 0 &&
+                        (grid.solid.voxels[v].front_visible >> face & 1) != 0)
                     {
                         EXPECT_GT(
                             dot(normalOf(grid.solid.voxels[v], face), narrow(from * (1 / length(from)))),
@@ -240,14 +241,14 @@ TEST(SideMix, keepsAnAlbedoThatAllSurfacesHaveAndAddsNoLight)
         std::vector<Corners> box;
         addBox(box, Double3{10, 10, 10}, a, b, c, i % 2 != 0);
         SolidGrid grid = solidOf(box, frameOfSize(20, 20, 20), colored(albedo, emission));
-        mixSides(grid);
+        blendSides(grid);
         for (const SolidVoxel& voxel : grid.voxels)
             for (uint32_t face = 0; face < kFaces; ++face)
             {
                 expectNear(shared::decodeAlbedo(voxel.albedo[face]), albedo, 2 * kAlbedoStep);
                 const Float3 light = shared::decodeRadiance(voxel.emission[face]);
                 EXPECT_LE(light.x, emission.x);
-                if ((voxel.looked_at >> face & 1) != 0 && light.x < 0.9f * emission.x)
+                if ((voxel.front_visible >> face & 1) != 0 && light.x < 0.9f * emission.x)
                     ++dimmed;
             }
     }
@@ -264,7 +265,7 @@ TEST(WithinBudget, keepsTheNearestBricksThatFit)
         soup.push_back({{at, at + uniformPoint(random, -2, 2), at + uniformPoint(random, -2, 2)}});
     }
     const SolidGrid solid = solidOf(soup, frameOfSize(64, 64, 64));
-    const FacedGrid whole = facedOf(solid);
+    const GridWithFaces whole = facedOf(solid);
     const Float3 focus{10, 20, 30};
     const auto distanceOf = [&](const Cell& cell) {
         return length(Double3{cell[0] + 2.0, cell[1] + 2.0, cell[2] + 2.0} - widen(focus));
@@ -272,7 +273,7 @@ TEST(WithinBudget, keepsTheNearestBricksThatFit)
     for (const double share : {1.0, 0.7, 0.2, 0.02})
     {
         const auto memory = static_cast<uint64_t>(share * static_cast<double>(whole.bytes().total()));
-        const FacedGrid some = withinBudget(solid, {}, {&focus, 1}, memory);
+        const GridWithFaces some = fitToMemory(solid, {}, {&focus, 1}, memory);
         EXPECT_LE(some.bytes().total(), memory);
         EXPECT_EQ(some.solid.bricks.size() + some.dropped.bricks, whole.solid.bricks.size());
         EXPECT_EQ(some.solid.voxels.size() + some.dropped.voxels, whole.solid.voxels.size());
@@ -289,11 +290,11 @@ TEST(WithinBudget, keepsTheNearestBricksThatFit)
         whole.solid.forEachBrick([&](uint32_t, const Cell& cell)
                                  { nearer += distanceOf(cell) < some.dropped.from_distance ? 1u : 0u; });
         EXPECT_LE(nearer, some.solid.bricks.size());
-        const BrickTables tables = tablesOf(some.solid, some.faces);
-        EXPECT_EQ(
-            bytesOf(tables.groups.size(), tables.bricks.size(), tables.opacity.size(), tables.albedo.size())
-                .total(),
-            some.bytes().total());
+        const BrickTables tables = makeBrickTables(some.solid, some.faces);
+        EXPECT_EQ(computeBrickBytes(tables.groups.size(), tables.bricks.size(), tables.opacity.size(),
+                                    tables.albedo.size())
+                      .total(),
+                  some.bytes().total());
     }
 }
 
@@ -302,11 +303,11 @@ TEST(FrameOf, liesOnMultiplesWithRoomBehindTheSides)
     Box3 box;
     box.add(Float3{-3, 0, 0.2f});
     box.add(Float3{3, 2.5f, 4.9f});
-    const Result<GridFrame> frame = frameOf({}, box, 0.5);
+    const Result<GridFrame> frame = makeGridFrame({}, box, 0.5);
     ASSERT_TRUE(frame.ok());
     EXPECT_EQ(frame->origin, (Float3{-3.5f, -0.5f, 0}));
     EXPECT_EQ(frame->voxels, (Cell{14, 7, 10}));
-    const Result<GridFrame> empty = frameOf({}, Box3{}, 1);
+    const Result<GridFrame> empty = makeGridFrame({}, Box3{}, 1);
     ASSERT_TRUE(empty.ok());
     EXPECT_EQ(empty->voxels, (Cell{1, 1, 1}));
 }
@@ -320,7 +321,7 @@ TEST(FrameOf, takesAnExtentAsItIs)
          {std::pair{1.0, Cell{512, 128, 512}}, {0.1, {5120, 1280, 5120}}, {0.3, {1707, 427, 1707}}})
     {
         settings.memory = uint64_t{1} << 32;
-        const Result<GridFrame> frame = frameOf(settings, Box3{}, size);
+        const Result<GridFrame> frame = makeGridFrame(settings, Box3{}, size);
         ASSERT_TRUE(frame.ok());
         EXPECT_EQ(frame->origin, (Float3{-256, -64, -256}));
         EXPECT_EQ(frame->voxels, voxels);
@@ -336,7 +337,7 @@ TEST(FrameOf, refusesWhatMakesNoSense)
     box.add(Float3{100, 100, 100});
     const auto refuse = [&](const GridSettings& settings, double size, const std::string& part)
     {
-        const Result<GridFrame> frame = frameOf(settings, box, size);
+        const Result<GridFrame> frame = makeGridFrame(settings, box, size);
         ASSERT_FALSE(frame.ok());
         EXPECT_EQ(exitCode(frame.error()), 2);
         EXPECT_NE(formatMessage(frame.error()).find(part), std::string::npos) << formatMessage(frame.error());

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/bricks/voxels/budget.h"
+#include "cook/bricks/voxels/memory_budget.h"
 #include "cook/bricks/voxels/opacity.h"
 #include "cook/bricks/voxels/tile.h"
 
@@ -53,9 +53,9 @@ inline GridFrame frameOfSize(uint32_t x, uint32_t y, uint32_t z)
 
 /// The voxels of triangles of one material, opacities set.
 inline SolidGrid solidOf(const std::vector<Corners>& triangles, const GridFrame& frame,
-                         const MaterialUse& material = defaultMaterial())
+                         const SurfaceMaterial& material = defaultMaterial())
 {
-    const Cell count = tilesOf(frame);
+    const Cell count = tileCounts(frame);
     std::vector<TileVoxels> tiles;
     for (uint32_t t = 0; t < count[0] * count[1] * count[2]; ++t)
     {
@@ -64,16 +64,16 @@ inline SolidGrid solidOf(const std::vector<Corners>& triangles, const GridFrame&
             tile.add(polygonOf(triangle), {}, material, 1);
         tiles.push_back(tile.finish());
     }
-    SolidGrid grid = mergedTiles(frame, tiles);
-    hideSheets(grid);
+    SolidGrid grid = mergeTiles(frame, tiles);
+    computeOpacities(grid);
     return grid;
 }
 
 /// With spaces and faces, however much memory they take.
-inline FacedGrid facedOf(SolidGrid grid, std::span<const Float3> seen_points = {})
+inline GridWithFaces facedOf(SolidGrid grid, std::span<const Float3> seen_points = {})
 {
     const Float3 focus;
-    return withinBudget(std::move(grid), seen_points, {&focus, 1}, std::numeric_limits<uint64_t>::max());
+    return fitToMemory(std::move(grid), seen_points, {&focus, 1}, std::numeric_limits<uint64_t>::max());
 }
 
 using Random = std::mt19937;

@@ -34,7 +34,7 @@ SolidGrid gridOf(const GridFrame& frame, const IsSolid& is_solid)
     SolidGrid grid{frame, std::vector<MaskedCells>(frame.groupCount()), {}, {}};
     SolidVoxel voxel{};
     voxel.opacity = 100;
-    voxel.looked_at = 63;
+    voxel.front_visible = 63;
     const Cell groups = frame.groups();
     for (uint32_t g = 0; g < grid.groups.size(); ++g)
     {
@@ -45,7 +45,7 @@ SolidGrid gridOf(const GridFrame& frame, const IsSolid& is_solid)
             const Cell at{group[0] + (b & 3) * 4, group[1] + (b >> 2 & 3) * 4, group[2] + (b >> 4) * 4};
             MaskedCells brick{0, static_cast<uint32_t>(grid.voxels.size())};
             for (uint32_t v = 0; v < 64; ++v)
-                if (isInside(frame, cellOf(at, v)) && is_solid(cellOf(at, v)))
+                if (isInside(frame, cellFromBit(at, v)) && is_solid(cellFromBit(at, v)))
                     brick.mask |= uint64_t{1} << v;
             if (brick.mask == 0)
                 continue;
@@ -61,14 +61,14 @@ SolidGrid gridOf(const GridFrame& frame, const IsSolid& is_solid)
 template <typename Opens>
 std::vector<uint32_t> floodedSpaces(const GridFrame& frame, const Opens& opens)
 {
-    std::vector<uint32_t> spaces(size_t{frame.voxels[0]} * frame.voxels[1] * frame.voxels[2], kNowhere);
+    std::vector<uint32_t> spaces(size_t{frame.voxels[0]} * frame.voxels[1] * frame.voxels[2], kInvalidIndex);
     const auto flood = [&](std::vector<Cell> queue, uint32_t space)
     {
         while (!queue.empty())
         {
             const Cell cell = queue.back();
             queue.pop_back();
-            if (!isInside(frame, cell) || !opens(cell) || spaces[indexOf(frame, cell)] != kNowhere)
+            if (!isInside(frame, cell) || !opens(cell) || spaces[indexOf(frame, cell)] != kInvalidIndex)
                 continue;
             spaces[indexOf(frame, cell)] = space;
             for (uint32_t face = 0; face < kFaces; ++face)
@@ -88,26 +88,26 @@ std::vector<uint32_t> floodedSpaces(const GridFrame& frame, const Opens& opens)
     forEachCell(frame,
                 [&](const Cell& cell)
                 {
-                    if (opens(cell) && spaces[indexOf(frame, cell)] == kNowhere)
+                    if (opens(cell) && spaces[indexOf(frame, cell)] == kInvalidIndex)
                         flood({cell}, next++);
                 });
     return spaces;
 }
 
 /// Whether both partitions are the same but for the numbers, and the outside is 0 in both.
-void expectSameSpaces(const SolidGrid& grid, const OpenSpace& spaces, const std::vector<uint32_t>& expected)
+void expectSameSpaces(const SolidGrid& grid, const EmptySpaces& spaces, const std::vector<uint32_t>& expected)
 {
-    std::map<uint32_t, uint32_t> number{{0, OpenSpace::kOutside}};
+    std::map<uint32_t, uint32_t> number{{0, EmptySpaces::kOutside}};
     std::set<uint32_t> used;
     forEachCell(grid.frame,
                 [&](const Cell& cell)
                 {
-                    if (grid.voxelAt(cell) != kNowhere)
+                    if (grid.voxelAt(cell) != kInvalidIndex)
                         return;
                     const uint32_t space = spaces.at(grid, cell);
                     const auto [at, is_new] = number.emplace(expected[indexOf(grid.frame, cell)], space);
                     EXPECT_EQ(at->second, space);
-                    EXPECT_TRUE(!is_new || (used.insert(space).second && space != OpenSpace::kOutside));
+                    EXPECT_TRUE(!is_new || (used.insert(space).second && space != EmptySpaces::kOutside));
                     EXPECT_LT(space, spaces.count());
                 });
 }
@@ -151,11 +151,11 @@ double transmittance(const BrickTables& tables, const Double3& from, const Doubl
     const shared::BrickMasks masks = tables.masks();
     double left = 1;
     shared::BrickRay ray = shared::brickMarch(
-        masks, shared::brickRay(masks.grid, narrow(from), narrow(direction), shared::kBrickFar));
+        masks, shared::brickRay(masks.grid, narrow(from), narrow(direction), shared::kBrickInfinity));
     while (ray.inside != 0)
     {
         left *= 1 - tables.opacity[shared::brickVoxel(tables.bricks[ray.brick], ray.bit)] / 255.0;
-        ray = shared::brickMarch(masks, shared::brickPass(masks, ray));
+        ray = shared::brickMarch(masks, shared::brickSkipVoxel(masks, ray));
     }
     return left;
 }
@@ -167,7 +167,7 @@ Double3 randomDirection(Random& random)
 
 } // namespace
 
-TEST(OpenSpace, isWhatAFloodFinds)
+TEST(EmptySpaces, isWhatAFloodFinds)
 {
     Random random(5);
     for (int round = 0; round < 40; ++round)
@@ -189,15 +189,15 @@ TEST(OpenSpace, isWhatAFloodFinds)
             return hash / 4294967296.0 < share;
         };
         const SolidGrid grid = gridOf(frame, isSolid);
-        expectSameSpaces(grid, OpenSpace(grid),
+        expectSameSpaces(grid, EmptySpaces(grid),
                          floodedSpaces(frame, [&](const Cell& cell) { return !isSolid(cell); }));
     }
 }
 
-TEST(OpenSpace, isWholeWhereNothingIs)
+TEST(EmptySpaces, isWholeWhereNothingIs)
 {
     const SolidGrid grid = gridOf(frameOfSize(33, 20, 5), [](const Cell&) { return false; });
-    EXPECT_EQ(OpenSpace(grid).count(), 1u);
+    EXPECT_EQ(EmptySpaces(grid).count(), 1u);
 }
 
 TEST(SeparateSpaces, leaveNoWayFromOneToAnother)
@@ -212,13 +212,13 @@ TEST(SeparateSpaces, leaveNoWayFromOneToAnother)
         SolidGrid grid = gridOf(frame, [&](const Cell& cell) { return solid[indexOf(frame, cell)]; });
         for (SolidVoxel& voxel : grid.voxels)
             voxel.opacity = uniform(random, 0, 1) < 0.3 ? kOpaque : 100;
-        const OpenSpace spaces(grid);
+        const EmptySpaces spaces(grid);
         const SolidGrid before = grid;
         const std::vector<uint32_t> space_of_voxel = separateSpaces(grid, spaces);
         const auto opens = [&](const Cell& cell)
         {
             const uint32_t voxel = grid.voxelAt(cell);
-            return voxel == kNowhere || grid.voxels[voxel].opacity != kOpaque;
+            return voxel == kInvalidIndex || grid.voxels[voxel].opacity != kOpaque;
         };
         const std::vector<uint32_t> through = floodedSpaces(frame, opens);
         std::map<uint32_t, uint32_t> space_of;
@@ -226,14 +226,14 @@ TEST(SeparateSpaces, leaveNoWayFromOneToAnother)
                     [&](const Cell& cell)
                     {
                         const uint32_t voxel = grid.voxelAt(cell);
-                        if (voxel == kNowhere)
+                        if (voxel == kInvalidIndex)
                         {
                             const uint32_t space = spaces.at(grid, cell);
                             EXPECT_EQ(space_of.emplace(through[indexOf(frame, cell)], space).first->second,
                                       space);
                             return;
                         }
-                        EXPECT_TRUE(opens(cell) || space_of_voxel[voxel] == kNowhere);
+                        EXPECT_TRUE(opens(cell) || space_of_voxel[voxel] == kInvalidIndex);
                     });
         // each that became opaque stands between two that did not belong together
         size_t changed = 0;
@@ -252,7 +252,7 @@ TEST(SeparateSpaces, changesNothingInTheOpen)
     Random random(7);
     SolidGrid grid =
         gridOf(frameOfSize(20, 20, 20), [&](const Cell&) { return uniform(random, 0, 1) < 0.05; });
-    separateSpaces(grid, OpenSpace(grid));
+    separateSpaces(grid, EmptySpaces(grid));
     for (const SolidVoxel& voxel : grid.voxels)
         EXPECT_EQ(voxel.opacity, 100);
 }
@@ -264,8 +264,8 @@ TEST(Rooms, areExactlyDarkHoweverTheyAreTurned)
     {
         const double thickness = round % 3 == 0 ? 0 : round % 3 == 1 ? 0.3 : 1.7;
         const Room room = randomRoom(random, 40, thickness, round % 2 == 0);
-        const FacedGrid grid = facedOf(solidOf(room.triangles, frameOfSize(40, 40, 40)));
-        const BrickTables tables = tablesOf(grid.solid, grid.faces);
+        const GridWithFaces grid = facedOf(solidOf(room.triangles, frameOfSize(40, 40, 40)));
+        const BrickTables tables = makeBrickTables(grid.solid, grid.faces);
         int rays = 0;
         for (int ray = 0; ray < 3000; ++ray)
         {
@@ -274,7 +274,7 @@ TEST(Rooms, areExactlyDarkHoweverTheyAreTurned)
                 from = from + half * uniform(random, -1, 1);
             const Cell cell{static_cast<uint32_t>(from.x), static_cast<uint32_t>(from.y),
                             static_cast<uint32_t>(from.z)};
-            if (grid.solid.voxelAt(cell) != kNowhere)
+            if (grid.solid.voxelAt(cell) != kInvalidIndex)
                 continue;
             EXPECT_EQ(transmittance(tables, from, randomDirection(random)), 0) << "round " << round;
             ++rays;
@@ -294,22 +294,22 @@ TEST(Rooms, haveFacesInsideAndRocksDoNot)
         addBox(triangles, {16, 16, 16}, frame[0] * 8, frame[1] * 7, frame[2] * 6, inwards);
         const auto insideFaces = [&](std::span<const Float3> seeds)
         {
-            const FacedGrid grid = facedOf(solidOf(triangles, frameOfSize(32, 32, 32)), seeds);
+            const GridWithFaces grid = facedOf(solidOf(triangles, frameOfSize(32, 32, 32)), seeds);
             EXPECT_EQ(grid.seen.sealed, inwards || !seeds.empty() ? 0u : 1u);
-            const OpenSpace spaces(grid.solid);
+            const EmptySpaces spaces(grid.solid);
             size_t faces = 0;
             forEachCell(grid.solid.frame,
                         [&](const Cell& cell)
                         {
                             const uint32_t voxel = grid.solid.voxelAt(cell);
-                            if (voxel == kNowhere)
+                            if (voxel == kInvalidIndex)
                                 return;
                             for (uint32_t face = 0; face < kFaces; ++face)
                             {
                                 const Cell next = across(cell, face);
                                 if (isInside(grid.solid.frame, next) &&
-                                    grid.solid.voxelAt(next) == kNowhere &&
-                                    spaces.at(grid.solid, next) != OpenSpace::kOutside)
+                                    grid.solid.voxelAt(next) == kInvalidIndex &&
+                                    spaces.at(grid.solid, next) != EmptySpaces::kOutside)
                                     faces += (grid.faces[voxel] >> face & 1) != 0 ? 1u : 0u;
                             }
                         });
@@ -333,8 +333,8 @@ TEST(Opacity, isAllOfAPlaneAndAShareOfBlades)
         const std::vector<Corners> plane{{{at(-80, -80), at(80, -80), at(80, 80)}},
                                          {{at(-80, -80), at(80, 80), at(-80, 80)}}};
         const SolidGrid grid = solidOf(plane, frameOfSize(32, 32, 32));
-        const FacedGrid faced = facedOf(grid);
-        const BrickTables tables = tablesOf(faced.solid, faced.faces);
+        const GridWithFaces faced = facedOf(grid);
+        const BrickTables tables = makeBrickTables(faced.solid, faced.faces);
         for (int ray = 0; ray < 500; ++ray)
         {
             const Double3 through = at(uniform(random, -4, 4), uniform(random, -4, 4));

@@ -81,7 +81,7 @@ TEST(MarchLanes, findWhatRaysFindOneByOne)
                         continue;
                     some = true;
                     ++hits;
-                    truth[r] = found[r] = brickPass(masks, truth[r]);
+                    truth[r] = found[r] = brickSkipVoxel(masks, truth[r]);
                 }
             }
             rays_in_all += static_cast<uint32_t>(count);
@@ -96,7 +96,7 @@ TEST(MarchLanes, leaveRaysThatAreNotInTheGrid)
     const MarchScene scene = test::randomScene({20, 20, 20}, 100, random);
     const BrickGrid grid = scene.model.masks().grid;
     const MarchTable table(scene.model.masks());
-    std::vector<BrickRay> rays(50, brickRayInVoxels(grid, {-5, 3, 3}, {-1, 0, 0}, kBrickFar));
+    std::vector<BrickRay> rays(50, brickRayInVoxels(grid, {-5, 3, 3}, {-1, 0, 0}, kBrickInfinity));
     marchRays(table, rays);
     for (const BrickRay& ray : rays)
         EXPECT_TRUE(ray.inside == 0 && ray.steps == 0);
@@ -118,7 +118,7 @@ TEST(MarchLanes, endWhateverTheRaysAre)
             direction[axis] = std::isfinite(any) ? any : 0;
             origin[axis] = static_cast<float>(random() % 60) - 5;
         }
-        rays.push_back(brickRayInVoxels(masks.grid, origin, direction, kBrickFar));
+        rays.push_back(brickRayInVoxels(masks.grid, origin, direction, kBrickInfinity));
     }
     marchRays(MarchTable(masks), rays);
     for (const BrickRay& ray : rays)
@@ -145,7 +145,7 @@ TEST(FaceLighting, gathersAsRaysDoOneByOne)
         FaceLighting lit(view);
         const FaceLighting before(view);
         lit.sweep(lighting, rays, 1);
-        const std::vector<FacePlace> places = facePlaces(view.masks);
+        const std::vector<FaceLocation> places = faceLocations(view.masks);
         for (size_t face = 0; face < places.size(); face += rays)
         {
             const auto [x, y, z, side] = places[face];
@@ -153,7 +153,7 @@ TEST(FaceLighting, gathersAsRaysDoOneByOne)
                 brickFaceStart(before.scene(), x, y, z, side, decodeFaceNormal(model.normals[face]));
             const Float3 arrived =
                 brickGather(before.scene(), sky, start, rays, brickFaceSeed(x, y, z, side));
-            const BrickLight truth = encodeBrickLight(brickSentOut(
+            const BrickLight truth = encodeBrickLight(brickOutgoingRadiance(
                 decodeRadiance(model.emission[face]), decodeAlbedo(model.albedo[face]), arrived));
             ASSERT_EQ(lit.faces()[face].code, truth.code) << face;
             ASSERT_EQ(lit.faces()[face].rest, truth.rest) << face;

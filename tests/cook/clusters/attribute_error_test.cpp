@@ -1,4 +1,5 @@
-// Errors of normals and UVs: what is stored is what a cut shows, and it counts for the cut as the weights say.
+// Tests errors of normals and UVs: the stored error matches what a cut shows, and weights decide how much it
+// counts.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/error/attribute_error.h"
 #include "cook/clusters/error/group_errors.h"
@@ -26,7 +27,7 @@ using mesh::SourceMesh;
 
 constexpr float kTurn = 2 * std::numbers::pi_v<float>;
 
-/// Attributes of a sheet over the unit square, by place.
+/// Attributes of a sheet over the unit square, as functions of position.
 struct Sheet
 {
     std::function<float(Float2)> height = [](Float2) { return 0.0f; };
@@ -56,7 +57,7 @@ Sheet withStretchedUvs()
     return sheet;
 }
 
-/// Waves that the normals have; the places only if `bent`.
+/// Sheet whose normals have waves; its positions have them only if `bent`.
 Sheet withWaves(bool bent)
 {
     constexpr float kHeight = 0.01f;
@@ -73,7 +74,8 @@ Sheet withWaves(bool bent)
     return sheet;
 }
 
-/// Root mean squares over the area of what is drawn at a level: as stored, and as the sheet's functions say.
+/// Area-weighted root mean squares of a level's attribute errors: as stored, and measured against the sheet's
+/// functions.
 struct Rms
 {
     double stored_normal = 0, normal = 0;
@@ -87,13 +89,13 @@ Rms measure(const Sheet& sheet, const Hierarchy& hierarchy, const clusters::Deco
     Rms rms;
     double area = 0;
     const auto replaced = cuts::cutAtError(hierarchy, hierarchy.levels[level].max_error);
-    for (const uint32_t c : clusters::clustersOfCut(hierarchy, replaced))
+    for (const uint32_t c : clusters::findCutClusters(hierarchy, replaced))
     {
         const formats::ClusterRecord& cluster = hierarchy.clusters[c];
         const auto geometry =
             formats::ClusterGeometry::at(decoded.pages[cluster.page], cluster, hierarchy.mesh);
         const GroupRecord group =
-            cluster.refined_group == formats::kNone ? GroupRecord{} : hierarchy.groups[cluster.refined_group];
+            cluster.refined_group == kInvalidIndex ? GroupRecord{} : hierarchy.groups[cluster.refined_group];
         for (uint32_t t = 0; t < geometry->triangleCount(); ++t)
         {
             const auto corners = geometry->triangle(t);
@@ -148,7 +150,7 @@ Built build(const SourceMesh& mesh, const Config& config = kUsual)
     return built;
 }
 
-/// The largest of a value over the groups that are no roots.
+/// Return the maximum of a value over all groups but the roots.
 float largest(const Hierarchy& hierarchy, float GroupRecord::*value)
 {
     float most = 0;
@@ -158,7 +160,8 @@ float largest(const Hierarchy& hierarchy, float GroupRecord::*value)
     return most;
 }
 
-/// Config with 16 bits for normals, so that their codes do not blur what is measured, and weights for the cut.
+/// Return a config with 16-bit normals, so that quantization does not blur the measurement, and the given cut
+/// weights.
 Config configWith(float normal_error_weight, float uv_error_weight)
 {
     Config config = kUsual;
@@ -171,40 +174,43 @@ Config configWith(float normal_error_weight, float uv_error_weight)
 TEST(AngleOfChord, isTheAngleBetweenUnitVectors)
 {
     for (const double angle : {0.0, 1e-9, 1e-3, 0.1, 1.0, 2.0, 3.0, std::numbers::pi})
-        EXPECT_NEAR(clusters::angleOfChord(2 * std::sin(angle / 2)), angle, 1e-5 * angle) << angle;
-    EXPECT_NEAR(clusters::angleOfChord(2.1), std::numbers::pi, 1e-4) << "rounding does not leave the numbers";
+        EXPECT_NEAR(clusters::angleFromChord(2 * std::sin(angle / 2)), angle, 1e-5 * angle) << angle;
+    EXPECT_NEAR(clusters::angleFromChord(2.1), std::numbers::pi, 1e-4)
+        << "rounding does not leave the numbers";
 }
 
 TEST(GroupErrors, addSquaresOfAttributesOverTheTriangles)
 {
-    clusters::ErrorsBelow below(0.001f);
+    clusters::ErrorAccumulator below(0.001f);
     below.add({2, 1, {0.3f, 0.03f}}, 30);
     below.add({3, 0.5f, {0.0f, 0.04f}}, 10);
-    const clusters::GroupErrors errors = below.plus({1.5f, {{0.4f, 0.05f}, 0.5f}, 1}, configWith(0, 0));
+    const clusters::GroupErrors errors =
+        below.errorsOfReplacement({1.5f, {{0.4f, 0.05f}, 0.5f}, 1}, configWith(0, 0));
     EXPECT_NEAR(errors.attributes.normal, std::sqrt(0.09 * 3 / 4 + 0.16), 1e-6);
     EXPECT_NEAR(errors.attributes.uv, std::sqrt(9e-4 * 3 / 4 + 16e-4 / 4 + 25e-4), 1e-6);
     EXPECT_NEAR(errors.position, 1.5f, 1e-4);
     EXPECT_NEAR(errors.lod, 3, 1e-4) << "no error falls";
 
-    const clusters::GroupErrors same = below.plus({}, configWith(9, 9));
+    const clusters::GroupErrors same = below.errorsOfReplacement({}, configWith(9, 9));
     EXPECT_EQ(same.attributes.normal, 0.3f) << "nor does a part";
     EXPECT_EQ(same.attributes.uv, 0.04f);
     EXPECT_NEAR(same.position, 1, 1e-4);
 
-    const clusters::GroupErrors authored = below.orOf({1.5f, {{0.4f, 0.05f}, 0.5f}, 1}, configWith(0, 0));
+    const clusters::GroupErrors authored =
+        below.errorsAgainstSource({1.5f, {{0.4f, 0.05f}, 0.5f}, 1}, configWith(0, 0));
     EXPECT_EQ(authored.attributes.normal, 0.4f);
     EXPECT_EQ(authored.attributes.uv, 0.05f);
 }
 
 TEST(GroupErrors, weighTheirParts)
 {
-    const clusters::ErrorsBelow source(0.001f);
+    const clusters::ErrorAccumulator source(0.001f);
     const clusters::Replacement replacement{1.5f, {{0.4f, 0.05f}, 0.5f}, 1};
     const auto lod = [&](float normal_error_weight, float uv_error_weight, float weight)
     {
         clusters::Replacement weighted = replacement;
         weighted.weight = weight;
-        return source.plus(weighted, configWith(normal_error_weight, uv_error_weight)).lod;
+        return source.errorsOfReplacement(weighted, configWith(normal_error_weight, uv_error_weight)).lod;
     };
     EXPECT_NEAR(lod(1, 1, 1), 1.5f, 1e-4) << "the largest counts";
     EXPECT_NEAR(lod(1, 100, 1), 5, 1e-4);
@@ -214,7 +220,8 @@ TEST(GroupErrors, weighTheirParts)
 
 TEST(AttributeErrors, areNothingWhereNothingIsLost)
 {
-    // but where corners go: how much that takes is a matter of ties, which are everywhere on a sheet of squares
+    // corners of charts may still differ: their error depends on ties, which are frequent on a sheet of
+    // squares
     std::vector<float> where_corners_go;
     for (const uint32_t n : {56u, 60u, 64u, 68u, 72u})
     {
@@ -231,17 +238,17 @@ TEST(AttributeErrors, areNothingWhereNothingIsLost)
 TEST(AttributeErrors, ofStretchedUvsAreWhatACutShows)
 {
     const Sheet sheet = withStretchedUvs();
-    // with a weight of 0 the flat sheet loses nothing at all, and groups go on as far as they like
+    // with weight 0 the flat sheet has no error at all, and groups simplify without limit
     const Built built = build(sheet.mesh(96), configWith(0, 1));
     EXPECT_LT(largest(built.hierarchy, &GroupRecord::position_error), 1e-3f) << "but where corners go";
     EXPECT_LT(largest(built.hierarchy, &GroupRecord::normal_error), 1e-5f);
-    // at level 1 more is off through the codes of UVs
+    // from level 1 on, quantization of UVs adds error
     for (const uint32_t level : {2u, 3u, 5u})
     {
         const Rms rms = measure(sheet, built.hierarchy, built.decoded, level);
         EXPECT_GT(rms.uv, 1e-5);
         EXPECT_GT(rms.stored_uv, 0.85 * rms.uv) << "level " << level;
-        // each level is fitted to the one below, and takes back a part of what that was off
+        // each level is fitted to the one below, and so recovers a part of that level's error
         EXPECT_LT(rms.stored_uv, 1.35 * rms.uv) << "level " << level;
     }
 }
@@ -250,7 +257,7 @@ TEST(AttributeErrors, ofABentSheetAreWhatACutShows)
 {
     const Sheet sheet = withWaves(true);
     const Built built = build(sheet.mesh(96), configWith(0, 0));
-    // below, the triangles of the source itself are as far from the sheet
+    // on lower levels, the source's own triangles are as far from the sheet
     for (const uint32_t level : {3u, 4u, 5u})
     {
         const Rms rms = measure(sheet, built.hierarchy, built.decoded, level);
@@ -262,7 +269,7 @@ TEST(AttributeErrors, ofABentSheetAreWhatACutShows)
 
 TEST(AttributeErrors, doNotTakeOneSideOfASeamForTheOther)
 {
-    // six charts, each a unit square over a side of a cube of about 2: a unit of UV is about two long
+    // six charts, each a unit square over a face of a cube of size about 2: a UV unit is about two long
     const Built built = build(shapes::rock(40, 0));
     for (const formats::ClusterRecord& cluster : built.hierarchy.clusters)
     {
@@ -276,7 +283,7 @@ TEST(AttributeErrors, areNumbersWhateverTheUvs)
 {
     for (const float most : {1e-30f, 1e20f, 3e38f})
     {
-        // two islands, which come together in groups; UVs on a line say nothing of their length
+        // two islands that groups merge; UVs on a line say nothing of their length
         SourceMesh mesh = withStretchedUvs().mesh(40);
         SourceMesh other = shapes::grid(40);
         for (size_t v = 0; v < other.vertexCount(); ++v)
@@ -326,7 +333,7 @@ TEST(AttributeErrors, ofNormalsCountAsWavesOfTheTrianglesLength)
     const GroupRecord unweighted = lastLevel(0), weighted = lastLevel(10);
     EXPECT_EQ(unweighted.error, unweighted.position_error);
     EXPECT_EQ(weighted.normal_error, unweighted.normal_error);
-    // the edges of 128 triangles in a unit square are about 1/8
+    // edges of 128 triangles in a unit square are about 1/8 long
     EXPECT_GT(weighted.error, 10 * weighted.normal_error * 0.08f / kTurn);
     EXPECT_LT(weighted.error, 10 * weighted.normal_error * 0.25f / kTurn);
     EXPECT_NEAR(lastLevel(20).error, 2 * weighted.error, 1e-3f * weighted.error);
@@ -340,7 +347,7 @@ TEST(AttributeErrors, ofAnAuthoredLevelAreAgainstTheSource)
     sheet.normal = [](Float2) { return Float3{0.6f, 0, 0.8f}; };
     const std::vector<SourceMesh> authored{sheet.mesh(32)};
     const Hierarchy hierarchy = clusters::buildHierarchy(source, authored, configWith(0, 1));
-    ASSERT_NE(hierarchy.authored_levels[0], formats::kNone);
+    ASSERT_NE(hierarchy.authored_levels[0], kInvalidIndex);
     const Status valid = clusters::validateHierarchy(source, hierarchy, authored);
     EXPECT_TRUE(valid.ok()) << formatMessage(valid.error());
     for (const formats::ClusterRecord& cluster : hierarchy.clusters)

@@ -1,7 +1,8 @@
-// Levels that were made by hand: the whole mesh switches to them at once, and their error is a bound.
+// Tests authored LODs: the whole mesh switches to them at once, and their stored error is a bound.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/core/hierarchy.h"
 #include "cook/clusters/levels/validate.h"
+#include "formats/base/index.h"
 #include "formats/codecs/vertex_codec.h"
 #include "tests/support/cuts.h"
 #include "tests/support/sanitized.h"
@@ -25,8 +26,6 @@ using namespace hearth;
 using clusters::Hierarchy;
 using mesh::SourceMesh;
 
-constexpr uint32_t kNone = formats::kNone;
-
 Hierarchy build(const SourceMesh& source, const std::vector<SourceMesh>& authored,
                 const clusters::Config& config = {})
 {
@@ -35,16 +34,16 @@ Hierarchy build(const SourceMesh& source, const std::vector<SourceMesh>& authore
     return hierarchy;
 }
 
-/// What a level is made from: the source (0) or the n-th authored mesh that is used.
+/// Return the mesh that a level is made from: the source (0) or the n-th authored mesh in use.
 uint32_t eraOf(const Hierarchy& hierarchy, uint32_t level)
 {
     uint32_t era = 0;
     for (const uint32_t authored : hierarchy.authored_levels)
-        era += authored != kNone && authored <= level ? 1 : 0;
+        era += authored != kInvalidIndex && authored <= level ? 1 : 0;
     return era;
 }
 
-/// A rock of 19200 triangles (of half as many under a sanitizer) and three levels of it with materials of their own.
+/// Rock of 19200 triangles (half as many under a sanitizer) and three authored LODs with their own materials.
 struct Rock
 {
     SourceMesh source = shapes::rock(test::kSanitized ? 28 : 40, 0.3f);
@@ -108,7 +107,7 @@ TEST(AuthoredLevels, areDrawnAloneAtEveryThreshold)
     for (const auto& replaced : all)
     {
         std::set<uint32_t> of_cut;
-        for (const uint32_t c : clusters::clustersOfCut(hierarchy, replaced))
+        for (const uint32_t c : clusters::findCutClusters(hierarchy, replaced))
             of_cut.insert(eraOf(hierarchy, hierarchy.clusters[c].level));
         ASSERT_EQ(of_cut.size(), 1u) << "a cut has clusters of one authored mesh alone";
         eras.insert(*of_cut.begin());
@@ -135,7 +134,7 @@ TEST(AuthoredLevels, coverTheSurfaceOnceAtEveryThreshold)
         const auto triangles =
             cuts::trianglesOfCut(hierarchy, *decoded, cuts::cutAtError(hierarchy, threshold));
         EXPECT_EQ(cuts::crackOf(border, triangles), "") << threshold;
-        // twice as much if it were covered twice, a part of it where something were missing
+        // the ratio would be 2 if the volume were covered twice, and below 1 if a part were missing
         EXPECT_NEAR(volumeOf(*decoded, triangles) / source_volume, 1, 0.45) << threshold;
     }
 }
@@ -156,7 +155,7 @@ TEST(AuthoredLevels, haveErrorsThatBoundTheDistance)
             std::max(largestDistance(rock.source.positions, rock.source.indices, 50000, to_cut),
                      largestDistance(decoded->positions, cut, 50000, to_source));
         EXPECT_LE(distance, error * (1 + 1e-5)) << "level " << l;
-        // an authored level's error is its own, where that of the level below it is not larger
+        // an authored level's error is its own distance, unless the level below has a larger error
         if (std::count(hierarchy.authored_levels.begin(), hierarchy.authored_levels.end(), l) > 0)
         {
             EXPECT_LE(error, 1.15 * std::max(distance, double{hierarchy.levels[l - 1].max_error}));
@@ -172,21 +171,21 @@ TEST(AuthoredLevels, thatAreNotCoarserAreLeftOut)
     const Hierarchy hierarchy = build(source, levels);
     ASSERT_EQ(hierarchy.authored_levels.size(), 5u);
     for (const size_t i : {0u, 2u, 3u})
-        EXPECT_EQ(hierarchy.authored_levels[i], kNone) << i;
+        EXPECT_EQ(hierarchy.authored_levels[i], kInvalidIndex) << i;
     EXPECT_LT(hierarchy.authored_levels[1], hierarchy.authored_levels[4]);
     EXPECT_LT(hierarchy.authored_levels[4], hierarchy.levels.size());
 }
 
 TEST(AuthoredLevels, replaceASourceThatCannotBeSimplified)
 {
-    // triangles that share nothing, by the hand of somebody who knows better: a ball
+    // a ball of triangles that share no vertices, authored by somebody who knows better
     const SourceMesh source = shapes::blocks(24);
     const std::vector<SourceMesh> levels{shapes::rock(4, 0)};
     const Hierarchy hierarchy = build(source, levels);
-    EXPECT_NE(hierarchy.authored_levels[0], kNone);
+    EXPECT_NE(hierarchy.authored_levels[0], kInvalidIndex);
     EXPECT_EQ(hierarchy.counts.stuck_groups, 0u) << "nothing of the source is drawn with the ball";
     const std::vector<uint8_t> all = cuts::cutAtError(hierarchy, 1e30);
-    for (const uint32_t c : clusters::clustersOfCut(hierarchy, all))
+    for (const uint32_t c : clusters::findCutClusters(hierarchy, all))
         EXPECT_GE(hierarchy.clusters[c].level, hierarchy.authored_levels[0]);
 }
 
@@ -210,8 +209,8 @@ TEST(AuthoredLevels, getTheAttributesOfTheSource)
     level.uvs[1].assign(level.vertexCount(), {0.25f, 0.25f});
     const std::vector<SourceMesh> levels{level};
     const Hierarchy hierarchy = build(source, levels);
-    EXPECT_EQ(hierarchy.mesh.attributes & formats::kVertexAttributesAll, mesh::attributesOf(source));
-    EXPECT_NE(hierarchy.authored_levels[0], kNone);
+    EXPECT_EQ(hierarchy.mesh.attributes & formats::kVertexAttributesAll, mesh::attributeBits(source));
+    EXPECT_NE(hierarchy.authored_levels[0], kInvalidIndex);
 }
 
 TEST(AuthoredLevels, doNotDependOnThreads)

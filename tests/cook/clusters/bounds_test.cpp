@@ -1,4 +1,4 @@
-// Boxes, spheres and cones contain what they claim to the last bit, at any coordinates.
+// Tests that boxes, spheres and cones contain all they claim to the last bit, at any coordinates.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/core/bounds.h"
 #include "formats/codecs/vertex_codec.h"
@@ -52,7 +52,8 @@ TEST_F(Bounds, roundUpNeverFalls)
     EXPECT_EQ(clusters::roundUp(1e300), std::numeric_limits<float>::max());
 }
 
-// A compiler that forgets to round the centre to floats before the radius is measured fails about one time in 200.
+// A compiler that does not round the centre to floats before the radius is measured fails about once in 200
+// times.
 TEST_F(Bounds, sphereOfPointsHoldsThem)
 {
     for (const auto& [offset, size] :
@@ -96,14 +97,14 @@ TEST_F(Bounds, sphereOfSpheresHoldsThem)
     }
 }
 
-/// An eye from which the cone's test says "all triangles show their backs" sees no front.
+/// An eye for which the cone test says "all triangles are back-facing" sees no front face.
 TEST_F(Bounds, conesHideNothingThatFacesTheEye)
 {
     std::uniform_real_distribution<float> away(-4, 4);
     size_t hidden = 0;
     for (int i = 0; i < 400; ++i)
     {
-        // a dome of triangles that face up, more or less
+        // dome of triangles that roughly face up
         std::vector<Float3> places;
         const auto jitter = points(90, 0, 0.3f);
         for (size_t t = 0; t < 30; ++t)
@@ -114,7 +115,7 @@ TEST_F(Bounds, conesHideNothingThatFacesTheEye)
             places.push_back({at.x, at.y + 0.2f, at.z + jitter[t * 3 + 2].z * 0.5f});
         }
         const Float3 middle = points(1, 0, 0.3f).front();
-        const auto cone = clusters::coneOfTriangles(places, middle);
+        const auto cone = clusters::computeNormalCone(places, middle);
         if (cone.cutoff >= 1)
             continue;
         const Float3 axis = formats::NormalCode<8>::decode(cone.axis);

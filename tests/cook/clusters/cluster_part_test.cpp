@@ -1,4 +1,4 @@
-// From an import part to a clusters part, as the program does it.
+// Tests the conversion of an import part to a clusters part, as the program does it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/program/cluster_part.h"
 #include "formats/pack/pack_check.h"
@@ -73,7 +73,7 @@ TEST(ClustersPart, holdsTheHierarchiesOfAllMeshes)
     EXPECT_EQ(view->meshes()[2].skinned, 1u);
 }
 
-/// An import part of three rocks, and records that say which are levels of others.
+/// Import part of three rocks, with records that name the LODs of each.
 formats::ContainerReader partWithLods(const test::TemporaryFolder& folder,
                                       const std::vector<formats::AuthoredLodRecord>& lods)
 {
@@ -94,7 +94,7 @@ formats::ContainerReader partWithLods(const test::TemporaryFolder& folder,
 TEST(ClustersPart, hasAuthoredLevelsInTheMeshThatTheyBelongTo)
 {
     const test::TemporaryFolder folder;
-    const auto part = partWithLods(folder, {{0, 1, 7, {0, 3}}, {0, 2, formats::kNone, {}}});
+    const auto part = partWithLods(folder, {{0, 1, 7, {0, 3}}, {0, 2, kInvalidIndex, {}}});
     ASSERT_EQ(messageOf(clusters::writeClustersPart(part, folder.file("out.part"), {}, {})), "");
     auto reader = formats::ContainerReader::open(folder.file("out.part"));
     ASSERT_TRUE(reader.ok());
@@ -118,7 +118,7 @@ TEST(ClustersPart, hasAuthoredLevelsInTheMeshThatTheyBelongTo)
     EXPECT_EQ(view->levels()[low.level].triangle_count, 12u * 3 * 3);
     EXPECT_EQ(mid.number, 7u);
     EXPECT_EQ(view->text(mid.name), "mid");
-    EXPECT_EQ(low.number, formats::kNone);
+    EXPECT_EQ(low.number, kInvalidIndex);
     EXPECT_EQ(view->text(low.name), "");
 }
 

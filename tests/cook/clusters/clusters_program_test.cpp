@@ -1,4 +1,4 @@
-// hearth-clusters from the outside: what it reads, what it writes, and how it ends.
+// Runs hearth-clusters as a user would: its input, its output and its exit codes.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
 #include "formats/pack/pack_check.h"
@@ -144,7 +144,7 @@ TEST_F(ClustersProgram, followsAProfile)
     EXPECT_NE(bad.err.find("bad.toml|line 2, clusters.levels[0].keep: error:"), std::string::npos) << bad.err;
     EXPECT_FALSE(sandbox_.has("bad.part"));
 
-    // what is for the import goes there
+    // settings of the import are passed on to it
     sandbox_.write("clips.toml", "[animation]\nerror = -1\n");
     const test::ProgramEnd clips = run({"rock.obj", "-o", "bad.part", "--profile", "clips.toml"});
     EXPECT_EQ(clips.exit_code, 78);
@@ -181,7 +181,7 @@ TEST_F(ClustersProgram, codesNormalsAsAProfileSays)
         EXPECT_TRUE(reader.ok());
         const auto view = formats::PackView::read(std::move(*reader));
         EXPECT_TRUE(view.ok());
-        return (view->meshes()[0].attributes & formats::kVertexFineNormal) != 0;
+        return (view->meshes()[0].attributes & formats::kVertexNormal16) != 0;
     };
     EXPECT_FALSE(isFine(8));
     EXPECT_TRUE(isFine(16));
@@ -205,7 +205,7 @@ TEST_F(ClustersProgram, givesVerticesAnOpenVisibilityOnRequest)
         const auto cluster = formats::ClusterGeometry::at(page, view->clusters()[0], mesh);
         ASSERT_TRUE(cluster.has_value());
         for (uint32_t v = 0; wanted && v < cluster->vertexCount(); ++v)
-            ASSERT_EQ(cluster->visibilityCode(v), formats::kVisibilityOpen);
+            ASSERT_EQ(cluster->visibilityCode(v), formats::kVisibilityUnoccluded);
     }
 }
 
@@ -288,7 +288,7 @@ TEST_F(ClustersProgram, writesALevelAsPlyWithAColourForEachCluster)
         colors.insert(ply.substr(end + v * 15 + 12, 3));
     EXPECT_EQ(colors.size(), 24u) << "one for each cluster of level 0";
 
-    // and hearth-import reads it back
+    // and hearth-import can read it back
     EXPECT_EQ(sandbox_.run({kImport, "level.ply", "-o", "again.part"}).exit_code, 0);
 }
 

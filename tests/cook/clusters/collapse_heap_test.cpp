@@ -1,4 +1,4 @@
-// The heap of collapses against a sorted set.
+// Compares the heap of edge collapses with a sorted set.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/simplify/collapse_heap.h"
 
@@ -21,7 +21,8 @@ TEST(CollapseHeap, givesTheCheapestFirstAsASortedSetDoes)
     std::set<std::tuple<float, uint32_t, uint32_t>> expected; // cost, position, version
     for (uint32_t i = 0; i < 20000; ++i)
     {
-        // it grows and shrinks to nothing several times; few costs, so that positions decide
+        // the heap grows and shrinks to nothing several times; there are few distinct costs, so position_id
+        // breaks ties
         const bool grows = i / 2000 % 2 == 0;
         if (expected.empty() || random() % 4 != (grows ? 0u : 1u) * (random() % 4))
         {

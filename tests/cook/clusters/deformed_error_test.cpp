@@ -1,4 +1,5 @@
-// A stored error of a deformed mesh is a bound in every pose, and its cuts have no cracks in any.
+// Tests that the stored error of a deformed mesh bounds its distance in every pose, and that its cuts have no
+// cracks in any pose.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/support/cuts.h"
 #include "tests/support/deformed_model.h"
@@ -26,23 +27,23 @@ namespace
 using clusters::Hierarchy;
 using namespace formats;
 
-constexpr size_t kSamples = kSanitized ? 500 : 4000; // a side and pose
+constexpr size_t kSamples = kSanitized ? 500 : 4000; // per direction and pose
 constexpr size_t kPoses = kSanitized ? 1 : 5;
 
-/// What the test of one mesh found, for the log.
+/// Measurements of one mesh, for the log.
 struct Figures
 {
     size_t clusters = 0;
-    double least_ratio = 1; ///< of a level's largest measured deviation to its bound
+    double least_ratio = 1; ///< minimum over the levels of measured deviation / bound
 };
 
 double positionErrorOf(const Hierarchy& hierarchy, uint32_t cluster)
 {
     const uint32_t refined = hierarchy.clusters[cluster].refined_group;
-    return refined == kNone ? 0 : double{hierarchy.groups[refined].position_error};
+    return refined == kInvalidIndex ? 0 : double{hierarchy.groups[refined].position_error};
 }
 
-/// Points of the triangles: corners, middles of edges and of triangles.
+/// Sample points of the triangles: corners, edge midpoints and centres.
 std::vector<Float3> pointsOf(std::span<const Float3> places, std::span<const uint32_t> triangles)
 {
     std::vector<Float3> points;
@@ -55,7 +56,7 @@ std::vector<Float3> pointsOf(std::span<const Float3> places, std::span<const uin
     return points;
 }
 
-/// Every coarse cluster, and every level both ways, in one pose.
+/// Check every coarse cluster, and every level in both directions, in one pose.
 void expectBounded(const mesh::SourceMesh& source, const Hierarchy& hierarchy,
                    const DeformedClusters& decoded, const MeshPose& pose, Figures& figures)
 {
@@ -65,7 +66,7 @@ void expectBounded(const mesh::SourceMesh& source, const Hierarchy& hierarchy,
     Box3 box;
     for (const Float3 p : source_places)
         box.add(p);
-    // codes of weights are off by 2^-17: what joints far from each other make of it
+    // quantized weights are off by 2^-17: the resulting error grows with the distance between joints
     const double rounding = 1e-5 * double{length(box.max - box.min)};
     const double grid = double{hierarchy.mesh.grid_error} * pose.scale;
     for (uint32_t c = 0; c < hierarchy.clusters.size(); ++c)
@@ -78,7 +79,7 @@ void expectBounded(const mesh::SourceMesh& source, const Hierarchy& hierarchy,
     }
     for (size_t l = 1; l < hierarchy.levels.size(); ++l)
     {
-        const auto cut = clusters::clustersOfCut(
+        const auto cut = clusters::findCutClusters(
             hierarchy, cuts::cutAtError(hierarchy, double{hierarchy.levels[l].max_error}));
         double bound = 0;
         for (const uint32_t c : cut)
@@ -93,7 +94,8 @@ void expectBounded(const mesh::SourceMesh& source, const Hierarchy& hierarchy,
     }
 }
 
-/// Cuts of the triangles by vertices that are equal in all that poses look at: closed wherever the source is.
+/// Check random cuts for cracks. Vertices with equal position and deformation data are one; cuts are closed
+/// wherever the source is.
 void expectNoCracks(const Hierarchy& hierarchy, const DeformedClusters& decoded)
 {
     std::vector<uint32_t> finest;
@@ -107,13 +109,13 @@ void expectNoCracks(const Hierarchy& hierarchy, const DeformedClusters& decoded)
     std::mt19937 random(5);
     for (int i = 0; i < 20; ++i)
     {
-        const auto cut = clusters::clustersOfCut(hierarchy, cuts::randomCut(hierarchy, 0.7, random));
+        const auto cut = clusters::findCutClusters(hierarchy, cuts::randomCut(hierarchy, 0.7, random));
         EXPECT_EQ(cuts::crackOf(border, decoded.trianglesOf(cut)), "") << "cut " << i;
     }
 }
 
-/// What somebody might make by hand of a character: all vertices of a cell at the place of the first of them, which keeps
-/// its joints and weights.
+/// Build an authored LOD of a character: move all vertices of a cell to the first one's position; that vertex
+/// keeps its joints and weights.
 mesh::SourceMesh madeByHand(const mesh::SourceMesh& source, float cell)
 {
     std::map<std::array<int, 3>, uint32_t> vertex_of_cell;
@@ -148,7 +150,7 @@ void expectSound(const std::string& source)
     for (const DeformedModel::Mesh& mesh : model->meshes())
     {
         SCOPED_TRACE("mesh " + std::to_string(mesh.index));
-        const auto owned = model->motion().of(mesh.index, mesh.source);
+        const auto owned = model->motion().meshMotion(mesh.index, mesh.source);
         ASSERT_TRUE(owned.ok());
         const Hierarchy hierarchy = clusters::buildHierarchy(mesh.source, {}, &owned->motion);
         const Status valid = clusters::validateHierarchy(mesh.source, hierarchy);
@@ -156,7 +158,7 @@ void expectSound(const std::string& source)
         const DeformedClusters decoded(hierarchy);
         expectNoCracks(hierarchy, decoded);
         Figures figures;
-        MeshPoses poses(motionTables(model->scene()), mesh.node, mesh.index);
+        MeshPoses poses(animationTables(model->scene()), mesh.node, mesh.index);
         expectBounded(mesh.source, hierarchy, decoded, poses.rest(), figures);
         for (size_t i = 0; i < kPoses; ++i)
             expectBounded(mesh.source, hierarchy, decoded, poses.next(), figures);
@@ -176,7 +178,7 @@ void makeCharacter(const std::string& file, size_t triangles)
     ASSERT_EQ(std::system(command.c_str()), 0);
 }
 
-/// A file of the real assets; empty where they are not there.
+/// Return the path of a file of the asset corpus; empty if it is not installed.
 std::string asset(const char* file)
 {
     const char* assets = std::getenv("HEARTH_ASSETS");
@@ -205,7 +207,7 @@ TEST(DeformedError, ofLevelsMadeByHandHoldsInEveryPose)
     const auto model = DeformedModel::import(file);
     ASSERT_NE(model, nullptr);
     const DeformedModel::Mesh& mesh = model->meshes().at(0);
-    const auto owned = model->motion().of(mesh.index, mesh.source);
+    const auto owned = model->motion().meshMotion(mesh.index, mesh.source);
     ASSERT_TRUE(owned.ok());
     const mesh::SourceMesh levels[] = {madeByHand(mesh.source, 0.04f), madeByHand(mesh.source, 0.12f)};
     ASSERT_LT(levels[1].triangleCount() * 2, levels[0].triangleCount());
@@ -215,13 +217,13 @@ TEST(DeformedError, ofLevelsMadeByHandHoldsInEveryPose)
     for (size_t i = 0; i < 2; ++i)
     {
         const uint32_t level = hierarchy.authored_levels[i];
-        ASSERT_NE(level, kNone) << "level " << i << " by hand is not used";
+        ASSERT_NE(level, kInvalidIndex) << "level " << i << " by hand is not used";
         EXPECT_EQ(hierarchy.levels[level].triangle_count, levels[i].triangleCount());
         EXPECT_GT(hierarchy.levels[level].max_error, 0);
     }
     const DeformedClusters decoded(hierarchy);
     Figures figures;
-    MeshPoses poses(motionTables(model->scene()), mesh.node, 11);
+    MeshPoses poses(animationTables(model->scene()), mesh.node, 11);
     expectBounded(mesh.source, hierarchy, decoded, poses.rest(), figures);
     for (size_t i = 0; i < kPoses; ++i)
         expectBounded(mesh.source, hierarchy, decoded, poses.next(), figures);
@@ -231,7 +233,7 @@ TEST(DeformedError, ofLevelsMadeByHandHoldsInEveryPose)
 
 TEST(DeformedPages, holdAsManyTargetsAsAFaceHas)
 {
-    // each target moves all vertices: no cluster can leave one out
+    // each target moves all vertices, so no cluster can omit a target
     constexpr size_t kTargets = kSanitized ? 40 : 150;
     mesh::SourceMesh mesh = shapes::terrain(24);
     std::mt19937 random(1);
@@ -244,7 +246,7 @@ TEST(DeformedPages, holdAsManyTargetsAsAFaceHas)
     const Status valid = clusters::validateHierarchy(mesh, hierarchy);
     EXPECT_TRUE(valid.ok()) << formatMessage(valid.error());
     for (const PageRecord& page : hierarchy.pages)
-        EXPECT_LE(page.size, kPageMaxBytes);
+        EXPECT_LE(page.size, kMaxPageBytes);
     expectNoCracks(hierarchy, DeformedClusters(hierarchy));
 }
 

@@ -1,4 +1,4 @@
-// A stored error is a bound: no cut is farther from the source, in either direction, than it says.
+// Tests that a stored error is a bound: no cut is farther from the source than it says, in either direction.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/levels/validate.h"
 #include "formats/pack/pack_view.h"
@@ -15,7 +15,7 @@ using namespace hearth;
 using clusters::DecodedHierarchy;
 using clusters::Hierarchy;
 
-constexpr size_t kSamples = 50000; // a side
+constexpr size_t kSamples = 50000; // per direction
 
 struct Measured
 {
@@ -27,9 +27,9 @@ Measured measure(const mesh::SourceMesh& mesh, const Hierarchy& hierarchy, const
                  const std::vector<uint8_t>& replaced)
 {
     Measured measured;
-    for (const uint32_t c : clusters::clustersOfCut(hierarchy, replaced))
+    for (const uint32_t c : clusters::findCutClusters(hierarchy, replaced))
         measured.bound =
-            std::max(measured.bound, double{formats::errorOf(hierarchy.clusters[c], hierarchy.groups)});
+            std::max(measured.bound, double{formats::clusterError(hierarchy.clusters[c], hierarchy.groups)});
     const auto cut = cuts::trianglesOfCut(hierarchy, decoded, replaced);
     const SurfaceDistance to_source(mesh.positions, mesh.indices);
     const SurfaceDistance to_cut(decoded.positions, cut);
@@ -38,7 +38,7 @@ Measured measure(const mesh::SourceMesh& mesh, const Hierarchy& hierarchy, const
     return measured;
 }
 
-/// All levels and some mixed cuts. Returns the least ratio of distance and bound over the levels.
+/// Check all levels and some mixed cuts. Returns the minimum ratio of distance to bound over the levels.
 double expectBounded(const mesh::SourceMesh& mesh)
 {
     const Hierarchy hierarchy = clusters::buildHierarchy(mesh);

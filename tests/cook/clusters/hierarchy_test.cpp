@@ -1,4 +1,4 @@
-// The hierarchy's promises on meshes that try to break them.
+// Tests the guarantees of the hierarchy on difficult meshes.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/core/hierarchy.h"
 #include "cook/clusters/levels/validate.h"
@@ -78,7 +78,7 @@ TEST(Hierarchy, ofOneTriangleIsOneCluster)
 
 TEST(Hierarchy, dropsAndCountsTrianglesWithoutArea)
 {
-    // two equal corners, equal by welding only (-0), and exactly on a line
+    // two equal corners; corners that only welding makes equal (-0); three corners exactly on a line
     const SourceMesh mesh = fromTriangles(
         {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-0.0f, 0, 0}, {0.1f, 0.1f, 0.1f}, {0.2f, 0.2f, 0.2f}},
         {0, 1, 2, 0, 0, 1, 0, 3, 1, 0, 4, 5, 0, 1, 2});
@@ -150,7 +150,7 @@ TEST(Hierarchy, ofAnySizeEndsInOneCluster)
     }
 }
 
-/// Every triangle with three vertices of its own and the normal of its plane; no other attributes.
+/// Split every triangle off: three vertices of its own with the normal of its plane, no other attributes.
 mesh::SourceMesh flatShaded(const mesh::SourceMesh& smooth)
 {
     mesh::SourceMesh flat;
@@ -166,7 +166,7 @@ mesh::SourceMesh flatShaded(const mesh::SourceMesh& smooth)
             flat.normals.push_back(normalizeOr(cross(b - a, c - a), {0, 0, 1}));
         }
     }
-    flat.triangle_materials.assign(smooth.triangleCount(), formats::kNone);
+    flat.triangle_materials.assign(smooth.triangleCount(), kInvalidIndex);
     return flat;
 }
 
@@ -193,7 +193,7 @@ TEST(Hierarchy, mergesLooseQuadsBySpace)
     EXPECT_LE(hierarchy.levels.back().clusters.count, 4u);
 }
 
-/// The area of each level, finest first.
+/// Return the area of each level, finest first.
 std::vector<double> areasOfLevels(const Hierarchy& hierarchy)
 {
     const auto decoded = clusters::decodeHierarchy(hierarchy);
@@ -212,7 +212,7 @@ std::vector<double> areasOfLevels(const Hierarchy& hierarchy)
 
 TEST(Hierarchy, placesVerticesBesideTheSource)
 {
-    // chords of a ball lie inside it: what is placed well has its corners outside
+    // chords of a ball lie inside it, so a well fitted level has its corners outside
     const SourceMesh ball = shapes::rock(48, 0);
     const Hierarchy hierarchy = buildHierarchy(ball);
     const auto decoded = clusters::decodeHierarchy(hierarchy);
@@ -233,8 +233,8 @@ TEST(Hierarchy, placesVerticesBesideTheSource)
 
 TEST(Hierarchy, keepsFineNormalsWhereTheyAreSmooth)
 {
-    EXPECT_NE(buildHierarchy(shapes::rock(48, 0)).mesh.attributes & formats::kVertexFineNormal, 0u);
-    EXPECT_EQ(buildHierarchy(shapes::rock(48, 0.4f)).mesh.attributes & formats::kVertexFineNormal, 0u);
+    EXPECT_NE(buildHierarchy(shapes::rock(48, 0)).mesh.attributes & formats::kVertexNormal16, 0u);
+    EXPECT_EQ(buildHierarchy(shapes::rock(48, 0.4f)).mesh.attributes & formats::kVertexNormal16, 0u);
 }
 
 TEST(Hierarchy, withVisibilityIsValid)
@@ -333,7 +333,7 @@ TEST(Hierarchy, ofOneTriangleManyTimesIsSound)
 TEST(Hierarchy, ofABowTieAndFinsIsSound)
 {
     SourceMesh mesh = shapes::grid(30);
-    // a second sheet that touches the first at one point, and fins that stand on its edges
+    // a second sheet that touches the first at one point, and fins that stand on the sheet's edges
     SourceMesh sheet = shapes::grid(30);
     transform(sheet, 1, {1, 1, 0});
     shapes::append(mesh, sheet);
@@ -380,7 +380,7 @@ TEST(Hierarchy, keepsMaterialsApart)
     for (uint32_t t = 0; t < mesh.triangleCount(); ++t)
     {
         const uint32_t i = t / 2 % 64, j = t / 2 / 64;
-        mesh.triangle_materials[t] = (i / 8 + j / 8) % 2 == 0 ? 3 : formats::kNone;
+        mesh.triangle_materials[t] = (i / 8 + j / 8) % 2 == 0 ? 3 : kInvalidIndex;
     }
     const Hierarchy hierarchy = buildHierarchy(mesh);
     expectSound(mesh, hierarchy);

@@ -1,4 +1,5 @@
-// Influences that are left out: vertices are nowhere farther off than is reported.
+// Tests the reported displacement of vertices whose weakest skinning influences are dropped: it is an upper
+// bound.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/core/influence_displacement.h"
 
@@ -20,7 +21,8 @@ namespace
 
 using clusters::MeshMotion;
 
-/// The vertices of a character's clusters with its weights in sets of four; triangles between any of them.
+/// Vertices of a character's clusters, its weights in sets of four, and triangles between any of the
+/// vertices.
 mesh::SourceMesh meshOf(const Character& character)
 {
     mesh::SourceMesh mesh;
@@ -52,17 +54,17 @@ mesh::SourceMesh meshOf(const Character& character)
                 mesh.morph_targets[morph.target].positions.end(), morph.positions.begin(),
                 morph.positions.end());
     }
-    mesh.triangle_materials.assign(mesh.triangleCount(), formats::kNone);
+    mesh.triangle_materials.assign(mesh.triangleCount(), kInvalidIndex);
     return mesh;
 }
 
-std::vector<motion::Box3d> reachOf(const mesh::SourceMesh& mesh, size_t joints)
+std::vector<animation_bounds::Box3d> reachOf(const mesh::SourceMesh& mesh, size_t joints)
 {
-    std::vector<motion::Box3d> reach(joints);
+    std::vector<animation_bounds::Box3d> reach(joints);
     for (const auto& set : mesh.joint_sets)
         for (size_t v = 0; v < mesh.vertexCount(); ++v)
             for (const uint16_t joint : set[v].joint)
-                motion::add(reach[joint], widen(mesh.positions[v]));
+                animation_bounds::add(reach[joint], widen(mesh.positions[v]));
     return reach;
 }
 
@@ -98,8 +100,8 @@ std::set<uint16_t> jointsOf(const mesh::SourceMesh& mesh, size_t v)
     return joints;
 }
 
-/// The farthest that a pose takes a vertex of `kept` that lost a joint from that of `all`, over the largest stretch of the
-/// pose's joints.
+/// Return the maximum distance, over vertices that lost a joint, between their positions in `kept` and in
+/// `all` in one pose, relative to the largest stretch of the pose's joints.
 double measured(const Character& character, const mesh::SourceMesh& all, const mesh::SourceMesh& kept,
                 int poses, uint32_t seed)
 {
@@ -115,7 +117,7 @@ double measured(const Character& character, const mesh::SourceMesh& all, const m
         const std::vector<Affine3d> palette = source.palette(0, character.mesh.node);
         double scale = 0;
         for (const Affine3d& joint : palette)
-            scale = std::max(scale, motion::operatorNorm(joint));
+            scale = std::max(scale, animation_bounds::operatorNorm(joint));
         const formats::Range weights = character.nodes[character.mesh.node].morph_weights;
         for (const size_t v : displaced)
         {
@@ -131,29 +133,29 @@ double measured(const Character& character, const mesh::SourceMesh& all, const m
     return most;
 }
 
-/// What is reported for a character whose vertices keep four influences.
+/// Return the reported displacement for a character whose vertices keep four influences.
 struct Reduced
 {
     explicit Reduced(const Character& character)
         : all(meshOf(character)),
           kept(all),
           tables(character.tables()),
-          nodes(motion::nodeMotions(tables)),
+          nodes(animation_bounds::nodeMotions(tables)),
           skin(tables, nodes, 0, reachOf(all, tables.skins[0].joints.count)),
           motion{&skin, {}}
     {
         mesh::reduceInfluences(kept, 4);
-        for (const motion::Interval& range :
-             motion::morphWeightRanges(tables, character.mesh.node, all.morph_targets.size()))
-            motion.most_morph_weights.push_back(static_cast<float>(std::max(range.magnitude(), 1.0)));
+        for (const animation_bounds::Interval& range :
+             animation_bounds::morphWeightRanges(tables, character.mesh.node, all.morph_targets.size()))
+            motion.max_morph_weights.push_back(static_cast<float>(std::max(range.magnitude(), 1.0)));
         reported = clusters::influenceDisplacement(all, kept, motion);
     }
     Reduced(const Reduced&) = delete;
 
     mesh::SourceMesh all, kept;
-    formats::MotionTables tables;
-    std::vector<motion::NodeMotion> nodes;
-    motion::SkinMotion skin;
+    formats::AnimationTables tables;
+    std::vector<animation_bounds::NodeMotion> nodes;
+    animation_bounds::SkinMotion skin;
     MeshMotion motion;
     std::optional<double> reported;
 };
@@ -165,8 +167,8 @@ Affine3 shifted(float y)
     return transform;
 }
 
-/// Six joints in a row, half a metre apart, which one clip bends by a third of a radian each, all the same way; every vertex
-/// hangs on six of them.
+/// Six joints in a row, half a metre apart; one clip bends each by a third of a radian, all in the same
+/// direction. Every vertex has all six as influences.
 Character bentTail()
 {
     constexpr uint32_t kJoints = 6;
@@ -174,9 +176,9 @@ Character bentTail()
     for (uint32_t i = 0; i <= kJoints; ++i)
     {
         formats::NodeRecord node{};
-        node.parent = i == 0 || i == kJoints ? formats::kNone : i - 1;
-        node.mesh = i == kJoints ? 0 : formats::kNone;
-        node.skin = i == kJoints ? 0 : formats::kNone;
+        node.parent = i == 0 || i == kJoints ? kInvalidIndex : i - 1;
+        node.mesh = i == kJoints ? 0 : kInvalidIndex;
+        node.skin = i == kJoints ? 0 : kInvalidIndex;
         node.has_trs = 1;
         node.translation = {0, i == 0 || i == kJoints ? 0.0f : 0.5f, 0};
         node.rotation = {0, 0, 0, 1};
@@ -186,7 +188,7 @@ Character bentTail()
         if (i < kJoints)
             character.joints.push_back({i, {}, shifted(-0.5f * static_cast<float>(i))});
     }
-    character.skins.push_back({{}, formats::kNone, {0, kJoints}, 0});
+    character.skins.push_back({{}, kInvalidIndex, {0, kJoints}, 0});
     character.mesh.node = kJoints;
     character.mesh.skin = 0;
     character.keys = {0, 1, 0, 0, 0, 1, 0, 0, std::sin(1.0f / 6), std::cos(1.0f / 6)};

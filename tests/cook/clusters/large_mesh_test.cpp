@@ -1,4 +1,4 @@
-// A mesh of a million triangles, and the real assets where they are.
+// Clusters a mesh of a million triangles, and meshes of the asset corpus where it is installed.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/core/hierarchy.h"
 #include "tests/support/sanitized.h"
@@ -48,9 +48,9 @@ TEST(RealMeshes, areSound)
             sources.push_back(entry.path());
     std::sort(sources.begin(), sources.end());
 
-    // the corpus test cooks all of them; here as many as fit the time, each mesh at most this large
-    constexpr size_t kMostTriangles = test::kSanitized ? 10000 : 60000;
-    constexpr size_t kBudget = 10 * kMostTriangles;
+    // the corpus test cooks all assets; this test takes only meshes up to this size, to limit its time
+    constexpr size_t kMaxTriangles = test::kSanitized ? 10000 : 60000;
+    constexpr size_t kBudget = 10 * kMaxTriangles;
     size_t budget = kBudget;
     size_t mesh_count = 0;
     for (const auto& source : sources)
@@ -60,14 +60,14 @@ TEST(RealMeshes, areSound)
         const std::string command =
             std::string(HEARTH_IMPORT) + " '" + source.string() + "' -o '" + part + "' 2> /dev/null";
         if (std::system(command.c_str()) != 0)
-            continue; // what import makes of a source is import's business
+            continue; // sources that the import refuses are tested elsewhere
         const auto reader = formats::ContainerReader::open(part);
         ASSERT_TRUE(reader.ok());
         for (uint32_t i = 0; reader->find(formats::kChunkSourceMesh, i) != nullptr; ++i)
         {
             const auto mesh = mesh::readSourceMesh(*reader, i);
             ASSERT_TRUE(mesh.ok());
-            if (mesh->triangleCount() > std::min(budget, kMostTriangles))
+            if (mesh->triangleCount() > std::min(budget, kMaxTriangles))
                 continue;
             budget -= mesh->triangleCount();
             ++mesh_count;

@@ -1,7 +1,7 @@
-// The chain of levels by hand that the hierarchy is held against, counted again in a slow and obvious way.
+// Recounts the chain of discrete LODs that the hierarchy is compared with, by a slow and obvious method.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/levels/validate.h"
-#include "cook/clusters/program/manual_lods.h"
+#include "cook/clusters/program/discrete_lods.h"
 #include "formats/pack/pack_view.h"
 #include "tests/support/cuts.h"
 #include "tests/support/sanitized.h"
@@ -18,17 +18,17 @@ namespace
 {
 
 using namespace hearth;
+using clusters::DiscreteLods;
 using clusters::Hierarchy;
-using clusters::ManualLods;
 
-/// Distinct vertices and triangles of a cut, by the values that are decoded.
-clusters::ManualLod countCut(const Hierarchy& hierarchy, const std::vector<uint8_t>& replaced)
+/// Distinct vertices and triangles of a cut, by their decoded values.
+clusters::DiscreteLod countCut(const Hierarchy& hierarchy, const std::vector<uint8_t>& replaced)
 {
     const auto decoded = clusters::decodeHierarchy(hierarchy);
     EXPECT_TRUE(decoded.ok());
     std::set<std::array<float, 8>> vertices;
-    clusters::ManualLod lod;
-    for (const uint32_t c : clusters::clustersOfCut(hierarchy, replaced))
+    clusters::DiscreteLod lod;
+    for (const uint32_t c : clusters::findCutClusters(hierarchy, replaced))
     {
         const formats::ClusterRecord& cluster = hierarchy.clusters[c];
         const auto geometry =
@@ -45,31 +45,31 @@ clusters::ManualLod countCut(const Hierarchy& hierarchy, const std::vector<uint8
     return lod;
 }
 
-uint64_t bytesOf(const clusters::ManualLod& lod, uint64_t vertex_bytes)
+uint64_t bytesOf(const clusters::DiscreteLod& lod, uint64_t vertex_bytes)
 {
     return lod.vertices * vertex_bytes + lod.triangles * 3 * (lod.vertices <= 65536 ? 2 : 4);
 }
 
-TEST(ManualLods, takeTheInfluencesOfVertices)
+TEST(DiscreteLods, takeTheInfluencesOfVertices)
 {
     mesh::SourceMesh mesh = shapes::grid(4);
     mesh.joint_sets.assign(2, std::vector<mesh::Joints4>(mesh.vertexCount(), {{0, 1, 2, 3}}));
     mesh.weight_sets.assign(2, std::vector<Float4>(mesh.vertexCount(), {0.125f, 0.125f, 0.125f, 0.125f}));
-    // what is one joint twice becomes one influence of four
-    const ManualLods four = clusters::measureManualLods(clusters::buildHierarchy(mesh));
+    // a joint that occurs twice becomes one of the four influences
+    const DiscreteLods four = clusters::measureDiscreteLods(clusters::buildHierarchy(mesh));
     ASSERT_EQ(four.lods.size(), 1u);
     EXPECT_EQ(four.bytes, 25u * (8 + 4 + 16) + 32 * 3 * 2);
     mesh.joint_sets[1].assign(mesh.vertexCount(), {{4, 5, 6, 7}});
-    const ManualLods eight = clusters::measureManualLods(clusters::buildHierarchy(mesh));
+    const DiscreteLods eight = clusters::measureDiscreteLods(clusters::buildHierarchy(mesh));
     EXPECT_EQ(eight.bytes, 25u * (8 + 4 + 32) + 32 * 3 * 2);
 }
 
-TEST(ManualLods, ofOneClusterAreThatCluster)
+TEST(DiscreteLods, ofOneClusterAreThatCluster)
 {
     // 25 vertices: a position and a normal of 8 bytes, a UV of 4
     const Hierarchy hierarchy = clusters::buildHierarchy(shapes::grid(4));
     ASSERT_EQ(hierarchy.clusters.size(), 1u);
-    const ManualLods chain = clusters::measureManualLods(hierarchy);
+    const DiscreteLods chain = clusters::measureDiscreteLods(hierarchy);
     ASSERT_EQ(chain.lods.size(), 1u);
     EXPECT_EQ(chain.lods[0].triangles, 32u);
     EXPECT_EQ(chain.lods[0].vertices, 25u);
@@ -77,7 +77,7 @@ TEST(ManualLods, ofOneClusterAreThatCluster)
     EXPECT_LT(chain.bytes_zstd, chain.bytes);
 }
 
-TEST(ManualLods, areCutsOfTheHierarchy)
+TEST(DiscreteLods, areCutsOfTheHierarchy)
 {
     const uint32_t side = test::kSanitized ? 20 : 40;
     for (const uint32_t normal_bits : {8u, 16u})
@@ -85,8 +85,8 @@ TEST(ManualLods, areCutsOfTheHierarchy)
         clusters::Config config;
         config.normal_bits = normal_bits;
         const Hierarchy hierarchy = clusters::buildHierarchy(shapes::rock(side, 0.3f), config);
-        const ManualLods chain = clusters::measureManualLods(hierarchy);
-        ASSERT_EQ(chain.lods.size(), clusters::kManualLodCount);
+        const DiscreteLods chain = clusters::measureDiscreteLods(hierarchy);
+        ASSERT_EQ(chain.lods.size(), clusters::kDiscreteLodCount);
 
         std::vector<float> errors;
         for (const formats::GroupRecord& group : hierarchy.groups)
@@ -94,7 +94,8 @@ TEST(ManualLods, areCutsOfTheHierarchy)
                 errors.push_back(group.error);
         std::sort(errors.begin(), errors.end());
         const uint64_t vertex_bytes = normal_bits == 8 ? 12 : 16;
-        clusters::ManualLod expected = countCut(hierarchy, std::vector<uint8_t>(hierarchy.groups.size(), 0));
+        clusters::DiscreteLod expected =
+            countCut(hierarchy, std::vector<uint8_t>(hierarchy.groups.size(), 0));
         const uint64_t source = expected.triangles;
         EXPECT_EQ(source, 12u * side * side);
         uint64_t bytes = 0;
@@ -113,22 +114,22 @@ TEST(ManualLods, areCutsOfTheHierarchy)
     }
 }
 
-TEST(ManualLods, haveIndicesOf32BitsWhereTheyNeedThem)
+TEST(DiscreteLods, haveIndicesOf32BitsWhereTheyNeedThem)
 {
     const Hierarchy hierarchy = clusters::buildHierarchy(shapes::grid(260));
-    const ManualLods chain = clusters::measureManualLods(hierarchy);
+    const DiscreteLods chain = clusters::measureDiscreteLods(hierarchy);
     EXPECT_EQ(chain.lods[0].vertices, 261u * 261);
     uint64_t bytes = 0;
-    for (const clusters::ManualLod& lod : chain.lods)
+    for (const clusters::DiscreteLod& lod : chain.lods)
         bytes += bytesOf(lod, 12);
     EXPECT_EQ(chain.bytes, bytes);
     EXPECT_GT(chain.lods[0].vertices, 65536u);
     EXPECT_LT(chain.lods[1].vertices, 65536u);
 }
 
-TEST(ManualLods, ofNothingAreNothing)
+TEST(DiscreteLods, ofNothingAreNothing)
 {
-    const ManualLods chain = clusters::measureManualLods(Hierarchy{});
+    const DiscreteLods chain = clusters::measureDiscreteLods(Hierarchy{});
     EXPECT_TRUE(chain.lods.empty());
     EXPECT_EQ(chain.bytes, 0u);
 }

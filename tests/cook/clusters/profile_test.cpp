@@ -1,4 +1,4 @@
-// Profiles: what they say, and what is refused.
+// Tests profiles: their contents, and the errors for invalid ones.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/program/profile.h"
 #include "tests/support/temporary_folder.h"
@@ -57,7 +57,7 @@ levels = [{ keep = 0.9 }]
     ASSERT_TRUE(profile.ok()) << formatMessage(profile.error());
     const std::vector<std::string> materials{"skin", "face2", "face"};
 
-    const auto hero = clusters::configOf(*profile, "hero_01", materials).reduction;
+    const auto hero = clusters::resolveConfig(*profile, "hero_01", materials).reduction;
     ASSERT_EQ(hero.curve.size(), 1u);
     EXPECT_EQ(hero.curve[0].keep, 0.5f) << "what a step does not set is the default";
     EXPECT_EQ(hero.curve[0].error_weight, 4.5f);
@@ -67,7 +67,7 @@ levels = [{ keep = 0.9 }]
     ASSERT_EQ(hero.curve_of_material.size(), 1u);
     EXPECT_EQ(hero.curve_of_material.at(1)[0].keep, 0.9f);
 
-    const auto other = clusters::configOf(*profile, "crate", materials).reduction;
+    const auto other = clusters::resolveConfig(*profile, "crate", materials).reduction;
     ASSERT_EQ(other.curve.size(), 2u) << "a rule without levels leaves those of all meshes";
     EXPECT_EQ(other.curve[0].keep, 0.6f);
     EXPECT_EQ(other.curve[1].error_weight, 2.0f);
@@ -89,11 +89,11 @@ normal_error_weight = 0
 )");
     ASSERT_TRUE(profile.ok()) << formatMessage(profile.error());
     const clusters::Config usual;
-    const auto crate = clusters::configOf(*profile, "crate", {});
+    const auto crate = clusters::resolveConfig(*profile, "crate", {});
     EXPECT_EQ(crate.normal_bits, 8u);
     EXPECT_EQ(crate.normal_error_weight, 0.0f);
     EXPECT_EQ(crate.uv_error_weight, 2.0f) << "what a rule does not set is as for all";
-    const auto other = clusters::configOf(*profile, "mirror", {});
+    const auto other = clusters::resolveConfig(*profile, "mirror", {});
     EXPECT_EQ(other.normal_bits, 16u);
     EXPECT_EQ(usual.influences, 8u);
     EXPECT_EQ(other.influences, 4u);
@@ -125,7 +125,7 @@ TEST_F(ProfileFile, mayBeEmpty)
 {
     const auto profile = read("");
     ASSERT_TRUE(profile.ok());
-    const auto reduction = clusters::configOf(*profile, "any", {}).reduction;
+    const auto reduction = clusters::resolveConfig(*profile, "any", {}).reduction;
     ASSERT_EQ(reduction.curve.size(), 1u);
     EXPECT_EQ(reduction.curve[0].keep, 0.5f);
     EXPECT_TRUE(reduction.targets.empty());

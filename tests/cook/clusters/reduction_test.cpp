@@ -1,4 +1,4 @@
-// The merge coefficient: curves, targets and materials decide how fine a cut is, and nothing else suffers.
+// Tests the merge coefficient: curves, targets and materials decide how fine a cut is, without side effects.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/core/hierarchy.h"
 #include "cook/clusters/levels/validate.h"
@@ -22,7 +22,7 @@ using clusters::Hierarchy;
 using clusters::LevelStep;
 using mesh::SourceMesh;
 
-/// Quads along an edge of a rock's six faces.
+/// Number of quads along an edge of a rock's six faces.
 constexpr uint32_t kRockSide = test::kSanitized ? 30 : 60;
 
 Hierarchy build(const SourceMesh& mesh, clusters::Reduction reduction)
@@ -34,12 +34,12 @@ Hierarchy build(const SourceMesh& mesh, clusters::Reduction reduction)
     return hierarchy;
 }
 
-/// Triangles of the cut at an error, of one material or of all.
-size_t trianglesAt(const Hierarchy& hierarchy, double error, uint32_t material = formats::kNone)
+/// Count the triangles of the cut at an error, of one material or of all.
+size_t trianglesAt(const Hierarchy& hierarchy, double error, uint32_t material = kInvalidIndex)
 {
     size_t count = 0;
-    for (const uint32_t c : clusters::clustersOfCut(hierarchy, cuts::cutAtError(hierarchy, error)))
-        if (material == formats::kNone || hierarchy.clusters[c].material == material)
+    for (const uint32_t c : clusters::findCutClusters(hierarchy, cuts::cutAtError(hierarchy, error)))
+        if (material == kInvalidIndex || hierarchy.clusters[c].material == material)
             count += hierarchy.clusters[c].triangle_count;
     return count;
 }
@@ -50,7 +50,7 @@ double partKept(const Hierarchy& hierarchy, size_t level)
            static_cast<double>(hierarchy.levels[level].triangle_count);
 }
 
-/// The upper half of the rock gets material 1.
+/// Assign material 1 to the upper half of the rock.
 SourceMesh rockOfTwoMaterials()
 {
     SourceMesh mesh = shapes::rock(50, 0.3f);
@@ -63,7 +63,7 @@ SourceMesh rockOfTwoMaterials()
     return mesh;
 }
 
-/// A sheet, flat on one side (material 0), waves on the other (material 1).
+/// Sheet that is flat on one side (material 0) and has waves on the other (material 1).
 SourceMesh halfFlat(uint32_t cells)
 {
     SourceMesh mesh = shapes::grid(cells);
@@ -110,7 +110,7 @@ TEST(Reduction, goesOnWhereNothingIsLost)
 
 TEST(Reduction, balancesOnlyGroupsThatKeepAlike)
 {
-    // flat as it is, what was asked for by name keeps more than without: waves do not take its share
+    // the material with a target keeps more although it is flat: the waves do not take its share
     const SourceMesh mesh = halfFlat(90);
     const Hierarchy named =
         build(mesh, {.curve = {{.keep = 0.4f}}, .curve_of_material = {{0, {{.keep = 0.8f}}}}, .targets = {}});
@@ -124,7 +124,7 @@ TEST(Reduction, followsItsCurveAndRepeatsTheLastEntry)
         build(shapes::rock(kRockSide, 0.3f), {.curve = {{.keep = 0.8f}, {.keep = 0.3f}, {.keep = 0.6f}}});
     const double wanted[] = {0.8, 0.3, 0.6, 0.6};
     for (size_t level = 0; level < 4; ++level)
-        // groups round down to full clusters, one of ten at the most here
+        // groups round down to full clusters: at most one of ten here
         EXPECT_NEAR(partKept(hierarchy, level), wanted[level] * 0.95, wanted[level] * 0.06) << level;
 }
 
@@ -134,7 +134,7 @@ TEST(Reduction, withAnErrorWeightKeepsAHeroMeshFineLonger)
     const Hierarchy plain = build(mesh, {});
     const Hierarchy hero = build(mesh, {.curve = {{.keep = 0.5f, .error_weight = 4}}});
     ASSERT_EQ(plain.levels.size(), hero.levels.size());
-    // the same triangles, but a cut gets to them at four times the error
+    // the triangle counts are the same, but a cut reaches them at four times the error
     for (size_t level = 2; level < plain.levels.size(); ++level)
     {
         EXPECT_EQ(hero.levels[level].triangle_count, plain.levels[level].triangle_count);
@@ -185,7 +185,7 @@ TEST(Reduction, meetsItsTargets)
     }
 }
 
-/// What is drawn at a level: its clusters, and the roots of finer levels.
+/// Count the triangles drawn at a level: its clusters, and the roots of finer levels.
 double drawnAt(const Hierarchy& hierarchy, uint32_t level)
 {
     double drawn = hierarchy.levels[level].triangle_count;
@@ -205,7 +205,8 @@ void expectTargetMet(const SourceMesh& mesh, uint32_t level, double part)
 
 TEST(Reduction, meetsItsTargetsThoughSomeGroupsCannotDoTheirShare)
 {
-    // seams and islands hold their groups back: without the others doing more, a tenth is missed by 12 %
+    // seams and islands limit their groups: unless other groups reduce more, the target is missed by 12 % of
+    // a tenth
     SourceMesh with_blocks = shapes::rock(40, 0.3f);
     shapes::append(with_blocks, shapes::blocks(24));
     if (!test::kSanitized)
@@ -218,7 +219,7 @@ TEST(Reduction, meetsItsTargetsThoughSomeGroupsCannotDoTheirShare)
 
 TEST(Reduction, meetsATargetThatNeedsNoFewerClusters)
 {
-    // clusters of split vertices are far from full: a fifth less of their triangles are as many clusters
+    // clusters of split vertices are far from full: a fifth fewer triangles need as many clusters
     const SourceMesh blocks = shapes::blocks(test::kSanitized ? 20 : 40);
     expectTargetMet(blocks, 1, 0.8);
     expectTargetMet(blocks, 3, 0.8);
@@ -239,7 +240,7 @@ TEST(Reduction, ofAMaterialKeepsItsPartFiner)
     const Hierarchy finer = build(mesh, {.curve_of_material = {{1, {{.keep = 0.8f, .error_weight = 3}}}}});
     const double error = plain.levels[3].max_error;
     EXPECT_GT(trianglesAt(finer, error, 1), 2 * trianglesAt(plain, error, 1));
-    // groups of both materials follow the finer one
+    // groups with both materials follow the finer setting
     EXPECT_LT(static_cast<double>(trianglesAt(finer, error, 0)),
               0.85 * static_cast<double>(trianglesAt(finer, error, 1)));
 }
@@ -250,7 +251,7 @@ TEST(Reduction, ofAGroupIsTheLargestAmongItsMaterials)
                                         .curve_of_material = {{1, {{0.8f, 1}}}, {2, {{0.2f, 1}, {0.3f, 9}}}}};
     const auto step = [&](uint32_t level, std::vector<uint32_t> materials)
     {
-        const LevelStep found = clusters::stepOfGroup(reduction, level, materials);
+        const LevelStep found = clusters::findGroupStep(reduction, level, materials);
         return std::pair(found.keep, found.error_weight);
     };
     EXPECT_EQ(step(0, {0}), std::pair(0.5f, 2.0f));

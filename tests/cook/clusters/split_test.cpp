@@ -1,4 +1,5 @@
-// Cutting triangles into clusters: what each cut takes does not depend on how it looks for it.
+// Tests the splitting of triangles into clusters: the result of each split does not depend on the search
+// method.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/partition/split.h"
 
@@ -17,7 +18,7 @@ namespace
 using namespace hearth;
 using namespace hearth::clusters;
 
-/// Triangles of three vertices each: a cluster's vertices name them. 85 fill a cluster.
+/// Triangles with three own vertices each, so that a cluster's vertices identify them. 85 fill a cluster.
 struct Soup
 {
     std::vector<SplitItem> items;
@@ -31,7 +32,7 @@ struct Soup
         std::iota(corners.begin(), corners.end(), 0u);
     }
 
-    /// The triangles of each cluster.
+    /// Return the triangles of each cluster.
     std::vector<std::set<uint32_t>> clusters(std::vector<SplitItem> from) const
     {
         ClusterStore store;
@@ -40,7 +41,7 @@ struct Soup
         for (const ClusterShape& shape : store.shapes)
         {
             result.emplace_back();
-            for (const uint32_t vertex : store.verticesOf(shape))
+            for (const uint32_t vertex : store.clusterVertices(shape))
                 result.back().insert(vertex / 3);
         }
         return result;
@@ -56,7 +57,7 @@ Float3 randomCenter(std::mt19937& random, uint32_t steps)
 
 TEST(Split, takesTheSameTrianglesInAnyOrder)
 {
-    // many equal centers: ties go by triangle. The last is cut at medians first.
+    // many equal centres: ties are broken by triangle index. The last split is at medians first.
     for (const auto& [count, steps] : {std::pair{300u, 2u}, {1000u, 3u}, {2000u, 1000u}, {9000u, 5u}})
     {
         std::mt19937 random(count);
@@ -79,7 +80,7 @@ TEST(Split, cutsALineWhereASortWould)
     std::vector<uint32_t> order(6000);
     std::iota(order.begin(), order.end(), 0u);
     std::shuffle(order.begin(), order.end(), random);
-    for (const float power : {1.0f, 8.0f}) // evenly, and nearly all in one bin
+    for (const float power : {1.0f, 8.0f}) // evenly spread, and nearly all in one bin
     {
         const Soup soup(order.size(),
                         [&](uint32_t t)
@@ -103,7 +104,7 @@ TEST(Split, cutsALineWhereASortWould)
 
 TEST(Split, filesTheFarthestItemInTheLastBin)
 {
-    // sides for which scaled coordinates round up; a bin too many would be written behind the bins
+    // box sizes for which scaled coordinates round up: an extra bin would be written past the end of the bins
     std::mt19937 random(5);
     for (int round = 0; round < 200; ++round)
     {

@@ -1,4 +1,4 @@
-// The distance of whole surfaces: a bound, close to the truth, and the same for any number of threads.
+// Tests the bound on the distance of whole surfaces: valid, tight, and the same for any number of threads.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/surface/surface_bound.h"
 
@@ -26,7 +26,7 @@ SurfaceView viewOf(const SourceMesh& mesh)
     return {mesh.positions, mesh.indices};
 }
 
-/// What sampling finds.
+/// Return the distance between two surfaces by sampling.
 double sampled(const SourceMesh& a, const SourceMesh& b)
 {
     constexpr size_t kSamples = 200000;
@@ -76,7 +76,8 @@ TEST(SurfaceBound, ofLooseTrianglesIsTight)
 
 TEST(SurfaceBound, ofAFoldIsFoundInsideALargeTriangle)
 {
-    // two triangles meet in a ridge over the middle of the large one: no corner of any is as far as the ridge's end
+    // two triangles meet in a ridge over the middle of the large one: no corner is as far away as the ridge's
+    // end
     SourceMesh flat, ridge;
     flat.positions = {{-10, 0, -10}, {10, 0, -10}, {0, 0, 10}};
     flat.indices = {0, 1, 2};
@@ -89,7 +90,7 @@ TEST(SurfaceBound, ofAFoldIsFoundInsideALargeTriangle)
 
 TEST(SurfaceBound, onAPlaneIsRounding)
 {
-    // the common refinement of both, at an offset that no edge of theirs has in common
+    // common refinement of both surfaces, at an offset that gives them no common edge
     const SurfaceBound bound = boundSurfaces(viewOf(square(2, {0, 0, 0})), viewOf(square(37, {0, 0, 0})), 0);
     EXPECT_LE(bound.upper, 2e-6);
     EXPECT_EQ(bound.loose_pieces, 0u);

@@ -1,4 +1,4 @@
-// What fitting moves, what it leaves alone, and that the surface is nearer to the old one afterwards.
+// Tests surface fitting: it moves only what it may, and the fitted surface is nearer to the old one.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/surface/surface_fit.h"
 
@@ -20,12 +20,12 @@ using namespace hearth;
 using namespace hearth::clusters;
 using mesh::SourceMesh;
 
-/// A group, what its simplification left, and what fitting made of that.
+/// Group, its simplification, and the result of fitting.
 struct Fitted
 {
     GroupMesh group;
-    Simplified before;
-    Simplified after;
+    SimplifiedGroup before;
+    SimplifiedGroup after;
     SurfacePoints points;
     Surface surface;
 };
@@ -42,19 +42,19 @@ Fitted fit(const SourceMesh& mesh, double share, size_t lock_every)
         locked[p] = 1;
     GroupMesh group = gatherGroup(prepared, store, members, locked, {});
     const auto target = static_cast<size_t>(share * static_cast<double>(group.triangleCount()));
-    const Simplified before = simplifyGroup(group, target, target);
-    Simplified after = before;
-    Surface surface(positionsOfCorners(group, after.corners), after.placement.places);
+    const SimplifiedGroup before = simplifyGroup(group, target, target);
+    SimplifiedGroup after = before;
+    Surface surface(gatherPositionIds(group, after.corners), after.placement.positions);
     SurfacePoints points = findPoints(group, after, surface);
     fitToGroup(group, after, surface, points);
     return {std::move(group), before, std::move(after), std::move(points), std::move(surface)};
 }
 
-double rmsDistance(const GroupMesh& group, const Simplified& simplified)
+double rmsDistance(const GroupMesh& group, const SimplifiedGroup& simplified)
 {
-    const std::vector<uint32_t> old_triangles = positionsOfCorners(group, group.corners);
-    const std::vector<uint32_t> new_triangles = positionsOfCorners(group, simplified.corners);
-    const SurfaceDistance distance(simplified.placement.places, new_triangles);
+    const std::vector<uint32_t> old_triangles = gatherPositionIds(group, group.corners);
+    const std::vector<uint32_t> new_triangles = gatherPositionIds(group, simplified.corners);
+    const SurfaceDistance distance(simplified.placement.positions, new_triangles);
     double sum = 0;
     const auto points = evenlySpread(group.positions, old_triangles, 20000);
     for (const SurfacePoint& point : points)
@@ -98,7 +98,7 @@ SourceMesh stairs()
 
 TEST(SurfaceFit, leavesWhatIsExactAsItIs)
 {
-    // what lies beyond the rim of a fan must not pull at it
+    // geometry beyond the border of a fan must not attract it
     for (const double share : {0.8, 0.6, 0.4})
     {
         const Fitted fitted = fit(stairs(), share, 1000000);
@@ -107,7 +107,7 @@ TEST(SurfaceFit, leavesWhatIsExactAsItIs)
     }
 }
 
-/// Square floors of `cells` x `cells`, each at a height of its own, with walls between them.
+/// Square floors of `cells` x `cells`, each at its own height, with walls between them.
 SourceMesh terraces(uint32_t cells)
 {
     const uint32_t across = cells + 1;
@@ -126,7 +126,8 @@ SourceMesh terraces(uint32_t cells)
 
 TEST(SurfaceFit, keepsFloorsFlatBesideWalls)
 {
-    // more than half can go without loss; middles of walls and of other floors must not pull at what stays
+    // more than half of the triangles can go without loss; walls and other floors must not attract the
+    // remaining vertices
     for (const uint32_t cells : {3u, 4u, 6u})
         for (const double share : {0.6, 0.5, 0.4})
         {
@@ -142,42 +143,42 @@ TEST(SurfaceFit, movesOnlyWhatIsRemade)
     size_t moved = 0;
     for (size_t p = 0; p < rock.group.positions.size(); ++p)
     {
-        const bool stays = rock.after.placement.places[p] == rock.before.placement.places[p];
-        EXPECT_TRUE(stays || (rock.before.placement.remade[p] != 0 && rock.group.locked[p] == 0)) << p;
+        const bool stays = rock.after.placement.positions[p] == rock.before.placement.positions[p];
+        EXPECT_TRUE(stays || (rock.before.placement.modified[p] != 0 && rock.group.locked[p] == 0)) << p;
         moved += stays ? 0 : 1;
     }
     EXPECT_GT(moved, 100u);
     EXPECT_EQ(rock.after.corners, rock.before.corners);
-    EXPECT_EQ(rock.after.placement.remade, rock.before.placement.remade);
+    EXPECT_EQ(rock.after.placement.modified, rock.before.placement.modified);
 }
 
 TEST(SurfaceFit, keepsMovedPlacesOnTheGrid)
 {
     const Fitted rock = fit(shapes::rock(20, 0.3f), 0.4, 3);
     for (size_t p = 0; p < rock.group.positions.size(); ++p)
-        if (rock.after.placement.remade[p] != 0)
+        if (rock.after.placement.modified[p] != 0)
             for (int axis = 0; axis < 3; ++axis)
             {
-                const double steps = rock.after.placement.object_places[p][axis] / rock.group.grid_step;
+                const double steps = rock.after.placement.object_positions[p][axis] / rock.group.grid_step;
                 EXPECT_EQ(steps, std::nearbyint(steps));
             }
 }
 
 TEST(SurfaceFit, leavesAttributesAtSeamsAlone)
 {
-    // a chart of UVs for each side of the cube: two wedges at each position between them
+    // one UV chart for each face of the cube: two wedges at each position between charts
     const Fitted rock = fit(shapes::rock(20, 0.2f), 0.4, 1000000);
     const uint32_t rows = rock.group.attribute_rows;
     size_t changed = 0, at_seams = 0;
     for (size_t wedge = 0; wedge < rock.group.vertex_of_wedge.size(); ++wedge)
     {
-        const uint32_t position = rock.group.position_of_wedge[wedge];
+        const uint32_t position = rock.group.position_id_of_wedge[wedge];
         bool same = true;
         for (uint32_t r = 0; r < rows; ++r)
             for (size_t lane = 0; lane < kLanes; ++lane)
                 same &= rock.after.placement.attributes[wedge * rows + r][lane] ==
                         rock.before.placement.attributes[wedge * rows + r][lane];
-        if (rock.points.on_seam[position] != 0 && rock.after.placement.remade[position] != 0)
+        if (rock.points.on_seam[position] != 0 && rock.after.placement.modified[position] != 0)
         {
             EXPECT_TRUE(same) << wedge;
             ++at_seams;
@@ -191,14 +192,14 @@ TEST(SurfaceFit, leavesAttributesAtSeamsAlone)
 TEST(SurfaceFit, pointsAndSurfaceGoWithIt)
 {
     const Fitted rock = fit(shapes::rock(20, 0.3f), 0.4, 3);
-    for (size_t f = 0; f < rock.surface.facetCount(); ++f)
+    for (size_t f = 0; f < rock.surface.triangleCount(); ++f)
         for (size_t k = 0; k < 3; ++k)
-            EXPECT_EQ(rock.surface.places[f * 3 + k],
-                      rock.after.placement.places[rock.surface.positions[f * 3 + k]]);
+            EXPECT_EQ(rock.surface.corner_positions[f * 3 + k],
+                      rock.after.placement.positions[rock.surface.position_ids[f * 3 + k]]);
     for (size_t p = 0; p < rock.group.positions.size(); ++p)
-        if (const FacetPoint& point = rock.points.of_position[p]; point.facet != kNoFacet)
+        if (const TrianglePoint& point = rock.points.of_position[p]; point.triangle != kInvalidIndex)
         {
-            const Float3 away = rock.group.positions[p] - placeOf(point, rock.surface.facets);
+            const Float3 away = rock.group.positions[p] - trianglePosition(point, rock.surface.triangles);
             EXPECT_EQ(point.distance2, dot(away, away));
         }
 }

@@ -1,5 +1,5 @@
-// The map between a group's surfaces, and the errors that are carried on with it, against points that are looked at one
-// by one.
+// Compares the map between a group's surfaces, and the errors that it carries on, with brute force over
+// single points.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/surface/surface_map.h"
 
@@ -27,17 +27,17 @@ using mesh::SourceMesh;
 // Rounding of distances between points in [-1, 1]^3.
 constexpr double kRounding = 4e-6;
 
-/// A group and what became of it.
+/// Group and its simplification.
 struct Pair
 {
     GroupMesh group;
-    Simplified simplified;
+    SimplifiedGroup simplified;
     Surface before;
     Surface after;
     SurfacePoints points;
 };
 
-/// A few clusters of a mesh, where some positions stay.
+/// A few clusters of a mesh, with some positions locked.
 GroupMesh groupOf(const SourceMesh& mesh, double locked_share, std::mt19937& random)
 {
     const PreparedMesh prepared = prepareMesh(mesh);
@@ -58,11 +58,11 @@ GroupMesh groupOf(const SourceMesh& mesh, double locked_share, std::mt19937& ran
 Pair simplifiedTo(double share, const GroupMesh& group, bool merge)
 {
     const auto target = static_cast<size_t>(share * static_cast<double>(group.triangleCount()));
-    Simplified simplified = simplifyGroup(group, target, target);
+    SimplifiedGroup simplified = simplifyGroup(group, target, target);
     if (merge)
         mergeByCells(group, target, simplified);
-    Surface before(positionsOfCorners(group, group.corners), group.positions);
-    Surface after(positionsOfCorners(group, simplified.corners), simplified.placement.places);
+    Surface before(gatherPositionIds(group, group.corners), group.positions);
+    Surface after(gatherPositionIds(group, simplified.corners), simplified.placement.positions);
     SurfacePoints points = findPoints(group, simplified, after);
     return {group, std::move(simplified), std::move(before), std::move(after), std::move(points)};
 }
@@ -101,29 +101,29 @@ std::vector<Float3> samplesOf(const Corners& triangle, std::mt19937& random)
             w = 1 - w;
         }
         if (i < 2)
-            v = 0; // on a side
+            v = 0; // on an edge
         samples.push_back(triangle[0] * (1 - v - w) + triangle[1] * v + triangle[2] * w);
     }
     return samples;
 }
 
-/// Each point of the triangles `from` for which `tells` says so is near a triangle of `to`: within what is allowed for
-/// the pair.
+/// Check that each point of the triangles of `from` for which `tells` is true is within `allowed` (a distance
+/// for the pair of triangles) of a triangle of `to`.
 template <typename Tells, typename Allowed>
 void expectNear(const Surface& from, const Surface& to, Tells tells, Allowed allowed, const char* what)
 {
     std::mt19937 random(9);
     size_t bad = 0;
-    for (size_t t = 0; t < from.facetCount(); t += test::kSanitized ? 10 : 1)
+    for (size_t t = 0; t < from.triangleCount(); t += test::kSanitized ? 10 : 1)
     {
         if (!tells(t))
             continue;
-        for (const Float3 point : samplesOf(from.cornersOf(t), random))
+        for (const Float3 point : samplesOf(from.triangleCorners(t), random))
         {
             bool found = false;
-            for (size_t f = 0; f < to.facetCount() && !found; ++f)
+            for (size_t f = 0; f < to.triangleCount() && !found; ++f)
                 if (const double limit = allowed(t, f) + kRounding; limit >= 0)
-                    found = distanceToTriangle(point, to.cornersOf(f)) <= limit;
+                    found = distanceToTriangle(point, to.triangleCorners(f)) <= limit;
             bad += found ? 0 : 1;
         }
     }
@@ -132,21 +132,21 @@ void expectNear(const Surface& from, const Surface& to, Tells tells, Allowed all
 
 struct Shares
 {
-    double mapped = 0, covered = 0; ///< of those that changed
+    double mapped = 0, covered = 0; ///< area of the triangles that changed
 };
 
-/// All that the map says holds.
-Shares expectSoundMap(const Pair& pair, std::span<const FacetPoint> points)
+/// Check everything that the map claims.
+Shares expectSoundMap(const Pair& pair, std::span<const TrianglePoint> points)
 {
-    std::vector<uint8_t> all(pair.before.facetCount(), 1);
-    const SurfaceMap map(pair.group, pair.simplified, pair.before.positions, pair.after, points, all);
+    std::vector<uint8_t> all(pair.before.triangleCount(), 1);
+    const SurfaceMap map(pair.group, pair.simplified, pair.before.position_ids, pair.after, points, all);
     const std::vector<float>& errors = pair.group.errors;
-    const std::vector<float> sums = map.sumsOver(errors);
-    // a source that is as far from a triangle as it may be is near what the triangle became
+    const std::vector<float> sums = map.maxSums(errors);
+    // a source point at the maximum distance from a triangle is near the triangle's image
     expectNear(
         pair.before, pair.after, [&](size_t t) { return map.maps(t); },
         [&](size_t t, size_t f)
-        { return std::min(double{map.farOf(t)}, double{sums[f]} - double{errors[t]}); },
+        { return std::min(double{map.maxDistance(t)}, double{sums[f]} - double{errors[t]}); },
         "before to after");
     expectNear(
         pair.after, pair.before, [&](size_t f) { return map.covers(f); },
@@ -155,10 +155,10 @@ Shares expectSoundMap(const Pair& pair, std::span<const FacetPoint> points)
     Shares shares;
     for (size_t t = 0; t < all.size(); ++t)
         shares.mapped += map.maps(t) ? 1.0 : 0.0;
-    for (size_t f = 0; f < pair.after.facetCount(); ++f)
+    for (size_t f = 0; f < pair.after.triangleCount(); ++f)
         shares.covered += map.covers(f) ? 1.0 : 0.0;
     shares.mapped /= static_cast<double>(all.size());
-    shares.covered /= static_cast<double>(pair.after.facetCount());
+    shares.covered /= static_cast<double>(pair.after.triangleCount());
     return shares;
 }
 
@@ -175,21 +175,21 @@ void expectSoundErrors(const Pair& pair)
         "errors, after to before");
 }
 
-/// Points that are anywhere near: the map may be bad, but what it says must hold.
-std::vector<FacetPoint> scattered(const Pair& pair, double share, std::mt19937& random)
+/// Candidate points close by: the map may be bad, but its claims must hold.
+std::vector<TrianglePoint> scattered(const Pair& pair, double share, std::mt19937& random)
 {
-    std::vector<FacetPoint> points = pair.points.of_position;
+    std::vector<TrianglePoint> points = pair.points.of_position;
     std::uniform_real_distribution<float> unit(0, 1);
     for (size_t p = 0; p < points.size(); ++p)
     {
-        FacetPoint& point = points[p];
-        if (point.facet == kNoFacet || unit(random) > share)
+        TrianglePoint& point = points[p];
+        if (point.triangle == kInvalidIndex || unit(random) > share)
             continue;
         for (int steps = 0; steps < 2; ++steps)
         {
-            const uint32_t corner = point.facet * 3 + static_cast<uint32_t>(random() % 3);
-            const auto fan = pair.after.facets_at.of(pair.after.positions[corner]);
-            point.facet = fan[random() % fan.size()];
+            const uint32_t corner = point.triangle * 3 + static_cast<uint32_t>(random() % 3);
+            const auto fan = pair.after.triangles_at.list(pair.after.position_ids[corner]);
+            point.triangle = fan[random() % fan.size()];
         }
         point.v = unit(random);
         point.w = unit(random) * (1 - point.v);
@@ -197,7 +197,7 @@ std::vector<FacetPoint> scattered(const Pair& pair, double share, std::mt19937& 
             point.v = 0;
         if (random() % 4 == 0)
             point.w = 0;
-        const Corners c = pair.after.cornersOf(point.facet);
+        const Corners c = pair.after.triangleCorners(point.triangle);
         const Float3 away =
             c[0] * (1 - point.v - point.w) + c[1] * point.v + c[2] * point.w - pair.group.positions[p];
         point.distance2 = dot(away, away);
@@ -205,7 +205,7 @@ std::vector<FacetPoint> scattered(const Pair& pair, double share, std::mt19937& 
     return points;
 }
 
-/// The least shares over several ways to simplify a mesh.
+/// Minimum shares over several simplifications of a mesh.
 Shares expectSound(const SourceMesh& mesh)
 {
     std::mt19937 random(3);
@@ -219,7 +219,7 @@ Shares expectSound(const SourceMesh& mesh)
                 SCOPED_TRACE(testing::Message()
                              << locked << " locked, " << share << " left, merge " << merge);
                 const Pair pair = simplifiedTo(share, group, merge);
-                if (pair.after.facetCount() == 0)
+                if (pair.after.triangleCount() == 0)
                     continue;
                 const Shares shares = expectSoundMap(pair, pair.points.of_position);
                 expectSoundMap(pair, scattered(pair, 0.05, random));
@@ -288,18 +288,18 @@ TEST(SurfaceMap, ofSheetsThatLieOnEachOtherIsSound)
 
 TEST(SideTwins, areWhereTwoSidesMeetTheOtherWayRound)
 {
-    // two facets that share a side; three around another; one with a corner twice
+    // two triangles that share an edge; three around another edge; one with a corner twice
     const std::vector<uint32_t> positions{0, 1, 2, 0, 2, 3, 3, 4, 5, 4, 3, 6, 4, 3, 7, 8, 8, 9};
-    const std::vector<uint32_t> twins = sideTwins(positions, 10);
-    EXPECT_EQ(twins[2], 3u);
-    EXPECT_EQ(twins[3], 2u);
+    const std::vector<uint32_t> opposites = findOppositeHalfEdges(positions, 10);
+    EXPECT_EQ(opposites[2], 3u);
+    EXPECT_EQ(opposites[3], 2u);
     for (size_t side = 4; side < 16; ++side)
-        EXPECT_EQ(twins[side], kNoSide) << side;
-    // more around one position than usual
+        EXPECT_EQ(opposites[side], kInvalidIndex) << side;
+    // more triangles around one position than usual
     std::vector<uint32_t> fan;
     for (uint32_t k = 1; k <= 30; ++k)
         fan.insert(fan.end(), {0, k, k % 30 + 1});
-    const std::vector<uint32_t> around = sideTwins(fan, 31);
+    const std::vector<uint32_t> around = findOppositeHalfEdges(fan, 31);
     for (uint32_t k = 0; k < 30; ++k)
         EXPECT_EQ(around[k * 3], (k + 29) % 30 * 3 + 2);
 }

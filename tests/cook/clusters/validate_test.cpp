@@ -1,4 +1,4 @@
-// The checker itself: every promise that is broken on purpose is found.
+// Tests the checker of hierarchies: it finds every guarantee that a test breaks on purpose.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/levels/validate.h"
 #include "formats/codecs/cluster_bounds.h"
@@ -19,7 +19,7 @@ using clusters::Hierarchy;
 class Validate : public testing::Test
 {
 protected:
-    /// The issue that the checker names after `change`.
+    /// Return the issue that the checker reports after `change`.
     Issue after(const std::function<void(Hierarchy&)>& change)
     {
         Hierarchy hierarchy = hierarchy_;

@@ -40,7 +40,7 @@ bool decodes(std::span<const std::byte> stored, const RandomPage& page, std::vec
 std::multiset<std::vector<uint32_t>> trianglesOf(const RandomPage& page, size_t cluster)
 {
     const pages::CodedCluster& coded = page.clusters[cluster];
-    const uint32_t layout = layoutOf(page.records[cluster], page.layout);
+    const uint32_t layout = clusterVertexLayout(page.records[cluster], page.layout);
     const uint32_t words = vertexWords(layout);
     std::multiset<std::vector<uint32_t>> triangles;
     for (size_t t = 0; t < coded.indices.size(); t += 3)
@@ -114,7 +114,7 @@ INSTANTIATE_TEST_SUITE_P(Samples, PageCodecOfLayout, ::testing::ValuesIn(sampleL
 
 TEST_P(PageCodecOfLayout, isLegal)
 {
-    EXPECT_TRUE(legalLayout(GetParam()));
+    EXPECT_TRUE(isLegalLayout(GetParam()));
     EXPECT_EQ(vertexLanes(GetParam()).count, 2 * vertexWords(GetParam()));
 }
 

@@ -58,7 +58,7 @@ void addVertex(RandomPage& page, uint32_t layout, uint32_t x, uint32_t y, uint32
     auto& words = page.clusters.back().words;
     const auto jitter = [&] { return static_cast<uint32_t>(random() % noise); };
     const size_t first = words.size();
-    if (layout & kVertexWide)
+    if (layout & kVertexWideOffsets)
         words.insert(words.end(), {x * 1000 + jitter(), y * 1000 + jitter(), jitter()});
     else
         words.insert(words.end(), {((x * 100 + jitter()) & 0xFFFFu) | (y * 100 + jitter()) << 16,
@@ -91,15 +91,15 @@ std::vector<std::byte> RandomPage::content() const
 std::vector<uint32_t> sampleLayouts()
 {
     const uint32_t grids = 14u << kVertexUvStepShift;
-    const uint32_t widest = kVertexAttributesAll | kVertexFineNormal | kVertexFineColor; // UVs are floats
+    const uint32_t widest = kVertexAttributesAll | kVertexNormal16 | kVertexColor16; // UVs are floats
     return {0,
             kVertexNormal,
             kVertexNormal | kVertexUv0 | grids,
             kVertexNormal | kVertexVisibility,
             kVertexNormal | kVertexUv0 | kVertexVisibility | grids,
-            kVertexNormal | kVertexFineNormal | kVertexTangent | kVertexUv0,
+            kVertexNormal | kVertexNormal16 | kVertexTangent | kVertexUv0,
             kVertexNormal | kVertexTangent | kVertexUv0 | kVertexUv2 | kVertexColor | grids,
-            largestLayout(kVertexAttributesAll & ~kVertexUvs) & ~kVertexWide,
+            worstCaseLayout(kVertexAttributesAll & ~kVertexUvs) & ~kVertexWideOffsets,
             widest,
             widest & ~kVertexVisibility,
             kVertexNormal | kVertexUv0 | kVertexInfluences | grids,
@@ -109,7 +109,7 @@ std::vector<uint32_t> sampleLayouts()
 
 void addGridCluster(RandomPage& page, uint32_t side, bool wide, std::mt19937& random)
 {
-    const uint32_t layout = layoutOf(beginCluster(page, wide, random), page.layout);
+    const uint32_t layout = clusterVertexLayout(beginCluster(page, wide, random), page.layout);
     for (uint32_t y = 0; y <= side; ++y)
         for (uint32_t x = 0; x <= side; ++x)
             addVertex(page, layout, x, y, 40, random);
@@ -126,7 +126,7 @@ void addGridCluster(RandomPage& page, uint32_t side, bool wide, std::mt19937& ra
 
 void addWildCluster(RandomPage& page, uint32_t vertex_count, uint32_t triangle_count, std::mt19937& random)
 {
-    const uint32_t layout = layoutOf(beginCluster(page, random() % 4 == 0, random), page.layout);
+    const uint32_t layout = clusterVertexLayout(beginCluster(page, random() % 4 == 0, random), page.layout);
     for (uint32_t v = 0; v < vertex_count; ++v)
         addVertex(page, layout, v, v, 0x10000, random);
     auto& indices = page.clusters.back().indices;
@@ -142,7 +142,7 @@ RandomPage randomPage(uint32_t layout, uint32_t seed)
     RandomPage page;
     page.layout = layout;
     addWildCluster(page, 3, 1, random);
-    while (page.content().size() < kPageMaxBytes / 2)
+    while (page.content().size() < kMaxPageBytes / 2)
     {
         if (random() % 3 != 0)
             addGridCluster(page, 1 + static_cast<uint32_t>(random() % 8), random() % 16 == 0, random);

@@ -106,7 +106,7 @@ TEST_F(Rewrite, ofNothingIsTheSameToTheByte)
     const auto count = [&](const PageVertices&, std::span<uint32_t> codes)
     {
         vertices += static_cast<uint32_t>(codes.size());
-        open_vertices += static_cast<uint32_t>(std::count(codes.begin(), codes.end(), kVisibilityOpen));
+        open_vertices += static_cast<uint32_t>(std::count(codes.begin(), codes.end(), kVisibilityUnoccluded));
     };
     ASSERT_EQ(messageOf(pages::rewriteVisibility(open(path), out, count)), "");
     EXPECT_TRUE(readFile(path) == readFile(out));
@@ -129,7 +129,7 @@ TEST_F(Rewrite, changesVisibilitiesAndNothingElse)
         const PageRecord& page = before->pages()[p];
         const MeshRecord& mesh = before->meshes()[page.mesh];
         std::vector<std::byte> reverted = new_bytes;
-        for (const ClusterRecord& record : recordsOf(after->clusters(), page.clusters))
+        for (const ClusterRecord& record : recordsInRange(after->clusters(), page.clusters))
         {
             const auto geometry = ClusterGeometry::at(new_bytes, record, mesh);
             ASSERT_TRUE(geometry.has_value());
@@ -139,7 +139,7 @@ TEST_F(Rewrite, changesVisibilitiesAndNothingElse)
                 const uint32_t layout = geometry->layout();
                 const size_t word = record.page_word + uvBaseWords(layout) + v * vertexWords(layout) +
                                     attributeWord(layout, kVertexVisibility);
-                std::memcpy(reverted.data() + word * 4, &kVisibilityOpen, 4);
+                std::memcpy(reverted.data() + word * 4, &kVisibilityUnoccluded, 4);
             }
         }
         ASSERT_TRUE(reverted == old_bytes) << "page " << p;
@@ -147,7 +147,7 @@ TEST_F(Rewrite, changesVisibilitiesAndNothingElse)
     // back again
     const std::string back = folder.file("back.part");
     const auto open_all = [](const PageVertices&, std::span<uint32_t> codes)
-    { std::fill(codes.begin(), codes.end(), kVisibilityOpen); };
+    { std::fill(codes.begin(), codes.end(), kVisibilityUnoccluded); };
     ASSERT_EQ(messageOf(pages::rewriteVisibility(open(out), back, open_all)), "");
     EXPECT_TRUE(readFile(path) == readFile(back));
 }

@@ -1,4 +1,4 @@
-// The fit that the shader evaluates, held against exact values; and what finds its constants.
+// Compares the fit that the shader evaluates with exact values, and tests the search for its constants.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
 #include "cook/specular/fit.h"
@@ -25,7 +25,7 @@ double rms(const std::vector<Configuration>& configurations, const std::vector<d
     return std::sqrt(sum / static_cast<double>(exact.size()));
 }
 
-/// The share in angles, as the comment beside specularCap has it.
+/// Visible share as a function of angles, as in the comment beside specularCap.
 double capInAngles(double half_angle, double beta, double width)
 {
     const auto u = [&](double x) { return std::atan2(std::sin(x / 2), width * std::cos(x / 2)); };
@@ -108,14 +108,14 @@ TEST(SpecularFit, hardlyEverFallsWhileTheConeOpens)
     }
 }
 
-TEST(Refit, findsThatTheHeadersConstantsAreAsGoodAsAny)
+TEST(ConstantsFit, findsThatTheHeadersConstantsAreAsGoodAsAny)
 {
-    const Refit found = refit(1500, 7, Masking::correlated);
+    const ConstantsFit found = fitConstants(1500, 7, Masking::correlated);
     EXPECT_LE(found.rms, found.start_rms);
     EXPECT_GT(found.rms, 0.97 * found.start_rms) << "run hearth-specular --fit";
-    const Refit again = refit(1500, 7, Masking::correlated);
-    EXPECT_EQ(constantsText(found.constants), constantsText(again.constants));
-    EXPECT_EQ(constantsText(shared::kSpecularFit).substr(0, 20), "SpecularFit(-0.4416f");
+    const ConstantsFit again = fitConstants(1500, 7, Masking::correlated);
+    EXPECT_EQ(formatConstants(found.constants), formatConstants(again.constants));
+    EXPECT_EQ(formatConstants(shared::kSpecularFit).substr(0, 20), "SpecularFit(-0.4416f");
 }
 
 TEST(Compare, hasTheWaysInTheirOrderOfMerit)
@@ -123,7 +123,7 @@ TEST(Compare, hasTheWaysInTheirOrderOfMerit)
     const Comparison comparison = compare({}, 100, 3);
     const auto rms_of = [&](const std::string& start)
     {
-        for (const ErrorFigures& figures : comparison.ways)
+        for (const ErrorFigures& figures : comparison.methods)
             if (figures.name.starts_with(start))
                 return figures.rms;
         ADD_FAILURE() << start;
@@ -140,7 +140,7 @@ TEST(Compare, hasTheWaysInTheirOrderOfMerit)
     const Json json = Json::parse(comparisonJson(comparison, 0.5)).value();
     EXPECT_EQ(json["schema"], "hearth.specular/1");
     EXPECT_EQ(json["masking"], "correlated");
-    EXPECT_EQ(json["ways"].size(), comparison.ways.size());
+    EXPECT_EQ(json["ways"].size(), comparison.methods.size());
     EXPECT_EQ(json["interpolation"][0]["name"], "cosine");
     EXPECT_NE(comparisonText(comparison).find("fit, no table"), std::string::npos);
 }

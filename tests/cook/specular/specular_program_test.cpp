@@ -1,4 +1,4 @@
-// hearth-specular from the outside.
+// Runs hearth-specular as a user would.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
 #include "cook/specular/rows.h"
@@ -27,7 +27,7 @@ protected:
         return folder.run(arguments);
     }
 
-    /// The table in a part of the folder.
+    /// Table of a part in the folder.
     formats::SpecularTableRecord table(const std::string& name)
     {
         auto reader = formats::ContainerReader::open(folder / name);
@@ -39,7 +39,7 @@ protected:
         return view->specularTables()[0];
     }
 
-    /// --evaluate of this text ends so, and leaves nothing behind.
+    /// Check that --evaluate of this text ends with the expected result and leaves no files behind.
     void expectRefused(const std::string& text, const std::string& part)
     {
         folder.write("rows.csv", text);
@@ -153,7 +153,7 @@ TEST_F(SpecularProgram, reportsWhatItCompared)
     EXPECT_NE(end.out.find("20 random configurations"), std::string::npos) << end.out;
     const auto report = Json::parse(folder.read("report.json")).value();
     EXPECT_EQ(report["configurations"], 20);
-    // 8 bits a texel are as good as the bytes of the part; 2 bits a texel are not
+    // 8 bits a texel are as exact as the part's bytes; 2 bits a texel are not
     ASSERT_EQ(report["astc"].size(), 3u);
     EXPECT_LT(report["astc"][0]["rms"].get<double>(), 0.005);
     EXPECT_LT(report["astc"][2]["rms"].get<double>(), 0.05);

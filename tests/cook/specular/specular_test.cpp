@@ -1,4 +1,4 @@
-// The exact occlusion of lobes by cones, and the table of it.
+// Tests the exact occlusion of lobes by cones, and the table that stores it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/specular/astc.h"
 #include "cook/specular/configurations.h"
@@ -31,7 +31,7 @@ Double3 direction(double tilt, double around)
     return {std::sin(tilt) * std::cos(around), std::sin(tilt) * std::sin(around), std::cos(tilt)};
 }
 
-/// Cones that open to all sides, and lobes of all kinds, the grazing and the narrow ones too.
+/// Random cones of any aperture and lobes of any kind, grazing and narrow ones included.
 struct RandomCase
 {
     Lobe lobe;
@@ -48,7 +48,7 @@ std::vector<RandomCase> randomCases(size_t count, uint64_t seed)
         RandomCase& made = cases[i];
         made.lobe = {0.089 + 0.911 * uniform(), i % 8 == 0 ? kRightAngle : kRightAngle * uniform(),
                      kMaskings[i % 2]};
-        // every third axis in the plane of incidence, as the table's, near the lobe
+        // every third axis lies in the plane of incidence near the lobe, as the table's axes do
         const bool in_plane = i % 3 == 0;
         const double tilt = in_plane ? made.lobe.theta_o + uniform() - 0.5 : 2 * uniform();
         made.cone = {direction(tilt, in_plane ? 0 : 2 * std::numbers::pi * uniform()),
@@ -74,7 +74,7 @@ TEST(OcclusionOf, isWhatCountingVisibleNormalsFinds)
     std::vector<double> errors;
     for (const auto& [lobe, cone] : randomCases(24, 1))
     {
-        errors.push_back(occlusionOf(lobe, cone) - countedOcclusion(lobe, cone, 500));
+        errors.push_back(computeOcclusion(lobe, cone) - countedOcclusion(lobe, cone, 500));
         EXPECT_LT(std::abs(errors.back()), 1e-3)
             << lobe.roughness << " " << lobe.theta_o << " " << cone.half_angle;
     }
@@ -88,7 +88,7 @@ TEST(OcclusionOf, isTheIntegralOverDirections)
     {
         if (lobe.roughness < 0.4 || lobe.theta_o > 1.2 || ++tried > 8)
             continue;
-        EXPECT_NEAR(occlusionOf(lobe, cone), integratedOcclusion(lobe, cone, 250), 1e-4)
+        EXPECT_NEAR(computeOcclusion(lobe, cone), integratedOcclusion(lobe, cone, 250), 1e-4)
             << lobe.roughness << " " << lobe.theta_o << " " << cone.half_angle;
     }
     EXPECT_GE(tried, 8u);
@@ -98,7 +98,8 @@ TEST(OcclusionOf, hardlyChangesWithMorePoints)
 {
     std::vector<double> errors;
     for (const auto& [lobe, cone] : randomCases(200, 3))
-        errors.push_back(occlusionOf(lobe, cone) - occlusionOf(lobe, cone, {.outer = 72, .inner = 56}));
+        errors.push_back(computeOcclusion(lobe, cone) -
+                         computeOcclusion(lobe, cone, {.outer = 72, .inner = 56}));
     EXPECT_LT(rmsOf(errors), 2e-5);
 }
 
@@ -106,11 +107,12 @@ TEST(OcclusionOf, hasTheLimitsOfAShare)
 {
     for (const auto& [lobe, cone] : randomCases(40, 4))
     {
-        EXPECT_NEAR(occlusionOf(lobe, {cone.axis, 0}), 0, 1e-12);
-        EXPECT_NEAR(occlusionOf(lobe, {cone.axis, std::numbers::pi}), 1, 1e-6);
-        EXPECT_NEAR(occlusionOf(lobe, {{0, 0, 1}, kRightAngle}), 1, 1e-6) << "all that is above the horizon";
-        const double rest = occlusionOf(lobe, {cone.axis * -1, std::numbers::pi - cone.half_angle});
-        EXPECT_NEAR(occlusionOf(lobe, cone) + rest, 1, 2e-4) << lobe.roughness << " " << lobe.theta_o;
+        EXPECT_NEAR(computeOcclusion(lobe, {cone.axis, 0}), 0, 1e-12);
+        EXPECT_NEAR(computeOcclusion(lobe, {cone.axis, std::numbers::pi}), 1, 1e-6);
+        EXPECT_NEAR(computeOcclusion(lobe, {{0, 0, 1}, kRightAngle}), 1, 1e-6)
+            << "all that is above the horizon";
+        const double rest = computeOcclusion(lobe, {cone.axis * -1, std::numbers::pi - cone.half_angle});
+        EXPECT_NEAR(computeOcclusion(lobe, cone) + rest, 1, 2e-4) << lobe.roughness << " " << lobe.theta_o;
     }
 }
 
@@ -121,8 +123,8 @@ TEST(OcclusionOf, takesGrazingViewsAsALimit)
             for (const double tilt : {-1.5, 0.0, 1.2})
             {
                 const Cone cone{direction(tilt, 0.3), 0.9};
-                EXPECT_NEAR(occlusionOf({roughness, kRightAngle, masking}, cone),
-                            occlusionOf({roughness, kRightAngle - 1e-5, masking}, cone), 1e-3)
+                EXPECT_NEAR(computeOcclusion({roughness, kRightAngle, masking}, cone),
+                            computeOcclusion({roughness, kRightAngle - 1e-5, masking}, cone), 1e-3)
                     << roughness << " " << tilt;
             }
 }
@@ -131,7 +133,7 @@ TEST(OcclusionOf, tendsToTheClosedFormOfNarrowLobesSeenFromAbove)
 {
     for (const double beta : {0.0, 0.02, 0.3, 0.6})
         for (const double half_angle : {0.01, 0.3, 0.6, 1.2})
-            EXPECT_NEAR(occlusionOf({0.12, 0, Masking::correlated}, {direction(beta, 1), half_angle}),
+            EXPECT_NEAR(computeOcclusion({0.12, 0, Masking::correlated}, {direction(beta, 1), half_angle}),
                         shared::specularCap(static_cast<float>(std::cos(half_angle)),
                                             static_cast<float>(std::cos(beta)), 0.0144f),
                         1e-3)
@@ -149,9 +151,9 @@ TEST(Table, isWithinWhatIsAskedOfDenseQuadrature)
         for (int i = 0; i < 16; ++i)
         {
             const auto node = static_cast<uint32_t>(random() % kSpecularTexels);
-            const AssumedPlace place =
-                assumedPlace(formats::specularNodeRoughness(node / 16 % 16),
-                             std::acos(formats::specularNodeCosBeta(node / 256, spacing)), settings);
+            const AssumedLobe place =
+                assumeLobe(formats::specularNodeRoughness(node / 16 % 16),
+                           std::acos(formats::specularNodeCosBeta(node / 256, spacing)), settings);
             const Cone cone{place.axis, kRightAngle * formats::specularNodeAperture(node % 16)};
             errors.push_back(double{values[node]} - countedOcclusion(place.lobe, cone, 500));
         }
@@ -180,14 +182,14 @@ TEST(Table, neverFallsByMoreThanQuadratureErrs)
 {
     for (uint32_t row = 0; row < kNodes * kNodes; row += 5)
     {
-        const AssumedPlace place =
-            assumedPlace(formats::specularNodeRoughness(row % kNodes),
-                         std::acos(formats::specularNodeCosBeta(row / kNodes, SpecularSpacing::cosine)), {});
+        const AssumedLobe place =
+            assumeLobe(formats::specularNodeRoughness(row % kNodes),
+                       std::acos(formats::specularNodeCosBeta(row / kNodes, SpecularSpacing::cosine)), {});
         std::vector<double> half_angles(61);
         for (size_t i = 0; i < half_angles.size(); ++i)
             half_angles[i] = kRightAngle * static_cast<double>(i) / 60;
         std::vector<double> shares(half_angles.size());
-        occlusionsOf(place.lobe, place.axis, half_angles, shares);
+        computeOcclusions(place.lobe, place.axis, half_angles, shares);
         for (size_t i = 1; i < shares.size(); ++i)
             EXPECT_GT(shares[i], shares[i - 1] - 2e-5) << row << " " << i;
     }
@@ -215,7 +217,7 @@ TEST(Table, hasNoRowOfZeros)
     const TableValues values = cookTable({});
     for (uint32_t row = 0; row < kNodes * kNodes; ++row)
         EXPECT_GT(values[row * kNodes + 15], 0) << row;
-    // grazing, and the axis along the view: of a rough lobe half comes back
+    // grazing view, and axis along the view: half of a rough lobe reflects back
     EXPECT_GT(values[15 * kNodes + 15], 0.3f);
     EXPECT_LT(values[15 * kNodes + 15], 0.7f);
 }
@@ -311,7 +313,8 @@ TEST(EncodeAstc, putsSlicesOfBetaBesideEachOther)
     ASSERT_EQ(table.blocks.size(), 64u * 4 * 16);
     for (size_t node = 0; node < values.size(); ++node)
         EXPECT_NEAR(table.decoded[node], values[node], 5e-4f);
-    // all blocks of a slice are of one value: an extent without weights, whose last bytes are red, green, blue, alpha
+    // each block of a slice has one value (a void-extent block without weights); its last bytes are red,
+    // green, blue, alpha
     for (size_t block = 0; block < 64 * 4; ++block)
     {
         const auto at = [&](size_t byte) { return static_cast<uint32_t>(table.blocks[block * 16 + byte]); };

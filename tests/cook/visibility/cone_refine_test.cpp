@@ -1,4 +1,4 @@
-// Cones by nine spherical harmonics.
+// Tests visibility cones refined by nine spherical harmonics.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/visibility/fit/cone_refine.h"
 
@@ -18,7 +18,7 @@ namespace
 
 constexpr double kPi = std::numbers::pi;
 
-/// Integrate over all directions by midpoints of equal areas.
+/// Integrate over all directions by midpoints of cells of equal area.
 Sh9 project(const std::function<double(Double3)>& visibility)
 {
     constexpr int kRows = 200, kColumns = 200;
@@ -42,7 +42,7 @@ Double3 unit(Double3 v)
     return v * (1 / length(v));
 }
 
-/// The closed form by moments, which are the first four harmonics; aperture at most a right angle.
+/// Closed form by moments, which are the first four harmonics; the aperture is at most a right angle.
 ConeFit closedForm(const Sh9& sh)
 {
     const double m0 = sh[0] * std::sqrt(4 * kPi), band1 = std::sqrt(4 * kPi / 3);
@@ -80,7 +80,7 @@ TEST(HarmonicsOf, areTheIntegralsOfTheCone)
     {
         const Sh9 expected = project(
             [&](Double3 w) { return dot(w, cone.axis) > std::cos(cone.aperture_rad) ? cone.scale : 0; });
-        EXPECT_LT(distance(harmonicsOf(cone), expected), 0.02);
+        EXPECT_LT(distance(computeHarmonics(cone), expected), 0.02);
     }
 }
 
@@ -93,7 +93,7 @@ TEST(RefineCone, findsConesAgainFromAnywhereNear)
         const Double3 axis = unit({number() - 0.5, number() - 0.5, number() - 0.5});
         const ConeFit truth{axis, 0.3 + number() * 1.2, 0.3 + number() * 0.7};
         const Double3 beside = unit(axis + Double3{0.4 * number(), -0.4 * number(), 0.4 * number()});
-        const RefinedCone found = refineCone(harmonicsOf(truth), {beside, 1, 0.5}, beside);
+        const RefinedCone found = refineCone(computeHarmonics(truth), {beside, 1, 0.5}, beside);
         EXPECT_LT(found.distance2, 1e-8);
         EXPECT_GT(dot(found.cone.axis, axis), 1 - 1e-5);
         EXPECT_NEAR(found.cone.aperture_rad, truth.aperture_rad, 1e-2);
@@ -122,10 +122,11 @@ TEST(RefineCone, staysWithinItsBoundsAndNeverGetsWorse)
 
 TEST(RefineCone, takesTheBetterOfTwoOpenings)
 {
-    // one opening about the normal and a smaller one far from it: a start in the small one stays there
+    // one opening about the normal and a smaller one far from it: a search that starts in the small one stays
+    // there
     const Double3 normal{0, 0, 1}, aside = unit({1, 0, 0.1});
-    Sh9 both = harmonicsOf({normal, 0.5, 1});
-    const Sh9 small = harmonicsOf({aside, 0.25, 1});
+    Sh9 both = computeHarmonics({normal, 0.5, 1});
+    const Sh9 small = computeHarmonics({aside, 0.25, 1});
     for (size_t k = 0; k < 9; ++k)
         both[k] += small[k];
     const RefinedCone one = refineCone(both, {aside, 0.25, 1}, aside),
@@ -136,7 +137,8 @@ TEST(RefineCone, takesTheBetterOfTwoOpenings)
 
 TEST(RefineCones, gainLittleOverTheClosedForm)
 {
-    // a half-space above each point with occluding balls of directions before it: what a vertex of a real model sees
+    // a half-space above each point with random occluding balls in front of it, as a vertex of a real model
+    // has
     std::mt19937 random(8);
     const auto number = [&] { return static_cast<double>(random() >> 8) * 0x1p-23 - 1; };
     std::vector<Sh9> visibility;

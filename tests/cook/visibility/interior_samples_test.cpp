@@ -1,4 +1,4 @@
-// Samples that something covers closely: which they are, and that they hardly count.
+// Tests the detection of interior samples (samples that other geometry covers closely), and their low weight.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/visibility/fit/vertex_fit.h"
 #include "cook/visibility/rays/interior_samples.h"
@@ -13,7 +13,7 @@ namespace hearth::visibility
 namespace
 {
 
-/// Whether a point of a floor is buried below a sheet of 2 x 2 m at a height.
+/// True if a point of a floor is interior below a sheet of 2 x 2 m at a height.
 bool isBuried(float height, Float3 position, float reach)
 {
     Mesh sheet;
@@ -21,7 +21,7 @@ bool isBuried(float height, Float3 position, float reach)
     const Occluders occluders = occludersOf({sheet.occluder()});
     const SamplePoint point{position, kUp, 1e-6f};
     const auto moments = visibilityMoments(occluders, {&point, 1}, {});
-    return buriedPoints(occluders, {&point, 1}, *moments, {&reach, 1}, 0)[0] != 0;
+    return findInteriorPoints(occluders, {&point, 1}, *moments, {&reach, 1}, 0)[0] != 0;
 }
 
 } // namespace
@@ -36,7 +36,7 @@ TEST(BuriedPoints, areThoseThatSomethingCoversClosely)
 
 TEST(BuriedPoints, areNotThoseInTheDark)
 {
-    // within a closed box of two metres, where nothing is seen of the sky
+    // inside a closed box of two metres, where no sky is visible
     Mesh box;
     box.addQuad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0});
     box.addQuad({-1, -1, 2}, {-1, 1, 2}, {1, 1, 2}, {1, -1, 2});
@@ -49,7 +49,7 @@ TEST(BuriedPoints, areNotThoseInTheDark)
     const auto moments = visibilityMoments(occluders, points, {});
     EXPECT_EQ((*moments)[0].m0, 0);
     const float reach[] = {0.06f, 0.06f};
-    for (const uint8_t buried : buriedPoints(occluders, points, *moments, reach, 0))
+    for (const uint8_t buried : findInteriorPoints(occluders, points, *moments, reach, 0))
         EXPECT_EQ(buried, 0);
 }
 
@@ -71,7 +71,8 @@ TEST(FitVertices, doesNotChangeWhereAllSamplesCountAsLittle)
 
 TEST(FitVertices, isRightBesideWhatIsBuriedInFewIterations)
 {
-    // half of a plane hardly counts and is dark: the other half does not feel it, nor does the solver
+    // one half of a plane has hardly any weight and is dark: neither the other half nor the solver is
+    // affected
     mesh::SourceMesh grid = shapes::grid(40);
     grid.normals.assign(grid.vertexCount(), {});
     const Proxy proxy = makeProxy(test::viewOf(grid));

@@ -1,4 +1,4 @@
-// Small meshes for rays, and what is seen from points of them.
+// Small meshes for ray tests, and the visibility from points on them.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -14,14 +14,14 @@ namespace hearth::visibility
 {
 
 inline constexpr double kPi = std::numbers::pi;
-inline constexpr float kFar = 3000; ///< as good as without an end, beside things of size 1
+inline constexpr float kFar = 3000; ///< practically infinite beside geometry of size 1
 
 struct Mesh
 {
     std::vector<Float3> positions;
     std::vector<uint32_t> corners;
 
-    /// Seen counter-clockwise.
+    /// Front side: counter-clockwise.
     void addQuad(Float3 a, Float3 b, Float3 c, Float3 d)
     {
         const auto first = static_cast<uint32_t>(positions.size());
@@ -45,7 +45,7 @@ inline Mesh floorOf(float size)
     return mesh;
 }
 
-/// Of the part of a sphere of radius 1 from the bottom up to `top` of its full turn of polar angles (1: all of it).
+/// Part of a sphere of radius 1 from the bottom up to polar angle `top` * pi (1: whole sphere).
 inline Mesh sphereOf(uint32_t rings, uint32_t sectors, double top, bool inwards)
 {
     Mesh mesh;
@@ -75,7 +75,7 @@ inline Mesh transformed(Mesh mesh, const Affine3& transform)
 {
     for (Float3& p : mesh.positions)
         p = transformPoint(transform, p);
-    if (determinant(transform) < 0) // fronts stay in front
+    if (determinant(transform) < 0) // keep front faces in front
         for (size_t c = 0; c < mesh.corners.size(); c += 3)
             std::swap(mesh.corners[c + 1], mesh.corners[c + 2]);
     return mesh;

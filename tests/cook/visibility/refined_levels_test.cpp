@@ -1,4 +1,5 @@
-// What samples see in poses and places, with second moments, and cones that are refined by them on all levels.
+// Tests the second moments of samples in poses and at instances, and the cones refined with them on all
+// levels.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/visibility/fit/refined_levels.h"
 #include "cook/visibility/rays/sampled_moments.h"
@@ -15,7 +16,7 @@ namespace hearth::visibility
 namespace
 {
 
-/// A floor below a wall beside it.
+/// Floor with a wall beside it.
 Mesh nook()
 {
     Mesh mesh;
@@ -31,7 +32,7 @@ MeshView viewOf(const Mesh& mesh)
     return {mesh.positions, {}, mesh.corners};
 }
 
-SampledMoments seenIn(const Mesh& mesh, std::span<const SurfaceSample> samples, const Place& place)
+SampledMoments seenIn(const Mesh& mesh, std::span<const SurfaceSample> samples, const Placement& place)
 {
     RaySettings rays;
     rays.rays_per_sample = 1024;
@@ -51,7 +52,7 @@ void expectNear(const SampledMoments& a, const SampledMoments& b, double toleran
     }
 }
 
-/// Directions, all of equal weight, of half of a sphere.
+/// Directions of equal weight over a hemisphere.
 std::vector<Double3> hemisphere()
 {
     std::vector<Double3> directions;
@@ -66,7 +67,7 @@ std::vector<Double3> hemisphere()
     return directions;
 }
 
-/// What is seen through two openings, of which one is wider.
+/// Visibility through two openings, one wider than the other.
 struct TwoOpenings
 {
     Moments moments;
@@ -109,7 +110,7 @@ TEST(SampledMoments, areThoseOfTheMeshWhereverItIsTurned)
     const Occluders itself = occludersOf({mesh.occluder()}), around = occludersOf({moved.occluder()});
     const SampledMoments at_rest = seenIn(mesh, samples, {&itself, {}, {}});
     expectNear(at_rest, seenIn(mesh, samples, {&around, kTurn, {}}), 0.06);
-    // as a pose: what is seen is turned back with the triangles
+    // as in a pose: the visible directions are rotated back with the triangles
     expectNear(at_rest, seenIn(mesh, samples, {&around, {}, moved.positions}), 0.06);
 }
 
@@ -120,7 +121,7 @@ TEST(SampledMoments, areMeansOverPlacesOfWhichEachHasItsRays)
     Occluders nothing;
     nothing.finish();
     const Occluders itself = occludersOf({mesh.occluder()});
-    const Place places[] = {{&itself, {}, {}}, {&nothing, {}, {}}};
+    const Placement places[] = {{&itself, {}, {}}, {&nothing, {}, {}}};
     const auto go = [](size_t, uint64_t, uint64_t) { return true; };
     const SampledMoments both = *sampledMoments(viewOf(mesh), samples, places, {}, false, go);
     const SampledMoments first = *sampledMoments(viewOf(mesh), samples, {places, 1}, {}, false, go);
@@ -142,7 +143,7 @@ TEST(RefineLevels, givesEachVertexTheConeNearestToNineHarmonics)
     const std::vector<Moments> values(samples.size(), seen.moments);
     const std::vector<SecondMoments> second(samples.size(), seen.second);
     const LevelMesh levels[] = {{test::viewOf(fine), {}, 0}, {test::viewOf(coarse), {}, 0}};
-    // normals all around would clamp what is not above them
+    // normals in all directions would clamp the directions below them
     LevelFitSettings settings;
     settings.fit.clamp = false;
     std::vector<LevelFit> fits = fitLevels(levels, samples, values, settings);
@@ -158,7 +159,7 @@ TEST(RefineLevels, givesEachVertexTheConeNearestToNineHarmonics)
                            widen(levels[l].mesh.normals[v]));
             const Moments m = fits[l].moments[v];
             const auto cone = shared::visibilityCone(m.m0, m.m1, {});
-            const Sh9 got = harmonicsOf({widen(cone.axis), double{cone.aperture}, double{cone.scale}});
+            const Sh9 got = computeHarmonics({widen(cone.axis), double{cone.aperture}, double{cone.scale}});
             double distance2 = 0;
             for (size_t i = 0; i < 9; ++i)
                 distance2 += (got[i] - seen.harmonics[i]) * (got[i] - seen.harmonics[i]);
@@ -188,7 +189,7 @@ TEST(RefineLevels, keepsWhatLevelsHaveInCommonForAnyNumberOfThreads)
 {
     const mesh::SourceMesh fine = shapes::rock(8, 0);
     const auto samples = test::samplesOf(test::viewOf(fine), 2);
-    std::vector<uint32_t> same(fine.vertexCount(), kNowhere);
+    std::vector<uint32_t> same(fine.vertexCount(), kInvalidIndex);
     for (uint32_t v = 0; v < same.size() / 2; ++v)
         same[v] = v;
     const LevelMesh levels[] = {{test::viewOf(fine), {}, 0}, {test::viewOf(fine), same, 0}};

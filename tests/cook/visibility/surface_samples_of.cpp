@@ -12,7 +12,7 @@ using visibility::SurfaceSample;
 std::vector<SurfaceSample> samplesOf(const MeshView& mesh, uint32_t per_triangle, uint32_t seed)
 {
     std::mt19937 random(seed);
-    // not std::uniform_real_distribution, whose numbers are each library's own
+    // std::uniform_real_distribution gives other numbers with each standard library
     const auto unit = [&] { return static_cast<float>(random() >> 8) * 0x1p-24f; };
     std::vector<SurfaceSample> samples;
     for (uint32_t t = 0; t < mesh.triangleCount(); ++t)

@@ -1,4 +1,4 @@
-// Samples on meshes for tests of the visibility fit; the same on every machine.
+// Surface samples of meshes for tests of the visibility fit; the same on every machine.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -16,11 +16,12 @@ inline visibility::MeshView viewOf(const mesh::SourceMesh& mesh)
     return {mesh.positions, mesh.normals, mesh.indices};
 }
 
-/// `per_triangle` samples on each triangle, uniform at random, each for its share of the area.
+/// Return `per_triangle` samples on each triangle, uniform at random; each weighs its share of the triangle's
+/// area.
 std::vector<visibility::SurfaceSample> samplesOf(const visibility::MeshView& mesh, uint32_t per_triangle,
                                                  uint32_t seed = 1);
 
-/// Where a sample is.
+/// Return the position of a sample.
 Float3 pointOf(const visibility::MeshView& mesh, const visibility::SurfaceSample& sample);
 
 } // namespace hearth::test

@@ -1,4 +1,5 @@
-// Samples on surfaces: that they stand for all of it, evenly, and where their rays start.
+// Tests surface samples: they cover the surface evenly, their weights sum to its area, and their ray origins
+// are outside of it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/visibility/rays/sample_points.h"
 #include "cook/visibility/rays/surface_samples.h"
@@ -42,11 +43,11 @@ std::vector<uint32_t> countsOf(const Mesh& mesh, const std::vector<SurfaceSample
     return counts;
 }
 
-/// A triangle of half of the unit square, and the other half in 2 n triangles.
+/// Triangle of half of the unit square, and the other half in 2 n triangles.
 Mesh halfFine(uint32_t n)
 {
     Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {0, 1, 2}};
-    // fans of slivers between the diagonal and the corner (0, 1)
+    // fans of slivers between the diagonal and corner (0, 1)
     for (uint32_t i = 0; i < n; ++i)
     {
         const float a = static_cast<float>(i) / static_cast<float>(n),
@@ -91,7 +92,7 @@ TEST(SurfaceSamples, areAsManyAsAskedForAndEvenInArea)
     for (size_t t = 0; t < counts.size(); ++t)
     {
         ASSERT_GE(counts[t], 1u);
-        // what the smallest ones take is taken from all others alike: little here
+        // the samples of the smallest triangles are taken from all others alike: few here
         ASSERT_LE(counts[t], std::max(1.0, std::ceil(areaOf(mesh, t) * density)));
         if (areaOf(mesh, t) * density > 1.2)
         {
@@ -103,14 +104,14 @@ TEST(SurfaceSamples, areAsManyAsAskedForAndEvenInArea)
 TEST(SurfaceSamples, giveEachTriangleTheLeastNumberAndTheRestByArea)
 {
     const Mesh mesh = halfFine(300);
-    // 903 positions: 300 slivers with 4 each take 1200 of 1806; the large triangle gets the other 606
-    const SurfaceSampleSettings settings{.samples_per_vertex = 2, .least_per_triangle = 4};
+    // 903 positions: 300 slivers with 4 samples each take 1200 of 1806; the large triangle gets the other 606
+    const SurfaceSampleSettings settings{.samples_per_vertex = 2, .min_per_triangle = 4};
     const std::vector<uint32_t> counts =
         countsOf(mesh, surfaceSamples(mesh.positions, mesh.corners, settings));
     EXPECT_NEAR(counts[0], 606, 1);
     for (size_t t = 1; t < counts.size(); ++t)
         EXPECT_EQ(counts[t], 4u);
-    // and no more than the least where that is more than was asked for
+    // and no more than the minimum where the minimum exceeds the request
     for (const uint32_t count :
          countsOf(mesh, surfaceSamples(mesh.positions, mesh.corners, {.samples_per_vertex = 0.3})))
         EXPECT_EQ(count, 1u);
@@ -118,7 +119,8 @@ TEST(SurfaceSamples, giveEachTriangleTheLeastNumberAndTheRestByArea)
 
 TEST(SurfaceSamples, giveEachVertexTheLeastNumberInItsTriangles)
 {
-    // a vertex whose only triangle is a hundredth of its neighbours: by area it would have no more than one sample
+    // a vertex whose only triangle has a hundredth of its neighbours' area: by area it would have at most one
+    // sample
     Mesh mesh = meshOf(shapes::grid(20));
     const Float3 a = mesh.positions[0], b = mesh.positions[1];
     const auto corner = static_cast<uint32_t>(mesh.positions.size());
@@ -127,21 +129,22 @@ TEST(SurfaceSamples, giveEachVertexTheLeastNumberInItsTriangles)
     SurfaceSampleSettings settings;
     const uint32_t by_area = countsOf(mesh, surfaceSamples(mesh.positions, mesh.corners, settings)).back();
     EXPECT_EQ(by_area, 1u);
-    settings.least_per_vertex = 18;
+    settings.min_per_vertex = 18;
     const std::vector<SurfaceSample> samples = surfaceSamples(mesh.positions, mesh.corners, settings);
     const std::vector<uint32_t> counts = countsOf(mesh, samples);
     EXPECT_GE(counts.back(), 18u);
     EXPECT_NEAR(static_cast<double>(samples.size()), 8.0 * static_cast<double>(mesh.positions.size()), 1);
     EXPECT_EQ(*std::min_element(counts.begin(), counts.end()), 3u) << "six triangles around a vertex";
-    // as many as there are, where all ask for more
-    settings.least_per_vertex = 1000;
+    // exactly the available number where all triangles ask for more
+    settings.min_per_vertex = 1000;
     const size_t count = surfaceSamples(mesh.positions, mesh.corners, settings).size();
     EXPECT_NEAR(static_cast<double>(count), 8.0 * static_cast<double>(mesh.positions.size()), 1);
 }
 
 TEST(SurfaceSamples, areStratifiedWithinLargeTriangles)
 {
-    // 4096 points of a triangle in the 256 pieces of its fourfold subdivision: random ones would deviate by 4
+    // 4096 points of a triangle in the 256 pieces of its fourfold subdivision: random points would deviate by
+    // 4
     const Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {0, 1, 2}};
     const std::vector<SurfaceSample> samples =
         surfaceSamples(mesh.positions, mesh.corners, {.samples_per_vertex = 4096.0 / 3});
@@ -159,7 +162,7 @@ TEST(SurfaceSamples, areStratifiedWithinLargeTriangles)
 
 TEST(SurfaceSamples, areStratifiedOverSmallTriangles)
 {
-    // half a sample for each triangle: each cell of 8 x 8 triangles has its 32 within a few
+    // half a sample for each triangle: each cell of 8 x 8 triangles has its 32 samples within a few
     const Mesh mesh = meshOf(shapes::grid(64));
     const size_t triangle_count = mesh.corners.size() / 3;
     const SurfaceSampleSettings settings{.samples_per_vertex = 3 * static_cast<double>(triangle_count) /
@@ -192,7 +195,7 @@ TEST(SurfaceSamples, comeInAnOrderOfNeighbours)
     double steps = 0;
     for (size_t i = 1; i < points.size(); ++i)
         steps += double{length(points[i].position - points[i - 1].position)};
-    // one of n points of a square to the next: about 1 / sqrt(n); in no order: 0.52
+    // distance from one of n points of a square to the next: about 1 / sqrt(n); in random order: 0.52
     EXPECT_LT(steps / static_cast<double>(points.size()), 2 / std::sqrt(static_cast<double>(points.size())));
 }
 
@@ -234,7 +237,7 @@ TEST(SamplePoints, lieOnTheTrianglesWithTheirNormals)
         EXPECT_LT(length(points[i].normal - n), 2e-5f);
         EXPECT_LT(length(points[i].position - (a + (b - a) * samples[i].u + (d - a) * samples[i].v)), 1e-6f);
         EXPECT_GT(points[i].lift, 0);
-        // a small multiple of what a float tells apart, though slivers need more
+        // a small multiple of float precision, though slivers need more
         EXPECT_LT(points[i].lift, 1e-4f);
     }
 }
@@ -253,7 +256,7 @@ TEST(SamplePoints, keepTheFrontInFrontInMirroredAndSkewedInstances)
         {
             EXPECT_LT(length(points[i].position - transformPoint(world_from_mesh, before[i].position)),
                       1e-5f);
-            // moved along the front before, then in the world: still in front of the plane
+            // moved along the normal in object space, then transformed: still in front of the plane
             const Float3 ahead = transformVector(world_from_mesh, before[i].normal);
             EXPECT_GT(dot(points[i].normal, ahead), 0);
             const uint32_t* c = &mesh.corners[size_t{samples[i].triangle} * 3];

@@ -1,4 +1,5 @@
-// Least squares vertex baking against dense systems that are put together in another way, and against Ceres.
+// Compares least-squares vertex baking of visibility with dense systems that are assembled independently, and
+// with Ceres.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/visibility/fit/incomplete_cholesky.h"
 #include "cook/visibility/fit/normal_equations.h"
@@ -29,7 +30,7 @@ namespace
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-/// The proxy of a mesh, without normals, so that the clamp does not change directions.
+/// Proxy of a mesh, without normals, so that the clamp does not change directions.
 Proxy proxyOf(const mesh::SourceMesh& mesh, const ProxySettings& settings = {})
 {
     Proxy proxy = makeProxy(viewOf(mesh), settings);
@@ -37,7 +38,7 @@ Proxy proxyOf(const mesh::SourceMesh& mesh, const ProxySettings& settings = {})
     return proxy;
 }
 
-/// Moments that a clamp leaves alone, smooth over space.
+/// Moments that vary smoothly over space and that clamping leaves alone.
 Moments fieldAt(Float3 p)
 {
     return {3 + 0.4f * std::sin(2 * p.x) + 0.2f * p.y,
@@ -52,7 +53,7 @@ std::vector<Moments> fieldOf(const Proxy& proxy, const std::vector<SurfaceSample
     return values;
 }
 
-/// All jumps with their whole weight, and nothing else.
+/// Regularizer with the full weight of gradient jumps and no other term.
 FitSettings asPublished()
 {
     FitSettings settings;
@@ -61,7 +62,7 @@ FitSettings asPublished()
     return settings;
 }
 
-/// Standard normal numbers (Box and Muller).
+/// Standard normal random numbers (Box-Muller).
 class Normal
 {
 public:
@@ -78,7 +79,7 @@ private:
     std::mt19937 random_;
 };
 
-/// The gradient of what is linear on a triangle in the plane, by its values at the corners.
+/// Gradient of a linear function on a triangle in the plane, from its values at the corners.
 Eigen::Matrix<double, 2, 3> gradientOf(const std::array<Eigen::Vector2d, 3>& corners)
 {
     Eigen::Matrix2d edges;
@@ -88,7 +89,8 @@ Eigen::Matrix<double, 2, 3> gradientOf(const std::array<Eigen::Vector2d, 3>& cor
     return edges.inverse() * differences;
 }
 
-/// (A1 + A2)^2 |g1 - g2|^2 as a matrix over a, b, k, l: both triangles in one plane, with the edge as its first axis.
+/// Return the matrix over vertices a, b, k, l of (A1 + A2)^2 |g1 - g2|^2. Both triangles lie in one plane
+/// with the edge along the first axis.
 Eigen::Matrix4d jumpOf(const Proxy& proxy, const InteriorEdge& edge)
 {
     const auto at = [&](uint32_t v) { return widen(proxy.positions[v]); };
@@ -108,7 +110,7 @@ Eigen::Matrix4d jumpOf(const Proxy& proxy, const InteriorEdge& edge)
     return area * area * jump.transpose() * jump;
 }
 
-/// What the preconditioner multiplies with.
+/// Return the inverse matrix that the preconditioner applies.
 Matrix inverseOf(const SparseMatrix& matrix)
 {
     const size_t rows = matrix.rowCount();
@@ -168,14 +170,14 @@ double largestDifference(const std::vector<Moments>& moments, const Matrix& expe
     double largest = 0;
     for (size_t v = 0; v < moments.size(); ++v)
         for (int k = 0; k < 4; ++k)
-            largest = std::max(
-                largest, std::abs(blockOf(moments[v]).v[k] - expected(static_cast<Eigen::Index>(v), k)));
+            largest = std::max(largest, std::abs(blockFromMoments(moments[v]).v[k] -
+                                                 expected(static_cast<Eigen::Index>(v), k)));
     return largest;
 }
 
 constexpr double kAlpha = 0.1;
 
-/// One residual after the other, as BAKING writes the sum down.
+/// Ceres residuals: one for each term of the fit's sum of squares.
 struct CeresResiduals
 {
     const Proxy& proxy;
@@ -205,7 +207,7 @@ struct CeresResiduals
     }
 };
 
-/// A flat mesh with vertices moved at random in their plane.
+/// Flat mesh with vertices moved at random in its plane.
 mesh::SourceMesh unevenGrid(uint32_t n)
 {
     mesh::SourceMesh grid = shapes::grid(n);
@@ -319,7 +321,7 @@ TEST(FitVertices, bringsConstantsBackOnAnyMesh)
         const Proxy proxy = proxyOf(mesh);
         std::vector<SurfaceSample> samples = samplesOf(proxy.view(), 2);
         std::mt19937 random(9);
-        // some triangles have no sample; of the soup's, whole pieces have none
+        // some triangles have no sample; in the triangle soup, whole components have none
         std::erase_if(samples, [&](const SurfaceSample&) { return random() % 3 == 0; });
         const std::vector<Moments> values(samples.size(), constant);
         const FitResult fit = fitVertices(proxy, samples, values);
@@ -358,7 +360,7 @@ TEST(FitVertices, bringsLinearFunctionsBackInAPlane)
 
 TEST(FitVertices, needsFewIterationsWhereSmallTrianglesMeetLargeOnes)
 {
-    // cells that shrink to a hundredth and grow again; none of them is thin enough for the proxy
+    // cells that shrink to a hundredth and grow again; none is thin enough for the proxy to remove
     mesh::SourceMesh mesh = shapes::grid(30);
     Box3 box;
     for (const Float3 p : mesh.positions)
@@ -442,10 +444,10 @@ TEST(FitVertices, solvesAroundVerticesThatAreHeld)
         is_held[v] = 1;
         moments[v] = {2 + 0.001f * static_cast<float>(v), {0.1f, 0.2f, 0.3f}};
         const auto row = static_cast<Eigen::Index>(v);
-        system.row(row).setZero(); // no longer symmetric: another way to say it
+        system.row(row).setZero(); // no longer symmetric, but an equivalent system
         system(row, row) = 1;
         for (int k = 0; k < 4; ++k)
-            right(row, k) = blockOf(moments[v]).v[k];
+            right(row, k) = blockFromMoments(moments[v]).v[k];
     }
     const FitResult fit = fitVertices(proxy, samples, values, asPublished(), {is_held, moments});
     EXPECT_LT(largestDifference(fit.moments, system.partialPivLu().solve(right)), 2e-6);
@@ -458,7 +460,7 @@ TEST(FitVertices, carriesOnWhereNoSamplesAre)
 {
     const Proxy proxy = proxyOf(shapes::grid(20));
     std::vector<SurfaceSample> samples = samplesOf(proxy.view(), 4);
-    // a hole in the samples as wide as a quarter of the square
+    // a gap in the samples as wide as a quarter of the square
     const Box3 box = [&]
     {
         Box3 all;
@@ -481,7 +483,7 @@ TEST(FitVertices, carriesOnWhereNoSamplesAre)
 TEST(FitVertices, needsFewIterationsOnlyWithoutSlivers)
 {
     mesh::SourceMesh mesh = unevenGrid(24);
-    // a vertex a thousandth of an edge beside the middle of another edge
+    // a vertex a thousandth of an edge beside the midpoint of another edge
     const size_t t = mesh.triangleCount() / 2 * 3;
     const Float3 a = mesh.positions[mesh.indices[t]], b = mesh.positions[mesh.indices[t + 1]],
                  c = mesh.positions[mesh.indices[t + 2]];
@@ -558,7 +560,7 @@ TEST(FitVertices, takesNoiseAway)
                                     (p[axis] > box.min[axis] + 0.1f && p[axis] < box.max[axis] - 0.1f));
             if (!inside)
                 continue;
-            const Block4 m = blockOf(fit.moments[v]), truth{{3, 0, 0, 1}};
+            const Block4 m = blockFromMoments(fit.moments[v]), truth{{3, 0, 0, 1}};
             for (size_t k = 0; k < 4; ++k)
                 sum += (m.v[k] - truth.v[k]) * (m.v[k] - truth.v[k]);
             count += 4;

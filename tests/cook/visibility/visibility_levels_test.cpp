@@ -1,4 +1,5 @@
-// Levels are fitted to the samples of the finest one, and meet where mixed cuts do.
+// Tests the fit of all levels to the samples of the finest level, and that levels match where mixed cuts join
+// them.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/visibility/fit/level_fit.h"
 #include "cook/visibility/mesh/closest_point.h"
@@ -23,7 +24,7 @@ using test::viewOf;
 namespace
 {
 
-/// What is seen of a sphere with dips, some triangles of the finest level wide.
+/// Visibility of a sphere with dips that are some triangles of the finest level wide.
 Moments fieldAt(Float3 p, float frequency)
 {
     const Float3 n = normalizeOr(p, {0, 0, 1});
@@ -32,7 +33,7 @@ Moments fieldAt(Float3 p, float frequency)
     return {4.5f + 0.5f * n.y + 0.6f * dips, n * (2.2f + 0.3f * n.z + 0.3f * dips)};
 }
 
-/// Three levels of one sphere, the samples on the finest, and their values.
+/// Three levels of one sphere, samples on the finest, and their values.
 struct Levels
 {
     std::vector<mesh::SourceMesh> meshes;
@@ -42,13 +43,13 @@ struct Levels
     std::vector<LevelMesh> views;
 };
 
-/// Vertices of a level that the one below has, too, where they lie in a band: bands of locked borders.
+/// Return the vertices in a band that a level shares with the next finer one. Bands stand for locked borders.
 std::vector<uint32_t> lockedIn(const mesh::SourceMesh& level, const mesh::SourceMesh& finer)
 {
     std::map<std::array<float, 3>, uint32_t> of_position;
     for (uint32_t v = 0; v < finer.vertexCount(); ++v)
         of_position.insert({{finer.positions[v].x, finer.positions[v].y, finer.positions[v].z}, v});
-    std::vector<uint32_t> result(level.vertexCount(), kNowhere);
+    std::vector<uint32_t> result(level.vertexCount(), kInvalidIndex);
     for (uint32_t v = 0; v < level.vertexCount(); ++v)
         if (const Float3 p = level.positions[v]; std::abs(p.y) < 0.15f)
             if (const auto found = of_position.find({p.x, p.y, p.z}); found != of_position.end())
@@ -73,7 +74,8 @@ Levels makeLevels(float frequency = 7)
     return levels;
 }
 
-/// Of what is interpolated over a level, against the field all over the finest level's surface.
+/// Return the RMS error of values interpolated over a level, against the field over the whole surface of the
+/// finest level.
 double rmsError(const MeshView& level, const std::vector<Moments>& moments, const MeshView& finest,
                 float frequency)
 {
@@ -82,7 +84,7 @@ double rmsError(const MeshView& level, const std::vector<Moments>& moments, cons
     for (const SurfaceSample& sample : samplesOf(finest, 3, 77))
     {
         const Float3 p = pointOf(finest, sample);
-        const ClosestPoint::Found found = surface.find(p, p, 100, kNowhere);
+        const ClosestPoint::Hit found = surface.find(p, p, 100, kInvalidIndex);
         const uint32_t* corners = &level.indices[size_t{found.triangle} * 3];
         const float weights[3] = {1 - found.u - found.v, found.u, found.v};
         float m0 = 0;
@@ -95,7 +97,7 @@ double rmsError(const MeshView& level, const std::vector<Moments>& moments, cons
     return std::sqrt(sum / area);
 }
 
-/// What a level has if its vertices take the values of the nearest vertices of the finest.
+/// Return a level's moments if each vertex copies the nearest vertex of the finest level.
 std::vector<Moments> copied(const MeshView& level, const MeshView& finest,
                             const std::vector<Moments>& moments)
 {
@@ -116,7 +118,7 @@ std::vector<Moments> copied(const MeshView& level, const MeshView& finest,
 TEST(FitLevels, areNearerToTheTruthThanCopies)
 {
     for (const float frequency : {7.0f, 14.0f})
-        for (const float noise : {0.0f, 0.12f}) // of 64 rays: BAKING 4
+        for (const float noise : {0.0f, 0.12f}) // standard deviation of 64 rays
         {
             if (test::kSanitized && (frequency > 10 || noise == 0))
                 continue;
@@ -159,7 +161,7 @@ TEST(FitLevels, holdWhatTheLevelBelowHas)
     {
         size_t held = 0;
         for (size_t v = 0; v < fits[i].moments.size(); ++v)
-            if (const uint32_t finer = levels.finer_vertex[i][v]; finer != kNowhere)
+            if (const uint32_t finer = levels.finer_vertex[i][v]; finer != kInvalidIndex)
             {
                 ++held;
                 EXPECT_EQ(std::memcmp(&fits[i].moments[v], &fits[i - 1].moments[finer], sizeof(Moments)), 0);
@@ -209,7 +211,7 @@ TEST(FitLevels, haveTheSameBitsForAnyNumberOfThreads)
 
 TEST(FitLevels, doNotTakeSamplesOfTheOtherSide)
 {
-    // a sheet with two sides that see different things, thinner than its triangles are long
+    // a sheet thinner than its triangles are long, whose two sides have different visibility
     mesh::SourceMesh fine = shapes::grid(16), coarse = shapes::grid(4);
     Levels levels;
     for (mesh::SourceMesh* side : {&fine, &coarse})
@@ -251,7 +253,7 @@ TEST(ChooseSamples, takesEqualAreas)
     std::vector<SurfaceSample> samples;
     for (uint32_t i = 0; i < 1000; ++i)
         samples.push_back({i, 0, 0, i < 500 ? 1.0f : 3.0f});
-    const SampleChoice choice = chooseSamples(samples, 100);
+    const SampleSubset choice = chooseSamples(samples, 100);
     double area = 0, of_first = 0;
     for (size_t i = 0; i < choice.samples.size(); ++i)
     {
@@ -263,9 +265,9 @@ TEST(ChooseSamples, takesEqualAreas)
     EXPECT_NEAR(area, 2000, 1e-3);
     EXPECT_NEAR(of_first, 500, 20);
     EXPECT_EQ(chooseSamples(samples, 1000).samples.size(), 1000u);
-    // one sample that stands for most of the area is not lost
+    // a single sample that represents most of the area is not lost
     samples[10].area = 1e5f;
-    const SampleChoice heavy = chooseSamples(samples, 50);
+    const SampleSubset heavy = chooseSamples(samples, 50);
     EXPECT_NEAR(heavy.areas[0], 1e5f, 5e3f);
 }
 

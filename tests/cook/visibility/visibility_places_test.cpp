@@ -1,4 +1,5 @@
-// Moments by rays of meshes far away, tiny, huge, instanced, masked; by any number of threads.
+// Tests moments by rays for meshes that are far away, tiny, huge, instanced or masked, with any number of
+// threads.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/sampling/hemisphere.h"
 #include "cook/sampling/owen_sobol.h"
@@ -18,7 +19,7 @@ namespace hearth::visibility
 namespace
 {
 
-/// Convex: each point sees all, if its rays do not meet the surface that they start from.
+/// Check a convex mesh: each point sees everything, provided that its rays miss the surface they start from.
 void expectOpen(const Mesh& mesh, const Affine3& world_from_mesh, const char* what)
 {
     const Mesh baked = transformed(mesh, world_from_mesh);
@@ -39,7 +40,7 @@ void expectOpen(const Mesh& mesh, const Affine3& world_from_mesh, const char* wh
 
 TEST(VisibilityMoments, haveNoSpecksAtAnyScaleAndPlace)
 {
-    // two pyramids: rounding to floats far away must not make it concave
+    // two pyramids: float rounding far from the origin must not make them concave
     const Mesh gem =
         transformed(sphereOf(2, 7, 1, false), {{{0.8f, 0.6f, 0, 0}, {-0.6f, 0.8f, 0, 0}, {0, 0, 1, 0}}});
     expectOpen(gem, {}, "as it is");
@@ -49,12 +50,12 @@ TEST(VisibilityMoments, haveNoSpecksAtAnyScaleAndPlace)
     expectOpen(gem, scaledAndMoved(1e5f, {1e5f, 0, 0}), "huge");
     expectOpen(gem, {{{-0.3f, 0.1f, 0.2f, 500.1f}, {0, 2.2f, 0.7f, -800.2f}, {0.1f, 0.4f, 7, 77.7f}}},
                "mirrored, skewed");
-    // world and mesh are both small, but not what is in between
+    // world and mesh are both small, but the transform between them is not
     expectOpen(transformed(gem, scaledAndMoved(1, {1e4f, 0, 2e4f})),
                Affine3{{{0.6f, 0.8f, 0, 0}, {-0.8f, 0.6f, 0, 0}, {0, 0, 1, 0}}} *
                    scaledAndMoved(1, {-1e4f, 0, -2e4f}),
                "there and back");
-    // slivers of a fan in the plane x + y + z = 0, exactly: whole numbers, whose products floats have to round
+    // slivers of a fan exactly in the plane x + y + z = 0: integers whose products floats have to round
     Mesh fan;
     const auto inPlane = [](int i, int j) {
         return Float3{static_cast<float>(i), static_cast<float>(j - i), static_cast<float>(-j)};
@@ -72,7 +73,7 @@ TEST(VisibilityMoments, haveNoSpecksAtAnyScaleAndPlace)
 
 TEST(VisibilityMoments, areNotDarkenedByFlatSurfacesOfManyTrianglesInSlantedPlanes)
 {
-    // corners are rounded, so that the plane is a plane but for 1e-7 of its size: no more may be seen of that
+    // rounding moves corners out of the plane by 1e-7 of its size: occlusion must not exceed that
     const Affine3 slanted{{{0.36f, 0.48f, -0.8f, 3}, {-0.8f, 0.6f, 0, 1}, {0.48f, 0.64f, 0.6f, -2}}};
     const Mesh plane = transformed(meshOf(shapes::grid(40)), slanted);
     const std::vector<SamplePoint> points = pointsOf(plane, 2);
@@ -81,7 +82,7 @@ TEST(VisibilityMoments, areNotDarkenedByFlatSurfacesOfManyTrianglesInSlantedPlan
         EXPECT_GT(occlusionOf((*moments)[i], points[i].normal), 1 - 1e-4);
 }
 
-/// Mean of how far two sets of moments are apart, as a share of the hemisphere.
+/// Return the mean difference of two sets of moments, as a share of the hemisphere.
 double meanDifference(const std::vector<Moments>& a, const std::vector<Moments>& b)
 {
     double sum = 0;
@@ -113,7 +114,7 @@ TEST(VisibilityMoments, ofInstancesAreThoseOfMeshesInTheirPlaces)
         const std::vector<SamplePoint> points = pointsOf(rock, 1, place);
         const auto a = visibilityMoments(instanced, points, {}), b = visibilityMoments(baked, points, {});
         EXPECT_LT(meanDifference(*a, *b), 2e-4);
-        // and they are in each other's way at all
+        // check that the instances do occlude each other
         const auto alone = visibilityMoments(occludersOf({transformed(rock, place).occluder()}), points, {});
         EXPECT_GT(meanDifference(*a, *alone), 1e-2);
     }
@@ -128,7 +129,7 @@ TEST(VisibilityMoments, letRaysThroughMasks)
     {
         OccluderMesh occluder = mesh.occluder();
         occluder.mask = mask;
-        Occluders occluders; // once in its place, once as an instance below the floor, out of sight
+        Occluders occluders; // once in place, once as an instance below the floor, where no ray reaches it
         const Occluders::Mesh added = occluders.add(occluder);
         occluders.place(added);
         occluders.place(added, scaledAndMoved(1, {0, 0, -5}));
@@ -146,7 +147,7 @@ TEST(VisibilityMoments, letRaysThroughMasks)
         EXPECT_EQ(
             momentsWith([](uint32_t triangle, float, float) { return triangle == 0; }, ceiling, settings).m1,
             momentsWith({}, first, settings).m1);
-        // u is corner 1's weight, v corner 2's
+        // u is the weight of corner 1, v of corner 2
         const Float3 a = ceiling.positions[0], b = ceiling.positions[1], c = ceiling.positions[2];
         Mesh half;
         half.addQuad(a, (a + b) * 0.5f, (b + c) * 0.5f, c);
@@ -171,7 +172,7 @@ TEST(VisibilityMoments, letRaysThroughBackFacesWhereTheMeshSaysSo)
         occluders.finish();
         return visibilityMoments(occluders, {&from, 1}, {}).value()[0].m0 > 3;
     };
-    // mirrored instances keep the front in front
+    // mirrored instances keep their front faces in front
     for (const Affine3& place : {Affine3{}, Affine3{{{-1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}})
     {
         occluder.back_faces = BackFaces::block;
@@ -208,8 +209,8 @@ TEST(VisibilityMoments, areThoseOfEachRayAgainstEachTriangle)
     for (size_t i = 0; i < points.size(); ++i)
     {
         std::vector<float> x(48), y(48), z(48);
-        sampling::hemisphereDirections(7, sampling::seedOf(5, i), sampling::frameAround(points[i].normal), x,
-                                       y, z);
+        sampling::hemisphereDirections(7, sampling::deriveSeed(5, i), sampling::frameAround(points[i].normal),
+                                       x, y, z);
         double seen = 0;
         for (size_t r = 0; r < 48; ++r)
             if (!meets(rock, widen(rayOrigin(points[i])), {double{x[r]}, double{y[r]}, double{z[r]}}))

@@ -1,4 +1,4 @@
-// The proxy mesh that visibility is fitted on.
+// Tests the proxy mesh on which visibility is fitted.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/visibility/fit/vertex_fit.h"
 #include "cook/visibility/mesh/closest_point.h"
@@ -153,7 +153,7 @@ TEST(MakeProxy, dropsFacesThatAreThereTwice)
 {
     FlatMesh mesh = square(3);
     const size_t once = mesh.indices.size();
-    // again turned, again from behind, and again with vertices of its own
+    // again rotated, again from the back, and again with separate vertices
     mesh.indices.insert(mesh.indices.end(), {mesh.indices[1], mesh.indices[2], mesh.indices[0]});
     mesh.indices.insert(mesh.indices.end(), {mesh.indices[5], mesh.indices[4], mesh.indices[3]});
     for (size_t i = 0; i < once; ++i)
@@ -169,7 +169,7 @@ TEST(MakeProxy, dropsFacesThatAreThereTwice)
     EXPECT_EQ(proxy.statistics.thin.duplicate, once / 3 + 2);
     EXPECT_EQ(proxy.statistics.thin.degenerate, 1u);
     const std::vector<SurfaceSample> samples = samplesOf(view, 2);
-    const std::vector<SurfaceSample> moved = samplesOnProxy(proxy, view, samples);
+    const std::vector<SurfaceSample> moved = mapSamplesToProxy(proxy, view, samples);
     for (size_t i = 0; i < samples.size(); ++i)
         EXPECT_LT(length(pointOf(view, samples[i]) - pointOf(proxy.view(), moved[i])), 1e-6f);
 }
@@ -178,15 +178,15 @@ TEST(MakeProxy, collapsesNeedlesAndFlipsCaps)
 {
     FlatMesh mesh = square(4);
     const double area = areaOf(mesh.view());
-    // a T-junction: the middle of the edge between the triangles of the first quad, a little off, and a cap to close it;
-    // the triangle below is cut there, the one above is not
+    // a T-junction: the midpoint of the edge between the triangles of the first quad, slightly off, and a cap
+    // to close it; the triangle below is split there, the one above is not
     ASSERT_EQ((std::vector<uint32_t>(mesh.indices.begin(), mesh.indices.begin() + 6)),
               (std::vector<uint32_t>{0, 1, 6, 0, 6, 5}));
     const auto middle = static_cast<uint32_t>(mesh.positions.size());
     mesh.positions.push_back({0.125f, 0.12499f, 0});
     mesh.indices[2] = middle;
     mesh.indices.insert(mesh.indices.end(), {middle, 1, 6, 0, middle, 6});
-    // a crack: a vertex all but at another, and the needle between them
+    // a crack: a vertex almost at the position of another, and the needle triangle between them
     const auto beside = static_cast<uint32_t>(mesh.positions.size());
     mesh.positions.push_back(mesh.positions[12] + Float3{0, 1e-5f, 0});
     for (size_t i = mesh.indices.size(); i-- > 0;)
@@ -207,10 +207,10 @@ TEST(MakeProxy, collapsesNeedlesAndFlipsCaps)
     EXPECT_GE(lowestTriangle(proxy), 1e-3);
     EXPECT_NEAR(areaOf(proxy.view()), area, 1e-4) << "a hole was left";
     const std::vector<SurfaceSample> samples = samplesOf(view, 3),
-                                     moved = samplesOnProxy(proxy, view, samples);
+                                     moved = mapSamplesToProxy(proxy, view, samples);
     for (size_t i = 0; i < samples.size(); ++i)
     {
-        ASSERT_NE(moved[i].triangle, kNowhere);
+        ASSERT_NE(moved[i].triangle, kInvalidIndex);
         EXPECT_LT(length(pointOf(proxy.view(), moved[i]) - pointOf(view, samples[i])), 3e-5f);
     }
     for (const Binding& binding : proxy.bindings)
@@ -237,7 +237,7 @@ TEST(MakeProxy, keepsABladeThatIsAllSlivers)
 {
     FlatMesh mesh = square(2);
     const auto first = static_cast<uint32_t>(mesh.positions.size());
-    // above the square, so thin that both triangles go, but with nobody else to say what is seen there
+    // above the square, so thin that both triangles are removed, but no other surface has visibility there
     for (const Float3 p :
          {Float3{0.5f, 0.5f, 1}, Float3{0.5f, 0.5004f, 1}, Float3{0.5f, 0.5f, 2}, Float3{0.5f, 0.5004f, 2}})
         mesh.positions.push_back(p);
@@ -250,8 +250,8 @@ TEST(MakeProxy, keepsABladeThatIsAllSlivers)
     std::vector<Moments> values;
     for (const SurfaceSample& sample : samples)
         values.push_back({sample.triangle < 8 ? 1.0f : 4.0f + pointOf(view, sample).z, {}});
-    const FitResult fit = fitVertices(proxy, samplesOnProxy(proxy, view, samples), values);
-    const std::vector<Moments> source = valuesOfSource(proxy, fit.moments, view.normals);
+    const FitResult fit = fitVertices(proxy, mapSamplesToProxy(proxy, view, samples), values);
+    const std::vector<Moments> source = mapValuesToSource(proxy, fit.moments, view.normals);
     for (uint32_t v = 0; v < first; ++v)
         EXPECT_NEAR(source[v].m0, 1, 1e-5f);
     for (uint32_t v = first; v < view.positions.size(); ++v)
@@ -262,7 +262,7 @@ TEST(MakeProxy, bindsEveryVertexToWhereItIs)
 {
     mesh::SourceMesh rock = shapes::rock(6, 0.4f);
     std::mt19937 random(3);
-    // slivers of all kinds between the vertices, some without any area, some with vertices of their own
+    // slivers of all kinds between the vertices: some without area, some with separate vertices
     for (int i = 0; i < 60; ++i)
     {
         const size_t t = random() % rock.triangleCount() * 3;
@@ -296,7 +296,7 @@ TEST(MakeProxy, givesUnreferencedVerticesTheNearestValue)
     std::vector<Moments> values;
     for (const Float3 p : proxy.positions)
         values.push_back({p.x + 2 * p.y, {}});
-    const std::vector<Moments> source = valuesOfSource(proxy, values, view.normals);
+    const std::vector<Moments> source = mapValuesToSource(proxy, values, view.normals);
     EXPECT_NEAR(source[25].m0, 1.1f, 1e-6f);
     EXPECT_NEAR(source[26].m0, 1.1f, 1e-6f);
 }
@@ -308,7 +308,7 @@ TEST(MakeProxy, isEmptyForMeshesWithoutTriangles)
     const Proxy proxy = makeProxy(view);
     EXPECT_TRUE(proxy.positions.empty());
     const FitResult fit = fitVertices(proxy, {}, {});
-    const std::vector<Moments> source = valuesOfSource(proxy, fit.moments, view.normals);
+    const std::vector<Moments> source = mapValuesToSource(proxy, fit.moments, view.normals);
     EXPECT_EQ(source[0].m1, kUp * std::numbers::pi_v<float>);
 }
 
@@ -321,7 +321,7 @@ TEST(MakeProxy, takesAnyTriangles)
         mesh->normals.resize(mesh->vertexCount(), kUp);
         const Proxy proxy = makeProxy(viewOf(*mesh));
         const std::vector<SurfaceSample> samples =
-            samplesOnProxy(proxy, viewOf(*mesh), samplesOf(viewOf(*mesh), 1));
+            mapSamplesToProxy(proxy, viewOf(*mesh), samplesOf(viewOf(*mesh), 1));
         std::vector<Moments> values(samples.size(), Moments{3, {}});
         for (const Moments& m : fitVertices(proxy, samples, values).moments)
             EXPECT_NEAR(m.m0, 3, 1e-5f);
@@ -333,7 +333,7 @@ TEST(ClosestPoint, isWhatTryingAllTrianglesGives)
     const mesh::SourceMesh rock = shapes::rock(5, 0.5f);
     const MeshView view = viewOf(rock);
     const ClosestPoint tree(view, view.triangleCount());
-    std::vector<ClosestPoint> single; // each triangle alone
+    std::vector<ClosestPoint> single; // one per triangle
     for (size_t t = 0; t < view.triangleCount(); ++t)
         single.emplace_back(MeshView{view.positions, view.normals, view.indices.subspan(t * 3, 3)}, 1);
     std::mt19937 random(5);
@@ -344,10 +344,10 @@ TEST(ClosestPoint, isWhatTryingAllTrianglesGives)
         const double limit2 = i % 2 == 0 ? 100 : 0.02;
         double least = limit2;
         for (const ClosestPoint& one : single)
-            least = std::min(least, one.find(p, n, limit2, kNowhere).distance2);
-        const ClosestPoint::Found found = tree.find(p, n, limit2, static_cast<uint32_t>(i));
+            least = std::min(least, one.find(p, n, limit2, kInvalidIndex).distance2);
+        const ClosestPoint::Hit found = tree.find(p, n, limit2, static_cast<uint32_t>(i));
         EXPECT_EQ(found.distance2, least);
-        if (found.triangle == kNowhere)
+        if (found.triangle == kInvalidIndex)
             continue;
         const Float3 at = pointOf(view, {found.triangle, found.u, found.v, 0});
         EXPECT_NEAR(length(at - p), std::sqrt(least), 1e-5);

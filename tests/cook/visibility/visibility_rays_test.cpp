@@ -1,4 +1,4 @@
-// Moments by rays against closed forms.
+// Compares visibility moments by rays with closed forms.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/cook/visibility/ray_scenes.h"
 
@@ -42,7 +42,7 @@ TEST(VisibilityMoments, atACreaseAreHalf)
     const Moments m = seenFrom(occludersOf({mesh.occluder()}), {0.01f, 0, 0}, kUp);
     EXPECT_NEAR(occlusionOf(m, kUp), 0.5, 3e-4);
     EXPECT_NEAR(m.m0, kPi, 2e-3);
-    // the design note's cone: 65.53 degrees, scale 0.8536
+    // reference cone: half angle 65.53 degrees, scale 0.8536
     const double rho = double{length(m.m1)} / double{m.m0};
     EXPECT_NEAR(std::acos(2 * rho - 1) * 180 / kPi, 65.53, 0.05);
     EXPECT_NEAR(double{m.m0} / (4 * kPi * (1 - rho)), 0.8536, 1e-3);
@@ -105,7 +105,7 @@ TEST(VisibilityMoments, inAPitAreThoseOfItsMouth)
     const Moments m = seenFrom(occludersOf({mesh.occluder()}), {}, kUp);
     const double exact = double{r} * r / (double{r} * r + double{d} * d);
     EXPECT_NEAR(occlusionOf(m, kUp), exact, 5e-4);
-    // a cone of scale 1: its half angle is the mouth's
+    // a cone of scale 1: its half angle equals the opening's
     const double rho = double{length(m.m1)} / double{m.m0};
     EXPECT_NEAR(2 * rho - 1, std::sqrt(1 - exact), 1e-3);
     EXPECT_NEAR(double{m.m0} / (4 * kPi * (1 - rho)), 1, 2e-3);
@@ -138,11 +138,12 @@ TEST(VisibilityMoments, underAnAttenuatedCeilingAreThoseOfItsLaw)
     const Moments p2 = seenFrom(occluders, {}, kUp, {.distance = distance, .power = 2});
     EXPECT_NEAR(p2.m0, 2 * kPi * (2 * k - k * k), 5e-4);
     EXPECT_NEAR(p2.m1.z, 2 * kPi * k * k * (0.5 - log_k), 5e-4);
-    // powers in between go between
+    // exponents in between give values in between
     const Moments p15 = seenFrom(occluders, {}, kUp, {.distance = distance, .power = 1.5f});
     EXPECT_LT(p15.m0, p1.m0);
     EXPECT_GT(p15.m0, p2.m0);
-    // a limit without attenuation: hidden where the ceiling is nearer, and so with hits from nearest on
+    // a range limit without attenuation: occluded where the ceiling is nearer, so for all hits beyond
+    // `nearest`
     const Moments limited = seenFrom(occluders, {}, kUp, {.distance = distance});
     EXPECT_NEAR(limited.m0, 2 * kPi * k, 2e-3);
     const Moments ring = seenFrom(occluders, {}, kUp, {.distance = distance, .nearest = 1.2f});
@@ -151,7 +152,7 @@ TEST(VisibilityMoments, underAnAttenuatedCeilingAreThoseOfItsLaw)
 
 TEST(VisibilityMoments, ofABowlAreConstant)
 {
-    // the bottom of a sphere up to polar angle 0.4 pi: occlusion 1 - A / (4 pi R^2) at every point
+    // bottom of a sphere up to polar angle 0.4 pi: occlusion is 1 - A / (4 pi R^2) at every point
     const Mesh bowl = sphereOf(40, 160, 0.4, true);
     const std::vector<SamplePoint> all = pointsOf(bowl, 0);
     std::vector<SamplePoint> points;
@@ -166,14 +167,14 @@ TEST(VisibilityMoments, ofABowlAreConstant)
         mean += ao / static_cast<double>(points.size());
         squares += (ao - exact) * (ao - exact) / static_cast<double>(points.size());
     }
-    // facets of 2.25 degrees see a little less or more than the sphere
+    // triangles of 2.25 degrees see slightly less or more than the sphere
     EXPECT_NEAR(mean, exact, 5e-4);
     EXPECT_LT(std::sqrt(squares), 0.004);
 }
 
 TEST(VisibilityHigherMoments, areThoseOfACapAndOfTheOpenHemisphere)
 {
-    // what is above a round mouth: visible within a half-angle of the normal
+    // directions above a round opening: visible within a half-angle of the normal
     const double mouth = 0.8;
     Mesh funnel;
     constexpr int kSectors = 256;
@@ -206,7 +207,7 @@ TEST(VisibilityHigherMoments, areThoseOfACapAndOfTheOpenHemisphere)
     EXPECT_EQ(open.xx, static_cast<float>(2 * kPi / 3));
     EXPECT_EQ(open.zz, static_cast<float>(2 * kPi / 3));
     EXPECT_EQ(open.xy, 0);
-    // of a slanted normal they turn along
+    // with a slanted normal the moments rotate along
     const Mesh wall = transformed(funnel, {{{0, 0, 1, 0}, {1, 0, 0, 0}, {0, 1, 0, 0}}});
     const SamplePoint sideways{{}, {1, 0, 0}, 1e-6f};
     EXPECT_NEAR(visibilityHigherMoments(occludersOf({wall.occluder()}), {&sideways, 1}, settings)

@@ -1,4 +1,4 @@
-// Incomplete factors and the solver on them, against dense and band matrices.
+// Compares incomplete factors, and the solver that uses them, with dense and band matrices.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/visibility/fit/conjugate_gradients.h"
 #include "cook/visibility/fit/incomplete_cholesky.h"
@@ -16,9 +16,11 @@ namespace hearth::visibility
 namespace
 {
 
-constexpr uint32_t kBlockRows = 2048; ///< of the factors: what connects such blocks is left out
+/// block rows of the factors: entries that connect such blocks are dropped
+constexpr uint32_t kBlockRows = 2048;
 
-/// `diagonal` in the middle, `beside[i]` i + 1 places to both sides of it; zeros are not stored.
+/// Band matrix: `diagonal` on the diagonal, `beside[i]` i + 1 places to both sides of it; zeros are not
+/// stored.
 SparseMatrix bandMatrix(uint32_t rows, double diagonal, const std::vector<double>& beside)
 {
     SparseMatrix matrix;
@@ -41,7 +43,8 @@ SparseMatrix bandMatrix(uint32_t rows, double diagonal, const std::vector<double
     return matrix;
 }
 
-/// A sum of squares, each of four neighbours with signs, and a little of the identity: most of what its factors have is left out.
+/// Sum of squares, each of four neighbours with signs, plus a small multiple of the identity. Incomplete
+/// factorization drops most entries of its factors.
 SparseMatrix squares(uint32_t size)
 {
     std::vector<std::map<uint32_t, double>> rows(size);
@@ -150,7 +153,7 @@ TEST(Solve, isRightOverSeveralBlocksAndWithFill)
 
 TEST(Solve, ofThreeBlocksTakesAFewSteps)
 {
-    // exact factors but for two entries, which change two pairs of eigenvalues
+    // factors that are exact but for two entries, which change two pairs of eigenvalues
     const SparseMatrix matrix = bandMatrix(3 * kBlockRows, 2.1, {-1});
     const std::vector<Block4> wanted = numbers(matrix.rowCount());
     std::vector<Block4> x(wanted.size());

@@ -1,4 +1,4 @@
-// Includes what it uses, and comes before the other header of this folder.
+// Includes all that it uses. headers_alone.sh checks it before the other header of this folder.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 

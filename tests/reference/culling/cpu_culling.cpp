@@ -41,7 +41,8 @@ std::vector<DrawnCluster> cullExhaustively(const PackView& view, const shared::F
         for (uint32_t c = clusters.first; c < clusters.first + clusters.count; ++c)
         {
             const ClusterRecord& cluster = view.clusters()[c];
-            const uint32_t refined = cluster.refined_group == kNone ? cluster.group : cluster.refined_group;
+            const uint32_t refined =
+                cluster.refined_group == kInvalidIndex ? cluster.group : cluster.refined_group;
             if (shared::decideCluster(
                     frame, instance, state, sharedRecord(cluster), sharedRecord(view.groups()[cluster.group]),
                     sharedRecord(view.groups()[refined]), isDoubleSided(view.materials(), cluster.material)))

@@ -275,7 +275,7 @@ void appendScreenTriangles(const SceneTriangle& triangle, const SceneTables& sce
     for (const Float3& corner : triangle.corners)
     {
         polygon.push_back(
-            shared::clipPosition(frame, shared::relativePoint(shared_instance, frame.eye, corner)));
+            shared::clipPosition(frame, shared::toEyeRelative(shared_instance, frame.eye, corner)));
         any |= clipMask(polygon.back());
         all &= clipMask(polygon.back());
     }
@@ -285,8 +285,8 @@ void appendScreenTriangles(const SceneTriangle& triangle, const SceneTables& sce
         polygon = clipPolygon(std::move(polygon), any);
 
     const bool double_sided = isDoubleSided(scene.materials, triangle.material);
-    const bool masked = triangle.material != kNone && scene.materials[triangle.material].alpha_mode !=
-                                                          static_cast<uint32_t>(AlphaMode::opaque);
+    const bool masked = triangle.material != kInvalidIndex && scene.materials[triangle.material].alpha_mode !=
+                                                                  static_cast<uint32_t>(AlphaMode::opaque);
     const bool mirrored = (instance.flags & kInstanceMirrored) != 0;
     for (size_t i = 2; i < polygon.size(); ++i)
     {

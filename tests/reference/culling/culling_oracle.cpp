@@ -136,7 +136,7 @@ Answer coneAway(const OracleCamera& camera, const DoubleAffine& transform, const
     if (std::abs(transform.determinant()) < 1e-30 * stretch2 * std::sqrt(stretch2))
         return Answer::either; // whether floats can invert such a matrix is not the point here
     const Double3 eye = transform.solve(camera.eye - transform.translation);
-    const Box3 box = boxOf(cluster, grid_step);
+    const Box3 box = clusterBox(cluster, grid_step);
     const Double3 middle = (Double3(box.min) + Double3(box.max)) * 0.5;
     const Double3 axis = normalize(Double3(coneAxis(cluster)));
     const double back = coneBack(cluster, grid_step);
@@ -166,8 +166,8 @@ Answer meshOutside(const OracleCamera& camera, const PackView& view, const Insta
 {
     Box3 box;
     const Range clusters = view.meshes()[instance.mesh].clusters;
-    for (const ClusterRecord& cluster : recordsOf(view.clusters(), clusters))
-        box.add(boxOf(cluster, view.meshes()[instance.mesh].grid_step));
+    for (const ClusterRecord& cluster : recordsInRange(view.clusters(), clusters))
+        box.add(clusterBox(cluster, view.meshes()[instance.mesh].grid_step));
     return boxOutside(camera, DoubleAffine(instance.world_from_object), box.min, box.max);
 }
 
@@ -188,7 +188,7 @@ Judgement judgeCluster(const PackView& view, const OracleView& oracle, DrawnClus
 
     Judgement judgement;
     judgement.in_cut = exceeds(camera, oracle, instance, view.groups()[cluster.group]);
-    if (cluster.refined_group != kNone)
+    if (cluster.refined_group != kInvalidIndex)
         judgement.in_cut =
             both(judgement.in_cut,
                  notAnswer(exceeds(camera, oracle, instance, view.groups()[cluster.refined_group])));
@@ -196,7 +196,7 @@ Judgement judgeCluster(const PackView& view, const OracleView& oracle, DrawnClus
     judgement.outside_frustum = Answer::no;
     if (oracle.flags & shared::kCullFrustum)
     {
-        const Box3 box = boxOf(cluster, grid_step);
+        const Box3 box = clusterBox(cluster, grid_step);
         judgement.outside_frustum = boxOutside(camera, transform, box.min, box.max);
     }
     else if (oracle.flags & shared::kCullInstances)

@@ -85,8 +85,8 @@ Tables randomTables(uint32_t seed)
             random.chance(0.3f) ? kNoCone : static_cast<uint16_t>(random.in(0.02f, 0.9f) * 65536);
         cluster.cone_back = static_cast<uint16_t>(random.in(0, 1) / kGridStep / kConeBackSteps);
         cluster.group = 2 * c;
-        cluster.refined_group = random.chance(0.5f) ? 2 * c + 1 : kNone;
-        cluster.material = random.chance(0.2f) ? 1 : random.chance(0.5f) ? 0 : kNone;
+        cluster.refined_group = random.chance(0.5f) ? 2 * c + 1 : kInvalidIndex;
+        cluster.material = random.chance(0.2f) ? 1 : random.chance(0.5f) ? 0 : kInvalidIndex;
         tables.clusters.push_back(cluster);
     }
     MeshRecord mesh{};

@@ -43,7 +43,7 @@ CoverageReport checkCoverage(const PackView& view, uint32_t mesh, std::span<cons
         ways[i] = above == above_group.end() ? WayCount{} : above->second;
         ways[i].least += drawn[i];
         ways[i].most += drawn[i];
-        if (cluster.refined_group != kNone)
+        if (cluster.refined_group != kInvalidIndex)
         {
             const auto [entry, first] = above_group.try_emplace(cluster.refined_group, ways[i]);
             if (!first)

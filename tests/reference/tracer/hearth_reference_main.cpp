@@ -77,7 +77,7 @@ Status compare(const Picture& reference, const Arguments& arguments)
         return Error{Issue::usage, arguments.compare, "", "the picture has another size"};
     const FlipMap map = flip(reference, test);
     std::printf("FLIP %.6f\nRMSE %.6f\n", map.mean(), rmse(reference, test));
-    return arguments.flip_map.empty() ? success() : writePng(arguments.flip_map, showFlip(map));
+    return arguments.flip_map.empty() ? success() : writePng(arguments.flip_map, makeFlipImage(map));
 }
 
 Result<formats::ScenePose> poseOf(const formats::PackView& view, const Arguments& arguments)
@@ -85,7 +85,7 @@ Result<formats::ScenePose> poseOf(const formats::PackView& view, const Arguments
     const std::optional<uint32_t> clip = pack::findAnimation(view, arguments.animation);
     if (!clip)
         return Error{Issue::usage, arguments.pack, "", "there is no animation " + arguments.animation};
-    const formats::MotionTables tables = formats::motionTables(view);
+    const formats::AnimationTables tables = formats::animationTables(view);
     formats::ScenePose pose = formats::restPose(tables);
     formats::sampleAnimation(tables, tables.animations[*clip], arguments.seconds, pose);
     return pose;

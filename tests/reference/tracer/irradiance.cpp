@@ -14,7 +14,7 @@ namespace
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kFar = 1e30;
-constexpr uint32_t kMostBounces = 32;
+constexpr uint32_t kMaxBounces = 32;
 
 /// Metres: a lamp has no size in the files, and what stands nearer would be as bright as one likes. It counts as a part of the
 /// lamp, which does not light itself.
@@ -123,7 +123,7 @@ private:
 Double3 pathLight(const ShadedScene& scene, Double3 start, Double3 direction, Random& random)
 {
     Double3 light, through{1, 1, 1};
-    for (uint32_t bounce = 0; bounce < kMostBounces; ++bounce)
+    for (uint32_t bounce = 0; bounce < kMaxBounces; ++bounce)
     {
         const auto met = scene.nearest({start, direction, 0, kFar}, 0);
         if (!met)

@@ -137,7 +137,7 @@ Double3 BrickGather::at(const SeenPoint& seen, uint32_t rays, uint32_t seed) con
     const shared::BrickGrid& grid = scene.masks.grid;
     const Float3 place = (narrowed(seen.point.surface.position) - grid.origin) / grid.voxel_size;
     const shared::BrickStart start =
-        shared::brickSeenStart(scene, place, narrowed(litNormal(seen.point)), narrowed(seen.to_eye));
+        shared::brickVisibleStart(scene, place, narrowed(litNormal(seen.point)), narrowed(seen.to_eye));
     return Double3(shared::brickGather(scene, sky_, start, rays, shared::brickHash(seed)));
 }
 

@@ -244,7 +244,7 @@ TEST(RenderReference, showsUnlitColoursAsTheyAre)
     MaterialRecord& material = model.materials[0];
     material.flags = kMaterialDoubleSided | kMaterialUnlit;
     material.alpha_mode = static_cast<uint32_t>(AlphaMode::opaque);
-    material.base_color_texture.image = kNone;
+    material.base_color_texture.image = kInvalidIndex;
     material.base_color = {0.25f, 0.5f, 1, 1};
     const auto mean = meanFromAbove(model);
     // the strip's vertices are coloured (1, 0.5, 0.25)
@@ -259,8 +259,8 @@ TEST(RenderReference, showsTheRadianceOfAnEmissiveSurfaceInTheDark)
     MaterialRecord& material = model.materials[0];
     material.flags = kMaterialDoubleSided;
     material.alpha_mode = static_cast<uint32_t>(AlphaMode::opaque);
-    material.base_color_texture.image = kNone;
-    material.emissive_texture.image = kNone;
+    material.base_color_texture.image = kInvalidIndex;
+    material.emissive_texture.image = kInvalidIndex;
     material.base_color = {0, 0, 0, 1};
     material.metallic = 1; // a black metal sends nothing back but at grazing angles
     material.emissive = {0.2f, 0.5f, 3};

@@ -22,7 +22,7 @@ MaterialRecord defaultMaterial()
     for (TextureRef* texture :
          {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
           &material.occlusion_texture, &material.emissive_texture})
-        texture->image = kNone;
+        texture->image = kInvalidIndex;
     return material;
 }
 
@@ -55,7 +55,7 @@ const MaterialRecord& ShadedScene::materialOf(const SurfaceHit& hit) const
 {
     static const MaterialRecord otherwise = defaultMaterial();
     const uint32_t material = geometry_.view().clusters()[hit.cluster].material;
-    return material == kNone ? otherwise : geometry_.view().materials()[material];
+    return material == kInvalidIndex ? otherwise : geometry_.view().materials()[material];
 }
 
 Rgba ShadedScene::look(const TextureRef& texture, const SurfacePoint& point, double sample_size) const
@@ -103,7 +103,7 @@ Coating ShadedScene::coatingAt(const SurfaceHit& hit, const SurfacePoint& point,
     c.occlusion = 1 + double{material.occlusion_strength} * (occlusion - 1);
     c.emitted = Double3(material.emissive) * look(material.emissive_texture, point, sample_size).rgb;
     c.normal = point.normal;
-    if (material.normal_texture.image != kNone)
+    if (material.normal_texture.image != kInvalidIndex)
     {
         const Double3 n = look(material.normal_texture, point, sample_size).rgb * 2.0 - Double3{1, 1, 1};
         const double scale = double{material.normal_scale};

@@ -100,7 +100,7 @@ Rgba TextureSet::bilinear(const TextureRef& texture, uint32_t mip, double u, dou
 
 Rgba TextureSet::sample(const TextureRef& texture, Float2 uv, double footprint) const
 {
-    if (texture.image == kNone)
+    if (texture.image == kInvalidIndex)
         return {};
     const float* m = texture.uv_transform;
     const double u = double{m[0]} * double{uv.x} + double{m[1]} * double{uv.y} + double{m[2]};

@@ -258,7 +258,8 @@ static uint32_t memory_type(const c_caller* caller, uint32_t allowed, VkMemoryPr
 static const VkMemoryPropertyFlags mappable =
     VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 
-static VkResult allocate_piece(void* user, const hearth_memory_request* request, hearth_memory_piece* piece)
+static VkResult allocate_piece(void* user, const hearth_memory_request* request,
+                               hearth_memory_allocation* piece)
 {
     c_caller* caller = user;
     const int mapped = request->kind != HEARTH_MEMORY_DEVICE;
@@ -275,7 +276,7 @@ static VkResult allocate_piece(void* user, const hearth_memory_request* request,
     return result;
 }
 
-static void free_piece(void* user, const hearth_memory_piece* piece)
+static void free_piece(void* user, const hearth_memory_allocation* piece)
 {
     c_caller* caller = user;
     if (piece->allocation != user)
@@ -375,7 +376,7 @@ static hearth_result upload(c_caller* caller, hearth_renderer* renderer, hearth_
     const hearth_result result = hearth_scene_upload(renderer, pack, commands, &picture->scene, scene);
     if ((result == HEARTH_OK ? c_caller_submit(caller) : c_caller_discard(caller)) != VK_SUCCESS)
         return HEARTH_ERROR_DEVICE_FAILED;
-    return result == HEARTH_OK ? hearth_scene_uploaded(*scene) : result;
+    return result == HEARTH_OK ? hearth_scene_release_staging(*scene) : result;
 }
 
 /* Prefetches until a frame had all that it wanted, and begins the next. */
@@ -395,7 +396,7 @@ static hearth_result stream(c_caller* caller, hearth_scene* scene, hearth_target
         if (c_caller_submit(caller) != VK_SUCCESS)
             return HEARTH_ERROR_DEVICE_FAILED;
         if (result == HEARTH_OK)
-            result = hearth_scene_stream(scene, &picture->streaming);
+            result = hearth_scene_get_stream_counters(scene, &picture->streaming);
         if (result != HEARTH_OK)
             return result;
     }
@@ -421,8 +422,8 @@ static hearth_result record(c_caller* caller, hearth_scene* scene, hearth_target
                             const c_picture* picture, const readback* memory)
 {
     const VkDeviceSize image_bytes = (VkDeviceSize)picture->width * picture->height * 4;
-    hearth_targets_information images = HEARTH_TARGETS_INFORMATION_INIT;
-    hearth_result result = hearth_targets_inform(targets, &images);
+    hearth_targets_info images = HEARTH_TARGETS_INFO_INIT;
+    hearth_result result = hearth_targets_get_info(targets, &images);
     const VkCommandBuffer commands = c_caller_begin(caller);
     if (result == HEARTH_OK)
         result = record_frame(scene, targets, commands, picture);

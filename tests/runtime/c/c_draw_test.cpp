@@ -31,9 +31,9 @@ TEST_F(CApiTest, handsOnAllThatAFrameSays)
                         .flags = shared::kCullFrustum | shared::kCullCone,
                         .area = gpu::ShadedArea::tiles,
                         .lod_curve = {{0.5f, 0.7f}, {4, 1.3f}, {8, 0.2f}}};
-    for (const uint32_t shown : {HEARTH_SHOW_FINAL, HEARTH_SHOW_LOD, HEARTH_SHOW_OVERDRAW})
+    for (const uint32_t debug_view : {HEARTH_VIEW_FINAL, HEARTH_VIEW_LOD, HEARTH_VIEW_OVERDRAW})
     {
-        frame.shown = options.shown = shown;
+        frame.debug_view = options.debug_view = debug_view;
         const c_picture picture = drawInC(frame);
         expectEqual(picture, drawInCpp(options));
     }
@@ -56,9 +56,9 @@ TEST_F(CApiTest, castsTheShadowsOfTheRenderer)
     options.shadow_spheres = {&cpp_sphere, 1};
     drawInC(makeFrame());
     const std::vector<uint32_t> lit_color = color_;
-    for (const uint32_t shown : {HEARTH_SHOW_FINAL, HEARTH_SHOW_SHADOW_MAPS})
+    for (const uint32_t debug_view : {HEARTH_VIEW_FINAL, HEARTH_VIEW_SHADOW_MAPS})
     {
-        frame.shown = options.shown = shown;
+        frame.debug_view = options.debug_view = debug_view;
         expectEqual(drawInC(frame, c_options), drawInCpp(options));
         EXPECT_NE(color_, lit_color);
     }

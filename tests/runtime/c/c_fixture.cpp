@@ -32,7 +32,7 @@ hearth_frame makeFrame()
     return frame;
 }
 
-void Reader::read(void* user, uint32_t page, void* destination, size_t size, hearth_read done)
+void Reader::read(void* user, uint32_t page, void* destination, size_t size, hearth_page_read done)
 {
     auto& reader = *static_cast<Reader*>(user);
     reader.threads.emplace_back(

@@ -29,10 +29,10 @@ hearth_frame makeFrame();
 struct Reader
 {
     const hearth_pack* pack;
-    uint32_t bad_page = formats::kNone; ///< whose read fails
+    uint32_t bad_page = kInvalidIndex; ///< whose read fails
     std::vector<std::thread> threads;
 
-    static void read(void* user, uint32_t page, void* destination, size_t size, hearth_read done);
+    static void read(void* user, uint32_t page, void* destination, size_t size, hearth_page_read done);
     ~Reader();
 };
 

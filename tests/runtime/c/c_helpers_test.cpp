@@ -47,12 +47,12 @@ TEST_F(CHelpersTest, drawsAndReadsThePictureOfTheRenderer)
 {
     const hearth_scene_options options = HEARTH_SCENE_OPTIONS_INIT;
     const hearth_frame frame = makeFrame();
-    hearth_targets_information images = HEARTH_TARGETS_INFORMATION_INIT;
+    hearth_targets_info images = HEARTH_TARGETS_INFO_INIT;
     hearth_scene* scene = nullptr;
     hearth_targets* targets = nullptr;
     VkCommandBuffer commands = VK_NULL_HANDLE;
     ASSERT_EQ(hearth_targets_create(renderer_, kWidth, kHeight, &targets), HEARTH_OK);
-    ASSERT_EQ(hearth_targets_inform(targets, &images), HEARTH_OK);
+    ASSERT_EQ(hearth_targets_get_info(targets, &images), HEARTH_OK);
     ASSERT_EQ(hearth_device_begin(device_, &commands), HEARTH_OK);
     ASSERT_EQ(hearth_scene_upload(renderer_, pack_, commands, &options, &scene), HEARTH_OK);
     ASSERT_EQ(hearth_device_submit(device_), HEARTH_OK);

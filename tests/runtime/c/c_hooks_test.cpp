@@ -24,7 +24,7 @@ TEST_F(CApiTest, drawsInPartsThePictureOfTheRenderer)
 {
     in_parts_ = true;
     hearth_frame frame = makeFrame();
-    for (const gpu::ShadedArea area : {gpu::ShadedArea::wholePicture, gpu::ShadedArea::tiles})
+    for (const gpu::ShadedArea area : {gpu::ShadedArea::wholeFrame, gpu::ShadedArea::tiles})
     {
         frame.shaded_area = static_cast<uint32_t>(area);
         const c_picture picture = drawInC(frame);
@@ -64,18 +64,18 @@ TEST_F(CApiTest, partsSayWhatTheyDoWithTheImages)
 {
     for (uint32_t part = HEARTH_PART_CULL; part <= HEARTH_PART_MATERIALS; ++part)
     {
-        hearth_part_information information = HEARTH_PART_INFORMATION_INIT;
-        ASSERT_EQ(hearth_part_inform(part, &information), HEARTH_OK);
-        const gpu::PartImages images = gpu::imagesOf(static_cast<gpu::FramePart>(part));
-        test::expectEqual(information.color.before, images.color.before);
-        test::expectEqual(information.color.after, images.color.after);
-        test::expectEqual(information.visibility.before, images.visibility.before);
-        test::expectEqual(information.visibility.after, images.visibility.after);
+        hearth_part_info info = HEARTH_PART_INFO_INIT;
+        ASSERT_EQ(hearth_part_get_info(part, &info), HEARTH_OK);
+        const gpu::PartImages images = gpu::partImages(static_cast<gpu::FramePart>(part));
+        test::expectEqual(info.color.before, images.color.before);
+        test::expectEqual(info.color.after, images.color.after);
+        test::expectEqual(info.visibility.before, images.visibility.before);
+        test::expectEqual(info.visibility.after, images.visibility.after);
     }
-    hearth_part_information information = HEARTH_PART_INFORMATION_INIT;
-    EXPECT_EQ(hearth_part_inform(3, &information), HEARTH_ERROR_USAGE);
-    information.struct_size = 0;
-    EXPECT_EQ(hearth_part_inform(0, &information), HEARTH_ERROR_USAGE);
+    hearth_part_info info = HEARTH_PART_INFO_INIT;
+    EXPECT_EQ(hearth_part_get_info(3, &info), HEARTH_ERROR_USAGE);
+    info.struct_size = 0;
+    EXPECT_EQ(hearth_part_get_info(0, &info), HEARTH_ERROR_USAGE);
 }
 
 TEST_F(CApiTest, memoryComesFromTheCallerAndGoesBack)

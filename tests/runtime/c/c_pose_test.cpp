@@ -104,7 +104,7 @@ TEST_F(CPoseTest, posesThatCannotBeAreRefused)
 TEST_F(CPoseTest, aPlayerMovesWhatItsClipsMove)
 {
     TestScene test;
-    fillAnimatedRocks(test, test.addMesh(withMaterial(shapes::rock(20, 0.3f), formats::kNone)));
+    fillAnimatedRocks(test, test.addMesh(withMaterial(shapes::rock(20, 0.3f), kInvalidIndex)));
     const formats::PackView view = test.build();
     const AlignedBytes bytes = test.model().bytes();
     open(view, bytes);
@@ -129,8 +129,8 @@ TEST_F(CPoseTest, aPlayerMovesWhatItsClipsMove)
     EXPECT_EQ(player.goTo(&from, &to, 1.5, &message), HEARTH_ERROR_USAGE);
     EXPECT_EQ(player.goTo(nullptr, &to, 0.5, &message), HEARTH_ERROR_USAGE);
     ASSERT_EQ(player.goTo(&from, &to, 0.5, &message), HEARTH_OK) << message;
-    hearth_player_information pose = HEARTH_PLAYER_INFORMATION_INIT;
-    ASSERT_EQ(player.inform(pose), HEARTH_OK);
+    hearth_player_info pose = HEARTH_PLAYER_INFO_INIT;
+    ASSERT_EQ(player.getInfo(pose), HEARTH_OK);
     EXPECT_EQ(pose.pose_count, 0u);
     ASSERT_EQ(pose.move_count, 3u);
     EXPECT_EQ(pose.moves[0].world_from_object[0][3], 3.5f);

@@ -116,8 +116,8 @@ TEST_F(CApiTest, aPageThatLiesIsRefusedWhereverItIsRead)
     model.decoded_pages.clear();
     for (uint32_t page = 0; page < view_->pages().size(); ++page)
         model.decoded_pages.push_back(view_->decodePage(page).value());
-    const uint32_t indices =
-        formats::clusterBytes(formats::layoutOf(cluster, mesh.attributes), cluster.vertex_count, 0);
+    const uint32_t indices = formats::clusterBytes(formats::clusterVertexLayout(cluster, mesh.attributes),
+                                                   cluster.vertex_count, 0);
     ASSERT_LT(cluster.vertex_count, 255);
     model.decoded_pages[bad_page][cluster.page_word * 4 + indices] = std::byte{255};
     model.sealPages();
@@ -129,7 +129,7 @@ TEST_F(CApiTest, aPageThatLiesIsRefusedWhereverItIsRead)
               HEARTH_OK)
         << message_;
 
-    std::vector<std::byte> page(formats::kPageMaxBytes, std::byte{7});
+    std::vector<std::byte> page(formats::kMaxPageBytes, std::byte{7});
     const std::vector<std::byte> before = page;
     EXPECT_EQ(hearth_pack_read_page(pack_, bad_page, page.data(), page.size(), message_, sizeof(message_)),
               HEARTH_ERROR_FILE_MALFORMED);
@@ -187,20 +187,20 @@ TEST_F(CApiTest, nullArgumentsAreRefused)
     EXPECT_EQ(hearth_targets_create(renderer_, 1, 1, nullptr), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_targets_create(renderer_, 1, 0, &targets), HEARTH_ERROR_USAGE);
     EXPECT_THAT(hearth_last_error(renderer_), HasSubstr("width or height is 0"));
-    EXPECT_EQ(hearth_targets_inform(nullptr, nullptr), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_targets_get_info(nullptr, nullptr), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_scene_upload(renderer_, nullptr, nullptr, nullptr, &scene), HEARTH_ERROR_USAGE);
-    EXPECT_EQ(hearth_scene_uploaded(nullptr), HEARTH_ERROR_USAGE);
-    EXPECT_EQ(hearth_scene_inform(nullptr, nullptr), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_scene_release_staging(nullptr), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_scene_get_info(nullptr, nullptr), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_scene_begin_frame(nullptr, 1, 0), HEARTH_ERROR_USAGE);
-    EXPECT_EQ(hearth_scene_stream(nullptr, nullptr), HEARTH_ERROR_USAGE);
-    EXPECT_EQ(hearth_scene_shadows(nullptr, nullptr), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_scene_get_stream_counters(nullptr, nullptr), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_scene_get_shadow_counters(nullptr, nullptr), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_scene_retry_failed(nullptr), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_record_frame(nullptr, nullptr, nullptr, nullptr), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_record_prefetch(nullptr, nullptr, nullptr, nullptr), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_record_cull(nullptr, nullptr, nullptr, nullptr), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_record_visibility(nullptr, nullptr, nullptr, nullptr), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_record_materials(nullptr, nullptr, nullptr, nullptr), HEARTH_ERROR_USAGE);
-    EXPECT_EQ(hearth_part_inform(HEARTH_PART_CULL, nullptr), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_part_get_info(HEARTH_PART_CULL, nullptr), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_record_counters(nullptr, nullptr, VK_NULL_HANDLE, 0), HEARTH_ERROR_USAGE);
     EXPECT_STREQ(hearth_last_error(nullptr), "");
     EXPECT_EQ(hearth_pack_close(nullptr), HEARTH_OK);
@@ -270,12 +270,12 @@ TEST_F(CFrameRulesTest, framesThatBreakRulesAreRefused)
     EXPECT_THAT(refused([](F& f) { f.error_pixels = -1; }), HasSubstr("error_pixels"));
     EXPECT_THAT(refused([](F& f) { f.depth_scale = kNan; }), HasSubstr("depth_scale"));
     EXPECT_THAT(refused([](F& f) { f.cull_flags = 16; }), HasSubstr("cull_flags"));
-    EXPECT_THAT(refused([](F& f) { f.shown = 19; }), HasSubstr("shown"));
-    EXPECT_THAT(refused([](F& f) { f.shown = HEARTH_SHOW_GATHERED; }), HasSubstr("has bricks"));
+    EXPECT_THAT(refused([](F& f) { f.debug_view = 19; }), HasSubstr("debug_view"));
+    EXPECT_THAT(refused([](F& f) { f.debug_view = HEARTH_VIEW_GI; }), HasSubstr("has bricks"));
     EXPECT_THAT(refused([](F& f) { f.constant_sky = 2; }), HasSubstr("constant_sky"));
     EXPECT_THAT(refused([](F& f) { f.ambient_occlusion = 4; }), HasSubstr("ambient_occlusion"));
     EXPECT_THAT(refused([](F& f) { f.specular_occlusion = 3; }), HasSubstr("specular_occlusion"));
-    EXPECT_THAT(refused([](F& f) { f.shown = HEARTH_SHOW_SHADOW_MAPS; }), HasSubstr("with shadows"));
+    EXPECT_THAT(refused([](F& f) { f.debug_view = HEARTH_VIEW_SHADOW_MAPS; }), HasSubstr("with shadows"));
     EXPECT_THAT(refused([](F& f) { f.shaded_area = 3; }), HasSubstr("shaded_area"));
     EXPECT_THAT(refused([](F& f) { f.move_count = 1; }), HasSubstr("moves is NULL"));
     EXPECT_THAT(refused([](F& f) { f.pose_count = 1; }), HasSubstr("poses is NULL"));
@@ -304,9 +304,9 @@ TEST_F(CFrameRulesTest, aSceneWithoutABudgetDoesNotStream)
     const hearth_frame frame = makeFrame();
     EXPECT_EQ(hearth_scene_begin_frame(scene_, 1, 0), HEARTH_ERROR_USAGE);
     EXPECT_THAT(hearth_last_error(renderer_), HasSubstr("no geometry_budget"));
-    EXPECT_EQ(hearth_scene_stream(scene_, &counters), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_scene_get_stream_counters(scene_, &counters), HEARTH_ERROR_USAGE);
     hearth_shadow_counters shadows = HEARTH_SHADOW_COUNTERS_INIT;
-    EXPECT_EQ(hearth_scene_shadows(scene_, &shadows), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_scene_get_shadow_counters(scene_, &shadows), HEARTH_ERROR_USAGE);
     EXPECT_THAT(hearth_last_error(renderer_), HasSubstr("no shadows"));
     EXPECT_EQ(hearth_scene_retry_failed(scene_), HEARTH_ERROR_USAGE);
     const VkCommandBuffer commands = c_caller_begin(caller_);

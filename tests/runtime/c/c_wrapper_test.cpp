@@ -56,8 +56,8 @@ TEST_F(CWrapperTest, drawsAndDestroysInOrder)
     ASSERT_EQ(Renderer::create(c_caller_description(caller_), renderer), HEARTH_OK);
     Targets targets;
     ASSERT_EQ(Targets::create(renderer, 64, 48, targets), HEARTH_OK);
-    hearth_targets_information images = HEARTH_TARGETS_INFORMATION_INIT;
-    EXPECT_EQ(targets.inform(images), HEARTH_OK);
+    hearth_targets_info images = HEARTH_TARGETS_INFO_INIT;
+    EXPECT_EQ(targets.getInfo(images), HEARTH_OK);
     EXPECT_EQ(images.color.format, VK_FORMAT_R8G8B8A8_SRGB);
     EXPECT_EQ(images.visibility.format, VK_FORMAT_R32_UINT);
     EXPECT_EQ(images.color.after.layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
@@ -75,13 +75,13 @@ TEST_F(CWrapperTest, drawsAndDestroysInOrder)
     {
         ASSERT_EQ(Scene::upload(renderer, pack, c_caller_begin(caller_), options, scene), HEARTH_OK);
         ASSERT_EQ(c_caller_submit(caller_), VK_SUCCESS);
-        EXPECT_EQ(scene.uploaded(), HEARTH_OK);
+        EXPECT_EQ(scene.releaseStaging(), HEARTH_OK);
     }
-    hearth_scene_information information = HEARTH_SCENE_INFORMATION_INIT;
-    EXPECT_EQ(scene.inform(information), HEARTH_OK);
-    EXPECT_EQ(information.instance_count, 6u);
-    EXPECT_LT(information.box_min[0], information.box_max[0]);
-    EXPECT_GT(information.allocated_bytes, 0u);
+    hearth_scene_info info = HEARTH_SCENE_INFO_INIT;
+    EXPECT_EQ(scene.getInfo(info), HEARTH_OK);
+    EXPECT_EQ(info.instance_count, 6u);
+    EXPECT_LT(info.box_min[0], info.box_max[0]);
+    EXPECT_GT(info.allocated_bytes, 0u);
     VkCommandBuffer commands = c_caller_begin(caller_);
     EXPECT_EQ(scene.record(targets, commands, makeFrame()), HEARTH_OK);
     EXPECT_EQ(scene.recordCull(targets, commands, makeFrame()), HEARTH_OK);

@@ -161,13 +161,13 @@ TEST(EyeCell, isAsLargeAsTheTexelsOfTheMapAllow)
     const FrameView view = makeFrameView({.position = {3, -7, 1e4f}}, 1280, 720, 1, 1);
     for (const float texel_m : {0.001f, 0.02f, 0.3f})
     {
-        const EyeCell cell = eyeCell(view, texel_m, 2);
-        const float grown = cutError(view, 100 + cell.shift, 2) - cutError(view, 100, 2);
+        const EyeCell cell = findEyeCell(view, texel_m, 2);
+        const float grown = allowedCutError(view, 100 + cell.shift, 2) - allowedCutError(view, 100, 2);
         EXPECT_LE(grown, 0.5f * texel_m * 1.001f);
         EXPECT_GE(grown, 0.25f * texel_m * 0.99f);
     }
     // the cut of the source triangles does not depend on the eye
-    EXPECT_GT(eyeCell(makeFrameView({}, 64, 64, 0, 1), 0.01f, 1).shift, 500);
+    EXPECT_GT(findEyeCell(makeFrameView({}, 64, 64, 0, 1), 0.01f, 1).shift, 500);
 }
 
 /// Whatever is drawn, in the picture or into a map, is no farther off than its part of the offset.
@@ -183,7 +183,7 @@ TEST(CutOffset, boundsTheErrorsOfBothSurfaces)
         FrameView view = randomView(random);
         const LodKnot curve[] = {{5, between(random, 0.5f, 2)}, {80, between(random, 0.3f, 2)}};
         ASSERT_TRUE(setLodCurve(view, curve).ok());
-        const EyeCell cell = eyeCell(view, std::exp2(between(random, -10, 2)), kBias);
+        const EyeCell cell = findEyeCell(view, std::exp2(between(random, -10, 2)), kBias);
         ASSERT_LE(length(cell.eye - view.eye), cell.shift * 1.001f + 1e-4f);
         FrameView from_cell = view;
         from_cell.eye = cell.eye;
@@ -197,17 +197,17 @@ TEST(CutOffset, boundsTheErrorsOfBothSurfaces)
         if (!errorExceeds(view, unmoved(), center, radius, error))
         {
             ++seen;
-            EXPECT_LE(error, cutError(view, distance, 1) * slack);
+            EXPECT_LE(error, allowedCutError(view, distance, 1) * slack);
         }
         if (!errorExceeds(casters, unmoved(), center, radius, error))
         {
             ++cast;
-            EXPECT_LE(error, cutError(view, distance + cell.shift, kBias) * slack);
+            EXPECT_LE(error, allowedCutError(view, distance + cell.shift, kBias) * slack);
         }
     }
     EXPECT_GT(seen, 2000u);
     EXPECT_GT(cast, seen + 1000u);
-    EXPECT_EQ(shadowCutOffset(makeFrameView({}, 64, 64, 0, 1), 10, kBias, 5), 0);
+    EXPECT_EQ(shadowNormalOffset(makeFrameView({}, 64, 64, 0, 1), 10, kBias, 5), 0);
 }
 
 /// A plane that casts from where its coarser level lies, above the one that is seen.

@@ -44,7 +44,7 @@ TEST(SunMap, holdsItsSphere)
         for (int i = 0; i < 50; ++i)
         {
             const Float3 point = sphere.center + randomUnit(random) * sphere.radius;
-            ASSERT_TRUE(shadowMapHolds(map, shadowPoint(light, point - light.origin)));
+            ASSERT_TRUE(isInShadowMap(map, shadowPoint(light, point - light.origin)));
         }
     }
 }
@@ -116,7 +116,7 @@ TEST(SunMap, tinyAndHugeSpheresGetMapsThatFloatsCanAddress)
         const ShadowMap map = fitSunMap(light, sphere, kSize);
         ASSERT_TRUE(std::isfinite(map.scale_x) && map.scale_x > 0);
         EXPECT_LE(std::abs(map.offset_x), 0x1p21f);
-        EXPECT_TRUE(shadowMapHolds(map, shadowPoint(light, sphere.center - light.origin)));
+        EXPECT_TRUE(isInShadowMap(map, shadowPoint(light, sphere.center - light.origin)));
     }
 }
 
@@ -130,7 +130,7 @@ TEST(SplitSpheres, holdTheViewAndKeepTheirRadii)
         camera.target = camera.position + randomUnit(random);
         std::array<Sphere, 4> spheres{};
         const FrameView view = makeFrameView(camera, 1600, 1000, 1, 1);
-        splitSpheres(view, {.near = 0.1f, .far = 120, .blend = 0.8f}, spheres);
+        computeSplitSpheres(view, {.near = 0.1f, .far = 120, .blend = 0.8f}, spheres);
         if (run == 0)
             first = spheres;
         for (size_t i = 0; i < spheres.size(); ++i)
@@ -160,7 +160,7 @@ TEST(SpotMap, isAPartOfTheWholeConeScaledAndMoved)
     {
         const ShadowLight light = makeSpotShadow(randomUnit(random) * 20, randomUnit(random), 0.05f);
         const float tangent = coneTangent(between(random, 0.1f, 1.3f));
-        const ShadowMap whole = wholeConeMap(tangent, kSize);
+        const ShadowMap whole = makeConeMap(tangent, kSize);
         const Sphere sphere{light.origin + randomUnit(random) * between(random, 1, 15),
                             between(random, 0.05f, 2)};
         const auto map = fitSpotMap(light, tangent, sphere, kSize);
@@ -177,7 +177,7 @@ TEST(SpotMap, isAPartOfTheWholeConeScaledAndMoved)
             const ShadowPoint projected = shadowPoint(light, point);
             if (projected.known == 0 || std::abs(projected.x) > tangent || std::abs(projected.y) > tangent)
                 continue;
-            ASSERT_TRUE(shadowMapHolds(*map, projected));
+            ASSERT_TRUE(isInShadowMap(*map, projected));
             const Float2 texel = shadowTexel(*map, projected);
             EXPECT_NEAR(double{shadowTexel(whole, projected).x} * scale + offset, double{texel.x},
                         1e-3 + 2e-4 * scale);
@@ -217,7 +217,7 @@ TEST(SpotMap, takesTheExactBoundsOfASphere)
 TEST(SpotMap, isTheWholeConeForASphereAroundTheLight)
 {
     const ShadowLight light = makeSpotShadow({1, 2, 3}, {0, -1, 0.1f}, 0.05f);
-    const ShadowMap whole = wholeConeMap(1, kSize);
+    const ShadowMap whole = makeConeMap(1, kSize);
     for (const Sphere& sphere :
          {Sphere{{1, 2, 3}, 0.01f}, Sphere{{1.5f, 2, 3}, 0.6f}, Sphere{{1, 900, 3}, 1e6f}})
     {
@@ -249,7 +249,7 @@ TEST(SpotMap, ofATinySphereStaysAddressable)
         const auto map = fitSpotMap(light, 1, {{2, 1, -5}, radius}, kSize);
         ASSERT_TRUE(map.has_value());
         EXPECT_LE(map->scale_x, 0x1p20f);
-        EXPECT_TRUE(shadowMapHolds(*map, shadowPoint(light, {2, 1, -5})));
+        EXPECT_TRUE(isInShadowMap(*map, shadowPoint(light, {2, 1, -5})));
     }
 }
 
@@ -285,10 +285,10 @@ TEST(ShadowMaps, theFirstThatHoldsAPointIsTheDensestThatDoes)
             const Float3 point = randomUnit(random) * between(random, 0, 40);
             const ShadowMap* best = nullptr;
             for (const ShadowMap& map : maps)
-                if (shadowMapHolds(map, shadowPoint(light, point)) &&
+                if (isInShadowMap(map, shadowPoint(light, point)) &&
                     (best == nullptr || map.density > best->density))
                     best = &map;
-            EXPECT_EQ(mapHolding(light, maps, point), best);
+            EXPECT_EQ(findShadowMap(light, maps, point), best);
             found += best != nullptr;
         }
     }
@@ -298,10 +298,10 @@ TEST(ShadowMaps, theFirstThatHoldsAPointIsTheDensestThatDoes)
 TEST(ShadowMaps, nothingBehindASpotIsHeld)
 {
     const ShadowLight light = makeSpotShadow({0, 0, 0}, {0, 0, -1}, 0.05f);
-    const std::vector<ShadowMap> maps{wholeConeMap(1, kSize)};
-    EXPECT_NE(mapHolding(light, maps, {0.1f, 0.2f, -4}), nullptr);
-    EXPECT_EQ(mapHolding(light, maps, {0.1f, 0.2f, 4}), nullptr);
-    EXPECT_EQ(mapHolding(light, maps, {0, 0, 0}), nullptr);
+    const std::vector<ShadowMap> maps{makeConeMap(1, kSize)};
+    EXPECT_NE(findShadowMap(light, maps, {0.1f, 0.2f, -4}), nullptr);
+    EXPECT_EQ(findShadowMap(light, maps, {0.1f, 0.2f, 4}), nullptr);
+    EXPECT_EQ(findShadowMap(light, maps, {0, 0, 0}), nullptr);
 }
 
 } // namespace

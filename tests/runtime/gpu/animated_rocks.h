@@ -12,7 +12,7 @@ inline uint32_t addTrsNode(PackModel& model, uint32_t parent, Float3 translation
 {
     formats::NodeRecord node{};
     node.parent = parent;
-    node.mesh = node.skin = formats::kNone;
+    node.mesh = node.skin = kInvalidIndex;
     node.has_trs = 1;
     node.translation = translation;
     node.rotation = {0, 0, 0, 1};
@@ -50,7 +50,7 @@ inline void fillAnimatedRocks(TestScene& test, uint32_t mesh)
 {
     PackModel& model = test.model();
     test.addInstance(mesh, Affine3{});
-    const uint32_t node = addTrsNode(model, formats::kNone, {2, 0, 0});
+    const uint32_t node = addTrsNode(model, kInvalidIndex, {2, 0, 0});
     const uint32_t below = addTrsNode(model, node, {0, 1, 0});
     const auto add = [&](uint32_t on, Float3 place)
     {

@@ -23,7 +23,7 @@ using namespace shared;
 struct TestRay
 {
     Float3 origin;
-    float far = kBrickFar;
+    float far = kBrickInfinity;
     Float3 direction;
     float reserved = 0;
 };
@@ -53,7 +53,7 @@ auto scattered(uint32_t seed, double share)
     return [=](uint32_t x, uint32_t y, uint32_t z)
     {
         const auto at = [&](uint32_t size)
-        { return brickUnit(brickFaceSeed(x / size, y / size, z / size + seed, size)); };
+        { return brickRandomUnit(brickFaceSeed(x / size, y / size, z / size + seed, size)); };
         return at(16) < 0.7f && at(4) < 0.6f && static_cast<double>(at(1)) < share;
     };
 }
@@ -62,7 +62,7 @@ auto scattered(uint32_t seed, double share)
 FaceLook colourful(std::array<uint32_t, 3> v, uint32_t side)
 {
     const uint32_t seed = brickFaceSeed(v[0], v[1], v[2], side);
-    const auto unit = [&](uint32_t i) { return brickUnit(brickHash(seed + i)); };
+    const auto unit = [&](uint32_t i) { return brickRandomUnit(brickHash(seed + i)); };
     FaceLook look{{unit(0) * 0.9f, unit(1) * 0.9f, unit(2) * 0.9f}, {}};
     if (unit(3) < 0.05f)
         look.emission = {unit(4), unit(5) * 3, unit(6)};
@@ -187,7 +187,7 @@ TEST_F(BrickLightTest, marchesLikeTheCpuToTheBit)
         ASSERT_EQ(hits[2 * i], hitOf(masks, ray)) << i;
         found += ray.inside;
         if (ray.inside != 0)
-            ray = brickMarch(masks, brickPass(masks, ray));
+            ray = brickMarch(masks, brickSkipVoxel(masks, ray));
         ASSERT_EQ(hits[2 * i + 1], hitOf(masks, ray)) << i << ", second";
     }
     EXPECT_GT(found, rays.size() / 8);
@@ -208,7 +208,7 @@ TEST_F(BrickLightTest, lightsFacesLikeTheSolver)
     const uint32_t period = scene_->bricks->period;
     ASSERT_EQ(period, 3u);
 
-    bricks::FaceLighting solver(brickViewOf(model));
+    bricks::FaceLighting solver(makeBrickView(model));
     for (uint32_t frame = 0; frame < 7; ++frame)
     {
         drawFrames(1);
@@ -249,11 +249,11 @@ TEST_F(BrickLightTest, aFurnaceGoesToItsClosedForm)
         const float goal = kEmission / (1 - stored);
         drawFrames(static_cast<uint32_t>(std::ceil(std::log(0.005) / std::log(double{albedo}))));
         const std::vector<BrickLight> lit = faces();
-        const std::vector<FacePlace> places = facePlaces(model_);
+        const std::vector<FaceLocation> places = faceLocations(model_);
         size_t inside = 0;
         for (size_t i = 0; i < lit.size(); ++i)
         {
-            const FacePlace& at = places[i];
+            const FaceLocation& at = places[i];
             const bool outwards = at.voxel[at.side / 2] == (at.side % 2 == 0 ? 0 : kVoxels[at.side / 2] - 1);
             if (outwards)
                 continue;
@@ -275,10 +275,10 @@ TEST_F(BrickLightTest, aSealedRoomStaysDarkUnderTheSun)
                     }));
     drawFrames(6);
     const std::vector<BrickLight> lit = faces();
-    const std::vector<FacePlace> places = facePlaces(model_);
+    const std::vector<FaceLocation> places = faceLocations(model_);
     for (size_t i = 0; i < lit.size(); ++i)
     {
-        const FacePlace& at = places[i];
+        const FaceLocation& at = places[i];
         if (at.voxel[at.side / 2] == (at.side % 2 == 0 ? 0 : kVoxels[at.side / 2] - 1))
             EXPECT_GT(lit[i].code, 0u) << i; // of the outside: at least the sky's
         else
@@ -302,13 +302,13 @@ TEST_F(BrickLightTest, aLightThatGoesOutIsForgotten)
          {.faces_per_frame = 200});
     const uint32_t period = scene_->bricks->period;
     ASSERT_GT(period, 2u);
-    const std::vector<FacePlace> places = facePlaces(model_);
+    const std::vector<FaceLocation> places = faceLocations(model_);
     const auto brightest = [&]
     {
         float most = 0;
         const std::vector<BrickLight> lit = faces();
         for (size_t i = 0; i < lit.size(); ++i)
-            if (const FacePlace& at = places[i];
+            if (const FaceLocation& at = places[i];
                 at.voxel[at.side / 2] != (at.side % 2 == 0 ? 0 : kVoxels[at.side / 2] - 1))
                 most = std::max(most, decodeRadiance(lit[i].code).x);
         return most;
@@ -322,7 +322,7 @@ TEST_F(BrickLightTest, aLightThatGoesOutIsForgotten)
     const gpu::LightChange change = gpu::changeLight(*scene_, 0, out).value();
     drawFrames(1, {.lights = {&change, 1}});
     EXPECT_GT(scene_->bricks->quick_frames, 0u);
-    const uint32_t sweeps = bricks::sweepsToForget(kAlbedo, 0.01f);
+    const uint32_t sweeps = bricks::sweepsToDecay(kAlbedo, 0.01f);
     EXPECT_GT(brightest(), 0.2f * before);
     drawFrames(sweeps * period);
     EXPECT_LT(brightest(), 0.01f * before);
@@ -337,7 +337,7 @@ TEST_F(BrickLightTest, emissionChangesInABox)
                     }));
     const auto ceilingLight = [&](uint32_t x)
     {
-        const std::vector<FacePlace> places = facePlaces(model_);
+        const std::vector<FaceLocation> places = faceLocations(model_);
         const std::vector<BrickLight> lit = faces();
         for (size_t i = 0; i < places.size(); ++i)
             if (places[i].voxel == std::array<uint32_t, 3>{x, 7, 3} && places[i].side == 2)

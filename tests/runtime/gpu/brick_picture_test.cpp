@@ -115,7 +115,7 @@ Float3 lobeOf(const BrickScene& scene, const BrickSky& sky, const BrickStart& st
     for (uint32_t i = 0; i < kRays; ++i)
     {
         const GatherLobeRay ray = gatherLobeRay(to_eye, point.normal, roughness, i, kRays, 0);
-        sum += brickRayLight(scene, sky, start.place, ray.direction).radiance * ray.weight;
+        sum += brickRayLight(scene, sky, start.position, ray.direction).radiance * ray.weight;
         weights += ray.weight;
     }
     return sum / weights;
@@ -138,7 +138,7 @@ TEST_F(BrickPictureTest, gathersWhatTheCpuGathers)
     load();
     settled({}, 40);
     const Lighting lighting = gpu::makeLighting(*pack_);
-    bricks::FaceLighting solver(brickViewOf(model_));
+    bricks::FaceLighting solver(makeBrickView(model_));
     solver.sweep(lighting, scene_->bricks->rays, 24);
     const BrickSky sky{lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground};
     const BrickScene scene = solver.scene();
@@ -149,15 +149,15 @@ TEST_F(BrickPictureTest, gathersWhatTheCpuGathers)
     size_t count = 0;
     for (const GatherPoint& point : gathered)
     {
-        const Float3 place = (eye + point.position - model_.grid.origin) / model_.grid.voxel_size;
-        const BrickStart start = brickSurfaceStart(scene, place, point.normal);
+        const Float3 position = (eye + point.position - model_.grid.origin) / model_.grid.voxel_size;
+        const BrickStart start = brickSurfaceStart(scene, position, point.normal);
         // corners: the device looks for air elsewhere, too
-        if (start.buried != 0 || length(start.place - place) > 2)
+        if (start.is_interior != 0 || length(start.position - position) > 2)
             continue;
         ++count;
         const Float3 truth = brickGather(scene, sky, start, 512, 1);
-        const Float3 sharp = lobeOf(scene, sky, start, point, kGatherSharp);
-        const Float3 wide = lobeOf(scene, sky, start, point, kGatherWide);
+        const Float3 sharp = lobeOf(scene, sky, start, point, kGatherSharpRoughness);
+        const Float3 wide = lobeOf(scene, sky, start, point, kGatherWideRoughness);
         const Float3 sharp_found{point.red.w, point.green.w, point.blue.w};
         for (int c = 0; c < 3; ++c)
         {
@@ -244,29 +244,29 @@ TEST_F(BrickPictureTest, whatMovesReceivesLight)
         EXPECT_GT(green, 0);
         return red / green;
     };
-    const double far = rednessOfCard(settled({.shown = kViewGathered}));
+    const double far = rednessOfCard(settled({.debug_view = kViewGi}));
     const gpu::InstanceMove move = gpu::moveInstance(*scene_, kCard, translated(kCardNear)).value();
-    frame({.shown = kViewGathered, .moves = {&move, 1}});
-    const double near = rednessOfCard(settled({.shown = kViewGathered}, 8));
+    frame({.debug_view = kViewGi, .moves = {&move, 1}});
+    const double near = rednessOfCard(settled({.debug_view = kViewGi}, 8));
     EXPECT_GT(near, 1.15 * far);
 }
 
 TEST_F(BrickPictureTest, withoutTheirLightThePictureIsThatOfAPackWithoutBricks)
 {
     load();
-    const Picture off = frame({.bricks_light = false});
+    const Picture off = frame({.gi = false});
     const Picture on = frame();
     EXPECT_NE(off.color, on.color);
     test_ = TestScene();
     load(false);
-    EXPECT_EQ(frame({.bricks_light = false}).color, off.color);
+    EXPECT_EQ(frame({.gi = false}).color, off.color);
     EXPECT_EQ(frame().color, off.color);
 }
 
 TEST_F(BrickPictureTest, tilesAndPartsShowTheSame)
 {
     load();
-    const Picture whole = settled({.area = gpu::ShadedArea::wholePicture}, 2);
+    const Picture whole = settled({.area = gpu::ShadedArea::wholeFrame}, 2);
     targets_.emplace(makeTargets(kWidth, kHeight));
     scene_ = upload(*pack_);
     EXPECT_EQ(settled({.area = gpu::ShadedArea::tiles}, 2).color, whole.color);
@@ -275,8 +275,8 @@ TEST_F(BrickPictureTest, tilesAndPartsShowTheSame)
 TEST_F(BrickPictureTest, showsBricksAndTheirLight)
 {
     load();
-    const Picture lit = settled({.shown = kViewBrickLighting}, 8);
-    const Picture cells = frame({.shown = kViewBricks});
+    const Picture lit = settled({.debug_view = kViewBrickLighting}, 8);
+    const Picture cells = frame({.debug_view = kViewBricks});
     const auto red = std::count_if(lit.color.begin(), lit.color.end(),
                                    [](uint32_t c)
                                    { return channel(c, 0) > 200 && 2 * channel(c, 0) > 3 * channel(c, 1); });

@@ -25,15 +25,15 @@ BrickModel brickModel(std::array<uint32_t, 3> voxels,
 void setBricks(TestScene& scene, const BrickModel& bricks);
 
 /// What the cookers' library reads of a model, which must outlive it.
-bricks::BrickView brickViewOf(const BrickModel& model);
+bricks::BrickView makeBrickView(const BrickModel& model);
 
 /// Voxel and side of each face.
-struct FacePlace
+struct FaceLocation
 {
     std::array<uint32_t, 3> voxel;
     uint32_t side;
 };
-std::vector<FacePlace> facePlaces(const BrickModel& model);
+std::vector<FaceLocation> faceLocations(const BrickModel& model);
 
 /// The shell of a box: solid within `thick` voxels of its outside.
 inline auto shellOf(std::array<uint32_t, 3> voxels, uint32_t thick = 1)

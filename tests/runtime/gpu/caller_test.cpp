@@ -118,12 +118,12 @@ public:
     std::map<VkDeviceMemory, VkDeviceSize> live;
 
 private:
-    static VkResult allocate(void* user, const gpu::MemoryRequest& request, gpu::MemoryPiece& piece)
+    static VkResult allocate(void* user, const gpu::MemoryRequest& request, gpu::MemoryAllocation& piece)
     {
         return static_cast<Allocator*>(user)->give(request, piece);
     }
 
-    static void free(void* user, const gpu::MemoryPiece& piece)
+    static void free(void* user, const gpu::MemoryAllocation& piece)
     {
         auto* self = static_cast<Allocator*>(user);
         EXPECT_EQ(piece.allocation, user);
@@ -131,7 +131,7 @@ private:
         self->device_.vk.vkFreeMemory(self->device_.handle, piece.memory, nullptr);
     }
 
-    VkResult give(const gpu::MemoryRequest& request, gpu::MemoryPiece& piece)
+    VkResult give(const gpu::MemoryRequest& request, gpu::MemoryAllocation& piece)
     {
         if (requests++ == refused)
             return VK_ERROR_OUT_OF_DEVICE_MEMORY;
@@ -214,7 +214,7 @@ protected:
         spy = {};
         spy.get_instance_proc_addr = host().description().get_instance_proc_addr;
         std::mt19937 random(5);
-        const uint32_t mesh = test_.addMesh(withMaterial(shapes::rock(30, 0.2f), formats::kNone));
+        const uint32_t mesh = test_.addMesh(withMaterial(shapes::rock(30, 0.2f), kInvalidIndex));
         for (int i = 0; i < 3; ++i)
             test_.addInstance(mesh, randomAffine(random, 2));
     }
@@ -269,7 +269,7 @@ protected:
                 {
                     renderer.record(commands, *scene, targets,
                                     {.view = viewOf(*scene, camera, shown),
-                                     .shading = {.shown = shown.shown, .area = shown.area}});
+                                     .shading = {.debug_view = shown.debug_view, .area = shown.area}});
                     return success();
                 }));
         }
@@ -277,7 +277,7 @@ protected:
     }
 
     /// Reads at once, and page `bad` never.
-    pack::PageReader reader(uint32_t bad = formats::kNone)
+    pack::PageReader reader(uint32_t bad = kInvalidIndex)
     {
         return [this, bad](uint32_t page, std::span<std::byte> destination, pack::ReadDone done)
         { done(page != bad && pack_->decodePage(page, destination).ok()); };
@@ -371,7 +371,7 @@ TEST_F(CallerTest, itsDebuggerSeesThePassesInOrder)
     EXPECT_EQ(spy.open_labels, 0u);
 
     spy.labels.clear();
-    (void)drawOnce(labelled, {}, {.flags = shared::kCullFrustum, .area = gpu::ShadedArea::wholePicture});
+    (void)drawOnce(labelled, {}, {.flags = shared::kCullFrustum, .area = gpu::ShadedArea::wholeFrame});
     spy.labels.resize(4);
     EXPECT_EQ(spy.labels, (std::vector<std::string>{"cull", "visibility", "material depth", "shading"}));
 }

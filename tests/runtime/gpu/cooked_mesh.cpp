@@ -45,7 +45,7 @@ bool mixesLevels(const formats::PackView& view, const std::vector<uint32_t>& cut
 
 mesh::SourceMesh plain(mesh::SourceMesh mesh)
 {
-    return withMaterial(std::move(mesh), formats::kNone);
+    return withMaterial(std::move(mesh), kInvalidIndex);
 }
 
 CookedMesh rockWithAuthoredLevels()

@@ -199,7 +199,7 @@ TEST_F(CullTest, thePyramidHoldsTheFarthestDepthOfEveryTexel)
             << "nothing hides in the first frame";
         std::vector<float> depth;
         for (const auto& [instance, cluster, triangle] : picture.seen())
-            depth.push_back(instance == kNothingVisible ? 0.0f : camera.z_near / distances[instance]);
+            depth.push_back(instance == kVisibilitySky ? 0.0f : camera.z_near / distances[instance]);
         const std::vector<float> expected = makePyramid(depth, width, height);
         const std::vector<float> texels = readPyramid(targets).texels;
         ASSERT_EQ(texels.size(), expected.size());
@@ -260,7 +260,7 @@ TEST_F(CullTest, drawsNothingOfAnEmptyScene)
     const Picture picture = draw(*scene, {});
     EXPECT_EQ(picture.list.counters.drawn_clusters, 0u);
     for (const uint32_t id : picture.visibility)
-        ASSERT_EQ(id, kNothingVisible);
+        ASSERT_EQ(id, kVisibilitySky);
     // the sky: brighter above than below
     EXPECT_GT(channel(picture.at(80, 2), 2), channel(picture.at(80, 117), 2));
 }

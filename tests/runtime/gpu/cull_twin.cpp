@@ -68,15 +68,15 @@ public:
     {
         return at<DeformedCluster>(pose.cluster_row + cluster * kDeformedClusterRows);
     }
-    CarriedBox box(const Instance& instance, const Pose& pose, const DeformedCluster& cluster) const
+    TransformedBox box(const Instance& instance, const Pose& pose, const DeformedCluster& cluster) const
     {
         if ((pose.flags & kPoseFree) == 0)
             return boxInClips(instance, joint(pose, cluster.joint), cluster);
-        CarriedBox box = grownBy(emptyFreeBox(instance), joint(pose, cluster.joint), cluster.bind_min,
-                                 cluster.bind_max, pose.free_stretch);
+        TransformedBox box = growByJoint(makeEmptyFreeBox(instance), joint(pose, cluster.joint),
+                                         cluster.bind_min, cluster.bind_max, pose.free_box_scale);
         for (uint32_t i = 1; i < cluster.joint_count; ++i)
-            box = grownBy(box, joint(pose, words_[cluster.first_joint + i]), cluster.bind_min,
-                          cluster.bind_max, pose.free_stretch);
+            box = growByJoint(box, joint(pose, words_[cluster.first_joint + i]), cluster.bind_min,
+                              cluster.bind_max, pose.free_box_scale);
         return box;
     }
 
@@ -199,8 +199,8 @@ private:
             return isHidden(pyramid, instance, clusterBoxMin(clusters_[number], state.grid_step),
                             clusterBoxMax(clusters_[number], state.grid_step));
         const Pose pose = poses_.pose(item.instance);
-        const CarriedBox box = poses_.box(instance, pose, poses_.cluster(pose, number));
-        return isHidden({occlusionFromOrigin(pyramid.view, instance), pyramid.texels}, box.carrier,
+        const TransformedBox box = poses_.box(instance, pose, poses_.cluster(pose, number));
+        return isHidden({occlusionFromOrigin(pyramid.view, instance), pyramid.texels}, box.joint_instance,
                         box.box_min, box.box_max);
     }
 
@@ -394,7 +394,7 @@ std::vector<uint32_t> makeRequestTwin(const formats::PackView& pack, const gpu::
         const auto ask = [&](uint32_t group)
         {
             uint32_t& request = requests[groups[group - groups[group].set_offset].page];
-            request = std::max(request, groupRequest(view, instance, groupInPose(groups[group], pose)));
+            request = std::max(request, groupPriority(view, instance, groupInPose(groups[group], pose)));
         };
         const formats::Range range = pack.meshes()[pack.instances()[i].mesh].clusters;
         for (uint32_t c = range.first; c < range.first + range.count; ++c)
@@ -413,7 +413,7 @@ void applyPoses(std::span<const gpu::InstancePose> poses, gpu::SceneLayout& layo
     for (const gpu::InstancePose& pose : poses)
     {
         const gpu::DeformedInstance* instance = gpu::findDeformed(layout.deformation, pose.instance);
-        gpu::PosedRows rows;
+        gpu::PoseRows rows;
         HEARTH_ASSERT(instance != nullptr && gpu::poseInstance(*instance, pose, rows));
         layout.instances[pose.instance] = rows.record;
         layout.bounds[rows.record.mesh] = rows.bounds;

@@ -41,7 +41,7 @@ Twin makeTwin(const formats::PackView& pack, const gpu::SceneLayout& layout, con
               const Pyramid& last = {}, const Pyramid& current = {},
               std::span<const uint8_t> resident_groups = {});
 
-/// For each page what shared::groupRequest says at most.
+/// For each page what shared::groupPriority says at most.
 std::vector<uint32_t> makeRequestTwin(const formats::PackView& pack, const gpu::SceneLayout& layout,
                                       const shared::FrameView& view);
 

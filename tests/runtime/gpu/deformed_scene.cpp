@@ -142,7 +142,7 @@ std::vector<Affine3d> randomPalette(uint32_t joint_count, double most_rad, std::
     {
         const double stretch = static_cast<double>(uniform(random, 0.85f, 1.15f));
         world_from_joint = world_from_joint * moved(joint == 0 ? 0 : step) *
-                           affineFromTrs({}, randomRotation(random, most_rad), {1, stretch, 1});
+                           makeAffineFromTrs({}, randomRotation(random, most_rad), {1, stretch, 1});
         palette.push_back(world_from_joint * moved(-step * joint));
     }
     return palette;
@@ -318,7 +318,7 @@ DeformedScene::DeformedScene(const DeformedSceneOptions& options, uint32_t seed)
 
     mesh::SourceMesh blob = withMaterial(makeTube(options.rings / 2, 20), material);
     addMorphTargets(blob, 2);
-    addDeformed(test_.addMesh(blob, config), kNone, 1, options.pose_count, random);
+    addDeformed(test_.addMesh(blob, config), kInvalidIndex, 1, options.pose_count, random);
     addInstances(meshes_.back(), options.blobs, random);
 
     if (options.visibility)
@@ -346,8 +346,8 @@ uint32_t DeformedScene::addSkin(uint32_t joint_count)
     for (uint32_t joint = 0; joint < joint_count; ++joint)
     {
         NodeRecord node{};
-        node.parent = joint == 0 ? kNone : static_cast<uint32_t>(model.nodes.size()) - 1;
-        node.mesh = node.skin = kNone;
+        node.parent = joint == 0 ? kInvalidIndex : static_cast<uint32_t>(model.nodes.size()) - 1;
+        node.mesh = node.skin = kInvalidIndex;
         node.has_trs = 1;
         node.translation = {0, joint == 0 ? 0.0f : step, 0};
         node.rotation = {0, 0, 0, 1};
@@ -358,7 +358,7 @@ uint32_t DeformedScene::addSkin(uint32_t joint_count)
                                 translated({0, -step * static_cast<float>(joint), 0})});
         model.nodes.push_back(node);
     }
-    model.skins.push_back({{}, kNone, {first, joint_count}, 0});
+    model.skins.push_back({{}, kInvalidIndex, {first, joint_count}, 0});
     return static_cast<uint32_t>(model.skins.size()) - 1;
 }
 
@@ -398,7 +398,7 @@ void DeformedScene::boundMesh(const Mesh& mesh)
     DeformedMeshRecord deformed{};
     deformed.mesh = mesh.mesh;
     deformed.skin = mesh.skin;
-    deformed.anchor = mesh.skin == kNone ? 0 : 2;
+    deformed.anchor = mesh.skin == kInvalidIndex ? 0 : 2;
     deformed.clusters = {static_cast<uint32_t>(model.deformed_clusters.size()), record.clusters.count};
     Box3 all;
     std::vector<Box3> anchored(record.clusters.count);
@@ -453,7 +453,7 @@ void DeformedScene::boundGroups(const Mesh& mesh, std::span<const Box3> boxes)
         float radius = 0.5f * length(box.max - box.min);
         for (uint32_t c = 0; c < group.clusters.count; ++c)
             if (const uint32_t refined = model.clusters[group.clusters.first + c].refined_group;
-                refined != kNone)
+                refined != kInvalidIndex)
                 radius = std::max(radius, length(model.groups[refined].sphere_center - group.sphere_center) +
                                               model.groups[refined].sphere_radius);
         group.sphere_radius = radius * 1.00001f;
@@ -472,7 +472,7 @@ Affine3d DeformedScene::placeOf(uint32_t instance, std::mt19937& random) const
     const float r = options_.reach;
     const double scale = static_cast<double>(uniform(random, 0.6f, 1.6f));
     const double side = (pack_->instances()[instance].flags & kInstanceMirrored) != 0 ? -1 : 1;
-    return affineFromTrs(
+    return makeAffineFromTrs(
         widen(Float3{uniform(random, -r, r), uniform(random, -r, r), uniform(random, -r, r)}),
         randomRotation(random, 3.1), {scale * side, scale, scale});
 }

@@ -172,7 +172,7 @@ TEST_F(DrawingTest, littleIsDrawnThatIsNotSeen)
     const Picture picture = draw(*scene, targets, camera, options);
     std::set<std::pair<uint32_t, uint32_t>> owners;
     for (const auto& [instance, cluster, triangle] : picture.seen())
-        if (instance != kNothingVisible)
+        if (instance != kVisibilitySky)
             owners.emplace(instance, cluster);
     EXPECT_GT(owners.size(), 200u);
     EXPECT_LE(static_cast<double>(picture.list.slots.size()), 1.6 * static_cast<double>(owners.size()));
@@ -204,7 +204,7 @@ TEST_F(DrawingTest, everySizeIsDrawn)
     {
         const Picture picture = draw(*scene, lookingAtOrigin({6, 4, 6}), {.width = width, .height = height});
         EXPECT_EQ(picture.color.size(), size_t{width} * height);
-        EXPECT_NE(picture.visibility[height / 2 * width + width / 2], kNothingVisible);
+        EXPECT_NE(picture.visibility[height / 2 * width + width / 2], kVisibilitySky);
     }
 }
 
@@ -235,7 +235,7 @@ TEST_F(DrawingTest, frontFacesAreCounterClockwiseAlsoWhenMirrored)
     {
         uint32_t seen = 0;
         for (const auto& [instance, cluster, triangle] : picture.seen())
-            if (instance != kNothingVisible)
+            if (instance != kVisibilitySky)
                 seen |= 1u << instance;
         return seen;
     };
@@ -269,7 +269,7 @@ TEST_F(DrawingTest, blendedSurfacesCoverAsManyPixelsAsTheirAlphaSays)
         const auto scene = upload(pack);
         const Picture picture = draw(*scene, lookingAtOrigin({0, 0, 4}), {.width = 64, .height = 64});
         const auto covered =
-            4096 - std::count(picture.visibility.begin(), picture.visibility.end(), kNothingVisible);
+            4096 - std::count(picture.visibility.begin(), picture.visibility.end(), kVisibilitySky);
         EXPECT_EQ(covered, static_cast<long>(4096 * alpha));
     }
 }
@@ -287,8 +287,8 @@ TEST_F(DrawingTest, maskedSurfacesHaveTheHolesOfTheirTexture)
     const formats::PackView pack = test.build();
     const auto scene = upload(pack);
     const Picture picture = draw(*scene, lookingAtOrigin({0, 0, 4}));
-    EXPECT_NE(picture.visibility[60 * 160 + 70], kNothingVisible);
-    EXPECT_EQ(picture.visibility[60 * 160 + 90], kNothingVisible);
+    EXPECT_NE(picture.visibility[60 * 160 + 70], kVisibilitySky);
+    EXPECT_EQ(picture.visibility[60 * 160 + 90], kVisibilitySky);
 }
 
 TEST_F(DrawingTest, geometryInEverySliceOfThePoolIsDrawn)
@@ -311,7 +311,7 @@ TEST_F(DrawingTest, geometryInEverySliceOfThePoolIsDrawn)
     for (uint32_t i = 0; i < kPages; ++i)
     {
         std::vector<std::byte> bytes = *page;
-        bytes.resize(formats::kPageMaxBytes);
+        bytes.resize(formats::kMaxPageBytes);
         model.decoded_pages.push_back(std::move(bytes));
         model.pages.push_back(page_record);
         model.pages.back().clusters = {i, 1};

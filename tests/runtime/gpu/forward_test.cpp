@@ -162,7 +162,7 @@ protected:
             for (uint32_t x = 0; x < options.width; ++x)
             {
                 const uint32_t left = x & ~1u, top = y & ~1u, seen = id(x, y);
-                if (seen == kNothingVisible || id(left, top) != seen || id(left + 1, top) != seen ||
+                if (seen == kVisibilitySky || id(left, top) != seen || id(left + 1, top) != seen ||
                     id(left, top + 1) != seen || id(left + 1, top + 1) != seen)
                     continue;
                 ++compared_;
@@ -190,7 +190,7 @@ TEST_F(ForwardTest, shadesAsTheRasteriserWould)
     formats::MaterialRecord one_sided = texturedMaterial(test, Mips::all);
     formats::MaterialRecord two_sided = one_sided;
     two_sided.flags = formats::kMaterialDoubleSided;
-    two_sided.normal_texture = textureOf(formats::kNone);
+    two_sided.normal_texture = textureOf(kInvalidIndex);
     formats::MaterialRecord unlit = plainMaterial();
     unlit.flags = formats::kMaterialUnlit;
     unlit.base_color_texture = one_sided.base_color_texture;
@@ -260,7 +260,7 @@ TEST_F(ForwardTest, uvDerivativesAreThoseOfTheExactPlane)
         for (uint32_t pixel = 0; pixel < seen.size(); ++pixel)
         {
             const uint32_t instance = seen[pixel][0];
-            if (instance == kNothingVisible)
+            if (instance == kVisibilitySky)
                 continue;
             const double x = pixel % options.width + 0.5, y = pixel / options.width + 0.5;
             const auto uv = [&](double dx, double dy)

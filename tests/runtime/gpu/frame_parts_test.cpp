@@ -12,7 +12,7 @@ namespace
 {
 
 using gpu::FramePart;
-using gpu::imagesOf;
+using gpu::partImages;
 
 class FramePartsTest : public GpuTest
 {
@@ -70,8 +70,8 @@ protected:
     /// What a caller may do between two parts: with barriers made from what they say of the image alone.
     void copyVisibility(const gpu::FrameTargets& targets)
     {
-        const gpu::ImageState drawn = imagesOf(FramePart::visibility).visibility.after;
-        const gpu::ImageState wanted = imagesOf(FramePart::materials).visibility.before;
+        const gpu::ImageState drawn = partImages(FramePart::visibility).visibility.after;
+        const gpu::ImageState wanted = partImages(FramePart::materials).visibility.before;
         const gpu::ImageState copied{VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_TRANSFER_BIT,
                                      VK_ACCESS_TRANSFER_READ_BIT};
         run([&](VkCommandBuffer commands) { transition(commands, targets.visibility(), drawn, copied); });
@@ -114,7 +114,7 @@ protected:
             if (parts->stream != nullptr)
                 parts->stream->beginFrame(frame, frame - 1);
             const gpu::FrameInput input{.view = viewOf(*parts, camera, options),
-                                        .shading = {.shown = options.shown, .area = options.area}};
+                                        .shading = {.debug_view = options.debug_view, .area = options.area}};
             const bool in_one = frame % 2 == 0;
             const Picture picture = in_one ? drawInOneBuffer(*parts, parts_targets, input)
                                            : drawInParts(*parts, parts_targets, input);
@@ -137,7 +137,7 @@ protected:
 
 TEST_F(FramePartsTest, areTheFrameWithTilesAndWithout)
 {
-    for (const gpu::ShadedArea area : {gpu::ShadedArea::wholePicture, gpu::ShadedArea::tiles})
+    for (const gpu::ShadedArea area : {gpu::ShadedArea::wholeFrame, gpu::ShadedArea::tiles})
         expectSame({.area = area});
 }
 
@@ -148,8 +148,8 @@ TEST_F(FramePartsTest, areTheFrameInOnePhase)
 
 TEST_F(FramePartsTest, areTheDebugViews)
 {
-    expectSame({.shown = shared::kViewClusters});
-    expectSame({.shown = shared::kViewOverdraw});
+    expectSame({.debug_view = shared::kViewClusters});
+    expectSame({.debug_view = shared::kViewOverdraw});
 }
 
 TEST_F(FramePartsTest, areTheFrameOfAStreamedScene)

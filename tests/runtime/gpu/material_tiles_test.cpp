@@ -37,8 +37,8 @@ std::vector<std::set<uint32_t>> materialsOfTiles(const Picture& picture,
         {
             const uint32_t id = picture.visibility[size_t{y} * picture.width + x];
             materials[size_t{y / kMaterialTilePixels} * row + x / kMaterialTilePixels].insert(
-                id == kNothingVisible ? 0
-                                      : draws[picture.list.slots.at(id >> kTriangleBits).cluster].material);
+                id == kVisibilitySky ? 0
+                                     : draws[picture.list.slots.at(id >> kTriangleBits).cluster].material);
         }
     return materials;
 }
@@ -135,7 +135,7 @@ protected:
         whole_picture_ += twin.whole_picture_draws;
         listed_ += twin.lists.size();
 
-        options.area = ShadedArea::wholePicture;
+        options.area = ShadedArea::wholeFrame;
         const Picture whole = draw(scene, camera, options);
         EXPECT_EQ(picture.visibility, whole.visibility);
         EXPECT_EQ(picture.color, whole.color) << options.width << "x" << options.height;
@@ -189,8 +189,8 @@ TEST_F(MaterialTilesTest, debugViewsAreTheSameToo)
     const auto layout = gpu::makeSceneLayout(pack);
     ASSERT_TRUE(layout.ok());
     const auto scene = upload(pack);
-    for (const uint32_t shown : {kViewClusters, kViewNormals})
-        expectTwin(*scene, *layout, lookingFrom(5), {.shown = shown});
+    for (const uint32_t debug_view : {kViewClusters, kViewNormals})
+        expectTwin(*scene, *layout, lookingFrom(5), {.debug_view = debug_view});
 }
 
 TEST_F(MaterialTilesTest, areMadeWhereThereAreManyMaterials)
@@ -204,8 +204,8 @@ TEST_F(MaterialTilesTest, areMadeWhereThereAreManyMaterials)
         const formats::PackView pack = test.build();
         return gpu::shadesTiles(*upload(pack), ShadedArea::automatic);
     };
-    EXPECT_FALSE(shadesTiles(gpu::kWholePictureMaterials));
-    EXPECT_TRUE(shadesTiles(gpu::kWholePictureMaterials + 1));
+    EXPECT_FALSE(shadesTiles(gpu::kWholeFrameMaterials));
+    EXPECT_TRUE(shadesTiles(gpu::kWholeFrameMaterials + 1));
 }
 
 } // namespace hearth::test

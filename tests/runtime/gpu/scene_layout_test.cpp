@@ -32,7 +32,7 @@ void fillMixed(TestScene& scene)
     const uint32_t materials[] = {scene.addMaterial(materialWith(0, AlphaMode::opaque)),
                                   scene.addMaterial(materialWith(kMaterialDoubleSided, AlphaMode::opaque)),
                                   scene.addMaterial(materialWith(0, AlphaMode::mask)),
-                                  scene.addMaterial(materialWith(0, AlphaMode::blend)), kNone};
+                                  scene.addMaterial(materialWith(0, AlphaMode::blend)), kInvalidIndex};
     mesh::SourceMesh mesh = shapes::rock(12, 0.2f);
     mesh.triangle_materials.resize(mesh.triangleCount());
     for (size_t t = 0; t < mesh.triangleCount(); ++t)
@@ -84,8 +84,8 @@ TEST(SceneLayout, binsAgreeWithMaterialAndInstance)
             {
                 const shared::WorkItem& item = layout->items[i];
                 const uint32_t material = pack.clusters()[layout->order[item.first + c]].material;
-                const uint32_t flags = material == kNone ? 0 : pack.materials()[material].flags;
-                const bool tested = material != kNone && pack.materials()[material].alpha_mode != 0;
+                const uint32_t flags = material == kInvalidIndex ? 0 : pack.materials()[material].flags;
+                const bool tested = material != kInvalidIndex && pack.materials()[material].alpha_mode != 0;
                 EXPECT_EQ(bin.alpha_tested, tested);
                 EXPECT_EQ(bin.material_row, tested ? material : 0);
                 const Facing facing = (flags & kMaterialDoubleSided) != 0 ? Facing::doubleSided
@@ -101,7 +101,7 @@ TEST(SceneLayout, binsAgreeWithMaterialAndInstance)
 TEST(SceneLayout, pagesLieApartAndInsideTheirSlices)
 {
     TestScene test;
-    test.addMesh(withMaterial(shapes::rock(40, 0.3f), kNone));
+    test.addMesh(withMaterial(shapes::rock(40, 0.3f), kInvalidIndex));
     test.addInstance(0, Affine3{});
     const PackView pack = test.build();
     const auto layout = gpu::makeSceneLayout(pack);
@@ -129,7 +129,7 @@ TEST(SceneLayout, E4004_moreGeometryThanThePoolHolds)
     TestScene test;
     test.addInstance(test.addMesh(makeQuad(1, 1)), Affine3{});
     PackModel model = test.model();
-    model.pages[0].size = kPageMaxBytes; // only the tables are looked at
+    model.pages[0].size = kMaxPageBytes; // only the tables are looked at
     model.pages.resize(8193, model.pages[0]);
     const AlignedBytes bytes = model.bytes();
     auto reader = ContainerReader::fromBytes(bytes.span(), "big");
@@ -145,7 +145,7 @@ TEST(SceneLayout, E4004_moreGeometryThanThePoolHolds)
 TEST(PoolLayout, holdsThePinnedPagesAndSlotsWithinTheBudget)
 {
     TestScene test;
-    test.addInstance(test.addMesh(withMaterial(shapes::rock(40, 0.3f), kNone)), Affine3{});
+    test.addInstance(test.addMesh(withMaterial(shapes::rock(40, 0.3f), kInvalidIndex)), Affine3{});
     const PackView pack = test.build();
     const pack::PageGraph graph = pack::PageGraph::of(pack);
     const size_t others = graph.pageCount() - graph.pinned().size();
@@ -191,7 +191,7 @@ TEST(PoolLayout, slotsDoNotCrossSlicesAndEndWithThePool)
     const pack::PageGraph graph(nodes);
     const auto layout = gpu::placePinnedPages(pack, graph, uint64_t{1} << 40);
     ASSERT_TRUE(layout.ok());
-    constexpr uint32_t kSliceWords = 1u << shared::kPoolSliceBits;
+    constexpr uint32_t kSliceWords = 1u << shared::kPoolSliceAddressBits;
     EXPECT_EQ(layout->slot_bytes, 60032u);
     EXPECT_EQ(layout->slot_addresses.size(), 4 * (kSliceWords * 4 / 60032) - 1);
     for (const uint32_t address : layout->slot_addresses)

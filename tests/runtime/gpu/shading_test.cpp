@@ -52,18 +52,19 @@ class ShadingTest : public GpuTest
 {
 protected:
     /// Draw the scene with squareCamera on 64 x 64 pixels.
-    Picture drawSquare(TestScene& test, uint32_t shown = shared::kViewFinal)
+    Picture drawSquare(TestScene& test, uint32_t debug_view = shared::kViewFinal)
     {
         const PackView pack = test.build();
         const auto scene = upload(pack);
-        return draw(*scene, squareCamera(), {.width = 64, .height = 64, .shown = shown});
+        return draw(*scene, squareCamera(), {.width = 64, .height = 64, .debug_view = debug_view});
     }
 
     /// A square of this material that fills the picture, drawn.
-    Picture drawMaterial(TestScene& test, const MaterialRecord& material, uint32_t shown = shared::kViewFinal)
+    Picture drawMaterial(TestScene& test, const MaterialRecord& material,
+                         uint32_t debug_view = shared::kViewFinal)
     {
         test.addInstance(test.addMesh(withMaterial(makeQuad(2, 2), test.addMaterial(material))), Affine3{});
-        return drawSquare(test, shown);
+        return drawSquare(test, debug_view);
     }
 
     static void expectNormal(uint32_t color, Float3 normal)
@@ -184,7 +185,7 @@ TEST_F(ShadingTest, normalsFollowShearedAndMirroredInstances)
         Float3 normal = cross(transformVector(instance, {1, 0, 0}), transformVector(instance, {0, 1, 0}));
         if (normal.z < 0)
             normal = -normal;
-        if (picture.visibility[32 * 64 + 32] != shared::kNothingVisible)
+        if (picture.visibility[32 * 64 + 32] != shared::kVisibilitySky)
             expectNormal(picture.at(32, 32), normal);
     }
 }

@@ -38,7 +38,7 @@ gpu::ShadowPlan planOf(const shared::Lighting& lighting, const gpu::ShadowOption
 {
     const shared::FrameView view =
         shared::makeFrameView({.position = {0, 2, 8}, .target = {0, 0, 0}}, 640, 480, 1, 1);
-    return gpu::planShadows(gpu::makeCastingLights(lighting, kScene, options.spot_near), options, view,
+    return gpu::planShadows(gpu::makeShadowCasters(lighting, kScene, options.spot_near), options, view,
                             spheres);
 }
 
@@ -61,13 +61,13 @@ TEST(ShadowRows, areGivenToSunsBeforeSpotsAndToNoPointLight)
     for (uint32_t i = 0; i < lighting.light_count; ++i)
         rows.push_back(lighting.lights[i].shadow_row);
     EXPECT_EQ(rows, (std::vector<uint32_t>{2, shared::kNoShadow, 0, 3, 1}));
-    const auto casting = gpu::makeCastingLights(lighting, kScene, 0.1f);
+    const auto casting = gpu::makeShadowCasters(lighting, kScene, 0.1f);
     ASSERT_EQ(casting.size(), 4u);
     EXPECT_EQ(casting[0].light, 2u);
     EXPECT_EQ(casting[0].cone_tangent, 0);
     EXPECT_EQ(casting[2].light, 0u);
     EXPECT_NEAR(casting[2].cone_tangent, 1, 1e-4f);
-    EXPECT_TRUE(gpu::makeCastingLights(lighting, {}, 0.1f).empty()) << "nothing is there to cast";
+    EXPECT_TRUE(gpu::makeShadowCasters(lighting, {}, 0.1f).empty()) << "nothing is there to cast";
 }
 
 TEST(ShadowPlan, hasSplitsOfSunsConesOfSpotsAndSpheresOfBoth)

@@ -86,7 +86,7 @@ protected:
         return draw(*scene_, camera_,
                     {.width = kWidth,
                      .height = kHeight,
-                     .shown = view,
+                     .debug_view = view,
                      .ambient_occlusion = ambient,
                      .specular_occlusion = specular});
     }
@@ -180,7 +180,7 @@ protected:
         for (uint32_t y = 0; y < kHeight; ++y)
             for (uint32_t x = 0; x < kWidth; ++x)
             {
-                if (picture.visibility[y * kWidth + x] == kNothingVisible)
+                if (picture.visibility[y * kWidth + x] == kVisibilitySky)
                     continue;
                 const Float3 color = expected(twinAt(picture, x, y));
                 bool differs = false;
@@ -207,7 +207,7 @@ protected:
     std::map<uint32_t, Affine3d> posed_; ///< instances all of whose joints stand so
 };
 
-constexpr Float3 kNone{0.35f, 0.05f, 0.05f};
+constexpr Float3 kNoReflection{0.35f, 0.05f, 0.05f};
 
 Float3 grey(float value)
 {
@@ -249,7 +249,7 @@ TEST_F(SkyViewTest, ambientOcclusionIsThatOfTheInterpolatedMoments)
                                          {
                                              const float value = p.says ? twinAmbient(p, mode) : 1;
                                              dark += value < 0.5f ? 1u : 0u;
-                                             return p.says ? grey(value) : kNone;
+                                             return p.says ? grey(value) : kNoReflection;
                                          });
         EXPECT_GT(seen, 3000u);
         if (mode == kAmbientOcclusionOff)
@@ -263,11 +263,11 @@ TEST_F(SkyViewTest, bentNormalAndApertureAreThoseOfTheCone)
 {
     expectPixels(show(kViewBentNormal), 1,
                  [&](const TwinPoint& p) {
-                     return p.says ? p.cone.axis * 0.5f + Float3{0.5f, 0.5f, 0.5f} : kNone;
+                     return p.says ? p.cone.axis * 0.5f + Float3{0.5f, 0.5f, 0.5f} : kNoReflection;
                  });
     expectPixels(show(kViewAperture), 1,
                  [&](const TwinPoint& p)
-                 { return p.says ? grey(p.cone.aperture / (kVisibilityPi / 2)) : kNone; });
+                 { return p.says ? grey(p.cone.aperture / (kVisibilityPi / 2)) : kNoReflection; });
 }
 
 TEST_F(SkyViewTest, specularOcclusionIsTheFit)
@@ -277,7 +277,7 @@ TEST_F(SkyViewTest, specularOcclusionIsTheFit)
                      [&](const TwinPoint& p)
                      {
                          const bool off = mode == kSpecularOcclusionOff; // and there is no table
-                         return p.says ? grey(off ? 1 : twinSpecular(p, 0.4f)) : kNone;
+                         return p.says ? grey(off ? 1 : twinSpecular(p, 0.4f)) : kNoReflection;
                      });
 }
 
@@ -286,7 +286,7 @@ TEST_F(SkyViewTest, specularOcclusionIsLookedUpInTheTable)
 {
     formats::SpecularTableRecord table{};
     table.aperture_nodes = table.roughness_nodes = table.beta_nodes = kSpecularNodes;
-    table.least_roughness = kSpecularLeastRoughness;
+    table.min_roughness = kMinSpecularRoughness;
     const auto value = [](uint32_t x, uint32_t y, uint32_t z)
     {
         return static_cast<uint8_t>(x * 15 + (y * z * 30) / 225);
@@ -302,10 +302,10 @@ TEST_F(SkyViewTest, specularOcclusionIsLookedUpInTheTable)
                      [&](const TwinPoint& p)
                      {
                          if (!p.says)
-                             return kNone;
+                             return kNoReflection;
                          const Double3 mirror = p.normal * (2 * dot(p.normal, p.to_eye)) - p.to_eye;
-                         const Float3 place = specularTablePlace(p.cone.cos_aperture, 0.4f,
-                                                                 cosine(p.cone.axis, mirror), spacing);
+                         const Float3 place = specularTableCoordinates(p.cone.cos_aperture, 0.4f,
+                                                                       cosine(p.cone.axis, mirror), spacing);
                          double sum = 0;
                          for (uint32_t corner = 0; corner < 8; ++corner)
                          {
@@ -386,7 +386,7 @@ TEST_F(SkyOcclusionTest, conesOfCharactersTurnWithTheirPose)
     for (const uint32_t view : {kViewBentNormal, kViewAmbientOcclusion})
     {
         const Picture picture =
-            draw(*scene_, camera_, {.width = kWidth, .height = kHeight, .shown = view, .poses = views});
+            draw(*scene_, camera_, {.width = kWidth, .height = kHeight, .debug_view = view, .poses = views});
         const size_t seen = expectPixels(picture, 1,
                                          [&](const TwinPoint& p)
                                          {

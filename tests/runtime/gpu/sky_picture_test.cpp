@@ -35,7 +35,7 @@ mesh::SourceMesh patch(Float3 corner, Float3 u, Float3 v, uint32_t n)
             mesh.indices.insert(mesh.indices.end(), {a, b, d, a, d, c});
         }
     mesh.face_count = n * n;
-    mesh.triangle_materials.assign(size_t{2} * n * n, formats::kNone);
+    mesh.triangle_materials.assign(size_t{2} * n * n, kInvalidIndex);
     mesh.source_vertex_count = static_cast<uint32_t>(mesh.positions.size());
     return mesh;
 }
@@ -127,7 +127,7 @@ double rms(const Picture& drawn, const reference::Picture& traced)
     for (uint32_t y = 0; y < drawn.height; ++y)
         for (uint32_t x = 0; x < drawn.width; ++x)
         {
-            if (drawn.visibility[y * drawn.width + x] == kNothingVisible)
+            if (drawn.visibility[y * drawn.width + x] == kVisibilitySky)
                 continue;
             for (int c = 0; c < 3; ++c)
                 sum += std::pow(channel(drawn.at(x, y), c) - int{traced.at(x, y)[c]}, 2);

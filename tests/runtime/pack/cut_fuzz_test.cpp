@@ -46,7 +46,7 @@ std::vector<uint32_t> cutSeenBy(const PackView& view, const shared::FrameView& f
     for (uint32_t c = 0; c < view.clusters().size(); ++c)
     {
         const ClusterRecord& cluster = view.clusters()[c];
-        const bool has_refined = cluster.refined_group != kNone;
+        const bool has_refined = cluster.refined_group != kInvalidIndex;
         const shared::Group& refined = groups[has_refined ? cluster.refined_group : cluster.group];
         if (shared::clusterInCut(frame, instance, groups[cluster.group], has_refined, refined))
             cut.push_back(c);

@@ -26,7 +26,7 @@ const tbb::global_control one_task_at_a_time(tbb::global_control::max_allowed_pa
 
 mesh::SourceMesh plain(mesh::SourceMesh mesh)
 {
-    return withMaterial(std::move(mesh), formats::kNone);
+    return withMaterial(std::move(mesh), kInvalidIndex);
 }
 
 /// Reads pages on some threads, in the order that they happen to run.
@@ -105,8 +105,8 @@ public:
         : view_(view),
           graph_(graph),
           slot_count_(slot_count),
-          pool_(size_t{slot_count} * formats::kPageMaxBytes),
-          staging_(size_t{6} * formats::kPageMaxBytes)
+          pool_(size_t{slot_count} * formats::kMaxPageBytes),
+          staging_(size_t{6} * formats::kMaxPageBytes)
     {
         for (uint32_t page = 0; page < view.pages().size(); ++page)
         {
@@ -119,12 +119,12 @@ public:
     pack::PageStream makeStream(pack::PageReader read)
     {
         auto stream = pack::PageStream::create(
-            view_, graph_.inSlots(formats::kPageMaxBytes),
+            view_, graph_.withSlotSize(formats::kMaxPageBytes),
             {.residency = {.budget_bytes =
-                               graph_.pinnedBytes() + uint64_t{slot_count_} * formats::kPageMaxBytes,
+                               graph_.pinnedBytes() + uint64_t{slot_count_} * formats::kMaxPageBytes,
                            .max_loads = 8},
              .slot_count = slot_count_,
-             .slot_bytes = formats::kPageMaxBytes,
+             .slot_bytes = formats::kMaxPageBytes,
              .read = std::move(read)},
             staging_);
         HEARTH_ASSERT(stream.ok());
@@ -137,7 +137,7 @@ public:
         Frame frame{serial, {changes.uploads.begin(), changes.uploads.end()}, {}};
         for (uint32_t page = 0; page < view_.pages().size(); ++page)
             if (stream.residency().isResident(page) && !graph_.isPinned(page))
-                frame.drawn.emplace_back(page, stream.slotOf(page));
+                frame.drawn.emplace_back(page, stream.pageSlot(page));
         frames_.push_back(std::move(frame));
     }
 
@@ -165,7 +165,7 @@ private:
 
     static std::vector<std::byte>::iterator slotOf(std::vector<std::byte>& memory, uint32_t slot)
     {
-        return memory.begin() + static_cast<ptrdiff_t>(slot) * formats::kPageMaxBytes;
+        return memory.begin() + static_cast<ptrdiff_t>(slot) * formats::kMaxPageBytes;
     }
 
     uint32_t slot_count_;
@@ -265,7 +265,7 @@ TEST(PageStream, bringsEveryResidentPageToItsSlotWhateverThreadsReadIt)
         EXPECT_LE(stream.statistics().bytes_in_use, stream.statistics().budget_bytes);
     };
     // threads take their time: frames until enough has come and gone
-    constexpr uint64_t kEnough = uint64_t{kSanitized ? 20 : 100} * formats::kPageMaxBytes;
+    constexpr uint64_t kEnough = uint64_t{kSanitized ? 20 : 100} * formats::kMaxPageBytes;
     while ((stream.statistics().bytes_streamed < kEnough || failures == 0) && serial < 50000 &&
            !testing::Test::HasFailure())
     {

@@ -32,11 +32,11 @@ Places movedBy(const pack::PosePlayer& player)
 TEST(PosePlayer, clipsMoveWhatHangsFromTheirNodes)
 {
     TestScene test;
-    fillAnimatedRocks(test, test.addMesh(withMaterial(shapes::rock(8, 0.2f), formats::kNone)));
+    fillAnimatedRocks(test, test.addMesh(withMaterial(shapes::rock(8, 0.2f), kInvalidIndex)));
     const formats::PackView pack = test.build();
     pack::PosePlayer player(pack);
     EXPECT_EQ(movedBy(player), Places{});
-    EXPECT_EQ(player.places().size(), 3u);
+    EXPECT_EQ(player.transforms().size(), 3u);
 
     player.play({0, 1});
     EXPECT_EQ(movedBy(player), (Places{{1, {3, 0, 0}}, {2, {3, 1, 0}}, {3, {3, 0, 3}}}));
@@ -53,7 +53,7 @@ TEST(PosePlayer, clipsMoveWhatHangsFromTheirNodes)
 TEST(PosePlayer, twoClipsAreBlended)
 {
     TestScene test;
-    fillAnimatedRocks(test, test.addMesh(withMaterial(shapes::rock(8, 0.2f), formats::kNone)));
+    fillAnimatedRocks(test, test.addMesh(withMaterial(shapes::rock(8, 0.2f), kInvalidIndex)));
     const formats::PackView pack = test.build();
     pack::PosePlayer player(pack);
     player.blend({0, 4}, {1, 4}, 0.25);
@@ -65,7 +65,7 @@ TEST(PosePlayer, twoClipsAreBlended)
 TEST(PosePlayer, findsClipsByNameOrNumber)
 {
     TestScene test;
-    fillAnimatedRocks(test, test.addMesh(withMaterial(shapes::rock(8, 0.2f), formats::kNone)));
+    fillAnimatedRocks(test, test.addMesh(withMaterial(shapes::rock(8, 0.2f), kInvalidIndex)));
     const formats::PackView pack = test.build();
     EXPECT_EQ(pack::findAnimation(pack, "rise"), 1u);
     EXPECT_EQ(pack::findAnimation(pack, "0"), 0u);
@@ -98,7 +98,7 @@ TEST(PosePlayer, palettesAreThoseOfTheSkin)
 TEST(SceneBoxes, followWhatMoves)
 {
     TestScene test;
-    fillAnimatedRocks(test, test.addMesh(withMaterial(shapes::rock(8, 0.2f), formats::kNone)));
+    fillAnimatedRocks(test, test.addMesh(withMaterial(shapes::rock(8, 0.2f), kInvalidIndex)));
     const formats::PackView pack = test.build();
     pack::PosePlayer player(pack);
     const Box3 rest = gpu::sceneBounds(pack);

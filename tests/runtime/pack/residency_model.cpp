@@ -11,8 +11,6 @@
 namespace hearth::test
 {
 
-using formats::kNone;
-
 namespace
 {
 
@@ -144,7 +142,8 @@ std::vector<uint32_t> ResidencyModel::schedule()
         while (staying() > options_.budget_bytes)
         {
             const uint32_t victim = leastWorth(trial);
-            if (victim == kNone || worth(pages_[victim]) * double{options_.hysteresis} >= -negative_priority)
+            if (victim == kInvalidIndex ||
+                worth(pages_[victim]) * double{options_.hysteresis} >= -negative_priority)
                 break;
             trial[victim].state = State::leaving;
             victims.push_back(victim);
@@ -219,10 +218,10 @@ double ResidencyModel::worth(const Page& page) const
 
 uint32_t ResidencyModel::leastWorth(const Pages& pages) const
 {
-    uint32_t least = kNone;
+    uint32_t least = kInvalidIndex;
     for (uint32_t page = 0; page < pages.size(); ++page)
         if (pages[page].state == State::resident && !pages[page].pinned && !hasDependents(pages, page))
-            if (least == kNone || worth(pages[page]) <= worth(pages[least]))
+            if (least == kInvalidIndex || worth(pages[page]) <= worth(pages[least]))
                 least = page;
     return least;
 }

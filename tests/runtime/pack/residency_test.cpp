@@ -473,7 +473,7 @@ TEST(ErrorScale, risesSlowlyWhileMoreIsWantedThanFitsAndFallsAgain)
         EXPECT_LE(residency.errorScale(), before * 1.126f);
         before = residency.errorScale();
     }
-    EXPECT_EQ(before, pack::ErrorScale::kMost);
+    EXPECT_EQ(before, pack::ErrorScale::kMaxScale);
     for (uint32_t page = 1; page < 10; ++page)
         residency.request(page, 1);
     residency.schedule();

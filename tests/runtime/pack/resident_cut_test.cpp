@@ -80,7 +80,7 @@ TEST(PageGraph, isThatOfThePackWhereNoSetSpansPages)
     {
         EXPECT_EQ(graph.sizeBytes(page), view.pages()[page].size);
         EXPECT_THAT(graph.needs(page),
-                    ElementsAreArray(recordsOf(view.pageParents(), view.pages()[page].parents)));
+                    ElementsAreArray(recordsInRange(view.pageParents(), view.pages()[page].parents)));
         EXPECT_TRUE(graph.companions(page).empty());
     }
     EXPECT_THAT(graph.pinned(), testing::ElementsAre(0)) << "the coarsest level ends in one cluster";
@@ -90,7 +90,7 @@ TEST(PageGraph, isThatOfThePackWhereNoSetSpansPages)
 void requestFiner(const PackView& view, pack::Residency& residency, float threshold)
 {
     for (const ClusterRecord& cluster : view.clusters())
-        if (cluster.refined_group != kNone && view.groups()[cluster.refined_group].error > threshold)
+        if (cluster.refined_group != kInvalidIndex && view.groups()[cluster.refined_group].error > threshold)
             residency.request(view.groups()[cluster.refined_group].page,
                               view.groups()[cluster.refined_group].error / threshold);
 }

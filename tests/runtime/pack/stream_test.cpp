@@ -211,7 +211,7 @@ protected:
     {
         const float scale = streamed_->stream->statistics().error_scale;
         if (scale > 1)
-            options.error_pixels = std::max(options.error_pixels, kLeastRequestThreshold) * scale;
+            options.error_pixels = std::max(options.error_pixels, kMinRequestThreshold) * scale;
         return options;
     }
 

@@ -46,6 +46,6 @@ void main()
     BrickRay ray = brickMarch(grid, brickRay(grid, rays[i].origin, rays[i].direction, rays[i].far));
     hits[2u * i] = hitOf(ray);
     if (ray.inside != 0u)
-        ray = brickMarch(grid, brickPass(grid, ray));
+        ray = brickMarch(grid, brickSkipVoxel(grid, ray));
     hits[2u * i + 1u] = hitOf(ray);
 }

@@ -36,7 +36,7 @@ void main()
     SurfaceUvs uvs;
     for (uint slot = 0u; slot < kTextureCount; ++slot)
     {
-        vec2 uv = uvSetOf(slot) == 0u ? in_uvs.xy : in_uvs.zw;
+        vec2 uv = textureUvSet(slot) == 0u ? in_uvs.xy : in_uvs.zw;
         uvs.slots[slot] = SurfaceUv(uv, dFdx(uv), dFdy(uv));
     }
     out_color = vec4(displayColor(point, uvs), 1.0);

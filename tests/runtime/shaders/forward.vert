@@ -39,7 +39,7 @@ void main()
     Instance instance = instances[slot.instance];
     uint vertex = vertexAddress(draw, cornerVertex(draw, triangle, gl_VertexIndex % 3u));
     vec3 normal = vertexNormal(draw, vertex);
-    out_position = relativePoint(instance, view.eye, vertexPosition(draw, vertex));
+    out_position = toEyeRelative(instance, view.eye, vertexPosition(draw, vertex));
     gl_Position = clipPosition(view, out_position);
     out_normal = worldNormal(instance, normal);
     out_color = vertexColor(draw, vertex).rgb;

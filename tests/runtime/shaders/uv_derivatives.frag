@@ -16,7 +16,7 @@ void main()
 {
     uint id = subpassLoad(visibility).x;
     out_derivatives = vec4(0.0);
-    if (id == kNothingVisible)
+    if (id == kVisibilitySky)
         return;
     SurfaceUv at = surfaceUv(resolveSurface(id, gl_FragCoord.xy), 0u);
     out_derivatives = vec4(at.dx, at.dy);

@@ -43,7 +43,7 @@ Box3 standing(float side, float x = 0, float z = 0)
 
 bool inOnePlace(const std::vector<Box3>& boxes)
 {
-    return viewer::standInOnePlace(packOf(boxes));
+    return viewer::areUnplaced(packOf(boxes));
 }
 
 /// As lines of # and spaces.
@@ -132,7 +132,7 @@ TEST(Sheet, picturesAreCopiedIntoTheirCells)
     const auto sheet = viewer::makeSheet(packOf({standing(1), standing(2), standing(3)}), 200, 100);
     ASSERT_TRUE(sheet.ok());
     const viewer::SheetLayout& layout = sheet->layout;
-    viewer::SheetPicture picture(*sheet);
+    viewer::SheetImage picture(*sheet);
     std::vector<std::byte> cell(size_t{layout.cell_width} * layout.cell_height * 4);
     for (size_t i = 0; i < cell.size(); ++i)
         cell[i] = static_cast<std::byte>(i * 7);

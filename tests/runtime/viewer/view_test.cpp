@@ -64,9 +64,10 @@ protected:
         scene_ = upload(*pack_);
     }
 
-    Picture drawView(uint32_t shown)
+    Picture drawView(uint32_t debug_view)
     {
-        return draw(*scene_, rocksCamera(), {.width = 320, .height = 200, .error_pixels = 2, .shown = shown});
+        return draw(*scene_, rocksCamera(),
+                    {.width = 320, .height = 200, .error_pixels = 2, .debug_view = debug_view});
     }
 
     const formats::ClusterRecord& clusterOf(const VisibleCluster& slot) const
@@ -83,7 +84,7 @@ protected:
         for (size_t i = 0; i < picture.visibility.size(); ++i)
         {
             const uint32_t id = picture.visibility[i];
-            if (id == kNothingVisible)
+            if (id == kVisibilitySky)
                 continue;
             const Float3 color = expected(picture.list.slots.at(id >> kTriangleBits));
             for (int c = 0; c < 3; ++c)
@@ -113,7 +114,7 @@ TEST_F(ViewTest, errorIsThatOfTheCutRuleOverTheAllowedOne)
         {
             const formats::ClusterRecord& cluster = clusterOf(slot);
             float ratio = 0;
-            if (cluster.refined_group != formats::kNone)
+            if (cluster.refined_group != kInvalidIndex)
             {
                 const formats::GroupRecord& group = pack_->groups()[cluster.refined_group];
                 const formats::InstanceRecord& instance = pack_->instances()[slot.instance];
@@ -150,15 +151,15 @@ TEST_F(ViewTest, conesAreThoseOfTheClusters)
 TEST_F(ViewTest, thingsHaveAColourEach)
 {
     const auto countHues =
-        [&](uint32_t shown, const std::function<uint64_t(const VisibleCluster&, uint32_t)>& key)
+        [&](uint32_t debug_view, const std::function<uint64_t(const VisibleCluster&, uint32_t)>& key)
     {
-        const Picture picture = drawView(shown);
+        const Picture picture = drawView(debug_view);
         std::map<uint64_t, Float3> hues;
         std::set<std::array<int, 3>> different;
         for (size_t i = 0; i < picture.visibility.size(); ++i)
         {
             const uint32_t id = picture.visibility[i];
-            if (id == kNothingVisible)
+            if (id == kVisibilitySky)
                 continue;
             const uint32_t color = picture.color[i];
             Float3 hue{static_cast<float>(channel(color, 0)), static_cast<float>(channel(color, 1)),
@@ -166,13 +167,13 @@ TEST_F(ViewTest, thingsHaveAColourEach)
             hue = hue / std::max({hue.x, hue.y, hue.z});
             const auto [entry, fresh] =
                 hues.emplace(key(picture.list.slots.at(id >> kTriangleBits), id & 127u), hue);
-            EXPECT_LT(length(entry->second - hue), 0.05f) << "view " << shown << " pixel " << i;
+            EXPECT_LT(length(entry->second - hue), 0.05f) << "view " << debug_view << " pixel " << i;
             if (fresh)
                 different.insert({static_cast<int>(hue.x * 15), static_cast<int>(hue.y * 15),
                                   static_cast<int>(hue.z * 15)});
         }
         EXPECT_GT(hues.size(), 1u);
-        EXPECT_GE(different.size(), std::min<size_t>(hues.size() / 2, 30)) << "view " << shown;
+        EXPECT_GE(different.size(), std::min<size_t>(hues.size() / 2, 30)) << "view " << debug_view;
         return hues.size();
     };
     const auto cluster = [](const VisibleCluster& slot, uint32_t)
@@ -221,8 +222,9 @@ TEST_F(ViewTest, overdrawCountsEveryLayer)
     gpu::FrameTargets targets = makeTargets(128, 128);
     for (const uint32_t flags : {0u, kCullEverything, kCullEverything})
     {
-        const Picture picture = draw(*scene, targets, front,
-                                     {.width = 128, .height = 128, .flags = flags, .shown = kViewOverdraw});
+        const Picture picture =
+            draw(*scene, targets, front,
+                 {.width = 128, .height = 128, .flags = flags, .debug_view = kViewOverdraw});
         for (uint32_t i = 0; i < kLayers - 1; ++i)
             expectLayers(picture, 4 + 8 * i, static_cast<int>(i) + 1);
         int covered = 0; // of the 16 x 16 pixels of the last one
@@ -236,7 +238,7 @@ TEST_F(ViewTest, overdrawCountsEveryLayer)
 TEST_F(ViewTest, overdrawShowsBothPhases)
 {
     gpu::FrameTargets targets = makeTargets(320, 200);
-    const DrawOptions options{.width = 320, .height = 200, .shown = kViewOverdraw};
+    const DrawOptions options{.width = 320, .height = 200, .debug_view = kViewOverdraw};
     std::mt19937 random(91);
     size_t covered = 0, many = 0, late = 0;
     for (int i = 0; i < 5; ++i)
@@ -250,7 +252,7 @@ TEST_F(ViewTest, overdrawShowsBothPhases)
         for (size_t pixel = 0; pixel < picture.color.size(); ++pixel)
         {
             const int layers = channel(picture.color[pixel], 2);
-            ASSERT_EQ(layers > 0, picture.visibility[pixel] != kNothingVisible) << pixel;
+            ASSERT_EQ(layers > 0, picture.visibility[pixel] != kVisibilitySky) << pixel;
             covered += layers > 0 ? 1u : 0u;
             many += layers > addedUp(kOverdrawStep.z, 1) + 2 ? 1u : 0u;
         }

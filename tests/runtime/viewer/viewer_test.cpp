@@ -251,7 +251,7 @@ TEST(CameraPath, numbersItsFiles)
 TEST(FitCamera, showsEveryVertexBetweenTheSides)
 {
     std::mt19937 random(9);
-    const mesh::SourceMesh rock = withMaterial(shapes::rock(24, 0.2f), formats::kNone);
+    const mesh::SourceMesh rock = withMaterial(shapes::rock(24, 0.2f), kInvalidIndex);
     for (const float aspect : {0.4f, 1.0f, 1.78f})
         for (const uint32_t count : {1u, 4u})
         {

@@ -8,8 +8,6 @@
 namespace hearth::import
 {
 
-using formats::kNone;
-
 namespace
 {
 
@@ -158,7 +156,7 @@ Result<std::vector<std::byte>> GltfAccessors::elements(uint32_t index)
 {
     const GltfAccessor& accessor = model_.accessors[index];
     const uint32_t size = elementSize(accessor.component, accessor.type);
-    if (accessor.buffer_view == kNone)
+    if (accessor.buffer_view == kInvalidIndex)
     {
         if (accessor.count > (kMaxZeroBytes - zero_bytes_) / size)
             return error(index, Issue::input_too_large,
@@ -166,7 +164,7 @@ Result<std::vector<std::byte>> GltfAccessors::elements(uint32_t index)
         zero_bytes_ += accessor.count * size;
     }
     std::vector<std::byte> elements(accessor.count * size);
-    if (accessor.buffer_view != kNone)
+    if (accessor.buffer_view != kInvalidIndex)
     {
         // the model has checked that the elements fit in the view, and the buffers that the view exists
         const std::byte* from = buffers_.view(accessor.buffer_view).data() + accessor.byte_offset;

@@ -10,15 +10,13 @@
 namespace hearth::import
 {
 
-using formats::kNone;
-
 namespace
 {
 
 using Bytes = std::span<const std::byte>;
 
 /// Truncate a URI for a message: data URIs can be megabytes long.
-std::string shortened(const std::string& uri)
+std::string truncateUri(const std::string& uri)
 {
     constexpr size_t kMax = 80;
     return uri.size() <= kMax ? uri : uri.substr(0, kMax) + "...";
@@ -26,7 +24,7 @@ std::string shortened(const std::string& uri)
 
 /// Return a flag for each buffer: true if it must exist. A buffer may be absent if only compressed views use
 /// it, as their fallback.
-std::vector<bool> findNeeded(const GltfModel& model)
+std::vector<bool> findRequiredBuffers(const GltfModel& model)
 {
     std::vector<bool> needed(model.buffers.size());
     for (size_t i = 0; i < model.buffers.size(); ++i)
@@ -41,7 +39,7 @@ Result<FileBytes> readBufferUri(const std::string& uri, const std::string& where
     Result<FileBytes> bytes = readUri(uri, where + "/uri", context);
     if (!bytes.ok() && bytes.error().issue == Issue::input_missing)
         return context.error(Issue::buffer_missing, where + "/uri",
-                             bytes.error().detail + suggestionForUri(uri, Issue::input_missing, context));
+                             bytes.error().detail + suggestNearestForUri(uri, Issue::input_missing, context));
     return bytes;
 }
 
@@ -56,30 +54,30 @@ Result<FileBytes> readUri(const std::string& uri, const std::string& where, cons
             return FileBytes(std::move(*bytes));
         return context.error(Issue::uri_malformed, where, "the data URI is not valid base64");
     }
-    const std::optional<std::string> path = percentDecoded(uri);
+    const std::optional<std::string> path = decodePercent(uri);
     if (!path)
         return context.error(Issue::uri_malformed, where,
-                             fmt::format("\"{}\" has a '%' without two digits", shortened(uri)));
+                             fmt::format("\"{}\" has a '%' without two digits", truncateUri(uri)));
     Result<FileBytes> file = context.folder.read(*path, context.options.limits.max_file_bytes);
     if (!file.ok())
         return context.error(file.error().issue, where,
-                             fmt::format("\"{}\" beside {}: {}", shortened(*path), context.folder.assetName(),
-                                         file.error().detail));
+                             fmt::format("\"{}\" beside {}: {}", truncateUri(*path),
+                                         context.folder.assetName(), file.error().detail));
     context.part.addSource(*path, file->bytes().size(), file->hash());
     return file;
 }
 
-std::string suggestionForUri(const std::string& uri, Issue issue, const GltfContext& context)
+std::string suggestNearestForUri(const std::string& uri, Issue issue, const GltfContext& context)
 {
-    const std::optional<std::string> path = isDataUri(uri) ? std::nullopt : percentDecoded(uri);
-    return path ? context.folder.suggestionFor(*path, issue) : "";
+    const std::optional<std::string> path = isDataUri(uri) ? std::nullopt : decodePercent(uri);
+    return path ? context.folder.suggestNearest(*path, issue) : "";
 }
 
 Result<GltfBuffers> GltfBuffers::load(const GltfModel& model, const FileBytes& source,
                                       const GltfContainer& container, const GltfContext& context)
 {
     GltfBuffers result(source);
-    const std::vector<bool> needed = findNeeded(model);
+    const std::vector<bool> needed = findRequiredBuffers(model);
     std::vector<Bytes> buffers(model.buffers.size());
     for (size_t i = 0; i < buffers.size(); ++i)
     {
@@ -134,17 +132,17 @@ Result<GltfBuffers> GltfBuffers::load(const GltfModel& model, const FileBytes& s
     return result;
 }
 
-void GltfBuffers::forget() const
+void GltfBuffers::releasePages() const
 {
-    source_->forget();
+    source_->releasePages();
     for (const FileBytes& file : owned_)
-        file.forget();
+        file.releasePages();
 }
 
-Status GltfBuffers::unchanged() const
+Status GltfBuffers::checkUnchanged() const
 {
     for (const FileBytes& file : owned_)
-        HEARTH_TRY(file.unchanged());
+        HEARTH_TRY(file.checkUnchanged());
     return success();
 }
 

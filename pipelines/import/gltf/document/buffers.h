@@ -30,8 +30,8 @@ struct GltfContext
 /// errors: uri_malformed, uri_outside, input_missing, input_too_large, read_failed.
 Result<FileBytes> readUri(const std::string& uri, const std::string& where, const GltfContext& context);
 
-/// Return AssetFolder::suggestionFor, after readUri has failed with the issue; empty for a data URI.
-std::string suggestionForUri(const std::string& uri, Issue issue, const GltfContext& context);
+/// Return AssetFolder::suggestNearest, after readUri has failed with the issue; empty for a data URI.
+std::string suggestNearestForUri(const std::string& uri, Issue issue, const GltfContext& context);
 
 /// Buffers and decompressed views of a document. All views are decompressed on load, used or not.
 class GltfBuffers
@@ -45,10 +45,10 @@ public:
     std::span<const std::byte> view(uint32_t index) const { return views_[index]; }
 
     /// Drop the pages of mapped files from memory until they are accessed again.
-    void forget() const;
+    void releasePages() const;
 
     /// Check that the files of the buffers have not changed. errors: read_failed.
-    Status unchanged() const;
+    Status checkUnchanged() const;
 
 private:
     explicit GltfBuffers(const FileBytes& source) : source_(&source) {}

@@ -36,7 +36,7 @@ std::string_view asText(std::span<const std::byte> bytes)
 }
 
 /// Remove zero padding: writers that pad with zeros instead of spaces are common enough to be tolerated.
-std::string_view withoutPadding(std::string_view json)
+std::string_view trimPadding(std::string_view json)
 {
     while (json.ends_with('\0'))
         json.remove_suffix(1);
@@ -71,7 +71,7 @@ Result<GltfContainer> splitGlb(std::span<const std::byte> bytes, const std::stri
         if ((chunk == 0) != (chunk_header->type == kChunkJson))
             return damaged(chunk == 0 ? "the first chunk is not JSON" : "there are two JSON chunks");
         if (chunk == 0)
-            container.json = withoutPadding(asText(*content));
+            container.json = trimPadding(asText(*content));
         else if (chunk == 1 && chunk_header->type == kChunkBinary)
             container.binary = *content;
     }

@@ -8,8 +8,6 @@
 namespace hearth::import
 {
 
-using formats::kNone;
-
 namespace
 {
 
@@ -41,7 +39,7 @@ void GltfObject::wrongType(const Json& value, std::string_view wanted) const
                     fmt::format("must be {}, but is {}", wanted, jsonTypeName(value.type())));
 }
 
-std::optional<Json> GltfObject::findNeeded(std::string_view name, Need need) const
+std::optional<Json> GltfObject::findRequired(std::string_view name, Need need) const
 {
     const std::optional<Json> value = find(name);
     if (!value && need == Need::required)
@@ -51,7 +49,7 @@ std::optional<Json> GltfObject::findNeeded(std::string_view name, Need need) con
 
 std::optional<Json> GltfObject::findArray(std::string_view name, Need need) const
 {
-    const std::optional<Json> value = findNeeded(name, need);
+    const std::optional<Json> value = findRequired(name, need);
     if (!value || value->isArray())
         return value;
     wrongType(*value, "an array");
@@ -78,19 +76,19 @@ uint32_t GltfObject::readIndex(const Json& value, size_t size) const
 {
     const std::optional<double> number = readInteger(value);
     if (!number)
-        return kNone;
+        return kInvalidIndex;
     if (*number < 0 || *number >= static_cast<double>(size))
     {
         problems_->fail(Issue::gltf_reference, value, fmt::format("index {} of {}", *number, size));
-        return kNone;
+        return kInvalidIndex;
     }
     return static_cast<uint32_t>(*number);
 }
 
 uint32_t GltfObject::index(std::string_view name, size_t size, Need need) const
 {
-    const std::optional<Json> value = findNeeded(name, need);
-    return value ? readIndex(*value, size) : kNone;
+    const std::optional<Json> value = findRequired(name, need);
+    return value ? readIndex(*value, size) : kInvalidIndex;
 }
 
 std::vector<uint32_t> GltfObject::indices(std::string_view name, size_t size, Need need) const
@@ -109,7 +107,7 @@ uint64_t GltfObject::integer(std::string_view name, IntegerRange range,
                              std::optional<uint64_t> fallback) const
 {
     const uint64_t harmless = fallback.value_or(range.min);
-    const std::optional<Json> value = findNeeded(name, fallback ? Need::optional : Need::required);
+    const std::optional<Json> value = findRequired(name, fallback ? Need::optional : Need::required);
     const std::optional<double> number = value ? readInteger(*value) : std::nullopt;
     if (!number)
         return harmless;
@@ -141,7 +139,7 @@ float GltfObject::readNumber(const Json& value) const
 
 float GltfObject::number(std::string_view name, std::optional<float> fallback) const
 {
-    const std::optional<Json> value = findNeeded(name, fallback ? Need::optional : Need::required);
+    const std::optional<Json> value = findRequired(name, fallback ? Need::optional : Need::required);
     return value ? readNumber(*value) : fallback.value_or(0.0f);
 }
 
@@ -197,7 +195,7 @@ bool GltfObject::boolean(std::string_view name, bool fallback) const
 
 std::string GltfObject::text(std::string_view name, Need need) const
 {
-    const std::optional<Json> value = findNeeded(name, need);
+    const std::optional<Json> value = findRequired(name, need);
     if (!value)
         return {};
     if (!value->isString())
@@ -212,7 +210,7 @@ uint32_t GltfObject::choice(std::string_view name, std::span<const Choice> choic
                             std::optional<uint32_t> fallback) const
 {
     const uint32_t harmless = fallback.value_or(choices.front().value);
-    const std::optional<Json> value = findNeeded(name, fallback ? Need::optional : Need::required);
+    const std::optional<Json> value = findRequired(name, fallback ? Need::optional : Need::required);
     if (!value)
         return harmless;
     if (!value->isString())
@@ -229,7 +227,7 @@ uint32_t GltfObject::choice(std::string_view name, std::span<const Choice> choic
 
 std::optional<GltfObject> GltfObject::object(std::string_view name, Need need) const
 {
-    const std::optional<Json> value = findNeeded(name, need);
+    const std::optional<Json> value = findRequired(name, need);
     if (!value)
         return std::nullopt;
     return GltfObject(*value, *problems_);

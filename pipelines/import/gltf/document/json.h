@@ -71,7 +71,7 @@ public:
 
     bool has(std::string_view name) const { return find(name).has_value(); }
 
-    /// Return an integer below `size` ("24.0" is one, "0.5", "\"24\"", null and -1 are not), or kNone if it
+    /// Return an integer below `size` ("24.0" is one, "0.5", "\"24\"", null and -1 are not), or kInvalidIndex if it
     /// is absent.
     /// errors: gltf_structure, gltf_reference.
     uint32_t index(std::string_view name, size_t size, Need need = Need::optional) const;
@@ -117,7 +117,7 @@ public:
 
 private:
     std::optional<Json> find(std::string_view name) const { return json_.find(name); }
-    std::optional<Json> findNeeded(std::string_view name, Need need) const;
+    std::optional<Json> findRequired(std::string_view name, Need need) const;
     std::optional<Json> findArray(std::string_view name, Need need) const;
     std::optional<double> readInteger(const Json& value) const;
     uint32_t readIndex(const Json& value, size_t size) const;

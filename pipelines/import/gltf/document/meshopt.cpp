@@ -16,7 +16,7 @@ constexpr uint64_t kMaxRatio = 64;
 constexpr uint64_t kBlockBytes = 8192;
 
 /// Check the preconditions of the library. Return a description of the first violation, or nullopt.
-std::optional<std::string> broken(const GltfMeshopt& view)
+std::optional<std::string> findViolation(const GltfMeshopt& view)
 {
     const uint64_t stride = view.byte_stride;
     if (view.mode == MeshoptMode::attributes)
@@ -73,7 +73,7 @@ void unfilter(const GltfMeshopt& view, std::byte* decoded)
 Result<std::vector<std::byte>> decodeMeshopt(const GltfMeshopt& view, std::span<const std::byte> compressed,
                                              const std::string& file, const std::string& where)
 {
-    if (const std::optional<std::string> reason = broken(view))
+    if (const std::optional<std::string> reason = findViolation(view))
         return Error{Issue::gltf_value, file, where, *reason};
     const uint64_t decoded_size = view.count * view.byte_stride; // at most 2^32 * 256
     if (decoded_size > compressed.size() * kMaxRatio + kBlockBytes)

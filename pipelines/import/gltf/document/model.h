@@ -1,5 +1,5 @@
 // Contents of a glTF file, checked: every index is in range, every property has its type. Data of buffers are
-// not included. Names and defaults are those of the glTF 2.0 specification; kNone means an absent index.
+// not included. Names and defaults are those of the glTF 2.0 specification; kInvalidIndex means an absent index.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -39,7 +39,7 @@ enum class MeshoptFilter : uint32_t
 
 struct GltfMeshopt
 {
-    uint32_t buffer = formats::kNone;
+    uint32_t buffer = kInvalidIndex;
     uint64_t byte_offset = 0;
     uint64_t byte_length = 0;
     uint64_t byte_stride = 0;
@@ -50,7 +50,7 @@ struct GltfMeshopt
 
 struct GltfBufferView
 {
-    uint32_t buffer = formats::kNone;
+    uint32_t buffer = kInvalidIndex;
     uint64_t byte_offset = 0;
     uint64_t byte_length = 0;
     uint64_t byte_stride = 0; ///< 0: elements are contiguous
@@ -82,16 +82,16 @@ enum class ElementType : uint32_t
 struct GltfSparse
 {
     uint64_t count = 0;
-    uint32_t indices_view = formats::kNone;
+    uint32_t indices_view = kInvalidIndex;
     uint64_t indices_offset = 0;
     ComponentType indices_type = ComponentType::u16;
-    uint32_t values_view = formats::kNone;
+    uint32_t values_view = kInvalidIndex;
     uint64_t values_offset = 0;
 };
 
 struct GltfAccessor
 {
-    uint32_t buffer_view = formats::kNone; ///< none: all zero, before `sparse`
+    uint32_t buffer_view = kInvalidIndex; ///< none: all zero, before `sparse`
     uint64_t byte_offset = 0;
     ComponentType component = ComponentType::f32;
     ElementType type = ElementType::scalar;
@@ -104,22 +104,22 @@ struct GltfImage
 {
     std::string name;
     std::optional<std::string> uri;
-    uint32_t buffer_view = formats::kNone;
+    uint32_t buffer_view = kInvalidIndex;
 };
 
 struct GltfTexture
 {
     uint32_t image =
-        formats::kNone; ///< of the property or an extension; none: a texture that nothing can show
+        kInvalidIndex; ///< of the property or an extension; none: a texture that nothing can show
     formats::Wrap wrap_u = formats::Wrap::repeat;
     formats::Wrap wrap_v = formats::Wrap::repeat;
     bool nearest = false;
 };
 
-/// Use of a texture by a material; `texture` is kNone if there is none.
+/// Use of a texture by a material; `texture` is kInvalidIndex if there is none.
 struct GltfTextureUse
 {
-    uint32_t texture = formats::kNone;
+    uint32_t texture = kInvalidIndex;
     uint32_t uv_set = 0;
     std::array<float, 6> uv_transform{1, 0, 0, 0, 1, 0}; ///< row-major 2x3
 };
@@ -159,7 +159,7 @@ struct GltfMaterial
 struct GltfAttribute
 {
     std::string semantic; ///< "POSITION", "TEXCOORD_1", "_MINE"
-    uint32_t accessor = formats::kNone;
+    uint32_t accessor = kInvalidIndex;
     friend bool operator==(const GltfAttribute&, const GltfAttribute&) = default;
     friend auto operator<=>(const GltfAttribute&, const GltfAttribute&) = default;
 };
@@ -169,7 +169,7 @@ using GltfAttributes = std::vector<GltfAttribute>;
 
 struct GltfDraco
 {
-    uint32_t buffer_view = formats::kNone;
+    uint32_t buffer_view = kInvalidIndex;
     GltfAttributes attributes; ///< `accessor` is the id of the attribute in the compressed data
     friend bool operator==(const GltfDraco&, const GltfDraco&) = default;
     friend auto operator<=>(const GltfDraco&, const GltfDraco&) = default;
@@ -191,8 +191,8 @@ struct GltfPrimitive
 {
     GltfAttributes attributes;
     std::vector<GltfAttributes> targets;
-    uint32_t indices = formats::kNone;
-    uint32_t material = formats::kNone;
+    uint32_t indices = kInvalidIndex;
+    uint32_t material = kInvalidIndex;
     PrimitiveMode mode = PrimitiveMode::triangles;
     std::optional<GltfDraco> draco;
 };
@@ -216,11 +216,11 @@ struct GltfNode
 {
     std::string name;
     std::vector<uint32_t> children;
-    uint32_t parent = formats::kNone;
-    uint32_t mesh = formats::kNone;
-    uint32_t skin = formats::kNone;
-    uint32_t camera = formats::kNone;
-    uint32_t light = formats::kNone;
+    uint32_t parent = kInvalidIndex;
+    uint32_t mesh = kInvalidIndex;
+    uint32_t skin = kInvalidIndex;
+    uint32_t camera = kInvalidIndex;
+    uint32_t light = kInvalidIndex;
     bool has_trs = true;
     std::array<float, 3> translation{0, 0, 0};
     std::array<float, 4> rotation{0, 0, 0, 1};
@@ -265,22 +265,22 @@ struct GltfLight
 struct GltfSkin
 {
     std::string name;
-    uint32_t inverse_bind_matrices = formats::kNone;
-    uint32_t skeleton = formats::kNone;
+    uint32_t inverse_bind_matrices = kInvalidIndex;
+    uint32_t skeleton = kInvalidIndex;
     std::vector<uint32_t> joints;
 };
 
 struct GltfAnimationSampler
 {
-    uint32_t input = formats::kNone;
-    uint32_t output = formats::kNone;
+    uint32_t input = kInvalidIndex;
+    uint32_t output = kInvalidIndex;
     formats::Interpolation interpolation = formats::Interpolation::linear;
 };
 
 struct GltfAnimationChannel
 {
-    uint32_t sampler = formats::kNone;
-    uint32_t node = formats::kNone;
+    uint32_t sampler = kInvalidIndex;
+    uint32_t node = kInvalidIndex;
     formats::AnimationPath path = formats::AnimationPath::translation;
 };
 
@@ -302,7 +302,7 @@ struct GltfModel
     std::vector<GltfMesh> meshes;
     std::vector<GltfNode> nodes;
     std::vector<GltfScene> scenes;
-    uint32_t scene = formats::kNone;
+    uint32_t scene = kInvalidIndex;
     std::vector<GltfCamera> cameras;
     std::vector<GltfLight> lights;
     std::vector<GltfSkin> skins;

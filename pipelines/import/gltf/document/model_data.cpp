@@ -8,8 +8,6 @@
 namespace hearth::import
 {
 
-using formats::kNone;
-
 namespace
 {
 
@@ -76,7 +74,7 @@ GltfMeshopt readMeshopt(const GltfObject& object, const GltfModel& model)
     meshopt.mode = static_cast<MeshoptMode>(object.choice("mode", kMeshoptModes, std::nullopt));
     meshopt.filter = static_cast<MeshoptFilter>(
         object.choice("filter", kMeshoptFilters, static_cast<uint32_t>(MeshoptFilter::none)));
-    if (meshopt.buffer != kNone &&
+    if (meshopt.buffer != kInvalidIndex &&
         !fits(meshopt.byte_offset, meshopt.byte_length, model.buffers[meshopt.buffer].byte_length))
         object.problems().fail(Issue::gltf_bounds, object.json(),
                                fmt::format("the compressed data do not fit in buffer {}", meshopt.buffer));
@@ -101,7 +99,7 @@ GltfSparse readSparse(const GltfObject& object, const GltfAccessor& accessor, co
     const uint64_t value_size = elementSize(accessor.component, accessor.type);
     const auto check = [&](const GltfObject& part, uint32_t view, uint64_t offset, uint64_t size)
     {
-        if (view != kNone &&
+        if (view != kInvalidIndex &&
             !elementsFit(offset, sparse.count, size, size, model.buffer_views[view].byte_length))
             part.problems().fail(Issue::gltf_bounds, part.json(),
                                  fmt::format("{} elements do not fit in buffer view {}", sparse.count, view));
@@ -113,7 +111,7 @@ GltfSparse readSparse(const GltfObject& object, const GltfAccessor& accessor, co
 
 void checkAccessorFits(const GltfObject& object, const GltfAccessor& accessor, const GltfModel& model)
 {
-    if (accessor.buffer_view == kNone)
+    if (accessor.buffer_view == kInvalidIndex)
         return;
     const GltfBufferView& view = model.buffer_views[accessor.buffer_view];
     const uint64_t size = elementSize(accessor.component, accessor.type);
@@ -156,7 +154,7 @@ void readBufferViews(const GltfObject& root, GltfModel& model)
             view.byte_stride = object.integer("byteStride", kStrideRange, std::nullopt);
         if (const auto meshopt = object.extension("EXT_meshopt_compression"))
             view.meshopt = readMeshopt(*meshopt, model);
-        if (view.buffer != kNone &&
+        if (view.buffer != kInvalidIndex &&
             !fits(view.byte_offset, view.byte_length, model.buffers[view.buffer].byte_length))
             object.problems().fail(Issue::gltf_bounds, object.json(),
                                    fmt::format("{} bytes at offset {} do not fit in buffer {} of {} bytes",

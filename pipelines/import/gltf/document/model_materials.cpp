@@ -10,8 +10,6 @@
 namespace hearth::import
 {
 
-using formats::kNone;
-
 namespace
 {
 
@@ -63,14 +61,14 @@ Sampler readSampler(const GltfObject& object)
 uint32_t readTextureImage(const GltfObject& object, const GltfModel& model)
 {
     const uint32_t plain = object.index("source", model.images.size());
-    uint32_t extended = kNone;
+    uint32_t extended = kInvalidIndex;
     for (const char* name : {"EXT_texture_webp", "KHR_texture_basisu"})
         if (const auto extension = object.extension(name))
         {
             const uint32_t source = extension->index("source", model.images.size());
-            extended = extended == kNone ? source : extended;
+            extended = extended == kInvalidIndex ? source : extended;
         }
-    return plain != kNone ? plain : extended;
+    return plain != kInvalidIndex ? plain : extended;
 }
 
 /// Return KHR_texture_transform: translation * rotation * scale, applied to (u, v, 1).
@@ -204,7 +202,7 @@ void readTextures(const GltfObject& root, GltfModel& model)
         GltfTexture texture;
         texture.image = readTextureImage(object, model);
         const uint32_t sampler = object.index("sampler", samplers.size());
-        if (sampler != kNone)
+        if (sampler != kInvalidIndex)
         {
             texture.wrap_u = samplers[sampler].wrap_u;
             texture.wrap_v = samplers[sampler].wrap_v;

@@ -7,8 +7,6 @@
 namespace hearth::import
 {
 
-using formats::kNone;
-
 namespace
 {
 
@@ -19,7 +17,7 @@ GltfDraco readDraco(const GltfObject& object, const GltfModel& model)
     GltfDraco draco;
     draco.buffer_view = object.index("bufferView", model.buffer_views.size(), Need::required);
     if (const auto attributes = object.object("attributes", Need::required))
-        draco.attributes = readAttributes(*attributes, kNone);
+        draco.attributes = readAttributes(*attributes, kInvalidIndex);
     return draco;
 }
 

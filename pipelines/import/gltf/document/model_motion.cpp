@@ -9,8 +9,6 @@
 namespace hearth::import
 {
 
-using formats::kNone;
-
 namespace
 {
 
@@ -47,7 +45,7 @@ std::optional<GltfAnimationChannel> readChannel(const GltfObject& object, size_t
     }
     channel.path = static_cast<formats::AnimationPath>(known->value);
     // the specification allows a channel without a node, for extensions
-    return channel.node == kNone ? std::nullopt : std::optional(channel);
+    return channel.node == kInvalidIndex ? std::nullopt : std::optional(channel);
 }
 
 GltfAnimation readAnimation(const GltfObject& object, const GltfModel& model)

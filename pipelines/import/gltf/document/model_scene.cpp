@@ -11,8 +11,6 @@
 namespace hearth::import
 {
 
-using formats::kNone;
-
 namespace
 {
 
@@ -147,9 +145,9 @@ void linkParents(const std::vector<GltfObject>& objects, GltfModel& model)
     for (uint32_t parent = 0; parent < model.nodes.size(); ++parent)
         for (const uint32_t child : model.nodes[parent].children)
         {
-            if (child == kNone)
+            if (child == kInvalidIndex)
                 continue;
-            if (model.nodes[child].parent != kNone)
+            if (model.nodes[child].parent != kInvalidIndex)
                 objects[parent].problems().fail(
                     Issue::gltf_hierarchy, objects[parent].json(),
                     fmt::format("node {} is also a child of node {}", child, model.nodes[child].parent));
@@ -163,7 +161,7 @@ void checkForCycles(const std::vector<GltfObject>& objects, GltfModel& model)
     std::vector<bool> reached(model.nodes.size());
     std::vector<uint32_t> open;
     for (uint32_t node = 0; node < model.nodes.size(); ++node)
-        if (model.nodes[node].parent == kNone)
+        if (model.nodes[node].parent == kInvalidIndex)
             open.push_back(node);
     while (!open.empty())
     {

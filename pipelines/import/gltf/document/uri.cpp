@@ -77,7 +77,7 @@ std::optional<std::vector<std::byte>> decodeDataUri(std::string_view uri)
     return decodeBase64(uri.substr(comma + 1));
 }
 
-std::optional<std::string> percentDecoded(std::string_view uri)
+std::optional<std::string> decodePercent(std::string_view uri)
 {
     std::string text;
     text.reserve(uri.size());

@@ -20,6 +20,6 @@ bool isDataUri(std::string_view uri);
 std::optional<std::vector<std::byte>> decodeDataUri(std::string_view uri);
 
 /// Replace every "%41" by its byte, once; nullopt if a '%' is not followed by two hexadecimal digits.
-std::optional<std::string> percentDecoded(std::string_view uri);
+std::optional<std::string> decodePercent(std::string_view uri);
 
 } // namespace hearth::import

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/clusters/surface/edge_path_tracer.h"
+
+#include "cook/clusters/core/triangle_block.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace hearth::clusters
+{
+
+namespace
+{
+
+// Maximum crossings of a traced path, and maximum triangles of its search.
+constexpr size_t kMaxSteps = 24;
+constexpr size_t kMaxTriangles = 64;
+
+/// Closest approach of two segments.
+struct ClosestApproach
+{
+    float t; ///< along the segment from a to b
+    float distance;
+};
+
+ClosestApproach closestApproach(Float3 p, Float3 q, Float3 a, Float3 b)
+{
+    const Float3 pq = q - p, ab = b - a, ap = p - a;
+    const float both = dot(pq, ab), inverse_pq2 = 1 / dot(pq, pq), inverse_ab2 = 1 / dot(ab, ab);
+    const float t_at_p = dot(ap, ab) * inverse_ab2, t_on_way = both * inverse_ab2;
+    // perpendicular to the second segment: differences that stay exact where the two are nearly parallel
+    const Float3 across = ap - ab * t_at_p, across_on_way = pq - ab * t_on_way;
+    // NaN becomes 0
+    const auto unit = [](float x) { return std::min(x > 0 ? x : 0.0f, 1.0f); };
+    float s = unit(-dot(across, across_on_way) / dot(across_on_way, across_on_way));
+    const float t = unit(t_at_p + t_on_way * s);
+    s = unit((both * t - dot(ap, pq)) * inverse_pq2);
+    return {t, length(ap + pq * s - ab * t)};
+}
+
+} // namespace
+
+EdgePathTracer::EdgePathTracer(const GroupMesh& group, const SimplifiedGroup& simplified,
+                               std::span<const uint32_t> positions_before, const Surface& after,
+                               std::span<const TrianglePoint> points)
+    : position_ids_(positions_before),
+      local_positions_(group.positions),
+      after_(after),
+      opposites_(findOppositeHalfEdges(after.position_ids, group.positions.size())),
+      mapped_points_(group.positions.size()),
+      path_of_half_edge_(positions_before.size(), kInvalidIndex)
+{
+    paths_.reserve(positions_before.size()); // references to paths stay valid while others are traced
+    crossings_.reserve(positions_before.size() * 2 / 3);
+    findMappedPoints(group, simplified, points);
+}
+
+void EdgePathTracer::findMappedPoints(const GroupMesh& group, const SimplifiedGroup& simplified,
+                                      std::span<const TrianglePoint> points)
+{
+    for (uint32_t p = 0; p < group.positions.size(); ++p)
+    {
+        MappedPoint& mapped = mapped_points_[p];
+        if (const TrianglePoint& point = points[p]; point.triangle != kInvalidIndex)
+        {
+            mapped.triangle = point.triangle;
+            mapped.at = {point.v, point.w};
+            mapped.distance = std::sqrt(point.distance2);
+            const bool at_0 = point.v <= 0 && point.w <= 0, at_1 = point.v >= 1, at_2 = point.w >= 1;
+            if (at_0 || at_1 || at_2)
+                mapped.vertex = after_.position_ids[point.triangle * 3 + (at_0 ? 0u : at_1 ? 1u : 2u)];
+        }
+        else if (simplified.target_of_position[p] == p && !after_.triangles_at.list(p).empty())
+        {
+            mapped.triangle = after_.triangles_at.list(p).front();
+            mapped.vertex = p;
+        }
+    }
+}
+
+Float3 EdgePathTracer::mappedPosition(const MappedPoint& mapped) const
+{
+    if (mapped.isVertex())
+        return after_.position_of_id[mapped.vertex];
+    const DistanceTriangle& triangle = after_.triangles[mapped.triangle];
+    return triangle.a + triangle.ab * mapped.at.v + triangle.ac * mapped.at.w;
+}
+
+bool EdgePathTracer::contains(uint32_t triangle, const MappedPoint& mapped) const
+{
+    return mapped.isVertex() ? cornerAt(triangle, mapped.vertex) != kInvalidIndex
+                             : triangle == mapped.triangle;
+}
+
+void EdgePathTracer::tracePath(uint32_t half_edge)
+{
+    path_of_half_edge_[half_edge] = static_cast<uint32_t>(paths_.size());
+    TracedPath& path = paths_.emplace_back();
+    path.half_edge = half_edge;
+    path.first = static_cast<uint32_t>(crossings_.size());
+    const uint32_t from = position_ids_[half_edge], to = position_ids_[nextHalfEdge(half_edge)];
+    const MappedPoint& start = mapped_points_[from];
+    const MappedPoint& end = mapped_points_[to];
+    if (!start.isValid() || !end.isValid())
+        return;
+    from_ = local_positions_[from];
+    to_ = local_positions_[to];
+    path.distance = 0;
+    if (!tracePath(start, end, path))
+    {
+        crossings_.resize(path.first);
+        path.distance = -1;
+    }
+    path.count = static_cast<uint32_t>(crossings_.size()) - path.first;
+}
+
+bool EdgePathTracer::tracePath(const MappedPoint& start, const MappedPoint& end, TracedPath& path)
+{
+    if (const uint32_t triangle = commonTriangle(start, end); triangle != kInvalidIndex)
+    {
+        path.from = path.to = triangle;
+        return true;
+    }
+    if (traceStraight(start, end, path))
+        return true;
+    crossings_.resize(path.first);
+    path.distance = 0;
+    return traceShortest(start, end, path);
+}
+
+uint32_t EdgePathTracer::commonTriangle(const MappedPoint& a, const MappedPoint& b) const
+{
+    if (!b.isVertex())
+        return contains(b.triangle, a) ? b.triangle : kInvalidIndex;
+    if (!a.isVertex())
+        return contains(a.triangle, b) ? a.triangle : kInvalidIndex;
+    for (const uint32_t triangle : after_.triangles_at.list(a.vertex))
+        if (cornerAt(triangle, b.vertex) != kInvalidIndex)
+            return triangle;
+    return kInvalidIndex;
+}
+
+void EdgePathTracer::cross(uint32_t half_edge, TracedPath& path)
+{
+    const ClosestApproach closest = closestApproach(from_, to_, after_.corner_positions[half_edge],
+                                                    after_.corner_positions[nextHalfEdge(half_edge)]);
+    crossings_.push_back({{half_edge, opposites_[half_edge]}, closest.t, closest.distance});
+    path.distance = std::max(path.distance, closest.distance);
+}
+
+/// Follow a straight line, as seen from above the triangles at its ends.
+bool EdgePathTracer::traceStraight(const MappedPoint& start, const MappedPoint& end, TracedPath& path)
+{
+    const auto makeLine = [&]
+    {
+        const DistanceTriangle& f = after_.triangles[start.triangle];
+        const DistanceTriangle& g = after_.triangles[end.triangle];
+        line_.origin = mappedPosition(start);
+        line_.left = hearth::cross(hearth::cross(f.ab, f.ac) + hearth::cross(g.ab, g.ac),
+                                   mappedPosition(end) - line_.origin);
+    };
+    const auto signedArea = [&](uint32_t corner)
+    { return line_.signedArea(after_.corner_positions[corner]); };
+    const auto leadsToEnd = [&](uint32_t half_edge)
+    { return opposites_[half_edge] != kInvalidIndex && contains(opposites_[half_edge] / 3, end); };
+
+    // find the triangle to start in, and the half-edge to leave it by
+    uint32_t exit = kInvalidIndex;
+    std::array<float, 3> signed_areas{};
+    if (start.isVertex())
+    {
+        const auto fan = after_.triangles_at.list(start.vertex);
+        for (const uint32_t triangle : fan)
+            if (const uint32_t opposite = nextHalfEdge(cornerAt(triangle, start.vertex));
+                leadsToEnd(opposite))
+                exit = opposite;
+        if (exit == kInvalidIndex)
+        {
+            makeLine();
+            for (const uint32_t triangle : fan)
+            {
+                const uint32_t opposite = nextHalfEdge(cornerAt(triangle, start.vertex));
+                if (opposites_[opposite] == kInvalidIndex)
+                    continue;
+                const float at_start = signedArea(opposite), at_end = signedArea(nextHalfEdge(opposite));
+                if (at_start < 0 && at_end >= 0)
+                {
+                    exit = opposite;
+                    signed_areas[exit % 3] = at_start;
+                    signed_areas[(exit + 1) % 3] = at_end;
+                    break;
+                }
+            }
+        }
+        path.from = exit / 3;
+    }
+    else
+    {
+        path.from = start.triangle;
+        for (uint32_t half_edge = start.triangle * 3; half_edge < start.triangle * 3 + 3; ++half_edge)
+            if (leadsToEnd(half_edge))
+                exit = half_edge;
+        if (exit == kInvalidIndex)
+        {
+            makeLine();
+            for (uint32_t k = 0; k < 3; ++k)
+                signed_areas[k] = signedArea(start.triangle * 3 + k);
+            for (uint32_t k = 0; k < 3; ++k)
+                if (signed_areas[k] < 0 && signed_areas[(k + 1) % 3] >= 0)
+                    exit = start.triangle * 3 + k;
+        }
+    }
+    for (size_t steps = 0; steps < kMaxSteps; ++steps)
+    {
+        if (exit == kInvalidIndex || opposites_[exit] == kInvalidIndex)
+            return false;
+        cross(exit, path);
+        const uint32_t entered = opposites_[exit];
+        path.to = entered / 3;
+        if (contains(path.to, end))
+            return true;
+        const uint32_t next = nextHalfEdge(entered), last = previousHalfEdge(entered);
+        if (leadsToEnd(next))
+            exit = next;
+        else if (leadsToEnd(last))
+            exit = last;
+        else
+        {
+            const float tip = signedArea(last);
+            const float left = signed_areas[(exit + 1) % 3], right = signed_areas[exit % 3];
+            // if the tip is to the right, leave between the tip and the left corner
+            exit = tip < 0 ? last : next;
+            signed_areas[entered % 3] = left;
+            signed_areas[next % 3] = right;
+            signed_areas[last % 3] = tip;
+        }
+    }
+    return false;
+}
+
+/// Find a path over the fewest half-edges, by breadth-first search.
+bool EdgePathTracer::traceShortest(const MappedPoint& start, const MappedPoint& end, TracedPath& path)
+{
+    struct VisitedTriangle
+    {
+        uint32_t triangle;
+        uint32_t half_edge; ///< half-edge that was crossed to get there
+        size_t before;
+    };
+    std::vector<VisitedTriangle> visited;
+    if (start.isVertex())
+        for (const uint32_t triangle : after_.triangles_at.list(start.vertex))
+            visited.push_back({triangle, kInvalidIndex, 0});
+    else
+        visited.push_back({start.triangle, kInvalidIndex, 0});
+    for (size_t i = 0; i < visited.size() && visited.size() < kMaxTriangles; ++i)
+        for (uint32_t half_edge = visited[i].triangle * 3; half_edge < visited[i].triangle * 3 + 3;
+             ++half_edge)
+        {
+            if (opposites_[half_edge] == kInvalidIndex)
+                continue;
+            const uint32_t triangle = opposites_[half_edge] / 3;
+            if (std::any_of(visited.begin(), visited.end(),
+                            [&](const VisitedTriangle& r) { return r.triangle == triangle; }))
+                continue;
+            visited.push_back({triangle, half_edge, i});
+            if (!contains(triangle, end))
+                continue;
+            size_t at = visited.size() - 1;
+            for (; visited[at].half_edge != kInvalidIndex; at = visited[at].before)
+                cross(visited[at].half_edge, path);
+            std::reverse(crossings_.begin() + static_cast<ptrdiff_t>(path.first), crossings_.end());
+            path.from = visited[at].triangle;
+            path.to = triangle;
+            return true;
+        }
+    return false;
+}
+
+std::span<const uint32_t> EdgePathTracer::turn(uint32_t vertex, uint32_t from, uint32_t to)
+{
+    turn_.clear();
+    const uint32_t start = cornerAt(from, vertex);
+    uint32_t left = start, right = start;
+    for (size_t steps = 1; steps < kMaxSteps; ++steps)
+    {
+        if (left != kInvalidIndex)
+        {
+            left = opposites_[previousHalfEdge(left)];
+            if (left != kInvalidIndex && left / 3 == to)
+            {
+                for (uint32_t at = start; at / 3 != to; at = opposites_[turn_.back()])
+                    turn_.push_back(previousHalfEdge(at));
+                break;
+            }
+        }
+        if (right != kInvalidIndex)
+        {
+            right = opposites_[right];
+            right = right == kInvalidIndex ? kInvalidIndex : nextHalfEdge(right);
+            if (right != kInvalidIndex && right / 3 == to)
+            {
+                for (uint32_t at = start; at / 3 != to; at = nextHalfEdge(opposites_[at]))
+                    turn_.push_back(at);
+                break;
+            }
+        }
+    }
+    return turn_;
+}
+
+} // namespace hearth::clusters

@@ -1,0 +1,31 @@
+// Merges chunk META of a pack: provenance and report of all its parts.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/base/result.h"
+
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace hearth::link
+{
+
+/// META texts of the parts of one source; empty if a part has none.
+struct PartMetas
+{
+    std::string_view import_meta;
+    std::string_view clusters_meta;
+    std::string_view textures_meta;
+};
+
+/// Return schema "hearth.meta/1". Sources, messages and dropped features follow each other in the order of
+/// the sources, counts are summed. The same parts give the same text: no dates, no paths of the machine.
+/// errors: meaning_value if a part's META is not a JSON object; `name` is used in the message.
+Result<std::string> mergeMeta(std::span<const PartMetas> sources, const std::string& name);
+
+/// Return the name of the asset of an import part: the file name of its source without the extension; empty
+/// if META has none.
+std::string readAssetName(std::string_view import_meta);
+
+} // namespace hearth::link

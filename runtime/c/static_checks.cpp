@@ -1,0 +1,105 @@
+// Static assertions that the constants and defaults of hearth.h equal those of the runtime.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/c/handles.h"
+
+#include <cstddef>
+
+namespace hearth
+{
+
+namespace
+{
+
+using shared::FrameCounters;
+
+static_assert(HEARTH_CULL_INSTANCES == shared::kCullInstances);
+static_assert(HEARTH_CULL_FRUSTUM == shared::kCullFrustum);
+static_assert(HEARTH_CULL_CONE == shared::kCullCone);
+static_assert(HEARTH_CULL_OCCLUSION == shared::kCullOcclusion);
+static_assert(HEARTH_CULL_EVERYTHING == shared::kCullEverything);
+
+static_assert(HEARTH_VIEW_FINAL == shared::kViewFinal);
+static_assert(HEARTH_VIEW_CLUSTERS == shared::kViewClusters);
+static_assert(HEARTH_VIEW_LOD == shared::kViewLod);
+static_assert(HEARTH_VIEW_TRIANGLES == shared::kViewTriangles);
+static_assert(HEARTH_VIEW_NORMALS == shared::kViewNormals);
+static_assert(HEARTH_VIEW_DEPTH == shared::kViewDepth);
+static_assert(HEARTH_VIEW_MATERIALS == shared::kViewMaterials);
+static_assert(HEARTH_VIEW_ERROR == shared::kViewError);
+static_assert(HEARTH_VIEW_CONES == shared::kViewCones);
+static_assert(HEARTH_VIEW_OVERDRAW == shared::kViewOverdraw);
+static_assert(HEARTH_VIEW_SHADOW_MAPS == shared::kViewShadowMaps);
+static_assert(HEARTH_VIEW_BONES == shared::kViewBones);
+static_assert(HEARTH_VIEW_AMBIENT_OCCLUSION == shared::kViewAmbientOcclusion);
+static_assert(HEARTH_VIEW_BENT_NORMAL == shared::kViewBentNormal);
+static_assert(HEARTH_VIEW_APERTURE == shared::kViewAperture);
+static_assert(HEARTH_VIEW_SPECULAR_OCCLUSION == shared::kViewSpecularOcclusion);
+
+static_assert(HEARTH_VIEW_BRICKS == shared::kViewBricks);
+static_assert(HEARTH_VIEW_BRICK_LIGHTING == shared::kViewBrickLighting);
+static_assert(HEARTH_VIEW_GI == shared::kViewGi);
+
+static_assert(HEARTH_AMBIENT_OCCLUSION_EXACT == shared::kAmbientOcclusionExact);
+static_assert(HEARTH_AMBIENT_OCCLUSION_SMOOTHSTEP == shared::kAmbientOcclusionSmoothstep);
+static_assert(HEARTH_AMBIENT_OCCLUSION_QUADRATIC == shared::kAmbientOcclusionQuadratic);
+static_assert(HEARTH_AMBIENT_OCCLUSION_OFF == shared::kAmbientOcclusionOff);
+static_assert(HEARTH_SPECULAR_OCCLUSION_FIT == shared::kSpecularOcclusionFit);
+static_assert(HEARTH_SPECULAR_OCCLUSION_TABLE == shared::kSpecularOcclusionTable);
+static_assert(HEARTH_SPECULAR_OCCLUSION_OFF == shared::kSpecularOcclusionOff);
+
+constexpr bool equal(int c, gpu::ShadedArea area)
+{
+    return c == static_cast<int>(area);
+}
+static_assert(equal(HEARTH_SHADE_AUTOMATIC, gpu::ShadedArea::automatic));
+static_assert(equal(HEARTH_SHADE_WHOLE_FRAME, gpu::ShadedArea::wholeFrame));
+static_assert(equal(HEARTH_SHADE_TILES, gpu::ShadedArea::tiles));
+
+constexpr bool equal(int c, gpu::FrameTimestamp timestamp)
+{
+    return c == static_cast<int>(timestamp);
+}
+static_assert(equal(HEARTH_TIMESTAMP_BEGIN, gpu::kTimestampBegin));
+static_assert(equal(HEARTH_TIMESTAMP_SHADOWS, gpu::kTimestampShadows));
+static_assert(equal(HEARTH_TIMESTAMP_CULL, gpu::kTimestampCull));
+static_assert(equal(HEARTH_TIMESTAMP_EARLY_VISIBILITY, gpu::kTimestampEarlyVisibility));
+static_assert(equal(HEARTH_TIMESTAMP_PYRAMID, gpu::kTimestampPyramid));
+static_assert(equal(HEARTH_TIMESTAMP_LATE_CULL, gpu::kTimestampLateCull));
+static_assert(equal(HEARTH_TIMESTAMP_VISIBILITY, gpu::kTimestampVisibility));
+static_assert(equal(HEARTH_TIMESTAMP_MATERIAL_TILES, gpu::kTimestampMaterialTiles));
+static_assert(equal(HEARTH_TIMESTAMP_MATERIAL_DEPTH, gpu::kTimestampMaterialDepth));
+static_assert(equal(HEARTH_TIMESTAMP_SHADING, gpu::kTimestampShading));
+static_assert(equal(HEARTH_TIMESTAMP_COUNT, gpu::kTimestampCount));
+
+constexpr bool equal(int c, gpu::MemoryKind kind)
+{
+    return c == static_cast<int>(kind);
+}
+static_assert(equal(HEARTH_MEMORY_DEVICE, gpu::MemoryKind::device));
+static_assert(equal(HEARTH_MEMORY_STAGING, gpu::MemoryKind::staging));
+static_assert(equal(HEARTH_MEMORY_READBACK, gpu::MemoryKind::readback));
+
+constexpr bool equal(int c, gpu::FramePart part)
+{
+    return c == static_cast<int>(part);
+}
+static_assert(equal(HEARTH_PART_CULL, gpu::FramePart::cull));
+static_assert(equal(HEARTH_PART_VISIBILITY, gpu::FramePart::visibility));
+static_assert(equal(HEARTH_PART_MATERIALS, gpu::FramePart::materials));
+
+static_assert(sizeof(hearth_frame_counters) == sizeof(FrameCounters));
+static_assert(offsetof(hearth_frame_counters, drawn_clusters) == offsetof(FrameCounters, drawn_clusters));
+static_assert(offsetof(hearth_frame_counters, dropped_clusters) == offsetof(FrameCounters, dropped_clusters));
+static_assert(offsetof(hearth_frame_counters, early_clusters) == offsetof(FrameCounters, early_clusters));
+
+static_assert(sizeof(hearth_transform) == sizeof(Affine3d) && alignof(hearth_transform) == alignof(Affine3d));
+
+// defaults
+constexpr hearth_scene_options kSceneDefaults = HEARTH_SCENE_OPTIONS_INIT;
+static_assert(kSceneDefaults.max_visible_clusters == (1u << 22) && kSceneDefaults.max_loads == 32 &&
+              kSceneDefaults.frames_in_flight == 3 &&
+              kSceneDefaults.skinning_bytes == gpu::DeformationOptions{}.scratch_bytes);
+
+} // namespace
+
+} // namespace hearth

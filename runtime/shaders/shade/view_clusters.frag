@@ -1,0 +1,58 @@
+// Debug views of the visible cluster's data: screen-space error, normal cone. One full-screen triangle for
+// all materials; the depth test leaves out the sky.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/decisions.h"
+#include "formats/gpu_shared/shading.h"
+#include "runtime/shaders/shade/tonemap.glsl"
+
+layout(set = 0, binding = 0, std140) uniform Frame { FrameView view; };
+layout(set = 0, binding = 1, std430) readonly buffer Instances { Instance instances[]; };
+layout(set = 0, binding = 2, std430) readonly buffer Visible { VisibleCluster visible[]; };
+layout(set = 0, binding = 3, std430) readonly buffer Clusters { Cluster clusters[]; };
+layout(set = 0, binding = 4, std430) readonly buffer Groups { Group groups[]; };
+layout(input_attachment_index = 0, set = 1, binding = 0) uniform usubpassInput visibility;
+
+layout(push_constant) uniform Push
+{
+    float depth;
+    uint debug_view;
+};
+
+layout(early_fragment_tests) in;
+layout(location = 0) out vec4 out_color;
+
+// Screen-space error in pixels, as in the cut test (errorExceeds), relative to the error threshold.
+float errorRatio(Instance instance, Cluster cluster)
+{
+    if (cluster.refined_group == kNoGroup || view.threshold <= 0.0)
+        return 0.0;
+    Group refined = groups[cluster.refined_group];
+    vec3 relative = toEyeRelative(instance, view.eye, refined.sphere_center);
+    float distance = max(length(relative) - instance.scale_max * refined.sphere_radius, view.z_near);
+    float error_pixels = instance.scale_max * refined.error * view.lod_scale * lodFactor(view, distance) / distance;
+    return error_pixels / view.threshold;
+}
+
+// From blue for the source to yellow at the error threshold.
+vec3 errorColor(float ratio) { return mix(vec3(0.1, 0.15, 0.5), vec3(1.0, 0.85, 0.1), clamp(ratio, 0.0, 1.0)); }
+
+// Green if all triangles face the same way, up to yellow; red if there is no cone: cone culling never removes
+// such clusters.
+vec3 coneColor(Cluster cluster)
+{
+    uint cutoff = cluster.cone >> 16;
+    if (cutoff == 65535u)
+        return vec3(0.7, 0.1, 0.1);
+    return mix(vec3(0.1, 0.7, 0.3), vec3(0.9, 0.8, 0.1), float(cutoff) / 65536.0);
+}
+
+void main()
+{
+    VisibleCluster slot = visible[subpassLoad(visibility).x >> kTriangleBits];
+    Cluster cluster = clusters[slot.cluster];
+    vec3 color = debug_view == kViewCones ? coneColor(cluster)
+                                          : errorColor(errorRatio(instances[slot.instance], cluster));
+    out_color = vec4(linearFromSrgb(color), 1.0);
+}

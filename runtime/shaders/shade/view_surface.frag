@@ -1,0 +1,93 @@
+// Debug views of surface data: clusters, LOD levels, triangles, materials, bones, normals, depth and sky
+// visibility.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/decisions.h"
+#include "formats/gpu_shared/shading.h"
+#include "runtime/shaders/scene/scene.glsl"
+#include "runtime/shaders/scene/material.glsl"
+#include "runtime/shaders/scene/surface_point.glsl"
+#include "runtime/shaders/scene/resolve.glsl"
+#include "runtime/shaders/shade/tonemap.glsl"
+#include "runtime/shaders/shade/sky_occlusion.glsl"
+
+layout(input_attachment_index = 0, set = 2, binding = 0) uniform usubpassInput visibility;
+
+layout(early_fragment_tests) in;
+layout(location = 0) out vec4 out_color;
+
+// Map a number to a colour that differs much between neighbouring numbers.
+vec3 hashColor(uint number)
+{
+    uint h = number * 2654435761u; // Knuth's multiplicative hash
+    h ^= h >> 15;
+    h *= 2246822519u;
+    h ^= h >> 13;
+    return 0.25 + 0.75 * vec3(h & 255u, h >> 8 & 255u, h >> 16 & 255u) / 255.0;
+}
+
+vec3 levelColor(uint level)
+{
+    // red for the source triangles, over yellow, green and blue to violet at level 12 and coarser
+    float hue = min(float(level), 12.0) / 12.0 * 0.8;
+    return clamp(abs(fract(hue + vec3(0.0, 2.0 / 3.0, 1.0 / 3.0)) * 6.0 - 3.0) - 1.0, 0.0, 1.0);
+}
+
+vec3 boneColor(Surface s)
+{
+    if (!isDeformed(s))
+        return vec3(0.4);
+    return hashColor(loadDeformedCluster(loadPose(s.pose.row), s.slot.cluster).joint + 1u);
+}
+
+bool isSkyView(uint debug_view)
+{
+    return debug_view == kViewAmbientOcclusion || debug_view == kViewBentNormal || debug_view == kViewAperture ||
+           debug_view == kViewSpecularOcclusion;
+}
+
+// Colour of the sky visibility. Dark red: the mesh has none.
+vec3 skyVisibilityColor(Surface s)
+{
+    if (!kSkyVisibility || (s.draw.vertex_layout & kVertexVisibility) == 0u)
+        return vec3(0.35, 0.05, 0.05);
+    SurfacePoint point = surfacePoint(s);
+    SurfaceUvs uvs = surfaceUvs(s);
+    vec3 normal = shadingNormal(point, uvs);
+    SkyView sky = skyView(point, normal);
+    if (debug_view == kViewAmbientOcclusion)
+        return vec3(diffuseSky(sky));
+    if (debug_view == kViewBentNormal)
+        return sky.cone.axis * 0.5 + 0.5;
+    if (debug_view == kViewAperture)
+        return vec3(sky.cone.aperture * (2.0 / kVisibilityPi));
+    vec4 metallic_roughness = sampleSurface(uvs, kTextureMetallicRoughness, metallic_roughness_texture);
+    vec3 to_eye = normalizeOr(-point.position, normal);
+    return vec3(specularSky(sky, surfaceRoughness(metallic_roughness), clampedCosine(normal, to_eye), reflect(-to_eye, normal)));
+}
+
+void main()
+{
+    Surface s = resolveSurface(subpassLoad(visibility).x, gl_FragCoord.xy);
+    // dimmed by the angle to the eye, so that the shape is visible
+    float facing = 0.35 + 0.65 * abs(dot(geometricNormal(s), normalizeOr(s.position, vec3(0.0))));
+    vec3 color;
+    if (debug_view == kViewClusters)
+        color = facing * hashColor(s.slot.cluster * 7919u + s.slot.instance);
+    else if (debug_view == kViewLod)
+        color = facing * (0.15 + 0.85 * levelColor(clusterLevel(s.draw)));
+    else if (debug_view == kViewTriangles)
+        color = facing * hashColor((s.slot.cluster * 128u + s.triangle) * 31u + s.slot.instance);
+    else if (debug_view == kViewMaterials)
+        color = facing * hashColor(s.draw.material);
+    else if (debug_view == kViewBones)
+        color = facing * boneColor(s);
+    else if (isSkyView(debug_view))
+        color = skyVisibilityColor(s);
+    else if (debug_view == kViewNormals)
+        color = shadingNormal(surfacePoint(s), surfaceUvs(s)) * 0.5 + 0.5;
+    else
+        color = vec3(depth_scale / (depth_scale + s.distance_w));
+    out_color = vec4(linearFromSrgb(color), 1.0);
+}
