@@ -127,7 +127,7 @@ void march(benchmark::State& state, const std::vector<Ray>& rays)
     count.report(state);
 }
 
-/// March the same rays in lanes, as many at a time as for the lighting of faces.
+/// March the same rays in lanes, in batches of 256 as for the lighting of faces.
 void marchLanes(benchmark::State& state, const std::vector<Ray>& rays)
 {
     const BrickMasks masks = terrain().model.masks();

@@ -1,5 +1,5 @@
-// Figures of meshoptimizer's clusterlod.h (config "clod") on the same meshes. Cuts that had not been
-// published were made by running version 1.2 and measured by cut_quality.h, which reproduces the published
+// Figures of meshoptimizer's clusterlod.h (config "clod") on the same meshes. Cuts missing from a first
+// measurement were made by running version 1.2 and measured by cut_quality.h, which reproduces the first
 // figures of the other meshes.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
@@ -20,7 +20,7 @@ struct PeerCut
 struct PeerFigures
 {
     std::string_view mesh;
-    /// user time, one thread, -O3 -march=native, on the machine of the published figures
+    /// user time, one thread, -O3 -march=native, on the machine of the first measurement
     double ktris_per_second;
     /// user time of 1.2, -O2, over the time of 0.18's meshlets and one halving; 0: unknown
     double calibration;

@@ -1,4 +1,5 @@
-// Many small sources: their cookers share processes, and nobody can tell by what comes out.
+// Tests batches: cookers of many small sources share processes, and the output is the same as without
+// batches.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
 #include "pipelines/command/inspect/verify.h"
@@ -24,8 +25,8 @@ namespace
 
 namespace fs = std::filesystem;
 
-// A cooker that notes each of its processes, and does what the name of its source says. The lines that it is given hold
-// plain names only: they become words by sed. A crash is that of the batch.
+// Script in place of a cooker: it notes each of its processes and acts by the name of its source. Its input
+// lines hold plain names only; sed turns them into words. A crash ends the whole batch.
 constexpr const char* kScript = R"sh(#!/bin/sh
 if [ "$1" = --batch ]; then
   echo COOKER >> PROCESSES
@@ -153,12 +154,12 @@ TEST_F(Batches, aHandfulRunsAlone)
 
 TEST_F(Batches, whatIsLargeRunsAlone)
 {
-    // by its size it takes a third of a second and more
+    // its file size suggests a third of a second or more
     std::vector<std::string> sources = crowd();
     folder.write("large.gltf", std::string(size_t{12} << 20, ' '));
     sources.insert(sources.begin() + 3, "large.gltf");
     EXPECT_EQ(cook(sources).exit_code, 0);
-    EXPECT_EQ(processes("alone"), 3u); // all but skinning, which is quick for any source
+    EXPECT_EQ(processes("alone"), 3u); // skinning is fast for any source, so it is still in batches
     EXPECT_LE(processes("import"), 2u);
 }
 
@@ -193,7 +194,7 @@ TEST_F(Batches, failuresAndWarningsBelongToTheirSource)
 TEST_F(Batches, eventsAreThoseOfActionsAlone)
 {
     std::vector<std::string> sources = crowd();
-    sources[2] = "crash.gltf"; // those behind it are begun anew
+    sources[2] = "crash.gltf"; // sources after it are restarted
     EXPECT_EQ(cook(sources, with_events).exit_code, 70);
     const std::map<std::string, std::string> of_action = eventsOfActions();
     EXPECT_EQ(of_action.size(), 12u + 3 * 11u);
@@ -206,7 +207,7 @@ TEST_F(Batches, keepToTheMemory)
     EXPECT_EQ(cook(crowd("busy")).exit_code, 0);
     EXPECT_TRUE(folder.has("together"));
     fs::remove(folder / "together");
-    // an import of nothing is thought to take 16 MiB, and so is a batch of them
+    // the memory estimate of an import of nothing is 16 MiB, and so is that of a batch of them
     EXPECT_EQ(cook(crowd("busy"), {"-j2", "--memory", "20M"}).exit_code, 0);
     EXPECT_FALSE(folder.has("together"));
 }
@@ -271,7 +272,7 @@ TEST(RealBatches, sameBytesAndRecordsAsAlone)
     cook(sources, "batched");
     for (const std::string& source : sources)
         cook({source}, "alone");
-    // entries are called by what their action's record says, contents by their bytes
+    // entries are named by their action's record, contents by their bytes
     for (const char* kind : {"/ac", "/cas"})
     {
         const auto names = [&](const std::string& cache)

@@ -1,4 +1,4 @@
-// What hearth cook tells while it works: messages, progress, colour.
+// Tests the messages, progress and colours that hearth cook prints while it works.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
 #include "tests/support/cook_folder.h"
@@ -155,7 +155,7 @@ TEST_F(Cook, whatItTellsIsASetting)
     EXPECT_EQ(countOf(in_color, "\033[1;33mwarning:\033[0m"), 1u) << in_color;
     EXPECT_EQ(countOf(in_color, "source  "), 0u) << in_color;
     EXPECT_EQ(err({"HEARTH_LOG=normal", "NO_COLOR=1"}).find('\033'), std::string::npos);
-    // of verbs, too, that need no other setting
+    // also for verbs that need no other setting
     EXPECT_NE(folder.run({programs / "hearth", "verify", "none"}, {}).err.find("\033[1;31merror:"),
               std::string::npos);
     folder.write("hearth.toml", "[defaults]\ncolour = 'always'\n");

@@ -1,4 +1,4 @@
-// The reports of hearth cook from the outside, and of hearth report.
+// Tests the reports that hearth cook writes, and hearth report.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
 #include "tests/support/cook_folder.h"
@@ -13,13 +13,13 @@ namespace hearth::test
 namespace
 {
 
-/// How a report differs from what its schema promises; empty where it does not.
+/// Return the first violation of the report's schema; empty if there is none.
 std::string faultOfReport(const Json& report)
 {
     return faultOfSchema(HEARTH_SCHEMAS "/hearth.report.1.json", report);
 }
 
-/// Stands for hearth-render, and takes its time.
+/// Slow script in place of hearth-render.
 constexpr const char* kRender = R"(#!/bin/sh
 output="${3%.jpg}"
 while [ $# -gt 0 ]; do
@@ -142,7 +142,7 @@ TEST_F(Cook, writesReportsForWhoeverReadsThem)
     EXPECT_EQ(countOf(folder.read("r.csv"), "\r\n"), 3u);
     EXPECT_NE(folder.read("r.html").find("E1101"), std::string::npos);
 
-    // the same of the JSON
+    // the same values in the JSON
     const auto report = [&](std::vector<std::string> arguments)
     {
         arguments.insert(arguments.begin(), {programs / "hearth", "report"});

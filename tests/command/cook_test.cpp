@@ -1,4 +1,4 @@
-// hearth cook from the outside: what appears, what is left behind, and how it ends.
+// Runs hearth cook as a user would: its outputs, its temporary files and its exit codes.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
 #include "formats/container/container_reader.h"
@@ -47,7 +47,7 @@ TEST_F(Cook, aRuleThatChangesTouchesItsSourcesAlone)
     std::filesystem::create_directory(folder / "props");
     for (const char* source : {"props/a.gltf", "b.gltf"})
         folder.write(source, source);
-    // the script that stands for it lists nothing, so that what it makes is not kept
+    // the script in place of the cooker lists no read files, so its result is not cached
     const auto withoutImports = [](const std::string& text)
     {
         std::istringstream lines(text);
@@ -224,7 +224,7 @@ TEST_F(Cook, cleansUpWhenInterrupted)
     for (const int signal : {SIGINT, SIGTERM, SIGHUP})
     {
         const pid_t process = folder.start(command({"slow.gltf", "-o", "a.hearth"}), {"TMPDIR="});
-        // the folder shows that the cook has begun; a second more, and the import sleeps
+        // the folder shows that the cook has begun; a second later the import sleeps
         for (int i = 0; i < 500 && folder.list().empty(); ++i)
             std::this_thread::sleep_for(std::chrono::milliseconds(10));
         ASSERT_FALSE(folder.list().empty());
@@ -253,7 +253,7 @@ TEST_F(Cook, cookersThatNeedTooMuchMemoryRunOneByOne)
     EXPECT_TRUE(folder.has("together"));
     std::filesystem::remove(folder / "together");
     std::vector<std::string> arguments = sources;
-    // an import of nothing is thought to take 16 MiB
+    // the memory estimate of an import of nothing is 16 MiB
     arguments.insert(arguments.end(), {"--memory", "20M"});
     EXPECT_EQ(cook(arguments).exit_code, 0);
     EXPECT_FALSE(folder.has("together"));

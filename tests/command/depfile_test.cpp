@@ -27,7 +27,7 @@ TEST(Depfile, hasARuleAndAnEmptyOneForEachFileThatWasFound)
               "my\\ packs/a.hearth: \\\n  a.obj \\\n  old\\ $$.png\n\nold\\ $$.png:\n");
 }
 
-// as `gcc -MD` 12 writes these names; the colon as make wants it, which reads a static pattern else
+// as `gcc -MD` 12 writes these names; the colon as make wants it, which otherwise reads a static pattern
 TEST(Depfile, escapesAsMakeReads)
 {
     EXPECT_EQ(escapedName("plain-1.0_(a)[b]%@~,+.png"), "plain-1.0_(a)[b]%@~,+.png");
@@ -35,7 +35,7 @@ TEST(Depfile, escapesAsMakeReads)
     EXPECT_EQ(escapedName("a#b"), "a\\#b");
     EXPECT_EQ(escapedName("$a$$"), "$$a$$$$");
     EXPECT_EQ(escapedName("c:/a"), "c\\:/a");
-    // backslashes count before blanks only
+    // backslashes count only before blanks
     EXPECT_EQ(escapedName("a\\b"), "a\\b");
     EXPECT_EQ(escapedName("a\\ b\\\\ c"), "a\\\\\\ b\\\\\\\\\\ c");
     EXPECT_EQ(escapedName("\xc3\xbc.png"), "\xc3\xbc.png");

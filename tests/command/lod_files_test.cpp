@@ -1,4 +1,4 @@
-// Levels of detail made by hand as files of one folder: by their names, and as rules say. With the real cookers.
+// Tests authored LODs as files of one folder, found by their names or by rules, with the real cookers.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
 #include "formats/pack/pack_view.h"
@@ -23,7 +23,8 @@ using namespace formats;
 
 constexpr uint32_t kMidTriangles = 2 * 6 * 6, kLowTriangles = 2;
 
-/// The lines of a square of n x n quads: "PREFIX x y z" for each vertex, then "FACE a b c d", counted from `first`.
+/// Lines of a square of n x n quads: "PREFIX x y z" for each vertex, then "FACE a b c d", counted from
+/// `first`.
 std::string squareLines(int n, const std::string& vertex, const std::string& face, int first)
 {
     std::string text;
@@ -53,7 +54,7 @@ std::string plySquare(int n)
            "\nproperty list uchar int vertex_indices\nend_header\n" + squareLines(n, "", "4 ", 0);
 }
 
-/// What chunk ALVL says of a level.
+/// Record of a level in chunk ALVL.
 struct Level
 {
     uint32_t triangles;
@@ -96,7 +97,7 @@ protected:
         return folder.run(arguments);
     }
 
-    /// Into a.hearth.
+    /// Cook into a.hearth.
     ProgramEnd cook(std::vector<std::string> arguments)
     {
         fs::remove(folder / "a.hearth");
@@ -105,7 +106,7 @@ protected:
         return hearth(arguments);
     }
 
-    /// The bytes of the pack.
+    /// Return the bytes of the pack.
     std::string packOf(const std::vector<std::string>& arguments)
     {
         const ProgramEnd end = cook(arguments);
@@ -250,7 +251,7 @@ TEST_F(LodFiles, areThoseThatARuleLists)
     fs::rename(folder / "props/rock_LOD1.ply", folder / "props/stone_mid.ply");
     const std::string list = "import.lods = ['stone_mid.ply', '../low/stone.obj']\n";
     const std::vector<Level> expected{{kMidTriangles, 1, "stone_mid.ply"}, {kLowTriangles, 2, "stone.obj"}};
-    // of the source alone, and of its levels as well
+    // in the source alone, and in its LODs too
     for (const char* match : {"props/stone.obj", "props/stone*"})
     {
         folder.write("hearth.toml", std::string("[[rule]]\nmatch = '") + match + "'\n" + list);

@@ -1,4 +1,4 @@
-// Reasons of hearth why that several sources have in common.
+// Tests how hearth why groups reasons that several sources share.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/cook/reason_groups.h"
 #include "pipelines/command/shell/name_list.h"

@@ -1,4 +1,4 @@
-// Progress of pictures for logs, by a clock that the test sets.
+// Tests the progress lines of rendering in logs, with a clock that the test sets.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/cook/render_progress.h"
 

@@ -1,4 +1,5 @@
-// Whatever the order of work, the threads and the surroundings, with the real cookers: a pack has the same bytes.
+// Tests that a pack has the same bytes for any order of work, number of threads and environment, with the
+// real cookers.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/support/sandbox.h"
 #include "tests/support/small_sources.h"
@@ -16,7 +17,8 @@ namespace
 
 namespace fs = std::filesystem;
 
-// A cooker that dawdles first, by its seed, its name and the names of its files, and notes when it begins in earnest.
+// Script that first sleeps for a time that depends on its seed, its name and its files' names, then notes its
+// start and runs the cooker.
 constexpr const char* kDawdler = R"sh(#!/bin/sh
 files=$(printf '%s ' "$@" | sed 's:[^ ]*/::g')
 sleep 0.$(printf '%s' "$SEED COOKER $files" | cksum | cut -c1-2)
@@ -37,7 +39,7 @@ protected:
         writeGltf(place, "bush", 0.5F);
     }
 
-    /// The pack of all sources.
+    /// Return the pack of all sources.
     static std::string cook(Sandbox& place, const std::vector<std::string>& options,
                             const std::vector<std::string>& environment = {},
                             const std::string& programs = HEARTH_BIN)

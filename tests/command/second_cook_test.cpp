@@ -1,4 +1,5 @@
-// What a second cook runs, with the real cookers: nothing where nothing has changed, and what it says of what has.
+// Tests incremental builds with the real cookers: an unchanged source runs no cooker, and the reasons for
+// changes are named.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
 #include "cook/tools/dependency_list.h"
@@ -43,7 +44,7 @@ protected:
     {
         std::vector<std::string> command{programs + "/hearth"};
         command.insert(command.end(), arguments.begin(), arguments.end());
-        environment.insert(environment.begin(), "HEARTH_LOG=verbose"); // a line for each cooker
+        environment.insert(environment.begin(), "HEARTH_LOG=verbose"); // print a line for each cooker
         return folder.run(command, environment);
     }
 
@@ -53,7 +54,7 @@ protected:
         return hearth(arguments, environment);
     }
 
-    /// The cookers that ran, as "clusters house.obj", by the lines that say so.
+    /// Return the cookers that ran, as "clusters house.obj", from the printed lines.
     static std::multiset<std::string> ran(const ProgramEnd& end)
     {
         EXPECT_EQ(end.exit_code, 0) << end.err;
@@ -79,7 +80,7 @@ protected:
         return info;
     }
 
-    /// Whether a killed cook's temporary folder is there.
+    /// True if the temporary folder of a killed cook exists.
     bool hasLeftovers() const
     {
         const std::vector<std::string> names = folder.list();
@@ -127,10 +128,10 @@ TEST_F(SecondCook, runsWhatReadAChangedFileAndNoMore)
     EXPECT_EQ(ran(cook({"house.obj", "tree.gltf", "-o", "a.hearth"})),
               (std::multiset<std::string>{"import house.obj", "textures house.obj", "clusters house.obj",
                                           "skinning house.obj", "link a.hearth"}));
-    // a texture that was missing has come
+    // a texture that was missing now exists
     folder.write("tree.tga", tgaImage(7));
     EXPECT_EQ(ran(cook({"house.obj", "tree.gltf", "-o", "a.hearth"})).count("import tree.gltf"), 1u);
-    // as it was before: nothing is cooked, but the pack is put back
+    // back to the original state: nothing is cooked, but the pack is restored
     const std::string pack = folder.read("a.hearth");
     writeObj(folder, "house");
     const ProgramEnd back = cook({"house.obj", "tree.gltf", "-o", "a.hearth"});
@@ -180,7 +181,7 @@ TEST_F(SecondCook, foldsTheWarningsThatWereTold)
     EXPECT_EQ(countOf(cookWith({"--warnings-as-errors"}), warning), 1u) << "why there is no pack";
     EXPECT_EQ(countOf(cook({"tree.gltf", "-o", "b.hearth"}).err, warning), 1u)
         << "the cache has it, but no cook into this pack has told it";
-    // another source does not unfold it, a change of its own does
+    // another source does not unfold the warning; a change of its own source prints it in full
     EXPECT_EQ(countOf(cook({"house.obj", "tree.gltf", "-o", "a.hearth"}, {"HEARTH_LOG=normal"}).err, folded),
               1u);
     writeGltf(folder, "tree", 0.5F);
@@ -235,9 +236,9 @@ TEST_F(SecondCook, whyNamesTheCause)
 
     struct Row
     {
-        std::string cause; ///< that the next cook gives, and that is remembered
+        std::string cause; ///< reason that the next cook prints and records
         std::function<void()> change;
-        bool is_known_before = true; ///< hearth why knows it before the cook
+        bool is_known_before = true; ///< true if hearth why knows the reason before the cook
     };
     const std::vector<Row> rows{
         {"import     house.obj: house.obj: its content has changed", [&] { writeObj(folder, "house", 2); }},
@@ -245,7 +246,7 @@ TEST_F(SecondCook, whyNamesTheCause)
          [&] { folder.write("house.tga", tgaImage(7)); }},
         {"import     tree.gltf: tree.bin: its content has changed", [&] { writeGltf(folder, "tree", 0.5F); }},
         {"import     tree.gltf: tree.tga: is there now", [&] { folder.write("tree.tga", tgaImage(7)); }},
-        // what the file says now only the next cook reads
+        // only the next cook reads the file's new contents
         {"import     2 sources (house.obj, tree.gltf): parameter animation.error: 0.001 -> 0.002",
          [&] { folder.write("house.toml", "[animation]\nerror = 0.002\n"); }, false},
         {"import     2 sources (house.obj, tree.gltf): parameter animation.error 0.002: no longer given",
@@ -315,7 +316,7 @@ TEST_F(SecondCook, whyNamesTheCause)
         const ProgramEnd end = cook(arguments);
         EXPECT_EQ(end.exit_code, 0) << cause << "\n" << end.err;
         const std::string after = hearth({"why", "a.hearth"}).out;
-        // what was is told in the past
+        // reasons of an earlier cook are in the past tense
         for (const auto& [now, then] : std::vector<std::pair<std::string, std::string>>{
                  {"it is not there", "it was not there"},
                  {"it is not what was cooked", "it was not what had been cooked"}})
@@ -423,7 +424,8 @@ TEST_F(SecondCook, aKilledCookIsTakenUpWhereItWas)
         }
         EXPECT_EQ(cook({"house.obj", "tree.gltf", "-o", "a.hearth"}, {"TMPDIR="}).exit_code, 0);
         EXPECT_EQ(folder.read("a.hearth"), folder.read("whole.hearth"));
-        // a cooker that outlives its parent may write into what is being removed: the cook after removes that
+        // a cooker that outlives its parent may write into a folder that is being removed: the next cook
+        // removes it
         for (int tries = 0; tries < 20 && hasLeftovers(); ++tries)
         {
             std::this_thread::sleep_for(std::chrono::milliseconds(100));
@@ -522,15 +524,15 @@ TEST_F(SecondCook, tellsMakeOfAllThatItReads)
                                              "a.hearth",  "--depfile",   "a.d"};
     ran(cook(arguments));
     EXPECT_EQ(folder.read("a.d"), house);
-    // what was kept has read the same
+    // the cached result has read the same files
     fs::remove(folder / "a.d");
     EXPECT_TRUE(isUpToDate(cook(arguments)));
     EXPECT_EQ(folder.read("a.d"), house);
-    // and so it is without a cache
+    // the same without a cache
     fs::remove(folder / "a.d");
     ran(cook(arguments, {"HEARTH_CACHE=off"}));
     EXPECT_EQ(folder.read("a.d"), house);
-    // a texture that was missing has come
+    // a texture that was missing now exists
     folder.write("tree.tga", tgaImage(7));
     ran(cook(arguments));
     EXPECT_NE(folder.read("a.d").find(real + "tree.bin \\\n  " + real + "tree.tga\n"), std::string::npos)

@@ -1,4 +1,4 @@
-// The warning about sources of another scale than the others, with the real cookers.
+// Tests the warning about sources whose scale differs from the others, with the real cookers.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
 #include "tests/support/sandbox.h"
@@ -13,7 +13,7 @@ namespace hearth::test
 namespace
 {
 
-/// Three crates of 1, 2 and 2.5 m, and a bust in a folder of its own that somebody has exported in millimetres.
+/// Write three crates of 1, 2 and 2.5 m, and in another folder a bust that was exported in millimetres.
 class SizeOutliers : public ::testing::Test
 {
 protected:
@@ -70,7 +70,7 @@ TEST_F(SizeOutliers, areToldOrCountedWhenAllIsInTheCache)
     verbose.emplace_back("-v");
     EXPECT_EQ(countOf(cook(verbose).err, kWarning), 1u);
 
-    // the same from the cache alone, by another name: nobody has told it
+    // the same from the cache alone under another name: the warning is repeated
     std::filesystem::rename(folder / "busts", folder / "heads");
     std::vector<std::string> elsewhere = kSources;
     elsewhere[1] = "heads/hero.obj";
@@ -134,7 +134,7 @@ TEST_F(SizeOutliers, mayBeTooSmallAsWell)
                       "median of 3 sources, 60 m [W1410]"),
               1u)
         << end.err;
-    // 2.5 m of 60 is a part of 24, and 3.5 one of 17
+    // 2.5 m is a 24th of 60 m, and 3.5 m a 17th
     writeObj(folder, "door", 3.5);
     EXPECT_EQ(countOf(cook({"door.obj", "house.obj", "tower.obj"}).err, "W1410"), 0u);
     EXPECT_EQ(countOf(cook({"post.obj", "house.obj", "tower.obj"}).err, "[W1410]"), 1u);

@@ -1,4 +1,5 @@
-// hearth cook --watch, with the real cookers: every change of what a cook reads makes a cook, and nothing else does.
+// Tests hearth cook --watch with the real cookers: a change of any file that a cook reads starts a cook,
+// nothing else does.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/sources/file_watch.h"
 #include "tests/support/sandbox.h"
@@ -21,7 +22,7 @@ namespace fs = std::filesystem;
 
 bool comes(const std::function<bool()>& condition)
 {
-    // long, for a busy machine; on success it takes as long as it takes
+    // long, for a busy machine; successful tests end earlier
     for (int i = 0; i < 3000; ++i, std::this_thread::sleep_for(std::chrono::milliseconds(20)))
         if (condition())
             return true;
@@ -83,7 +84,7 @@ TEST_F(Watch, cooksWhatHasChangedAndNothingElse)
     const std::string second = folder.read("a.hearth");
     EXPECT_NE(second, first);
 
-    // as editors save: another file takes the place
+    // as editors save: another file replaces it
     folder.write("house.tga.new", tgaImage(8));
     fs::rename(folder / "house.tga.new", folder / "house.tga");
     ASSERT_TRUE(waitsAfter(2)) << folder.errSoFar();
@@ -108,7 +109,7 @@ TEST_F(Watch, aFailureWaitsForItsMend)
     ASSERT_TRUE(comes([&] { return folder.has("a.hearth"); })) << folder.errSoFar();
     const auto waits = [&] { return folder.errSoFar().ends_with("Ctrl-C ends\n"); };
     ASSERT_TRUE(comes(waits)) << folder.errSoFar();
-    // an image that was looked for in vain
+    // an image that was probed for but missing
     folder.write("tree.tga", tgaImage(7));
     EXPECT_TRUE(comes([&] { return countOf(folder.errSoFar(), "tree.tga has changed") > 0; }))
         << folder.errSoFar();
@@ -141,7 +142,7 @@ TEST_F(Watch, takesSourcesThatComeAndGo)
     ASSERT_TRUE(waitsAfter(0)) << folder.errSoFar();
     const std::string first = folder.read("a.hearth");
 
-    // in a folder that was not there, either
+    // the same in a folder that did not exist
     fs::create_directories(folder / "village/new/trees");
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     EXPECT_EQ(cooks(), 1u) << "folders are no sources: " << folder.errSoFar();
@@ -216,7 +217,7 @@ TEST(FileWatch, looksAtTimesInNewFoldersOnly)
     const auto long_ago = fs::file_time_type::min();
     ASSERT_TRUE(files->watch({folder / "here.obj"}, long_ago).ok());
     EXPECT_EQ(pathOf(files->wait()), folder / "here.obj") << "written before anybody looked";
-    // a folder that was watched tells by itself
+    // a watched folder reports changes by itself
     ASSERT_TRUE(files->watch({folder / "here.obj", folder / "later.obj"}, long_ago).ok());
     folder.write("later.obj", "");
     EXPECT_EQ(pathOf(files->wait()), folder / "later.obj");
@@ -239,7 +240,7 @@ TEST(FileWatch, tellsOfFilesThatComeIntoFolders)
     const auto change = files->wait();
     EXPECT_EQ(pathOf(change), folder.path());
     EXPECT_TRUE(change->is_in_folder);
-    // a file that is watched goes before others that have come
+    // a watched file has priority over other changes
     folder.write("elsewhere.obj", "");
     folder.write("here.obj", "another");
     EXPECT_EQ(pathOf(files->wait()), folder / "here.obj");

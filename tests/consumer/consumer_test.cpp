@@ -1,4 +1,4 @@
-// A game in a project of its own: it finds Hearth, cooks while it is built, and draws.
+// Tests a game in a separate project: it finds Hearth, cooks as part of its build, and renders.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/consumer/installation.h"
 
@@ -23,7 +23,7 @@ struct Picture
 {
     std::string texels = std::string(size_t{128} * 128 * 3, '\0');
 
-    /// Red, green and blue at a place, as fractions of its sides.
+    /// Return red, green and blue at a position given as fractions of the image's sides.
     std::array<int, 3> at(double x, double y) const
     {
         const size_t first = 3 * (static_cast<size_t>(y * 128) * 128 + static_cast<size_t>(x * 128));
@@ -35,7 +35,7 @@ struct Picture
 class Consumer : public Installation
 {
 protected:
-    /// A copy of the game, configured for a generator in the folder `build`.
+    /// Configure a copy of the game for a generator in the folder `build`.
     void configure(const std::string& generator)
     {
         fs::remove_all(folder() / "game");
@@ -58,7 +58,7 @@ protected:
         touchTexture();
     }
 
-    /// What the game draws; nothing where there is no device.
+    /// Return the frame that the game renders; nothing without a device.
     std::optional<Picture> drawn(const std::string& game)
     {
         const ProgramEnd end = shell("build/" + game + " build/game.hearth picture.ppm");
@@ -72,7 +72,7 @@ protected:
         return Picture{picture.substr(std::min(head.size(), picture.size()))};
     }
 
-    /// What is built when a texture changes, and when nothing does.
+    /// Check that a changed texture rebuilds the pack, and that nothing is rebuilt without a change.
     void cookWhatHasChanged(const std::string& target, const std::string& pack)
     {
         const std::string first = build(target);

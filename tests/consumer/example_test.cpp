@@ -1,4 +1,5 @@
-// The example that is installed with the runtime: a project by itself, which draws what hearth-render draws.
+// Tests the example that is installed with the runtime: a separate project that renders the same image as
+// hearth-render.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/compare/picture.h"
 #include "tests/consumer/installation.h"
@@ -12,7 +13,7 @@ namespace hearth::test
 namespace
 {
 
-constexpr uint32_t kWidth = 640, kHeight = 480; // of the example's picture
+constexpr uint32_t kWidth = 640, kHeight = 480; // of the example's image
 
 class Example : public Installation
 {
@@ -39,7 +40,7 @@ protected:
         run("prefix/bin/hearth cook '" + source + "' -o " + pack);
     }
 
-    /// Draw a pack by the example, while the validation layer listens.
+    /// Render a pack by the example with the validation layer enabled.
     static viewer::Picture draw(const std::string& pack)
     {
         const std::string said = run("VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation examples/draw_picture " +
@@ -51,7 +52,7 @@ protected:
     }
 };
 
-/// The largest difference of a channel; 255 where the sizes differ.
+/// Return the largest difference of a channel; 255 if the sizes differ.
 int largestStep(const viewer::Picture& a, const viewer::Picture& b)
 {
     int largest = a.rgb.size() == b.rgb.size() ? 0 : 255;

@@ -12,7 +12,7 @@ void Installation::SetUpTestSuite()
 {
     folder_ = std::make_unique<Sandbox>();
     run(HEARTH_CMAKE " --install " HEARTH_BUILD_FOLDER " --prefix \"$PWD/first\"");
-    // whoever installs may move what is there
+    // an installation may be moved
     std::filesystem::rename(folder() / "first", folder() / "prefix");
 }
 

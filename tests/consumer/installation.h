@@ -1,4 +1,4 @@
-// Hearth, installed: once for all tests of the program, and moved since.
+// Installs Hearth once for all tests of the program, then moves the installation.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -17,9 +17,9 @@ protected:
     static void SetUpTestSuite();
     static void TearDownTestSuite();
 
-    /// Run a command of the shell in the folder, where "prefix" is the installation.
+    /// Run a shell command in the folder, in which "prefix" is the installation.
     static ProgramEnd shell(const std::string& command);
-    /// The same, which ends well; returns what it wrote to stdout and stderr.
+    /// Run a shell command that must succeed; return its output on stdout and stderr.
     static std::string run(const std::string& command);
 
     static Sandbox& folder() { return *folder_; }

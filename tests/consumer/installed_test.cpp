@@ -1,4 +1,4 @@
-// What is installed: its names, its paths, and how a program without CMake finds it.
+// Tests the installed files: names, paths, and use by a program without CMake.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/consumer/installation.h"
 
@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 class Installed : public Installation
 {
 protected:
-    /// Where the libraries are, from the prefix.
+    /// Return the folder of the libraries, relative to the prefix.
     static std::string libraryFolder()
     {
         for (const auto& entry : fs::recursive_directory_iterator(folder() / "prefix"))
@@ -27,7 +27,7 @@ protected:
         return "libhearth.so is not installed";
     }
 
-    /// pkg-config with what lies in a folder of libraries.
+    /// Run pkg-config with the files of a folder of libraries.
     static std::string pkgConfig(const std::string& library_folder)
     {
         return "PKG_CONFIG_PATH=\"$PWD/" + library_folder + "/pkgconfig\" pkg-config ";
@@ -48,7 +48,7 @@ protected:
     static std::string commands(const std::string& arguments);
 };
 
-/// The functions that hearth.h declares.
+/// Return the functions that hearth.h declares.
 std::set<std::string> declaredFunctions(const std::string& header)
 {
     std::set<std::string> names;
@@ -68,7 +68,7 @@ TEST_F(Installed, theLibraryShowsTheFunctionsOfItsHeaderAndNoOthers)
         run("nm -D --defined-only --format=posix --without-symbol-versions " + library));
     for (std::string name, rest; symbols >> name && std::getline(symbols, rest);)
         names.insert(name);
-    names.erase("HEARTH_1"); // the version of the others
+    names.erase("HEARTH_1"); // version node of the other symbols
     const std::set<std::string> declared = declaredFunctions(folder().read("prefix/include/hearth/hearth.h"));
     EXPECT_GT(declared.size(), 30u);
     EXPECT_EQ(names, declared);
@@ -101,7 +101,7 @@ TEST_F(Installed, isFoundByPkgConfig)
 
 TEST_F(Installed, isLinkedIntoAProgramByPkgConfig)
 {
-    // where there is no shared library the linker takes the archive
+    // without a shared library the linker takes the archive
     fs::remove_all(folder() / "archives");
     run("cp -r prefix archives && rm archives/" + libraryFolder() + "/libhearth.so*");
     const std::string pkg_config = pkgConfig("archives/" + libraryFolder());
@@ -120,7 +120,7 @@ TEST_F(Installed, pkgConfigFindsTheHelpers)
     run("LD_LIBRARY_PATH=\"$PWD/prefix/" + libraryFolder() + "\" ./helpers");
 }
 
-/// The commands that build a project which has Hearth as a folder.
+/// Return the commands that build a project with Hearth as a subfolder.
 std::string FolderOfAProject::commands(const std::string& arguments)
 {
     fs::remove_all(folder() / "outer-build");

@@ -1,4 +1,4 @@
-// The Debian packages.
+// Tests the Debian packages.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/consumer/installation.h"
 
@@ -27,7 +27,7 @@ TEST_F(Packages, holdWhatTheirNamesSay)
         EXPECT_EQ(countOf(field("hearth", "Depends"), needed), 1u) << needed;
 
     const std::string runtime = content("libhearth1");
-    EXPECT_EQ(countOf(runtime, "libhearth.so.1"), 3u) << runtime; // a link and what it leads to
+    EXPECT_EQ(countOf(runtime, "libhearth.so.1"), 3u) << runtime; // a link and its target
     EXPECT_EQ(countOf(runtime, "libhearth.so\n") + countOf(runtime, "libhearth.so "), 0u) << runtime;
     const std::string needs = field("libhearth1", "Depends");
     for (const char* needed : {"libc6 (", "libstdc++6 (", "libxxhash0 (", "libzstd1 ("})
@@ -37,7 +37,7 @@ TEST_F(Packages, holdWhatTheirNamesSay)
     const std::string development = content("libhearth-dev");
     for (const char* file :
          {"include/hearth/hearth.h\n", "include/hearth/hearth.hpp\n", "include/hearth/hearth_helpers.h\n",
-          "include/hearth/formats/pack_view.h\n", "include/hearth/formats/shared/records.h\n",
+          "include/hearth/formats/pack/pack_view.h\n", "include/hearth/formats/gpu_shared/records.h\n",
           "/libhearth.a\n", "/libhearth-formats.a\n", "/libhearth-helpers.a\n",
           "/pkgconfig/hearth-helpers.pc\n", "/examples/draw_picture.c\n", "/libhearth.so ->",
           "/pkgconfig/hearth.pc\n", "/hearthConfig.cmake\n", "/HearthAddAssets.cmake\n"})

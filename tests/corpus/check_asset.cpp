@@ -17,13 +17,13 @@ namespace
 
 namespace fs = std::filesystem;
 
-// Looking at a pack that is there takes no limit of the asset's; this one finds a hang.
+// Programs that inspect an existing pack have no limit of the asset's; this one detects hangs.
 constexpr Limits kLookLimits{120, uint64_t{4} << 30};
 
 constexpr size_t kReportedLines = 3;
 constexpr size_t kMaxMessages = size_t{16} << 20;
 
-/// The folders and files of one check: the box is what the programs see, the rest stands beside it.
+/// Folders and files of one check: the programs see only the box; the rest lies beside it.
 struct Workplace
 {
     std::string box;
@@ -47,7 +47,7 @@ struct Workplace
         fs::create_directory(drawing_box);
     }
 
-    /// Whatever is in it goes: the folder is fit for the next check.
+    /// Remove all contents, so that the folder is ready for the next check.
     ~Workplace()
     {
         std::error_code ignored;
@@ -62,7 +62,7 @@ ProcessEnd run(const Workplace& place, std::vector<std::string> arguments, const
                const std::string& folder, std::vector<std::string> environment = {})
 {
     environment.push_back("TMPDIR=" + folder);
-    // what is tested is the cookers, in the asset's own folder
+    // the cookers run in the asset's own folder
     environment.push_back("HEARTH_CACHE=off");
     return runProcess(
         {std::move(arguments), std::move(environment), folder, place.stdout_file, place.stderr_file}, limits);
@@ -74,7 +74,7 @@ ProcessEnd cook(const Workplace& place, const Asset& asset, const Programs& prog
         fs::read_symlink("/proc/self/exe").parent_path().string() + "/" + kOpenLogLibrary;
     return run(place, {programs.hearth, "cook", asset.path, "-o", place.pack}, asset.limits, place.box,
                {"LD_PRELOAD=" + library, std::string(kOpenLogVariable) + "=" + place.open_log,
-                // a program under AddressSanitizer refuses to start after a preloaded library otherwise
+                // otherwise a program under AddressSanitizer refuses to start after a preloaded library
                 "ASAN_OPTIONS=verify_asan_link_order=0"});
 }
 
@@ -92,7 +92,7 @@ std::vector<std::string> errorLines(const std::string& messages)
     return lines;
 }
 
-/// The lines that tell most: errors before warnings before the rest.
+/// Return the most informative lines: errors before warnings before the rest.
 std::vector<std::string> tellingLines(const std::string& messages)
 {
     std::vector<std::string> lines = linesOf(messages);
@@ -187,7 +187,7 @@ void addRejectionFaults(std::vector<std::string>& faults, const Workplace& place
         faults.push_back("leaves an output");
 }
 
-/// Run a program on the pack that is there. returns whether all is well with it
+/// Run a program on the existing pack. returns whether all is well with it
 bool look(std::vector<std::string>& faults, const std::string& name, const Workplace& place,
           std::vector<std::string> arguments, const std::string& folder)
 {
@@ -200,7 +200,7 @@ bool look(std::vector<std::string>& faults, const std::string& name, const Workp
     return faults.size() == before;
 }
 
-/// 0 where the pack does not say.
+/// Return a count of the pack; 0 if the output does not have it.
 uint64_t number(const Json& object, const char* name)
 {
     const Json* found = object.find(name);
@@ -223,7 +223,7 @@ void compareCounts(std::vector<std::string>& faults, const Asset& asset, const J
         // the manifest counts the polygons of a scan as its triangles
         const bool faces_do =
             std::string_view(name) == "triangles" && number(source, "faces") == expected->second;
-        // note: "faces" of a texture are those of a cube map, and no scan has them beside a width
+        // note: "faces" of a texture are faces of a cube map; no scan has them beside a width
         if (!asset.counts.contains("vertices") && std::string_view(name) == "faces")
             continue;
         if (number(source, name) != expected->second && !faces_do)

@@ -1,4 +1,5 @@
-// Cooks one asset as a user would, checks the pack or the refusal, and says whether it is what its class asks for.
+// Cooks one asset as a user would, checks the pack or the error, and compares the outcome with the asset's
+// class.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -14,14 +15,14 @@ namespace hearth::corpus
 struct Programs
 {
     std::string hearth; ///< absolute path
-    std::string render; ///< absolute path; empty: packs are not drawn
+    std::string render; ///< absolute path; empty: packs are not rendered
     AllowedFiles allowed;
 };
 
-/// How a cook came out, whatever its class asks for.
+/// Outcome of a cook, independent of the asset's class.
 enum class Outcome
 {
-    loads,   ///< a sound pack
+    loads,   ///< a valid pack
     rejects, ///< one clear error and no output
     broken,  ///< anything else
 };
@@ -30,19 +31,19 @@ const char* outcomeName(Outcome outcome);
 struct Finding
 {
     Outcome outcome = Outcome::broken;
-    std::vector<std::string> faults; ///< one sentence each; none where the class is met
+    std::vector<std::string> faults; ///< one sentence each; none if the class's requirements are met
     int exit_code = 0;
-    std::vector<std::string> messages; ///< the most telling lines that the cook wrote to stderr
+    std::vector<std::string> messages; ///< the most informative lines that the cook wrote to stderr
     double cook_seconds = 0;
-    double total_seconds = 0; ///< with verify, inspect and drawing
+    double total_seconds = 0; ///< including verify, inspect and rendering
     uint64_t peak_rss_bytes = 0;
 };
 
-/// Cook `asset` in `work`, an empty folder that this fills and empties again.
+/// Cook `asset` in `work`, an empty folder that the function fills and empties again.
 Finding checkAsset(const Asset& asset, const Programs& programs, const std::string& work);
 
-/// The files that the programs open outside the asset's folder, their own and `work` when they cook `asset`, which is
-/// one that they can be trusted with.
+/// Return the files that the programs open outside of the asset's folder, their own folder and `work` while
+/// they cook `asset`, a trusted asset.
 std::set<std::string> systemFilesOf(const Asset& asset, const Programs& programs, const std::string& work);
 
 } // namespace hearth::corpus

@@ -1,4 +1,4 @@
-// hearth_corpus: cooks every file of the asset corpus and holds what comes of it against the manifest.
+// hearth_corpus: cooks every file of the asset corpus and compares the outcomes with the manifest.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
 #include "formats/base/program.h"
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr int kSkipped = 77; // CTest reads it as "skipped"
 
-// A defect that writes without end must not fill the disk. Four times the largest source's pack.
+// Limits endless output, so that a defect cannot fill the disk: four times the largest source's pack.
 constexpr rlim_t kMaxFileBytes = rlim_t{4} << 30;
 
 struct Arguments
@@ -47,7 +47,7 @@ bool chosen(const Asset& asset, const Arguments& arguments)
            (arguments.good == arguments.bad || is_good == arguments.good);
 }
 
-/// A folder for the run that goes when this goes.
+/// Temporary folder of the run, removed by the destructor.
 class WorkFolder
 {
 public:
@@ -78,8 +78,8 @@ private:
     std::string path_;
 };
 
-/// What the programs open on this system whatever the asset: learnt from one sound file of each kind, the smallest
-/// that refers to no other.
+/// Return the files that the programs open on this system for any asset. Learnt from one valid file of each
+/// kind, the smallest that refers to no other file.
 std::set<std::string> learnSystemFiles(const std::vector<Asset>& assets, const Programs& programs,
                                        const std::string& work)
 {
@@ -189,7 +189,7 @@ try
         "Exit codes: 0 every file meets its class, 1 some do not, 2 usage, 77 skipped: no assets");
     if (const std::optional<int> exit_code = app.parse(argc, argv))
         return *exit_code;
-    // the children inherit these: no core files, and no file without end
+    // the children inherit these limits: no core files, and no endless files
     const rlimit no_core{0, 0};
     const rlimit file_size{kMaxFileBytes, kMaxFileBytes};
     ::setrlimit(RLIMIT_CORE, &no_core);

@@ -1,4 +1,4 @@
-// The corpus runner against programs that do wrong: shell scripts in the place of hearth and hearth-render.
+// Tests the corpus runner with misbehaving shell scripts in place of hearth and hearth-render.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/corpus/judge.h"
 
@@ -22,7 +22,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-// In the scripts: $asset is the asset's path, $out the pack's, and the working folder is the box.
+// In the scripts, $asset is the asset's path, $out the pack's, and the working folder is the box.
 constexpr const char* kGoodCook = "echo pack > $out";
 constexpr const char* kGoodReject = "echo \"$asset|/meshes/0: error: it is damaged [E1101]\" >&2; exit 65";
 constexpr const char* kGoodInspect =
@@ -73,7 +73,7 @@ protected:
         return asset;
     }
 
-    /// The finding for an asset, where `cook` is what cooking it does.
+    /// Return the finding for an asset, with script `cook` in place of the cook.
     Finding check(const Asset& asset, const std::string& cook) const
     {
         writeScript("hearth", "case $1 in\ncook) asset=$2; out=$4; " + cook + " ;;\nverify) " + verify_ +
@@ -84,11 +84,11 @@ protected:
 
     Programs programs() const
     {
-        // the shell's own tools look there for security modules
+        // the shell's own tools probe there for security modules
         return {root_ + "/bin/hearth", root_ + "/bin/hearth-render", {root_ + "/bin", {"/proc/filesystems"}}};
     }
 
-    /// The faults that are found where an asset of this class is cooked like this.
+    /// Return the faults found for an asset of this class with this cook.
     std::vector<std::string> faults(const std::string& cook,
                                     std::string_view class_name = "must-not-crash") const
     {
@@ -154,7 +154,7 @@ TEST_F(CheckAsset, reportsTooMuchMemoryOfAChild)
 {
     Asset small = asset("must-not-crash");
     small.limits.rss_bytes = uint64_t{64} << 20;
-    // tail keeps a last line that does not end
+    // tail keeps an unterminated last line
     const Finding finding = check(small, "head -c 300000000 /dev/zero | tail > /dev/null; echo pack > $out");
     EXPECT_THAT(finding.faults, Contains(HasSubstr("hearth cook needs more memory than 64 MiB")));
 }

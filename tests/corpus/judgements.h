@@ -1,5 +1,6 @@
-// Files whose class in the manifest is a judgement (confidence medium) and where Hearth does otherwise, each with the
-// reason. Only loading in place of rejecting, or the reverse, can stand here; an entry that is not needed is a failure.
+// Files whose class in the manifest has medium confidence and from which Hearth deviates, each with the
+// reason. Only loading in place of rejecting, or the reverse, can be listed; an entry that is not needed is a
+// failure.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -14,7 +15,7 @@ namespace hearth::corpus
 struct Judgement
 {
     std::string_view file;
-    Outcome outcome = Outcome::broken; ///< what Hearth does instead
+    Outcome outcome = Outcome::broken; ///< actual outcome in Hearth
     std::string_view why;
 };
 

@@ -14,7 +14,7 @@ namespace hearth::corpus
 namespace
 {
 
-// Good files carry no limits in the manifest. The largest has 1.6 million triangles.
+// Valid files have no limits in the manifest. The largest has 1.6 million triangles.
 constexpr Limits kGoodLimits{120, uint64_t{4} << 30};
 
 const AssetClass* classOf(const std::string& name)

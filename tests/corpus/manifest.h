@@ -1,4 +1,4 @@
-// The list of test assets: what each file is, and what cooking it must come to.
+// Reads the list of test assets: the kind of each file, and the required outcome of its cook.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,14 +13,14 @@
 namespace hearth::corpus
 {
 
-/// What an `expected` class of the manifest allows.
+/// Outcomes that an `expected` class of the manifest allows.
 struct AssetClass
 {
     std::string_view name;
     bool may_load = false;
     bool may_reject = false;
 
-    /// Nothing but a pack will do: its counts are compared and it is drawn.
+    /// Only a pack is acceptable: its counts are compared and it is rendered.
     bool mustLoad() const { return may_load && !may_reject; }
 };
 
@@ -34,7 +34,7 @@ inline constexpr AssetClass kAssetClasses[] = {
     {"must-reject", false, true},
 };
 
-/// How sure the manifest is of a class. Good files are sure.
+/// Confidence of the manifest in a class. Classes of valid files are certain.
 enum class Confidence
 {
     good,
@@ -47,18 +47,18 @@ struct Asset
 {
     std::string file;   ///< as the manifest and the reports name it
     std::string path;   ///< absolute
-    std::string folder; ///< absolute: nothing outside it may be read
+    std::string folder; ///< absolute; nothing outside of it may be read
     std::string category;
     const AssetClass* expected = nullptr;
     Confidence confidence = Confidence::good;
     Limits limits;
     uint64_t bytes = 0;
-    bool self_contained = false;            ///< one file, nothing beside it
-    std::map<std::string, uint64_t> counts; ///< those of the manifest that are whole numbers
+    bool self_contained = false;            ///< one file without references to others
+    std::map<std::string, uint64_t> counts; ///< counts of the manifest that are integers
 };
 
-/// All assets in the order of `folder`/manifest.json: the good files, then the bad.
-/// errors     input_missing, json_syntax, gltf_value (a class that is not known), with the manifest's path
+/// Read all assets in the order of `folder`/manifest.json: the valid files, then the bad.
+/// errors     input_missing, json_syntax, gltf_value (an unknown class), with the manifest's path
 Result<std::vector<Asset>> readManifest(const std::string& folder);
 
 } // namespace hearth::corpus

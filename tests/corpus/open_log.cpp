@@ -1,5 +1,6 @@
-// Preloaded into the programs under test: writes down every file that they open, and every address they connect to.
-// Calls inside the C library (the loader, locales) do not pass here, so what is logged is what a program asked for.
+// Preloaded into the programs under test: logs every file that they open, and every address they connect to.
+// Calls inside the C library (the loader, locales) do not pass here, so the log has only what a program asked
+// for.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/corpus/open_log.h"
 
@@ -15,7 +16,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-// note: no part of the C++ library is used, so that preloading this brings nothing else along.
+// note: the code uses no part of the C++ library, so that preloading brings no other library along.
 #define HEARTH_EXPORT extern "C" __attribute__((visibility("default")))
 
 namespace
@@ -44,7 +45,7 @@ void append(char kind, const char* text)
     const int size = std::snprintf(record, sizeof(record) - 1, "%c%s", kind, text);
     if (size <= 0)
         return;
-    // one write with O_APPEND, the closing zero included: records of several processes do not mix
+    // one write with O_APPEND, including the closing zero: records of several processes do not mix
     const auto length = static_cast<size_t>(size < kTextSize ? size : kTextSize) + 1;
     const long file = ::syscall(SYS_openat, AT_FDCWD, log, O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0600);
     if (file < 0)
@@ -53,7 +54,7 @@ void append(char kind, const char* text)
     ::syscall(SYS_close, file);
 }
 
-/// The real path of an open file, links resolved.
+/// Return the real path of an open file, links resolved.
 bool pathOf(int file, char* path)
 {
     char link[64];
@@ -109,8 +110,8 @@ FILE* logged(const char* path, const char* mode, FILE* opened)
 
 } // namespace
 
-// open and its relatives, each under the two names that it has. The last argument of open and openat is optional in C;
-// on Linux it is passed in the same register either way, so these take it always.
+// open and its relatives, each under its two names. The last argument of open and openat is optional in C; on
+// Linux it is passed in the same register either way, so these always take it.
 #define HEARTH_LOG_OPEN(name)                                                                                \
     HEARTH_EXPORT int name##Logged(const char* path, int flags, mode_t mode) __asm__(#name);                 \
     int name##Logged(const char* path, int flags, mode_t mode)                                               \

@@ -13,7 +13,8 @@ namespace hearth::corpus
 namespace
 {
 
-/// "a/../b" is "b": the path of a failed open is not resolved by the system. Processes see themselves as "self".
+/// Normalize a path: "a/../b" becomes "b", because the system does not resolve the path of a failed open.
+/// "/proc/<number>" becomes "/proc/self".
 std::string plain(const std::string& path)
 {
     std::string result = std::filesystem::path(path).lexically_normal().string();
@@ -32,7 +33,7 @@ bool isIn(const std::string& path, const std::string& folder)
     return path == folder || path.starts_with(folder + "/");
 }
 
-/// /dev/null holds nothing and keeps nothing.
+/// True for files that can hold data. /dev/null cannot.
 bool isFile(const OpenedFile& file)
 {
     return file.kind != kOpenNetwork && file.path != "/dev/null";

@@ -1,4 +1,5 @@
-// What the programs under test opened, as the preloaded library wrote it down, held against what they may open.
+// Compares the files that the programs under test opened, as logged by the preloaded library, with those that
+// they may open.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -15,22 +16,22 @@ struct OpenedFile
     std::string path;
 };
 
-/// The records of the log at `path`; none where there is no log. "/proc/<number>/" reads as "/proc/self/".
+/// Read the records of the log at `path`; none if it cannot be read. "/proc/<number>/" becomes "/proc/self/".
 std::vector<OpenedFile> readOpenLog(const std::string& path);
 
-/// Folders that the programs may use, and the files elsewhere that they open whatever the asset says.
+/// Folders that the programs may use, and files elsewhere that they open for any asset.
 struct AllowedFiles
 {
-    std::string programs;         ///< folder, to read
-    std::set<std::string> system; ///< files, to read
+    std::string programs;         ///< folder, readable
+    std::set<std::string> system; ///< files, readable
 };
 
-/// The opened files that are none of the programs' business: one sentence each. Allowed are the asset's folder (to
-/// read), the folder `box` (to read and write), and `allowed`.
+/// Return a sentence for each opened file that is not allowed. Allowed are the asset's folder (to read), the
+/// folder `box` (to read and write), and `allowed`.
 std::vector<std::string> trespasses(const std::vector<OpenedFile>& opened, const std::string& asset_folder,
                                     const std::string& box, const AllowedFiles& allowed);
 
-/// The files of `opened` that lie in none of the three folders.
+/// Return the files of `opened` that lie in none of the three folders.
 std::set<std::string> filesElsewhere(const std::vector<OpenedFile>& opened, const std::string& asset_folder,
                                      const std::string& box, const std::string& programs);
 

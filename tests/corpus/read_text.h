@@ -1,4 +1,4 @@
-// Text files as strings and lines.
+// Reads text files as strings and lines.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -8,10 +8,10 @@
 namespace hearth::corpus
 {
 
-/// The first `max_size` bytes of a file; empty where it cannot be read.
+/// Return the first `max_size` bytes of a file; empty if it cannot be read.
 std::string readText(const std::string& path, size_t max_size);
 
-/// Characters that do something to a terminal; the ends of lines and tabs are none.
+/// True for control characters of terminals, except line ends and tabs.
 bool isControlCharacter(char c);
 
 std::vector<std::string> linesOf(const std::string& text);

@@ -26,7 +26,7 @@ void printHead(const char* what, const Checked& checked)
                 confidenceName(checked.asset->confidence));
 }
 
-/// What the programs print comes from the asset: here it is made harmless to a terminal.
+/// Replace control characters: the programs' output contains text of untrusted assets.
 std::string printable(const std::string& text)
 {
     std::string result;

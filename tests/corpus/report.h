@@ -1,4 +1,4 @@
-// What the run found, for people.
+// Prints the results of a corpus run.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,16 +9,16 @@
 namespace hearth::corpus
 {
 
-/// Every failure with its reasons and the cook's first messages.
+/// Print every failure with its reasons and the cook's first messages.
 void printFailures(std::span<const Checked> all);
 
-/// Files of medium confidence that came out otherwise than their class.
+/// Print files of medium confidence whose outcome deviates from their class.
 void printMedium(std::span<const Checked> all);
 
-/// The ten files that took longest, and what they needed.
+/// Print the ten slowest files with their time and memory.
 void printSlowest(std::span<const Checked> all);
 
-/// Passed and failed by class and confidence.
+/// Print passed and failed files by class and confidence.
 void printTable(std::span<const Checked> all);
 
 } // namespace hearth::corpus

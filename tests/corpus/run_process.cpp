@@ -29,7 +29,8 @@ namespace
 
 using Clock = std::chrono::steady_clock;
 
-// Filling memory takes about 0.5 s a GiB, so a program passes its limit by a few dozen MiB before it is seen.
+// Poll interval. Filling memory takes about 0.5 s a GiB, so a program exceeds its limit by a few dozen MiB
+// before it is noticed.
 constexpr int kPollMilliseconds = 25;
 
 std::vector<char*> pointers(const std::vector<std::string>& texts)
@@ -48,7 +49,7 @@ bool sameVariable(const std::string& entry, const char* other)
     return entry.compare(0, name, other, std::min(name, std::strlen(other))) == 0;
 }
 
-/// This process's environment with `added` in place of variables of the same name.
+/// Return this process's environment with `added` in place of variables of the same name.
 std::vector<std::string> environmentWith(const std::vector<std::string>& added)
 {
     std::vector<std::string> result = added;
@@ -81,7 +82,7 @@ pid_t start(const Command& command)
     return error == 0 ? process : -1;
 }
 
-/// Resident bytes of process `name` of /proc where it is of the group, else 0.
+/// Return the resident bytes of process `name` of /proc if it belongs to the group, else 0.
 uint64_t residentBytes(const char* name, pid_t group)
 {
     char path[64];
@@ -118,7 +119,7 @@ uint64_t residentBytes(pid_t group)
     return sum;
 }
 
-/// Wait for the process to end or to pass a limit, then kill what is left of its group.
+/// Wait for the process to end or to exceed a limit, then kill the rest of its group.
 void watch(pid_t process, const Limits& limits, Clock::time_point begin, ProcessEnd& end)
 {
     // glibc 2.36 declares pidfd_open in a way that C++ cannot link to
@@ -134,11 +135,11 @@ void watch(pid_t process, const Limits& limits, Clock::time_point begin, Process
             break;
     }
     ::close(handle);
-    // not reaped yet, so that its number cannot be another's by now
+    // not reaped yet, so that its process id cannot be reused
     ::kill(-process, SIGKILL);
 }
 
-/// Collect one process of the group: its peak memory counts, whoever it was.
+/// Reap any process of the group and include its peak memory.
 pid_t reap(pid_t which, int& status, ProcessEnd& end)
 {
     rusage usage{};

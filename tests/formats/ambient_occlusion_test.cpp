@@ -1,4 +1,5 @@
-// Ambient occlusion of cones against integration over the hemisphere, and of real skies under bent normals.
+// Tests ambient occlusion of cones against integration over the hemisphere, and of random skies with bent
+// normals.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/ambient_occlusion.h"
 
@@ -20,7 +21,8 @@ float f(double x)
     return static_cast<float>(x);
 }
 
-/// (1/pi) int over the cone of max(0, n . w): polar rings about the axis, each with its part above the horizon in closed form.
+/// (1/pi) int over the cone of max(0, n . w): polar rings about the axis; the part of each above the horizon
+/// in closed form.
 double integratedOcclusion(double theta, double aperture)
 {
     constexpr int kRings = 4000;
@@ -125,14 +127,14 @@ double dot(Direction a, Direction b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/// What is seen of the hemisphere about z, as weights of directions of equal solid angle.
+/// Visible part of the hemisphere about z, as weights of directions of equal solid angle.
 struct Sky
 {
     std::vector<Direction> directions;
     std::vector<uint8_t> visible;
 };
 
-/// Half-spaces, blobs, or a cap, at random.
+/// A random sky: half-spaces, blobs, or a cap.
 Sky randomSky(std::mt19937& random, int kind)
 {
     const auto uniform = [&](double low, double high)

@@ -1,4 +1,4 @@
-// Poses with known answers: interpolation, blends, hierarchies and palettes.
+// Tests poses with known answers: interpolation, blending, hierarchies and palettes.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/scene/animation.h"
 
@@ -43,7 +43,7 @@ struct Scene
         return static_cast<uint32_t>(nodes.size() - 1);
     }
 
-    /// Into the one animation.
+    /// Add a channel to the single animation.
     void addChannel(uint32_t node, AnimationPath path, Interpolation interpolation, uint32_t components,
                     const std::vector<float>& times, const std::vector<float>& values)
     {
@@ -146,7 +146,7 @@ TEST(Animation, rotationsGoAlongTheShorterArc)
     const uint32_t node = scene.addNode(kInvalidIndex);
     std::vector<float> far = rotationAboutZ(1.0);
     for (float& component : far)
-        component = -component; // the same rotation on the other side of the sphere
+        component = -component; // the same rotation, antipodal quaternion
     scene.addChannel(node, AnimationPath::rotation, Interpolation::linear, 4, {0, 1},
                      joined({rotationAboutZ(0.2), far}));
     EXPECT_NEAR(angleAboutZ(scene.at(0.25).nodes[node].rotation), 0.4, kTolerance);
@@ -196,9 +196,9 @@ TEST(Animation, slerpKeepsItsSpeedAndItsLength)
     std::normal_distribution<double> normal;
     for (int i = 0; i < 1000; ++i)
     {
-        const double arc = i % 3 == 0 ? 1e-7 * i : 1.5 * i / 1000.0; // of the quaternions
+        const double arc = i % 3 == 0 ? 1e-7 * i : 1.5 * i / 1000.0; // angle between the quaternions
         Quaternion from{normal(random), normal(random), normal(random), normal(random)};
-        from = slerp(from, from, 0); // of length 1
+        from = slerp(from, from, 0); // normalised
         const Quaternion side{-from[1], from[0], -from[3], from[2]};
         Quaternion to;
         for (size_t c = 0; c < 4; ++c)
@@ -307,7 +307,7 @@ TEST(Animation, packedKeysAreTheFloatsOfTheirCodes)
 
 TEST(Animation, packedRotationsHaveTheLengthOne)
 {
-    // one key for each number that can be left out; the three others are .5
+    // one key for each component that can be omitted; the three others are .5
     Scene scene;
     scene.addNode(kInvalidIndex);
     scene.animations.push_back({});
@@ -315,7 +315,7 @@ TEST(Animation, packedRotationsHaveTheLengthOne)
                      {-0.5f, 0.5f, 0.5f, 0.25f});
     scene.channels[0].encoding = static_cast<uint32_t>(KeyEncoding::packed);
     scene.channels[0].value_bits[0] = 3;
-    // 5 bits a key: which one, and the code of the first of the others: -.5, -.25, 0 and .5
+    // 5 bits a key: the omitted component and the code of the first of the others: -.5, -.25, 0 and .5
     scene.key_bits = {0u | 0u << 2 | (1u | 1u << 2) << 5 | (2u | 2u << 2) << 10 | (3u | 4u << 2) << 15};
     const std::array<Quaternion, 4> wanted{{{0.5, -0.5, 0.5, 0.5},
                                             {-0.25, std::sqrt(0.4375), 0.5, 0.5},

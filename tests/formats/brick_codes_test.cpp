@@ -19,7 +19,7 @@ namespace
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// What code 0 to 31 * 2^mantissa_bits - 1 stands for, in doubles and by the definition.
+/// Value of code 0 to 31 * 2^mantissa_bits - 1, in double and by the definition.
 double valueOf(uint32_t code, uint32_t mantissa_bits)
 {
     const auto scale = static_cast<double>(1u << mantissa_bits);
@@ -29,7 +29,7 @@ double valueOf(uint32_t code, uint32_t mantissa_bits)
                          : std::ldexp(1 + mantissa / scale, exponent - 15);
 }
 
-/// The code nearest to a value >= 0 by search among all; of two the even one.
+/// Code nearest to a value >= 0, by exhaustive search; the even code in a tie.
 uint32_t nearestCode(double value, uint32_t mantissa_bits)
 {
     const uint32_t count = 31u << mantissa_bits;
@@ -44,7 +44,7 @@ uint32_t nearestCode(double value, uint32_t mantissa_bits)
     return best;
 }
 
-/// As hardware that cuts the mantissa off.
+/// Truncate the mantissa, as some hardware does.
 uint32_t cutCode(float value, uint32_t mantissa_bits)
 {
     const uint32_t nearest = encodeUnsignedFloat(value, mantissa_bits);
@@ -87,7 +87,7 @@ TEST(UnsignedFloats, roundAsASlowSearchDoes)
     std::mt19937 random(1);
     for (int i = 0; i < 1000; ++i)
     {
-        // all magnitudes that there are, and some beyond
+        // all magnitudes, and some out of range
         const auto value =
             static_cast<float>(std::exp2(std::uniform_real_distribution<double>(-25, 17)(random)));
         for (const uint32_t bits : {5u, 6u})
@@ -122,7 +122,8 @@ TEST(Radiance, hasItsColoursWhereTheFormatSays)
     EXPECT_FALSE(isLegalRadiance(31u << 27));
 }
 
-/// Grey light that is stored after each bounce off a grey surface: how far rounding alone moves blue against red.
+/// Store grey light after each bounce off a grey surface, and measure how far rounding alone shifts blue
+/// against red.
 TEST(Radiance, keepsItsHueThrough64Bounces)
 {
     std::mt19937 random(2);
@@ -142,8 +143,8 @@ TEST(Radiance, keepsItsHueThrough64Bounces)
             cut_red = decodeUnsignedFloat(cutCode(emission + albedo * cut_red, 6), 6);
             cut_blue = decodeUnsignedFloat(cutCode(emission + albedo * cut_blue, 5), 5);
         }
-        // each rounding is off by half a step of the mantissa, and all before it fade by the albedo; the step may be that of
-        // the power of two above
+        // Each rounding is off by up to half a step of the mantissa, and earlier errors decay by the albedo.
+        // The step may be that of the power of two above.
         const double gain = 1 / (1 - double{albedo});
         ASSERT_LE(std::abs(double{red} / exact - 1), gain * (1 + gain / 64) / 128)
             << albedo << " " << emission;
@@ -152,7 +153,8 @@ TEST(Radiance, keepsItsHueThrough64Bounces)
         drift += std::log(double{blue} / double{red}) / kTries;
         cut_drift += std::log(double{cut_blue} / double{cut_red}) / kTries;
     }
-    // coming from the dark, light stops half a step early, in blue twice as far; cut off, each bounce takes more of it
+    // Light that grows from 0 stops half a step early, in blue twice as far. Truncation takes more at each
+    // bounce.
     EXPECT_LT(std::abs(drift), 0.012);
     EXPECT_LT(cut_drift, 2 * drift) << drift;
 }
@@ -168,7 +170,7 @@ TEST(Albedo, isThreeUnormsOfTenBits)
         ASSERT_EQ(decodeAlbedo(code | code << 10 | code << 20), (Float3{value, value, value}));
     }
     EXPECT_EQ(encodeAlbedo({-1, 2, std::numeric_limits<float>::quiet_NaN()}), 1023u << 10);
-    // halfway goes up
+    // ties round up
     EXPECT_EQ(encodeAlbedo({0.4999f / 1023, 1.5001f / 1023, 0}), 2u << 10);
 }
 

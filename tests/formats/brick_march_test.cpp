@@ -1,8 +1,9 @@
-// The march against an exhaustive slab test in doubles over all solid voxels.
+// Tests the brick march against an exhaustive slab test in doubles over all solid voxels.
 //
-// A float ray may be off by a rounding of its largest coordinate. So a voxel made smaller by that much must be met if the
-// exact ray meets it, one made larger may be: of what must be met nothing may be missed or come late, and what is found must
-// be such that it may be met, by a face through which it may be entered, there.
+// A float ray may be off by a rounding of its largest coordinate. Shrink and grow each voxel by that much:
+// the march must hit a voxel if the exact ray hits the shrunk one, and may hit it if the ray hits the grown
+// one. No voxel that must be hit may be missed or reported late. A reported voxel must be one that may be
+// hit, entered by a face through which it may be entered, at that distance.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/brick_codes.h"
 #include "tests/support/march_rays.h"
@@ -31,13 +32,13 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // ------------------------------------------------------------------------------------------------ the oracle
 
-/// Where a ray is inside a box along one axis, and of all axes together.
+/// Interval of a ray inside a box, along one axis or along all axes together.
 struct Chord
 {
     double in = -kInfinity;
     double out = kInfinity;
 
-    /// Touched alone is not met.
+    /// A ray that only touches does not hit.
     bool met() const { return in < out; }
 };
 
@@ -63,7 +64,7 @@ public:
     double slack() const { return slack_t_; }
     double far() const { return far_; }
 
-    /// Of a voxel whose faces are `grown` farther out; from the ray's origin on.
+    /// Interval inside a voxel whose faces are `grown` farther out, starting at the ray's origin.
     Chord chord(const Cell& cell, double grown) const
     {
         Chord chord{0, kInfinity};
@@ -78,7 +79,7 @@ public:
     Chord mostChord(const Cell& cell) const { return chord(cell, slack_); }
     Chord leastChord(const Cell& cell) const { return chord(cell, -slack_); }
 
-    /// Where the first voxel is entered that must be met; infinity without one.
+    /// Entry distance of the first voxel that must be hit; infinity without one.
     double firstThatMustBe() const
     {
         double first = kInfinity;
@@ -90,7 +91,7 @@ public:
         return first;
     }
 
-    /// Whether a voxel that may be met may be entered by this face.
+    /// True if a voxel that may be hit may be entered by this face.
     bool mayEnterBy(const Cell& cell, uint32_t face) const
     {
         if (face == kNoFace)
@@ -116,7 +117,7 @@ public:
         return entersAt(through, -slack_) >= last;
     }
 
-    /// Voxels that a ray crosses on its way through the grid up to t, touched ones counted.
+    /// Number of voxels that a ray crosses or touches on its path through the grid up to t.
     double cellsCrossed(double t) const
     {
         double in = 0, out = t;
@@ -166,7 +167,7 @@ Cell cellOf(const BrickRay& ray)
     return {static_cast<uint32_t>(ray.x), static_cast<uint32_t>(ray.y), static_cast<uint32_t>(ray.z)};
 }
 
-/// What is wrong with the answer, or nothing.
+/// Describe the error in the answer; nullopt if it is right.
 std::optional<std::string> faultOf(const MarchScene& scene, const MarchRay& ray, const BrickRay& found)
 {
     const Oracle oracle(scene, ray);
@@ -239,7 +240,7 @@ TEST(BrickMarch, findsWhatAnExhaustiveSearchFinds)
             ends += found.inside && found.face == kNoFace ? 1 : 0;
         }
     }
-    // the rays meet something often enough, and start inside often enough
+    // the rays must hit something often enough, and start inside often enough
     EXPECT_GT(hits, kRays / 4);
     EXPECT_GT(ends, kRays / 20);
 }
@@ -303,7 +304,7 @@ TEST(BrickMarch, endsWhateverTheRayIs)
 
 TEST(BrickMarch, letsNothingThroughBetweenVoxelsWithACommonEdge)
 {
-    // a slanted wall without thickness: voxels x = y, each beside the next along an edge alone
+    // a slanted wall without thickness: voxels x = y, neighbours share only an edge
     const BrickModel wall = brickModel({48, 48, 4}, [](uint32_t x, uint32_t y, uint32_t) { return x == y; });
     const BrickMasks masks = wall.masks();
     std::mt19937 random(4);
@@ -350,15 +351,15 @@ TEST(BrickMarch, takesAFaceForWhatLiesBehindIt)
 {
     const BrickModel model =
         brickModel({8, 8, 8}, [](uint32_t x, uint32_t y, uint32_t z) { return x == 3 && y == 3 && z == 3; });
-    // into the voxel: by that face, at once
+    // into the voxel: hits at once, by that face
     BrickRay found = marchIn(model, {3, 3.5f, 3.5f}, {1, 0, 0});
     EXPECT_TRUE(found.inside && found.face == 0 && found.t == 0);
     found = marchIn(model, {3.5f, 4, 3.5f}, {0, -1, 0});
     EXPECT_TRUE(found.inside && found.face == 3 && found.t == 0);
-    // away from it: not at all
+    // away from it: no hit
     EXPECT_FALSE(marchIn(model, {4, 3.5f, 3.5f}, {1, 0, 0}).inside);
     EXPECT_FALSE(marchIn(model, {3.5f, 3.5f, 3}, {0, 0, -1}).inside);
-    // along it: in the voxel above
+    // along it: hits the voxel above
     EXPECT_TRUE(marchIn(model, {3, 0, 3.5f}, {0, 1, 0}).inside);
     EXPECT_FALSE(marchIn(model, {4, 0, 3.5f}, {0, 1, 0}).inside);
     found = marchIn(model, {3.25f, 3.5f, 3.5f}, {1, 0, 0});
@@ -380,7 +381,7 @@ TEST(BrickMarch, findsTheFaceOfAVoxel)
                 const uint32_t index = brickFace(brick, bit, face);
                 if (index == kNoFace)
                     continue;
-                // in their order, none left out, and with the normal of the face
+                // in order, none missing, with the normal of the face
                 ASSERT_EQ(index, faces++);
                 const Float3 normal = decodeFaceNormal(scene.model.normals[index]);
                 EXPECT_EQ(normal[static_cast<int>(face / 2)], face % 2 != 0 ? 1 : -1);

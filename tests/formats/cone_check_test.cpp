@@ -1,4 +1,4 @@
-// The bounds of normal cones in squares, held against their definition in angles and distances.
+// Tests the check of normal cones, which compares squares, against its definition by angles and distances.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/pack/cone_check.h"
 
@@ -15,14 +15,14 @@ using namespace formats;
 namespace
 {
 
-/// How far a triangle is beyond a bound: accepted up to 0.
+/// Amount by which a triangle exceeds a bound: accepted up to 0.
 struct Beyond
 {
-    double sine;     ///< of the angle between normal and axis; or how far the normal looks back
-    double in_front; ///< the apex, over half the diagonal of the box + its distance from the middle
+    double sine; ///< of the angle between normal and axis; or the amount by which the normal faces backwards
+    double in_front; ///< of the apex, over half the diagonal of the box + its distance from the centre
 };
 
-/// As FORMAT.md says it.
+/// Definition in FORMAT.md.
 Beyond beyond(const ClusterRecord& cluster, float grid_step, Double3 any_normal, Double3 corner)
 {
     const double area = length(any_normal);
@@ -38,7 +38,7 @@ Beyond beyond(const ClusterRecord& cluster, float grid_step, Double3 any_normal,
             dot(normal, apex - corner) / reach - kApexSlack};
 }
 
-/// Clusters of all sizes, and triangles whose normals and planes lie about their bounds.
+/// Clusters of all sizes, and triangles whose normals and planes are near their bounds.
 class RandomClusters
 {
 public:
@@ -55,7 +55,7 @@ public:
         const auto code = [&] { return static_cast<int32_t>(random_() % 255) - 127; };
         const int32_t x = code();
         cluster.cone_axis = static_cast<uint16_t>(NormalCode<8>::pack(x, code()));
-        // narrow cones, those near a half space, and any
+        // narrow cones, cones near a half space, and arbitrary ones
         const auto kind = static_cast<uint32_t>(random_() % 4);
         const auto cutoff = static_cast<uint32_t>(random_() % (kind == 0 ? 50 : kNoCone));
         cluster.cone_cutoff = static_cast<uint16_t>(kind == 1 ? kNoCone - 1 - cutoff % 50 : cutoff);
@@ -63,7 +63,7 @@ public:
         return cluster;
     }
 
-    /// About at the angle of the cone from its axis.
+    /// Normal near the cone's angle from its axis.
     Double3 normal(const ClusterRecord& cluster)
     {
         const Double3 axis = widen(coneAxis(cluster));
@@ -76,7 +76,7 @@ public:
         return unit * std::ldexp(1 + uniform(), static_cast<int>(random_() % 80) - 40);
     }
 
-    /// About in the plane through the apex, or anywhere in the box.
+    /// Corner near the plane through the apex, or anywhere in the box.
     Double3 corner(const ClusterRecord& cluster, float grid_step, Double3 normal)
     {
         const Box3 box = clusterBox(cluster, grid_step);
@@ -92,7 +92,7 @@ public:
     double uniform() { return std::uniform_real_distribution<double>(0, 1)(random_); }
 
 private:
-    /// Of either sign, of all sizes from 1e-14 to 1.
+    /// Offset of either sign, of magnitudes from 1e-14 to 1.
     double offset()
     {
         const double size = std::pow(10.0, -14 * uniform());
@@ -104,7 +104,7 @@ private:
     std::mt19937 random_{1};
 };
 
-/// Accepted, refused, and either within a little of the bound.
+/// Numbers of accepted and rejected triangles, and of triangles close to the bound.
 struct Counts
 {
     uint32_t accepted = 0, refused = 0, close = 0;
@@ -152,7 +152,7 @@ TEST(ConeCheck, isTheDefinitionButForRounding)
 
 TEST(ConeCheck, keepsItsBoundsOnTheFinestAndTheCoarsestGrid)
 {
-    // squares of squares of lengths stay within what doubles have
+    // squares of squared lengths stay within the range of doubles
     ClusterRecord cluster{};
     std::fill(std::begin(cluster.extent), std::end(cluster.extent), uint16_t{1});
     cluster.cone_axis = static_cast<uint16_t>(NormalCode<8>::pack(0, 0));

@@ -27,7 +27,7 @@ std::vector<std::byte> bytesOf(const std::string& path)
     return {bytes.begin(), bytes.end()};
 }
 
-/// Write chunks the way a cooker does.
+/// Write chunks like a cooker.
 Status writeChunks(const std::string& path, std::span<const ChunkImage> chunks, Codec codec)
 {
     HEARTH_ASSIGN_OR_RETURN(ContainerWriter writer, ContainerWriter::create(path, ContainerKind::pack));
@@ -47,7 +47,7 @@ T readAt(const AlignedBytes& bytes, size_t offset)
     return value;
 }
 
-/// Change the header and make its hash right again.
+/// Change the header and update its hash.
 AlignedBytes withHeader(AlignedBytes bytes, void (*change)(FileHeader&))
 {
     auto header = readAt<FileHeader>(bytes, 0);
@@ -58,7 +58,7 @@ AlignedBytes withHeader(AlignedBytes bytes, void (*change)(FileHeader&))
     return bytes;
 }
 
-/// Change entry `index` of the chunk table and make the hashes of table and header right again.
+/// Change entry `index` of the chunk table and update the hashes of table and header.
 AlignedBytes withEntry(AlignedBytes bytes, size_t index, void (*change)(ChunkEntry&))
 {
     auto header = readAt<FileHeader>(bytes, 0);
@@ -80,7 +80,7 @@ Issue refusal(const AlignedBytes& bytes)
     return status.ok() ? Issue::usage : status.error().issue;
 }
 
-/// Pages and texels are the model's, or an error.
+/// Expect that each page and texel read is the model's, or an error.
 void expectNothingElseIsHandedOut(const pack::Pack& pack, const PackModel& model)
 {
     std::vector<std::byte> buffer(kMaxPageBytes);
@@ -203,7 +203,7 @@ TEST(Pack, opensAFile)
     const PackModel model = smallPack();
     const std::vector<ChunkImage> chunks = model.chunks();
     ASSERT_TRUE(writeChunks(folder.file("a.hearth"), chunks, Codec::zstd).ok());
-    // chunk PAGE is stored as it is by every writer of packs
+    // every writer of packs stores chunk PAGE uncompressed
     EXPECT_EQ(pack::Pack::open(folder.file("a.hearth")).error().issue, Issue::chunk_codec);
     ASSERT_TRUE(writeChunks(folder.file("a.hearth"), chunks, Codec::none).ok());
     const auto pack = pack::Pack::open(folder.file("a.hearth"));
@@ -216,7 +216,7 @@ TEST(Pack, refusesTruncationAtEveryLength)
     const AlignedBytes bytes = smallPack().bytes();
     for (size_t length = 0; length < bytes.size(); ++length)
     {
-        // a buffer of its own size, so that the address sanitizer sees a read behind it
+        // a buffer of exactly its size, so that the address sanitizer detects a read past its end
         const AlignedBytes cut(bytes.span().first(length));
         ASSERT_FALSE(pack::Pack::fromBytes(cut.span(), "cut").ok()) << length << " bytes of " << bytes.size();
     }
@@ -368,7 +368,7 @@ const std::vector<MalformedContainer>& malformedContainers()
          []
          {
              std::vector<ChunkImage> chunks = smallPack().chunks(true);
-             // a frame whose header leaves the size out, with a window of 1 KiB and one raw block of 32 bytes
+             // a zstd frame without content size, with a window of 1 KiB and one raw block of 32 bytes
              std::vector<std::byte>& frame = chunks.back().stored;
              frame.clear();
              for (const int byte : {0x28, 0xB5, 0x2F, 0xFD, 0, 0, 0x01, 0x01, 0})
@@ -417,7 +417,7 @@ TEST(MalformedContainers, areEachRefusedAsTheirIssue)
 
 TEST(MalformedContainers, haveOneForEveryIssueOfContainers)
 {
-    // these two belong to the content and have cases among the malformed packs
+    // These two concern the content; their cases are among the malformed packs.
     const std::set<Issue> elsewhere = {Issue::chunk_missing, Issue::page_hash};
     for (const IssueInfo& info : allIssues())
     {

@@ -1,4 +1,5 @@
-// The lobes of mirror images against the reflection integral of a GGX surface, by sums over the whole hemisphere.
+// Tests the lobes of specular gathering against the reflection integral of a GGX surface, summed over the
+// whole hemisphere.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/gather.h"
 #include "formats/gpu_shared/gather_lobe.h"
@@ -17,7 +18,7 @@ namespace
 {
 
 constexpr double kPi = std::numbers::pi;
-constexpr uint32_t kRays = kGatherLobeRays * kGatherFrames; ///< of a lobe until they come again
+constexpr uint32_t kRays = kGatherLobeRays * kGatherFrames; ///< rays of a lobe until the sequence repeats
 
 using Radiance = std::function<double(Float3)>;
 
@@ -26,8 +27,8 @@ Float3 eyeAt(double angle)
     return {static_cast<float>(std::sin(angle)), 0, static_cast<float>(std::cos(angle))};
 }
 
-/// Light to one side of an edge each, from farther and farther beside the mirror's direction, across the plane of eye and
-/// normal, which is z, and along it.
+/// Worlds with light on one side of an edge. The edges are at increasing angles from the mirror direction,
+/// across the plane of eye and normal, which is z, and along it.
 std::vector<Radiance> edgesAbout(Float3 to_eye)
 {
     const Float3 mirror{-to_eye.x, -to_eye.y, to_eye.z};
@@ -43,7 +44,8 @@ std::vector<Radiance> edgesAbout(Float3 to_eye)
     return edges;
 }
 
-/// What a surface of constant Fresnel's factor shows of each, over what it shows of a world that is 1 everywhere.
+/// Reflection of each world by a surface of constant Fresnel factor, relative to its reflection of a world
+/// that is 1 everywhere.
 /// source  brdf.glsl
 std::vector<double> reflectedOf(const std::vector<Radiance>& worlds, Float3 to_eye, double roughness)
 {
@@ -124,7 +126,7 @@ TEST(GatherLobe, turnsWithTheNormal)
     for (const Float3 normal : normals)
         for (const float roughness : {kGatherSharpRoughness, kGatherWideRoughness})
         {
-            // along the normal, so that the lobe is round about it
+            // along the normal, so that the lobe is rotationally symmetric
             Float3 sum;
             for (uint32_t i = 0; i < kRays; ++i)
             {
@@ -136,7 +138,7 @@ TEST(GatherLobe, turnsWithTheNormal)
             }
             EXPECT_GT(dot(sum, normal) / length(sum), 0.999f);
         }
-    // from behind, as smooth normals are seen at silhouettes
+    // from behind, as happens with smooth normals at silhouettes
     for (uint32_t i = 0; i < kRays; ++i)
     {
         const GatherLobeRay ray =
@@ -164,7 +166,7 @@ TEST(GatherLobe, twoAndTheCosineStandForAllRoughnesses)
                 << "angle " << angle << " roughness " << roughness;
         }
     }
-    // smoother ones show the sharp lobe
+    // smoother surfaces use the sharpest lobe
     EXPECT_EQ(gatherLobeShares(0).sharp, 1);
     EXPECT_EQ(gatherLobeShares(0).wide, 0);
 }

@@ -36,7 +36,7 @@ TEST(ImageUses, nameMaterialAndRole)
     materials[2].metallic_roughness_texture.image = 2;
     materials[2].occlusion_texture.image = 2;
     materials[2].base_color_texture.image = 1;
-    materials[2].emissive_texture.image = 7; // there is none
+    materials[2].emissive_texture.image = 7; // does not exist
     const auto uses = imageUses(materials, 4);
     ASSERT_EQ(uses.size(), 4u);
     EXPECT_EQ(textOf(uses[0]), "0 normal;");

@@ -11,7 +11,7 @@ namespace hearth::test
 
 using namespace formats;
 
-// Records without gaps are asserted by HEARTH_RECORD itself; this pins what it would refuse.
+// HEARTH_RECORD itself asserts that records have no gaps; this shows that it rejects records with gaps.
 static_assert(hasNoGaps(std::array{Field{"a", "u32", 0, 4, ""}, Field{"b", "u64", 4, 8, ""}}, 12));
 static_assert(!hasNoGaps(std::array{Field{"a", "u32", 0, 4, ""}, Field{"b", "u64", 8, 8, ""}}, 16), "a hole");
 static_assert(!hasNoGaps(std::array{Field{"a", "u64", 0, 8, ""}, Field{"b", "u32", 8, 4, ""}}, 16),

@@ -18,12 +18,13 @@ constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr uint32_t kHuge = 0xFFFFFFF0u; ///< first + count overflows 32 bits
 
-// a cluster of the strip: base of u and v, then vertices of 6 words: position (with the normal in the upper half of its
-// second), tangent, UV, colour, visibility
+// A cluster of the strip: base of u and v, then vertices of 6 words: position (with the normal in the upper
+// half of its second), tangent, UV, colour, visibility.
 constexpr size_t kStripVertices = 2 * 4;
-constexpr size_t kStripIndices = kStripVertices + 4 * 6 * 4; ///< of the first cluster of a page
+constexpr size_t kStripIndices = kStripVertices + 4 * 6 * 4; ///< first cluster of a page
 
-// the cluster of the triangle: vertices of 6 words, position, joints and weights; indices; the section of one target
+// The cluster of the triangle: vertices of 6 words: position, joints and weights; then indices and the
+// section of one target.
 constexpr size_t kTriangleJoints = 2 * 4;
 constexpr size_t kTriangleWeights = 4 * 4;
 constexpr size_t kTriangleIndices = 3 * 6 * 4;
@@ -36,7 +37,7 @@ void poke(PackModel& pack, size_t page, size_t byte, T value)
     std::memcpy(pack.decoded_pages[page].data() + byte, &value, sizeof(T));
 }
 
-/// All errors as of a group that something replaces.
+/// Set all errors, as in a group that has a replacement.
 void setErrors(GroupRecord& group, float error)
 {
     group.error = group.position_error = group.uv_error = error;
@@ -329,7 +330,7 @@ std::vector<MalformedPack> malformedGeometry()
         {"apexInFront", Issue::meaning_bounds, "cluster 1",
          [](PackModel& p)
          {
-             // the box may be too large: its middle comes to lie above the flat quad
+             // The box may be too large: its centre then lies above the flat quad.
              p.clusters[1].extent[1] = 96;
              p.clusters[1].cone_back = 0;
          }},

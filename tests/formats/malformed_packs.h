@@ -1,4 +1,4 @@
-// Packs with one thing wrong and all hashes right: what the meaning checker must refuse, and as which issue.
+// Packs with one defect and correct hashes, each with the issue that the semantic checker must report.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -14,36 +14,37 @@ namespace hearth::test
 
 struct MalformedPack
 {
-    std::string name; ///< what is wrong, as an identifier
+    std::string name; ///< the defect, as an identifier
     Issue issue;
-    std::string where; ///< of the error
+    std::string where; ///< location of the error
     void (*spoil)(PackModel&);
-    /// Geometry was changed: encode the pages again.
+    /// True if geometry was changed: encode the pages again.
     bool reseal = false;
 };
 
-/// How GoogleTest prints it.
+/// Print for GoogleTest.
 inline void PrintTo(const MalformedPack& pack, std::ostream* out)
 {
     *out << pack.name;
 }
 
-/// Wrong records of the scene: nodes, instances, cameras, lights, materials, images, skins, animations, texts.
+/// Invalid records of the scene: nodes, instances, cameras, lights, materials, images, skins, animations,
+/// texts.
 const std::vector<MalformedPack>& malformedScenes();
 
-/// Wrong meshes, levels, groups, clusters, pages and geometry.
+/// Invalid meshes, levels, groups, clusters, pages and geometry.
 const std::vector<MalformedPack>& malformedHierarchies();
 
-/// Wrong bounds of deformed meshes.
+/// Invalid bounds of deformed meshes.
 const std::vector<MalformedPack>& malformedDeformations();
 
-/// Wrong records of where things come from.
+/// Invalid provenance records.
 const std::vector<MalformedPack>& malformedProvenance();
 
-/// Wrong tables of specular occlusion.
+/// Invalid tables of specular occlusion.
 const std::vector<MalformedPack>& malformedSpecularTables();
 
-/// Wrong grids of bricks.
+/// Invalid grids of bricks.
 const std::vector<MalformedPack>& malformedBricks();
 
 } // namespace hearth::test

@@ -18,7 +18,7 @@ using namespace formats;
 namespace
 {
 
-/// What checkPack says, in any part of it.
+/// First error that checkPack reports in any part of the pack.
 Status checkWhole(const AlignedBytes& bytes)
 {
     HEARTH_ASSIGN_OR_RETURN(ContainerReader reader, ContainerReader::fromBytes(bytes.span(), "small.hearth"));
@@ -26,7 +26,7 @@ Status checkWhole(const AlignedBytes& bytes)
     return checkPack(view);
 }
 
-/// "small.hearth|node 1: ... [E3002] ...", or "".
+/// Formatted message, as in "small.hearth|node 1: ... [E3002] ..."; "" on success.
 std::string messageOf(const Status& status)
 {
     return status.ok() ? "" : formatMessage(status.error());
@@ -37,7 +37,7 @@ std::string refusal(const PackModel& model, bool compressed = false)
     return messageOf(checkWhole(model.bytes(compressed)));
 }
 
-/// The first error of reading every page and all texels.
+/// First error of reading every page and all texels.
 Status readBulk(const pack::Pack& pack)
 {
     for (uint32_t page = 0; page < pack->pages().size(); ++page)
@@ -77,7 +77,7 @@ TEST(Pack, acceptsWhatTheWholeCheckAccepts)
 
 TEST(CheckPack, acceptsBricksThatAreAllAlike)
 {
-    // where nothing glows, more than a MiB shrinks to a few bytes
+    // without emission, more than a MiB compresses to a few bytes
     PackModel model;
     model.bricks = brickModel({400, 1, 400}, [](uint32_t, uint32_t, uint32_t) { return true; });
     model.brick_grids = {model.bricks.grid};
@@ -119,7 +119,7 @@ TEST(CheckPack, refusesTexelsWhoseFrameDoesNotNameItsSize)
     ASSERT_FALSE(whole.ok());
     EXPECT_EQ(whole.error().issue, Issue::chunk_codec);
     EXPECT_EQ(whole.error().where, "chunk IMGD 1");
-    // texels are not read before they are asked for
+    // texels are read only on request
     const auto opened = pack::Pack::fromBytes(bytes.span(), "small.hearth");
     ASSERT_TRUE(opened.ok());
     EXPECT_EQ(messageOf(readBulk(*opened)), messageOf(whole));
@@ -153,7 +153,7 @@ TEST(CheckPack, reportsTheFirstWrongPageInWhateverOrderPagesAreChecked)
     PackModel model = smallPack();
     for (std::vector<std::byte>& page : model.decoded_pages)
         page.back() ^= std::byte{1};
-    // the first page is right
+    // the first page is valid
     model.decoded_pages[0].back() ^= std::byte{1};
     model.sealPages();
     const AlignedBytes bytes = model.bytes();
@@ -239,7 +239,7 @@ TEST_P(MalformedPackTest, isRefusedWhenItIsOpenedOrWhenThatPartIsRead)
         return;
     }
     EXPECT_EQ(messageOf(pack->checkAll()), message);
-    // nobody gets what lies between the pages
+    // bytes between the pages are not accessible
     if (const Status read = readBulk(*pack); !read.ok())
         EXPECT_EQ(formatMessage(read.error()), message);
     else

@@ -1,4 +1,4 @@
-// What opening a pack reads, and what becomes of the rest.
+// Tests which parts of a pack are read when it is opened, and the access to the rest afterwards.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/container/container_reader.h"
 #include "runtime/pack/pack.h"
@@ -19,7 +19,7 @@ using namespace formats;
 namespace
 {
 
-/// With a page and an image that are larger than pages of memory.
+/// A pack with a page and an image that are larger than memory pages.
 PackModel widePack()
 {
     PackModel model = smallPack();
@@ -31,7 +31,7 @@ PackModel widePack()
     return model;
 }
 
-/// A copy of bytes at the start of memory pages, of which some cannot be touched.
+/// Copy of bytes at the start of a memory page; access to some memory pages can be forbidden.
 class GuardedBytes
 {
 public:
@@ -47,7 +47,7 @@ public:
 
     std::span<const std::byte> span() const { return {static_cast<const std::byte*>(memory_), size_}; }
 
-    /// Whole memory pages of a part; returns how many. To touch one is the end of the process.
+    /// Forbid access to whole memory pages of a part; returns how many. Touching one ends the process.
     size_t forbid(size_t offset, size_t size)
     {
         const auto page = static_cast<size_t>(::sysconf(_SC_PAGESIZE));
@@ -64,7 +64,7 @@ private:
     size_t size_;
 };
 
-/// The message of reading a page, "" where it is the model's.
+/// Message of reading a page; "" if the page equals the model's.
 std::string readingOf(const pack::Pack& pack, const PackModel& model, uint32_t page)
 {
     std::vector<std::byte> buffer(kMaxPageBytes);
@@ -129,7 +129,7 @@ TEST(PackOpen, leavesDamagedTexelsToTheirReading)
 
 TEST(PackOpen, checksWhateverWayAPageIsRead)
 {
-    // a vertex outside of its cluster's box, in a page whose hash is right
+    // A vertex outside of its cluster's box, in a page whose hash is right.
     PackModel model = smallPack();
     model.clusters[2].extent[0] -= 1;
     const AlignedBytes bytes = model.bytes();
@@ -143,7 +143,7 @@ TEST(PackOpen, checksWhateverWayAPageIsRead)
     EXPECT_EQ(copy.checkPage(page).error().issue, Issue::meaning_bounds);
     EXPECT_TRUE(copy.checkPage(0).ok());
     EXPECT_EQ((*pack)->decodePage(page).error().issue, Issue::meaning_bounds);
-    // a size that is not the page's is refused as ever
+    // a size that is not the page's is rejected as before
     EXPECT_EQ(copy.decodePage(0, std::span(out).first(4)).error().issue, Issue::meaning_value);
     std::vector<std::byte> large(kMaxPageBytes + 1);
     EXPECT_EQ(copy.decodePage(0, large).error().issue, Issue::meaning_value);

@@ -17,7 +17,7 @@ namespace
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// A view of the model's bytes without any check of meaning.
+/// View of the model's bytes without any semantic check.
 class Opened
 {
 public:
@@ -152,7 +152,7 @@ TEST(ClusterGeometry, readsInfluencesAndMorphTargets)
     EXPECT_EQ(geometry.morphPosition(0, 1), (Float3{0, 0, 0}));
     EXPECT_EQ(geometry.morphPosition(0, 2), (Float3{0, 0.5f, 0}));
     EXPECT_EQ(geometry.morphNormal(0, 2), (Float3{0.5f, -1, 0}));
-    // a mesh without targets has no section, and one with targets cannot do without
+    // a mesh without targets has no section; a mesh with targets must have one
     MeshRecord mesh = view->meshes()[2];
     const size_t section = 4 * morphSectionWords(1, 3);
     EXPECT_FALSE(

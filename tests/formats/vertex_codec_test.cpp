@@ -13,7 +13,7 @@ using namespace formats;
 namespace
 {
 
-/// Angle in radians, from the chord: exact for small angles.
+/// Angle in radians, from the chord: accurate for small angles.
 double angle(Float3 a, Float3 b)
 {
     const double x = double{a.x} - b.x, y = double{a.y} - b.y, z = double{a.z} - b.z;
@@ -26,7 +26,7 @@ Float3 randomDirection(std::mt19937& random)
     return normalizeOr({normal(random), normal(random), normal(random)}, {0, 0, 1});
 }
 
-/// Largest angle between random directions and what their codes stand for.
+/// Largest angle between random directions and their decoded codes.
 template <int B>
 double worstNormal(int count)
 {
@@ -42,7 +42,7 @@ double worstNormal(int count)
     return worst;
 }
 
-/// The codes of a normal whose angle to it is least, found by looking at all.
+/// Least angle between a direction and any code, by exhaustive search.
 double leastAngle(Float3 direction)
 {
     double least = 9;
@@ -70,7 +70,8 @@ TEST(NormalCode, isTheBestOfAll)
     {
         const Float3 direction = randomDirection(random);
         const double found = angle(direction, NormalCode<8>::decode(NormalCode<8>::encode(direction)));
-        // the four around the point of the square; beyond them lies a better one now and then, by a little
+        // The encoder tries the four codes around the point of the square; a code farther off is sometimes
+        // slightly better.
         EXPECT_LT(found, leastAngle(direction) * 1.02 + 1e-6);
     }
 }

@@ -26,7 +26,7 @@ Float3 randomDirection(std::mt19937& random)
     return normalizeOr({normal(random), normal(random), normal(random)}, {0, 0, 1});
 }
 
-/// As vertices have them: what a code stands for.
+/// Normal as vertices have them: decoded from a random code.
 Float3 randomNormal(std::mt19937& random)
 {
     return decodeNormal(kVertexNormal, encodeNormal(kVertexNormal, randomDirection(random)));
@@ -37,7 +37,7 @@ float uniform(std::mt19937& random, float low, float high)
     return std::uniform_real_distribution<float>(low, high)(random);
 }
 
-/// Of a cone, which lies above the surface where its axis is near enough to the normal.
+/// Moments of a cone that is above the surface if its axis is near enough to the normal.
 VisibilityMoments momentsOfCone(Float3 axis, float aperture, float scale)
 {
     const double half_sine = std::sin(double{aperture} / 2), sine = std::sin(double{aperture});
@@ -45,12 +45,13 @@ VisibilityMoments momentsOfCone(Float3 axis, float aperture, float scale)
             axis * static_cast<float>(std::numbers::pi * scale * sine * sine)};
 }
 
-/// Of any length that a visibility above a surface has, from all at the horizon to all about one direction.
+/// Random moments of any length that visibility above a surface can have, from all directions at the horizon
+/// to all about one direction.
 VisibilityMoments randomMoments(std::mt19937& random, Float3 normal)
 {
     const float m0 = 2 * kPi * std::pow(uniform(random, 0, 1), 2.0f);
     const float size = uniform(random, m0 * m0 / (4 * kPi), m0 * (1 - m0 / (4 * kPi)));
-    // within 30 degrees nothing is cut, whatever the length
+    // within 30 degrees of the normal nothing is clipped, for any length
     const NormalFrame frame = makeNormalFrame(normal);
     const float tilt = uniform(random, 0, 0.5f), turn = uniform(random, 0, 2 * kPi);
     const Float3 across = frame.first * std::cos(turn) + frame.second * std::sin(turn);
@@ -62,7 +63,7 @@ float ambientOcclusion(const VisibilityMoments& moments, Float3 normal)
     return dot(moments.m1, normal) / kPi;
 }
 
-/// Angle in radians, from the chord: exact for small angles.
+/// Angle in radians, from the chord: accurate for small angles.
 float angle(Float3 a, Float3 b)
 {
     return 2 * std::asin(std::min(1.0f, length(a - b) / 2));
@@ -151,7 +152,8 @@ TEST(VisibilityCode, keepsConesOfAllSizes)
     }
 }
 
-/// What one to three caps of directions, some of them half transparent, leave of the hemisphere about +Z, by quadrature.
+/// Moments of the hemisphere about +Z after one to three caps of directions, some of them half transparent,
+/// are removed; by quadrature.
 VisibilityMoments momentsBesideCaps(std::mt19937& random)
 {
     struct Cap
@@ -218,7 +220,7 @@ TEST(VisibilityCode, encodesWhatItDecodedToTheSameCode)
         const VisibilityMoments moments = randomMoments(random, normal);
         const uint32_t code = encodeVisibility(moments.m0, moments.m1, normal);
         const VisibilityMoments back = shared::decodeVisibility(code, normal);
-        // where x is nearly 1 or 0, all codes of rho mean about the same
+        // if x is nearly 1 or 0, all codes of rho are nearly equal
         const float x = length(back.m1) / kPi;
         if (x > 0.01f && x < 0.999f)
         {
@@ -298,7 +300,7 @@ TEST(VisibilityCone, isWhatItsMomentsAreOf)
 
 TEST(VisibilityCone, ofCornersIsKnown)
 {
-    // planes that stand on each other: a half and a quarter of the hemisphere
+    // perpendicular planes: a half and a quarter of the hemisphere
     const float crease = kPi, half = kPi / 2;
     const VisibilityCone of_crease = shared::visibilityCone(crease, {half, 0, half}, {0, 0, 1});
     EXPECT_NEAR(of_crease.aperture, 65.53f * kDegree, 0.005f * kDegree);
@@ -322,7 +324,7 @@ TEST(VisibilityCone, keepsAmbientOcclusionBelowWhatHangsOverhead)
         shared::visibilityCone(2 * kPi * cosine, up * (kPi * (1 - sine * sine)), up);
     EXPECT_EQ(sphere.cos_aperture, 0);
     EXPECT_NEAR(sphere.scale, 0.306f, 0.0005f) << "a hemisphere about the normal has its scale as occlusion";
-    // ceilings whose light falls off with the distance: k of it
+    // ceilings with distance falloff; k: height of the ceiling over the falloff distance
     for (const float k : {0.2f, 0.5f, 0.9f})
     {
         const float ao = 2 * (k - k * k / 2);

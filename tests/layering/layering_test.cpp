@@ -247,7 +247,7 @@ TEST(WrongLink, goesByTheFoldersOfALibrary)
 {
     EXPECT_FALSE(wrongLink("cook/clusters", "formats"));
     EXPECT_FALSE(wrongLink("cook/clusters", "cook/pages"));
-    EXPECT_FALSE(wrongLink("pipelines/command", "runtime/pack"));
+    EXPECT_FALSE(wrongLink("pipelines/command", "pipelines/graph"));
     EXPECT_TRUE(wrongLink("cook/clusters", "cook/textures"));
     EXPECT_TRUE(wrongLink("runtime/pack", "runtime/gpu"));
     EXPECT_TRUE(wrongLink("formats", "cook/tools"));

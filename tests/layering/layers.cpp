@@ -124,10 +124,9 @@ const std::vector<Layer>& layers()
         {"pipelines/command/farm",
          {"formats", "cook/json", "cook/tools", "pipelines/cache", "pipelines/graph", "pipelines/farm",
           "pipelines/command/shell", "pipelines/command/cook"}},
-        // hearth extract draws the cut that the runtime would draw
         {"pipelines/command/inspect",
          {"formats", "cook/json", "cook/tools", "pipelines/cache", "pipelines/graph", "pipelines/report",
-          "pipelines/verify", "pipelines/command/shell", "pipelines/command/cook", "runtime/pack"}},
+          "pipelines/verify", "pipelines/command/shell", "pipelines/command/cook"}},
         {"pipelines/command",
          {"formats", "cook/json", "cook/tools", "pipelines/cache", "pipelines/command/shell",
           "pipelines/command/cook"}},
@@ -198,8 +197,7 @@ const std::vector<Library>& libraries()
         {"xmmintrin.h", {"cook/visibility/"}}, // floating-point mode for Embree
         {"Eigen/", {"cook/"}, true},
         {"ceres/", {"cook/"}},
-        {"formats/", {}}, // in angle brackets, as users include the installed headers; so are the next two
-        {"hearth.h", {}},
+        {"formats/", {}}, // in angle brackets, as users include the installed headers; so is the next
         {"hearth.hpp", {}},
         {"gtest/", {}, true},
         {"gmock/", {}, true},

@@ -1,4 +1,4 @@
-// Levels of detail from files of their own, from the outside: hearth-import --lod.
+// Tests authored LODs from files of their own, with hearth-import --lod.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/mesh/source_mesh.h"
 #include "cook/tools/lod_files.h"
@@ -25,7 +25,7 @@ using namespace formats;
 constexpr const char* kHearth = HEARTH_BIN "/hearth";
 constexpr const char* kSamples = HEARTH_BIN "/hearth-samples";
 
-/// A square of n x n quads, as OBJ with a material.
+/// Return a square of n x n quads as OBJ with a material.
 std::string square(int n, const std::string& material)
 {
     std::string text = "mtllib " + material + ".mtl\nusemtl " + material + "\n";

@@ -1,4 +1,4 @@
-// The cache by itself: whatever becomes of its files, it hands out what was put in or nothing.
+// Tests the cache alone: whatever happens to its files, it returns the stored content or nothing.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/tools/sha256.h"
 #include "formats/base/atomic_file.h"
@@ -35,7 +35,7 @@ const Fields kEntry{{"made", "abc"}, {"warning", "one\ttwo\nthree\\"}, {"warning
 class CacheTest : public ::testing::Test
 {
 protected:
-    /// A cache over the named folders of the sandbox; "ro" after a name: read only.
+    /// Return a cache over the named folders of the sandbox; "ro" after a name: read only.
     Cache open(const std::vector<std::string>& names)
     {
         std::vector<std::unique_ptr<CacheLevel>> levels;
@@ -57,7 +57,7 @@ protected:
         return computeSha256(content);
     }
 
-    /// What the cache has under the hash; "nothing" where it has nothing.
+    /// Return the content of the cache under the hash; "nothing" if there is none.
     std::string get(Cache& cache, const std::string& hash, FileAccess use = FileAccess::read_only)
     {
         fs::remove(folder / "fetched");
@@ -69,7 +69,7 @@ protected:
         return folder / ("a/" + kind + "/" + name.substr(0, 2) + "/" + name);
     }
 
-    /// Write into a file that others may not write.
+    /// Write to a file without write permission.
     static void overwrite(const std::string& path, const std::string& content)
     {
         fs::permissions(path, fs::perms::owner_all);
@@ -191,7 +191,7 @@ TEST_F(CacheTest, aLevelThatFailsIsToldOfOnceAndLeftAlone)
 
 TEST_F(CacheTest, aFullDiskCostsOnlyWhatIsNotKept)
 {
-    // a limit on the size of files, in a process of its own, stands for the disk
+    // a file size limit in a separate process stands for a full disk
     const pid_t child = ::fork();
     ASSERT_GE(child, 0);
     if (child == 0)
@@ -236,7 +236,7 @@ TEST_F(CacheTest, sixWritersOfOneKeyLeaveItWhole)
             static_cast<void>(cache.entry(kKey));
             static_cast<void>(cache.fetch(computeSha256(content), own, FileAccess::read_only));
             fs::remove(own);
-            // others still write
+            // other processes are still writing these
             if (writer == 0)
                 DirectoryStore(folder / "a", true).removeContent(computeSha256(content));
         }
@@ -264,10 +264,10 @@ TEST_F(CacheTest, garbageGoesFromWhatWasUsedLeast)
         fs::last_write_time(pathOf("ac", keys.back()),
                             fs::file_time_type::clock::now() - std::chrono::hours(24 * (4 - i)));
     }
-    // asked for, it is the youngest
+    // a lookup makes it the most recent entry
     EXPECT_TRUE(cache.entry(keys[0]).has_value());
     EXPECT_EQ(measureOccupancy(folder / "a").contents, 4u);
-    // named by no entry, from yesterday
+    // named by no entry, one day old
     const std::string lost = put(cache, "lost");
     fs::last_write_time(pathOf("cas", lost), fs::file_time_type::clock::now() - std::chrono::hours(24));
 

@@ -1,4 +1,4 @@
-// The graph of a cook, and its JSON.
+// Tests the action graph of a cook, and its JSON.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
 #include "pipelines/graph/causes.h"
@@ -31,7 +31,7 @@ CookSettings allSettings()
     return settings;
 }
 
-/// The command line of each action, files named after their roles.
+/// Return the command line of each action, with files named after their roles.
 std::vector<Words> commandsOf(const Graph& graph)
 {
     std::vector<Words> commands;

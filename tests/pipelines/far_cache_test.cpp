@@ -1,4 +1,4 @@
-// Levels that are far away: what they are asked, how often, and what becomes of what they answer.
+// Tests remote cache levels: requests, their number, and the use of the answers.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/tools/sha256.h"
 #include "pipelines/cache/directory_store.h"
@@ -23,12 +23,12 @@ using tools::computeSha256;
 
 struct Asked
 {
-    size_t rounds = 0;  ///< trips there and back
-    size_t entries = 0; ///< that were asked for
+    size_t rounds = 0;  ///< round trips
+    size_t entries = 0; ///< requested entries
     size_t puts = 0;
 };
 
-/// A folder that counts what it is asked, as a server could.
+/// Directory that counts requests, as a server could.
 class FarLevel : public cache::DirectoryStore
 {
 public:
@@ -69,7 +69,7 @@ protected:
         graph = makeCookGraph(settings).value();
     }
 
-    /// A cache over folders of the sandbox, by their names; that called "far" is far.
+    /// Return a cache over folders of the sandbox, by their names; the folder called "far" is remote.
     Cache open(const std::vector<std::string>& names)
     {
         std::vector<std::unique_ptr<cache::CacheLevel>> levels;
@@ -82,7 +82,7 @@ protected:
                      [this](const Error& error) { warnings.push_back(formatMessage(error)); });
     }
 
-    /// Keep a result of every action, as if it had run; imports have found wood.png.
+    /// Store a result of every action, as if it had run; imports have read wood.png.
     void keepAll(Cache& cache)
     {
         FileHashes hashes("/");
@@ -106,7 +106,7 @@ protected:
         }
     }
 
-    /// How many actions would run.
+    /// Return the number of actions that would run.
     size_t runs(Cache& cache)
     {
         FileHashes hashes("/");
@@ -136,7 +136,7 @@ TEST_F(FarCache, isAskedInWavesNotActionByAction)
     asked = {};
     Cache cold = open({"near", "far"});
     EXPECT_EQ(runs(cold), 0u);
-    // what imports found, what they made, what was made of that, the clusters' bounds, the pack
+    // rounds: files found by imports, outputs of imports, outputs made from them, bounds of clusters, pack
     EXPECT_LE(asked.rounds, 6u);
     EXPECT_EQ(asked.entries, graph.actions.size() + kSources) << "each entry once";
     asked = {};

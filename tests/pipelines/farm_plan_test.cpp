@@ -1,4 +1,5 @@
-// Plans of farms: how sources are shared out, which shard a job is, and that a plan is believed in nothing.
+// Tests plans of distributed builds: distribution of sources over shards, the shard of a job, and the
+// validation of plans.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
 #include "pipelines/farm/emit.h"
@@ -35,7 +36,7 @@ double longestOf(const Shards& shards, const std::vector<double>& seconds)
     return longest;
 }
 
-/// The least that the longest shard can take: every distribution is tried.
+/// Return the minimum time of the longest shard, by trying every distribution.
 double bestOf(const std::vector<double>& seconds, size_t count)
 {
     double best = std::numeric_limits<double>::infinity();
@@ -54,7 +55,7 @@ double bestOf(const std::vector<double>& seconds, size_t count)
     }
 }
 
-/// A folder with sources and cookers, and a plan for them.
+/// Folder with sources and cookers, and a plan for them.
 class PlanFile : public ::testing::Test
 {
 protected:
@@ -165,7 +166,7 @@ TEST(ShardIndex, isWhatIsSaidFirst)
         EXPECT_EQ(index(wrong, all), -2) << wrong;
     EXPECT_EQ(index("", {{"JOB_COMPLETION_INDEX", "7"}}), -2);
     EXPECT_EQ(index("", {{"PBS_ARRAY_INDEX", "two"}}), -2);
-    // part of an array that is submitted again: it may not be taken for the whole
+    // part of an array that is submitted again must not be taken for the whole array
     EXPECT_EQ(
         index("",
               {{"SLURM_ARRAY_TASK_ID", "3"}, {"SLURM_ARRAY_TASK_MIN", "3"}, {"SLURM_ARRAY_TASK_MAX", "5"}}),

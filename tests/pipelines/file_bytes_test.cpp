@@ -1,4 +1,5 @@
-// Files that are imported: small ones are copied, of large ones only a part is in memory at a time.
+// Tests the reading of imported files: small files are copied; only parts of large ones are in memory at a
+// time.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/container/container_reader.h"
 #include "pipelines/import/source/file_bytes.h"
@@ -16,7 +17,7 @@ namespace
 
 constexpr size_t kLarge = (size_t{64} << 20) + 5;
 
-/// A file of zeros, which take no room on the disk, with an end that is none.
+/// Sparse file of zeros, which takes no disk space, with a non-zero end.
 std::string largeFile(const test::Sandbox& folder)
 {
     folder.write("large", "start");

@@ -1,4 +1,4 @@
-// Normals and tangents that are made where a source has none.
+// Tests the generation of normals and tangents for sources without them.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/part/generate_normals.h"
 #include "pipelines/import/part/generate_tangents.h"
@@ -21,7 +21,7 @@ namespace
 
 constexpr float kPi = std::numbers::pi_v<float>;
 
-/// A cube of 8 vertices and 12 triangles, outward.
+/// Cube of 8 vertices and 12 triangles, facing outward.
 mesh::SourceMesh cube()
 {
     mesh::SourceMesh mesh;
@@ -34,7 +34,7 @@ mesh::SourceMesh cube()
     return mesh;
 }
 
-/// A sphere as rows of quads; u runs round, v down.
+/// Sphere as rows of quads; u runs around, v down.
 mesh::SourceMesh sphere(uint32_t rows, uint32_t columns)
 {
     mesh::SourceMesh mesh;
@@ -92,7 +92,7 @@ TEST(GenerateNormals, averagesWhatTheCreaseAngleAllows)
     for (size_t i = 0; i < mesh.vertexCount(); ++i)
     {
         const Float3 out = mesh.positions[i] - Float3{0.5f, 0.5f, 0.5f};
-        // every corner has three sides, one or two triangles each, of equal area together
+        // every corner has three sides, of one or two triangles each, with equal area
         EXPECT_GT(dot(mesh.normals[i], normalizeOr(out, {})), 0.8f);
         EXPECT_NEAR(length(mesh.normals[i]), 1, 1e-6);
     }
@@ -163,7 +163,7 @@ TEST(GenerateNormals, carriesAllAttributesToSplitVertices)
 
 TEST(GenerateNormals, isLinearInTheTrianglesOfAFan)
 {
-    // a cone of 200 000 triangles: each compared with each would be 4e10 steps
+    // a cone of 200 000 triangles: comparing all pairs would be 4e10 steps
     mesh::SourceMesh mesh;
     constexpr uint32_t kCount = test::kSanitized ? 20000 : 200000;
     mesh.positions.push_back({0, 0.1f, 0});
@@ -195,7 +195,7 @@ TEST(GenerateTangents, followTheUvsAtRightAnglesToTheNormal)
         EXPECT_EQ(t.w, 1.0f);
         if (std::abs(mesh.positions[i].y) > 0.9f)
             continue;
-        // u runs round the axis, eastwards; the bitangent of a picture that is not mirrored points up
+        // u runs around the axis, eastwards; the bitangent of an image that is not mirrored points up
         const float a = mesh.uvs[0][i].x * 2 * kPi;
         EXPECT_GT(dot(tangent, Float3{-std::sin(a), 0, -std::cos(a)}), 0.98f);
         EXPECT_GT(cross(mesh.normals[i], tangent).y, 0.0f);
@@ -204,7 +204,7 @@ TEST(GenerateTangents, followTheUvsAtRightAnglesToTheNormal)
 
 TEST(GenerateTangents, splitVerticesWhereUvsAreMirrored)
 {
-    // two squares that share an edge; the second shows the picture of the first in a mirror
+    // two squares that share an edge; the second shows the first one's image mirrored
     mesh::SourceMesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}};
     mesh.uvs[0] = {{0, 1}, {1, 1}, {0, 1}, {0, 0}, {1, 0}, {0, 0}};
@@ -220,7 +220,7 @@ TEST(GenerateTangents, splitVerticesWhereUvsAreMirrored)
         const Float4 t = mesh.tangents[mesh.indices[i]];
         EXPECT_NEAR(t.x, i < 6 ? 1 : -1, 1e-6);
         EXPECT_EQ(t.w, i < 6 ? 1.0f : -1.0f);
-        // up in the picture is up in space on both sides
+        // up in the image is up in space on both sides
         const Float3 bitangent = cross(mesh.normals[mesh.indices[i]], {t.x, t.y, t.z}) * t.w;
         EXPECT_NEAR(bitangent.y, 1, 1e-6);
     }
@@ -266,7 +266,7 @@ TEST(GenerateTangents, surviveRandomSoup)
 
 } // namespace
 
-/// More triangles than are worked on at once, and vertices whose sums would show another order.
+/// More triangles than one block of work, and vertices whose sums would reveal another order.
 TEST(GenerateTangents, andNormalsAreTheSameForAnyNumberOfThreads)
 {
     std::mt19937 random(5);

@@ -1,4 +1,4 @@
-// Draco and meshoptimizer: what was encoded comes back, and damage is an error.
+// Tests Draco and meshoptimizer decoding: encoded data comes back, and damage is an error.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/pipelines/gltf_fixture.h"
 
@@ -23,7 +23,7 @@ std::vector<std::array<float, 3>> sortedCorners(const mesh::SourceMesh& mesh)
     return result;
 }
 
-/// The square in Draco's form: positions (attribute 0), colours as normalised bytes (1) and joints (2).
+/// Square in Draco's form: positions (attribute 0), colours as normalised bytes (1) and joints (2).
 std::string dracoSquare()
 {
     draco::TriangleSoupMeshBuilder builder;
@@ -143,7 +143,7 @@ std::string meshoptSequence(const std::vector<uint32_t>& indices, size_t vertex_
     return {bytes.begin(), bytes.end()};
 }
 
-/// A document of two compressed views, vertices and indices, with a fallback buffer that does not exist.
+/// Document of two compressed views, vertices and indices, with a fallback buffer that does not exist.
 std::string meshoptDocument(const std::string& vertices, const std::string& indices,
                             const std::string& index_mode)
 {
@@ -239,7 +239,7 @@ TEST(Meshopt, refusesDamagedData)
     const std::string vertices = meshoptVertices(kSquare);
     const std::string indices = meshoptIndices({kSquareIndices.begin(), kSquareIndices.end()}, 4);
     std::string damaged = vertices;
-    damaged[0] = static_cast<char>(damaged[0] ^ 0x40); // the codec's mark
+    damaged[0] = static_cast<char>(damaged[0] ^ 0x40); // magic byte of the codec
     const Imported result =
         importBytes(glb(meshoptDocument(vertices, indices, "TRIANGLES"), damaged + indices));
     ASSERT_FALSE(result.ok());

@@ -1,4 +1,4 @@
-// Buffers, URIs and accessors: what numbers come out of which bytes.
+// Tests buffers, URIs and accessors: the numbers read from given bytes.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/gltf/document/uri.h"
 #include "tests/pipelines/gltf_fixture.h"
@@ -9,7 +9,7 @@ namespace hearth::import::test
 namespace
 {
 
-/// Import the four corners with one accessor more, as attribute `semantic`, and return the mesh.
+/// Import the four corners with an additional accessor as attribute `semantic`, and return the mesh.
 template <typename T>
 mesh::SourceMesh withAttribute(const std::string& semantic, const std::string& type,
                                const std::vector<T>& values, const std::string& extra = "")
@@ -114,7 +114,8 @@ TEST(GltfAccessors, replaceSparseElements)
     data.addAccessor(std::nullopt, 5126, "VEC3", 4, sparse);
     data.add("SCALAR", kSquareIndices);
     data.add("VEC3",
-             std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}); // or flat ones would split vertices
+             // given normals: generated flat ones would split vertices
+             std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1});
     const Imported result =
         data.import(R"("meshes":[{"primitives":[{"attributes":{"POSITION":0,"NORMAL":3},"indices":2}]},
                                                      {"primitives":[{"attributes":{"POSITION":1,"NORMAL":3},"indices":2}]}])");
@@ -166,7 +167,7 @@ TEST(GltfUri, decodesStrictBase64Only)
     EXPECT_EQ(text("data:;base64,SGV\ncnR"), std::nullopt);
 }
 
-/// A triangle whose buffer is the file or data that `uri` names.
+/// Triangle whose buffer is the file or data that `uri` names.
 std::string triangleDocument(const std::string& uri)
 {
     return R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":36,"uri":")" + uri +

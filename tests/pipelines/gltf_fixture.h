@@ -1,4 +1,4 @@
-// Small glTF documents in memory, imported and read back.
+// Small in-memory glTF documents, imported and read back.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -19,7 +19,7 @@
 namespace hearth::import::test
 {
 
-/// A folder that is removed at the end.
+/// Folder that is removed at the end.
 class TemporaryFolder
 {
 public:
@@ -36,13 +36,13 @@ private:
     std::filesystem::path folder_;
 };
 
-/// What came of an import.
+/// Result of an import.
 struct Imported
 {
     Status status = success();
     std::vector<Error> warnings;
     SourceCounts counts;
-    std::shared_ptr<TemporaryFolder> folder; ///< holds the part
+    std::shared_ptr<TemporaryFolder> folder; ///< keeps the part's folder alive
     std::optional<formats::ContainerReader> part;
 
     bool ok() const { return status.ok(); }
@@ -60,22 +60,22 @@ struct Imported
         return std::vector<T>(read->begin(), read->end());
     }
 
-    /// Texels of an image, RGBA8.
+    /// Return the RGBA8 texels of an image.
     std::vector<uint8_t> texels(uint32_t image) const;
 };
 
-/// Import bytes as the file `name` in a folder, which is empty if none is given.
+/// Import bytes as the file `name` in a folder; by default the folder is empty.
 Imported importBytes(std::string_view bytes, const TemporaryFolder* folder = nullptr,
                      const ImportOptions& options = {}, const std::string& name = "test.gltf");
 
-/// A GLB of the document and the binary chunk.
+/// Return a GLB of the document and the binary chunk.
 std::string glb(std::string_view json, std::string_view binary);
 
-/// The buffer of a document and the JSON that describes it: each add() is one view and one accessor.
+/// Buffer of a document and the JSON that describes it: each add() makes one view and one accessor.
 class GltfData
 {
 public:
-    /// Returns the accessor's index. `extra` goes into its JSON: R"("normalized":true)".
+    /// Add an accessor and return its index. `extra` is appended to its JSON: R"("normalized":true)".
     template <typename T>
     uint32_t add(const std::string& type, const std::vector<T>& values, const std::string& extra = "")
     {
@@ -88,7 +88,7 @@ public:
     uint32_t addAccessor(std::optional<uint32_t> view, int component_type, const std::string& type,
                          size_t count, const std::string& extra = "");
 
-    /// The whole document: asset, buffers, views and accessors, then `rest`, the other members.
+    /// Return the whole document: asset, buffers, views and accessors, then `rest`, the other members.
     std::string json(const std::string& rest) const;
     const std::string& binary() const { return binary_; }
 
@@ -124,18 +124,18 @@ private:
     uint32_t accessor_count_ = 0;
 };
 
-/// Bytes of plain values.
+/// Return the bytes of plain values.
 template <typename T>
 std::string bytesOf(const std::vector<T>& values)
 {
     return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
 }
 
-/// A square in the plane z = 0, seen from +z: four corners, and its two triangles.
+/// Square in the plane z = 0, front side towards +z: four corners, and its two triangles.
 inline const std::vector<float> kSquare{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
 inline const std::vector<uint16_t> kSquareIndices{0, 1, 2, 0, 2, 3};
 
-/// `text` with the only place of `from` replaced; fails the test where there is none or several.
+/// Return `text` with the only occurrence of `from` replaced; fails the test if there is none or several.
 std::string replaced(std::string text, const std::string& from, const std::string& to);
 
 } // namespace hearth::import::test

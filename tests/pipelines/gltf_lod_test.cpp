@@ -1,4 +1,4 @@
-// Levels of detail in glTF files: MSFT_lod, names, and what is not usable of them.
+// Tests LODs in glTF files: MSFT_lod, names, and unusable LODs.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/tools/lod_files.h"
 #include "pipelines/import/part/bake_transform.h"
@@ -73,7 +73,7 @@ TEST(GltfLods, listedByANodeAreMeshesOfTheirOwnAndNotDrawn)
 
 TEST(GltfLods, areMovedToWhereTheFinestStands)
 {
-    // node 0 stands at x = 10 and is twice as large; its level stands beside it, turned over in x
+    // node 0 stands at x = 10 with scale 2; its level stands beside it, turned over in x
     const Imported result = import(R"("nodes":[
         {"mesh":0,"translation":[10,0,0],"scale":[2,2,2],"extensions":{"MSFT_lod":{"ids":[1]}}},
         {"mesh":1,"translation":[14,0,0],"scale":[-4,4,4]}],"scenes":[{"nodes":[0,1]}])");
@@ -114,7 +114,7 @@ TEST(GltfLods, areFoundByTheNamesOfNodes)
         << "a level without a finest one, other names, and nodes elsewhere are drawn as ever";
 }
 
-/// The number and name of each level, as "2 rock_lod2"; "-" for no number.
+/// Return the number and name of each level, as "2 rock_lod2"; "-" for no number.
 std::vector<std::string> labelsOf(const Imported& result)
 {
     const std::string strings = result.text(kChunkStrings);
@@ -297,7 +297,7 @@ TEST(GltfLods, thatCannotBeMovedAreDropped)
 
 TEST(GltfLods, inADeepTreeDoNotCostItsDepth)
 {
-    // each of many nodes on one long branch lists the last one, which holds none of them
+    // each of many nodes on one long branch lists the last one, which contains none of them
     constexpr int kDepth = hearth::test::kSanitized ? 5000 : 20000;
     std::string nodes = R"("nodes":[)";
     for (int i = 0; i < kDepth; ++i)

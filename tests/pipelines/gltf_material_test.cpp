@@ -1,4 +1,4 @@
-// Materials, textures and images.
+// Tests the import of materials, textures and images.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/gltf/specular_glossiness.h"
 #include "tests/pipelines/gltf_fixture.h"
@@ -13,7 +13,7 @@ namespace
 
 using namespace formats;
 
-/// An uncompressed TGA of one BGRA colour.
+/// Return an uncompressed TGA of one BGRA colour.
 std::string tga(uint16_t width, uint16_t height, std::string_view bgra)
 {
     std::string bytes("\0\0\2\0\0\0\0\0\0\0\0\0", 12);
@@ -190,7 +190,7 @@ TEST(GltfImages, nameTheirMaterialAndTheNearestFileWhereTheyAreMissing)
     std::filesystem::create_symlink("/etc/hostname", folder.path("textures/link.png"));
     struct Row
     {
-        const char* uri; ///< as JSON has it
+        const char* uri; ///< as written in JSON
         const char* path;
         const char* nearest;
     };

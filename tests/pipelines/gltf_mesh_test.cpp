@@ -1,4 +1,4 @@
-// Primitives: triangles, attributes, what is generated and what is left out.
+// Tests the import of primitives: triangles, attributes, generated and dropped data.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/pipelines/gltf_fixture.h"
 
@@ -8,7 +8,7 @@ namespace hearth::import::test
 namespace
 {
 
-/// The corners of all triangles, in order: what does not change when vertices are split.
+/// Return the corners of all triangles in order, which do not change when vertices are split.
 std::vector<Float3> corners(const mesh::SourceMesh& mesh)
 {
     std::vector<Float3> result;
@@ -162,7 +162,8 @@ TEST(GltfPrimitives, mendNormalsWithoutDirection)
     EXPECT_TRUE(result.warnsOf(Issue::repaired, "normals"));
 }
 
-/// The square with normals and UVs, with or without tangents, and a material that has a normal texture or not.
+/// Return the square with normals and UVs, with or without tangents, and a material with or without a normal
+/// texture.
 Imported importTangents(bool source_has_tangents, bool material_has_normal_texture)
 {
     GltfData data;

@@ -1,4 +1,5 @@
-// One defect at a time in a document that is right: each is refused with its issue and the place of the defect.
+// Tests one defect at a time in an otherwise valid document: the import rejects it with the right issue and
+// location.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/pipelines/gltf_fixture.h"
 
@@ -8,7 +9,7 @@ namespace hearth::import::test
 namespace
 {
 
-/// A skinned, animated, textured square with a morph target, in 448 bytes of data.
+/// Skinned, animated, textured square with a morph target, in 448 bytes of data.
 const char* const kDocument = R"({
   "asset": {"version": "2.0"},
   "extensionsUsed": ["KHR_lights_punctual"],
@@ -305,7 +306,7 @@ TEST(GltfReader, toleratesIndicesWrittenAsRealNumbers)
 TEST(GltfReader, refusesEveryShorterGlb)
 {
     const std::string whole = glb(kDocument, documentData());
-    // every length near the container's joints, and every 37th between
+    // every length near the borders between the container's sections, and every 37th between
     for (size_t size = 0; size < whole.size();
          size += size_t{size < 40 || size + 40 > whole.size() ? 1u : 37u})
         EXPECT_FALSE(importBytes(whole.substr(0, size)).ok()) << size;

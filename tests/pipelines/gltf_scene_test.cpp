@@ -1,4 +1,4 @@
-// Nodes, instances, cameras, lights, skins and animations.
+// Tests the import of nodes, instances, cameras, lights, skins and animations.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/base/scale_bound.h"
 #include "pipelines/import/part/transform.h"
@@ -41,7 +41,7 @@ void expectNear(Float3 a, Float3 b, float tolerance = 1e-5f)
 
 TEST(GltfScene, multipliesTransformsDownTheTree)
 {
-    // turn a quarter about z and move; below it scale by 2 and move
+    // rotate by a quarter turn about z and move; below it scale by 2 and move
     const Imported result = squareData().import(kSquareMesh + R"("nodes":[
         {"mesh":0,"translation":[1,0,0],"scale":[2,2,2]},
         {"children":[0],"translation":[0,10,0],"rotation":[0,0,0.70710678,0.70710678]}])");
@@ -217,7 +217,8 @@ TEST(GltfScene, placesCamerasAndLights)
 constexpr const char* kTwoLights = R"("extensions":{"KHR_lights_punctual":{"lights":[
     {"type":"directional","name":"sun"},{"type":"spot","name":"lamp"},{"type":"point","name":"bulb"}]}},)";
 
-/// Nodes: the sun, two that have the lamp, the bulb, and one below a doubled root at (1, 2, 3) with these extras.
+/// Nodes: the sun, two nodes with the lamp, the bulb, and one below a root of scale 2 at (1, 2, 3) with these
+/// extras.
 Imported importShadowSphere(const std::string& extras)
 {
     return GltfData().import(std::string(kTwoLights) + R"("nodes":[
@@ -242,7 +243,7 @@ TEST(GltfScene, takesShadowSpheresFromExtras)
     EXPECT_NEAR(spheres[0].radius, 6, 1e-5f);
     EXPECT_EQ(spheres[0].texels, 0u);
 
-    // by the light's name: every node that has it; by the node's: that one
+    // the light's name selects every node that has it; a node's name selects this node
     const auto lightsOf = [](const std::string& name)
     {
         const Imported result = importShadowSphere(
@@ -285,7 +286,7 @@ TEST(GltfScene, leavesOtherExtrasAloneAndRefusesWrongSpheres)
     EXPECT_EQ(issueOf(R"({"hearth_shadow_radius":3,"hearth_shadow_light":4})"), Issue::gltf_structure);
 }
 
-/// The square, bound to two joints by its accessors 2 to 4: joint 0 moves it all, or each joint two corners.
+/// Square bound to two joints by its accessors 2 to 4: joint 0 moves it all, or each joint moves two corners.
 Imported importSkinned(bool both_joints, const std::string& nodes)
 {
     GltfData data = squareData();
@@ -302,7 +303,7 @@ Imported importSkinned(bool both_joints, const std::string& nodes)
 
 TEST(GltfSkins, keepTheMeshAsItIsBound)
 {
-    // the mesh's own node is far away, which does not count; joints carry it to the scene's space
+    // the mesh's own node is far away, which is ignored; joints carry the mesh to the scene's space
     const Imported result = importSkinned(true, R"("nodes":[{"mesh":0,"skin":0,"translation":[100,0,0]},
         {"translation":[5,2,0],"children":[2]},{"translation":[0,1,0],"rotation":[0,0,0.70710678,0.70710678]}])");
     ASSERT_TRUE(result.ok()) << result.message();
@@ -331,7 +332,7 @@ TEST(GltfSkins, sayWhichWayTrianglesTurnUnderTheirJoints)
     };
     const std::string plain_root = R"({"children":[2]})", plain_tip = R"({"translation":[0,1,0]})";
     const std::string mirrored_root = R"({"scale":[1,1,-2],"children":[2]})";
-    // the scale of the mesh's own node does not count
+    // the scale of the mesh's own node is ignored
     EXPECT_EQ(instanceUnder(plain_root, plain_tip).flags, 0u);
     EXPECT_EQ(instanceUnder(mirrored_root, plain_tip).flags, kInstanceMirrored);
     EXPECT_EQ(instanceUnder(mirrored_root, R"({"scale":[-1,1,1]})").flags, 0u) << "one joint of each kind";
@@ -397,7 +398,7 @@ TEST(GltfSkins, giveACopyToEachFurtherSkin)
 
 TEST(GltfSkins, leaveTheMeshAtItsNodeWhereTheyCannotMoveIt)
 {
-    // joints that shrink it to nothing
+    // joints of scale 0
     const Imported flat = importSkinned(true, R"("nodes":[{"mesh":0,"skin":0,"translation":[100,0,0]},
         {"translation":[5,0,0],"scale":[0,0,0]},{"translation":[7,1,0],"scale":[0,0,0]}])");
     ASSERT_TRUE(flat.ok()) << flat.message();
@@ -405,7 +406,7 @@ TEST(GltfSkins, leaveTheMeshAtItsNodeWhereTheyCannotMoveIt)
     EXPECT_EQ(instancesOf(flat)[0].world_from_object.m[0][3], 100.0f);
     EXPECT_EQ(flat.records<NodeRecord>(kChunkNodes)[0].skin, kInvalidIndex);
     EXPECT_TRUE(flat.mesh().joint_sets.empty());
-    // a place that floats do not have
+    // position outside the range of floats
     const Imported far =
         importSkinned(true, R"("nodes":[{"mesh":0,"skin":0},{"translation":[3e38,0,0],"children":[2]},
         {"translation":[3e38,1,0]}])");
@@ -490,7 +491,7 @@ TEST(Transform, boundsTheLargestStretch)
         const float bound = scaleBound(t);
         float longest = 0;
         Float3 direction = normalizeOr({normal(random), normal(random), normal(random)}, {1, 0, 0});
-        for (int step = 0; step < 60; ++step) // power iteration towards the longest image
+        for (int step = 0; step < 60; ++step) // power iteration for the largest singular value
         {
             const Float3 image = transformVector(t, direction);
             longest = std::max(longest, length(image));

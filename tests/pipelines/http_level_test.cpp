@@ -1,4 +1,5 @@
-// A level on a server, in all that servers can do: what comes out of it was put in, or nothing, and soon.
+// Tests the cache level on a server under all kinds of server failures: it returns the stored content or
+// nothing, and soon.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/tools/sha256.h"
 #include "pipelines/cache/cache.h"
@@ -45,7 +46,7 @@ protected:
         return computeSha256(content);
     }
 
-    /// What the cache has under the hash; "nothing" where it has nothing.
+    /// Return the content of the cache under the hash; "nothing" if there is none.
     std::string get(Cache& cache, const std::string& hash)
     {
         fs::remove(folder / "fetched");
@@ -61,7 +62,7 @@ protected:
                "\r\nConnection: close\r\n\r\n" + body;
     }
 
-    /// One warning, which says so.
+    /// Check for exactly one warning, which contains `part`.
     void expectWarning(const std::string& part)
     {
         ASSERT_EQ(warnings.size(), 1u);
@@ -73,7 +74,7 @@ protected:
     std::vector<std::string> warnings;
 };
 
-/// With nginx over a folder.
+/// Fixture with nginx over a folder.
 class NginxTest : public HttpTest
 {
 protected:

@@ -1,4 +1,4 @@
-// Keys: what changes the bytes of a part changes its key, and nothing else does.
+// Tests cache keys: a change that affects the bytes of a part changes its key, and nothing else does.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/tools/sha256.h"
 #include "pipelines/cache/directory_store.h"
@@ -29,7 +29,7 @@ namespace
 namespace fs = std::filesystem;
 using test::Sandbox;
 
-/// A folder with sources and cookers, and keys of everything that is cooked in it.
+/// Folder with sources and cookers, and the keys of everything that is cooked in it.
 class Keys : public ::testing::Test
 {
 protected:
@@ -58,8 +58,8 @@ protected:
         return settings;
     }
 
-    /// The key of each action by its cooker; a part's content is taken to be its key. The import has found wood.png and
-    /// missed stone.png.
+    /// Return the key of each action by its cooker, taking a part's key for its content. The import has found
+    /// wood.png and missed stone.png.
     static std::map<std::string, std::string> keysIn(const Sandbox& sandbox, const CookSettings& settings)
     {
         cache::Cache cache({}, [](const Error&) {});
@@ -89,7 +89,7 @@ protected:
 
     std::map<std::string, std::string> keys(const CookSettings& settings) { return keysIn(folder, settings); }
 
-    /// The cookers whose keys differ, in order of their names.
+    /// Return the cookers whose keys differ, sorted by name.
     static std::set<std::string> changed(const std::map<std::string, std::string>& before,
                                          const std::map<std::string, std::string>& after)
     {
@@ -114,7 +114,7 @@ const std::set<std::string> kOfSource{"import",     "textures", "clusters", "ski
 TEST_F(Keys, everyParameterChangesThem)
 {
     const CookSettings settings = settingsIn(folder);
-    // a parameter more breaks these lines: it needs a row below
+    // if these lines no longer compile because a parameter was added, add a row for it below
     const auto& [sources, output, lods, of_source, bricks] = settings;
     const auto& [import, textures, clusters, visibility] = of_source[0];
     const auto& [quality, occluders, distance, power, poses, refine] = *visibility;
@@ -232,7 +232,7 @@ TEST_F(Keys, nothingElseChangesThem)
 {
     const CookSettings settings = settingsIn(folder);
     const auto before = keys(settings);
-    // another folder, other times, another user's habits
+    // another folder, other times, another user's environment
     const mode_t mask = ::umask(077);
     const Sandbox elsewhere;
     fill(elsewhere);
@@ -244,7 +244,7 @@ TEST_F(Keys, nothingElseChangesThem)
     EXPECT_EQ(keysIn(elsewhere, settingsIn(elsewhere)), before);
     std::setlocale(LC_ALL, "C");
     ::umask(mask);
-    // by way of a link, and of a path that says the same
+    // through a link, and through an equivalent path
     CookSettings other = settings;
     fs::create_directory(folder / "sub");
     fs::create_symlink("../a.obj", folder / "sub/a.obj");
@@ -278,7 +278,7 @@ TEST_F(Keys, whatCannotBeReadHasNone)
 
 TEST_F(Keys, differentWordsAreDifferentRecords)
 {
-    // what is one word must not be two, and a file no text that looks like it
+    // one word must differ from two, and a file from a text that looks like its name
     Action action;
     action.cooker = "x";
     action.outputs = {"out"};
@@ -371,7 +371,8 @@ TEST_F(Keys, hashesAreRememberedAsLongAsFilesLookUntouched)
         EXPECT_EQ(hashes.filesRead(), expected_reads);
         hashes.save(folder / "hashes");
     };
-    // a file of this moment is not remembered: an edit in the same tick would look the same
+    // the hash of a file that was just written is not stored: an edit in the same clock tick would look the
+    // same
     ask(1);
     ask(1);
     std::this_thread::sleep_for(std::chrono::milliseconds(3100));

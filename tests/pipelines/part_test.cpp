@@ -1,4 +1,4 @@
-// The import part, its report, and the JSON that is read and written.
+// Tests the import part, its report, and the JSON that is read and written.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/gltf/document/json_document.h"
 #include "pipelines/import/source/asset_folder.h"

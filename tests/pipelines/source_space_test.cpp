@@ -1,5 +1,5 @@
-// Units and up axes of sources: hearth-import --scale and --up, and what they make of whole scenes. The oracle carries points by
-// hand, or writes the scene in metres by hand.
+// Tests units and up axes of sources: hearth-import --scale and --up, and their effect on whole scenes. The
+// reference transforms points by hand, or writes the scene in metres by hand.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
 #include "cook/mesh/source_mesh.h"
@@ -30,7 +30,7 @@ constexpr const char* kSamples = HEARTH_BIN "/hearth-samples";
 
 using Points = std::vector<Double3>;
 
-/// An import part in memory.
+/// Import part in memory.
 struct Part
 {
     PackView view;
@@ -53,7 +53,7 @@ Part readPart(const std::string& path)
     return {std::move(*view), std::move(meshes)};
 }
 
-/// Where a skin carries a vertex.
+/// Return the skinned position of a vertex.
 Double3 skinned(const mesh::SourceMesh& mesh, size_t vertex, std::span<const Affine3d> palette)
 {
     Double3 sum;
@@ -70,7 +70,8 @@ Double3 skinned(const mesh::SourceMesh& mesh, size_t vertex, std::span<const Aff
     return sum;
 }
 
-/// Every vertex of every instance in the world: skinned ones in a pose of the first clip, others at rest.
+/// Return every vertex of every instance in the world: skinned ones in a pose of the first clip, others at
+/// rest.
 Points worldPoints(const Part& part, double time)
 {
     const AnimationTables tables = animationTables(part.view);
@@ -103,7 +104,7 @@ double sizeOf(const Points& points)
     return size;
 }
 
-/// The same places, to `tolerance` of the size of the whole.
+/// Check that points are equal to `tolerance` of the size of the whole.
 void expectEqual(const Points& points, const Points& expected, double tolerance)
 {
     ASSERT_EQ(points.size(), expected.size());
@@ -117,7 +118,7 @@ void expectEqual(const Points& points, const Points& expected, double tolerance)
 class SourceSpace : public ::testing::Test
 {
 protected:
-    /// The part of a source.
+    /// Return the part of a source.
     Part import(const std::string& source, std::vector<std::string> options = {})
     {
         options.insert(options.begin(), {kImport, source, "-o", "a.part"});
@@ -131,8 +132,8 @@ protected:
         sandbox_.write(name, {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float)});
     }
 
-    /// A scene of all that has lengths, in units of which `f` make what 1 is in the first: with f = 0.01 what stands there in
-    /// centimetres is in metres.
+    /// Write a scene with every kind of length, scaled by `f`: with f = 0.01, a scene in centimetres is in
+    /// metres.
     void writeScene(const std::string& name, float f)
     {
         writeFloats(name + ".bin", {0, 0, 0, f, 0, 0, 0, 2 * f, 0, 3 * f, 0, 0, 0, 4 * f, f});

@@ -24,7 +24,7 @@ std::string encoded(draco::Mesh& mesh, int method)
     return {buffer.data(), buffer.size()};
 }
 
-/// Two triangles of a square with UVs and colours, lossless.
+/// Two triangles of a square with UVs and colours, encoded losslessly.
 std::string square(int method)
 {
     draco::TriangleSoupMeshBuilder builder;

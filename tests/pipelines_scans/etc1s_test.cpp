@@ -1,4 +1,4 @@
-// ETC1S data made by a small encoder.
+// Tests the ETC1S decoder with data from a small encoder.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/pipelines_scans/ktx2_builder.h"
 
@@ -41,7 +41,7 @@ private:
 class UniformCode
 {
 public:
-    /// `symbols` are padded to a power of two with the lowest others; a single symbol has a code of one bit.
+    /// Pad `symbols` to a power of two with the lowest other symbols; a single symbol has a code of one bit.
     explicit UniformCode(std::set<uint32_t> symbols)
     {
         for (uint32_t filler = 0; symbols.size() > 1 && !std::has_single_bit(symbols.size()); ++filler)
@@ -51,7 +51,7 @@ public:
             code_of_symbol_.emplace(symbol, static_cast<uint32_t>(code_of_symbol_.size()));
     }
 
-    /// The lengths of the code: a code of two symbols (0 and the length) codes them.
+    /// Write the lengths of the code with a code of two symbols (0 and the length).
     void define(BitWriter& out) const
     {
         constexpr std::array<uint32_t, 21> kOrder = {17, 18, 19, 20, 0,  8, 7,  9, 6,  10, 5,
@@ -77,7 +77,8 @@ private:
     uint32_t length_ = 0;
 };
 
-// Two endpoints and three selectors. Endpoint 0: (8, 16, 24) of 31 and intensity 2; endpoint 1: (31, 0, 16) and 0.
+// Two endpoints and three selectors. Endpoint 0: colour (8, 16, 24) of 31, intensity 2; endpoint 1: colour
+// (31, 0, 16), intensity 0.
 constexpr std::array<std::array<int, 3>, 2> kColors5 = {{{8, 16, 24}, {31, 0, 16}}};
 constexpr std::array<std::array<int, 4>, 2> kIntensities = {{{-29, -9, 9, 29}, {-8, -2, 2, 8}}};
 constexpr std::array<std::array<uint8_t, 4>, 3> kSelectors = {
@@ -96,7 +97,7 @@ Rgba8 expectedTexel(size_t endpoint, size_t selector, size_t x, size_t y)
     return texel;
 }
 
-/// The symbols that slices use; selector symbol 3 + i is the history's entry i, 5 a run.
+/// Codes of the symbols in slices; selector symbol 3 + i is entry i of the history, 5 a run.
 struct EtcCodes
 {
     UniformCode prediction{{0x93, 0xFF, 256}};
@@ -105,7 +106,7 @@ struct EtcCodes
     UniformCode run{{0, 1, 63}};
 };
 
-/// One image of global data for slices of these sizes.
+/// Return global data for one image with slices of these sizes.
 Bytes globalData(uint32_t color_size, uint32_t alpha_size)
 {
     BitWriter endpoints;
@@ -233,8 +234,8 @@ TEST(DecodeEtc1s, predictsFromTheLeftAboveAndAboveLeft)
 
 TEST(DecodeEtc1s, repeatsPredictionsAndRunsThroughTheHistory)
 {
-    // 32 x 4 texels: four pairs of blocks. Predictions once and three times more; selector 2, the history's second
-    // entry (2 again, which moves to the front), then a run of six of the first.
+    // 32 x 4 texels: four pairs of blocks. Predictions once and repeated three times; selector 2, the
+    // history's second entry (2 again, which moves to the front), then a run of six of the first entry.
     const EtcCodes codes;
     BitWriter slice;
     codes.prediction.write(slice, 0xFF);

@@ -1,4 +1,5 @@
-// Tiny images, frozen as the encoders wrote them: libpng 1.6.39, libjpeg-turbo 2.1.5, libwebp 1.2.4, OpenEXR 3.1.5.
+// Tiny images, stored as the encoders wrote them: libpng 1.6.39, libjpeg-turbo 2.1.5, libwebp 1.2.4, OpenEXR
+// 3.1.5.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -8,7 +9,7 @@
 namespace hearth::test
 {
 
-// 5 x 3 texels; texel (x, y) of those with colour is (50 x, 100 y, 200 - 30 x, 255 - 20 x)
+// 5 x 3 texels; texel (x, y) of colour images is (50 x, 100 y, 200 - 30 x, 255 - 20 x)
 extern const std::vector<uint8_t> kPngRgba8;
 extern const std::vector<uint8_t> kPngRgb16Interlaced; ///< each 8-bit value twice, no alpha
 extern const std::vector<uint8_t> kPngGrey8;           ///< 100 y

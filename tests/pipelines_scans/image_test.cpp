@@ -69,7 +69,7 @@ void expectNear(Rgba8 texel, Rgba8 expected, int tolerance)
         EXPECT_NEAR(texel[c], expected[c], tolerance);
 }
 
-/// Any shorter file must be refused, without reading past its end.
+/// Check that any shorter file is rejected, without reading past its end.
 void expectRefusedWhenCut(const Bytes& bytes, size_t longest)
 {
     ASSERT_TRUE(decode(bytes).ok());

@@ -1,4 +1,4 @@
-// Whole scans and lone images, up to the part.
+// Tests the import of whole scans and single images, up to the part.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/pack/pack_view.h"
 #include "pipelines/import/image_card.h"
@@ -25,7 +25,7 @@ using test::TemporaryFolder;
 using ImportFunction = Status (*)(const std::string&, std::span<const std::byte>, const ImportOptions&,
                                   PartBuilder&);
 
-/// What one import gave.
+/// Result of one import.
 struct Imported
 {
     Status status = success();
@@ -100,7 +100,7 @@ TEST(ImportScan, aQuadIsOneFaceAndTwoTriangles)
     EXPECT_EQ(scan.mesh.name, "my scan");
     EXPECT_EQ(scan.mesh.normals, std::vector<Float3>(4, {0, 0, 1}));
     EXPECT_EQ(scan.mesh.triangle_materials, (std::vector<uint32_t>{0, 0}));
-    ASSERT_EQ(scan.materials.size(), 1u); // what a scan without materials is drawn with
+    ASSERT_EQ(scan.materials.size(), 1u); // default material of scans without materials
     EXPECT_EQ(scan.materials[0].metallic, 0);
     EXPECT_EQ(scan.instances, 1u);
 }
@@ -147,7 +147,7 @@ TEST(ImportScan, takesMaterialsAndTexturesFromItsFolder)
     EXPECT_NEAR(m.roughness, 0.5f, 1e-6f);
     EXPECT_EQ(m.base_color_texture.image, 0u);
     EXPECT_EQ(m.base_color_texture.wrap_u, static_cast<uint8_t>(Wrap::clamp_to_edge));
-    // v = 0.25 from the bottom is 0.75 from the top; scaled by 3 it is 0.75 from the bottom, 0.25 from the top
+    // v = 0.25 from the bottom is 0.75 from the top; scaled by 3, v = 0.75 from the bottom, 0.25 from the top
     EXPECT_FLOAT_EQ(m.base_color_texture.uv_transform[4] * 0.75f + m.base_color_texture.uv_transform[5],
                     0.25f);
     EXPECT_EQ(scan.materials[1].alpha_mode, static_cast<uint32_t>(AlphaMode::blend));
@@ -236,7 +236,7 @@ TEST(ImportScan, opacityMapsBecomeAlphaAndAMask)
     EXPECT_EQ(scan.images[0].alpha_cutoff, 0.5f);
     EXPECT_EQ(scan.materials[0].alpha_mode, static_cast<uint32_t>(AlphaMode::mask));
     ASSERT_EQ(scan.first_image.size(), 60u);
-    // texel (2, 1): colour of the one, brightness of the other
+    // texel (2, 1): colour of one image, brightness of the other
     EXPECT_EQ(scan.first_image[7 * 4 + 0], std::byte{100});
     EXPECT_EQ(scan.first_image[7 * 4 + 3], std::byte{100});
 }

@@ -1,4 +1,4 @@
-// KTX2 files made by hand.
+// Builds KTX2 files byte by byte.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -21,7 +21,7 @@ inline void append(Bytes& bytes, uint64_t value, size_t size)
         bytes.push_back(i < sizeof(value) ? static_cast<uint8_t>(value >> (8 * i)) : uint8_t{0});
 }
 
-/// A KTX2 file; as it stands one of 2 x 2 texels RGBA8.
+/// KTX2 file; by default 2 x 2 texels of RGBA8.
 struct Ktx2
 {
     uint32_t vk_format = 37; // R8G8B8A8_UNORM

@@ -36,7 +36,7 @@ TEST(ReadMtl, trIsTheOppositeOfD)
 {
     EXPECT_EQ(material("Tr 0.75\n").opacity, 0.25f);
     EXPECT_EQ(material("d -halo 0.5\n").opacity, 0.5f);
-    // written by programs that mix the two up
+    // as written by programs that confuse the two
     EXPECT_EQ(material("Tr 1.0\n").opacity, 1);
     EXPECT_EQ(material("d 0\n").opacity, 1);
 }

@@ -29,7 +29,7 @@ Float3 areaOf(Float3 a, Float3 b, Float3 c)
     return cross(b - a, c - a) * 0.5f;
 }
 
-/// Sum of the triangles' areas by `sign`: along `up` each, or whatever their direction.
+/// Return the sum of the triangles' areas, signed along `up`, or unsigned.
 struct Areas
 {
     float along = 0;
@@ -49,7 +49,7 @@ Areas areasOf(const std::vector<Float3>& corners, const std::vector<uint32_t>& t
     return areas;
 }
 
-/// A star-shaped polygon with random radii, as concave as they come, in a tilted plane.
+/// Return a star-shaped polygon with random radii, strongly concave, in a tilted plane.
 std::vector<Float3> randomStar(uint32_t corners, uint32_t seed, Float3 u, Float3 v)
 {
     std::mt19937 random(seed);
@@ -80,7 +80,7 @@ TEST(TriangulatePolygon, fillsConcavePolygonsExactly)
         for (uint32_t i = 0; i < count; ++i)
             outline += dot(areaOf({}, corners[i], corners[(i + 1) % count]), up);
         const Areas areas = areasOf(corners, triangles, up);
-        // no triangle is turned over, and together they are the polygon: so none overlap and none stick out
+        // no triangle is flipped, and the areas sum to the polygon's: none overlap and none stick out
         EXPECT_NEAR(areas.along, outline, 1e-4f) << seed;
         EXPECT_NEAR(areas.all, outline, 1e-4f) << seed;
     }
@@ -102,7 +102,7 @@ TEST(TriangulatePolygon, everyEdgeOfThePolygonIsUsedOnce)
 
 TEST(TriangulatePolygon, aBridgeToAHoleIsFollowed)
 {
-    // a square with a square hole, joined by a bridge that is walked twice
+    // a square with a square hole, joined by a bridge edge that is traversed twice
     const std::vector<Float3> corners = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {0, 0, 0},
                                          {1, 1, 0}, {1, 3, 0}, {3, 3, 0}, {3, 1, 0}, {1, 1, 0}};
     const Areas areas = areasOf(corners, triangulated(corners), {0, 0, 1});
@@ -153,7 +153,7 @@ std::vector<Float3> comb(int teeth)
     return corners;
 }
 
-/// Returns the seconds of processor that the polygon takes.
+/// Return the CPU seconds for the polygon.
 double secondsOf(const std::vector<Float3>& corners)
 {
     const std::clock_t start = std::clock();
@@ -163,7 +163,7 @@ double secondsOf(const std::vector<Float3>& corners)
 
 TEST(TriangulatePolygon, hugePolygonsTakeTimeInProportion)
 {
-    // to look at every corner for every ear would take four times the time for twice the corners
+    // testing every corner for every ear would take four times as long for twice the corners
     const double half = std::min(secondsOf(comb(4000)), secondsOf(comb(4000)));
     const double whole = std::min(secondsOf(comb(8000)), secondsOf(comb(8000)));
     EXPECT_LT(whole, 3 * half);

@@ -1,4 +1,4 @@
-// What the tests of scan readers share.
+// Shared helpers of tests of scan readers.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -18,7 +18,7 @@ inline Result<ScanPolygons> readText(ScanReader reader, std::string_view text,
     return reader({std::as_bytes(std::span(text)), path, limits});
 }
 
-/// A file that must be refused, and how.
+/// File that must be rejected, and the expected error.
 struct RefusedFile
 {
     const char* name;

@@ -27,7 +27,7 @@ Patterns patternOf(uint32_t seed, uint32_t count)
 
 TEST(UastcPatterns, ofTwoPartsAreThoseOfBc7)
 {
-    // BC7's patterns 0 to 15, 17 to 26, 29, 32, 33 and 52: bit i is the part of texel i
+    // BC7's patterns 0 to 15, 17 to 26, 29, 32, 33 and 52: bit i is the subset of texel i
     constexpr std::array<uint16_t, 30> kBc7 = {0xCCCC, 0x8888, 0xEEEE, 0xECC8, 0xC880, 0xFEEC, 0xFEC8, 0xEC80,
                                                0xC800, 0xFFEC, 0xFE80, 0xE800, 0xFFE8, 0xFF00, 0xFFF0, 0xF000,
                                                0x008E, 0x7100, 0x08CE, 0x008C, 0x7310, 0x3100, 0x8CCE, 0x088C,
@@ -39,7 +39,7 @@ TEST(UastcPatterns, ofTwoPartsAreThoseOfBc7)
         const Patterns pattern = patternOf(uastcSeeds(2)[i], 2);
         for (uint32_t texel = 0; texel < 16; ++texel)
             bits |= static_cast<uint32_t>(pattern[texel]) << texel;
-        // ASTC may number the two parts the other way
+        // ASTC may number the two subsets in the other order
         EXPECT_TRUE(bits == kBc7[i] || bits == (kBc7[i] ^ 0xFFFFu)) << i;
     }
 }
@@ -75,20 +75,20 @@ private:
     uint32_t at_ = 0;
 };
 
-/// What the specification says of each mode, by other means than the decoder's table.
+/// Layout of each mode from the specification, independent of the decoder's table.
 struct ModeLayout
 {
     uint32_t mode;
     std::string_view code; ///< first bit first
     uint32_t hints;
     uint32_t pattern_bits;
-    uint32_t channel_bits; ///< of the channel with weights of its own
+    uint32_t channel_bits; ///< bits of the channel with separate weights
     uint32_t planes;
     uint32_t components;
     uint32_t subsets;
-    uint32_t levels; ///< of endpoints
+    uint32_t levels; ///< number of endpoint values
     uint32_t weight_bits;
-    uint32_t bits; ///< in all
+    uint32_t bits; ///< total bits
 };
 constexpr std::array kLayouts = {
     ModeLayout{0, "1000", 15, 0, 0, 1, 3, 1, 192, 4, 128},
@@ -111,7 +111,8 @@ constexpr std::array kLayouts = {
     ModeLayout{18, "1001", 15, 0, 0, 1, 3, 1, 32, 5, 128},
 };
 
-/// Endpoints of 0 and 255 only, `highs` telling which; the stored values that stand for them in each range.
+/// Return endpoints of only 0 and 255, selected by `highs`, as the stored values that represent them in each
+/// range.
 void putEndpoints(BitWriter& out, const ModeLayout& layout, const std::vector<bool>& highs)
 {
     const uint32_t base = layout.levels % 3 == 0 ? 3 : layout.levels % 5 == 0 ? 5 : 1;
@@ -143,7 +144,7 @@ TEST(DecodeUastc, readsEveryMode)
         BitWriter out;
         for (const char bit : layout.code)
             out.put(bit == '1', 1);
-        out.put(0x2A5A5A, layout.hints); // hints for other formats mean nothing here
+        out.put(0x2A5A5A, layout.hints); // hints for other formats are ignored here
         const uint32_t pattern = layout.subsets > 1 ? 9 : 0;
         out.put(pattern, layout.pattern_bits);
         const uint32_t channel = layout.channel_bits > 0 ? 1 : 3;
@@ -213,7 +214,8 @@ TEST(DecodeUastc, readsSolidBlocksAndInterpolates)
         out.put(texel * 2, texel == 0 ? 4 : 5);
     ASSERT_TRUE(decodeUastc(std::as_bytes(std::span(out.block())), false, image));
     EXPECT_EQ(texelOf(image, 0, 0), (Rgba8{0, 82, 255, 255}));
-    // weight 16 of 31 is 34 of 64 (33 by its bits, and ASTC adds one beyond the middle): 65535 * 34 / 64 = 135.99 * 256
+    // weight 16 of 31 becomes 34 of 64 (33 by its bits, and ASTC adds one beyond the middle):
+    // 65535 * 34 / 64 = 135.99 * 256
     EXPECT_EQ(texelOf(image, 0, 2), (Rgba8{135, 82, 120, 255}));
 }
 
@@ -243,9 +245,9 @@ TEST(DecodeUastc, readsWholeFilesAndRefusesDamage)
     const auto issueOf = [](const Ktx2& ktx) { return decode(ktx.file()).error().issue; };
     EXPECT_EQ(issueOf(uastcFile(blocks, 12, 4)), Issue::image_malformed);
     EXPECT_EQ(issueOf(uastcFile(blocks, 7, 4)), Issue::image_malformed);
-    blocks[16] = 0x45; // the one prefix code that stands for no mode
+    blocks[16] = 0x45; // the only prefix code without a mode
     EXPECT_EQ(issueOf(uastcFile(blocks, 8, 4)), Issue::image_malformed);
-    blocks[16] = 0x1D; // mode 2 with pattern 31 of 30
+    blocks[16] = 0x1D; // mode 2 with pattern 31; there are only 30
     blocks[18] = 0xFF;
     blocks[19] = 0xFF;
     EXPECT_EQ(issueOf(uastcFile(blocks, 8, 4)), Issue::image_malformed);

@@ -1,4 +1,5 @@
-// Files of settings: what is read, what is refused, and that the table of settings is what the cookers accept.
+// Tests settings files: accepted and rejected contents, and that the table of settings matches what the
+// cookers accept.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/profiles/config_file.h"
 

@@ -1,4 +1,4 @@
-// What holds: where settings come from, and which of two wins.
+// Tests effective settings: their origins and precedence.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/profiles/configuration.h"
 #include "pipelines/profiles/cooker_arguments.h"
@@ -40,7 +40,8 @@ protected:
                                    });
     }
 
-    /// "512 from hearth.toml:3", of a source; of a command's setting where `source` is empty.
+    /// Return "512 from hearth.toml:3" for a source's setting, or for a command's setting if `source` is
+    /// empty.
     std::string what(const std::string& key, const std::string& source, CommandLineValues given = {})
     {
         const auto configuration = load(std::move(given));
@@ -163,7 +164,7 @@ TEST_F(Configurations, aProfileMayBeAFile)
     EXPECT_EQ(what("textures.max_size", "a.glb", withFlag("profile", "\"props/own.toml\"")).substr(0, 13),
               "1024 from bui");
     EXPECT_EQ(load(withFlag("profile", "\"none.toml\"")).error().issue, Issue::input_missing);
-    // what a file names lies beside it
+    // paths in a file are relative to that file's folder
     folder.write("house/hearth.toml", "[defaults]\nprofile = 'props/own.toml'\n");
     enter("house/props/small");
     EXPECT_EQ(what("clusters.influences", "a.glb"), "8 from ../../props/own.toml:3");

@@ -14,7 +14,7 @@ namespace
 
 using Names = std::vector<std::string>;
 
-// By trying everything.
+// Reference matcher: tries every possibility.
 
 bool matchesName(std::string_view pattern, std::string_view name)
 {

@@ -1,4 +1,4 @@
-// Vectors and matrices in double precision, for the references: written out, nothing shared with the code under test.
+// Vectors and matrices in double precision for the references. Shares nothing with the code under test.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -67,7 +67,7 @@ inline Double3 abs(Double3 a)
     return {std::abs(a.x), std::abs(a.y), std::abs(a.z)};
 }
 
-/// An affine transform of the files, in double.
+/// Affine transform of the file formats, in double.
 struct DoubleAffine
 {
     Double3 row[3];
@@ -93,14 +93,15 @@ struct DoubleAffine
     Double3 point(Double3 p) const { return vector(p) + translation; }
     double determinant() const { return dot(row[0], cross(row[1], row[2])); }
 
-    /// The vector v with vector(v) = w; the determinant must not be 0.
+    /// Return the vector v with vector(v) = w; the determinant must not be 0.
     Double3 solve(Double3 w) const
     {
         const Double3 a = cross(row[1], row[2]), b = cross(row[2], row[0]), c = cross(row[0], row[1]);
         return (a * w.x + b * w.y + c * w.z) / determinant();
     }
 
-    /// Direction of a surface's normal after the transform: the cofactor matrix, which any affine matrix has.
+    /// Direction of a surface's normal after the transform, by the cofactor matrix, which exists for any
+    /// affine matrix.
     Double3 normal(Double3 n) const
     {
         const Double3 a = cross(row[1], row[2]), b = cross(row[2], row[0]), c = cross(row[0], row[1]);

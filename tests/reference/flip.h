@@ -1,4 +1,4 @@
-// FLIP, as the tests call it: what hearth-compare measures with.
+// Imports the FLIP image difference metric of hearth-compare into the tests' namespace.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 

@@ -1,4 +1,4 @@
-// FLIP against values that follow from the paper's formulas, and against how people see.
+// Tests FLIP against values that follow from the paper's formulas, and against properties of human vision.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/reference/flip.h"
 
@@ -92,7 +92,7 @@ TEST(Flip, seesAMovedEdgeMoreThanASlowChange)
 
 TEST(Flip, forgivesAPatternTooFineToSee)
 {
-    // A checkerboard of one pixel against the grey of its mean luminance, in blue and yellow of equal luminance
+    // A checkerboard of single pixels, blue and yellow of equal luminance, against the grey of this luminance
     const Picture checker =
         paint(64, 64,
               [](uint32_t x, uint32_t y) {

@@ -1,4 +1,4 @@
-// All geometry pages of a pack, decoded at once, and the triangles of clusters as plain lists.
+// Decodes all geometry pages of a pack at once, and lists the triangles of clusters.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,7 +11,7 @@
 namespace hearth::reference
 {
 
-/// A cluster of an instance, as culling puts it on the visible list.
+/// A cluster of an instance, as in the visible list of the culling pass.
 struct DrawnCluster
 {
     uint32_t instance = 0;
@@ -28,7 +28,7 @@ struct SceneTriangle
     uint32_t id = 0;
 };
 
-/// What drawing needs of a scene besides triangles.
+/// Tables of a scene that drawing needs besides triangles.
 struct SceneTables
 {
     std::span<const formats::InstanceRecord> instances;
@@ -37,10 +37,10 @@ struct SceneTables
 
 SceneTables tablesOf(const formats::PackView& view);
 
-/// Whether a material's back faces are drawn; the default material's are not.
+/// True if back faces of the material are drawn; those of the default material are not.
 bool isDoubleSided(std::span<const formats::MaterialRecord> materials, uint32_t material);
 
-/// Whether an instance's mesh has joints or morph targets, so that its bounds are those of all its poses.
+/// True if the instance's mesh has joints or morph targets, so that its bounds cover all its poses.
 bool isDeformed(const formats::PackView& view, uint32_t instance);
 
 /// Decoded pages; the view must outlive it.
@@ -52,7 +52,7 @@ public:
     const formats::PackView& view() const { return *view_; }
     formats::ClusterGeometry cluster(uint32_t index) const;
 
-    /// The corners of a cluster's triangles, in order.
+    /// Corners of a cluster's triangles, in order.
     std::vector<std::array<Float3, 3>> triangles(uint32_t cluster) const;
 
 private:
@@ -62,11 +62,11 @@ private:
     std::vector<std::vector<std::byte>> pages_;
 };
 
-/// The triangles that a visible list draws; id = slot << 7 | triangle, as in the visibility buffer.
+/// Triangles that a visible list draws; id = slot << 7 | triangle, as in the visibility buffer.
 std::vector<SceneTriangle> trianglesOfSlots(const PackGeometry& geometry,
                                             std::span<const DrawnCluster> slots);
 
-/// Level 0 of every instance; id = running number.
+/// Triangles of level 0 of every instance; id = running number.
 std::vector<SceneTriangle> trianglesOfFinestLevel(const PackGeometry& geometry);
 
 } // namespace hearth::reference

@@ -16,7 +16,7 @@ std::vector<Affine3d> worldOf(const AnimationTables& tables, const ScenePose& po
     return world_from_node;
 }
 
-/// The sum of the joints' matrices by weight.
+/// Sum of the joints' matrices, weighted by the vertex's joint weights.
 DoubleAffine blended(std::span<const Affine3d> palette, const ClusterGeometry& cluster, uint32_t vertex)
 {
     if (cluster.influenceCount() == 0)
@@ -53,7 +53,7 @@ Placement::Placement(const PackGeometry& geometry, const ScenePose* pose) : geom
         const InstanceRecord& record = view.instances()[i];
         Instance& instance = instances_.emplace_back();
         instance.world_from_object = widened(record.world_from_object);
-        // what stands between node and instance, as for many instances of one node
+        // transform between node and instance, as for many instances of one node
         const auto node_from_world = pose != nullptr ? inverted(at_rest[record.node]) : std::nullopt;
         if (node_from_world)
             instance.world_from_object = now[record.node] * (*node_from_world * instance.world_from_object);
@@ -95,7 +95,7 @@ PlacedVertex Placement::vertex(uint32_t index, const ClusterGeometry& cluster, u
         deformed ? blended(instance.palette, cluster, vertex) : DoubleAffine(instance.world_from_object);
     const bool mirrored = world.determinant() < 0;
     const Double3 turned = world.normal(normal) * (mirrored ? -1.0 : 1.0);
-    // joints scale differently: only directions are to be interpolated
+    // Joints may scale differently: interpolate directions only.
     return {world.point(position), deformed ? unitOr0(turned) : turned,
             deformed ? unitOr0(world.vector(tangent)) : world.vector(tangent), mirrored};
 }

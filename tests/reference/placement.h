@@ -1,5 +1,5 @@
-// Where a pose puts the vertices of a pack's instances, written out from glTF 2.0, 3.7.3.3: nothing is shared with the
-// runtime but what a pose is (formats/scene/animation.h).
+// Places the vertices of a pack's instances in a pose, written from glTF 2.0, 3.7.3.3. Shares nothing with
+// the runtime except the definition of a pose (formats/scene/animation.h).
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,25 +12,25 @@
 namespace hearth::reference
 {
 
-/// In the world.
+/// A vertex in world space.
 struct PlacedVertex
 {
     Double3 position;
     Double3 normal;        ///< on the front side, of any length; 0 where the mesh has none
     Double3 tangent;       ///< of any length; 0 where the mesh has none
-    bool mirrored = false; ///< here triangles turn the other way round
+    bool mirrored = false; ///< the transform reverses the winding of triangles
 };
 
 class Placement
 {
 public:
-    /// pose  of the pack; null: at rest. The geometry must outlive the placement, the pose need not.
+    /// pose  of the pack; null: rest pose. The geometry must outlive the placement, the pose need not.
     explicit Placement(const PackGeometry& geometry, const formats::ScenePose* pose = nullptr);
 
     const PackGeometry& geometry() const { return *geometry_; }
     bool isDeformed(uint32_t instance) const { return !instances_[instance].palette.empty(); }
 
-    /// Of an instance that is not deformed.
+    /// Transform of an instance that is not deformed.
     const Affine3d& worldFromObject(uint32_t instance) const
     {
         return instances_[instance].world_from_object;

@@ -1,4 +1,4 @@
-// Pictures, as the tests call them: those of hearth-compare.
+// Imports the image type and the PNG reader of hearth-compare into the tests' namespace.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 

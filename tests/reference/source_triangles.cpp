@@ -9,7 +9,7 @@ namespace hearth::reference
 namespace
 {
 
-/// Whether two corners are the same point or all three lie on a line, as far as doubles can tell: products of
+/// False if two corners coincide or all three lie on a line, as far as doubles can tell: products of
 /// differences of floats of similar size are exact in double.
 bool hasArea(const std::array<Float3, 3>& t)
 {

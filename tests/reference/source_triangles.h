@@ -1,4 +1,4 @@
-// The triangles of a source as import read them, before any cooking.
+// Lists the triangles of a source as import read them, before any cooking.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,8 +7,8 @@
 namespace hearth::reference
 {
 
-/// Every triangle of every instance of an import part that has an area, in its mesh, with its corners on the mesh's grid
-/// (where it still has three); id = running number.
+/// Return every triangle with nonzero area of every instance of an import part. Corners are snapped to the
+/// mesh's grid if three distinct ones remain; id = running number.
 Result<std::vector<SceneTriangle>> trianglesOfImportPart(const formats::PackView& part);
 
 } // namespace hearth::reference

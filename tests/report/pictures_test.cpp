@@ -1,4 +1,4 @@
-// Pictures of meshes alone, and those of a report: the real programs, on whatever Vulkan device there is.
+// Tests the images of single meshes and of reports, with the real programs on any available Vulkan device.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/support/sandbox.h"
 #include "tests/support/small_sources.h"
@@ -90,7 +90,7 @@ TEST_F(PicturesOfMeshes, areInThePage)
     if (page.find("no usable graphics device") != std::string::npos)
         GTEST_SKIP() << "no device";
     EXPECT_NE(page.find("\"is_sheet\":true"), std::string::npos) << "both stand at the origin";
-    // three views, of the scene and of both meshes
+    // three views each, of the scene and of both meshes
     EXPECT_EQ(countOf(page, "data:image/jpeg;base64,/9j/"), 9u);
     const std::vector<std::string> files{"report", "report.json", "--html", "later.html"};
     ASSERT_EQ(hearth(files).exit_code, 0);

@@ -1,4 +1,4 @@
-// The page of a report in a browser: headless Chromium without a network.
+// Tests the page of a report in headless Chromium without a network.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
 #include "pipelines/report/write_report.h"
@@ -44,7 +44,7 @@ Json stageOf(const char* stage, int number, bool ran)
     return json;
 }
 
-/// Of a cook of so many assets, one of which has failed.
+/// Return the report of a cook of `assets` assets, one of which has failed.
 Json reportOf(int assets)
 {
     Json report{{"schema", "hearth.report/1"},
@@ -98,7 +98,7 @@ Json reportOf(int assets)
     return report;
 }
 
-/// Of processors, that all children and theirs have taken.
+/// Return the CPU seconds of all finished child processes and their descendants.
 double childSeconds()
 {
     struct rusage usage = {};
@@ -118,7 +118,7 @@ protected:
 #endif
     }
 
-    /// What the page is once its script has run.
+    /// Return the page's DOM after its script has run.
     std::string open(const std::string& name, int width = 1400)
     {
 #ifdef HEARTH_CHROMIUM
@@ -134,7 +134,8 @@ protected:
 #endif
     }
 
-    /// A number that the script has left at the root of the page; -1 where it did not get there.
+    /// Return a number that the script has stored at the root of the page; -1 if the script did not get
+    /// there.
     static int numberOf(const std::string& dom, const std::string& attribute)
     {
         const size_t at = dom.find("data-" + attribute + "=\"");
@@ -142,7 +143,7 @@ protected:
     }
 
     test::Sandbox folder;
-    test::Sandbox profile; ///< of the browser
+    test::Sandbox profile; ///< profile folder of the browser
 };
 
 } // namespace
@@ -202,8 +203,8 @@ TEST_F(Page, ofThousandsOfAssetsOpensAtOnce)
     const std::string path = folder / "page.html";
     ASSERT_TRUE(writeReport(reportOf(kAssets).dump(), path, "").ok());
     EXPECT_LT(folder.read("page.html").size(), 20u << 20);
-    // in seconds of processors, and against a page without anything: a machine that does other work as well is no slower then.
-    // What an idle machine shows is less, since browsers work in parallel
+    // CPU seconds, relative to an empty page: other load on the machine does not matter then. The elapsed
+    // time on an idle machine is less, since browsers work in parallel.
     folder.write("empty.html", "<!doctype html><title>empty</title>");
     const auto secondsOf = [&](const std::string& name, std::string& dom)
     {

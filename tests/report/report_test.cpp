@@ -1,4 +1,4 @@
-// The report in other forms than JSON.
+// Tests the text and HTML forms of reports.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
 #include "formats/base/result.h"

@@ -1,4 +1,4 @@
-// The light that bricks of a cooked scene give, beside that of paths through its geometry.
+// Tests the global illumination from bricks of a cooked scene against path tracing of its geometry.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/reference/tracer/light_error.h"
 #include "tests/roundtrip/cooked_sample.h"
@@ -16,7 +16,7 @@ struct LitRoom
 {
     const char* sample;
     const char* voxel_size; ///< metres
-    double most;            ///< error of all light over its mean
+    double most;            ///< limit of the error of all light over its mean
 };
 
 std::ostream& operator<<(std::ostream& out, const LitRoom& room)
@@ -54,11 +54,11 @@ TEST_P(BrickLightError, isNoMoreThanWasMeasured)
         gathered.push_back(gather.at(points[i].seen, kGatherRays, i));
     const LightError error = lightError(points, gathered, true);
     EXPECT_LT(error.whole, GetParam().most) << error.bias << " bias";
-    // of a scene that were dark, or of bricks that were the scene itself
+    // a smaller error would mean a dark scene, or that the bricks were the scene itself
     EXPECT_GT(error.whole, 0.0005);
 }
 
-// Half a point above what `./dev bench light` gives for more points, for the few points here.
+// Limits are half a percentage point above the result of `./dev bench light`, which uses more points.
 INSTANTIATE_TEST_SUITE_P(Samples, BrickLightError,
                          ::testing::Values(LitRoom{"room", "0.2", 0.262}, LitRoom{"room", "0.1", 0.166},
                                            LitRoom{"terrain", "0.5", 0.016}));

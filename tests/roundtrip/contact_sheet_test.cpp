@@ -1,4 +1,4 @@
-// Contact sheets of cooked packs: the real programs, on whatever Vulkan device there is.
+// Tests contact sheets of cooked packs with the real programs, on any Vulkan device.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
 #include "runtime/viewer/compare/picture.h"
@@ -19,7 +19,7 @@ using viewer::Picture;
 
 const std::vector<std::string> kNames{"crate", "door", "tower"};
 
-/// Two walls of 1 m and one of 500 m, all of which begin at the origin.
+/// Two walls of 1 m and one of 500 m, all starting at the origin.
 class ContactSheet : public ::testing::Test
 {
 protected:
@@ -47,7 +47,7 @@ protected:
         return folder.run(arguments);
     }
 
-    /// Returns false where there is no device; any other failure is one of the test.
+    /// Returns false if there is no device; any other failure fails the test.
     bool draw(const std::string& pack, const std::string& picture, std::vector<std::string> arguments = {})
     {
         arguments.insert(arguments.begin(), {pack, "-o", picture});
@@ -70,7 +70,7 @@ protected:
     Sandbox folder;
 };
 
-/// Pixels that are not like the first one of their row, where the sky is.
+/// Count the pixels that differ from the first one of their row, which shows the sky.
 size_t countUnlikeTheSky(const Picture& picture)
 {
     size_t count = 0;
@@ -131,7 +131,7 @@ TEST_F(ContactSheet, isWhatNothingElseAsksFor)
     ASSERT_TRUE(draw("heap.hearth", "off.png", with({"--sheet", "off", "--stats", "off.json"})));
     EXPECT_NE(folder.read("off.png"), folder.read("sheet.png"));
     EXPECT_FALSE(Json::parse(folder.read("off.json")).value().contains("sheet"));
-    // several frames are those of the scene, from where it fits
+    // several frames show the scene, from a viewpoint that fits it
     ASSERT_TRUE(draw("heap.hearth", "frames.png", with({"--frames", "2"})));
     EXPECT_EQ(folder.read("frames.png"), folder.read("off.png"));
     EXPECT_EQ(render({"heap.hearth", "-o", "b.png", "--sheet", "on", "--size", "12x12"}).exit_code, 2)

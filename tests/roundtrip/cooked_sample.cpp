@@ -74,7 +74,7 @@ T must(Result<T> result)
     return std::move(result).value();
 }
 
-/// Held by one process at a time.
+/// Lock that one process at a time holds.
 class FileLock
 {
 public:
@@ -90,7 +90,7 @@ private:
     int file_;
 };
 
-/// Sizes and times of the programs that make a sample: another one for each build of any of them.
+/// Sizes and times of the programs that make a sample: changes with each build of any of them.
 std::string stampOfPrograms()
 {
     std::string stamp;
@@ -104,7 +104,7 @@ std::string stampOfPrograms()
     return stamp;
 }
 
-/// Make the source, the parts and the pack of a sample in a folder.
+/// Make source, parts and pack of a sample in a folder.
 void cookSample(const SampleSpec& spec, const std::filesystem::path& folder)
 {
     const std::string source = folder / "sample.glb", part = folder / "import.part";
@@ -138,7 +138,7 @@ ProgramEnd runProgram(const std::string& program, const std::vector<std::string>
     command.folder = folder.path("");
     command.stdout_file = folder.path("stdout");
     command.stderr_file = folder.path("stderr");
-    // generous: a hang must end the test, not measure the machine
+    // generous: a hang must end the test, but a slow machine must not
     const corpus::ProcessEnd end =
         corpus::runProcess(command, {.seconds = 300, .rss_bytes = uint64_t{8} << 30});
     const bool by_itself = end.started && end.signal == 0 && !end.over_time && !end.over_memory;

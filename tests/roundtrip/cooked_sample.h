@@ -1,4 +1,4 @@
-// Samples cooked by the real programs, step by step, for tests that then load and draw them.
+// Cooks samples with the real programs, step by step, for tests that load and draw them.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,10 +11,10 @@
 namespace hearth::roundtrip
 {
 
-/// How a program ended.
+/// Result of a program run.
 struct ProgramEnd
 {
-    int exit_code = -1; ///< or -1 where it did not end by itself
+    int exit_code = -1; ///< -1 if it did not exit by itself
     std::string output; ///< stdout
     std::string errors; ///< stderr
 };
@@ -33,10 +33,10 @@ enum class Program
 };
 
 ProgramEnd runProgram(Program program, const std::vector<std::string>& arguments);
-/// Another one, by its path.
+/// Run another program, by its path.
 ProgramEnd runProgram(const std::string& program, const std::vector<std::string>& arguments);
 
-/// A folder that is removed with everything in it when the object goes.
+/// A folder that is removed with its content when the object is destroyed.
 class ScratchFolder
 {
 public:
@@ -57,8 +57,8 @@ struct SampleSpec
     uint32_t texture_size = 64;
 };
 
-/// A sample as import part and as pack. All test programs of a build share it: the first one that asks cooks it, the others
-/// wait. Stops the test program where a step fails: nothing after it means anything.
+/// A sample as import part and as pack. All test programs of a build share it: the first one that needs it
+/// cooks it, the others wait. Stops the test program if a step fails: later results would be meaningless.
 class CookedSample
 {
 public:
@@ -76,7 +76,7 @@ private:
     std::unique_ptr<formats::PackView> import_part_;
 };
 
-/// The sample of that spec, opened when first asked for and kept until the program ends.
+/// Sample of that spec, opened at first use and cached until the program ends.
 const CookedSample& cookedSample(const SampleSpec& spec);
 
 } // namespace hearth::roundtrip

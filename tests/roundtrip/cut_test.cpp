@@ -1,4 +1,5 @@
-// Cuts through cooked hierarchies are whole surfaces: no crack, no overlap, at any threshold and from any camera.
+// Tests that cuts through cooked hierarchies are whole surfaces: no crack, no overlap, at any threshold and
+// from any camera.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/pack/cut.h"
 #include "tests/reference/culling/cpu_culling.h"
@@ -25,7 +26,7 @@ std::vector<uint32_t> finestClusters(const formats::PackView& pack, uint32_t mes
     return clusters;
 }
 
-/// Errors at which the cut of a mesh changes, thinned to about `count`, and both ends.
+/// Errors at which the cut of a mesh changes, including both ends, thinned to about `count`.
 std::vector<float> thresholdsOf(const formats::PackView& pack, uint32_t mesh, size_t count)
 {
     std::vector<float> errors{0};
@@ -40,7 +41,7 @@ std::vector<float> thresholdsOf(const formats::PackView& pack, uint32_t mesh, si
     return thinned;
 }
 
-/// The largest error that a cut shows, object space.
+/// Largest error of the clusters of a cut, object space.
 double clusterError(const formats::PackView& pack, std::span<const uint32_t> cut)
 {
     double error = 0;
@@ -130,13 +131,14 @@ TEST(Cut, keepsTheVolumeOfAClosedMesh)
     {
         const auto cut = pack::selectCut(sample.pack(), 0, threshold);
         const double of_cut = reference::signedVolume6(trianglesOfClusters(sample.geometry(), cut));
-        // a surface that stays within the error sweeps at most area times error, on both sides
+        // A surface that stays within the error changes the volume by at most area times error, on both
+        // sides.
         EXPECT_NEAR(of_cut, volume, 3 * area2 * clusterError(sample.pack(), cut) + 1e-6 * volume)
             << threshold;
     }
 }
 
-/// Corners turned so that the least is first: equal for equal triangles.
+/// Rotate the corners so that the smallest is first: equal results for equal triangles.
 std::array<std::array<float, 3>, 3> canonical(const std::array<Float3, 3>& t)
 {
     std::array<std::array<float, 3>, 3> corners;

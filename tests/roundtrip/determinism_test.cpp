@@ -1,4 +1,5 @@
-// Same source, same bytes: whatever the number of threads, and however often.
+// Tests that cooking is deterministic: the same source gives the same bytes, for any number of threads and
+// repetitions.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/roundtrip/cooked_sample.h"
 

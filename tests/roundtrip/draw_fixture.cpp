@@ -21,7 +21,7 @@ void DrawTest::TearDownTestSuite()
 
 void DrawTest::SetUp()
 {
-    // see the GPU tests: the set-up installs a software driver
+    // see the GPU tests: the test set-up installs a software driver
     ASSERT_NE(device_, nullptr) << no_device_;
 }
 
@@ -52,7 +52,7 @@ std::vector<NamedView> viewsOf(const formats::PackView& pack)
     shared::Camera wide = at(0.22f, 0.1f, 0.03f);
     wide.y_fov_rad = 2.0f;
     shared::Camera cut = at(0.12f, 0, 0);
-    cut.z_near = 0.1f * length(way); // the near plane goes through what is seen
+    cut.z_near = 0.1f * length(way); // the near plane cuts visible geometry
     shared::Camera rolled = at(0.5f, 0.3f, 0.2f);
     rolled.up = normalizeOr({0.7f, 0.6f, 0.1f}, {0, 1, 0});
     return {view("fit", fit, 384, 384, 1),

@@ -1,4 +1,5 @@
-// What the tests on the device share: the device, the views that are drawn, and that validation stays silent.
+// Fixture of the tests on the device: creates the device, provides the views, and checks that validation
+// stays silent.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,7 +12,7 @@
 namespace hearth::roundtrip
 {
 
-/// Skips where there is no device, and fails after each test where the validation layers said anything.
+/// Skips if there is no device, and fails after each test if the validation layers reported anything.
 class DrawTest : public testing::Test
 {
 protected:
@@ -27,7 +28,7 @@ private:
     static std::string no_device_;
 };
 
-/// A view of a sample that is worth a test.
+/// A view of a sample, with the name of its case.
 struct NamedView
 {
     std::string name;
@@ -40,10 +41,11 @@ struct NamedView
     }
 };
 
-/// From outside, from within, close to a surface that crosses the near plane, far away, tall, tiny, and at an angle.
+/// Views from outside, from within, close to a surface that crosses the near plane, far away, tall, tiny, and
+/// at an angle.
 std::vector<NamedView> viewsOf(const formats::PackView& pack);
 
-/// Small samples that between them have every kind of instance, material and mesh.
+/// Small samples that together have every kind of instance, material and mesh.
 std::vector<SampleSpec> drawnSamples();
 
 } // namespace hearth::roundtrip

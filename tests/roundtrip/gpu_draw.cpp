@@ -35,7 +35,7 @@ std::vector<reference::DrawnCluster> DrawnFrame::sortedSlots() const
 std::unique_ptr<TestDevice> TestDevice::create(std::string& reason)
 {
     auto device = std::make_unique<TestDevice>();
-    // the references know the rules of this rasteriser
+    // the references implement the rules of this rasteriser
     auto host = viewer::VulkanHost::create({.device_name = "llvmpipe", .validate = true});
     if (!host.ok())
     {

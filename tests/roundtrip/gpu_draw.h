@@ -1,4 +1,4 @@
-// Draws packs with the runtime on the test device, validation on, and reads everything back.
+// Draws packs with the runtime on the test device, with validation, and reads all results back.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -15,7 +15,8 @@ namespace hearth::roundtrip
 
 struct DrawnFrame
 {
-    std::vector<reference::DrawnCluster> slots; ///< in the GPU's order: slot numbers of the visibility buffer
+    /// in the GPU's order: index = slot number of the visibility buffer
+    std::vector<reference::DrawnCluster> slots;
     std::vector<uint32_t> ids;
     reference::Picture picture;
 
@@ -34,16 +35,16 @@ private:
     std::unique_ptr<gpu::Scene> scene_;
 };
 
-/// The one device of a test program.
+/// The single device of a test program.
 class TestDevice
 {
 public:
-    /// nullptr where there is none; `reason` says why.
+    /// Returns nullptr if there is no device; `reason` then has the reason.
     static std::unique_ptr<TestDevice> create(std::string& reason);
 
     GpuScene upload(const formats::PackView& pack);
 
-    /// What the validation layers said since the last call.
+    /// Messages of the validation layers since the last call.
     std::vector<std::string> takeMessages();
     const std::string& name() const { return host_->deviceName(); }
 

@@ -1,4 +1,5 @@
-// What vertices see, from a source through the pack and back out of it, against shapes whose visibility has a closed form.
+// Tests baked ambient occlusion from a source through the pack and back out of it, on shapes whose visibility
+// has a closed form.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
 #include "tests/support/sandbox.h"
@@ -28,7 +29,7 @@ namespace
 constexpr double kPi = std::numbers::pi;
 const std::string kBin = HEARTH_BIN;
 
-/// Root mean squares that the qualities are held to.
+/// Limits of the root mean square error for each quality.
 constexpr double kDefault = 0.006;
 constexpr double kHigh = 0.002;
 
@@ -45,7 +46,7 @@ struct Shape
                  { return corner + u * static_cast<float>(s) + v * static_cast<float>(t); });
     }
 
-    /// `place` of [0, 1]^2; faces the cross product of its derivatives.
+    /// A sheet with positions `place` over [0, 1]^2; it faces the cross product of its derivatives.
     void addSheet(uint32_t n, uint32_t m, const std::function<Float3(double, double)>& place)
     {
         const auto first = static_cast<uint32_t>(positions.size());
@@ -110,7 +111,7 @@ protected:
         std::memcpy(seen_.data(), file.data() + start, count * sizeof(Seen));
     }
 
-    /// Over the vertices for which `wanted` has a value: how far their ambient occlusion is from it.
+    /// Root mean square error of ambient occlusion over the vertices for which `wanted` has a value.
     double rms(const std::function<std::optional<double>(const Seen&)>& wanted) const
     {
         double sum = 0;
@@ -125,7 +126,7 @@ protected:
         return std::sqrt(sum / static_cast<double>(std::max<size_t>(count, 1)));
     }
 
-    /// The mean angle between the axes and `wanted`, degrees.
+    /// Mean angle between the axes and `wanted`, degrees.
     double axisError(const std::function<std::optional<Float3>(const Seen&)>& wanted) const
     {
         double sum = 0;
@@ -146,18 +147,19 @@ protected:
 
 const std::vector<std::string> kAtHigh{"--visibility-quality", "high"};
 
-/// What a wall hides of a floor: its foot is `distance` away, it is `height` high and reaches `side` to one side.
+/// Part of a floor point's hemisphere that a wall occludes: its foot is `distance` away, it is `height` high
+/// and reaches `side` to one side.
 double hiddenByWall(double distance, double height, double side)
 {
     if (distance < 1e-4)
-        return side > 1e-4 ? 0.25 : 0; // the grid moves what is 0 a little
+        return side > 1e-4 ? 0.25 : 0; // the grid moves 0 by a little
     const double far = std::hypot(distance, height);
     return (std::atan(side / distance) - distance / far * std::atan(side / far)) / (2 * kPi);
 }
 
 Shape bowl(uint32_t n)
 {
-    // a cap of 120 degrees of the unit sphere, cut off where triangles would be slivers; the hole is closed
+    // A cap of 120 degrees of the unit sphere, cut off where triangles would be slivers; the hole is closed.
     Shape shape;
     const double first = 0.02, last = 2 * kPi / 3;
     const auto place = [&](double s, double t)
@@ -171,8 +173,8 @@ Shape bowl(uint32_t n)
     return shape;
 }
 
-/// The mean of the directions in which a point of the bowl sees the sky: through the disc that closes it, radius sin 60 degrees, half
-/// a radius above the middle. Summed over the disc.
+/// Mean of the directions in which a point of the bowl sees the sky, through the disc that closes the bowl
+/// (radius sin 60 degrees, half a radius above the centre). Summed over the disc.
 Float3 meanThroughOpening(const Seen& vertex)
 {
     constexpr int kRings = 40, kTurns = 80;
@@ -185,7 +187,7 @@ Float3 meanThroughOpening(const Seen& vertex)
             const double to[3] = {rho * std::cos(turn) - vertex.position.x, 0.5 - vertex.position.y,
                                   rho * std::sin(turn) - vertex.position.z};
             const double length2 = to[0] * to[0] + to[1] * to[1] + to[2] * to[2];
-            // cosine at the disc over the distance squared, and the direction
+            // weight: cosine at the disc over the distance squared; and the direction
             const double solid = rho * to[1] / (length2 * length2);
             for (int axis = 0; axis < 3; ++axis)
                 sum[axis] += to[axis] * solid;
@@ -210,7 +212,7 @@ TEST_F(Occlusion, ofAPlaneIsNone)
 
 TEST_F(Occlusion, ofACreaseIsAHalfAndOfACornerAQuarter)
 {
-    // three walls of a room, the crease along each axis
+    // Three walls of a room, with a crease along each axis.
     constexpr float kSize = 8;
     Shape room;
     room.addGrid({0, 0, 0}, {0, 0, kSize}, {kSize, 0, 0}, 80, 80);
@@ -222,7 +224,7 @@ TEST_F(Occlusion, ofACreaseIsAHalfAndOfACornerAQuarter)
         if (v.normal.y < 0.99f || v.position.x > 4 || v.position.z > 4)
             return std::nullopt;
         const double x = v.position.x, z = v.position.z;
-        if (x < 1e-3 && z < 1e-3) // there it is the limit that counts, below
+        if (x < 1e-3 && z < 1e-3) // the limit counts there, tested below
             return std::nullopt;
         return 1 - hiddenByWall(x, kSize, z) - hiddenByWall(x, kSize, kSize - z) - hiddenByWall(z, kSize, x) -
                hiddenByWall(z, kSize, kSize - x);
@@ -243,7 +245,7 @@ TEST_F(Occlusion, ofACreaseIsAHalfAndOfACornerAQuarter)
 
 TEST_F(Occlusion, besideAWall)
 {
-    // the wall is as long as it is high, and hides what is behind it
+    // The wall is as long as it is high, and occludes the region behind it.
     constexpr float kHeight = 2, kHalf = 6;
     Shape shape;
     shape.addGrid({0, 0, -kHalf}, {0, 0, 2 * kHalf}, {kHalf, 0, 0}, 120, 60);
@@ -279,7 +281,7 @@ TEST_F(Occlusion, inAGrooveIsTheSineOfHalfItsAngleOnAverage)
                 sum += vertex.ao * (at_end ? 0.5 : 1);
                 weights += at_end ? 0.5 : 1;
             }
-        // where clusters meet vertices stand twice, evenly enough
+        // Vertices on cluster borders occur twice, but are distributed evenly enough.
         EXPECT_NEAR(sum / weights, std::sin(angle / 2), 0.01) << angle;
     }
 }
@@ -297,14 +299,14 @@ TEST_F(Occlusion, atTheBottomOfAPit)
         pit.addSheet(30, 96, [&](double r, double t) { return ring(0.02 + 0.98 * r, -t, 0); });
         pit.addSheet(40, 96, [&](double h, double t) { return ring(1, -t, h * depth); });
         bake(pit, {});
-        // of an opening of radius 1, as a disc that faces an element parallel to it
+        // form factor of an opening of radius 1: a disc that faces a parallel element
         const auto bottom = [&](const Seen& v) -> std::optional<double>
         {
             if (v.position.y > 1e-4)
                 return std::nullopt;
             const double out2 = v.position.x * v.position.x + v.position.z * v.position.z;
             if (out2 >
-                0.97 * 0.97) // at the foot of the wall its slope has no end, and triangles cannot follow
+                0.97 * 0.97) // at the foot of the wall the slope is infinite, which triangles cannot follow
                 return std::nullopt;
             const double sum = out2 + depth * depth + 1;
             return 0.5 * (1 - (sum - 2) / std::sqrt(sum * sum - 4 * out2));
@@ -388,7 +390,8 @@ TEST_F(Occlusion, inABowlIsTheSameEverywhere)
 
 TEST_F(Occlusion, ofAFloorThatGoesOnBelowARugIsThatOfWhatIsBesideIt)
 {
-    // a rug of two centimetres covers a third of a floor of two triangles, which is open beside it but for the rug's rim
+    // A rug of two centimetres covers a third of a floor of two triangles. Beside it the floor is open except
+    // for the rug's rim.
     Shape shape;
     shape.addGrid({-3, 0, 3}, {6, 0, 0}, {0, 0, -6}, 1, 1);
     const float low = 0.005f, high = 0.02f;
@@ -416,8 +419,9 @@ TEST_F(Occlusion, ofAFloorThatGoesOnBelowARugIsThatOfWhatIsBesideIt)
 
 TEST_F(Occlusion, hasNoSeamWhereVerticesMeet)
 {
-    // a bent sheet of three strips that share no vertex; the middle one is twice as fine, so that its neighbours have
-    // T-junctions; some triangles are there twice, some are slivers; a roof hides half of the sky
+    // A bent sheet of three strips that share no vertex. The middle one is twice as fine, so that its
+    // neighbours have T-junctions. Some triangles are duplicates, some are slivers; a roof occludes half of
+    // the sky.
     const auto bent = [](double x, double z) {
         return Float3{static_cast<float>(x), static_cast<float>(0.3 * std::sin(2 * x)),
                       static_cast<float>(-z)};
@@ -430,7 +434,7 @@ TEST_F(Occlusion, hasNoSeamWhereVerticesMeet)
         sheet.triangles.push_back(sheet.triangles[t]);
     for (uint32_t i = 0; i + 1 < 16; ++i)
     {
-        // a point a ten-thousandth of the edge beside its middle
+        // a point beside the middle of the edge, a ten-thousandth of the edge off
         const Float3 a = sheet.positions[i], b = sheet.positions[i + 1];
         sheet.positions.push_back((a + b) * 0.5f + Float3{-1e-4f * length(b - a), 0, 0});
         sheet.triangles.push_back({i + 1, i, static_cast<uint32_t>(sheet.positions.size() - 1)});
@@ -498,7 +502,7 @@ TEST_F(Occlusion, isReportedWithAPicture)
 
 TEST_F(Occlusion, isDrawn)
 {
-    // a floor, and a dark one below that it hides from the viewer
+    // a floor, and a dark one below that the upper one hides from the viewer
     Shape shape;
     shape.addGrid({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}, 4, 4);
     shape.addGrid({-0.3f, -0.3f, 0.3f}, {0.6f, 0, 0}, {0, 0, -0.6f}, 4, 4);
@@ -520,7 +524,8 @@ TEST_F(Occlusion, isDrawn)
         white += picture->rgb[i] > 250;
         dark += picture->rgb[i] == 26;
     }
-    // 4 m^2 from 30 degrees above, in a picture that the square's 2.8 m, turned by 37 degrees, fill to 1 / 1.04
+    // 4 m^2 from 30 degrees above, in an image that the square's 2.8 m, rotated by 37 degrees, fill to 1 /
+    // 1.04
     const double metre = 640 / (2.8 * 1.04), pixels = 640 * 480;
     EXPECT_NEAR(static_cast<double>(white), 2 * metre * metre, 0.03 * pixels);
     EXPECT_NEAR(static_cast<double>(white + dark), pixels, 0.01 * pixels) << "but for edges";

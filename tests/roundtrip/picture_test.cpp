@@ -1,4 +1,5 @@
-// Finished pictures: every view shows something, and the final one is what rays and the specification's formulas give.
+// Tests final images: every view shows something, and the final one matches ray tracing with the
+// specification's formulas.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/scene/animation.h"
 #include "runtime/pack/pack.h"
@@ -43,7 +44,7 @@ Picture halved(const Picture& picture)
     return half;
 }
 
-/// Where HEARTH_KEEP_PICTURES names a folder, keep a picture for people to look at.
+/// Write an image for inspection if HEARTH_KEEP_PICTURES names a folder.
 void keep(const Picture& picture, const std::string& name)
 {
     const char* const folder = std::getenv("HEARTH_KEEP_PICTURES");
@@ -102,7 +103,7 @@ TEST_F(PictureTest, theFinalViewIsWhatRaysGive)
     }
 }
 
-/// The clip of a pack at a time.
+/// Pose of a pack's clip at a time.
 formats::ScenePose poseAt(const formats::PackView& pack, uint32_t clip, double seconds)
 {
     const formats::AnimationTables tables = formats::animationTables(pack);
@@ -116,10 +117,10 @@ struct PosedPicture
     std::string name;
     uint32_t clip = 0;
     std::string seconds;
-    std::array<float, 7> camera; ///< as of hearth-render
+    std::array<float, 7> camera; ///< as in hearth-render's option
 };
 
-/// Draw a pose with hearth-render, and with rays.
+/// Draw a pose with hearth-render and with rays, and compare.
 void expectWhatRaysGive(const std::string& file, const formats::PackView& pack, const PosedPicture& posed,
                         const ScratchFolder& folder)
 {

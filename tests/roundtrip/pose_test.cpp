@@ -1,4 +1,5 @@
-// Characters cooked by the real programs, in poses of their clips and between them: culling changes nothing.
+// Tests that culling changes no pixel of characters cooked by the real programs, in poses of their clips and
+// between them.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
 #include "runtime/pack/pose_player.h"
@@ -22,13 +23,13 @@ namespace
 
 using namespace shared;
 
-/// Moments of clips at random, some beyond their ends, some of two clips at once.
+/// Random times of clips, some beyond their ends, some of two clips at once.
 class RandomPoses
 {
 public:
     RandomPoses(const formats::PackView& pack, uint32_t seed) : pack_(pack), player_(pack), random_(seed) {}
 
-    /// What a frame must be told.
+    /// Inputs of a frame.
     struct Frame
     {
         std::vector<gpu::InstanceMove> moves;
@@ -54,7 +55,7 @@ public:
         return frame;
     }
 
-    /// Near what is there now, or in it.
+    /// Random camera near or within the current geometry.
     Camera camera()
     {
         Camera camera = viewer::fitCamera(pack_, player_, 1);
@@ -80,7 +81,8 @@ private:
     std::mt19937 random_;
 };
 
-/// Give the character of a GLB a level of detail, MSFT_lod: the first half of its triangles. Returns how many these are.
+/// Add a level of detail (MSFT_lod) to the character of a GLB: the first half of its triangles. Returns their
+/// number.
 uint32_t addLevelOfHalf(const std::string& file)
 {
     std::ifstream stream(file, std::ios::binary);
@@ -165,7 +167,7 @@ TEST_F(PoseTest, cullingIsLosslessOnTheSampleCharacter)
 
 TEST_F(PoseTest, levelsMadeByHandSwitchAsAWholeInEveryPose)
 {
-    // half of the triangles are a level by hand: what it lacks is a hole, and its error
+    // The authored level has half of the triangles; the missing half is a hole, and determines its error.
     const roundtrip::ScratchFolder folder;
     const std::string source = folder.path("character.glb"), cooked = folder.path("character.hearth");
     ASSERT_EQ(

@@ -1,5 +1,5 @@
-// What deformed meshes see in the poses of a clip, from glTF through the pack and back, against a closed form: a ceiling that comes
-// down on a floor while both are turned.
+// Tests ambient occlusion of deformed meshes in the poses of a clip, from glTF through the pack and back,
+// against a closed form: a ceiling that descends on a floor while both are rotated.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
 #include "cook/visibility/scene/poses.h"
@@ -20,11 +20,11 @@ namespace
 const std::string kBin = HEARTH_BIN;
 constexpr double kPi = std::numbers::pi;
 
-constexpr float kHalf = 1;              ///< half of the side of the ceiling, which is as large as the floor
-constexpr double kHigh = 3, kLow = 0.5; ///< heights of the ceiling, without the clip and at its end
-constexpr uint32_t kQuads = 12;         ///< along a side
+constexpr float kHalf = 1;              ///< half the side of the ceiling, which is as large as the floor
+constexpr double kHigh = 3, kLow = 0.5; ///< heights of the ceiling: at rest and at the clip's end
+constexpr uint32_t kQuads = 12;         ///< quads along a side
 
-/// Arrays of a glTF file behind each other in one buffer.
+/// Arrays of a glTF file, one behind the other in one buffer.
 class Buffer
 {
 public:
@@ -42,7 +42,7 @@ public:
         bytes_.resize((bytes_.size() + 3) / 4 * 4);
     }
 
-    /// Of the last array.
+    /// Set the range of the last array.
     void setRange(const Json& least, const Json& greatest)
     {
         accessors_.back()["min"] = least;
@@ -58,8 +58,8 @@ private:
     Json views_ = Json::array(), accessors_ = Json::array();
 };
 
-/// A floor at y = 0 that joint 1 carries, a ceiling that joint 2 does, both joints below joint 0. In a second the clip lowers the
-/// ceiling from kHigh to kLow, and turns joint 0 about z by a right angle.
+/// Write a floor at y = 0 on joint 1 and a ceiling on joint 2, both joints below joint 0. In one second the
+/// clip lowers the ceiling from kHigh to kLow and rotates joint 0 about z by a right angle.
 void writeModel(const Sandbox& sandbox)
 {
     std::vector<Float3> positions;
@@ -122,7 +122,8 @@ void writeModel(const Sandbox& sandbox)
     sandbox.write("model.gltf", model.dump());
 }
 
-/// What a point of the floor sees beside the ceiling: four rectangles with a corner above the point.
+/// Part of the hemisphere that a floor point sees past the ceiling: four rectangles with a corner above the
+/// point.
 double openBelow(double x, double z, double height)
 {
     double hidden = 0;

@@ -1,4 +1,5 @@
-// hearth-render with a budget: the same picture where it suffices, a coarser whole one where it does not.
+// Tests hearth-render with a geometry budget: the same image if the budget suffices, else a coarser image
+// without holes.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/roundtrip/cooked_sample.h"
 
@@ -17,7 +18,7 @@ std::string contentOf(const std::string& file)
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// What stands behind the first member of that name in the statistics.
+/// Value of the first member of that name in the statistics.
 std::string member(const std::string& json, const std::string& name)
 {
     const size_t at = json.find("\"" + name + "\":");

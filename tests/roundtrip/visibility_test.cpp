@@ -1,4 +1,4 @@
-// What the GPU draws, cluster by cluster and pixel by pixel, against the references on the CPU.
+// Tests the GPU's visible clusters and pixels against the CPU references.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/reference/culling/cpu_culling.h"
 #include "tests/reference/culling/cpu_rasteriser.h"
@@ -43,7 +43,8 @@ struct Sums
     }
 };
 
-/// Of deformed ones the twins are held against the device in tests/runtime/gpu/deformation_twin_test.cpp.
+/// Keep rigid instances only. tests/runtime/gpu/deformation_twin_test.cpp compares the deformed ones with the
+/// device.
 std::vector<DrawnCluster> rigidOnes(const formats::PackView& pack, std::vector<DrawnCluster> clusters)
 {
     std::erase_if(clusters,

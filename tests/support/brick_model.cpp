@@ -22,7 +22,7 @@ void setBit(uint32_t& low, uint32_t& high, Cell cell)
     (bit < 32 ? low : high) |= 1u << (bit & 31u);
 }
 
-/// Calls `use` for the 64 cells of `size` voxels from `first` on, in the order of their bits.
+/// Call `use` for the 64 cells of `size` voxels from `first` on, in the order of their bits.
 template <typename Use>
 void forCells(Cell first, uint32_t size, Use use)
 {

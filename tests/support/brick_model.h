@@ -1,4 +1,4 @@
-// Grids of bricks made by hand, for tests and benches: the tables of any set of voxels.
+// Brick grids made by hand, for tests and benches: the tables of any set of voxels.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,7 +13,7 @@
 namespace hearth::test
 {
 
-/// What the chunks of a grid hold.
+/// Contents of a grid's chunks.
 struct BrickModel
 {
     formats::BrickGridRecord grid{};
@@ -28,8 +28,9 @@ struct BrickModel
     shared::BrickMasks masks() const { return {formats::toBrickGrid(grid), groups, bricks}; }
 };
 
-/// The grid whose voxel (x, y, z) is solid where `solid(x, y, z)` says so, opaque, white and dark, with a face wherever the
-/// neighbour is not solid, whose normal looks along it. From (0, 0, 0), voxels of 1 m.
+/// Build the grid whose voxel (x, y, z) is solid where `solid(x, y, z)` is true. Voxels are opaque, white and
+/// not emissive, with a face towards each neighbour that is not solid; the face's normal points at that
+/// neighbour. Origin (0, 0, 0), voxels of 1 m.
 BrickModel brickModel(std::array<uint32_t, 3> voxels,
                       const std::function<bool(uint32_t, uint32_t, uint32_t)>& solid);
 

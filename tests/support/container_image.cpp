@@ -39,7 +39,7 @@ T readAs(std::span<const std::byte> bytes)
     return value;
 }
 
-/// The bytes of every entry of the chunk table, where it lies inside the file.
+/// Return the bytes of every entry of the chunk table, if the table lies inside the file.
 std::vector<std::span<std::byte>> tableEntries(std::span<std::byte> bytes)
 {
     if (bytes.size() < sizeof(FileHeader))

@@ -1,5 +1,5 @@
-// Containers put together in memory, byte by byte as FORMAT.md says and without ContainerWriter: for tests that need
-// files that no writer makes, and to hold the writer against.
+// Builds containers in memory, byte by byte as in formats/FORMAT.md and without ContainerWriter: for tests
+// that need files that no writer makes, and to check the writer.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,7 +12,7 @@
 namespace hearth::test
 {
 
-/// Bytes at an address that is a multiple of 64, as a mapped file's are.
+/// Bytes at an address that is a multiple of 64, like the bytes of a mapped file.
 class AlignedBytes
 {
 public:
@@ -42,24 +42,24 @@ struct ChunkImage
     std::vector<std::byte> stored;
 };
 
-/// A chunk stored as it is.
+/// Make a chunk that is stored uncompressed.
 ChunkImage plainChunk(uint32_t type, uint32_t index, uint32_t element_size, std::span<const std::byte> bytes);
 
-/// The same compressed, always, by zstd.
+/// Make a chunk that is always compressed by zstd.
 ChunkImage zstdChunk(uint32_t type, uint32_t index, uint32_t element_size, std::span<const std::byte> bytes);
 
-/// The same, but its frame does not name the size of what is in it, as streams do not.
+/// Make a compressed chunk whose frame does not store the size of its content, as streams do.
 ChunkImage streamedChunk(uint32_t type, uint32_t index, uint32_t element_size,
                          std::span<const std::byte> bytes);
 
 /// Lay the chunks out and fill in offsets, sizes, hashes and the header.
 AlignedBytes assemble(formats::ContainerKind kind, std::span<const ChunkImage> chunks);
 
-/// Make the hashes of chunks, table and header right again after bytes were changed. Does what it can where the table
-/// itself is nonsense, and never leaves `bytes`.
+/// Recompute the hashes of chunks, table and header after bytes were changed. Does what it can if the table
+/// is invalid, and never accesses memory outside `bytes`.
 void repairHashes(std::span<std::byte> bytes);
 
-/// The same for the hashes in an uncompressed page table; to be called before repairHashes.
+/// Recompute the hashes in an uncompressed page table; call it before repairHashes.
 void repairPageHashes(std::span<std::byte> bytes);
 
 } // namespace hearth::test

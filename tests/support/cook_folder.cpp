@@ -11,7 +11,7 @@ namespace hearth::test
 namespace
 {
 
-// The name of the source says what the script does: it stands for hearth-import.
+// Script in place of hearth-import. The source's name selects what it does.
 constexpr const char* kImport = R"(#!/bin/sh
 case "$1" in
   *malformed*) echo "$1|/meshes/0: error: is bad [E1101] hint: mend it" >&2; exit 65 ;;

@@ -1,4 +1,4 @@
-// The real hearth and hearth-link with small scripts in place of the other cookers.
+// Runs the real hearth and hearth-link with small scripts in place of the other cookers.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,7 +11,8 @@
 namespace hearth::test
 {
 
-/// A folder to cook in; the programs lie elsewhere, so that the folder shows what cooking leaves behind.
+/// Folder to cook in. The programs lie elsewhere, so that the folder shows all files that cooking leaves
+/// behind.
 class Cook : public ::testing::Test
 {
 protected:
@@ -29,7 +30,7 @@ protected:
         return arguments;
     }
 
-    /// The cook failed with one error line, and neither made nor left anything.
+    /// Check that the cook failed with one error line, and left neither outputs nor temporary files.
     void expectFailure(const ProgramEnd& end, int exit_code, const std::string& part_of_message);
 
     Sandbox programs;

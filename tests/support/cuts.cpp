@@ -48,7 +48,7 @@ std::vector<uint8_t> randomCut(const Hierarchy& hierarchy, double chance, std::m
             const uint32_t refined = hierarchy.clusters[group.clusters.first + c].refined_group;
             possible &= refined == kInvalidIndex || replaced[refined] != 0;
         }
-        // a set is decided on at its first group, which comes last
+        // the decision for a set is made at its first group, which comes last
         if (group.set_offset != 0)
             continue;
         const double roll = static_cast<double>(random()) / 4294967296.0;
@@ -73,7 +73,7 @@ std::vector<uint32_t> trianglesOfCut(const Hierarchy& hierarchy, const DecodedHi
 namespace
 {
 
-/// Edges that an odd number of triangles use, whatever their direction.
+/// Edges that an odd number of triangles use, in either direction.
 std::vector<uint64_t> oddEdges(std::span<const uint32_t> triangles)
 {
     std::vector<uint64_t> edges;
@@ -120,7 +120,7 @@ Border borderOf(const Hierarchy& hierarchy, const DecodedHierarchy& decoded)
 namespace
 {
 
-/// For each position that the triangles use, 1 if its island is as small as those that grow.
+/// For each position that the triangles use, 1 if its island is as small as the islands that grow.
 std::vector<uint8_t> grownIslands(const Border& border, std::span<const uint32_t> triangles)
 {
     clusters::DisjointSets islands(border.is_border.size());

@@ -1,4 +1,4 @@
-// Cuts through a hierarchy and what must hold for each.
+// Cuts through a hierarchy, and their invariants.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,16 +13,17 @@
 namespace hearth::cuts
 {
 
-/// replaced[group] of the cut at one object-space error.
+/// Return replaced[group] for the cut at one object-space error.
 std::vector<uint8_t> cutAtError(const clusters::Hierarchy& hierarchy, double error);
 
-/// The cut that an eye sees with errors up to `threshold` per distance.
+/// Return the cut for an eye position, with errors up to `threshold` per distance.
 std::vector<uint8_t> cutFromEye(const clusters::Hierarchy& hierarchy, Float3 eye, double threshold);
 
-/// Any closed cut: each group is replaced with the given chance if all that its clusters were made from is.
+/// Return a random closed cut: a group is replaced with the given chance if all groups that its clusters were
+/// made from are.
 std::vector<uint8_t> randomCut(const clusters::Hierarchy& hierarchy, double chance, std::mt19937& random);
 
-/// Position triples of the triangles that a cut draws.
+/// Return the position_id triples of the triangles that a cut draws.
 std::vector<uint32_t> trianglesOfCut(const clusters::Hierarchy& hierarchy,
                                      const clusters::DecodedHierarchy& decoded,
                                      std::span<const uint8_t> replaced);
@@ -35,8 +36,8 @@ struct Border
 };
 Border borderOf(const clusters::Hierarchy& hierarchy, const clusters::DecodedHierarchy& decoded);
 
-/// Empty if the cut has no open edge but along the source's border, or around small islands of an open surface,
-/// which grow when others go. Else what is wrong.
+/// Empty if the cut has no open edge except along the source's border or around small islands of an open
+/// surface, which grow when others are removed. Otherwise a message.
 std::string crackOf(const Border& border, std::span<const uint32_t> triangles);
 
 } // namespace hearth::cuts

@@ -1,4 +1,4 @@
-// A deformed mesh of a source file with its hierarchy, in any pose of its scene.
+// Deformed mesh of a source file with its hierarchy, in any pose of its scene.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -18,22 +18,22 @@
 namespace hearth::test
 {
 
-/// Where a scene's pose takes a mesh's joints, and its morph weights.
+/// Skinning matrices and morph weights of a mesh in one pose.
 struct MeshPose
 {
-    std::vector<Affine3d> palette; ///< one for a mesh without a skin
+    std::vector<Affine3d> palette; ///< one matrix for a mesh without a skin
     std::vector<double> morph_weights;
-    double scale = 1; ///< bounds the largest singular value of the palette
+    double scale = 1; ///< upper bound of the largest singular value of the palette
 };
 
-/// Poses of a node's mesh out of clips and their blends, at any times.
+/// Poses of a node's mesh from clips and their blends, at any time.
 class MeshPoses
 {
 public:
     MeshPoses(const formats::AnimationTables& tables, uint32_t node, uint32_t seed);
     MeshPose next();
     MeshPose rest();
-    /// A clip alone at a time in seconds.
+    /// Pose of a single clip at a time in seconds.
     MeshPose at(uint32_t animation, double time_s);
 
 private:
@@ -48,10 +48,10 @@ private:
     std::vector<Affine3d> world_from_node_;
 };
 
-/// glTF skinning, slow and obvious: the vertices of a source mesh in a pose.
+/// Compute the vertices of a source mesh in a pose by glTF's definition of skinning: slow and obvious.
 std::vector<Float3> posed(const mesh::SourceMesh& mesh, const MeshPose& pose);
 
-/// The triangles of all clusters. Vertices are one where their place and all that moves them are equal, bit for bit.
+/// Triangles of all clusters. Vertices whose position and deformation data are equal bit for bit are merged.
 class DeformedClusters
 {
 public:
@@ -74,20 +74,20 @@ private:
     std::vector<std::vector<uint32_t>> triangles_;
 };
 
-/// An import part: its scene, and the meshes that joints or morph targets move.
+/// Import part with its scene, and the meshes that joints or morph targets move.
 class DeformedModel
 {
 public:
-    /// Import a source with the real program; null where that fails.
+    /// Import a source with the real program; null on failure.
     static std::unique_ptr<DeformedModel> import(const std::string& source);
 
-    /// With the clips as the source has them.
+    /// Import with the source's clips, uncompressed.
     static std::unique_ptr<DeformedModel> importExactly(const std::string& source);
 
     struct Mesh
     {
         uint32_t index;
-        uint32_t node; ///< one that has it
+        uint32_t node; ///< a node that has it
         mesh::SourceMesh source;
     };
     const std::vector<Mesh>& meshes() const { return meshes_; }

@@ -77,7 +77,8 @@ void GpuTest::TearDownTestSuite()
 
 void GpuTest::SetUp()
 {
-    // a software driver will do, and the set-up installs one: without a device these tests would prove nothing
+    // a software driver suffices, and the set-up installs one: without a device these tests would prove
+    // nothing
     ASSERT_NE(host_, nullptr) << no_device_;
 }
 

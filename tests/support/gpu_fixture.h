@@ -1,4 +1,4 @@
-// What the tests on a graphics device share: the device with validation on, drawing, and reading back.
+// Shared fixture of tests on a graphics device: device with validation, drawing, and reading back.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -14,16 +14,16 @@
 namespace hearth::test
 {
 
-/// A frame that was drawn.
+/// Rendered frame.
 struct Picture
 {
     uint32_t width = 0, height = 0;
     std::vector<uint32_t> color;      ///< RGBA8 sRGB, red in the low byte
-    std::vector<uint32_t> visibility; ///< as records.h says
+    std::vector<uint32_t> visibility; ///< encoded as in records.h
     viewer::VisibleList list;
 
     uint32_t at(uint32_t x, uint32_t y) const { return color[y * width + x]; }
-    /// (instance, cluster, triangle) of every pixel: what is seen, whatever the order of the slots.
+    /// Return (instance, cluster, triangle) of every pixel, which does not depend on the order of slots.
     std::vector<std::array<uint32_t, 3>> seen() const;
 };
 
@@ -52,7 +52,7 @@ struct DrawOptions
     bool gi = true;
 };
 
-/// Skips where there is no device; fails where the validation layers say anything, in any test.
+/// Skips tests without a device. Fails if the validation layers report anything in any test.
 class GpuTest : public testing::Test
 {
 protected:
@@ -65,12 +65,12 @@ protected:
     static gpu::Renderer& renderer() { return *renderer_; }
 
     std::unique_ptr<gpu::Scene> upload(const formats::PackView& pack, const gpu::SceneOptions& options = {});
-    /// With targets of its own: nothing is known of an earlier frame.
+    /// Draw with new targets: no data of an earlier frame.
     Picture draw(const gpu::Scene& scene, const shared::Camera& camera, const DrawOptions& options = {});
-    /// With targets of the size that the options say, which remember the frame before.
+    /// Draw with targets of the options' size, which keep data of the frame before.
     Picture draw(const gpu::Scene& scene, gpu::FrameTargets& targets, const shared::Camera& camera,
                  const DrawOptions& options);
-    /// Of the last frame, which has run.
+    /// Read back the last frame, which has been executed.
     static Picture readPicture(const gpu::Scene& scene, const gpu::FrameTargets& targets);
     static shared::FrameView viewOf(const gpu::Scene& scene, const shared::Camera& camera,
                                     const DrawOptions& options);

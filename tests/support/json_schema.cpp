@@ -12,7 +12,8 @@ namespace hearth::test
 namespace
 {
 
-/// Patterns of the schemas are extended regular expressions as well; where one is not, nothing matches.
+/// True if the text matches. Patterns of the schemas are also extended regular expressions; an invalid one
+/// matches nothing.
 bool matches(const std::string& text, const std::string& pattern)
 {
     regex_t compiled{};
@@ -23,7 +24,7 @@ bool matches(const std::string& text, const std::string& pattern)
     return found;
 }
 
-/// In characters of UTF-8.
+/// Return the number of UTF-8 characters.
 size_t lengthOf(const std::string& text)
 {
     return static_cast<size_t>(

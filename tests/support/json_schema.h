@@ -1,6 +1,6 @@
-// Holds JSON against a schema, as far as Hearth's schemas go: type, enum, const, required, properties, additionalProperties,
-// items, minItems and maxItems, minimum, exclusiveMinimum and maximum, minLength and pattern, allOf, oneOf, if, then and else,
-// and references into $defs. Slow and obvious.
+// Validates JSON against a schema with the keywords that Hearth's schemas use: type, enum, const, required,
+// properties, additionalProperties, items, minItems and maxItems, minimum, exclusiveMinimum and maximum,
+// minLength and pattern, allOf, oneOf, if, then and else, and references into $defs. Slow and obvious.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,9 +11,10 @@
 namespace hearth::test
 {
 
-/// The first difference, as "/assets/0/state: ..."; empty where there is none. A keyword that is not known is one.
+/// Return the first violation, as "/assets/0/state: ..."; empty if there is none. An unknown keyword is a
+/// violation.
 std::string faultOf(const Json& schema, const Json& value);
-/// The same with a schema in a file.
+/// Validate against a schema in a file.
 std::string faultOfSchema(const std::string& schema_file, const Json& value);
 
 } // namespace hearth::test

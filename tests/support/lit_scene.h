@@ -1,4 +1,4 @@
-// Lights and places for the scenes of the shadow tests.
+// Lights and transforms for the scenes of the shadow tests.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,7 +9,7 @@
 namespace hearth::test
 {
 
-/// Axes with -z along a direction.
+/// Return axes whose -z points along a direction.
 inline Affine3 shining(Float3 position, Float3 direction)
 {
     const Float3 z = -normalizeOr(direction, {});
@@ -43,7 +43,7 @@ inline formats::LightRecord sun(Float3 direction)
     return light(formats::LightType::directional, {}, direction, 2);
 }
 
-/// Turns the quad's +z up.
+/// Rotate the quad's +z up.
 inline Affine3 lying(Float3 offset)
 {
     Affine3 t = translated(offset);

@@ -1,4 +1,4 @@
-// Small grids of blocks and single voxels, and rays that march through them as no scene would ask: for the tests of marches.
+// Small grids of blocks and single voxels, and difficult rays through them, for tests of ray marching.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -21,10 +21,10 @@ struct MarchScene
     BrickModel model;
 };
 
-/// A few blocks and many single voxels; about `count` in all.
+/// Make a grid of a few blocks and many single voxels; about `count` in all.
 MarchScene randomScene(Cell voxels, uint32_t count, std::mt19937& random);
 
-/// In voxels from the grid's origin.
+/// Ray in voxels from the grid's origin.
 struct MarchRay
 {
     Float3 origin;
@@ -32,12 +32,12 @@ struct MarchRay
     float far = shared::kBrickInfinity;
 };
 
-/// From near and far, from inside, from faces, edges and corners, through them and along them, nearly or exactly; one of eight
-/// ends before long.
+/// Random rays from near and far, from inside, from faces, edges and corners, through them and along them,
+/// nearly or exactly. One of eight has a short range.
 class MarchRays
 {
 public:
-    /// Both must outlive it.
+    /// Both must outlive the object.
     MarchRays(const MarchScene& scene, std::mt19937& random) : scene_(scene), random_(random) {}
 
     MarchRay next();
@@ -48,12 +48,12 @@ private:
     Float3 inBox(double margin);
     Cell solidVoxel();
     Float3 inVoxel();
-    /// A multiple of a half, on or beside a solid voxel.
+    /// Return a point whose coordinates are multiples of a half, on or beside a solid voxel.
     Float3 onLattice();
     Float3 onFace();
     Float3 direction();
     Float3 alongAxis();
-    /// Components alike: their planes are met at once.
+    /// Return a direction with equal components: it crosses several planes at once.
     Float3 alongLattice();
     float tiny();
     Float3 flattened(Float3 d, float along);

@@ -92,7 +92,7 @@ pid_t Sandbox::start(const std::vector<std::string>& command, const std::vector<
     HEARTH_ASSERT(process >= 0);
     if (process != 0)
         return process;
-    // never the cache of whoever runs the tests, nor his settings
+    // use neither the cache nor the settings of the user who runs the tests
     ::setenv("HEARTH_CACHE", cacheSpec().c_str(), 1);
     ::setenv("XDG_CONFIG_HOME", (output_path_ + "/config").c_str(), 1);
     for (const std::string& variable : environment)

@@ -1,4 +1,4 @@
-// A folder of its own for a test, and programs run in it.
+// Temporary folder of a test, and programs that run in it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,12 +11,12 @@ namespace hearth::test
 
 struct ProgramEnd
 {
-    int exit_code = -1; ///< -1 where a signal ended it
+    int exit_code = -1; ///< -1 if a signal ended it
     std::string out;
     std::string err;
 };
 
-/// A temporary folder that goes with all that is in it.
+/// Temporary folder that is removed with all its contents.
 class Sandbox
 {
 public:
@@ -31,20 +31,20 @@ public:
     void write(const std::string& name, const std::string& content, bool executable = false) const;
     std::string read(const std::string& name) const;
     bool has(const std::string& name) const;
-    /// Names of everything in the folder and below, sorted.
+    /// Return the names of everything in the folder and below, sorted.
     std::vector<std::string> list() const;
 
     /// Folder of the cache that programs use, outside of this folder.
     std::string cachePath() const { return output_path_ + "/cache"; }
     std::string cacheSpec() const { return "dir:" + cachePath(); }
-    /// Paths of the contents that the cache holds.
+    /// Return the paths of the contents in the cache.
     std::vector<std::string> cacheContents() const;
 
     /// Start a program in this folder; its output goes to files outside of it.
     pid_t start(const std::vector<std::string>& command, const std::vector<std::string>& environment = {});
-    /// What it has written to stderr so far.
+    /// Return the text that the started program has written to stderr so far.
     std::string errSoFar() const;
-    /// Wait for what start() started.
+    /// Wait for the program of start().
     ProgramEnd finish(pid_t process) const;
     ProgramEnd run(const std::vector<std::string>& command, const std::vector<std::string>& environment = {})
     {
@@ -56,10 +56,10 @@ private:
     std::string output_path_;
 };
 
-/// How often `part` occurs in `text`.
+/// Count the occurrences of `part` in `text`.
 size_t countOf(const std::string& text, const std::string& part);
 
-/// Every `what` in `text` becomes `by`.
+/// Replace every `what` in `text` by `by`.
 void replaceAll(std::string& text, const std::string& what, const std::string& by);
 
 } // namespace hearth::test

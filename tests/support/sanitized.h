@@ -14,21 +14,21 @@
 namespace hearth::test
 {
 
-/// Whether this is compiled for a sanitizer. Each step takes ten times as long there, and an access that is wrong is so at any
-/// size: tests try as many kinds of input, but fewer and smaller ones of each kind.
+/// True if compiled for a sanitizer. Each step takes ten times as long there, and a wrong access is wrong at
+/// any size: tests try as many kinds of input, but fewer and smaller ones of each kind.
 #ifdef HEARTH_TEST_SANITIZED
 inline constexpr bool kSanitized = true;
 #else
 inline constexpr bool kSanitized = false;
 #endif
 
-/// How many of so many random trials a test makes: a twentieth of them where it is compiled for a sanitizer, at least one.
+/// Return the number of random trials of a test: a twentieth of `count` under a sanitizer, at least one.
 constexpr size_t trials(size_t count)
 {
     return kSanitized ? (count + 19) / 20 : count;
 }
 
-/// Bytes of a real asset from which on it takes long where this is compiled for a sanitizer.
+/// File size in bytes from which an asset takes long under a sanitizer.
 inline constexpr size_t kLargeFile = 100 << 10;
 
 } // namespace hearth::test

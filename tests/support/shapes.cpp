@@ -14,7 +14,7 @@ namespace
 
 using mesh::SourceMesh;
 
-/// Hash of a lattice point as a number in [-1, 1].
+/// Hash a lattice point to a number in [-1, 1].
 float lattice(int32_t x, int32_t y, int32_t z, uint32_t seed)
 {
     uint32_t h = seed * 0x9E3779B9u;
@@ -96,7 +96,8 @@ void addSmoothNormals(SourceMesh& mesh)
         for (size_t k = 0; k < 3; ++k)
             sums[mesh.indices[i + k]] += n;
     }
-    // only positions on chart borders have several vertices, but all are looked up: fine for a test shape
+    // only positions on chart borders have several vertices, but all are looked up: fast enough for a test
+    // shape
     std::map<Float3, Float3, Less> shared;
     std::vector<uint8_t> seen(mesh.vertexCount(), 0);
     for (size_t v = 0; v < mesh.vertexCount(); ++v)
@@ -106,7 +107,8 @@ void addSmoothNormals(SourceMesh& mesh)
         mesh.normals[v] = normalizeOr(shared[mesh.positions[v]], {0, 0, 1});
 }
 
-/// Point (i, j) of side `side` of the cube [-n, n]^3 with integer coordinates, so that shared borders are equal.
+/// Return point (i, j) of side `side` of the cube [-n, n]^3. Coordinates are integers, so that shared borders
+/// are equal.
 Float3 cubePoint(int side, int32_t i, int32_t j, int32_t n)
 {
     const auto u = static_cast<float>(2 * i - n);
@@ -239,7 +241,7 @@ SourceMesh grid(uint32_t n)
 namespace
 {
 
-/// A quad with its own four vertices, flat normal, and the UVs of a unit square.
+/// Add a quad with four vertices of its own, a flat normal, and the UVs of a unit square.
 void addLooseQuad(SourceMesh& mesh, Float3 a, Float3 b, Float3 c, Float3 d)
 {
     const auto first = static_cast<uint32_t>(mesh.positions.size());
@@ -261,7 +263,7 @@ SourceMesh blocks(uint32_t n)
         const Float3 out = normalizeOr(cross(cubePoint(side, 1, 0, size) - cubePoint(side, 0, 0, size),
                                              cubePoint(side, 0, 1, size) - cubePoint(side, 0, 0, size)),
                                        {});
-        // cells on the rim stay low: sides then meet without gaps
+        // cells on the border stay low, so that sides meet without gaps
         const auto height = [&](int32_t i, int32_t j)
         {
             const bool rim = i <= 0 || j <= 0 || i >= size - 1 || j >= size - 1;

@@ -54,7 +54,7 @@ struct Shape
     std::vector<uint8_t> indices;
 };
 
-/// The strip between x0 and x1: two triangles that face +Y.
+/// Part of the strip between x0 and x1: two triangles that face +Y.
 Shape quad(float x0, float y0, float x1, float y1)
 {
     return {{{x0, y0, 0}, {x0, y0, 1}, {x1, y1, 1}, {x1, y1, 0}}, {0, 1, 2, 0, 2, 3}};
@@ -85,7 +85,7 @@ void appendVertex(std::vector<std::byte>& page, Float3 position, const ClusterRe
             appendValue(page, word);
 }
 
-/// The section of target 0, which lifts the last vertex by a half and turns its normal.
+/// Deltas of target 0, which lifts the last vertex by a half and turns its normal.
 void appendMorphs(std::vector<std::byte>& page, size_t vertex_count)
 {
     for (const uint32_t word : {1u, 0u, std::bit_cast<uint32_t>(kMorphStep)})
@@ -96,7 +96,7 @@ void appendMorphs(std::vector<std::byte>& page, size_t vertex_count)
         appendValue(page, word);
 }
 
-/// Bounds of the shape: its box, and a cone that all its normals fit.
+/// Bounds of the shape: its box, and a cone that contains all its normals.
 ClusterRecord boundsOf(const Shape& shape, uint16_t cone_cutoff)
 {
     Box3 box;
@@ -114,7 +114,7 @@ ClusterRecord boundsOf(const Shape& shape, uint16_t cone_cutoff)
     return cluster;
 }
 
-/// Add a cluster, its geometry at the end of the last page, and its place in the last group.
+/// Add a cluster: its geometry at the end of the last page, its record in the last group.
 void addCluster(PackModel& pack, const Shape& shape, uint32_t refined_group)
 {
     const uint32_t group = static_cast<uint32_t>(pack.groups.size() - 1);
@@ -256,7 +256,7 @@ void addBounds(PackModel& pack)
         {group.sphere_center, group.sphere_radius, static_cast<uint32_t>(pack.groups.size() - 1)});
 }
 
-/// A table in which only the aperture matters.
+/// Table that depends only on the aperture.
 void addSpecularTable(PackModel& pack)
 {
     SpecularTableRecord table{};
@@ -281,7 +281,7 @@ void addBricks(PackModel& pack)
     pack.brick_grids = {pack.bricks.grid};
 }
 
-/// Everything comes from one source. The strip reaches from 0 to 4 along x, the triangle's joints to 1.5.
+/// Source of everything. The strip reaches from 0 to 4 along x, the triangle's joints to 1.5.
 void addAsset(PackModel& pack)
 {
     AssetRecord asset{};
@@ -430,7 +430,8 @@ void addAnimation(PackModel& pack)
     morph.components = 1;
     morph.key_count = 2;
     morph.first_value = first_weight;
-    // packed: the times 0 and 2 of those above, x from 1 in steps of a half; two half turns, about x and about y
+    // packed: the times 0 and 2 of the clip above, x from 1 in steps of a half; two half turns, about x and
+    // about y
     AnimationChannelRecord packed_move = channel(AnimationPath::translation, Interpolation::linear);
     packed_move.node = 1;
     packed_move.components = 3;

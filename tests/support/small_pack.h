@@ -1,4 +1,4 @@
-// A small but complete pack, made by hand: every chunk type of a pack, two levels, six clusters, three pages.
+// Small but complete pack, made by hand: every chunk type of a pack, two levels, six clusters, three pages.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -16,7 +16,7 @@
 namespace hearth::test
 {
 
-/// The content of a pack as plain arrays, so that a test can spoil one thing and write it with right hashes.
+/// Content of a pack as plain arrays, so that a test can break one thing and write it with right hashes.
 struct PackModel
 {
     std::string meta;
@@ -49,16 +49,17 @@ struct PackModel
     std::vector<formats::DeformedMeshRecord> deformed_meshes;
     std::vector<formats::DeformedClusterRecord> deformed_clusters;
     std::vector<uint32_t> cluster_joints;
-    std::vector<formats::DeformedGroupRecord> deformed_groups; ///< in parts alone
+    std::vector<formats::DeformedGroupRecord> deformed_groups; ///< only in parts
     std::vector<formats::SpecularTableRecord> specular_tables;
     std::vector<formats::BrickGridRecord> brick_grids;
-    BrickModel bricks; ///< without its grid, which stands in brick_grids
+    BrickModel bricks; ///< without its grid, which is in brick_grids
 
-    /// Encode decoded_pages into page_bytes again, and set offset, size and hash of the page records.
-    /// The second page is stored as it is, the others by zstd.
+    /// Encode decoded_pages into page_bytes again, and set offset, size and hash of the page records. The
+    /// second page is stored uncompressed, the others by zstd.
     void sealPages();
 
-    /// The chunks in the order in which hearth-link writes them; `compressed` picks zstd for the tables.
+    /// Return the chunks in the order in which hearth-link writes them; `compressed` selects zstd for the
+    /// tables.
     std::vector<ChunkImage> chunks(bool compressed = false) const;
 
     AlignedBytes bytes(bool compressed = false) const
@@ -67,9 +68,11 @@ struct PackModel
     }
 };
 
-/// Mesh 0: a folded strip of four quads. Level 0 has a cluster for each quad, two groups of two; each group was
-/// simplified to one flat quad; those two are the root group, and said to be made by hand. Page 0 holds the root, pages 1 and 2 a group each.
-/// Mesh 1: no triangles. Mesh 2: one triangle without attributes, skinned, with one morph target that moves its last vertex.
+/// Mesh 0: a folded strip of four quads. Level 0 has a cluster for each quad, in two groups of two. Each
+/// group was simplified to one flat quad; those two quads are the root group, which is marked as an authored
+/// LOD. Page 0 holds the root, pages 1 and 2 a group each.
+/// Mesh 1: no triangles. Mesh 2: one triangle without attributes, skinned, with one morph target that moves
+/// its last vertex.
 PackModel smallPack();
 
 } // namespace hearth::test

@@ -1,4 +1,4 @@
-// The parts that small_pack.h's pack could have been linked from.
+// Writes parts from which the pack of small_pack.h could have been linked.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,8 +9,9 @@
 namespace hearth::test
 {
 
-/// Write import, clusters, textures and skinning parts of `pack` as FOLDER/PREFIX.{import,clusters,textures,skinning}.part.
-/// The string table stands in both import and clusters parts. Ends the test program where it cannot.
+/// Write import, clusters, textures and skinning parts of `pack` as
+/// FOLDER/PREFIX.{import,clusters,textures,skinning}.part. The string table is in both the import and the
+/// clusters part. Ends the test program on failure.
 void writeParts(const PackModel& pack, const std::string& folder, const std::string& prefix);
 
 /// Write a part with the specular tables of `pack`.
@@ -19,7 +20,7 @@ void writeSpecularPart(const PackModel& pack, const std::string& path);
 /// Write a part with the bricks of `pack`.
 void writeBricksPart(const PackModel& pack, const std::string& path);
 
-/// A META text as hearth-import writes it, of an asset called `name`.
+/// Return a META text as hearth-import writes it, for an asset called `name`.
 std::string importMeta(const std::string& name);
 
 /// Write a pack as a file.

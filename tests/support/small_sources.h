@@ -1,4 +1,4 @@
-// Sources in a few lines, with files beside them: what a cook has to keep an eye on.
+// Sources of a few lines with further files beside them, as inputs of incremental builds.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,14 +9,14 @@
 namespace hearth::test
 {
 
-/// A quad of that height: NAME.obj, NAME.mtl, and NAME.tga of one grey.
+/// Write a quad of this height: NAME.obj, NAME.mtl, and NAME.tga with one grey value.
 void writeObj(const Sandbox& folder, const std::string& name, double height = 1, int grey = 128);
 
-/// An uncompressed TGA image of 2 x 2 texels.
+/// Return an uncompressed TGA image of 2 x 2 texels.
 std::string tgaImage(int grey);
 
-/// A triangle whose top is at x = `top` from 0 to 1, by which NAME.bin alone differs: NAME.gltf, NAME.bin, and a texture
-/// NAME.tga that is not there.
+/// Write a triangle whose top is at x = `top` from 0 to 1; only NAME.bin depends on it. Files: NAME.gltf,
+/// NAME.bin, and a reference to a missing texture NAME.tga.
 void writeGltf(const Sandbox& folder, const std::string& name, float top = 0);
 
 } // namespace hearth::test

@@ -1,4 +1,4 @@
-// The whole promise of a hierarchy in one call.
+// Checks all guarantees of a hierarchy in one call.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,8 +10,8 @@
 namespace hearth::cuts
 {
 
-/// Empty if the hierarchy is valid and no cut of several kinds has a crack, else what is wrong first:
-/// the cut at every level's error, random closed cuts, and cuts as eyes in and around the mesh see them.
+/// Empty if the hierarchy is valid and no cut of several kinds has a crack, otherwise the first problem.
+/// Cuts: at every level's error, random closed cuts, and cuts for eyes in and around the mesh.
 std::string unsoundness(const mesh::SourceMesh& mesh, const clusters::Hierarchy& hierarchy,
                         std::span<const mesh::SourceMesh> authored = {});
 

@@ -34,7 +34,7 @@ double dot(Double3 a, Double3 b)
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/// Where on a triangle, and how far from there.
+/// Point on a triangle, and its distance from the query.
 struct OnTriangle
 {
     double v = 0, w = 0;
@@ -47,7 +47,7 @@ struct OnTriangle
     }
 };
 
-/// Nearest to p on the edge from a to b, which are the corners with (v, w) of `from` and `to`.
+/// Return the point nearest to p on the edge from a to b, corners with the weights (v, w) `from` and `to`.
 OnTriangle onEdge(Double3 p, Double3 a, Double3 b, Float2 from, Float2 to)
 {
     const Double3 ab = b - a;
@@ -114,7 +114,7 @@ bool visitTriangle(RTCPointQueryFunctionArguments* arguments)
         return false;
     query.nearest = here;
     query.triangle = arguments->primID;
-    // a little more, so that rounding here does not hide what is as near
+    // slightly more, so that rounding here does not hide equally near triangles
     arguments->query->radius = static_cast<float>(std::sqrt(here.distance2) * (1 + 1e-6) + 1e-30);
     return true;
 }

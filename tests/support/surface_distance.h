@@ -1,4 +1,5 @@
-// Exact distances from points to a triangle surface, by Embree's hierarchy: what the tests measure bounds with.
+// Exact distances from points to a triangle surface with Embree's bounding volume hierarchy: the reference
+// for tests of error bounds.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,14 +14,14 @@
 namespace hearth
 {
 
-/// A place on a triangle: (1 - v - w) * corner 0 + v * corner 1 + w * corner 2.
+/// Point on a triangle: (1 - v - w) * corner 0 + v * corner 1 + w * corner 2.
 struct SurfacePoint
 {
     uint32_t triangle = 0;
     double v = 0, w = 0;
 };
 
-/// The value at a place, of values that the vertices have.
+/// Interpolate values of the vertices at a point.
 Float3 valueAt(const SurfacePoint& point, std::span<const Float3> of_vertices,
                std::span<const uint32_t> triangles);
 
@@ -36,7 +37,7 @@ public:
         double distance;
         SurfacePoint point;
     };
-    /// May be called from several threads at once.
+    /// Thread-safe.
     Nearest nearest(Float3 point) const;
     double to(Float3 point) const { return nearest(point).distance; }
 
@@ -45,12 +46,12 @@ private:
     std::unique_ptr<State> state_;
 };
 
-/// About `count` points spread evenly by area over the triangles. The same points in every run.
+/// Return about `count` points, spread evenly by area over the triangles. The same points in every run.
 std::vector<SurfacePoint> evenlySpread(std::span<const Float3> positions, std::span<const uint32_t> triangles,
                                        size_t count);
 
-/// The largest distance of `count` points, spread evenly by area over the triangles, and of all their corners, to the
-/// surface. The same points in every run.
+/// Return the largest distance to the surface of `count` points, spread evenly by area over the triangles,
+/// and of all the triangles' corners. The same points in every run.
 double largestDistance(std::span<const Float3> positions, std::span<const uint32_t> triangles, size_t count,
                        const SurfaceDistance& surface);
 

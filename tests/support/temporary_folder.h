@@ -1,4 +1,4 @@
-// A folder of its own for a test, removed with everything in it.
+// Temporary folder of a test, removed with everything in it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -28,7 +28,7 @@ public:
 
     std::string file(const std::string& name) const { return (path_ / name).string(); }
 
-    /// Names of what lies in it.
+    /// Return the names of its entries.
     std::set<std::string> files() const
     {
         std::set<std::string> names;

@@ -1,6 +1,7 @@
 // main() of every test program.
 //
-// --sources=a_test.cpp,b_test.cpp runs the tests of these files only, so that one program serves several entries of ctest.
+// --sources=a_test.cpp,b_test.cpp runs only the tests of these files, so that one program serves several
+// entries of ctest.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -27,7 +28,7 @@ std::vector<std::string_view> splitAtCommas(std::string_view list)
     return words;
 }
 
-/// "Suite.test:" for each test of a source file; empty when the file has none.
+/// Return "Suite.test:" for each test of a source file; empty if it has none.
 std::string filterFor(std::string_view source)
 {
     std::string filter;
@@ -46,8 +47,8 @@ std::string filterFor(std::string_view source)
     return filter;
 }
 
-/// Restricts the run to the tests of some files. Returns false, with a message, when a *_test.cpp among them has none: it
-/// would never run.
+/// Restrict the run to the tests of some files. Returns false, with a message, if a *_test.cpp among them has
+/// none: it would never run.
 bool selectSources(std::string_view list)
 {
     std::string filter;

@@ -21,7 +21,7 @@ uint32_t countOf(const auto& records)
     return static_cast<uint32_t>(records.size());
 }
 
-/// What has to be added to the indices of a hierarchy to stand behind what the pack already has.
+/// Offsets to add to a hierarchy's indices to append it to the pack.
 struct Bases
 {
     uint32_t mesh, level, group, cluster, page, parent;

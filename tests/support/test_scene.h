@@ -1,4 +1,4 @@
-// A pack in memory, put together in a test: meshes through the real cluster builder, the rest by hand.
+// Builds a pack in memory for a test: meshes through the real cluster builder, everything else by hand.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -15,34 +15,35 @@
 namespace hearth::test
 {
 
-/// glTF's defaults with a white dielectric: no texture, roughness 1.
+/// glTF's default material with a white dielectric: no texture, roughness 1.
 formats::MaterialRecord plainMaterial();
 
-/// A texture on UV set 0, repeated.
+/// Texture on UV set 0, with repeat wrapping.
 formats::TextureRef textureOf(uint32_t image);
 
 class TestScene
 {
 public:
     uint32_t addMaterial(const formats::MaterialRecord& material);
-    /// Four bytes a texel; the mips one after the other, as many as there are texels for.
+    /// Add an image. Four bytes a texel; the mips one after the other, as many as there are texels for.
     uint32_t addImage(formats::TexelFormat format, uint32_t width, uint32_t height,
                       const std::vector<uint32_t>& texels);
-    /// Cooks the mesh; returns its number.
+    /// Cook the mesh; return its index.
     uint32_t addMesh(const mesh::SourceMesh& mesh, const clusters::Config& config = {});
     uint32_t addHierarchy(const clusters::Hierarchy& hierarchy);
-    /// Sets the flags and scale_max that the importer would.
+    /// Set the flags and scale_max as the importer does.
     void addInstance(uint32_t mesh, const Affine3& world_from_object);
     void addLight(const formats::LightRecord& light);
-    /// What the vertices of all levels see of the sky, where they say it: after all meshes. In object space.
+    /// Set the sky visibility of the vertices of all levels that have it. Call it after all meshes are added.
+    /// In object space.
     using Visibility =
         std::function<shared::VisibilityMoments(uint32_t mesh, Float3 position, Float3 normal)>;
     void setVisibility(const Visibility& visibility);
 
-    /// The pack, which has passed the checker. The scene must outlive it and not change.
+    /// Return the pack, checked. The scene must outlive it and not change.
     formats::PackView build();
 
-    /// The same, where something is still missing that the checker would miss.
+    /// Return the pack without the check, for scenes that are still incomplete.
     formats::PackView assemble();
 
     PackModel& model() { return model_; }
@@ -62,13 +63,14 @@ mesh::SourceMesh withMaterial(mesh::SourceMesh mesh, uint32_t material);
 
 Affine3 translated(Float3 offset);
 
-/// Rotation, scales of 0.3 to 3 that differ, shear, a mirror half of the time, and a translation within `reach`.
+/// Random rotation, non-uniform scales of 0.3 to 3, shear, a mirror half of the time, and a translation
+/// within `reach`.
 Affine3 randomAffine(std::mt19937& random, float reach);
 
-/// Eye and target about the origin, field of view and near plane at random.
+/// Camera with eye and target about the origin, and random field of view and near plane.
 shared::Camera randomCamera(std::mt19937& random, float reach);
 
-/// A valid distance curve, as steep as may be, upwards and downwards.
+/// Valid distance curve, as steep as allowed, upwards and downwards.
 std::vector<shared::LodKnot> randomLodCurve(std::mt19937& random);
 
 /// Uniform in [low, high), the same on every machine.

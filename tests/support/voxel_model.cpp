@@ -70,7 +70,7 @@ BrickTables VoxelModel::build() const
     tables.grid = grid_;
     const uint32_t groups[3] = {brickGroupsAlongAxis(grid_.voxels[0]), brickGroupsAlongAxis(grid_.voxels[1]),
                                 brickGroupsAlongAxis(grid_.voxels[2])};
-    // by group, then by the brick's bit, then by the voxel's: the order of the tables
+    // sorted by group, then by the brick's bit, then by the voxel's bit: the order of the tables
     std::map<std::pair<uint32_t, uint32_t>, std::map<uint32_t, Place>> bricks;
     for (const auto& [place, voxel] : voxels_)
     {

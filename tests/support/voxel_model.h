@@ -1,4 +1,4 @@
-// Bricks written voxel by voxel, for tests that need no meshes.
+// Builds bricks voxel by voxel, for tests that need no meshes.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -15,7 +15,7 @@ struct VoxelSide
 {
     Float3 albedo{0.5f, 0.5f, 0.5f};
     Float3 emission;
-    Float3 normal; ///< zero: that of the face
+    Float3 normal; ///< zero: the face's own normal
 };
 
 struct Voxel
@@ -24,7 +24,7 @@ struct Voxel
     uint8_t opacity = 255;
 };
 
-/// The same on all sides.
+/// Make a voxel that is the same on all sides.
 inline Voxel makeVoxel(Float3 albedo, Float3 emission = {}, uint8_t opacity = 255)
 {
     Voxel voxel;
@@ -33,7 +33,7 @@ inline Voxel makeVoxel(Float3 albedo, Float3 emission = {}, uint8_t opacity = 25
     return voxel;
 }
 
-/// Index into the tables of a face, or kNoFace; for tests, not for speed.
+/// Return the index of a face in the tables, or kNoFace; slow.
 uint32_t faceAt(const BrickTables& tables, uint32_t x, uint32_t y, uint32_t z, uint32_t face);
 
 class VoxelModel
@@ -53,13 +53,13 @@ public:
 
     void set(uint32_t x, uint32_t y, uint32_t z, const Voxel& voxel) { voxels_[{z, y, x}] = voxel; }
 
-    /// All voxels of [low, high).
+    /// Set all voxels of [low, high).
     void fill(std::array<uint32_t, 3> low, std::array<uint32_t, 3> high, const Voxel& voxel);
 
-    /// The walls of the box [low, high), one voxel thick.
+    /// Set the walls of the box [low, high), one voxel thick.
     void shell(std::array<uint32_t, 3> low, std::array<uint32_t, 3> high, const Voxel& voxel);
 
-    /// Faces towards all that is empty, or solid but not opaque; what lies outside the grid is empty.
+    /// Add faces towards all cells that are empty, or solid but not opaque. Cells outside the grid are empty.
     BrickTables build() const;
 
 private:

@@ -32,7 +32,7 @@ sockaddr_in loopback(int port)
     return address;
 }
 
-/// A socket that listens on a port that the system chooses.
+/// Open a socket that listens on a port that the system chooses.
 int listenAnywhere(int& port)
 {
     const int listener = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
@@ -158,7 +158,7 @@ std::vector<std::string> WebServer::log()
     std::vector<std::string> lines;
     std::ifstream file(folder_ + "/log");
     for (std::string line; std::getline(file, line);)
-        // the knock at the door, whether it is open
+        // skip lines of the probe that tests whether the server accepts connections
         if (!line.starts_with(" "))
             lines.push_back(line);
     return lines;
@@ -190,7 +190,7 @@ void FixedServer::serve()
         static_cast<void>(::recv(client, request, sizeof(request), 0));
         static_cast<void>(::send(client, answer_.data(), answer_.size(), MSG_NOSIGNAL));
         ::shutdown(client, SHUT_WR);
-        // what else comes is read: to close with it unread would take the answer back
+        // read further data: closing a socket with unread data would discard the answer
         while (::recv(client, request, sizeof(request), 0) > 0)
         {
         }

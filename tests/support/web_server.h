@@ -1,4 +1,5 @@
-// nginx as a team would run it for a cache, on a port of its own; and a server that says what it is told to.
+// Test servers for caches: nginx, configured as for a team's cache, on its own port; and servers with fixed
+// or no answers.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,31 +11,32 @@
 namespace hearth::test
 {
 
-/// A port of the loopback that nobody listens on.
+/// Return a port of the loopback interface that nothing listens on.
 int freePort();
 
-/// Keeps what is PUT to ac/ and cas/ in a folder, and hands it out.
+/// Stores files that are PUT to ac/ and cas/ in a folder, and serves them.
 class WebServer
 {
 public:
     static bool isInstalled();
 
-    /// folder      for its files; it is there
-    /// directives  of nginx, for its only location
+    /// folder      existing folder for its files
+    /// directives  nginx directives for its only location
     explicit WebServer(std::string folder, const std::string& directives = "");
     ~WebServer() { stop(); }
     WebServer(const WebServer&) = delete;
     WebServer& operator=(const WebServer&) = delete;
 
     std::string url() const { return "http://127.0.0.1:" + std::to_string(port_); }
-    /// Where what is PUT lies.
+    /// Return the folder that PUT requests write to.
     std::string store() const { return folder_ + "/store"; }
 
-    /// tls  directives that name its certificate, where it speaks TLS
+    /// tls  directives that name its certificate, if it uses TLS
     void start(const std::string& directives, const std::string& tls = "");
     void stop();
 
-    /// Stops it, so that all is written: "GET /ac/KEY 200", a line a request, in the order of their ends; of all starts.
+    /// Stop the server to flush its log, and return the log of all starts: one line per request, "GET /ac/KEY
+    /// 200", in the order of completion.
     std::vector<std::string> log();
 
 private:
@@ -43,7 +45,7 @@ private:
     pid_t process_ = 0;
 };
 
-/// Answers every connection with the same bytes, and closes it.
+/// Sends the same bytes to every connection and closes it.
 class FixedServer
 {
 public:
@@ -63,7 +65,7 @@ private:
     std::thread thread_;
 };
 
-/// Takes connections, and never says anything.
+/// Accepts connections, but never answers.
 class SilentServer
 {
 public:

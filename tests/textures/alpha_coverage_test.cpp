@@ -17,7 +17,7 @@ namespace
 using namespace test;
 using formats::ImageRecord;
 
-/// Thin blades of grass: what a plain mean thins out most.
+/// Thin blades of grass, which lose most coverage by plain averaging.
 std::vector<std::byte> grass(uint32_t size)
 {
     std::vector<std::byte> texels = filled(size, size, {20, 120, 10, 0});

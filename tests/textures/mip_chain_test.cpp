@@ -134,7 +134,7 @@ TEST(MipChain, keepsTheMeanOfDataAndAlpha)
 
 TEST(MipChain, whatIsTransparentDoesNotBleed)
 {
-    // green leaves on black nothing
+    // green leaves on transparent black
     std::vector<std::byte> texels = filled(8, 8, {0, 0, 0, 0});
     for (size_t i = 0; i < 64; i += 3)
         std::copy_n(filled(1, 1, {30, 200, 40, 255}).begin(), 4,
@@ -176,7 +176,7 @@ TEST(MipChain, normalsAreDirectionsAndUnit)
 
 TEST(MipChain, normalsThatLeanApartMeetInTheMiddle)
 {
-    // 45 degrees to the left and to the right, the left one stored too short: length must not count
+    // 45 degrees to the left and to the right, the left one with a shorter vector: length must not matter
     std::vector<std::byte> texels = filled(2, 1, {128 + 90, 128, 128 + 90, 255});
     const Rgba8 left = {128 - 45, 128, 128 + 45, 255};
     for (size_t c = 0; c < 4; ++c)

@@ -19,7 +19,7 @@ using namespace test;
 using namespace formats;
 using hearth::test::TemporaryFolder;
 
-/// Writes an import part with these images; `lost` leaves out the texels of one.
+/// Write an import part with these images, omitting the texels of image `lost`.
 void writeImport(const std::string& path, std::span<const ImageRecord> images,
                  std::span<const std::vector<std::byte>> texels)
 {
@@ -64,7 +64,7 @@ TEST(CookTextures, leavesOutMipsThatAreTooLarge)
     const std::vector<std::vector<std::byte>> texels = {randomBytes(12 * 7 * 4, 1),
                                                         randomBytes(5 * 16 * 4, 2), randomBytes(4, 3)};
     writeImport(folder.file("in.part"), images, texels);
-    // how many of the finest mips go: of 12 x 7, 5 x 16, 1 x 1
+    // number of finest mips that are dropped: of 12 x 7, 5 x 16, 1 x 1
     const std::vector<std::pair<uint32_t, std::array<uint32_t, 3>>> rows = {
         {16, {0, 0, 0}}, {12, {0, 1, 0}}, {11, {1, 1, 0}}, {6, {1, 2, 0}}, {1, {3, 4, 0}}};
     for (const auto& [max_size, left_out] : rows)
@@ -94,7 +94,7 @@ TEST(CookTextures, saysWhatBecameOfEachImage)
 {
     const TemporaryFolder folder;
     std::vector<ImageRecord> images = {recordOf(12, 7), recordOf(4, 4, TexelFormat::rgba16_float)};
-    images[0].name = {3, 400}; // of the strings that are not there
+    images[0].name = {3, 400}; // outside of the strings
     const std::vector<std::vector<std::byte>> texels = {randomBytes(12 * 7 * 4, 1),
                                                         std::vector<std::byte>(4 * 4 * 8)};
     writeImport(folder.file("in.part"), images, texels);

@@ -18,7 +18,7 @@ using namespace test;
 using namespace formats;
 using Bytes = std::vector<std::byte>;
 
-/// RGBA8 texels, each of one value in all colours.
+/// RGBA8 texels, each grey.
 Bytes greys(std::initializer_list<std::pair<int, int>> values_and_alphas)
 {
     Bytes bytes;
@@ -64,7 +64,7 @@ TEST(MipError, doesNotSeeTheColourOfWhatIsCutAway)
 
 TEST(MipError, stretchesSizesThatAreNotEven)
 {
-    // a slow reference over the whole of 5 x 3 on 2 x 1
+    // slow reference: the whole of 5 x 3 on 2 x 1
     const ImageRecord image = withMips(recordOf(5, 3, TexelFormat::rgba8_unorm));
     const Bytes chain = buildMipChain(image, randomBytes(5 * 3 * 4, 3));
     double sum = 0;

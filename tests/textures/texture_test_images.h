@@ -1,4 +1,4 @@
-// Images for the tests of textures.
+// Generates images for texture tests.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -44,7 +44,7 @@ inline std::vector<std::byte> randomBytes(size_t count, uint32_t seed)
     return bytes;
 }
 
-/// The texels of one mip of a chain, four bytes each.
+/// Return the texels of one mip of a chain, four bytes each.
 inline std::vector<Rgba8> mipOf(const formats::ImageRecord& image, const std::vector<std::byte>& chain,
                                 uint32_t mip)
 {

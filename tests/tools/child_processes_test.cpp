@@ -81,7 +81,7 @@ TEST(ChildProcesses, runSeveralAtOnce)
 
 TEST(ChildProcesses, noticeEveryEndWhereOtherThreadsTakeTheSignal)
 {
-    // SIGCHLD reaches these threads, where a handler swallows it
+    // SIGCHLD goes to these threads, where a handler discards it
     struct sigaction swallowing
     {
     };
@@ -138,7 +138,7 @@ TEST(ChildProcesses, waitForAChildThatClosedItsStderr)
 namespace
 {
 
-/// A program that does with each line of a batch what `script` says.
+/// Return a program that runs `script` for each line of a batch.
 class BatchScript
 {
 public:
@@ -221,7 +221,7 @@ TEST(ChildProcesses, giveNothingToTheDead)
                               children.startBatch("./" + script.path).value()};
     for (const size_t batch : batches)
         children.sendCommandLine(batch, "bad\n");
-    // both are dead when the end of one is told
+    // both are dead before the end of either is reported
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     ASSERT_EQ(children.wait()->id, batches[0]);
     children.sendCommandLine(batches[1], "late\n");
@@ -232,7 +232,7 @@ TEST(ChildProcesses, giveNothingToTheDead)
 
 TEST(ChildProcesses, takeNoiseForMessages)
 {
-    // the separator of an end, but no end behind it; and more than is kept
+    // the separator that begins an end report, but no report after it; and more output than is kept
     const BatchScript script("if [ $line = noise ]; then printf '\\036noise\\n' >&2; "
                              "else head -c 3000000 /dev/zero >&2; fi");
     ChildProcesses children;

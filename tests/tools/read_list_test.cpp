@@ -1,4 +1,4 @@
-// SHA-256 against published values, and the list of what was read.
+// Tests SHA-256 against published values, and the list of read files.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/tools/dependency_list.h"
 #include "cook/tools/sha256.h"
@@ -14,7 +14,7 @@ namespace hearth::tools
 namespace
 {
 
-// FIPS 180-4, its examples
+// Examples of FIPS 180-4.
 constexpr const char* kOfAbc = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
 constexpr const char* kOfNothing = "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855";
 constexpr const char* kOfAMillionA = "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0";
@@ -89,7 +89,7 @@ TEST(TempDirectory, removesWhatKilledProcessesHaveLeft)
 {
     const TempDirectory parent = temporaryFolder();
     const TempDirectory alive = TempDirectory::create(parent.path(), "test").value();
-    // a process that was killed leaves its lock file, unlocked; one that has just begun has none yet
+    // a killed process leaves its lock file, unlocked; a process that has just started has none yet
     for (const char* name : {"/.hearth-killed", "/.hearth-begins", "/other"})
         ASSERT_TRUE(std::filesystem::create_directory(parent.path() + name));
     for (const char* name : {"/.hearth-killed/lock", "/.hearth-killed/half", "/other/lock"})

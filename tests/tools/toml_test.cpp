@@ -1,4 +1,4 @@
-// TOML as plain data: all kinds of value, where each stands, and what is said of a text that is none.
+// Tests the TOML reader: all kinds of value, their line numbers, and errors for invalid text.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/tools/toml.h"
 

@@ -90,7 +90,7 @@ TEST(Playback, letsTheNextClipTakeOverWhileBothGoOn)
     EXPECT_NEAR(playback.clip()->seconds, 0.125, kExact);
     EXPECT_NEAR(playback.weight(), 0.25, kExact);
 
-    settings.clip = 0; // back again: the mix so far fades out
+    settings.clip = 0; // back again: clip 1 now fades out
     playback.advance(settings, 0.125);
     EXPECT_EQ(playback.fadedClip()->animation, 1u);
     EXPECT_NEAR(playback.fadedClip()->seconds, 0.25, kExact);

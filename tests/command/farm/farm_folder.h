@@ -1,4 +1,4 @@
-// Sources, and the steps of a farm over them: the real hearth with all its cookers.
+// Sources, and the steps of a distributed build of them, with the real hearth and all its cookers.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -22,19 +22,19 @@ protected:
     ProgramEnd hearth(const std::vector<std::string>& arguments,
                       const std::vector<std::string>& environment = {});
 
-    /// A verb over all sources.
+    /// Run a verb over all sources.
     ProgramEnd over(const std::string& verb, const std::vector<std::string>& options,
                     const std::vector<std::string>& more = {});
 
-    /// A plan of all sources; its text.
+    /// Plan all sources; return the plan's text.
     std::string plan(size_t shards, const std::vector<std::string>& options = {});
 
-    /// The pack that a cook on this machine makes.
+    /// Return the pack that a cook on this machine makes.
     std::string localPack(const std::vector<std::string>& options = {});
 
     ProgramEnd run(size_t shard, size_t count, const std::vector<std::string>& more = {});
 
-    /// The pack that the merge makes.
+    /// Return the pack that the merge makes.
     std::string merged();
 
     /// Empty the cache.

@@ -1,4 +1,4 @@
-// A plan in other hands: launchers, lists of commands, Ninja, and the script for Slurm.
+// Tests the ways to run a plan: launchers, lists of commands, Ninja, and the script for Slurm.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
 #include "tests/command/farm/farm_folder.h"
@@ -26,7 +26,7 @@ TEST_F(Farm, aLauncherIsNotBelieved)
     const ProgramEnd done = run(0, 2, {"--launcher", folder / "honest", "--record", "0.json"});
     EXPECT_EQ(done.exit_code, 0) << "its code is no matter: " << done.err;
     EXPECT_EQ(Json::parse(folder.read("0.json")).value()["actions"].size(), 8u);
-    // it still lies, but all is there
+    // the launcher still reports success falsely, but all results exist
     EXPECT_EQ(run(0, 2, {"--launcher", folder / "liar"}).exit_code, 0);
     fs::remove(folder.cacheContents().front());
     EXPECT_EQ(run(0, 2, {"--launcher", folder / "liar"}).exit_code, 75);
@@ -41,7 +41,7 @@ TEST_F(Farm, givesLinesToWhoeverTakesThem)
     folder.write("lines", plan.out);
     const size_t merge = plan.err.find("after them: ");
     ASSERT_NE(merge, std::string::npos) << plan.err;
-    // from another folder, the last first
+    // run from another folder, last shard first
     const ProgramEnd end = folder.run({"/bin/sh", "-c", "mkdir sub; cd sub; tac ../lines | sh -e"});
     EXPECT_EQ(end.exit_code, 0) << end.err;
     EXPECT_EQ(hearth({"farm", "status", "it's a plan.json"}).exit_code, 0);
@@ -61,7 +61,7 @@ TEST_F(Farm, isBuiltByNinja)
     EXPECT_EQ(built.exit_code, 0) << built.out << built.err;
     EXPECT_TRUE(folder.read("out put.hearth") == pack);
     EXPECT_NE(ninja().out.find("no work to do"), std::string::npos);
-    // a launcher that lies breaks the build where it would have gone on with nothing
+    // a launcher that falsely reports success breaks the build where nothing was done
     forget();
     fs::remove_all(folder / "plan.json.shards");
     fs::remove(folder / "out put.hearth");
@@ -88,7 +88,7 @@ TEST_F(Farm, printsTheScriptForSlurm)
     folder.write("script", end.out);
     EXPECT_EQ(folder.run({"/bin/sh", "-n", "script"}).exit_code, 0);
     EXPECT_EQ(hearth({"farm", "slurm", "plan.json", "--print", "--partition", "a\nb"}).exit_code, 2);
-    // it is that script which submits: here to a cluster that is none
+    // the generated script submits; here sbatch is a stub
     folder.write("sbatch", "#!/bin/sh\ncat > job$$\necho 17\n", true);
     const ProgramEnd submitted =
         hearth({"farm", "slurm", "plan.json"}, {"PATH=" + folder.path() + ":/usr/bin:/bin"});

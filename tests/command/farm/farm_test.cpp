@@ -1,4 +1,5 @@
-// A cook on several machines, with the real cookers: whatever happens to shards, the pack is that of a cook on one.
+// Tests distributed builds with the real cookers: whatever happens to shards, the pack equals that of a
+// single machine.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
 #include "tests/command/farm/farm_folder.h"
@@ -61,7 +62,7 @@ TEST_F(Farm, makesTheSameBytesElsewhere)
         {"LC_ALL=C", "TZ=America/New_York", "TMPDIR=" + elsewhere.path()}};
     for (const std::string& shard : {std::string("0/2"), std::string("1/2")})
     {
-        // the plan's folder is not that of this machine: its sources lie elsewhere
+        // the plan's folder is of another machine: the sources are elsewhere here
         const ProgramEnd end = hearthIn(
             elsewhere,
             {"run", folder / "plan.json", "-C", ".", "--shard", shard, "--cache", folder.cacheSpec()},
@@ -139,7 +140,7 @@ TEST_F(Farm, isSharedOutByAReportOfBefore)
     EXPECT_EQ(two.exit_code, 0);
     EXPECT_EQ(two.err, "");
     EXPECT_EQ(Json::parse(folder.read("plan.json")).value()["shards"], Json({{3}, {0, 1, 2}}));
-    // no key has changed: all is there, and the pack is the same
+    // no key has changed: all results exist, and the pack is the same
     for (size_t shard = 0; shard < 2; ++shard)
         EXPECT_NE(run(shard, 2).err.find(" 0 cooked"), std::string::npos);
     EXPECT_TRUE(merged() == pack);
@@ -192,7 +193,7 @@ TEST_F(Farm, believesNoByteOfTheCache)
     EXPECT_EQ(status.exit_code, 1);
     EXPECT_NE(status.out.find(" lost "), std::string::npos) << status.out;
     EXPECT_NE(status.out.find("0 of 1 shards are done\n"), std::string::npos) << status.out;
-    // a shard that is run again mends what it had left
+    // a shard that is run again repairs its earlier results
     EXPECT_EQ(run(0, 1).exit_code, 0);
     damage();
     EXPECT_EQ(run(0, 1).exit_code, 0);
@@ -248,7 +249,7 @@ TEST_F(Farm, refusesToCookSomethingElse)
 
 TEST_F(Farm, refusesTexturesThatAreNotThoseOfThePlan)
 {
-    // what the import finds is known to a plan where it has been cooked before
+    // a plan knows the files that an import found if it was cooked before
     localPack();
     EXPECT_EQ(hearth({"cook", "house.obj", "-o", "house.hearth", "-q"}).exit_code, 0);
     plan(1);
@@ -257,7 +258,8 @@ TEST_F(Farm, refusesTexturesThatAreNotThoseOfThePlan)
     const ProgramEnd end = run(0, 1);
     EXPECT_EQ(end.exit_code, 65);
     EXPECT_NE(end.err.find("house.tga, which it refers to, has changed"), std::string::npos) << end.err;
-    // else the merge sees to it: what was cooked of another texture is no result of these files
+    // otherwise the merge detects it: a result that was cooked from another texture is not valid for these
+    // files
     forget();
     plan(1);
     EXPECT_EQ(run(0, 1).exit_code, 0);
@@ -290,13 +292,13 @@ TEST_F(Farm, aFailedSourceIsToldOnceAndByName)
 
 TEST_F(Farm, asksForAnotherTryWhereThatMayHelp)
 {
-    // a cache that cannot be written to, as when the disk of all machines is away
+    // a cache that cannot be written, as when the shared disk is gone
     plan(1);
     folder.write("file", "not a folder");
     const ProgramEnd lost = run(0, 1, {"--cache", "dir:file"});
     EXPECT_EQ(lost.exit_code, 75) << lost.err;
     EXPECT_EQ(countOf(lost.err, "[E5102]"), 1u) << lost.err;
-    // a cooker that the machine has killed
+    // a cooker that was killed by the machine
     const fs::path copies = folder / "bin";
     fs::create_directory(copies);
     for (const auto& program : fs::directory_iterator(HEARTH_BIN))
@@ -310,7 +312,7 @@ TEST_F(Farm, asksForAnotherTryWhereThatMayHelp)
     EXPECT_EQ(countOf(killed.err, "[E5103]"), 1u) << killed.err;
     const ProgramEnd nothing = run(0, 1, {"--cache", "dir:nowhere,ro"});
     EXPECT_EQ(nothing.exit_code, 2) << nothing.err;
-    // another build
+    // another build of hearth
     const ProgramEnd other = folder.run({program, "run", "plan.json", "--shard", "0/1"});
     EXPECT_EQ(other.exit_code, 65) << other.err;
     EXPECT_EQ(countOf(other.err, "[E5002]"), 1u) << other.err;
@@ -366,7 +368,7 @@ TEST_F(Farm, refusesWhatIsNoPlan)
     refused("torn.json", 65);
     folder.write("shown.json", hearth({"cook", "house.obj", "-o", "a.hearth", "-n", "--format", "json"}).out);
     refused("shown.json", 65);
-    // settings are those of a command line, with its limits
+    // settings come from a command line, with its limits
     for (const char* setting : {"bricks.bake=99", "visibility.quality=best", "visibility.qualty=high", "-o=x",
                                 "more.obj", "--help", ""})
     {

@@ -1,4 +1,5 @@
-// Cooks that share results through nginx, with the real cookers: what a server does or fails to do costs time, no pack.
+// Tests cooks that share results through nginx, with the real cookers: server failures cost time, but never
+// change the pack.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/support/sandbox.h"
 #include "tests/support/small_sources.h"
@@ -17,7 +18,7 @@ namespace
 
 namespace fs = std::filesystem;
 
-/// A clean checkout of the same two sources each time.
+/// Make a clean checkout of the same two sources.
 class Checkout
 {
 public:
@@ -35,7 +36,7 @@ public:
             command.insert(command.end(), {"--cache", cache});
         return folder.run(command, {"no_proxy=127.0.0.1", "HEARTH_LOG=verbose"});
     }
-    /// With a folder of its own in front of the server.
+    /// Cook with a local cache folder in front of the server.
     ProgramEnd cookWith(const std::string& server) { return cook({near(), server}); }
 
     std::string near() const { return "dir:" + folder.cachePath(); }
@@ -68,7 +69,7 @@ protected:
         ASSERT_EQ(countOf(end.err, "W4100"), 0u) << end.err;
     }
 
-    /// The cook succeeds, makes the same pack, and says in so many warnings what is wrong.
+    /// Check that the cook succeeds, makes the same pack, and prints this many warnings about the server.
     void expectSame(Checkout& checkout, const ProgramEnd& end, size_t ran, size_t warnings,
                     const std::string& what) const
     {
@@ -162,11 +163,12 @@ TEST_F(ServerCache, garbageForContents)
 {
     overwriteAll("cas", "garbage");
     Checkout second;
-    // the entries are whole: only the pack is asked for, and linked again of parts that are garbage, too
+    // the entries are valid: only the pack is fetched, and linked again from parts, even though these are
+    // garbage
     const ProgramEnd end = second.cookWith(server->url());
     EXPECT_GE(countOf(end.err, "is damaged"), 1u);
     expectSame(second, end, ranIn(end), countOf(end.err, "is damaged"), "is damaged: it is made again");
-    // what was made again has mended the server
+    // the new results have repaired the server
     Checkout third;
     expectSame(third, third.cookWith(server->url()), 0, 0, "cooked");
 }
@@ -196,7 +198,7 @@ TEST_F(ServerCache, overTlsOnlyWhomTheMachineTrusts)
     Checkout second;
     expectSame(second, second.cookWith(url), kActions, 1, "certificate");
 
-    // in a view of the file system of its own, the machine trusts this certificate alone
+    // in its own mount namespace, the machine trusts only this certificate
     const std::string trusting = "mount --bind " + certificate + " /etc/ssl/certs/ca-certificates.crt && ";
     const auto inOwnView = [&](Checkout& checkout, const std::string& command)
     {

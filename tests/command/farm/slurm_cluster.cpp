@@ -28,7 +28,7 @@ namespace
 
 namespace fs = std::filesystem;
 
-/// Where a program lies; empty where it does not.
+/// Return the path of a program; empty if it is not installed.
 std::string programPath(const std::string& name)
 {
     for (const char* folder : {"/usr/sbin/", "/usr/bin/", "/usr/local/sbin/", "/usr/local/bin/"})
@@ -37,7 +37,7 @@ std::string programPath(const std::string& name)
     return "";
 }
 
-/// Ports that nobody listens on, as long as nobody else is as quick.
+/// Return unused ports; another process may still take one first.
 std::vector<int> freePorts(int count)
 {
     std::vector<int> ports;
@@ -75,7 +75,7 @@ std::string hostName()
     return whole.substr(0, whole.find('.'));
 }
 
-/// Processes whose environment has a variable of that value.
+/// Return the processes whose environment has a variable of this value.
 std::vector<pid_t> processesWith(const std::vector<std::string>& variables)
 {
     std::vector<pid_t> processes;
@@ -95,7 +95,7 @@ std::vector<pid_t> processesWith(const std::vector<std::string>& variables)
     return processes;
 }
 
-/// The slurmstepd that a job's process runs under; 0 where there is none.
+/// Return the slurmstepd that a job's process runs under; 0 if there is none.
 pid_t stepOf(pid_t process)
 {
     for (int generation = 0; process > 1 && generation < 16; ++generation)
@@ -129,7 +129,7 @@ std::string SlurmCluster::whyNot()
 SlurmCluster::SlurmCluster(Sandbox& folder, int node_count) : folder_(folder), path_(folder / "slurm")
 {
     fs::create_directories(path_ + "/state");
-    // munged asks for folders and a key that nobody else can write or read
+    // munged requires a key and folders that nobody else can write or read
     fs::permissions(path_, fs::perms(0755));
     fs::permissions(folder.path(), fs::perms(0755));
     folder_.write("slurm/munge.key", std::string(1024, 'k'));
@@ -152,7 +152,7 @@ SlurmCluster::~SlurmCluster()
 {
     for (const std::string& signal : {std::string("TERM"), std::string("KILL")})
     {
-        // jobs and their steps as well; what they are told of the cluster is in their environment
+        // jobs and their steps inherit this too: it is their configuration of the cluster
         for (const pid_t process : processesWith({"SLURM_CONF=" + path_ + "/slurm.conf"}))
         {
             if (const pid_t step = stepOf(process); step != 0)
@@ -201,7 +201,7 @@ void SlurmCluster::startDaemon(const std::string& name, std::vector<std::string>
         daemons_.push_back({name, process});
         return;
     }
-    // a test that crashes leaves no daemon behind
+    // a crashing test leaves no daemon behind
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     ::setenv("SLURM_CONF", configuration.c_str(), 1);
     const int file = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
@@ -270,7 +270,7 @@ size_t SlurmCluster::killNode(const std::string& node)
     for (const pid_t process : processes)
         if (const pid_t step = stepOf(process); step != 0)
             steps.push_back(step);
-    // the step first: it would tell the controller how its job has ended
+    // kill the step first: it would report the end of its job to the controller
     for (const pid_t step : steps)
         ::kill(step, SIGKILL);
     for (const pid_t process : processes)

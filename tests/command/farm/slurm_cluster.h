@@ -1,4 +1,4 @@
-// A Slurm cluster on this machine, in a folder: its own key, ports and daemons, all gone when it goes.
+// Slurm cluster on this machine, in a folder: its own key, ports and daemons, all removed by the destructor.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -14,30 +14,32 @@ namespace hearth::test
 class SlurmCluster
 {
 public:
-    /// Why there can be none on this machine; empty where there can.
+    /// Return the reason why this machine cannot run a cluster; empty if it can.
     static std::string whyNot();
 
-    /// One controller and nodes w1, w2, ... of one processor each, in partition "cook"; its files lie in `folder`/slurm.
+    /// Start one controller and nodes w1, w2, ... of one processor each, in partition "cook". Their files lie
+    /// in `folder`/slurm.
     SlurmCluster(Sandbox& folder, int node_count);
     ~SlurmCluster();
     SlurmCluster(const SlurmCluster&) = delete;
     SlurmCluster& operator=(const SlurmCluster&) = delete;
 
-    /// Wait until so many nodes wait for work.
+    /// Wait until this many nodes are idle.
     bool waitForIdle(int count, int seconds);
 
-    /// For programs that talk to it.
+    /// Environment for programs that use the cluster.
     std::vector<std::string> environment() const;
     ProgramEnd run(const std::vector<std::string>& command);
 
-    /// "R w2": state of a job or array task and its node; empty where it is no longer in the queue.
+    /// Return the state of a job or array task and its node, as "R w2"; empty if it is no longer in the
+    /// queue.
     std::string stateOf(const std::string& job);
 
-    /// What a power cut does to a node: its daemon and everything that it runs, by SIGKILL.
-    /// returns  processes of jobs that were killed
+    /// Simulate a power cut of a node: kill its daemon and everything that it runs by SIGKILL.
+    /// returns  number of killed processes of jobs
     size_t killNode(const std::string& node);
 
-    /// Last lines of the logs, for whoever wonders why a test fails.
+    /// Return the last lines of the logs, to find the reason of a failed test.
     std::string logs() const;
 
 private:

@@ -1,4 +1,5 @@
-// A real Slurm cluster on one machine: the demo in shards, with a node that loses its power and a launcher that lies.
+// Tests a real Slurm cluster on one machine: the demo in shards, a node with a power cut, and a launcher with
+// false reports.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/command/farm/slurm_cluster.h"
 
@@ -22,7 +23,7 @@ class Slurm : public ::testing::Test
 protected:
     Slurm()
     {
-        // the same cookers, but each source takes long enough for something to happen meanwhile
+        // the same cookers, but slowed down, so that something can happen meanwhile
         fs::create_directory(folder / "bin");
         for (const auto& program : fs::directory_iterator(HEARTH_BIN))
             if (program.path().filename().string().starts_with("hearth-"))
@@ -33,7 +34,7 @@ protected:
                      "#!/bin/sh\nsleep 4\nexec " HEARTH_BIN "/hearth-skinning \"$@\"\n", true);
     }
 
-    /// Small samples of these kinds, and the pack that a cook on this machine makes of them.
+    /// Write small samples of these kinds; return the pack that a cook on this machine makes of them.
     std::string samples(const std::vector<std::string>& kinds)
     {
         for (const std::string& kind : kinds)
@@ -66,7 +67,7 @@ protected:
     std::string hearth = folder / "bin/hearth";
 };
 
-/// The number in "shards: job 12".
+/// Return the number in "shards: job 12".
 std::string jobIn(const std::string& text, const std::string& before)
 {
     const size_t at = text.find(before);
@@ -75,7 +76,7 @@ std::string jobIn(const std::string& text, const std::string& before)
     return text.substr(at + before.size(), text.find('\n', at) - at - before.size());
 }
 
-/// Until the job has gone from the queue, as long as that may take on a machine with much else to do.
+/// Wait until the job has left the queue, with a limit for a busy machine.
 void waitFor(const std::string& job, SlurmCluster& cluster)
 {
     const auto ended_by = std::chrono::steady_clock::now() + std::chrono::seconds(150);
@@ -103,7 +104,7 @@ TEST_F(Slurm, cooksTheDemoWhateverBecomesOfANode)
     const std::string shards = jobIn(submitted.out, "shards: job ");
     const std::string merge = jobIn(submitted.out, "merge: job ");
 
-    // in the middle of a shard, the node of one loses its power
+    // power cut of a node in the middle of a shard
     const auto now = [] { return std::chrono::steady_clock::now(); };
     const auto killed_by = now() + std::chrono::seconds(30);
     size_t killed = 0;
@@ -138,7 +139,7 @@ TEST_F(Slurm, believesNoLauncher)
     ASSERT_TRUE(cluster.waitForIdle(1, 30)) << cluster.logs();
     ASSERT_EQ(folder.run(withSources({hearth, "plan"}, {"-o", "demo.plan.json", "--shards", "2"})).exit_code,
               0);
-    // srun says that all went well, for a program that has done nothing
+    // srun reports success for a program that has done nothing
     const ProgramEnd first =
         folder.run({hearth, "run", "demo.plan.json", "--shard", "0/2", "--launcher", "srun -Q -n1"},
                    cluster.environment());
@@ -163,7 +164,7 @@ TEST_F(Slurm, triesAgainWhereThatMayHelp)
         GTEST_SKIP() << why;
     const std::string pack = samples({"transforms"});
     ASSERT_FALSE(pack.empty());
-    // a cooker that the first machine has no memory for
+    // a cooker that needs more memory than the first machine has
     fs::remove(folder / "bin/hearth-clusters");
     folder.write("bin/hearth-clusters",
                  "#!/bin/sh\nif [ ! -e '" + folder / "tried" + "' ]; then touch '" + folder / "tried" +

@@ -1,4 +1,4 @@
-// What differs between two packs: each thing under its name, whatever stands before it in a table.
+// Tests the diff of two packs: each entry is matched by name, whatever its place in a table.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
 #include "pipelines/command/inspect/open_pack.h"
@@ -40,7 +40,7 @@ protected:
         return command::diffPacks(*pack_a, *pack_b).value();
     }
 
-    /// "changed mesh strip: geometry", "added light sun", a line for each fact.
+    /// Return lines such as "changed mesh strip: geometry" or "added light sun", one for each property.
     static std::set<std::string> linesOf(const PackDiff& diff)
     {
         std::set<std::string> lines;
@@ -61,7 +61,7 @@ protected:
     Sandbox sandbox;
 };
 
-/// Like the last of the table, under another name.
+/// Append a copy of the table's last record under another name.
 template <typename Record>
 void addNamed(PackModel& pack, std::vector<Record>& table, const std::string& name)
 {
@@ -181,7 +181,7 @@ TEST_F(Diff, textHasTotalsFirstAndHashesOnDemand)
 
 TEST_F(Diff, placesInTablesMeanNothing)
 {
-    // a material in front of all others: what names materials by number still means the same
+    // a material in front of all others: records that refer to materials by index still mean the same
     PackModel shifted = smallPack();
     addNamed(shifted, shifted.materials, "varnish");
     std::rotate(shifted.materials.begin(), shifted.materials.end() - 1, shifted.materials.end());
@@ -224,7 +224,7 @@ TEST(DiffThings, pairsThoseOfOneNameByWhatTheyAre)
     EXPECT_EQ(moved[0].properties[0].a, "1");
     EXPECT_EQ(moved[0].properties[0].b, "7");
     EXPECT_EQ(command::diffEntries(b, a)[0].type, EntryChange::ChangeType::removed);
-    // two images without names of their own
+    // two images without names
     const auto image = [](const std::string& note, const std::string& texels) {
         return PackEntry{"texture", "image 0", {{"texels", texels, true}}, note};
     };

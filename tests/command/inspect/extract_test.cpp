@@ -24,7 +24,7 @@ using namespace formats;
 namespace
 {
 
-/// What a PLY reader makes of the file that extract writes.
+/// Contents of a PLY file that extract writes, as a PLY reader sees them.
 struct Ply
 {
     std::vector<std::string> properties;
@@ -146,7 +146,7 @@ TEST_F(ExtractCut, writesTheAttributesThatTheMeshHas)
     EXPECT_EQ(strip.properties,
               (std::vector<std::string>{"x", "y", "z", "nx", "ny", "nz", "axis_x", "axis_y", "axis_z",
                                         "aperture", "scale", "ao", "m0", "m1_x", "m1_y", "m1_z", "s", "t"}));
-    ASSERT_EQ(strip.vertices.size(), 16u); // four corners of four quads, shared inside each
+    ASSERT_EQ(strip.vertices.size(), 16u); // four corners of four quads, shared only inside each cluster
     const std::vector<float>& vertex = strip.vertices[1];
     EXPECT_EQ(std::vector<float>(vertex.begin(), vertex.begin() + 6), (std::vector<float>{0, 0, 1, 0, 1, 0}));
     EXPECT_EQ(std::vector<float>(vertex.end() - 2, vertex.end()), (std::vector<float>{0, 1}));
@@ -171,7 +171,7 @@ TEST_F(ExtractCut, writesWhatVerticesSee)
     EXPECT_NEAR(vertex[13], 1, pi / 508);
     EXPECT_NEAR(vertex[14], 2, pi / 1022);
     EXPECT_NEAR(vertex[15], 0, pi / 508);
-    // a clip that moves the mesh leaves it as it is
+    // a clip that moves the mesh leaves it unchanged
     const std::vector<float> moved = cut(0, 0, command::ClipTime{"move", 2}).vertices[1];
     for (size_t i = 6; i < 16; ++i)
         EXPECT_NEAR(moved[i], vertex[i], 1e-5f) << i;
@@ -179,7 +179,7 @@ TEST_F(ExtractCut, writesWhatVerticesSee)
 
 TEST_F(ExtractCut, posesWhatJointsAndMorphTargetsMove)
 {
-    // the target lifts the last vertex by a half: the rest pose has half of it, the clip none, then all
+    // the target lifts the last vertex by a half: the rest pose has weight 0.5, the clip 0 at first, then 1
     EXPECT_EQ(cut(2, 0).vertices[2], (std::vector<float>{1, 0.25f, 0}));
     EXPECT_EQ(cut(2, 0, command::ClipTime{"morph", 0.5}).vertices[2], (std::vector<float>{1, 0, 0}));
     EXPECT_EQ(cut(2, 0, command::ClipTime{"morph", 7}).vertices[2], (std::vector<float>{1, 0.5f, 0}));
@@ -302,13 +302,13 @@ TEST(ExtractBricks, writesEveryFaceOfEverySolidVoxel)
     ASSERT_EQ(lines.size(), 1 + 22u);
     EXPECT_EQ(lines[0], "x,y,z,face,opacity,albedo_r,albedo_g,albedo_b,normal_x,normal_y,normal_z,emissive_r,"
                         "emissive_g,emissive_b,lighting_r,lighting_g,lighting_b");
-    // the row of two: the first has no face towards the second
+    // the row of two voxels: the first has no face towards the second
     EXPECT_EQ(lines[1], "2,4,2,x-,1,1,1,1,-1,0,0,0,0,0,0,0,0");
     EXPECT_EQ(lines[2].substr(0, 11), "2,4,2,y-,1,");
     EXPECT_EQ(lines[5].substr(0, 11), "2,4,2,z+,1,");
     EXPECT_EQ(lines[6].substr(0, 13), "3,4,2,x+,0.2,");
     EXPECT_EQ(lines[22].substr(0, 10), "18,4,2,z+,");
-    // faces 2 and 3 of the first brick are y- of its two voxels
+    // faces 2 and 3 of the first brick are the y- faces of its two voxels
     EXPECT_EQ(lines[2], "2,4,2,y-,1,1,0.200391,0,0,-1,0,0,0,0,0,0,0");
     EXPECT_EQ(lines[7], "3,4,2,y-,0.2,1,1,1,0,-1,0,4,2,0.5,4,2,0.5");
 

@@ -18,7 +18,7 @@ using namespace formats;
 namespace
 {
 
-/// A folder with parts of the small pack, once or several times.
+/// Folder with parts of the small pack, once or several times.
 class LinkPack : public ::testing::Test
 {
 protected:
@@ -30,7 +30,7 @@ protected:
                            path + ".skinning.part"});
     }
 
-    /// The small pack as an asset of this name, with every reference that a record can have.
+    /// Write the small pack as an asset of this name, with every kind of reference that a record can have.
     static PackModel named(const std::string& name)
     {
         PackModel pack = smallPack();
@@ -234,7 +234,7 @@ TEST_F(LinkPack, refusesAWrongTableOfSpecularOcclusion)
 TEST_F(LinkPack, secondSourceStandsBehindTheFirst)
 {
     const PackModel model = named("a.gltf");
-    // longer strings in front: a name that was not moved would read as another
+    // longer strings in front: a name that was not relocated would read as another one
     PackModel first = model;
     first.strings.insert(0, "0123456789");
     const auto move = [](auto& records)
@@ -312,7 +312,8 @@ TEST_F(LinkPack, anAssetForEachSource)
     second.instances[0].world_from_object.m[0][3] = -20; // the strip, from 0 to 4 along x
     second.nodes[2].parent_from_node.m[1][3] = 10;       // one of the joints of the triangle
     second.nodes[2].has_trs = 0;
-    second.deformed_clusters[0].morph_reach = 0.5f; // with a weight of 1; it has a half of that
+    // at a weight of 1; the small pack's weight of 0.5 reaches half of it
+    second.deformed_clusters[0].morph_reach = 0.5f;
     addParts(second, "b");
     PackModel third = named(".hidden");
     third.instances.clear();
@@ -358,7 +359,7 @@ TEST_F(LinkPack, anAssetForEachSource)
 TEST_F(LinkPack, refusesAPartWhoseJointsAreWrong)
 {
     PackModel model = smallPack();
-    model.nodes[2].parent = 1; // and that one's is node 2
+    model.nodes[2].parent = 1; // and the parent of node 1 is node 2
     addParts(model, "a");
     const Status wrong = link();
     ASSERT_FALSE(wrong.ok());
@@ -402,7 +403,7 @@ TEST_F(LinkPack, metaTellsWhatWentIn)
     EXPECT_EQ(meta["messages"][1]["code"], "W1400");
     EXPECT_EQ(meta["messages_left_out"], 6);
     EXPECT_EQ(meta["dropped"].size(), 2u);
-    // paths of the machine stay outside
+    // paths of the build machine are not stored in the pack
     EXPECT_EQ(meta.dump().find("/where"), std::string::npos);
     EXPECT_EQ(meta.dump().find(sandbox.path()), std::string::npos);
 }
@@ -475,7 +476,8 @@ TEST_F(LinkPack, refusesAnyDamagedByteOfItsParts)
             std::string bad = good;
             bad[at] = static_cast<char>(bad[at] ^ 0x10);
             sandbox.write(part, bad);
-            // what only the cookers read, and the zeros between chunks, may be damaged: the pack does not change
+            // data that only the cookers read, and the zeros between chunks, may be damaged: the pack stays
+            // the same
             const std::string made = link().ok() ? sandbox.read("out.hearth") : whole;
             ASSERT_EQ(made, whole) << part << " byte " << at;
         }

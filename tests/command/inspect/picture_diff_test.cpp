@@ -1,4 +1,4 @@
-// Pictures held against each other: by hearth-compare alone, and of two packs by hearth diff.
+// Tests image comparison: hearth-compare alone, and hearth diff of two packs.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
 #include "tests/reference/png_image.h"
@@ -115,7 +115,7 @@ TEST_F(ImageDiff, packsAreDrawnAndCompared)
         << wrong.err;
     EXPECT_FALSE(folder.has("none.png"));
 
-    // without a camera all of the scene is in view
+    // without a camera the whole scene is in view
     const ProgramEnd fitted = run("hearth", {"diff", "a.hearth", "b.hearth", "--picture", "fitted.png",
                                              "--size", "64x48", "--format", "json"});
     EXPECT_EQ(fitted.exit_code, 1) << fitted.err;

@@ -1,4 +1,4 @@
-// What hearth extract writes of an animated model is what a plain implementation of glTF makes of its source.
+// Compares posed meshes from hearth extract with a plain implementation of glTF's animation and skinning.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/mesh/deformation.h"
 #include "tests/support/deformed_model.h"
@@ -23,10 +23,10 @@ namespace
 
 using namespace formats;
 
-constexpr double kTolerance = 1e-5; ///< of the model's size
+constexpr double kTolerance = 1e-5; ///< relative to the model's size
 constexpr size_t kTimes = kSanitized ? 1 : 6;
 
-/// The positions of a PLY file as extract writes it.
+/// Read the positions of a PLY file that extract writes.
 std::vector<Float3> plyPositions(const std::string& bytes)
 {
     const std::string end = "end_header\n";
@@ -41,7 +41,7 @@ std::vector<Float3> plyPositions(const std::string& bytes)
     return positions;
 }
 
-/// The largest distance of a point to the nearest of others.
+/// Return the largest distance of a point to the nearest of the others.
 double farthest(const std::vector<Float3>& points, std::vector<Float3> others)
 {
     const auto byX = [](Float3 a, Float3 b) { return a.x < b.x; };
@@ -60,7 +60,7 @@ double farthest(const std::vector<Float3>& points, std::vector<Float3> others)
     return worst;
 }
 
-/// The vertices that triangles name.
+/// Return the vertices that triangles use.
 std::vector<Float3> usedPlaces(const mesh::SourceMesh& mesh, const std::vector<Float3>& places)
 {
     std::vector<Float3> used;
@@ -71,7 +71,7 @@ std::vector<Float3> usedPlaces(const mesh::SourceMesh& mesh, const std::vector<F
     return used;
 }
 
-/// A clip of the scene as the command line names it.
+/// Return a clip of the scene as the command line names it.
 std::string nameOf(const PackView& scene, uint32_t animation)
 {
     const std::string_view name = scene.text(scene.animations()[animation].name);
@@ -85,7 +85,7 @@ public:
     {
         if (model_ == nullptr)
             return;
-        // exporters write up to eight influences: all of them are to be compared
+        // exporters write up to eight influences: all of them are compared
         sandbox_.write("all.toml", "[clusters]\ninfluences = 8\n");
         const ProgramEnd end = sandbox_.run({std::string(HEARTH_BIN) + "/hearth", "cook", source, "--profile",
                                              sandbox_ / "all.toml", "-o", sandbox_ / "a.hearth"});
@@ -145,7 +145,7 @@ private:
         for (const Float3 p : wanted)
             box.add(p);
         const double size = double{length(box.max - box.min)};
-        // flat triangles are not kept: only one way for their corners
+        // degenerate triangles are dropped: their corners are tested only in one direction
         const double off = farthest(extracted, wanted) / size;
         EXPECT_LE(off, kTolerance) << (options.empty() ? "rest pose" : options[1] + " at " + options[3]);
         worst_ = std::max(worst_, off);

@@ -1,4 +1,4 @@
-// From a source to a pack whose visibilities were written again, and back out of it with hearth extract.
+// Writes visibilities of a pack's parts again, and reads them back with hearth extract.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/pages/rewrite.h"
 #include "tests/support/sandbox.h"
@@ -19,7 +19,7 @@ using namespace formats;
 constexpr float kPi = std::numbers::pi_v<float>;
 const std::string kBin = HEARTH_BIN;
 
-/// An open box without its lid: five squares of 4 x 4 quads, whose normals point inwards.
+/// Open box without a lid: five squares of 4 x 4 quads, whose normals point inwards.
 std::string boxObj()
 {
     constexpr int kSide = 4;
@@ -55,7 +55,7 @@ std::string boxObj()
     return text;
 }
 
-/// Moments that differ from vertex to vertex, and that any normal may have.
+/// Moments that differ from vertex to vertex and are valid for any normal.
 shared::VisibilityMoments momentsAt(Float3 position, Float3 normal)
 {
     const float share = 0.3f + 0.2f * position.x + 0.4f * position.y;

@@ -1,4 +1,4 @@
-// hearth's command line from the outside: help, typing errors, results on stdout.
+// Runs hearth's command line as a user would: help, typing errors, results on stdout.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
 #include "tests/support/sandbox.h"
@@ -21,7 +21,7 @@ protected:
         return folder.run(arguments);
     }
 
-    /// Exit code 2, and one line on stderr that holds `part`.
+    /// Check for exit code 2 and one line on stderr that contains `part`.
     void expectUsageError(const std::vector<std::string>& arguments, const std::string& part)
     {
         const ProgramEnd end = hearth(arguments);

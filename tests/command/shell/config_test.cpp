@@ -1,4 +1,4 @@
-// Settings from the outside: hearth config, and what a cook makes of hearth.toml.
+// Tests settings as a user sees them: hearth config, and the effect of hearth.toml on a cook.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
 #include "tests/support/sandbox.h"
@@ -24,7 +24,7 @@ protected:
         return folder.run(arguments, environment);
     }
 
-    /// The actions that a cook would run: "textures props/a.glb".
+    /// Return the actions that a cook would run: "textures props/a.glb".
     std::vector<std::string> wouldRun(std::vector<std::string> arguments)
     {
         arguments.insert(arguments.begin(), "cook");
@@ -39,7 +39,7 @@ protected:
         return actions;
     }
 
-    /// The words of one action of the plan.
+    /// Return the words of one action of the plan.
     Json words(const std::string& cooker, const std::string& subject)
     {
         for (const Json& action : plan["actions"])

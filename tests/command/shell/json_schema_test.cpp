@@ -1,4 +1,4 @@
-// The checker of schemas that other tests go by: each of its keywords takes what it should, and refuses what it should not.
+// Tests the JSON Schema checker that other tests use: each keyword accepts and rejects the right values.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/support/json_schema.h"
 
@@ -10,7 +10,7 @@ namespace hearth::test
 namespace
 {
 
-/// Of JSON as text: what fits, and what does not.
+/// JSON texts: a schema, values that it accepts, and values that it rejects.
 struct Row
 {
     const char* schema;

@@ -1,4 +1,5 @@
-// What is made of the table of options: completion, manual pages, schemas; and hearth doctor.
+// Tests everything generated from the table of options: shell completion, manual pages, schemas; and hearth
+// doctor.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
 #include "tests/support/json_schema.h"
@@ -30,7 +31,7 @@ protected:
 
     bool has(const std::string& program) { return shell("command -v " + program).exit_code == 0; }
 
-    /// What bash offers where the cursor stands behind the last word, sorted.
+    /// Return the completions that bash offers after the last word, sorted.
     std::vector<std::string> completed(const std::vector<std::string>& words)
     {
         std::string array;
@@ -119,7 +120,7 @@ TEST_F(Manual, pagesAreThereForEveryVerbWithoutAWarning)
         }
     }
     EXPECT_EQ(count, countOf(verbs.substr(0, verbs.find("Examples")), "\n  ") + 2);
-    // as people see it
+    // as a terminal shows it
     const std::string cook =
         shell("groff -man -Tascii man/hearth-cook.1 | sed 's/.\\x08//g; s/\\x1b\\[[0-9]*m//g'").out;
     EXPECT_NE(cook.find("--visibility-quality draft|default|high"), std::string::npos) << cook;
@@ -159,7 +160,7 @@ TEST_F(Manual, whatIsWrittenFitsItsSchema)
     for (std::string event; std::getline(events, event);)
         EXPECT_EQ(faultIn("events", event), "") << event;
 
-    // of hearth.toml: what is read fits, what is refused does not
+    // hearth.toml: accepted files match the schema, rejected files do not
     EXPECT_EQ(
         faultIn("config", R"({"defaults": {"jobs": 2, "cache": ["dir:/a"], "memory": "12G", "log": "quiet"},
         "profile": {"pc": {"inherits": "desktop", "clusters": {"levels": [{"keep": 0.5}], "influences": 4}}},
@@ -185,7 +186,7 @@ TEST_F(Manual, whatIsWrittenFitsItsSchema)
 
 TEST_F(Manual, doctorSaysWhatIsWrongAndWhatToDo)
 {
-    // beside nothing: every program is missing
+    // alone in a folder: every program is missing
     std::filesystem::create_directory(folder / "bin");
     std::filesystem::copy(HEARTH_BIN "/hearth", folder / "bin/hearth");
     const ProgramEnd alone = folder.run({folder / "bin/hearth", "doctor"});
@@ -195,7 +196,7 @@ TEST_F(Manual, doctorSaysWhatIsWrongAndWhatToDo)
     EXPECT_NE(alone.out.find("what to do: install Hearth whole"), std::string::npos) << alone.out;
     EXPECT_NE(alone.out.find("ok       cache"), std::string::npos) << alone.out;
 
-    // of another version
+    // a program of another version
     for (const char* name :
          {"import", "textures", "clusters", "skinning", "visibility", "specular", "bricks", "link", "render"})
         folder.write(std::string("bin/hearth-") + name,
@@ -211,7 +212,7 @@ TEST_F(Manual, doctorSaysWhatIsWrongAndWhatToDo)
     const ProgramEnd cache = hearth({"doctor", "--cache", "dir:/proc/cache"});
     EXPECT_EQ(cache.exit_code, 1);
     EXPECT_NE(cache.out.find("/proc/cache cannot be written"), std::string::npos) << cache.out;
-    // nobody listens on the first port
+    // nothing listens on port 1
     const ProgramEnd server = hearth({"doctor", "--cache", "http://127.0.0.1:1/hearth"});
     EXPECT_EQ(server.exit_code, 1);
     EXPECT_NE(server.out.find("http://127.0.0.1:1/hearth: "), std::string::npos) << server.out;

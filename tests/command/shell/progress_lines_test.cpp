@@ -1,4 +1,4 @@
-// Progress for logs, by a clock that the test sets.
+// Tests the progress lines of cooks in logs, with a clock that the test sets.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/shell/progress_lines.h"
 
@@ -14,7 +14,7 @@ using graph::Action;
 using graph::ActionOutcome;
 using graph::Outcome;
 
-/// Two sources of three cookers each, and the pack.
+/// Two sources with three cookers each, and the pack.
 graph::Graph villageGraph()
 {
     graph::Graph graph;

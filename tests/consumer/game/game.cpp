@@ -1,4 +1,5 @@
-// game PACK OUT.ppm: draws one frame of a pack with a Vulkan device of its own, as a game would, and writes it as PPM.
+// game PACK OUT.ppm: renders one frame of a pack with its own Vulkan device, as a game would, and writes it
+// as PPM.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include <cstdio>
 #include <cstdlib>
@@ -11,7 +12,7 @@ namespace
 
 constexpr uint32_t kSize = 128; // pixels each way
 constexpr VkDeviceSize kBytes = VkDeviceSize{kSize} * kSize * 4;
-constexpr int kNoDevice = 77; // as Automake calls a test that is skipped
+constexpr int kNoDevice = 77; // exit code of a skipped test, as in Automake
 
 [[noreturn]] void end(const std::string& why, int exit_code = 1)
 {
@@ -31,7 +32,7 @@ void check(hearth_result result, const std::string& why)
         end(why);
 }
 
-/// A device with one queue and one command buffer. The system takes them back when the process ends.
+/// Device with one queue and one command buffer. The system frees them when the process ends.
 struct Device
 {
     VkInstance instance = VK_NULL_HANDLE;
@@ -51,7 +52,7 @@ struct Device
             vkEnumeratePhysicalDevices(instance, &count, &physical) < 0 || count == 0)
             end("there is no Vulkan device", kNoDevice);
 
-        // its first queue family draws and computes on all devices that this is tested with
+        // its first queue family supports graphics and compute on all tested devices
         const float priority = 1;
         VkDeviceQueueCreateInfo queue_info{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
         queue_info.queueCount = 1;
@@ -89,7 +90,7 @@ struct Device
     }
 };
 
-/// A buffer of kBytes that the device writes and the CPU reads.
+/// Buffer of kBytes that the device writes and the CPU reads.
 struct Readback
 {
     VkBuffer buffer = VK_NULL_HANDLE;
@@ -150,7 +151,7 @@ void recordCopy(VkCommandBuffer commands, const hearth_image& image, VkBuffer bu
                          0, nullptr, 0, nullptr);
 }
 
-/// One frame of the pack, from three metres in front of it.
+/// Render one frame of the pack, from three metres in front of it.
 void draw(const std::string& path, const Device& device, const Readback& readback)
 {
     std::string why;

@@ -10,6 +10,7 @@ namespace
 hearth::Result<uint64_t> triangles(const char* path)
 {
     using namespace hearth::formats;
+    using hearth::kInvalidIndex;
     HEARTH_ASSIGN_OR_RETURN(ContainerReader reader, ContainerReader::open(path));
     HEARTH_ASSIGN_OR_RETURN(const PackView pack, PackView::read(std::move(reader)));
     HEARTH_TRY(checkPack(pack));

@@ -1,4 +1,4 @@
-// What joints can do over all clips, held against what they do.
+// Compares bounds on the motion of joints over all clips with their motion in sampled poses.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/animation_bounds/skin_motion.h"
 
@@ -34,7 +34,7 @@ Double3 direction(std::mt19937& random)
     return v * (1 / length(v));
 }
 
-/// Whether the hull holds a rotation, as far as `count` directions can tell; how far outside it is.
+/// Return the distance of a rotation outside of the hull, tested along `count` directions.
 double outsideOf(const RotationHull& hull, const Quaternion& q, std::mt19937& random, int count = 20)
 {
     const Affine3d r = makeAffineFromTrs({}, q, {1, 1, 1});
@@ -55,7 +55,7 @@ double outsideOf(const RotationHull& hull, const Quaternion& q, std::mt19937& ra
     return worst;
 }
 
-/// A blend of blends of the points.
+/// Return a blend of blends of the points.
 Quaternion anyBlend(const RotationPoints& points, std::mt19937& random)
 {
     std::uniform_real_distribution<double> uniform(0, 1);
@@ -98,7 +98,7 @@ TEST(RotationSet, holdsAllBlendsOfItsPoints)
     std::mt19937 random(1);
     for (int i = 0; i < 60; ++i)
     {
-        // up to more than half a turn between two points: then it may be any rotation
+        // up to more than half a turn between two points: then the hull is any rotation
         const double swing = 0.02 * std::pow(1.1, i);
         const RotationPoints points = pointsAround(random, swing, i % 2 == 0);
         const RotationSet set = RotationSet::around(points);
@@ -117,7 +117,7 @@ TEST(RotationSet, holdsAllBlendsOfItsPoints)
 
 TEST(RotationSet, isTightAtItsTolerance)
 {
-    // turns about z from 0 to 60 degrees: x comes to cos 60 .. 1, and nowhere out of the plane
+    // rotations about z from 0 to 60 degrees: x goes to cos 60 .. 1, and nothing leaves the plane
     const Double3 z{0, 0, 1};
     const RotationSet set = RotationSet::around({{turn(z, 0), turn(z, std::numbers::pi / 3)}, false});
     const RotationHull hull = set.hull(0.01);
@@ -132,7 +132,7 @@ TEST(RotationSet, isTightAtItsTolerance)
 
 TEST(RotationSet, aFinerHullIsNeverSaidToBeSmaller)
 {
-    // a joint whose bind matrix is nearly flat asks for tolerances of any smallness
+    // a joint whose bind matrix is nearly singular needs arbitrarily small tolerances
     std::mt19937 random(2);
     const RotationSet set = RotationSet::around(pointsAround(random, 0.5, false));
     double coarser = 0;
@@ -169,7 +169,7 @@ TEST(RotationSet, turnsAboutOneAxisKeepIt)
 TEST(RotationSet, splineThroughNothingCanBeAnyRotation)
 {
     RotationPoints points;
-    // no tangents, and the end is the start's opposite: the spline goes through 0
+    // no tangents, and the end is opposite to the start: the spline passes through 0
     const std::vector<float> keys{0,      1, /**/ 0, 0, 0, 0, 0, 0,  0, 1, 0, 0, 0, 0,
                                   /**/ 0, 0, 0,      0, 0, 0, 0, -1, 0, 0, 0, 0};
     AnimationChannelRecord channel = channelOf(Interpolation::cubic_spline, 4, 2);
@@ -214,7 +214,7 @@ TEST(MorphWeightRanges, joinUnitRangeRestAndClips)
 namespace
 {
 
-/// The motion of all pairs of a character's joints, held against poses.
+/// Compare the relative motion of all pairs of a character's joints with poses.
 void checkPairs(const test::CharacterSpec& spec, uint32_t seed)
 {
     const test::Character character = test::randomCharacter(spec, seed);
@@ -299,7 +299,7 @@ TEST(SkinMotion, aJointThatStandsStillIsAPoint)
 
 TEST(SkinMotion, nothingIsSeenFromAJointThatCanBeFlat)
 {
-    // joints 0 and 1 hang on each other; 1 is scaled to nothing
+    // joint 1 is a child of joint 0 and has scale 0
     test::Character character = test::randomCharacter({.joints = 2, .clips = 0}, 2);
     character.nodes[1].parent = 0;
     character.nodes[1].scale = {0, 0, 0};

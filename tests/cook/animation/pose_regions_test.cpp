@@ -1,4 +1,5 @@
-// Poses in regions of them, held against what the regions say: nodes, chains of joints, and how fast that gets sharp.
+// Compares the bounds of pose regions with poses in them: nodes, chains of joints, and the convergence of the
+// bounds.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/animation_bounds/region_chain.h"
 
@@ -72,7 +73,7 @@ public:
 
     double uniform() { return std::uniform_real_distribution<double>(0, 1)(random); }
 
-    /// One that all the poses were cut down to.
+    /// Return a random region that subdivision of the root regions reaches.
     PoseRegion anyRegion(int most_cuts)
     {
         const std::vector<PoseRegion> roots = regions.all();
@@ -83,7 +84,7 @@ public:
         return region;
     }
 
-    /// Set `pose` to one in the region; returns its parameters. Ends are as likely as the inside.
+    /// Set `pose` to a pose in the region and return its parameters. Borders are as likely as the inside.
     std::array<double, 3> anyPose(const PoseRegion& region)
     {
         std::array<double, 3> x;
@@ -110,7 +111,7 @@ private:
         if (clip == 0)
             return;
         const TimeSpan time = regions.timeSpan(clip, span);
-        // at its very end the next span begins: a step is there
+        // the next span begins exactly at the end, with a step
         const double share = time.last ? 0.5 + 0.5 * x : std::min(0.5 + 0.5 * x, 1 - 1e-9);
         x = 2 * share - 1;
         sampleAnimation(tables, tables.animations[clip - 1], std::lerp(time.from, time.to, share), of_clip);
@@ -150,10 +151,10 @@ struct ChainFigures
 {
     size_t points = 0;
     size_t unbounded = 0;
-    double largest_share = 0; ///< of the slack that was used
+    double largest_share = 0; ///< used share of the slack
 };
 
-/// Points on all joints as each third one sees them.
+/// Points on all joints, relative to each third joint.
 ChainFigures checkChains(const test::CharacterSpec& spec, uint32_t seed)
 {
     Regions scene(spec, seed);
@@ -228,7 +229,7 @@ TEST(PoseRegions, holdPosesOfSpins)
 
 TEST(RegionChain, holdsWhatJointsDo)
 {
-    // the bound is of use: points come near to its border
+    // the bound is useful: points come near to its border
     double largest_share = 0;
     for (uint32_t seed = 1; seed <= 4; ++seed)
         largest_share = std::max(largest_share, checkChains({}, seed).largest_share);
@@ -271,7 +272,7 @@ TEST(SlerpModel, holdsAllOfItsArcs)
     size_t known = 0;
     for (int i = 0; i < 3000; ++i)
     {
-        // two geodesics, from very near to each other to the far side
+        // two geodesics, from very close to each other to the far side
         const auto any = [&](double size) {
             return Quaternion{size * normal(random), size * normal(random), size * normal(random), 1};
         };
@@ -344,7 +345,7 @@ TEST(SlerpModel, holdsAllOfItsArcs)
 
 TEST(RegionChain, slackFallsWithThirdOrderInSmoothClips)
 {
-    // one key interval: nothing but the size of the region makes slack
+    // one key interval: only the size of the region causes slack
     Regions scene({.clips = 2, .keys = 2, .swing = 0.3}, 3);
     std::vector<uint32_t> joint_nodes;
     for (const JointRecord& joint : scene.tables.joints)

@@ -21,13 +21,13 @@ using skinning::DeformedCluster;
 namespace
 {
 
-/// A cluster with its bounds, and how far its vertices have come.
+/// Cluster with its bounds, and the extremes that its vertices reach.
 struct Watched
 {
     const DeformedCluster* cluster;
     const DeformedClusterRecord* bounds;
     Sphere sphere;
-    Box3d tight; ///< in the main bone
+    Box3d tight; ///< in the space of the main bone
     size_t violations = 0;
     double worst = 0;
     size_t facing_wrong = 0;
@@ -48,7 +48,7 @@ Double3 placeOf(const DeformedCluster& cluster, size_t v, std::span<const Affine
     return place;
 }
 
-/// Eyes from which the cone says that nothing is to be seen: right at its border.
+/// Eye positions for which the cone just culls the cluster.
 void lookAtCone(Watched& watched, std::span<const Double3> places, double angle)
 {
     const DeformedClusterRecord& record = *watched.bounds;
@@ -57,7 +57,7 @@ void lookAtCone(Watched& watched, std::span<const Double3> places, double angle)
     const Double3 axis = widen(NormalCode<8>::decode(record.cone_axis));
     const Double3 middle = (widen(record.box_min) + widen(record.box_max)) * 0.5;
     const Double3 apex = middle - axis * double{record.cone_back};
-    // the direction from eye to apex is just as far from the axis as the cutoff allows
+    // the direction from eye to apex deviates from the axis by exactly the cutoff angle
     const double sine = record.cone_cutoff / 65536.0;
     const Double3 other = std::abs(axis.x) < 0.6 ? Double3{1, 0, 0} : Double3{0, 1, 0};
     Double3 side = cross(axis, other);
@@ -94,7 +94,7 @@ double outside(const Box3& box, Double3 place)
     return std::max({below.x, below.y, below.z, above.x, above.y, above.z});
 }
 
-/// anchor_from_main  nothing where the anchor is flat in this pose
+/// anchor_from_main  empty if the anchor's matrix is singular in this pose
 void watch(Watched& watched, const Box3& mesh_box, std::span<const Affine3d> main_from_bind,
            const std::optional<Affine3d>& anchor_from_main, const std::vector<double>& weights, double angle)
 {
@@ -115,7 +115,7 @@ void watch(Watched& watched, const Box3& mesh_box, std::span<const Affine3d> mai
     lookAtCone(watched, places, angle);
 }
 
-/// All joints as one of them sees them; nothing where it is flat in this pose.
+/// Transforms of all joints relative to one joint; empty if its matrix is singular in this pose.
 std::optional<std::vector<Affine3d>> seenFrom(std::span<const Affine3d> palette, uint32_t main)
 {
     const std::optional<Affine3d> inverse = inverted(palette[main]);
@@ -129,7 +129,7 @@ std::optional<std::vector<Affine3d>> seenFrom(std::span<const Affine3d> palette,
 
 double volumeRatio(const Watched& watched)
 {
-    // flat clusters: a thousandth of their size counts as thick
+    // flat clusters: count a thousandth of their size as their thickness
     const Double3 loose = widen(watched.bounds->box_max) - widen(watched.bounds->box_min);
     const double least = 1e-3 * std::max({loose.x, loose.y, loose.z});
     const auto side = [&](const Interval& axis) { return std::max(2 * axis.half(), least); };
@@ -137,7 +137,7 @@ double volumeRatio(const Watched& watched)
            (side(watched.tight[0]) * side(watched.tight[1]) * side(watched.tight[2]));
 }
 
-/// For each joint the box of the positions that it moves.
+/// For each joint, the bounding box of the positions that it moves.
 std::vector<Box3d> reachOf(std::span<const DeformedCluster> clusters, uint32_t joints)
 {
     std::vector<Box3d> reach(joints);
@@ -254,7 +254,7 @@ void PoseSource::sample(ScenePose& pose)
         return;
     const AnimationRecord& animation =
         tables_.animations[std::uniform_int_distribution<size_t>(0, tables_.animations.size() - 1)(random_)];
-    // one in eight at a key: extremes stand there
+    // one in eight times is a key, since extremes lie there
     double time = std::uniform_real_distribution<double>(-0.1, 1.1)(random_) * double{animation.duration};
     if (random_() % 8 == 0 && animation.channels.count > 0)
     {
@@ -270,7 +270,7 @@ const ScenePose& PoseSource::next()
 {
     sample(from_);
     sample(to_);
-    // half of the poses are those of one clip alone
+    // half of the poses are of a single clip
     const double weight = random_() % 2 == 0 ? 0.0 : std::uniform_real_distribution<double>(0, 1)(random_);
     blendPoses(from_, to_, weight, blend_);
     if (random_() % 2 == 0)

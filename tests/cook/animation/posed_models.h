@@ -1,4 +1,5 @@
-// Animated models for tests of bounds: their poses by the definition, and clusters without a cooker.
+// Animated models for tests of bounds: poses computed by glTF's definition, and clusters built without a
+// cooker.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -15,27 +16,27 @@
 namespace hearth::test
 {
 
-/// A mesh as one node of a scene deforms it, and the bounds that it is to keep.
+/// Mesh deformed by one node of a scene, with the bounds to check.
 struct PosedMesh
 {
     uint32_t node = 0;
     uint32_t skin = kInvalidIndex;
     std::vector<skinning::DeformedCluster> clusters;
     std::vector<formats::DeformedClusterRecord> bounds; ///< one for each cluster
-    std::vector<uint32_t> levels;                       ///< of each cluster
+    std::vector<uint32_t> levels;                       ///< level of each cluster
     uint32_t anchor = 0;
-    std::vector<Sphere> spheres; ///< in the anchor: of each cluster's group
-    Box3 box;                    ///< in the anchor
+    std::vector<Sphere> spheres; ///< sphere of each cluster's group, in the anchor's space
+    Box3 box;                    ///< in the anchor's space
 };
 
-/// The deformed meshes of a pack, once for each node that draws one.
+/// Return the deformed meshes of a pack, once for each node that draws one.
 Result<std::vector<PosedMesh>> posedMeshes(const formats::PackView& pack);
 
-/// Bounds of clusters that stand alone, each in a group of its own.
+/// Compute the bounds of clusters that are not part of a hierarchy, each in its own group.
 void computeBounds(const formats::AnimationTables& tables, PosedMesh& mesh);
 
-/// Poses of a scene: the rest pose, then what its clips, or blends of two of them, make of it at random times, half of
-/// them with random morph weights from 0 to 1.
+/// Poses of a scene: the rest pose, then single clips and blends of two clips at random times. Half of them
+/// have random morph weights from 0 to 1.
 class PoseSource
 {
 public:
@@ -58,23 +59,24 @@ private:
     std::vector<Affine3d> world_from_node_;
 };
 
-/// What a test of a mesh's bounds found.
+/// Results of the test of a mesh's bounds.
 struct BoundsFigures
 {
     size_t clusters = 0;
     size_t poses = 0;
-    size_t violations = 0; ///< vertices outside of a box or sphere
-    double worst = 0;      ///< metres outside of it
-    /// Sum over the clusters: volume of the box to that of the smallest around the vertices in all poses.
+    size_t violations = 0; ///< vertices outside of their box or sphere
+    double worst = 0;      ///< metres outside of the box or sphere
+    /// Sum over the clusters of the box's volume, relative to the smallest box around the vertices in all
+    /// poses.
     double volume_ratio = 0;
-    size_t finest_clusters = 0; ///< of the source's triangles
+    size_t finest_clusters = 0; ///< clusters of the finest level
     double finest_volume_ratio = 0;
-    size_t cones = 0;        ///< that can cull
-    size_t facing_wrong = 0; ///< triangles that face an eye for which their cone says that none does
+    size_t cones = 0;        ///< cones that can cull
+    size_t facing_wrong = 0; ///< front-facing triangles that their cone would cull
 };
 BoundsFigures& operator+=(BoundsFigures& a, const BoundsFigures& b);
 
-/// Hold the bounds of a mesh against `poses` poses, computed by the definition.
+/// Compare the bounds of a mesh with `poses` poses, computed by glTF's definition.
 BoundsFigures checkBounds(const formats::AnimationTables& tables, const PosedMesh& mesh, size_t poses,
                           uint32_t seed);
 

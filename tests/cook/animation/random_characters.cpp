@@ -65,7 +65,7 @@ private:
             node.rotation = turn(uniform(0, 1));
             node.scale = {1, 1, 1};
             if (i > 0 && !(spec_.several_roots && below(5) == 0))
-                // mostly a chain: long ways from joint to joint
+                // mostly a chain, for long paths from joint to joint
                 node.parent = below(3) == 0 ? below(i) : i - 1;
             if (i > 0)
                 node.translation = direction() * value(0.1, 0.3);
@@ -96,7 +96,7 @@ private:
         poseNodes(tables, restPose(tables), nodesParentsFirst(tables.nodes), world);
         for (uint32_t i = 0; i < spec_.joints; ++i)
         {
-            // bound where they rest, but a little off
+            // bind pose near the rest pose, but slightly off
             Affine3d bind = world[i];
             bind.m[0][3] += uniform(-0.02, 0.02);
             places_.push_back(narrow(transformPoint(bind, {})));
@@ -116,7 +116,7 @@ private:
 
     void addValue(std::span<const float> components)
     {
-        // tangents of any size: the spline leaves its keys far behind
+        // tangents of any size: the spline leaves the range of its keys
         const auto addTangent = [&]
         {
             for (size_t i = 0; i < components.size(); ++i)
@@ -188,7 +188,7 @@ private:
         character_.animations.push_back(animation);
     }
 
-    /// A patch of triangles around a joint.
+    /// Add a patch of triangles around a joint.
     skinning::DeformedCluster cluster()
     {
         skinning::DeformedCluster cluster;
@@ -224,7 +224,7 @@ private:
             if (i > 0 && spec_.far_influences)
                 joint = below(spec_.joints);
             cluster.joints.push_back(static_cast<uint16_t>(joint));
-            // its parent next, if that is a joint
+            // its parent next, if the parent is a joint
             if (character_.nodes[joint].parent != kInvalidIndex)
                 joint = character_.nodes[joint].parent;
             weights.push_back(below(4) == 0 ? 0.0 : uniform(0, 1));

@@ -1,4 +1,4 @@
-// Skeletons with clips that do what clips should not, and clusters that hang on them.
+// Random skeletons with pathological clips, and clusters skinned to them.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,21 +12,21 @@ struct CharacterSpec
     uint32_t joints = 12;
     uint32_t clips = 3;
     uint32_t keys = 5;
-    double swing = 0.5;    ///< radians: how far a key's rotation is from the rest pose
-    bool splines = false;  ///< cubic splines with tangents of any size, else steps and straight lines
-    bool spins = false;    ///< each key a random rotation, or nearly half a turn from the last
+    double swing = 0.5;    ///< maximum angle between a key's rotation and the rest pose, radians
+    bool splines = false;  ///< cubic splines with tangents of any size, else steps and linear interpolation
+    bool spins = false;    ///< each key is a random rotation, or nearly half a turn from the previous one
     bool opposite = false; ///< quaternions with random signs
-    double scale_low = 1;  ///< of scales in keys
+    double scale_low = 1;  ///< minimum scale in keys
     double scale_high = 1;
-    bool mirrored = false; ///< some joints turn their inside out
-    bool matrices = false; ///< some nodes have a matrix alone, with shear
+    bool mirrored = false; ///< some joints mirror
+    bool matrices = false; ///< some nodes have only a matrix, with shear
     bool several_roots = false;
     uint32_t morph_targets = 0;
     uint32_t influences = 4;
-    bool far_influences = false; ///< on any joints, else on a joint and its ancestors
+    bool far_influences = false; ///< influences of any joints, else of a joint and its ancestors
 };
 
-/// A scene with one skinned mesh, whose node is the last.
+/// Scene with one skinned mesh, whose node is the last.
 struct Character
 {
     std::vector<formats::NodeRecord> nodes;

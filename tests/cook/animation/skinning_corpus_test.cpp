@@ -1,5 +1,5 @@
-// Bounds of every deformed mesh of the asset corpus and of the generated character, cooked by the real programs, against
-// ten thousand poses each.
+// Checks the bounds of every deformed mesh of the asset corpus and of the generated character, cooked by the
+// real programs, in ten thousand poses each.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/container/container_reader.h"
 #include "tests/cook/animation/posed_models.h"
@@ -20,7 +20,7 @@ namespace
 constexpr size_t kPoses = 10'000;
 constexpr double kMaxVolume = 1.5;
 
-/// Whether a glTF or GLB file has skins or morph targets: both keep their JSON as text.
+/// True if a glTF or GLB file has skins or morph targets. Both formats keep their JSON as text.
 bool isDeformed(const std::filesystem::path& path)
 {
     if (path.extension() != ".gltf" && path.extension() != ".glb")
@@ -43,7 +43,7 @@ std::vector<std::string> deformedAssets(const std::string& folder)
 class SkinningCorpus : public ::testing::Test
 {
 protected:
-    /// What holds for the pack of a source.
+    /// Check the bounds in the pack of a source.
     BoundsFigures check(const std::string& source)
     {
         const std::string pack = sandbox_ / "asset.hearth";

@@ -1,4 +1,4 @@
-// Bounds of deformed clusters against clips made to break them.
+// Tests the bounds of deformed clusters with clips made to break them.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/skinning/group_spheres.h"
 #include "tests/cook/animation/random_characters.h"
@@ -122,7 +122,7 @@ TEST(DeformedBounds, holdFreePosesWithAnyMorphWeights)
             for (const Float3 position : cluster.positions)
                 animation_bounds::add(bind, widen(position));
             const double grown = stretch * double{character.mesh.bounds[c].morph_reach};
-            // as FORMAT.md says: the union over the joints of the grown box, carried
+            // as in formats/FORMAT.md: the union over the joints of the grown and transformed box
             const auto carried = [&](double by)
             {
                 animation_bounds::Box3d all;
@@ -229,7 +229,8 @@ TEST(DeformedBounds, withoutAJointThatKeepsItsSizeThereIsNoBox)
 
 TEST(DeformedBounds, jointsThatMoveTogetherGiveTightBoxes)
 {
-    // a long chain where each joint alone can turn far, but in the only clip all turn at once, there and back
+    // a long chain whose joints can each turn far, but the only clip turns all of them together, there and
+    // back
     Character character = test::randomCharacter({.joints = 8, .clips = 0, .influences = 4}, 3);
     for (uint32_t joint = 0; joint < 8; ++joint)
     {

@@ -1,4 +1,5 @@
-// What stands in the voxel right before a surface, behind which the surface's rays start: its light is not lost.
+// Tests geometry in the voxel right in front of a surface, behind which the surface's rays start: its light
+// is not lost.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/light/face_lighting.h"
 #include "tests/support/voxel_model.h"
@@ -12,7 +13,7 @@ namespace
 
 using namespace shared;
 
-/// A wall whose last voxels are those of z = 1, and on it a strip of one voxel from y = 8 to 9.
+/// Wall that ends with the voxels of z = 1, with a strip of one voxel on it from y = 8 to 9.
 BrickTables wallWithStrip(const Voxel& strip)
 {
     VoxelModel model({16, 16, 12});
@@ -23,7 +24,7 @@ BrickTables wallWithStrip(const Voxel& strip)
 
 constexpr BrickSky kDusk{{0.25f, 0.25f, 0.25f}, {0.25f, 0.25f, 0.25f}, {0.25f, 0.25f, 0.25f}};
 
-/// Of a point of the wall that is seen from before it, without other light.
+/// Return the light on a point of the wall that is seen from the front, without other light.
 float lightAt(const BrickTables& tables, Float3 position, BrickSky sky = {})
 {
     const BrickView view = makeBrickView(tables);
@@ -40,7 +41,7 @@ float lightAt(const BrickTables& tables, Float3 position, BrickSky sky = {})
 TEST(BrickClose, lightsTheSurfaceBehindIt)
 {
     const BrickTables tables = wallWithStrip(makeVoxel({0, 0, 0}, {2, 2, 2}));
-    // whichever of both voxels the wall's plane is counted to
+    // the same whichever of the two voxels the wall's plane belongs to
     for (const float z : {1.99f, 2.0f, 2.01f})
         EXPECT_NEAR(lightAt(tables, {8.5f, 8.3f, z}), 2, 0.02f) << z;
     EXPECT_LT(lightAt(tables, {8.5f, 6.5f, 2}), 0.3f) << "beside it rays find it as before";
@@ -53,14 +54,14 @@ TEST(BrickClose, lightsItAsFarAsItIsOpaque)
     EXPECT_NEAR(lightAt(half, {8.5f, 8.3f, 2}, kDusk), beyond + (2 - beyond) * 128 / 255, 0.02f);
 }
 
-/// What is darker may stand beside the point as well as before it.
+/// A darker voxel beside or in front of the point takes no light away.
 TEST(BrickClose, darkensNothing)
 {
     const BrickTables dark = wallWithStrip(makeVoxel({0, 0, 0}));
     EXPECT_NEAR(lightAt(dark, {8.5f, 8.3f, 2}, kDusk), 0.25f, 0.01f);
 }
 
-/// A surface within its own voxel has nothing before it, however bright that is.
+/// A surface within its own voxel is not lit by that voxel, however bright the voxel is.
 TEST(BrickClose, isNotTheSurfacesOwnVoxel)
 {
     VoxelModel model({16, 16, 12});

@@ -1,4 +1,5 @@
-// Light among bricks against closed forms: furnaces, sealed rooms, planes, plates, and lights that go out.
+// Compares global illumination of bricks with closed forms: furnaces, sealed rooms, planes, plates, and
+// lights that go out.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/cook/bricks/lit_bricks.h"
 #include "tests/support/sanitized.h"
@@ -25,7 +26,7 @@ class Furnace : public ::testing::TestWithParam<float>
 {
 };
 
-/// Whatever the shape, the size of voxels and where rays go.
+/// For any shape, voxel size and ray direction.
 TEST_P(Furnace, goesToEmissionOverOneLessAlbedo)
 {
     const float albedo = GetParam();
@@ -49,7 +50,7 @@ TEST_P(Furnace, goesToEmissionOverOneLessAlbedo)
         for (const LitFace& position : room.inner)
         {
             expectRelative(radianceOf(lighting, position.face), expected, 2e-3f);
-            // what others read is off by half of a step besides: 1/128, of blue 1/64
+            // stored codes add half of a step: 1/128, for blue 1/64
             expectRelative(decodeRadiance(codes[position.face]), expected, 0.018f);
         }
     }
@@ -57,7 +58,7 @@ TEST_P(Furnace, goesToEmissionOverOneLessAlbedo)
 
 INSTANTIATE_TEST_SUITE_P(albedos, Furnace, ::testing::Values(0.2f, 0.5f, 0.8f, 0.9f));
 
-/// Grey stays grey over 64 bounces, though blue has coarser steps.
+/// Grey stays grey over 64 bounces, although blue has coarser steps.
 TEST(BrickLight, doesNotDriftInHue)
 {
     const Room room({3, 3, 3}, makeVoxel({0.85f, 0.85f, 0.85f}, {0.37f, 0.37f, 0.37f}));
@@ -76,7 +77,7 @@ TEST(BrickLight, doesNotDriftInHue)
 
 // ---- leaks
 
-/// Not even by roundings, wherever the sun and lamps stand, and whatever normals the surfaces have.
+/// Rounding leaks no light either, for any position of sun and lamps, and for any normals of the surfaces.
 TEST(FaceLighting, aSealedRoomIsExactlyDark)
 {
     std::mt19937 random(7);
@@ -96,7 +97,7 @@ TEST(FaceLighting, aSealedRoomIsExactlyDark)
         addSun(outside, {0, -1, 0}, {50, 40, 30});
         addSun(outside, {1, 0, 0}, {50, 40, 30});
         addSun(outside, {1, -1, 1}, {50, 40, 30});
-        // beside a wall, in the air: the wall's outer side is at z = 0.5 + 0.5
+        // in the air beside a wall: the wall's outer side is at z = 0.5 + 0.5
         addLamp(outside, {-1.5f, 6.5f, 0.99f}, {90, 90, 90});
         lighting.sweep(outside, 16, 4);
         float outer = 0;
@@ -108,7 +109,7 @@ TEST(FaceLighting, aSealedRoomIsExactlyDark)
             EXPECT_EQ(lighting.faces()[position.face].code, 0u);
             EXPECT_EQ(lighting.faces()[position.face].rest, 0u);
         }
-        // and a surface in the room gathers nothing: its point lies in the wall
+        // and a surface in the room receives no light: its point lies in the wall
         const BrickSky sky{{3, 4, 5}, {3, 4, 5}, {3, 4, 5}};
         const BrickStart start = brickSurfaceStart(lighting.scene(), {3.3f, 1.6f, 3.1f}, {0, 1, 0});
         EXPECT_EQ(start.is_interior, 0u);
@@ -132,7 +133,7 @@ TEST_P(Decay, isBelowOneHundredthInTheStatedFrames)
     Lighting lit = darkness();
     addLamp(lit, {0.6f, 8.4f, 3.3f}, {40, 30, 20});
     const uint32_t sweeps = sweepsToDecay(albedo, 0.01f);
-    // lit until nothing changes; the frames after that begin in the middle of a rotation
+    // lit until nothing changes; the frames after that begin in the middle of a period
     for (uint32_t frame = 0; frame < 3 * kPeriod * sweeps + 1; ++frame)
         lighting.light(lit, {.period = kPeriod, .rays = kRays});
     const auto brightest = [&]
@@ -171,7 +172,7 @@ TEST(SweepsToForget, areThoseOfThePowersOfTheAlbedo)
 
 // ---- direct light and the sky
 
-/// A floor of `side` x `side` voxels at height 1, with air above.
+/// Floor of `side` x `side` voxels at height 1, with air above.
 BrickTables floorOf(uint32_t side, uint32_t height, const Voxel& voxel, float voxel_size = 1)
 {
     VoxelModel model({side, height, side}, voxel_size);
@@ -193,7 +194,7 @@ TEST(FaceLighting, sunOnAPlaneIsItsCosine)
         expectRelative(radianceOf(lighting, position.face), Float3{3, 2, 1} * (albedo * cosine / kPi), 1e-3f);
 }
 
-/// Voxels that are not opaque let the rest of the light through.
+/// Voxels that are not opaque transmit the rest of the light.
 TEST(FaceLighting, whatIsNotOpaqueStopsItsShare)
 {
     VoxelModel model({9, 9, 9});
@@ -215,7 +216,8 @@ TEST(FaceLighting, aLampOverAPlaneFollowsTheInverseSquare)
     constexpr float kSize = 0.25f;
     VoxelModel model({32, 16, 32}, kSize);
     model.fill({0, 0, 0}, {32, 1, 32}, makeVoxel({0.5f, 0.5f, 0.5f}));
-    model.fill({20, 5, 14}, {21, 6, 18}, makeVoxel({0.5f, 0.5f, 0.5f})); // shadows what lies behind it
+    // casts a shadow on the voxels behind it
+    model.fill({20, 5, 14}, {21, 6, 18}, makeVoxel({0.5f, 0.5f, 0.5f}));
     const BrickTables tables = model.build();
     const float albedo = decodeAlbedo(tables.albedo[0]).x;
     const BrickView view = makeBrickView(tables);
@@ -244,7 +246,7 @@ TEST(FaceLighting, aLampOverAPlaneFollowsTheInverseSquare)
     EXPECT_EQ(radianceOf(lighting, faceAt(tables, 25, 0, 16, kUp)).x, 0);
 }
 
-/// It stands in its shade, which fills its voxel: yet it shines downwards.
+/// The lamp stands in its own shade, which fills its voxel, but still lights downwards.
 TEST(FaceLighting, aLampInsideItsOwnVoxelIsSeen)
 {
     VoxelModel model({11, 11, 11});
@@ -260,7 +262,7 @@ TEST(FaceLighting, aLampInsideItsOwnVoxelIsSeen)
         EXPECT_GT(radianceOf(lighting, faceAt(tables, x, 0, 5, kUp)).x, 0) << x;
 }
 
-/// A slanted plane close to a lamp runs through the middle of its voxels, on the mean, not along their sides.
+/// A slanted plane close to a lamp passes through the middle of its voxels on average, not along their sides.
 TEST(FaceLighting, aLampBesideASlopeLightsThePlaneNotItsSteps)
 {
     constexpr uint32_t kSide = 24;
@@ -287,7 +289,7 @@ TEST(FaceLighting, aLampBesideASlopeLightsThePlaneNotItsSteps)
     }
 }
 
-/// A slope in steps of voxels is lit as the plane that it stands for, by its normal.
+/// A slope of voxel steps is lit as the plane that it represents, by its normal.
 TEST(FaceLighting, aSlopeIsNotLitAsAStaircase)
 {
     constexpr uint32_t kSide = 24;
@@ -351,8 +353,8 @@ TEST(FaceLighting, aConstantSkyLightsAnOpenPlaneByItsRadiance)
 
 // ---- light between faces
 
-/// Form factor from a point to a square of half side a that faces it, over its middle at the distance 1.
-/// source  any table of view factors: a quarter of it four times
+/// Form factor from a point to a parallel square of half side a, centred above the point at distance 1.
+/// source  any table of view factors: four times a quarter of the square
 double toSquare(double a)
 {
     const double s = std::sqrt(1 + a * a);

@@ -1,4 +1,5 @@
-// Rays that carry light, and what faces store of it: directions, starts, the sky, and codes with their rests.
+// Tests lighting rays and the stored light of faces: directions, starts, the sky, and codes with their
+// remainders.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/cook/bricks/lit_bricks.h"
 
@@ -14,7 +15,7 @@ namespace
 
 using namespace shared;
 
-/// What the rest is for: codes alone stop short of the goal.
+/// The remainder is necessary: codes alone stop short of the limit.
 TEST(BrickLight, codesAloneWouldStopTheFurnaceShort)
 {
     const float albedo = 0.9f, emission = 0.3f;
@@ -51,7 +52,7 @@ TEST(BrickLight, keepsValuesToSixteenBits)
         << "what is too bright is the brightest";
 }
 
-/// The gradient's irradiance is the closed form that the runtime shades with.
+/// The irradiance of the gradient equals the closed form with which the runtime shades.
 TEST(BrickSky, hasTheIrradianceOfTheRuntimesSky)
 {
     const BrickSky sky{kSkyZenith, kSkyHorizon, kSkyGround};
@@ -111,8 +112,8 @@ TEST(BrickSurfaceStart, leavesItsOwnVoxelsAndSaysWhereThereIsNoAir)
     EXPECT_EQ(brickSurfaceStart(scene, {40, 90, 4}, {0, 1, 0}).is_interior, 0u) << "as is what lies outside";
 }
 
-/// Of a wall, just below a ceiling that fills its voxels only in part: neither along its normal nor far along the way to the eye
-/// is it in the air, but there it is first.
+/// A point of a wall just below a ceiling that fills its voxels only in part: points along its normal and far
+/// along the ray to the eye are not in the air, but near the start of that ray there is air.
 TEST(BrickSeenStart, takesTheAirThatAPointIsSeenThrough)
 {
     VoxelModel model({12, 12, 12});
@@ -132,7 +133,7 @@ TEST(BrickSeenStart, takesTheAirThatAPointIsSeenThrough)
     EXPECT_NEAR(open.position.z, 1, 0.01f);
 }
 
-/// A strip of one voxel that shines, on a wall: rays that started off the wall would pass by it.
+/// An emissive strip of one voxel on a wall: rays that started off the wall would pass it.
 TEST(BrickFaceStart, seesWhatStandsBesideItOnAWall)
 {
     VoxelModel model({65, 10, 6});
@@ -146,7 +147,7 @@ TEST(BrickFaceStart, seesWhatStandsBesideItOnAWall)
     {
         const BrickStart start = brickFaceStart(lighting.scene(), 32, 8 - below, 0, 5, {0, 0, 1});
         const float light = brickGather(lighting.scene(), {}, start, 4096, below).x;
-        // an endless strip of the height 1 hides this of the plane that it stands on
+        // an endless strip of height 1 occludes this share of the plane that it stands on
         const double distance = below - 0.5;
         const double expected = 2 * 0.5 * (1 - distance / std::sqrt(distance * distance + 1));
         EXPECT_NEAR(light, expected, 0.03 * expected) << below;

@@ -1,4 +1,5 @@
-// The baked start value of a scene that the real importer and cookers made: a furnace, and a room that is dark.
+// Tests the baked start value of light in scenes from the real importer and cookers: a furnace, and a dark
+// room.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/grid/face_locations.h"
 #include "cook/bricks/light/bake.h"
@@ -14,7 +15,7 @@ namespace hearth::bricks
 namespace
 {
 
-/// A box whose fronts face in, from -1 to 1; y from 0 to 2.
+/// Box whose front faces point inwards, from -1 to 1; y from 0 to 2.
 constexpr const char* kBox = "mtllib box.mtl\nusemtl wall\n"
                              "v -1 0 -1\nv 1 0 -1\nv 1 0 1\nv -1 0 1\n"
                              "v -1 2 -1\nv 1 2 -1\nv 1 2 1\nv -1 2 1\n"
@@ -23,7 +24,7 @@ constexpr const char* kBox = "mtllib box.mtl\nusemtl wall\n"
 class BricksBake : public ::testing::Test
 {
 protected:
-    /// The box with a material, cooked at a quarter of a metre.
+    /// Cook the box with a material at voxels of a quarter of a metre.
     void cook(const std::string& material)
     {
         folder_.write("box.obj", kBox);
@@ -53,7 +54,7 @@ protected:
         return grid_->tables.lighting;
     }
 
-    /// Faces whose middles lie in the room.
+    /// Faces whose centres lie in the room.
     template <typename Visit>
     void forEachInner(const Visit& visit) const
     {
@@ -98,7 +99,7 @@ TEST_F(BricksBake, addsUpInAFurnaceBounceByBounce)
     }
 }
 
-/// There is a sun outside, since the scene has no lights, and a sky.
+/// Since the scene has no lights, there is a default sun outside, and a sky.
 TEST_F(BricksBake, leavesASealedRoomExactlyDark)
 {
     cook("Kd 0.8 0.8 0.8\n");

@@ -1,4 +1,4 @@
-// Triangles cut to voxels against separating axes in whole numbers, and cross-sections by samples.
+// Compares triangles clipped to voxels with integer separating-axis tests, and cross-sections with samples.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/cook/bricks/bricks_scene.h"
 
@@ -13,8 +13,8 @@ namespace
 
 using Whole3 = std::array<int64_t, 3>;
 
-// Separating axes work in sixteenths of the steps that corners are rounded to; grids here are 8 voxels wide, so that
-// products of three lengths fit 64 bits.
+// Units of the separating-axis tests: sixteenths of the steps to which corners are rounded. Grids here are 8
+// voxels wide, so that products of three lengths fit 64 bits.
 constexpr int64_t kFine = 16;
 constexpr int64_t kVoxel = static_cast<int64_t>(kStepsPerVoxel) * kFine;
 constexpr uint32_t kSize = 8;
@@ -36,11 +36,12 @@ Whole3 crossOf(const Whole3& a, const Whole3& b)
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// Whether the triangle meets the inside of a voxel that is larger by `grown` on each side; less where that is negative.
-/// T. Akenine-Moeller, "Fast 3D triangle-box overlap testing", 2001, by what is strictly less.
+/// True if the triangle intersects the interior of a voxel that is enlarged by `grown` on each side (shrunk
+/// if negative).
+/// T. Akenine-Moeller, "Fast 3D triangle-box overlap testing", 2001, with strict comparisons.
 bool meets(const std::array<Whole3, 3>& triangle, const Cell& cell, int64_t grown)
 {
-    // twice everything, so that the middle is a whole number
+    // double everything, so that the centre is an integer
     std::array<Whole3, 3> p;
     for (size_t i = 0; i < 3; ++i)
         for (size_t axis = 0; axis < 3; ++axis)
@@ -48,8 +49,8 @@ bool meets(const std::array<Whole3, 3>& triangle, const Cell& cell, int64_t grow
     const int64_t half = kVoxel + 2 * grown;
     const auto apart = [&](const Whole3& along)
     {
-        using Wide =
-            long double; // 64 bits of mantissa: products of three lengths of 2^26 need more, ties need not be told
+        // 64-bit mantissa: products of three lengths of 2^26 need more, but ties need not be distinguished
+        using Wide = long double;
         Wide low = 0, high = 0;
         for (size_t i = 0; i < 3; ++i)
         {
@@ -80,7 +81,7 @@ bool meets(const std::array<Whole3, 3>& triangle, const Cell& cell, int64_t grow
     return true;
 }
 
-/// Whether it lies in a plane between voxels.
+/// True if the triangle lies in a plane between voxels.
 bool isFlat(const Polygon& triangle)
 {
     for (int axis = 0; axis < 3; ++axis)
@@ -123,7 +124,7 @@ TEST(ForEachPiece, givesTheVoxelsThatSeparatingAxesGive)
     uint64_t met = 0, in_planes = 0;
     for (int i = 0; i < 400; ++i)
     {
-        // large, small, thin and flat ones; every third on planes, edges and corners of voxels
+        // large, small, thin and flat triangles; every third on planes, edges and corners of voxels
         const double size = i % 4 == 0 ? 8 : i % 4 == 1 ? 1.5 : i % 4 == 2 ? 0.2 : 4;
         const Double3 middle = uniformPoint(random, 0, 8);
         Corners corners;
@@ -156,7 +157,8 @@ TEST(ForEachPiece, givesTheVoxelsThatSeparatingAxesGive)
                         EXPECT_TRUE(has) << "triangle " << i << " at " << x << " " << y << " " << z;
                     else if (has)
                     {
-                        // it lies between voxels, or touches a corner to the last bits of what is rounded
+                        // the triangle lies between voxels, or touches a corner to the last bits of the
+                        // rounding
                         in_planes += isFlat(triangle) ? 1u : 0u;
                         EXPECT_TRUE(meets(exact, cell, 1))
                             << "triangle " << i << " at " << x << " " << y << " " << z;
@@ -213,7 +215,7 @@ TEST(ForEachPiece, givesWhatLiesBetweenVoxelsToTheOneBehind)
         for (const double place : {0.0, 3.0, 8.0, 0.01, 2.99, 3.01, 7.99})
             for (const bool up : {false, true})
             {
-                // what nearly lies in the plane does
+                // triangles that nearly lie in the plane
                 const double plane = std::round(place);
                 const auto at = [&](double u, double v)
                 {
@@ -239,7 +241,7 @@ TEST(HiddenSamples, giveEachSampleOfASheetToOnePieceAlone)
     Random random(4);
     for (int round = 0; round < 30; ++round)
     {
-        // a fan of triangles over [0, 8]^2 about a random point, on the grid's own points every third time
+        // triangle fan over [0, 8]^2 about a random point, every third time on points of the grid
         const auto place = [&](double low, double high)
         {
             const double value = uniform(random, low, high);

@@ -1,4 +1,4 @@
-// hearth-bricks from the outside: sources made here, imported and clustered by the real programs.
+// Runs hearth-bricks on sources made here, imported and clustered by the real programs.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/grid/brick_tables.h"
 #include "cook/json/json.h"
@@ -29,7 +29,7 @@ std::string bin(const std::string& program)
     return HEARTH_BIN "/" + program;
 }
 
-/// What a part has, voxel by voxel.
+/// Contents of a bricks part by voxel.
 struct Voxels
 {
     struct Face
@@ -54,7 +54,7 @@ protected:
         return folder.run(arguments);
     }
 
-    /// Import and cluster a source; the paths of its three parts.
+    /// Import and cluster a source; return the paths of its three parts.
     std::vector<std::string> parts(const std::string& name, const Document& document)
     {
         const std::string source = folder / (name + ".glb");
@@ -71,7 +71,7 @@ protected:
         return parts(kind, generateSample(kind, options).value());
     }
 
-    /// The room's parts, made once for all tests: its textures take a second.
+    /// Return the room's parts, made once for all tests: its textures take a second.
     const std::vector<std::string>& room()
     {
         static Sandbox shared;
@@ -145,7 +145,7 @@ std::vector<std::string> joined(std::vector<std::string> a, const std::vector<st
     return a;
 }
 
-/// A square of `size` m about the origin, facing up, its texture once over it.
+/// Square of `size` m about the origin, facing up, with its texture once over it.
 TriangleMesh square(float size, float height)
 {
     TriangleMesh mesh = makeGrid(1, 1,
@@ -251,7 +251,7 @@ TEST_F(BricksCook, leavesHolesInGrass)
     for (const auto& [cell, voxel] : voxels.voxels)
         partly += voxel.opacity < 255 ? 1 : 0;
     EXPECT_GT(partly, 100u);
-    EXPECT_LT(partly, voxels.voxels.size() / 4); // the ground has none
+    EXPECT_LT(partly, voxels.voxels.size() / 4); // the ground has no emissive faces
 }
 
 TEST_F(BricksCook, takesOnlyWhatStandsStill)
@@ -302,7 +302,7 @@ TEST_F(BricksCook, staysWithinItsMemory)
         0);
     const uint64_t whole = bytes();
     const std::string half = std::to_string(whole / 2);
-    // the voxels stay as they are, and the nearest to the camera are kept
+    // the voxel size stays, and the voxels nearest to the camera are kept
     const ProgramEnd dropped = bricks(
         joined(room(), {"-o", "b.part", "--voxel-size", "0.1", "--stats", "stats.json", "--memory", half}));
     ASSERT_EQ(dropped.exit_code, 0);
@@ -317,7 +317,7 @@ TEST_F(BricksCook, staysWithinItsMemory)
         EXPECT_EQ(a.voxels.at(cell).faces.size(), voxel.faces.size());
     }
     EXPECT_GT(statistics()["dropped"]["bricks"].get<double>(), 0);
-    // nobody asked for a size: it grows instead
+    // without a requested size, the voxels grow instead
     ASSERT_EQ(bricks(joined(room(), {"-o", "c.part", "--stats", "stats.json", "--memory", half})).exit_code,
               0);
     EXPECT_EQ(statistics()["dropped"]["bricks"], 0);

@@ -1,4 +1,4 @@
-// What voxels of simple bodies look like, and which of their sides are faces: exact answers.
+// Tests the appearance of voxels of simple solids, and the set of their exposed faces, against exact answers.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/grid/grid_settings.h"
 #include "cook/bricks/voxels/blend_sides.h"
@@ -26,7 +26,7 @@ SurfaceMaterial colored(Float3 color, Float3 emissive = {}, bool double_sided = 
     return material;
 }
 
-/// A rectangle at a height, from (x, z) to (x, z), facing up.
+/// Rectangle at a height, from (x, z) to (x, z), facing up.
 std::vector<Corners> rectangle(double height, Double3 low, Double3 high)
 {
     const Double3 a{low.x, height, low.z}, b{low.x, height, high.z}, c{high.x, height, high.z},
@@ -34,7 +34,7 @@ std::vector<Corners> rectangle(double height, Double3 low, Double3 high)
     return {{{a, b, c}}, {{a, c, d}}};
 }
 
-/// The one voxel of triangles that lie in one, each with its material.
+/// Return the only voxel of triangles that lie in one voxel, each with its own material.
 SolidVoxel voxelOf(const std::vector<std::pair<std::vector<Corners>, SurfaceMaterial>>& surfaces)
 {
     const GridFrame frame = frameOfSize(4, 4, 4);
@@ -77,7 +77,7 @@ TEST(Faces, ofABoxOnThePlanesOfTheGridAreItsSides)
     std::vector<Corners> box;
     addBox(box, {6, 6.5, 7}, {2, 0, 0}, {0, 2.5, 0}, {0, 0, 3}, false);
     const GridWithFaces grid = facedOf(solidOf(box, frameOfSize(12, 12, 12)));
-    EXPECT_EQ(grid.solid.voxels.size(), 4u * 5 * 6 - 2 * 3 * 4); // behind its sides: inside
+    EXPECT_EQ(grid.solid.voxels.size(), 4u * 5 * 6 - 2 * 3 * 4); // minus the interior voxels
     EXPECT_EQ(countFaces(grid), (std::array<size_t, kFaces>{30, 30, 24, 24, 20, 20}));
     EXPECT_EQ(grid.seen.sealed, 1u);
     EXPECT_EQ(grid.seen.sealed_sides, 2u * (3 * 4 + 2 * 4 + 2 * 3));
@@ -103,7 +103,7 @@ TEST(Faces, ofARoomAreWallsOfOneVoxelAroundIt)
     const size_t walls = 2 * (4 * 5 + 5 * 6 + 4 * 6);
     EXPECT_EQ(grid.solid.voxels.size(), walls);
     EXPECT_EQ(grid.seen.sealed, 0u);
-    // inside as many as voxels; outside those and their rims
+    // as many interior faces as voxels; outside, also at their borders
     size_t inside = 0;
     for (size_t v = 0; v < grid.solid.voxels.size(); ++v)
         for (uint32_t face = 0; face < kFaces; ++face)
@@ -123,7 +123,7 @@ TEST(VoxelLook, isWeighedByTheAreaThatASideSees)
     expectNear(normalOf(level, kUp), {0, 1, 0}, 0);
     EXPECT_EQ(level.front_visible, 1u << kUp);
 
-    // a step: what looks up is red, what looks along x is blue, and each side sees its own
+    // a step: upward surface is red, surface facing x is blue, and each face of the voxel takes its own
     const Double3 a{1.5, 1.5, 1}, b{1.5, 1.9, 1}, c{1.5, 1.9, 2}, d{1.5, 1.5, 2};
     const std::vector<Corners> riser{Corners{{a, b, c}}, Corners{{a, c, d}}};
     const SolidVoxel step =
@@ -132,7 +132,7 @@ TEST(VoxelLook, isWeighedByTheAreaThatASideSees)
     expectNear(shared::decodeAlbedo(step.albedo[1]), blue, kAlbedoStep);
     EXPECT_EQ(step.front_visible, 1u << kUp | 1u << 1);
 
-    // a slope that faces (3, 4, 0) / 5 has its own normal on both sides that see it
+    // a slope that faces (3, 4, 0) / 5 has its own normal on both faces that see it
     const std::vector<Corners> slope{
         Corners{{Double3{1.2, 1.8, 1.1}, Double3{1.2, 1.8, 1.9}, Double3{1.6, 1.5, 1.1}}}};
     const SolidVoxel slanted = voxelOf({{slope, colored(red)}});
@@ -218,7 +218,8 @@ TEST(VoxelLook, ofASphereTurnsWithIt)
                     }
             }
         });
-    // the projections of a sphere: what all faces show along an axis is at least its disc, at most half as much again
+    // projections of a sphere: all faces along an axis cover at least the sphere's disc, and at most half as
+    // much again
     for (const size_t faces : countFaces(grid))
     {
         EXPECT_GT(static_cast<double>(faces), std::numbers::pi * kRadius * kRadius);

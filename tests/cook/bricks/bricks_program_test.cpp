@@ -1,4 +1,4 @@
-// hearth-bricks from the outside: marches.
+// Runs the ray marching command of hearth-bricks as a user would.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/support/sandbox.h"
 #include "tests/support/small_parts.h"
@@ -24,7 +24,7 @@ protected:
         return folder.run({HEARTH_BIN "/hearth-bricks", file, "--march", "rays.csv", "-o", "hits.csv"});
     }
 
-    /// Rays of this text end so, and leave nothing behind.
+    /// Check that rays of this text end with the expected result and leave no files behind.
     void expectRefused(const std::string& rays, const std::string& part)
     {
         const ProgramEnd end = march("a.part", rays);

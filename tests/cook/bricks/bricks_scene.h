@@ -1,4 +1,4 @@
-// Triangles in voxels, without the parts that the cooker takes them from.
+// Voxelized triangles for tests, without the parts that the cooker reads.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -25,8 +25,8 @@ inline Polygon polygonOf(const Corners& corners)
     return polygon;
 }
 
-/// A box's twelve triangles, facing out; or in, where `inwards`. Corner (x, y, z) lies at middle + x a + y b + z c, each -1
-/// or 1; a, b, c are right-handed.
+/// Twelve triangles of a box, facing out, or in if `inwards`. Corner (x, y, z) lies at middle + x a + y b + z
+/// c, each of x, y, z being -1 or 1; a, b, c are right-handed.
 inline void addBox(std::vector<Corners>& triangles, Double3 middle, Double3 a, Double3 b, Double3 c,
                    bool inwards)
 {
@@ -51,7 +51,7 @@ inline GridFrame frameOfSize(uint32_t x, uint32_t y, uint32_t z)
     return {{0, 0, 0}, 1, {x, y, z}};
 }
 
-/// The voxels of triangles of one material, opacities set.
+/// Voxels of triangles of one material, with opacities set.
 inline SolidGrid solidOf(const std::vector<Corners>& triangles, const GridFrame& frame,
                          const SurfaceMaterial& material = defaultMaterial())
 {
@@ -69,7 +69,7 @@ inline SolidGrid solidOf(const std::vector<Corners>& triangles, const GridFrame&
     return grid;
 }
 
-/// With spaces and faces, however much memory they take.
+/// Compute spaces and faces too, without a memory limit.
 inline GridWithFaces facedOf(SolidGrid grid, std::span<const Float3> seen_points = {})
 {
     const Float3 focus;
@@ -89,7 +89,7 @@ inline Double3 uniformPoint(Random& random, double low, double high)
     return {x, y, uniform(random, low, high)};
 }
 
-/// Three unit vectors at right angles, right-handed, evenly from all.
+/// Return three orthonormal, right-handed vectors, uniformly distributed over all rotations.
 inline std::array<Double3, 3> randomFrame(Random& random)
 {
     for (;;)

@@ -1,4 +1,5 @@
-// The spaces of a grid against a plain flood, and that none of them lets light into another.
+// Compares the empty spaces of a grid with a plain flood fill, and tests that no light leaks between two
+// spaces.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/brick_codes.h"
 #include "tests/cook/bricks/bricks_scene.h"
@@ -27,7 +28,7 @@ void forEachCell(const GridFrame& frame, const Visit& visit)
                 visit(Cell{x, y, z});
 }
 
-/// A grid with these voxels, all with opacity 100 and fronts on all sides.
+/// Grid with these voxels, all with opacity 100 and front faces on all sides.
 template <typename IsSolid>
 SolidGrid gridOf(const GridFrame& frame, const IsSolid& is_solid)
 {
@@ -57,7 +58,7 @@ SolidGrid gridOf(const GridFrame& frame, const IsSolid& is_solid)
     return grid;
 }
 
-/// The space of each cell that `opens` lets through, by a flood from cell to cell; 0 is outside.
+/// Label the space of each cell that `opens` lets through, by a flood fill from cell to cell; 0 is outside.
 template <typename Opens>
 std::vector<uint32_t> floodedSpaces(const GridFrame& frame, const Opens& opens)
 {
@@ -94,7 +95,7 @@ std::vector<uint32_t> floodedSpaces(const GridFrame& frame, const Opens& opens)
     return spaces;
 }
 
-/// Whether both partitions are the same but for the numbers, and the outside is 0 in both.
+/// Check that both partitions are equal up to renumbering, and that the outside is 0 in both.
 void expectSameSpaces(const SolidGrid& grid, const EmptySpaces& spaces, const std::vector<uint32_t>& expected)
 {
     std::map<uint32_t, uint32_t> number{{0, EmptySpaces::kOutside}};
@@ -112,8 +113,8 @@ void expectSameSpaces(const SolidGrid& grid, const EmptySpaces& spaces, const st
                 });
 }
 
-/// A room with thin walls: a box that faces in, in a slightly larger one that faces out, turned at random, and with sharp
-/// edges where `skewed`.
+/// Room with thin walls: a box that faces in, inside a slightly larger one that faces out. Rotated at random;
+/// with acute edges if `skewed`.
 struct Room
 {
     Double3 middle;
@@ -145,7 +146,8 @@ Room randomRoom(Random& random, double size, double thickness, bool skewed)
     return room;
 }
 
-/// What is left of light from a place along a direction, as lighting rays see it, once it is out of the grid.
+/// Return the share of light that leaves the grid from a point along a direction, as lighting rays compute
+/// it.
 double transmittance(const BrickTables& tables, const Double3& from, const Double3& direction)
 {
     const shared::BrickMasks masks = tables.masks();
@@ -235,7 +237,7 @@ TEST(SeparateSpaces, leaveNoWayFromOneToAnother)
                         }
                         EXPECT_TRUE(opens(cell) || space_of_voxel[voxel] == kInvalidIndex);
                     });
-        // each that became opaque stands between two that did not belong together
+        // each voxel that became opaque separates two spaces
         size_t changed = 0;
         for (size_t v = 0; v < grid.voxels.size(); ++v)
         {
@@ -317,7 +319,7 @@ TEST(Rooms, haveFacesInsideAndRocksDoNot)
         };
         EXPECT_EQ(insideFaces({}) > 500, inwards);
         const Float3 seed{16, 16, 16};
-        EXPECT_GT(insideFaces({&seed, 1}), 500u); // a camera in a rock sees it from inside
+        EXPECT_GT(insideFaces({&seed, 1}), 500u); // a camera in a rock sees the rock's inside
     }
 }
 
@@ -326,7 +328,7 @@ TEST(Opacity, isAllOfAPlaneAndAShareOfBlades)
     Random random(10);
     for (int round = 0; round < 12; ++round)
     {
-        // a plane that ends outside of the grid: what crosses it in the middle is stopped
+        // a plane that ends outside of the grid: rays through its middle are stopped
         const std::array<Double3, 3> frame = randomFrame(random);
         const Double3 middle = uniformPoint(random, 14, 18);
         const auto at = [&](double u, double v) { return middle + frame[0] * u + frame[1] * v; };
@@ -344,7 +346,7 @@ TEST(Opacity, isAllOfAPlaneAndAShareOfBlades)
             EXPECT_EQ(transmittance(tables, through - direction * 100, direction), 0);
         }
     }
-    // blades of a twentieth of a voxel, a tenth high, five a voxel: nothing there is opaque
+    // blades a twentieth of a voxel thick, a tenth high, five a voxel: no voxel there is opaque
     std::vector<Corners> blades;
     for (int i = 0; i < 1280; ++i)
     {

@@ -1,4 +1,4 @@
-// Bricks in light, for tests: lamps, suns, a closed room, and what faces send out.
+// Lit bricks for tests: lamps, suns, a closed room, and the radiance of faces.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -22,10 +22,10 @@ struct LitFace
     uint32_t x, y, z, side, face;
 };
 
-/// All faces whose middle lies in the box, in voxels.
+/// All faces whose centre lies in the box, in voxels.
 std::vector<LitFace> facesIn(const BrickTables& tables, Float3 low, Float3 high);
 
-/// A closed box with walls one voxel thick, with a voxel of air around it.
+/// Closed box with walls one voxel thick, and a voxel of air around it.
 struct Room
 {
     BrickTables tables;
@@ -36,7 +36,7 @@ struct Room
 
 Float3 radianceOf(const FaceLighting& lighting, uint32_t face);
 
-/// tolerance  of what is expected, by channel
+/// tolerance  relative to the expected value, by channel
 void expectRelative(Float3 value, Float3 expected, float tolerance);
 
 float largest(Float3 v);

@@ -1,4 +1,5 @@
-// Rays side by side against the same rays one after the other, and the light that they bring.
+// Compares rays that march side by side (SIMD lanes) with the same rays one after the other, and the light
+// that they return.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/light/face_lighting.h"
 #include "cook/bricks/light/march_lanes.h"
@@ -18,7 +19,7 @@ using test::MarchScene;
 namespace
 {
 
-/// Nothing of a ray that is not in a voxel tells where it is.
+/// Compare two rays. The position of a ray that is not in a voxel is undefined, so it is not compared.
 void expectSame(const BrickRay& found, const BrickRay& truth)
 {
     ASSERT_EQ(found.inside, truth.inside);
@@ -65,7 +66,7 @@ TEST(MarchLanes, findWhatRaysFindOneByOne)
         for (const size_t count : kSpans)
         {
             std::vector<BrickRay> truth = raysOf(scene, count, random), found = truth;
-            // to all voxels that the rays go through
+            // advance to every voxel that the rays pass
             for (bool some = true; some;)
             {
                 for (BrickRay& ray : truth)

@@ -144,7 +144,7 @@ TEST_F(ClustersProgram, followsAProfile)
     EXPECT_NE(bad.err.find("bad.toml|line 2, clusters.levels[0].keep: error:"), std::string::npos) << bad.err;
     EXPECT_FALSE(sandbox_.has("bad.part"));
 
-    // settings of the import are passed on to it
+    // settings for the import are passed on to it
     sandbox_.write("clips.toml", "[animation]\nerror = -1\n");
     const test::ProgramEnd clips = run({"rock.obj", "-o", "bad.part", "--profile", "clips.toml"});
     EXPECT_EQ(clips.exit_code, 78);

@@ -150,7 +150,7 @@ TEST(Hierarchy, ofAnySizeEndsInOneCluster)
     }
 }
 
-/// Split every triangle off: three vertices of its own with the normal of its plane, no other attributes.
+/// Give every triangle three vertices of its own, with the normal of its plane and no other attributes.
 mesh::SourceMesh flatShaded(const mesh::SourceMesh& smooth)
 {
     mesh::SourceMesh flat;

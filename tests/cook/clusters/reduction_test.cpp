@@ -205,8 +205,8 @@ void expectTargetMet(const SourceMesh& mesh, uint32_t level, double part)
 
 TEST(Reduction, meetsItsTargetsThoughSomeGroupsCannotDoTheirShare)
 {
-    // seams and islands limit their groups: unless other groups reduce more, the target is missed by 12 % of
-    // a tenth
+    // seams and islands limit their groups: unless other groups reduce more, a target of a tenth is missed
+    // by 12 %
     SourceMesh with_blocks = shapes::rock(40, 0.3f);
     shapes::append(with_blocks, shapes::blocks(24));
     if (!test::kSanitized)

@@ -175,7 +175,7 @@ void expectSoundErrors(const Pair& pair)
         "errors, after to before");
 }
 
-/// Candidate points close by: the map may be bad, but its claims must hold.
+/// Points scattered at random: the map may be bad, but its claims must hold.
 std::vector<TrianglePoint> scattered(const Pair& pair, double share, std::mt19937& random)
 {
     std::vector<TrianglePoint> points = pair.points.of_position;

@@ -1,4 +1,5 @@
-// Pages come back bit for bit, and a decoder that is given anything else says so and touches nothing that is not its.
+// Tests that pages decode bit for bit, and that the decoder rejects anything else without access outside of
+// its buffers.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/codecs/cluster_bounds.h"
 #include "formats/codecs/page_codec.h"
@@ -27,16 +28,17 @@ std::vector<std::byte> encode(RandomPage& page)
     return encoder.encode(page.records, page.layout, page.clusters);
 }
 
-/// Decodes into memory of exactly the page's size, so that a sanitizer sees every byte beside it.
+/// Decode into memory of exactly the page's size, so that a sanitizer sees any access beside it.
 bool decodes(std::span<const std::byte> stored, const RandomPage& page, std::vector<std::byte>& out)
 {
     static PageDecoder decoder;
-    // a copy, so that reads behind the stored bytes are seen as well
+    // a copy, so that reads behind the stored bytes are seen too
     const std::vector<std::byte> bytes(stored.begin(), stored.end());
     return decoder.decode(bytes, page.records, page.layout, out);
 }
 
-/// The corners of a cluster's triangles, each a vertex as its words and morph deltas, in the least of its three turns.
+/// Return a cluster's triangles; a corner is its vertex's words and morph deltas, and each triangle is
+/// rotated to the least of its three orders.
 std::multiset<std::vector<uint32_t>> trianglesOf(const RandomPage& page, size_t cluster)
 {
     const pages::CodedCluster& coded = page.clusters[cluster];
@@ -144,7 +146,7 @@ TEST_P(PageCodecOfLayout, encodesADecodedPageToTheSameBytes)
         pages::PageEncoder encoder;
         ASSERT_TRUE(encoder.encodeAgain(page.records, page.layout, page.clusters, codes) == stored);
         ASSERT_TRUE(page.content() == in_order.content());
-        // with other values in the last words of vertices, triangles and vertices stay where they are
+        // other values in the last words of vertices leave triangles and vertices where they are
         const uint32_t words = vertexWords(page.layout);
         for (size_t c = 0; c < page.clusters.size() && words > 2; ++c)
             if (page.records[c].extent_shift == 0)
@@ -205,7 +207,7 @@ TEST_P(PageCodecOfLayout, refusesEveryTruncation)
     std::vector<std::byte> out(page.content().size());
     for (size_t size = 0; size < stored.size(); size += 1 + size / 64)
         ASSERT_FALSE(decodes(std::span(stored).first(size), page, out)) << size;
-    // and of what is inside the frame
+    // also changes inside the frame
     const std::vector<std::byte> content = unpacked(stored);
     for (size_t size = 0; size < content.size(); size += 1 + size / 64)
         ASSERT_FALSE(decodes(packed(std::span(content).first(size)), page, out)) << size;
@@ -234,7 +236,7 @@ TEST_P(PageCodecOfLayout, refusesCodesThatDoNotExist)
     addGridCluster(page, 8, false, random);
     const std::vector<std::byte> content = unpacked(encode(page));
     std::vector<std::byte> out(page.content().size());
-    // a code with the edge on the left, made one of those above the last edge: its corner stays the same
+    // change a code with the edge on the left to the code above the last edge: the corner stays the same
     size_t found = 0;
     for (size_t i = 0; i < codeBytes(page.records[0].triangle_count); ++i)
         for (const uint32_t shift : {0u, 4u})
@@ -272,7 +274,7 @@ TEST_P(PageCodecOfLayout, survivesEveryFlippedByte)
         damaged[random() % damaged.size()] ^= std::byte{0x80};
         ++(decodes(packed(damaged), page, out) ? accepted : refused);
     }
-    // differences may be anything, triangles and counts may not
+    // differences may have any value, triangles and counts may not
     EXPECT_GT(accepted, 10u);
     EXPECT_GT(refused, 10u);
 }
@@ -329,7 +331,8 @@ TEST(PageCodec, storesSharedVerticesOnce)
 
 TEST(PageCodec, storesInfluencesInFewBytes)
 {
-    // a bone and a half: all but the few vertices between two joints have a neighbour's joints, and weights like it
+    // a bone and a half: all but the few vertices between two joints have a neighbour's joints and similar
+    // weights
     const uint32_t layout = kVertexNormal | kVertexInfluences;
     std::mt19937 random(10);
     RandomPage plain, skinned;

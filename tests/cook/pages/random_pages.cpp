@@ -19,7 +19,7 @@ size_t bytesOf(const pages::CodedCluster& cluster)
     return 4 * (cluster.words.size() + (cluster.indices.size() + 3) / 4 + cluster.morphs.size());
 }
 
-/// A record with its counts, and the words in front of the vertices.
+/// Return a record with its counts, and the words in front of the vertices.
 ClusterRecord& beginCluster(RandomPage& page, bool wide, std::mt19937& random)
 {
     size_t used = 0;
@@ -51,7 +51,8 @@ void finishCluster(RandomPage& page, size_t vertex_count, std::mt19937& random)
     page.records.back().triangle_count = static_cast<uint8_t>(page.clusters.back().indices.size() / 3);
 }
 
-/// Words of a vertex near a place; lanes that a page never uses are 0, as the codec may rely on.
+/// Return words of a vertex near a position. Components that a page never uses are 0, as the codec may
+/// assume.
 void addVertex(RandomPage& page, uint32_t layout, uint32_t x, uint32_t y, uint32_t noise,
                std::mt19937& random)
 {
@@ -130,7 +131,7 @@ void addWildCluster(RandomPage& page, uint32_t vertex_count, uint32_t triangle_c
     for (uint32_t v = 0; v < vertex_count; ++v)
         addVertex(page, layout, v, v, 0x10000, random);
     auto& indices = page.clusters.back().indices;
-    // all vertices are used, as far as there are corners
+    // use all vertices, as far as there are corners
     for (uint32_t corner = 0; corner < triangle_count * 3; ++corner)
         indices.push_back(static_cast<uint8_t>(corner < vertex_count ? corner : random() % vertex_count));
     finishCluster(page, vertex_count, random);
@@ -153,7 +154,7 @@ RandomPage randomPage(uint32_t layout, uint32_t seed)
                            std::min<uint32_t>(256, 1 + static_cast<uint32_t>(random()) % (3 * triangles)),
                            triangles, random);
         }
-        // every second cluster has vertices of the one before
+        // every second cluster shares vertices with the one before
         if (page.clusters.size() % 2 == 0 && page.records.back().extent_shift == 0 &&
             page.records[page.records.size() - 2].extent_shift == 0)
         {

@@ -1,4 +1,4 @@
-// A clusters part whose visibilities are written again.
+// Tests the rewriting of visibilities in a clusters part.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/program/cluster_part.h"
 #include "cook/pages/rewrite.h"
@@ -41,7 +41,8 @@ ContainerReader open(const std::string& path)
     return std::move(*reader);
 }
 
-/// Meshes whose triangles do and do not hang together, with levels by hand, joints and morph targets; the last has no normals.
+/// Meshes with connected and unconnected triangles, authored LODs, joints and morph targets. The last mesh
+/// has no normals.
 std::vector<mesh::SourceMesh> sampleMeshes()
 {
     std::vector<mesh::SourceMesh> meshes{shapes::rock(24, 0.3f),  shapes::rock(12, 0), shapes::soup(300),
@@ -82,7 +83,7 @@ protected:
     const std::string path = folder.file("clusters.part");
 };
 
-/// Of a place: what two clusters share they get alike.
+/// Return a visibility code that depends on the position alone, so that clusters agree on shared vertices.
 uint32_t codeOf(Float3 position)
 {
     const auto wave = [](float x) { return std::abs(std::sin(7 * x)); };
@@ -144,7 +145,7 @@ TEST_F(Rewrite, changesVisibilitiesAndNothingElse)
         }
         ASSERT_TRUE(reverted == old_bytes) << "page " << p;
     }
-    // back again
+    // and back to the original
     const std::string back = folder.file("back.part");
     const auto open_all = [](const PageVertices&, std::span<uint32_t> codes)
     { std::fill(codes.begin(), codes.end(), kVisibilityUnoccluded); };

@@ -1,5 +1,4 @@
-// Tests surface samples: they cover the surface evenly, their weights sum to its area, and their ray origins
-// are outside of it.
+// Tests surface samples: they represent all of the surface evenly, and their rays start at the right points.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/visibility/rays/sample_points.h"
 #include "cook/visibility/rays/surface_samples.h"

@@ -53,7 +53,7 @@ std::vector<Moments> fieldOf(const Proxy& proxy, const std::vector<SurfaceSample
     return values;
 }
 
-/// Regularizer with the full weight of gradient jumps and no other term.
+/// Settings as published: all gradient jumps at full weight, and no other regularization.
 FitSettings asPublished()
 {
     FitSettings settings;

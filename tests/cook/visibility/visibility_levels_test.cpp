@@ -118,7 +118,7 @@ std::vector<Moments> copied(const MeshView& level, const MeshView& finest,
 TEST(FitLevels, areNearerToTheTruthThanCopies)
 {
     for (const float frequency : {7.0f, 14.0f})
-        for (const float noise : {0.0f, 0.12f}) // standard deviation of 64 rays
+        for (const float noise : {0.0f, 0.12f}) // noise of 64 rays
         {
             if (test::kSanitized && (frequency > 10 || noise == 0))
                 continue;

@@ -11,7 +11,8 @@ using namespace formats;
 namespace
 {
 
-// The records of the files are byte for byte those of the shaders: formats/gpu_shared/records_check.h asserts it.
+// Records of the files have the same bytes as those of the shaders; formats/gpu_shared/records_check.h
+// asserts it.
 shared::Instance sharedRecord(const InstanceRecord& record)
 {
     return std::bit_cast<shared::Instance>(record);

@@ -1,4 +1,4 @@
-// Exhaustive culling on the CPU: every cluster of every instance is asked, nothing is skipped.
+// Exhaustive culling on the CPU: tests every cluster of every instance and skips nothing.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -8,9 +8,9 @@
 namespace hearth::reference
 {
 
-/// What is drawn, ordered by instance and then cluster, by the C++ twin of the shaders (formats/gpu_shared/decisions.h).
-/// Must equal the GPU's visible set exactly, but for deformed instances, which are looked at here as if they were rigid in their
-/// bind pose.
+/// Return the visible clusters, ordered by instance and then cluster, by the C++ twin of the shaders
+/// (formats/gpu_shared/decisions.h). Must equal the GPU's visible set exactly, except for deformed instances,
+/// which are treated here as rigid, in their bind pose.
 std::vector<DrawnCluster> cullExhaustively(const formats::PackView& view, const shared::FrameView& frame);
 
 } // namespace hearth::reference

@@ -17,10 +17,10 @@ constexpr double kSubpixel = 256; ///< vertices lie on a grid of 1/256 pixel
 constexpr double kEdgeBand = 1.0 / 256;
 constexpr double kDepthBand = 1e-5; ///< relative
 
-/// A vertex on the screen. Pixel centres are at whole numbers: 0.5 is taken off before snapping.
+/// A vertex in screen space. Pixel centres are at whole numbers: 0.5 is subtracted before snapping.
 struct ScreenVertex
 {
-    double x, y;    ///< as floats gave them
+    double x, y;    ///< before snapping, converted from float
     int64_t fx, fy; ///< snapped, in 1/256 pixel
     double depth;
 };
@@ -29,10 +29,10 @@ struct ScreenTriangle
 {
     ScreenVertex v[3];
     uint32_t id;
-    bool only_excuses; ///< masked: its pixels cannot be foretold
+    bool only_excuses; ///< masked: its pixels cannot be predicted
 };
 
-// Planes of the clip volume as (x, y, z, w) factors: inside where the sum is >= 0.
+// Planes of the clip volume as (x, y, z, w) factors: a point is inside if the sum is >= 0.
 constexpr std::array<Float4, 5> kClipPlanes{Float4{1, 0, 0, 1}, Float4{-1, 0, 0, 1}, Float4{0, 1, 0, 1},
                                             Float4{0, -1, 0, 1}, Float4{0, 0, -1, 1}};
 
@@ -41,7 +41,7 @@ float planeDistance(const Float4& plane, const Float4& p)
     return plane.x * p.x + plane.y * p.y + plane.z * p.z + plane.w * p.w;
 }
 
-/// Which planes a vertex needs to be clipped by. The sides have a guard band: only beyond twice the width.
+/// Mask of the planes by which a vertex must be clipped. The sides have a guard band of twice the width.
 uint32_t clipMask(const Float4& p)
 {
     uint32_t mask = 0;
@@ -61,7 +61,7 @@ Float4 interpolate(const Float4& a, const Float4& b, float t)
     return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.z + t * (b.z - a.z), a.w + t * (b.w - a.w)};
 }
 
-/// Sutherland and Hodgman, plane by plane.
+/// Clip a polygon plane by plane (Sutherland and Hodgman).
 std::vector<Float4> clipPolygon(std::vector<Float4> polygon, uint32_t planes)
 {
     for (size_t i = 0; i < kClipPlanes.size(); ++i)
@@ -94,7 +94,7 @@ ScreenVertex toScreen(const Float4& clip, float width, float height)
             double{clip.z * over_w}};
 }
 
-/// Twice the signed area in (1/256 pixel)^2; positive where the corners go clockwise on the screen, whose y is down.
+/// Twice the signed area in (1/256 pixel)^2; positive if the corners are clockwise on the screen (y down).
 int64_t doubleArea(const ScreenTriangle& t)
 {
     return (t.v[1].fx - t.v[0].fx) * (t.v[2].fy - t.v[0].fy) -
@@ -105,7 +105,7 @@ struct DepthPlane
 {
     double at_origin, per_x, per_y;
 
-    /// False where the triangle is too thin to have one.
+    /// Compute the plane of depth. Returns false if the triangle is too thin to have one.
     static bool of(const ScreenTriangle& t, DepthPlane& plane)
     {
         const double x1 = t.v[1].x - t.v[0].x, y1 = t.v[1].y - t.v[0].y, d1 = t.v[1].depth - t.v[0].depth;
@@ -125,7 +125,8 @@ struct DepthPlane
     }
 };
 
-/// Whether the sample at pixel (x, y) is inside; exact. An edge that goes through it counts if it is a top or a left one.
+/// True if the sample at pixel (x, y) is inside; exact. A sample on an edge counts if the edge is a top or
+/// left edge.
 bool covers(const ScreenTriangle& t, int64_t x, int64_t y)
 {
     const int64_t px = x * 256, py = y * 256;
@@ -160,7 +161,7 @@ double outlineDistance(const ScreenTriangle& t, int64_t x, int64_t y)
     return nearest;
 }
 
-/// Depth of the triangle at or next to the sample, never beyond its corners.
+/// Depth of the triangle at the sample or at the point next to it, never beyond the depths of the corners.
 double clampedDepth(const ScreenTriangle& t, const DepthPlane& plane, int64_t x, int64_t y)
 {
     const auto [least, greatest] = std::minmax({t.v[0].depth, t.v[1].depth, t.v[2].depth});
@@ -224,7 +225,8 @@ public:
                   });
     }
 
-    /// After all are drawn: pixels beside an edge of a triangle that is, or would be, the nearest there.
+    /// Excuse, after all triangles are drawn, the pixels beside an edge of a triangle that is, or would be,
+    /// the nearest there.
     void excuseEdges(const ScreenTriangle& t, const DepthPlane& plane)
     {
         forPixels(t,
@@ -264,7 +266,8 @@ private:
     std::vector<uint8_t> excused_;
 };
 
-/// Clip, project and orient; nothing for a triangle that is not drawn, several for one that was clipped.
+/// Clip, project and orient a triangle. Appends nothing for a triangle that is not drawn, several for one
+/// that was clipped.
 void appendScreenTriangles(const SceneTriangle& triangle, const SceneTables& scene,
                            const shared::FrameView& frame, std::vector<ScreenTriangle>& out)
 {
@@ -296,7 +299,7 @@ void appendScreenTriangles(const SceneTriangle& triangle, const SceneTables& sce
                          triangle.id,
                          masked};
         const int64_t area = doubleArea(t);
-        const bool front = (area < 0) != mirrored; // counter-clockwise as seen
+        const bool front = (area < 0) != mirrored; // counter-clockwise as seen by the viewer
         if (area == 0 || (!front && !double_sided))
             continue;
         if (area < 0)

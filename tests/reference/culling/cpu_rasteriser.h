@@ -1,5 +1,5 @@
-// A rasteriser that does what the test device does, slowly: vertices snapped to 1/256 pixel, exact integer edges,
-// top-left rule, reversed depth. RUNTIME section 0 (design notes) has the measurements.
+// Reference rasteriser with the rules of the test device (lavapipe), slow and simple: vertices snapped to
+// 1/256 pixel, exact integer edges, top-left rule, reversed depth.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -15,11 +15,11 @@ namespace hearth::reference
 
 inline constexpr uint32_t kNothing = 0xFFFFFFFFu;
 
-/// Why another result at a pixel is right as well; bits.
+/// Bits: reasons that make a different result at a pixel valid, too.
 enum Excuse : uint8_t
 {
     kExcuseEdge = 1, ///< the sample lies within 1/256 pixel of an edge that matters there
-    kExcuseTie = 2,  ///< the two nearest triangles are closer together than 1e-5 of their depth
+    kExcuseTie = 2,  ///< the depths of the two nearest triangles differ by less than 1e-5, relative
     kExcuseMask = 4, ///< an alpha mask decides: one of `masked_ids` may be the nearest
 };
 
@@ -27,34 +27,35 @@ struct RasterImage
 {
     uint32_t width = 0;
     uint32_t height = 0;
-    std::vector<uint32_t> ids;    ///< of the nearest triangle, or kNothing; rows top to bottom
-    std::vector<float> depths;    ///< z_near / distance; 0 where nothing is
+    std::vector<uint32_t> ids;    ///< nearest triangle, or kNothing; rows top to bottom
+    std::vector<float> depths;    ///< z_near / distance; 0 if the pixel is empty
     std::vector<uint8_t> excused; ///< bits of Excuse
-    /// For pixels with kExcuseMask: the masked triangles that cover the sample and are not behind the nearest.
+    /// Masked triangles that cover the sample and are not behind the nearest, for pixels with kExcuseMask.
     std::map<size_t, std::vector<uint32_t>> masked_ids;
 
     size_t pixelCount() const { return ids.size(); }
 };
 
-/// Draw the triangles in order. Back faces of single-sided materials are not drawn; triangles of masked or blended
-/// materials are not drawn either: they excuse every pixel that they might win.
+/// Draw the triangles in order. Back faces of single-sided materials are not drawn. Triangles of masked or
+/// blended materials are not drawn either: they excuse every pixel that they might win.
 RasterImage rasterise(std::span<const SceneTriangle> triangles, const SceneTables& scene,
                       const shared::FrameView& frame);
 
 struct RasterComparison
 {
     uint64_t pixels = 0;
-    uint64_t covered = 0;   ///< by the expected image
-    uint64_t masked = 0;    ///< pixels that an alpha mask decides; not counted below, but for impossible
+    uint64_t covered = 0;   ///< covered by the expected image
+    uint64_t masked = 0;    ///< pixels that an alpha mask decides; not counted below, except in `impossible`
     uint64_t excused = 0;   ///< beside an edge, or a tie
     uint64_t different = 0; ///< ids differ, excused or not
     uint64_t different_unexcused = 0;
-    uint64_t coverage_unexcused = 0; ///< of these, one image has nothing there
+    uint64_t coverage_unexcused = 0; ///< subset of these for which one image is empty
     uint64_t impossible =
         0; ///< masked pixels that show neither what lies behind nor any triangle of the mask
 };
 
-/// Compare ids; `same` says whether an expected and an actual id, both not kNothing, mean the same triangle.
+/// Compare ids. `same` returns true if an expected and an actual id, neither kNothing, denote the same
+/// triangle.
 template <typename Same>
 RasterComparison compareIds(const RasterImage& expected, std::span<const uint32_t> actual, const Same& same)
 {
@@ -85,7 +86,8 @@ RasterComparison compareIds(const RasterImage& expected, std::span<const uint32_
     return comparison;
 }
 
-/// Whether two triangles are the same piece of the scene: instance, material and, up to rotation, corners.
+/// True if two triangles are the same part of the scene: same instance, material and, up to rotation,
+/// corners.
 bool sameTriangle(const SceneTriangle& a, const SceneTriangle& b);
 
 } // namespace hearth::reference

@@ -12,7 +12,7 @@ using namespace formats;
 namespace
 {
 
-/// The camera's axes; a point at depth d is inside if |x| <= d * slope_x, |y| <= d * slope_y and d >= near.
+/// Axes of the camera; a point at depth d is inside if |x| <= d * slope_x, |y| <= d * slope_y and d >= near.
 struct OracleCamera
 {
     Double3 eye, right, up, forward;
@@ -40,17 +40,17 @@ struct OracleCamera
                 depth - near};
     }
 
-    /// The slopes' distances are to be compared with lengths times this.
+    /// Factor for lengths that are compared with the side planes' distances, which are not normalised.
     double planeScale() const { return std::max(slope_x, slope_y) + 1; }
 };
 
-/// Relative roundings of the float code: 2^-20 of slack on purpose, and a few units in the last place.
+/// Relative rounding error of the float code: an intended slack of 2^-20, plus a few units in the last place.
 constexpr double kRelativeBand = 4e-6;
-/// formats/gpu_shared says: 1e-3 in the sine, and a tenth of the checker's tolerance.
+/// Margin of formats/gpu_shared: 1e-3 in the sine, and a tenth of the checker's tolerance.
 constexpr double kConeBand = 1.3e-3;
 constexpr double kApexBand = 1.5e-4;
 
-/// Smallest over the planes of the greatest distance to any of the points: below 0, all are outside one plane.
+/// Minimum over the planes of the greatest distance of any point. Negative: all points are outside one plane.
 double reachInside(const OracleCamera& camera, const std::array<Double3, 8>& points)
 {
     double worst = std::numeric_limits<double>::infinity();
@@ -72,8 +72,9 @@ std::array<Double3, 8> cornersOf(Double3 low, Double3 high)
     return corners;
 }
 
-/// Whether a box moved by `transform` lies wholly outside one plane. The moved box itself must be drawn if it reaches
-/// inside by any amount; the box around it along the world's axes, which the design tests, must go if it does not.
+/// Test if a box, moved by `transform`, is wholly outside one plane. A moved box that reaches inside by any
+/// amount must be drawn. If its world-axis-aligned bounding box, which the design tests, is outside, it must
+/// be culled.
 Answer boxOutside(const OracleCamera& camera, const DoubleAffine& transform, Float3 box_min, Float3 box_max)
 {
     std::array<Double3, 8> moved = cornersOf(Double3(box_min), Double3(box_max));
@@ -107,7 +108,7 @@ Answer exceeds(const OracleCamera& camera, const OracleView& view, const Instanc
         std::max(length(center - camera.eye) - stretch * double{group.sphere_radius}, camera.near);
     const double ratio =
         stretch * double{group.error} * camera.pixels_per_slope / distance / double{view.error_pixels};
-    // a distance that is a small difference of large numbers carries their roundings
+    // A distance that is a small difference of large numbers carries their rounding errors.
     const double band =
         1e-6 +
         1e-6 * (length(center) + length(camera.eye) + stretch * double{group.sphere_radius}) / distance;
@@ -134,7 +135,7 @@ Answer coneAway(const OracleCamera& camera, const DoubleAffine& transform, const
     const double stretch2 = dot(transform.row[0], transform.row[0]) +
                             dot(transform.row[1], transform.row[1]) + dot(transform.row[2], transform.row[2]);
     if (std::abs(transform.determinant()) < 1e-30 * stretch2 * std::sqrt(stretch2))
-        return Answer::either; // whether floats can invert such a matrix is not the point here
+        return Answer::either; // inversion of such a matrix in floats is not tested here
     const Double3 eye = transform.solve(camera.eye - transform.translation);
     const Box3 box = clusterBox(cluster, grid_step);
     const Double3 middle = (Double3(box.min) + Double3(box.max)) * 0.5;
@@ -146,7 +147,7 @@ Answer coneAway(const OracleCamera& camera, const DoubleAffine& transform, const
     const double distance = length(to_apex);
     const double reach = length(Double3(box.max) - middle) + back;
     const double cutoff = double{coneCutoff(cluster)};
-    // the eye in object space inherits the roundings of the inverse matrix
+    // The eye in object space inherits the rounding errors of the inverse matrix.
     const Double3 offset = abs(camera.eye - transform.translation);
     const double conditioning = std::pow(stretch2, 1.5) / std::abs(transform.determinant());
     const double eye_rounding = 1e-5 * conditioning * (length(offset) / std::sqrt(stretch2) + length(eye));
@@ -205,7 +206,7 @@ Judgement judgeCluster(const PackView& view, const OracleView& oracle, DrawnClus
     const bool cone =
         (oracle.flags & shared::kCullCone) && !isDoubleSided(view.materials(), cluster.material);
     judgement.faces_away = cone ? coneAway(camera, transform, cluster, grid_step) : Answer::no;
-    // boxes of all poses are wider than that of the bind pose, and cones are others
+    // Bounds over all poses are wider than those of the bind pose, and the cones differ.
     if (isDeformed(view, which.instance))
     {
         if (judgement.outside_frustum == Answer::yes)
@@ -247,7 +248,7 @@ CullingComparison compareWithOracle(const PackView& view, const OracleView& orac
 namespace
 {
 
-/// Whether the triangle might cover a pixel: in front of the eye's planes and turned towards it.
+/// True if the triangle might cover a pixel: inside the frustum's planes and front-facing.
 bool couldBeSeen(const OracleCamera& camera, const DoubleAffine& transform,
                  const std::array<Float3, 3>& corners, bool double_sided)
 {
@@ -298,7 +299,7 @@ uint64_t countUnjustlyCulled(const PackGeometry& geometry, const OracleView& ora
 
 double largestStretch(const Affine3& affine)
 {
-    // Power iteration on M^T M from the three axes; the largest eigenvalue wins.
+    // Power iteration on M^T M, started from the three axes; the largest eigenvalue wins.
     const DoubleAffine m(affine);
     const Double3 columns[3] = {{m.row[0].x, m.row[1].x, m.row[2].x},
                                 {m.row[0].y, m.row[1].y, m.row[2].y},

@@ -1,5 +1,5 @@
-// An oracle for culling, in double precision and written from the design's text alone: it shares no line with the
-// decisions that it judges. Where rounding or a documented margin may decide, both answers are right.
+// Culling oracle in double precision, written from the design alone: shares no code with the decisions that
+// it checks. If rounding or a documented margin may decide, both answers are right.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -23,10 +23,10 @@ enum class Answer : uint8_t
 {
     no,
     yes,
-    either, ///< so near to the border that rounding or a margin may decide
+    either, ///< so near to the limit that rounding or a margin may decide
 };
 
-/// Why a cluster is or is not drawn.
+/// Reason for which a cluster is or is not drawn.
 struct Judgement
 {
     Answer in_cut = Answer::either;
@@ -40,21 +40,22 @@ Judgement judgeCluster(const formats::PackView& view, const OracleView& oracle, 
 
 struct CullingComparison
 {
-    uint64_t pairs = 0;  ///< (instance, cluster) looked at
-    uint64_t drawn = 0;  ///< by the code under test
-    uint64_t either = 0; ///< of the pairs, those for which both answers are right
+    uint64_t pairs = 0;  ///< (instance, cluster) pairs that were tested
+    uint64_t drawn = 0;  ///< drawn by the code under test
+    uint64_t either = 0; ///< pairs for which both answers are right
     uint64_t wrongly_drawn = 0;
     uint64_t wrongly_culled = 0;
-    uint64_t outside_frustum = 0; ///< in the cut, and culled because of this
+    uint64_t outside_frustum = 0; ///< in the cut, but frustum-culled
     uint64_t facing_away = 0;
 };
 
-/// Judge a whole visible list; `drawn` sorted.
+/// Judge a whole visible list; `drawn` is sorted.
 CullingComparison compareWithOracle(const formats::PackView& view, const OracleView& oracle,
                                     std::span<const DrawnCluster> drawn);
 
-/// The claim behind all culling: of the clusters in the cut that are not in `drawn`, count those with a triangle that
-/// could cover a pixel: it faces the eye and no plane of the frustum has it wholly outside. `drawn` sorted.
+/// Check the guarantee behind all culling: of the clusters in the cut that are not in `drawn` (sorted), count
+/// those with a triangle that could cover a pixel. Such a triangle faces the eye and is not wholly outside
+/// any frustum plane.
 uint64_t countUnjustlyCulled(const PackGeometry& geometry, const OracleView& oracle,
                              std::span<const DrawnCluster> drawn);
 

@@ -1,4 +1,5 @@
-// The twin of the shaders' decisions against the independent oracle, over random clusters, transforms and cameras.
+// Tests the C++ twin of the shaders' culling decisions against the independent oracle, over random clusters,
+// transforms and cameras.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/reference/culling/cpu_culling.h"
 #include "tests/reference/culling/culling_oracle.h"
@@ -32,7 +33,7 @@ private:
     std::mt19937 engine_;
 };
 
-/// Tables of a pack that have no geometry: clusters of one mesh in pairs of groups, instances of all sorts.
+/// Tables of a pack without geometry: clusters of one mesh in pairs of groups, instances of all kinds.
 struct Tables
 {
     std::vector<InstanceRecord> instances;
@@ -158,7 +159,7 @@ TEST(CullExhaustively, agreesWithTheOracleForAnyTransformAndCamera)
             sum.outside_frustum += one.outside_frustum;
             sum.facing_away += one.facing_away;
         }
-    // the test means something only if each reason decided often, and both answers are seldom right
+    // The test is meaningful only if each reason decided often, and both answers are seldom right.
     EXPECT_GT(sum.drawn, 5000u);
     EXPECT_GT(sum.outside_frustum, 5000u);
     EXPECT_GT(sum.facing_away, 1000u);

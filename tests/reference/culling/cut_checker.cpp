@@ -16,7 +16,7 @@ using namespace formats;
 namespace
 {
 
-/// Fewest and most drawn clusters on a way to the root.
+/// Minimum and maximum number of drawn clusters on a path to the root.
 struct WayCount
 {
     uint32_t least = 0;
@@ -32,7 +32,8 @@ CoverageReport checkCoverage(const PackView& view, uint32_t mesh, std::span<cons
     for (const uint32_t cluster : cut)
         drawn[cluster - clusters.first] = true;
 
-    // The table is ordered from coarse to fine: what a group was made into stands before its clusters.
+    // The table is ordered from coarse to fine: the simplified clusters of a group precede the clusters of
+    // the group.
     std::map<uint32_t, WayCount> above_group; // over the clusters that the group was simplified to
     std::vector<WayCount> ways(clusters.count);
     CoverageReport report;
@@ -66,13 +67,14 @@ namespace
 using PointKey = std::tuple<float, float, float>;
 using EdgeKey = std::pair<PointKey, PointKey>;
 
-/// -0 and 0 are the same place.
+/// Key of a position; -0 and 0 are equal.
 PointKey keyOf(Float3 p)
 {
     return {p.x + 0.0f, p.y + 0.0f, p.z + 0.0f};
 }
 
-/// How much more often an edge is used from its smaller to its greater end than back.
+/// Count, for each edge, its uses from the smaller to the greater end minus the uses in the opposite
+/// direction.
 std::map<EdgeKey, int> countEdges(const Triangles& triangles)
 {
     std::map<EdgeKey, int> balance;

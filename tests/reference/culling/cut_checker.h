@@ -1,5 +1,5 @@
-// Is a cut of a mesh's hierarchy a surface without cracks and without overlap? Two proofs that share nothing:
-// one follows the hierarchy, the other looks at nothing but triangles.
+// Checks that a cut of a mesh's hierarchy is a surface without cracks and overlap, by two independent proofs:
+// one follows the hierarchy, the other only uses triangles.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,27 +11,28 @@ namespace hearth::reference
 struct CoverageReport
 {
     uint32_t source_clusters = 0;
-    uint32_t missing = 0;     ///< clusters of level 0 with a way to the root that meets no drawn cluster
-    uint32_t overlapping = 0; ///< with a way that meets two or more
+    uint32_t missing = 0;     ///< clusters of level 0 with a path to the root that has no drawn cluster
+    uint32_t overlapping = 0; ///< clusters of level 0 with a path that has two or more
     bool ok() const { return missing == 0 && overlapping == 0; }
 };
 
-/// Follow every way from every cluster of level 0 to the root: exactly one cluster on it is drawn.
+/// Follow every path from every cluster of level 0 to the root: exactly one cluster on it must be drawn.
 /// `cut`: clusters of `mesh`, in any order.
 CoverageReport checkCoverage(const formats::PackView& view, uint32_t mesh, std::span<const uint32_t> cut);
 
 struct EdgeReport
 {
-    uint64_t edges = 0;        ///< of the cut, between welded positions
-    uint64_t open_edges = 0;   ///< used more often one way than the other way
+    uint64_t edges = 0;        ///< edges of the cut, between welded positions
+    uint64_t open_edges = 0;   ///< edges used more often in one direction than in the other
     uint64_t cracks = 0;       ///< open edges that do not lie along open edges of the source
-    double worst_distance = 0; ///< of an open edge's ends from the source's open edges, metres
+    double worst_distance = 0; ///< metres; from an open edge's ends to the source's open edges
 };
 
 using Triangles = std::vector<std::array<Float3, 3>>;
 
-/// Weld corners by their bits and count each edge both ways. An open edge of the cut is a crack unless both its ends
-/// are within `tolerance` of an open edge of the source: a simplified border may move by the error it reports.
+/// Weld corners by their bits and count each edge in both directions. An open edge of the cut is a crack
+/// unless both its ends are within `tolerance` of an open edge of the source: a simplified border may move by
+/// its reported error.
 EdgeReport checkEdges(const Triangles& cut, const Triangles& source, double tolerance);
 
 /// Triangles of the clusters, in order.

@@ -1,4 +1,4 @@
-// The cut checker finds the cracks and overlaps that it is there to find.
+// Tests that the cut checker finds cracks and overlaps.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/reference/culling/cut_checker.h"
 
@@ -9,7 +9,7 @@ namespace hearth::reference
 namespace
 {
 
-/// A height field of cells x cells quads over the unit square, with the border flat.
+/// A height field of cells x cells quads over the unit square, with a flat border.
 Triangles sheet(int cells)
 {
     const auto point = [&](int x, int y)
@@ -70,7 +70,7 @@ TEST(CheckEdges, findsAVertexThatMovedByOneBit)
 
 TEST(CheckEdges, findsATJunction)
 {
-    // one quad coarse beside finer ones: their common border no longer has the same edges on both sides
+    // One coarse quad beside finer ones: the edges on both sides of their common border differ.
     Triangles cut;
     for (const auto& t : sheet(8))
         if (t[0].x >= 0.5f - 1e-6f && t[1].x >= 0.5f - 1e-6f && t[2].x >= 0.5f - 1e-6f)

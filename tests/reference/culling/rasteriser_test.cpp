@@ -1,4 +1,4 @@
-// Cases with known answers for the reference rasteriser.
+// Tests the reference rasteriser with cases that have known answers.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/reference/culling/cpu_rasteriser.h"
 
@@ -16,7 +16,8 @@ using formats::MaterialRecord;
 
 constexpr uint32_t kSize = 64;
 
-/// A camera at the origin that looks along -Z with a right angle of view: at distance d, x and y in [-d, d] are seen.
+/// Camera at the origin that looks along -Z with a right angle of view: at distance d, x and y in [-d, d] are
+/// visible.
 shared::FrameView squareView(float z_near = 0.1f)
 {
     shared::Camera camera;
@@ -25,7 +26,7 @@ shared::FrameView squareView(float z_near = 0.1f)
     return shared::makeFrameView(camera, kSize, kSize, 1, 1);
 }
 
-/// World position at distance d that falls on pixel coordinates (x, y), from the top left corner.
+/// World position at distance d that projects to pixel coordinates (x, y), from the top left corner.
 Float3 atPixel(float x, float y, float d)
 {
     return {(x / (kSize / 2) - 1) * d, (1 - y / (kSize / 2)) * d, -d};
@@ -37,7 +38,7 @@ struct Scene
     std::vector<MaterialRecord> materials{MaterialRecord{}};
     std::vector<SceneTriangle> triangles;
 
-    /// Counter-clockwise as seen is a front face.
+    /// Add a triangle; counter-clockwise as seen is a front face.
     void add(Float3 a, Float3 b, Float3 c)
     {
         triangles.push_back({{a, b, c}, 0, 0, static_cast<uint32_t>(triangles.size())});
@@ -88,7 +89,8 @@ TEST(Rasterise, givesSamplesOnAnEdgeToTheTopOrLeftSide)
 
 TEST(Rasterise, drawsAFanOfSliversWithoutHolesOrOverlap)
 {
-    // Around a centre that is on no grid: each pixel of the disc belongs to one triangle, in any order of drawing.
+    // Triangles around a centre that is on no grid: each pixel of the disc belongs to one triangle, in any
+    // order of drawing.
     Scene scene;
     constexpr int kSlivers = 97;
     std::vector<Float3> rim;
@@ -163,7 +165,8 @@ TEST(Rasterise, turnsFacesOfMirroredInstances)
 
 TEST(Rasterise, cutsTrianglesAtTheNearPlane)
 {
-    // A floor that reaches behind the eye: seen from distance 0.5 on, where the near plane cuts it below the image.
+    // A floor that reaches behind the eye. It is visible from distance 0.5 on; there the near plane cuts it,
+    // below the image.
     Scene scene;
     scene.add({-9, -1, 9}, {9, -1, 9}, {9, -1, -9});
     scene.add({-9, -1, 9}, {9, -1, -9}, {-9, -1, -9});
@@ -172,7 +175,7 @@ TEST(Rasterise, cutsTrianglesAtTheNearPlane)
     EXPECT_NEAR(double{image.depths[63 * kSize + 32]}, 0.5 * (63.5 / 32 - 1), 1e-5);
     EXPECT_EQ(image.ids[31 * kSize + 32], kNothing) << "the horizon";
 
-    // With the plane beyond the floor's visible part nothing is left in the lower rows.
+    // A near plane beyond the floor's visible part leaves nothing in the lower rows.
     const RasterImage far_plane = scene.draw(4.0f);
     EXPECT_EQ(far_plane.ids[63 * kSize + 32], kNothing);
     EXPECT_NE(far_plane.ids[37 * kSize + 32], kNothing) << "distance 5.8";
@@ -200,7 +203,7 @@ TEST(Rasterise, excusesTiesAndMaskedPixels)
 
 TEST(Rasterise, agreesWithRaysOnRandomTriangles)
 {
-    // Where a sample is not excused, the nearest hit of its exact ray is the triangle that was drawn.
+    // The nearest hit of the exact ray through each sample without an excuse is the triangle that was drawn.
     std::mt19937 random(7);
     std::uniform_real_distribution<float> place(-3, 3), depth(-9, 1.5f);
     Scene scene;
@@ -221,7 +224,8 @@ TEST(Rasterise, agreesWithRaysOnRandomTriangles)
             uint32_t hit = kNothing;
             for (const SceneTriangle& t : scene.triangles)
             {
-                // distance along -Z where the ray (dx, dy, -1) s meets the triangle's plane, then edge by edge
+                // Intersect the ray (dx, dy, -1) s with the triangle's plane: distance along -Z; then test
+                // edge by edge.
                 const auto c = [&](size_t i) {
                     return std::array{double{t.corners[i].x}, double{t.corners[i].y}, double{t.corners[i].z}};
                 };
@@ -243,7 +247,7 @@ TEST(Rasterise, agreesWithRaysOnRandomTriangles)
             wrong += hit != image.ids[y * kSize + x];
         }
     EXPECT_GT(checked, kSize * kSize * 9u / 10u);
-    // snapping moves an edge by up to 1/512 pixel, and the excuse is 1/256: nothing may be left
+    // Snapping moves an edge by up to 1/512 pixel, and the excuse covers 1/256: no difference may remain.
     EXPECT_EQ(wrong, 0u);
 }
 

@@ -16,7 +16,7 @@ using namespace formats;
 namespace
 {
 
-/// One mesh as an Embree scene, and what its triangles are.
+/// One mesh as an Embree scene, with the clusters of its triangles.
 struct MeshScene
 {
     RTCScene scene = nullptr;
@@ -27,7 +27,7 @@ struct MeshScene
 
 struct EmbreeScene::State
 {
-    /// Embree hands its context to the filter: what the filter needs rides along.
+    /// Query context. Embree passes its context to the filter, so the filter's data is appended to it.
     struct Query : RTCIntersectContext
     {
         const State* state;
@@ -39,8 +39,8 @@ struct EmbreeScene::State
     AcceptHit accept, blocks;
     RTCDevice device = nullptr;
     RTCScene top = nullptr;
-    std::vector<MeshScene> meshes;   ///< in object space, of meshes that are not deformed
-    std::vector<MeshScene> deformed; ///< for each instance: in the world, if it is deformed
+    std::vector<MeshScene> meshes;   ///< object space; meshes that are not deformed
+    std::vector<MeshScene> deformed; ///< world space; one for each instance, empty unless it is deformed
 
     const PackView& view() const { return placement->geometry().view(); }
     const MeshScene& sceneOf(uint32_t instance) const
@@ -60,7 +60,7 @@ struct EmbreeScene::State
     static void filter(const RTCFilterFunctionNArguments* arguments);
 };
 
-/// In object space, or in the world as an instance is deformed.
+/// Make a mesh's scene in object space, or in world space for a deformed instance.
 MeshScene EmbreeScene::State::makeScene(uint32_t index, std::optional<uint32_t> deformed_instance) const
 {
     MeshScene mesh;
@@ -150,7 +150,7 @@ void EmbreeScene::State::filter(const RTCFilterFunctionNArguments* arguments)
     const auto& ray = *reinterpret_cast<const RTCRay*>(arguments->ray);
     const auto& hit = *reinterpret_cast<const RTCHit*>(arguments->hit);
     SurfaceHit candidate = query.state->toHit(query.instID[0], hit.primID, hit.u, hit.v, ray.tfar);
-    // Embree hands rays to filters in the space of the instance
+    // Embree passes rays to filters in the space of the instance.
     const Double3 direction{double{ray.dir_x}, double{ray.dir_y}, double{ray.dir_z}};
     candidate.front =
         query.state->isFront(candidate, query.state->worldFromScene(candidate.instance).vector(direction));

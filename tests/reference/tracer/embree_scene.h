@@ -1,4 +1,4 @@
-// Rays against the finest level of a pack.
+// Traces rays against the finest level of a pack, with Embree.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -19,15 +19,16 @@ struct Ray
     double greatest = 1e30;
 };
 
-/// Whether a candidate hit is really there: alpha masks and back faces say no. Called from many threads.
+/// True if a candidate hit counts: false for holes of alpha masks and culled back faces. Called from many
+/// threads.
 using AcceptHit = std::function<bool(const SurfaceHit&)>;
 
 class EmbreeScene
 {
 public:
-    /// Level 0 of every instance. `placement` must outlive the scene.
+    /// Build level 0 of every instance. `placement` must outlive the scene.
     ///
-    /// blocks  which hits end a ray of occluded(); none: those that are accepted
+    /// blocks  filter of the hits that end a ray of occluded(); none: the accepted hits
     EmbreeScene(const Placement& placement, AcceptHit accept, AcceptHit blocks = {});
     ~EmbreeScene();
     EmbreeScene(const EmbreeScene&) = delete;

@@ -1,4 +1,4 @@
-// The metallic-roughness material of glTF 2.0, appendix B, its light from the sky, and the tone curve.
+// Evaluates the metallic-roughness material of glTF 2.0, appendix B, its sky light, and the tone curve.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,7 +7,7 @@
 namespace hearth::reference
 {
 
-/// The material's values at a point.
+/// Material values at a point.
 struct Coating
 {
     Double3 base;
@@ -17,11 +17,11 @@ struct Coating
     Double3 normal;
 };
 
-/// Appendix B.3: GGX, height-correlated Smith, Schlick; radiance per irradiance, cosine included.
+/// BRDF of appendix B.3: GGX, height-correlated Smith, Schlick. Radiance per irradiance, cosine included.
 /// `view` and `light` are unit and point away from the surface.
 Double3 reflected(const Coating& coating, Double3 view, Double3 light);
 
-/// What a surface sends back of constant light, by lobe: B. Karis' fit of the specular albedo, "Physically based shading
+/// Reflectance under constant light, by lobe: B. Karis' fit of the specular albedo, "Physically based shading
 /// on mobile", 2014.
 struct SkyAlbedo
 {
@@ -29,16 +29,16 @@ struct SkyAlbedo
 };
 SkyAlbedo skyAlbedo(const Coating& coating, Double3 view);
 
-/// What a surface under the open sky sends back, by lobe: those with the sky's irradiance and mirror image. The
-/// coating's occlusion is not in it.
+/// Light that a surface under the open sky reflects, by lobe, from the sky's irradiance and its reflection.
+/// Without the coating's occlusion.
 struct SkyResponse
 {
     Double3 diffuse, specular;
 };
 SkyResponse underSky(const Coating& coating, const SceneLighting& lighting, Double3 view);
 
-/// Display-linear value of a radiance. J. Hejl and R. Burgess-Dawson, 2010; their curve is meant for a 2.2 gamma
-/// display, which is taken out again.
+/// Display-linear value of a radiance. J. Hejl and R. Burgess-Dawson, 2010; their curve includes a gamma of
+/// 2.2, which is removed here.
 double filmic(double radiance);
 
 } // namespace hearth::reference

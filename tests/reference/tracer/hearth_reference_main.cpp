@@ -1,4 +1,4 @@
-// hearth-reference: draws a pack with rays, slowly, and can say how far another picture is from that.
+// hearth-reference: path-traces a pack, slowly, and can measure another image's difference from the result.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
 #include "formats/base/program.h"

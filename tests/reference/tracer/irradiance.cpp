@@ -16,14 +16,14 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kFar = 1e30;
 constexpr uint32_t kMaxBounces = 32;
 
-/// Metres: a lamp has no size in the files, and what stands nearer would be as bright as one likes. It counts as a part of the
-/// lamp, which does not light itself.
+/// Metres. A lamp has no size in the files, so nearer surfaces could be arbitrarily bright. They count as a
+/// part of the lamp, which does not light itself.
 constexpr double kLampRadius = 0.1;
 
-/// Metres: shades and bulbs, which are much brighter than all else, lie within.
+/// Metres. Radius around a light that contains its shades and bulbs, which are much brighter than all else.
 constexpr double kFixtureRadius = 0.25;
 
-/// SplitMix64 (S. Vigna), as a stream.
+/// SplitMix64 (S. Vigna), as a random stream.
 class Random
 {
 public:
@@ -59,8 +59,9 @@ Double3 lightsAt(const ShadedScene& scene, Double3 position, Double3 start, Doub
     return sum;
 }
 
-/// Half of the directions by the cosine, half towards the lamps: what stands within kFixtureRadius of a light is so bright that
-/// chance would find it too seldom. Weighed by the mixture's density, so that the mean is the same.
+/// Mixture of directions: half by the cosine, half towards the lamps. Surfaces within kFixtureRadius of a
+/// light are so bright that cosine sampling would hit them too rarely. Weighted by the mixture's density, so
+/// that the mean is unbiased.
 class Directions
 {
 public:
@@ -80,7 +81,7 @@ public:
     struct Sample
     {
         Double3 direction;
-        double weight; ///< cosine over pi, over the density; 0: below the surface
+        double weight; ///< cosine over pi, divided by the density; 0: below the surface
     };
 
     Sample sample(double choice, double u, double v) const
@@ -131,10 +132,10 @@ Double3 pathLight(const ShadedScene& scene, Double3 start, Double3 direction, Ra
         if (met->unlit)
             return light;
         light += through * met->coating.emitted;
-        through = through * met->coating.base; // metals too: light that they mirror arrives somewhere
+        through = through * met->coating.base; // metals too: their mirrored light arrives somewhere
         start = lifted(*met);
         light += through * lightsAt(scene, met->surface.position, start, met->coating.normal, kLampRadius);
-        // Russian roulette from the third bounce on
+        // Russian roulette from the third bounce on.
         const double on = bounce < 2 ? 1 : std::min(largest(through), 0.95);
         if (random.next() >= on)
             return light;
@@ -171,7 +172,7 @@ SurfaceLight traceSurfaceLight(const ShadedScene& scene, const ShadedPoint& poin
     const Directions directions(scene.lighting(), lifted(point), litNormal(point));
     for (uint32_t i = 0; i < paths; ++i)
     {
-        // the sequence R3 (M. Roberts, 2018) for the first direction
+        // Sequence R3 (M. Roberts, 2018) for the first direction.
         const Directions::Sample first = directions.sample(std::fmod(shift_w + i * 0.8191725133961645, 1.0),
                                                            std::fmod(shift_u + i * 0.6710436067037893, 1.0),
                                                            std::fmod(shift_v + i * 0.5497004779019703, 1.0));

@@ -1,4 +1,5 @@
-// The truth about the light that arrives at a surface: all of its bounces, by paths against the real geometry.
+// Ground truth of global illumination: the light that arrives at a surface after all bounces, by path tracing
+// of the real geometry.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,20 +8,21 @@
 namespace hearth::reference
 {
 
-/// Irradiance over pi at a point, of its smooth normal: no normal map.
+/// Irradiance over pi at a point, for its smooth normal without normal map.
 struct SurfaceLight
 {
-    Double3 direct;   ///< of the lights
-    Double3 indirect; ///< of all else: the sky, what shines, what is lit
+    Double3 direct;   ///< from the lights
+    Double3 indirect; ///< from all else: sky, emissive and lit surfaces
 };
 
-/// The side of the surface that was seen.
+/// Normal on the visible side of the surface.
 Double3 litNormal(const ShadedPoint& point);
 
-/// Of the scene's lights, each with its shadow.
+/// Direct light of the scene's lights, each with its shadow.
 Double3 directLight(const ShadedScene& scene, const ShadedPoint& point);
 
-/// Deterministic: the same for the same arguments. Paths are diffuse and end when they are lost or after 32 bounces.
+/// Trace the light at a point. Deterministic: same arguments, same result. Paths are diffuse and end when
+/// they are absorbed or after 32 bounces.
 /// paths  at least 1
 SurfaceLight traceSurfaceLight(const ShadedScene& scene, const ShadedPoint& point, uint32_t paths,
                                uint64_t seed);

@@ -12,7 +12,7 @@ namespace
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// Sweeps after which nothing changes any more: samples have albedos below 0.7, and 0.7^20 is below a thousandth.
+/// Number of sweeps until convergence: samples have albedos below 0.7, and 0.7^20 is below a thousandth.
 constexpr uint32_t kSweeps = 20;
 
 Float3 narrowed(Double3 v)
@@ -20,7 +20,7 @@ Float3 narrowed(Double3 v)
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-/// The sequence R3 (M. Roberts, 2018).
+/// Point i of the sequence R3 (M. Roberts, 2018).
 Double3 pointOfCube(uint32_t i)
 {
     return {std::fmod(0.5 + i * 0.8191725133961645, 1.0), std::fmod(0.5 + i * 0.6710436067037893, 1.0),

@@ -1,4 +1,4 @@
-// How far the light that is gathered from bricks is from the truth, over points of a scene's surfaces.
+// Measures the error of the light gathered from bricks, at points on the surfaces of a scene.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,14 +11,14 @@
 namespace hearth::reference
 {
 
-/// A point of a surface, and from where it is seen.
+/// A surface point and the direction to its viewer.
 struct SeenPoint
 {
     ShadedPoint point;
     Double3 to_eye; ///< unit
 };
 
-/// And the light that truly arrives there.
+/// A surface point with the true light that arrives there.
 struct LitPoint
 {
     SeenPoint seen;
@@ -28,27 +28,28 @@ struct LitPoint
         false; ///< within kNearLamp of a lamp, or of a surface that shines and is seen from there
 };
 
-/// Metres.
+/// Metres; a point within this distance of a lamp is near it.
 inline constexpr double kNearLamp = 0.15;
 
-/// Points that are seen from the scene's cameras in all directions; where it has none, from straight above, but for the rim.
+/// Choose points that are visible from the scene's cameras in all directions. Without cameras, choose points
+/// that are visible from straight above, except at the rim.
 std::vector<SeenPoint> seenPoints(const ShadedScene& scene, const formats::PackView& pack, uint32_t count);
 
 std::vector<LitPoint> litPoints(const ShadedScene& scene, const std::vector<SeenPoint>& points,
                                 uint32_t paths);
 
-/// The lights and the sky of the reference, as shaders take them.
+/// Lights and sky of the reference in the form that shaders take.
 shared::Lighting sharedLighting(const SceneLighting& lighting);
 
-/// Light of bricks that has converged, and what arrives from it.
+/// Converged light of bricks, and the gather from it.
 class BrickGather
 {
 public:
-    /// bricks  whose tables outlive it
-    /// rays    of each face
+    /// bricks  tables must outlive the object
+    /// rays    for each face
     BrickGather(const bricks::BrickView& bricks, const shared::Lighting& lighting, uint32_t rays);
 
-    /// Irradiance over pi of all but the lights, as the runtime gathers it. rays  of the point
+    /// Irradiance over pi from all but the lights, gathered as in the runtime. rays  for the point
     Double3 at(const SeenPoint& point, uint32_t rays, uint32_t seed) const;
 
 private:
@@ -56,17 +57,17 @@ private:
     shared::BrickSky sky_;
 };
 
-/// Root mean square of differences over the mean of the truth. The square of a difference is the product of those from either
-/// half of the paths, whose noise has nothing to do with each other: so its mean is that of the error alone.
+/// Root mean square of differences over the mean of the truth. A squared difference is the product of the
+/// differences from either half of the paths, whose noise is independent: its mean has no noise term.
 struct LightError
 {
     double whole = 0;    ///< over the mean of all light: its direct part has no error
-    double indirect = 0; ///< over that of the indirect part
+    double indirect = 0; ///< over the mean of the indirect part
     double bias = 0;     ///< mean difference over the mean of the indirect part
     size_t points = 0;
 };
 
-/// gathered  for each point
+/// gathered  one for each point
 LightError lightError(const std::vector<LitPoint>& points, const std::vector<Double3>& gathered,
                       bool with_near_lamps);
 

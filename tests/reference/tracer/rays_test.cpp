@@ -1,4 +1,4 @@
-// The parts of the ray-traced reference against what can be worked out by hand.
+// Tests the parts of the ray-traced reference against values that can be computed by hand.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/reference/tracer/embree_scene.h"
 #include "tests/reference/tracer/gltf_material.h"
@@ -56,9 +56,9 @@ TEST(Reflected, isTheSameBothWaysUpToTheCosine)
 
 TEST(Reflected, neverSendsBackMoreThanArrivesAtAWhiteMetal)
 {
-    // Integral over all directions of light, by elevation with equal solid angles. Single scattering loses up to
-    // 70 % at full roughness. Dielectrics are left out: the specification's sum of both lobes may exceed 1 at grazing
-    // angles.
+    // Integral over all directions of light, by elevation with equal solid angles. Single scattering loses up
+    // to 70 % at full roughness. Dielectrics are left out: the specification's sum of both lobes may exceed 1
+    // at grazing angles.
     for (const double roughness : {0.1, 0.3, 0.6, 1.0})
         for (const double elevation : {0.1, 0.7, 1.5})
         {
@@ -160,7 +160,7 @@ TEST(TextureSet, takesTheMipThatASampleCovers)
     EXPECT_NEAR(textures.sample(texture, {0.4f, 0.4f}, 100 * texel).rgb.x, 200 / 255.0, 1e-9);
 }
 
-/// The strip of the small pack alone, in its place or as the second instance has it: mirrored.
+/// The strip of the small pack alone, in its own place or as the mirrored second instance.
 test::PackModel strip(uint32_t instance)
 {
     test::PackModel model = test::smallPack();
@@ -220,7 +220,7 @@ TEST(EmbreeScene, looksThroughWhatIsNotAccepted)
     EXPECT_FALSE(fronts.nearest({{0.25, -2, 0.5}, {0, 1, 0}}).has_value());
 }
 
-/// The mean colour that the reference gives a camera straight above the strip.
+/// Mean colour of the reference for a camera straight above the strip.
 std::array<double, 3> meanFromAbove(const test::PackModel& model)
 {
     const HeldPack pack(model);
@@ -262,7 +262,7 @@ TEST(RenderReference, showsTheRadianceOfAnEmissiveSurfaceInTheDark)
     material.base_color_texture.image = kInvalidIndex;
     material.emissive_texture.image = kInvalidIndex;
     material.base_color = {0, 0, 0, 1};
-    material.metallic = 1; // a black metal sends nothing back but at grazing angles
+    material.metallic = 1; // a black metal reflects light only at grazing angles
     material.emissive = {0.2f, 0.5f, 3};
     model.lights.clear();
     const auto mean = meanFromAbove(model);

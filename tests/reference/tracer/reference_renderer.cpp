@@ -25,11 +25,11 @@ public:
         right_ = normalize(cross(forward_, Double3(options.camera.up)));
         up_ = cross(right_, forward_);
         slope_ = std::tan(double{options.camera.y_fov_rad} / 2);
-        // the side of a sample at a distance of one metre
+        // footprint of a sample at a distance of one metre
         sample_angle_ = 2 * slope_ / (options.height * options.samples_per_side);
     }
 
-    /// Display-linear colour of a pixel: each sample is tone-mapped by itself, as in multisampled rendering.
+    /// Display-linear colour of a pixel. Samples are tone-mapped one by one, as in multisampled rendering.
     Double3 pixel(uint32_t x, uint32_t y) const
     {
         const uint32_t side = options_.samples_per_side;

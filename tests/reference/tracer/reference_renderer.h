@@ -1,4 +1,5 @@
-// Draws the finest level of a pack with rays and the material model of glTF 2.0, appendix B, written from that text.
+// Renders the finest level of a pack with rays and the material model of glTF 2.0, appendix B, written from
+// the specification.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -14,15 +15,15 @@ namespace hearth::reference
 struct ReferenceOptions
 {
     shared::Camera camera;
-    const formats::ScenePose* pose = nullptr; ///< of the pack; null: at rest
+    const formats::ScenePose* pose = nullptr; ///< of the pack; null: rest pose
     uint32_t width = 512;
     uint32_t height = 512;
-    uint32_t samples_per_side = 4; ///< rays per pixel: its square
-    bool shadows = false;          ///< of suns and spots, as hearth-render --shadows has them
-    SkyTracing sky = {}; ///< whether what stands in front of the sky counts; its `shadows` is the one above
+    uint32_t samples_per_side = 4; ///< the number of rays per pixel is its square
+    bool shadows = false;          ///< of suns and spots, as with hearth-render --shadows
+    SkyTracing sky = {};           ///< sky occlusion; its `shadows` is replaced by the one above
 };
 
-/// errors: those of reading pages and images.
+/// errors: as for reading pages and images.
 Result<Picture> renderReference(const formats::PackView& view, const ReferenceOptions& options);
 
 } // namespace hearth::reference

@@ -37,7 +37,7 @@ SceneLight lightOf(const LightRecord& record)
             std::cos(double{record.outer_cone_rad})};
 }
 
-/// World box of everything that is drawn.
+/// World bounding box of all drawn geometry.
 void sceneBox(const PackView& view, Double3& low, Double3& high)
 {
     low = {HUGE_VAL, HUGE_VAL, HUGE_VAL};
@@ -64,7 +64,8 @@ void sceneBox(const PackView& view, Double3& low, Double3& high)
     }
 }
 
-/// The exposure rule: lights that give the middle of the scene more than the key are dimmed to it, all alike.
+/// Apply the exposure rule: if the lights give the middle of the scene more than the key, all are dimmed by
+/// one factor to the key.
 void expose(const PackView& view, std::vector<SceneLight>& lights)
 {
     Double3 low, high;

@@ -1,4 +1,4 @@
-// The lights and the sky of a scene, from the rules in runtime/gpu/README.md and KHR_lights_punctual.
+// Lights and sky of a scene, from the rules in runtime/gpu/README.md and KHR_lights_punctual.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,19 +10,19 @@
 namespace hearth::reference
 {
 
-/// What a light does to a point.
+/// Light that arrives at a point from one light source.
 struct Incident
 {
     Double3 to_light;   ///< unit
     double distance;    ///< metres; infinite for the sun
-    Double3 irradiance; ///< on a surface that faces it
+    Double3 irradiance; ///< on a surface that faces the light
 };
 
 struct SceneLight
 {
     formats::LightType type;
-    Double3 position, direction; ///< world; the direction it shines in, unit
-    Double3 intensity;           ///< candela or lux, exposed
+    Double3 position, direction; ///< world space; the direction is the emission axis, unit
+    Double3 intensity;           ///< candela or lux, after exposure
     double range;                ///< metres; 0: unlimited
     double cos_inner, cos_outer;
 
@@ -34,7 +34,7 @@ struct SceneLighting
     Double3 zenith, horizon, ground;
     std::vector<SceneLight> lights;
 
-    /// Radiance of the sky as a surface of this roughness mirrors it; 0.4 is the background.
+    /// Radiance of the sky as reflected by a surface of this roughness; 0.4 is the background.
     Double3 radiance(Double3 direction, double roughness) const;
     /// Irradiance over pi of a surface with this normal.
     Double3 irradiance(Double3 normal) const;

@@ -64,7 +64,7 @@ Rgba ShadedScene::look(const TextureRef& texture, const SurfacePoint& point, dou
                             sample_size * point.uv_per_metre[texture.uv_set]);
 }
 
-/// Back faces of single-sided materials and holes of masks are not there.
+/// True unless the hit is a back face of a single-sided material or a hole of a mask.
 bool ShadedScene::isThere(const SurfaceHit& hit) const
 {
     return (hit.front || (materialOf(hit).flags & kMaterialDoubleSided) != 0) && !isHole(hit);
@@ -75,7 +75,8 @@ bool ShadedScene::blocks(const SurfaceHit& hit) const
     return (materialOf(hit).flags & kMaterialUnlit) == 0 && !isHole(hit);
 }
 
-/// Blended surfaces are where alpha exceeds one half: they have no reference of their own.
+/// True in holes. A blended surface exists where its alpha exceeds one half: blending has no reference of its
+/// own.
 bool ShadedScene::isHole(const SurfaceHit& hit) const
 {
     const MaterialRecord& material = materialOf(hit);

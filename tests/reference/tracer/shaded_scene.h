@@ -1,4 +1,4 @@
-// The finest level of a pack with its materials, lights and sky, as rays see it.
+// Finest level of a pack with materials, lights and sky, as rays see it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,27 +10,27 @@
 namespace hearth::reference
 {
 
-/// Where a ray meets a surface, ready to be shaded.
+/// Ray hit on a surface, ready for shading.
 struct ShadedPoint
 {
     SurfaceHit hit;
     SurfacePoint surface;
     Coating coating;
-    bool unlit = false; ///< its colour is coating.base
+    bool unlit = false; ///< the colour is coating.base
 };
 
 class ShadedScene
 {
 public:
-    /// What is named must outlive the scene; the pose need not.
+    /// All arguments must outlive the scene, except the pose.
     ShadedScene(const PackGeometry& geometry, const TextureSet& textures, const formats::ScenePose* pose);
 
     const SceneLighting& lighting() const { return lighting_; }
 
-    /// sample_angle  side of what the ray stands for at a distance of one metre: textures are filtered so far
+    /// sample_angle  side of the ray's footprint at a distance of one metre, for texture filtering
     std::optional<ShadedPoint> nearest(const Ray& ray, double sample_angle) const;
 
-    /// Whether light is held off along the ray: both faces do, unlit surfaces, which are skies and signs, do not.
+    /// True if light is blocked along the ray. Both faces block; unlit surfaces (skies and signs) do not.
     bool occluded(const Ray& ray) const { return rays_.occluded(ray); }
 
 private:
@@ -48,10 +48,10 @@ private:
     EmbreeScene rays_;
 };
 
-/// A place just off the surface on the side that is seen.
+/// Point just off the surface on the visible side.
 Double3 lifted(const ShadedPoint& point);
 
-/// A direction of the hemisphere about a normal, in proportion to the cosine; (u, v) in [0, 1)^2.
+/// Direction in the hemisphere about a normal, cosine-distributed; (u, v) in [0, 1)^2.
 Double3 cosineDirection(Double3 normal, double u, double v);
 
 } // namespace hearth::reference

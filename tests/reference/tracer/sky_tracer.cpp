@@ -26,7 +26,7 @@ double unit(uint64_t bits)
     return static_cast<double>(bits >> 11) * 0x1p-53;
 }
 
-/// The two-dimensional sequence R2 (M. Roberts, 2018), shifted by the seed.
+/// Two-dimensional sequence R2 (M. Roberts, 2018), shifted by the seed.
 class Points
 {
 public:
@@ -38,8 +38,8 @@ private:
     double u_, v_;
 };
 
-/// Visible normals of GGX (E. Heitz, "Sampling the GGX distribution of visible normals", 2018). `view` in the frame of
-/// the normal, which is z.
+/// Sample the visible normals of GGX (E. Heitz, "Sampling the GGX distribution of visible normals", 2018).
+/// `view` is in the frame of the normal, which is z.
 Double3 visibleNormal(Double3 view, double alpha, double u, double v)
 {
     const Double3 stretched = normalize({alpha * view.x, alpha * view.y, view.z});
@@ -54,7 +54,7 @@ Double3 visibleNormal(Double3 view, double alpha, double u, double v)
     return normalize({alpha * n.x, alpha * n.y, std::max(1e-9, n.z)});
 }
 
-/// G2 / G1(view), height-correlated: the weight of a direction that visibleNormal led to.
+/// G2 / G1(view), height-correlated: weight of a direction from visibleNormal.
 double maskingWeight(double nl, double nv, double alpha)
 {
     const double a2 = alpha * alpha;
@@ -81,7 +81,7 @@ Double3 ratio(Double3 part, Double3 whole)
     return {of(part.x, whole.x), of(part.y, whole.y), of(part.z, whole.z)};
 }
 
-/// Radiance of what a ray from `start` meets, by its diffuse part; one path.
+/// Diffuse radiance of the surface that a ray from `start` hits; one path.
 Double3 bounced(const ShadedScene& scene, Double3 start, Double3 direction, const SkyTracing& tracing,
                 uint64_t seed)
 {
@@ -145,7 +145,7 @@ SkyAccess traceSky(const ShadedScene& scene, const ShadedPoint& point, Double3 v
     const Double3 start = lifted(point), normal = point.coating.normal;
     const Frame frame(normal);
     Double3 seen = frame.local(view);
-    seen.z = std::clamp(std::abs(seen.z), 1e-4, 1.0); // as the material model has it
+    seen.z = std::clamp(std::abs(seen.z), 1e-4, 1.0); // as in the material model
     seen = normalize(seen);
     const double alpha = point.coating.roughness * point.coating.roughness;
     const Points diffuse_points(seed), specular_points(mixed(seed) + 1);
@@ -157,7 +157,7 @@ SkyAccess traceSky(const ShadedScene& scene, const ShadedPoint& point, Double3 v
                     tracing, ray_seed);
         const Double3 half = visibleNormal(seen, alpha, specular_points.u(i), specular_points.v(i));
         const Double3 mirrored = half * (2 * dot(seen, half)) - seen;
-        if (mirrored.z > 0) // the lobe below the horizon is no part of the whole
+        if (mirrored.z > 0) // the lobe below the horizon is left out of the total, too
             specular.add(scene, start, frame.world(mirrored), maskingWeight(mirrored.z, seen.z, alpha),
                          tracing, ray_seed + 1);
     }

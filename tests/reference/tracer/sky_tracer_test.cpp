@@ -1,4 +1,4 @@
-// The rays to the sky against closed forms: the open plane, the furnace, creases, and what a bounce adds.
+// Tests the sky rays against closed forms: open plane, furnace test, creases, and the gain of a bounce.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/reference/tracer/sky_tracer.h"
 #include "tests/support/lit_scene.h"
@@ -14,12 +14,12 @@ using namespace formats;
 
 constexpr uint32_t kRays = 1024;
 
-/// Quads in the world under a sky that is the same everywhere, and no lights: what comes back is what is visible.
+/// Quads in the world under a uniform sky without lights: the reflected light equals the visible part.
 class SkyTracerTest : public ::testing::Test
 {
 protected:
-    /// A square about the origin that faces +y, `tilted` about the x axis so that its side at +z rises and it comes to face
-    /// -z (radians), then moved.
+    /// Add a square about the origin that faces +y, rotated by `tilted` about the x axis (radians; its side
+    /// at +z rises and it turns to face -z), then moved.
     void addSquare(double side, double tilted = 0, Float3 moved = {})
     {
         Affine3 t = translated(moved);
@@ -39,7 +39,7 @@ protected:
 
     static Affine3 translated(Float3 offset) { return test::translated(offset); }
 
-    /// The point under a ray, with the material's own or another roughness.
+    /// Surface point under a ray, with the material's own or another roughness.
     struct Seen
     {
         ShadedPoint point;
@@ -100,18 +100,18 @@ TEST_F(SkyTracerTest, integratesTheGradientToTheIrradianceOfTheRuntime)
     EXPECT_NEAR(access.irradiance.z, expected.z, 0.012 * expected.z);
 }
 
-/// Half of the sky by the cosine; all of the bisector's mirror image.
+/// Half of the sky by the cosine; all of the sky in the reflection along the bisector.
 TEST_F(SkyTracerTest, seesHalfOfTheSkyInACrease)
 {
-    // z rises behind z = 0: a wall as high as the floor is long, both far larger than what is looked at
+    // z rises behind z = 0: a wall as high as the floor is long, both far larger than the tested area
     constexpr float kSide = 200;
     addSquare(kSide, 0, {0, 0, kSide / 2});
     addSquare(kSide, -std::acos(-1) / 2, {0, kSide / 2, 0});
     material_.roughness = 0.05f;
     const Seen seen = look({0.3, 0.5, 3}, {0, 0, 0.01});
     const SkyAccess access = trace(seen, {.rays = 1 << 13});
-    // under a sky that is the same everywhere it is exactly 1/2; the gradient only weighs the heights, which the wall
-    // covers alike left and right
+    // Exactly 1/2 under a uniform sky. The gradient only weights the heights, which the wall covers alike
+    // left and right.
     EXPECT_NEAR(access.diffuse.x, 0.5, 0.01);
     EXPECT_NEAR(access.diffuse.z, 0.5, 0.01);
 }
@@ -127,7 +127,8 @@ TEST_F(SkyTracerTest, aMirrorSeesTheSkyOrTheWallAndNothingBetween)
     EXPECT_NEAR(trace(look({0, 2, 1}, {0, 0, 5})).specular.y, 1, 0.01) << "what it mirrors is the sky";
 }
 
-/// In a closed box of albedo rho whose walls send out e, n bounces see e (1 + rho + ... + rho^n): the furnace.
+/// In a closed box of albedo rho whose walls emit e, n bounces give e (1 + rho + ... + rho^n): the furnace
+/// test.
 TEST_F(SkyTracerTest, addsUpInAFurnace)
 {
     constexpr double kAlbedo = 0.5, kEmitted = 0.3;

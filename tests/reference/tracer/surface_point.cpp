@@ -25,7 +25,7 @@ double areaOf(Float2 a, Float2 b, Float2 c)
            (double{c.x} - double{a.x}) * (double{b.y} - double{a.y});
 }
 
-/// Direction in which u grows, from the triangle's positions and UVs in the world; zero where the UVs have no area.
+/// Direction in which u increases, from the triangle's world positions and UVs; zero if the UVs have no area.
 Double3 directionOfU(const Double3 corners[3], const Float2 uv[3])
 {
     const double area = areaOf(uv[0], uv[1], uv[2]);
@@ -75,8 +75,8 @@ SurfacePoint surfaceAt(const Placement& placement, const SurfaceHit& hit, uint32
                 std::sqrt(std::abs(areaOf(uvs[set][0], uvs[set][1], uvs[set][2])) / world_area);
     }
 
-    // glTF: bitangent = w cross(normal, tangent). Without stored tangents: u grows along the tangent, and the green of
-    // a normal map points where v gets smaller, up in the image.
+    // glTF: bitangent = w cross(normal, tangent). Without stored tangents, u increases along the tangent, and
+    // the green of a normal map points in the direction of decreasing v, up in the image.
     double side;
     if (cluster.has(kVertexTangent))
         side = double{cluster.tangent(vertices[0]).w} * turn;

@@ -1,4 +1,5 @@
-// A point of a surface in the world, with everything that shading asks: found again from a triangle and weights.
+// Surface point in world space with all values that shading needs, computed from a triangle and barycentric
+// weights.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -8,13 +9,13 @@
 namespace hearth::reference
 {
 
-/// Where a ray meets the scene.
+/// Hit of a ray in the scene.
 struct SurfaceHit
 {
     uint32_t instance = 0;
     uint32_t cluster = 0;
     uint32_t triangle = 0;
-    double weights[3] = {1, 0, 0}; ///< of the three corners
+    double weights[3] = {1, 0, 0}; ///< barycentric, one for each corner
     double distance = 0;
     bool front = true;
 };
@@ -25,7 +26,7 @@ struct SurfacePoint
     Double3 geometric_normal; ///< unit, of the front side
     Double3 normal;           ///< unit, interpolated, of the front side
     Double3 tangent;          ///< unit; of UV set `tangent_set` where the vertices have none
-    Double3 bitangent;        ///< unit, the way a normal map's green points
+    Double3 bitangent;        ///< unit; direction of green in a normal map
     Float2 uv[4];
     double uv_per_metre[4] = {}; ///< square root of UV area over world area
     Float4 color{1, 1, 1, 1};

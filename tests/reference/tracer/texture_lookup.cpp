@@ -15,7 +15,7 @@ using namespace formats;
 namespace
 {
 
-/// IEEE 754 binary16.
+/// Decode IEEE 754 binary16.
 double decodeHalf(uint16_t bits)
 {
     const int exponent = bits >> 10 & 31, mantissa = bits & 1023;
@@ -25,7 +25,7 @@ double decodeHalf(uint16_t bits)
     return sign * (exponent == 0 ? std::ldexp(mantissa, -24) : std::ldexp(1024 + mantissa, exponent - 25));
 }
 
-/// The texel that a coordinate outside the image stands for.
+/// Index of the texel that a coordinate outside the image maps to.
 int64_t wrapped(int64_t i, int64_t size, uint8_t mode)
 {
     switch (static_cast<Wrap>(mode))

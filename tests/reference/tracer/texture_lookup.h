@@ -1,4 +1,4 @@
-// Textures as a path tracer would read them: bilinear on the two nearest mips, all in double.
+// Samples textures like a path tracer: bilinear on the two nearest mips, all in double.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -16,15 +16,15 @@ struct Rgba
     double alpha = 1;
 };
 
-/// The images of a pack; the view must outlive it.
+/// Images of a pack; the view must outlive it.
 class TextureSet
 {
 public:
-    /// errors: those of PackView::imageData.
+    /// errors: as for PackView::imageData.
     static Result<TextureSet> load(const formats::PackView& view);
 
-    /// Linear colour at `uv` (before the reference's transform) where a sample covers `footprint` of the UV square's
-    /// side; white where the reference names no image.
+    /// Linear colour at `uv` (before the reference's transform) for a sample that covers `footprint` of the
+    /// UV square's side; white if the reference names no image.
     Rgba sample(const formats::TextureRef& texture, Float2 uv, double footprint) const;
 
 private:

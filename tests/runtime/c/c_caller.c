@@ -144,7 +144,7 @@ static VkResult choose_device(c_caller* caller, const char* name)
     return caller->physical_device == VK_NULL_HANDLE ? VK_ERROR_INITIALIZATION_FAILED : VK_SUCCESS;
 }
 
-/* With its first queue family, which draws and computes on all that the tests run on. */
+/* Uses the first queue family, which supports graphics and compute on all devices that the tests run on. */
 static VkResult create_device(c_caller* caller)
 {
     const float priority = 1;
@@ -334,7 +334,7 @@ static void destroy_readback(const c_caller* caller, readback* made)
     caller->vkFreeMemory(caller->device, made->memory, NULL);
 }
 
-/* What hearth_image says is enough to copy the image. */
+/* The fields of hearth_image suffice to copy the image. */
 static void copy_image(const c_caller* caller, const hearth_image* image, const c_picture* picture,
                        VkBuffer buffer, VkDeviceSize offset)
 {
@@ -379,7 +379,7 @@ static hearth_result upload(c_caller* caller, hearth_renderer* renderer, hearth_
     return result == HEARTH_OK ? hearth_scene_release_staging(*scene) : result;
 }
 
-/* Prefetches until a frame had all that it wanted, and begins the next. */
+/* Prefetches until a frame has all that it requested, and begins the next frame. */
 static hearth_result stream(c_caller* caller, hearth_scene* scene, hearth_targets* targets,
                             c_picture* picture)
 {
@@ -417,7 +417,7 @@ static hearth_result record_frame(hearth_scene* scene, hearth_targets* targets, 
     return result;
 }
 
-/* One frame, copied to the readback: colour, visibility, counters. */
+/* Records one frame and copies colour, visibility and counters to the readback. */
 static hearth_result record(c_caller* caller, hearth_scene* scene, hearth_targets* targets,
                             const c_picture* picture, const readback* memory)
 {

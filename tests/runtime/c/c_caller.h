@@ -1,4 +1,4 @@
-/* A caller of hearth.h in C99, with a Vulkan device of its own, as a game would have it.
+/* Calls hearth.h from C99 with a Vulkan device of its own, like a game.
  * SPDX-License-Identifier: LicenseRef-Hearth-Undecided */
 #ifndef HEARTH_TESTS_C_CALLER_H
 #define HEARTH_TESTS_C_CALLER_H
@@ -7,43 +7,43 @@
 
 typedef struct c_caller c_caller;
 
-/* NULL where there is no Vulkan device of this name, or no validation layer. */
+/* Returns NULL if there is no Vulkan device of this name, or no validation layer. */
 c_caller* c_caller_create(const char* device_name);
 void c_caller_destroy(c_caller* caller);
 
-/* All that hearth_renderer_create needs. */
+/* Description with all that hearth_renderer_create needs. */
 hearth_renderer_description c_caller_description(const c_caller* caller);
 
 /* Messages of the validation layer so far, and the first of them. */
 unsigned c_caller_message_count(const c_caller* caller);
 const char* c_caller_message(const c_caller* caller);
 
-/* Device memory from the caller, each piece by itself, and how many pieces there are and have been. */
+/* Device memory from the caller, one allocation for each request; counts of live and of all allocations. */
 hearth_memory_hooks c_caller_memory(c_caller* caller);
 unsigned c_caller_live_pieces(const c_caller* caller);
 unsigned c_caller_all_pieces(const c_caller* caller);
 
-/* A command buffer to be recorded into; c_caller_submit submits it and waits, c_caller_discard throws it away. */
+/* Begins a command buffer; c_caller_submit submits it and waits, c_caller_discard discards it. */
 VkCommandBuffer c_caller_begin(c_caller* caller);
 VkResult c_caller_submit(c_caller* caller);
 VkResult c_caller_discard(c_caller* caller);
 
-/* A picture: what is drawn and, after it, what was. */
+/* An image: its inputs and, after drawing, its results. */
 typedef struct c_picture
 {
     hearth_scene_options scene;
     hearth_frame frame; /* its timestamps are set */
     uint32_t width, height;
-    int in_parts; /* record it in three */
+    int in_parts; /* record the frame in three parts */
 
-    uint32_t* color; /* width * height, of the caller; also below */
+    uint32_t* color; /* width * height, the caller's array; also below */
     uint32_t* visibility;
     uint64_t ticks[HEARTH_TIMESTAMP_COUNT];
     hearth_frame_counters counters;
     hearth_stream_counters streaming; /* with a budget */
 } c_picture;
 
-/* Uploads the scene, with a budget streams it until all that is wanted is there, and draws one frame. */
+/* Uploads the scene, with a budget streams it until all requested pages are there, and draws one frame. */
 hearth_result c_caller_draw(c_caller* caller, hearth_renderer* renderer, hearth_pack* pack,
                             c_picture* picture);
 

@@ -1,4 +1,5 @@
-// The C API draws what the renderer draws, in every pixel, from C99; and streams through a callback that ends on other threads.
+// Tests that the C API, called from C99, draws the same pixels as the renderer, and streams through a
+// callback that completes on other threads.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/runtime/c/c_fixture.h"
 

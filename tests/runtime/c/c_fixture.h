@@ -1,4 +1,5 @@
-// What the tests of the C API share: a pack, a renderer behind hearth.h, and the same pictures by both ways.
+// Fixture of the C API tests: a pack, a renderer behind hearth.h, and the same images by the C API and by the
+// C++ classes.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -20,7 +21,7 @@ namespace hearth::test
 
 inline constexpr uint32_t kWidth = 160, kHeight = 120;
 
-/// The camera of all frames here, for both ways.
+/// Camera of all frames here, for both APIs.
 inline constexpr shared::Camera kCamera{
     .position = {4, 2, 5}, .target = {0, 0, 0}, .y_fov_rad = 0.9f, .z_near = 0.05f};
 hearth_frame makeFrame();
@@ -29,40 +30,40 @@ hearth_frame makeFrame();
 struct Reader
 {
     const hearth_pack* pack;
-    uint32_t bad_page = kInvalidIndex; ///< whose read fails
+    uint32_t bad_page = kInvalidIndex; ///< page whose read fails
     std::vector<std::thread> threads;
 
     static void read(void* user, uint32_t page, void* destination, size_t size, hearth_page_read done);
     ~Reader();
 };
 
-/// Scene options that stream with such a reader.
+/// Scene options for streaming with such a reader.
 hearth_scene_options streamedBy(Reader& reader, uint64_t budget_bytes = 64 << 20);
 
-/// A pack of rocks and a two-sided terrain of many pages, moved about, and a renderer on the C program's own device. Fails
-/// where the validation layers say anything of either device.
+/// A pack of rocks and a two-sided terrain of many pages at random places, and a renderer on the C program's
+/// own device. Fails if the validation layers report anything of either device.
 class CApiTest : public GpuTest
 {
 protected:
     void SetUp() override;
     void TearDown() override;
 
-    /// A renderer of this description in place of the one before.
+    /// Replace the renderer by one of this description.
     void recreateRenderer(const hearth_renderer_description& description);
 
-    /// What the C program draws; its arrays belong to the test until the next one.
+    /// Draw with the C program; the arrays of the result belong to the test until the next call.
     c_picture drawInC(const hearth_frame& frame,
                       const hearth_scene_options& options = HEARTH_SCENE_OPTIONS_INIT);
-    /// The whole scene, by the classes of runtime/gpu.
+    /// Draw the whole scene by the classes of runtime/gpu.
     Picture drawInCpp(DrawOptions options);
-    /// The last picture of drawInC and this one, in every pixel.
+    /// Expect that the last image of drawInC equals this one in every pixel.
     void expectEqual(const c_picture& c, const Picture& cpp) const;
 
     TestScene test_;
     std::optional<formats::PackView> view_;
     AlignedBytes bytes_;
     bool in_parts_ = false;        ///< drawInC records frames in parts
-    std::optional<Affine3> moved_; ///< instance 0, in drawInCpp
+    std::optional<Affine3> moved_; ///< of instance 0, in drawInCpp
     gpu::ShadowOptions shadows_;   ///< in drawInCpp
     hearth_pack* pack_ = nullptr;
     c_caller* caller_ = nullptr;

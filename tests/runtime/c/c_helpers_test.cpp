@@ -1,4 +1,5 @@
-// hearth_helpers.h: its device draws what the renderer draws, and what it refuses it explains.
+// Tests hearth_helpers.h: its device draws what the renderer draws, and rejected arguments give an
+// explanation.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/c/hearth_helpers.h"
 #include "tests/runtime/c/c_fixture.h"
@@ -125,7 +126,7 @@ TEST_F(CHelpersTest, commandsBeginAndEndInTurn)
     };
     const hearth_image none = HEARTH_IMAGE_INIT;
     hearth_image some = none;
-    some.image = reinterpret_cast<VkImage>(this); // not looked at
+    some.image = reinterpret_cast<VkImage>(this); // not read
     VkCommandBuffer commands = VK_NULL_HANDLE;
     uint32_t texel = 0;
     EXPECT_STREQ(hearth_device_last_error(device_), "");

@@ -1,4 +1,5 @@
-// What version 1.1 of hearth.h adds: frames in parts, memory of the caller, messages; and callers of 1.0 stay.
+// Tests the additions of hearth.h 1.1: frames in parts, the caller's memory, messages; and compatibility with
+// callers of 1.0.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/frame_parts.h"
 #include "tests/runtime/c/c_fixture.h"
@@ -118,7 +119,8 @@ TEST_F(CApiTest, descriptionsOfVersionOneZeroAreTaken)
     hearth_renderer_description description = c_caller_description(caller_);
     description.api_version = 0x00010000u;
     description.struct_size = offsetof(hearth_renderer_description, memory);
-    // such a caller's memory has something else there: one function of two would be refused
+    // The memory of such a caller has other content there. One function of the two would be rejected if it
+    // were read.
     description.memory = c_caller_memory(caller_);
     description.memory.free = nullptr;
     recreateRenderer(description);

@@ -1,4 +1,4 @@
-// Characters and clips by way of hearth.h: the same pictures as by the classes.
+// Tests characters and clips through hearth.h: the same images as by the C++ classes.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/c/hearth.hpp"
 #include "tests/runtime/c/c_fixture.h"
@@ -15,7 +15,7 @@ namespace
 class CPoseTest : public CApiTest
 {
 protected:
-    /// In place of the fixture's pack.
+    /// Open this pack instead of the fixture's.
     void open(const formats::PackView& view, const AlignedBytes& bytes)
     {
         ASSERT_EQ(hearth_pack_close(pack_), HEARTH_OK);

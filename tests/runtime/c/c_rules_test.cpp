@@ -1,4 +1,4 @@
-// What breaks a rule of hearth.h, or a file that is wrong, is refused with a message, and changes nothing.
+// Tests that violations of hearth.h's rules and invalid files are rejected with a message and change nothing.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/runtime/c/c_fixture.h"
 
@@ -22,7 +22,7 @@ std::string writeTemporary(const std::string& name, std::span<const std::byte> b
     return path;
 }
 
-/// With a scene and targets.
+/// Fixture with a scene and targets.
 class CFrameRulesTest : public CApiTest
 {
 protected:
@@ -48,7 +48,7 @@ protected:
         return result;
     }
 
-    /// The message where recording is refused, else "".
+    /// Message if recording is rejected, else "".
     std::string record(const hearth_frame& frame)
     {
         const VkCommandBuffer commands = c_caller_begin(caller_);
@@ -108,7 +108,7 @@ TEST_F(CApiTest, opensAFileAndReadsItsPages)
 
 TEST_F(CApiTest, aPageThatLiesIsRefusedWhereverItIsRead)
 {
-    // right hashes, and a triangle of a vertex that is not there
+    // correct hashes, and a triangle with an invalid vertex index
     const uint32_t bad_page = view_->meshes()[0].pages.first + 1;
     const formats::ClusterRecord& cluster = view_->clusters()[view_->pages()[bad_page].clusters.first];
     const formats::MeshRecord& mesh = view_->meshes()[0];
@@ -149,7 +149,7 @@ TEST_F(CApiTest, aPageThatLiesIsRefusedWhereverItIsRead)
     EXPECT_EQ(c_caller_discard(caller_), VK_SUCCESS);
     EXPECT_EQ(scene, nullptr);
 
-    // streamed, what it refines stays coarse
+    // if streamed, the group that the page refines stays coarse
     Reader reader{.pack = pack_, .threads = {}};
     hearth_frame frame = makeFrame();
     frame.error_pixels = 0;

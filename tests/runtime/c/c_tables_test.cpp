@@ -1,4 +1,4 @@
-// Names, instances and cameras of a pack by way of hearth.h: those of its tables.
+// Tests names, instances and cameras of a pack through hearth.h against the tables of the pack.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/c/hearth.hpp"
 #include "tests/support/small_pack.h"
@@ -42,7 +42,7 @@ protected:
         return std::string(name);
     }
 
-    /// The names of `records` are those of the table.
+    /// Expect that the names of `records` are those of the table.
     template <typename Record>
     void expectNames(uint32_t table, const std::vector<Record>& records)
     {

@@ -1,4 +1,4 @@
-// hearth.hpp: handles move, and what they own ends with them.
+// Tests hearth.hpp: handles can be moved, and destroy what they own.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/c/hearth.hpp"
 #include "tests/runtime/c/c_fixture.h"
@@ -40,7 +40,7 @@ TEST_F(CWrapperTest, handlesMove)
     hearth_pack* const handle = pack.get();
     Pack moved(std::move(pack));
     EXPECT_EQ(moved.get(), handle);
-    EXPECT_FALSE(pack); // NOLINT(bugprone-use-after-move): moved from is empty
+    EXPECT_FALSE(pack); // NOLINT(bugprone-use-after-move): a moved-from handle is empty
     pack = std::move(moved);
     EXPECT_EQ(pack.get(), handle);
     Pack& same = pack;
@@ -71,7 +71,7 @@ TEST_F(CWrapperTest, drawsAndDestroysInOrder)
 
     Pack pack;
     ASSERT_EQ(Pack::openMemory(bytes_.span().data(), bytes_.size(), "test", pack), HEARTH_OK);
-    for (int i = 0; i < 2; ++i) // the second takes the place of the first
+    for (int i = 0; i < 2; ++i) // the second replaces the first
     {
         ASSERT_EQ(Scene::upload(renderer, pack, c_caller_begin(caller_), options, scene), HEARTH_OK);
         ASSERT_EQ(c_caller_submit(caller_), VK_SUCCESS);

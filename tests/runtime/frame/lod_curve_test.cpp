@@ -1,4 +1,5 @@
-// The distance curve of the level of detail: what it says, which ones are refused, and that every cut stays one.
+// Tests the distance curve of the level of detail: its values, rejected curves, and that every cut stays
+// valid.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/frame/lod_curve.h"
 
@@ -44,7 +45,7 @@ struct Inversions
     size_t refined = 0, coarse = 0, wrong = 0;
 };
 
-/// Edges of the hierarchy whose finer group is refined while the coarser one is not.
+/// Count the edges of the hierarchy whose finer group is refined while the coarser one is not.
 void countInversions(const formats::PackView& pack, const FrameView& view, Inversions& sum)
 {
     for (const formats::InstanceRecord& record : pack.instances())
@@ -78,7 +79,7 @@ formats::PackView buildRocks(TestScene& test)
     return test.build();
 }
 
-/// Over rocks seen from everywhere, with a curve that `set` gives each view.
+/// Test rocks from random views, with a curve that `set` gives each view.
 template <typename Set>
 Inversions inversionsWith(Set set)
 {

@@ -32,7 +32,7 @@ inline Double3 unit(Double3 v)
     return v * (1 / length(v));
 }
 
-/// Unit, at an angle to an axis and turned about it.
+/// Unit vector at an angle to an axis, with random rotation about it.
 inline Float3 tilted(Float3 axis, double angle_rad, std::mt19937& random)
 {
     const Double3 along = widen(axis);
@@ -40,7 +40,7 @@ inline Float3 tilted(Float3 axis, double angle_rad, std::mt19937& random)
     return narrow(unit(along * std::cos(angle_rad) + across * std::sin(angle_rad)));
 }
 
-/// What the light sees at a place of its map: points begin + t * along, t > 0 before a spot.
+/// Ray of the light at a position in its map: points begin + t * along; for a spot, t > 0 is in front of it.
 struct LightRay
 {
     Double3 begin, along;

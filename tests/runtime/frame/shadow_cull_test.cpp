@@ -1,4 +1,5 @@
-// What is drawn into a shadow map: all that lies in it, little else, and a cut that is coarser by the bias.
+// Tests culling of shadow casters: all that lies in the map is drawn, little else, and the cut is coarser by
+// the bias.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/frame/shadow_cull.h"
 
@@ -104,7 +105,7 @@ TEST(CasterView, leavesOutPointsBesideTheMap)
             const ShadowPoint projected = shadowPoint(c.light, point - c.light.origin);
             const Float2 texel = shadowTexel(c.map, projected);
             const auto off = [&](float t) { return t < -8 || t > c.map.size + 8; };
-            // nearer to a spot a few texels are less than the slack of the test
+            // close to a spot, a few texels are less than the tolerance of the test
             const bool far = length(point - c.light.origin) > 2;
             const bool beside = projected.known != 0 && far && (off(texel.x) || off(texel.y));
             count += beside;
@@ -146,7 +147,7 @@ TEST(CasterView, looksAtNeitherConesNorWhatIsHidden)
     EXPECT_EQ(makeCasterView(view, c.light, c.map, 1).flags, 0u);
 }
 
-/// A view that asks for the source triangles asks for them in its shadows.
+/// A view that requests the source triangles requests them in its shadows, too.
 TEST(CasterView, refinesEverythingWhereThePictureDoes)
 {
     std::mt19937 random(5);
@@ -170,7 +171,7 @@ TEST(EyeCell, isAsLargeAsTheTexelsOfTheMapAllow)
     EXPECT_GT(findEyeCell(makeFrameView({}, 64, 64, 0, 1), 0.01f, 1).shift, 500);
 }
 
-/// Whatever is drawn, in the picture or into a map, is no farther off than its part of the offset.
+/// Each surface, in the frame or in a map, is off by no more than its part of the offset.
 TEST(CutOffset, boundsTheErrorsOfBothSurfaces)
 {
     std::mt19937 random(6);
@@ -210,7 +211,7 @@ TEST(CutOffset, boundsTheErrorsOfBothSurfaces)
     EXPECT_EQ(shadowNormalOffset(makeFrameView({}, 64, 64, 0, 1), 10, kBias, 5), 0);
 }
 
-/// A plane that casts from where its coarser level lies, above the one that is seen.
+/// A plane casts from the position of its coarser level, above the visible surface.
 TEST(CutOffset, keepsACoarserSurfaceFromShadowingTheOneThatIsSeen)
 {
     std::mt19937 random(7);

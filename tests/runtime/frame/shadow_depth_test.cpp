@@ -1,5 +1,6 @@
-// How deep casters are drawn: slopes against finite differences, and the compare of a shadow map simulated texel by texel on
-// planes: no surface shadows itself, and no shadow comes off its caster by more than the filter is wide.
+// Tests the depth bias of shadow casters: slopes against finite differences, and the comparison with a shadow
+// map simulated texel by texel on planes. No surface may shadow itself (shadow acne), and no shadow may
+// detach from its caster (peter panning) by more than the filter's width.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/frame/shadow_fit.h"
 
@@ -46,7 +47,7 @@ Case randomSpot(std::mt19937& random, ShadowMapSize size)
     return c;
 }
 
-/// The ray of light through a point.
+/// Ray of light through a point.
 Float3 rayTo(const Case& c)
 {
     return c.light.perspective == 0 ? c.light.direction : c.point / length(c.point);
@@ -79,7 +80,8 @@ void expectSlopes(Case (*makeCase)(std::mt19937&, ShadowMapSize))
         const double angle = double{between(random, 1, 85)} * kDegree;
         const Float3 normal = tilted(rayTo(c), angle, random);
         const double expected = slopeByDifferences(c, {widen(c.point), widen(normal)});
-        // floats lose what cancels: between normal and axes on planes across the light, and ray on those along it
+        // Floats lose precision by cancellation: between normal and axes on planes across the light, and
+        // between normal and ray on planes along it.
         const double distance = c.light.perspective == 0 ? 1 : length(widen(c.point));
         const double flat = double{c.light.depth_step} / (double{c.map.density} * distance);
         EXPECT_NEAR(double{shadowSlope(c.light, c.map, c.point, normal, 0)}, expected,
@@ -122,14 +124,14 @@ TEST(ShadowSlope, isBoundedAtGrazingAngles)
     }
 }
 
-/// What one vertex of a triangle is moved by, the others are: else the triangle would be tilted.
+/// All vertices of a triangle are moved by the same amount: otherwise the triangle would be tilted.
 TEST(ShadowSlope, ofASpotIsTheSameAllOverAPlane)
 {
     std::mt19937 random(6);
     for (int run = 0; run < 200; ++run)
     {
         const Case c = randomSpot(random, {});
-        // so near the light that far away it is seen from the side
+        // so near the light that its far part is seen from the side
         const Double3 normal = widen(randomUnit(random));
         const Double3 foot = normal * 0.05;
         const Double3 aside = unit(cross(normal, widen(randomUnit(random))));
@@ -140,7 +142,7 @@ TEST(ShadowSlope, ofASpotIsTheSameAllOverAPlane)
     }
 }
 
-/// Depth that the map has at the centre of a texel of a plane; 0 where the plane is not there.
+/// Depth in the map at the centre of a texel of a plane; 0 if the plane is not there.
 float storedDepth(const Case& c, const Plane& plane, Float3 normal, double texel_x, double texel_y)
 {
     const LightRay ray = rayThrough(c.light, c.map, std::floor(texel_x) + 0.5, std::floor(texel_y) + 0.5);
@@ -151,7 +153,7 @@ float storedDepth(const Case& c, const Plane& plane, Float3 normal, double texel
     return clip.z / clip.w;
 }
 
-/// Taps of the filter around points of the plane that the plane itself shadows.
+/// Count the filter taps around points of the plane that the plane itself shadows.
 size_t countAcne(const Case& c, const Plane& plane, Float3 normal, std::mt19937& random)
 {
     const Float2 middle = shadowTexel(c.map, shadowPoint(c.light, c.point));
@@ -202,12 +204,12 @@ TEST(ShadowDepth, givesPlanesUnderASpotNoAcne)
     expectNoAcne(randomSpot);
 }
 
-/// A wall on level ground, light across the wall from above. How far behind the wall, in texels along the axis of the map
-/// where it is less, a point of the ground is still lit, beyond the wall's foot.
+/// A wall on level ground with light across the wall from above. Returns how far behind the wall's foot a
+/// ground point is still lit, in texels along that axis of the map that gives less.
 double litBehindWall(Float3 up, double elevation_rad, ShadowMapSize size, std::mt19937& random)
 {
     Case c{};
-    // the wall's normal: towards where the light goes
+    // normal of the wall, in the direction of the light
     const Float3 away = tilted(up, 90 * kDegree, random);
     const Double3 shine = widen(away) * std::cos(elevation_rad) - widen(up) * std::sin(elevation_rad);
     c.light = makeSunShadow(narrow(shine), {{-6, -6, -6}, {6, 6, 6}});
@@ -229,7 +231,7 @@ double litBehindWall(Float3 up, double elevation_rad, ShadowMapSize size, std::m
         const float stored =
             std::max(storedDepth(c, ground, up, double{texel.x}, double{texel.y}),
                      meets_wall ? storedDepth(c, wall, away, double{texel.x}, double{texel.y}) : 0.0f);
-        // across the foot of the wall in the map
+        // direction across the wall's foot, in the map
         const Double3 across = unit(cross(along, widen(c.light.direction)));
         const double axes =
             std::abs(dot(across, widen(c.light.right))) + std::abs(dot(across, widen(c.light.down)));
@@ -240,7 +242,8 @@ double litBehindWall(Float3 up, double elevation_rad, ShadowMapSize size, std::m
     return farthest;
 }
 
-/// The offset holds the shadow back by kernel + 1/2 texels at most, and a margin, the texel's own centre by another half.
+/// The offset detaches the shadow by at most kernel + 1/2 texels and a margin; the texel's own centre adds
+/// another half.
 TEST(ShadowDepth, holdsShadowsBackByNoMoreThanTheFilterAndATexel)
 {
     std::mt19937 random(5);
@@ -251,7 +254,8 @@ TEST(ShadowDepth, holdsShadowsBackByNoMoreThanTheFilterAndATexel)
             const double elevation = degrees * kDegree;
             const double texels =
                 litBehindWall(randomUnit(random), elevation, {.texels = 1024, .kernel = kernel}, random);
-            // ground that falls away from the light helps the compare; but the texel's centre may lie before the wall
+            // Ground that slopes away from the light makes the comparison easier, but the texel's centre may
+            // lie before the wall.
             const double share = std::sin(elevation) * std::sin(elevation);
             EXPECT_LE(texels, std::max(0.5, (kernel + 1) * share) + 0.05 + double{kRasterMargin})
                 << degrees << " degrees, kernel " << kernel;

@@ -1,4 +1,4 @@
-// Shadow maps fitted to spheres: what they hold, how dense they are, and that they stay where they are.
+// Tests shadow maps fitted to spheres: their extent, their density, and their stability while the view moves.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/frame/shadow_fit.h"
 
@@ -25,7 +25,7 @@ Box3 sceneOf(float half)
     return {{-half, -half, -half}, {half, half, half}};
 }
 
-/// Texel that the rasteriser puts a point to, from the clip position of a caster.
+/// Texel at which the rasteriser puts a point, from the clip position of a caster.
 Float2 rasterTexel(const ShadowLight& light, const ShadowMap& map, Float3 point)
 {
     const Float4 clip = shadowCasterClip(light, map, point, light.direction, 1);
@@ -95,7 +95,7 @@ TEST(SunMap, movesInWholeTexelsAndKeepsVerticesInTheirPlaceToTheBit)
             const ShadowPoint projected = shadowPoint(light, point);
             const Float2 at_a = shadowTexel(a, projected);
             const Float2 at_b = shadowTexel(b, projected);
-            // near 0 floats hold more of the fraction than elsewhere
+            // floats near 0 have more bits of the fraction than elsewhere
             EXPECT_NEAR(at_a.x + step_x, at_b.x, 0x1p-12f);
             EXPECT_NEAR(at_a.y + step_y, at_b.y, 0x1p-12f);
             const Float4 drawn_a = shadowCasterClip(light, a, point, light.right, 1);
@@ -168,7 +168,7 @@ TEST(SpotMap, isAPartOfTheWholeConeScaledAndMoved)
             continue;
         ++crops;
         EXPECT_GE(map->density, whole.density);
-        // of the parent's texels as of its uv: crop = parent * scale + offset
+        // for texels and uv of the parent map alike: crop = parent * scale + offset
         const double scale = double{map->scale_x} / double{whole.scale_x};
         const double offset = double{map->offset_x} - double{whole.offset_x} * scale;
         for (int i = 0; i < 20; ++i)
@@ -189,7 +189,7 @@ TEST(SpotMap, isAPartOfTheWholeConeScaledAndMoved)
     EXPECT_GT(crops, 100);
 }
 
-/// The crop is as small as may be: points of the sphere come within a texel of each of its sides.
+/// The crop is minimal: points of the sphere come within a texel of each of its sides.
 TEST(SpotMap, takesTheExactBoundsOfASphere)
 {
     std::mt19937 random(6);
@@ -237,7 +237,7 @@ TEST(SpotMap, isNotThereForSpheresBehindTheLightOrBesideTheCone)
     EXPECT_FALSE(fitSpotMap(light, 1, {{9, 0, -3}, 1}, kSize).has_value());
     EXPECT_FALSE(fitSpotMap(light, 1, {{0, -9, -3}, 1}, kSize).has_value());
     EXPECT_TRUE(fitSpotMap(light, 1, {{3.2f, 0, -3}, 1}, kSize).has_value());
-    // reaches past the plane of the light without holding the light
+    // reaches past the plane of the light without containing the light
     EXPECT_TRUE(fitSpotMap(light, 1, {{3, 0, -0.5f}, 2.5f}, kSize).has_value());
 }
 

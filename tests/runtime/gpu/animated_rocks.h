@@ -1,4 +1,4 @@
-// Rocks on nodes that clips move, put together in a test.
+// Builds a scene of rocks on nodes that clips move.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,7 +7,7 @@
 namespace hearth::test
 {
 
-/// A node of its own, with translation, rotation and scale; returns its number.
+/// Add a node with translation, rotation and scale; returns its index.
 inline uint32_t addTrsNode(PackModel& model, uint32_t parent, Float3 translation)
 {
     formats::NodeRecord node{};
@@ -22,7 +22,7 @@ inline uint32_t addTrsNode(PackModel& model, uint32_t parent, Float3 translation
     return static_cast<uint32_t>(model.nodes.size()) - 1;
 }
 
-/// A clip that moves a node on a straight line from 0 to `seconds`, by name.
+/// Add a clip, by name, that moves a node on a straight line from time 0 to `seconds`.
 inline void addSlide(PackModel& model, const std::string& name, uint32_t node, float seconds, Float3 from,
                      Float3 to)
 {
@@ -44,8 +44,9 @@ inline void addSlide(PackModel& model, const std::string& name, uint32_t node, f
     model.channels.push_back(channel);
 }
 
-/// Rock 0 stands at the origin; rock 1 on a node that "slide" brings from (2, 0, 0) to (6, 0, 0) in four seconds and "rise"
-/// to (2, 4, 0); rock 2 one metre above it, on a node below; rock 3 as rock 1, but moved by instancing, three metres on.
+/// Fill the scene. Rock 0 stands at the origin. Rock 1 is on a node that "slide" moves from (2, 0, 0) to (6,
+/// 0, 0) in four seconds, and "rise" to (2, 4, 0). Rock 2 is one metre above it, on a child node. Rock 3 is
+/// like rock 1, but instancing moves it on by three metres.
 inline void fillAnimatedRocks(TestScene& test, uint32_t mesh)
 {
     PackModel& model = test.model();
@@ -57,7 +58,7 @@ inline void fillAnimatedRocks(TestScene& test, uint32_t mesh)
         test.addInstance(mesh, translated(place));
         model.instances.back().node = on;
         model.nodes[on].mesh = mesh;
-        model.nodes.pop_back(); // of its own
+        model.nodes.pop_back(); // the node that addInstance made
     };
     add(node, {2, 0, 0});
     add(below, {2, 1, 0});

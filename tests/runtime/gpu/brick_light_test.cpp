@@ -1,4 +1,5 @@
-// Faces of bricks lit on the device: the march and the iteration against those on the CPU, and light whose answer is known.
+// Tests lighting of brick faces on the device: ray march and iteration against the CPU, and light with known
+// answers.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/light/face_lighting.h"
 #include "formats/gpu_shared/brick_codes.h"
@@ -19,7 +20,7 @@ namespace
 
 using namespace shared;
 
-/// As brick_march.comp has them.
+/// Ray as in brick_march.comp.
 struct TestRay
 {
     Float3 origin;
@@ -58,7 +59,7 @@ auto scattered(uint32_t seed, double share)
     };
 }
 
-/// Of many colours, some of which glow.
+/// Face of random colour; some faces emit light.
 FaceLook colourful(std::array<uint32_t, 3> v, uint32_t side)
 {
     const uint32_t seed = brickFaceSeed(v[0], v[1], v[2], side);
@@ -98,7 +99,7 @@ std::vector<TestRay> randomRays(const BrickGrid& grid, size_t count)
 class BrickLightTest : public GpuTest
 {
 protected:
-    /// With a triangle far away, since a scene draws something.
+    /// Load the model. Adds a triangle far away, since a scene must draw something.
     void load(const BrickModel& model, const gpu::BrickOptions& options = {})
     {
         model_ = model;
@@ -228,7 +229,7 @@ TEST_F(BrickLightTest, lightsFacesLikeTheSolver)
         }
     }
     EXPECT_GT(brightest, 0.5f);
-    // to the bit but for rounding, by which some codes are the next ones
+    // equal up to rounding, which makes some codes differ by one
     EXPECT_LT(most, 0.002f);
     EXPECT_GT(alike, gpu_faces.size() * 99 / 100);
 }
@@ -280,7 +281,7 @@ TEST_F(BrickLightTest, aSealedRoomStaysDarkUnderTheSun)
     {
         const FaceLocation& at = places[i];
         if (at.voxel[at.side / 2] == (at.side % 2 == 0 ? 0 : kVoxels[at.side / 2] - 1))
-            EXPECT_GT(lit[i].code, 0u) << i; // of the outside: at least the sky's
+            EXPECT_GT(lit[i].code, 0u) << i; // outside faces have at least the sky's light
         else
         {
             ASSERT_EQ(lit[i].code, 0u) << i;

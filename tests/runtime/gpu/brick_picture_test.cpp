@@ -1,4 +1,5 @@
-// The light of bricks in pictures: what is gathered for surfaces, beside the CPU's gather; how it stands still, and follows.
+// Tests global illumination from bricks in images: the gather for surfaces against the CPU's, its temporal
+// stability, and its response to changes.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/light/face_lighting.h"
 #include "formats/gpu_shared/gather_lobe.h"
@@ -20,7 +21,7 @@ using namespace shared;
 
 constexpr std::array<uint32_t, 3> kVoxels{24, 16, 24};
 
-/// A floor of two voxels, and a wall at its left end that glows red.
+/// A floor of two voxels, and a wall at its left end that emits red light.
 bool floorAndWall(uint32_t x, uint32_t y, uint32_t)
 {
     return y < 2 || x < 2;
@@ -32,7 +33,7 @@ FaceLook redWall(std::array<uint32_t, 3> voxel, uint32_t side)
     return {{0.4f, 0.5f, 0.6f}, glows ? Float3{2, 0.05f, 0.05f} : Float3{}};
 }
 
-/// Floor, wall and an upright card that is not in the bricks.
+/// A scene of floor, wall and an upright card that is not in the bricks.
 class BrickPictureTest : public GpuTest
 {
 protected:
@@ -71,7 +72,7 @@ protected:
         return frame(options);
     }
 
-    /// What the tiles of the last frame hold, those that see nothing left out.
+    /// Gather points of the last frame's tiles, except tiles without any surface.
     std::vector<GatherPoint> points()
     {
         const VkExtent2D tiles = targets_->gather().tiles();
@@ -85,7 +86,7 @@ protected:
     static constexpr Float3 kCardNear{-4, 0.8f, 1};
     static constexpr uint32_t kCard = 1; ///< instance
 
-    /// The floor, anew: of metal.
+    /// Reload the scene with a metal floor.
     void polish(float roughness)
     {
         floor_.metallic = 1;
@@ -96,7 +97,7 @@ protected:
 
     static constexpr uint32_t kFloor = 0; ///< instance
 
-    formats::MaterialRecord floor_ = plainMaterial(); ///< of what is loaded next
+    formats::MaterialRecord floor_ = plainMaterial(); ///< material of the next load
     BrickModel model_;
     TestScene test_;
     std::optional<formats::PackView> pack_;
@@ -104,7 +105,7 @@ protected:
     std::optional<gpu::FrameTargets> targets_;
 };
 
-/// What all rays of a lobe bring to the point of a tile.
+/// Mean light of all rays of a lobe at the point of a tile.
 Float3 lobeOf(const BrickScene& scene, const BrickSky& sky, const BrickStart& start, const GatherPoint& point,
               float roughness)
 {
@@ -121,7 +122,7 @@ Float3 lobeOf(const BrickScene& scene, const BrickSky& sky, const BrickStart& st
     return sum / weights;
 }
 
-/// Of two pictures, the most that a channel differs.
+/// Maximum difference of a channel between two images.
 int mostDifference(const Picture& a, const Picture& b)
 {
     int most = 0;
@@ -151,7 +152,7 @@ TEST_F(BrickPictureTest, gathersWhatTheCpuGathers)
     {
         const Float3 position = (eye + point.position - model_.grid.origin) / model_.grid.voxel_size;
         const BrickStart start = brickSurfaceStart(scene, position, point.normal);
-        // corners: the device looks for air elsewhere, too
+        // in corners the device searches for empty space elsewhere, too
         if (start.is_interior != 0 || length(start.position - position) > 2)
             continue;
         ++count;
@@ -169,9 +170,9 @@ TEST_F(BrickPictureTest, gathersWhatTheCpuGathers)
         }
     }
     ASSERT_GT(count, gathered.size() * 3 / 4);
-    const double rms = std::sqrt(square * 3 * double(count)) / sum; // of the mean
+    const double rms = std::sqrt(square * 3 * double(count)) / sum; // relative to the mean
     EXPECT_LT(rms, 0.02);
-    // of the last frames of their cycle the lobes have more than of the others
+    // the lobes weight the last frames of their cycle more than the others
     const double lobe_rms = std::sqrt(lobe_square * 6 * double(count)) / lobe_sum;
     EXPECT_LT(lobe_rms, 0.05);
 }
@@ -201,7 +202,7 @@ TEST_F(BrickPictureTest, standsStill)
 
 TEST_F(BrickPictureTest, mirrorImagesAreAsSharpAsTheSurfaceIsSmooth)
 {
-    // the wall is seen in the left of the floor, the sky in its right
+    // the wall is reflected in the left of the floor, the sky in its right
     const auto contrast = [&](float roughness)
     {
         polish(roughness);
@@ -284,7 +285,7 @@ TEST_F(BrickPictureTest, showsBricksAndTheirLight)
     const uint32_t sky = lit.at(kWidth - 4, 2);
     EXPECT_GE(channel(sky, 2), channel(sky, 0));
     EXPECT_NE(cells.color, lit.color);
-    // bluish, as the albedo of the floor is
+    // bluish, like the floor's albedo
     const uint32_t floor = cells.at(kWidth / 2, kHeight * 3 / 4);
     EXPECT_GT(channel(floor, 2), channel(floor, 0));
 }

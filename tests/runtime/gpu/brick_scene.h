@@ -1,4 +1,4 @@
-// Scenes with bricks that are made by hand.
+// Builds small scenes with bricks for tests.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,7 +9,7 @@
 namespace hearth::test
 {
 
-/// Of the face that looks along `side` of a voxel.
+/// Surface appearance of the face on `side` of a voxel.
 struct FaceLook
 {
     Float3 albedo{0.5f, 0.5f, 0.5f};
@@ -17,14 +17,14 @@ struct FaceLook
 };
 using LookOf = std::function<FaceLook(std::array<uint32_t, 3> voxel, uint32_t side)>;
 
-/// A grid with looks; faces start dark.
+/// Make a grid with face appearances; faces start dark.
 BrickModel brickModel(std::array<uint32_t, 3> voxels,
                       const std::function<bool(uint32_t, uint32_t, uint32_t)>& solid, const LookOf& look);
 
-/// Gives the scene bricks, before it is built.
+/// Add bricks to the scene, before it is built.
 void setBricks(TestScene& scene, const BrickModel& bricks);
 
-/// What the cookers' library reads of a model, which must outlive it.
+/// View of a model for the cookers' library; the model must outlive it.
 bricks::BrickView makeBrickView(const BrickModel& model);
 
 /// Voxel and side of each face.
@@ -35,7 +35,7 @@ struct FaceLocation
 };
 std::vector<FaceLocation> faceLocations(const BrickModel& model);
 
-/// The shell of a box: solid within `thick` voxels of its outside.
+/// Shell of a box: solid within `thick` voxels of its surface.
 inline auto shellOf(std::array<uint32_t, 3> voxels, uint32_t thick = 1)
 {
     return [=](uint32_t x, uint32_t y, uint32_t z)

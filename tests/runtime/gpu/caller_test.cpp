@@ -1,4 +1,5 @@
-// What the caller gives the renderer is what the renderer uses: memory, allocation callbacks, pipeline cache, labels, messages.
+// Tests that the renderer uses all that the caller provides: memory, allocation callbacks, pipeline cache,
+// labels, messages.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/shapes.h"
@@ -15,7 +16,7 @@ namespace hearth::test
 namespace
 {
 
-/// What the renderer called of Vulkan, and the functions that stand behind.
+/// Intercepted Vulkan calls of the renderer, and the real functions.
 struct Spy
 {
     PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
@@ -27,7 +28,7 @@ struct Spy
     PFN_vkCmdEndDebugUtilsLabelEXT end_label = nullptr;
 
     uint32_t allocations = 0;
-    std::vector<VkPipelineCache> caches; ///< of each pipeline
+    std::vector<VkPipelineCache> caches; ///< one for each pipeline
     std::vector<std::string> labels;
     uint32_t open_labels = 0;
 };
@@ -71,7 +72,7 @@ VKAPI_ATTR void VKAPI_CALL endLabel(VkCommandBuffer commands)
     spy.end_label(commands);
 }
 
-/// `mine` in place of the function, which goes to `real`.
+/// Replace the function by `mine`, and store the original in `real`.
 template <typename T>
 PFN_vkVoidFunction replace(PFN_vkVoidFunction function, T& real, T mine)
 {
@@ -105,7 +106,7 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getInstanceProcAddr(VkInstance instance
     return function;
 }
 
-/// An allocator as a game might have one, that gives each resource memory of its own.
+/// Allocator like a game's, which gives each resource memory of its own.
 class Allocator
 {
 public:
@@ -114,7 +115,7 @@ public:
     gpu::MemoryHooks hooks() { return {this, allocate, free}; }
 
     uint32_t requests = 0;
-    uint32_t refused = UINT32_MAX; ///< the request that finds no memory
+    uint32_t refused = UINT32_MAX; ///< index of the request that fails
     std::map<VkDeviceMemory, VkDeviceSize> live;
 
 private:
@@ -136,7 +137,7 @@ private:
         if (requests++ == refused)
             return VK_ERROR_OUT_OF_DEVICE_MEMORY;
         const bool mapped = request.kind != gpu::MemoryKind::device;
-        const VkDeviceSize offset = request.needs.alignment; // not where the memory begins
+        const VkDeviceSize offset = request.needs.alignment; // not the start of the memory
         const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr,
                                         offset + request.needs.size, typeOf(request, mapped)};
         if (const VkResult result =
@@ -170,7 +171,7 @@ private:
     const gpu::Device& device_;
 };
 
-/// Counts what Vulkan asks of the CPU's memory.
+/// Counts Vulkan's host memory allocations.
 struct HostMemory
 {
     size_t allocations = 0, live = 0;
@@ -219,7 +220,7 @@ protected:
             test_.addInstance(mesh, randomAffine(random, 2));
     }
 
-    /// The suite's device, under watch.
+    /// Description of the suite's device, with interception.
     gpu::DeviceDescription description() const
     {
         gpu::DeviceDescription description = host().description();
@@ -228,7 +229,8 @@ protected:
         return description;
     }
 
-    /// A frame of a renderer of its own, everything of which is gone in the end. The colours; none where it fails.
+    /// Draw a frame with a renderer of its own, and destroy all of it afterwards. Returns the colours; none
+    /// on failure.
     std::vector<std::byte> drawOnce(const gpu::DeviceDescription& description,
                                     const gpu::SceneOptions& options = {}, const DrawOptions& shown = {})
     {
@@ -276,7 +278,7 @@ protected:
         return host().read(renderer.device(), targets.color(), 4);
     }
 
-    /// Reads at once, and page `bad` never.
+    /// Reader that completes at once; reading page `bad` fails.
     pack::PageReader reader(uint32_t bad = kInvalidIndex)
     {
         return [this, bad](uint32_t page, std::span<std::byte> destination, pack::ReadDone done)
@@ -284,7 +286,7 @@ protected:
     }
 
     TestScene test_;
-    std::optional<formats::PackView> pack_; ///< of the last drawing
+    std::optional<formats::PackView> pack_; ///< pack of the last drawing
 };
 
 } // namespace
@@ -387,7 +389,7 @@ TEST_F(CallerTest, itIsToldWhatIsDegraded)
 
     const auto page_count = static_cast<uint32_t>(pack_->pages().size());
     ASSERT_GT(page_count, 1u);
-    // page 0 may be one that stays from the start on, and is not read by the reader
+    // page 0 may be pinned from the start, and not read by the reader
     for (uint32_t page = 0; page < page_count && messages.empty(); ++page)
         (void)drawOnce(told, {.geometry_budget = 8 << 20, .stream = {.read = reader(page)}},
                        {.error_pixels = 0});

@@ -1,4 +1,5 @@
-// A mesh as a pack and as the cooker's own tables, whose numbers are the same: cuts by the pack, proofs by the tables.
+// A mesh both as a pack and as the cooker's own tables, with the same indices: cuts are made by the pack and
+// verified by the tables.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -21,7 +22,7 @@ public:
 
     const formats::PackView& view() const { return *view_; }
 
-    /// Draws the surface once, and where it is made of one mesh alone, without a crack.
+    /// Expect that the cut draws the surface once and, if it consists of one mesh alone, without a crack.
     void expectWhole(const std::vector<uint32_t>& cut, bool watertight = true) const;
 
 private:
@@ -32,16 +33,17 @@ private:
     cuts::Border border_;
 };
 
-/// Cuts that have more than one level have seams: between what is refined and what is not, or stands in for it.
+/// True if a cut has more than one level and so seams: between refined and unrefined parts, or their
+/// replacements.
 bool mixesLevels(const formats::PackView& view, const std::vector<uint32_t>& cut);
 
-/// Without materials.
+/// Return the mesh without materials.
 mesh::SourceMesh plain(mesh::SourceMesh mesh);
 
-/// A rock with levels made by hand: sets of groups that are replaced together, over several pages.
+/// A rock with authored LODs: sets of groups that are replaced together, over several pages.
 CookedMesh rockWithAuthoredLevels();
 
-/// The pinned pages, and each other with the given chance if all that it needs is there.
+/// The pinned pages, and each other page with the given chance if all pages that it needs are there.
 std::vector<uint8_t> randomClosedSet(const pack::PageGraph& graph, double chance, std::mt19937& random);
 
 } // namespace hearth::test

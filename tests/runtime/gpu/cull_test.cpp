@@ -1,4 +1,4 @@
-// The culling passes against their C++ twin: every buffer, every bit.
+// Tests the culling passes against their C++ twin: every bit of every buffer.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/passes/cull_statistics_pass.h"
 #include "tests/runtime/gpu/cull_twin.h"
@@ -22,7 +22,8 @@ bool sameBits(const std::vector<T>& a, const std::vector<T>& b)
     return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
-/// Rocks, terrain and foliage with every kind of bin, thrown about with sheared and mirrored transforms.
+/// Fill with rocks, terrain and foliage with every kind of bin, at random places with sheared and mirrored
+/// transforms.
 void fillScene(TestScene& scene, std::mt19937& random, int instances, float reach)
 {
     formats::MaterialRecord two_sided = plainMaterial();
@@ -54,7 +55,7 @@ protected:
         expectTwin(pack, scene, layout, targets, camera, options);
     }
 
-    /// Targets that have drawn before bring a pyramid along.
+    /// Compare a frame with the twin. Targets that have drawn before bring their pyramid along.
     void expectTwin(const formats::PackView& pack, const gpu::Scene& scene, const gpu::SceneLayout& layout,
                     gpu::FrameTargets& targets, const shared::Camera& camera, const DrawOptions& options)
     {
@@ -157,7 +158,7 @@ TEST_F(CullTest, equalsItsTwinWhateverTheFrameBeforeLeft)
         Camera camera = randomCamera(random, 5);
         for (int frame = 0; frame < 12; ++frame)
         {
-            // some frames follow a camera that moves a little, some one that was elsewhere
+            // in some frames the camera moves a little, in some it jumps
             if (frame % 3 == 0)
                 camera = randomCamera(random, 5);
             camera.position.x += 0.2f;
@@ -175,7 +176,7 @@ TEST_F(CullTest, equalsItsTwinWhateverTheFrameBeforeLeft)
 
 TEST_F(CullTest, thePyramidHoldsTheFarthestDepthOfEveryTexel)
 {
-    // quads that face the camera: all of one is equally far away
+    // quads that face the camera: the whole surface has one depth
     std::mt19937 random(23);
     TestScene test;
     const uint32_t mesh = test.addMesh(withMaterial(makeQuad(1, 1), test.addMaterial(plainMaterial())));
@@ -215,7 +216,7 @@ TEST_F(CullTest, equalsItsTwinWhereManyBlocksAreScanned)
     TestScene test;
     const uint32_t material = test.addMaterial(plainMaterial());
     const uint32_t mesh = test.addMesh(withMaterial(makeQuad(1, 1), material));
-    // one work item each: 300 blocks of the scan, more than one workgroup takes in one step
+    // one work item each: 300 blocks of the scan, more than one workgroup handles in one step
     for (int i = 0; i < 300 * 1024 + 5; ++i)
         test.addInstance(mesh, translated({uniform(random, -90, 90), uniform(random, -90, 90), 0}));
     const formats::PackView pack = test.build();

@@ -49,7 +49,7 @@ bool isHidden(const Pyramid& pyramid, const Instance& instance, Float3 box_min, 
     return true;
 }
 
-/// The poses of a layout, read as the shaders read them.
+/// Poses of a layout, read like in the shaders.
 class PoseTable
 {
 public:
@@ -245,7 +245,7 @@ private:
         counts.triangles_high[outcome] = static_cast<uint32_t>(triangles >> 32);
     }
 
-    /// The tests one after the other.
+    /// Apply the tests one after the other.
     uint32_t outcomeOf(const WorkItem& item, uint32_t number) const
     {
         const InstanceState& state = twin_.states[item.instance];
@@ -259,7 +259,7 @@ private:
                                                 : kOutcomeCandidate;
     }
 
-    /// The first test that the cluster fails, or kOutcomeCandidate.
+    /// First test that the cluster fails, or kOutcomeCandidate.
     uint32_t deformedFailure(const WorkItem& item, uint32_t number) const
     {
         const Instance& instance = instances_[item.instance];
@@ -294,7 +294,7 @@ private:
         return kOutcomeCandidate;
     }
 
-    /// Offsets, totals, the list and the draws, from the masks.
+    /// Compute offsets, totals, the list and the draws from the masks.
     void emit(uint32_t which)
     {
         auto slot = static_cast<uint32_t>(twin_.visible.size());

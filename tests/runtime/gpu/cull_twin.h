@@ -1,4 +1,4 @@
-// The culling passes computed one element after the other, by the same shared lines.
+// C++ twin of the culling passes: computes them sequentially, with the code shared with the shaders.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -18,34 +18,34 @@ struct Pyramid
     std::vector<float> texels;
 };
 
-/// The pyramid of a depth buffer, as slow and obvious code.
+/// Depth pyramid of a depth buffer, by slow and simple code.
 std::vector<float> makePyramid(const std::vector<float>& depth, uint32_t width, uint32_t height);
 
-/// What the passes leave in their buffers.
+/// Content of the passes' buffers.
 struct Twin
 {
     std::vector<shared::InstanceState> states;
     std::vector<shared::WorkResult> results;
     std::vector<uint32_t> totals;
     std::vector<shared::VisibleCluster> visible;
-    std::vector<shared::BinDraw> bin_draws; ///< of all bins, then those of the late phase
+    std::vector<shared::BinDraw> bin_draws; ///< all bins, then all bins of the late phase
     std::vector<uint32_t> material_draws;
     uint32_t early_clusters = 0;
-    shared::CullStatistics statistics{}; ///< as CullStatisticsPass leaves them
+    shared::CullStatistics statistics{}; ///< as written by CullStatisticsPass
 };
 
-/// Without kCullOcclusion in the view's flags the pyramids are not looked at.
-/// last: what the early phase finds;  current: what it leaves to the late one
-/// resident_groups: for each group, not 0 if it is there; empty: all are
+/// Compute the passes. Without kCullOcclusion in the view's flags the pyramids are not read.
+/// last: pyramid that the early phase reads;  current: pyramid that it leaves for the late phase
+/// resident_groups: one for each group, nonzero if resident; empty: all are
 Twin makeTwin(const formats::PackView& pack, const gpu::SceneLayout& layout, const shared::FrameView& view,
               const Pyramid& last = {}, const Pyramid& current = {},
               std::span<const uint8_t> resident_groups = {});
 
-/// For each page what shared::groupPriority says at most.
+/// Maximum of shared::groupPriority for each page.
 std::vector<uint32_t> makeRequestTwin(const formats::PackView& pack, const gpu::SceneLayout& layout,
                                       const shared::FrameView& view);
 
-/// Set poses as frames do.
+/// Set poses like the frames do.
 void applyPoses(std::span<const gpu::InstancePose> poses, gpu::SceneLayout& layout);
 
 } // namespace hearth::test

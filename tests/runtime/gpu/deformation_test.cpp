@@ -1,5 +1,5 @@
-// Deformed meshes: culling changes nothing, whatever the poses; vertices are where glTF says; and it does not matter
-// where they were skinned.
+// Tests deformed meshes: culling changes no pixel in any pose; vertices are where glTF puts them; and the
+// place of skinning does not matter.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/reference/culling/cpu_rasteriser.h"
 #include "tests/runtime/gpu/deformed_scene.h"
@@ -24,7 +24,7 @@ protected:
     }
 };
 
-/// The scratch block of a slot; nothing where it has none.
+/// Scratch block of a slot; nullopt if it has none.
 std::optional<uint32_t> blockOf(const DeformationHeader& header, uint32_t slot)
 {
     const bool early = slot >= header.early_first && slot < header.early_end;
@@ -38,7 +38,7 @@ Double3 widenAt(const std::vector<float>& words, size_t word)
     return widen(Float3{words[word], words[word + 1], words[word + 2]});
 }
 
-/// Of all instances that were posed, the last pose.
+/// Last pose of each posed instance.
 using Poses = std::map<uint32_t, TestPose>;
 
 void keep(const std::vector<TestPose>& poses, Poses& kept)
@@ -47,7 +47,7 @@ void keep(const std::vector<TestPose>& poses, Poses& kept)
         kept[pose.instance] = pose;
 }
 
-/// All of the deformed instances, once.
+/// Pose all deformed instances once.
 std::vector<TestPose> poseAll(const DeformedScene& test, std::mt19937& random)
 {
     std::vector<TestPose> poses;
@@ -197,7 +197,7 @@ TEST_F(DeformationTest, skinnedVerticesAreWhereGltfSays)
             }
         }
     }
-    // the limbs are two metres long and at most 1.6 times as large
+    // the limbs are two metres long and scaled by at most 1.6
     EXPECT_LT(farthest, 1e-5 * 2);
     EXPECT_LT(most_turned, 1e-4);
     EXPECT_GT(vertices, 10000u);
@@ -299,7 +299,7 @@ TEST_F(DeformationTest, farFromTheOriginNothingFallsApart)
     {
         auto poses = poseAll(test, random);
         Camera camera = randomCamera(random, 3);
-        // whole quarters of a metre, which floats hold far away
+        // whole quarters of a metre, which floats represent far away
         for (TestPose& pose : poses)
         {
             const auto* deformed = gpu::findDeformed(scene->deformation->layout, pose.instance);

@@ -1,4 +1,5 @@
-// Deformed meshes: what the passes decide against their C++ twins, every bit; and streamed, the same picture.
+// Tests the passes' decisions for deformed meshes against their C++ twins, every bit; and that streaming
+// gives the same image.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/passes/cull_statistics_pass.h"
 #include "tests/runtime/gpu/cull_twin.h"
@@ -21,7 +22,7 @@ bool sameBits(const std::vector<T>& a, const std::vector<T>& b)
     return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
-/// Of all deformed instances, each second one free where `free` says so.
+/// Poses of all deformed instances; every second one is a free pose if `free` is set.
 std::vector<TestPose> posesOf(const DeformedScene& test, bool free, std::mt19937& random)
 {
     std::vector<TestPose> poses;

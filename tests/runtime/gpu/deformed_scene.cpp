@@ -66,7 +66,8 @@ mesh::SourceMesh makeTube(uint32_t rings, uint32_t sides)
     return mesh;
 }
 
-/// Weights that fall with the distance from the joints, which stand along y; `width` in steps between two.
+/// Add weights that fall with the distance from the joints, which stand along y; `width` in steps between two
+/// joints.
 void addInfluences(mesh::SourceMesh& mesh, uint32_t joint_count, float width)
 {
     const uint32_t sets = width > 2 ? 2 : 1;
@@ -99,7 +100,7 @@ void addInfluences(mesh::SourceMesh& mesh, uint32_t joint_count, float width)
     }
 }
 
-/// Waves along the normal, each of another part.
+/// Add waves along the normal, each to another part.
 void addMorphTargets(mesh::SourceMesh& mesh, uint32_t count)
 {
     for (uint32_t target = 0; target < count; ++target)
@@ -132,7 +133,7 @@ Affine3d moved(double y)
     return t;
 }
 
-/// A chain of joints along y, each turned and a little stretched against the one before.
+/// A chain of joints along y, each rotated and stretched a little relative to its parent.
 std::vector<Affine3d> randomPalette(uint32_t joint_count, double most_rad, std::mt19937& random)
 {
     std::vector<Affine3d> palette;
@@ -156,7 +157,7 @@ std::vector<float> randomWeights(uint32_t count, std::mt19937& random)
     return weights;
 }
 
-/// The corners of a cluster's triangles in a pose, where a joint carries them.
+/// Add the corners of a cluster's triangles in a pose, in the space of a joint.
 void addCarried(const ClusterGeometry& geometry, const TestPose& pose, uint32_t joint,
                 std::vector<Double3>& corners)
 {
@@ -167,7 +168,7 @@ void addCarried(const ClusterGeometry& geometry, const TestPose& pose, uint32_t 
             corners.push_back(transformPoint(*bind_from_world, posedVertex(geometry, vertex, pose).position));
 }
 
-/// Wider by a rounding, so that it holds in floats.
+/// Extend the box by the point and a rounding error, so that it contains the point in floats.
 void addSurely(Box3& box, Double3 point)
 {
     const Float3 p = narrow(point);
@@ -182,7 +183,7 @@ Double3 unit(Double3 v)
     return size > 0 ? v * (1 / size) : Double3{};
 }
 
-/// The cone of the triangles' normals, and its apex.
+/// Compute the normal cone of the triangles, and its apex.
 void setCone(const std::vector<Double3>& corners, DeformedClusterRecord& record)
 {
     record.cone_cutoff = kNoCone;
@@ -228,7 +229,7 @@ uint32_t mainJoint(const ClusterGeometry& geometry, std::vector<uint32_t>& joint
     return largest;
 }
 
-/// On any axis, all targets with a weight of 1 or -1.
+/// Maximum displacement on any axis, over all targets with weights of 1 or -1.
 float morphReach(const ClusterGeometry& geometry)
 {
     float reach = 0;
@@ -337,7 +338,7 @@ DeformedScene::DeformedScene(const DeformedSceneOptions& options, uint32_t seed)
     geometry_ = std::move(*geometry);
 }
 
-/// Joints along y, each below the one before.
+/// Add joints along y, each a child of the one before.
 uint32_t DeformedScene::addSkin(uint32_t joint_count)
 {
     PackModel& model = test_.model();
@@ -433,7 +434,8 @@ void DeformedScene::boundMesh(const Mesh& mesh)
     boundGroups(mesh, anchored);
 }
 
-/// Each sphere holds its clusters, as the anchor carries them, and the spheres of what it refines.
+/// Compute the groups' spheres. Each contains the group's clusters, in the space of the anchor, and the
+/// spheres of the groups below.
 void DeformedScene::boundGroups(const Mesh& mesh, std::span<const Box3> boxes)
 {
     PackModel& model = test_.model();
@@ -466,7 +468,7 @@ const DeformedScene::Mesh& DeformedScene::meshOf(uint32_t instance) const
     return *std::find_if(meshes_.begin(), meshes_.end(), [&](const Mesh& m) { return m.mesh == mesh; });
 }
 
-/// Turned, scaled, and mirrored where the instance is.
+/// Random transform with rotation and scale, mirrored if the instance is.
 Affine3d DeformedScene::placeOf(uint32_t instance, std::mt19937& random) const
 {
     const float r = options_.reach;

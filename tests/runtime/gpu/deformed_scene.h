@@ -1,5 +1,5 @@
-// A pack with deformed meshes, put together in a test: limbs with joints and morph targets, in poses at random. Their
-// bounds are found by looking: those of these poses and no others.
+// Builds a pack with deformed meshes: limbs with joints and morph targets, in random poses. Their bounds are
+// computed from these poses alone and hold for no others.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -34,7 +34,7 @@ struct TestPose
 
 std::vector<gpu::InstancePose> viewsOf(const std::vector<TestPose>& poses);
 
-/// What gltf says of a vertex in a pose, in doubles: world space.
+/// A vertex in a pose as specified by glTF, in doubles: world space.
 struct PosedVertex
 {
     Double3 position;
@@ -48,12 +48,12 @@ struct DeformedSceneOptions
     uint32_t limbs =
         5; ///< instances, at least one, as of the next two: of a limb of 6 joints, each third one mirrored
     uint32_t tentacles = 2;             ///< instances with eight influences and three morph targets
-    uint32_t blobs = 2;                 ///< instances with morph targets alone
+    uint32_t blobs = 2;                 ///< instances with morph targets only
     uint32_t rocks = 4;                 ///< rigid instances
     uint32_t pose_count = 8;            ///< of each deformed mesh
-    uint32_t rings = 40;                ///< of triangles, in a limb
+    uint32_t rings = 40;                ///< rings of triangles in a limb
     float reach = 3;                    ///< metres from the origin
-    TestScene::Visibility visibility{}; ///< of what is deformed; none: the meshes do not say
+    TestScene::Visibility visibility{}; ///< of deformed meshes; none: without visibility
 };
 
 class DeformedScene
@@ -62,7 +62,7 @@ public:
     DeformedScene(const DeformedSceneOptions& options, uint32_t seed);
 
     const formats::PackView& pack() const { return *pack_; }
-    /// The pack as a file; until the next call.
+    /// The pack as a file; valid until the next call.
     const AlignedBytes& bytes()
     {
         bytes_ = test_.model().bytes();
@@ -71,11 +71,11 @@ public:
     const reference::PackGeometry& geometry() const { return *geometry_; }
     const std::vector<uint32_t>& deformedInstances() const { return deformed_; }
 
-    /// One of the poses that the bounds hold for, at a place at random.
+    /// One of the poses that the bounds hold for, at a random place.
     TestPose randomPose(uint32_t instance, std::mt19937& random) const;
-    /// One that they do not hold for.
+    /// A pose that the bounds do not hold for.
     TestPose freePose(uint32_t instance, std::mt19937& random) const;
-    /// For some of the instances.
+    /// Random poses for some of the instances.
     std::vector<TestPose> randomPoses(std::mt19937& random) const;
 
 private:

@@ -1,4 +1,4 @@
-// What is seen: culling changes nothing, whatever the size, the transforms and the number of threads.
+// Tests drawn images: culling changes nothing, for any size, transforms and number of threads.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/pyramid_start.h"
 #include "tests/support/gpu_fixture.h"
@@ -17,7 +17,7 @@ namespace
 
 using namespace shared;
 
-/// Rocks that overlap, sheared and mirrored, one of them two-sided.
+/// Fill with overlapping rocks, sheared and mirrored, one of them two-sided.
 void fillRocks(TestScene& scene, int count, uint32_t seed)
 {
     std::mt19937 random(seed);
@@ -36,7 +36,7 @@ Camera lookingAtOrigin(Float3 position)
     return {.position = position, .target = {0, 0, 0}, .y_fov_rad = 0.9f, .z_near = 0.05f};
 }
 
-/// New places for some of the instances, half of them mirrored.
+/// New random places for some of the instances, half of them mirrored.
 std::vector<gpu::InstanceMove> randomMoves(const gpu::Scene& scene, const formats::PackView& pack,
                                            std::mt19937& random)
 {
@@ -59,7 +59,7 @@ std::vector<gpu::InstanceMove> randomMoves(const gpu::Scene& scene, const format
 class DrawingTest : public GpuTest
 {
 protected:
-    /// Fill the pyramid with anything and say that it was seen from anywhere.
+    /// Fill the pyramid with noise, and mark it as seen from a random viewpoint.
     void writeNoise(gpu::FrameTargets& targets, std::mt19937& random)
     {
         const auto [width, height] = targets.extent();
@@ -114,7 +114,7 @@ TEST_F(DrawingTest, cullingIsLosslessWhateverWasDrawnBefore)
         {
             switch (i % 4)
             {
-            case 0: // a cut, and a few frames into the picture before it
+            case 0: // a camera cut
                 camera = randomCamera(random, 6);
                 break;
             case 1: // anything may have been there
@@ -123,7 +123,7 @@ TEST_F(DrawingTest, cullingIsLosslessWhateverWasDrawnBefore)
             case 2:
                 camera.position += {uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)};
                 break;
-            default: // the same again: what was drawn hides the rest
+            default: // the same view again: the clusters drawn before occlude the rest
                 break;
             }
             std::vector<gpu::InstanceMove> moves;
@@ -153,7 +153,7 @@ TEST_F(DrawingTest, cullingIsLosslessWhateverWasDrawnBefore)
 
 TEST_F(DrawingTest, littleIsDrawnThatIsNotSeen)
 {
-    // a crowd that hides most of itself
+    // a crowd that occludes most of itself
     std::mt19937 random(3);
     TestScene test;
     const uint32_t mesh =
@@ -166,7 +166,8 @@ TEST_F(DrawingTest, littleIsDrawnThatIsNotSeen)
     const auto scene = upload(pack);
     gpu::FrameTargets targets = makeTargets(640, 360);
     const Camera camera{.position = {0, 0.5f, 7}, .target = {0, 0, 0}, .z_near = 0.05f};
-    // clusters are small beside the rocks: at one pixel of error they are large, and 1.73 times as many are drawn as seen
+    // Clusters are small relative to the rocks. At one pixel of error they are large, and 1.73 times as many
+    // are drawn as are visible.
     const DrawOptions options{.width = 640, .height = 360, .error_pixels = 0.25f};
     draw(*scene, targets, camera, options);
     const Picture picture = draw(*scene, targets, camera, options);
@@ -293,7 +294,7 @@ TEST_F(DrawingTest, maskedSurfacesHaveTheHolesOfTheirTexture)
 
 TEST_F(DrawingTest, geometryInEverySliceOfThePoolIsDrawn)
 {
-    // One triangle a page, in pages of 64 KiB that hold nothing else: 2100 of them are more than one slice.
+    // One triangle per page, in pages of 64 KiB that hold nothing else: 2100 of them are more than one slice.
     constexpr uint32_t kPages = 2100;
     TestScene test;
     test.addInstance(test.addMesh(withMaterial(makeQuad(1, 1), test.addMaterial(plainMaterial()))),
@@ -317,7 +318,7 @@ TEST_F(DrawingTest, geometryInEverySliceOfThePoolIsDrawn)
         model.pages.back().clusters = {i, 1};
         model.clusters.push_back(cluster);
         model.clusters.back().page = i;
-        // a row of quads, one behind the other to the right
+        // a row of quads to the right, one behind the other
         model.clusters.back().base[0] +=
             static_cast<int32_t>(static_cast<float>(i) / model.meshes[0].grid_step);
         model.clusters.back().cone_cutoff = formats::kNoCone;
@@ -351,7 +352,7 @@ TEST_F(DrawingTest, theNumberOfThreadsChangesNothing)
     std::vector<Picture> pictures;
     for (const char* threads : {"0", "1", "2", "4"})
     {
-        // read by lavapipe when a device is made; other drivers draw four times the same
+        // read by lavapipe when a device is created; other drivers just draw the same four times
         ::setenv("LP_NUM_THREADS", threads, 1);
         TearDownTestSuite();
         SetUpTestSuite();
@@ -366,7 +367,7 @@ TEST_F(DrawingTest, theNumberOfThreadsChangesNothing)
 namespace
 {
 
-/// The colours of a few frames, with an instance, a device and a renderer of their own.
+/// Draw a few frames with an instance, a device and a renderer of its own, and append their colours.
 void drawAlone(const formats::PackView& pack, std::vector<std::vector<std::byte>>& pictures)
 {
     auto host = viewer::VulkanHost::create({.device_name = "", .validate = true});
@@ -424,7 +425,7 @@ TEST_F(DrawingTest, renderersOfOneProcessKnowNothingOfEachOther)
 
 TEST_F(DrawingTest, aMistakeIsReportedByTheValidationLayer)
 {
-    // the canary: tests that expect silence are worth something only if mistakes are heard
+    // Checks the test setup: tests that expect silence are meaningful only if errors are reported.
     const gpu::Device& device = renderer().device();
     gpu::MemoryArena arena(device);
     auto buffer = arena.createBuffer(64, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryKind::device);
@@ -432,7 +433,8 @@ TEST_F(DrawingTest, aMistakeIsReportedByTheValidationLayer)
     const Status status = host().run(
         [&](VkCommandBuffer commands)
         {
-            // two writes to the same bytes without a barrier: a hazard that only synchronization validation sees
+            // Two writes to the same bytes without a barrier: a hazard that only synchronization validation
+            // reports.
             device.vk.vkCmdFillBuffer(commands, buffer->handle.get(), 0, VK_WHOLE_SIZE, 1);
             device.vk.vkCmdFillBuffer(commands, buffer->handle.get(), 0, VK_WHOLE_SIZE, 2);
             return success();

@@ -37,7 +37,7 @@ VkAttachmentDescription attachment(VkFormat format, VkAttachmentLoadOp load, VkI
     return description;
 }
 
-/// Everything before is done and seen, everything is seen afterwards.
+/// Wait for all earlier work, and make it visible to all later work.
 constexpr VkAccessFlags kAllAccess = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
 constexpr VkSubpassDependency kDependencies[] = {
     {VK_SUBPASS_EXTERNAL, 0, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_ALL_GRAPHICS_BIT,

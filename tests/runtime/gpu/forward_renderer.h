@@ -1,4 +1,5 @@
-// The last frame of a scene drawn again in other ways, for tests to compare with: forward, and its UV derivatives.
+// Draws the last frame of a scene again by other methods, for comparison in tests: forward shading, and its
+// UV derivatives.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -8,18 +9,18 @@
 namespace hearth::test
 {
 
-/// Reads what the frame has left in the buffers of the scene. The frame was drawn without kCullOcclusion: with it, the
-/// draws of its early phase are gone.
+/// Reads the data that the frame left in the scene's buffers. The frame must be drawn without kCullOcclusion:
+/// with it, the draws of the early phase are lost.
 class ForwardRenderer
 {
 public:
     ForwardRenderer(viewer::VulkanHost& host, const gpu::Device& device);
 
-    /// The visible list, each material with a pipeline of its own, shaded as it is drawn: RGBA8 sRGB. The background is 0.
-    /// Opaque materials with vertex normals, and tangents where there is a normal map.
+    /// Draw the visible list with forward shading and one pipeline for each material: RGBA8 sRGB. The
+    /// background is 0. Opaque materials with vertex normals, and tangents if there is a normal map.
     std::vector<uint32_t> draw(const gpu::Scene& scene, VkExtent2D extent);
 
-    /// (du/dx, dv/dx, du/dy, dv/dy) of UV set 0 in every pixel, per pixel; 0 where there is nothing.
+    /// (du/dx, dv/dx, du/dy, dv/dy) of UV set 0 for every pixel, per pixel; 0 for the background.
     std::vector<std::array<float, 4>> uvDerivatives(const gpu::Scene& scene,
                                                     const gpu::FrameTargets& targets);
 

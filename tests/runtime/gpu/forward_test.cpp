@@ -1,5 +1,5 @@
-// The picture, shaded from the visibility buffer, against the same shading of what the rasteriser interpolates, and its
-// UV derivatives against exact ones.
+// Tests shading from the visibility buffer against the same shading of attributes that the rasteriser
+// interpolates, and its UV derivatives against exact ones.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/decisions.h"
 #include "tests/runtime/gpu/forward_renderer.h"
@@ -27,7 +27,7 @@ enum class Mips
     all,
 };
 
-/// A smooth pattern of `size` texels a side: channel i is middle[i] and waves of this height about it.
+/// A smooth pattern of `size` texels a side: channel i is middle[i] plus waves of this height.
 std::vector<uint32_t> wavyTexels(uint32_t size, std::array<float, 3> middle, float height, Mips mips)
 {
     std::vector<uint32_t> texels;
@@ -39,7 +39,7 @@ std::vector<uint32_t> wavyTexels(uint32_t size, std::array<float, 3> middle, flo
                 uint32_t texel = 0xFF000000u;
                 for (uint32_t i = 0; i < 3; ++i)
                 {
-                    // waves that fade as the texels grow
+                    // waves that fade with larger texels
                     const float turn = 6.2831853f * (static_cast<float>(i % 2 == 0 ? x : y) + 0.5f) /
                                        static_cast<float>(side) * static_cast<float>(i + 1);
                     const float fade = 1 - static_cast<float>(size / side) / static_cast<float>(size);
@@ -51,7 +51,7 @@ std::vector<uint32_t> wavyTexels(uint32_t size, std::array<float, 3> middle, flo
     return texels;
 }
 
-/// Every texture that there is, on two UV sets, some with a transform.
+/// A material with textures of every kind, on two UV sets, some with a transform.
 formats::MaterialRecord texturedMaterial(TestScene& scene, Mips mips)
 {
     const auto image = [&](formats::TexelFormat format, std::array<float, 3> middle, float height)
@@ -70,7 +70,7 @@ formats::MaterialRecord texturedMaterial(TestScene& scene, Mips mips)
     return material;
 }
 
-/// With tangents, a second UV set and vertex colours.
+/// Add tangents, a second UV set and vertex colours.
 mesh::SourceMesh withEverything(mesh::SourceMesh mesh, uint32_t material)
 {
     for (size_t i = 0; i < mesh.vertexCount(); ++i)
@@ -100,7 +100,7 @@ void addLights(TestScene& scene)
     }
 }
 
-/// x with a x.x + b x.y + c x.z = d.
+/// Return x with a x.x + b x.y + c x.z = d.
 Vector solve(const Vector& a, const Vector& b, const Vector& c, const Vector& d)
 {
     const auto determinant = [](const Vector& p, const Vector& q, const Vector& r)
@@ -112,7 +112,7 @@ Vector solve(const Vector& a, const Vector& b, const Vector& c, const Vector& d)
     return {determinant(d, b, c) / all, determinant(a, d, c) / all, determinant(a, b, d) / all};
 }
 
-/// The UV that a pixel sees of a makeQuad of this size: the ray through the pixel meets its plane.
+/// UV at a pixel on a makeQuad of this size: intersects the pixel's ray with the quad's plane.
 std::array<double, 2> uvOfPixel(const FrameView& view, const Affine3& quad, double size, double x, double y)
 {
     const double ndc_x = x * 2 / double{view.width} - 1, ndc_y = y * 2 / double{view.height} - 1;
@@ -132,7 +132,7 @@ std::array<double, 2> uvOfPixel(const FrameView& view, const Affine3& quad, doub
     return {at[0] / size + 0.5, 0.5 - at[1] / size};
 }
 
-/// Whether the quad has corners on both sides of the plane through the eye.
+/// True if the quad has corners on both sides of the plane through the eye.
 bool crossesTheEyePlane(const FrameView& view, const Affine3& quad, float size)
 {
     int before = 0;
@@ -147,8 +147,8 @@ bool crossesTheEyePlane(const FrameView& view, const Affine3& quad, float size)
 class ForwardTest : public GpuTest
 {
 protected:
-    /// Draw the scene both ways and compare where all of a quad of 2 x 2 pixels sees one triangle: else the rasteriser
-    /// differentiates across its edge.
+    /// Draw the scene by both methods and compare pixels whose 2 x 2 quad shows a single triangle: otherwise
+    /// the rasteriser differentiates across an edge.
     void expectSame(const formats::PackView& pack, const Camera& camera, DrawOptions options)
     {
         options.flags = kNoOcclusion;
@@ -210,8 +210,9 @@ TEST_F(ForwardTest, shadesAsTheRasteriserWould)
 
 TEST_F(ForwardTest, shadesTrianglesAcrossTheNearPlaneAsTheRasteriserWould)
 {
-    // without mips: towards the horizon their level changes from one pixel to the next, and the rasteriser's differences
-    // over two pixels are no measure for the derivatives, which the test below holds against exact ones
+    // Without mips: towards the horizon their level changes from one pixel to the next, and the rasteriser's
+    // differences over two pixels do not measure the derivatives, which the test below compares with exact
+    // ones.
     TestScene test;
     formats::MaterialRecord material = texturedMaterial(test, Mips::none);
     material.flags = formats::kMaterialDoubleSided;
@@ -249,7 +250,7 @@ TEST_F(ForwardTest, uvDerivativesAreThoseOfTheExactPlane)
     double largest = 0;
     for (int i = 0; i < 16; ++i)
     {
-        // among the quads, so that many pass the eye
+        // among the quads, so that many cross the eye plane
         const Camera camera = randomCamera(random, 3);
         const DrawOptions options{.width = 160, .height = 120, .error_pixels = 0, .flags = kNoOcclusion};
         gpu::FrameTargets targets = makeTargets(options.width, options.height);

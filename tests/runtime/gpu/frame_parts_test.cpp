@@ -1,4 +1,4 @@
-// Frames that are recorded part by part are those that are recorded at once.
+// Tests that frames recorded part by part equal frames recorded at once.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/shading.h"
 #include "tests/support/gpu_fixture.h"
@@ -32,7 +32,7 @@ protected:
         pack_ = test_.build();
     }
 
-    /// One part, in a command buffer of its own.
+    /// Record one part in a command buffer of its own.
     void run(const std::function<void(VkCommandBuffer)>& record)
     {
         const Status status = host().run(
@@ -54,7 +54,8 @@ protected:
         return readPicture(scene, targets);
     }
 
-    /// Nothing between them but what they do themselves, which the validation layer watches.
+    /// Draw all parts in one command buffer. Only their own barriers are between them; the validation layer
+    /// checks these.
     Picture drawInOneBuffer(const gpu::Scene& scene, gpu::FrameTargets& targets, const gpu::FrameInput& input)
     {
         run(
@@ -67,7 +68,8 @@ protected:
         return readPicture(scene, targets);
     }
 
-    /// What a caller may do between two parts: with barriers made from what they say of the image alone.
+    /// Copy the visibility buffer between two parts, as a caller may, with barriers made only from the image
+    /// states that the parts report.
     void copyVisibility(const gpu::FrameTargets& targets)
     {
         const gpu::ImageState drawn = partImages(FramePart::visibility).visibility.after;
@@ -99,7 +101,7 @@ protected:
                                                     nullptr, 1, &barrier);
     }
 
-    /// Several frames of a camera that moves, in turn in several command buffers and in one.
+    /// Compare several frames of a moving camera, recorded in several command buffers and in one.
     void expectSame(const DrawOptions& options, const gpu::SceneOptions& scene_options = {})
     {
         const auto whole = upload(*pack_, scene_options), parts = upload(*pack_, scene_options);
@@ -130,7 +132,7 @@ protected:
 
     TestScene test_;
     std::optional<formats::PackView> pack_;
-    std::vector<uint32_t> between_; ///< the visibility buffer between two parts
+    std::vector<uint32_t> between_; ///< visibility buffer between two parts
 };
 
 } // namespace

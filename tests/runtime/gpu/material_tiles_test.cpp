@@ -1,4 +1,5 @@
-// The lists of material tiles against slow and obvious code, and the picture against the one that needs no lists.
+// Tests the lists of material tiles against slow and simple code, and the image against one drawn without
+// lists.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/material_tiles.h"
 #include "tests/support/gpu_fixture.h"
@@ -16,17 +17,17 @@ namespace
 using namespace shared;
 using gpu::ShadedArea;
 
-/// What the pass leaves in its buffers.
+/// Content of the pass's buffers.
 struct TileTwin
 {
     std::vector<uint32_t> tile_materials;
     std::vector<std::array<uint32_t, 4>> draws; ///< TileDraw
     std::vector<uint32_t> lists;                ///< from kFirstTileEntry on
-    uint32_t crowded_tiles = 0;                 ///< tiles of more materials than their row holds
-    uint32_t whole_picture_draws = 0;           ///< materials that are shaded full-screen for that
+    uint32_t crowded_tiles = 0;                 ///< tiles with more materials than a row holds
+    uint32_t whole_picture_draws = 0; ///< materials that are shaded full-screen because of such tiles
 };
 
-/// The materials of each tile, 0 the sky.
+/// Materials of each tile; 0 is the sky.
 std::vector<std::set<uint32_t>> materialsOfTiles(const Picture& picture,
                                                  const std::vector<ClusterDraw>& draws)
 {
@@ -83,13 +84,13 @@ TileTwin makeTileTwin(const Picture& picture, const gpu::SceneLayout& layout)
 formats::MaterialRecord colored(std::mt19937& random)
 {
     formats::MaterialRecord material = plainMaterial();
-    material.flags = formats::kMaterialUnlit; // quickly drawn: what is tested is where, not how
+    material.flags = formats::kMaterialUnlit; // fast to draw: the test checks positions, not shading
     material.base_color = {uniform(random, 0, 1), uniform(random, 0, 1), uniform(random, 0, 1), 1};
     return material;
 }
 
-/// 12 x 12 small squares before rocks, each with a material of its own, and `spare` materials that nothing has between
-/// those of the squares.
+/// Fill with 12 x 12 small squares in front of rocks, each with a material of its own. `spare` unused
+/// materials lie between those of the squares.
 void fillColors(TestScene& scene, std::mt19937& random, uint32_t spare = 0)
 {
     for (int i = 0; i < 144; ++i)
@@ -167,7 +168,7 @@ TEST_F(MaterialTilesTest, equalTheirTwinAndDrawTheSamePicture)
 
 TEST_F(MaterialTilesTest, everyMaterialOfAVeryLargeSceneIsFound)
 {
-    // numbers on both sides of where the pass starts its second round
+    // counts on both sides of the limit where the pass starts its second round
     std::mt19937 random(41);
     TestScene test;
     fillColors(test, random, kTileRoundMaterials);

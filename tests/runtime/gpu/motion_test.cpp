@@ -1,4 +1,5 @@
-// Instances that move: as if they had been there from the start, and never hidden by where things were.
+// Tests moving instances: drawn as if they had always been there, and never culled because of their previous
+// place.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/pack/pose_player.h"
 #include "tests/runtime/gpu/animated_rocks.h"
@@ -71,7 +72,7 @@ TEST_F(MotionTest, whatMovedIsDrawnAsIfItHadAlwaysBeenThere)
     for (int i = 0; i < 4; ++i)
     {
         const Camera camera = randomCamera(random, 6);
-        // only the first frame brings the moves: they last
+        // only the first frame has the moves: they persist
         const Picture moved = draw(*moving, camera,
                                    {.moves = i == 0 ? std::span<const gpu::InstanceMove>(moves)
                                                     : std::span<const gpu::InstanceMove>()});
@@ -136,7 +137,8 @@ TEST_F(MotionTest, whatTurnsIntoItsMirrorImageCastsItsShadow)
     const Picture turned = draw(*turning, camera, {.moves = moves});
     const Picture expected = draw(*still, camera);
     ASSERT_EQ(turned.color.size(), expected.color.size());
-    // depths of the maps are interpolated from corners in another order: a few points at the rims of shadows differ
+    // Depths of the maps are interpolated from corners in another order: a few points at the rims of shadows
+    // differ.
     size_t different = 0;
     for (size_t i = 0; i < turned.color.size(); ++i)
         different += std::abs(channel(turned.color[i], 1) - channel(expected.color[i], 1)) > 8 ? 1u : 0u;

@@ -1,4 +1,4 @@
-// How a pack is arranged for drawing, and what the lights of a scene become. No device is needed.
+// Tests the arrangement of a pack for drawing, and the conversion of a scene's lights. No device is needed.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/scene/scene_layout.h"
 #include "runtime/gpu/scene/scene_shading.h"
@@ -26,7 +26,7 @@ MaterialRecord materialWith(uint32_t flags, AlphaMode mode)
     return material;
 }
 
-/// Every kind of material in one mesh, and instances of it with and without a mirror.
+/// Fill with every kind of material in one mesh, and instances of it with and without mirroring.
 void fillMixed(TestScene& scene)
 {
     const uint32_t materials[] = {scene.addMaterial(materialWith(0, AlphaMode::opaque)),
@@ -129,7 +129,7 @@ TEST(SceneLayout, E4004_moreGeometryThanThePoolHolds)
     TestScene test;
     test.addInstance(test.addMesh(makeQuad(1, 1)), Affine3{});
     PackModel model = test.model();
-    model.pages[0].size = kMaxPageBytes; // only the tables are looked at
+    model.pages[0].size = kMaxPageBytes; // only the tables are read
     model.pages.resize(8193, model.pages[0]);
     const AlignedBytes bytes = model.bytes();
     auto reader = ContainerReader::fromBytes(bytes.span(), "big");
@@ -181,7 +181,7 @@ TEST(PoolLayout, holdsThePinnedPagesAndSlotsWithinTheBudget)
 
 TEST(PoolLayout, slotsDoNotCrossSlicesAndEndWithThePool)
 {
-    // 20000 pages of 60000 bytes: more than the pool has place for. Only their sizes are looked at
+    // 20000 pages of 60000 bytes: more than fit into the pool. Only their sizes are read.
     TestScene test;
     test.addInstance(test.addMesh(makeQuad(1, 1)), Affine3{});
     const PackView pack = test.build();

@@ -1,4 +1,4 @@
-// Surfaces whose picture is known: textures, normals, lights.
+// Tests shading with surfaces whose image is known: textures, normals, lights.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/test_scene.h"
@@ -42,7 +42,7 @@ LightRecord light(LightType type, float intensity)
     return record;
 }
 
-/// The camera sees exactly the square of side 2 around the origin at z = 0.
+/// Camera that sees exactly the square of side 2 around the origin at z = 0.
 shared::Camera squareCamera()
 {
     return {.position = {0, 0, 2}, .target = {0, 0, 0}, .y_fov_rad = 2 * std::atan(0.5f), .z_near = 0.01f};
@@ -59,7 +59,7 @@ protected:
         return draw(*scene, squareCamera(), {.width = 64, .height = 64, .debug_view = debug_view});
     }
 
-    /// A square of this material that fills the picture, drawn.
+    /// Draw a square of this material that fills the image.
     Picture drawMaterial(TestScene& test, const MaterialRecord& material,
                          uint32_t debug_view = shared::kViewFinal)
     {
@@ -108,7 +108,7 @@ TEST_F(ShadingTest, texturesStandUprightAndKeepTheirBytes)
 
 TEST_F(ShadingTest, theMipLevelFollowsTheSizeOnTheScreen)
 {
-    // mips of 0, 100 and 200: the picture says which level is sampled, in hundredths
+    // mips of 0, 100 and 200: the colour shows the sampled level, in hundredths
     constexpr uint32_t kSize = 128;
     std::vector<uint32_t> texels(kSize * kSize, gray(0));
     texels.resize(texels.size() + kSize * kSize / 4, gray(100));
@@ -181,7 +181,7 @@ TEST_F(ShadingTest, normalsFollowShearedAndMirroredInstances)
         const Affine3 instance = randomAffine(random, 0);
         test.addInstance(test.addMesh(withMaterial(makeQuad(9, 9), test.addMaterial(material))), instance);
         const Picture picture = drawSquare(test, shared::kViewNormals);
-        // the normal of the plane, on the side of the eye
+        // normal of the plane, on the side of the eye
         Float3 normal = cross(transformVector(instance, {1, 0, 0}), transformVector(instance, {0, 1, 0}));
         if (normal.z < 0)
             normal = -normal;
@@ -207,7 +207,7 @@ TEST_F(ShadingTest, normalMapsTiltAlongTangentAndBitangent)
             instance.m[0][0] = mirrored ? -1.0f : 1.0f;
             test.addInstance(test.addMesh(quad), instance);
             const Picture picture = drawSquare(test, shared::kViewNormals);
-            // green points up in the picture, u to the right unless mirrored
+            // green points up in the image, u to the right unless mirrored
             expectNormal(picture.at(32, 32), {mirrored ? -0.48f : 0.48f, 0.6f, 0.64f});
         }
 }
@@ -259,7 +259,7 @@ TEST_F(ShadingTest, pointAndSpotLightsEndWhereTheySay)
     EXPECT_GT(channel(drawWith(lamp).at(32, 32), 0), 50);
     EXPECT_EQ(channel(drawWith(lamp).at(0, 0), 0), 0);
     LightRecord spot = light(LightType::spot, 3);
-    spot.outer_cone_rad = 0.4636f; // half a metre at one metre: half of the way to the side
+    spot.outer_cone_rad = 0.4636f; // half a metre at one metre: halfway to the side
     const Picture cone = drawWith(spot);
     EXPECT_GT(channel(cone.at(32, 32), 0), 150);
     EXPECT_GT(channel(cone.at(32 + 12, 32), 0), 0);

@@ -1,5 +1,5 @@
-// Shadow maps that are kept are those that would be drawn anew, bit for bit, whatever is looked at, moves and streams; and
-// they are kept where nothing of them changes.
+// Tests the shadow map cache: cached maps equal freshly drawn ones bit for bit while the view, instances and
+// streaming change, and they are reused if nothing in them changes.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/lit_scene.h"
@@ -24,7 +24,7 @@ Affine3 placeOf(std::mt19937& random)
                   {uniform(random, -6, 6), uniform(random, 0.3f, 2), uniform(random, -6, 6)});
 }
 
-/// A floor with rocks under a sun and two spots.
+/// Build a floor with rocks under a sun and two spots.
 PackView buildScene(TestScene& test, uint32_t detail)
 {
     std::mt19937 random(7);
@@ -78,7 +78,7 @@ protected:
         return std::move(*depths);
     }
 
-    /// The same maps and the same picture.
+    /// Expect the same maps and the same image.
     void expectSame(const gpu::Scene& kept, const Picture& kept_picture, const gpu::Scene& fresh,
                     const Picture& fresh_picture, int frame)
     {
@@ -90,7 +90,7 @@ protected:
     }
 };
 
-/// A view that walks, rests, and jumps, spheres that come and go, and rocks that move.
+/// A view that walks, rests and jumps, spheres that come and go, and rocks that move.
 class Walk
 {
 public:
@@ -130,7 +130,7 @@ private:
 
 } // namespace
 
-/// Whether moving casters have layers of their own or not; those drawn anew have none.
+/// Runs with and without separate layers for moving casters; the fresh maps have none.
 TEST_F(ShadowCacheTest, keptMapsAreFreshOnesWhileThingsMove)
 {
     for (const bool moving_layers : {false, true})
@@ -175,7 +175,7 @@ TEST_F(ShadowCacheTest, keptMapsAreFreshOnesWhilePagesComeAndGo)
         options.stream.read = [&pack](uint32_t page, std::span<std::byte> destination, pack::ReadDone done)
         { done(pack.decodePage(page, destination).ok()); };
         options.shadows = smallMaps(moving_layers);
-        options.shadows.error_bias = 1; // every page that the picture wants is one of the maps' casters
+        options.shadows.error_bias = 1; // every page that the frame requests is one of the maps' casters
         return upload(pack, options);
     };
     const auto kept = streamed(true);
@@ -252,11 +252,11 @@ TEST_F(ShadowCacheTest, mapsAreDrawnWhereSomethingChanges)
         EXPECT_EQ(moved.drawn_maps, moving_layers ? 0u : 3u);
         EXPECT_EQ(moved.moved_maps, moving_layers ? 3u : 0u);
         EXPECT_EQ(drawnBy(kDrawn).drawn_maps + drawnBy(kDrawn).moved_maps, 0u);
-        // the eye's step stays in its cell: the splits follow it, the spots' maps are kept
+        // the eye's step stays in its cell: the splits follow it, the spots' maps are reused
         camera.position.x += 0.02f;
         camera.target.x += 0.02f;
         EXPECT_LE(drawnBy(kDrawn).drawn_maps, 2u);
-        // another threshold is another cut
+        // another threshold gives another cut
         DrawOptions finer = kDrawn;
         finer.error_pixels = 0.5f;
         EXPECT_EQ(drawnBy(finer).drawn_maps, 4u);

@@ -1,5 +1,5 @@
-// Pictures with shadows: those of rays but for a rim of a few texels, without acne at any angle, whatever the levels that
-// cast are, and what lies beyond the capacity is counted.
+// Tests images with shadows: they match ray tracing except for a rim of a few texels, have no acne at any
+// angle and for any levels of the casters, and lights beyond the capacity are counted.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/reference/tracer/reference_renderer.h"
 #include "tests/support/gpu_fixture.h"
@@ -23,7 +23,7 @@ using namespace formats;
 constexpr uint32_t kSize = 192;
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// A floor of 8 m with rocks of about a metre on it and above it.
+/// Build a floor of 8 m with rocks of about a metre on it and above it.
 formats::PackView buildRocks(TestScene& test, uint32_t detail, const LightRecord& record)
 {
     const uint32_t white = test.addMaterial(plainMaterial());
@@ -66,7 +66,7 @@ reference::Picture traced(const PackView& pack, bool shadows)
     return *picture;
 }
 
-/// For people to look at, where HEARTH_KEEP_PICTURES names a folder.
+/// Write an image for inspection if HEARTH_KEEP_PICTURES names a folder.
 void keep(const Picture& picture, const std::string& name)
 {
     const char* const folder = std::getenv("HEARTH_KEEP_PICTURES");
@@ -81,12 +81,12 @@ void keep(const Picture& picture, const std::string& name)
 
 struct Comparison
 {
-    size_t shadowed = 0; ///< pixels that lose light by the rays
+    size_t shadowed = 0; ///< pixels that are shadowed according to the rays
     size_t rim = 0;      ///< pixels near the edge of a shadow, which are not compared
-    size_t wrong = 0;    ///< others whose brightness differs by more than a twentieth
+    size_t wrong = 0;    ///< other pixels whose brightness differs by more than a twentieth
 };
 
-/// reach  pixels that count as near an edge
+/// reach  distance in pixels that counts as near an edge
 Comparison compare(const PackView& pack, const Picture& drawn, int reach)
 {
     const reference::Picture with = traced(pack, true);
@@ -119,7 +119,7 @@ void expectTraced(const Comparison& comparison)
 {
     EXPECT_GT(comparison.shadowed, 1000u);
     EXPECT_LT(comparison.rim, size_t{kSize} * kSize / 3);
-    // silhouettes, whose pixels the two find by different roundings
+    // silhouettes, whose pixels both methods find with different rounding
     EXPECT_LE(comparison.wrong, 40u);
 }
 
@@ -158,7 +158,7 @@ TEST_F(ShadowPictureTest, spheresMakeThemFinerWhereTheyAre)
     {
         TestScene test;
         const PackView pack = buildRocks(test, 12, record);
-        // so coarse that shadows are off by far more than the rim
+        // so coarse that the error of the shadows is far larger than the rim
         const gpu::ShadowOptions coarse{
             .max_maps = 2, .texels = 64, .splits = 1, .split_range = {.near = 2, .far = 30}};
         gpu::ShadowOptions two = coarse;
@@ -196,7 +196,7 @@ TEST_F(ShadowPictureTest, spheresOfThePackAreThoseOfEveryFrame)
     EXPECT_NE(placed.color, without.color);
 }
 
-/// The casters' levels are coarser than those of the picture, and neither shadows the other.
+/// The casters' levels are coarser than those of the frame, and neither shadows the other.
 TEST_F(ShadowPictureTest, coarserCastersShadowNothingThatIsLit)
 {
     for (const float bias : {1.0f, 4.0f})
@@ -215,7 +215,8 @@ TEST_F(ShadowPictureTest, coarserCastersShadowNothingThatIsLit)
     }
 }
 
-/// Where a sphere goes while the cut stays, its map moves by whole texels and shows the same: shadows do not shimmer.
+/// If a sphere moves while the cut stays the same, its map moves by whole texels and shows the same: shadows
+/// do not shimmer.
 TEST_F(ShadowPictureTest, aMapThatMovesShowsTheSame)
 {
     TestScene test;
@@ -253,7 +254,7 @@ TEST_F(ShadowPictureTest, aMapThatMovesShowsTheSame)
     EXPECT_GT(compared, 100000u);
 }
 
-/// A plane that nothing shadows looks as without shadows.
+/// A plane without casters looks the same with and without shadows.
 TEST_F(ShadowPictureTest, aPlaneIsFreeOfAcneAtAllAngles)
 {
     for (const bool spot : {false, true})
@@ -294,7 +295,7 @@ TEST_F(ShadowPictureTest, holesOfAMaskCastNone)
         masked.base_color.w = alpha;
         test.addInstance(test.addMesh(withMaterial(makeQuad(8, 8), white)), lying({0, 0, 0}));
         const uint32_t sheet = test.addMesh(withMaterial(makeQuad(2, 2), test.addMaterial(masked)));
-        test.addInstance(sheet, lying({0, 4, 0})); // above the picture
+        test.addInstance(sheet, lying({0, 4, 0})); // outside the frame, above the visible region
         test.addLight(sun({0, -1, 0}));
         const PackView pack = test.build();
         return channel(drawShadowed(pack, kFour, kSource).at(kSize / 2, kSize / 2), 0);
@@ -332,7 +333,8 @@ TEST_F(ShadowPictureTest, whatIsBeyondTheCapacityIsCounted)
     const DrawOptions small{.width = 16, .height = 16};
     gpu::ShadowOptions options{.max_maps = 6, .texels = 32, .splits = 3};
     drawShadowed(pack, options, small);
-    // of 21 lights 16 have a row, the sun the first; it takes three layers, the next three lights one each
+    // 16 of 21 lights have a row, the sun the first. The sun takes three layers, the next three lights one
+    // each.
     EXPECT_EQ(statistics_.maps, 6u);
     EXPECT_EQ(statistics_.drawn_maps, 6u);
     EXPECT_EQ(statistics_.dropped_maps, 12u);

@@ -1,4 +1,4 @@
-// Which lights cast shadows, and which maps a frame has of them.
+// Tests which lights cast shadows, and which of their maps a frame has.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/scene/shadow_plan.h"
 
@@ -16,7 +16,7 @@ using gpu::ShadowSphere;
 
 constexpr Box3 kScene{{-10, 0, -10}, {10, 5, 10}};
 
-/// All shine straight down, spots from 4 m with 45 degrees to each side.
+/// Lights that all shine straight down; spots at 4 m with 45 degrees to each side.
 shared::Lighting lightsOf(std::initializer_list<LightType> types)
 {
     shared::Lighting lighting{};
@@ -76,7 +76,7 @@ TEST(ShadowPlan, hasSplitsOfSunsConesOfSpotsAndSpheresOfBoth)
     const ShadowSphere spheres[] = {{.center = {0, 0.5f, 0}, .radius = 0.5f},
                                     {.center = {2, 0.5f, 0}, .radius = 1, .light = 1},
                                     {.center = {9, 0.5f, 9}, .radius = 0.1f, .light = 1}, // beside the cone
-                                    {.center = {0, 0.5f, 0}, .radius = 1, .light = 7}};   // of no light
+                                    {.center = {0, 0.5f, 0}, .radius = 1, .light = 7}};   // no such light
     const gpu::ShadowPlan plan = planOf(lighting, {.max_maps = 16, .splits = 3}, spheres);
     EXPECT_EQ(plan.block.lights[0].map_count, 4u);
     EXPECT_EQ(plan.block.lights[1].map_count, 3u);
@@ -103,7 +103,7 @@ TEST(ShadowPlan, givesSpheresTheTexelsThatTheyAskFor)
 {
     const auto lighting = lightsOf({LightType::directional});
     std::vector<ShadowSphere> spheres;
-    // rounded down, bounded by the filter and by the layer
+    // rounded down, limited by the filter and by the layer
     for (const uint32_t texels : {0u, 512u, 300u, 1u, 4096u})
         spheres.push_back({.center = {}, .radius = 1, .texels = texels});
     auto sizes = sizesOf(planOf(lighting, {.max_maps = 16, .kernel = 2, .splits = 0}, spheres), 0);

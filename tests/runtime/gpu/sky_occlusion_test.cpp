@@ -1,5 +1,5 @@
-// Visibility in the picture: the views of it, and the sky's light, against twins of the shaders that are written with the same
-// formulas (formats/gpu_shared) and everything else anew.
+// Tests visibility in images: its debug views, and occlusion of the sky's light, against twins of the shaders
+// that share only formulas with them (formats/gpu_shared).
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/specular_occlusion.h"
 #include "tests/reference/pack_geometry.h"
@@ -26,7 +26,7 @@ Double3 wide(Float3 v)
     return Double3(v);
 }
 
-/// Narrow and wide cones that lean about, some of them nearly shut: smooth in the position.
+/// Narrow and wide cones that lean in various directions, some of them nearly closed: smooth in the position.
 VisibilityMoments leaningCones(uint32_t, Float3 p, Float3 n)
 {
     const Float3 lean{std::sin(3 * p.x + p.y), std::cos(2 * p.y), std::sin(4 * p.z)};
@@ -49,13 +49,13 @@ Affine3 similarity(float factor, float angle, bool mirrored, Float3 offset)
     return t;
 }
 
-/// What the twin finds at a pixel.
+/// Values that the twin computes at a pixel.
 struct TwinPoint
 {
     const formats::ClusterRecord* cluster;
     bool says = false; ///< the mesh has visibility
     Double3 position, to_eye;
-    Double3 geometric; ///< interpolated normal, towards the side that is seen
+    Double3 geometric; ///< interpolated normal, towards the visible side
     Double3 normal;    ///< bent by the map
     VisibilityCone cone{};
 };
@@ -91,7 +91,7 @@ protected:
                      .specular_occlusion = specular});
     }
 
-    /// The ray through the middle of a pixel meets the plane of the triangle that was drawn there.
+    /// Intersect the ray through the middle of a pixel with the plane of the triangle that was drawn there.
     TwinPoint twinAt(const Picture& picture, uint32_t x, uint32_t y) const
     {
         const uint32_t id = picture.visibility[y * kWidth + x];
@@ -136,7 +136,7 @@ protected:
             m0 += double{moments.m0} * weights[i];
             m1 += wide(moments.m1) * weights[i];
         }
-        // a similarity turns directions as it turns everything
+        // a similarity rotates directions like all else
         normal = normalize(world.vector(normal));
         m1 = length(m1) > 0 ? normalize(world.vector(m1)) * length(m1) : m1;
         if (!front)
@@ -171,8 +171,8 @@ protected:
                                                    cosine(p.cone.axis, mirror));
     }
 
-    /// Each pixel of a surface has the colour (0 to 1, as displayed) that is expected, to `tolerance` of 255; a few on the
-    /// rims of triangles may not. Returns how many were looked at.
+    /// Expect that each pixel of a surface has the `expected` colour (0 to 1, as displayed), to `tolerance`
+    /// of 255. A few pixels on the rims of triangles may differ. Returns how many were compared.
     template <typename Expected>
     size_t expectPixels(const Picture& picture, int tolerance, const Expected& expected)
     {
@@ -204,7 +204,7 @@ protected:
     std::optional<reference::PackGeometry> geometry_;
     std::unique_ptr<gpu::Scene> scene_;
     Camera camera_;
-    std::map<uint32_t, Affine3d> posed_; ///< instances all of whose joints stand so
+    std::map<uint32_t, Affine3d> posed_; ///< instances whose joints all have this transform
 };
 
 constexpr Float3 kNoReflection{0.35f, 0.05f, 0.05f};
@@ -214,7 +214,7 @@ Float3 grey(float value)
     return {value, value, value};
 }
 
-/// Rocks that are turned, scaled and mirrored, and one without visibility.
+/// Rocks that are rotated, scaled and mirrored, and one without visibility.
 class SkyViewTest : public SkyOcclusionTest
 {
 protected:
@@ -281,7 +281,7 @@ TEST_F(SkyViewTest, specularOcclusionIsTheFit)
                      });
 }
 
-/// By trilinear interpolation in doubles.
+/// Table lookup by trilinear interpolation, in doubles.
 TEST_F(SkyViewTest, specularOcclusionIsLookedUpInTheTable)
 {
     formats::SpecularTableRecord table{};
@@ -290,7 +290,7 @@ TEST_F(SkyViewTest, specularOcclusionIsLookedUpInTheTable)
     const auto value = [](uint32_t x, uint32_t y, uint32_t z)
     {
         return static_cast<uint8_t>(x * 15 + (y * z * 30) / 225);
-    }; // rises with the aperture, at each node another
+    }; // increases with the aperture, differently at each node
     for (uint32_t i = 0; i < formats::kSpecularTexels; ++i)
         table.values[i] = value(i & 15u, i >> 4 & 15u, i >> 8);
     for (const uint32_t spacing : {kSpecularSpacingCosine, kSpecularSpacingHalfSine})
@@ -326,7 +326,7 @@ TEST_F(SkyViewTest, specularOcclusionIsLookedUpInTheTable)
     }
 }
 
-/// The picture, from the material model of the reference.
+/// Image computed by the material model of the reference.
 TEST_F(SkyViewTest, thePictureIsOccludedByLobe)
 {
     const reference::SceneLighting lighting = reference::lightingOf(*pack_);
@@ -355,7 +355,7 @@ TEST_F(SkyViewTest, thePictureIsOccludedByLobe)
                      });
 }
 
-/// All joints of a limb turned alike are the limb turned.
+/// Rotating all joints of a limb alike equals rotating the limb.
 TEST_F(SkyOcclusionTest, conesOfCharactersTurnWithTheirPose)
 {
     DeformedSceneOptions options{
@@ -370,7 +370,7 @@ TEST_F(SkyOcclusionTest, conesOfCharactersTurnWithTheirPose)
     std::vector<TestPose> poses;
     for (const uint32_t instance : deformed.deformedInstances())
     {
-        // the first limb here, another that is mirrored beside it, the rest out of sight
+        // the first limb here, a mirrored one beside it, the rest out of view
         TestPose pose = deformed.randomPose(instance, random);
         const bool mirrored = (pack_->instances()[instance].flags & formats::kInstanceMirrored) != 0;
         const bool shown = poses.empty() || mirrored;
@@ -402,7 +402,7 @@ TEST_F(SkyOcclusionTest, conesOfCharactersTurnWithTheirPose)
 namespace
 {
 
-/// One sheet, seen from a side.
+/// Fixture with one sheet, seen from one side.
 class SheetTest : public SkyOcclusionTest
 {
 protected:
@@ -458,7 +458,7 @@ TEST_F(SheetTest, anOpenSheetLooksLikeOneThatDoesNotSay)
             ASSERT_NEAR(channel(open.color[i], c), channel(plain.color[i], c), 1) << i;
 }
 
-/// A map of one texel bends all of the sheet alike.
+/// A normal map of one texel bends the whole sheet alike.
 TEST_F(SheetTest, aNormalMapBendsWhatIsLit)
 {
     MaterialRecord material = plainMaterial();
@@ -484,7 +484,7 @@ TEST_F(SheetTest, aNormalMapBendsWhatIsLit)
                  [&](const TwinPoint& p) { return grey(twinSpecular(bent(p), 1)); });
 }
 
-/// Where the texture says less it counts, and nowhere else.
+/// The texture counts where it occludes more, and nowhere else.
 TEST_F(SheetTest, theSmallerOfTextureAndConeCounts)
 {
     MaterialRecord material = plainMaterial();

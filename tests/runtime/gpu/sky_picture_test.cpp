@@ -1,5 +1,5 @@
-// The purpose of it all: with cones the picture comes nearer to what rays say. A room whose vertices look about by rays, drawn
-// and traced under the same sky.
+// Tests that cones bring the image nearer to ray tracing: a room whose vertices bake visibility by rays,
+// drawn and traced under the same sky.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/reference/tracer/reference_renderer.h"
 #include "tests/support/gpu_fixture.h"
@@ -92,7 +92,8 @@ struct Placed
     }
 };
 
-/// Rays from a vertex, a little off its surface and towards the middle of the room: vertices of edges stand in other surfaces.
+/// Bake the visibility of a vertex. Rays start a little off its surface and towards the middle of the room,
+/// because vertices on edges lie in other surfaces.
 VisibilityMoments lookAbout(const reference::EmbreeScene& rays, Float3 position, Float3 normal)
 {
     constexpr uint32_t kRays = 256;
@@ -120,7 +121,7 @@ class SkyPictureTest : public GpuTest
 {
 };
 
-/// Root mean square of the difference of two displayed pictures, where the runtime sees a surface; of 255.
+/// Root mean square of the difference of two displayed images, on surfaces of the runtime's image; of 255.
 double rms(const Picture& drawn, const reference::Picture& traced)
 {
     double sum = 0, count = 0;

@@ -1,4 +1,5 @@
-// The cut of the runtime's own decisions, for any camera, error, distance curve, transform and residency at once.
+// Tests cuts by the runtime's own decisions, for random camera, error, distance curve, transform and
+// residency at once.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/frame/lod_curve.h"
 #include "runtime/pack/cut.h"
@@ -38,7 +39,7 @@ shared::Instance instanceAt(const Affine3& place)
     return std::bit_cast<shared::Instance>(scene.model().instances.front());
 }
 
-/// The clusters that the culling pass finds in the cut.
+/// Clusters that the culling pass finds in the cut.
 std::vector<uint32_t> cutSeenBy(const PackView& view, const shared::FrameView& frame,
                                 const shared::Instance& instance, const std::vector<shared::Group>& groups)
 {
@@ -102,7 +103,7 @@ TEST(CutFuzz, hardEdgesAndChartsStayTogether)
 
 TEST(CutFuzz, authoredLevelsAreDrawnOnce)
 {
-    // an authored level is another surface: its border is its own
+    // an authored LOD is another surface: its border is its own
     expectWholeWhateverIsSeen(rockWithAuthoredLevels(), false, 4);
 }
 

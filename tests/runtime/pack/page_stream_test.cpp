@@ -1,4 +1,5 @@
-// Streaming with a device of plain memory: what is resident lies in the pool as it was cooked, whatever threads read it.
+// Tests streaming with a simulated device: resident pages lie in the pool as they were cooked, for any
+// reading threads.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/pack/cut.h"
 #include "runtime/pack/page_stream.h"
@@ -21,7 +22,8 @@ namespace
 
 using formats::PackView;
 
-// The cooker's tasks are not what is tested here, and the thread sanitizer cannot see how TBB's own library orders them.
+// One task at a time: the cooker's tasks are not tested here, and the thread sanitizer cannot see TBB's own
+// synchronisation.
 const tbb::global_control one_task_at_a_time(tbb::global_control::max_allowed_parallelism, 1);
 
 mesh::SourceMesh plain(mesh::SourceMesh mesh)
@@ -29,7 +31,7 @@ mesh::SourceMesh plain(mesh::SourceMesh mesh)
     return withMaterial(std::move(mesh), kInvalidIndex);
 }
 
-/// Reads pages on some threads, in the order that they happen to run.
+/// Reads pages on some threads, in the order of their scheduling.
 class ReadingThreads
 {
 public:
@@ -96,8 +98,8 @@ private:
     std::vector<std::thread> threads_;
 };
 
-/// Slots of plain memory. Frames run when they complete, in order, some frames late, as a device would: what they copy and
-/// read must still be there.
+/// Simulated device with slots in plain memory. Frames run when they complete, in order, some frames late as
+/// on a device: the data that they copy and read must still be there.
 class FakeDevice
 {
 public:
@@ -131,7 +133,7 @@ public:
         return std::move(*stream);
     }
 
-    /// Frame `serial` copies what has been read, and draws what is resident.
+    /// Submit frame `serial`, which copies the pages that have been read and draws the resident ones.
     void submit(uint64_t serial, const pack::StreamChanges& changes, const pack::PageStream& stream)
     {
         Frame frame{serial, {changes.uploads.begin(), changes.uploads.end()}, {}};
@@ -243,8 +245,8 @@ TEST(PageStream, bringsEveryResidentPageToItsSlotWhateverThreadsReadIt)
     const PackView view = scene.build();
     const pack::PageGraph graph = pack::PageGraph::of(view);
     ASSERT_GT(graph.pageCount(), 20u);
-    const uint32_t bad_page = graph.pageCount() / 2; // the coarser half has all that it needs without it
-    // fewer could hold none of the finest pages with all that they need
+    const uint32_t bad_page = graph.pageCount() / 2; // the coarser half of the pages does not need it
+    // with fewer, none of the finest pages would fit with all that they need
     FakeDevice device(view, graph, graph.pageCount() * 2 / 3);
     ReadingThreads threads(view, bad_page);
     pack::PageStream stream = device.makeStream(threads.reader());
@@ -264,7 +266,7 @@ TEST(PageStream, bringsEveryResidentPageToItsSlotWhateverThreadsReadIt)
         stream.schedule(serial - 1);
         EXPECT_LE(stream.statistics().bytes_in_use, stream.statistics().budget_bytes);
     };
-    // threads take their time: frames until enough has come and gone
+    // threads take their time: run frames until enough pages have come and gone
     constexpr uint64_t kEnough = uint64_t{kSanitized ? 20 : 100} * formats::kMaxPageBytes;
     while ((stream.statistics().bytes_streamed < kEnough || failures == 0) && serial < 50000 &&
            !testing::Test::HasFailure())

@@ -1,4 +1,4 @@
-// Clips, played: which instances move and where to, and the palettes of deformed ones.
+// Tests the pose player: which instances a clip moves, their transforms, and the palettes of deformed ones.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/pack/pose_player.h"
 
@@ -87,7 +87,7 @@ TEST(PosePlayer, palettesAreThoseOfTheSkin)
         ASSERT_EQ(posed.world_from_bind.size(), joints[i]);
         ASSERT_EQ(posed.morph_weights.size(), targets[i]);
     }
-    // the joints of the test's skins rest as they were bound
+    // the rest pose of the test's skins is the bind pose
     for (size_t i = 0; i < 2; ++i)
         for (const Affine3d& joint : player.posed()[i].world_from_bind)
             EXPECT_LT(length(transformPoint(joint, {1, 2, 3}) - Double3{1, 2, 3}), 1e-6);

@@ -110,7 +110,8 @@ std::map<uint32_t, double> ResidencyModel::wanted() const
 
 std::vector<uint32_t> ResidencyModel::schedule()
 {
-    std::vector<std::pair<double, uint32_t>> order; // negative priorities: ascending is as they are served
+    // negative priorities: ascending order is the order of service
+    std::vector<std::pair<double, uint32_t>> order;
     for (const auto& [page, priority] : wanted())
     {
         order.emplace_back(-priority, page);

@@ -1,4 +1,5 @@
-// The rules of runtime/pack/residency.h once more, by looking at every page at each call: what the tests hold it against.
+// Model of the rules of runtime/pack/residency.h that visits every page at each call: the reference of the
+// tests.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,7 +12,7 @@
 namespace hearth::test
 {
 
-/// The lists of pack::FrameChanges, to keep and compare.
+/// Copies of the lists of pack::FrameChanges, for comparison.
 struct ChangeLists
 {
     std::vector<uint32_t> evicted, published, released, discarded, failed;
@@ -59,7 +60,7 @@ private:
     bool needsAre(const Pages& pages, uint32_t page, std::initializer_list<State> states) const;
     bool hasDependents(const Pages& pages, uint32_t page) const;
     double worth(const Page& page) const;
-    /// The page to evict next, or none.
+    /// Page to evict next, or none.
     uint32_t leastWorth(const Pages& pages) const;
 
     std::vector<pack::PageNode> nodes_;

@@ -1,4 +1,5 @@
-// The streaming policy: small cases with known answers, and random histories against a slow model of the rules.
+// Tests the streaming policy: small cases with known answers, and random histories against a slow model of
+// the rules.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/runtime/pack/streaming_caller.h"
 #include "tests/support/sanitized.h"
@@ -20,7 +21,7 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 using Requests = StreamingCaller::Requests;
 
-/// A root of 10 bytes, page 0, and `count` pages of 10 bytes that need nothing but it.
+/// A root of 10 bytes, page 0, and `count` pages of 10 bytes that need only the root.
 std::vector<PageNode> star(uint32_t count)
 {
     std::vector<PageNode> nodes(1 + count, PageNode{10, false, {0}, {}});
@@ -28,7 +29,7 @@ std::vector<PageNode> star(uint32_t count)
     return nodes;
 }
 
-/// Pages of 10 bytes of which each needs the one before; the first is a root.
+/// Pages of 10 bytes; each needs the one before, and the first is a root.
 std::vector<PageNode> chain(uint32_t count)
 {
     std::vector<PageNode> nodes(count, PageNode{10, false, {}, {}});
@@ -45,7 +46,7 @@ Residency residencyOf(const std::vector<PageNode>& nodes, const ResidencyOptions
     return std::move(*residency);
 }
 
-/// Load and publish pages, which all fit, in frame `serial`; they are requested with priority 1.
+/// Load and publish pages, which must all fit, in frame `serial`; they are requested with priority 1.
 void makeResident(Residency& residency, uint64_t serial, const std::vector<uint32_t>& pages)
 {
     for (const uint32_t page : pages)
@@ -238,7 +239,7 @@ Machine randomMachine(std::mt19937& random)
     return machine;
 }
 
-/// Holds the roots, and from nothing to all of the rest.
+/// Random budget from the roots alone to all pages.
 ResidencyOptions randomOptions(std::mt19937& random, const std::vector<PageNode>& nodes)
 {
     ResidencyOptions options;
@@ -263,7 +264,7 @@ TEST(Streaming, keepsItsPromisesThroughRandomHistories)
         Requests requests;
         for (int frame = 0; frame < 100; ++frame)
         {
-            // requests that stay for a while, as those of a view do
+            // requests that persist for a while, like those of a view
             if (random() % 8 == 0 || frame == 0)
                 requests = randomRequests(random, nodes.size());
             if (random() % 16 == 0)
@@ -280,7 +281,8 @@ TEST(Streaming, keepsItsPromisesThroughRandomHistories)
     EXPECT_GT(failures, trials(500));
 }
 
-/// What is wanted: companions of the requests, then all that these need, and the roots. With the priorities that count.
+/// Wanted pages with their effective priorities: companions of the requests, then all pages that these need,
+/// and the roots.
 std::map<uint32_t, float> wantedPages(const std::vector<PageNode>& nodes, const Requests& requests)
 {
     std::map<uint32_t, float> requested;
@@ -323,7 +325,8 @@ uint64_t bytesOf(const std::vector<PageNode>& nodes, const std::set<uint32_t>& p
     return bytes;
 }
 
-/// Frames in which all pages surely load one after the other, after what is there has lost its worth.
+/// Number of frames in which all pages surely load one after the other, once resident pages have lost their
+/// worth.
 uint32_t framesEnough(const std::vector<PageNode>& nodes, const Machine& machine)
 {
     return 40 +
@@ -357,7 +360,7 @@ TEST(Streaming, bringsExactlyWhatIsWantedWhereItFits)
     }
 }
 
-/// From the greatest priority down, until one does not fit.
+/// Pages from the greatest priority down, until one does not fit.
 std::set<uint32_t> mostImportant(const std::vector<PageNode>& nodes, const Requests& requests,
                                  uint64_t budget)
 {
@@ -375,7 +378,7 @@ std::set<uint32_t> mostImportant(const std::vector<PageNode>& nodes, const Reque
     return pages;
 }
 
-/// The resident pages that the first absent one must leave alone take so much that it does not fit.
+/// Expect that the first absent page does not fit beside the resident pages that it must not evict.
 void expectNothingMoreFits(const std::vector<PageNode>& nodes, const StreamingCaller& caller,
                            const Requests& requests, const ResidencyOptions& options)
 {
@@ -501,7 +504,7 @@ TEST(ErrorScale, doesNotCountWhatNeedsAFailedPage)
 
 TEST(ErrorScale, settlesWhereWhatIsDrawnFits)
 {
-    // errors fall by a tenth from page to page; feedback is three frames late
+    // errors decrease by a tenth from page to page; feedback is three frames late
     Residency residency = residencyOf(star(40), {.budget_bytes = 160});
     std::vector<float> scales{1, 1, 1};
     for (uint64_t serial = 1; serial < 300; ++serial)
@@ -531,7 +534,8 @@ TEST(ErrorScale, settlesWhereWhatIsDrawnFits)
 
 TEST(ErrorScale, restsAboveAJumpUntilSomethingElseIsWanted)
 {
-    // finer than 3, what is wanted does not fit; coarser, it is half of the budget. Feedback is three updates late
+    // At a scale below 3 the wanted pages do not fit; above, they take half of the budget. Feedback is three
+    // updates late.
     pack::ErrorScale scale;
     std::vector<float> values{1, 1, 1};
     const auto play = [&](uint64_t coarse, int updates)

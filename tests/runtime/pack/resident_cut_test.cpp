@@ -1,4 +1,5 @@
-// Cuts through hierarchies of which not all pages are resident: whole surfaces, whatever the policy has brought so far.
+// Tests cuts through hierarchies with partial residency: whole surfaces, for any set of pages that the policy
+// has loaded.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/pack/cut.h"
 #include "runtime/pack/residency.h"
@@ -19,7 +20,7 @@ namespace
 using namespace formats;
 using testing::ElementsAreArray;
 
-/// The error of a random group, or 0.
+/// Error of a random group, or 0.
 float randomThreshold(const PackView& view, std::mt19937& random)
 {
     const float error = view.groups()[random() % view.groups().size()].error;
@@ -66,7 +67,7 @@ TEST(ResidentCut, drawsASetOfGroupsOnlyWhereAllItsPagesAreResident)
     for (uint32_t page = 0; page < graph.pageCount(); ++page)
         companions += graph.companions(page).size();
     EXPECT_GT(companions, 2u) << "sets must span pages, or nothing is tested";
-    // an authored level is another surface: its border is its own
+    // an authored LOD is another surface: its border is its own
     expectWholeAtRandomSets(mesh, false, 3);
 }
 
@@ -86,7 +87,7 @@ TEST(PageGraph, isThatOfThePackWhereNoSetSpansPages)
     EXPECT_THAT(graph.pinned(), testing::ElementsAre(0)) << "the coarsest level ends in one cluster";
 }
 
-/// What a cull pass would ask for: the finer group of each cluster that is too coarse.
+/// Request pages like a cull pass: the finer group of each cluster that is too coarse.
 void requestFiner(const PackView& view, pack::Residency& residency, float threshold)
 {
     for (const ClusterRecord& cluster : view.clusters())
@@ -103,7 +104,8 @@ std::vector<uint32_t> cutOf(const PackView& view, const pack::Residency& residen
     return pack::selectCut(view, 0, threshold, pack::residentGroups(view, resident));
 }
 
-/// Streams with a budget of `share` of all pages until all frames have been drawn; each is a whole surface.
+/// Stream with a budget of `share` of all pages until all frames have been drawn; expects a whole surface in
+/// each.
 void streamFrames(const CookedMesh& mesh, float threshold, double share, bool watertight)
 {
     const PackView& view = mesh.view();

@@ -1,5 +1,5 @@
-// Streamed scenes: every frame is the picture that an all-resident scene draws with the same cut, within the budget,
-// whatever reads do; and it ends as if all were resident.
+// Tests streamed scenes: every frame equals the image of an all-resident scene with the same cut, within the
+// budget and for any order or failure of reads; and it converges to the all-resident image.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/pack/cut.h"
 #include "tests/reference/culling/cut_checker.h"
@@ -22,15 +22,15 @@ using namespace shared;
 
 constexpr uint32_t kWithoutOcclusion = kCullInstances | kCullFrustum | kCullCone;
 
-/// Reads that end when the test says so.
+/// Reader whose reads complete when the test says so.
 class FakeDisk
 {
 public:
     explicit FakeDisk(const formats::PackView& pack) : pack_(pack) {}
 
-    uint32_t failures_of_64 = 0;  ///< reads
-    std::set<uint32_t> bad_pages; ///< whose reads fail always
-    uint32_t most_frames = 1;     ///< that a read takes, >= 1
+    uint32_t failures_of_64 = 0;  ///< failing reads
+    std::set<uint32_t> bad_pages; ///< pages whose reads always fail
+    uint32_t most_frames = 1;     ///< maximum duration of a read, >= 1
 
     pack::PageReader reader(std::mt19937& random)
     {
@@ -41,7 +41,7 @@ public:
         };
     }
 
-    /// Ends the reads whose time has come, in any order.
+    /// Complete the reads that are due, in any order.
     void frame(std::mt19937& random)
     {
         std::shuffle(reads_.begin(), reads_.end(), random);
@@ -54,7 +54,7 @@ public:
         reads_ = std::move(waiting);
     }
 
-    /// No read that is under way ends.
+    /// Drop all reads in flight; none of them completes.
     void forget() { reads_.clear(); }
 
     std::map<uint32_t, uint32_t> read_counts;
@@ -85,7 +85,7 @@ private:
     std::vector<Read> reads_;
 };
 
-/// Rocks of many pages, one with levels made by hand, and a two-sided terrain, moved about.
+/// Fill with rocks of many pages, one with authored LODs, and a two-sided terrain, at random places.
 void fillScene(TestScene& scene, std::mt19937& random)
 {
     formats::MaterialRecord two_sided = plainMaterial();
@@ -134,7 +134,7 @@ protected:
 
     void stream(uint64_t budget_bytes, uint32_t max_loads = 32)
     {
-        disk_->forget(); // reads for another scene
+        disk_->forget(); // reads of another scene
         streamed_ = upload(
             *pack_,
             {.geometry_budget = budget_bytes,
@@ -145,7 +145,7 @@ protected:
         EXPECT_LE(pool_bytes, budget_bytes + 3 * 16) << "an empty slice has 16 bytes";
     }
 
-    /// One frame, `late` of those before still running, as far as the stream knows.
+    /// Draw one frame; the stream is told that the last `late` frames are still running.
     Picture frame(const Camera& camera, const DrawOptions& options, uint64_t late = 0)
     {
         ++serial_;
@@ -161,7 +161,7 @@ protected:
         return picture;
     }
 
-    /// Frames until one has drawn all that it wanted; returns their number, or `most`.
+    /// Draw frames until one has all that it requested; returns their number, or `most`.
     uint32_t settle(const Camera& camera, const DrawOptions& options, uint32_t most = 400)
     {
         const uint64_t first = serial_ + 1;
@@ -182,7 +182,7 @@ protected:
         return pack::residentGroups(*pack_, pages);
     }
 
-    /// What the all-resident scene draws where its tables say that only these groups are there.
+    /// Draw the all-resident scene with tables that mark only these groups as resident.
     Picture drawWhole(const std::vector<uint8_t>& resident_groups, const Camera& camera,
                       const DrawOptions& options)
     {
@@ -194,7 +194,7 @@ protected:
         const Status written = host().run(
             [&](VkCommandBuffer commands)
             {
-                constexpr size_t kMost = 1024; // 64 KiB are what one command takes
+                constexpr size_t kMost = 1024; // one command takes at most 64 KiB
                 for (size_t first = 0; first < groups.size(); first += kMost)
                     device.vk.vkCmdUpdateBuffer(
                         commands, whole_->buffers.groups.handle.get(), first * sizeof(Group),
@@ -215,7 +215,8 @@ protected:
         return options;
     }
 
-    /// The frame is that of the twin and of the all-resident scene with the same cut, and a whole surface.
+    /// Expect that the frame equals the twin's and the all-resident scene's with the same cut, and is a whole
+    /// surface.
     void expectWhole(const Picture& picture, const Camera& camera, const DrawOptions& options)
     {
         const std::vector<uint8_t> resident = residentGroups();
@@ -232,7 +233,7 @@ protected:
         EXPECT_EQ(picture.color, whole.color);
     }
 
-    /// All that the twin draws, instance by instance: each surface once, and nothing that is not there.
+    /// Expect that all clusters of the twin, instance by instance, cover each surface once and are resident.
     void expectCovering(const Twin& twin) const
     {
         std::vector<std::vector<uint32_t>> cuts(pack_->instances().size());

@@ -1,4 +1,5 @@
-// A renderer as the streaming policy sees one: frames, loads that take their time, failures; and a watch over promises.
+// Simulates a renderer that uses the streaming policy: frames, loads with durations, failures; and checks the
+// guarantees.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,17 +14,17 @@
 namespace hearth::test
 {
 
-/// How loads and frames run. Numbers are rolled up to these limits.
+/// Parameters of loads and frames. Random numbers are drawn up to these limits.
 struct Machine
 {
-    uint32_t most_load_frames = 3; ///< from start to end
-    uint32_t most_frames_late = 2; ///< that run beside the one being recorded
-    uint32_t failures_of_64 = 0;   ///< loads
-    std::set<uint32_t> bad_pages;  ///< whose loads fail always
+    uint32_t most_load_frames = 3; ///< duration of a load
+    uint32_t most_frames_late = 2; ///< frames that run beside the one being recorded
+    uint32_t failures_of_64 = 0;   ///< failing loads
+    std::set<uint32_t> bad_pages;  ///< pages whose loads always fail
 };
 
-/// Drives a Residency and the model of it side by side; every answer is expected to be the model's, and what is promised of
-/// resident sets, bytes and order is expected to hold after every call.
+/// Drives a Residency and its model side by side. Expects each answer to equal the model's, and the
+/// guarantees about resident sets, bytes and order to hold after every call.
 class StreamingCaller
 {
 public:
@@ -32,15 +33,16 @@ public:
 
     using Requests = std::vector<std::pair<uint32_t, float>>;
 
-    /// One frame. Returns whether anything changed or is still under way.
+    /// Run one frame. Returns true if anything changed or is still in flight.
     bool frame(const Requests& requests);
 
-    /// Frames with the same requests until nothing has changed for `quiet` frames; returns their number, or `most`.
+    /// Run frames with the same requests until nothing has changed for `quiet` frames; returns their number,
+    /// or `most`.
     uint32_t settle(const Requests& requests, uint32_t most = 2000, uint32_t quiet = 20);
 
     void retryFailed();
 
-    /// From now on, no load fails.
+    /// Let no load fail from now on.
     void mend();
 
     const std::vector<uint8_t>& resident() const { return resident_; }
@@ -67,21 +69,21 @@ private:
     ResidencyModel model_;
     std::vector<uint8_t> resident_;
     std::map<uint32_t, uint32_t> loads_; ///< page -> frames until it ends
-    std::set<uint32_t> loaded_;          ///< ended, not published
+    std::set<uint32_t> loaded_;          ///< completed, not published
     std::map<uint32_t, uint64_t> held_;  ///< evicted page -> last frame that reads it
     std::map<uint32_t, uint32_t> failure_count_of_page_, ended_badly_;
     uint64_t serial_ = 0, completed_serial_ = 0;
     uint64_t start_count_ = 0, eviction_count_ = 0;
 };
 
-/// Up to `most_pages` pages of 1 to 64 bytes in a random graph, page 0 a root; with companions.
+/// Up to `most_pages` pages of 1 to 64 bytes in a random graph with companions; page 0 is a root.
 std::vector<pack::PageNode> randomPages(std::mt19937& random, uint32_t most_pages);
 
-/// The bytes of the pinned pages, and of all.
+/// Bytes of the pinned pages, and of all.
 uint64_t pinnedBytes(const std::vector<pack::PageNode>& nodes);
 uint64_t allBytes(const std::vector<pack::PageNode>& nodes);
 
-/// The pages with all that they need, ascending.
+/// The pages together with all that they need, ascending.
 std::set<uint32_t> closureOf(const std::vector<pack::PageNode>& nodes, std::set<uint32_t> pages);
 
 } // namespace hearth::test

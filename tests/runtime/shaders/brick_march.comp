@@ -1,4 +1,4 @@
-// Marches rays of a test through the bricks of a scene: what each finds first, and what it finds behind that.
+// Marches a test's rays through the bricks of a scene: first hit of each, and the next hit behind it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require

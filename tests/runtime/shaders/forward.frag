@@ -1,4 +1,5 @@
-// The same shading as the picture's, of what the rasteriser interpolates and differentiates.
+// Forward shading with the renderer's shading code, from attributes that the rasteriser interpolates and
+// differentiates.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -25,11 +26,11 @@ void main()
     SurfacePoint point;
     point.position = in_position;
     point.normal = normalizeOr(in_normal, vec3(0.0, 1.0, 0.0));
-    point.flat_normal = point.normal; // no shadows look at it
+    point.flat_normal = point.normal; // not read without shadows
     completeFrame(point.normal, in_tangent, in_side, point.tangent, point.bitangent);
     point.sky = openSky(point.normal);
     point.color = in_color;
-    // where both sides are drawn, mirrored instances are not drawn with the other front face
+    // two-sided materials: mirrored instances are drawn without reversing the front face
     bool turned = (material.flags & kMaterialDoubleSided) != 0u && in_mirrored != 0u;
     point.front = gl_FrontFacing != turned;
 

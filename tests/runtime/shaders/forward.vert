@@ -1,4 +1,4 @@
-// The clusters of a bin that have one material, with all that shading needs as vertex outputs.
+// Draws the clusters of a bin that have one material, with all shading attributes as vertex outputs.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -17,7 +17,7 @@ layout(push_constant) uniform Push
 };
 
 layout(location = 0) out vec3 out_position; // relative to the eye
-layout(location = 1) out vec3 out_normal;   // world axes, any length, as the next
+layout(location = 1) out vec3 out_normal; // world axes, any length; the next likewise
 layout(location = 2) out vec3 out_tangent;
 layout(location = 3) out vec3 out_color;
 layout(location = 4) out vec4 out_uvs; // sets 0 and 1

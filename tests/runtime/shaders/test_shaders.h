@@ -1,4 +1,4 @@
-// The compiled shaders of the tests; each is named after its file.
+// Compiled shaders of the tests, each named after its file.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 

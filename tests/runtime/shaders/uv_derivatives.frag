@@ -1,4 +1,5 @@
-// The derivatives of UV set 0 as the picture's shading uses them: by x in the first two channels, by y in the others.
+// Writes the derivatives of UV set 0 as the renderer's shading uses them: by x in the first two channels, by
+// y in the others.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require

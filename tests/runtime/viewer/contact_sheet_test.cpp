@@ -1,4 +1,5 @@
-// When a pack is drawn as a contact sheet, where its cells are, and its letters. No device is needed.
+// Tests contact sheets: which packs are drawn as one, the layout of the cells, and the letters. No device is
+// needed.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/contact_sheet.h"
 
@@ -30,12 +31,12 @@ PackView packOf(const std::vector<Box3>& boxes)
         asset.box_max = box.max;
         model.assets.push_back(asset);
     }
-    static std::vector<AlignedBytes> kept; // as long as the views
+    static std::vector<AlignedBytes> kept; // must live as long as the views
     kept.push_back(model.bytes());
     return PackView::read(ContainerReader::fromBytes(kept.back().span(), "test").value()).value();
 }
 
-/// Stands on the ground, its middle at x and z.
+/// A box on the ground with its centre at x and z.
 Box3 standing(float side, float x = 0, float z = 0)
 {
     return {{x - side / 2, 0, z - side / 2}, {x + side / 2, side, z + side / 2}};
@@ -46,7 +47,7 @@ bool inOnePlace(const std::vector<Box3>& boxes)
     return viewer::areUnplaced(packOf(boxes));
 }
 
-/// As lines of # and spaces.
+/// Text as lines of # and spaces.
 std::vector<std::string> drawn(std::string_view text, uint32_t width, uint32_t height, uint32_t scale = 1)
 {
     std::vector<std::byte> pixels(size_t{width} * height * 4);
@@ -68,7 +69,7 @@ TEST(OnePlace, isWhereModelsStandThatNobodyPlaced)
     const Box3 by_its_corner{{0, 0, 0}, {2, 3, 0.2f}}; // a wall of a kit
     const Box3 flat{{-1, 0, -1}, {1, 0, 1}};
     EXPECT_TRUE(inOnePlace({centered, standing(2), by_its_corner, flat}));
-    // a scan far away does not make a scene of the others
+    // a single scan far away does not make the others a scene
     EXPECT_TRUE(inOnePlace({standing(1), standing(2), standing(3), standing(1, 300, 0)}));
 }
 

@@ -1,4 +1,4 @@
-// The debug views: every pixel has the colour that follows from what the visibility buffer says of it.
+// Tests the debug views: every pixel has the colour that follows from its entry in the visibility buffer.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/decisions.h"
 #include "tests/support/gpu_fixture.h"
@@ -28,7 +28,7 @@ Float3 mix(Float3 a, Float3 b, float along)
     return a * (1 - along) + b * along;
 }
 
-/// What an sRGB target stores of so many steps, each added to what it has stored of those before.
+/// Value in an sRGB target after `count` additive steps, rounded after each.
 int addedUp(float step, int count)
 {
     int stored = 0;
@@ -48,7 +48,7 @@ int addedUp(float step, int count)
 class ViewTest : public GpuTest
 {
 protected:
-    /// Rocks near and far, and foliage, which has hardly a cone; each with a material of its own.
+    /// Build rocks near and far, and foliage, which has hardly any cones; each with a material of its own.
     void SetUp() override
     {
         GpuTest::SetUp();
@@ -75,8 +75,8 @@ protected:
         return pack_->clusters()[slot.cluster];
     }
 
-    /// Each pixel has the colour that `expected` (0 to 1, as it is displayed) says of its slot. Returns how many different
-    /// colours there were.
+    /// Expect that each pixel has the `expected` colour (0 to 1, as displayed) of its slot. Returns how many
+    /// different colours there were.
     size_t expectColors(const Picture& picture, const std::function<Float3(const VisibleCluster&)>& expected)
     {
         std::set<uint32_t> colors;
@@ -146,8 +146,8 @@ TEST_F(ViewTest, conesAreThoseOfTheClusters)
     EXPECT_GT(colors, 10u);
 }
 
-/// Views that give things a colour each, dimmed by the angle to the eye: pixels of one thing have one hue, and other things
-/// mostly others.
+/// Views that give each thing a colour, dimmed by the angle to the eye: all pixels of a thing have one hue,
+/// and other things mostly others.
 TEST_F(ViewTest, thingsHaveAColourEach)
 {
     const auto countHues =
@@ -189,7 +189,8 @@ TEST_F(ViewTest, thingsHaveAColourEach)
 
 TEST_F(ViewTest, overdrawCountsEveryLayer)
 {
-    // one-sided and two-sided squares and a mirrored one, each smaller than the one behind it; half of the last is holes
+    // One-sided and two-sided squares and a mirrored one, each smaller than the one behind it; half of the
+    // last is holes.
     TestScene test;
     formats::MaterialRecord two_sided = plainMaterial();
     two_sided.flags = formats::kMaterialDoubleSided;
@@ -216,7 +217,7 @@ TEST_F(ViewTest, overdrawCountsEveryLayer)
             EXPECT_NEAR(channel(picture.at(x, 64), c), addedUp(kOverdrawStep[c], layers), 1)
                 << "x " << x << " layers " << layers;
     };
-    // the square of side 2 fills the picture
+    // the square of side 2 fills the image
     const Camera front{
         .position = {0, 0, 2}, .target = {0, 0, 0}, .y_fov_rad = 2 * std::atan(0.5f), .z_near = 0.01f};
     gpu::FrameTargets targets = makeTargets(128, 128);
@@ -243,7 +244,7 @@ TEST_F(ViewTest, overdrawShowsBothPhases)
     size_t covered = 0, many = 0, late = 0;
     for (int i = 0; i < 5; ++i)
     {
-        // what is hidden from there need not be hidden from here
+        // geometry that is occluded from there need not be occluded from here
         Camera before = rocksCamera();
         before.position += {uniform(random, -4, 4), uniform(random, -4, 4), uniform(random, -4, 4)};
         draw(*scene_, targets, before, options);

@@ -1,4 +1,4 @@
-// The command line of hearth-render, its camera and its files. No device is needed.
+// Tests the command line of hearth-render, its camera and its files. No device is needed.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/shading.h"
 #include "runtime/viewer/camera_fit.h"
@@ -150,7 +150,8 @@ TEST(CullReport, everythingIsCountedAtTheFirstTestThatItFails)
         statistics.triangles_low[i] = 1000 * (i + 1);
     }
     statistics.triangles_high[shared::kOutcomeLod] = 1;
-    // of 50 clusters of instances that were seen at once 20 are drawn early, and 70 of all 110 in the end
+    // 20 of 50 clusters of instances that were visible at once are drawn early; at the end 70 of all 110 are
+    // drawn.
     const viewer::CullReport report = viewer::makeCullReport(statistics, {70, 0, 20, 0}, 2000, 7000);
     EXPECT_EQ(viewer::formatCullReport(report),
               "{\"instances\":{\"tested\":15,\"empty\":1,\"frustum\":2,\"occlusion_early\":7,\"occlusion\":3,"
@@ -278,7 +279,7 @@ TEST(FitCamera, showsEveryVertexBetweenTheSides)
             const float reach = std::max({left, right, bottom, top});
             EXPECT_LT(reach, 1);
             EXPECT_GT(reach, 0.8f);
-            // of the two sides that it is nearest to, it is as far from one as from the other
+            // equally far from the two sides that are nearest
             const bool wide = std::max(left, right) > std::max(bottom, top);
             EXPECT_LT(std::abs(wide ? left - right : top - bottom), 0.2f);
         }
@@ -299,7 +300,7 @@ TEST(WriteFile, leavesNothingBehindWhereItCannotWrite)
     const Status status = viewer::writeFile(folder.file("missing/a.png"), bytes);
     ASSERT_FALSE(status.ok());
     EXPECT_EQ(exitCode(status.error()), 73);
-    // a folder stands where the file should
+    // a folder has the name of the file
     std::filesystem::create_directory(folder.file("taken"));
     EXPECT_FALSE(viewer::writeFile(folder.file("taken"), bytes).ok());
     EXPECT_EQ(folder.files(), std::set<std::string>{"taken"});
