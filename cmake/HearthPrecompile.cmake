@@ -34,8 +34,8 @@ hearth_precompiled_library(hearth_precompiled_without_exceptions
 if(HEARTH_SANITIZE)
   hearth_precompiled_library(hearth_precompiled_optimised
     HEADERS ${hearth_precompiled_headers}
-    OPTIONS -O1)
+    OPTIONS ${hearth_sanitized_optimisation})
   hearth_precompiled_library(hearth_precompiled_without_exceptions_optimised
     HEADERS ${hearth_precompiled_headers}
-    OPTIONS -fno-exceptions -O1)
+    OPTIONS -fno-exceptions ${hearth_sanitized_optimisation})
 endif()
