@@ -31,8 +31,8 @@ struct MeshStatistics
 ///
 /// import_part    nodes, skins and animations
 /// clusters_part  of the same source
-/// errors: container_kind; errors of checkAnimationTables and of readClusters; meaning_reference where the parts are
-/// of different sources; cannot_write.
+/// errors: container_kind; errors of checkAnimationTables and of readClusters; meaning_reference where the
+/// parts are of different sources; cannot_write.
 Result<std::vector<MeshStatistics>> writeSkinningPart(const formats::PackView& import_part,
                                                       const formats::PackView& clusters_part,
                                                       const std::string& output_path);

@@ -54,8 +54,9 @@ public:
     /// errors: child_failed.
     Result<size_t> startBatch(const std::string& program);
 
-    /// Send a command line (from makeBatchLine) to batch `id`, which runs it after the earlier ones. Send only a
-    /// few ahead: unread ones fill a buffer of about 100 KB. If the process has died, wait() reports it.
+    /// Send a command line (from makeBatchLine) to batch `id`, which runs it after the earlier ones. Send
+    /// only a few ahead: unread ones fill a buffer of about 100 KB. If the process has died, wait() reports
+    /// it.
     void sendCommandLine(size_t id, std::string_view line);
 
     /// Send no more command lines to batch `id`, which ends after the ones that it has.

@@ -15,8 +15,8 @@ inline constexpr uint32_t kConeBackSteps = 16;
 /// Largest ClusterRecord::extent_shift: covers the whole grid from corner to corner.
 inline constexpr uint32_t kMaxExtentShift = 9;
 
-/// Return the vertex layout of a cluster: its mesh's layout, and kVertexWideOffsets if its offsets need more than 16
-/// bits.
+/// Return the vertex layout of a cluster: its mesh's layout, and kVertexWideOffsets if its offsets need more
+/// than 16 bits.
 constexpr uint32_t clusterVertexLayout(const ClusterRecord& cluster, uint32_t mesh_layout)
 {
     return mesh_layout | (cluster.extent_shift > 0 ? uint32_t{kVertexWideOffsets} : 0u);

@@ -9,8 +9,8 @@
 HEARTH_SHARED_BEGIN
 
 // The unsigned floats have 5 bits of exponent, as halves, above 6 or 5 bits of mantissa. The smallest code
-// above 0 is 2^-20 or 2^-19, the largest is kMaxRadianceRedGreen or kMaxRadianceBlue. Codes below 2^-14 are denormals.
-// Exponent 31 would be infinity or NaN, and no code has it.
+// above 0 is 2^-20 or 2^-19, the largest is kMaxRadianceRedGreen or kMaxRadianceBlue. Codes below 2^-14 are
+// denormals. Exponent 31 would be infinity or NaN, and no code has it.
 HEARTH_CONSTANT float kMaxRadianceRedGreen = 65024.0f;
 HEARTH_CONSTANT float kMaxRadianceBlue = 64512.0f;
 

@@ -274,8 +274,8 @@ struct BrickUnshadowedLight
 
 /// Compute the unoccluded light of a face.
 /// surface  point of brickFaceSurface: distance and angle are measured there
-/// lamp     position from which the light shines, in voxels: brickLampPosition, or its own position. Ignored for
-///          suns
+/// lamp     position from which the light shines, in voxels: brickLampPosition, or its own position. Ignored
+///          for suns
 HEARTH_FUNCTION BrickUnshadowedLight brickUnshadowedLight(HEARTH_IN(BrickGrid) grid,
                                                           HEARTH_IN(BrickStart) start, Float3 surface,
                                                           HEARTH_IN(Light) light, Float3 lamp)

@@ -85,8 +85,8 @@ struct GatherLobeShares
     float cosine;
 };
 
-/// Return the weights, linear between kGatherSharpRoughness, kGatherWideRoughness and 1, where a lobe is close to the cosine's.
-/// Below kGatherSharpRoughness the sharp lobe has all the weight.
+/// Return the weights, linear between kGatherSharpRoughness, kGatherWideRoughness and 1, where a lobe is
+/// close to the cosine's. Below kGatherSharpRoughness the sharp lobe has all the weight.
 /// roughness  perceptual
 HEARTH_FUNCTION GatherLobeShares gatherLobeShares(float roughness)
 {

@@ -69,8 +69,8 @@ HEARTH_CONSTANT float kGrazingCosine = 0.0087f;
 /// Lower bound in metres of the distance from a spot to a plane: a surface seen edge-on covers no texel.
 HEARTH_CONSTANT float kMinPlaneDistance = 1e-6f;
 
-/// Texels by which a rasteriser may move a vertex: 1/16 at the coarsest that Vulkan allows, after snapToRaster.
-/// A surface is hit at up to this distance beyond the pixel's centre.
+/// Texels by which a rasteriser may move a vertex: 1/16 at the coarsest that Vulkan allows, after
+/// snapToRaster. A surface is hit at up to this distance beyond the pixel's centre.
 HEARTH_CONSTANT float kRasterMargin = 0.0625f;
 
 /// Point in the coordinates of a light.

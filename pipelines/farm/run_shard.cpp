@@ -22,8 +22,8 @@ std::string machineName()
     return ::gethostname(name, sizeof(name) - 1) == 0 ? name : "";
 }
 
-/// Return the common exit code of all failures, kExitMixedFailures where they differ, and kExitRetry where a retry
-/// may help.
+/// Return the common exit code of all failures, kExitMixedFailures where they differ, and kExitRetry where a
+/// retry may help.
 int combinedExitCode(const std::vector<graph::Failure>& failures)
 {
     if (failures.empty())

@@ -13,8 +13,8 @@ namespace hearth::shared
 namespace
 {
 
-/// Return the plane through an edge of a map. Inside is where the light's coordinate is more than `min_coordinate`, or
-/// less with side -1.
+/// Return the plane through an edge of a map. Inside is where the light's coordinate is more than
+/// `min_coordinate`, or less with side -1.
 Float4 edgePlane(const ShadowLight& light, Double3 eye, Float3 axis, double min_coordinate, double side)
 {
     const Double3 along = widen(light.direction);

@@ -9,12 +9,12 @@ namespace hearth::pack
 {
 
 /// Factor on the threshold of the cut, 1 .. kMaxScale. At each update it grows by an eighth of the excess of
-/// wanted over budgeted bytes, by an eighth at most, and it shrinks as slowly when less than kLowWatermark of the
-/// budget is wanted. Between the two it rests, so that it does not oscillate. Bytes fall with about the
+/// wanted over budgeted bytes, by an eighth at most, and it shrinks as slowly when less than kLowWatermark of
+/// the budget is wanted. Between the two it rests, so that it does not oscillate. Bytes fall with about the
 /// square of the threshold: steps of an eighth do not overshoot, even if feedback is some frames late.
 ///
-/// If the wanted bytes jump from below kLowWatermark to above the budget (levels that switch as a whole), the factor
-/// rests above the jump until the wanted bytes change.
+/// If the wanted bytes jump from below kLowWatermark to above the budget (levels that switch as a whole), the
+/// factor rests above the jump until the wanted bytes change.
 class ErrorScale
 {
 public:

@@ -17,8 +17,8 @@ using FolderGraph = std::map<std::string, std::set<std::string>>;
 /// root  of the repository
 FolderGraph readFolderGraph(const std::string& root);
 
-/// Return an SVG. Each folder stands one floor above the highest of those that it includes. Arrows that follow
-/// from others are left out.
+/// Return an SVG. Each folder stands one floor above the highest of those that it includes. Arrows that
+/// follow from others are left out.
 ///
 /// graph  without cycles (asserted)
 std::string drawFolderGraph(const FolderGraph& graph);

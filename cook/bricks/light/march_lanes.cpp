@@ -121,8 +121,8 @@ private:
         }
     }
 
-    /// Step as brickLeaveCell and updateBrickVoxel do. Catching up after each step, instead of when it matters, does
-    /// not change the result: a position along a ray never moves back, not by rounding either.
+    /// Step as brickLeaveCell and updateBrickVoxel do. Catching up after each step, instead of when it
+    /// matters, does not change the result: a position along a ray never moves back, not by rounding either.
     void stepRays()
     {
         for (uint32_t lane = 0; lane < kLanes; ++lane)

@@ -47,8 +47,8 @@ private:
 /// March each ray as brickMarch does. For rays that end in no solid voxel only `inside`, `t`, `face` and
 /// `steps` are the same; the other members are meaningless in both.
 ///
-/// rays  as brickRay, brickRayInVoxels or brickSkipVoxel leave them; 256 at once take little more than half of the
-///       time of brickMarch, 64 two thirds
+/// rays  as brickRay, brickRayInVoxels or brickSkipVoxel leave them; 256 at once take little more than half
+///       of the time of brickMarch, 64 two thirds
 void marchRays(const MarchTable& table, std::span<shared::BrickRay> rays);
 
 } // namespace hearth::bricks

@@ -73,8 +73,8 @@ VisibleSpaces findVisibleSpaces(const SolidGrid& grid, const EmptySpaces& spaces
 /// the space from which a path through such voxels reaches it. Voxels where two spaces meet become opaque.
 /// Afterwards no path through empty and partly opaque voxels connects two spaces.
 ///
-/// returns  the space of each solid voxel; kInvalidIndex for opaque voxels and for voxels that only opaque ones
-///          surround
+/// returns  the space of each solid voxel; kInvalidIndex for opaque voxels and for voxels that only opaque
+///          ones surround
 std::vector<uint32_t> separateSpaces(SolidGrid& grid, const EmptySpaces& spaces);
 
 } // namespace hearth::bricks

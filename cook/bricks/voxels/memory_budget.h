@@ -31,9 +31,10 @@ struct GridWithFaces
     BrickBytes bytes() const;
 };
 
-/// Find the spaces and faces of a grid whose opacities computeOpacities has set. Drop the bricks farthest from all
-/// focus points if the tables need more than `memory` bytes. The remaining bricks keep their faces and get no
-/// new ones where the grid now ends: these sides stay dark, and the interiors of walls stay closed.
+/// Find the spaces and faces of a grid whose opacities computeOpacities has set. Drop the bricks farthest
+/// from all focus points if the tables need more than `memory` bytes. The remaining bricks keep their faces
+/// and get no new ones where the grid now ends: these sides stay dark, and the interiors of walls stay
+/// closed.
 ///
 /// memory       bytes, at least what the groups take
 /// seen_points  visible positions (cameras and seeds), world space

@@ -1,9 +1,9 @@
 // Clips triangles to the voxels that they cross. Closed surfaces stay closed in voxels: no path across common
 // faces of voxels passes through a closed surface without meeting a voxel that has a piece.
 //
-// This holds because corners are snapped to a grid (kStepsPerVoxel), and because the point where a plane cuts an edge
-// is a function of the edge and the plane alone: neighbouring triangles are cut at the same points, whatever
-// their order, direction or tile.
+// This holds because corners are snapped to a grid (kStepsPerVoxel), and because the point where a plane cuts
+// an edge is a function of the edge and the plane alone: neighbouring triangles are cut at the same points,
+// whatever their order, direction or tile.
 //
 // A piece in a plane between voxels belongs to the voxel behind it, against its normal: walls on planes of
 // the grid do not shrink the room in front of them. At the boundary of the grid it belongs to the voxel in

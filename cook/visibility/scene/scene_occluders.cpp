@@ -11,7 +11,8 @@ using namespace formats;
 namespace
 {
 
-/// Corner indices of the triangles of each material with a mask; key kInvalidIndex: of all triangles without a mask.
+/// Corner indices of the triangles of each material with a mask; key kInvalidIndex: of all triangles without
+/// a mask.
 using TrianglesByMaterial = std::map<uint32_t, std::vector<uint32_t>>;
 
 /// Collect the UVs of a set at all vertices of the level; vertices without the set get 0.

@@ -65,7 +65,8 @@ bool hasSummary(const CookOptions& options)
 
 /// Print a child's messages and count its warnings. Prints errors always, warnings unless quiet, all others
 /// only with Verbosity::all.
-/// were_printed  the previous cook has printed the same: warnings are only counted, except with Verbosity::all
+/// were_printed  the previous cook has printed the same: warnings are only counted, except with
+///               Verbosity::all
 /// returns    the number of warnings that count as errors
 size_t printMessages(const std::vector<std::string>& lines, bool were_printed, const CookOptions& options,
                      CookSummary& summary)
@@ -338,8 +339,8 @@ bool haveSameContent(const std::string& a, const std::string& b)
 }
 
 /// Move the pack into place, unless the same pack is there already: build tools compare its time.
-/// old_pack_hash  hash of the old pack; nullopt if there is none, or no cache: without a cache the old pack is
-///             not hashed
+/// old_pack_hash  hash of the old pack; nullopt if there is none, or no cache: without a cache the old pack
+///                is not hashed
 bool placePack(const graph::Executor& executor, const std::optional<std::string>& old_pack_hash,
                const CookOptions& options, CookOutcome& outcome)
 {

@@ -24,8 +24,8 @@ bool isModelFile(const std::string& path);
 /// errors: no_source if a folder or pattern has none, input_missing if a folder cannot be read.
 Result<std::vector<std::string>> expandSources(const std::vector<std::string>& words);
 
-/// Return the folders that expandSources() searches: a new file in one of them may be another source. The folder
-/// of a pattern may not exist yet.
+/// Return the folders that expandSources() searches: a new file in one of them may be another source. The
+/// folder of a pattern may not exist yet.
 std::vector<std::string> sourceFolders(const std::vector<std::string>& words);
 
 /// Return every file in and below the folders among the words, models or not, each once and sorted by path,

@@ -29,8 +29,8 @@ public:
     /// written.
     void setAlphaCutoff(uint32_t image, float cutoff) { alpha_cutoff_of_image_.emplace(image, cutoff); }
 
-    /// Return the part's image for a source image (kInvalidIndex: a texture without an image) and a purpose. The
-    /// image is decoded and written on first use; a missing or broken one becomes a placeholder, with a
+    /// Return the part's image for a source image (kInvalidIndex: a texture without an image) and a purpose.
+    /// The image is decoded and written on first use; a missing or broken one becomes a placeholder, with a
     /// warning.
     /// user  the image's user, for the warning: "material \"oak\""
     Result<uint32_t> write(uint32_t image, ImagePurpose purpose, const std::string& where,

@@ -25,8 +25,8 @@ layout(push_constant) uniform Push
 shared uint drawn[2];
 shared uint retest[2];
 
-// passesTests: true if the cluster is drawn unless it is occluded. isOccluded: true if the depth seen from that
-// view occludes it.
+// passesTests: true if the cluster is drawn unless it is occluded. isOccluded: true if the depth seen from
+// that view occludes it.
 bool passesTests(WorkItem item, uint cluster);
 bool isOccluded(OcclusionView seen_from, WorkItem item, uint cluster);
 

@@ -18,8 +18,8 @@ layout(push_constant) uniform Push
     uint item_count;
 };
 
-// transformedGroup: the group with the bounds that the cut test uses. inFrustum: true if the cluster passes the
-// frustum test.
+// transformedGroup: the group with the bounds that the cut test uses. inFrustum: true if the cluster passes
+// the frustum test.
 Group transformedGroup(uint instance, uint group);
 bool inFrustum(uint instance, uint cluster);
 

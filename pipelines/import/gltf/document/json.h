@@ -71,8 +71,8 @@ public:
 
     bool has(std::string_view name) const { return find(name).has_value(); }
 
-    /// Return an integer below `size` ("24.0" is one, "0.5", "\"24\"", null and -1 are not), or kInvalidIndex if it
-    /// is absent.
+    /// Return an integer below `size` ("24.0" is one, "0.5", "\"24\"", null and -1 are not), or kInvalidIndex
+    /// if it is absent.
     /// errors: gltf_structure, gltf_reference.
     uint32_t index(std::string_view name, size_t size, Need need = Need::optional) const;
 

@@ -1,6 +1,6 @@
 // Contents of a glTF file, checked: every index is in range, every property has its type. Data of buffers are
-// not included. Names and defaults are those of the glTF 2.0 specification; kInvalidIndex means an absent index.
-// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+// not included. Names and defaults are those of the glTF 2.0 specification; kInvalidIndex means an absent
+// index. SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
 #include "formats/records/scene.h"
