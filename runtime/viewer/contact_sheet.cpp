@@ -118,7 +118,7 @@ bool areUnplaced(const formats::PackView& pack)
                                                                 [&](const formats::AssetRecord& other)
                                                                 { return overlapHeavily(asset, other); }));
         // counts itself
-        overlapping += overlaps >= 2 && (overlaps - 1) * 2 >= around.size() - 1 ? 1 : 0;
+        overlapping += overlaps >= 2 && (overlaps - 1) * 2 >= around.size() - 1 ? size_t{1} : size_t{0};
     }
     return overlapping >= 2 && overlapping * 4 >= drawnAssets(pack).size() * 3;
 }
