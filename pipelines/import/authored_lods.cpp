@@ -96,7 +96,7 @@ Status addLevel(const PackView& from, const tools::LodFile& file, const BaseMesh
         // the part stores the message, so it must not contain folders of this machine
         part.warn(Issue::dropped, "", fmt::format("level of detail {} {}: it is not kept", name, why));
     };
-    const auto textFromRef = [&](StringRef name) { return from.text(name); };
+    const auto textFromRef = [&](StringRef text) { return from.text(text); };
     if (jointNames(from.nodes(), from.skins(), from.joints(), instance, textFromRef) != base.joints)
     {
         drop("has not the joints of its source");

@@ -50,7 +50,7 @@ bool bakeTransform(mesh::SourceMesh& mesh, const Transform& transform)
         for (size_t i = 0; i < 3; ++i)
             moved[i] += transform.m[i][3];
         if (std::any_of(moved.begin(), moved.end(),
-                        [](double c) { return !(std::abs(c) <= kMaxCoordinate); }))
+                        [](double c) { return !(std::abs(c) <= kMaxBakedCoordinate); }))
             return false;
         positions.push_back(
             {static_cast<float>(moved[0]), static_cast<float>(moved[1]), static_cast<float>(moved[2])});
