@@ -74,8 +74,8 @@ endif()
 if(HEARTH_HARDENED)
   target_compile_definitions(hearth_settings INTERFACE _GLIBCXX_ASSERTIONS)
 endif()
-# For what computes much under the sanitizers. Instrumented code that is inlined freely takes Clang two to three times as long
-# to compile.
+# Optimisation of libraries whose tests compute much, under the sanitizers. Instrumented code that is inlined freely takes
+# Clang longer to compile: 18.3 s for the first eight sources of formats, 7.2 s with this threshold; of clusters 13.3 and 10.7.
 set(hearth_sanitized_optimisation -O1)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
   list(APPEND hearth_sanitized_optimisation -mllvm -inline-threshold=20)

@@ -3,6 +3,7 @@
 
 #include "pipelines/import/gltf/draco.h"
 #include "pipelines/import/gltf/skinning.h"
+#include "pipelines/import/part/import_options.h"
 
 #include <fmt/format.h>
 
@@ -14,10 +15,6 @@ namespace hearth::import
 
 namespace
 {
-
-// Limit of coordinates: beyond it the squares of areas that the cookers compute leave the range of 32-bit
-// floats.
-constexpr float kMaxCoordinate = 1e9f;
 
 // shorter vectors have no meaningful direction
 constexpr float kMinLength = 1e-10f;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/part/bake_transform.h"
 
+#include "pipelines/import/part/import_options.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,9 +12,6 @@ namespace hearth::import
 
 namespace
 {
-
-// Limit of positions (pipelines/import/README.md): beyond it the squares of areas leave the range of floats.
-constexpr double kMaxBakedCoordinate = 1e9;
 
 using Direction = std::array<double, 3>;
 
@@ -50,7 +49,7 @@ bool bakeTransform(mesh::SourceMesh& mesh, const Transform& transform)
         for (size_t i = 0; i < 3; ++i)
             moved[i] += transform.m[i][3];
         if (std::any_of(moved.begin(), moved.end(),
-                        [](double c) { return !(std::abs(c) <= kMaxBakedCoordinate); }))
+                        [](double c) { return !(std::abs(c) <= kMaxCoordinate); }))
             return false;
         positions.push_back(
             {static_cast<float>(moved[0]), static_cast<float>(moved[1]), static_cast<float>(moved[2])});

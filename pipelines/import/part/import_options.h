@@ -10,6 +10,9 @@
 namespace hearth::import
 {
 
+/// Largest coordinate of a position. Beyond it the squares of areas leave the range of floats in the cookers.
+inline constexpr double kMaxCoordinate = 1e9;
+
 /// Limits that keep a hostile file from exhausting the machine; generous for real assets.
 struct ImportLimits
 {
