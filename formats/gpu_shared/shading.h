@@ -3,6 +3,7 @@
 #ifndef HEARTH_SHARED_SHADING_H
 #define HEARTH_SHARED_SHADING_H
 
+#include "formats/gpu_shared/debug_views.h"
 #include "formats/gpu_shared/language.h"
 
 HEARTH_SHARED_BEGIN
@@ -72,28 +73,6 @@ HEARTH_CONSTANT Float3 kSunDirection = Float3(0.5f, -0.8f, -0.6f);   ///< direct
 /// Exposure rule: if the lights give the middle of the scene more than this, in lux, all are dimmed by one
 /// factor to reach it.
 HEARTH_CONSTANT float kKeyIlluminance = 2.2f;
-
-HEARTH_CONSTANT uint kViewFinal = 0;
-HEARTH_CONSTANT uint kViewClusters = 1;
-HEARTH_CONSTANT uint kViewLod = 2;
-HEARTH_CONSTANT uint kViewTriangles = 3;
-HEARTH_CONSTANT uint kViewNormals = 4;
-HEARTH_CONSTANT uint kViewDepth = 5;
-HEARTH_CONSTANT uint kViewMaterials = 6;
-HEARTH_CONSTANT uint kViewError = 7;
-HEARTH_CONSTANT uint kViewCones = 8;
-HEARTH_CONSTANT uint kViewOverdraw = 9;
-HEARTH_CONSTANT uint kViewShadowMaps = 10;
-HEARTH_CONSTANT uint kViewBones = 11; ///< main bones of clusters; grey: rigid
-// sky occlusion as shaded; dark red: the mesh has no visibility data
-HEARTH_CONSTANT uint kViewAmbientOcclusion = 12;
-HEARTH_CONSTANT uint kViewBentNormal = 13;        ///< axis of the visibility cone
-HEARTH_CONSTANT uint kViewAperture = 14;          ///< its half-angle, white: 90 degrees
-HEARTH_CONSTANT uint kViewSpecularOcclusion = 15; ///< from the eye, by the material's roughness
-// views of scenes with bricks
-HEARTH_CONSTANT uint kViewBricks = 16;        ///< the voxels that a pixel's ray meets first, by albedo
-HEARTH_CONSTANT uint kViewBrickLighting = 17; ///< the same by outgoing radiance; red: not lit yet
-HEARTH_CONSTANT uint kViewGi = 18;            ///< light of bricks alone, on white surfaces
 
 /// Method of specular occlusion of the sky. The numbers are the values of the setting.
 HEARTH_CONSTANT uint kSpecularOcclusionFit = 0;

@@ -46,7 +46,7 @@ Status check(const hearth_renderer& renderer, const hearth_frame& frame)
         return usage("depth_scale is not above 0");
     if ((frame.cull_flags & ~uint32_t{HEARTH_CULL_EVERYTHING}) != 0)
         return usage("cull_flags has bits that this version does not know");
-    if (frame.debug_view > HEARTH_VIEW_GI || frame.shaded_area > HEARTH_SHADE_TILES)
+    if (shared::findDebugView(frame.debug_view) == nullptr || frame.shaded_area > HEARTH_SHADE_TILES)
         return usage("debug_view or shaded_area has a value that this version does not know");
     if (frame.ambient_occlusion > HEARTH_AMBIENT_OCCLUSION_OFF ||
         frame.specular_occlusion > HEARTH_SPECULAR_OCCLUSION_OFF)
@@ -78,8 +78,8 @@ Status checkCall(const hearth_scene& scene, const hearth_targets* targets, VkCom
     HEARTH_TRY(check(*scene.renderer, *frame));
     if (frame->debug_view == HEARTH_VIEW_SHADOW_MAPS && scene.scene->shadows == nullptr)
         return usage("HEARTH_VIEW_SHADOW_MAPS needs a scene with shadows");
-    if (gpu::viewNeedsBricks(frame->debug_view) && scene.scene->bricks == nullptr)
-        return usage("HEARTH_VIEW_BRICKS, _BRICK_LIGHTING and _GATHERED need a scene whose pack has bricks");
+    if (shared::viewNeedsBricks(frame->debug_view) && scene.scene->bricks == nullptr)
+        return usage("HEARTH_VIEW_BRICKS, _BRICK_LIGHTING and _GI need a scene whose pack has bricks");
     return success();
 }
 

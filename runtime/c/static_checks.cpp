@@ -18,26 +18,9 @@ static_assert(HEARTH_CULL_CONE == shared::kCullCone);
 static_assert(HEARTH_CULL_OCCLUSION == shared::kCullOcclusion);
 static_assert(HEARTH_CULL_EVERYTHING == shared::kCullEverything);
 
-static_assert(HEARTH_VIEW_FINAL == shared::kViewFinal);
-static_assert(HEARTH_VIEW_CLUSTERS == shared::kViewClusters);
-static_assert(HEARTH_VIEW_LOD == shared::kViewLod);
-static_assert(HEARTH_VIEW_TRIANGLES == shared::kViewTriangles);
-static_assert(HEARTH_VIEW_NORMALS == shared::kViewNormals);
-static_assert(HEARTH_VIEW_DEPTH == shared::kViewDepth);
-static_assert(HEARTH_VIEW_MATERIALS == shared::kViewMaterials);
-static_assert(HEARTH_VIEW_ERROR == shared::kViewError);
-static_assert(HEARTH_VIEW_CONES == shared::kViewCones);
-static_assert(HEARTH_VIEW_OVERDRAW == shared::kViewOverdraw);
-static_assert(HEARTH_VIEW_SHADOW_MAPS == shared::kViewShadowMaps);
-static_assert(HEARTH_VIEW_BONES == shared::kViewBones);
-static_assert(HEARTH_VIEW_AMBIENT_OCCLUSION == shared::kViewAmbientOcclusion);
-static_assert(HEARTH_VIEW_BENT_NORMAL == shared::kViewBentNormal);
-static_assert(HEARTH_VIEW_APERTURE == shared::kViewAperture);
-static_assert(HEARTH_VIEW_SPECULAR_OCCLUSION == shared::kViewSpecularOcclusion);
-
-static_assert(HEARTH_VIEW_BRICKS == shared::kViewBricks);
-static_assert(HEARTH_VIEW_BRICK_LIGHTING == shared::kViewBrickLighting);
-static_assert(HEARTH_VIEW_GI == shared::kViewGi);
+#define HEARTH_CHECK_VIEW(c_name, number, ...) static_assert(HEARTH_VIEW_##c_name == shared::number);
+HEARTH_DEBUG_VIEWS(HEARTH_CHECK_VIEW)
+#undef HEARTH_CHECK_VIEW
 
 static_assert(HEARTH_AMBIENT_OCCLUSION_EXACT == shared::kAmbientOcclusionExact);
 static_assert(HEARTH_AMBIENT_OCCLUSION_SMOOTHSTEP == shared::kAmbientOcclusionSmoothstep);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/renderer.h"
 
+#include "runtime/gpu/passes/frame_update.h"
 #include "runtime/gpu/vulkan/debug_label.h"
 
 namespace hearth::gpu
@@ -144,7 +145,7 @@ void Renderer::recordCull(VkCommandBuffer commands, const Scene& scene, const Fr
     writeTimestamp(device_, commands, input.timestamps, kTimestampBegin);
     const shared::FrameView view = scene.stream == nullptr ? input.view : scene.stream->scaled(input.view);
     trackShadows(scene, input.moves);
-    cull_.recordUpdates(device_, commands, scene, targets, view, input.moves, input.poses, input.lights);
+    recordFrameUpdate(device_, commands, scene, targets, view, {input.moves, input.poses, input.lights});
     if (scene.bricks != nullptr)
         recordBrickLight(commands, scene, input);
     if (scene.shadows != nullptr)
@@ -194,7 +195,7 @@ void Renderer::recordPrefetch(VkCommandBuffer commands, const Scene& scene, cons
 {
     HEARTH_ASSERT(scene.stream != nullptr && view.instance_count == scene.instance_count);
     trackShadows(scene, moves);
-    cull_.recordUpdates(device_, commands, scene, targets, scene.stream->scaled(view), moves, poses);
+    recordFrameUpdate(device_, commands, scene, targets, scene.stream->scaled(view), {moves, poses});
     cull_.record(device_, commands, scene, targets, shared::kPhaseWhole);
     recordRequests(commands, scene);
 }
@@ -209,18 +210,18 @@ void Renderer::recordShadows(VkCommandBuffer commands, const Scene& scene, const
     shadows_->recordBlock(device_, commands, scene);
     for (const ShadowCache::LayerUpdate& map : stale)
     {
-        cull_.recordView(device_, commands, scene, targets, map.casters);
+        recordViewChange(device_, commands, scene, targets, map.casters);
         cull_.record(device_, commands, scene, targets, shared::kPhaseWhole);
         shadows_->recordMap(device_, commands, layouts_, scene, map);
     }
     if (!stale.empty())
-        cull_.recordView(device_, commands, scene, targets, view);
+        recordViewChange(device_, commands, scene, targets, view);
 }
 
 /// Update a share of the brick faces, if the frame shows their light.
 void Renderer::recordBrickLight(VkCommandBuffer commands, const Scene& scene, const FrameInput& input) const
 {
-    if (!input.shading.gi && !viewNeedsBricks(input.shading.debug_view))
+    if (!input.shading.gi && !shared::viewNeedsBricks(input.shading.debug_view))
         return;
     const DebugLabel label(device_, commands, "light bricks");
     brick_light_->record(device_, commands, scene, !input.lights.empty(), input.emission);

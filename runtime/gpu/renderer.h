@@ -16,6 +16,7 @@
 #include "runtime/gpu/passes/shading_pass.h"
 #include "runtime/gpu/passes/shadow_pass.h"
 #include "runtime/gpu/passes/skinning_pass.h"
+#include "runtime/gpu/scene/instance_motion.h"
 #include "runtime/gpu/scene/light_change.h"
 
 #include <memory>

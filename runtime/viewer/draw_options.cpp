@@ -11,7 +11,10 @@
 namespace hearth::viewer
 {
 
-const char* const kDrawHelp =
+namespace
+{
+
+constexpr std::string_view kDrawHelp =
     "      --size WxH          pixels, default 1280x720\n"
     "      --camera PX,PY,PZ,TX,TY,TZ,FOV\n"
     "                          eye and target in metres, full vertical angle in degrees\n"
@@ -21,15 +24,7 @@ const char* const kDrawHelp =
     "      --lod-curve D:F,... factor F on the error at D metres, linear between; no factor may grow faster "
     "than\n"
     "                          the distance. Example: 0:1,50:1,500:0.4\n"
-    "      --view VIEW         final, clusters, lod, triangles, materials, normals, depth, error (yellow: "
-    "as\n"
-    "                          large as allowed), cones (red: none), bones (of\n"
-    "                          characters; grey: none), overdraw (white: 16) or shadow-maps (grey:\n"
-    "                          none); of packs with visibility also ao, bent-normal, aperture (white: 90 "
-    "degrees),\n"
-    "                          specular-occlusion (dark red: a mesh without); of packs with bricks also "
-    "bricks,\n"
-    "                          brick-lighting (red: unknown), gi (their light alone, on white)\n"
+    "      --view VIEW         one of these:\n%VIEWS%"
     "      --ambient-occlusion MODE\n"
     "                          of the sky, in packs with visibility: exact (default), smoothstep, quadratic, "
     "off\n"
@@ -64,8 +59,26 @@ const char* const kDrawHelp =
     "  -v, --verbose           say which device draws\n"
     "  -h, --help\n";
 
-namespace
+/// Return the views with their notes, in lines of help.
+std::string viewsHelp()
 {
+    constexpr size_t kIndent = 26, kWidth = 110;
+    std::string text, line(kIndent, ' ');
+    for (const shared::DebugView& view : shared::kDebugViews)
+    {
+        std::string item = view.name;
+        if (view.note[0] != '\0')
+            item += " (" + std::string(view.note) + ")";
+        item += &view == &shared::kDebugViews.back() ? "" : ", ";
+        if (line.size() + item.size() > kWidth)
+        {
+            text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+            line.assign(kIndent, ' ');
+        }
+        line += item;
+    }
+    return text + line + "\n";
+}
 
 /// Join names: "a, b, c".
 template <typename T>
@@ -203,6 +216,13 @@ Status parseBudget(std::string_view text, DrawOptions& options)
 
 } // namespace
 
+std::string drawHelp()
+{
+    constexpr std::string_view kViews = "%VIEWS%";
+    std::string help(kDrawHelp);
+    return help.replace(help.find(kViews), kViews.size(), viewsHelp());
+}
+
 void addDrawOptions(CommandLine& command_line, DrawOptions& options)
 {
     FrameSettings& settings = options.settings;
@@ -260,7 +280,7 @@ Status checkDrawOptions(const DrawOptions& options)
 
 Status checkPack(const DrawOptions& options, const formats::PackView& pack)
 {
-    if (gpu::viewNeedsBricks(options.settings.view) && pack.brickGrid().empty())
+    if (shared::viewNeedsBricks(options.settings.view) && pack.brickGrid().empty())
         return Error{Issue::usage, pack.name(), "",
                      "--view: the pack has no bricks (hearth cook --bricks makes them)"};
     return success();

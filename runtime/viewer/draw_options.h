@@ -30,8 +30,8 @@ struct DrawOptions
     bool verbose = false;
 };
 
-/// Help lines of these options.
-extern const char* const kDrawHelp;
+/// Return the help lines of these options.
+std::string drawHelp();
 
 /// Add the options; they outlive the command line, which writes to them.
 void addDrawOptions(CommandLine& command_line, DrawOptions& options);

@@ -1,34 +1,23 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/frame_settings.h"
 
+#include "formats/gpu_shared/debug_views.h"
 #include "formats/gpu_shared/shading.h"
+
+#include <array>
 
 namespace hearth::viewer
 {
 
 std::span<const Named<uint32_t>> viewNames()
 {
-    static constexpr Named<uint32_t> kViews[] = {
-        {"final", shared::kViewFinal},
-        {"clusters", shared::kViewClusters},
-        {"lod", shared::kViewLod},
-        {"triangles", shared::kViewTriangles},
-        {"materials", shared::kViewMaterials},
-        {"normals", shared::kViewNormals},
-        {"depth", shared::kViewDepth},
-        {"error", shared::kViewError},
-        {"cones", shared::kViewCones},
-        {"overdraw", shared::kViewOverdraw},
-        {"bones", shared::kViewBones},
-        {"ao", shared::kViewAmbientOcclusion},
-        {"bent-normal", shared::kViewBentNormal},
-        {"aperture", shared::kViewAperture},
-        {"specular-occlusion", shared::kViewSpecularOcclusion},
-        {"bricks", shared::kViewBricks},
-        {"brick-lighting", shared::kViewBrickLighting},
-        {"gi", shared::kViewGi},
-        {"shadow-maps", shared::kViewShadowMaps},
-    };
+    static constexpr auto kViews = []
+    {
+        std::array<Named<uint32_t>, shared::kDebugViews.size()> views{};
+        for (size_t i = 0; i < views.size(); ++i)
+            views[i] = {shared::kDebugViews[i].name, shared::kDebugViews[i].number};
+        return views;
+    }();
     return kViews;
 }
 

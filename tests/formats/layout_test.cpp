@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/base/result.h"
+#include "formats/gpu_shared/debug_views.h"
 #include "formats/records/chunk_list.h"
 
 #include <gtest/gtest.h>
 
 #include <map>
+#include <set>
 
 namespace hearth::test
 {
@@ -52,13 +54,29 @@ TEST(FormatMessage, isOneLineWithNumberAndHint)
 
 TEST(ChunkList, hasEachFourCCOnce)
 {
-    std::map<uint32_t, std::string_view> content_of_type;
+    std::set<uint32_t> types;
     for (const ChunkInfo& chunk : kChunkList)
     {
-        EXPECT_TRUE(content_of_type.try_emplace(chunk.type, chunk.content).second) << chunk.meaning;
+        EXPECT_TRUE(types.insert(chunk.type).second) << chunk.meaning;
         EXPECT_EQ(chunkInfo(chunk.type), &chunk);
+        EXPECT_NE(chunk.content.empty(), chunk.record.name.empty()) << chunk.meaning;
     }
     EXPECT_EQ(chunkInfo(fourCC("NEW!")), nullptr);
+}
+
+TEST(DebugViews, haveEachNumberAndNameOnce)
+{
+    std::set<uint32_t> numbers;
+    std::set<std::string_view> names;
+    for (const shared::DebugView& view : shared::kDebugViews)
+    {
+        EXPECT_TRUE(numbers.insert(view.number).second) << view.name;
+        EXPECT_TRUE(names.insert(view.name).second) << view.name;
+        EXPECT_EQ(shared::findDebugView(view.number), &view);
+    }
+    EXPECT_EQ(*numbers.rbegin(), numbers.size() - 1) << "numbers have no gap";
+    EXPECT_EQ(shared::kDebugViews.front().number, shared::kViewFinal);
+    EXPECT_EQ(shared::findDebugView(1000), nullptr);
 }
 
 TEST(VertexWords, areTheOffsetBehindTheLastAttribute)

@@ -121,7 +121,7 @@ TEST_F(WindowTest, showsEveryView)
 {
     for (const viewer::Named<uint32_t>& view : viewer::viewNames())
     {
-        if (gpu::viewNeedsBricks(view.value)) // the pack has none
+        if (shared::viewNeedsBricks(view.value)) // the pack has none
             continue;
         settings().frame.view = view.value;
         EXPECT_EQ(play(2), 2u) << view.name;

@@ -5,8 +5,6 @@
 #pragma once
 
 #include "runtime/gpu/passes/frame_targets.h"
-#include "runtime/gpu/scene/instance_motion.h"
-#include "runtime/gpu/scene/light_change.h"
 #include "runtime/gpu/scene/scene.h"
 
 #include <optional>
@@ -24,17 +22,6 @@ public:
 
     /// Allocate the descriptor sets of this pass for a scene.
     Status createSets(const Device& device, Scene& scene) const;
-
-    /// Record the frame update: constants, moves, poses, lights and streamed pages. Outside a render pass;
-    /// waits for earlier frames of the scene on the same queue.
-    void recordUpdates(const Device& device, VkCommandBuffer commands, const Scene& scene,
-                       const FrameTargets& targets, const shared::FrameView& view,
-                       std::span<const InstanceMove> moves, std::span<const InstancePose> poses,
-                       std::span<const LightChange> lights = {}) const;
-
-    /// Switch the same frame to another view: other constants, and cleared counters. After recordUpdates.
-    void recordView(const Device& device, VkCommandBuffer commands, const Scene& scene,
-                    const FrameTargets& targets, const shared::FrameView& view) const;
 
     /// Record one culling phase: kPhaseWhole; or kPhaseEarly, then, after its clusters are drawn and the
     /// pyramid is built, kPhaseLate, which appends to the visible list and adds draws. Outside a render pass.

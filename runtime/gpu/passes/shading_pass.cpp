@@ -129,17 +129,24 @@ Status ShadingPass::prepareBrickViews(const Device& device, const DrawLayouts& l
 void ShadingPass::record(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
                          const Scene& scene, const FrameTargets& targets, const ShadingSettings& view) const
 {
+    using shared::ViewShader;
     recordSky(device, commands, layouts, scene, targets, view);
-    if (view.debug_view == shared::kViewError || view.debug_view == shared::kViewCones)
-        recordClusterView(device, commands, layouts, scene, targets, view);
-    else if (view.debug_view == shared::kViewShadowMaps)
-        recordShadowMapView(device, commands, layouts, scene, view);
-    else if (view.debug_view == shared::kViewBricks || view.debug_view == shared::kViewBrickLighting)
-        recordBrickView(device, commands, layouts, scene, view);
-    else if (view.debug_view == shared::kViewGi)
-        recordGiView(device, commands, layouts, scene, view);
-    else
-        recordMaterials(device, commands, layouts, scene, view);
+    switch (shared::viewShader(view.debug_view))
+    {
+    case ViewShader::materials:
+    case ViewShader::surface:
+        return recordMaterials(device, commands, layouts, scene, view);
+    case ViewShader::clusters:
+        return recordClusterView(device, commands, layouts, scene, targets, view);
+    case ViewShader::shadow_maps:
+        return recordShadowMapView(device, commands, layouts, scene, view);
+    case ViewShader::bricks:
+        return recordBrickView(device, commands, layouts, scene, view);
+    case ViewShader::gi:
+        return recordGiView(device, commands, layouts, scene, view);
+    case ViewShader::overdraw: // a pass of its own
+        return;
+    }
 }
 
 void ShadingPass::recordSky(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,

@@ -51,13 +51,6 @@ inline bool usesGi(const Scene& scene, const ShadingSettings& view)
            (view.debug_view == shared::kViewGi || (view.debug_view == shared::kViewFinal && view.gi));
 }
 
-/// True if the debug view needs bricks, which not all scenes have.
-inline bool viewNeedsBricks(uint32_t debug_view)
-{
-    return debug_view == shared::kViewBricks || debug_view == shared::kViewBrickLighting ||
-           debug_view == shared::kViewGi;
-}
-
 class ShadingPass
 {
 public:

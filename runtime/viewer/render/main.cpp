@@ -153,7 +153,7 @@ public:
     /// Let the indirect light settle, if the frame shows it.
     Status settle(const shared::Camera& camera)
     {
-        if (scene_.bricks == nullptr || !(settings_.gi || gpu::viewNeedsBricks(settings_.view)))
+        if (scene_.bricks == nullptr || !(settings_.gi || shared::viewNeedsBricks(settings_.view)))
             return success();
         for (uint32_t i = 0; i < options_.gi_frames; ++i)
             HEARTH_TRY(draw(camera, 0));

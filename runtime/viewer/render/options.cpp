@@ -93,10 +93,11 @@ Status parseSamples(std::string_view text, RenderOptions& options)
 
 bool fitsWholeScene(const RenderOptions& options)
 {
-    const auto viewNeedsBricks = [](const Named<uint32_t>& view) { return gpu::viewNeedsBricks(view.value); };
+    const auto viewNeedsBricks = [](const Named<uint32_t>& view)
+    { return shared::viewNeedsBricks(view.value); };
     return !options.camera && !options.scene_camera && options.camera_path.empty() &&
            options.meshes.empty() && options.frames == 1 && !options.animation.clip &&
-           options.visibility.empty() && !gpu::viewNeedsBricks(options.settings.view) &&
+           options.visibility.empty() && !shared::viewNeedsBricks(options.settings.view) &&
            std::none_of(options.views.begin(), options.views.end(), viewNeedsBricks);
 }
 
@@ -106,7 +107,7 @@ std::string renderHelp()
                        "Draw a pack without a window.\n"
                        "\n"
                        "  -o, --output FILE       the picture, PNG, or JPEG where it ends in .jpg\n") +
-           kDrawHelp +
+           drawHelp() +
            "\n"
            "      --camera-path FILE  a picture for each line of FILE, written as for --camera: "
            "IMAGE-0000.png, ...\n"

@@ -9,7 +9,7 @@ std::string viewHelp()
     return std::string("Usage: hearth-view PACK [options]\n"
                        "Fly through a pack in a window.\n"
                        "\n") +
-           kDrawHelp +
+           drawHelp() +
            "      --animation CLIP    play a clip, by its name or number\n"
            "      --time SECONDS      stand still at this time of it; beyond its keys it rests\n"
            "      --frames N          end after N pictures\n"

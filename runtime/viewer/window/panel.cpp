@@ -177,7 +177,7 @@ void Panel::buildPicture(FrameSettings& settings, const gpu::Scene& scene)
     std::vector<Named<uint32_t>> views;
     for (const Named<uint32_t>& view : viewNames())
         if ((scene.shadows != nullptr || view.value != shared::kViewShadowMaps) &&
-            (scene.bricks != nullptr || !gpu::viewNeedsBricks(view.value)))
+            (scene.bricks != nullptr || !shared::viewNeedsBricks(view.value)))
             views.push_back(view);
     chooseNamed("View", std::span<const Named<uint32_t>>(views), settings.view);
     if (scene.bricks != nullptr)
