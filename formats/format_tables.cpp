@@ -16,55 +16,22 @@ namespace hearth::formats
 namespace
 {
 
-struct RecordTable
-{
-    std::string_view name;
-    size_t size;
-    std::span<const Field> fields;
+// records that are no table of their own, besides those of the chunks
+constexpr std::array kPartRecords{
+    recordInfo<FileHeader>(),       recordInfo<ChunkEntry>(),
+    recordInfo<StringRef>(),        recordInfo<Range>(),
+    recordInfo<TextureRef>(),       recordInfo<PageHeader>(),
+    recordInfo<SourceMeshHeader>(), recordInfo<SourceArray>(),
 };
 
-#define HEARTH_RECORD_TABLE(record)                                                                          \
-    RecordTable                                                                                              \
-    {                                                                                                        \
-        #record, sizeof(record), RecordFields<record>::value                                                 \
-    }
-constexpr RecordTable kRecords[] = {
-    HEARTH_RECORD_TABLE(FileHeader),
-    HEARTH_RECORD_TABLE(ChunkEntry),
-    HEARTH_RECORD_TABLE(StringRef),
-    HEARTH_RECORD_TABLE(Range),
-    HEARTH_RECORD_TABLE(AssetRecord),
-    HEARTH_RECORD_TABLE(NodeRecord),
-    HEARTH_RECORD_TABLE(InstanceRecord),
-    HEARTH_RECORD_TABLE(CameraRecord),
-    HEARTH_RECORD_TABLE(LightRecord),
-    HEARTH_RECORD_TABLE(ShadowSphereRecord),
-    HEARTH_RECORD_TABLE(TextureRef),
-    HEARTH_RECORD_TABLE(MaterialRecord),
-    HEARTH_RECORD_TABLE(ImageRecord),
-    HEARTH_RECORD_TABLE(SkinRecord),
-    HEARTH_RECORD_TABLE(JointRecord),
-    HEARTH_RECORD_TABLE(AnimationRecord),
-    HEARTH_RECORD_TABLE(AnimationChannelRecord),
-    HEARTH_RECORD_TABLE(MeshRecord),
-    HEARTH_RECORD_TABLE(LevelRecord),
-    HEARTH_RECORD_TABLE(GroupRecord),
-    HEARTH_RECORD_TABLE(ClusterRecord),
-    HEARTH_RECORD_TABLE(PageRecord),
-    HEARTH_RECORD_TABLE(AuthoredLodRecord),
-    HEARTH_RECORD_TABLE(AuthoredLevelRecord),
-    HEARTH_RECORD_TABLE(PageHeader),
-    HEARTH_RECORD_TABLE(SourceMeshHeader),
-    HEARTH_RECORD_TABLE(SourceArray),
-    HEARTH_RECORD_TABLE(DeformedMeshRecord),
-    HEARTH_RECORD_TABLE(DeformedClusterRecord),
-    HEARTH_RECORD_TABLE(DeformedGroupRecord),
-    HEARTH_RECORD_TABLE(SpecularTableRecord),
-    HEARTH_RECORD_TABLE(BrickGridRecord),
-    HEARTH_RECORD_TABLE(BrickGroupRecord),
-    HEARTH_RECORD_TABLE(BrickRecord),
-};
-#undef HEARTH_RECORD_TABLE
+std::vector<RecordInfo> allRecords()
+{
+    std::vector<RecordInfo> records(kPartRecords.begin(), kPartRecords.end());
+    for (const ChunkInfo& chunk : kChunkList)
+        if (!chunk.record.name.empty())
+            records.push_back(chunk.record);
+    return records;
+}
 
 struct Value
 {
@@ -191,7 +158,7 @@ std::string row(std::initializer_list<std::string_view> cells)
     return text.append("\n");
 }
 
-std::string recordTable(const RecordTable& record)
+std::string recordTable(const RecordInfo& record)
 {
     std::string text = "`";
     text.append(record.name).append("`, ").append(std::to_string(record.size)).append(" bytes\n\n");
@@ -210,12 +177,17 @@ std::string valueTable(const ValueTable& table)
     return text;
 }
 
+std::string contentText(const ChunkInfo& chunk)
+{
+    return chunk.record.name.empty() ? std::string(chunk.content) : std::string(chunk.record.name) + "[]";
+}
+
 std::string chunkTable()
 {
     std::string text = "| chunk | version | content | meaning |\n|---|---:|---|---|\n";
     for (const ChunkInfo& chunk : kChunkList)
         text += row({fourCCText(chunk.type) + (chunk.one_per_index ? " i" : ""),
-                     std::to_string(chunk.version), chunk.content, chunk.meaning});
+                     std::to_string(chunk.version), contentText(chunk), chunk.meaning});
     return text;
 }
 
@@ -293,7 +265,7 @@ std::optional<std::string> formatTable(std::string_view name)
         return issueTable();
     if (name == "limits")
         return limitTable();
-    for (const RecordTable& record : kRecords)
+    for (const RecordInfo& record : allRecords())
         if (record.name == name)
             return recordTable(record);
     for (const ValueTable& table : valueTables())
@@ -305,7 +277,7 @@ std::optional<std::string> formatTable(std::string_view name)
 std::vector<std::string_view> formatTableNames()
 {
     std::vector<std::string_view> names = {"chunks", "issues", "limits"};
-    for (const RecordTable& record : kRecords)
+    for (const RecordInfo& record : allRecords())
         names.push_back(record.name);
     for (const ValueTable& table : valueTables())
         names.push_back(table.name);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/base/affine3d.h"
 
+#include "formats/base/rounding.h"
+
 #include <cmath>
 #include <limits>
 
@@ -81,25 +83,6 @@ Affine3d widened(const Affine3& transform)
     return result;
 }
 
-namespace
-{
-
-constexpr float kMaxFloat = std::numeric_limits<float>::max();
-
-/// Return the largest float not above a finite value.
-float roundDownToFloat(double value)
-{
-    const auto nearest = static_cast<float>(std::clamp(value, -double{kMaxFloat}, double{kMaxFloat}));
-    return double{nearest} > value ? std::max(std::nextafter(nearest, -kMaxFloat), -kMaxFloat) : nearest;
-}
-
-float roundUpToFloat(double value)
-{
-    return -roundDownToFloat(-value);
-}
-
-} // namespace
-
 Box3 transformBox(const Affine3d& transform, const Box3& box)
 {
     if (box.empty())
@@ -114,8 +97,8 @@ Box3 transformBox(const Affine3d& transform, const Box3& box)
         const auto& row = transform.m[axis];
         const double reach =
             std::abs(row[0]) * half.x + std::abs(row[1]) * half.y + std::abs(row[2]) * half.z;
-        result.min[axis] = roundDownToFloat(centers[axis] - reach);
-        result.max[axis] = roundUpToFloat(centers[axis] + reach);
+        result.min[axis] = roundDown(centers[axis] - reach);
+        result.max[axis] = roundUp(centers[axis] + reach);
     }
     return result;
 }

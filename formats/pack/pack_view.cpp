@@ -66,7 +66,8 @@ constexpr uint64_t kSmallBrickTable = uint64_t{1} << 26;
 // far above any real table, and low enough that indices and sums of ranges fit 32 bits
 constexpr uint64_t kMaxTableSize = uint64_t{1} << 32;
 
-constexpr uint64_t isPlausibleSize(uint32_t type)
+/// Return the size up to which a table may have any ratio.
+constexpr uint64_t smallTableBytes(uint32_t type)
 {
     return isBrickChunk(type) ? kSmallBrickTable : kSmallTable;
 }
@@ -83,7 +84,7 @@ Status checkEntry(const ContainerReader& reader, const ChunkEntry& entry)
                      "version " + std::to_string(entry.version) + ", this reads " +
                          std::to_string(info->version)};
     const bool table = !info->one_per_index && entry.type != kChunkPages;
-    if (table && (entry.size > kMaxTableSize || (entry.size > isPlausibleSize(entry.type) &&
+    if (table && (entry.size > kMaxTableSize || (entry.size > smallTableBytes(entry.type) &&
                                                  entry.size / kMaxTableRatio > entry.stored_size)))
         return Error{Issue::chunk_size, reader.name(), where,
                      std::to_string(entry.size) + " bytes from " + std::to_string(entry.stored_size) +
@@ -98,47 +99,21 @@ Status PackView::readTables(PageBytes page_bytes)
     for (const ChunkEntry& entry : reader_.chunks())
         HEARTH_TRY(checkEntry(reader_, entry));
 
-    const auto table = [this]<typename T>(uint32_t type, Records<T>& records) -> Status
+    Status status = success();
+    const auto read = [&]<typename T>(Table<T>& table)
     {
-        HEARTH_ASSIGN_OR_RETURN(records, reader_.records<T>(type));
-        return success();
+        if (!status.ok())
+            return;
+        Result<Records<T>> records = reader_.records<T>(table.chunk);
+        if (records.ok())
+            table.records = std::move(records).value();
+        else
+            status = std::move(records).error();
     };
+    std::apply([&](auto&... table) { (read(table), ...); }, tables());
+    HEARTH_TRY(status);
     HEARTH_ASSIGN_OR_RETURN(meta_, reader_.read(kChunkMeta));
     HEARTH_ASSIGN_OR_RETURN(strings_, reader_.read(kChunkStrings));
-    HEARTH_TRY(table(kChunkNodes, nodes_));
-    HEARTH_TRY(table(kChunkInstances, instances_));
-    HEARTH_TRY(table(kChunkCameras, cameras_));
-    HEARTH_TRY(table(kChunkLights, lights_));
-    HEARTH_TRY(table(kChunkShadowSpheres, shadow_spheres_));
-    HEARTH_TRY(table(kChunkMaterials, materials_));
-    HEARTH_TRY(table(kChunkImages, images_));
-    HEARTH_TRY(table(kChunkSkins, skins_));
-    HEARTH_TRY(table(kChunkJoints, joints_));
-    HEARTH_TRY(table(kChunkAnimations, animations_));
-    HEARTH_TRY(table(kChunkChannels, channels_));
-    HEARTH_TRY(table(kChunkKeys, keys_));
-    HEARTH_TRY(table(kChunkKeyBits, key_bits_));
-    HEARTH_TRY(table(kChunkMorphWeights, morph_weights_));
-    HEARTH_TRY(table(kChunkAssets, assets_));
-    HEARTH_TRY(table(kChunkMeshes, meshes_));
-    HEARTH_TRY(table(kChunkLevels, levels_));
-    HEARTH_TRY(table(kChunkGroups, groups_));
-    HEARTH_TRY(table(kChunkClusters, clusters_));
-    HEARTH_TRY(table(kChunkPageTable, pages_));
-    HEARTH_TRY(table(kChunkPageParents, page_parents_));
-    HEARTH_TRY(table(kChunkAuthoredLevels, authored_levels_));
-    HEARTH_TRY(table(kChunkDeformedMeshes, deformed_meshes_));
-    HEARTH_TRY(table(kChunkDeformedClusters, deformed_clusters_));
-    HEARTH_TRY(table(kChunkClusterJoints, cluster_joints_));
-    HEARTH_TRY(table(kChunkSpecular, specular_tables_));
-    HEARTH_TRY(table(kChunkBrickGrid, brick_grid_));
-    HEARTH_TRY(table(kChunkBrickGroups, brick_groups_));
-    HEARTH_TRY(table(kChunkBricks, bricks_));
-    HEARTH_TRY(table(kChunkBrickOpacity, brick_opacity_));
-    HEARTH_TRY(table(kChunkBrickAlbedo, brick_albedo_));
-    HEARTH_TRY(table(kChunkBrickNormals, brick_normals_));
-    HEARTH_TRY(table(kChunkBrickEmission, brick_emission_));
-    HEARTH_TRY(table(kChunkBrickLighting, brick_lighting_));
 
     // pages are read one by one from the file, each with its own codec
     const ChunkEntry* pages = reader_.find(kChunkPages);

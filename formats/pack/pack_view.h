@@ -17,6 +17,7 @@
 #include <array>
 #include <cstring>
 #include <optional>
+#include <tuple>
 
 namespace hearth::formats
 {
@@ -298,42 +299,45 @@ public:
     std::string_view text(StringRef ref) const;
 
     /// Return the assets; none in parts.
-    std::span<const AssetRecord> assets() const { return assets_.span(); }
-    std::span<const NodeRecord> nodes() const { return nodes_.span(); }
-    std::span<const InstanceRecord> instances() const { return instances_.span(); }
-    std::span<const CameraRecord> cameras() const { return cameras_.span(); }
-    std::span<const LightRecord> lights() const { return lights_.span(); }
-    std::span<const ShadowSphereRecord> shadowSpheres() const { return shadow_spheres_.span(); }
-    std::span<const MaterialRecord> materials() const { return materials_.span(); }
-    std::span<const ImageRecord> images() const { return images_.span(); }
-    std::span<const SkinRecord> skins() const { return skins_.span(); }
-    std::span<const JointRecord> joints() const { return joints_.span(); }
-    std::span<const AnimationRecord> animations() const { return animations_.span(); }
-    std::span<const AnimationChannelRecord> channels() const { return channels_.span(); }
-    std::span<const float> keys() const { return keys_.span(); }
-    std::span<const uint32_t> keyBits() const { return key_bits_.span(); }
-    std::span<const float> morphWeights() const { return morph_weights_.span(); }
-    std::span<const MeshRecord> meshes() const { return meshes_.span(); }
-    std::span<const LevelRecord> levels() const { return levels_.span(); }
-    std::span<const GroupRecord> groups() const { return groups_.span(); }
-    std::span<const ClusterRecord> clusters() const { return clusters_.span(); }
-    std::span<const PageRecord> pages() const { return pages_.span(); }
-    std::span<const uint32_t> pageParents() const { return page_parents_.span(); }
-    std::span<const AuthoredLevelRecord> authoredLevels() const { return authored_levels_.span(); }
-    std::span<const DeformedMeshRecord> deformedMeshes() const { return deformed_meshes_.span(); }
-    std::span<const DeformedClusterRecord> deformedClusters() const { return deformed_clusters_.span(); }
-    std::span<const uint32_t> clusterJoints() const { return cluster_joints_.span(); }
+    std::span<const AssetRecord> assets() const { return assets_.records.span(); }
+    std::span<const NodeRecord> nodes() const { return nodes_.records.span(); }
+    std::span<const InstanceRecord> instances() const { return instances_.records.span(); }
+    std::span<const CameraRecord> cameras() const { return cameras_.records.span(); }
+    std::span<const LightRecord> lights() const { return lights_.records.span(); }
+    std::span<const ShadowSphereRecord> shadowSpheres() const { return shadow_spheres_.records.span(); }
+    std::span<const MaterialRecord> materials() const { return materials_.records.span(); }
+    std::span<const ImageRecord> images() const { return images_.records.span(); }
+    std::span<const SkinRecord> skins() const { return skins_.records.span(); }
+    std::span<const JointRecord> joints() const { return joints_.records.span(); }
+    std::span<const AnimationRecord> animations() const { return animations_.records.span(); }
+    std::span<const AnimationChannelRecord> channels() const { return channels_.records.span(); }
+    std::span<const float> keys() const { return keys_.records.span(); }
+    std::span<const uint32_t> keyBits() const { return key_bits_.records.span(); }
+    std::span<const float> morphWeights() const { return morph_weights_.records.span(); }
+    std::span<const MeshRecord> meshes() const { return meshes_.records.span(); }
+    std::span<const LevelRecord> levels() const { return levels_.records.span(); }
+    std::span<const GroupRecord> groups() const { return groups_.records.span(); }
+    std::span<const ClusterRecord> clusters() const { return clusters_.records.span(); }
+    std::span<const PageRecord> pages() const { return pages_.records.span(); }
+    std::span<const uint32_t> pageParents() const { return page_parents_.records.span(); }
+    std::span<const AuthoredLevelRecord> authoredLevels() const { return authored_levels_.records.span(); }
+    std::span<const DeformedMeshRecord> deformedMeshes() const { return deformed_meshes_.records.span(); }
+    std::span<const DeformedClusterRecord> deformedClusters() const
+    {
+        return deformed_clusters_.records.span();
+    }
+    std::span<const uint32_t> clusterJoints() const { return cluster_joints_.records.span(); }
     /// Return one table or none.
-    std::span<const SpecularTableRecord> specularTables() const { return specular_tables_.span(); }
+    std::span<const SpecularTableRecord> specularTables() const { return specular_tables_.records.span(); }
     /// Return one grid or none.
-    std::span<const BrickGridRecord> brickGrid() const { return brick_grid_.span(); }
-    std::span<const BrickGroupRecord> brickGroupsAlongAxis() const { return brick_groups_.span(); }
-    std::span<const BrickRecord> bricks() const { return bricks_.span(); }
-    std::span<const uint8_t> brickOpacity() const { return brick_opacity_.span(); }
-    std::span<const uint32_t> brickAlbedo() const { return brick_albedo_.span(); }
-    std::span<const uint16_t> brickNormals() const { return brick_normals_.span(); }
-    std::span<const uint32_t> brickEmission() const { return brick_emission_.span(); }
-    std::span<const uint32_t> brickLighting() const { return brick_lighting_.span(); }
+    std::span<const BrickGridRecord> brickGrid() const { return brick_grid_.records.span(); }
+    std::span<const BrickGroupRecord> brickGroupsAlongAxis() const { return brick_groups_.records.span(); }
+    std::span<const BrickRecord> bricks() const { return bricks_.records.span(); }
+    std::span<const uint8_t> brickOpacity() const { return brick_opacity_.records.span(); }
+    std::span<const uint32_t> brickAlbedo() const { return brick_albedo_.records.span(); }
+    std::span<const uint16_t> brickNormals() const { return brick_normals_.records.span(); }
+    std::span<const uint32_t> brickEmission() const { return brick_emission_.records.span(); }
+    std::span<const uint32_t> brickLighting() const { return brick_lighting_.records.span(); }
 
     /// Return chunk PAGE, as stored in the file.
     std::span<const std::byte> pageBytes() const { return page_bytes_.bytes(); }
@@ -355,11 +359,28 @@ public:
     Status checkPage(uint32_t page) const;
 
 private:
+    template <typename T>
+    struct Table
+    {
+        uint32_t chunk;
+        Records<T> records{};
+    };
+
     explicit PackView(ContainerReader reader) : reader_(std::move(reader)) {}
     Status readTables(PageBytes page_bytes);
     Result<std::span<const std::byte>> storedPage(uint32_t page, size_t size) const;
     Status decodeStored(std::span<const std::byte> stored, uint32_t page, std::span<std::byte> out) const;
     Result<std::span<const std::byte>> decodeAndCheckPage(uint32_t page, size_t size) const;
+    /// Return all tables, as readTables() reads them.
+    auto tables()
+    {
+        return std::tie(assets_, nodes_, instances_, cameras_, lights_, shadow_spheres_, materials_, images_,
+                        skins_, joints_, animations_, channels_, keys_, key_bits_, morph_weights_, meshes_,
+                        levels_, groups_, clusters_, pages_, page_parents_, authored_levels_,
+                        deformed_meshes_, deformed_clusters_, cluster_joints_, specular_tables_, brick_grid_,
+                        brick_groups_, bricks_, brick_opacity_, brick_albedo_, brick_normals_,
+                        brick_emission_, brick_lighting_);
+    }
     static std::string_view asText(const ChunkData& data)
     {
         return {reinterpret_cast<const char*>(data.bytes().data()), data.bytes().size()};
@@ -368,40 +389,40 @@ private:
     ContainerReader reader_;
     ChunkData meta_;
     ChunkData strings_;
-    Records<AssetRecord> assets_;
-    Records<NodeRecord> nodes_;
-    Records<InstanceRecord> instances_;
-    Records<CameraRecord> cameras_;
-    Records<LightRecord> lights_;
-    Records<ShadowSphereRecord> shadow_spheres_;
-    Records<MaterialRecord> materials_;
-    Records<ImageRecord> images_;
-    Records<SkinRecord> skins_;
-    Records<JointRecord> joints_;
-    Records<AnimationRecord> animations_;
-    Records<AnimationChannelRecord> channels_;
-    Records<float> keys_;
-    Records<uint32_t> key_bits_;
-    Records<float> morph_weights_;
-    Records<MeshRecord> meshes_;
-    Records<LevelRecord> levels_;
-    Records<GroupRecord> groups_;
-    Records<ClusterRecord> clusters_;
-    Records<PageRecord> pages_;
-    Records<uint32_t> page_parents_;
-    Records<AuthoredLevelRecord> authored_levels_;
-    Records<DeformedMeshRecord> deformed_meshes_;
-    Records<DeformedClusterRecord> deformed_clusters_;
-    Records<uint32_t> cluster_joints_;
-    Records<SpecularTableRecord> specular_tables_;
-    Records<BrickGridRecord> brick_grid_;
-    Records<BrickGroupRecord> brick_groups_;
-    Records<BrickRecord> bricks_;
-    Records<uint8_t> brick_opacity_;
-    Records<uint32_t> brick_albedo_;
-    Records<uint16_t> brick_normals_;
-    Records<uint32_t> brick_emission_;
-    Records<uint32_t> brick_lighting_;
+    Table<AssetRecord> assets_{kChunkAssets};
+    Table<NodeRecord> nodes_{kChunkNodes};
+    Table<InstanceRecord> instances_{kChunkInstances};
+    Table<CameraRecord> cameras_{kChunkCameras};
+    Table<LightRecord> lights_{kChunkLights};
+    Table<ShadowSphereRecord> shadow_spheres_{kChunkShadowSpheres};
+    Table<MaterialRecord> materials_{kChunkMaterials};
+    Table<ImageRecord> images_{kChunkImages};
+    Table<SkinRecord> skins_{kChunkSkins};
+    Table<JointRecord> joints_{kChunkJoints};
+    Table<AnimationRecord> animations_{kChunkAnimations};
+    Table<AnimationChannelRecord> channels_{kChunkChannels};
+    Table<float> keys_{kChunkKeys};
+    Table<uint32_t> key_bits_{kChunkKeyBits};
+    Table<float> morph_weights_{kChunkMorphWeights};
+    Table<MeshRecord> meshes_{kChunkMeshes};
+    Table<LevelRecord> levels_{kChunkLevels};
+    Table<GroupRecord> groups_{kChunkGroups};
+    Table<ClusterRecord> clusters_{kChunkClusters};
+    Table<PageRecord> pages_{kChunkPageTable};
+    Table<uint32_t> page_parents_{kChunkPageParents};
+    Table<AuthoredLevelRecord> authored_levels_{kChunkAuthoredLevels};
+    Table<DeformedMeshRecord> deformed_meshes_{kChunkDeformedMeshes};
+    Table<DeformedClusterRecord> deformed_clusters_{kChunkDeformedClusters};
+    Table<uint32_t> cluster_joints_{kChunkClusterJoints};
+    Table<SpecularTableRecord> specular_tables_{kChunkSpecular};
+    Table<BrickGridRecord> brick_grid_{kChunkBrickGrid};
+    Table<BrickGroupRecord> brick_groups_{kChunkBrickGroups};
+    Table<BrickRecord> bricks_{kChunkBricks};
+    Table<uint8_t> brick_opacity_{kChunkBrickOpacity};
+    Table<uint32_t> brick_albedo_{kChunkBrickAlbedo};
+    Table<uint16_t> brick_normals_{kChunkBrickNormals};
+    Table<uint32_t> brick_emission_{kChunkBrickEmission};
+    Table<uint32_t> brick_lighting_{kChunkBrickLighting};
     ChunkData page_bytes_;
     /// For each mesh, the number of joints of its skin, for page checks; nullopt if decoding checks no
     /// meaning.

@@ -1,4 +1,4 @@
-// Lists every chunk type: readers, FORMAT.md and the tests use this list.
+// Registry of all chunk types: readers, reports, FORMAT.md and the tests use this list.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -15,64 +15,92 @@
 namespace hearth::formats
 {
 
+/// Purpose of a chunk, by which reports sum the bytes of a pack.
+enum class ChunkPurpose : uint8_t
+{
+    geometry,
+    textures,
+    animation,
+    light,
+    scene,
+    other,
+};
+
 struct ChunkInfo
 {
     uint32_t type;
     uint32_t version; ///< newest version that this code reads
-    std::string_view content;
-    bool one_per_index; ///< many chunks of the type, one for each mesh or image
+    ChunkPurpose purpose;
+    std::string_view content; ///< empty for tables of records
+    bool one_per_index;       ///< many chunks of the type, one for each mesh or image
     std::string_view meaning;
+    RecordInfo record{}; ///< of a table of records
 };
 
+/// Describe a chunk that is one table of records.
+template <typename T>
+constexpr ChunkInfo tableOf(uint32_t type, uint32_t version, ChunkPurpose purpose, std::string_view meaning)
+{
+    return {type, version, purpose, "", false, meaning, recordInfo<T>()};
+}
+
 inline constexpr std::array kChunkList{
-    ChunkInfo{kChunkMeta, 1, "JSON text", false, "provenance and import report"},
-    ChunkInfo{kChunkStrings, 1, "UTF-8 text", false, "string table that every StringRef points into"},
-    ChunkInfo{kChunkNodes, 1, "NodeRecord[]", false, "the scene's nodes, in the order of the source"},
-    ChunkInfo{kChunkInstances, 1, "InstanceRecord[]", false, "drawn copies of meshes, rest pose"},
-    ChunkInfo{kChunkCameras, 1, "CameraRecord[]", false, "cameras of the source"},
-    ChunkInfo{kChunkLights, 1, "LightRecord[]", false, "punctual lights"},
-    ChunkInfo{kChunkShadowSpheres, 1, "ShadowSphereRecord[]", false,
-              "spheres that get shadow maps of their own"},
-    ChunkInfo{kChunkMaterials, 1, "MaterialRecord[]", false, "metallic-roughness materials"},
-    ChunkInfo{kChunkImages, 1, "ImageRecord[]", false, "images"},
-    ChunkInfo{kChunkImageData, 1, "texels", true, "one for each image: all mips, finest first"},
-    ChunkInfo{kChunkSkins, 1, "SkinRecord[]", false, "skins"},
-    ChunkInfo{kChunkJoints, 1, "JointRecord[]", false, "joints of all skins"},
-    ChunkInfo{kChunkAnimations, 2, "AnimationRecord[]", false, "animations"},
-    ChunkInfo{kChunkChannels, 2, "AnimationChannelRecord[]", false, "channels of all animations"},
-    ChunkInfo{kChunkKeys, 1, "f32[]", false, "times and values of all channels"},
-    ChunkInfo{kChunkKeyBits, 1, "u32[]", false, "packed keys of channels"},
-    ChunkInfo{kChunkMorphWeights, 1, "f32[]", false, "rest weights of nodes with morph targets"},
-    ChunkInfo{kChunkAssets, 1, "AssetRecord[]", false, "the sources, and what of the pack each is"},
-    ChunkInfo{kChunkMeshes, 2, "MeshRecord[]", false, "one for each mesh of the source, same index"},
-    ChunkInfo{kChunkLevels, 1, "LevelRecord[]", false, "levels of detail of all meshes"},
-    ChunkInfo{kChunkGroups, 2, "GroupRecord[]", false, "groups of all meshes"},
-    ChunkInfo{kChunkClusters, 1, "ClusterRecord[]", false, "clusters of all meshes"},
-    ChunkInfo{kChunkPageTable, 1, "PageRecord[]", false, "the geometry pages"},
-    ChunkInfo{kChunkPageParents, 1, "u32[]", false, "for each page, the pages that it refines"},
-    ChunkInfo{kChunkPages, 2, "pages", false, "geometry; stored without a codec, each page has its own"},
-    ChunkInfo{kChunkSourceMesh, 1, "SourceMeshHeader, SourceArray[], data", true,
+    ChunkInfo{kChunkMeta, 1, ChunkPurpose::scene, "JSON text", false, "provenance and import report"},
+    ChunkInfo{kChunkStrings, 1, ChunkPurpose::scene, "UTF-8 text", false,
+              "string table that every StringRef points into"},
+    tableOf<NodeRecord>(kChunkNodes, 1, ChunkPurpose::scene, "the scene's nodes, in the order of the source"),
+    tableOf<InstanceRecord>(kChunkInstances, 1, ChunkPurpose::scene, "drawn copies of meshes, rest pose"),
+    tableOf<CameraRecord>(kChunkCameras, 1, ChunkPurpose::scene, "cameras of the source"),
+    tableOf<LightRecord>(kChunkLights, 1, ChunkPurpose::scene, "punctual lights"),
+    tableOf<ShadowSphereRecord>(kChunkShadowSpheres, 1, ChunkPurpose::scene,
+                                "spheres that get shadow maps of their own"),
+    tableOf<MaterialRecord>(kChunkMaterials, 1, ChunkPurpose::scene, "metallic-roughness materials"),
+    tableOf<ImageRecord>(kChunkImages, 1, ChunkPurpose::textures, "images"),
+    ChunkInfo{kChunkImageData, 1, ChunkPurpose::textures, "texels", true,
+              "one for each image: all mips, finest first"},
+    tableOf<SkinRecord>(kChunkSkins, 1, ChunkPurpose::animation, "skins"),
+    tableOf<JointRecord>(kChunkJoints, 1, ChunkPurpose::animation, "joints of all skins"),
+    tableOf<AnimationRecord>(kChunkAnimations, 2, ChunkPurpose::animation, "animations"),
+    tableOf<AnimationChannelRecord>(kChunkChannels, 2, ChunkPurpose::animation, "channels of all animations"),
+    ChunkInfo{kChunkKeys, 1, ChunkPurpose::animation, "f32[]", false, "times and values of all channels"},
+    ChunkInfo{kChunkKeyBits, 1, ChunkPurpose::animation, "u32[]", false, "packed keys of channels"},
+    ChunkInfo{kChunkMorphWeights, 1, ChunkPurpose::animation, "f32[]", false,
+              "rest weights of nodes with morph targets"},
+    tableOf<AssetRecord>(kChunkAssets, 1, ChunkPurpose::scene, "the sources, and what of the pack each is"),
+    tableOf<MeshRecord>(kChunkMeshes, 2, ChunkPurpose::geometry,
+                        "one for each mesh of the source, same index"),
+    tableOf<LevelRecord>(kChunkLevels, 1, ChunkPurpose::geometry, "levels of detail of all meshes"),
+    tableOf<GroupRecord>(kChunkGroups, 2, ChunkPurpose::geometry, "groups of all meshes"),
+    tableOf<ClusterRecord>(kChunkClusters, 1, ChunkPurpose::geometry, "clusters of all meshes"),
+    tableOf<PageRecord>(kChunkPageTable, 1, ChunkPurpose::geometry, "the geometry pages"),
+    ChunkInfo{kChunkPageParents, 1, ChunkPurpose::geometry, "u32[]", false,
+              "for each page, the pages that it refines"},
+    ChunkInfo{kChunkPages, 2, ChunkPurpose::geometry, "pages", false,
+              "geometry; stored without a codec, each page has its own"},
+    ChunkInfo{kChunkSourceMesh, 1, ChunkPurpose::other, "SourceMeshHeader, SourceArray[], data", true,
               "parts only: a mesh as imported"},
-    ChunkInfo{kChunkAuthoredLods, 2, "AuthoredLodRecord[]", false,
-              "parts only: which meshes are levels of detail of others"},
-    ChunkInfo{kChunkAuthoredLevels, 1, "AuthoredLevelRecord[]", false,
-              "which levels were made by hand, and from what"},
-    ChunkInfo{kChunkDeformedMeshes, 1, "DeformedMeshRecord[]", false, "meshes with a skin or morph targets"},
-    ChunkInfo{kChunkDeformedClusters, 2, "DeformedClusterRecord[]", false,
-              "where their clusters can be in all poses"},
-    ChunkInfo{kChunkClusterJoints, 1, "u32[]", false, "which joints move each of these clusters"},
-    ChunkInfo{kChunkDeformedGroups, 1, "DeformedGroupRecord[]", false,
-              "parts only: where their groups can be"},
-    ChunkInfo{kChunkSpecular, 1, "SpecularTableRecord[]", false,
-              "the table of specular occlusion, one at most"},
-    ChunkInfo{kChunkBrickGrid, 1, "BrickGridRecord[]", false, "the grid of bricks, one at most"},
-    ChunkInfo{kChunkBrickGroups, 1, "BrickGroupRecord[]", false, "all groups of the grid"},
-    ChunkInfo{kChunkBricks, 1, "BrickRecord[]", false, "the bricks of all groups"},
-    ChunkInfo{kChunkBrickOpacity, 1, "u8[]", false, "of each solid voxel"},
-    ChunkInfo{kChunkBrickAlbedo, 1, "u32[]", false, "of each face"},
-    ChunkInfo{kChunkBrickNormals, 1, "u16[]", false, "of each face"},
-    ChunkInfo{kChunkBrickEmission, 1, "u32[]", false, "of each face"},
-    ChunkInfo{kChunkBrickLighting, 1, "u32[]", false, "of each face"},
+    tableOf<AuthoredLodRecord>(kChunkAuthoredLods, 2, ChunkPurpose::other,
+                               "parts only: which meshes are levels of detail of others"),
+    tableOf<AuthoredLevelRecord>(kChunkAuthoredLevels, 1, ChunkPurpose::other,
+                                 "which levels were made by hand, and from what"),
+    tableOf<DeformedMeshRecord>(kChunkDeformedMeshes, 1, ChunkPurpose::animation,
+                                "meshes with a skin or morph targets"),
+    tableOf<DeformedClusterRecord>(kChunkDeformedClusters, 2, ChunkPurpose::animation,
+                                   "where their clusters can be in all poses"),
+    ChunkInfo{kChunkClusterJoints, 1, ChunkPurpose::animation, "u32[]", false,
+              "which joints move each of these clusters"},
+    tableOf<DeformedGroupRecord>(kChunkDeformedGroups, 1, ChunkPurpose::other,
+                                 "parts only: where their groups can be"),
+    tableOf<SpecularTableRecord>(kChunkSpecular, 1, ChunkPurpose::light,
+                                 "the table of specular occlusion, one at most"),
+    tableOf<BrickGridRecord>(kChunkBrickGrid, 1, ChunkPurpose::light, "the grid of bricks, one at most"),
+    tableOf<BrickGroupRecord>(kChunkBrickGroups, 1, ChunkPurpose::light, "all groups of the grid"),
+    tableOf<BrickRecord>(kChunkBricks, 1, ChunkPurpose::light, "the bricks of all groups"),
+    ChunkInfo{kChunkBrickOpacity, 1, ChunkPurpose::light, "u8[]", false, "of each solid voxel"},
+    ChunkInfo{kChunkBrickAlbedo, 1, ChunkPurpose::light, "u32[]", false, "of each face"},
+    ChunkInfo{kChunkBrickNormals, 1, ChunkPurpose::light, "u16[]", false, "of each face"},
+    ChunkInfo{kChunkBrickEmission, 1, ChunkPurpose::light, "u32[]", false, "of each face"},
+    ChunkInfo{kChunkBrickLighting, 1, ChunkPurpose::light, "u32[]", false, "of each face"},
 };
 
 /// Return the list entry of a type, or nullptr: readers skip unknown types.

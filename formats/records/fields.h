@@ -59,7 +59,13 @@ constexpr std::string_view fieldTypeName()
         return T::kTypeName;
 }
 
-/// Fields of a record. HEARTH_RECORD specialises it for every record.
+/// Return a name without its namespaces.
+constexpr std::string_view unqualifiedName(std::string_view name)
+{
+    return name.substr(name.rfind(':') + 1);
+}
+
+/// Name and fields of a record. HEARTH_RECORD specialises it for every record.
 template <typename T>
 struct RecordFields;
 
@@ -77,6 +83,20 @@ constexpr bool hasNoGaps(const std::array<Field, N>& fields, size_t size)
     return at == size;
 }
 
+/// Layout of a record, for tables of several records.
+struct RecordInfo
+{
+    std::string_view name{}; ///< empty: no record
+    size_t size = 0;         ///< bytes
+    std::span<const Field> fields{};
+};
+
+template <typename T>
+constexpr RecordInfo recordInfo()
+{
+    return {RecordFields<T>::name, sizeof(T), RecordFields<T>::value};
+}
+
 } // namespace hearth
 
 #define HEARTH_FIELD(record, member, note)                                                                   \
@@ -92,6 +112,7 @@ constexpr bool hasNoGaps(const std::array<Field, N>& fields, size_t size)
     template <>                                                                                              \
     struct hearth::RecordFields<record>                                                                      \
     {                                                                                                        \
+        static constexpr std::string_view name = hearth::unqualifiedName(#record);                           \
         static constexpr std::array value{__VA_ARGS__};                                                      \
     };                                                                                                       \
     static_assert(sizeof(record) == (byte_size) && std::is_trivially_copyable_v<record>);                    \

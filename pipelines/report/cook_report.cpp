@@ -2,6 +2,7 @@
 #include "pipelines/report/cook_report.h"
 
 #include "cook/json/json.h"
+#include "formats/records/chunk_list.h"
 #include "pipelines/report/base64.h"
 #include "pipelines/report/message.h"
 
@@ -284,23 +285,35 @@ Json failuresJson(const CookReport& cook)
     return failures;
 }
 
-/// Return the bytes of the pack by purpose.
-Json sizesJson(const std::map<std::string, uint64_t>& bytes_of_chunks)
+const char* purposeName(formats::ChunkPurpose purpose)
 {
-    static const std::map<std::string, const char*> kind_of_chunk{
-        {"PAGE", "geometry"},  {"PGTB", "geometry"},  {"PGPA", "geometry"},  {"CLUS", "geometry"},
-        {"GRUP", "geometry"},  {"LEVL", "geometry"},  {"MESH", "geometry"},  {"IMGD", "textures"},
-        {"IMGR", "textures"},  {"DCLU", "animation"}, {"DJNT", "animation"}, {"DMSH", "animation"},
-        {"ACHN", "animation"}, {"AKBT", "animation"}, {"AKEY", "animation"}, {"ANIM", "animation"},
-        {"SKIN", "animation"}, {"JOIN", "animation"}, {"MWGT", "animation"}, {"SPOC", "light"},
-        {"INST", "scene"},     {"NODE", "scene"},     {"MATL", "scene"},     {"CAMR", "scene"},
-        {"LGHT", "scene"},     {"SHSP", "scene"},     {"STRS", "scene"},     {"META", "scene"},
-        {"ASST", "scene"}};
+    using formats::ChunkPurpose;
+    switch (purpose)
+    {
+    case ChunkPurpose::geometry:
+        return "geometry";
+    case ChunkPurpose::textures:
+        return "textures";
+    case ChunkPurpose::animation:
+        return "animation";
+    case ChunkPurpose::light:
+        return "light";
+    case ChunkPurpose::scene:
+        return "scene";
+    case ChunkPurpose::other:
+        break;
+    }
+    return "other";
+}
+
+/// Return the bytes of the pack by purpose.
+Json sizesJson(const std::map<uint32_t, uint64_t>& bytes_of_chunks)
+{
     Json sizes{{"geometry", 0}, {"textures", 0}, {"animation", 0}, {"light", 0}, {"scene", 0}, {"other", 0}};
     for (const auto& [type, bytes] : bytes_of_chunks)
     {
-        const auto kind = kind_of_chunk.find(type);
-        Json& size = sizes[type == "bricks" ? "light" : kind == kind_of_chunk.end() ? "other" : kind->second];
+        const formats::ChunkInfo* info = formats::chunkInfo(type);
+        Json& size = sizes[purposeName(info == nullptr ? formats::ChunkPurpose::other : info->purpose)];
         size = size.get<uint64_t>() + bytes;
     }
     return sizes;

@@ -40,7 +40,7 @@ struct CookReport
     std::map<size_t, std::string> statistics;      ///< JSON that actions wrote beside their parts, by action
     std::map<size_t, std::string> pictures;        ///< PNG of baked visibility, by action
     /// Bytes of the pack by chunk type, as stored in the file; empty where there is no pack.
-    std::map<std::string, uint64_t> bytes_of_chunks;
+    std::map<uint32_t, uint64_t> bytes_of_chunks;
 };
 
 std::string reportJson(const CookReport& cook);

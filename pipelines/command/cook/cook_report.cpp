@@ -2,8 +2,6 @@
 #include "pipelines/command/cook/cook_report.h"
 
 #include "formats/container/container_reader.h"
-#include "formats/records/bricks.h"
-#include "pipelines/graph/cook_graph.h"
 
 #include <algorithm>
 #include <array>
@@ -66,7 +64,7 @@ void CookRecorder::copyOutcomes(graph::Executor& executor)
             if (ending != Outcome::cooked && ending != Outcome::cached)
                 continue;
             std::optional<std::string> text = executor.readOutput(i, output);
-            const bool is_picture = outputs[output] == graph::kVisibilityPicture;
+            const bool is_picture = outputs[output].ends_with(".png");
             if (text)
                 (is_picture ? report_.pictures : report_.statistics)[i] = std::move(*text);
         }
@@ -85,18 +83,14 @@ void CookRecorder::copyDependencies(const graph::Executor& executor)
     }
 }
 
-std::map<std::string, uint64_t> readChunkBytes(const std::string& pack)
+std::map<uint32_t, uint64_t> readChunkBytes(const std::string& pack)
 {
-    std::map<std::string, uint64_t> bytes;
+    std::map<uint32_t, uint64_t> bytes;
     const auto reader = formats::ContainerReader::open(pack, formats::Check::structure);
     if (!reader.ok())
         return bytes;
     for (const formats::ChunkEntry& entry : reader->chunks())
-    {
-        // "chunk MESH 3"
-        const std::string type = formats::chunkName(entry.type, entry.index).substr(6, 4);
-        bytes[formats::isBrickChunk(entry.type) ? "bricks" : type] += entry.stored_size;
-    }
+        bytes[entry.type] += entry.stored_size;
     return bytes;
 }
 

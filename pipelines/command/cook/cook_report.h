@@ -43,9 +43,8 @@ private:
     size_t last_failed_ = graph::kNoAction;
 };
 
-/// Return the stored bytes of a pack by the types of its chunks, all chunks of bricks together as "bricks";
-/// empty if the pack cannot be read.
-std::map<std::string, uint64_t> readChunkBytes(const std::string& pack);
+/// Return the stored bytes of a pack by the types of its chunks; empty if the pack cannot be read.
+std::map<uint32_t, uint64_t> readChunkBytes(const std::string& pack);
 
 /// Return the present time as ISO 8601 in UTC, to the second.
 std::string utcNow();
