@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/animation_compression/compress.h"
 
+#include "formats/base/rounding.h"
 #include "formats/pack/pack_view.h"
 
-#include <cmath>
-#include <limits>
 #include <set>
 #include <utility>
 
@@ -70,13 +69,6 @@ CompressedClip compressClip(const AnimationTables& tables, const AnimationRecord
     result.statistics.bytes_before = sourceBytes(tables, animation);
     result.statistics.bytes_after = result.tables.bytes();
     return result;
-}
-
-float roundUp(double value)
-{
-    const auto nearest = static_cast<float>(value);
-    return double{nearest} >= value ? nearest
-                                    : std::nextafter(nearest, std::numeric_limits<float>::infinity());
 }
 
 } // namespace

@@ -2,7 +2,7 @@
 #include "cook/skinning/deformed_cone.h"
 
 #include "cook/skinning/middle_pose.h"
-#include "cook/skinning/rounding.h"
+#include "formats/base/rounding.h"
 #include "formats/codecs/vertex_codec.h"
 
 #include <algorithm>

@@ -3,8 +3,8 @@
 
 #include "cook/skinning/cluster_bounds.h"
 #include "cook/skinning/middle_pose.h"
-#include "cook/skinning/rounding.h"
 #include "formats/base/assert.h"
+#include "formats/base/rounding.h"
 
 #include <algorithm>
 #include <cmath>

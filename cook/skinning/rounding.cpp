@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/skinning/rounding.h"
 
-#include <cmath>
-#include <limits>
+#include "formats/base/rounding.h"
 
 namespace hearth::skinning
 {
@@ -15,15 +14,6 @@ namespace
 constexpr double kSingleMargin = 2e-6;
 
 } // namespace
-
-float roundUp(double value)
-{
-    constexpr float kMaxFloat = std::numeric_limits<float>::max();
-    if (!(value < double{kMaxFloat}))
-        return kMaxFloat;
-    const auto rounded = static_cast<float>(value);
-    return double{rounded} >= value ? rounded : std::nextafter(rounded, kMaxFloat);
-}
 
 Box3 roundOutwards(const animation_bounds::Box3d& box)
 {

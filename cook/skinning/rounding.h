@@ -1,4 +1,4 @@
-// Conservative rounding of bounds from double to single precision.
+// Conservative rounding of boxes for a runtime that skins in single precision.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,9 +7,6 @@
 
 namespace hearth::skinning
 {
-
-/// Return the smallest float that is not below `value`; the largest finite float if it is out of range.
-float roundUp(double value);
 
 /// Round a box outwards, with a margin for a runtime that skins in single precision: 2e-6 of its farthest
 /// coordinate.

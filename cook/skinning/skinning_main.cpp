@@ -1,6 +1,7 @@
 // hearth-skinning: reads an import part and its clusters part, and writes the skinning part.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
+#include "cook/command_line/thread_limit.h"
 #include "cook/skinning/skinning_part.h"
 #include "cook/tools/batch.h"
 #include "cook/tools/open_part.h"
@@ -8,9 +9,6 @@
 #include "formats/base/program.h"
 
 #include <cstdio>
-#include <memory>
-
-#include <tbb/global_control.h>
 
 namespace
 {
@@ -44,10 +42,7 @@ Status cook(const Arguments& arguments)
 
 int run(const Arguments& arguments)
 {
-    std::unique_ptr<tbb::global_control> limit;
-    if (arguments.jobs > 0)
-        limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
-                                                      arguments.jobs);
+    const cli::ThreadLimit limit(arguments.jobs);
     const Status cooked = cook(arguments);
     return cooked.ok() ? 0 : reportFailure(cooked.error());
 }

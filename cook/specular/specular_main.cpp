@@ -1,6 +1,7 @@
 // hearth-specular: cooks the table of specular occlusion, and measures the errors of the table and the fit.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
+#include "cook/command_line/thread_limit.h"
 #include "cook/specular/astc.h"
 #include "cook/specular/fit.h"
 #include "cook/specular/report.h"
@@ -13,9 +14,6 @@
 #include <cstdio>
 #include <fstream>
 #include <iterator>
-#include <memory>
-
-#include <tbb/global_control.h>
 
 namespace
 {
@@ -101,10 +99,7 @@ Status cook(const Arguments& arguments)
 
 int run(const Arguments& arguments)
 {
-    std::unique_ptr<tbb::global_control> limit;
-    if (arguments.jobs > 0)
-        limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
-                                                      arguments.jobs);
+    const cli::ThreadLimit limit(arguments.jobs);
     const Status done = !arguments.rows.empty() ? evaluate(arguments)
                         : arguments.fit         ? printFit(arguments)
                                                 : cook(arguments);

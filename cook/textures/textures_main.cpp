@@ -1,15 +1,13 @@
 // hearth-textures: makes the mips of an import part's images.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
+#include "cook/command_line/thread_limit.h"
 #include "cook/textures/texture_part.h"
 #include "cook/tools/batch.h"
 #include "formats/base/atomic_file.h"
 #include "formats/base/program.h"
 
 #include <cstdio>
-#include <memory>
-
-#include <tbb/global_control.h>
 
 namespace
 {
@@ -37,10 +35,7 @@ Status cook(const Arguments& arguments)
 
 int run(const Arguments& arguments)
 {
-    std::unique_ptr<tbb::global_control> limit;
-    if (arguments.jobs > 0)
-        limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
-                                                      arguments.jobs);
+    const cli::ThreadLimit limit(arguments.jobs);
     const Status written = cook(arguments);
     return written.ok() ? 0 : reportFailure(written.error());
 }

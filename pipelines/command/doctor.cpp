@@ -8,6 +8,7 @@
 #include "pipelines/cache/http_store.h"
 #include "pipelines/cache/maintenance.h"
 #include "pipelines/command/shell/terminal.h"
+#include "pipelines/cookers/registry.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -52,13 +53,16 @@ DoctorCheck checkPrograms(const std::string& folder)
 {
     std::vector<std::string> missing;
     std::vector<std::string> others;
-    for (const char* name :
-         {"import", "textures", "clusters", "skinning", "visibility", "specular", "bricks", "link", "render"})
+    std::vector<std::string_view> names;
+    for (const cookers::Cooker& cooker : cookers::allCookers())
+        names.push_back(cooker.name);
+    names.emplace_back("render");
+    for (const std::string_view name : names)
     {
-        const std::string program = folder + "/hearth-" + name;
+        const std::string program = fmt::format("{}/hearth-{}", folder, name);
         const std::string version = readProgramVersion(program);
         if (::access(program.c_str(), X_OK) != 0)
-            missing.push_back(std::string("hearth-") + name);
+            missing.push_back(fmt::format("hearth-{}", name));
         else if (version != HEARTH_VERSION)
             others.push_back(fmt::format("hearth-{} {}", name, version.empty() ? "of no version" : version));
     }

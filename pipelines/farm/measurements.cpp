@@ -2,6 +2,7 @@
 #include "pipelines/farm/measurements.h"
 
 #include "cook/json/json.h"
+#include "pipelines/cookers/registry.h"
 #include "pipelines/farm/plan.h"
 
 #include <algorithm>
@@ -38,8 +39,9 @@ bool addStages(const Json& report, Measurements& measured)
         for (const Json& stage : asset.at("stages"))
             if (!addStage(stage, asset.at("source").get<std::string>(), measured))
                 return false;
-    for (const char* cooker : {"specular", "bricks", "link"})
-        if (report.contains(cooker) && !addStage(report[cooker], "", measured))
+    for (const cookers::Cooker& cooker : cookers::allCookers())
+        if (cooker.scope == settings::Scope::pack && report.contains(cooker.name) &&
+            !addStage(report[cooker.name], "", measured))
             return false;
     return true;
 }

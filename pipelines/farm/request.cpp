@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/farm/request.h"
 
-#include "pipelines/profiles/config_file.h"
-#include "pipelines/profiles/cooker_arguments.h"
-#include "pipelines/profiles/setting.h"
+#include "pipelines/cookers/registry.h"
+#include "pipelines/profiles/assignment.h"
 
 namespace hearth::farm
 {
@@ -12,16 +11,16 @@ namespace
 {
 
 /// Return the texts of a setting that a cooker gets as separate words.
-std::vector<std::string> textWords(const std::pair<std::string, profiles::Value>& setting)
+std::vector<std::string> textWords(const std::pair<std::string, settings::Value>& setting)
 {
-    const profiles::Kind kind = profiles::findSetting(profiles::profileSettings(), setting.first)->kind;
-    const bool has_texts = kind == profiles::Kind::text || kind == profiles::Kind::texts;
-    return has_texts ? profiles::valueTexts(setting.second) : std::vector<std::string>();
+    const settings::Kind kind = settings::findSetting(cookers::profileSettings(), setting.first)->kind;
+    const bool has_texts = kind == settings::Kind::text || kind == settings::Kind::texts;
+    return has_texts ? settings::valueTexts(setting.second) : std::vector<std::string>();
 }
 
-Result<profiles::Values> parseAssignments(const Assignments& assignments)
+Result<settings::Values> parseAssignments(const Assignments& assignments)
 {
-    profiles::Values values;
+    settings::Values values;
     for (const std::string& assignment : assignments)
     {
         HEARTH_ASSIGN_OR_RETURN(auto parsed, profiles::parseAssignment(assignment));
@@ -49,12 +48,11 @@ Result<graph::CookSettings> makeCookSettings(const Request& request)
     settings.output = kPackName;
     for (const Assignments& assignments : request.settings_of_source)
     {
-        HEARTH_ASSIGN_OR_RETURN(const profiles::Values values, parseAssignments(assignments));
-        HEARTH_ASSIGN_OR_RETURN(graph::SourceSettings arguments, profiles::makeCookerArguments(values));
-        settings.settings_of_source.push_back(std::move(arguments));
+        HEARTH_ASSIGN_OR_RETURN(settings::Values values, parseAssignments(assignments));
+        HEARTH_TRY(cookers::checkSourceSettings(values));
+        settings.values_of_source.push_back(std::move(values));
     }
-    HEARTH_ASSIGN_OR_RETURN(const profiles::Values of_pack, parseAssignments(request.settings_of_pack));
-    settings.bricks = profiles::makeBrickOptions(of_pack);
+    HEARTH_ASSIGN_OR_RETURN(settings.values_of_pack, parseAssignments(request.settings_of_pack));
     return settings;
 }
 

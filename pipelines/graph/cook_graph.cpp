@@ -2,10 +2,12 @@
 #include "pipelines/graph/cook_graph.h"
 
 #include "cook/tools/lod_files.h"
+#include "pipelines/cookers/registry.h"
 #include "pipelines/graph/estimate.h"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <map>
 
 namespace hearth::graph
 {
@@ -13,33 +15,36 @@ namespace hearth::graph
 namespace
 {
 
-/// Return the command-line flags of hearth-visibility.
-std::vector<std::string> visibilityFlags(const VisibilityOptions& options)
-{
-    std::vector<std::string> flags{"--quality", options.quality, "--occluders", options.occluders};
-    if (options.distance > 0)
-        flags.insert(flags.end(), {"--distance", fmt::format("{}", options.distance), "--power",
-                                   fmt::format("{}", options.power)});
-    for (const std::string& pose : options.poses)
-        flags.insert(flags.end(), {"--poses", pose});
-    if (options.refine)
-        flags.emplace_back("--refine-cones");
-    return flags;
-}
+using cookers::Cooker;
+using settings::Scope;
+using settings::Values;
 
-Action makeAction(const std::string& cooker, size_t source, const std::string& subject)
+/// Indices of actions by the names of their cookers.
+using ActionIndices = std::map<std::string_view, size_t>;
+
+/// Graph under construction.
+struct Draft
+{
+    const CookSettings& settings;
+    std::vector<Values> values_of_source; ///< [sources]
+    Graph graph{};
+    std::vector<ActionIndices> actions_of_source; ///< [sources]
+    ActionIndices actions_of_pack{};
+};
+
+Action makeAction(const Cooker& cooker, size_t source, const std::string& subject)
 {
     Action action;
-    action.cooker = cooker;
+    action.cooker = cooker.name;
     action.source = source;
     action.subject = subject;
+    action.finds_files = cooker.reads_files;
     return action;
 }
 
-void addFlags(Action& action, const std::vector<std::string>& flags)
+void addWord(Action& action, std::string_view word)
 {
-    for (const std::string& flag : flags)
-        action.words.push_back({Word::Kind::text, flag, 0});
+    action.words.push_back({Word::Kind::text, std::string(word), 0});
 }
 
 void addInput(Action& action, Input input, const std::string& before_path = "")
@@ -48,9 +53,9 @@ void addInput(Action& action, Input input, const std::string& before_path = "")
     action.inputs.push_back(std::move(input));
 }
 
-void addOutput(Action& action, const std::string& flag, const std::string& name)
+void addOutput(Action& action, std::string_view option, const std::string& name)
 {
-    action.words.push_back({Word::Kind::text, flag, 0});
+    addWord(action, option);
     action.words.push_back({Word::Kind::output, "", action.outputs.size()});
     action.outputs.push_back(name);
 }
@@ -69,141 +74,130 @@ Input sourcePartInput(const Graph& graph, size_t action)
     return part;
 }
 
-/// Append the source's actions and return the indices of the actions whose parts the link reads, in this
-/// order: import, clusters (visibility, where enabled), textures, skinning. errors: those of parseLodFiles.
-Result<std::vector<size_t>> addSource(Graph& graph, size_t index, const CookSettings& settings)
+/// Add the source and its authored LODs. errors: those of parseLodFiles
+Status addSourceFiles(const CookSettings& settings, size_t source, Action& action)
 {
-    const std::string& source = settings.sources[index];
-    const SourceSettings arguments =
-        settings.settings_of_source.empty() ? SourceSettings() : settings.settings_of_source[index];
+    addInput(action, {"source", kNoAction, settings.sources[source]});
+    if (settings.lods_of_source.empty())
+        return success();
     HEARTH_ASSIGN_OR_RETURN(const std::vector<tools::LodFile> lods,
-                            tools::parseLodFiles(settings.lods_of_source.empty()
-                                                     ? std::vector<std::string>()
-                                                     : settings.lods_of_source[index]));
-    /// Add an action that runs hearth-`kind` over the parts of earlier actions.
-    const auto add = [&](const std::string& kind, const std::vector<size_t>& inputs)
-    {
-        Action action = makeAction(kind, index, source);
-        for (const size_t input : inputs)
-            addInput(action, partInput(graph, input));
-        if (inputs.empty())
-            addInput(action, {"source", kNoAction, source});
-        addOutput(action, "-o", kind + ".part");
-        graph.actions.push_back(std::move(action));
-        return graph.actions.size() - 1;
-    };
-    std::vector<Action>& actions = graph.actions;
-
-    const size_t import_action = add("import", {});
-    actions[import_action].finds_files = true;
+                            tools::parseLodFiles(settings.lods_of_source[source]));
     for (const tools::LodFile& lod : lods)
     {
-        addFlags(actions[import_action], {"--lod"});
-        addInput(actions[import_action], {fmt::format("lod {}", lod.level), kNoAction, lod.path},
+        addWord(action, "--lod");
+        addInput(action, {fmt::format("lod {}", lod.level), kNoAction, lod.path},
                  fmt::format("{}=", lod.level));
     }
-    addFlags(actions[import_action], arguments.import);
-    const size_t textures = add("textures", {import_action});
-    addFlags(actions[textures], arguments.textures);
-    const size_t clusters = add("clusters", {import_action});
-    addFlags(actions[clusters], arguments.clusters);
-    addOutput(actions[import_action], "--stats", kImportStatistics);
-    addOutput(actions[textures], "--stats", kTexturesStatistics);
-    addOutput(actions[clusters], "--stats", kClustersStatistics);
-    // the comparison with discrete LODs and the noise estimate for rays would take a third as long as the
-    // work itself
-    addFlags(actions[clusters], {"--no-manual-lods"});
-    const size_t skinning = add("skinning", {import_action, clusters});
-    if (!arguments.visibility)
-        return std::vector{import_action, clusters, textures, skinning};
-    addFlags(actions[clusters], {"--visibility"});
-    const size_t visibility = add("visibility", {import_action, clusters});
-    actions[visibility].depends_on_processor = true;
-    addFlags(actions[visibility], visibilityFlags(*arguments.visibility));
-    addOutput(actions[visibility], "--stats", kVisibilityStatistics);
-    addFlags(actions[visibility], {"--no-noise-estimate"});
-    addOutput(actions[visibility], "--picture", kVisibilityPicture);
-    return std::vector{import_action, visibility, textures, skinning};
+    return success();
 }
 
-/// Add the action that makes the specular table, which shading with visibility needs; it depends on no
-/// source.
-size_t addSpecular(Graph& graph, const CookSettings& settings)
+/// Add the outputs of the cooker and its arguments, then add the action to the graph.
+/// returns  its index. errors: those of Cooker::makeArguments
+Result<size_t> finishAction(const Cooker& cooker, const Values& values, Action action, Graph& graph)
 {
-    Action specular = makeAction("specular", settings.sources.size(), settings.output);
-    addOutput(specular, "-o", "specular.part");
-    graph.actions.push_back(std::move(specular));
+    const std::string name(cooker.name);
+    addOutput(action, "-o", name + ".part");
+    if (cooker.makeArguments != nullptr)
+    {
+        HEARTH_ASSIGN_OR_RETURN(const cookers::Arguments arguments, cooker.makeArguments(values));
+        for (const std::string& word : arguments.words)
+            addWord(action, word);
+        action.depends_on_processor = arguments.depends_on_processor;
+    }
+    // small and always written, so that any cook can be reported on without running anything again
+    if (cooker.has_statistics)
+        addOutput(action, "--stats", name + ".json");
+    if (!cooker.picture_option.empty())
+        addOutput(action, cooker.picture_option, name + ".png");
+    graph.actions.push_back(std::move(action));
     return graph.actions.size() - 1;
 }
 
-/// Add the action that makes the grid of bricks of all sources' scenes.
-size_t addBricks(Graph& graph, const CookSettings& settings)
+/// Add the actions of one source. errors: those of addSourceFiles and finishAction
+Status addSource(size_t source, Draft& draft)
 {
-    Action bricks = makeAction("bricks", settings.sources.size(), settings.output);
-    for (size_t source = 0; source < settings.sources.size(); ++source)
-        for (const char* kind : {"import", "clusters", "textures"})
-            for (size_t i = 0; i < graph.actions.size(); ++i)
-                if (graph.actions[i].source == source && graph.actions[i].cooker == kind)
-                    addInput(bricks, sourcePartInput(graph, i));
-    addOutput(bricks, "-o", "bricks.part");
-    if (settings.bricks->voxel_size)
-        addFlags(bricks, {"--voxel-size", fmt::format("{}", *settings.bricks->voxel_size)});
-    if (settings.bricks->memory_bytes)
-        addFlags(bricks, {"--memory", fmt::format("{}", *settings.bricks->memory_bytes)});
-    if (settings.bricks->bounces)
+    const Values& values = draft.values_of_source[source];
+    ActionIndices& actions = draft.actions_of_source[source];
+    for (const Cooker& cooker : cookers::allCookers())
     {
-        bricks.depends_on_processor = true;
-        addFlags(bricks, {"--bake", fmt::format("{}", *settings.bricks->bounces)});
+        if (cooker.scope != Scope::source || !cookers::isEnabled(cooker, {}, {&values, 1}))
+            continue;
+        Action action = makeAction(cooker, source, draft.settings.sources[source]);
+        if (cooker.reads_files)
+            HEARTH_TRY(addSourceFiles(draft.settings, source, action));
+        for (const std::string_view read : cooker.reads)
+            addInput(action, partInput(draft.graph, actions.at(read)));
+        HEARTH_ASSIGN_OR_RETURN(actions[cooker.name],
+                                finishAction(cooker, values, std::move(action), draft.graph));
     }
-    addOutput(bricks, "--stats", kBrickStatistics);
-    graph.actions.push_back(std::move(bricks));
-    return graph.actions.size() - 1;
+    return success();
 }
 
-/// Add the link action.
-/// inputs  actions whose parts the link reads, in this order
-void addLink(Graph& graph, const std::vector<size_t>& inputs, const CookSettings& settings)
+/// Add the actions that run once for all sources, except the link. errors: those of finishAction
+Status addCookersOfPack(Draft& draft)
 {
-    Action link = makeAction("link", settings.sources.size(), settings.output);
-    for (const size_t input : inputs)
-        addInput(link, sourcePartInput(graph, input));
-    const auto hasVisibility = [](const SourceSettings& arguments)
-    { return arguments.visibility.has_value(); };
-    if (std::any_of(settings.settings_of_source.begin(), settings.settings_of_source.end(), hasVisibility))
+    const CookSettings& settings = draft.settings;
+    for (const Cooker& cooker : cookers::allCookers())
     {
-        const size_t specular = addSpecular(graph, settings);
-        addFlags(link, {"--specular"});
-        addInput(link, partInput(graph, specular));
+        const bool is_link = &cooker == &cookers::allCookers().back();
+        if (cooker.scope != Scope::pack || is_link ||
+            !cookers::isEnabled(cooker, settings.values_of_pack, draft.values_of_source))
+            continue;
+        Action action = makeAction(cooker, settings.sources.size(), settings.output);
+        for (const ActionIndices& actions : draft.actions_of_source)
+            for (const std::string_view read : cooker.reads)
+                addInput(action, sourcePartInput(draft.graph, actions.at(read)));
+        HEARTH_ASSIGN_OR_RETURN(
+            draft.actions_of_pack[cooker.name],
+            finishAction(cooker, settings.values_of_pack, std::move(action), draft.graph));
     }
-    if (settings.bricks)
-    {
-        const size_t bricks = addBricks(graph, settings);
-        addFlags(link, {"--bricks"});
-        addInput(link, partInput(graph, bricks));
-    }
+    return success();
+}
+
+/// Return the action whose part is linked in place of the cooker's: that of the cooker which replaces it, or
+/// its own.
+size_t linkedAction(const Cooker& cooker, const ActionIndices& actions)
+{
+    for (const auto& [name, index] : actions)
+        if (cookers::findCooker(name)->replaces == cooker.name)
+            return index;
+    return actions.at(cooker.name);
+}
+
+void addLink(Draft& draft)
+{
+    const Cooker& cooker = cookers::allCookers().back();
+    Action link = makeAction(cooker, draft.settings.sources.size(), draft.settings.output);
+    for (const ActionIndices& actions : draft.actions_of_source)
+        for (const Cooker& read : cookers::allCookers())
+            if (actions.contains(read.name) && read.replaces.empty())
+                addInput(link, sourcePartInput(draft.graph, linkedAction(read, actions)));
+    for (const Cooker& read : cookers::allCookers())
+        if (const auto found = draft.actions_of_pack.find(read.name); found != draft.actions_of_pack.end())
+        {
+            addWord(link, read.link_option);
+            addInput(link, partInput(draft.graph, found->second));
+        }
     addOutput(link, "-o", "pack.hearth");
-    graph.actions.push_back(std::move(link));
+    draft.graph.actions.push_back(std::move(link));
 }
 
 } // namespace
 
 Result<Graph> makeCookGraph(const CookSettings& settings)
 {
-    HEARTH_ASSERT(settings.settings_of_source.empty() ||
-                  settings.settings_of_source.size() == settings.sources.size());
-    HEARTH_ASSERT(settings.lods_of_source.empty() ||
-                  settings.lods_of_source.size() == settings.sources.size());
-    Graph graph;
-    graph.source_count = settings.sources.size();
-    std::vector<size_t> inputs;
-    for (size_t i = 0; i < settings.sources.size(); ++i)
-    {
-        HEARTH_ASSIGN_OR_RETURN(const std::vector<size_t> parts, addSource(graph, i, settings));
-        inputs.insert(inputs.end(), parts.begin(), parts.end());
-    }
-    addLink(graph, inputs, settings);
-    addEstimates(graph);
-    return graph;
+    const size_t sources = settings.sources.size();
+    HEARTH_ASSERT(settings.values_of_source.empty() || settings.values_of_source.size() == sources);
+    HEARTH_ASSERT(settings.lods_of_source.empty() || settings.lods_of_source.size() == sources);
+    Draft draft{settings, settings.values_of_source, {}, std::vector<ActionIndices>(sources)};
+    draft.values_of_source.resize(sources);
+    draft.graph.source_count = sources;
+    for (size_t source = 0; source < sources; ++source)
+        HEARTH_TRY(addSource(source, draft));
+    HEARTH_TRY(addCookersOfPack(draft));
+    addLink(draft);
+    addEstimates(draft.graph);
+    return std::move(draft.graph);
 }
 
 } // namespace hearth::graph

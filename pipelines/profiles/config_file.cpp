@@ -2,7 +2,9 @@
 #include "pipelines/profiles/config_file.h"
 
 #include "cook/clusters/program/profile.h"
-#include "pipelines/profiles/toml_value.h"
+#include "pipelines/cookers/registry.h"
+#include "pipelines/profiles/command_settings.h"
+#include "pipelines/settings/toml_value.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -13,6 +15,8 @@ namespace hearth::profiles
 namespace
 {
 
+using namespace settings;
+using cookers::profileSettings;
 using tools::TomlNode;
 
 Value makeValue(std::string text, const TomlNode& node, const TomlLocation& place, const std::string& of)

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "formats/base/result.h"
-#include "pipelines/profiles/value.h"
+#include "pipelines/settings/value.h"
 
 #include <string>
 #include <string_view>
@@ -17,7 +17,7 @@ struct Profile
     std::string name;
     std::string inherits; ///< name of the parent profile; empty: none
     std::string place;    ///< location of `inherits`: "line 3, column 1, profile.pc.inherits"
-    Values values;
+    settings::Values values;
 };
 
 struct Rule
@@ -25,8 +25,8 @@ struct Rule
     std::string match; ///< path pattern, see matchesPath
     /// pattern for the name of the cook's profile, with * and ? as wildcards; empty: any profile
     std::string in_profile;
-    Values values;       ///< settings of the matching sources
-    std::string place{}; ///< location of `match`: "line 10, column 9, rule[0].match"
+    settings::Values values; ///< settings of the matching sources
+    std::string place{};     ///< location of `match`: "line 10, column 9, rule[0].match"
 
     /// True if the rule applies in a cook with that profile; empty: a cook without a profile.
     bool appliesTo(std::string_view profile) const;
@@ -34,8 +34,8 @@ struct Rule
 
 struct ConfigFile
 {
-    std::string path; ///< as a user would type it
-    Values defaults;  ///< settings of the command
+    std::string path;          ///< as a user would type it
+    settings::Values defaults; ///< settings of the command
     std::vector<Profile> profiles;
     std::vector<Rule> rules;
 };

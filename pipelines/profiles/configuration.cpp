@@ -5,6 +5,7 @@
 #include "formats/base/text.h"
 #include "pipelines/cache/directory_store.h"
 #include "pipelines/profiles/built_in.h"
+#include "pipelines/profiles/command_settings.h"
 #include "pipelines/profiles/glob.h"
 
 #include <algorithm>
@@ -19,6 +20,7 @@ namespace
 {
 
 namespace fs = std::filesystem;
+using namespace settings;
 
 constexpr const char* kProjectFile = "hearth.toml";
 constexpr const char* kOff = "off";

@@ -18,16 +18,16 @@ using Environment = std::function<std::optional<std::string>(const char* name)>;
 std::optional<std::string> processEnvironment(const char* name);
 
 /// Return the first of a setting's switches that is set; nullptr where none is.
-const EnvironmentSwitch* findSetSwitch(const Setting& setting,
-                                       const Environment& environment = processEnvironment);
+const settings::EnvironmentSwitch* findSetSwitch(const settings::Setting& setting,
+                                                 const Environment& environment = processEnvironment);
 
 /// Settings of the command line.
 struct CommandLineValues
 {
     /// --config: path of a project's file, or "off" for no file at all; empty: see Configuration::load
     std::string config_file;
-    Values command;  ///< values of commandSettings()
-    Values settings; ///< values of profileSettings(), for all sources
+    settings::Values command;  ///< values of commandSettings()
+    settings::Values settings; ///< values of cookers::profileSettings(), for all sources
 };
 
 class Configuration
@@ -44,15 +44,15 @@ public:
                                       const Environment& environment = processEnvironment);
 
     /// Return the value of a setting of commandSettings(); nullptr where it is not set.
-    const Value* command(std::string_view key) const;
+    const settings::Value* command(std::string_view key) const;
 
     /// Return all values that are set for a source: its profile with inherited values, then the matching
     /// rules, later ones over earlier ones, then the command line. valuesOfPack: the same without rules, for
     /// settings of the pack.
     ///
     /// source  as the user typed it; rules match its path from the folder of the project's file
-    Values valuesOfSource(const std::string& source) const;
-    Values valuesOfPack() const;
+    settings::Values valuesOfSource(const std::string& source) const;
+    settings::Values valuesOfPack() const;
 
     /// Return the name of the chosen profile; empty: none.
     const std::string& profileName() const { return profile_name_; }
@@ -76,13 +76,13 @@ private:
     const ConfigFile& fileAt(size_t level) const;
 
     CommandLineValues command_line_;
-    Values environment_;
+    settings::Values environment_;
     std::vector<ConfigFile> files_;      ///< project's file, user's file
     std::string project_folder_;         ///< absolute, with a slash at its end; empty: there is no project
     std::optional<size_t> project_file_; ///< index of files_
     std::string profile_name_;
     std::optional<Profile> profile_file_; ///< chosen profile, if it is a file of its own
-    Values profile_values_;
+    settings::Values profile_values_;
 };
 
 } // namespace hearth::profiles

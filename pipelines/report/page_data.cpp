@@ -3,7 +3,7 @@
 
 #include "cook/json/json.h"
 #include "formats/base/issues.h"
-#include "pipelines/profiles/setting.h"
+#include "pipelines/cookers/registry.h"
 #include "pipelines/report/base64.h"
 
 #include <algorithm>
@@ -125,10 +125,11 @@ Json explanations(const Json& report)
 Json savings()
 {
     Json of_cooker = Json::object();
-    for (const profiles::Setting& setting : profiles::profileSettings())
-        if (!setting.saving.cooker.empty())
-            of_cooker[std::string(setting.saving.cooker)].push_back(
-                Json::array({setting.key, setting.option, setting.saving.advice}));
+    for (const cookers::Cooker& cooker : cookers::allCookers())
+        for (const settings::Setting& setting : cooker.settings)
+            if (!setting.saving.empty())
+                of_cooker[std::string(cooker.name)].push_back(
+                    Json::array({setting.key, setting.option, setting.saving}));
     return of_cooker;
 }
 
@@ -170,9 +171,9 @@ std::string pageData(const std::string& report_text)
             data["textures"].push_back(textureRow(texture, i));
     }
     // stages that belong to no asset
-    for (const char* cooker : {"specular", "bricks", "link"})
-        if (report.contains(cooker))
-            data["stages"].push_back(stageRow(report[cooker]));
+    for (const cookers::Cooker& cooker : cookers::allCookers())
+        if (cooker.scope == settings::Scope::pack && report.contains(cooker.name))
+            data["stages"].push_back(stageRow(report[cooker.name]));
     data["explain"] = explanations(report);
     data["savings"] = savings();
     return data.dump();

@@ -22,12 +22,20 @@ CookSettings allSettings()
     settings.sources = {"props/a.obj"};
     settings.output = "out/a.hearth";
     settings.lods_of_source = {{"2=b.obj", "1=low/a=b.obj"}};
-    settings.settings_of_source = {
-        {{"--set", "animation.error=0.5"},
-         {"--max-size", "64"},
-         {"--set", "clusters.influences=4"},
-         VisibilityOptions{"draft", "asset", 2.5, 1, {"Run@0.5,1", "Walk"}, true}}};
-    settings.bricks = BrickOptions{0.25, uint64_t{1} << 20, 2};
+    settings.values_of_source = {{{"animation.error", {"0.5", ""}},
+                                  {"textures.max_size", {"64", ""}},
+                                  {"clusters.influences", {"4", ""}},
+                                  {"visibility.enabled", {"true", ""}},
+                                  {"visibility.quality", {"\"draft\"", ""}},
+                                  {"visibility.occluders", {"\"asset\"", ""}},
+                                  {"visibility.distance", {"2.5", ""}},
+                                  {"visibility.power", {"1", ""}},
+                                  {"visibility.poses", {"[\"Run@0.5,1\",\"Walk\"]", ""}},
+                                  {"visibility.refine", {"true", ""}}}};
+    settings.values_of_pack = {{"bricks.enabled", {"true", ""}},
+                               {"bricks.voxel_size", {"0.25", ""}},
+                               {"bricks.memory", {"1048576", ""}},
+                               {"bricks.bake", {"2", ""}}};
     return settings;
 }
 
@@ -51,18 +59,18 @@ std::vector<Words> commandsOf(const Graph& graph)
 
 } // namespace
 
-TEST(CookGraph, runsEveryCookerWithWhatItIsTold)
+TEST(CookGraph, passesSettingsToEveryCooker)
 {
     const std::vector<Words> commands = commandsOf(makeCookGraph(allSettings()).value());
     ASSERT_EQ(commands.size(), 8u);
     EXPECT_EQ(commands[0],
-              (Words{"bin/hearth-import", "props/a.obj", "-o", "{import.part}", "--lod", "1=low/a=b.obj",
-                     "--lod", "2=b.obj", "--set", "animation.error=0.5", "--stats", "{import.json}"}));
-    EXPECT_EQ(commands[1], (Words{"bin/hearth-textures", "{import.part}", "-o", "{textures.part}",
+              (Words{"bin/hearth-import", "props/a.obj", "--lod", "1=low/a=b.obj", "--lod", "2=b.obj", "-o",
+                     "{import.part}", "--set", "animation.error=0.5", "--stats", "{import.json}"}));
+    EXPECT_EQ(commands[1], (Words{"bin/hearth-clusters", "{import.part}", "-o", "{clusters.part}", "--set",
+                                  "clusters.influences=4", "--no-manual-lods", "--visibility", "--stats",
+                                  "{clusters.json}"}));
+    EXPECT_EQ(commands[2], (Words{"bin/hearth-textures", "{import.part}", "-o", "{textures.part}",
                                   "--max-size", "64", "--stats", "{textures.json}"}));
-    EXPECT_EQ(commands[2], (Words{"bin/hearth-clusters", "{import.part}", "-o", "{clusters.part}", "--set",
-                                  "clusters.influences=4", "--stats", "{clusters.json}", "--no-manual-lods",
-                                  "--visibility"}));
     EXPECT_EQ(commands[3],
               (Words{"bin/hearth-skinning", "{import.part}", "{clusters.part}", "-o", "{skinning.part}"}));
     EXPECT_EQ(commands[4], (Words{"bin/hearth-visibility",
@@ -83,9 +91,9 @@ TEST(CookGraph, runsEveryCookerWithWhatItIsTold)
                                   "--poses",
                                   "Walk",
                                   "--refine-cones",
+                                  "--no-noise-estimate",
                                   "--stats",
                                   "{visibility.json}",
-                                  "--no-noise-estimate",
                                   "--picture",
                                   "{visibility.png}"}));
     EXPECT_EQ(commands[5], (Words{"bin/hearth-specular", "-o", "{specular.part}"}));
@@ -189,8 +197,9 @@ TEST(Causes, tellParametersApart)
             {Outcome::cooked,
              {},
              makeRecord(action, "v", std::vector<std::string>(action.inputs.size(), "h"))});
-    settings.settings_of_source[0].visibility->quality = "high";
-    settings.settings_of_source[0].visibility->distance = 0;
+    settings.values_of_source[0]["visibility.quality"].text = "\"high\"";
+    settings.values_of_source[0].erase("visibility.distance");
+    settings.values_of_source[0].erase("visibility.power");
     const Graph now = makeCookGraph(settings).value();
     const Action& visibility = now.actions[4];
     ASSERT_EQ(visibility.cooker, "visibility");

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/tools/sha256.h"
 #include "pipelines/cache/directory_store.h"
+#include "pipelines/cookers/registry.h"
 #include "pipelines/graph/action_cache.h"
 #include "pipelines/graph/cook_graph.h"
 #include "pipelines/graph/cooker_version.h"
@@ -29,6 +30,31 @@ namespace
 namespace fs = std::filesystem;
 using test::Sandbox;
 
+/// Return one of two values that differ; flags are true, then false.
+settings::Value valueOf(const settings::Setting& setting, size_t which)
+{
+    using settings::Kind;
+    switch (setting.kind)
+    {
+    case Kind::flag:
+        return {which == 0 ? "true" : "false", ""};
+    case Kind::choice:
+        return {"\"" + std::string(setting.choices[which]) + "\"", ""};
+    case Kind::whole:
+        return {setting.choices.empty() ? std::to_string(which + 3) : std::string(setting.choices[which]),
+                ""};
+    case Kind::number:
+    case Kind::size:
+        return {std::to_string(which + 1), ""};
+    case Kind::text:
+    case Kind::texts:
+        return {which == 0 ? "[\"a\"]" : "[\"b\"]", ""};
+    case Kind::tables:
+        return {which == 0 ? "[{keep=0.5}]" : "[{keep=0.6}]", ""};
+    }
+    return {};
+}
+
 /// Folder with sources and cookers, and the keys of everything that is cooked in it.
 class Keys : public ::testing::Test
 {
@@ -39,9 +65,8 @@ protected:
     {
         for (const char* name : {"a.obj", "low.obj", "wood.png"})
             sandbox.write(name, name);
-        for (const char* cooker :
-             {"import", "textures", "clusters", "skinning", "visibility", "specular", "bricks", "link"})
-            sandbox.write(std::string("hearth-") + cooker, cooker, true);
+        for (const cookers::Cooker& cooker : cookers::allCookers())
+            sandbox.write("hearth-" + std::string(cooker.name), std::string(cooker.name), true);
     }
 
     static CookSettings settingsIn(const Sandbox& sandbox)
@@ -50,11 +75,12 @@ protected:
         settings.sources = {sandbox / "a.obj"};
         settings.output = sandbox / "a.hearth";
         settings.lods_of_source = {{"1=" + sandbox / "low.obj"}};
-        settings.settings_of_source = {{{"--set", "animation.error=1"},
-                                        {"--max-size", "64"},
-                                        {"--set", "clusters.influences=4"},
-                                        VisibilityOptions{"default", "scene", 2, 1, {"Run@0.5"}, false}}};
-        settings.bricks = BrickOptions{0.5, uint64_t{1} << 20, 2};
+        settings.values_of_source.resize(1);
+        for (const cookers::Cooker& cooker : cookers::allCookers())
+            for (const settings::Setting& setting : cooker.settings)
+                (cooker.scope == settings::Scope::source ? settings.values_of_source[0]
+                                                         : settings.values_of_pack)[setting.key] =
+                    valueOf(setting, 0);
         return settings;
     }
 
@@ -114,13 +140,9 @@ const std::set<std::string> kOfSource{"import",     "textures", "clusters", "ski
 TEST_F(Keys, everyParameterChangesThem)
 {
     const CookSettings settings = settingsIn(folder);
-    // if these lines no longer compile because a parameter was added, add a row for it below
-    const auto& [sources, output, lods, of_source, bricks] = settings;
-    const auto& [import, textures, clusters, visibility] = of_source[0];
-    const auto& [quality, occluders, distance, power, poses, refine] = *visibility;
-    const auto& [voxel_size, memory_bytes, bounces] = *bricks;
-    static_cast<void>(std::tie(sources, output, lods, import, textures, clusters, quality, occluders,
-                               distance, power, poses, refine, voxel_size, memory_bytes, bounces));
+    // if this line no longer compiles because a parameter was added, add a row for it below
+    const auto& [sources, output, lods, of_source, of_pack] = settings;
+    static_cast<void>(std::tie(sources, output, lods, of_source, of_pack));
 
     struct Row
     {
@@ -135,63 +157,13 @@ TEST_F(Keys, everyParameterChangesThem)
          [&](CookSettings& s)
          {
              s.sources.push_back(low);
-             s.settings_of_source.push_back(s.settings_of_source[0]);
+             s.values_of_source.push_back(s.values_of_source[0]);
              s.lods_of_source.emplace_back();
          },
          kOfSource},
         {"no lod", [](CookSettings& s) { s.lods_of_source.clear(); }, kOfSource},
         {"another level", [&](CookSettings& s) { s.lods_of_source = {{"2=" + low}}; }, kOfSource},
         {"another lod", [&](CookSettings& s) { s.lods_of_source = {{"1=" + s.sources[0]}}; }, kOfSource},
-        {"nothing told", [](CookSettings& s) { s.settings_of_source[0].import.clear(); }, kOfSource},
-        {"error of clips",
-         [](CookSettings& s) {
-             s.settings_of_source[0].import = {"--set", "animation.error=2"};
-         },
-         kOfSource},
-        {"size of textures",
-         [](CookSettings& s) {
-             s.settings_of_source[0].textures = {"--max-size", "32"};
-         },
-         {"textures", "bricks", "link"}},
-        {"influences",
-         [](CookSettings& s) {
-             s.settings_of_source[0].clusters = {"--set", "clusters.influences=8"};
-         },
-         {"clusters", "skinning", "visibility", "bricks", "link"}},
-        {"no visibility",
-         [](CookSettings& s) { s.settings_of_source[0].visibility.reset(); },
-         {"clusters", "skinning", "visibility", "specular", "bricks", "link"}},
-        {"quality",
-         [](CookSettings& s) { s.settings_of_source[0].visibility->quality = "draft"; },
-         {"visibility", "link"}},
-        {"occluders",
-         [](CookSettings& s) { s.settings_of_source[0].visibility->occluders = "asset"; },
-         {"visibility", "link"}},
-        {"distance",
-         [](CookSettings& s) { s.settings_of_source[0].visibility->distance = 3; },
-         {"visibility", "link"}},
-        {"no distance",
-         [](CookSettings& s) { s.settings_of_source[0].visibility->distance = 0; },
-         {"visibility", "link"}},
-        {"power",
-         [](CookSettings& s) { s.settings_of_source[0].visibility->power = 2; },
-         {"visibility", "link"}},
-        {"no poses",
-         [](CookSettings& s) { s.settings_of_source[0].visibility->poses.clear(); },
-         {"visibility", "link"}},
-        {"another pose",
-         [](CookSettings& s) { s.settings_of_source[0].visibility->poses = {"Run@1"}; },
-         {"visibility", "link"}},
-        {"refined cones",
-         [](CookSettings& s) { s.settings_of_source[0].visibility->refine = true; },
-         {"visibility", "link"}},
-        {"no bricks", [](CookSettings& s) { s.bricks.reset(); }, {"bricks", "link"}},
-        {"voxel size", [](CookSettings& s) { s.bricks->voxel_size = 0.25; }, {"bricks", "link"}},
-        {"no voxel size", [](CookSettings& s) { s.bricks->voxel_size.reset(); }, {"bricks", "link"}},
-        {"memory of bricks", [](CookSettings& s) { s.bricks->memory_bytes = 5; }, {"bricks", "link"}},
-        {"no memory of bricks", [](CookSettings& s) { s.bricks->memory_bytes.reset(); }, {"bricks", "link"}},
-        {"bounces", [](CookSettings& s) { s.bricks->bounces = 3; }, {"bricks", "link"}},
-        {"no bounces", [](CookSettings& s) { s.bricks->bounces.reset(); }, {"bricks", "link"}},
         {"the output's name", [&](CookSettings& s) { s.output = folder / "b.hearth"; }, {}},
     };
     const auto before = keys(settings);
@@ -201,6 +173,48 @@ TEST_F(Keys, everyParameterChangesThem)
         row.change(other);
         EXPECT_EQ(changed(before, keys(other)), row.cookers) << row.what;
     }
+}
+
+TEST_F(Keys, everySettingChangesThoseOfItsCookerAndItsReaders)
+{
+    const CookSettings settings = settingsIn(folder);
+    const auto before = keys(settings);
+    const std::map<std::string, std::set<std::string>> readers{
+        {"import", kOfSource},
+        {"clusters", {"clusters", "skinning", "visibility", "bricks", "link"}},
+        {"textures", {"textures", "bricks", "link"}},
+        {"visibility", {"visibility", "link"}},
+        {"bricks", {"bricks", "link"}}};
+    for (const cookers::Cooker& cooker : cookers::allCookers())
+        for (const settings::Setting& setting : cooker.settings)
+        {
+            // the LODs are files, and the cookers that a flag enables are tested below
+            if (setting.key == cookers::kImportLods || setting.key == cooker.enabled_by)
+                continue;
+            CookSettings other = settings;
+            settings::Values& values =
+                cooker.scope == settings::Scope::source ? other.values_of_source[0] : other.values_of_pack;
+            values[setting.key] = valueOf(setting, 1);
+            EXPECT_EQ(changed(before, keys(other)), readers.at(std::string(cooker.name))) << setting.key;
+            // a power needs a distance
+            if (setting.key == "visibility.distance")
+                values.erase("visibility.power");
+            values.erase(setting.key);
+            EXPECT_EQ(changed(before, keys(other)), readers.at(std::string(cooker.name))) << setting.key;
+        }
+}
+
+TEST_F(Keys, flagsAddTheirCookers)
+{
+    const CookSettings settings = settingsIn(folder);
+    const auto before = keys(settings);
+    CookSettings other = settings;
+    other.values_of_source[0]["visibility.enabled"].text = "false";
+    EXPECT_EQ(changed(before, keys(other)),
+              (std::set<std::string>{"clusters", "skinning", "visibility", "specular", "bricks", "link"}));
+    other = settings;
+    other.values_of_pack.erase("bricks.enabled");
+    EXPECT_EQ(changed(before, keys(other)), (std::set<std::string>{"bricks", "link"}));
 }
 
 TEST_F(Keys, everyFileChangesThem)

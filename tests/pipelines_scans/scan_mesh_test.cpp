@@ -163,9 +163,14 @@ double secondsOf(const std::vector<Float3>& corners)
 
 TEST(TriangulatePolygon, hugePolygonsTakeTimeInProportion)
 {
-    // testing every corner for every ear would take four times as long for twice the corners
-    const double half = std::min(secondsOf(comb(4000)), secondsOf(comb(4000)));
-    const double whole = std::min(secondsOf(comb(8000)), secondsOf(comb(8000)));
+    // testing every corner for every ear would take four times as long for twice the corners; other programs
+    // may take the processor from any run, but hardly from all
+    double half = secondsOf(comb(4000)), whole = secondsOf(comb(8000));
+    for (int i = 0; i < 9; ++i)
+    {
+        half = std::min(half, secondsOf(comb(4000)));
+        whole = std::min(whole, secondsOf(comb(8000)));
+    }
     EXPECT_LT(whole, 3 * half);
 }
 

@@ -4,12 +4,18 @@
 #include "pipelines/profiles/config_file.h"
 
 #include "cook/clusters/program/profile.h"
+#include "pipelines/cookers/registry.h"
+#include "pipelines/profiles/assignment.h"
 #include "pipelines/profiles/built_in.h"
+#include "pipelines/profiles/command_settings.h"
 
 #include <gtest/gtest.h>
 
 namespace hearth::profiles
 {
+
+using namespace settings;
+using cookers::profileSettings;
 
 namespace
 {

@@ -1,7 +1,9 @@
 // Tests effective settings: their origins and precedence.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/profiles/configuration.h"
-#include "pipelines/profiles/cooker_arguments.h"
+
+#include "pipelines/cookers/registry.h"
+#include "pipelines/profiles/command_settings.h"
 #include "tests/support/sandbox.h"
 
 #include <filesystem>
@@ -15,6 +17,7 @@ namespace
 {
 
 namespace fs = std::filesystem;
+using namespace settings;
 
 class Configurations : public ::testing::Test
 {
@@ -190,48 +193,59 @@ TEST_F(Configurations, rulesMatchPathsInTheProject)
     EXPECT_EQ(what("animation.error", "a.glb", withFlag("profile", "\"desktop\"")), "none");
 }
 
-TEST(ToldOfSource, givesEachCookerItsOwnByValue)
+namespace
+{
+
+using Words = std::vector<std::string>;
+
+/// Return the words that settings make for a cooker.
+Words wordsFor(std::string_view cooker, const settings::Values& values)
+{
+    return cookers::findCooker(cooker)->makeArguments(values).value().words;
+}
+
+} // namespace
+
+TEST(Arguments, giveEachCookerItsOwnSettings)
 {
     const auto profile = parseProfileFile("import.crease_angle = 30\nimport.scale = 0.01\nimport.up = 'z'\n"
                                           "animation.error = 0.25\n"
                                           "clusters.influences = 4\nclusters.levels = [{ keep = 0.6 }]\n"
                                           "textures.max_size = 64\nvisibility.enabled = true\n"
                                           "visibility.quality = 'draft'\nvisibility.distance = 2\n"
-                                          "visibility.power = 1\nvisibility.poses = ['Run']\n"
+                                          "visibility.power = 1\nvisibility.poses = ['Run', 'Walk']\n"
                                           "visibility.refine = true\nvisibility.occluders = 'asset'\n"
                                           "bricks.enabled = true\nbricks.voxel_size = 0.5\n"
                                           "bricks.memory = '1M'\nbricks.bake = 3\n",
                                           "house.toml");
     ASSERT_TRUE(profile.ok()) << formatMessage(profile.error());
-    using Words = std::vector<std::string>;
-    const graph::SourceSettings arguments = makeCookerArguments(profile->values).value();
-    EXPECT_EQ(arguments.import, (Words{"--crease-angle", "30", "--scale", "0.01", "--up", "z", "--set",
-                                       "animation.error=0.25"}));
-    EXPECT_EQ(arguments.textures, (Words{"--max-size", "64"}));
-    EXPECT_EQ(arguments.clusters,
-              (Words{"--set", "clusters.influences=4", "--set", "clusters.levels=[{keep=0.6}]"}));
-    ASSERT_TRUE(arguments.visibility.has_value());
-    EXPECT_EQ(arguments.visibility->quality, "draft");
-    EXPECT_EQ(arguments.visibility->occluders, "asset");
-    EXPECT_EQ(arguments.visibility->distance, 2);
-    EXPECT_EQ(arguments.visibility->power, 1);
-    EXPECT_EQ(arguments.visibility->poses, Words{"Run"});
-    EXPECT_TRUE(arguments.visibility->refine);
-    const auto bricks = makeBrickOptions(profile->values);
-    ASSERT_TRUE(bricks.has_value());
-    EXPECT_EQ(bricks->voxel_size, 0.5);
-    EXPECT_EQ(bricks->memory_bytes, uint64_t{1} << 20);
-    EXPECT_EQ(bricks->bounces, 3u);
+    const settings::Values& values = profile->values;
+    EXPECT_TRUE(cookers::checkSourceSettings(values).ok());
+    EXPECT_EQ(wordsFor("import", values), (Words{"--crease-angle", "30", "--scale", "0.01", "--up", "z",
+                                                 "--set", "animation.error=0.25"}));
+    EXPECT_EQ(wordsFor("textures", values), (Words{"--max-size", "64"}));
+    EXPECT_EQ(wordsFor("clusters", values),
+              (Words{"--set", "clusters.influences=4", "--set", "clusters.levels=[{keep=0.6}]",
+                     "--no-manual-lods", "--visibility"}));
+    EXPECT_EQ(wordsFor("visibility", values),
+              (Words{"--quality", "draft", "--occluders", "asset", "--distance", "2", "--power", "1",
+                     "--poses", "Run", "--poses", "Walk", "--refine-cones", "--no-noise-estimate"}));
+    EXPECT_EQ(wordsFor("bricks", values),
+              (Words{"--voxel-size", "0.5", "--memory", "1048576", "--bake", "3"}));
+    const std::vector<settings::Values> sources{values};
+    for (const cookers::Cooker& cooker : cookers::allCookers())
+        EXPECT_TRUE(cookers::isEnabled(cooker, values, sources)) << cooker.name;
 }
 
-TEST(ToldOfSource, saysNothingOfWhatNobodyHasSet)
+TEST(Arguments, omitUnsetSettings)
 {
-    const graph::SourceSettings arguments = makeCookerArguments({}).value();
-    EXPECT_TRUE(arguments.import.empty() && arguments.textures.empty() && arguments.clusters.empty());
-    EXPECT_FALSE(arguments.visibility.has_value());
-    EXPECT_FALSE(makeBrickOptions({}).has_value());
+    EXPECT_EQ(wordsFor("import", {}), Words());
+    EXPECT_EQ(wordsFor("textures", {}), Words());
+    EXPECT_EQ(wordsFor("clusters", {}), Words{"--no-manual-lods"});
+    for (const char* name : {"visibility", "specular", "bricks"})
+        EXPECT_FALSE(cookers::isEnabled(*cookers::findCooker(name), {}, {})) << name;
     const auto power = parseProfileFile("visibility.enabled = true\nvisibility.power = 1\n", "house.toml");
-    EXPECT_EQ(makeCookerArguments(power->values).error().issue, Issue::profile_value);
+    EXPECT_EQ(cookers::checkSourceSettings(power->values).error().issue, Issue::profile_value);
 }
 
 } // namespace hearth::profiles

@@ -3,14 +3,12 @@
 #include "cook/bricks/light/bake.h"
 #include "cook/bricks/light/march_csv.h"
 #include "cook/command_line/command_line.h"
+#include "cook/command_line/thread_limit.h"
 #include "cook/tools/open_part.h"
 #include "formats/base/atomic_file.h"
 #include "formats/base/program.h"
 
 #include <cstdio>
-#include <memory>
-
-#include <tbb/global_control.h>
 
 namespace
 {
@@ -85,10 +83,7 @@ Status cook(const Arguments& arguments)
 
 int run(const Arguments& arguments)
 {
-    std::unique_ptr<tbb::global_control> limit;
-    if (arguments.jobs > 0)
-        limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
-                                                      arguments.jobs);
+    const cli::ThreadLimit limit(arguments.jobs);
     const Status done = arguments.rays.empty()
                             ? cook(arguments)
                             : marchCsvFile(arguments.inputs[0], arguments.rays, arguments.output);

@@ -7,6 +7,7 @@
 #include "cook/clusters/program/source_part.h"
 #include "cook/clusters/program/statistics.h"
 #include "cook/command_line/command_line.h"
+#include "cook/command_line/thread_limit.h"
 #include "cook/tools/batch.h"
 #include "formats/base/atomic_file.h"
 #include "formats/base/program.h"
@@ -15,10 +16,7 @@
 #include <cstdio>
 #include <fmt/format.h>
 #include <malloc.h>
-#include <memory>
 #include <string>
-
-#include <tbb/global_control.h>
 
 namespace
 {
@@ -151,10 +149,7 @@ Result<clusters::Profile> loadProfile(const Arguments& arguments)
 
 int run(const Arguments& arguments)
 {
-    std::unique_ptr<tbb::global_control> limit;
-    if (arguments.jobs > 0)
-        limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
-                                                      arguments.jobs);
+    const cli::ThreadLimit limit(arguments.jobs);
     const Result<clusters::Profile> profile = loadProfile(arguments);
     if (!profile.ok())
         return reportFailure(profile.error());

@@ -40,21 +40,22 @@ struct Location
 
 using Keys = std::vector<std::string>;
 
+Error unknownKey(const TomlNode& member, const Location& place, const std::string& nearest)
+{
+    return place.at(member.key)
+        .wrong(Issue::profile_key, member,
+               nearest.empty() ? "this key is not known"
+                               : fmt::format("this key is not known: did you mean '{}'?", nearest));
+}
+
 /// Errors: profile_value if the node is no table, profile_key if it has a key that is not in `known`.
 Result<const TomlNode*> tableAt(const TomlNode& node, const Location& place, const Keys& known)
 {
     if (!node.isTable())
         return place.wrong(Issue::profile_value, node, "must be a table");
     for (const TomlNode& member : node.children)
-    {
-        if (std::find(known.begin(), known.end(), member.key) != known.end())
-            continue;
-        const std::string nearest = nearestMatch(member.key, known);
-        return place.at(member.key)
-            .wrong(Issue::profile_key, member,
-                   nearest.empty() ? "this key is not known"
-                                   : fmt::format("this key is not known: did you mean '{}'?", nearest));
-    }
+        if (std::find(known.begin(), known.end(), member.key) == known.end())
+            return unknownKey(member, place, nearestMatch(member.key, known));
     return &node;
 }
 
@@ -225,9 +226,12 @@ Status readRules(const TomlNode& table, std::string_view name, const Location& p
 
 Result<Profile> makeProfile(const TomlNode& root, const std::string& path)
 {
-    // the other tables are for other cookers, and hearth resolves `inherits`
-    HEARTH_TRY(tableAt(root, {path, ""},
-                       {"animation", "bricks", "clusters", "import", "inherits", "textures", "visibility"}));
+    // other tables are for other cookers, and hearth resolves `inherits`; only a misspelt name is an error
+    const Keys own{"clusters"};
+    for (const TomlNode& member : root.children)
+        if (const std::string nearest = nearestMatch(member.key, own);
+            !nearest.empty() && nearest != member.key)
+            return unknownKey(member, {path, ""}, nearest);
     Profile profile;
     const TomlNode* node = root.find("clusters");
     if (node == nullptr)

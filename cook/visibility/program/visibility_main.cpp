@@ -2,6 +2,7 @@
 // at its vertices.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
+#include "cook/command_line/thread_limit.h"
 #include "cook/tools/batch.h"
 #include "cook/tools/open_part.h"
 #include "cook/visibility/program/visibility_part.h"
@@ -13,9 +14,7 @@
 #include <csignal>
 #include <cstdio>
 #include <map>
-#include <memory>
 
-#include <tbb/global_control.h>
 #include <unistd.h>
 
 namespace
@@ -155,10 +154,7 @@ Result<int> cook(const Arguments& arguments)
 
 int run(const Arguments& arguments)
 {
-    std::unique_ptr<tbb::global_control> limit;
-    if (arguments.jobs > 0)
-        limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
-                                                      arguments.jobs);
+    const cli::ThreadLimit limit(arguments.jobs);
     std::signal(SIGINT, [](int) { interrupted = 1; });
     std::signal(SIGTERM, [](int) { interrupted = 1; });
     const Result<int> cooked = cook(arguments);

@@ -36,12 +36,12 @@ ColorChoice readColorChoice()
 {
     const Result<profiles::CommandLineValues> overrides = common().settings.overrides();
     const Result<profiles::Configuration> configuration = loadConfiguration({});
-    const profiles::Value* color = nullptr;
+    const settings::Value* color = nullptr;
     if (overrides.ok() && overrides->command.contains("color"))
         color = &overrides->command.find("color")->second;
     else if (configuration.ok())
         color = configuration->command("color");
-    const std::string word = color == nullptr ? "auto" : profiles::valueTexts(*color).front();
+    const std::string word = color == nullptr ? "auto" : settings::valueTexts(*color).front();
     return word == "always"  ? ColorChoice::always
            : word == "never" ? ColorChoice::never
                              : ColorChoice::automatic;
@@ -82,10 +82,10 @@ Result<profiles::Configuration> loadConfiguration(profiles::CommandLineValues ov
 
 std::vector<std::string> cacheSettings(const profiles::Configuration& configuration)
 {
-    const profiles::Value* caches = configuration.command("cache");
+    const settings::Value* caches = configuration.command("cache");
     // HEARTH_CACHE is read where caches are opened: it may be "off"
     return caches == nullptr || caches->origin == "HEARTH_CACHE" ? std::vector<std::string>()
-                                                                 : profiles::valueTexts(*caches);
+                                                                 : settings::valueTexts(*caches);
 }
 
 Result<std::vector<cache::CacheSpec>> readCacheSpecs(const profiles::Configuration& configuration)

@@ -13,9 +13,6 @@
 namespace hearth::command
 {
 
-using graph::BrickOptions;
-using graph::VisibilityOptions;
-
 struct CookOptions : graph::CookSettings, RunLimits
 {
     std::vector<std::string> lods; ///< values of --lod, "N=FILE": authored LODs of the only source

@@ -2,6 +2,8 @@
 #include "pipelines/command/cook/list_settings.h"
 
 #include "cook/json/json.h"
+#include "pipelines/cookers/registry.h"
+#include "pipelines/profiles/command_settings.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -13,8 +15,8 @@ namespace
 {
 
 using profiles::Configuration;
-using profiles::Setting;
-using profiles::Value;
+using settings::Setting;
+using settings::Value;
 
 constexpr const char* kSchema = "hearth.settings/1";
 constexpr std::string_view kDefaultOrigin = "default";
@@ -33,11 +35,11 @@ std::vector<Row> makeRows(const Configuration& configuration, const std::string&
         const Value* value = configuration.command(setting.key);
         rows.push_back({&setting, value == nullptr ? std::nullopt : std::optional(*value)});
     }
-    const profiles::Values of_pack = configuration.valuesOfPack();
-    const profiles::Values of_source = source.empty() ? of_pack : configuration.valuesOfSource(source);
-    for (const Setting& setting : profiles::profileSettings())
+    const settings::Values of_pack = configuration.valuesOfPack();
+    const settings::Values of_source = source.empty() ? of_pack : configuration.valuesOfSource(source);
+    for (const Setting& setting : cookers::profileSettings())
     {
-        const profiles::Values& values = setting.scope == profiles::Scope::source ? of_source : of_pack;
+        const settings::Values& values = setting.scope == settings::Scope::source ? of_source : of_pack;
         const auto found = values.find(setting.key);
         rows.push_back({&setting, found == values.end() ? std::nullopt : std::optional(found->second)});
     }
@@ -90,7 +92,7 @@ std::string settingsJson(const Configuration& configuration, const std::string& 
     for (const Row& row : makeRows(configuration, source))
     {
         Json entry{{"key", row.setting->key}};
-        entry["value"] = row.value ? profiles::toJson(*row.value) : Json();
+        entry["value"] = row.value ? settings::toJson(*row.value) : Json();
         if (!row.value && !row.setting->default_text.empty())
             entry["default"] = row.setting->default_text;
         entry["origin"] = row.value ? row.value->origin : std::string(kDefaultOrigin);

@@ -6,7 +6,9 @@
 #include "pipelines/command/sources/lod_groups.h"
 #include "pipelines/command/sources/source_list.h"
 #include "pipelines/command/sources/unmatched_rules.h"
-#include "pipelines/profiles/cooker_arguments.h"
+#include "pipelines/cookers/registry.h"
+#include "pipelines/profiles/assignment.h"
+#include "pipelines/profiles/command_settings.h"
 
 #include <charconv>
 
@@ -17,9 +19,9 @@ namespace
 {
 
 using profiles::CommandLineValues;
-using profiles::Kind;
-using profiles::Setting;
-using profiles::Value;
+using settings::Kind;
+using settings::Setting;
+using settings::Value;
 
 std::string describe(const Setting& setting)
 {
@@ -31,7 +33,7 @@ std::string describe(const Setting& setting)
 
 std::string valueFault(const Setting& setting, const std::string& text)
 {
-    const auto value = profiles::parseValue(setting, {text}, "");
+    const auto value = settings::parseValue(setting, {text}, "");
     if (value.ok())
         return "";
     // for lists, the error already quotes the wrong word
@@ -57,28 +59,32 @@ Verbosity parseVerbosity(const std::string& word)
     return word == "quiet" ? Verbosity::quiet : word == "verbose" ? Verbosity::all : Verbosity::normal;
 }
 
-/// Refuse options of visibility or bricks if these are not baked: an option without effect is a mistake.
-Status checkOptionsHaveEffect(const profiles::Values& values, bool has_visibility, bool has_bricks)
+/// Refuse options of cookers that do not run: an option without effect is a mistake.
+Status checkOptionsHaveEffect(const graph::CookSettings& settings)
 {
-    for (const auto& [key, value] : values)
+    for (const cookers::Cooker& cooker : cookers::allCookers())
     {
-        const std::string_view group = profiles::settingGroup(key);
-        const bool is_idle = (group == "visibility" && !has_visibility) || (group == "bricks" && !has_bricks);
-        if (is_idle && value.text != "false" && value.origin.starts_with("--"))
-            return Error{Issue::usage, value.origin, "",
-                         "needs --" + std::string(group) + ", or " + std::string(group) +
-                             ".enabled in the profile"};
+        if (cookers::isEnabled(cooker, settings.values_of_pack, settings.values_of_source))
+            continue;
+        for (const Setting& setting : cooker.settings)
+        {
+            const Value* value = settings::findValue(settings.values_of_pack, setting.key);
+            if (value != nullptr && value->text != "false" && value->origin.starts_with("--"))
+                return Error{Issue::usage, value->origin, "",
+                             "needs --" + std::string(cooker.name) + ", or " +
+                                 std::string(cooker.enabled_by) + " in the profile"};
+        }
     }
     return success();
 }
 
 /// Return the settings of a scope as KEY=VALUE, without import.lods: a request has LODs beside its sources.
-farm::Assignments makeAssignments(const profiles::Values& values, profiles::Scope scope)
+farm::Assignments makeAssignments(const settings::Values& values, settings::Scope scope)
 {
     farm::Assignments assignments;
     for (const auto& [key, value] : values)
-        if (key != profiles::kImportLods &&
-            profiles::findSetting(profiles::profileSettings(), key)->scope == scope)
+        if (key != cookers::kImportLods &&
+            settings::findSetting(cookers::profileSettings(), key)->scope == scope)
             assignments.push_back(key + "=" + value.text);
     return assignments;
 }
@@ -106,7 +112,7 @@ void SettingOptions::add(cli::CommandLine& verb, const Setting& setting)
 void SettingOptions::addCommandSettings(cli::CommandLine& verb, const std::vector<std::string>& keys)
 {
     for (const std::string& key : keys)
-        add(verb, *profiles::findSetting(profiles::commandSettings(), key));
+        add(verb, *settings::findSetting(profiles::commandSettings(), key));
 }
 
 void SettingOptions::addVerbosityOptions(cli::CommandLine& verb, const std::string& all)
@@ -118,7 +124,7 @@ void SettingOptions::addVerbosityOptions(cli::CommandLine& verb, const std::stri
 
 void SettingOptions::addProfileSettings(cli::CommandLine& verb)
 {
-    for (const Setting& setting : profiles::profileSettings())
+    for (const Setting& setting : cookers::profileSettings())
         if (!setting.option.empty())
             add(verb, setting);
     verb.addOption("--set", assignments_,
@@ -132,7 +138,7 @@ Result<Value> SettingOptions::valueOf(const Entry& entry)
     const std::string origin = longName(entry.setting->option);
     if (entry.setting->kind == Kind::flag)
         return Value{"true", origin};
-    return profiles::parseValue(
+    return settings::parseValue(
         *entry.setting, entry.setting->kind == Kind::texts ? entry.words : std::vector{entry.word}, origin);
 }
 
@@ -153,7 +159,7 @@ Result<CommandLineValues> SettingOptions::overrides() const
         auto value = valueOf(entry);
         if (!value.ok())
             return Error{Issue::usage, value.error().file, value.error().where, value.error().detail};
-        (entry.setting->scope == profiles::Scope::command ? overrides.command : overrides.settings)[key] =
+        (entry.setting->scope == settings::Scope::command ? overrides.command : overrides.settings)[key] =
             std::move(value).value();
     }
     if (is_quiet_ || is_verbose_)
@@ -186,9 +192,9 @@ RunLimits readRunLimits(const profiles::Configuration& configuration)
     if (const Value* memory = configuration.command("memory"))
         limits.memory_bytes = parseNumber(*memory);
     if (const Value* log = configuration.command("log"))
-        limits.verbosity = parseVerbosity(profiles::valueTexts(*log).front());
+        limits.verbosity = parseVerbosity(settings::valueTexts(*log).front());
     if (const Value* progress = configuration.command("progress"))
-        limits.progress = profiles::valueTexts(*progress).front();
+        limits.progress = settings::valueTexts(*progress).front();
     return limits;
 }
 
@@ -224,20 +230,17 @@ Status applyConfiguration(const profiles::Configuration& configuration, CookOpti
     options.source_words = options.sources;
     HEARTH_ASSIGN_OR_RETURN(const std::vector<std::string> files, expandSources(options.sources));
     HEARTH_TRY(splitSources(configuration, files, options));
-    bool has_visibility = false;
     for (const std::string& source : options.sources)
     {
-        auto cooker_arguments = profiles::makeCookerArguments(configuration.valuesOfSource(source));
-        if (!cooker_arguments.ok() && cooker_arguments.error().file.starts_with("--"))
-            return Error{Issue::usage, cooker_arguments.error().file, "", cooker_arguments.error().detail};
-        if (!cooker_arguments.ok())
-            return cooker_arguments.error();
-        has_visibility |= cooker_arguments->visibility.has_value();
-        options.settings_of_source.push_back(std::move(cooker_arguments).value());
+        settings::Values values = configuration.valuesOfSource(source);
+        const Status checked = cookers::checkSourceSettings(values);
+        if (!checked.ok() && checked.error().file.starts_with("--"))
+            return Error{Issue::usage, checked.error().file, "", checked.error().detail};
+        HEARTH_TRY(checked);
+        options.values_of_source.push_back(std::move(values));
     }
-    const profiles::Values of_pack = configuration.valuesOfPack();
-    options.bricks = profiles::makeBrickOptions(of_pack);
-    HEARTH_TRY(checkOptionsHaveEffect(of_pack, has_visibility, options.bricks.has_value()));
+    options.values_of_pack = configuration.valuesOfPack();
+    HEARTH_TRY(checkOptionsHaveEffect(options));
     static_cast<RunLimits&>(options) = readRunLimits(configuration);
     options.caches = cacheSettings(configuration);
     for (const Error& warning : findUnmatchedRules(configuration, files))
@@ -254,8 +257,8 @@ Result<farm::Request> makeRequest(const profiles::Configuration& configuration, 
     request.lods_of_source = options.lods_of_source;
     for (const std::string& source : request.sources)
         request.settings_of_source.push_back(
-            makeAssignments(configuration.valuesOfSource(source), profiles::Scope::source));
-    request.settings_of_pack = makeAssignments(configuration.valuesOfPack(), profiles::Scope::pack);
+            makeAssignments(configuration.valuesOfSource(source), settings::Scope::source));
+    request.settings_of_pack = makeAssignments(configuration.valuesOfPack(), settings::Scope::pack);
     return request;
 }
 

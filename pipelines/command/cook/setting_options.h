@@ -38,14 +38,14 @@ public:
 private:
     struct Entry
     {
-        const profiles::Setting* setting = nullptr;
+        const settings::Setting* setting = nullptr;
         std::optional<cli::Option> option;
         bool flag = false;
         std::string word;
         std::vector<std::string> words;
     };
-    void add(cli::CommandLine& verb, const profiles::Setting& setting);
-    static Result<profiles::Value> valueOf(const Entry& entry);
+    void add(cli::CommandLine& verb, const settings::Setting& setting);
+    static Result<settings::Value> valueOf(const Entry& entry);
 
     // entries must not move while the command line refers to them
     std::map<std::string, Entry> entries_;

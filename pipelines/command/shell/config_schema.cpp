@@ -2,7 +2,8 @@
 #include "pipelines/command/shell/config_schema.h"
 
 #include "cook/json/json.h"
-#include "pipelines/profiles/setting.h"
+#include "pipelines/cookers/registry.h"
+#include "pipelines/profiles/command_settings.h"
 
 #include <cmath>
 
@@ -12,9 +13,9 @@ namespace hearth::command
 namespace
 {
 
-using profiles::Kind;
-using profiles::Scope;
-using profiles::Setting;
+using settings::Kind;
+using settings::Scope;
+using settings::Setting;
 
 Json settingSchema(const Setting& setting);
 
@@ -91,11 +92,11 @@ Json settingSchema(const Setting& setting)
 Json groupSchemas(bool for_rule)
 {
     Json groups = Json::object();
-    for (const Setting& setting : profiles::profileSettings())
+    for (const Setting& setting : cookers::profileSettings())
     {
         if (for_rule && setting.scope != Scope::source)
             continue;
-        const std::string group(profiles::settingGroup(setting.key));
+        const std::string group(settings::settingGroup(setting.key));
         if (!groups.contains(group))
             groups[group] = objectSchema(Json::object());
         groups[group]["properties"][setting.key.substr(group.size() + 1)] = settingSchema(setting);

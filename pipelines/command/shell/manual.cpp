@@ -4,8 +4,9 @@
 #include "pipelines/command/shell/manual.h"
 
 #include "pipelines/command/shell/explain.h"
+#include "pipelines/cookers/registry.h"
 #include "pipelines/profiles/built_in.h"
-#include "pipelines/profiles/setting.h"
+#include "pipelines/profiles/command_settings.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -17,8 +18,8 @@ namespace hearth::command
 namespace
 {
 
-using profiles::Kind;
-using profiles::Setting;
+using settings::Kind;
+using settings::Setting;
 
 /// Escape text, so that it is printed as it is.
 std::string plain(std::string_view text)
@@ -138,8 +139,8 @@ ManualPage commandPage(const cli::CommandInfo& hearth)
     {
         if (!setting.variable.empty())
             text += ".TP\n" + bold(setting.variable) + "\n" + plain(setting.what) +
-                    (setting.kind == Kind::choice ? ": " + plain(profiles::rangeText(setting)) : "") + ".\n";
-        for (const profiles::EnvironmentSwitch& one : setting.switches)
+                    (setting.kind == Kind::choice ? ": " + plain(settings::rangeText(setting)) : "") + ".\n";
+        for (const settings::EnvironmentSwitch& one : setting.switches)
             text += ".TP\n" + bold(one.variable) + "\nset, and not 0: " + plain(setting.key) + " is " +
                     plain(one.value) + ".\n";
     }
@@ -160,7 +161,7 @@ ManualPage commandPage(const cli::CommandInfo& hearth)
 std::string settingText(const Setting& setting, const std::string& name)
 {
     std::string text = ".TP\n" + bold(name) + "\n" + plain(setting.what) + ": " +
-                       plain(profiles::rangeText(setting)) + ".\n";
+                       plain(settings::rangeText(setting)) + ".\n";
     if (!setting.default_text.empty())
         text += "By default " + plain(setting.default_text) + ".\n";
     if (!setting.option.empty())
@@ -194,7 +195,7 @@ ManualPage configPage()
     for (const Setting& setting : profiles::commandSettings())
         text += settingText(setting, setting.key);
     text += ".SH SETTINGS\n";
-    for (const Setting& setting : profiles::profileSettings())
+    for (const Setting& setting : cookers::profileSettings())
         text += settingText(setting, setting.key);
     text += ".SH PROFILES THAT ARE BUILT IN\n" + block(std::string(profiles::builtInText()));
     text += ".SH EXAMPLE\n" +

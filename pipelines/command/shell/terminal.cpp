@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/shell/terminal.h"
 
+#include "pipelines/profiles/command_settings.h"
 #include "pipelines/profiles/configuration.h"
 
 #include <fmt/format.h>
@@ -23,7 +24,8 @@ bool decideColor()
     if (choice() != ColorChoice::automatic)
         return choice() == ColorChoice::always;
     using namespace profiles;
-    if (const EnvironmentSwitch* chosen = findSetSwitch(*findSetting(commandSettings(), "color")))
+    if (const settings::EnvironmentSwitch* chosen =
+            findSetSwitch(*settings::findSetting(commandSettings(), "color")))
         return chosen->value == "always";
     const bool is_automatic_build = processEnvironment("CI").value_or("0") != "0";
     return ::isatty(STDERR_FILENO) == 1 && !is_automatic_build &&

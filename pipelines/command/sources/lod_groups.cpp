@@ -3,6 +3,7 @@
 
 #include "cook/tools/lod_files.h"
 #include "pipelines/command/sources/source_list.h"
+#include "pipelines/cookers/registry.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -83,13 +84,13 @@ private:
     {
         for (const std::string& file : files_)
         {
-            const profiles::Values values = configuration_.valuesOfSource(file);
-            const auto found = values.find(profiles::kImportLods);
+            const settings::Values values = configuration_.valuesOfSource(file);
+            const auto found = values.find(cookers::kImportLods);
             if (found == values.end())
                 continue;
             ListedLevels& listed = listed_[normalPath(file)];
             listed = {{}, found->second.origin};
-            for (const std::string& name : profiles::valueTexts(found->second))
+            for (const std::string& name : settings::valueTexts(found->second))
                 listed.files.push_back(normalPath((fs::path(file).parent_path() / name).string()));
         }
     }
@@ -110,7 +111,7 @@ private:
         {
             for (const std::string& level : listed.files)
                 if (level == file ? !level_files_.contains(file) : !used.contains(level))
-                    return Error{Issue::profile_value, listed.origin, std::string(profiles::kImportLods),
+                    return Error{Issue::profile_value, listed.origin, std::string(cookers::kImportLods),
                                  fmt::format("makes {} a level of {}, which {}", level, file,
                                              level == file ? "is the same file" : "is a level itself")};
             if (!level_files_.contains(file))

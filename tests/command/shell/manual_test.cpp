@@ -192,7 +192,7 @@ TEST_F(Manual, doctorSaysWhatIsWrongAndWhatToDo)
     const ProgramEnd alone = folder.run({folder / "bin/hearth", "doctor"});
     EXPECT_EQ(alone.exit_code, 1);
     EXPECT_NE(alone.out.find("wrong    programs"), std::string::npos) << alone.out;
-    EXPECT_NE(alone.out.find("lacks hearth-import, hearth-textures"), std::string::npos) << alone.out;
+    EXPECT_NE(alone.out.find("lacks hearth-import, hearth-clusters"), std::string::npos) << alone.out;
     EXPECT_NE(alone.out.find("what to do: install Hearth whole"), std::string::npos) << alone.out;
     EXPECT_NE(alone.out.find("ok       cache"), std::string::npos) << alone.out;
 

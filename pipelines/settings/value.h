@@ -3,11 +3,11 @@
 #pragma once
 
 #include "formats/base/result.h"
-#include "pipelines/profiles/setting.h"
+#include "pipelines/settings/setting.h"
 
 #include <map>
 #include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 namespace hearth
@@ -15,7 +15,7 @@ namespace hearth
 class Json;
 }
 
-namespace hearth::profiles
+namespace hearth::settings
 {
 
 /// Value as canonical TOML, so that equal values have equal texts: shortest form of numbers, tables in one
@@ -34,9 +34,15 @@ using Values = std::map<std::string, Value, std::less<>>;
 Result<Value> parseValue(const Setting& setting, const std::vector<std::string>& words,
                          const std::string& origin);
 
-/// Parse an assignment as it follows --set, such as "clusters.influences=4".
-/// errors: profile_key, profile_value.
-Result<std::pair<std::string, Value>> parseAssignment(const std::string& text);
+/// Parse the part of an assignment behind '='; texts may have quotation marks, as in TOML.
+/// errors: as parseValue
+Result<Value> parseAssignedValue(const Setting& setting, const std::string& text, const std::string& origin);
+
+/// Find a value; nullptr where it is not set.
+const Value* findValue(const Values& values, std::string_view key);
+
+/// True if a flag is set to true.
+bool isOn(const Values& values, std::string_view key);
 
 /// Return the texts of a value of kind texts, or the one text of a choice or text.
 std::vector<std::string> valueTexts(const Value& value);
@@ -44,4 +50,4 @@ std::vector<std::string> valueTexts(const Value& value);
 /// Convert the value to JSON.
 Json toJson(const Value& value);
 
-} // namespace hearth::profiles
+} // namespace hearth::settings

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/profiles/toml_value.h"
+#include "pipelines/settings/toml_value.h"
 
-#include "cook/clusters/program/profile.h"
 #include "formats/base/nearest_match.h"
 #include "pipelines/cache/cache_spec.h"
 
@@ -10,7 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-namespace hearth::profiles
+namespace hearth::settings
 {
 
 using tools::TomlKind;
@@ -215,10 +214,10 @@ Result<std::string> canonicalText(const TomlNode& node, const Setting& setting, 
     if (text.size() > kMaxValueSize)
         return place.wrong(Issue::profile_value, node,
                            fmt::format("has {} characters, the limit is {}", text.size(), kMaxValueSize));
-    if (settingGroup(setting.key) == "clusters")
-        if (const auto read = clusters::parseProfile(setting.key + "=" + text, ""); !read.ok())
-            return place.wrong(Issue::profile_value, node, read.error().detail);
+    if (setting.check != nullptr)
+        if (const Status checked = setting.check(setting.key, text); !checked.ok())
+            return place.wrong(Issue::profile_value, node, checked.error().detail);
     return text;
 }
 
-} // namespace hearth::profiles
+} // namespace hearth::settings

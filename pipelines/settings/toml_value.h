@@ -1,16 +1,16 @@
-// Validates TOML values of settings and writes them in canonical form. Only for the files of this folder.
+// Validates TOML values of settings and writes them in canonical form.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
 #include "cook/tools/toml.h"
 #include "formats/base/result.h"
-#include "pipelines/profiles/setting.h"
+#include "pipelines/settings/setting.h"
 
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace hearth::profiles
+namespace hearth::settings
 {
 
 /// Location of a node in a file, for messages.
@@ -33,10 +33,9 @@ using Keys = std::vector<std::string>;
 Error unknownKey(const TomlLocation& place, const tools::TomlNode& node, std::string_view key,
                  const Keys& known);
 
-/// Return the node's value in the form of Value::text. The cooker's own parser checks it too: values of
-/// several members may conflict.
+/// Return the node's value in the form of Value::text. Setting::check checks it too.
 /// errors  profile_key, profile_value
 Result<std::string> canonicalText(const tools::TomlNode& node, const Setting& setting,
                                   const TomlLocation& place);
 
-} // namespace hearth::profiles
+} // namespace hearth::settings

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/profiles/value.h"
+#include "pipelines/settings/value.h"
 
 #include "cook/json/json.h"
-#include "formats/base/nearest_match.h"
-#include "pipelines/profiles/toml_value.h"
+#include "pipelines/settings/toml_value.h"
 
 #include <fmt/format.h>
 
-namespace hearth::profiles
+namespace hearth::settings
 {
 
 namespace
@@ -103,30 +102,23 @@ Result<Value> parseValue(const Setting& setting, const std::vector<std::string>&
     return parseTomlValue(words.back(), setting, origin);
 }
 
-Result<std::pair<std::string, Value>> parseAssignment(const std::string& text)
+Result<Value> parseAssignedValue(const Setting& setting, const std::string& text, const std::string& origin)
 {
-    const std::string key = text.substr(0, text.find('='));
-    const Setting* setting = findSetting(profileSettings(), key);
-    if (setting == nullptr)
-    {
-        Keys known;
-        for (const Setting& one : profileSettings())
-            known.push_back(one.key);
-        const std::string nearest = nearestMatch(key, known);
-        return Error{Issue::profile_key, "--set " + text, "",
-                     nearest.empty() ? "this key is not known"
-                                     : fmt::format("this key is not known: did you mean '{}'?", nearest)};
-    }
-    if (key.size() == text.size())
-        return Error{Issue::profile_value, "--set " + text, "", "write KEY=VALUE"};
-    const std::string value = text.substr(key.size() + 1);
-    const std::string origin = "--set " + text;
-    // a text may be written with or without quotation marks
-    const bool is_toml = isWord(setting->kind) && !value.empty() &&
-                         std::string_view("\"'[").find(value.front()) != std::string_view::npos;
-    HEARTH_ASSIGN_OR_RETURN(Value checked, is_toml ? parseTomlValue(value, *setting, origin)
-                                                   : parseValue(*setting, {value}, origin));
-    return std::pair(key, std::move(checked));
+    const bool is_toml = isWord(setting.kind) && !text.empty() &&
+                         std::string_view("\"'[").find(text.front()) != std::string_view::npos;
+    return is_toml ? parseTomlValue(text, setting, origin) : parseValue(setting, {text}, origin);
+}
+
+const Value* findValue(const Values& values, std::string_view key)
+{
+    const auto found = values.find(key);
+    return found == values.end() ? nullptr : &found->second;
+}
+
+bool isOn(const Values& values, std::string_view key)
+{
+    const Value* value = findValue(values, key);
+    return value != nullptr && value->text == "true";
 }
 
 std::vector<std::string> valueTexts(const Value& value)
@@ -146,4 +138,4 @@ Json toJson(const Value& value)
     return toJson(parseNode(value));
 }
 
-} // namespace hearth::profiles
+} // namespace hearth::settings

@@ -1,15 +1,18 @@
-// Table of all settings of profiles, and of the command's options that a file can set. Validation, lists, the
-// published schema and the manual are generated from it.
+// Describes a setting: its key, its values and its option. Validation, lists, the published schema and the
+// manual are generated from these descriptions.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "formats/base/result.h"
+
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-namespace hearth::profiles
+namespace hearth::settings
 {
 
 enum class Kind : uint8_t
@@ -40,13 +43,6 @@ struct EnvironmentSwitch
     std::string_view value;
 };
 
-/// Advice on how a setting makes cooking cheaper.
-struct Saving
-{
-    std::string_view cooker; ///< cooker without prefix, "visibility" for hearth-visibility; empty: no saving
-    std::string_view advice; ///< "draft takes fewer rays"
-};
-
 struct Setting
 {
     std::string key; ///< "clusters.influences"; for the command "jobs"; for a member of tables its name
@@ -65,17 +61,14 @@ struct Setting
     std::vector<EnvironmentSwitch> switches{}; ///< alternatives to `variable`; the first that is set counts
     bool is_required = false;                  ///< true for a mandatory member of a table
     std::vector<Setting> members{};            ///< members of tables
-    Saving saving{};                           ///< for reports of slow cookers
+    /// how the setting makes its cooker faster, "draft takes fewer rays", for reports; empty: it does not
+    std::string_view saving{};
+    /// check beyond the ranges, of a value in canonical form; null: none. errors: profile_value
+    Status (*check)(const std::string& key, const std::string& text) = nullptr;
 };
 
-/// Key of the authored LODs of a source. It selects files, so it is not a cooker argument.
-inline constexpr std::string_view kImportLods = "import.lods";
-
-/// Return the settings of profiles: of sources, then of the pack.
-std::span<const Setting> profileSettings();
-
-/// Return the settings of the table [defaults].
-std::span<const Setting> commandSettings();
+/// Largest value of whole numbers that have no other limit.
+inline constexpr double kMaxWholeNumber = std::numeric_limits<int32_t>::max();
 
 /// Find a setting by key; nullptr where there is none.
 const Setting* findSetting(std::span<const Setting> settings, std::string_view key);
@@ -86,4 +79,4 @@ std::string_view settingGroup(std::string_view key);
 /// Return the allowed values, to follow "must be": "a number from 0 to 180", "one of rw, ro, off".
 std::string rangeText(const Setting& setting);
 
-} // namespace hearth::profiles
+} // namespace hearth::settings

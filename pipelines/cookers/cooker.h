@@ -1,0 +1,58 @@
+// Description of a cooker: everything that the other folders of pipelines/ know about it.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/base/result.h"
+#include "pipelines/settings/setting.h"
+#include "pipelines/settings/value.h"
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace hearth::cookers
+{
+
+/// Command-line words of a cooker, without those for its files.
+struct Arguments
+{
+    std::vector<std::string> words;
+    bool depends_on_processor = false; ///< output bytes are equal only on processors of one class
+};
+
+/// Estimated resources of a cooker, linear in the bytes of its sources.
+struct Cost
+{
+    uint64_t base_bytes = 0;    ///< memory for an empty source: program, libraries, threads
+    double bytes_per_byte = 0;  ///< peak memory per byte of source
+    double seconds_per_mib = 0; ///< seconds per MiB of source, on two cores
+};
+
+struct Cooker
+{
+    std::string_view name; ///< "clusters": the program is hearth-clusters
+    /// source: runs once for each source; pack: runs once for all sources
+    settings::Scope scope = settings::Scope::source;
+    /// key of the flag that enables the cooker; empty: it always runs
+    std::string_view enabled_by{};
+    /// Cookers whose parts it reads, in the order of its command line. A cooker of the pack reads the parts
+    /// of each source.
+    std::vector<std::string_view> reads{};
+    /// true: it reads the source's files, its authored LODs, and files that these name
+    bool reads_files = false;
+    /// cooker whose chunks its part contains too: where it runs, only its own part is linked; empty: none
+    std::string_view replaces{};
+    /// option of hearth-link before the part of a cooker of the pack
+    std::string_view link_option{};
+    bool has_statistics = false; ///< true: with --stats it writes JSON about its work, for reports
+    /// option for an image of its result, for reports; empty: none
+    std::string_view picture_option{};
+    std::vector<settings::Setting> settings{};
+    /// Convert settings into arguments; null: it has none. Unset settings are omitted, so changing a default
+    /// only re-keys that setting. errors: profile_value where settings contradict each other
+    Result<Arguments> (*makeArguments)(const settings::Values& values) = nullptr;
+    Cost cost{};
+};
+
+} // namespace hearth::cookers

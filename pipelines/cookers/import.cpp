@@ -1,0 +1,65 @@
+// hearth-import: from source files to a part.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/cookers/registry.h"
+#include "pipelines/cookers/words.h"
+#include "pipelines/settings/make_setting.h"
+
+namespace hearth::cookers
+{
+
+namespace
+{
+
+using namespace settings;
+
+// the limits of the cooker; a test compares them with the values that it accepts
+constexpr double kMaxAnimationError = 1000;
+constexpr double kMinScale = 1e-9, kMaxScale = 1e9;
+
+std::vector<Setting> makeImportSettings()
+{
+    return {
+        withOption(numberSetting("import.crease_angle",
+                                 "degrees: sharper edges of a mesh without normals stay hard; 180: none does",
+                                 "60", 0, 180),
+                   "--crease-angle", "DEGREES"),
+        withOption(numberSetting("import.scale", "metres of a unit of the source, as 0.01 of centimetres",
+                                 "1", kMinScale, kMaxScale),
+                   "--scale", "METRES"),
+        withOption(choiceSetting("import.up", "the axis of the source that points up", "y", {"y", "z"}),
+                   "--up", "AXIS"),
+        {std::string(kImportLods), Kind::texts,
+         "files from the source's folder that are its levels of detail 1, 2, ..., made by hand; []: none, "
+         "and no name makes the source a level",
+         "the files X_LOD1, X_LOD2, ... beside an X_LOD0"},
+        withSaving(
+            "0 takes the keys of clips as they are",
+            numberSetting("animation.error",
+                          "metres that a vertex may be off when a clip plays; 0: keys as in the source",
+                          "2e-6 of the size of each model", 0, kMaxAnimationError)),
+    };
+}
+
+Result<Arguments> makeImportArguments(const Values& values)
+{
+    Arguments arguments;
+    addOption(values, "import.crease_angle", "--crease-angle", arguments);
+    addOption(values, "import.scale", "--scale", arguments);
+    addOption(values, "import.up", "--up", arguments);
+    addAssignments(values, "animation", arguments);
+    return arguments;
+}
+
+} // namespace
+
+Cooker describeImport()
+{
+    return {.name = "import",
+            .reads_files = true,
+            .has_statistics = true,
+            .settings = makeImportSettings(),
+            .makeArguments = makeImportArguments,
+            .cost = {16 * kMiB, 6, 0.03}};
+}
+
+} // namespace hearth::cookers

@@ -1,0 +1,45 @@
+// hearth-textures: mips and block compression of the images of a source.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/textures/texture_part.h"
+#include "pipelines/cookers/words.h"
+#include "pipelines/settings/make_setting.h"
+
+namespace hearth::cookers
+{
+
+namespace
+{
+
+using namespace settings;
+
+std::vector<Setting> makeTextureSettings()
+{
+    return {withSaving(
+        "smaller textures are less to compress",
+        withOption(wholeNumberSetting(
+                       "textures.max_size",
+                       "texels: the longer side of the textures that are kept; finer mips are left out",
+                       "as in the source", 1, textures::kMaxTextureSize),
+                   "--max-texture-size", "TEXELS"))};
+}
+
+Result<Arguments> makeTextureArguments(const Values& values)
+{
+    Arguments arguments;
+    addOption(values, "textures.max_size", "--max-size", arguments);
+    return arguments;
+}
+
+} // namespace
+
+Cooker describeTextures()
+{
+    return {.name = "textures",
+            .reads = {"import"},
+            .has_statistics = true,
+            .settings = makeTextureSettings(),
+            .makeArguments = makeTextureArguments,
+            .cost = {16 * kMiB, 4.5, 0.04}};
+}
+
+} // namespace hearth::cookers

@@ -1,0 +1,89 @@
+// hearth-visibility: visibility cones of vertices, for ambient and specular occlusion.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/cookers/words.h"
+#include "pipelines/settings/make_setting.h"
+
+#include <limits>
+
+namespace hearth::cookers
+{
+
+namespace
+{
+
+using namespace settings;
+
+std::vector<Setting> makeVisibilitySettings()
+{
+    return {
+        flagSetting("visibility.enabled",
+                    "bake what each vertex sees of its surroundings: ambient and specular occlusion",
+                    "--visibility"),
+        withSaving("draft takes fewer rays",
+                   withOption(choiceSetting("visibility.quality", "rays that baking takes", "default",
+                                            {"draft", "default", "high"}),
+                              "--visibility-quality", "NAME")),
+        withSaving(
+            "asset traces each mesh alone, not in its scene",
+            withOption(choiceSetting("visibility.occluders",
+                                     "what is in the way: all of the source's scene, or each asset alone",
+                                     "scene", {"scene", "asset"}),
+                       "--visibility-occluders", "NAME")),
+        withSaving("a limit makes rays shorter",
+                   withOption(excludingLow(numberSetting(
+                                  "visibility.distance", "metres: what is farther away hides nothing",
+                                  "no limit", 0, std::numeric_limits<double>::infinity())),
+                              "--visibility-distance", "METRES")),
+        withOption(
+            numberSetting("visibility.power",
+                          "visibility of what is t metres away is (t / distance)^power; needs a distance",
+                          "0", 0, 16),
+            "--visibility-power", "NUMBER"),
+        withOption({"visibility.poses", Kind::texts,
+                    "CLIP[@SECONDS,...]: bake deformed meshes in these poses, not in the bind pose; once "
+                    "for each clip",
+                    "[]"},
+                   "--visibility-poses", "POSES"),
+        withSaving(
+            "false leaves the fit to harmonics out",
+            flagSetting("visibility.refine",
+                        "cones by nine harmonics instead of four moments; the report says what that gained",
+                        "--visibility-refine")),
+    };
+}
+
+Result<Arguments> makeVisibilityArguments(const Values& values)
+{
+    const Value* power = findValue(values, "visibility.power");
+    if (power != nullptr && findValue(values, "visibility.distance") == nullptr)
+        return Error{Issue::profile_value, power->origin, "visibility.power",
+                     "needs visibility.distance, which is not set"};
+    Arguments arguments;
+    arguments.depends_on_processor = true;
+    addOption(values, "visibility.quality", "--quality", arguments);
+    addOption(values, "visibility.occluders", "--occluders", arguments);
+    addOption(values, "visibility.distance", "--distance", arguments);
+    addOption(values, "visibility.power", "--power", arguments);
+    addOption(values, "visibility.poses", "--poses", arguments);
+    addFlag(values, "visibility.refine", "--refine-cones", arguments);
+    // the estimate of noise would take a third as long as the work itself
+    arguments.words.emplace_back("--no-noise-estimate");
+    return arguments;
+}
+
+} // namespace
+
+Cooker describeVisibility()
+{
+    return {.name = "visibility",
+            .enabled_by = "visibility.enabled",
+            .reads = {"import", "clusters"},
+            .replaces = "clusters",
+            .has_statistics = true,
+            .picture_option = "--picture",
+            .settings = makeVisibilitySettings(),
+            .makeArguments = makeVisibilityArguments,
+            .cost = {16 * kMiB, 24, 0.35}}; // at quality draft
+}
+
+} // namespace hearth::cookers
