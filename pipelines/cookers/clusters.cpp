@@ -89,7 +89,7 @@ Result<Arguments> makeClusterArguments(const Values& values)
     Arguments arguments;
     addAssignments(values, "clusters", arguments);
     // the comparison with discrete LODs would take a third as long as the work itself
-    arguments.words.emplace_back("--no-manual-lods");
+    arguments.words.emplace_back("--no-discrete-lods");
     addFlag(values, "visibility.enabled", "--visibility", arguments);
     return arguments;
 }

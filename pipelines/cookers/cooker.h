@@ -47,7 +47,7 @@ struct Cooker
     std::string_view link_option{};
     bool has_statistics = false; ///< true: with --stats it writes JSON about its work, for reports
     /// option for an image of its result, for reports; empty: none
-    std::string_view picture_option{};
+    std::string_view image_option{};
     std::vector<settings::Setting> settings{};
     /// Convert settings into arguments; null: it has none. Unset settings are omitted, so changing a default
     /// only re-keys that setting. errors: profile_value where settings contradict each other

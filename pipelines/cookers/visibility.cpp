@@ -80,7 +80,7 @@ Cooker describeVisibility()
             .reads = {"import", "clusters"},
             .replaces = "clusters",
             .has_statistics = true,
-            .picture_option = "--picture",
+            .image_option = "--image",
             .settings = makeVisibilitySettings(),
             .makeArguments = makeVisibilityArguments,
             .cost = {16 * kMiB, 24, 0.35}}; // at quality draft

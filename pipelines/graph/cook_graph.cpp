@@ -107,8 +107,8 @@ Result<size_t> finishAction(const Cooker& cooker, const Values& values, Action a
     // small and always written, so that any cook can be reported on without running anything again
     if (cooker.has_statistics)
         addOutput(action, "--stats", name + ".json");
-    if (!cooker.picture_option.empty())
-        addOutput(action, cooker.picture_option, name + ".png");
+    if (!cooker.image_option.empty())
+        addOutput(action, cooker.image_option, name + ".png");
     graph.actions.push_back(std::move(action));
     return graph.actions.size() - 1;
 }

@@ -174,8 +174,8 @@ Json visibilityJson(const CookReport& cook, size_t action)
     if (json.is_null())
         return json;
     json.erase("source");
-    if (const auto picture = cook.pictures.find(action); picture != cook.pictures.end())
-        json["picture"] = "data:image/png;base64," + base64(picture->second);
+    if (const auto image = cook.images.find(action); image != cook.images.end())
+        json["image"] = "data:image/png;base64," + base64(image->second);
     return json;
 }
 

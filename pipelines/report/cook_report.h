@@ -38,7 +38,7 @@ struct CookReport
     std::map<size_t, std::string> errors;          ///< error lines by action, for actions that failed
     std::map<size_t, std::string> source_warnings; ///< warning lines about the whole cook, by source
     std::map<size_t, std::string> statistics;      ///< JSON that actions wrote beside their parts, by action
-    std::map<size_t, std::string> pictures;        ///< PNG of baked visibility, by action
+    std::map<size_t, std::string> images;          ///< PNG of baked visibility, by action
     /// Bytes of the pack by chunk type, as stored in the file; empty where there is no pack.
     std::map<uint32_t, uint64_t> bytes_of_chunks;
 };

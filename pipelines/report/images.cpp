@@ -81,7 +81,7 @@ public:
         std::vector<std::string> command{tools::programFolder() + "/hearth-render",
                                          pack_,
                                          "-o",
-                                         folder_->path() + "/picture.jpg",
+                                         folder_->path() + "/image.jpg",
                                          "--size",
                                          size,
                                          "--samples",
@@ -93,7 +93,7 @@ public:
         std::error_code error;
         if (std::filesystem::file_size(pack_, error) > kLargePack)
             command.insert(command.end(), {"--budget", kGeometryBudget});
-        const std::string statistics = folder_->path() + "/picture.json";
+        const std::string statistics = folder_->path() + "/image.json";
         if (meshes.empty())
             command.insert(command.end(), {"--stats", statistics});
         else
@@ -105,20 +105,20 @@ public:
             const Json frame = Json::parse(readAndRemove(statistics).value_or("")).value_or(Json());
             has_drawn_sheet_ = frame.is_object() && frame.contains("sheet");
         }
-        std::vector<std::vector<std::string>> pictures(std::max<size_t>(meshes.size(), 1));
-        for (size_t i = 0; i < pictures.size(); ++i)
+        std::vector<std::vector<std::string>> images(std::max<size_t>(meshes.size(), 1));
+        for (size_t i = 0; i < images.size(); ++i)
             for (const std::string& view : views)
             {
                 const std::string number = meshes.empty() ? "" : fmt::format("-{:04}", i);
                 const auto file =
-                    readAndRemove(fmt::format("{}/picture-{}{}.jpg", folder_->path(), view, number));
+                    readAndRemove(fmt::format("{}/image-{}{}.jpg", folder_->path(), view, number));
                 if (!file)
                     return {};
-                pictures[i].push_back(*file);
+                images[i].push_back(*file);
                 ++taken_;
             }
         reportProgress();
-        return pictures;
+        return images;
     }
 
     const std::string& why() const { return why_; }
@@ -197,15 +197,15 @@ bool hasVisibility(const formats::PackView& pack)
                        { return (mesh.attributes & formats::kVertexVisibility) != 0; });
 }
 
-uint64_t totalBytes(const Images& pictures)
+uint64_t totalBytes(const Images& images)
 {
     const auto sum = [](const std::vector<std::string>& files)
     {
         return std::accumulate(files.begin(), files.end(), uint64_t{0},
                                [](uint64_t bytes, const std::string& file) { return bytes + file.size(); });
     };
-    uint64_t bytes = sum(pictures.scene);
-    for (const auto& [mesh, files] : pictures.meshes)
+    uint64_t bytes = sum(images.scene);
+    for (const auto& [mesh, files] : images.meshes)
         bytes += sum(files);
     return bytes;
 }
@@ -215,51 +215,51 @@ uint64_t totalBytes(const Images& pictures)
 Images renderImages(const std::string& pack_path, const std::vector<PackMesh>& meshes,
                     const ImageProgress& told, const ImageLimits& limits)
 {
-    Images pictures;
-    pictures.left_out = meshes.size();
+    Images images;
+    images.left_out = meshes.size();
     const auto reader = openPack(pack_path);
     ImageRenderer renderer(pack_path, told);
     if (!reader.ok() || !renderer.prepare())
     {
-        pictures.why_left_out = reader.ok() ? "there is no folder for them" : formatMessage(reader.error());
-        return pictures;
+        images.why_left_out = reader.ok() ? "there is no folder for them" : formatMessage(reader.error());
+        return images;
     }
     const Clock::time_point start = Clock::now();
     const auto isLate = [&]
     { return std::chrono::duration<double>(Clock::now() - start).count() > limits.seconds; };
-    pictures.views = {"final", "clusters", "lod"};
+    images.views = {"final", "clusters", "lod"};
     if (hasVisibility(*reader))
-        pictures.views.emplace_back("ao");
+        images.views.emplace_back("ao");
     const std::vector<uint32_t> drawn = selectDrawable(*reader, meshes);
     const size_t count = std::min(drawn.size(), limits.meshes);
-    renderer.expect((1 + count) * pictures.views.size());
-    auto scene = renderer.draw(pictures.views, kSceneSize, {});
+    renderer.expect((1 + count) * images.views.size());
+    auto scene = renderer.draw(images.views, kSceneSize, {});
     if (renderer.hasDrawnSheet())
-        scene = renderer.draw(pictures.views, kSheetSize, {});
+        scene = renderer.draw(images.views, kSheetSize, {});
     if (scene.empty())
     {
         // a device that cannot draw the scene cannot draw its meshes
-        pictures.why_left_out = renderer.why();
-        return pictures;
+        images.why_left_out = renderer.why();
+        return images;
     }
-    pictures.scene = scene.front();
-    pictures.is_sheet = renderer.hasDrawnSheet();
-    for (size_t first = 0; first < count && !isLate() && totalBytes(pictures) < limits.bytes;
+    images.scene = scene.front();
+    images.is_sheet = renderer.hasDrawnSheet();
+    for (size_t first = 0; first < count && !isLate() && totalBytes(images) < limits.bytes;
          first += kMeshesPerProcess)
     {
         const auto begin = drawn.begin() + static_cast<std::ptrdiff_t>(first);
         const std::vector<uint32_t> some(
             begin, begin + static_cast<std::ptrdiff_t>(std::min(kMeshesPerProcess, count - first)));
-        const auto files = renderer.draw(pictures.views, "240x180", some);
+        const auto files = renderer.draw(images.views, "240x180", some);
         for (size_t i = 0; i < files.size(); ++i)
-            pictures.meshes[some[i]] = files[i];
+            images.meshes[some[i]] = files[i];
     }
-    pictures.left_out = meshes.size() - pictures.meshes.size();
-    if (pictures.left_out > 0)
-        pictures.why_left_out = pictures.meshes.size() < count
-                                    ? "drawing took too long, or too many bytes"
-                                    : "the largest of each asset, and then the largest, have one";
-    return pictures;
+    images.left_out = meshes.size() - images.meshes.size();
+    if (images.left_out > 0)
+        images.why_left_out = images.meshes.size() < count
+                                  ? "drawing took too long, or too many bytes"
+                                  : "the largest of each asset, and then the largest, have one";
+    return images;
 }
 
 } // namespace hearth::report

@@ -26,7 +26,7 @@ std::string inScript(std::string_view json)
 
 } // namespace
 
-std::string reportPage(const std::string& data, const std::string& pictures)
+std::string reportPage(const std::string& data, const std::string& images)
 {
     std::string script = "'use strict';\n";
     for (const std::string_view file :
@@ -38,7 +38,7 @@ std::string reportPage(const std::string& data, const std::string& pictures)
     { page.replace(page.find(mark), mark.size(), text); };
     // in reverse order, so that placeholders in the inserted data are not replaced
     put("@SCRIPT@", script);
-    put("@PICTURES@", inScript(pictures));
+    put("@IMAGES@", inScript(images));
     put("@DATA@", inScript(data));
     put("@STYLE@", std::string(page_files::report_css));
     return page;

@@ -8,7 +8,7 @@ namespace hearth::report
 {
 
 /// Make the page.
-/// data, pictures  JSON, of page_data.h
-std::string reportPage(const std::string& data, const std::string& pictures);
+/// data, images  JSON, of page_data.h
+std::string reportPage(const std::string& data, const std::string& images);
 
 } // namespace hearth::report

@@ -210,13 +210,13 @@ std::vector<PackMesh> importantMeshes(const std::string& report_text)
     return meshes;
 }
 
-std::string imagesData(const Images& pictures)
+std::string imagesData(const Images& images)
 {
-    Json data{{"views", pictures.views},  {"is_sheet", pictures.is_sheet}, {"scene", Json::array()},
-              {"meshes", Json::object()}, {"left_out", pictures.left_out}, {"why", pictures.why_left_out}};
-    for (const std::string& jpeg : pictures.scene)
+    Json data{{"views", images.views},    {"is_sheet", images.is_sheet}, {"scene", Json::array()},
+              {"meshes", Json::object()}, {"left_out", images.left_out}, {"why", images.why_left_out}};
+    for (const std::string& jpeg : images.scene)
         data["scene"].push_back(dataUri(jpeg));
-    for (const auto& [mesh, jpegs] : pictures.meshes)
+    for (const auto& [mesh, jpegs] : images.meshes)
         for (const std::string& jpeg : jpegs)
             data["meshes"][std::to_string(mesh)].push_back(dataUri(jpeg));
     return data.dump();

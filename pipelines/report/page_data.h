@@ -21,6 +21,6 @@ std::string pageData(const std::string& report);
 std::vector<PackMesh> importantMeshes(const std::string& report);
 
 /// Return the images as JSON with data URIs, and the number of meshes without one.
-std::string imagesData(const Images& pictures);
+std::string imagesData(const Images& images);
 
 } // namespace hearth::report

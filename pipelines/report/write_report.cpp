@@ -21,8 +21,8 @@ Status writeReport(const std::string& json, const std::string& path, const std::
         if (path.ends_with(".html"))
         {
             const std::string data = pageData(json);
-            const Images pictures = pack.empty() ? Images{} : renderImages(pack, importantMeshes(json), told);
-            return writeText(path, reportPage(data, imagesData(pictures)));
+            const Images images = pack.empty() ? Images{} : renderImages(pack, importantMeshes(json), told);
+            return writeText(path, reportPage(data, imagesData(images)));
         }
         if (path.ends_with(".xml"))
             return writeText(path, junitXml(json));

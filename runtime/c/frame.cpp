@@ -88,7 +88,7 @@ Status checkOwner(const hearth_scene& scene, const hearth_targets& targets)
 {
     const std::shared_ptr<const gpu::Scene> owner = targets.scene.lock();
     if (owner != nullptr && owner != scene.scene)
-        return usage("the targets belong to another scene, whose picture this one would draw over: create "
+        return usage("the targets belong to another scene, whose image this one would draw over: create "
                      "targets for each scene, or destroy the other scene first");
     return success();
 }

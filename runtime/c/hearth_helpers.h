@@ -2,7 +2,7 @@
  *
  * Optional helpers for tools, tests and first steps without a Vulkan device of their own: a headless device,
  * commands that run at once, image readback, a fitted camera. hearth.h does not need them; its rules hold
- * here too. examples/draw_picture.c is a whole program.
+ * here too. examples/draw_image.c is a whole program.
  *
  * A static library in C99 that opens the Vulkan loader at run time. A device and everything made on it are
  * used by one thread at a time. */

@@ -106,10 +106,10 @@ Result<uint64_t> readShadedArea(VulkanHost& host, const gpu::Renderer& renderer,
     std::vector<shared::TileDraw> draws(scene.materials.size() + 1);
     HEARTH_ASSERT(bytes.size() >= draws.size() * sizeof(shared::TileDraw));
     std::memcpy(draws.data(), bytes.data(), draws.size() * sizeof(shared::TileDraw));
-    const uint64_t whole_picture = uint64_t{extent.width} * extent.height;
-    uint64_t pixels = tiles ? 0 : whole_picture; // tiles: the sky has no indirect draw
+    const uint64_t whole_image = uint64_t{extent.width} * extent.height;
+    uint64_t pixels = tiles ? 0 : whole_image; // tiles: the sky has no indirect draw
     for (const shared::TileDraw& draw : draws)
-        pixels += draw.instance_count * (draw.first_vertex == 0 ? whole_picture
+        pixels += draw.instance_count * (draw.first_vertex == 0 ? whole_image
                                                                 : uint64_t{shared::kMaterialTilePixels} *
                                                                       shared::kMaterialTilePixels);
     return pixels;

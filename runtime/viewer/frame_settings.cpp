@@ -25,7 +25,7 @@ std::span<const Named<gpu::ShadedArea>> shadedAreaNames()
 {
     static constexpr Named<gpu::ShadedArea> kAreas[] = {
         {"automatic", gpu::ShadedArea::automatic},
-        {"picture", gpu::ShadedArea::wholeFrame},
+        {"frame", gpu::ShadedArea::wholeFrame},
         {"tiles", gpu::ShadedArea::tiles},
     };
     return kAreas;

@@ -32,8 +32,8 @@ struct Arguments
     std::vector<double> sizes{1, 0.5, 0.2, 0.1, 0.05};
     uint32_t points = 4000, paths = 2048, gather_rays = 4096;
     std::string plot;
-    double picture_voxel = 0; ///< metres; 0: no images
-    uint32_t picture_paths = 256;
+    double image_voxel = 0; ///< metres; 0: no images
+    uint32_t image_paths = 256;
 };
 
 std::string nameOf(const std::string& prefix)
@@ -106,8 +106,8 @@ shared::Camera cameraOf(const formats::PackView& pack)
 
 /// Write irradiance side by side: by path tracing, by bricks, and their difference, red where bricks have
 /// more and blue where they have less.
-Status writePicture(const reference::ShadedScene& scene, const formats::PackView& pack,
-                    const BrickGather& gather, uint32_t paths, double mean, const std::string& path)
+Status writeImage(const reference::ShadedScene& scene, const formats::PackView& pack,
+                  const BrickGather& gather, uint32_t paths, double mean, const std::string& path)
 {
     constexpr uint32_t kWidth = 320, kHeight = 214;
     const shared::Camera camera = cameraOf(pack);
@@ -119,7 +119,7 @@ Status writePicture(const reference::ShadedScene& scene, const formats::PackView
         return static_cast<uint8_t>(
             std::lround(255 * reference::srgbFromLinear(1 - std::exp(-0.7 * value / mean))));
     };
-    reference::Picture picture(3 * kWidth, kHeight);
+    reference::Image image(3 * kWidth, kHeight);
     const auto drawPixel = [&](uint32_t x, uint32_t y)
     {
         const double across = (2 * (x + 0.5) / kWidth - 1) * slope * kWidth / kHeight;
@@ -136,7 +136,7 @@ Status writePicture(const reference::ShadedScene& scene, const formats::PackView
         const Double3 values[] = {all, ours, {std::max(off, 0.0), 0, std::max(-off, 0.0)}};
         for (uint32_t i = 0; i < 3; ++i)
         {
-            uint8_t* const pixel = picture.at(size_t{i} * kWidth + x, y);
+            uint8_t* const pixel = image.at(size_t{i} * kWidth + x, y);
             pixel[0] = shown(values[i].x);
             pixel[1] = shown(values[i].y);
             pixel[2] = shown(values[i].z);
@@ -148,7 +148,7 @@ Status writePicture(const reference::ShadedScene& scene, const formats::PackView
                           for (uint32_t x = 0; x < kWidth; ++x)
                               drawPixel(x, y);
                       });
-    return reference::writePng(path, picture);
+    return reference::writePng(path, image);
 }
 
 Result<LightCurve> measureScene(const std::string& prefix, const Arguments& arguments)
@@ -181,15 +181,15 @@ Result<LightCurve> measureScene(const std::string& prefix, const Arguments& argu
                                 measureSize(scene, lighting, points, voxel_size, arguments.gather_rays));
         curve.sizes.push_back(size);
     }
-    if (arguments.picture_voxel > 0)
+    if (arguments.image_voxel > 0)
     {
-        HEARTH_ASSIGN_OR_RETURN(const bricks::BrickTables tables, cookBricks(scene, arguments.picture_voxel));
+        HEARTH_ASSIGN_OR_RETURN(const bricks::BrickTables tables, cookBricks(scene, arguments.image_voxel));
         double mean = 0;
         for (const LitPoint& point : points)
             mean += length(point.truth.direct + point.truth.indirect) / std::sqrt(3.0);
-        HEARTH_TRY(writePicture(shaded, pack, BrickGather(bricks::makeBrickView(tables), lighting, kFaceRays),
-                                arguments.picture_paths, mean / static_cast<double>(points.size()),
-                                prefix + ".light.png"));
+        HEARTH_TRY(writeImage(shaded, pack, BrickGather(bricks::makeBrickView(tables), lighting, kFaceRays),
+                              arguments.image_paths, mean / static_cast<double>(points.size()),
+                              prefix + ".light.png"));
     }
     return curve;
 }
@@ -221,9 +221,9 @@ int program(int argc, char** argv)
     app.addOption("--gather-rays", arguments.gather_rays, "of each point through the bricks");
     app.addOption("--plot", arguments.plot, "SVG file of the errors");
     app.addOption(
-        "--picture", arguments.picture_voxel,
+        "--image", arguments.image_voxel,
         "also write PREFIX.light.png at this voxel size: irradiance by paths, by bricks, their difference");
-    app.addOption("--picture-paths", arguments.picture_paths,
+    app.addOption("--image-paths", arguments.image_paths,
                   "of each pixel, and rays of each through the bricks");
     if (const std::optional<int> exit_code = app.parse(argc, argv))
         return *exit_code;

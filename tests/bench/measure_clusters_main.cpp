@@ -332,7 +332,7 @@ int program(int argc, char** argv)
     app.addOption("--samples", samples,
                   "points on each of two surfaces that are compared; 0: quality is not measured");
     std::string plot;
-    app.addOption("--plot", plot, "write the error of all cuts as an SVG picture");
+    app.addOption("--plot", plot, "write the error of all cuts as an SVG image");
     if (const std::optional<int> exit_code = app.parse(argc, argv))
         return *exit_code;
     std::vector<bench::MeshCurve> curves;

@@ -128,7 +128,7 @@ Status printCounts(const Arguments& arguments, const formats::PackView& pack, co
     std::printf("  aims: clusters drawn / seen <= 1.6, triangles a covered pixel <= 0.35\n");
     const double slot_bytes =
         static_cast<double>(all.drawn_clusters) / frames * sizeof(shared::VisibleCluster);
-    std::printf("  shaded area / picture %.2f; visible list %.0f KiB; attachments and pyramid %.1f MiB\n\n",
+    std::printf("  shaded area / image %.2f; visible list %.0f KiB; attachments and pyramid %.1f MiB\n\n",
                 number(statistics, "shaded_area_pixels") /
                     (number(statistics, "width") * number(statistics, "height")),
                 slot_bytes / 1024, number(statistics, "target_bytes") / kMebi);
@@ -178,12 +178,12 @@ Status printStreaming(const Arguments& arguments, const Json& statistics)
     std::printf("  resident, with tables and textures: %.1f MiB, %.2f bytes a triangle of the scene\n",
                 number(statistics, "scene_bytes") / kMebi,
                 number(statistics, "scene_bytes") / number(statistics, "source_triangles"));
-    HEARTH_ASSIGN_OR_RETURN(const reference::Picture resident, reference::readPng(arguments.resident));
-    HEARTH_ASSIGN_OR_RETURN(const reference::Picture picture, reference::readPng(arguments.converged));
-    if (picture.width != resident.width || picture.height != resident.height)
-        return Error{Issue::usage, arguments.converged, "", "the picture has another size"};
-    std::printf("  FLIP to the picture with everything resident: %.4f in the mean (limit 0.01)\n",
-                reference::flip(resident, picture).mean());
+    HEARTH_ASSIGN_OR_RETURN(const reference::Image resident, reference::readPng(arguments.resident));
+    HEARTH_ASSIGN_OR_RETURN(const reference::Image image, reference::readPng(arguments.converged));
+    if (image.width != resident.width || image.height != resident.height)
+        return Error{Issue::usage, arguments.converged, "", "the image has another size"};
+    std::printf("  FLIP to the image with everything resident: %.4f in the mean (limit 0.01)\n",
+                reference::flip(resident, image).mean());
     return success();
 }
 
@@ -209,9 +209,9 @@ int program(int argc, char** argv)
     app.addOption("--visibility", arguments.visibility, "dumps of the frames of that path that count")
         .required();
     app.addOption("--cold", arguments.cold_stats, "statistics of equal frames within a budget").required();
-    app.addOption("--resident", arguments.resident, "the picture of these frames, everything resident")
+    app.addOption("--resident", arguments.resident, "the image of these frames, everything resident")
         .required();
-    app.addOption("--converged", arguments.converged, "the last picture within the budget").required();
+    app.addOption("--converged", arguments.converged, "the last image within the budget").required();
     if (const std::optional<int> exit_code = app.parse(argc, argv))
         return *exit_code;
     const Status measured = measure(arguments);

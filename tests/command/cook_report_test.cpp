@@ -106,14 +106,14 @@ TEST_F(Cook, reportsWhereItDoesNotEvenBegin)
     EXPECT_EQ(report["failures"][0]["code"], "E4000");
 }
 
-TEST_F(Cook, tellsThatPicturesAreDrawnAndCountsTheirTime)
+TEST_F(Cook, tellsThatImagesAreDrawnAndCountsTheirTime)
 {
     programs.write("hearth-render", kRender, true);
     const ProgramEnd end =
         cook({"good.gltf", "-o", "a.hearth", "--report", "page.html", "--events", "events"});
     EXPECT_EQ(end.exit_code, 0) << end.err;
     // of the scene and of its mesh, four views each
-    const size_t begun = end.err.find("drawing 8 pictures for the report\n");
+    const size_t begun = end.err.find("drawing 8 images for the report\n");
     const size_t drawn = end.err.find("8 of 8  drawn for the report\n");
     const size_t cooked = end.err.find("cooked  ");
     ASSERT_NE(begun, std::string::npos) << end.err;

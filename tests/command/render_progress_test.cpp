@@ -30,18 +30,18 @@ TEST(RenderProgress, hasALineAtTheStartEveryTenSecondsAndAtTheEnd)
 {
     Shown shown(ProgressStyle::plain);
     shown.progress.show(0, 100);
-    EXPECT_EQ(shown.lines, Lines{"drawing 100 pictures for the report"});
+    EXPECT_EQ(shown.lines, Lines{"drawing 100 images for the report"});
     shown.lines.clear();
     for (int second = 1; second <= 25; ++second)
     {
         shown.now += std::chrono::seconds(1);
         shown.progress.show(static_cast<size_t>(second) * 4, 100);
     }
-    EXPECT_EQ(shown.lines, (Lines{"so far       10.00 s    40 of 100  pictures of the report",
-                                  "so far       20.00 s    80 of 100  pictures of the report"}));
+    EXPECT_EQ(shown.lines, (Lines{"so far       10.00 s    40 of 100  images of the report",
+                                  "so far       20.00 s    80 of 100  images of the report"}));
     shown.lines.clear();
     shown.progress.end();
-    EXPECT_EQ(shown.lines, Lines{"pictures     25.00 s   100 of 100  drawn for the report"});
+    EXPECT_EQ(shown.lines, Lines{"images     25.00 s   100 of 100  drawn for the report"});
 }
 
 TEST(RenderProgress, saysNothingWhereNothingIsDrawnOrNobodyAsks)

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 constexpr int kNoDevice = 77;
 const std::string kTexture = "game/assets/painted board.png";
 
-struct Picture
+struct Image
 {
     std::string texels = std::string(size_t{128} * 128 * 3, '\0');
 
@@ -59,17 +59,17 @@ protected:
     }
 
     /// Return the frame that the game renders; nothing without a device.
-    std::optional<Picture> drawn(const std::string& game)
+    std::optional<Image> drawn(const std::string& game)
     {
-        const ProgramEnd end = shell("build/" + game + " build/game.hearth picture.ppm");
+        const ProgramEnd end = shell("build/" + game + " build/game.hearth image.ppm");
         if (end.exit_code == kNoDevice)
             return std::nullopt;
         EXPECT_EQ(end.exit_code, 0) << end.err;
-        const std::string picture = folder().read("picture.ppm");
+        const std::string image = folder().read("image.ppm");
         const std::string head = "P6 128 128 255\n";
-        EXPECT_TRUE(picture.starts_with(head));
-        EXPECT_EQ(picture.size(), head.size() + Picture().texels.size());
-        return Picture{picture.substr(std::min(head.size(), picture.size()))};
+        EXPECT_TRUE(image.starts_with(head));
+        EXPECT_EQ(image.size(), head.size() + Image().texels.size());
+        return Image{image.substr(std::min(head.size(), image.size()))};
     }
 
     /// Check that a changed texture rebuilds the pack, and that nothing is rebuilt without a change.
@@ -102,22 +102,22 @@ TEST_F(Consumer, drawsWhatItsBuildHasCooked)
     EXPECT_EQ(run("build/pack_triangles build/game.hearth"), "2\n");
     EXPECT_EQ(run("build/pack_triangles 'build/packs/two signs.hearth'"), "4\n");
     EXPECT_EQ(shell("build/pack_triangles game/CMakeLists.txt").exit_code, 65);
-    const std::optional<Picture> picture = drawn("game");
-    if (!picture)
+    const std::optional<Image> image = drawn("game");
+    if (!image)
         GTEST_SKIP() << "there is no Vulkan device";
     // the board's left half is red, its right half green
-    const std::array<int, 3> left = picture->at(0.3, 0.5);
-    const std::array<int, 3> right = picture->at(0.7, 0.5);
+    const std::array<int, 3> left = image->at(0.3, 0.5);
+    const std::array<int, 3> right = image->at(0.7, 0.5);
     EXPECT_GT(left[0], 2 * left[1]);
     EXPECT_GT(right[1], 2 * right[0]);
-    EXPECT_NE(picture->at(0.02, 0.02), left);
-    EXPECT_NE(picture->at(0.02, 0.02), right);
-    EXPECT_EQ(drawn("game_static")->texels, picture->texels);
+    EXPECT_NE(image->at(0.02, 0.02), left);
+    EXPECT_NE(image->at(0.02, 0.02), right);
+    EXPECT_EQ(drawn("game_static")->texels, image->texels);
 
     paintTexture();
     const std::string again = build("all");
     EXPECT_EQ(countOf(again, "Linking"), 0u) << again;
-    const Picture painted = drawn("game").value();
+    const Image painted = drawn("game").value();
     EXPECT_GT(painted.at(0.3, 0.5)[2], 2 * painted.at(0.3, 0.5)[0]);
     EXPECT_EQ(painted.at(0.7, 0.5)[1], right[1]);
     EXPECT_NE(build("all").find("no work to do"), std::string::npos);

@@ -1,7 +1,7 @@
 // Tests the example that is installed with the runtime: a separate project that renders the same image as
 // hearth-render.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "runtime/viewer/compare/picture.h"
+#include "runtime/viewer/compare/image.h"
 #include "tests/consumer/installation.h"
 
 #include <algorithm>
@@ -41,19 +41,19 @@ protected:
     }
 
     /// Render a pack by the example with the validation layer enabled.
-    static viewer::Picture draw(const std::string& pack)
+    static viewer::Image draw(const std::string& pack)
     {
-        const std::string said = run("VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation examples/draw_picture " +
-                                     pack + " picture.png");
+        const std::string said =
+            run("VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation examples/draw_image " + pack + " image.png");
         EXPECT_EQ(said, "");
-        Result<viewer::Picture> picture = viewer::readPng(folder() / "picture.png");
-        EXPECT_TRUE(picture.ok()) << formatMessage(picture.error());
-        return picture.ok() ? std::move(picture).value() : viewer::Picture(kWidth, kHeight);
+        Result<viewer::Image> image = viewer::readPng(folder() / "image.png");
+        EXPECT_TRUE(image.ok()) << formatMessage(image.error());
+        return image.ok() ? std::move(image).value() : viewer::Image(kWidth, kHeight);
     }
 };
 
 /// Return the largest difference of a channel; 255 if the sizes differ.
-int largestStep(const viewer::Picture& a, const viewer::Picture& b)
+int largestStep(const viewer::Image& a, const viewer::Image& b)
 {
     int largest = a.rgb.size() == b.rgb.size() ? 0 : 255;
     for (size_t i = 0; i < std::min(a.rgb.size(), b.rgb.size()); ++i)
@@ -63,10 +63,10 @@ int largestStep(const viewer::Picture& a, const viewer::Picture& b)
 
 } // namespace
 
-TEST_F(Example, drawsThePictureOfHearthRender)
+TEST_F(Example, drawsTheImageOfHearthRender)
 {
     cook(HEARTH_SOURCE_FOLDER "/tests/consumer/game/assets/sign.gltf", "sign.hearth");
-    const viewer::Picture drawn = draw("sign.hearth");
+    const viewer::Image drawn = draw("sign.hearth");
     ASSERT_EQ(drawn.width, kWidth);
     ASSERT_EQ(drawn.height, kHeight);
     // the board's left half is red, its right half green
@@ -75,7 +75,7 @@ TEST_F(Example, drawsThePictureOfHearthRender)
     EXPECT_GT(left[0], 2 * left[1]);
     EXPECT_GT(right[1], 2 * right[0]);
     run("prefix/bin/hearth-render sign.hearth --scene-camera 0 --size 640x480 -o rendered.png");
-    const Result<viewer::Picture> rendered = viewer::readPng(folder() / "rendered.png");
+    const Result<viewer::Image> rendered = viewer::readPng(folder() / "rendered.png");
     ASSERT_TRUE(rendered.ok()) << formatMessage(rendered.error());
     EXPECT_LE(largestStep(drawn, *rendered), 1);
 }
@@ -84,7 +84,7 @@ TEST_F(Example, showsAllOfAPackWithoutCameras)
 {
     folder().write("triangle.obj", "v -1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     cook("triangle.obj", "triangle.hearth");
-    const viewer::Picture drawn = draw("triangle.hearth");
+    const viewer::Image drawn = draw("triangle.hearth");
     size_t surface = 0;
     for (uint32_t y = 0; y < kHeight; ++y)
         for (uint32_t x = 0; x < kWidth; ++x)
@@ -92,7 +92,7 @@ TEST_F(Example, showsAllOfAPackWithoutCameras)
             const bool is_white = drawn.at(x, y)[0] > 180; // the sky is darker
             surface += is_white ? 1u : 0u;
             const bool is_margin = x == 0 || x + 1 == kWidth || y == 0 || y + 1 == kHeight;
-            EXPECT_FALSE(is_white && is_margin) << "the picture cuts it at " << x << " " << y;
+            EXPECT_FALSE(is_white && is_margin) << "the image cuts it at " << x << " " << y;
         }
     EXPECT_GT(surface, size_t{kWidth} * kHeight / 20);
 }
@@ -100,12 +100,12 @@ TEST_F(Example, showsAllOfAPackWithoutCameras)
 TEST_F(Example, saysWhatIsWrong)
 {
     folder().write("bad.hearth", "no pack");
-    const ProgramEnd bad = shell("examples/draw_picture bad.hearth picture.png");
+    const ProgramEnd bad = shell("examples/draw_image bad.hearth image.png");
     EXPECT_EQ(bad.exit_code, 1);
     EXPECT_NE(bad.err.find("bad.hearth: error: "), std::string::npos) << bad.err;
-    const ProgramEnd nothing = shell("examples/draw_picture");
+    const ProgramEnd nothing = shell("examples/draw_image");
     EXPECT_EQ(nothing.exit_code, 1);
-    EXPECT_NE(nothing.err.find("usage: draw_picture PACK.hearth OUT.png"), std::string::npos) << nothing.err;
+    EXPECT_NE(nothing.err.find("usage: draw_image PACK.hearth OUT.png"), std::string::npos) << nothing.err;
 }
 
 } // namespace hearth::test

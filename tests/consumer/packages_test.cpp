@@ -39,7 +39,7 @@ TEST_F(Packages, holdWhatTheirNamesSay)
          {"include/hearth/hearth.h\n", "include/hearth/hearth.hpp\n", "include/hearth/hearth_helpers.h\n",
           "include/hearth/formats/pack/pack_view.h\n", "include/hearth/formats/gpu_shared/records.h\n",
           "/libhearth.a\n", "/libhearth-formats.a\n", "/libhearth-helpers.a\n",
-          "/pkgconfig/hearth-helpers.pc\n", "/examples/draw_picture.c\n", "/libhearth.so ->",
+          "/pkgconfig/hearth-helpers.pc\n", "/examples/draw_image.c\n", "/libhearth.so ->",
           "/pkgconfig/hearth.pc\n", "/hearthConfig.cmake\n", "/HearthAddAssets.cmake\n"})
         EXPECT_EQ(countOf(development, file), 1u) << file;
     EXPECT_NE(field("libhearth-dev", "Depends").find("libhearth1 (= "), std::string::npos);

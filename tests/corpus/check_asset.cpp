@@ -28,7 +28,7 @@ struct Workplace
 {
     std::string box;
     std::string pack;
-    std::string picture;
+    std::string image;
     std::string stdout_file;
     std::string stderr_file;
     std::string open_log;
@@ -37,7 +37,7 @@ struct Workplace
     explicit Workplace(const std::string& folder)
         : box(folder + "/box"),
           pack(box + "/asset.hearth"),
-          picture(folder + "/drawing/asset.png"),
+          image(folder + "/drawing/asset.png"),
           stdout_file(folder + "/stdout"),
           stderr_file(folder + "/stderr"),
           open_log(folder + "/open.log"),
@@ -260,11 +260,11 @@ void addCountFaults(std::vector<std::string>& faults, const Workplace& place, co
 
 void addDrawingFaults(std::vector<std::string>& faults, const Workplace& place, const Programs& programs)
 {
-    const std::vector<std::string> command = {programs.render, place.pack, "-o",    place.picture,
+    const std::vector<std::string> command = {programs.render, place.pack, "-o",    place.image,
                                               "--size",        "64x64",    "--fit", "--validate"};
     if (look(faults, "hearth-render", place, command, place.drawing_box) &&
-        (!fs::exists(place.picture) || fs::file_size(place.picture) == 0))
-        faults.push_back("hearth-render writes no picture");
+        (!fs::exists(place.image) || fs::file_size(place.image) == 0))
+        faults.push_back("hearth-render writes no image");
 }
 
 void addPackFaults(std::vector<std::string>& faults, const Workplace& place, const Asset& asset,

@@ -28,7 +28,7 @@ constexpr const char* kGoodReject = "echo \"$asset|/meshes/0: error: it is damag
 constexpr const char* kGoodInspect =
     R"(echo '{"schema": "hearth.inspect/1", "totals": {"source": {"triangles": 12, "vertices": 24, "faces": 6}},
               "scene": {"images": []}}')";
-constexpr const char* kGoodRender = "echo picture > $out";
+constexpr const char* kGoodRender = "echo image > $out";
 
 const AssetClass& assetClass(std::string_view name)
 {
@@ -243,7 +243,7 @@ TEST_F(CheckAsset, drawsWhatMustLoad)
     EXPECT_THAT(faults(kGoodCook, "must-load"),
                 ElementsAre("hearth-render exits with 70: hearth-render: error: VUID-1"));
     render_ = "true";
-    EXPECT_THAT(faults(kGoodCook, "must-load"), ElementsAre("hearth-render writes no picture"));
+    EXPECT_THAT(faults(kGoodCook, "must-load"), ElementsAre("hearth-render writes no image"));
     EXPECT_THAT(faults(kGoodCook, "must-not-crash"), IsEmpty());
 }
 

@@ -67,7 +67,7 @@ TEST(CookGraph, passesSettingsToEveryCooker)
               (Words{"bin/hearth-import", "props/a.obj", "--lod", "1=low/a=b.obj", "--lod", "2=b.obj", "-o",
                      "{import.part}", "--set", "animation.error=0.5", "--stats", "{import.json}"}));
     EXPECT_EQ(commands[1], (Words{"bin/hearth-clusters", "{import.part}", "-o", "{clusters.part}", "--set",
-                                  "clusters.influences=4", "--no-manual-lods", "--visibility", "--stats",
+                                  "clusters.influences=4", "--no-discrete-lods", "--visibility", "--stats",
                                   "{clusters.json}"}));
     EXPECT_EQ(commands[2], (Words{"bin/hearth-textures", "{import.part}", "-o", "{textures.part}",
                                   "--max-size", "64", "--stats", "{textures.json}"}));
@@ -94,7 +94,7 @@ TEST(CookGraph, passesSettingsToEveryCooker)
                                   "--no-noise-estimate",
                                   "--stats",
                                   "{visibility.json}",
-                                  "--picture",
+                                  "--image",
                                   "{visibility.png}"}));
     EXPECT_EQ(commands[5], (Words{"bin/hearth-specular", "-o", "{specular.part}"}));
     EXPECT_EQ(commands[6], (Words{"bin/hearth-bricks", "{import.part}", "{clusters.part}", "{textures.part}",

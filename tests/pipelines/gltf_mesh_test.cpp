@@ -194,7 +194,7 @@ TEST(GltfPrimitives, makeTangentsThatANormalTextureNeeds)
     for (const Float4 tangent : result.mesh().tangents)
     {
         EXPECT_NEAR(tangent.x, 1, 1e-6);
-        EXPECT_EQ(tangent.w, 1) << "v runs down the image, as the picture on the square does";
+        EXPECT_EQ(tangent.w, 1) << "v runs down the image, as the image on the square does";
     }
 }
 

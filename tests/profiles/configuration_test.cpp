@@ -226,7 +226,7 @@ TEST(Arguments, giveEachCookerItsOwnSettings)
     EXPECT_EQ(wordsFor("textures", values), (Words{"--max-size", "64"}));
     EXPECT_EQ(wordsFor("clusters", values),
               (Words{"--set", "clusters.influences=4", "--set", "clusters.levels=[{keep=0.6}]",
-                     "--no-manual-lods", "--visibility"}));
+                     "--no-discrete-lods", "--visibility"}));
     EXPECT_EQ(wordsFor("visibility", values),
               (Words{"--quality", "draft", "--occluders", "asset", "--distance", "2", "--power", "1",
                      "--poses", "Run", "--poses", "Walk", "--refine-cones", "--no-noise-estimate"}));
@@ -241,7 +241,7 @@ TEST(Arguments, omitUnsetSettings)
 {
     EXPECT_EQ(wordsFor("import", {}), Words());
     EXPECT_EQ(wordsFor("textures", {}), Words());
-    EXPECT_EQ(wordsFor("clusters", {}), Words{"--no-manual-lods"});
+    EXPECT_EQ(wordsFor("clusters", {}), Words{"--no-discrete-lods"});
     for (const char* name : {"visibility", "specular", "bricks"})
         EXPECT_FALSE(cookers::isEnabled(*cookers::findCooker(name), {}, {})) << name;
     const auto power = parseProfileFile("visibility.enabled = true\nvisibility.power = 1\n", "house.toml");

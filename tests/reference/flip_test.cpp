@@ -12,29 +12,29 @@ namespace hearth::reference
 namespace
 {
 
-Picture paint(uint32_t width, uint32_t height,
-              const std::function<std::array<int, 3>(uint32_t, uint32_t)>& color)
+Image paint(uint32_t width, uint32_t height,
+            const std::function<std::array<int, 3>(uint32_t, uint32_t)>& color)
 {
-    Picture picture(width, height);
+    Image image(width, height);
     for (uint32_t y = 0; y < height; ++y)
         for (uint32_t x = 0; x < width; ++x)
             for (size_t channel = 0; channel < 3; ++channel)
-                picture.at(x, y)[channel] = static_cast<uint8_t>(color(x, y)[channel]);
-    return picture;
+                image.at(x, y)[channel] = static_cast<uint8_t>(color(x, y)[channel]);
+    return image;
 }
 
-Picture plain(int r, int g, int b)
+Image plain(int r, int g, int b)
 {
     return paint(48, 32, [=](uint32_t, uint32_t) { return std::array{r, g, b}; });
 }
 
-TEST(Flip, isZeroForEqualPictures)
+TEST(Flip, isZeroForEqualImages)
 {
-    const Picture picture = paint(48, 32,
-                                  [](uint32_t x, uint32_t y) {
-                                      return std::array{int(x * 5), int(y * 7), int((x * y) % 256)};
-                                  });
-    const FlipMap map = flip(picture, picture);
+    const Image image = paint(48, 32,
+                              [](uint32_t x, uint32_t y) {
+                                  return std::array{int(x * 5), int(y * 7), int((x * y) % 256)};
+                              });
+    const FlipMap map = flip(image, image);
     EXPECT_EQ(*std::max_element(map.error.begin(), map.error.end()), 0.0f);
 }
 
@@ -56,10 +56,10 @@ TEST(Flip, followsThePapersFormulaForBlackAndWhite)
                 std::pow(0.397, 0.7) * 0.95 / (0.4 * largest), 2e-4);
 }
 
-TEST(Flip, doesNotCareWhichPictureIsTheReference)
+TEST(Flip, doesNotCareWhichImageIsTheReference)
 {
-    const Picture a = paint(48, 32, [](uint32_t x, uint32_t) { return std::array{int(x * 5), 80, 30}; });
-    const Picture b = paint(48, 32, [](uint32_t, uint32_t y) { return std::array{90, int(y * 8), 200}; });
+    const Image a = paint(48, 32, [](uint32_t x, uint32_t) { return std::array{int(x * 5), 80, 30}; });
+    const Image b = paint(48, 32, [](uint32_t, uint32_t y) { return std::array{90, int(y * 8), 200}; });
     EXPECT_EQ(flip(a, b).error, flip(b, a).error);
 }
 
@@ -93,12 +93,11 @@ TEST(Flip, seesAMovedEdgeMoreThanASlowChange)
 TEST(Flip, forgivesAPatternTooFineToSee)
 {
     // A checkerboard of single pixels, blue and yellow of equal luminance, against the grey of this luminance
-    const Picture checker =
-        paint(64, 64,
-              [](uint32_t x, uint32_t y) {
-                  return (x + y) % 2 ? std::array{140, 140, 0} : std::array{118, 118, 255};
-              });
-    const Picture mean = paint(64, 64, [](uint32_t, uint32_t) { return std::array{130, 130, 188}; });
+    const Image checker = paint(64, 64,
+                                [](uint32_t x, uint32_t y) {
+                                    return (x + y) % 2 ? std::array{140, 140, 0} : std::array{118, 118, 255};
+                                });
+    const Image mean = paint(64, 64, [](uint32_t, uint32_t) { return std::array{130, 130, 188}; });
     const double from_afar = flip(mean, checker, 134).mean(), near = flip(mean, checker, 8).mean();
     EXPECT_LT(from_afar, 0.5 * near);
 }
@@ -127,15 +126,15 @@ TEST(Flip, growsWithTheAmplitudeOfNoise)
 
 TEST(PngImage, comesBackAsItWasWritten)
 {
-    const Picture picture = paint(31, 17,
-                                  [](uint32_t x, uint32_t y) {
-                                      return std::array{int(x * 8), int(y * 15), int((x + y) * 5)};
-                                  });
-    const std::string path = testing::TempDir() + "reference_picture.png";
-    ASSERT_TRUE(writePng(path, picture).ok());
-    const Result<Picture> back = readPng(path);
+    const Image image = paint(31, 17,
+                              [](uint32_t x, uint32_t y) {
+                                  return std::array{int(x * 8), int(y * 15), int((x + y) * 5)};
+                              });
+    const std::string path = testing::TempDir() + "reference_image.png";
+    ASSERT_TRUE(writePng(path, image).ok());
+    const Result<Image> back = readPng(path);
     ASSERT_TRUE(back.ok());
-    EXPECT_EQ(back->rgb, picture.rgb);
+    EXPECT_EQ(back->rgb, image.rgb);
     EXPECT_EQ(back->width, 31u);
     std::remove(path.c_str());
     EXPECT_EQ(readPng(path).error().issue, Issue::input_missing);

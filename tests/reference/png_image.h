@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "runtime/viewer/compare/picture.h"
+#include "runtime/viewer/compare/image.h"
 
 namespace hearth::reference
 {
 
+using viewer::Image;
 using viewer::linearFromSrgb;
-using viewer::Picture;
 using viewer::readPng;
 using viewer::srgbFromLinear;
 using viewer::writePng;

@@ -1,7 +1,7 @@
 // Tests contact sheets of cooked packs with the real programs, on any Vulkan device.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
-#include "runtime/viewer/compare/picture.h"
+#include "runtime/viewer/compare/image.h"
 #include "tests/support/sandbox.h"
 #include "tests/support/small_sources.h"
 
@@ -15,7 +15,7 @@ namespace hearth::test
 namespace
 {
 
-using viewer::Picture;
+using viewer::Image;
 
 const std::vector<std::string> kNames{"crate", "door", "tower"};
 
@@ -48,22 +48,22 @@ protected:
     }
 
     /// Returns false if there is no device; any other failure fails the test.
-    bool draw(const std::string& pack, const std::string& picture, std::vector<std::string> arguments = {})
+    bool draw(const std::string& pack, const std::string& image, std::vector<std::string> arguments = {})
     {
-        arguments.insert(arguments.begin(), {pack, "-o", picture});
+        arguments.insert(arguments.begin(), {pack, "-o", image});
         const ProgramEnd end = render(arguments);
         if (end.err.find("[E4002]") == std::string::npos)
             EXPECT_EQ(end.exit_code, 0) << end.err;
         return end.exit_code == 0;
     }
 
-    Picture png(const std::string& name) { return viewer::readPng(folder / name).value(); }
+    Image png(const std::string& name) { return viewer::readPng(folder / name).value(); }
 
-    static Picture part(const Picture& picture, uint32_t x, uint32_t y, uint32_t width, uint32_t height)
+    static Image part(const Image& image, uint32_t x, uint32_t y, uint32_t width, uint32_t height)
     {
-        Picture result(width, height);
+        Image result(width, height);
         for (uint32_t row = 0; row < height; ++row)
-            std::memcpy(result.at(0, row), picture.at(x, y + row), size_t{width} * 3);
+            std::memcpy(result.at(0, row), image.at(x, y + row), size_t{width} * 3);
         return result;
     }
 
@@ -71,12 +71,12 @@ protected:
 };
 
 /// Count the pixels that differ from the first one of their row, which shows the sky.
-size_t countUnlikeTheSky(const Picture& picture)
+size_t countUnlikeTheSky(const Image& image)
 {
     size_t count = 0;
-    for (size_t y = 0; y < picture.height; ++y)
-        for (size_t x = 0; x < picture.width; ++x)
-            count += std::memcmp(picture.at(x, y), picture.at(0, y), 3) != 0 ? 1 : 0;
+    for (size_t y = 0; y < image.height; ++y)
+        for (size_t x = 0; x < image.width; ++x)
+            count += std::memcmp(image.at(x, y), image.at(0, y), 3) != 0 ? 1 : 0;
     return count;
 }
 
@@ -105,8 +105,8 @@ TEST_F(ContactSheet, showsEachAssetAsItsOwnPackDoes)
         for (const std::string view : {"final", "normals"})
         {
             ASSERT_TRUE(draw("alone.hearth", "alone.png", {"--size", size, "--view", view}));
-            const Picture cell = part(png("sheet-" + view + ".png"), asset["x"].get<uint32_t>(),
-                                      asset["y"].get<uint32_t>(), width, height);
+            const Image cell = part(png("sheet-" + view + ".png"), asset["x"].get<uint32_t>(),
+                                    asset["y"].get<uint32_t>(), width, height);
             EXPECT_EQ(cell.rgb, png("alone.png").rgb) << view;
             EXPECT_GT(countUnlikeTheSky(cell), size_t{width} * height / 4) << view;
         }

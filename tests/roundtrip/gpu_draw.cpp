@@ -90,10 +90,10 @@ DrawnFrame GpuScene::draw(const shared::FrameView& frame, uint32_t debug_view) c
     drawn.ids.resize(ids.size() / 4);
     std::memcpy(drawn.ids.data(), ids.data(), ids.size());
     const std::vector<std::byte> color = must(host.read(renderer.device(), targets.color(), 4));
-    drawn.picture = reference::Picture(extent.width, extent.height);
+    drawn.image = reference::Image(extent.width, extent.height);
     for (size_t i = 0; i < color.size() / 4; ++i)
         for (size_t channel = 0; channel < 3; ++channel)
-            drawn.picture.rgb[i * 3 + channel] = std::to_integer<uint8_t>(color[i * 4 + channel]);
+            drawn.image.rgb[i * 3 + channel] = std::to_integer<uint8_t>(color[i * 4 + channel]);
     return drawn;
 }
 

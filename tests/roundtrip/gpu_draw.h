@@ -18,7 +18,7 @@ struct DrawnFrame
     /// in the GPU's order: index = slot number of the visibility buffer
     std::vector<reference::DrawnCluster> slots;
     std::vector<uint32_t> ids;
-    reference::Picture picture;
+    reference::Image image;
 
     std::vector<reference::DrawnCluster> sortedSlots() const;
 };

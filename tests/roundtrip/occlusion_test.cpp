@@ -481,7 +481,7 @@ TEST_F(Occlusion, isWrittenAlikeByAnyNumberOfThreads)
     EXPECT_NE(sandbox_.read("1.part"), sandbox_.read("clusters.part"));
 }
 
-TEST_F(Occlusion, isReportedWithAPicture)
+TEST_F(Occlusion, isReportedWithAImage)
 {
     bake(bowl(16), {"--visibility-quality", "draft", "--visibility-refine", "--report", "report.json"});
     const auto report = Json::parse(sandbox_.read("report.json")).value();
@@ -497,7 +497,7 @@ TEST_F(Occlusion, isReportedWithAPicture)
     EXPECT_GT(mesh["refined"]["cones"].get<double>(), 0);
     EXPECT_LT(mesh["refined"]["distance"].get<double>(), mesh["refined"]["distance_before"].get<double>());
     // the signature of PNG
-    EXPECT_EQ(visibility["picture"].get<std::string>().find("data:image/png;base64,iVBORw0KGgo"), 0u);
+    EXPECT_EQ(visibility["image"].get<std::string>().find("data:image/png;base64,iVBORw0KGgo"), 0u);
 }
 
 TEST_F(Occlusion, isDrawn)
@@ -512,28 +512,28 @@ TEST_F(Occlusion, isDrawn)
                   .exit_code,
               0);
     const ProgramEnd end = sandbox_.run({kBin + "/hearth-visibility", "import.part", "clusters.part", "-o",
-                                         "out.part", "--picture", "seen.png"});
+                                         "out.part", "--image", "seen.png"});
     ASSERT_EQ(end.exit_code, 0) << end.err;
-    const auto picture = reference::readPng(sandbox_ / "seen.png");
-    ASSERT_TRUE(picture.ok());
-    ASSERT_EQ(picture->width, 640u);
-    ASSERT_EQ(picture->height, 480u);
+    const auto image = reference::readPng(sandbox_ / "seen.png");
+    ASSERT_TRUE(image.ok());
+    ASSERT_EQ(image->width, 640u);
+    ASSERT_EQ(image->height, 480u);
     size_t white = 0, dark = 0;
-    for (size_t i = 0; i < picture->rgb.size(); i += 3)
+    for (size_t i = 0; i < image->rgb.size(); i += 3)
     {
-        white += picture->rgb[i] > 250;
-        dark += picture->rgb[i] == 26;
+        white += image->rgb[i] > 250;
+        dark += image->rgb[i] == 26;
     }
     // 4 m^2 from 30 degrees above, in an image that the square's 2.8 m, rotated by 37 degrees, fill to 1 /
     // 1.04
     const double metre = 640 / (2.8 * 1.04), pixels = 640 * 480;
     EXPECT_NEAR(static_cast<double>(white), 2 * metre * metre, 0.03 * pixels);
     EXPECT_NEAR(static_cast<double>(white + dark), pixels, 0.01 * pixels) << "but for edges";
-    EXPECT_EQ(picture->at(0, 0)[0], 26) << "background";
-    EXPECT_GT(picture->at(320, 260)[0], 250) << "the floor, in front of the lower one";
+    EXPECT_EQ(image->at(0, 0)[0], 26) << "background";
+    EXPECT_GT(image->at(320, 260)[0], 250) << "the floor, in front of the lower one";
     EXPECT_EQ(sandbox_
                   .run({kBin + "/hearth-visibility", "import.part", "clusters.part", "-o", "out.part",
-                        "--picture", "nowhere/seen.png"})
+                        "--image", "nowhere/seen.png"})
                   .exit_code,
               73);
 }

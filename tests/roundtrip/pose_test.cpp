@@ -143,9 +143,9 @@ protected:
                                 .error_pixels = frame % 3 == 0 ? 0.0f : 2.0f,
                                 .moves = now.moves,
                                 .poses = now.poses};
-            const Picture some = draw(*scene, targets, camera, options);
+            const Image some = draw(*scene, targets, camera, options);
             options.flags = 0;
-            const Picture whole = draw(*scene, camera, options);
+            const Image whole = draw(*scene, camera, options);
             ASSERT_EQ(some.seen(), whole.seen()) << "frame " << frame;
             drawn_ += some.list.slots.size();
             all_ += whole.list.slots.size();
@@ -200,9 +200,9 @@ TEST_F(PoseTest, levelsMadeByHandSwitchAsAWholeInEveryPose)
                             .error_pixels = std::exp2(static_cast<float>(frame % 12) - 2),
                             .moves = now.moves,
                             .poses = now.poses};
-        const Picture some = draw(*scene, targets, camera, options);
+        const Image some = draw(*scene, targets, camera, options);
         options.flags = 0;
-        const Picture whole = draw(*scene, camera, options);
+        const Image whole = draw(*scene, camera, options);
         ASSERT_EQ(some.seen(), whole.seen()) << "frame " << frame;
         size_t finer = 0;
         for (const auto& slot : whole.list.slots)

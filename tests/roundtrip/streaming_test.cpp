@@ -44,7 +44,7 @@ protected:
     ScratchFolder folder_;
 };
 
-TEST_F(StreamedRender, drawsTheSamePictureWhereTheBudgetSuffices)
+TEST_F(StreamedRender, drawsTheSameImageWhereTheBudgetSuffices)
 {
     const ProgramEnd whole = render("whole", {});
     ASSERT_EQ(whole.exit_code, 0) << whole.errors;

@@ -158,7 +158,7 @@ TEST_F(VisibilityTest, showsTheSourceTrianglesAtErrorZero)
     EXPECT_LE(sums.raster.different * 10000, sums.raster.pixels);
 }
 
-TEST_F(VisibilityTest, isTheSamePictureWithAndWithoutCulling)
+TEST_F(VisibilityTest, isTheSameImageWithAndWithoutCulling)
 {
     uint64_t with = 0, without = 0;
     for (const SampleSpec& spec : drawnSamples())
@@ -170,7 +170,7 @@ TEST_F(VisibilityTest, isTheSamePictureWithAndWithoutCulling)
             const DrawnFrame culled = scene.draw(named.frame(sample.pack()));
             named.view.flags = 0;
             const DrawnFrame everything = scene.draw(named.frame(sample.pack()));
-            EXPECT_EQ(culled.picture.rgb, everything.picture.rgb) << spec.kind << ", " << named.name;
+            EXPECT_EQ(culled.image.rgb, everything.image.rgb) << spec.kind << ", " << named.name;
             with += culled.slots.size();
             without += everything.slots.size();
         }
@@ -191,7 +191,7 @@ TEST_F(VisibilityTest, isTheSameEveryTime)
         const DrawnFrame again = scene.draw(named.frame(sample.pack()));
         EXPECT_EQ(again.slots, first.slots) << "also in order";
         EXPECT_EQ(again.ids, first.ids);
-        EXPECT_EQ(again.picture.rgb, first.picture.rgb);
+        EXPECT_EQ(again.image.rgb, first.image.rgb);
     }
 }
 

@@ -36,7 +36,7 @@ std::unique_ptr<viewer::VulkanHost> GpuTest::host_;
 std::unique_ptr<gpu::Renderer> GpuTest::renderer_;
 std::string GpuTest::no_device_;
 
-std::vector<std::array<uint32_t, 3>> Picture::seen() const
+std::vector<std::array<uint32_t, 3>> Image::seen() const
 {
     std::vector<std::array<uint32_t, 3>> result;
     for (const uint32_t id : visibility)
@@ -121,14 +121,14 @@ shared::FrameView GpuTest::viewOf(const gpu::Scene& scene, const shared::Camera&
     return view;
 }
 
-Picture GpuTest::draw(const gpu::Scene& scene, const shared::Camera& camera, const DrawOptions& options)
+Image GpuTest::draw(const gpu::Scene& scene, const shared::Camera& camera, const DrawOptions& options)
 {
     gpu::FrameTargets targets = makeTargets(options.width, options.height);
     return draw(scene, targets, camera, options);
 }
 
-Picture GpuTest::draw(const gpu::Scene& scene, gpu::FrameTargets& targets, const shared::Camera& camera,
-                      const DrawOptions& options)
+Image GpuTest::draw(const gpu::Scene& scene, gpu::FrameTargets& targets, const shared::Camera& camera,
+                    const DrawOptions& options)
 {
     if (options.debug_view == shared::kViewOverdraw)
         HEARTH_ASSERT(renderer().prepareOverdraw().ok());
@@ -150,10 +150,10 @@ Picture GpuTest::draw(const gpu::Scene& scene, gpu::FrameTargets& targets, const
             return success();
         });
     HEARTH_ASSERT(status.ok());
-    return readPicture(scene, targets);
+    return readImage(scene, targets);
 }
 
-Picture GpuTest::readPicture(const gpu::Scene& scene, const gpu::FrameTargets& targets)
+Image GpuTest::readImage(const gpu::Scene& scene, const gpu::FrameTargets& targets)
 {
     auto color = host().read(renderer().device(), targets.color(), 4);
     auto visibility = host().read(renderer().device(), targets.visibility(), 4);

@@ -15,7 +15,7 @@ namespace hearth::test
 {
 
 /// Rendered frame.
-struct Picture
+struct Image
 {
     uint32_t width = 0, height = 0;
     std::vector<uint32_t> color;      ///< RGBA8 sRGB, red in the low byte
@@ -66,12 +66,12 @@ protected:
 
     std::unique_ptr<gpu::Scene> upload(const formats::PackView& pack, const gpu::SceneOptions& options = {});
     /// Draw with new targets: no data of an earlier frame.
-    Picture draw(const gpu::Scene& scene, const shared::Camera& camera, const DrawOptions& options = {});
+    Image draw(const gpu::Scene& scene, const shared::Camera& camera, const DrawOptions& options = {});
     /// Draw with targets of the options' size, which keep data of the frame before.
-    Picture draw(const gpu::Scene& scene, gpu::FrameTargets& targets, const shared::Camera& camera,
-                 const DrawOptions& options);
+    Image draw(const gpu::Scene& scene, gpu::FrameTargets& targets, const shared::Camera& camera,
+               const DrawOptions& options);
     /// Read back the last frame, which has been executed.
-    static Picture readPicture(const gpu::Scene& scene, const gpu::FrameTargets& targets);
+    static Image readImage(const gpu::Scene& scene, const gpu::FrameTargets& targets);
     static shared::FrameView viewOf(const gpu::Scene& scene, const shared::Camera& camera,
                                     const DrawOptions& options);
     gpu::FrameTargets makeTargets(uint32_t width, uint32_t height);

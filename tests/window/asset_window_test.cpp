@@ -41,7 +41,7 @@ protected:
         }
     }
 
-    std::string picture()
+    std::string image()
     {
         play();
         EXPECT_TRUE(viewer_->saveScreenshot(folder_ / "a.png").ok());
@@ -66,21 +66,21 @@ TEST_F(AssetWindow, showsTheChosenOneAloneAndThenAllAgain)
         model.instances.erase(model.instances.begin() + static_cast<ptrdiff_t>(1 - i));
         model.assets.clear();
         open(model);
-        alone.push_back(picture());
+        alone.push_back(image());
     }
     open(heapModel());
-    const std::string all = picture();
+    const std::string all = image();
     const shared::Camera start = viewer_->camera().camera();
     for (const size_t i : {0u, 1u, 0u})
     {
         viewer_->settings().asset = i;
-        EXPECT_EQ(picture(), alone[i]) << i;
-        EXPECT_NE(picture(), all);
+        EXPECT_EQ(image(), alone[i]) << i;
+        EXPECT_NE(image(), all);
     }
     viewer_->settings().geometry_budget = uint64_t{4} << 20; // the scene is reloaded
-    EXPECT_EQ(picture(), alone[0]);
+    EXPECT_EQ(image(), alone[0]);
     viewer_->settings().asset.reset();
-    EXPECT_EQ(picture(), all);
+    EXPECT_EQ(image(), all);
     EXPECT_EQ(viewer_->camera().camera().position, start.position);
 }
 

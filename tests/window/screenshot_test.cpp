@@ -36,9 +36,9 @@ protected:
         ASSERT_EQ(viewed.exit_code, 0) << viewed.errors;
         const ProgramEnd rendered = runProgram(Program::render, render);
         ASSERT_EQ(rendered.exit_code, 0) << rendered.errors;
-        const std::string picture = contentOf(folder_.path("view.png"));
-        EXPECT_GT(picture.size(), 1000u);
-        EXPECT_TRUE(picture == contentOf(folder_.path("render.png")));
+        const std::string image = contentOf(folder_.path("view.png"));
+        EXPECT_GT(image.size(), 1000u);
+        EXPECT_TRUE(image == contentOf(folder_.path("render.png")));
     }
 
     const CookedSample& sample_ = cookedSample({"rock", 150000});

@@ -186,7 +186,7 @@ int program(int argc, char** argv)
     app.addFlag("--stats-times", arguments.statistics_with_times,
                 "add the seconds that each mesh took, which differ from run to run")
         .needs(statistics);
-    app.addFlag("--no-manual-lods", arguments.statistics_without_discrete_lods,
+    app.addFlag("--no-discrete-lods", arguments.statistics_without_discrete_lods,
                 "leave out what levels by hand would take, which is a third of the time of small meshes")
         .needs(statistics);
     const cli::Option debug =

@@ -137,9 +137,9 @@ Json totalsJson(std::span<const MeshStatistics> meshes)
     }
     Json totals{{"triangles", triangles}};
     if (has_discrete_lods)
-        totals["manual_lods"] = discreteLodsJson(total);
+        totals["discrete_lods"] = discreteLodsJson(total);
     if (has_discrete_lods)
-        totals["manual_lods"].erase("lods");
+        totals["discrete_lods"].erase("lods");
     return totals;
 }
 
@@ -174,7 +174,7 @@ Json meshJson(const MeshStatistics& mesh)
     for (const uint32_t level : mesh.authored_levels)
         json["authored_levels"].push_back(level == kInvalidIndex ? Json(nullptr) : Json(level));
     if (mesh.discrete_lods)
-        json["manual_lods"] = discreteLodsJson(*mesh.discrete_lods);
+        json["discrete_lods"] = discreteLodsJson(*mesh.discrete_lods);
     if (mesh.seconds)
         json["seconds"] = *mesh.seconds;
     return json;

@@ -50,7 +50,7 @@ struct Arguments
     std::string output;
     std::string statistics;
     bool statistics_without_noise = false;
-    std::string picture;
+    std::string image;
     std::string quality = "default";
     std::string occluders = "scene";
     double samples_per_vertex = 0; ///< here and below, 0: value of the quality preset
@@ -122,10 +122,10 @@ Status writeStatistics(const Arguments& arguments, const std::vector<visibility:
 Status writeOcclusionImage(const Arguments& arguments, const formats::PackView& import_part)
 {
     HEARTH_ASSIGN_OR_RETURN(const formats::PackView baked, tools::openPart(arguments.output));
-    HEARTH_ASSIGN_OR_RETURN(const visibility::GreyImage picture,
+    HEARTH_ASSIGN_OR_RETURN(const visibility::GreyImage image,
                             visibility::renderOcclusion(import_part, baked, kWidth, kHeight));
-    HEARTH_ASSIGN_OR_RETURN(AtomicFile file, AtomicFile::create(arguments.picture));
-    file.write(visibility::encodePng(picture));
+    HEARTH_ASSIGN_OR_RETURN(AtomicFile file, AtomicFile::create(arguments.image));
+    file.write(visibility::encodePng(image));
     return file.finish();
 }
 
@@ -147,7 +147,7 @@ Result<int> cook(const Arguments& arguments)
         return kInterrupted;
     if (!arguments.statistics.empty())
         HEARTH_TRY(writeStatistics(arguments, *meshes));
-    if (!arguments.picture.empty())
+    if (!arguments.image.empty())
         HEARTH_TRY(writeOcclusionImage(arguments, import_part));
     return 0;
 }
@@ -213,7 +213,7 @@ int program(int argc, char** argv)
     app.addFlag("--no-noise-estimate", arguments.statistics_without_noise,
                 "leave the noise out of --stats, which takes two fits more")
         .needs(statistics);
-    app.addOption("--picture", arguments.picture,
+    app.addOption("--image", arguments.image,
                   "draw the scene's ambient occlusion into a PNG file of 640 x 480");
     app.setFooter(
         "Example: hearth-visibility room.import.part room.clusters.part -o room.visibility.part --stats -\n"

@@ -64,9 +64,9 @@ void CookRecorder::copyOutcomes(graph::Executor& executor)
             if (ending != Outcome::cooked && ending != Outcome::cached)
                 continue;
             std::optional<std::string> text = executor.readOutput(i, output);
-            const bool is_picture = outputs[output].ends_with(".png");
+            const bool is_image = outputs[output].ends_with(".png");
             if (text)
-                (is_picture ? report_.pictures : report_.statistics)[i] = std::move(*text);
+                (is_image ? report_.images : report_.statistics)[i] = std::move(*text);
         }
     }
 }

@@ -20,21 +20,21 @@ void RenderProgress::show(size_t drawn, size_t count)
     {
         if (!bar_)
             bar_.emplace(style_, count);
-        bar_->show(drawn, "pictures of the report");
+        bar_->show(drawn, "images of the report");
     }
     if (style_ != ProgressStyle::plain)
         return;
     if (is_first)
-        print_(fmt::format("drawing {} pictures for the report", count));
+        print_(fmt::format("drawing {} images for the report", count));
     else if (timer_.isDue())
-        printLine("so far", fmt::format("{} of {}", drawn, count), "pictures of the report");
+        printLine("so far", fmt::format("{} of {}", drawn, count), "images of the report");
 }
 
 void RenderProgress::end()
 {
     bar_.reset();
     if (style_ == ProgressStyle::plain && count_ > 0)
-        printLine("pictures", fmt::format("{} of {}", drawn_, count_), "drawn for the report");
+        printLine("images", fmt::format("{} of {}", drawn_, count_), "drawn for the report");
 }
 
 void RenderProgress::printLine(const char* word, const std::string& amount, const char* text) const

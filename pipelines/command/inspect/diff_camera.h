@@ -1,4 +1,4 @@
-// hearth diff --picture without a camera: computes one that has the scenes of both packs in view.
+// hearth diff --image without a camera: computes one that has the scenes of both packs in view.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 

@@ -124,30 +124,30 @@ Json propertiesJson(const std::vector<PropertyChange>& properties)
 }
 
 /// Describe the figures of hearth-compare; absent numbers are 0.
-std::string imageDiffText(const ImageFigures& picture)
+std::string imageDiffText(const ImageFigures& image)
 {
-    if (picture.json.empty())
+    if (image.json.empty())
         return "";
-    const Json figures = Json::parse(picture.json).value_or(Json());
+    const Json figures = Json::parse(image.json).value_or(Json());
     const auto number = [&](const char* pointer)
     {
         const Json* figure = figures.resolve(pointer);
         return figure == nullptr ? 0.0 : figure->get<double>();
     };
     return fmt::format(
-        "picture  {}: FLIP {:.4f} in the mean, {:.4f} for 99 % of the pixels; RMS {:.2f} of 255; {} "
+        "image  {}: FLIP {:.4f} in the mean, {:.4f} for 99 % of the pixels; RMS {:.2f} of 255; {} "
         "of {} pixels differ\n",
-        picture.heat_map, number("/flip/mean"), number("/flip/percentile_99"), number("/rms"),
+        image.heat_map, number("/flip/mean"), number("/flip/percentile_99"), number("/rms"),
         number("/different_pixels"), number("/width") * number("/height"));
 }
 
 } // namespace
 
-std::string diffText(const PackDiff& diff, const ImageFigures& picture, bool shows_hashes)
+std::string diffText(const PackDiff& diff, const ImageFigures& image, bool shows_hashes)
 {
     if (diff.isSame())
-        return "the same\n" + imageDiffText(picture);
-    std::string text = totalsText(diff) + imageDiffText(picture);
+        return "the same\n" + imageDiffText(image);
+    std::string text = totalsText(diff) + imageDiffText(image);
     if (!diff.settings.empty())
         text += "\nsettings\n";
     for (const PropertyChange& setting : diff.settings)
@@ -164,7 +164,7 @@ std::string diffText(const PackDiff& diff, const ImageFigures& picture, bool sho
 }
 
 std::string diffJson(const PackDiff& diff, const std::string& file_a, const std::string& file_b,
-                     const ImageFigures& picture)
+                     const ImageFigures& image)
 {
     Json json{{"schema", "hearth.diff/1"},
               {"a", file_a},
@@ -186,9 +186,8 @@ std::string diffJson(const PackDiff& diff, const std::string& file_a, const std:
     for (const ChunkBytes& kind : diff.chunks)
         json["chunks"].push_back(
             {{"kind", kind.kind}, {"stored_a", kind.a}, {"stored_b", kind.b}, {"same", kind.is_same}});
-    if (!picture.json.empty())
-        json["picture"] = {{"heat_map", picture.heat_map},
-                           {"figures", Json::parse(picture.json).value_or(Json())}};
+    if (!image.json.empty())
+        json["image"] = {{"heat_map", image.heat_map}, {"figures", Json::parse(image.json).value_or(Json())}};
     return json.dump(2) + "\n";
 }
 

@@ -59,22 +59,22 @@ ImageDiff diffImages(const std::string& pack_a, const std::string& pack_b, const
         TempDirectory::create(temporaryFolderOr(parentFolder(options.output)), options.output);
     if (!folder.ok())
         return failed(graph::makeFailure(folder.error(), 0));
-    const std::string picture_a = folder->path() + "/a.png";
-    const std::string picture_b = folder->path() + "/b.png";
+    const std::string image_a = folder->path() + "/a.png";
+    const std::string image_b = folder->path() + "/b.png";
     const std::string figures = folder->path() + "/figures.json";
-    const auto render = [&](const std::string& pack, const std::string& picture)
+    const auto render = [&](const std::string& pack, const std::string& image)
     {
-        Program program{"render", pack, {pack, "-o", picture}};
+        Program program{"render", pack, {pack, "-o", image}};
         program.arguments.insert(program.arguments.end(), options.view.begin(), options.view.end());
         return program;
     };
-    ImageDiff drawn = runPrograms({render(pack_a, picture_a), render(pack_b, picture_b)});
+    ImageDiff drawn = runPrograms({render(pack_a, image_a), render(pack_b, image_b)});
     if (drawn.exit_code != 0)
         return drawn;
     ImageDiff compared =
         runPrograms({{"compare",
                       options.output,
-                      {picture_a, "--with", picture_b, "-o", options.output, "--stats", figures}}});
+                      {image_a, "--with", image_b, "-o", options.output, "--stats", figures}}});
     if (compared.exit_code == 0)
         compared.figures = cache::readText(figures).value_or("");
     return compared;

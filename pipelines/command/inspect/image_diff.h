@@ -1,4 +1,4 @@
-// hearth diff --picture: renders both packs with hearth-render, and compares the images with hearth-compare.
+// hearth diff --image: renders both packs with hearth-render, and compares the images with hearth-compare.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 

@@ -73,10 +73,10 @@ struct ImageFigures
 /// Return the differences as text for people: first the numbers of entries that differ and the bytes of both
 /// packs, then the entries.
 /// shows_hashes  print the hashes of contents; else only that they differ
-std::string diffText(const PackDiff& diff, const ImageFigures& picture = {}, bool shows_hashes = false);
+std::string diffText(const PackDiff& diff, const ImageFigures& image = {}, bool shows_hashes = false);
 
 /// Return the differences as JSON, schema "hearth.diff/1".
 std::string diffJson(const PackDiff& diff, const std::string& file_a, const std::string& file_b,
-                     const ImageFigures& picture = {});
+                     const ImageFigures& image = {});
 
 } // namespace hearth::command

@@ -22,7 +22,7 @@ struct DiffOptions
     std::string b;
     std::string format = "text";
     bool shows_hashes = false;
-    std::string picture; ///< empty: none
+    std::string image; ///< empty: none
     std::string camera;
     std::string scene_camera;
     std::string size = "1280x720";
@@ -32,14 +32,14 @@ struct DiffOptions
 ImageDiffOptions makeImageDiffOptions(const DiffOptions& options, const formats::PackView& a,
                                       const formats::PackView& b)
 {
-    ImageDiffOptions picture{options.picture, {"--size", options.size, "--view", options.view}};
+    ImageDiffOptions image{options.image, {"--size", options.size, "--view", options.view}};
     if (!options.scene_camera.empty())
-        picture.view.insert(picture.view.end(), {"--scene-camera", options.scene_camera});
+        image.view.insert(image.view.end(), {"--scene-camera", options.scene_camera});
     else
-        picture.view.insert(
-            picture.view.end(),
+        image.view.insert(
+            image.view.end(),
             {"--camera", options.camera.empty() ? makeDiffCamera(a, b, options.size) : options.camera});
-    return picture;
+    return image;
 }
 
 int diff(const DiffOptions& options)
@@ -53,8 +53,8 @@ int diff(const DiffOptions& options)
     const Result<PackDiff> difference = diffPacks(*a, *b);
     if (!difference.ok())
         return printError(difference.error());
-    ImageFigures picture;
-    if (!options.picture.empty())
+    ImageFigures image;
+    if (!options.image.empty())
     {
         const ImageDiff drawn = diffImages(options.a, options.b, makeImageDiffOptions(options, *a, *b));
         if (drawn.exit_code != 0)
@@ -62,11 +62,11 @@ int diff(const DiffOptions& options)
             std::fprintf(stderr, "%s\n", drawn.error.c_str());
             return drawn.exit_code;
         }
-        picture = {options.picture, drawn.figures};
+        image = {options.image, drawn.figures};
     }
     const int printed =
-        printResult(options.format == "json" ? diffJson(*difference, options.a, options.b, picture)
-                                             : diffText(*difference, picture, options.shows_hashes));
+        printResult(options.format == "json" ? diffJson(*difference, options.a, options.b, image)
+                                             : diffText(*difference, image, options.shows_hashes));
     return printed == 0 && !difference->isSame() ? kDifferent : printed;
 }
 
@@ -82,23 +82,23 @@ void addDiff(cli::CommandLine& app, VerbAction& run)
     addFormat(verb, options->format);
     verb.addFlag("--hashes", options->shows_hashes,
                  "show the hashes of texels, geometry and the like, not only that they differ");
-    const cli::Option picture = verb.addOption("--picture", options->picture,
-                                               "draw both, and write a heat map of how they differ: a PNG; "
-                                               "all of the scene is in view, unless a camera is given");
+    const cli::Option image = verb.addOption("--image", options->image,
+                                             "draw both, and write a heat map of how they differ: a PNG; "
+                                             "all of the scene is in view, unless a camera is given");
     const cli::Option camera =
         verb.addOption("--camera", options->camera,
                        "PX,PY,PZ,TX,TY,TZ,FOV: from where it is drawn, as for hearth-render")
-            .needs(picture);
+            .needs(image);
     verb.addOption("--scene-camera", options->scene_camera, "N: from the packs' own cameras of that number")
-        .needs(picture)
+        .needs(image)
         .excludes(camera);
-    verb.addOption("--size", options->size, "of the picture").needs(picture).showDefault();
+    verb.addOption("--size", options->size, "of the image").needs(image).showDefault();
     verb.addOption("--view", options->view, "what is drawn: final, clusters, lod, ...")
-        .needs(picture)
+        .needs(image)
         .showDefault();
     verb.setFooter("Examples:\n"
                    "  hearth diff before.hearth after.hearth\n"
-                   "  hearth diff before.hearth after.hearth --picture heat.png\n"
+                   "  hearth diff before.hearth after.hearth --image heat.png\n"
                    "Exit code 0: they are the same; 1: they differ.");
     verb.setAction([options, &run] { run = [options] { return diff(*options); }; });
 }

@@ -63,7 +63,7 @@ void addReport(cli::CommandLine& app, VerbAction& run)
     auto options = std::make_shared<Options>();
     verb.addOption("FILE", options->file, "what hearth cook --report wrote as JSON").required();
     verb.addOption("--html", options->page, "write a page that needs nothing else: FILE.html");
-    verb.addOption("--pack", options->pack, "what was cooked: the page has pictures of it");
+    verb.addOption("--pack", options->pack, "what was cooked: the page has images of it");
     verb.addOption("--junit", options->junit, "write a test case for each asset: FILE.xml");
     verb.addOption("--csv", options->table, "write a row for each asset: FILE.csv");
     verb.setFooter("Example: hearth report cook.json --html cook.html --pack house.hearth");

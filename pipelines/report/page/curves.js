@@ -9,9 +9,9 @@ const errorPoints = mesh => mesh.levels.filter(level => level[2] > 0 && level[1]
 function makeCurves(meshes, width, height) {
   const largest = [...meshes].sort((a, b) => b.triangles - a.triangles).slice(0, kMaxFaint);
   const left = 74, right = width - 22, top = 8, bottom = height - 34;
-  const picture = svg('svg', {viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': 'Error over triangles, logarithmic'});
+  const image = svg('svg', {viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': 'Error over triangles, logarithmic'});
   const all = largest.flatMap(errorPoints);
-  if (all.length === 0) return {picture: el('p.empty', {}, 'No mesh has a coarser level.'), show() {}};
+  if (all.length === 0) return {image: el('p.empty', {}, 'No mesh has a coarser level.'), show() {}};
   const range = k => {
     let least = Infinity, most = 0;
     for (const point of all) { least = Math.min(least, point[k]); most = Math.max(most, point[k]); }
@@ -34,7 +34,7 @@ function makeCurves(meshes, width, height) {
   const faint = svg('g');
   for (const mesh of largest) if (errorPoints(mesh).length > 1) faint.append(svg('path.curve', {d: path(mesh)}));
   const chosen = svg('g');
-  picture.append(axis, faint, chosen);
+  image.append(axis, faint, chosen);
 
   function show(mesh) {
     const points = errorPoints(mesh);
@@ -44,5 +44,5 @@ function makeCurves(meshes, width, height) {
     for (const [triangles, error] of points)
       chosen.append(tip(svg('circle.on', {cx: px(triangles), cy: py(error), r: 4}), `${count(triangles)} triangles\n${metres(error)} off at most`));
   }
-  return {picture, show};
+  return {image, show};
 }

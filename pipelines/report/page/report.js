@@ -57,7 +57,7 @@ const fits = table => table.scrollWidth <= table.clientWidth && [...table.queryS
 
 function showPage() {
   const data = readData();
-  const pictures = JSON.parse($('pictures').textContent);
+  const images = JSON.parse($('images').textContent);
   const into = (id, choose, item) => { $(id).scrollIntoView({block: 'start'}); choose(item); };
   const go = {
     asset: asset => into('assets', assets.choose, asset),
@@ -65,11 +65,11 @@ function showPage() {
     texture: texture => into('textures', textures.choose, texture),
   };
   const assets = assetsSection(data, go);
-  const meshes = meshesSection(data, pictures);
+  const meshes = meshesSection(data, images);
   const textures = texturesSection(data);
   const slow = slowSection(data, go);
   const timeline = timelineSection(data, go);
-  const parts = [failuresSection(data), totalsSection(data), sceneSection(pictures), assets.part, sizesSection(data, go), meshes && meshes.part, textures && textures.part,
+  const parts = [failuresSection(data), totalsSection(data), sceneSection(images), assets.part, sizesSection(data, go), meshes && meshes.part, textures && textures.part,
                  slow, timeline.part, causesSection(data), messagesSection(data, go)].filter(Boolean);
   $('main').replaceChildren(...parts);
 

@@ -48,15 +48,15 @@ function failuresSection(data) {
 function imageFigures(views, uris, name) {
   if (!uris || !uris.some(Boolean)) return null;
   const titles = {final: 'as it is drawn', clusters: 'clusters', lod: 'level of detail', ao: 'ambient occlusion'};
-  return el('div.pictures', {}, views.map((view, i) => uris[i]
+  return el('div.images', {}, views.map((view, i) => uris[i]
     ? el('figure', {}, el('img', {src: uris[i], alt: `${name}: ${titles[view] || view}`, loading: 'lazy'}), el('figcaption', {}, titles[view] || view)) : null));
 }
 
-function sceneSection(pictures) {
-  if (!pictures.scene.length) return null;
-  const part = section('scene', 'Scene', pictures.is_sheet ? 'contact sheet: the assets stand in one place' : 'all of the pack, framed', imageFigures(pictures.views, pictures.scene, 'the scene'));
+function sceneSection(images) {
+  if (!images.scene.length) return null;
+  const part = section('scene', 'Scene', images.is_sheet ? 'contact sheet: the assets stand in one place' : 'all of the pack, framed', imageFigures(images.views, images.scene, 'the scene'));
   part.classList.add('scene');
-  if (pictures.is_sheet) part.classList.add('sheet');
+  if (images.is_sheet) part.classList.add('sheet');
   return part;
 }
 
@@ -140,14 +140,14 @@ function sizesSection(data, go) {
        kinds[kind] === undefined ? '' : ' ' + bytes(kinds[kind]))))), ...buttons);
 }
 
-function meshesSection(data, pictures) {
+function meshesSection(data, images) {
   if (!data.meshes.length) return null;
   const curves = makeCurves(data.meshes, 400, 250);
   const about = el('div');
-  const detail = el('div.detail', {'aria-live': 'polite'}, about, el('h3', {}, 'Error over triangles'), curves.picture);
+  const detail = el('div.detail', {'aria-live': 'polite'}, about, el('h3', {}, 'Error over triangles'), curves.image);
   const last = mesh => mesh.levels[mesh.levels.length - 1] || [0, 0, 0, 0, 0, 0, 0];
   const table = makeTable('Meshes', data.meshes, [
-    {name: 'Mesh', of: mesh => mesh.name, show: mesh => el('span', {title: mesh.name}, pictures.meshes[mesh.index] ? '▣ ' : '', mesh.name || '(no name)'), width: 'minmax(130px, 2fr)'},
+    {name: 'Mesh', of: mesh => mesh.name, show: mesh => el('span', {title: mesh.name}, images.meshes[mesh.index] ? '▣ ' : '', mesh.name || '(no name)'), width: 'minmax(130px, 2fr)'},
     {name: 'Asset', of: mesh => mesh.asset.source, show: mesh => nameOf(mesh.asset.source), width: 'minmax(90px, 1fr)'},
     {name: 'Triangles', number: true, of: mesh => mesh.triangles, show: mesh => count(mesh.triangles)},
     {name: 'Levels', number: true, of: mesh => mesh.levels.length, width: '64px', drop: 2},
@@ -159,14 +159,14 @@ function meshesSection(data, pictures) {
   ], {select: show, sort: 7, text: mesh => mesh.name + ' ' + mesh.asset.source});
   function show(mesh) {
     curves.show(mesh);
-    about.replaceChildren(...[el('h3', {}, mesh.name || '(no name)'), imageFigures(pictures.views, pictures.meshes[mesh.index], mesh.name),
+    about.replaceChildren(...[el('h3', {}, mesh.name || '(no name)'), imageFigures(images.views, images.meshes[mesh.index], mesh.name),
       el('h3', {}, 'Levels'),
       el('table.plain', {}, el('thead', {}, el('tr', {}, ['level', 'clusters', 'triangles', 'error', 'mean', 'normals'].map(name => el('th', {}, name)))),
          el('tbody', {}, mesh.levels.map((level, i) => el('tr', {}, el('td', {}, String(i)), el('td', {}, count(level[0])), el('td', {}, count(level[1])),
             el('td', {}, metres(level[2])), el('td', {}, metres(level[3])), el('td', {}, (level[5] * 180 / Math.PI).toFixed(1) + '°')))))].filter(Boolean));
   }
-  const note = Object.keys(pictures.meshes).length ? '▣ has pictures' + (pictures.left_out ? `; ${count(pictures.left_out)} have none: ${pictures.why}` : '')
-                                                   : pictures.why ? 'no pictures: ' + pictures.why : 'largest first';
+  const note = Object.keys(images.meshes).length ? '▣ has images' + (images.left_out ? `; ${count(images.left_out)} have none: ${images.why}` : '')
+                                                   : images.why ? 'no images: ' + images.why : 'largest first';
   const part = section('meshes', 'Meshes', note, el('div.split', {}, table.table, detail));
   return {part: table.filter ? withTools(part, table.filter) : part, choose: table.choose, first: table.first};
 }

@@ -47,11 +47,11 @@ function mergeSmall(items, area) {
 /** groups  {name, color, items: [{name, bytes, color, open}]} */
 function makeTreemap(groups, width, height) {
   const total = groups.reduce((sum, group) => sum + group.items.reduce((all, item) => all + item.bytes, 0), 0);
-  const picture = svg('svg.treemap', {viewBox: `0 0 ${width} ${height}`, role: 'group', 'aria-label': 'Bytes of the pack as areas'});
+  const image = svg('svg.treemap', {viewBox: `0 0 ${width} ${height}`, role: 'group', 'aria-label': 'Bytes of the pack as areas'});
   const sized = groups.map(group => ({...group, bytes: group.items.reduce((all, item) => all + item.bytes, 0)}));
   squarify(mergeSmall(sized, width * height), 0, 0, width, height, (group, x, y, w, h) => {
     const title = group.items && w > 70 && h > 34 ? 17 : 0;
-    if (title) picture.append(svg('text.title', {x: x + 3, y: y + 12.5},
+    if (title) image.append(svg('text.title', {x: x + 3, y: y + 12.5},
                                   shorten(`${group.name}  ${bytes(group.bytes)} · ${percent(group.bytes / total)}`, w - 6)));
     const items = mergeSmall(group.items || [group], w * (h - title));
     squarify(items, x, y + title, w - 2, h - title - 2, (item, cx, cy, cw, ch) => {
@@ -61,10 +61,10 @@ function makeTreemap(groups, width, height) {
                        svg('rect', {x: cx, y: cy, width: cw, height: ch, fill: color(item.color || group.color)}));
       if (cw > 44 && ch > 15) cell.append(svg('text', {x: cx + 4, y: cy + 12}, shorten(nameOf(item.name), cw - 8)));
       if (cw > 52 && ch > 30) cell.append(svg('text', {x: cx + 4, y: cy + 25, 'fill-opacity': .8}, shorten(bytes(item.bytes), cw - 8)));
-      picture.append(tip(cell, `${item.name}\n${bytes(item.bytes)}, ${percent(item.bytes / total)} of the pack`));
+      image.append(tip(cell, `${item.name}\n${bytes(item.bytes)}, ${percent(item.bytes / total)} of the pack`));
     });
   });
-  return picture;
+  return image;
 }
 
 /** Shortens a text to about the available width; characters are 6 pixels wide. */

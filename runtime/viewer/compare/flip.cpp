@@ -235,12 +235,12 @@ Field detectFeatures(const Field& opponent, double pixels_per_degree)
     return features;
 }
 
-Field toOpponentSpace(const Picture& picture)
+Field toOpponentSpace(const Image& image)
 {
-    Field field{static_cast<long>(picture.width), static_cast<long>(picture.height), {}};
-    for (size_t i = 0; i < picture.rgb.size(); i += 3)
+    Field field{static_cast<long>(image.width), static_cast<long>(image.height), {}};
+    for (size_t i = 0; i < image.rgb.size(); i += 3)
     {
-        const auto linear = [&](size_t channel) { return linearFromSrgb(picture.rgb[i + channel] / 255.0); };
+        const auto linear = [&](size_t channel) { return linearFromSrgb(image.rgb[i + channel] / 255.0); };
         field.values.push_back(opponentFromRgb({linear(0), linear(1), linear(2)}));
     }
     return field;
@@ -252,9 +252,9 @@ struct ImageFields
     Field lab;
     Field features;
 
-    ImageFields(const Picture& picture, double pixels_per_degree)
+    ImageFields(const Image& image, double pixels_per_degree)
     {
-        const Field opponent = toOpponentSpace(picture);
+        const Field opponent = toOpponentSpace(image);
         lab = filterByContrastSensitivity(opponent, pixels_per_degree)
                   .mapped([](Double3 c) { return huntLabFromRgb(clampedToUnit(rgbFromOpponent(c))); });
         features = detectFeatures(opponent, pixels_per_degree);
@@ -271,7 +271,7 @@ double FlipMap::mean() const
     return sum / static_cast<double>(error.size());
 }
 
-FlipMap flip(const Picture& reference, const Picture& test, double pixels_per_degree)
+FlipMap flip(const Image& reference, const Image& test, double pixels_per_degree)
 {
     HEARTH_ASSERT(reference.width == test.width && reference.height == test.height && !reference.rgb.empty());
     const ImageFields a(reference, pixels_per_degree), b(test, pixels_per_degree);
@@ -289,9 +289,9 @@ FlipMap flip(const Picture& reference, const Picture& test, double pixels_per_de
     return map;
 }
 
-Picture makeFlipImage(const FlipMap& map)
+Image makeFlipImage(const FlipMap& map)
 {
-    Picture picture(map.width, map.height);
+    Image image(map.width, map.height);
     for (size_t i = 0; i < map.error.size(); ++i)
     {
         const double e = double{map.error[i]};
@@ -299,9 +299,9 @@ Picture makeFlipImage(const FlipMap& map)
             std::min(1.0, 1.7 * e), std::clamp(1.6 * e - 0.5, 0.0, 1.0),
             std::clamp(e < 0.5 ? 1.1 * e : 0.55 - 1.6 * (e - 0.5) + 3.2 * std::max(0.0, e - 0.7), 0.0, 1.0)};
         for (size_t channel = 0; channel < 3; ++channel)
-            picture.rgb[i * 3 + channel] = static_cast<uint8_t>(rgb[channel] * 255 + 0.5);
+            image.rgb[i * 3 + channel] = static_cast<uint8_t>(rgb[channel] * 255 + 0.5);
     }
-    return picture;
+    return image;
 }
 
 } // namespace hearth::viewer

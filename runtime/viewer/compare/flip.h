@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "runtime/viewer/compare/picture.h"
+#include "runtime/viewer/compare/image.h"
 
 namespace hearth::viewer
 {
@@ -21,9 +21,9 @@ struct FlipMap
 inline constexpr double kFlipPixelsPerDegree = 67.0206;
 
 /// Both images have the same size (asserted). Time: about 1 s per megapixel.
-FlipMap flip(const Picture& reference, const Picture& test, double pixels_per_degree = kFlipPixelsPerDegree);
+FlipMap flip(const Image& reference, const Image& test, double pixels_per_degree = kFlipPixelsPerDegree);
 
 /// Map the errors to colours: black over violet and orange to pale yellow.
-Picture makeFlipImage(const FlipMap& map);
+Image makeFlipImage(const FlipMap& map);
 
 } // namespace hearth::viewer

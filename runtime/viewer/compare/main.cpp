@@ -28,7 +28,7 @@ struct CompareOptions
 std::string compareHelp()
 {
     return "Usage: hearth-compare A.png --with B.png [options]\n"
-           "Say how two pictures of one size differ, as JSON (schema hearth.compare/1).\n"
+           "Say how two images of one size differ, as JSON (schema hearth.compare/1).\n"
            "\n"
            "  -o, --output FILE  a heat map, PNG: black where they are the same\n"
            "      --stats FILE   write the JSON there, not to stdout\n"
@@ -47,7 +47,7 @@ Result<CompareOptions> parseCompareOptions(std::span<const char* const> argument
     line.addSwitch("--help", options.help);
     HEARTH_TRY(line.parse(arguments, options.a));
     if (!options.help && (options.a.empty() || options.b.empty()))
-        return usageError("needs two pictures: A.png --with B.png");
+        return usageError("needs two images: A.png --with B.png");
     return options;
 }
 
@@ -59,7 +59,7 @@ struct Difference
     uint64_t pixels = 0; ///< pixels that differ
 };
 
-Difference computeDifference(const Picture& a, const Picture& b)
+Difference computeDifference(const Image& a, const Image& b)
 {
     Difference difference;
     double sum = 0;
@@ -102,24 +102,24 @@ std::string statsJson(const FlipMap& map, const Difference& difference)
 
 Status writeHeatMap(const std::string& path, const FlipMap& map)
 {
-    const Picture picture = makeFlipImage(map);
+    const Image image = makeFlipImage(map);
     std::vector<std::byte> rgba;
-    for (size_t i = 0; i < picture.rgb.size(); ++i)
+    for (size_t i = 0; i < image.rgb.size(); ++i)
     {
-        rgba.push_back(std::byte{picture.rgb[i]});
+        rgba.push_back(std::byte{image.rgb[i]});
         if (i % 3 == 2)
             rgba.push_back(std::byte{255});
     }
-    HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> png, encodePng(rgba, picture.width, picture.height));
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> png, encodePng(rgba, image.width, image.height));
     return writeFile(path, png);
 }
 
 Status compare(const CompareOptions& options)
 {
-    HEARTH_ASSIGN_OR_RETURN(const Picture a, readPng(options.a));
-    HEARTH_ASSIGN_OR_RETURN(const Picture b, readPng(options.b));
+    HEARTH_ASSIGN_OR_RETURN(const Image a, readPng(options.a));
+    HEARTH_ASSIGN_OR_RETURN(const Image b, readPng(options.b));
     if (a.width != b.width || a.height != b.height)
-        return usageError("the pictures have different sizes");
+        return usageError("the images have different sizes");
     const FlipMap map = flip(a, b);
     if (!options.heat_map.empty())
         HEARTH_TRY(writeHeatMap(options.heat_map, map));

@@ -25,8 +25,8 @@ namespace
 {
 
 /// Read the texels of the finished frame, at the requested size.
-Result<std::vector<std::byte>> readPicture(VulkanHost& host, const gpu::Renderer& renderer,
-                                           const gpu::FrameTargets& targets, uint32_t samples)
+Result<std::vector<std::byte>> readImage(VulkanHost& host, const gpu::Renderer& renderer,
+                                         const gpu::FrameTargets& targets, uint32_t samples)
 {
     HEARTH_ASSIGN_OR_RETURN(std::vector<std::byte> pixels, host.read(renderer.device(), targets.color(), 4));
     if (samples == 1)
@@ -34,7 +34,7 @@ Result<std::vector<std::byte>> readPicture(VulkanHost& host, const gpu::Renderer
     return downsampleSrgb(pixels, targets.extent().width, targets.extent().height);
 }
 
-Result<std::vector<std::byte>> encodePicture(const RenderOptions& options, std::span<const std::byte> pixels)
+Result<std::vector<std::byte>> encodeImage(const RenderOptions& options, std::span<const std::byte> pixels)
 {
     return options.output.ends_with(".jpg") ? encodeJpeg(pixels, options.width, options.height)
                                             : encodePng(pixels, options.width, options.height);
@@ -187,10 +187,7 @@ public:
     }
 
     /// Return the last frame, at the requested size.
-    Result<std::vector<std::byte>> picture()
-    {
-        return readPicture(host_, renderer_, targets_, options_.samples);
-    }
+    Result<std::vector<std::byte>> image() { return readImage(host_, renderer_, targets_, options_.samples); }
 
     /// Warn about objects that the last frame left out, and count them for the statistics.
     Status checkDropped()
@@ -371,31 +368,30 @@ float aspectRatio(uint32_t width, uint32_t height)
     return static_cast<float>(width) / static_cast<float>(height);
 }
 
-Result<OutputCameras> choosePictures(const RenderOptions& options, const formats::PackView& pack,
-                                     const pack::PosePlayer& player, const std::optional<Sheet>& sheet)
+Result<OutputCameras> chooseImages(const RenderOptions& options, const formats::PackView& pack,
+                                   const pack::PosePlayer& player, const std::optional<Sheet>& sheet)
 {
-    OutputCameras pictures;
+    OutputCameras images;
     if (sheet)
     {
         std::vector<formats::Range> parts;
         for (const uint32_t asset : sheet->assets)
             parts.push_back(pack.assets()[asset].instances);
-        pictures.stage = Stage::fromInstances(
-            pack, player, parts, aspectRatio(sheet->layout.cell_width, sheet->layout.cell_height));
+        images.stage = Stage::fromInstances(pack, player, parts,
+                                            aspectRatio(sheet->layout.cell_width, sheet->layout.cell_height));
     }
     else if (!options.meshes.empty())
     {
-        HEARTH_ASSIGN_OR_RETURN(
-            pictures.stage,
-            Stage::fromMeshes(pack, player, options.meshes, aspectRatio(options.width, options.height)));
+        HEARTH_ASSIGN_OR_RETURN(images.stage, Stage::fromMeshes(pack, player, options.meshes,
+                                                                aspectRatio(options.width, options.height)));
     }
-    if (pictures.stage)
-        pictures.cameras = pictures.stage->cameras();
+    if (images.stage)
+        images.cameras = images.stage->cameras();
     else
     {
-        HEARTH_ASSIGN_OR_RETURN(pictures.cameras, chooseCameras(options, pack, player));
+        HEARTH_ASSIGN_OR_RETURN(images.cameras, chooseCameras(options, pack, player));
     }
-    return pictures;
+    return images;
 }
 
 std::vector<Named<uint32_t>> chooseViews(const RenderOptions& options)
@@ -403,17 +399,17 @@ std::vector<Named<uint32_t>> chooseViews(const RenderOptions& options)
     return options.views.empty() ? std::vector<Named<uint32_t>>{{"", options.settings.view}} : options.views;
 }
 
-Status writePicture(const RenderOptions& options, const std::string& file, std::span<const std::byte> pixels)
+Status writeImage(const RenderOptions& options, const std::string& file, std::span<const std::byte> pixels)
 {
-    HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> encoded, encodePicture(options, pixels));
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> encoded, encodeImage(options, pixels));
     return writeFile(file, encoded);
 }
 
 /// Write a file per camera and view; of --frames only the last frame.
-Status drawPictures(const RenderOptions& options, const OutputCameras& pictures, FrameRecorder& run)
+Status drawImages(const RenderOptions& options, const OutputCameras& images, FrameRecorder& run)
 {
-    const std::vector<shared::Camera>& cameras = pictures.cameras;
-    const bool is_sequence = !options.camera_path.empty() || pictures.stage;
+    const std::vector<shared::Camera>& cameras = images.cameras;
+    const bool is_sequence = !options.camera_path.empty() || images.stage;
     if (!is_sequence)
         HEARTH_TRY(run.prefetch(cameras.front(), 0));
     HEARTH_TRY(run.settle(cameras.front()));
@@ -429,8 +425,8 @@ Status drawPictures(const RenderOptions& options, const OutputCameras& pictures,
                 const std::string of_view = viewFile(name, view.name);
                 return is_sequence ? numberedFile(of_view, i) : of_view;
             };
-            HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> picture, run.picture());
-            HEARTH_TRY(writePicture(options, file(options.output), picture));
+            HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> image, run.image());
+            HEARTH_TRY(writeImage(options, file(options.output), image));
             HEARTH_TRY(run.checkDropped());
             if (!options.visibility.empty())
                 HEARTH_TRY(run.writeVisibility(file(options.visibility)));
@@ -439,25 +435,25 @@ Status drawPictures(const RenderOptions& options, const OutputCameras& pictures,
 }
 
 /// Write a file per view, once all cells are drawn.
-Status drawSheet(const RenderOptions& options, const OutputCameras& pictures, const Sheet& sheet,
+Status drawSheet(const RenderOptions& options, const OutputCameras& images, const Sheet& sheet,
                  FrameRecorder& run)
 {
     const std::vector<Named<uint32_t>> views = chooseViews(options);
     std::vector<SheetImage> sheets(views.size(), SheetImage(sheet));
-    for (size_t cell = 0; cell < pictures.cameras.size(); ++cell)
+    for (size_t cell = 0; cell < images.cameras.size(); ++cell)
     {
-        HEARTH_TRY(run.prefetch(pictures.cameras[cell], cell));
+        HEARTH_TRY(run.prefetch(images.cameras[cell], cell));
         for (size_t view = 0; view < views.size(); ++view)
         {
             run.setView(views[view].value);
-            HEARTH_TRY(run.draw(pictures.cameras[cell], cell));
-            HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> picture, run.picture());
-            sheets[view].place(cell, picture);
+            HEARTH_TRY(run.draw(images.cameras[cell], cell));
+            HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> image, run.image());
+            sheets[view].place(cell, image);
             HEARTH_TRY(run.checkDropped());
         }
     }
     for (size_t view = 0; view < views.size(); ++view)
-        HEARTH_TRY(writePicture(options, viewFile(options.output, views[view].name), sheets[view].pixels()));
+        HEARTH_TRY(writeImage(options, viewFile(options.output, views[view].name), sheets[view].pixels()));
     std::printf(
         "contact sheet of %zu assets%s\n", sheet.assets.size(),
         options.sheet == SheetChoice::on ? "" : ", which stand in one place (--sheet off draws the scene)");
@@ -470,7 +466,7 @@ Status drawPack(const RenderOptions& options, const formats::PackView& pack, Vul
     HEARTH_ASSIGN_OR_RETURN(Animation animation, Animation::create(options.animation, pack));
     animation.goTo(0);
     HEARTH_ASSIGN_OR_RETURN(const std::optional<Sheet> sheet, chooseSheet(options, pack));
-    HEARTH_ASSIGN_OR_RETURN(OutputCameras pictures, choosePictures(options, pack, animation.player(), sheet));
+    HEARTH_ASSIGN_OR_RETURN(OutputCameras images, chooseImages(options, pack, animation.player(), sheet));
     HEARTH_ASSIGN_OR_RETURN(const std::unique_ptr<gpu::Renderer> renderer,
                             gpu::Renderer::create(host.description()));
     if (options.settings.view == shared::kViewOverdraw)
@@ -480,7 +476,7 @@ Status drawPack(const RenderOptions& options, const formats::PackView& pack, Vul
         [&](VkCommandBuffer commands) -> Status
         {
             HEARTH_ASSIGN_OR_RETURN(
-                scene, renderer->upload(pack, commands, sceneOptions(options, pack, pictures.cameras)));
+                scene, renderer->upload(pack, commands, sceneOptions(options, pack, images.cameras)));
             return success();
         }));
     scene->staging.reset();
@@ -492,9 +488,8 @@ Status drawPack(const RenderOptions& options, const formats::PackView& pack, Vul
                                  (sheet ? sheet->layout.cell_height : options.height) * scale}));
     HEARTH_ASSIGN_OR_RETURN(const VkQueryPool timestamps, host.createTimestamps(gpu::kTimestampCount));
     FrameRecorder run(options, frameSettings(options, sheet.has_value()), pack, animation,
-                      pictures.stage ? &*pictures.stage : nullptr, host, *renderer, *scene, targets,
-                      timestamps);
-    HEARTH_TRY(sheet ? drawSheet(options, pictures, *sheet, run) : drawPictures(options, pictures, run));
+                      images.stage ? &*images.stage : nullptr, host, *renderer, *scene, targets, timestamps);
+    HEARTH_TRY(sheet ? drawSheet(options, images, *sheet, run) : drawImages(options, images, run));
     return run.writeStats(sheet);
 }
 

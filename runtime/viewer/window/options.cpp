@@ -12,8 +12,8 @@ std::string viewHelp()
            drawHelp() +
            "      --animation CLIP    play a clip, by its name or number\n"
            "      --time SECONDS      stand still at this time of it; beyond its keys it rests\n"
-           "      --frames N          end after N pictures\n"
-           "      --screenshot FILE   at the end of --frames: the picture without the panel, PNG; with "
+           "      --frames N          end after N frames\n"
+           "      --screenshot FILE   at the end of --frames: the image without the panel, PNG; with "
            "--budget "
            "it\n"
            "                          waits for all that it wants\n"

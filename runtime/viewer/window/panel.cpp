@@ -156,13 +156,13 @@ void Panel::build(ViewSettings& settings, const PanelData& facts)
     if (ImGui::Begin("Hearth"))
     {
         ImGui::Text("%s, %u x %u", facts.device.c_str(), facts.extent.width, facts.extent.height);
-        ImGui::Text("%.2f ms a picture, %.3g m/s", facts.frame_seconds * 1e3,
+        ImGui::Text("%.2f ms a frame, %.3g m/s", facts.frame_seconds * 1e3,
                     static_cast<double>(facts.camera.speed()));
         if (const uint32_t dropped = facts.scene.scene().dropped_lights; dropped > 0)
             showProblem(std::to_string(dropped) + " lights are more than can be drawn");
         chooseCamera(settings, facts);
         chooseAsset(settings, facts.assets);
-        buildPicture(settings.frame, facts.scene.scene());
+        buildImage(settings.frame, facts.scene.scene());
         buildAnimation(settings.playback, facts);
         buildCurve(settings.frame);
         buildStreaming(settings, facts);
@@ -172,7 +172,7 @@ void Panel::build(ViewSettings& settings, const PanelData& facts)
     ImGui::End();
 }
 
-void Panel::buildPicture(FrameSettings& settings, const gpu::Scene& scene)
+void Panel::buildImage(FrameSettings& settings, const gpu::Scene& scene)
 {
     std::vector<Named<uint32_t>> views;
     for (const Named<uint32_t>& view : viewNames())

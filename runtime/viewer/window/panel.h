@@ -57,7 +57,7 @@ public:
     void build(ViewSettings& settings, const PanelData& facts);
 
 private:
-    void buildPicture(FrameSettings& settings, const gpu::Scene& scene);
+    void buildImage(FrameSettings& settings, const gpu::Scene& scene);
     void buildCurve(FrameSettings& settings);
     void buildStreaming(ViewSettings& settings, const PanelData& facts);
     void buildCulling(ViewSettings& settings, const PanelData& facts);

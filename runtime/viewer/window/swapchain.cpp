@@ -42,7 +42,7 @@ Result<std::unique_ptr<Swapchain>> Swapchain::create(const VulkanHost& host, con
     std::unique_ptr<Swapchain> swapchain(new Swapchain(host, device, vk));
     HEARTH_TRY(swapchain->chooseFormat());
     if ((queryCapabilities(host, vk).supportedUsageFlags & kUsage) != kUsage)
-        return Error{Issue::device, "", "", "pictures cannot be copied to the window and back"};
+        return Error{Issue::device, "", "", "images cannot be copied to the window and back"};
     HEARTH_TRY(swapchain->createOverlayPass());
     return swapchain;
 }
@@ -67,7 +67,7 @@ Status Swapchain::chooseFormat()
                                                format.format == VK_FORMAT_R8G8B8A8_SRGB;
                                     });
     if (found == formats.end())
-        return Error{Issue::device, "", "", "the window shows no sRGB pictures"};
+        return Error{Issue::device, "", "", "the window shows no sRGB images"};
     format_ = *found;
     return success();
 }
@@ -228,7 +228,7 @@ Result<bool> Swapchain::present(uint32_t image)
     const VkResult result = vk_.vkQueuePresentKHR(host_.queue(), &info);
     if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR)
         return false;
-    HEARTH_TRY_VK(result, "show a picture");
+    HEARTH_TRY_VK(result, "show an image");
     return true;
 }
 

@@ -346,7 +346,7 @@ void Viewer::recordFrame(VkCommandBuffer commands, uint32_t image, bool panel, c
 
     const gpu::Device& device = renderer_->device();
     const VkImage window = swapchain_->image(image);
-    recordPicture(device, vk_, commands, *targets_, window);
+    recordImage(device, vk_, commands, *targets_, window);
     if (panel)
         imgui_->record(commands, *swapchain_, image);
     else

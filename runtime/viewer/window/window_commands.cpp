@@ -41,8 +41,8 @@ constexpr ImageAccess kTransferRead{kTransfer, VK_ACCESS_TRANSFER_READ_BIT,
 
 } // namespace
 
-void recordPicture(const gpu::Device& device, const WindowTable& vk, VkCommandBuffer commands,
-                   const gpu::FrameTargets& targets, VkImage window)
+void recordImage(const gpu::Device& device, const WindowTable& vk, VkCommandBuffer commands,
+                 const gpu::FrameTargets& targets, VkImage window)
 {
     transition(device, commands, window, {kTransfer, 0, VK_IMAGE_LAYOUT_UNDEFINED}, kTransferWrite);
     // texel by texel: a blit converts the order of channels to the window's, which a copy would not

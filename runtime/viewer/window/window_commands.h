@@ -10,8 +10,8 @@ namespace hearth::viewer
 
 /// Copy a frame of the window's size to an image of the window, whose old content is lost. Leaves the image
 /// in TRANSFER_DST_OPTIMAL. Waits for the image in the transfer stage.
-void recordPicture(const gpu::Device& device, const WindowTable& vk, VkCommandBuffer commands,
-                   const gpu::FrameTargets& targets, VkImage window);
+void recordImage(const gpu::Device& device, const WindowTable& vk, VkCommandBuffer commands,
+                 const gpu::FrameTargets& targets, VkImage window);
 
 /// Transition from TRANSFER_DST_OPTIMAL after a transfer to TRANSFER_SRC_OPTIMAL, as Swapchain::overlayPass
 /// does.

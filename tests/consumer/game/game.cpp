@@ -187,7 +187,7 @@ void draw(const std::string& path, const Device& device, const Readback& readbac
     device.submitAndWait();
 }
 
-void writePicture(const unsigned char* rgba, const char* path)
+void writeImage(const unsigned char* rgba, const char* path)
 {
     std::string ppm = "P6 " + std::to_string(kSize) + " " + std::to_string(kSize) + " 255\n";
     for (size_t pixel = 0; pixel < size_t{kSize} * kSize; ++pixel)
@@ -207,6 +207,6 @@ int main(int argument_count, char** arguments)
     const Device device;
     const Readback readback(device);
     draw(arguments[1], device, readback);
-    writePicture(readback.bytes, arguments[2]);
+    writeImage(readback.bytes, arguments[2]);
     return 0;
 }

@@ -112,13 +112,13 @@ TEST_F(ClustersProgram, writesStatisticsThatDoNotDifferFromRunToRun)
                   levels.at(1).at(error).at("max").get<double>());
     }
     EXPECT_EQ(levels.at(1).at("uv_error").at("max"), 0.0) << "the source has no UVs";
-    const Json& manual = mesh.at("manual_lods");
+    const Json& manual = mesh.at("discrete_lods");
     EXPECT_EQ(manual.at("lods").at(0).at("triangles"), 3072);
     EXPECT_EQ(manual.at("hierarchy_of_bytes"),
               manual.at("hierarchy_bytes").get<double>() / manual.at("bytes").get<double>());
     EXPECT_GT(manual.at("hierarchy_bytes").get<double>(), mesh.at("bytes").at("pages_stored").get<double>());
     EXPECT_EQ(json.at("totals").at("triangles"), 3072);
-    EXPECT_EQ(json.at("totals").at("manual_lods").at("bytes"), manual.at("bytes"));
+    EXPECT_EQ(json.at("totals").at("discrete_lods").at("bytes"), manual.at("bytes"));
     const Json& bytes = mesh.at("bytes");
     EXPECT_GT(bytes.at("pages").get<double>(), bytes.at("pages_stored").get<double>());
     EXPECT_EQ(bytes.at("pages_per_triangle"), bytes.at("pages").get<double>() / 3072);

@@ -62,7 +62,7 @@ shared::Camera givenCamera(const std::vector<float>& v)
 }
 
 /// Root mean square of the differences of displayed values, 0 to 1.
-double rmse(const Picture& a, const Picture& b)
+double rmse(const Image& a, const Image& b)
 {
     double sum = 0;
     for (size_t i = 0; i < a.rgb.size(); ++i)
@@ -70,11 +70,11 @@ double rmse(const Picture& a, const Picture& b)
     return std::sqrt(sum / static_cast<double>(a.rgb.size()));
 }
 
-Status compare(const Picture& reference, const Arguments& arguments)
+Status compare(const Image& reference, const Arguments& arguments)
 {
-    HEARTH_ASSIGN_OR_RETURN(const Picture test, readPng(arguments.compare));
+    HEARTH_ASSIGN_OR_RETURN(const Image test, readPng(arguments.compare));
     if (test.width != reference.width || test.height != reference.height)
-        return Error{Issue::usage, arguments.compare, "", "the picture has another size"};
+        return Error{Issue::usage, arguments.compare, "", "the image has another size"};
     const FlipMap map = flip(reference, test);
     std::printf("FLIP %.6f\nRMSE %.6f\n", map.mean(), rmse(reference, test));
     return arguments.flip_map.empty() ? success() : writePng(arguments.flip_map, makeFlipImage(map));
@@ -109,9 +109,9 @@ Status run(Arguments& arguments)
         HEARTH_ASSIGN_OR_RETURN(pose, poseOf(view, arguments));
         arguments.options.pose = &pose;
     }
-    HEARTH_ASSIGN_OR_RETURN(const Picture picture, renderReference(view, arguments.options));
-    HEARTH_TRY(writePng(arguments.output, picture));
-    return arguments.compare.empty() ? success() : compare(picture, arguments);
+    HEARTH_ASSIGN_OR_RETURN(const Image image, renderReference(view, arguments.options));
+    HEARTH_TRY(writePng(arguments.output, image));
+    return arguments.compare.empty() ? success() : compare(image, arguments);
 }
 
 } // namespace
@@ -139,7 +139,7 @@ int main(int argc, char** argv)
     app.addFlag("--integrate-sky", arguments.options.sky.integrate,
                 "the sky as one radiance, in place of the runtime's forms of it");
     app.addOption("--compare", arguments.compare, "print how far this PNG is from that, by FLIP and RMSE");
-    app.addOption("--flip-map", arguments.flip_map, "write that difference as a picture");
+    app.addOption("--flip-map", arguments.flip_map, "write that difference as an image");
     if (const std::optional<int> exit_code = app.parse(argc, argv))
         return *exit_code;
     const Status status = run(arguments);

@@ -231,10 +231,10 @@ std::array<double, 3> meanFromAbove(const test::PackModel& model)
     options.camera.y_fov_rad = 0.3f;
     options.width = options.height = 8;
     options.samples_per_side = 1;
-    const Picture picture = renderReference(pack.view, options).value();
+    const Image image = renderReference(pack.view, options).value();
     std::array<double, 3> mean{};
-    for (size_t i = 0; i < picture.rgb.size(); ++i)
-        mean[i % 3] += picture.rgb[i] / 255.0 / 64;
+    for (size_t i = 0; i < image.rgb.size(); ++i)
+        mean[i % 3] += image.rgb[i] / 255.0 / 64;
     return mean;
 }
 

@@ -69,12 +69,12 @@ private:
 
 } // namespace
 
-Result<Picture> renderReference(const PackView& view, const ReferenceOptions& options)
+Result<Image> renderReference(const PackView& view, const ReferenceOptions& options)
 {
     HEARTH_ASSIGN_OR_RETURN(const PackGeometry geometry, PackGeometry::decode(view));
     HEARTH_ASSIGN_OR_RETURN(const TextureSet textures, TextureSet::load(view));
     const ReferenceRenderer renderer(geometry, textures, options);
-    Picture picture(options.width, options.height);
+    Image image(options.width, options.height);
     tbb::parallel_for(
         0u, options.height,
         [&](uint32_t y)
@@ -82,14 +82,14 @@ Result<Picture> renderReference(const PackView& view, const ReferenceOptions& op
             for (uint32_t x = 0; x < options.width; ++x)
             {
                 const Double3 c = renderer.pixel(x, y);
-                uint8_t* const out = picture.at(x, y);
+                uint8_t* const out = image.at(x, y);
                 const double rgb[3] = {c.x, c.y, c.z};
                 for (size_t i = 0; i < 3; ++i)
                     out[i] = static_cast<uint8_t>(
                         std::clamp(srgbFromLinear(std::clamp(rgb[i], 0.0, 1.0)), 0.0, 1.0) * 255 + 0.5);
             }
         });
-    return picture;
+    return image;
 }
 
 } // namespace hearth::reference

@@ -24,6 +24,6 @@ struct ReferenceOptions
 };
 
 /// errors: as for reading pages and images.
-Result<Picture> renderReference(const formats::PackView& view, const ReferenceOptions& options);
+Result<Image> renderReference(const formats::PackView& view, const ReferenceOptions& options);
 
 } // namespace hearth::reference

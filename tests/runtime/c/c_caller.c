@@ -335,7 +335,7 @@ static void destroy_readback(const c_caller* caller, readback* made)
 }
 
 /* The fields of hearth_image suffice to copy the image. */
-static void copy_image(const c_caller* caller, const hearth_image* image, const c_picture* picture,
+static void copy_image(const c_caller* caller, const hearth_image* source, const c_image* image,
                        VkBuffer buffer, VkDeviceSize offset)
 {
     VkBufferImageCopy region = {0};
@@ -343,20 +343,20 @@ static void copy_image(const c_caller* caller, const hearth_image* image, const 
     region.bufferOffset = offset;
     region.imageSubresource.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT;
     region.imageSubresource.layerCount = 1;
-    region.imageExtent.width = picture->width;
-    region.imageExtent.height = picture->height;
+    region.imageExtent.width = image->width;
+    region.imageExtent.height = image->height;
     region.imageExtent.depth = 1;
-    barrier.srcAccessMask = image->after.access;
+    barrier.srcAccessMask = source->after.access;
     barrier.dstAccessMask = VK_ACCESS_TRANSFER_READ_BIT;
-    barrier.oldLayout = image->after.layout;
+    barrier.oldLayout = source->after.layout;
     barrier.newLayout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
     barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-    barrier.image = image->image;
+    barrier.image = source->image;
     barrier.subresourceRange.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT;
     barrier.subresourceRange.levelCount = barrier.subresourceRange.layerCount = 1;
-    caller->vkCmdPipelineBarrier(caller->commands, image->after.stages, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0,
+    caller->vkCmdPipelineBarrier(caller->commands, source->after.stages, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0,
                                  NULL, 0, NULL, 1, &barrier);
-    caller->vkCmdCopyImageToBuffer(caller->commands, image->image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+    caller->vkCmdCopyImageToBuffer(caller->commands, source->image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                                    buffer, 1, &region);
 }
 
@@ -370,33 +370,32 @@ static void show_host(const c_caller* caller)
 }
 
 static hearth_result upload(c_caller* caller, hearth_renderer* renderer, hearth_pack* pack,
-                            const c_picture* picture, hearth_scene** scene)
+                            const c_image* image, hearth_scene** scene)
 {
     const VkCommandBuffer commands = c_caller_begin(caller);
-    const hearth_result result = hearth_scene_upload(renderer, pack, commands, &picture->scene, scene);
+    const hearth_result result = hearth_scene_upload(renderer, pack, commands, &image->scene, scene);
     if ((result == HEARTH_OK ? c_caller_submit(caller) : c_caller_discard(caller)) != VK_SUCCESS)
         return HEARTH_ERROR_DEVICE_FAILED;
     return result == HEARTH_OK ? hearth_scene_release_staging(*scene) : result;
 }
 
 /* Prefetches until a frame has all that it requested, and begins the next frame. */
-static hearth_result stream(c_caller* caller, hearth_scene* scene, hearth_targets* targets,
-                            c_picture* picture)
+static hearth_result stream(c_caller* caller, hearth_scene* scene, hearth_targets* targets, c_image* image)
 {
     const hearth_stream_counters none = HEARTH_STREAM_COUNTERS_INIT;
     const uint64_t most_frames = 500;
     uint64_t serial;
-    picture->streaming = none;
-    for (serial = 1; picture->streaming.settled_serial == 0 && serial <= most_frames; ++serial)
+    image->streaming = none;
+    for (serial = 1; image->streaming.settled_serial == 0 && serial <= most_frames; ++serial)
     {
         const VkCommandBuffer commands = c_caller_begin(caller);
         hearth_result result = hearth_scene_begin_frame(scene, serial, serial - 1);
         if (result == HEARTH_OK)
-            result = hearth_record_prefetch(scene, targets, commands, &picture->frame);
+            result = hearth_record_prefetch(scene, targets, commands, &image->frame);
         if (c_caller_submit(caller) != VK_SUCCESS)
             return HEARTH_ERROR_DEVICE_FAILED;
         if (result == HEARTH_OK)
-            result = hearth_scene_get_stream_counters(scene, &picture->streaming);
+            result = hearth_scene_get_stream_counters(scene, &image->streaming);
         if (result != HEARTH_OK)
             return result;
     }
@@ -404,35 +403,35 @@ static hearth_result stream(c_caller* caller, hearth_scene* scene, hearth_target
 }
 
 static hearth_result record_frame(hearth_scene* scene, hearth_targets* targets, VkCommandBuffer commands,
-                                  const c_picture* picture)
+                                  const c_image* image)
 {
     hearth_result result;
-    if (!picture->in_parts)
-        return hearth_record_frame(scene, targets, commands, &picture->frame);
-    result = hearth_record_cull(scene, targets, commands, &picture->frame);
+    if (!image->in_parts)
+        return hearth_record_frame(scene, targets, commands, &image->frame);
+    result = hearth_record_cull(scene, targets, commands, &image->frame);
     if (result == HEARTH_OK)
-        result = hearth_record_visibility(scene, targets, commands, &picture->frame);
+        result = hearth_record_visibility(scene, targets, commands, &image->frame);
     if (result == HEARTH_OK)
-        result = hearth_record_materials(scene, targets, commands, &picture->frame);
+        result = hearth_record_materials(scene, targets, commands, &image->frame);
     return result;
 }
 
 /* Records one frame and copies colour, visibility and counters to the readback. */
 static hearth_result record(c_caller* caller, hearth_scene* scene, hearth_targets* targets,
-                            const c_picture* picture, const readback* memory)
+                            const c_image* image, const readback* memory)
 {
-    const VkDeviceSize image_bytes = (VkDeviceSize)picture->width * picture->height * 4;
+    const VkDeviceSize image_bytes = (VkDeviceSize)image->width * image->height * 4;
     hearth_targets_info images = HEARTH_TARGETS_INFO_INIT;
     hearth_result result = hearth_targets_get_info(targets, &images);
     const VkCommandBuffer commands = c_caller_begin(caller);
     if (result == HEARTH_OK)
-        result = record_frame(scene, targets, commands, picture);
+        result = record_frame(scene, targets, commands, image);
     if (result == HEARTH_OK)
         result = hearth_record_counters(scene, commands, memory->buffer, 2 * image_bytes);
     if (result == HEARTH_OK)
     {
-        copy_image(caller, &images.color, picture, memory->buffer, 0);
-        copy_image(caller, &images.visibility, picture, memory->buffer, image_bytes);
+        copy_image(caller, &images.color, image, memory->buffer, 0);
+        copy_image(caller, &images.visibility, image, memory->buffer, image_bytes);
         show_host(caller);
     }
     if (c_caller_submit(caller) != VK_SUCCESS)
@@ -440,51 +439,50 @@ static hearth_result record(c_caller* caller, hearth_scene* scene, hearth_target
     return result;
 }
 
-static void take(const readback* memory, c_picture* picture)
+static void take(const readback* memory, c_image* image)
 {
-    const size_t image_bytes = (size_t)picture->width * picture->height * 4;
-    memcpy(picture->color, memory->mapped, image_bytes);
-    memcpy(picture->visibility, memory->mapped + image_bytes, image_bytes);
-    memcpy(&picture->counters, memory->mapped + 2 * image_bytes, sizeof(picture->counters));
+    const size_t image_bytes = (size_t)image->width * image->height * 4;
+    memcpy(image->color, memory->mapped, image_bytes);
+    memcpy(image->visibility, memory->mapped + image_bytes, image_bytes);
+    memcpy(&image->counters, memory->mapped + 2 * image_bytes, sizeof(image->counters));
 }
 
 static hearth_result draw_scene(c_caller* caller, hearth_scene* scene, hearth_targets* targets,
-                                c_picture* picture)
+                                c_image* image)
 {
     VkQueryPoolCreateInfo queries = {VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
     readback memory = {VK_NULL_HANDLE, VK_NULL_HANDLE, NULL};
     hearth_result result = HEARTH_OK;
     queries.queryType = VK_QUERY_TYPE_TIMESTAMP;
     queries.queryCount = HEARTH_TIMESTAMP_COUNT;
-    if (create_readback(caller, (VkDeviceSize)picture->width * picture->height * 8 + 16, &memory) < 0 ||
-        caller->vkCreateQueryPool(caller->device, &queries, NULL, &picture->frame.timestamps) < 0)
+    if (create_readback(caller, (VkDeviceSize)image->width * image->height * 8 + 16, &memory) < 0 ||
+        caller->vkCreateQueryPool(caller->device, &queries, NULL, &image->frame.timestamps) < 0)
         result = HEARTH_ERROR_DEVICE_FAILED;
-    if (result == HEARTH_OK && picture->scene.geometry_budget > 0)
-        result = stream(caller, scene, targets, picture);
+    if (result == HEARTH_OK && image->scene.geometry_budget > 0)
+        result = stream(caller, scene, targets, image);
     if (result == HEARTH_OK)
-        result = record(caller, scene, targets, picture, &memory);
+        result = record(caller, scene, targets, image, &memory);
     if (result == HEARTH_OK)
     {
-        take(&memory, picture);
-        caller->vkGetQueryPoolResults(caller->device, picture->frame.timestamps, 0, HEARTH_TIMESTAMP_COUNT,
-                                      sizeof(picture->ticks), picture->ticks, sizeof(uint64_t),
+        take(&memory, image);
+        caller->vkGetQueryPoolResults(caller->device, image->frame.timestamps, 0, HEARTH_TIMESTAMP_COUNT,
+                                      sizeof(image->ticks), image->ticks, sizeof(uint64_t),
                                       VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
     }
-    caller->vkDestroyQueryPool(caller->device, picture->frame.timestamps, NULL);
+    caller->vkDestroyQueryPool(caller->device, image->frame.timestamps, NULL);
     destroy_readback(caller, &memory);
     return result;
 }
 
-hearth_result c_caller_draw(c_caller* caller, hearth_renderer* renderer, hearth_pack* pack,
-                            c_picture* picture)
+hearth_result c_caller_draw(c_caller* caller, hearth_renderer* renderer, hearth_pack* pack, c_image* image)
 {
     hearth_targets* targets = NULL;
     hearth_scene* scene = NULL;
-    hearth_result result = hearth_targets_create(renderer, picture->width, picture->height, &targets);
+    hearth_result result = hearth_targets_create(renderer, image->width, image->height, &targets);
     if (result == HEARTH_OK)
-        result = upload(caller, renderer, pack, picture, &scene);
+        result = upload(caller, renderer, pack, image, &scene);
     if (result == HEARTH_OK)
-        result = draw_scene(caller, scene, targets, picture);
+        result = draw_scene(caller, scene, targets, image);
     hearth_scene_destroy(scene);
     hearth_targets_destroy(targets);
     return result;

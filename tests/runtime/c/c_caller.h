@@ -29,7 +29,7 @@ VkResult c_caller_submit(c_caller* caller);
 VkResult c_caller_discard(c_caller* caller);
 
 /* An image: its inputs and, after drawing, its results. */
-typedef struct c_picture
+typedef struct c_image
 {
     hearth_scene_options scene;
     hearth_frame frame; /* its timestamps are set */
@@ -41,10 +41,9 @@ typedef struct c_picture
     uint64_t ticks[HEARTH_TIMESTAMP_COUNT];
     hearth_frame_counters counters;
     hearth_stream_counters streaming; /* with a budget */
-} c_picture;
+} c_image;
 
 /* Uploads the scene, with a budget streams it until all requested pages are there, and draws one frame. */
-hearth_result c_caller_draw(c_caller* caller, hearth_renderer* renderer, hearth_pack* pack,
-                            c_picture* picture);
+hearth_result c_caller_draw(c_caller* caller, hearth_renderer* renderer, hearth_pack* pack, c_image* image);
 
 #endif

@@ -6,13 +6,13 @@
 namespace hearth::test
 {
 
-TEST_F(CApiTest, drawsThePictureOfTheRenderer)
+TEST_F(CApiTest, drawsTheImageOfTheRenderer)
 {
-    const c_picture picture = drawInC(makeFrame());
-    expectEqual(picture, drawInCpp({}));
+    const c_image image = drawInC(makeFrame());
+    expectEqual(image, drawInCpp({}));
     for (int i = 1; i < HEARTH_TIMESTAMP_COUNT; ++i)
-        EXPECT_GE(picture.ticks[i], picture.ticks[i - 1]);
-    EXPECT_GT(picture.ticks[HEARTH_TIMESTAMP_SHADING], picture.ticks[HEARTH_TIMESTAMP_BEGIN]);
+        EXPECT_GE(image.ticks[i], image.ticks[i - 1]);
+    EXPECT_GT(image.ticks[HEARTH_TIMESTAMP_SHADING], image.ticks[HEARTH_TIMESTAMP_BEGIN]);
 }
 
 TEST_F(CApiTest, handsOnAllThatAFrameSays)
@@ -35,8 +35,8 @@ TEST_F(CApiTest, handsOnAllThatAFrameSays)
     for (const uint32_t debug_view : {HEARTH_VIEW_FINAL, HEARTH_VIEW_LOD, HEARTH_VIEW_OVERDRAW})
     {
         frame.debug_view = options.debug_view = debug_view;
-        const c_picture picture = drawInC(frame);
-        expectEqual(picture, drawInCpp(options));
+        const c_image image = drawInC(frame);
+        expectEqual(image, drawInCpp(options));
     }
 }
 
@@ -65,39 +65,39 @@ TEST_F(CApiTest, castsTheShadowsOfTheRenderer)
     }
 }
 
-TEST_F(CApiTest, readsOnOtherThreadsEndInThePictureOfTheWhole)
+TEST_F(CApiTest, readsOnOtherThreadsEndInTheImageOfTheWhole)
 {
     Reader reader{.pack = pack_, .threads = {}};
     hearth_frame frame = makeFrame();
     frame.error_pixels = 0.5f;
-    const c_picture picture = drawInC(frame, streamedBy(reader));
-    expectEqual(picture, drawInCpp({.error_pixels = 0.5f}));
+    const c_image image = drawInC(frame, streamedBy(reader));
+    expectEqual(image, drawInCpp({.error_pixels = 0.5f}));
     EXPECT_GT(reader.threads.size(), 4u) << "or nothing was streamed";
-    EXPECT_GT(picture.streaming.settled_serial, 1u);
-    EXPECT_GT(picture.streaming.bytes_streamed, 0u);
-    EXPECT_LE(picture.streaming.bytes_in_use, picture.streaming.budget_bytes);
-    EXPECT_EQ(picture.streaming.error_scale, 1);
-    EXPECT_EQ(picture.streaming.failures, 0u);
+    EXPECT_GT(image.streaming.settled_serial, 1u);
+    EXPECT_GT(image.streaming.bytes_streamed, 0u);
+    EXPECT_LE(image.streaming.bytes_in_use, image.streaming.budget_bytes);
+    EXPECT_EQ(image.streaming.error_scale, 1);
+    EXPECT_EQ(image.streaming.failures, 0u);
 }
 
-TEST_F(CApiTest, aReadThatFailsIsCountedAndThePictureIsDrawn)
+TEST_F(CApiTest, aReadThatFailsIsCountedAndTheImageIsDrawn)
 {
     Reader reader{.pack = pack_, .threads = {}};
     reader.bad_page = static_cast<uint32_t>(view_->meshes()[0].pages.first + 1);
     hearth_frame frame = makeFrame();
     frame.error_pixels = 0;
-    const c_picture picture = drawInC(frame, streamedBy(reader));
-    EXPECT_EQ(picture.streaming.failures, 1u);
-    EXPECT_EQ(picture.streaming.reads_in_flight, 0u);
+    const c_image image = drawInC(frame, streamedBy(reader));
+    EXPECT_EQ(image.streaming.failures, 1u);
+    EXPECT_EQ(image.streaming.reads_in_flight, 0u);
 }
 
 TEST_F(CApiTest, clustersBeyondTheCapacityAreCounted)
 {
     hearth_scene_options options = HEARTH_SCENE_OPTIONS_INIT;
     options.max_visible_clusters = 8;
-    const c_picture picture = drawInC(makeFrame(), options);
-    EXPECT_GT(picture.counters.drawn_clusters, 8u);
-    EXPECT_EQ(picture.counters.dropped_clusters, picture.counters.drawn_clusters - 8);
+    const c_image image = drawInC(makeFrame(), options);
+    EXPECT_GT(image.counters.drawn_clusters, 8u);
+    EXPECT_EQ(image.counters.dropped_clusters, image.counters.drawn_clusters - 8);
 }
 
 } // namespace hearth::test

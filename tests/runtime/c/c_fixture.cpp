@@ -96,23 +96,23 @@ void CApiTest::TearDown()
     GpuTest::TearDown();
 }
 
-c_picture CApiTest::drawInC(const hearth_frame& frame, const hearth_scene_options& options)
+c_image CApiTest::drawInC(const hearth_frame& frame, const hearth_scene_options& options)
 {
     color_.assign(kWidth * kHeight, 0);
     visibility_.assign(kWidth * kHeight, 0);
-    c_picture picture{};
-    picture.scene = options;
-    picture.frame = frame;
-    picture.width = kWidth;
-    picture.height = kHeight;
-    picture.in_parts = in_parts_ ? 1 : 0;
-    picture.color = color_.data();
-    picture.visibility = visibility_.data();
-    EXPECT_EQ(c_caller_draw(caller_, renderer_, pack_, &picture), HEARTH_OK) << hearth_last_error(renderer_);
-    return picture;
+    c_image image{};
+    image.scene = options;
+    image.frame = frame;
+    image.width = kWidth;
+    image.height = kHeight;
+    image.in_parts = in_parts_ ? 1 : 0;
+    image.color = color_.data();
+    image.visibility = visibility_.data();
+    EXPECT_EQ(c_caller_draw(caller_, renderer_, pack_, &image), HEARTH_OK) << hearth_last_error(renderer_);
+    return image;
 }
 
-Picture CApiTest::drawInCpp(DrawOptions options)
+Image CApiTest::drawInCpp(DrawOptions options)
 {
     options.width = kWidth;
     options.height = kHeight;
@@ -128,7 +128,7 @@ Picture CApiTest::drawInCpp(DrawOptions options)
     return draw(*scene, kCamera, options);
 }
 
-void CApiTest::expectEqual(const c_picture& c, const Picture& cpp) const
+void CApiTest::expectEqual(const c_image& c, const Image& cpp) const
 {
     EXPECT_EQ(color_, cpp.color);
     EXPECT_EQ(visibility_, cpp.visibility);

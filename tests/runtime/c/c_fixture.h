@@ -52,12 +52,12 @@ protected:
     void recreateRenderer(const hearth_renderer_description& description);
 
     /// Draw with the C program; the arrays of the result belong to the test until the next call.
-    c_picture drawInC(const hearth_frame& frame,
-                      const hearth_scene_options& options = HEARTH_SCENE_OPTIONS_INIT);
+    c_image drawInC(const hearth_frame& frame,
+                    const hearth_scene_options& options = HEARTH_SCENE_OPTIONS_INIT);
     /// Draw the whole scene by the classes of runtime/gpu.
-    Picture drawInCpp(DrawOptions options);
+    Image drawInCpp(DrawOptions options);
     /// Expect that the last image of drawInC equals this one in every pixel.
-    void expectEqual(const c_picture& c, const Picture& cpp) const;
+    void expectEqual(const c_image& c, const Image& cpp) const;
 
     TestScene test_;
     std::optional<formats::PackView> view_;

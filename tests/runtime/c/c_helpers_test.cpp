@@ -44,7 +44,7 @@ protected:
 
 } // namespace
 
-TEST_F(CHelpersTest, drawsAndReadsThePictureOfTheRenderer)
+TEST_F(CHelpersTest, drawsAndReadsTheImageOfTheRenderer)
 {
     const hearth_scene_options options = HEARTH_SCENE_OPTIONS_INIT;
     const hearth_frame frame = makeFrame();
@@ -63,7 +63,7 @@ TEST_F(CHelpersTest, drawsAndReadsThePictureOfTheRenderer)
     ASSERT_EQ(hearth_device_begin(device_, &commands), HEARTH_OK);
     ASSERT_EQ(hearth_record_frame(scene, targets, commands, &frame), HEARTH_OK);
     ASSERT_EQ(hearth_device_submit(device_), HEARTH_OK);
-    const Picture expected = drawInCpp({});
+    const Image expected = drawInCpp({});
     std::vector<uint32_t> texels(kWidth * kHeight);
     const size_t bytes = texels.size() * sizeof(uint32_t);
     EXPECT_EQ(hearth_device_read_image(device_, &images.color, kWidth, kHeight, texels.data(), bytes),

@@ -21,18 +21,18 @@ void expectEqual(const hearth_image_state& c, const gpu::ImageState& cpp)
 
 } // namespace
 
-TEST_F(CApiTest, drawsInPartsThePictureOfTheRenderer)
+TEST_F(CApiTest, drawsInPartsTheImageOfTheRenderer)
 {
     in_parts_ = true;
     hearth_frame frame = makeFrame();
     for (const gpu::ShadedArea area : {gpu::ShadedArea::wholeFrame, gpu::ShadedArea::tiles})
     {
         frame.shaded_area = static_cast<uint32_t>(area);
-        const c_picture picture = drawInC(frame);
-        expectEqual(picture, drawInCpp({.area = area}));
+        const c_image image = drawInC(frame);
+        expectEqual(image, drawInCpp({.area = area}));
     }
     Reader reader{.pack = pack_, .threads = {}};
-    const c_picture streamed = drawInC(makeFrame(), streamedBy(reader));
+    const c_image streamed = drawInC(makeFrame(), streamedBy(reader));
     expectEqual(streamed, drawInCpp({}));
 }
 
@@ -84,8 +84,8 @@ TEST_F(CApiTest, memoryComesFromTheCallerAndGoesBack)
     hearth_renderer_description description = c_caller_description(caller_);
     description.memory = c_caller_memory(caller_);
     recreateRenderer(description);
-    const c_picture picture = drawInC(makeFrame());
-    expectEqual(picture, drawInCpp({}));
+    const c_image image = drawInC(makeFrame());
+    expectEqual(image, drawInCpp({}));
     EXPECT_GT(c_caller_all_pieces(caller_), 20u);
     EXPECT_EQ(c_caller_live_pieces(caller_), 0u);
 
@@ -124,8 +124,8 @@ TEST_F(CApiTest, descriptionsOfVersionOneZeroAreTaken)
     description.memory = c_caller_memory(caller_);
     description.memory.free = nullptr;
     recreateRenderer(description);
-    const c_picture picture = drawInC(makeFrame());
-    expectEqual(picture, drawInCpp({}));
+    const c_image image = drawInC(makeFrame());
+    expectEqual(image, drawInCpp({}));
 }
 
 } // namespace hearth::test

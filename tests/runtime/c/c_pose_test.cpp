@@ -60,8 +60,8 @@ TEST_F(CPoseTest, posesAreDrawnAsByTheClasses)
     {
         hearth_scene_options options = HEARTH_SCENE_OPTIONS_INIT;
         options.skinning_bytes = skinning_bytes;
-        const c_picture picture = drawInC(frame, options);
-        expectEqual(picture, drawInCpp({.poses = views}));
+        const c_image image = drawInC(frame, options);
+        expectEqual(image, drawInCpp({.poses = views}));
     }
 }
 

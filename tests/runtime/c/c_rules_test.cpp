@@ -153,9 +153,9 @@ TEST_F(CApiTest, aPageThatLiesIsRefusedWhereverItIsRead)
     Reader reader{.pack = pack_, .threads = {}};
     hearth_frame frame = makeFrame();
     frame.error_pixels = 0;
-    const c_picture picture = drawInC(frame, streamedBy(reader));
-    EXPECT_EQ(picture.streaming.failures, 1u);
-    EXPECT_GT(picture.counters.drawn_clusters, 0u);
+    const c_image image = drawInC(frame, streamedBy(reader));
+    EXPECT_EQ(image.streaming.failures, 1u);
+    EXPECT_GT(image.counters.drawn_clusters, 0u);
 }
 
 TEST_F(CApiTest, aWholePackIsCheckedWhenItIsAskedFor)
@@ -407,7 +407,7 @@ TEST_F(CFrameRulesTest, targetsBelongToTheFirstSceneUntilItIsDestroyed)
     ASSERT_EQ(upload(streamedBy(reader)), HEARTH_OK) << hearth_last_error(renderer_);
     std::swap(scene_, second);
     EXPECT_EQ(record(makeFrame()), "");
-    EXPECT_EQ(record(makeFrame()), "") << "a picture may be drawn again";
+    EXPECT_EQ(record(makeFrame()), "") << "an image may be drawn again";
 
     const hearth_frame frame = makeFrame();
     ASSERT_EQ(hearth_scene_begin_frame(second, 1, 0), HEARTH_OK);

@@ -118,7 +118,7 @@ TEST(CasterView, leavesOutPointsBesideTheMap)
     EXPECT_GT(count, 5000u);
 }
 
-TEST(CasterView, drawsWhatThePictureWouldWithErrorsDividedByTheBias)
+TEST(CasterView, drawsWhatTheImageWouldWithErrorsDividedByTheBias)
 {
     std::mt19937 random(3);
     const Case c = randomCase(random, true);
@@ -148,7 +148,7 @@ TEST(CasterView, looksAtNeitherConesNorWhatIsHidden)
 }
 
 /// A view that requests the source triangles requests them in its shadows, too.
-TEST(CasterView, refinesEverythingWhereThePictureDoes)
+TEST(CasterView, refinesEverythingWhereTheImageDoes)
 {
     std::mt19937 random(5);
     const Case c = randomCase(random, true);

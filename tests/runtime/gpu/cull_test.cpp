@@ -60,7 +60,7 @@ protected:
                     gpu::FrameTargets& targets, const shared::Camera& camera, const DrawOptions& options)
     {
         const Pyramid last = readPyramid(targets);
-        const Picture picture = draw(scene, targets, camera, options);
+        const Image image = draw(scene, targets, camera, options);
         const FrameView view = viewOf(scene, camera, options);
         const Twin twin = makeTwin(pack, layout, view, last, readPyramid(targets));
         EXPECT_TRUE(sameBits(read<InstanceState>(scene.buffers.states, twin.states.size()), twin.states));
@@ -69,8 +69,8 @@ protected:
         EXPECT_TRUE(sameBits(read<BinDraw>(scene.buffers.bin_draws, twin.bin_draws.size()), twin.bin_draws));
         EXPECT_TRUE(sameBits(read<uint32_t>(scene.buffers.material_draws, twin.material_draws.size()),
                              twin.material_draws));
-        EXPECT_TRUE(sameBits(picture.list.slots, twin.visible));
-        EXPECT_EQ(picture.list.counters.early_clusters, twin.early_clusters);
+        EXPECT_TRUE(sameBits(image.list.slots, twin.visible));
+        EXPECT_EQ(image.list.counters.early_clusters, twin.early_clusters);
         expectStatistics(scene, twin, layout.instanced_clusters);
         drawn_ += twin.visible.size();
         late_ += twin.visible.size() - twin.early_clusters;
@@ -195,11 +195,11 @@ TEST_F(CullTest, thePyramidHoldsTheFarthestDepthOfEveryTexel)
          {std::pair{1u, 1u}, {2u, 1u}, {1u, 97u}, {31u, 33u}, {333u, 777u}, {640u, 360u}})
     {
         gpu::FrameTargets targets = makeTargets(width, height);
-        const Picture picture = draw(*scene, targets, camera, {.width = width, .height = height});
-        ASSERT_EQ(picture.list.counters.early_clusters, picture.list.counters.drawn_clusters)
+        const Image image = draw(*scene, targets, camera, {.width = width, .height = height});
+        ASSERT_EQ(image.list.counters.early_clusters, image.list.counters.drawn_clusters)
             << "nothing hides in the first frame";
         std::vector<float> depth;
-        for (const auto& [instance, cluster, triangle] : picture.seen())
+        for (const auto& [instance, cluster, triangle] : image.seen())
             depth.push_back(instance == kVisibilitySky ? 0.0f : camera.z_near / distances[instance]);
         const std::vector<float> expected = makePyramid(depth, width, height);
         const std::vector<float> texels = readPyramid(targets).texels;
@@ -240,12 +240,12 @@ TEST_F(CullTest, leavesOutTheLastClustersWhereTheListIsFull)
     shared::Camera camera;
     camera.position = {0, 0, 15};
     const auto whole = upload(pack);
-    const Picture all = draw(*whole, camera);
+    const Image all = draw(*whole, camera);
     const auto capacity = static_cast<uint32_t>(all.list.slots.size() / 2);
     ASSERT_GT(capacity, 10u);
 
     const auto small = upload(pack, {.max_visible_clusters = capacity});
-    const Picture half = draw(*small, camera);
+    const Image half = draw(*small, camera);
     EXPECT_EQ(half.list.counters.drawn_clusters, all.list.counters.drawn_clusters);
     EXPECT_EQ(half.list.counters.dropped_clusters, all.list.slots.size() - capacity);
     ASSERT_EQ(half.list.slots.size(), capacity);
@@ -258,12 +258,12 @@ TEST_F(CullTest, drawsNothingOfAnEmptyScene)
     TestScene test;
     const formats::PackView pack = test.build();
     const auto scene = upload(pack);
-    const Picture picture = draw(*scene, {});
-    EXPECT_EQ(picture.list.counters.drawn_clusters, 0u);
-    for (const uint32_t id : picture.visibility)
+    const Image image = draw(*scene, {});
+    EXPECT_EQ(image.list.counters.drawn_clusters, 0u);
+    for (const uint32_t id : image.visibility)
         ASSERT_EQ(id, kVisibilitySky);
     // the sky: brighter above than below
-    EXPECT_GT(channel(picture.at(80, 2), 2), channel(picture.at(80, 117), 2));
+    EXPECT_GT(channel(image.at(80, 2), 2), channel(image.at(80, 117), 2));
 }
 
 } // namespace hearth::test

@@ -74,11 +74,11 @@ TEST_F(DeformationTest, cullingIsLosslessInEveryPose)
         const auto views = viewsOf(poses);
         const DrawOptions options{
             .width = 96, .height = 72, .error_pixels = frame % 2 == 0 ? 1.0f : 6.0f, .poses = views};
-        const Picture some = draw(*scene, targets, camera, options);
+        const Image some = draw(*scene, targets, camera, options);
         DrawOptions everything = options;
         everything.flags = 0;
         everything.poses = {};
-        const Picture whole = draw(*scene, camera, everything);
+        const Image whole = draw(*scene, camera, everything);
         ASSERT_EQ(some.seen(), whole.seen()) << "frame " << frame;
         ASSERT_EQ(some.color, whole.color) << "frame " << frame;
         drawn += some.list.slots.size();
@@ -101,11 +101,11 @@ TEST_F(DeformationTest, eachTestAloneIsLossless)
         const auto views = viewsOf(poses);
         const Camera camera = randomCamera(random, 4);
         DrawOptions options{.width = 96, .height = 72, .flags = 0, .poses = views};
-        const Picture whole = draw(*scene, camera, options);
+        const Image whole = draw(*scene, camera, options);
         for (const uint32_t flag : {kCullInstances, kCullFrustum, kCullCone})
         {
             options.flags = flag;
-            const Picture some = draw(*scene, camera, options);
+            const Image some = draw(*scene, camera, options);
             ASSERT_EQ(some.seen(), whole.seen()) << "frame " << frame << ", test " << flag;
             culled[flag] += whole.list.slots.size() - some.list.slots.size();
         }
@@ -122,10 +122,10 @@ TEST_F(DeformationTest, freePosesAreNeverCulledWrongly)
     const auto scene = upload(pack);
     gpu::FrameTargets targets = makeTargets(96, 72);
     size_t drawn = 0, all = 0, drawn_morphs = 0, all_morphs = 0;
-    const auto countMorphs = [&](const Picture& picture)
+    const auto countMorphs = [&](const Image& image)
     {
         return static_cast<size_t>(std::count_if(
-            picture.list.slots.begin(), picture.list.slots.end(),
+            image.list.slots.begin(), image.list.slots.end(),
             [&](const auto& slot)
             { return pack.meshes()[pack.instances()[slot.instance].mesh].morph_target_count > 0; }));
     };
@@ -140,10 +140,10 @@ TEST_F(DeformationTest, freePosesAreNeverCulledWrongly)
                                               : test.freePose(instance, random));
         const auto views = viewsOf(poses);
         const DrawOptions options{.width = 96, .height = 72, .error_pixels = 2, .poses = views};
-        const Picture some = draw(*scene, targets, camera, options);
+        const Image some = draw(*scene, targets, camera, options);
         DrawOptions everything = options;
         everything.flags = 0;
-        const Picture whole = draw(*scene, camera, everything);
+        const Image whole = draw(*scene, camera, everything);
         ASSERT_EQ(some.seen(), whole.seen()) << "frame " << frame;
         drawn += some.list.slots.size();
         all += whole.list.slots.size();
@@ -167,7 +167,7 @@ TEST_F(DeformationTest, skinnedVerticesAreWhereGltfSays)
         const auto views = viewsOf(poses);
         Poses posed;
         keep(poses, posed);
-        const Picture picture =
+        const Image image =
             draw(*scene, randomCamera(random, 3), {.error_pixels = 0.25f, .flags = 0, .poses = views});
         const DeformationHeader header = headerOf(*scene);
         const auto words = read<float>(scene->deformation->buffer,
@@ -176,7 +176,7 @@ TEST_F(DeformationTest, skinnedVerticesAreWhereGltfSays)
         {
             const auto block = blockOf(header, slot);
             ASSERT_TRUE(block);
-            const VisibleCluster& visible = picture.list.slots[slot];
+            const VisibleCluster& visible = image.list.slots[slot];
             const TestPose& pose = posed.at(visible.instance);
             const formats::ClusterGeometry geometry = test.geometry().cluster(visible.cluster);
             const auto* deformed = gpu::findDeformed(scene->deformation->layout, visible.instance);
@@ -223,9 +223,9 @@ TEST_F(DeformationTest, theSizeOfTheScratchDoesNotShow)
         const auto poses = test.randomPoses(random);
         const auto views = viewsOf(poses);
         const DrawOptions options{.error_pixels = 0.5f, .poses = views};
-        const Picture expected = draw(*whole, targets[0], camera, options);
-        const Picture direct = draw(*none, targets[1], camera, options);
-        const Picture mixed = draw(*few, targets[2], camera, options);
+        const Image expected = draw(*whole, targets[0], camera, options);
+        const Image direct = draw(*none, targets[1], camera, options);
+        const Image mixed = draw(*few, targets[2], camera, options);
         ASSERT_EQ(headerOf(*none).group_count, 0u);
         ASSERT_EQ(direct.visibility, expected.visibility) << "frame " << frame;
         ASSERT_EQ(direct.color, expected.color) << "frame " << frame;
@@ -237,7 +237,7 @@ TEST_F(DeformationTest, theSizeOfTheScratchDoesNotShow)
     EXPECT_GT(beyond, 5u) << "a scratch that is never full is not tested";
 }
 
-TEST_F(DeformationTest, thePictureIsTheCpuRasterisersOfThePosedTriangles)
+TEST_F(DeformationTest, theImageIsTheCpuRasterisersOfThePosedTriangles)
 {
     std::mt19937 random(56);
     const DeformedScene test({.rocks = 0}, 6);
@@ -251,16 +251,16 @@ TEST_F(DeformationTest, thePictureIsTheCpuRasterisersOfThePosedTriangles)
         keep(poses, posed);
         const DrawOptions options{.poses = views};
         const Camera camera = randomCamera(random, 3);
-        const Picture picture = draw(*scene, camera, options);
+        const Image image = draw(*scene, camera, options);
 
         std::vector<formats::InstanceRecord> unmoved(test.pack().instances().begin(),
                                                      test.pack().instances().end());
         for (formats::InstanceRecord& instance : unmoved)
             instance.world_from_object = {};
         std::vector<reference::SceneTriangle> triangles;
-        for (uint32_t slot = 0; slot < picture.list.slots.size(); ++slot)
+        for (uint32_t slot = 0; slot < image.list.slots.size(); ++slot)
         {
-            const VisibleCluster& visible = picture.list.slots[slot];
+            const VisibleCluster& visible = image.list.slots[slot];
             const formats::ClusterGeometry geometry = test.geometry().cluster(visible.cluster);
             for (uint32_t t = 0; t < geometry.triangleCount(); ++t)
             {
@@ -278,8 +278,8 @@ TEST_F(DeformationTest, thePictureIsTheCpuRasterisersOfThePosedTriangles)
         }
         const reference::RasterImage expected = reference::rasterise(
             triangles, {unmoved, test.pack().materials()}, viewOf(*scene, camera, options));
-        const auto comparison = reference::compareIds(expected, picture.visibility,
-                                                      [](uint32_t a, uint32_t b) { return a == b; });
+        const auto comparison =
+            reference::compareIds(expected, image.visibility, [](uint32_t a, uint32_t b) { return a == b; });
         EXPECT_EQ(comparison.coverage_unexcused, 0u) << "frame " << frame;
         sums.covered += comparison.covered;
         sums.pixels += comparison.pixels;
@@ -313,7 +313,7 @@ TEST_F(DeformationTest, farFromTheOriginNothingFallsApart)
                       std::round(point->z * 4) / 4};
         camera.target += {0, 0, 1};
         const auto here = viewsOf(poses);
-        const Picture expected = draw(*scene, camera, {.poses = here});
+        const Image expected = draw(*scene, camera, {.poses = here});
         for (TestPose& pose : poses)
             for (Affine3d& joint : pose.world_from_bind)
             {
@@ -324,8 +324,8 @@ TEST_F(DeformationTest, farFromTheOriginNothingFallsApart)
         camera.position += narrow(offset);
         camera.target += narrow(offset);
         const auto there = viewsOf(poses);
-        const Picture picture = draw(*scene, camera, {.poses = there});
-        EXPECT_EQ(picture.seen(), expected.seen()) << "frame " << frame;
+        const Image image = draw(*scene, camera, {.poses = there});
+        EXPECT_EQ(image.seen(), expected.seen()) << "frame " << frame;
     }
 }
 
@@ -347,7 +347,7 @@ TEST_F(DeformationTest, whatAPoseCannotBeIsNamedAndLeftOut)
 
     const Camera camera{.position = {0, 1, 9}, .target = {0, 0, 0}};
     const gpu::InstancePose first[] = {good.view()};
-    const Picture expected = draw(*scene, camera, {.poses = first});
+    const Image expected = draw(*scene, camera, {.poses = first});
     const gpu::InstancePose bad[] = {broken.view(), short_one.view(), rigid.view()};
     EXPECT_EQ(draw(*scene, camera, {.poses = bad}).color, expected.color);
 }
@@ -364,13 +364,13 @@ TEST_F(DeformationTest, castersAreDeformedAndMapsAreKept)
     {
         const auto poses = frame % 3 == 2 ? std::vector<TestPose>() : test.randomPoses(random);
         const auto views = viewsOf(poses);
-        const Picture picture = draw(*scene, camera, {.poses = views});
+        const Image image = draw(*scene, camera, {.poses = views});
         const gpu::ShadowStatistics& statistics = scene->shadows->statistics();
         kept += frame % 3 == 2 && statistics.drawn_maps + statistics.moved_maps == 0 ? 1u : 0u;
         moved += statistics.moved_maps > 0 ? 1u : 0u;
         scene->shadows->forget();
-        const Picture fresh = draw(*scene, camera);
-        ASSERT_EQ(picture.color, fresh.color) << "frame " << frame;
+        const Image fresh = draw(*scene, camera);
+        ASSERT_EQ(image.color, fresh.color) << "frame " << frame;
     }
     EXPECT_GT(moved, 4u);
     EXPECT_EQ(kept, 4u) << "poses last: what has not changed is not drawn anew";

@@ -57,13 +57,13 @@ protected:
         return read<CullStatistics>(pass->statistics(), 1)[0];
     }
 
-    void expectTwin(const gpu::Scene& scene, const Twin& twin, const Picture& picture)
+    void expectTwin(const gpu::Scene& scene, const Twin& twin, const Image& image)
     {
         EXPECT_TRUE(sameBits(read<InstanceState>(scene.buffers.states, twin.states.size()), twin.states));
         EXPECT_TRUE(sameBits(read<WorkResult>(scene.buffers.results, twin.results.size()), twin.results));
         EXPECT_TRUE(sameBits(read<BinDraw>(scene.buffers.bin_draws, twin.bin_draws.size()), twin.bin_draws));
-        EXPECT_TRUE(sameBits(picture.list.slots, twin.visible));
-        EXPECT_EQ(picture.list.counters.early_clusters, twin.early_clusters);
+        EXPECT_TRUE(sameBits(image.list.slots, twin.visible));
+        EXPECT_EQ(image.list.counters.early_clusters, twin.early_clusters);
         EXPECT_TRUE(sameBits(std::vector{count(scene)}, std::vector{twin.statistics}));
     }
 };
@@ -94,11 +94,11 @@ TEST_F(DeformationTwinTest, cullingEqualsItsTwinBitForBit)
             .flags = static_cast<uint32_t>(frame % 5 == 4 ? random() & kCullEverything : kCullEverything),
             .poses = views};
         const Pyramid last = readPyramid(targets);
-        const Picture picture = draw(*scene, targets, camera, options);
+        const Image image = draw(*scene, targets, camera, options);
         applyPoses(views, *layout);
         const Twin twin =
             makeTwin(test.pack(), *layout, viewOf(*scene, camera, options), last, readPyramid(targets));
-        expectTwin(*scene, twin, picture);
+        expectTwin(*scene, twin, image);
         for (uint32_t outcome = 0; outcome < kOutcomeCount; ++outcome)
             outcomes[outcome] += twin.statistics.clusters[outcome];
         late += twin.visible.size() - twin.early_clusters;
@@ -108,7 +108,7 @@ TEST_F(DeformationTwinTest, cullingEqualsItsTwinBitForBit)
         EXPECT_GT(clusters, 50u) << "a test that culls nothing is not tested";
 }
 
-TEST_F(DeformationTwinTest, aStreamedSceneAsksAsItsTwinAndEndsAsTheWholePicture)
+TEST_F(DeformationTwinTest, aStreamedSceneAsksAsItsTwinAndEndsAsTheWholeImage)
 {
     std::mt19937 random(62);
     const DeformedScene test({.limbs = 3, .tentacles = 1, .blobs = 1, .rocks = 2, .rings = 160}, 12);
@@ -132,18 +132,18 @@ TEST_F(DeformationTwinTest, aStreamedSceneAsksAsItsTwinAndEndsAsTheWholePicture)
         const Camera camera = randomCamera(random, 3);
         const DrawOptions options{.error_pixels = 0.5f, .poses = views};
         const uint64_t first = serial + 1;
-        Picture picture;
+        Image image;
         for (int frame = 0; frame < 60 && streamed->stream->settledSerial() < first; ++frame)
         {
             streamed->stream->beginFrame(serial + 1, serial);
             ++serial;
-            picture = draw(*streamed, camera, options);
+            image = draw(*streamed, camera, options);
         }
         const auto requests = read<uint32_t>(streamed->buffers.page_requests, test.pack().pages().size());
         EXPECT_EQ(requests, makeRequestTwin(test.pack(), *layout, viewOf(*streamed, camera, options)));
         for (const uint32_t request : requests)
             requested += request != 0 ? 1u : 0u;
-        EXPECT_EQ(picture.color, draw(*whole, camera, options).color) << "view " << view;
+        EXPECT_EQ(image.color, draw(*whole, camera, options).color) << "view " << view;
     }
     EXPECT_GT(requested, 10u);
 }

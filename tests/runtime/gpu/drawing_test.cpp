@@ -83,12 +83,12 @@ TEST_F(DrawingTest, cullingIsLossless)
     for (const Float3 eye : {Float3{9, 5, 7}, {0.3f, 0.2f, 0.1f}, {-4, 1, 0}, {0, 12, 0.001f}, {2, -3, 40}})
     {
         DrawOptions options{.width = 333, .height = 177, .error_pixels = 0, .flags = 0};
-        const Picture all = draw(*scene, lookingAtOrigin(eye), options);
+        const Image all = draw(*scene, lookingAtOrigin(eye), options);
         for (const uint32_t flags :
              {kCullInstances, kCullFrustum, kCullCone, kCullOcclusion, kCullEverything})
         {
             options.flags = flags;
-            const Picture some = draw(*scene, lookingAtOrigin(eye), options);
+            const Image some = draw(*scene, lookingAtOrigin(eye), options);
             EXPECT_EQ(some.seen(), all.seen()) << "eye " << eye.x << " flags " << flags;
             EXPECT_EQ(some.color, all.color);
             culled += all.list.slots.size() - some.list.slots.size();
@@ -131,9 +131,9 @@ TEST_F(DrawingTest, cullingIsLosslessWhateverWasDrawnBefore)
                 moves = randomMoves(*scene, pack, random);
             DrawOptions options{
                 .width = width, .height = height, .error_pixels = i % 5 == 0 ? 0.0f : 2.0f, .moves = moves};
-            const Picture some = draw(*scene, targets, camera, options);
+            const Image some = draw(*scene, targets, camera, options);
             options.flags = 0;
-            const Picture whole = draw(*scene, other, camera, options);
+            const Image whole = draw(*scene, other, camera, options);
             ASSERT_EQ(some.seen(), whole.seen()) << width << "x" << height << " frame " << i;
             ASSERT_EQ(some.color, whole.color);
             drawn += some.list.slots.size();
@@ -170,13 +170,13 @@ TEST_F(DrawingTest, littleIsDrawnThatIsNotSeen)
     // are drawn as are visible.
     const DrawOptions options{.width = 640, .height = 360, .error_pixels = 0.25f};
     draw(*scene, targets, camera, options);
-    const Picture picture = draw(*scene, targets, camera, options);
+    const Image image = draw(*scene, targets, camera, options);
     std::set<std::pair<uint32_t, uint32_t>> owners;
-    for (const auto& [instance, cluster, triangle] : picture.seen())
+    for (const auto& [instance, cluster, triangle] : image.seen())
         if (instance != kVisibilitySky)
             owners.emplace(instance, cluster);
     EXPECT_GT(owners.size(), 200u);
-    EXPECT_LE(static_cast<double>(picture.list.slots.size()), 1.6 * static_cast<double>(owners.size()));
+    EXPECT_LE(static_cast<double>(image.list.slots.size()), 1.6 * static_cast<double>(owners.size()));
 }
 
 TEST_F(DrawingTest, coneCullingRemovesTheFarSideOfARock)
@@ -203,9 +203,9 @@ TEST_F(DrawingTest, everySizeIsDrawn)
     const auto scene = upload(pack);
     for (const auto& [width, height] : {std::pair{1u, 1u}, {2u, 1u}, {1u, 97u}, {333u, 777u}, {64u, 64u}})
     {
-        const Picture picture = draw(*scene, lookingAtOrigin({6, 4, 6}), {.width = width, .height = height});
-        EXPECT_EQ(picture.color.size(), size_t{width} * height);
-        EXPECT_NE(picture.visibility[height / 2 * width + width / 2], kVisibilitySky);
+        const Image image = draw(*scene, lookingAtOrigin({6, 4, 6}), {.width = width, .height = height});
+        EXPECT_EQ(image.color.size(), size_t{width} * height);
+        EXPECT_NE(image.visibility[height / 2 * width + width / 2], kVisibilitySky);
     }
 }
 
@@ -215,9 +215,9 @@ TEST_F(DrawingTest, framesRepeatExactly)
     fillRocks(test, 9, 8);
     const formats::PackView pack = test.build();
     const auto scene = upload(pack);
-    const Picture first = draw(*scene, lookingAtOrigin({6, 4, 6}));
+    const Image first = draw(*scene, lookingAtOrigin({6, 4, 6}));
     draw(*scene, lookingAtOrigin({-2, 7, 1}), {.width = 64, .height = 64, .error_pixels = 30});
-    const Picture again = draw(*scene, lookingAtOrigin({6, 4, 6}));
+    const Image again = draw(*scene, lookingAtOrigin({6, 4, 6}));
     EXPECT_EQ(first.visibility, again.visibility);
     EXPECT_EQ(first.color, again.color);
 }
@@ -232,10 +232,10 @@ TEST_F(DrawingTest, frontFacesAreCounterClockwiseAlsoWhenMirrored)
     test.addInstance(mesh, mirrored);
     const formats::PackView pack = test.build();
     const auto scene = upload(pack);
-    const auto instancesSeen = [&](const Picture& picture)
+    const auto instancesSeen = [&](const Image& image)
     {
         uint32_t seen = 0;
-        for (const auto& [instance, cluster, triangle] : picture.seen())
+        for (const auto& [instance, cluster, triangle] : image.seen())
             if (instance != kVisibilitySky)
                 seen |= 1u << instance;
         return seen;
@@ -253,8 +253,8 @@ TEST_F(DrawingTest, nearerSurfacesHideThoseBehindThem)
     test.addInstance(mesh, translated({0, 0, 0}));
     const formats::PackView pack = test.build();
     const auto scene = upload(pack);
-    const Picture picture = draw(*scene, lookingAtOrigin({0, 0, 4}));
-    EXPECT_EQ(picture.seen()[60 * 160 + 80][0], 1u);
+    const Image image = draw(*scene, lookingAtOrigin({0, 0, 4}));
+    EXPECT_EQ(image.seen()[60 * 160 + 80][0], 1u);
 }
 
 TEST_F(DrawingTest, blendedSurfacesCoverAsManyPixelsAsTheirAlphaSays)
@@ -268,9 +268,9 @@ TEST_F(DrawingTest, blendedSurfacesCoverAsManyPixelsAsTheirAlphaSays)
         test.addInstance(test.addMesh(withMaterial(makeQuad(100, 100), test.addMaterial(glass))), Affine3{});
         const formats::PackView pack = test.build();
         const auto scene = upload(pack);
-        const Picture picture = draw(*scene, lookingAtOrigin({0, 0, 4}), {.width = 64, .height = 64});
+        const Image image = draw(*scene, lookingAtOrigin({0, 0, 4}), {.width = 64, .height = 64});
         const auto covered =
-            4096 - std::count(picture.visibility.begin(), picture.visibility.end(), kVisibilitySky);
+            4096 - std::count(image.visibility.begin(), image.visibility.end(), kVisibilitySky);
         EXPECT_EQ(covered, static_cast<long>(4096 * alpha));
     }
 }
@@ -287,9 +287,9 @@ TEST_F(DrawingTest, maskedSurfacesHaveTheHolesOfTheirTexture)
     test.addInstance(test.addMesh(withMaterial(makeQuad(2, 2), test.addMaterial(leaf))), Affine3{});
     const formats::PackView pack = test.build();
     const auto scene = upload(pack);
-    const Picture picture = draw(*scene, lookingAtOrigin({0, 0, 4}));
-    EXPECT_NE(picture.visibility[60 * 160 + 70], kVisibilitySky);
-    EXPECT_EQ(picture.visibility[60 * 160 + 90], kVisibilitySky);
+    const Image image = draw(*scene, lookingAtOrigin({0, 0, 4}));
+    EXPECT_NE(image.visibility[60 * 160 + 70], kVisibilitySky);
+    EXPECT_EQ(image.visibility[60 * 160 + 90], kVisibilitySky);
 }
 
 TEST_F(DrawingTest, geometryInEverySliceOfThePoolIsDrawn)
@@ -338,9 +338,9 @@ TEST_F(DrawingTest, geometryInEverySliceOfThePoolIsDrawn)
     {
         const auto x = static_cast<float>(quad);
         const Camera camera{.position = {x, 0, 3}, .target = {x, 0, 0}};
-        const Picture picture = draw(*scene, camera, {.width = 32, .height = 32});
-        EXPECT_EQ(picture.seen()[16 * 32 + 16][1], quad);
-        EXPECT_GT(channel(picture.at(16, 16), 0), 100) << "the quad faces the light";
+        const Image image = draw(*scene, camera, {.width = 32, .height = 32});
+        EXPECT_EQ(image.seen()[16 * 32 + 16][1], quad);
+        EXPECT_GT(channel(image.at(16, 16), 0), 100) << "the quad faces the light";
     }
 }
 
@@ -349,7 +349,7 @@ TEST_F(DrawingTest, theNumberOfThreadsChangesNothing)
     TestScene test;
     fillRocks(test, 9, 8);
     const formats::PackView pack = test.build();
-    std::vector<Picture> pictures;
+    std::vector<Image> images;
     for (const char* threads : {"0", "1", "2", "4"})
     {
         // read by lavapipe when a device is created; other drivers just draw the same four times
@@ -357,9 +357,9 @@ TEST_F(DrawingTest, theNumberOfThreadsChangesNothing)
         TearDownTestSuite();
         SetUpTestSuite();
         const auto scene = upload(pack);
-        pictures.push_back(draw(*scene, lookingAtOrigin({6, 4, 6})));
-        EXPECT_EQ(pictures.back().visibility, pictures.front().visibility) << threads;
-        EXPECT_EQ(pictures.back().color, pictures.front().color) << threads;
+        images.push_back(draw(*scene, lookingAtOrigin({6, 4, 6})));
+        EXPECT_EQ(images.back().visibility, images.front().visibility) << threads;
+        EXPECT_EQ(images.back().color, images.front().color) << threads;
     }
     ::unsetenv("LP_NUM_THREADS");
 }
@@ -368,7 +368,7 @@ namespace
 {
 
 /// Draw a few frames with an instance, a device and a renderer of its own, and append their colours.
-void drawAlone(const formats::PackView& pack, std::vector<std::vector<std::byte>>& pictures)
+void drawAlone(const formats::PackView& pack, std::vector<std::vector<std::byte>>& images)
 {
     auto host = viewer::VulkanHost::create({.device_name = "", .validate = true});
     ASSERT_TRUE(host.ok()) << formatMessage(host.error());
@@ -396,7 +396,7 @@ void drawAlone(const formats::PackView& pack, std::vector<std::vector<std::byte>
         ASSERT_TRUE(drawn.ok()) << formatMessage(drawn.error());
         auto color = (*host)->read((*renderer)->device(), targets->color(), 4);
         ASSERT_TRUE(color.ok());
-        pictures.push_back(std::move(*color));
+        images.push_back(std::move(*color));
     }
     EXPECT_EQ((*host)->messages(), std::vector<std::string>{});
 }

@@ -155,9 +155,9 @@ protected:
         options.error_pixels = 0;
         const auto scene = upload(pack);
         ForwardRenderer forward(host(), renderer().device());
-        const Picture picture = draw(*scene, camera, options);
+        const Image image = draw(*scene, camera, options);
         const std::vector<uint32_t> other = forward.draw(*scene, {options.width, options.height});
-        const auto id = [&](uint32_t x, uint32_t y) { return picture.visibility[y * options.width + x]; };
+        const auto id = [&](uint32_t x, uint32_t y) { return image.visibility[y * options.width + x]; };
         for (uint32_t y = 0; y < options.height; ++y)
             for (uint32_t x = 0; x < options.width; ++x)
             {
@@ -169,7 +169,7 @@ protected:
                 for (int i = 0; i < 3; ++i)
                 {
                     const int difference =
-                        std::abs(channel(picture.at(x, y), i) - channel(other[y * options.width + x], i));
+                        std::abs(channel(image.at(x, y), i) - channel(other[y * options.width + x], i));
                     largest_ = std::max(largest_, difference);
                     wrong_ += difference > 1 ? 1 : 0;
                 }
@@ -254,10 +254,10 @@ TEST_F(ForwardTest, uvDerivativesAreThoseOfTheExactPlane)
         const Camera camera = randomCamera(random, 3);
         const DrawOptions options{.width = 160, .height = 120, .error_pixels = 0, .flags = kNoOcclusion};
         gpu::FrameTargets targets = makeTargets(options.width, options.height);
-        const Picture picture = draw(*scene, targets, camera, options);
+        const Image image = draw(*scene, targets, camera, options);
         const auto derivatives = other.uvDerivatives(*scene, targets);
         const FrameView view = viewOf(*scene, camera, options);
-        const auto seen = picture.seen();
+        const auto seen = image.seen();
         for (uint32_t pixel = 0; pixel < seen.size(); ++pixel)
         {
             const uint32_t instance = seen[pixel][0];

@@ -44,19 +44,19 @@ protected:
         ASSERT_TRUE(status.ok());
     }
 
-    Picture drawInParts(const gpu::Scene& scene, gpu::FrameTargets& targets, const gpu::FrameInput& input)
+    Image drawInParts(const gpu::Scene& scene, gpu::FrameTargets& targets, const gpu::FrameInput& input)
     {
         const gpu::Renderer& r = renderer();
         run([&](VkCommandBuffer commands) { r.recordCull(commands, scene, targets, input); });
         run([&](VkCommandBuffer commands) { r.recordVisibility(commands, scene, targets, input); });
         copyVisibility(targets);
         run([&](VkCommandBuffer commands) { r.recordMaterials(commands, scene, targets, input); });
-        return readPicture(scene, targets);
+        return readImage(scene, targets);
     }
 
     /// Draw all parts in one command buffer. Only their own barriers are between them; the validation layer
     /// checks these.
-    Picture drawInOneBuffer(const gpu::Scene& scene, gpu::FrameTargets& targets, const gpu::FrameInput& input)
+    Image drawInOneBuffer(const gpu::Scene& scene, gpu::FrameTargets& targets, const gpu::FrameInput& input)
     {
         run(
             [&](VkCommandBuffer commands)
@@ -65,7 +65,7 @@ protected:
                 renderer().recordVisibility(commands, scene, targets, input);
                 renderer().recordMaterials(commands, scene, targets, input);
             });
-        return readPicture(scene, targets);
+        return readImage(scene, targets);
     }
 
     /// Copy the visibility buffer between two parts, as a caller may, with barriers made only from the image
@@ -112,17 +112,17 @@ protected:
             const shared::Camera camera{.position = {static_cast<float>(frame), 2, 9}, .target = {}};
             if (whole->stream != nullptr)
                 whole->stream->beginFrame(frame, frame - 1);
-            const Picture expected = draw(*whole, whole_targets, camera, options);
+            const Image expected = draw(*whole, whole_targets, camera, options);
             if (parts->stream != nullptr)
                 parts->stream->beginFrame(frame, frame - 1);
             const gpu::FrameInput input{.view = viewOf(*parts, camera, options),
                                         .shading = {.debug_view = options.debug_view, .area = options.area}};
             const bool in_one = frame % 2 == 0;
-            const Picture picture = in_one ? drawInOneBuffer(*parts, parts_targets, input)
-                                           : drawInParts(*parts, parts_targets, input);
-            EXPECT_EQ(picture.visibility, expected.visibility);
-            EXPECT_EQ(picture.color, expected.color);
-            EXPECT_EQ(picture.list.counters.drawn_clusters, expected.list.counters.drawn_clusters);
+            const Image image = in_one ? drawInOneBuffer(*parts, parts_targets, input)
+                                       : drawInParts(*parts, parts_targets, input);
+            EXPECT_EQ(image.visibility, expected.visibility);
+            EXPECT_EQ(image.color, expected.color);
+            EXPECT_EQ(image.list.counters.drawn_clusters, expected.list.counters.drawn_clusters);
             if (!in_one)
             {
                 EXPECT_EQ(between_, expected.visibility);

@@ -24,33 +24,31 @@ struct TileTwin
     std::vector<std::array<uint32_t, 4>> draws; ///< TileDraw
     std::vector<uint32_t> lists;                ///< from kFirstTileEntry on
     uint32_t crowded_tiles = 0;                 ///< tiles with more materials than a row holds
-    uint32_t whole_picture_draws = 0; ///< materials that are shaded full-screen because of such tiles
+    uint32_t whole_image_draws = 0; ///< materials that are shaded full-screen because of such tiles
 };
 
 /// Materials of each tile; 0 is the sky.
-std::vector<std::set<uint32_t>> materialsOfTiles(const Picture& picture,
-                                                 const std::vector<ClusterDraw>& draws)
+std::vector<std::set<uint32_t>> materialsOfTiles(const Image& image, const std::vector<ClusterDraw>& draws)
 {
-    const uint32_t row = materialTiles(picture.width);
-    std::vector<std::set<uint32_t>> materials(size_t{row} * materialTiles(picture.height));
-    for (uint32_t y = 0; y < picture.height; ++y)
-        for (uint32_t x = 0; x < picture.width; ++x)
+    const uint32_t row = materialTiles(image.width);
+    std::vector<std::set<uint32_t>> materials(size_t{row} * materialTiles(image.height));
+    for (uint32_t y = 0; y < image.height; ++y)
+        for (uint32_t x = 0; x < image.width; ++x)
         {
-            const uint32_t id = picture.visibility[size_t{y} * picture.width + x];
+            const uint32_t id = image.visibility[size_t{y} * image.width + x];
             materials[size_t{y / kMaterialTilePixels} * row + x / kMaterialTilePixels].insert(
-                id == kVisibilitySky ? 0
-                                     : draws[picture.list.slots.at(id >> kTriangleBits).cluster].material);
+                id == kVisibilitySky ? 0 : draws[image.list.slots.at(id >> kTriangleBits).cluster].material);
         }
     return materials;
 }
 
-TileTwin makeTileTwin(const Picture& picture, const gpu::SceneLayout& layout)
+TileTwin makeTileTwin(const Image& image, const gpu::SceneLayout& layout)
 {
     TileTwin twin;
-    const auto materials_of_tiles = materialsOfTiles(picture, layout.draws);
-    const uint32_t row = materialTiles(picture.width);
+    const auto materials_of_tiles = materialsOfTiles(image, layout.draws);
+    const uint32_t row = materialTiles(image.width);
     std::vector<std::vector<uint32_t>> tiles_of_material(layout.material_rows + 1);
-    std::set<uint32_t> whole_picture;
+    std::set<uint32_t> whole_image;
     for (uint32_t tile = 0; tile < materials_of_tiles.size(); ++tile)
     {
         uint32_t listed = 0;
@@ -61,13 +59,13 @@ TileTwin makeTileTwin(const Picture& picture, const gpu::SceneLayout& layout)
                 tiles_of_material[material].push_back((tile % row) | (tile / row) << 16);
             }
             else
-                whole_picture.insert(material);
+                whole_image.insert(material);
         twin.tile_materials.resize((size_t{tile} + 1) * kMaterialsPerTile, kNoTileMaterial);
         twin.crowded_tiles += listed > kMaterialsPerTile ? 1 : 0;
     }
     for (uint32_t material = 0; material < tiles_of_material.size(); ++material)
     {
-        if (whole_picture.contains(material))
+        if (whole_image.contains(material))
         {
             twin.draws.push_back({3, 1, 0, 0});
             continue;
@@ -77,7 +75,7 @@ TileTwin makeTileTwin(const Picture& picture, const gpu::SceneLayout& layout)
         twin.draws.push_back({kTileVertices, static_cast<uint32_t>(tiles.size()), kTileVertices * first, 0});
         twin.lists.insert(twin.lists.end(), tiles.begin(), tiles.end());
     }
-    twin.whole_picture_draws = static_cast<uint32_t>(whole_picture.size());
+    twin.whole_image_draws = static_cast<uint32_t>(whole_image.size());
     return twin;
 }
 
@@ -124,8 +122,8 @@ protected:
     {
         options.area = ShadedArea::tiles;
         gpu::FrameTargets targets = makeTargets(options.width, options.height);
-        const Picture picture = draw(scene, targets, camera, options);
-        const TileTwin twin = makeTileTwin(picture, layout);
+        const Image image = draw(scene, targets, camera, options);
+        const TileTwin twin = makeTileTwin(image, layout);
         EXPECT_EQ(read<uint32_t>(targets.tileMaterials(), twin.tile_materials.size()), twin.tile_materials);
         EXPECT_EQ((read<std::array<uint32_t, 4>>(scene.buffers.tile_draws, twin.draws.size())), twin.draws);
         std::vector<uint32_t> lists =
@@ -133,21 +131,21 @@ protected:
         lists.erase(lists.begin(), lists.begin() + kFirstTileEntry);
         EXPECT_EQ(lists, twin.lists);
         crowded_ += twin.crowded_tiles;
-        whole_picture_ += twin.whole_picture_draws;
+        whole_image_ += twin.whole_image_draws;
         listed_ += twin.lists.size();
 
         options.area = ShadedArea::wholeFrame;
-        const Picture whole = draw(scene, camera, options);
-        EXPECT_EQ(picture.visibility, whole.visibility);
-        EXPECT_EQ(picture.color, whole.color) << options.width << "x" << options.height;
+        const Image whole = draw(scene, camera, options);
+        EXPECT_EQ(image.visibility, whole.visibility);
+        EXPECT_EQ(image.color, whole.color) << options.width << "x" << options.height;
     }
 
-    size_t crowded_ = 0, whole_picture_ = 0, listed_ = 0;
+    size_t crowded_ = 0, whole_image_ = 0, listed_ = 0;
 };
 
 } // namespace
 
-TEST_F(MaterialTilesTest, equalTheirTwinAndDrawTheSamePicture)
+TEST_F(MaterialTilesTest, equalTheirTwinAndDrawTheSameImage)
 {
     std::mt19937 random(31);
     TestScene test;
@@ -163,7 +161,7 @@ TEST_F(MaterialTilesTest, equalTheirTwinAndDrawTheSamePicture)
                            {.width = width, .height = height, .flags = flags});
     EXPECT_GT(listed_, 1000u);
     EXPECT_GT(crowded_, 0u) << "a tile of more materials than its row holds is not tested";
-    EXPECT_GT(whole_picture_, 0u);
+    EXPECT_GT(whole_image_, 0u);
 }
 
 TEST_F(MaterialTilesTest, everyMaterialOfAVeryLargeSceneIsFound)

@@ -73,10 +73,10 @@ TEST_F(MotionTest, whatMovedIsDrawnAsIfItHadAlwaysBeenThere)
     {
         const Camera camera = randomCamera(random, 6);
         // only the first frame has the moves: they persist
-        const Picture moved = draw(*moving, camera,
-                                   {.moves = i == 0 ? std::span<const gpu::InstanceMove>(moves)
-                                                    : std::span<const gpu::InstanceMove>()});
-        const Picture expected = draw(*still, camera);
+        const Image moved = draw(*moving, camera,
+                                 {.moves = i == 0 ? std::span<const gpu::InstanceMove>(moves)
+                                                  : std::span<const gpu::InstanceMove>()});
+        const Image expected = draw(*still, camera);
         EXPECT_EQ(moved.seen(), expected.seen());
         EXPECT_EQ(moved.color, expected.color);
     }
@@ -106,11 +106,11 @@ TEST_F(MotionTest, whatTurnsIntoItsMirrorImageShowsItsFront)
     {
         const Camera camera = randomCamera(random, 6);
         const auto there = movesTo(after), home = movesTo(before);
-        const Picture turned = draw(*turning, camera, {.moves = there});
-        const Picture expected = draw(*still, camera);
+        const Image turned = draw(*turning, camera, {.moves = there});
+        const Image expected = draw(*still, camera);
         EXPECT_EQ(turned.seen(), expected.seen());
         EXPECT_EQ(turned.color, expected.color);
-        const Picture returned = draw(*turning, camera, {.moves = home});
+        const Image returned = draw(*turning, camera, {.moves = home});
         EXPECT_EQ(returned.seen(), draw(*back, camera).seen());
         EXPECT_NE(returned.seen(), turned.seen());
     }
@@ -134,8 +134,8 @@ TEST_F(MotionTest, whatTurnsIntoItsMirrorImageCastsItsShadow)
     for (uint32_t rock = 0; rock < kRocks; ++rock)
         moves.push_back(*gpu::moveInstance(*turning, rock, after[rock]));
     const Camera camera{.position = {0, 3, 12}, .target = {0, 0, 0}};
-    const Picture turned = draw(*turning, camera, {.moves = moves});
-    const Picture expected = draw(*still, camera);
+    const Image turned = draw(*turning, camera, {.moves = moves});
+    const Image expected = draw(*still, camera);
     ASSERT_EQ(turned.color.size(), expected.color.size());
     // Depths of the maps are interpolated from corners in another order: a few points at the rims of shadows
     // differ.
@@ -167,8 +167,8 @@ TEST_F(MotionTest, cullingIsLosslessWhileThingsMove)
                 ASSERT_TRUE(move.ok());
                 moves.push_back(*move);
             }
-        const Picture some = draw(*scene, targets, camera, {.error_pixels = 2, .moves = moves});
-        const Picture whole = draw(*scene, camera, {.error_pixels = 2, .flags = 0});
+        const Image some = draw(*scene, targets, camera, {.error_pixels = 2, .moves = moves});
+        const Image whole = draw(*scene, camera, {.error_pixels = 2, .flags = 0});
         ASSERT_EQ(some.seen(), whole.seen()) << "frame " << frame;
         drawn += some.list.slots.size();
         late += some.list.slots.size() - some.list.counters.early_clusters;

@@ -52,7 +52,7 @@ class ShadingTest : public GpuTest
 {
 protected:
     /// Draw the scene with squareCamera on 64 x 64 pixels.
-    Picture drawSquare(TestScene& test, uint32_t debug_view = shared::kViewFinal)
+    Image drawSquare(TestScene& test, uint32_t debug_view = shared::kViewFinal)
     {
         const PackView pack = test.build();
         const auto scene = upload(pack);
@@ -60,8 +60,8 @@ protected:
     }
 
     /// Draw a square of this material that fills the image.
-    Picture drawMaterial(TestScene& test, const MaterialRecord& material,
-                         uint32_t debug_view = shared::kViewFinal)
+    Image drawMaterial(TestScene& test, const MaterialRecord& material,
+                       uint32_t debug_view = shared::kViewFinal)
     {
         test.addInstance(test.addMesh(withMaterial(makeQuad(2, 2), test.addMaterial(material))), Affine3{});
         return drawSquare(test, debug_view);
@@ -78,13 +78,13 @@ protected:
 
 } // namespace
 
-TEST_F(ShadingTest, unlitColoursReachThePictureUnchanged)
+TEST_F(ShadingTest, unlitColoursReachTheImageUnchanged)
 {
     TestScene test;
     MaterialRecord material = unlitMaterial();
     material.base_color = {0.2f, 0.5f, 0.8f, 1};
-    const Picture picture = drawMaterial(test, material);
-    for (const uint32_t color : picture.color)
+    const Image image = drawMaterial(test, material);
+    for (const uint32_t color : image.color)
     {
         ASSERT_NEAR(channel(color, 0), srgbByte(0.2f), 1);
         ASSERT_NEAR(channel(color, 1), srgbByte(0.5f), 1);
@@ -99,11 +99,11 @@ TEST_F(ShadingTest, texturesStandUprightAndKeepTheirBytes)
     material.base_color_texture = textureOf(
         test.addImage(TexelFormat::rgba8_srgb, 2, 2, {0xFF0000FF, 0xFF00FF00, 0xFFFF0000, 0xFF808080}));
     material.base_color_texture.nearest = 1;
-    const Picture picture = drawMaterial(test, material);
-    EXPECT_EQ(picture.at(10, 10), 0xFF0000FFu);
-    EXPECT_EQ(picture.at(50, 10), 0xFF00FF00u);
-    EXPECT_EQ(picture.at(10, 50), 0xFFFF0000u);
-    EXPECT_EQ(picture.at(50, 50), 0xFF808080u);
+    const Image image = drawMaterial(test, material);
+    EXPECT_EQ(image.at(10, 10), 0xFF0000FFu);
+    EXPECT_EQ(image.at(50, 10), 0xFF00FF00u);
+    EXPECT_EQ(image.at(10, 50), 0xFFFF0000u);
+    EXPECT_EQ(image.at(50, 50), 0xFF808080u);
 }
 
 TEST_F(ShadingTest, theMipLevelFollowsTheSizeOnTheScreen)
@@ -121,11 +121,11 @@ TEST_F(ShadingTest, theMipLevelFollowsTheSizeOnTheScreen)
             textureOf(test.addImage(TexelFormat::rgba8_unorm, kSize, kSize, texels));
         test.addInstance(test.addMesh(withMaterial(makeQuad(size, size), test.addMaterial(material))),
                          Affine3{});
-        const Picture picture = drawSquare(test);
+        const Image image = drawSquare(test);
         // 128 texels on 32 * size pixels
         const float level = std::min(std::log2(128 / (32 * size)), 2.0f);
         for (const uint32_t x : {22u, 32u, 41u})
-            EXPECT_NEAR(channel(picture.at(x, 32), 0), srgbByte(level * 100 / 255), 2) << size;
+            EXPECT_NEAR(channel(image.at(x, 32), 0), srgbByte(level * 100 / 255), 2) << size;
     }
 }
 
@@ -144,11 +144,11 @@ TEST_F(ShadingTest, uvTransformAndUvSetAreFollowed)
     quad.uvs[1] = quad.uvs[0];
     quad.uvs[0].assign(4, {0.25f, 0.25f});
     test.addInstance(test.addMesh(quad), Affine3{});
-    const Picture picture = drawSquare(test);
+    const Image image = drawSquare(test);
     for (const uint32_t x : {5u, 60u})
     {
-        EXPECT_EQ(picture.at(x, 5), gray(240));
-        EXPECT_EQ(picture.at(x, 60), gray(10));
+        EXPECT_EQ(image.at(x, 5), gray(240));
+        EXPECT_EQ(image.at(x, 60), gray(10));
     }
 }
 
@@ -160,13 +160,13 @@ TEST_F(ShadingTest, vertexColoursMultiply)
     mesh::SourceMesh quad = withMaterial(makeQuad(2, 2), test.addMaterial(material));
     quad.colors = {{0, 1, 0, 1}, {1, 1, 0, 1}, {1, 1, 0, 1}, {0, 1, 0, 1}};
     test.addInstance(test.addMesh(quad), Affine3{});
-    const Picture picture = drawSquare(test);
+    const Image image = drawSquare(test);
     for (const uint32_t x : {3u, 20u, 60u})
     {
         const float red = (static_cast<float>(x) + 0.5f) / 64;
-        EXPECT_NEAR(channel(picture.at(x, 30), 0), srgbByte(0.5f * red), 1);
-        EXPECT_EQ(channel(picture.at(x, 30), 1), 255);
-        EXPECT_EQ(channel(picture.at(x, 30), 2), 0);
+        EXPECT_NEAR(channel(image.at(x, 30), 0), srgbByte(0.5f * red), 1);
+        EXPECT_EQ(channel(image.at(x, 30), 1), 255);
+        EXPECT_EQ(channel(image.at(x, 30), 2), 0);
     }
 }
 
@@ -180,13 +180,13 @@ TEST_F(ShadingTest, normalsFollowShearedAndMirroredInstances)
         material.flags = kMaterialDoubleSided;
         const Affine3 instance = randomAffine(random, 0);
         test.addInstance(test.addMesh(withMaterial(makeQuad(9, 9), test.addMaterial(material))), instance);
-        const Picture picture = drawSquare(test, shared::kViewNormals);
+        const Image image = drawSquare(test, shared::kViewNormals);
         // normal of the plane, on the side of the eye
         Float3 normal = cross(transformVector(instance, {1, 0, 0}), transformVector(instance, {0, 1, 0}));
         if (normal.z < 0)
             normal = -normal;
-        if (picture.visibility[32 * 64 + 32] != shared::kVisibilitySky)
-            expectNormal(picture.at(32, 32), normal);
+        if (image.visibility[32 * 64 + 32] != shared::kVisibilitySky)
+            expectNormal(image.at(32, 32), normal);
     }
 }
 
@@ -206,9 +206,9 @@ TEST_F(ShadingTest, normalMapsTiltAlongTangentAndBitangent)
             Affine3 instance;
             instance.m[0][0] = mirrored ? -1.0f : 1.0f;
             test.addInstance(test.addMesh(quad), instance);
-            const Picture picture = drawSquare(test, shared::kViewNormals);
+            const Image image = drawSquare(test, shared::kViewNormals);
             // green points up in the image, u to the right unless mirrored
-            expectNormal(picture.at(32, 32), {mirrored ? -0.48f : 0.48f, 0.6f, 0.64f});
+            expectNormal(image.at(32, 32), {mirrored ? -0.48f : 0.48f, 0.6f, 0.64f});
         }
 }
 
@@ -260,13 +260,13 @@ TEST_F(ShadingTest, pointAndSpotLightsEndWhereTheySay)
     EXPECT_EQ(channel(drawWith(lamp).at(0, 0), 0), 0);
     LightRecord spot = light(LightType::spot, 3);
     spot.outer_cone_rad = 0.4636f; // half a metre at one metre: halfway to the side
-    const Picture cone = drawWith(spot);
+    const Image cone = drawWith(spot);
     EXPECT_GT(channel(cone.at(32, 32), 0), 150);
     EXPECT_GT(channel(cone.at(32 + 12, 32), 0), 0);
     EXPECT_EQ(channel(cone.at(32 + 18, 32), 0), 0);
 }
 
-TEST_F(ShadingTest, strongLightsAreExposedToTheSamePicture)
+TEST_F(ShadingTest, strongLightsAreExposedToTheSameImage)
 {
     const auto drawWith = [&](float lux)
     {
@@ -291,10 +291,10 @@ TEST_F(ShadingTest, aSurfaceAcrossTheEyePlaneIsShadedWithoutHoles)
     const auto scene = upload(pack);
     const shared::Camera camera{
         .position = {0, 0, 0.1f}, .target = {0, 1, 0.05f}, .up = {0, 0, 1}, .z_near = 0.01f};
-    const Picture picture = draw(*scene, camera, {.width = 64, .height = 64});
+    const Image image = draw(*scene, camera, {.width = 64, .height = 64});
     for (uint32_t y = 34; y < 64; ++y)
         for (uint32_t x = 0; x < 64; ++x)
-            ASSERT_EQ(picture.at(x, y), gray(200)) << x << " " << y;
+            ASSERT_EQ(image.at(x, y), gray(200)) << x << " " << y;
 }
 
 TEST_F(ShadingTest, everyMaterialShadesItsOwnPixels)
@@ -311,9 +311,9 @@ TEST_F(ShadingTest, everyMaterialShadesItsOwnPixels)
     }
     const PackView pack = test.build();
     const auto scene = upload(pack);
-    const Picture picture = draw(*scene, squareCamera(), {.width = 80, .height = 80});
+    const Image image = draw(*scene, squareCamera(), {.width = 80, .height = 80});
     for (uint32_t i = 0; i < 40; ++i)
-        EXPECT_EQ(picture.at(40, 2 * i + 1), gray(5 * i + 20)) << i;
+        EXPECT_EQ(image.at(40, 2 * i + 1), gray(5 * i + 20)) << i;
 }
 
 } // namespace hearth::test

@@ -79,10 +79,10 @@ protected:
     }
 
     /// Expect the same maps and the same image.
-    void expectSame(const gpu::Scene& kept, const Picture& kept_picture, const gpu::Scene& fresh,
-                    const Picture& fresh_picture, int frame)
+    void expectSame(const gpu::Scene& kept, const Image& kept_image, const gpu::Scene& fresh,
+                    const Image& fresh_image, int frame)
     {
-        ASSERT_EQ(kept_picture.color, fresh_picture.color) << "frame " << frame;
+        ASSERT_EQ(kept_image.color, fresh_image.color) << "frame " << frame;
         ASSERT_EQ(statisticsOf(kept).maps, statisticsOf(fresh).maps);
         ASSERT_EQ(statisticsOf(fresh).drawn_maps, statisticsOf(fresh).maps);
         for (uint32_t map = 0; map < statisticsOf(kept).maps; ++map)
@@ -149,9 +149,9 @@ TEST_F(ShadowCacheTest, keptMapsAreFreshOnesWhileThingsMove)
             options.moves = moves;
             options.shadow_spheres = walk.spheres();
             fresh->shadows->forget();
-            const Picture kept_picture = draw(*kept, walk.camera(), options);
-            const Picture fresh_picture = draw(*fresh, walk.camera(), options);
-            ASSERT_NO_FATAL_FAILURE(expectSame(*kept, kept_picture, *fresh, fresh_picture, frame));
+            const Image kept_image = draw(*kept, walk.camera(), options);
+            const Image fresh_image = draw(*fresh, walk.camera(), options);
+            ASSERT_NO_FATAL_FAILURE(expectSame(*kept, kept_image, *fresh, fresh_image, frame));
             maps += statisticsOf(*kept).maps;
             drawn += statisticsOf(*kept).drawn_maps;
             moved += statisticsOf(*kept).moved_maps;
@@ -212,10 +212,9 @@ TEST_F(ShadowCacheTest, keptMapsAreFreshOnesWhilePagesComeAndGo)
         options.moves = moves;
         options.shadow_spheres = walk.spheres();
         fresh->shadows->forget();
-        const Picture kept_picture = draw(*kept, walk.camera(), options);
-        const Picture fresh_picture = draw(*fresh, walk.camera(), options);
-        ASSERT_NO_FATAL_FAILURE(
-            expectSame(*kept, kept_picture, *fresh, fresh_picture, static_cast<int>(frame)));
+        const Image kept_image = draw(*kept, walk.camera(), options);
+        const Image fresh_image = draw(*fresh, walk.camera(), options);
+        ASSERT_NO_FATAL_FAILURE(expectSame(*kept, kept_image, *fresh, fresh_image, static_cast<int>(frame)));
         maps += statisticsOf(*kept).maps;
         drawn += statisticsOf(*kept).drawn_maps;
     }

@@ -80,8 +80,8 @@ protected:
         scene_ = upload(*pack_);
     }
 
-    Picture show(uint32_t view, uint32_t ambient = kAmbientOcclusionExact,
-                 uint32_t specular = kSpecularOcclusionFit)
+    Image show(uint32_t view, uint32_t ambient = kAmbientOcclusionExact,
+               uint32_t specular = kSpecularOcclusionFit)
     {
         return draw(*scene_, camera_,
                     {.width = kWidth,
@@ -92,10 +92,10 @@ protected:
     }
 
     /// Intersect the ray through the middle of a pixel with the plane of the triangle that was drawn there.
-    TwinPoint twinAt(const Picture& picture, uint32_t x, uint32_t y) const
+    TwinPoint twinAt(const Image& image, uint32_t x, uint32_t y) const
     {
-        const uint32_t id = picture.visibility[y * kWidth + x];
-        const VisibleCluster slot = picture.list.slots.at(id >> kTriangleBits);
+        const uint32_t id = image.visibility[y * kWidth + x];
+        const VisibleCluster slot = image.list.slots.at(id >> kTriangleBits);
         const formats::InstanceRecord& instance = pack_->instances()[slot.instance];
         const auto pose = posed_.find(slot.instance);
         const reference::DoubleAffine world = pose == posed_.end()
@@ -174,18 +174,18 @@ protected:
     /// Expect that each pixel of a surface has the `expected` colour (0 to 1, as displayed), to `tolerance`
     /// of 255. A few pixels on the rims of triangles may differ. Returns how many were compared.
     template <typename Expected>
-    size_t expectPixels(const Picture& picture, int tolerance, const Expected& expected)
+    size_t expectPixels(const Image& image, int tolerance, const Expected& expected)
     {
         size_t seen = 0, wrong = 0;
         for (uint32_t y = 0; y < kHeight; ++y)
             for (uint32_t x = 0; x < kWidth; ++x)
             {
-                if (picture.visibility[y * kWidth + x] == kVisibilitySky)
+                if (image.visibility[y * kWidth + x] == kVisibilitySky)
                     continue;
-                const Float3 color = expected(twinAt(picture, x, y));
+                const Float3 color = expected(twinAt(image, x, y));
                 bool differs = false;
                 for (int c = 0; c < 3; ++c)
-                    differs |= std::abs(static_cast<float>(channel(picture.at(x, y), c)) - color[c] * 255) >
+                    differs |= std::abs(static_cast<float>(channel(image.at(x, y), c)) - color[c] * 255) >
                                static_cast<float>(tolerance) + 0.5f;
                 wrong += differs ? 1 : 0;
                 ++seen;
@@ -327,7 +327,7 @@ TEST_F(SkyViewTest, specularOcclusionIsLookedUpInTheTable)
 }
 
 /// Image computed by the material model of the reference.
-TEST_F(SkyViewTest, thePictureIsOccludedByLobe)
+TEST_F(SkyViewTest, theImageIsOccludedByLobe)
 {
     const reference::SceneLighting lighting = reference::lightingOf(*pack_);
     for (const auto& [ambient, specular] : {std::pair{kAmbientOcclusionExact, kSpecularOcclusionFit},
@@ -385,9 +385,9 @@ TEST_F(SkyOcclusionTest, conesOfCharactersTurnWithTheirPose)
     const auto views = viewsOf(poses);
     for (const uint32_t view : {kViewBentNormal, kViewAmbientOcclusion})
     {
-        const Picture picture =
+        const Image image =
             draw(*scene_, camera_, {.width = kWidth, .height = kHeight, .debug_view = view, .poses = views});
-        const size_t seen = expectPixels(picture, 1,
+        const size_t seen = expectPixels(image, 1,
                                          [&](const TwinPoint& p)
                                          {
                                              EXPECT_TRUE(p.says);
@@ -448,11 +448,11 @@ TEST_F(SheetTest, anOpenSheetLooksLikeOneThatDoesNotSay)
     addSheet(material, true);
     load([](uint32_t, Float3, Float3 n) { return VisibilityMoments{2 * kVisibilityPi, n * kVisibilityPi}; });
     look({1, 0.5f, 4});
-    const Picture open = show(kViewFinal);
+    const Image open = show(kViewFinal);
     test_ = {};
     addSheet(material, false);
     load();
-    const Picture plain = show(kViewFinal);
+    const Image plain = show(kViewFinal);
     for (size_t i = 0; i < open.color.size(); ++i)
         for (int c = 0; c < 3; ++c)
             ASSERT_NEAR(channel(open.color[i], c), channel(plain.color[i], c), 1) << i;

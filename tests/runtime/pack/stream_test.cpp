@@ -146,19 +146,19 @@ protected:
     }
 
     /// Draw one frame; the stream is told that the last `late` frames are still running.
-    Picture frame(const Camera& camera, const DrawOptions& options, uint64_t late = 0)
+    Image frame(const Camera& camera, const DrawOptions& options, uint64_t late = 0)
     {
         ++serial_;
         completed_ = std::max(completed_, serial_ - 1 - std::min(late, serial_ - 1));
         streamed_->stream->beginFrame(serial_, completed_);
         const auto failed = streamed_->stream->failed();
         failed_.insert(failed_.end(), failed.begin(), failed.end());
-        Picture picture = draw(*streamed_, camera, options);
+        Image image = draw(*streamed_, camera, options);
         disk_->frame(random_);
         const pack::StreamStatistics& statistics = streamed_->stream->statistics();
         EXPECT_LE(statistics.bytes_in_use, statistics.budget_bytes);
         EXPECT_LE(statistics.bytes_resident, statistics.bytes_in_use);
-        return picture;
+        return image;
     }
 
     /// Draw frames until one has all that it requested; returns their number, or `most`.
@@ -183,8 +183,8 @@ protected:
     }
 
     /// Draw the all-resident scene with tables that mark only these groups as resident.
-    Picture drawWhole(const std::vector<uint8_t>& resident_groups, const Camera& camera,
-                      const DrawOptions& options)
+    Image drawWhole(const std::vector<uint8_t>& resident_groups, const Camera& camera,
+                    const DrawOptions& options)
     {
         std::vector<Group> groups(pack_->groups().size());
         std::memcpy(static_cast<void*>(groups.data()), pack_->groups().data(), pack_->groups().size_bytes());
@@ -217,20 +217,20 @@ protected:
 
     /// Expect that the frame equals the twin's and the all-resident scene's with the same cut, and is a whole
     /// surface.
-    void expectWhole(const Picture& picture, const Camera& camera, const DrawOptions& options)
+    void expectWhole(const Image& image, const Camera& camera, const DrawOptions& options)
     {
         const std::vector<uint8_t> resident = residentGroups();
         FrameView view = viewOf(*streamed_, camera, scaled(options));
         const Twin twin = makeTwin(*pack_, layout_, view, {}, {}, resident);
-        ASSERT_EQ(picture.list.slots.size(), twin.visible.size());
-        EXPECT_EQ(std::memcmp(picture.list.slots.data(), twin.visible.data(),
+        ASSERT_EQ(image.list.slots.size(), twin.visible.size());
+        EXPECT_EQ(std::memcmp(image.list.slots.data(), twin.visible.data(),
                               twin.visible.size() * sizeof(VisibleCluster)),
                   0);
         view.flags = 0;
         expectCovering(makeTwin(*pack_, layout_, view, {}, {}, resident));
-        const Picture whole = drawWhole(resident, camera, scaled(options));
-        EXPECT_EQ(picture.visibility, whole.visibility);
-        EXPECT_EQ(picture.color, whole.color);
+        const Image whole = drawWhole(resident, camera, scaled(options));
+        EXPECT_EQ(image.visibility, whole.visibility);
+        EXPECT_EQ(image.color, whole.color);
     }
 
     /// Expect that all clusters of the twin, instance by instance, cover each surface once and are resident.
@@ -269,8 +269,8 @@ TEST_F(StreamTest, endsAsIfAllWereResident)
         const DrawOptions options{.width = 320, .height = 240, .error_pixels = error_pixels};
         EXPECT_LT(settle(camera, options), 60u);
         EXPECT_EQ(streamed_->stream->statistics().error_scale, 1);
-        const Picture streamed = frame(camera, options);
-        const Picture whole = draw(*whole_, camera, options);
+        const Image streamed = frame(camera, options);
+        const Image whole = draw(*whole_, camera, options);
         EXPECT_EQ(streamed.visibility, whole.visibility);
         EXPECT_EQ(streamed.color, whole.color);
         EXPECT_EQ(streamed.list.slots.size(), whole.list.slots.size());
@@ -303,8 +303,8 @@ TEST_F(StreamTest, everyFrameIsWholeWhateverReadsDo)
                                       .error_pixels = i % 5 == 4 ? 0.0f : 1.0f,
                                       .flags = kWithoutOcclusion};
             const uint64_t late = random_() % 3;
-            const Picture picture = frame(camera, options, late);
-            expectWhole(picture, camera, options);
+            const Image image = frame(camera, options, late);
+            expectWhole(image, camera, options);
             most_scale = std::max(most_scale, streamed_->stream->statistics().error_scale);
         }
         moved += streamed_->stream->statistics().bytes_streamed > 0 ? 1u : 0u;
@@ -316,7 +316,7 @@ TEST_F(StreamTest, everyFrameIsWholeWhateverReadsDo)
     EXPECT_GT(most_scale, 1.0f) << "or too small a budget is not tested";
 }
 
-TEST_F(StreamTest, occlusionCullingChangesNoPictureOfAStreamedScene)
+TEST_F(StreamTest, occlusionCullingChangesNoImageOfAStreamedScene)
 {
     stream(allBytes(*pack_) / 2);
     gpu::FrameTargets targets = makeTargets(160, 120);
@@ -326,11 +326,11 @@ TEST_F(StreamTest, occlusionCullingChangesNoPictureOfAStreamedScene)
         camera.position.x -= 0.3f;
         streamed_->stream->beginFrame(serial_ + 1, serial_);
         ++serial_;
-        const Picture picture = draw(*streamed_, targets, camera, {});
+        const Image image = draw(*streamed_, targets, camera, {});
         disk_->frame(random_);
-        const Picture whole = drawWhole(residentGroups(), camera, scaled({.flags = 0}));
-        EXPECT_EQ(picture.seen(), whole.seen());
-        EXPECT_EQ(picture.color, whole.color);
+        const Image whole = drawWhole(residentGroups(), camera, scaled({.flags = 0}));
+        EXPECT_EQ(image.seen(), whole.seen());
+        EXPECT_EQ(image.color, whole.color);
     }
 }
 
@@ -365,7 +365,7 @@ TEST_F(StreamTest, requestsEqualTheirTwinBitForBit)
     EXPECT_GT(absent, 20u);
 }
 
-TEST_F(StreamTest, aPageThatCannotBeReadLeavesACoarserPictureAndOneReport)
+TEST_F(StreamTest, aPageThatCannotBeReadLeavesACoarserImageAndOneReport)
 {
     const Camera camera = lookingAtOrigin({3, 1, 3});
     const DrawOptions options{.width = 160, .height = 120, .error_pixels = 0.5f, .flags = kWithoutOcclusion};
@@ -375,7 +375,7 @@ TEST_F(StreamTest, aPageThatCannotBeReadLeavesACoarserPictureAndOneReport)
     EXPECT_LT(settle(camera, options), 40u) << "what cannot be had is not waited for";
     EXPECT_EQ(failed_, std::vector<uint32_t>{bad});
     EXPECT_EQ(disk_->read_counts[bad], 1u);
-    const Picture coarser = frame(camera, options);
+    const Image coarser = frame(camera, options);
     expectWhole(coarser, camera, options);
     std::vector<uint8_t> all(pack_->groups().size(), 1);
     EXPECT_NE(coarser.seen(), drawWhole(all, camera, options).seen());

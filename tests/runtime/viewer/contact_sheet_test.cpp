@@ -101,7 +101,7 @@ TEST(Sheet, hasACellForEachAssetThatDrawsSomething)
     EXPECT_EQ(viewer::makeSheet(pack, 16, 16).error().issue, Issue::usage) << "no room";
 }
 
-TEST(Sheet, cellsLieInThePictureAndApart)
+TEST(Sheet, cellsLieInTheImageAndApart)
 {
     for (const auto& [width, height] : {std::pair{480u, 270u}, {1280u, 720u}, {300u, 900u}, {64u, 48u}})
         for (size_t cells = 1; cells < 40; cells += kSanitized ? 6 : 1)
@@ -124,23 +124,23 @@ TEST(Sheet, cellsLieInThePictureAndApart)
         }
     const viewer::SheetLayout twenty = viewer::layOutSheet(1280, 720, 20);
     EXPECT_GE(uint64_t{twenty.cell_width} * twenty.cell_height * 20, 1280u * 720 * 7 / 10)
-        << "most of the picture is pictures";
+        << "most of the image is images";
     EXPECT_EQ(viewer::layOutSheet(640, 480, 2000).cell_width, 0u);
 }
 
-TEST(Sheet, picturesAreCopiedIntoTheirCells)
+TEST(Sheet, imagesAreCopiedIntoTheirCells)
 {
     const auto sheet = viewer::makeSheet(packOf({standing(1), standing(2), standing(3)}), 200, 100);
     ASSERT_TRUE(sheet.ok());
     const viewer::SheetLayout& layout = sheet->layout;
-    viewer::SheetImage picture(*sheet);
+    viewer::SheetImage image(*sheet);
     std::vector<std::byte> cell(size_t{layout.cell_width} * layout.cell_height * 4);
     for (size_t i = 0; i < cell.size(); ++i)
         cell[i] = static_cast<std::byte>(i * 7);
-    picture.place(2, cell);
+    image.place(2, cell);
     for (uint32_t y = 0; y < layout.cell_height; ++y)
         for (uint32_t i = 0; i < layout.cell_width * 4; ++i)
-            ASSERT_EQ(picture.pixels()[(size_t{layout.cellY(2) + y} * 200 + layout.cellX(2)) * 4 + i],
+            ASSERT_EQ(image.pixels()[(size_t{layout.cellY(2) + y} * 200 + layout.cellX(2)) * 4 + i],
                       cell[size_t{y} * layout.cell_width * 4 + i]);
 }
 

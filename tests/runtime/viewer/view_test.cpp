@@ -64,7 +64,7 @@ protected:
         scene_ = upload(*pack_);
     }
 
-    Picture drawView(uint32_t debug_view)
+    Image drawView(uint32_t debug_view)
     {
         return draw(*scene_, rocksCamera(),
                     {.width = 320, .height = 200, .error_pixels = 2, .debug_view = debug_view});
@@ -77,20 +77,20 @@ protected:
 
     /// Expect that each pixel has the `expected` colour (0 to 1, as displayed) of its slot. Returns how many
     /// different colours there were.
-    size_t expectColors(const Picture& picture, const std::function<Float3(const VisibleCluster&)>& expected)
+    size_t expectColors(const Image& image, const std::function<Float3(const VisibleCluster&)>& expected)
     {
         std::set<uint32_t> colors;
         size_t wrong = 0;
-        for (size_t i = 0; i < picture.visibility.size(); ++i)
+        for (size_t i = 0; i < image.visibility.size(); ++i)
         {
-            const uint32_t id = picture.visibility[i];
+            const uint32_t id = image.visibility[i];
             if (id == kVisibilitySky)
                 continue;
-            const Float3 color = expected(picture.list.slots.at(id >> kTriangleBits));
+            const Float3 color = expected(image.list.slots.at(id >> kTriangleBits));
             for (int c = 0; c < 3; ++c)
                 wrong +=
-                    std::abs(static_cast<float>(channel(picture.color[i], c)) - color[c] * 255) > 1 ? 1u : 0u;
-            colors.insert(picture.color[i]);
+                    std::abs(static_cast<float>(channel(image.color[i], c)) - color[c] * 255) > 1 ? 1u : 0u;
+            colors.insert(image.color[i]);
         }
         EXPECT_EQ(wrong, 0u);
         return colors.size();
@@ -105,11 +105,11 @@ protected:
 
 TEST_F(ViewTest, errorIsThatOfTheCutRuleOverTheAllowedOne)
 {
-    const Picture picture = drawView(kViewError);
+    const Image image = drawView(kViewError);
     const FrameView view = viewOf(*scene_, rocksCamera(), {.width = 320, .height = 200, .error_pixels = 2});
     float largest = 0;
     const size_t colors = expectColors(
-        picture,
+        image,
         [&](const VisibleCluster& slot)
         {
             const formats::ClusterRecord& cluster = clusterOf(slot);
@@ -153,20 +153,20 @@ TEST_F(ViewTest, thingsHaveAColourEach)
     const auto countHues =
         [&](uint32_t debug_view, const std::function<uint64_t(const VisibleCluster&, uint32_t)>& key)
     {
-        const Picture picture = drawView(debug_view);
+        const Image image = drawView(debug_view);
         std::map<uint64_t, Float3> hues;
         std::set<std::array<int, 3>> different;
-        for (size_t i = 0; i < picture.visibility.size(); ++i)
+        for (size_t i = 0; i < image.visibility.size(); ++i)
         {
-            const uint32_t id = picture.visibility[i];
+            const uint32_t id = image.visibility[i];
             if (id == kVisibilitySky)
                 continue;
-            const uint32_t color = picture.color[i];
+            const uint32_t color = image.color[i];
             Float3 hue{static_cast<float>(channel(color, 0)), static_cast<float>(channel(color, 1)),
                        static_cast<float>(channel(color, 2))};
             hue = hue / std::max({hue.x, hue.y, hue.z});
             const auto [entry, fresh] =
-                hues.emplace(key(picture.list.slots.at(id >> kTriangleBits), id & 127u), hue);
+                hues.emplace(key(image.list.slots.at(id >> kTriangleBits), id & 127u), hue);
             EXPECT_LT(length(entry->second - hue), 0.05f) << "view " << debug_view << " pixel " << i;
             if (fresh)
                 different.insert({static_cast<int>(hue.x * 15), static_cast<int>(hue.y * 15),
@@ -211,10 +211,10 @@ TEST_F(ViewTest, overdrawCountsEveryLayer)
     }
     const formats::PackView pack = test.build();
     const auto scene = upload(pack);
-    const auto expectLayers = [&](const Picture& picture, uint32_t x, int layers)
+    const auto expectLayers = [&](const Image& image, uint32_t x, int layers)
     {
         for (int c = 0; c < 3; ++c)
-            EXPECT_NEAR(channel(picture.at(x, 64), c), addedUp(kOverdrawStep[c], layers), 1)
+            EXPECT_NEAR(channel(image.at(x, 64), c), addedUp(kOverdrawStep[c], layers), 1)
                 << "x " << x << " layers " << layers;
     };
     // the square of side 2 fills the image
@@ -223,15 +223,14 @@ TEST_F(ViewTest, overdrawCountsEveryLayer)
     gpu::FrameTargets targets = makeTargets(128, 128);
     for (const uint32_t flags : {0u, kCullEverything, kCullEverything})
     {
-        const Picture picture =
-            draw(*scene, targets, front,
-                 {.width = 128, .height = 128, .flags = flags, .debug_view = kViewOverdraw});
+        const Image image = draw(*scene, targets, front,
+                                 {.width = 128, .height = 128, .flags = flags, .debug_view = kViewOverdraw});
         for (uint32_t i = 0; i < kLayers - 1; ++i)
-            expectLayers(picture, 4 + 8 * i, static_cast<int>(i) + 1);
+            expectLayers(image, 4 + 8 * i, static_cast<int>(i) + 1);
         int covered = 0; // of the 16 x 16 pixels of the last one
         for (uint32_t y = 56; y < 72; ++y)
             for (uint32_t x = 56; x < 72; ++x)
-                covered += channel(picture.at(x, y), 2) > addedUp(kOverdrawStep.z, kLayers - 1) + 2 ? 1 : 0;
+                covered += channel(image.at(x, y), 2) > addedUp(kOverdrawStep.z, kLayers - 1) + 2 ? 1 : 0;
         EXPECT_EQ(covered, 128);
     }
 }
@@ -248,12 +247,12 @@ TEST_F(ViewTest, overdrawShowsBothPhases)
         Camera before = rocksCamera();
         before.position += {uniform(random, -4, 4), uniform(random, -4, 4), uniform(random, -4, 4)};
         draw(*scene_, targets, before, options);
-        const Picture picture = draw(*scene_, targets, rocksCamera(), options);
-        late += picture.list.slots.size() - picture.list.counters.early_clusters;
-        for (size_t pixel = 0; pixel < picture.color.size(); ++pixel)
+        const Image image = draw(*scene_, targets, rocksCamera(), options);
+        late += image.list.slots.size() - image.list.counters.early_clusters;
+        for (size_t pixel = 0; pixel < image.color.size(); ++pixel)
         {
-            const int layers = channel(picture.color[pixel], 2);
-            ASSERT_EQ(layers > 0, picture.visibility[pixel] != kVisibilitySky) << pixel;
+            const int layers = channel(image.color[pixel], 2);
+            ASSERT_EQ(layers > 0, image.visibility[pixel] != kVisibilitySky) << pixel;
             covered += layers > 0 ? 1u : 0u;
             many += layers > addedUp(kOverdrawStep.z, 1) + 2 ? 1u : 0u;
         }

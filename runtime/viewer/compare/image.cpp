@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "runtime/viewer/compare/picture.h"
+#include "runtime/viewer/compare/image.h"
 
 #include <png.h>
 
@@ -8,7 +8,7 @@
 namespace hearth::viewer
 {
 
-Result<Picture> readPng(const std::string& path)
+Result<Image> readPng(const std::string& path)
 {
     png_image png{};
     png.version = PNG_IMAGE_VERSION;
@@ -18,21 +18,21 @@ Result<Picture> readPng(const std::string& path)
     std::vector<uint8_t> rgba(PNG_IMAGE_SIZE(png));
     if (!png_image_finish_read(&png, nullptr, rgba.data(), 0, nullptr))
         return Error{Issue::image_malformed, path, "", png.message};
-    Picture picture(png.width, png.height);
+    Image image(png.width, png.height);
     for (size_t i = 0; i < rgba.size() / 4; ++i)
         for (size_t channel = 0; channel < 3; ++channel)
-            picture.rgb[i * 3 + channel] = rgba[i * 4 + channel];
-    return picture;
+            image.rgb[i * 3 + channel] = rgba[i * 4 + channel];
+    return image;
 }
 
-Status writePng(const std::string& path, const Picture& picture)
+Status writePng(const std::string& path, const Image& image)
 {
     png_image png{};
     png.version = PNG_IMAGE_VERSION;
-    png.width = picture.width;
-    png.height = picture.height;
+    png.width = image.width;
+    png.height = image.height;
     png.format = PNG_FORMAT_RGB;
-    if (!png_image_write_to_file(&png, path.c_str(), 0, picture.rgb.data(), 0, nullptr))
+    if (!png_image_write_to_file(&png, path.c_str(), 0, image.rgb.data(), 0, nullptr))
         return Error{Issue::cannot_write, path, "", png.message};
     return success();
 }

@@ -16,21 +16,21 @@ namespace hearth::roundtrip
 namespace
 {
 
-using PictureTest = DrawTest;
-using reference::Picture;
+using ImageTest = DrawTest;
+using reference::Image;
 
-size_t colorCount(const Picture& picture)
+size_t colorCount(const Image& image)
 {
     std::set<std::array<uint8_t, 3>> colors;
-    for (size_t i = 0; i < picture.rgb.size(); i += 3)
-        colors.insert({picture.rgb[i], picture.rgb[i + 1], picture.rgb[i + 2]});
+    for (size_t i = 0; i < image.rgb.size(); i += 3)
+        colors.insert({image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]});
     return colors.size();
 }
 
 /// Mean of two by two pixels in linear light.
-Picture halved(const Picture& picture)
+Image halved(const Image& image)
 {
-    Picture half(picture.width / 2, picture.height / 2);
+    Image half(image.width / 2, image.height / 2);
     for (size_t y = 0; y < half.height; ++y)
         for (size_t x = 0; x < half.width; ++x)
             for (size_t c = 0; c < 3; ++c)
@@ -38,40 +38,40 @@ Picture halved(const Picture& picture)
                 double sum = 0;
                 for (const size_t dy : {0u, 1u})
                     for (const size_t dx : {0u, 1u})
-                        sum += reference::linearFromSrgb(picture.at(2 * x + dx, 2 * y + dy)[c] / 255.0);
+                        sum += reference::linearFromSrgb(image.at(2 * x + dx, 2 * y + dy)[c] / 255.0);
                 half.at(x, y)[c] = static_cast<uint8_t>(reference::srgbFromLinear(sum / 4) * 255 + 0.5);
             }
     return half;
 }
 
-/// Write an image for inspection if HEARTH_KEEP_PICTURES names a folder.
-void keep(const Picture& picture, const std::string& name)
+/// Write an image for inspection if HEARTH_KEEP_IMAGES names a folder.
+void keep(const Image& image, const std::string& name)
 {
-    const char* const folder = std::getenv("HEARTH_KEEP_PICTURES");
+    const char* const folder = std::getenv("HEARTH_KEEP_IMAGES");
     if (folder == nullptr)
         return;
-    EXPECT_TRUE(reference::writePng(std::string(folder) + "/" + name + ".png", picture).ok());
+    EXPECT_TRUE(reference::writePng(std::string(folder) + "/" + name + ".png", image).ok());
 }
 
-TEST_F(PictureTest, everyViewShowsItsOwn)
+TEST_F(ImageTest, everyViewShowsItsOwn)
 {
     const CookedSample& sample = cookedSample({"room"});
     const GpuScene scene = device().upload(sample.pack());
     const NamedView named = viewsOf(sample.pack())[3];
-    std::vector<Picture> pictures;
+    std::vector<Image> images;
     for (const uint32_t view : {shared::kViewFinal, shared::kViewClusters, shared::kViewLod,
                                 shared::kViewTriangles, shared::kViewNormals, shared::kViewDepth})
     {
         const DrawnFrame drawn = scene.draw(named.frame(sample.pack()), view);
-        EXPECT_GT(colorCount(drawn.picture), 30u) << "view " << view;
-        for (const Picture& other : pictures)
-            EXPECT_NE(other.rgb, drawn.picture.rgb) << "view " << view;
-        pictures.push_back(drawn.picture);
-        keep(drawn.picture, "view_" + std::to_string(view));
+        EXPECT_GT(colorCount(drawn.image), 30u) << "view " << view;
+        for (const Image& other : images)
+            EXPECT_NE(other.rgb, drawn.image.rgb) << "view " << view;
+        images.push_back(drawn.image);
+        keep(drawn.image, "view_" + std::to_string(view));
     }
 }
 
-TEST_F(PictureTest, theFinalViewIsWhatRaysGive)
+TEST_F(ImageTest, theFinalViewIsWhatRaysGive)
 {
     for (const SampleSpec& spec : {SampleSpec{"rock", 40000, 256},
                                    {"room", 0, 256},
@@ -86,7 +86,7 @@ TEST_F(PictureTest, theFinalViewIsWhatRaysGive)
         named.view.width = 512;
         named.view.height = 512;
         named.view.error_pixels = 1;
-        const Picture drawn = halved(scene.draw(named.frame(sample.pack())).picture);
+        const Image drawn = halved(scene.draw(named.frame(sample.pack())).image);
 
         reference::ReferenceOptions options;
         options.camera = named.view.camera;
@@ -112,7 +112,7 @@ formats::ScenePose poseAt(const formats::PackView& pack, uint32_t clip, double s
     return pose;
 }
 
-struct PosedPicture
+struct PosedImage
 {
     std::string name;
     uint32_t clip = 0;
@@ -121,19 +121,19 @@ struct PosedPicture
 };
 
 /// Draw a pose with hearth-render and with rays, and compare.
-void expectWhatRaysGive(const std::string& file, const formats::PackView& pack, const PosedPicture& posed,
+void expectWhatRaysGive(const std::string& file, const formats::PackView& pack, const PosedImage& posed,
                         const ScratchFolder& folder)
 {
     SCOPED_TRACE(posed.name);
-    const std::string picture = folder.path(posed.name + ".png");
+    const std::string image = folder.path(posed.name + ".png");
     std::string camera;
     for (const float number : posed.camera)
         camera += (camera.empty() ? "" : ",") + std::to_string(number);
     const auto end =
-        runProgram(Program::render, {file, "-o", picture, "--size", "512x512", "--camera", camera,
+        runProgram(Program::render, {file, "-o", image, "--size", "512x512", "--camera", camera,
                                      "--animation", std::to_string(posed.clip), "--time", posed.seconds});
     ASSERT_EQ(end.exit_code, 0) << end.errors;
-    const auto drawn = reference::readPng(picture);
+    const auto drawn = reference::readPng(image);
     ASSERT_TRUE(drawn.ok());
 
     const formats::ScenePose pose = poseAt(pack, posed.clip, std::stod(posed.seconds));
@@ -160,7 +160,7 @@ void expectWhatRaysGive(const std::string& file, const formats::PackView& pack, 
     EXPECT_GT(moved, 2 * map.mean()) << "the pose must show";
 }
 
-TEST_F(PictureTest, posesAreWhatRaysGive)
+TEST_F(ImageTest, posesAreWhatRaysGive)
 {
     const ScratchFolder folder;
     const CookedSample& sample = cookedSample({"character", 20000});
@@ -172,7 +172,7 @@ TEST_F(PictureTest, posesAreWhatRaysGive)
     const char* assets = std::getenv("HEARTH_ASSETS");
     if (assets == nullptr)
         GTEST_SKIP() << "HEARTH_ASSETS is not set";
-    const auto expectOfAsset = [&](const std::string& source, const PosedPicture& posed)
+    const auto expectOfAsset = [&](const std::string& source, const PosedImage& posed)
     {
         const std::string cooked = folder.path(posed.name + ".hearth");
         const auto end = runProgram(Program::hearth, {"cook", assets + ("/good/" + source), "-o", cooked});

@@ -11,10 +11,10 @@ namespace hearth::test
 namespace
 {
 
-class PicturesOfMeshes : public ::testing::Test
+class ImagesOfMeshes : public ::testing::Test
 {
 protected:
-    PicturesOfMeshes()
+    ImagesOfMeshes()
     {
         writeObj(folder, "house", 2, 200);
         writeObj(folder, "wall", 0.5, 90);
@@ -45,7 +45,7 @@ protected:
 
 } // namespace
 
-TEST_F(PicturesOfMeshes, areThoseOfAPackThatHasNothingElse)
+TEST_F(ImagesOfMeshes, areThoseOfAPackThatHasNothingElse)
 {
     cook({"house.obj", "wall.obj", "-o", "both.hearth"});
     cook({"house.obj", "-o", "house.hearth"});
@@ -64,7 +64,7 @@ TEST_F(PicturesOfMeshes, areThoseOfAPackThatHasNothingElse)
     EXPECT_NE(folder.read("house-0000.png"), folder.read("wall-0000.png"));
 }
 
-TEST_F(PicturesOfMeshes, comeInSeveralViewsAtOnce)
+TEST_F(ImagesOfMeshes, comeInSeveralViewsAtOnce)
 {
     cook({"house.obj", "-o", "house.hearth"});
     const ProgramEnd views = render({"house.hearth", "-o", "views.png", "--views", "final,clusters"});
@@ -83,7 +83,7 @@ TEST_F(PicturesOfMeshes, comeInSeveralViewsAtOnce)
     EXPECT_FALSE(folder.has("a.png"));
 }
 
-TEST_F(PicturesOfMeshes, areInThePage)
+TEST_F(ImagesOfMeshes, areInThePage)
 {
     cook({"house.obj", "wall.obj", "-o", "both.hearth", "--report", "page.html", "--report", "report.json"});
     const std::string page = folder.read("page.html");

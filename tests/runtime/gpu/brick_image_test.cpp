@@ -34,7 +34,7 @@ FaceLook redWall(std::array<uint32_t, 3> voxel, uint32_t side)
 }
 
 /// A scene of floor, wall and an upright card that is not in the bricks.
-class BrickPictureTest : public GpuTest
+class BrickImageTest : public GpuTest
 {
 protected:
     static constexpr uint32_t kWidth = 128, kHeight = 96;
@@ -57,7 +57,7 @@ protected:
         targets_.emplace(makeTargets(kWidth, kHeight));
     }
 
-    Picture frame(const DrawOptions& more = {}, Float3 eye = {2, 3, 7})
+    Image frame(const DrawOptions& more = {}, Float3 eye = {2, 3, 7})
     {
         DrawOptions options = more;
         options.width = kWidth;
@@ -65,7 +65,7 @@ protected:
         return draw(*scene_, *targets_, {.position = eye, .target = {0, 0.5f, 0}}, options);
     }
 
-    Picture settled(const DrawOptions& options = {}, uint32_t frames = 48)
+    Image settled(const DrawOptions& options = {}, uint32_t frames = 48)
     {
         for (uint32_t i = 0; i < frames; ++i)
             frame(options);
@@ -123,7 +123,7 @@ Float3 lobeOf(const BrickScene& scene, const BrickSky& sky, const BrickStart& st
 }
 
 /// Maximum difference of a channel between two images.
-int mostDifference(const Picture& a, const Picture& b)
+int mostDifference(const Image& a, const Image& b)
 {
     int most = 0;
     for (size_t i = 0; i < a.color.size(); ++i)
@@ -134,7 +134,7 @@ int mostDifference(const Picture& a, const Picture& b)
 
 } // namespace
 
-TEST_F(BrickPictureTest, gathersWhatTheCpuGathers)
+TEST_F(BrickImageTest, gathersWhatTheCpuGathers)
 {
     load();
     settled({}, 40);
@@ -177,16 +177,16 @@ TEST_F(BrickPictureTest, gathersWhatTheCpuGathers)
     EXPECT_LT(lobe_rms, 0.05);
 }
 
-TEST_F(BrickPictureTest, standsStill)
+TEST_F(BrickImageTest, standsStill)
 {
     const auto unrest = [&]
     {
         settled({}, 40);
-        Picture last = frame();
+        Image last = frame();
         int most = 0;
         for (int i = 0; i < 16; ++i)
         {
-            const Picture next = frame();
+            const Image next = frame();
             most = std::max(most, mostDifference(last, next));
             last = next;
         }
@@ -200,22 +200,22 @@ TEST_F(BrickPictureTest, standsStill)
     EXPECT_LE(unrest(), 3);
 }
 
-TEST_F(BrickPictureTest, mirrorImagesAreAsSharpAsTheSurfaceIsSmooth)
+TEST_F(BrickImageTest, mirrorImagesAreAsSharpAsTheSurfaceIsSmooth)
 {
     // the wall is reflected in the left of the floor, the sky in its right
     const auto contrast = [&](float roughness)
     {
         polish(roughness);
-        const Picture picture = settled({}, 20);
+        const Image image = settled({}, 20);
         double red[2]{}, green[2]{};
         for (uint32_t y = 0; y < kHeight; ++y)
             for (uint32_t x = 0; x < kWidth; ++x)
             {
-                if (picture.seen()[x + size_t{y} * kWidth][0] != kFloor ||
+                if (image.seen()[x + size_t{y} * kWidth][0] != kFloor ||
                     (x > kWidth / 4 && x < kWidth * 3 / 4))
                     continue;
-                red[x > kWidth / 2 ? 1 : 0] += channel(picture.at(x, y), 0);
-                green[x > kWidth / 2 ? 1 : 0] += channel(picture.at(x, y), 1);
+                red[x > kWidth / 2 ? 1 : 0] += channel(image.at(x, y), 0);
+                green[x > kWidth / 2 ? 1 : 0] += channel(image.at(x, y), 1);
             }
         return red[0] / green[0] / (red[1] / green[1]);
     };
@@ -226,19 +226,19 @@ TEST_F(BrickPictureTest, mirrorImagesAreAsSharpAsTheSurfaceIsSmooth)
     EXPECT_GT(rough, 1.05 * matt);
 }
 
-TEST_F(BrickPictureTest, whatMovesReceivesLight)
+TEST_F(BrickImageTest, whatMovesReceivesLight)
 {
     load();
-    const auto rednessOfCard = [&](const Picture& picture)
+    const auto rednessOfCard = [&](const Image& image)
     {
         double red = 0, green = 0;
         size_t i = 0;
-        for (const auto& seen : picture.seen())
+        for (const auto& seen : image.seen())
         {
             if (seen[0] == kCard)
             {
-                red += channel(picture.color[i], 0);
-                green += channel(picture.color[i], 1);
+                red += channel(image.color[i], 0);
+                green += channel(image.color[i], 1);
             }
             ++i;
         }
@@ -252,11 +252,11 @@ TEST_F(BrickPictureTest, whatMovesReceivesLight)
     EXPECT_GT(near, 1.15 * far);
 }
 
-TEST_F(BrickPictureTest, withoutTheirLightThePictureIsThatOfAPackWithoutBricks)
+TEST_F(BrickImageTest, withoutTheirLightTheImageIsThatOfAPackWithoutBricks)
 {
     load();
-    const Picture off = frame({.gi = false});
-    const Picture on = frame();
+    const Image off = frame({.gi = false});
+    const Image on = frame();
     EXPECT_NE(off.color, on.color);
     test_ = TestScene();
     load(false);
@@ -264,20 +264,20 @@ TEST_F(BrickPictureTest, withoutTheirLightThePictureIsThatOfAPackWithoutBricks)
     EXPECT_EQ(frame().color, off.color);
 }
 
-TEST_F(BrickPictureTest, tilesAndPartsShowTheSame)
+TEST_F(BrickImageTest, tilesAndPartsShowTheSame)
 {
     load();
-    const Picture whole = settled({.area = gpu::ShadedArea::wholeFrame}, 2);
+    const Image whole = settled({.area = gpu::ShadedArea::wholeFrame}, 2);
     targets_.emplace(makeTargets(kWidth, kHeight));
     scene_ = upload(*pack_);
     EXPECT_EQ(settled({.area = gpu::ShadedArea::tiles}, 2).color, whole.color);
 }
 
-TEST_F(BrickPictureTest, showsBricksAndTheirLight)
+TEST_F(BrickImageTest, showsBricksAndTheirLight)
 {
     load();
-    const Picture lit = settled({.debug_view = kViewBrickLighting}, 8);
-    const Picture cells = frame({.debug_view = kViewBricks});
+    const Image lit = settled({.debug_view = kViewBrickLighting}, 8);
+    const Image cells = frame({.debug_view = kViewBricks});
     const auto red = std::count_if(lit.color.begin(), lit.color.end(),
                                    [](uint32_t c)
                                    { return channel(c, 0) > 200 && 2 * channel(c, 0) > 3 * channel(c, 1); });
@@ -290,18 +290,18 @@ TEST_F(BrickPictureTest, showsBricksAndTheirLight)
     EXPECT_GT(channel(floor, 2), channel(floor, 0));
 }
 
-TEST_F(BrickPictureTest, newLightIsSeenSoon)
+TEST_F(BrickImageTest, newLightIsSeenSoon)
 {
     load();
     settled();
-    const Picture before = frame();
+    const Image before = frame();
     formats::LightRecord out = sun({0.2f, -1, -0.3f});
     out.intensity = 0;
     const gpu::LightChange change = gpu::changeLight(*scene_, 0, out).value();
     const gpu::EmissionScale dark{{{-10, -10, -10}, {10, 10, 10}}, 0};
     frame({.lights = {&change, 1}, .emission = {&dark, 1}});
-    const Picture soon = settled({.emission = {&dark, 1}}, 20);
-    const Picture late = settled({.emission = {&dark, 1}}, 40);
+    const Image soon = settled({.emission = {&dark, 1}}, 20);
+    const Image late = settled({.emission = {&dark, 1}}, 40);
     EXPECT_GT(mostDifference(before, late), 20);
     EXPECT_LE(mostDifference(soon, late), 3);
 }

@@ -42,40 +42,40 @@ shared::Camera roomCamera()
     return {.position = {2.2f, 2.6f, 4.2f}, .target = {0, 0.3f, 0}, .y_fov_rad = 0.8f, .z_near = 0.05f};
 }
 
-class ShadowPictureTest : public GpuTest
+class ShadowImageTest : public GpuTest
 {
 protected:
-    Picture drawShadowed(const PackView& pack, const gpu::ShadowOptions& shadows, const DrawOptions& options,
-                         const shared::Camera& camera = roomCamera())
+    Image drawShadowed(const PackView& pack, const gpu::ShadowOptions& shadows, const DrawOptions& options,
+                       const shared::Camera& camera = roomCamera())
     {
         const auto scene = upload(pack, {.shadows = shadows});
-        Picture picture = draw(*scene, camera, options);
+        Image image = draw(*scene, camera, options);
         statistics_ = scene->shadows->statistics();
-        return picture;
+        return image;
     }
 
     gpu::ShadowStatistics statistics_;
 };
 
-reference::Picture traced(const PackView& pack, bool shadows)
+reference::Image traced(const PackView& pack, bool shadows)
 {
-    const auto picture = reference::renderReference(
+    const auto image = reference::renderReference(
         pack,
         {.camera = roomCamera(), .width = kSize, .height = kSize, .samples_per_side = 1, .shadows = shadows});
-    HEARTH_ASSERT(picture.ok());
-    return *picture;
+    HEARTH_ASSERT(image.ok());
+    return *image;
 }
 
-/// Write an image for inspection if HEARTH_KEEP_PICTURES names a folder.
-void keep(const Picture& picture, const std::string& name)
+/// Write an image for inspection if HEARTH_KEEP_IMAGES names a folder.
+void keep(const Image& image, const std::string& name)
 {
-    const char* const folder = std::getenv("HEARTH_KEEP_PICTURES");
+    const char* const folder = std::getenv("HEARTH_KEEP_IMAGES");
     if (folder == nullptr)
         return;
-    reference::Picture copy(picture.width, picture.height);
-    for (size_t i = 0; i < picture.color.size(); ++i)
+    reference::Image copy(image.width, image.height);
+    for (size_t i = 0; i < image.color.size(); ++i)
         for (int c = 0; c < 3; ++c)
-            copy.rgb[3 * i + static_cast<size_t>(c)] = static_cast<uint8_t>(channel(picture.color[i], c));
+            copy.rgb[3 * i + static_cast<size_t>(c)] = static_cast<uint8_t>(channel(image.color[i], c));
     EXPECT_TRUE(reference::writePng(std::string(folder) + "/" + name + ".png", copy).ok());
 }
 
@@ -87,13 +87,13 @@ struct Comparison
 };
 
 /// reach  distance in pixels that counts as near an edge
-Comparison compare(const PackView& pack, const Picture& drawn, int reach)
+Comparison compare(const PackView& pack, const Image& drawn, int reach)
 {
-    const reference::Picture with = traced(pack, true);
-    const reference::Picture without = traced(pack, false);
+    const reference::Image with = traced(pack, true);
+    const reference::Image without = traced(pack, false);
     const auto lost = [&](int x, int y)
     {
-        const auto at = [&](const reference::Picture& p)
+        const auto at = [&](const reference::Image& p)
         { return int{*p.at(static_cast<size_t>(x), static_cast<size_t>(y))}; };
         return at(without) - at(with) > 8;
     };
@@ -129,29 +129,29 @@ constexpr DrawOptions kSource{.width = kSize, .height = kSize, .error_pixels = 0
 
 } // namespace
 
-TEST_F(ShadowPictureTest, thoseOfASunAreThoseOfRays)
+TEST_F(ShadowImageTest, thoseOfASunAreThoseOfRays)
 {
     for (const Float3 direction : {Float3{0.3f, -1, -0.4f}, Float3{-1, -0.5f, 0.2f}, Float3{0, -1, 0}})
     {
         TestScene test;
         const PackView pack = buildRocks(test, 12, sun(direction));
-        const Picture picture = drawShadowed(pack, kFour, kSource);
-        keep(picture, "sun");
-        expectTraced(compare(pack, picture, 3));
+        const Image image = drawShadowed(pack, kFour, kSource);
+        keep(image, "sun");
+        expectTraced(compare(pack, image, 3));
         EXPECT_EQ(statistics_.maps, 4u);
     }
 }
 
-TEST_F(ShadowPictureTest, thoseOfASpotAreThoseOfRays)
+TEST_F(ShadowImageTest, thoseOfASpotAreThoseOfRays)
 {
     TestScene test;
     const PackView pack = buildRocks(test, 12, light(LightType::spot, {-2, 4, 1}, {2, -4, -1}, 30));
-    const Picture picture = drawShadowed(pack, {.max_maps = 1, .texels = 512}, kSource);
-    keep(picture, "spot");
-    expectTraced(compare(pack, picture, 3));
+    const Image image = drawShadowed(pack, {.max_maps = 1, .texels = 512}, kSource);
+    keep(image, "spot");
+    expectTraced(compare(pack, image, 3));
 }
 
-TEST_F(ShadowPictureTest, spheresMakeThemFinerWhereTheyAre)
+TEST_F(ShadowImageTest, spheresMakeThemFinerWhereTheyAre)
 {
     for (const LightRecord& record :
          {sun({0.3f, -1, -0.4f}), light(LightType::spot, {-2, 4, 1}, {2, -4, -1}, 30)})
@@ -174,7 +174,7 @@ TEST_F(ShadowPictureTest, spheresMakeThemFinerWhereTheyAre)
     }
 }
 
-TEST_F(ShadowPictureTest, spheresOfThePackAreThoseOfEveryFrame)
+TEST_F(ShadowImageTest, spheresOfThePackAreThoseOfEveryFrame)
 {
     TestScene test;
     const gpu::ShadowSphere sphere{.center = {0, 0.5f, 0}, .radius = 2, .light = 0, .texels = 128};
@@ -182,22 +182,22 @@ TEST_F(ShadowPictureTest, spheresOfThePackAreThoseOfEveryFrame)
     DrawOptions options = kSource;
     options.shadow_spheres = {&sphere, 1};
     const PackView plain = buildRocks(test, 12, sun({0.3f, -1, -0.4f}));
-    const Picture given = drawShadowed(plain, shadows, options);
-    const Picture without = drawShadowed(plain, shadows, kSource);
+    const Image given = drawShadowed(plain, shadows, options);
+    const Image without = drawShadowed(plain, shadows, kSource);
     test.model().shadow_spheres.push_back({.node = 0,
                                            .light = sphere.light,
                                            .center = sphere.center,
                                            .radius = sphere.radius,
                                            .texels = sphere.texels,
                                            .reserved = 0});
-    const Picture placed = drawShadowed(test.build(), shadows, kSource);
+    const Image placed = drawShadowed(test.build(), shadows, kSource);
     EXPECT_EQ(statistics_.maps, 2u);
     EXPECT_EQ(placed.color, given.color);
     EXPECT_NE(placed.color, without.color);
 }
 
 /// The casters' levels are coarser than those of the frame, and neither shadows the other.
-TEST_F(ShadowPictureTest, coarserCastersShadowNothingThatIsLit)
+TEST_F(ShadowImageTest, coarserCastersShadowNothingThatIsLit)
 {
     for (const float bias : {1.0f, 4.0f})
     {
@@ -207,9 +207,9 @@ TEST_F(ShadowPictureTest, coarserCastersShadowNothingThatIsLit)
         options.error_bias = bias;
         DrawOptions coarse = kSource;
         coarse.error_pixels = 1;
-        const Picture picture = drawShadowed(pack, options, coarse);
-        keep(picture, "bias" + std::to_string(static_cast<int>(bias)));
-        const Comparison comparison = compare(pack, picture, 4);
+        const Image image = drawShadowed(pack, options, coarse);
+        keep(image, "bias" + std::to_string(static_cast<int>(bias)));
+        const Comparison comparison = compare(pack, image, 4);
         EXPECT_GT(comparison.shadowed, 1000u);
         EXPECT_LE(comparison.wrong, 150u) << bias;
     }
@@ -217,7 +217,7 @@ TEST_F(ShadowPictureTest, coarserCastersShadowNothingThatIsLit)
 
 /// If a sphere moves while the cut stays the same, its map moves by whole texels and shows the same: shadows
 /// do not shimmer.
-TEST_F(ShadowPictureTest, aMapThatMovesShowsTheSame)
+TEST_F(ShadowImageTest, aMapThatMovesShowsTheSame)
 {
     TestScene test;
     const PackView pack = buildRocks(test, 20, sun({0.3f, -1, -0.4f}));
@@ -255,7 +255,7 @@ TEST_F(ShadowPictureTest, aMapThatMovesShowsTheSame)
 }
 
 /// A plane without casters looks the same with and without shadows.
-TEST_F(ShadowPictureTest, aPlaneIsFreeOfAcneAtAllAngles)
+TEST_F(ShadowImageTest, aPlaneIsFreeOfAcneAtAllAngles)
 {
     for (const bool spot : {false, true})
         for (const uint32_t kernel : {0u, 1u, 2u})
@@ -275,8 +275,8 @@ TEST_F(ShadowPictureTest, aPlaneIsFreeOfAcneAtAllAngles)
                 options.kernel = kernel;
                 const DrawOptions drawn{.width = 96, .height = 96, .error_pixels = 0};
                 const auto plain = upload(pack);
-                const Picture shadowed = drawShadowed(pack, options, drawn);
-                const Picture lit = draw(*plain, roomCamera(), drawn);
+                const Image shadowed = drawShadowed(pack, options, drawn);
+                const Image lit = draw(*plain, roomCamera(), drawn);
                 size_t darker = 0;
                 for (size_t i = 0; i < lit.color.size(); ++i)
                     darker += channel(shadowed.color[i], 0) < channel(lit.color[i], 0) - 1;
@@ -284,7 +284,7 @@ TEST_F(ShadowPictureTest, aPlaneIsFreeOfAcneAtAllAngles)
             }
 }
 
-TEST_F(ShadowPictureTest, holesOfAMaskCastNone)
+TEST_F(ShadowImageTest, holesOfAMaskCastNone)
 {
     const auto drawUnder = [&](float alpha)
     {
@@ -303,7 +303,7 @@ TEST_F(ShadowPictureTest, holesOfAMaskCastNone)
     EXPECT_LT(drawUnder(0.6f), drawUnder(0.4f) - 40);
 }
 
-TEST_F(ShadowPictureTest, unlitSurfacesCastNone)
+TEST_F(ShadowImageTest, unlitSurfacesCastNone)
 {
     const auto drawUnder = [&](uint32_t flags)
     {
@@ -320,7 +320,7 @@ TEST_F(ShadowPictureTest, unlitSurfacesCastNone)
     EXPECT_LT(drawUnder(0), drawUnder(kMaterialUnlit) - 40);
 }
 
-TEST_F(ShadowPictureTest, whatIsBeyondTheCapacityIsCounted)
+TEST_F(ShadowImageTest, whatIsBeyondTheCapacityIsCounted)
 {
     TestScene test;
     const uint32_t white = test.addMaterial(plainMaterial());

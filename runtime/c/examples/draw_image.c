@@ -1,4 +1,4 @@
-/* draw_picture PACK.hearth OUT.png: draws a pack without a window, from its first camera, or from one that
+/* draw_image PACK.hearth OUT.png: draws a pack without a window, from its first camera, or from one that
  * shows the whole scene.
  * SPDX-License-Identifier: LicenseRef-Hearth-Undecided */
 #include <hearth_helpers.h>
@@ -16,7 +16,7 @@ static void check(hearth_result result, const char* message)
 {
     if (result == HEARTH_OK)
         return;
-    fprintf(stderr, "draw_picture: %s\n", message[0] == '\0' ? hearth_result_string(result) : message);
+    fprintf(stderr, "draw_image: %s\n", message[0] == '\0' ? hearth_result_string(result) : message);
     exit(1);
 }
 
@@ -77,7 +77,7 @@ int main(int argument_count, char** arguments)
     hearth_pack* pack = NULL;
     char message[512] = "";
     if (argument_count != 3)
-        check(HEARTH_ERROR_USAGE, "usage: draw_picture PACK.hearth OUT.png");
+        check(HEARTH_ERROR_USAGE, "usage: draw_image PACK.hearth OUT.png");
     check(hearth_pack_open(arguments[1], &pack, message, sizeof(message)), message);
     check(hearth_device_create(&options, &device, message, sizeof(message)), message);
     check(hearth_device_describe(device, &description), hearth_device_last_error(device));

@@ -117,12 +117,12 @@ VisibilityMoments lookAbout(const reference::EmbreeScene& rays, Float3 position,
             {static_cast<float>(m1.x), static_cast<float>(m1.y), static_cast<float>(m1.z)}};
 }
 
-class SkyPictureTest : public GpuTest
+class SkyImageTest : public GpuTest
 {
 };
 
 /// Root mean square of the difference of two displayed images, on surfaces of the runtime's image; of 255.
-double rms(const Picture& drawn, const reference::Picture& traced)
+double rms(const Image& drawn, const reference::Image& traced)
 {
     double sum = 0, count = 0;
     for (uint32_t y = 0; y < drawn.height; ++y)
@@ -139,7 +139,7 @@ double rms(const Picture& drawn, const reference::Picture& traced)
 
 } // namespace
 
-TEST_F(SkyPictureTest, conesHalveTheErrorOfTheRoom)
+TEST_F(SkyImageTest, conesHalveTheErrorOfTheRoom)
 {
     const Placed open(false);
     const reference::PackGeometry geometry = reference::PackGeometry::decode(*open.pack).value();
@@ -156,7 +156,7 @@ TEST_F(SkyPictureTest, conesHalveTheErrorOfTheRoom)
     options.height = 60;
     options.samples_per_side = 1;
     options.sky.rays = 96;
-    const reference::Picture traced = reference::renderReference(*open.pack, options).value();
+    const reference::Image traced = reference::renderReference(*open.pack, options).value();
 
     const auto scene = upload(*baked.pack);
     const auto error = [&](uint32_t ambient, uint32_t specular)
