@@ -21,7 +21,7 @@ Result<BinPass> BinPass::createVisibility(const Device& device, const DrawLayout
                          .depth_write = true,
                          .color = true};
     pass.alpha_tested_ = {shaders::visibility_masked_vert, shaders::visibility_masked_frag};
-    HEARTH_TRY(pass.createPipelines(device, kRigid, pass.rigid_));
+    HEARTH_TRY(pass.createPipelines(device, shared::kDeformedNone, pass.rigid_));
     return pass;
 }
 
@@ -39,7 +39,7 @@ Result<BinPass> BinPass::createOverdraw(const Device& device, const DrawLayouts&
                          .color = true,
                          .add = true};
     pass.alpha_tested_ = {shaders::visibility_masked_vert, shaders::overdraw_masked_frag};
-    HEARTH_TRY(pass.createPipelines(device, kRigid, pass.rigid_));
+    HEARTH_TRY(pass.createPipelines(device, shared::kDeformedNone, pass.rigid_));
     return pass;
 }
 
@@ -59,7 +59,7 @@ Result<BinPass> BinPass::createCasters(const Device& device, const DrawLayouts& 
                          .depth_write = true,
                          .color = false};
     pass.alpha_tested_ = {shaders::caster_masked_vert, shaders::caster_masked_frag};
-    HEARTH_TRY(pass.createPipelines(device, kRigid, pass.rigid_));
+    HEARTH_TRY(pass.createPipelines(device, shared::kDeformedNone, pass.rigid_));
     return pass;
 }
 
@@ -70,7 +70,8 @@ Status BinPass::prepareDeformed(const Device& device)
     if (!deformed_)
     {
         deformed_.emplace();
-        HEARTH_TRY(createPipelines(device, casters_ ? kSkinnedOnDemand : kPreSkinned, *deformed_));
+        HEARTH_TRY(createPipelines(device, casters_ ? shared::kDeformedOnDemand : shared::kDeformedPreSkinned,
+                                   *deformed_));
     }
     return success();
 }
@@ -83,9 +84,9 @@ Status BinPass::createPipelines(const Device& device, uint32_t deformed, Variant
         {
             if (casters_ && facing != Facing::doubleSided)
                 continue;
-            const uint32_t used_slices = slices == 0 ? 1 : shared::kPoolSlices;
-            // these shaders have only the first and the last constant
-            const uint32_t constants[] = {used_slices, 0, 0, 0, deformed};
+            DrawConstants constants{}; // these shaders have no others
+            constants[shared::kConstantUsedSlices] = slices == 0 ? 1 : shared::kPoolSlices;
+            constants[shared::kConstantDeformed] = deformed;
             opaque.constants = constants;
             opaque.cull =
                 VkCullModeFlags(facing == Facing::doubleSided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
@@ -103,12 +104,12 @@ Status BinPass::createPipelines(const Device& device, uint32_t deformed, Variant
 }
 
 void BinPass::record(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
-                     const Scene& scene, uint32_t phase, DrawPush push) const
+                     const Scene& scene, uint32_t phase, shared::BinPush push) const
 {
     const VkPipelineLayout layout = layouts.visibility.get();
-    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 1,
+    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, shared::kSetScene, 1,
                                       &scene.draw_set, 0, nullptr);
-    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 2, 1,
+    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, shared::kSetBins, 1,
                                       &scene.bins_set, 0, nullptr);
     const size_t slices = scene.used_slices == 1 ? 0 : 1;
     const auto bin_count = static_cast<uint32_t>(scene.bins.size());
@@ -123,10 +124,11 @@ void BinPass::record(const Device& device, VkCommandBuffer commands, const DrawL
         device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
                                     pipelines[static_cast<size_t>(facing)].get());
         if (bin.alpha_tested)
-            device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 1, 1,
-                                              &scene.materials[bin.material_row].set, 0, nullptr);
+            device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout,
+                                              shared::kSetMaterial, 1, &scene.materials[bin.material_row].set,
+                                              0, nullptr);
         push.bin = phase == shared::kPhaseLate ? bin_count + i : i;
-        device.vk.vkCmdPushConstants(commands, layout, kDrawPushStages, 0, sizeof(push), &push);
+        device.vk.vkCmdPushConstants(commands, layout, kBinPushStages, 0, sizeof(push), &push);
         device.vk.vkCmdDrawIndirect(commands, scene.buffers.bin_draws.handle.get(),
                                     push.bin * sizeof(shared::BinDraw), 1, sizeof(shared::BinDraw));
     }

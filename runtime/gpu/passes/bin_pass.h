@@ -30,7 +30,7 @@ public:
     /// phase  culling phase whose clusters are drawn
     /// push   the bin is set for each draw
     void record(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
-                const Scene& scene, uint32_t phase, DrawPush push = {}) const;
+                const Scene& scene, uint32_t phase, shared::BinPush push = {}) const;
 
 private:
     /// One pipeline per Facing.

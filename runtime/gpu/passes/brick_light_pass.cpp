@@ -54,7 +54,8 @@ bool sameEmission(const shared::BrickView& a, const shared::BrickView& b)
 Result<BrickLightPass> BrickLightPass::create(const Device& device, const DrawLayouts& layouts)
 {
     BrickLightPass pass;
-    const VkDescriptorSetLayout sets[] = {layouts.bricks.get(), layouts.fresh_light.get()};
+    const NumberedSet sets[] = {{shared::kSetBricks, layouts.bricks.get()},
+                                {shared::kSetFreshLight, layouts.fresh_light.get()}};
     HEARTH_ASSIGN_OR_RETURN(pass.faces_, createComputePipeline(device, shaders::light_faces_comp, sets));
     return pass;
 }
@@ -82,8 +83,8 @@ void BrickLightPass::record(const Device& device, VkCommandBuffer commands, cons
 
     const VkDescriptorSet sets[] = {bricks.set, bricks.fresh_set};
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, faces_.pipeline.get());
-    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, faces_.layout.get(), 0, 2,
-                                      sets, 0, nullptr);
+    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, faces_.layout.get(),
+                                      shared::kSetBricks, 2, sets, 0, nullptr);
     const uint32_t groups = (bricks.share.face_count + kGroupFaces - 1) / kGroupFaces;
     device.vk.vkCmdDispatch(commands, std::min(groups, shared::kMaxDispatchX),
                             (groups + shared::kMaxDispatchX - 1) / shared::kMaxDispatchX, 1);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/passes/cull_statistics_pass.h"
 
+#include "runtime/gpu/scene/scene_tables.h"
 #include "runtime/shaders/shaders.h"
 
 #include <algorithm>
@@ -11,12 +12,14 @@ namespace hearth::gpu
 namespace
 {
 
-struct StatisticsPush
-{
-    uint32_t first_item;
-    uint32_t item_count;
-    uint32_t instance_count;
-};
+constexpr uint32_t kRigidStatisticsTables[] = {
+    shared::kTableFrame,  shared::kTableInstances, shared::kTableStates,
+    shared::kTableBounds, shared::kTableItems,     shared::kTableOrder,
+    shared::kTableGroups, shared::kTableClusters,  shared::kTableStatistics};
+constexpr uint32_t kDeformedStatisticsTables[] = {
+    shared::kTableFrame,  shared::kTableInstances,   shared::kTableStates,
+    shared::kTableBounds, shared::kTableItems,       shared::kTableOrder,
+    shared::kTableGroups, shared::kTableDeformation, shared::kTableStatistics};
 
 } // namespace
 
@@ -30,41 +33,27 @@ Result<CullStatisticsPass> CullStatisticsPass::create(const Device& device, cons
                                                                        MemoryKind::device));
     HEARTH_ASSIGN_OR_RETURN(pass.pool_, createDescriptorPool(device, 2, {.uniforms = 2, .storages = 16}));
     HEARTH_ASSIGN_OR_RETURN(pass.rigid_, pass.createPipeline(device, scene, shaders::cull_statistics_comp,
-                                                             scene.buffers.clusters));
+                                                             kRigidStatisticsTables));
     if (scene.deformation != nullptr)
     {
         HEARTH_ASSIGN_OR_RETURN(pass.deformed_,
                                 pass.createPipeline(device, scene, shaders::cull_statistics_deformed_comp,
-                                                    scene.deformation->buffer));
+                                                    kDeformedStatisticsTables));
     }
     return pass;
 }
 
 Result<CullStatisticsPass::StatisticsPipeline>
 CullStatisticsPass::createPipeline(const Device& device, const Scene& scene, std::span<const uint32_t> shader,
-                                   const Buffer& clusters) const
+                                   std::span<const uint32_t> tables) const
 {
-    constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     StatisticsPipeline counting;
-    HEARTH_ASSIGN_OR_RETURN(
-        counting.pipeline, createComputePipeline(device, shader,
-                                                 {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kStorage, kStorage,
-                                                  kStorage, kStorage, kStorage, kStorage, kStorage, kStorage},
-                                                 sizeof(StatisticsPush)));
+    HEARTH_ASSIGN_OR_RETURN(counting.pipeline,
+                            createTablePipeline(device, shader, tables, sizeof(shared::CullStatisticsPush)));
     HEARTH_ASSIGN_OR_RETURN(counting.set,
                             allocateSet(device, pool_.get(), counting.pipeline.set_layout.get()));
-    const SceneBuffers& b = scene.buffers;
-    DescriptorWriter(counting.set)
-        .uniform(0, b.frame)
-        .storage(1, b.instances)
-        .storage(2, b.states)
-        .storage(3, b.bounds)
-        .storage(4, b.items)
-        .storage(5, b.order)
-        .storage(6, clusters)
-        .storage(7, b.groups)
-        .storage(8, statistics_)
-        .write(device);
+    writeTables(device, scene, counting.set, tables);
+    DescriptorWriter(counting.set).storage(shared::kTableStatistics, statistics_).write(device);
     return counting;
 }
 
@@ -78,13 +67,13 @@ void CullStatisticsPass::record(const Device& device, VkCommandBuffer commands, 
     device.vk.vkCmdFillBuffer(commands, statistics_.handle.get(), 0, VK_WHOLE_SIZE, 0);
     barrier(device, commands, kTransfer, VK_ACCESS_TRANSFER_WRITE_BIT, kCompute,
             VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
-    const auto count = [&](const StatisticsPipeline& counting, const StatisticsPush& push)
+    const auto count = [&](const StatisticsPipeline& counting, const shared::CullStatisticsPush& push)
     {
         const VkPipelineLayout layout = counting.pipeline.layout.get();
         device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
                                     counting.pipeline.pipeline.get());
-        device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1,
-                                          &counting.set, 0, nullptr);
+        device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout,
+                                          shared::kSetTables, 1, &counting.set, 0, nullptr);
         device.vk.vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(push), &push);
         const uint32_t groups = std::max(push.item_count, (push.instance_count + 63) / 64);
         if (groups > 0)

@@ -36,7 +36,8 @@ private:
         VkDescriptorSet set = VK_NULL_HANDLE;
     };
     Result<StatisticsPipeline> createPipeline(const Device& device, const Scene& scene,
-                                              std::span<const uint32_t> shader, const Buffer& clusters) const;
+                                              std::span<const uint32_t> shader,
+                                              std::span<const uint32_t> tables) const;
 
     UniqueDescriptorPool pool_;
     StatisticsPipeline rigid_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/passes/frame_passes.h"
 
+#include "formats/gpu_shared/bindings.h"
+
 #include <array>
 
 namespace hearth::gpu
@@ -80,6 +82,7 @@ Result<UniqueRenderPass> createRenderPass(const Device& device, const Attachment
     subpasses[kSubpassVisibility].colorAttachmentCount = 1;
     subpasses[kSubpassVisibility].pColorAttachments = &visibility_out;
     subpasses[kSubpassVisibility].pDepthStencilAttachment = &depth;
+    static_assert(shared::kInputVisibility == 0);
     subpasses[kSubpassMaterialDepth].inputAttachmentCount = 1;
     subpasses[kSubpassMaterialDepth].pInputAttachments = &visibility_in;
     subpasses[kSubpassMaterialDepth].pDepthStencilAttachment = &material_out;

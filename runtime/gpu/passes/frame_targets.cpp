@@ -133,21 +133,21 @@ Status FrameTargets::createSets(const Device& device, const DrawLayouts& layouts
     HEARTH_ASSIGN_OR_RETURN(pool_, createDescriptorPool(device, 3, sizes));
     HEARTH_ASSIGN_OR_RETURN(set_, allocateSet(device, pool_.get(), layouts.attachments.get()));
     DescriptorWriter(set_)
-        .input(kAttachmentVisibility, visibility_.view.get())
-        .storage(kAttachmentTileLists, tile_lists_)
-        .texture(kAttachmentGi, gather_->texels().view.get(), texel_sampler_.get())
+        .input(shared::kAttachmentVisibility, visibility_.view.get())
+        .storage(shared::kAttachmentTileLists, tile_lists_)
+        .texture(shared::kAttachmentGi, gather_->texels().view.get(), texel_sampler_.get())
         .write(device);
     HEARTH_ASSIGN_OR_RETURN(occlusion_set_, allocateSet(device, pool_.get(), layouts.occlusion.get()));
     DescriptorWriter(occlusion_set_)
-        .uniform(kOcclusionViews, occlusion_views_)
-        .storage(kOcclusionPyramid, pyramid_)
-        .texture(kOcclusionDepth, depth_.view.get(), texel_sampler_.get())
+        .uniform(shared::kOcclusionViews, occlusion_views_)
+        .storage(shared::kOcclusionPyramid, pyramid_)
+        .texture(shared::kOcclusionDepth, depth_.view.get(), texel_sampler_.get())
         .write(device);
     HEARTH_ASSIGN_OR_RETURN(tile_set_, allocateSet(device, pool_.get(), layouts.tiles.get()));
     DescriptorWriter(tile_set_)
-        .texture(kTileVisibility, visibility_.view.get(), texel_sampler_.get())
-        .storage(kTileMaterials, tile_materials_)
-        .storage(kTileLists, tile_lists_)
+        .texture(shared::kTilesVisibility, visibility_.view.get(), texel_sampler_.get())
+        .storage(shared::kTilesMaterials, tile_materials_)
+        .storage(shared::kTilesLists, tile_lists_)
         .write(device);
     return success();
 }

@@ -12,12 +12,13 @@ namespace
 
 constexpr uint32_t kGroupTiles = 8; // per side, as in gather_points.comp and gather_smooth.comp
 
-void bind(const Device& device, VkCommandBuffer commands, const ComputePipeline& pipeline,
+void bind(const Device& device, VkCommandBuffer commands, const ComputePipeline& pipeline, uint32_t first_set,
           std::initializer_list<VkDescriptorSet> sets)
 {
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.pipeline.get());
-    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout.get(), 0,
-                                      static_cast<uint32_t>(sets.size()), sets.begin(), 0, nullptr);
+    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout.get(),
+                                      first_set, static_cast<uint32_t>(sets.size()), sets.begin(), 0,
+                                      nullptr);
 }
 
 } // namespace
@@ -25,19 +26,23 @@ void bind(const Device& device, VkCommandBuffer commands, const ComputePipeline&
 Result<GatherPass> GatherPass::create(const Device& device, const DrawLayouts& layouts)
 {
     GatherPass pass;
-    const VkDescriptorSetLayout point_sets[] = {layouts.scene.get(), layouts.gather_point.get()};
+    const NumberedSet point_sets[] = {{shared::kSetScene, layouts.scene.get()},
+                                      {shared::kSetGatherPoint, layouts.gather_point.get()}};
     for (const size_t slices : {size_t{0}, size_t{1}})
         for (const size_t deformed : {size_t{0}, size_t{1}})
         {
-            const uint32_t constants[] = {slices == 0 ? 1 : shared::kPoolSlices, 0, 0, 0,
-                                          deformed == 0 ? kRigid : kPreSkinned};
+            DrawConstants constants{};
+            constants[shared::kConstantUsedSlices] = slices == 0 ? 1 : shared::kPoolSlices;
+            constants[shared::kConstantDeformed] =
+                deformed == 0 ? shared::kDeformedNone : shared::kDeformedPreSkinned;
             HEARTH_ASSIGN_OR_RETURN(
                 pass.points_[slices][deformed],
-                createComputePipeline(device, shaders::gather_points_comp, point_sets, constants));
+                createComputePipeline(device, shaders::gather_points_comp, point_sets, 0, constants));
         }
-    const VkDescriptorSetLayout ray_sets[] = {layouts.bricks.get(), layouts.gather.get()};
+    const NumberedSet ray_sets[] = {{shared::kSetBricks, layouts.bricks.get()},
+                                    {shared::kSetGather, layouts.gather.get()}};
     HEARTH_ASSIGN_OR_RETURN(pass.rays_, createComputePipeline(device, shaders::gather_rays_comp, ray_sets));
-    const VkDescriptorSetLayout smooth_sets[] = {layouts.gather.get()};
+    const NumberedSet smooth_sets[] = {{shared::kSetGatherSmooth, layouts.gather.get()}};
     HEARTH_ASSIGN_OR_RETURN(pass.smooth_,
                             createComputePipeline(device, shaders::gather_smooth_comp, smooth_sets));
     return pass;
@@ -70,14 +75,14 @@ void GatherPass::record(const Device& device, VkCommandBuffer commands, const Sc
                 VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_READ_BIT);
     };
     bind(device, commands, points_[scene.used_slices == 1 ? 0 : 1][scene.deformation != nullptr ? 1 : 0],
-         {scene.draw_set, gather.pointSet()});
+         shared::kSetScene, {scene.draw_set, gather.pointSet()});
     device.vk.vkCmdDispatch(commands, groups_x, groups_y, 1);
     wait();
-    bind(device, commands, rays_, {scene.bricks->set, gather.gatherSet()});
+    bind(device, commands, rays_, shared::kSetBricks, {scene.bricks->set, gather.gatherSet()});
     device.vk.vkCmdDispatch(commands, (tiles_x + shared::kGatherGroupPoints - 1) / shared::kGatherGroupPoints,
                             tiles_y, 1);
     wait();
-    bind(device, commands, smooth_, {gather.gatherSet()});
+    bind(device, commands, smooth_, shared::kSetGatherSmooth, {gather.gatherSet()});
     device.vk.vkCmdDispatch(commands, groups_x, groups_y, 1);
     transition(device, commands, gather.texels(), VK_IMAGE_LAYOUT_GENERAL,
                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_ACCESS_SHADER_WRITE_BIT,

@@ -39,15 +39,15 @@ Result<GatherTargets> GatherTargets::create(const Device& device, const DrawLayo
         HEARTH_ASSIGN_OR_RETURN(t.point_sets_[i],
                                 allocateSet(device, t.pool_.get(), layouts.gather_point.get()));
         DescriptorWriter(t.point_sets_[i])
-            .texture(kGatherPointVisibility, visibility, sampler)
-            .storage(kGatherPointPoints, t.points_[i])
+            .texture(shared::kGatherPointVisibility, visibility, sampler)
+            .storage(shared::kGatherPointPoints, t.points_[i])
             .write(device);
         HEARTH_ASSIGN_OR_RETURN(t.gather_sets_[i], allocateSet(device, t.pool_.get(), layouts.gather.get()));
         DescriptorWriter(t.gather_sets_[i])
-            .uniform(kGatherView, t.view_)
-            .storage(kGatherPoints, t.points_[i])
-            .storage(kGatherHistory, t.points_[1 - i])
-            .image(kGatherTexels, t.texels_.view.get())
+            .uniform(shared::kGatherView, t.view_)
+            .storage(shared::kGatherPoints, t.points_[i])
+            .storage(shared::kGatherHistory, t.points_[1 - i])
+            .image(shared::kGatherTexels, t.texels_.view.get())
             .write(device);
     }
     return t;

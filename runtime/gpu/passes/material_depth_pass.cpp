@@ -27,13 +27,13 @@ void MaterialDepthPass::record(const Device& device, VkCommandBuffer commands, c
 {
     const VkPipelineLayout layout = layouts.picture.get();
     const VkDescriptorSet attachments = targets.attachments();
-    const DrawPush push{.depth = 0};
+    const shared::ShadingPush push{};
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_.get());
-    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 1,
+    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, shared::kSetScene, 1,
                                       &scene.draw_set, 0, nullptr);
-    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 2, 1, &attachments,
-                                      0, nullptr);
-    device.vk.vkCmdPushConstants(commands, layout, kDrawPushStages, 0, sizeof(push), &push);
+    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout,
+                                      shared::kSetAttachments, 1, &attachments, 0, nullptr);
+    device.vk.vkCmdPushConstants(commands, layout, kShadingPushStages, 0, sizeof(push), &push);
     device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
 }
 

@@ -2,6 +2,7 @@
 #include "runtime/gpu/passes/material_tiles_pass.h"
 
 #include "formats/gpu_shared/material_tiles.h"
+#include "runtime/gpu/scene/scene_tables.h"
 #include "runtime/shaders/shaders.h"
 
 #include <algorithm>
@@ -12,12 +13,8 @@ namespace hearth::gpu
 namespace
 {
 
-struct TilesPush
-{
-    uint32_t width;
-    uint32_t height;
-    uint32_t draw_count;
-};
+/// Tables of all three pipelines, so that one set fits all.
+constexpr uint32_t kTileTables[] = {shared::kTableVisible, shared::kTableDraws, shared::kTableTileDraws};
 
 static_assert(sizeof(shared::TileDraw) == sizeof(VkDrawIndirectCommand));
 
@@ -27,9 +24,8 @@ Result<MaterialTilesPass> MaterialTilesPass::create(const Device& device, const 
 {
     const auto createPipeline = [&](std::span<const uint32_t> spirv)
     {
-        constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-        return createComputePipeline(device, spirv, {kStorage, kStorage, kStorage}, sizeof(TilesPush),
-                                     layouts.tiles.get());
+        return createTablePipeline(device, spirv, kTileTables, sizeof(shared::TilesPush),
+                                   NumberedSet{shared::kSetTiles, layouts.tiles.get()});
     };
     MaterialTilesPass pass;
     HEARTH_ASSIGN_OR_RETURN(pass.materials_, createPipeline(shaders::tile_materials_comp));
@@ -40,14 +36,7 @@ Result<MaterialTilesPass> MaterialTilesPass::create(const Device& device, const 
 
 Status MaterialTilesPass::createSet(const Device& device, Scene& scene) const
 {
-    // the three pipelines have the same layout, so one set fits all
-    HEARTH_ASSIGN_OR_RETURN(scene.tile_set,
-                            allocateSet(device, scene.pool.get(), materials_.set_layout.get()));
-    DescriptorWriter(scene.tile_set)
-        .storage(0, scene.buffers.visible)
-        .storage(1, scene.buffers.cluster_draws)
-        .storage(2, scene.buffers.tile_draws)
-        .write(device);
+    HEARTH_ASSIGN_OR_RETURN(scene.tile_set, createTableSet(device, scene, materials_, kTileTables));
     return success();
 }
 
@@ -55,13 +44,13 @@ void MaterialTilesPass::record(const Device& device, VkCommandBuffer commands, c
                                const FrameTargets& targets) const
 {
     const auto [width, height] = targets.extent();
-    const TilesPush push{width, height, static_cast<uint32_t>(scene.materials.size()) + 1};
+    const shared::TilesPush push{width, height, static_cast<uint32_t>(scene.materials.size()) + 1};
     const auto dispatch = [&](const ComputePipeline& pipeline, uint32_t x, uint32_t y)
     {
         const VkDescriptorSet sets[] = {scene.tile_set, targets.tileSet()};
         device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.pipeline.get());
-        device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout.get(), 0,
-                                          2, sets, 0, nullptr);
+        device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout.get(),
+                                          shared::kSetTables, 2, sets, 0, nullptr);
         device.vk.vkCmdPushConstants(commands, pipeline.layout.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                      sizeof(push), &push);
         device.vk.vkCmdDispatch(commands, x, y, 1);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/passes/page_request_pass.h"
 
+#include "runtime/gpu/scene/scene_tables.h"
 #include "runtime/shaders/shaders.h"
 
 #include <algorithm>
@@ -11,23 +12,21 @@ namespace hearth::gpu
 namespace
 {
 
-struct RequestPush
-{
-    uint32_t first_item;
-    uint32_t item_count;
-};
+constexpr uint32_t kRequestTables[] = {
+    shared::kTableFrame,    shared::kTableInstances, shared::kTableStates,      shared::kTableGroupItems,
+    shared::kTableClusters, shared::kTableGroups,    shared::kTablePageRequests};
+constexpr uint32_t kDeformedRequestTables[] = {
+    shared::kTableFrame,    shared::kTableInstances, shared::kTableStates,       shared::kTableGroupItems,
+    shared::kTableClusters, shared::kTableGroups,    shared::kTablePageRequests, shared::kTableDeformation};
 
 } // namespace
 
 Result<PageRequestPass> PageRequestPass::create(const Device& device)
 {
-    constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     PageRequestPass pass;
     HEARTH_ASSIGN_OR_RETURN(pass.pipeline_,
-                            createComputePipeline(device, shaders::page_requests_comp,
-                                                  {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kStorage, kStorage,
-                                                   kStorage, kStorage, kStorage, kStorage},
-                                                  sizeof(RequestPush)));
+                            createTablePipeline(device, shaders::page_requests_comp, kRequestTables,
+                                                sizeof(shared::PageRequestPush)));
     return pass;
 }
 
@@ -35,55 +34,35 @@ Status PageRequestPass::prepareDeformed(const Device& device)
 {
     if (!deformed_)
     {
-        constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
         HEARTH_ASSIGN_OR_RETURN(deformed_,
-                                createComputePipeline(device, shaders::page_requests_deformed_comp,
-                                                      {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kStorage, kStorage,
-                                                       kStorage, kStorage, kStorage, kStorage, kStorage},
-                                                      sizeof(RequestPush)));
+                                createTablePipeline(device, shaders::page_requests_deformed_comp,
+                                                    kDeformedRequestTables, sizeof(shared::PageRequestPush)));
     }
     return success();
 }
 
 Status PageRequestPass::createSet(const Device& device, Scene& scene) const
 {
-    HEARTH_ASSIGN_OR_RETURN(scene.page_request_set,
-                            allocateSet(device, scene.pool.get(), pipeline_.set_layout.get()));
-    writeSet(device, scene, scene.page_request_set);
+    HEARTH_ASSIGN_OR_RETURN(scene.page_request_set, createTableSet(device, scene, pipeline_, kRequestTables));
     if (scene.deformation != nullptr)
     {
-        VkDescriptorSet& set = scene.deformation->page_request_set;
-        HEARTH_ASSIGN_OR_RETURN(set, allocateSet(device, scene.pool.get(), deformed_->set_layout.get()));
-        writeSet(device, scene, set);
-        DescriptorWriter(set).storage(7, scene.deformation->buffer).write(device);
+        HEARTH_ASSIGN_OR_RETURN(scene.deformation->page_request_set,
+                                createTableSet(device, scene, *deformed_, kDeformedRequestTables));
     }
     return success();
 }
 
-void PageRequestPass::writeSet(const Device& device, const Scene& scene, VkDescriptorSet set)
-{
-    const SceneBuffers& b = scene.buffers;
-    DescriptorWriter writer(set);
-    writer.uniform(0, b.frame)
-        .storage(1, b.instances)
-        .storage(2, b.states)
-        .storage(3, b.group_items)
-        .storage(4, b.clusters)
-        .storage(5, b.groups)
-        .storage(6, b.page_requests);
-    writer.write(device);
-}
-
 void PageRequestPass::record(const Device& device, VkCommandBuffer commands, const Scene& scene) const
 {
-    const auto ask = [&](const ComputePipeline& pipeline, VkDescriptorSet set, const RequestPush& push)
+    const auto ask =
+        [&](const ComputePipeline& pipeline, VkDescriptorSet set, const shared::PageRequestPush& push)
     {
         if (push.item_count == 0)
             return;
         const VkPipelineLayout layout = pipeline.layout.get();
         device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.pipeline.get());
-        device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0,
-                                          nullptr);
+        device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout,
+                                          shared::kSetTables, 1, &set, 0, nullptr);
         device.vk.vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(push), &push);
         device.vk.vkCmdDispatch(commands, std::min(push.item_count, shared::kMaxDispatchX),
                                 (push.item_count + shared::kMaxDispatchX - 1) / shared::kMaxDispatchX, 1);

@@ -25,8 +25,6 @@ public:
     void record(const Device& device, VkCommandBuffer commands, const Scene& scene) const;
 
 private:
-    static void writeSet(const Device& device, const Scene& scene, VkDescriptorSet set);
-
     ComputePipeline pipeline_;
     std::optional<ComputePipeline> deformed_; ///< set once a scene has deformed meshes
 };

@@ -14,34 +14,29 @@ namespace
 constexpr uint32_t kTilePixels = 32;
 constexpr uint32_t kTileLevels = 5;
 
-struct PyramidPush
-{
-    uint32_t width;
-    uint32_t height;
-};
-
 } // namespace
 
 Result<PyramidPass> PyramidPass::create(const Device& device, const DrawLayouts& layouts)
 {
     PyramidPass pass;
-    HEARTH_ASSIGN_OR_RETURN(pass.tiles_, createComputePipeline(device, shaders::pyramid_tiles_comp,
-                                                               sizeof(PyramidPush), layouts.occlusion.get()));
-    HEARTH_ASSIGN_OR_RETURN(pass.top_, createComputePipeline(device, shaders::pyramid_top_comp,
-                                                             sizeof(PyramidPush), layouts.occlusion.get()));
+    const NumberedSet sets[] = {{shared::kSetPyramid, layouts.occlusion.get()}};
+    HEARTH_ASSIGN_OR_RETURN(pass.tiles_, createComputePipeline(device, shaders::pyramid_tiles_comp, sets,
+                                                               sizeof(shared::PyramidPush)));
+    HEARTH_ASSIGN_OR_RETURN(pass.top_, createComputePipeline(device, shaders::pyramid_top_comp, sets,
+                                                             sizeof(shared::PyramidPush)));
     return pass;
 }
 
 void PyramidPass::record(const Device& device, VkCommandBuffer commands, const FrameTargets& targets) const
 {
     const auto [width, height] = targets.extent();
-    const PyramidPush push{width, height};
+    const shared::PyramidPush push{width, height};
     const VkDescriptorSet set = targets.occlusionSet();
     const auto dispatch = [&](const ComputePipeline& pipeline, uint32_t x, uint32_t y)
     {
         device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.pipeline.get());
-        device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout.get(), 0,
-                                          1, &set, 0, nullptr);
+        device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout.get(),
+                                          shared::kSetPyramid, 1, &set, 0, nullptr);
         device.vk.vkCmdPushConstants(commands, pipeline.layout.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                      sizeof(push), &push);
         device.vk.vkCmdDispatch(commands, x, y, 1);

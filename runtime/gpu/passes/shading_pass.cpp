@@ -24,9 +24,21 @@ GraphicsDescription describe(std::span<const uint32_t> fragment, VkPipelineLayou
             .color = true};
 }
 
-uint32_t deformedVertices(const ShadingVariant& variant)
+/// Return the constants of a variant; with `resolves_only` those that reconstructing a surface needs, for scenes
+/// of any size.
+DrawConstants drawConstants(const ShadingVariant& variant, bool resolves_only)
 {
-    return variant.deformed != 0 ? kPreSkinned : kRigid;
+    DrawConstants constants{};
+    constants[shared::kConstantUsedSlices] = resolves_only ? shared::kPoolSlices : variant.used_slices;
+    constants[shared::kConstantDeformed] =
+        variant.deformed != 0 ? shared::kDeformedPreSkinned : shared::kDeformedNone;
+    if (resolves_only)
+        return constants;
+    constants[shared::kConstantTextures] = variant.textures;
+    constants[shared::kConstantUvSets] = variant.uv_sets;
+    constants[shared::kConstantUnlit] = variant.unlit;
+    constants[shared::kConstantSkyVisibility] = variant.sky_visibility;
+    return constants;
 }
 
 bool showsDeformed(const Scene& scene)
@@ -67,7 +79,7 @@ Result<ShadingPipelines> ShadingPass::prepare(const Device& device, const DrawLa
     UniquePipeline& shadow_maps = shadow_map_views_[variant.deformed];
     if (variant.shadows != 0 && shadow_maps.get() == VK_NULL_HANDLE)
     {
-        const uint32_t constants[] = {shared::kPoolSlices, 0, 0, 0, deformedVertices(variant)};
+        const DrawConstants constants = drawConstants(variant, true);
         GraphicsDescription maps =
             describe(shaders::view_shadow_maps_frag, layouts.picture.get(), render_pass_);
         maps.vertex = shaders::fullscreen_vert;
@@ -81,8 +93,7 @@ Result<ShadingPipelines> ShadingPass::prepare(const Device& device, const DrawLa
     Variant& pipelines = entry->second;
     if (fresh)
     {
-        const uint32_t constants[] = {variant.used_slices, variant.textures,          variant.uv_sets,
-                                      variant.unlit,       deformedVertices(variant), variant.sky_visibility};
+        const DrawConstants constants = drawConstants(variant, false);
         GraphicsDescription description =
             describe(variant.shadows != 0 ? shaders::shading_shadowed_frag : shaders::shading_frag,
                      layouts.picture.get(), render_pass_);
@@ -116,7 +127,7 @@ Status ShadingPass::prepareBrickViews(const Device& device, const DrawLayouts& l
     UniquePipeline& gathered = gi_views_[variant.deformed];
     if (gathered.get() == VK_NULL_HANDLE)
     {
-        const uint32_t constants[] = {shared::kPoolSlices, 0, 0, 0, deformedVertices(variant)};
+        const DrawConstants constants = drawConstants(variant, true);
         GraphicsDescription light = describe(shaders::view_gi_frag, layouts.picture.get(), render_pass_);
         light.vertex = shaders::fullscreen_vert;
         light.constants = constants;
@@ -155,12 +166,13 @@ void ShadingPass::recordSky(const Device& device, VkCommandBuffer commands, cons
 {
     const VkPipelineLayout layout = layouts.picture.get();
     const VkDescriptorSet attachments = targets.attachments();
-    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 1,
+    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, shared::kSetScene, 1,
                                       &scene.draw_set, 0, nullptr);
-    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 2, 1, &attachments,
-                                      0, nullptr);
-    const DrawPush push{.depth = 0, .debug_view = view.debug_view, .depth_scale = view.depth_scale};
-    device.vk.vkCmdPushConstants(commands, layout, kDrawPushStages, 0, sizeof(push), &push);
+    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout,
+                                      shared::kSetAttachments, 1, &attachments, 0, nullptr);
+    const shared::ShadingPush push{
+        .depth = 0, .debug_view = view.debug_view, .depth_scale = view.depth_scale};
+    device.vk.vkCmdPushConstants(commands, layout, kShadingPushStages, 0, sizeof(push), &push);
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, sky_.get());
     if (shadesTiles(scene, view.area))
         device.vk.vkCmdDrawIndirect(commands, scene.buffers.tile_draws.handle.get(), 0, 1,
@@ -175,11 +187,11 @@ void ShadingPass::recordClusterView(const Device& device, VkCommandBuffer comman
 {
     const VkPipelineLayout layout = layouts.clusters.get();
     const VkDescriptorSet sets[] = {scene.cluster_view_set, targets.attachments()};
-    const DrawPush push{.depth = 0, .debug_view = view.debug_view};
+    const shared::ShadingPush push{.depth = 0, .debug_view = view.debug_view};
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, cluster_views_.get());
-    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 2, sets, 0,
-                                      nullptr);
-    device.vk.vkCmdPushConstants(commands, layout, kDrawPushStages, 0, sizeof(push), &push);
+    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, shared::kSetTables,
+                                      2, sets, 0, nullptr);
+    device.vk.vkCmdPushConstants(commands, layout, kShadingPushStages, 0, sizeof(push), &push);
     device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
 }
 
@@ -189,8 +201,8 @@ void ShadingPass::recordShadowMapView(const Device& device, VkCommandBuffer comm
                                       const ShadingSettings& view) const
 {
     HEARTH_ASSERT(scene.shadows != nullptr);
-    const DrawPush push{.depth = 0, .debug_view = view.debug_view};
-    device.vk.vkCmdPushConstants(commands, layouts.picture.get(), kDrawPushStages, 0, sizeof(push), &push);
+    const shared::ShadingPush push{.depth = 0, .debug_view = view.debug_view};
+    device.vk.vkCmdPushConstants(commands, layouts.picture.get(), kShadingPushStages, 0, sizeof(push), &push);
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
                                 shadow_map_views_[showsDeformed(scene) ? 1 : 0].get());
     device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
@@ -202,11 +214,11 @@ void ShadingPass::recordBrickView(const Device& device, VkCommandBuffer commands
 {
     HEARTH_ASSERT(scene.bricks != nullptr);
     const VkPipelineLayout layout = layouts.brick_views.get();
-    const DrawPush push{.depth = 0, .debug_view = view.debug_view};
+    const shared::ShadingPush push{.depth = 0, .debug_view = view.debug_view};
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, brick_views_.get());
-    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 1,
-                                      &scene.bricks->set, 0, nullptr);
-    device.vk.vkCmdPushConstants(commands, layout, kDrawPushStages, 0, sizeof(push), &push);
+    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, shared::kSetBricks,
+                                      1, &scene.bricks->set, 0, nullptr);
+    device.vk.vkCmdPushConstants(commands, layout, kShadingPushStages, 0, sizeof(push), &push);
     device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
 }
 
@@ -215,8 +227,8 @@ void ShadingPass::recordGiView(const Device& device, VkCommandBuffer commands, c
                                const Scene& scene, const ShadingSettings& view) const
 {
     HEARTH_ASSERT(scene.bricks != nullptr);
-    const DrawPush push{.depth = 0, .debug_view = view.debug_view};
-    device.vk.vkCmdPushConstants(commands, layouts.picture.get(), kDrawPushStages, 0, sizeof(push), &push);
+    const shared::ShadingPush push{.depth = 0, .debug_view = view.debug_view};
+    device.vk.vkCmdPushConstants(commands, layouts.picture.get(), kShadingPushStages, 0, sizeof(push), &push);
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
                                 gi_views_[showsDeformed(scene) ? 1 : 0].get());
     device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
@@ -240,13 +252,13 @@ void ShadingPass::recordMaterials(const Device& device, VkCommandBuffer commands
                                     : usesGi(scene, view) ? material.pipelines.final_gi_pipeline
                                                           : material.pipelines.final_pipeline);
         const uint32_t number = row + 1; // 0 is the sky
-        const DrawPush push{.depth = static_cast<float>(number) / 65535.0f,
-                            .debug_view = view.debug_view,
-                            .depth_scale = view.depth_scale,
-                            .sky_occlusion = sky_occlusion};
-        device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 1, 1,
-                                          &material.set, 0, nullptr);
-        device.vk.vkCmdPushConstants(commands, layout, kDrawPushStages, 0, sizeof(push), &push);
+        const shared::ShadingPush push{.depth = static_cast<float>(number) / 65535.0f,
+                                       .debug_view = view.debug_view,
+                                       .depth_scale = view.depth_scale,
+                                       .sky_occlusion = sky_occlusion};
+        device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout,
+                                          shared::kSetMaterial, 1, &material.set, 0, nullptr);
+        device.vk.vkCmdPushConstants(commands, layout, kShadingPushStages, 0, sizeof(push), &push);
         // draws nothing where the material is not visible
         device.vk.vkCmdDrawIndirect(commands, draws, number * sizeof(VkDrawIndirectCommand), 1,
                                     sizeof(VkDrawIndirectCommand));

@@ -131,8 +131,8 @@ Status ShadowPass::createMaps(const Device& device, const formats::PackView& pac
     }
     makeSampleable(device, commands, shadows.image());
     DescriptorWriter(scene.draw_set)
-        .uniform(kSceneShadows, shadows.block())
-        .texture(kSceneShadowMaps, shadows.image().view.get(), shadows.sampler())
+        .uniform(shared::kSceneShadows, shadows.block())
+        .texture(shared::kSceneShadowMaps, shadows.image().view.get(), shadows.sampler())
         .write(device);
     return success();
 }
@@ -174,7 +174,7 @@ void ShadowPass::recordMap(const Device& device, VkCommandBuffer commands, const
     const VkViewport viewport{0, 0, target.size, target.size, 0, 1};
     device.vk.vkCmdSetViewport(commands, 0, 1, &viewport);
     device.vk.vkCmdSetScissor(commands, 0, 1, &area);
-    DrawPush push;
+    shared::BinPush push{};
     push.light_row = shadows.plan().row_of[map.map];
     push.map_index = map.map;
     casters_.record(device, commands, layouts, scene, shared::kPhaseWhole, push);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/passes/skinning_pass.h"
 
+#include "runtime/gpu/scene/scene_tables.h"
 #include "runtime/shaders/shaders.h"
 
 namespace hearth::gpu
@@ -9,40 +10,33 @@ namespace hearth::gpu
 namespace
 {
 
-struct PlanPush
-{
-    uint32_t bin_count;
-    uint32_t first_bin;
-    uint32_t phase;
-};
+constexpr uint32_t kPlanTables[] = {shared::kTableBinDraws, shared::kTableDeformation};
+
+// both passes bind one set with the same number
+static_assert(shared::kSetTables == shared::kSetScene);
 
 } // namespace
 
 Result<SkinningPass> SkinningPass::create(const Device& device, const DrawLayouts& layouts)
 {
-    constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     SkinningPass pass;
-    HEARTH_ASSIGN_OR_RETURN(pass.plan_, createComputePipeline(device, shaders::plan_skinning_comp,
-                                                              {kStorage, kStorage}, sizeof(PlanPush)));
+    HEARTH_ASSIGN_OR_RETURN(pass.plan_, createTablePipeline(device, shaders::plan_skinning_comp, kPlanTables,
+                                                            sizeof(shared::SkinningPlanPush)));
+    const NumberedSet sets[] = {{shared::kSetScene, layouts.scene.get()}};
     for (const size_t slices : {size_t{0}, size_t{1}})
     {
-        const uint32_t used_slices = slices == 0 ? 1 : shared::kPoolSlices;
+        DrawConstants constants{};
+        constants[shared::kConstantUsedSlices] = slices == 0 ? 1 : shared::kPoolSlices;
         HEARTH_ASSIGN_OR_RETURN(pass.skin_[slices],
-                                createComputePipeline(device, shaders::skin_vertices_comp, sizeof(uint32_t),
-                                                      layouts.scene.get(), {&used_slices, 1}));
+                                createComputePipeline(device, shaders::skin_vertices_comp, sets,
+                                                      sizeof(shared::PhasePush), constants));
     }
     return pass;
 }
 
 Status SkinningPass::createSet(const Device& device, Scene& scene) const
 {
-    SceneDeformation& deformation = *scene.deformation;
-    HEARTH_ASSIGN_OR_RETURN(deformation.plan_set,
-                            allocateSet(device, scene.pool.get(), plan_.set_layout.get()));
-    DescriptorWriter(deformation.plan_set)
-        .storage(0, scene.buffers.bin_draws)
-        .storage(1, deformation.buffer)
-        .write(device);
+    HEARTH_ASSIGN_OR_RETURN(scene.deformation->plan_set, createTableSet(device, scene, plan_, kPlanTables));
     return success();
 }
 
@@ -57,8 +51,8 @@ void SkinningPass::record(const Device& device, VkCommandBuffer commands, const 
     const auto bind = [&](const ComputePipeline& pipeline, VkDescriptorSet set, const auto& push)
     {
         device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.pipeline.get());
-        device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout.get(), 0,
-                                          1, &set, 0, nullptr);
+        device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout.get(),
+                                          shared::kSetScene, 1, &set, 0, nullptr);
         device.vk.vkCmdPushConstants(commands, pipeline.layout.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                      sizeof(push), &push);
     };
@@ -66,12 +60,12 @@ void SkinningPass::record(const Device& device, VkCommandBuffer commands, const 
     // the old offsets
     barrier(device, commands, kCompute | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
             kCompute, VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
-    bind(plan_, deformation.plan_set, PlanPush{bins, deformation.first_bin, phase});
+    bind(plan_, deformation.plan_set, shared::SkinningPlanPush{bins, deformation.first_bin, phase});
     device.vk.vkCmdDispatch(commands, 1, 1, 1);
     barrier(device, commands, kCompute, VK_ACCESS_SHADER_WRITE_BIT,
             kCompute | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
             VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
-    bind(skin_[scene.used_slices == 1 ? 0 : 1], scene.draw_set, phase);
+    bind(skin_[scene.used_slices == 1 ? 0 : 1], scene.draw_set, shared::PhasePush{phase});
     device.vk.vkCmdDispatchIndirect(commands, deformation.buffer.handle.get(),
                                     offsetof(shared::DeformationHeader, groups_x));
     // page requests read other parts of the buffer

@@ -1,85 +1,130 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/scene/draw_layouts.h"
 
+#include "formats/gpu_shared/deformation.h"
 #include "formats/gpu_shared/shading.h"
+#include "runtime/gpu/scene/scene_tables.h"
 
 namespace hearth::gpu
 {
 
+namespace
+{
+
+constexpr VkShaderStageFlags kVertex = VK_SHADER_STAGE_VERTEX_BIT;
+constexpr VkShaderStageFlags kFragment = VK_SHADER_STAGE_FRAGMENT_BIT;
+constexpr VkShaderStageFlags kCompute = VK_SHADER_STAGE_COMPUTE_BIT;
+
+static_assert(shared::kSceneDeformation == shared::kScenePool + shared::kDeformationSlice);
+static_assert(shared::kSceneLighting == shared::kScenePool + shared::kPoolSlices);
+
+} // namespace
+
+Status DrawLayouts::createSceneSets(const Device& device)
+{
+    // the skinning pass and the pass that chooses gather points read the scene like vertex shaders
+    constexpr VkShaderStageFlags kAll = kVertex | kFragment | kCompute;
+    std::vector<SetBinding> scene_bindings = {
+        uniformBinding(shared::kSceneFrame, kAll),
+        storageBinding(shared::kSceneInstances, kAll),
+        storageBinding(shared::kSceneVisible, kAll),
+        storageBinding(shared::kSceneDraws, kAll),
+        storageBinding(shared::kSceneLighting, kFragment),
+        uniformBinding(shared::kSceneShadows, kVertex | kFragment),
+        textureBinding(shared::kSceneShadowMaps, kFragment),
+        textureBinding(shared::kSceneSpecularTable, kFragment),
+    };
+    for (uint32_t slice = 0; slice < shared::kPoolSlices; ++slice)
+        scene_bindings.push_back(storageBinding(shared::kScenePool + slice, kAll));
+    HEARTH_ASSIGN_OR_RETURN(scene, createSetLayout(device, scene_bindings));
+
+    std::vector<SetBinding> material_bindings = {uniformBinding(shared::kMaterialBlock, kVertex | kFragment)};
+    for (uint32_t slot = 0; slot < shared::kTextureCount; ++slot)
+        material_bindings.push_back(textureBinding(shared::kMaterialTextures + slot, kFragment));
+    HEARTH_ASSIGN_OR_RETURN(material, createSetLayout(device, material_bindings));
+
+    const SetBinding bin_bindings[] = {storageBinding(shared::kBinsDraws, kVertex)};
+    HEARTH_ASSIGN_OR_RETURN(bins, createSetLayout(device, bin_bindings));
+    HEARTH_ASSIGN_OR_RETURN(cluster_view,
+                            createSetLayout(device, tableBindings(kClusterViewTables, kFragment)));
+    return success();
+}
+
+Status DrawLayouts::createFrameSets(const Device& device)
+{
+    const SetBinding attachment_bindings[] = {
+        {shared::kAttachmentVisibility, VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT, kFragment},
+        storageBinding(shared::kAttachmentTileLists, kVertex),
+        textureBinding(shared::kAttachmentGi, kFragment)};
+    HEARTH_ASSIGN_OR_RETURN(attachments, createSetLayout(device, attachment_bindings));
+
+    const SetBinding occlusion_bindings[] = {uniformBinding(shared::kOcclusionViews, kCompute),
+                                             storageBinding(shared::kOcclusionPyramid, kCompute),
+                                             textureBinding(shared::kOcclusionDepth, kCompute)};
+    HEARTH_ASSIGN_OR_RETURN(occlusion, createSetLayout(device, occlusion_bindings));
+
+    const SetBinding tile_bindings[] = {textureBinding(shared::kTilesVisibility, kCompute),
+                                        storageBinding(shared::kTilesMaterials, kCompute),
+                                        storageBinding(shared::kTilesLists, kCompute)};
+    HEARTH_ASSIGN_OR_RETURN(tiles, createSetLayout(device, tile_bindings));
+    return success();
+}
+
+Status DrawLayouts::createBrickSets(const Device& device)
+{
+    constexpr VkShaderStageFlags kBoth = kCompute | kFragment;
+    const SetBinding brick_bindings[] = {
+        uniformBinding(shared::kBricksFrame, kBoth),   uniformBinding(shared::kBricksView, kBoth),
+        storageBinding(shared::kBricksGroups, kBoth),  storageBinding(shared::kBricksBricks, kBoth),
+        storageBinding(shared::kBricksOpacity, kBoth), storageBinding(shared::kBricksSurfaces, kBoth),
+        storageBinding(shared::kBricksLight, kBoth),   storageBinding(shared::kBricksLighting, kBoth)};
+    HEARTH_ASSIGN_OR_RETURN(bricks, createSetLayout(device, brick_bindings));
+
+    const SetBinding fresh_bindings[] = {storageBinding(shared::kFreshLightFaces, kCompute),
+                                         storageBinding(shared::kFreshLightLocations, kCompute)};
+    HEARTH_ASSIGN_OR_RETURN(fresh_light, createSetLayout(device, fresh_bindings));
+
+    const SetBinding point_bindings[] = {textureBinding(shared::kGatherPointVisibility, kCompute),
+                                         storageBinding(shared::kGatherPointPoints, kCompute)};
+    HEARTH_ASSIGN_OR_RETURN(gather_point, createSetLayout(device, point_bindings));
+
+    const SetBinding gather_bindings[] = {
+        uniformBinding(shared::kGatherView, kCompute),
+        storageBinding(shared::kGatherPoints, kCompute),
+        storageBinding(shared::kGatherHistory, kCompute),
+        {shared::kGatherTexels, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, kCompute}};
+    HEARTH_ASSIGN_OR_RETURN(gather, createSetLayout(device, gather_bindings));
+    return success();
+}
+
+Status DrawLayouts::createPipelineLayouts(const Device& device)
+{
+    const NumberedSet visibility_sets[] = {{shared::kSetScene, scene.get()},
+                                           {shared::kSetMaterial, material.get()},
+                                           {shared::kSetBins, bins.get()}};
+    HEARTH_ASSIGN_OR_RETURN(
+        visibility, createPipelineLayout(device, visibility_sets, kBinPushStages, sizeof(shared::BinPush)));
+    const auto createShading = [&](std::span<const NumberedSet> sets)
+    { return createPipelineLayout(device, sets, kShadingPushStages, sizeof(shared::ShadingPush)); };
+    const NumberedSet picture_sets[] = {{shared::kSetScene, scene.get()},
+                                        {shared::kSetMaterial, material.get()},
+                                        {shared::kSetAttachments, attachments.get()}};
+    HEARTH_ASSIGN_OR_RETURN(picture, createShading(picture_sets));
+    const NumberedSet cluster_sets[] = {{shared::kSetTables, cluster_view.get()},
+                                        {shared::kSetClusterAttachments, attachments.get()}};
+    HEARTH_ASSIGN_OR_RETURN(clusters, createShading(cluster_sets));
+    const NumberedSet brick_sets[] = {{shared::kSetBricks, bricks.get()}};
+    HEARTH_ASSIGN_OR_RETURN(brick_views, createShading(brick_sets));
+    return success();
+}
+
 Result<DrawLayouts> DrawLayouts::create(const Device& device)
 {
-    constexpr VkShaderStageFlags kBoth = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
-    // the skinning pass and the pass that chooses gather points read the scene like vertex shaders
-    std::vector<SetBinding> scene(kSceneBindingCount,
-                                  {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kBoth | VK_SHADER_STAGE_COMPUTE_BIT});
-    scene[kSceneFrame] = {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kBoth | VK_SHADER_STAGE_COMPUTE_BIT};
-    scene[kSceneLighting].stages = VK_SHADER_STAGE_FRAGMENT_BIT;
-    scene[kSceneShadows] = {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kBoth};
-    for (const SceneBinding texture : {kSceneShadowMaps, kSceneSpecularTable})
-        scene[texture] = {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT};
-
-    std::vector<SetBinding> material(
-        1 + shared::kTextureCount, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT});
-    material[0] = {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kBoth};
-
-    const SetBinding bins[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_VERTEX_BIT}};
-    const SetBinding attachments[] = {
-        {VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT, VK_SHADER_STAGE_FRAGMENT_BIT},
-        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_VERTEX_BIT},
-        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}};
-
-    const SetBinding occlusion[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},
-                                    {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},
-                                    {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_COMPUTE_BIT}};
-
-    const SetBinding tiles[] = {{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_COMPUTE_BIT},
-                                {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},
-                                {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT}};
-
-    std::vector<SetBinding> cluster_view(5,
-                                         {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_FRAGMENT_BIT});
-    cluster_view[kClusterViewFrame].type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-
-    std::vector<SetBinding> bricks(
-        kBrickBindingCount,
-        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_FRAGMENT_BIT});
-    bricks[kBrickFrame].type = bricks[kBrickView].type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-    const SetBinding fresh_light[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},
-                                      {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT}};
-    const SetBinding gather_point[] = {
-        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_COMPUTE_BIT},
-        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT}};
-    const SetBinding gather[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},
-                                 {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},
-                                 {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT},
-                                 {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, VK_SHADER_STAGE_COMPUTE_BIT}};
-
     DrawLayouts layouts;
-    HEARTH_ASSIGN_OR_RETURN(layouts.scene, createSetLayout(device, scene));
-    HEARTH_ASSIGN_OR_RETURN(layouts.material, createSetLayout(device, material));
-    HEARTH_ASSIGN_OR_RETURN(layouts.bins, createSetLayout(device, bins));
-    HEARTH_ASSIGN_OR_RETURN(layouts.attachments, createSetLayout(device, attachments));
-    HEARTH_ASSIGN_OR_RETURN(layouts.occlusion, createSetLayout(device, occlusion));
-    HEARTH_ASSIGN_OR_RETURN(layouts.tiles, createSetLayout(device, tiles));
-    HEARTH_ASSIGN_OR_RETURN(layouts.cluster_view, createSetLayout(device, cluster_view));
-    HEARTH_ASSIGN_OR_RETURN(layouts.bricks, createSetLayout(device, bricks));
-    HEARTH_ASSIGN_OR_RETURN(layouts.fresh_light, createSetLayout(device, fresh_light));
-    HEARTH_ASSIGN_OR_RETURN(layouts.gather_point, createSetLayout(device, gather_point));
-    HEARTH_ASSIGN_OR_RETURN(layouts.gather, createSetLayout(device, gather));
-    const VkDescriptorSetLayout visibility_sets[] = {layouts.scene.get(), layouts.material.get(),
-                                                     layouts.bins.get()};
-    const VkDescriptorSetLayout picture_sets[] = {layouts.scene.get(), layouts.material.get(),
-                                                  layouts.attachments.get()};
-    HEARTH_ASSIGN_OR_RETURN(layouts.visibility,
-                            createPipelineLayout(device, visibility_sets, kDrawPushStages, sizeof(DrawPush)));
-    HEARTH_ASSIGN_OR_RETURN(layouts.picture,
-                            createPipelineLayout(device, picture_sets, kDrawPushStages, sizeof(DrawPush)));
-    const VkDescriptorSetLayout cluster_sets[] = {layouts.cluster_view.get(), layouts.attachments.get()};
-    HEARTH_ASSIGN_OR_RETURN(layouts.clusters,
-                            createPipelineLayout(device, cluster_sets, kDrawPushStages, sizeof(DrawPush)));
-    const VkDescriptorSetLayout brick_sets[] = {layouts.bricks.get()};
-    HEARTH_ASSIGN_OR_RETURN(layouts.brick_views,
-                            createPipelineLayout(device, brick_sets, kDrawPushStages, sizeof(DrawPush)));
+    HEARTH_TRY(layouts.createSceneSets(device));
+    HEARTH_TRY(layouts.createFrameSets(device));
+    HEARTH_TRY(layouts.createBrickSets(device));
+    HEARTH_TRY(layouts.createPipelineLayouts(device));
     return layouts;
 }
 

@@ -116,7 +116,7 @@ Result<VkDescriptorSet> createMaterialSet(const Device& device, const DrawLayout
     HEARTH_ASSIGN_OR_RETURN(const VkDescriptorSet set,
                             allocateSet(device, scene.pool.get(), layouts.material.get()));
     DescriptorWriter writer(set);
-    writer.uniform(0, scene.buffers.materials, offset, sizeof(shared::Material));
+    writer.uniform(shared::kMaterialBlock, scene.buffers.materials, offset, sizeof(shared::Material));
     const auto textures = materialTextures(material);
     for (uint32_t slot = 0; slot < shared::kTextureCount; ++slot)
     {
@@ -124,7 +124,7 @@ Result<VkDescriptorSet> createMaterialSet(const Device& device, const DrawLayout
         HEARTH_ASSIGN_OR_RETURN(const VkSampler sampler,
                                 samplers.get(used ? textures[slot] : formats::TextureRef{}));
         const Image& image = used ? scene.images[textures[slot].image] : scene.images.back();
-        writer.texture(1 + slot, image.view.get(), sampler);
+        writer.texture(shared::kMaterialTextures + slot, image.view.get(), sampler);
     }
     writer.write(device);
     return set;

@@ -147,17 +147,20 @@ Status uploadBricks(const Device& device, const DrawLayouts& layouts, const form
 
     HEARTH_ASSIGN_OR_RETURN(b.set, allocateSet(device, scene.pool.get(), layouts.bricks.get()));
     DescriptorWriter(b.set)
-        .uniform(kBrickFrame, scene.buffers.frame)
-        .uniform(kBrickView, b.view)
-        .storage(kBrickGroups, b.groups)
-        .storage(kBrickBricks, b.bricks)
-        .storage(kBrickOpacity, b.opacity)
-        .storage(kBrickSurfaces, b.surfaces)
-        .storage(kBrickLighting, b.lighting)
-        .storage(kBrickLights, scene.buffers.lighting)
+        .uniform(shared::kBricksFrame, scene.buffers.frame)
+        .uniform(shared::kBricksView, b.view)
+        .storage(shared::kBricksGroups, b.groups)
+        .storage(shared::kBricksBricks, b.bricks)
+        .storage(shared::kBricksOpacity, b.opacity)
+        .storage(shared::kBricksSurfaces, b.surfaces)
+        .storage(shared::kBricksLight, b.lighting)
+        .storage(shared::kBricksLighting, scene.buffers.lighting)
         .write(device);
     HEARTH_ASSIGN_OR_RETURN(b.fresh_set, allocateSet(device, scene.pool.get(), layouts.fresh_light.get()));
-    DescriptorWriter(b.fresh_set).storage(0, b.fresh).storage(1, b.places).write(device);
+    DescriptorWriter(b.fresh_set)
+        .storage(shared::kFreshLightFaces, b.fresh)
+        .storage(shared::kFreshLightLocations, b.places)
+        .write(device);
     return success();
 }
 

@@ -4,6 +4,7 @@
 #include "runtime/gpu/scene/scene_boxes.h"
 #include "runtime/gpu/scene/scene_shading.h"
 #include "runtime/gpu/scene/scene_shadows.h"
+#include "runtime/gpu/scene/scene_tables.h"
 #include "runtime/pack/cut.h"
 
 #include <algorithm>
@@ -190,27 +191,22 @@ Status createSets(const Device& device, const DrawLayouts& layouts, Scene& scene
     HEARTH_ASSIGN_OR_RETURN(scene.draw_set, allocateSet(device, scene.pool.get(), layouts.scene.get()));
     const SceneBuffers& b = scene.buffers;
     DescriptorWriter writer(scene.draw_set);
-    writer.uniform(kSceneFrame, b.frame)
-        .storage(kSceneInstances, b.instances)
-        .storage(kSceneVisible, b.visible)
-        .storage(kSceneDraws, b.cluster_draws)
-        .storage(kSceneLighting, b.lighting);
+    writer.uniform(shared::kSceneFrame, b.frame)
+        .storage(shared::kSceneInstances, b.instances)
+        .storage(shared::kSceneVisible, b.visible)
+        .storage(shared::kSceneDraws, b.cluster_draws)
+        .storage(shared::kSceneLighting, b.lighting);
     for (uint32_t slice = 0; slice < shared::kPoolSlices; ++slice)
-        writer.storage(kScenePool + slice, scene.deformation != nullptr && slice == shared::kDeformationSlice
-                                               ? scene.deformation->buffer
-                                               : b.pool[slice]);
+        writer.storage(shared::kScenePool + slice,
+                       scene.deformation != nullptr && slice == shared::kDeformationSlice
+                           ? scene.deformation->buffer
+                           : b.pool[slice]);
     writer.write(device);
     HEARTH_ASSIGN_OR_RETURN(scene.bins_set, allocateSet(device, scene.pool.get(), layouts.bins.get()));
-    DescriptorWriter(scene.bins_set).storage(0, b.bin_draws).write(device);
+    DescriptorWriter(scene.bins_set).storage(shared::kBinsDraws, b.bin_draws).write(device);
     HEARTH_ASSIGN_OR_RETURN(scene.cluster_view_set,
                             allocateSet(device, scene.pool.get(), layouts.cluster_view.get()));
-    DescriptorWriter(scene.cluster_view_set)
-        .uniform(kClusterViewFrame, b.frame)
-        .storage(kClusterViewInstances, b.instances)
-        .storage(kClusterViewVisible, b.visible)
-        .storage(kClusterViewClusters, b.clusters)
-        .storage(kClusterViewGroups, b.groups)
-        .write(device);
+    writeTables(device, scene, scene.cluster_view_set, kClusterViewTables);
     return success();
 }
 
@@ -259,9 +255,9 @@ void storeDeformation(const formats::PackView& pack, DeformationLayout layout, S
 void fillSpareBindings(const Device& device, const Scene& scene)
 {
     DescriptorWriter(scene.draw_set)
-        .uniform(kSceneShadows, scene.buffers.frame)
-        .texture(kSceneShadowMaps, scene.images.back().view.get(), scene.samplers.front().get())
-        .texture(kSceneSpecularTable, scene.images.back().view.get(), scene.samplers.front().get())
+        .uniform(shared::kSceneShadows, scene.buffers.frame)
+        .texture(shared::kSceneShadowMaps, scene.images.back().view.get(), scene.samplers.front().get())
+        .texture(shared::kSceneSpecularTable, scene.images.back().view.get(), scene.samplers.front().get())
         .write(device);
 }
 

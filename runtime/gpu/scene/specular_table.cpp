@@ -41,7 +41,7 @@ Status uploadSpecularTable(const Device& device, const formats::PackView& pack, 
     HEARTH_ASSIGN_OR_RETURN(const VkSampler sampler, createSampler(device, scene));
     scene.specular_spacing = table.spacing;
     DescriptorWriter(scene.draw_set)
-        .texture(kSceneSpecularTable, scene.specular_table.view.get(), sampler)
+        .texture(shared::kSceneSpecularTable, scene.specular_table.view.get(), sampler)
         .write(device);
     return success();
 }

@@ -50,7 +50,7 @@ Result<UniqueSetLayout> createSetLayout(const Device& device, std::span<const Se
 {
     std::vector<VkDescriptorSetLayoutBinding> infos;
     for (const SetBinding& binding : bindings)
-        infos.push_back({static_cast<uint32_t>(infos.size()), binding.type, 1, binding.stages, nullptr});
+        infos.push_back({binding.binding, binding.type, 1, binding.stages, nullptr});
     const VkDescriptorSetLayoutCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, nullptr,
                                                0, static_cast<uint32_t>(infos.size()), infos.data()};
     VkDescriptorSetLayout layout;
@@ -59,16 +59,21 @@ Result<UniqueSetLayout> createSetLayout(const Device& device, std::span<const Se
     return UniqueSetLayout(device, layout);
 }
 
-Result<UniquePipelineLayout> createPipelineLayout(const Device& device,
-                                                  std::span<const VkDescriptorSetLayout> sets,
+Result<UniquePipelineLayout> createPipelineLayout(const Device& device, std::span<const NumberedSet> sets,
                                                   VkShaderStageFlags push_stages, uint32_t push_bytes)
 {
+    std::vector<VkDescriptorSetLayout> set_layouts(sets.size(), VK_NULL_HANDLE);
+    for (const NumberedSet& set : sets)
+    {
+        HEARTH_ASSERT(set.number < sets.size() && set_layouts[set.number] == VK_NULL_HANDLE);
+        set_layouts[set.number] = set.layout;
+    }
     const VkPushConstantRange push{push_stages, 0, push_bytes};
     const VkPipelineLayoutCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
                                           nullptr,
                                           0,
-                                          static_cast<uint32_t>(sets.size()),
-                                          sets.data(),
+                                          static_cast<uint32_t>(set_layouts.size()),
+                                          set_layouts.data(),
                                           push_bytes > 0 ? 1u : 0u,
                                           &push};
     VkPipelineLayout layout;
@@ -77,13 +82,11 @@ Result<UniquePipelineLayout> createPipelineLayout(const Device& device,
     return UniquePipelineLayout(device, layout);
 }
 
-namespace
+Result<ComputePipeline> createComputePipeline(const Device& device, std::span<const uint32_t> spirv,
+                                              std::span<const NumberedSet> sets, uint32_t push_bytes,
+                                              std::span<const uint32_t> constants)
 {
-
-Status finishComputePipeline(const Device& device, std::span<const uint32_t> spirv,
-                             std::span<const VkDescriptorSetLayout> sets, uint32_t push_bytes,
-                             std::span<const uint32_t> constants, ComputePipeline& result)
-{
+    ComputePipeline result;
     HEARTH_ASSIGN_OR_RETURN(result.layout,
                             createPipelineLayout(device, sets, VK_SHADER_STAGE_COMPUTE_BIT, push_bytes));
     HEARTH_ASSIGN_OR_RETURN(const UniqueShaderModule module, createModule(device, spirv));
@@ -98,42 +101,6 @@ Status finishComputePipeline(const Device& device, std::span<const uint32_t> spi
                                                      device.allocator, &pipeline),
                   "create a compute pipeline");
     result.pipeline = UniquePipeline(device, pipeline);
-    return success();
-}
-
-} // namespace
-
-Result<ComputePipeline> createComputePipeline(const Device& device, std::span<const uint32_t> spirv,
-                                              std::initializer_list<VkDescriptorType> types,
-                                              uint32_t push_bytes, VkDescriptorSetLayout shared_set)
-{
-    std::vector<SetBinding> bindings;
-    for (const VkDescriptorType type : types)
-        bindings.push_back({type, VK_SHADER_STAGE_COMPUTE_BIT});
-    ComputePipeline result;
-    HEARTH_ASSIGN_OR_RETURN(result.set_layout, createSetLayout(device, bindings));
-    const VkDescriptorSetLayout sets[] = {result.set_layout.get(), shared_set};
-    const size_t set_count = shared_set == VK_NULL_HANDLE ? 1 : 2;
-    HEARTH_TRY(
-        finishComputePipeline(device, spirv, std::span(sets).first(set_count), push_bytes, {}, result));
-    return result;
-}
-
-Result<ComputePipeline> createComputePipeline(const Device& device, std::span<const uint32_t> spirv,
-                                              uint32_t push_bytes, VkDescriptorSetLayout shared_set,
-                                              std::span<const uint32_t> constants)
-{
-    ComputePipeline result;
-    HEARTH_TRY(finishComputePipeline(device, spirv, {&shared_set, 1}, push_bytes, constants, result));
-    return result;
-}
-
-Result<ComputePipeline> createComputePipeline(const Device& device, std::span<const uint32_t> spirv,
-                                              std::span<const VkDescriptorSetLayout> sets,
-                                              std::span<const uint32_t> constants)
-{
-    ComputePipeline result;
-    HEARTH_TRY(finishComputePipeline(device, spirv, sets, 0, constants, result));
     return result;
 }
 

@@ -11,39 +11,48 @@
 namespace hearth::gpu
 {
 
+/// Binding of one descriptor.
 struct SetBinding
 {
+    uint32_t binding;
     VkDescriptorType type;
     VkShaderStageFlags stages;
 };
+constexpr SetBinding uniformBinding(uint32_t binding, VkShaderStageFlags stages)
+{
+    return {binding, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, stages};
+}
+constexpr SetBinding storageBinding(uint32_t binding, VkShaderStageFlags stages)
+{
+    return {binding, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, stages};
+}
+constexpr SetBinding textureBinding(uint32_t binding, VkShaderStageFlags stages)
+{
+    return {binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, stages};
+}
 
-/// Create a layout with bindings 0, 1, 2 ... of one descriptor each.
 Result<UniqueSetLayout> createSetLayout(const Device& device, std::span<const SetBinding> bindings);
 
-Result<UniquePipelineLayout> createPipelineLayout(const Device& device,
-                                                  std::span<const VkDescriptorSetLayout> sets,
+/// Layout of the set with a number.
+struct NumberedSet
+{
+    uint32_t number;
+    VkDescriptorSetLayout layout;
+};
+
+/// Create a layout with sets 0, 1, 2 ..., in any order.
+Result<UniquePipelineLayout> createPipelineLayout(const Device& device, std::span<const NumberedSet> sets,
                                                   VkShaderStageFlags push_stages, uint32_t push_bytes);
 
-/// Compute shader with a descriptor set of its own: binding i has types[i]. Set 1 is shared by pipelines.
 struct ComputePipeline
 {
-    UniqueSetLayout set_layout;
+    UniqueSetLayout set_layout; ///< of a set that no other pipeline has; empty if there is none
     UniquePipelineLayout layout;
     UniquePipeline pipeline;
 };
-Result<ComputePipeline> createComputePipeline(const Device& device, std::span<const uint32_t> spirv,
-                                              std::initializer_list<VkDescriptorType> types,
-                                              uint32_t push_bytes,
-                                              VkDescriptorSetLayout shared_set = VK_NULL_HANDLE);
-/// Create a pipeline with a shared set 0 only; `set_layout` stays empty.
 /// constants  value of specialization constant i
 Result<ComputePipeline> createComputePipeline(const Device& device, std::span<const uint32_t> spirv,
-                                              uint32_t push_bytes, VkDescriptorSetLayout shared_set,
-                                              std::span<const uint32_t> constants = {});
-
-/// Create a pipeline with shared sets only: sets[i] is its set i.
-Result<ComputePipeline> createComputePipeline(const Device& device, std::span<const uint32_t> spirv,
-                                              std::span<const VkDescriptorSetLayout> sets,
+                                              std::span<const NumberedSet> sets, uint32_t push_bytes = 0,
                                               std::span<const uint32_t> constants = {});
 
 struct GraphicsDescription

@@ -2,24 +2,20 @@
 // one thread per cluster. Writes a bit mask of the drawn clusters of the item and, in the early phase, a mask
 // of the clusters that the late phase tests again.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/gpu_shared/bindings.h"
+#include "formats/gpu_shared/push_constants.h"
 #include "runtime/shaders/cull/occlusion.glsl"
 
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 0, std140) uniform Frame { FrameView view; };
-layout(set = 0, binding = 1, std430) readonly buffer Instances { Instance instances[]; };
-layout(set = 0, binding = 2, std430) readonly buffer States { InstanceState states[]; };
-layout(set = 0, binding = 3, std430) readonly buffer Items { WorkItem items[]; };
-layout(set = 0, binding = 4, std430) readonly buffer Order { uint order[]; };
-// binding 5: the clusters
-layout(set = 0, binding = 6, std430) readonly buffer Groups { Group groups[]; };
-layout(set = 0, binding = 7, std430) buffer Results { WorkResult results[]; };
-layout(push_constant) uniform Push
-{
-    uint first_item;
-    uint item_count;
-    uint phase;
-};
+layout(set = kSetTables, binding = kTableFrame, std140) uniform Frame { FrameView view; };
+layout(set = kSetTables, binding = kTableInstances, std430) readonly buffer Instances { Instance instances[]; };
+layout(set = kSetTables, binding = kTableStates, std430) readonly buffer States { InstanceState states[]; };
+layout(set = kSetTables, binding = kTableItems, std430) readonly buffer Items { WorkItem items[]; };
+layout(set = kSetTables, binding = kTableOrder, std430) readonly buffer Order { uint order[]; };
+layout(set = kSetTables, binding = kTableGroups, std430) readonly buffer Groups { Group groups[]; };
+layout(set = kSetTables, binding = kTableResults, std430) buffer Results { WorkResult results[]; };
+layout(push_constant) uniform Push { CullPush push; };
 
 // subgroups are not required of the device, so shared memory gathers the masks
 shared uint drawn[2];
@@ -33,9 +29,9 @@ bool isOccluded(OcclusionView seen_from, WorkItem item, uint cluster);
 void main()
 {
     uint group = gl_WorkGroupID.y * kMaxDispatchX + gl_WorkGroupID.x;
-    if (group >= item_count)
+    if (group >= push.item_count)
         return;
-    uint item_index = first_item + group;
+    uint item_index = push.first_item + group;
     uint lane = gl_LocalInvocationIndex;
     if (lane < 2u)
     {
@@ -52,18 +48,18 @@ void main()
     {
         uint cluster = order[item.first + lane];
         bool candidate;
-        if (phase == kPhaseLate && seen == kInstanceVisible)
+        if (push.phase == kPhaseLate && seen == kInstanceVisible)
             candidate = ((word == 0u ? results[item_index].later_low : results[item_index].later_high) & bit) != 0u;
         else
             candidate = passesTests(item, cluster);
         bool hidden = false;
-        if (candidate && phase == kPhaseLate)
+        if (candidate && push.phase == kPhaseLate)
             hidden = isOccluded(current_view, item, cluster);
-        else if (candidate && phase == kPhaseEarly)
+        else if (candidate && push.phase == kPhaseEarly)
             hidden = isOccluded(last_view, item, cluster);
         if (candidate && !hidden)
             atomicOr(drawn[word], bit);
-        if (hidden && phase == kPhaseEarly)
+        if (hidden && push.phase == kPhaseEarly)
             atomicOr(retest[word], bit);
     }
     barrier();

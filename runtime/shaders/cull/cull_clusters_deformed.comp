@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/bindings.h"
 #include "formats/gpu_shared/deformation.h"
 #include "runtime/shaders/cull/cull_clusters.glsl"
-#define DEFORMATION_SET 0
-#define DEFORMATION_BINDING 5
+#define DEFORMATION_SET kSetTables
+#define DEFORMATION_BINDING kTableDeformation
 #include "runtime/shaders/scene/deformation.glsl"
 
 bool passesTests(WorkItem item, uint number)

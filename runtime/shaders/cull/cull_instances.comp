@@ -3,17 +3,19 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/bindings.h"
 #include "formats/gpu_shared/occlusion.h"
+#include "formats/gpu_shared/push_constants.h"
 #include "runtime/shaders/cull/occlusion.glsl"
 
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 0, std140) uniform Frame { FrameView view; };
-layout(set = 0, binding = 1, std430) readonly buffer Instances { Instance instances[]; };
-layout(set = 0, binding = 2, std430) readonly buffer Inverses { InstanceInverse inverses[]; };
-layout(set = 0, binding = 3, std430) readonly buffer Bounds { MeshBounds bounds[]; };
-layout(set = 0, binding = 4, std430) buffer States { InstanceState states[]; };
-layout(push_constant) uniform Push { uint phase; };
+layout(set = kSetTables, binding = kTableFrame, std140) uniform Frame { FrameView view; };
+layout(set = kSetTables, binding = kTableInstances, std430) readonly buffer Instances { Instance instances[]; };
+layout(set = kSetTables, binding = kTableInverses, std430) readonly buffer Inverses { InstanceInverse inverses[]; };
+layout(set = kSetTables, binding = kTableBounds, std430) readonly buffer Bounds { MeshBounds bounds[]; };
+layout(set = kSetTables, binding = kTableStates, std430) buffer States { InstanceState states[]; };
+layout(push_constant) uniform Push { PhasePush push; };
 
 void main()
 {
@@ -22,7 +24,7 @@ void main()
         return;
     Instance instance = instances[i];
     MeshBounds mesh = bounds[instance.mesh];
-    if (phase == kPhaseLate)
+    if (push.phase == kPhaseLate)
     {
         if (states[i].visible == kInstanceDeferred)
             states[i].visible =
@@ -30,7 +32,7 @@ void main()
         return;
     }
     InstanceState state = decideInstance(view, instance, inverses[i], mesh);
-    if (phase == kPhaseEarly && state.visible == kInstanceVisible &&
+    if (push.phase == kPhaseEarly && state.visible == kInstanceVisible &&
         isHidden(last_view, instance, mesh.box_min, mesh.box_max))
         state.visible = kInstanceDeferred;
     states[i] = state;

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/bindings.h"
 #include "formats/gpu_shared/decisions.h"
 #include "runtime/shaders/cull/cull_statistics.glsl"
 
-layout(set = 0, binding = 6, std430) readonly buffer Clusters { Cluster clusters[]; };
+layout(set = kSetTables, binding = kTableClusters, std430) readonly buffer Clusters { Cluster clusters[]; };
 
 uint clusterOutcome(WorkItem item, uint number)
 {

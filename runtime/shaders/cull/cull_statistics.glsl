@@ -2,25 +2,21 @@
 // counts the reasons why each instance and each cluster was drawn or culled. One workgroup per work item, one
 // thread per cluster, as in cull_clusters.glsl; thread i also counts instance i.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/gpu_shared/bindings.h"
 #include "formats/gpu_shared/cull_statistics.h"
+#include "formats/gpu_shared/push_constants.h"
 
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 0, std140) uniform Frame { FrameView view; };
-layout(set = 0, binding = 1, std430) readonly buffer Instances { Instance instances[]; };
-layout(set = 0, binding = 2, std430) readonly buffer States { InstanceState states[]; };
-layout(set = 0, binding = 3, std430) readonly buffer Bounds { MeshBounds bounds[]; };
-layout(set = 0, binding = 4, std430) readonly buffer Items { WorkItem items[]; };
-layout(set = 0, binding = 5, std430) readonly buffer Order { uint order[]; };
-// binding 6: the clusters
-layout(set = 0, binding = 7, std430) readonly buffer Groups { Group groups[]; };
-layout(set = 0, binding = 8, std430) buffer Statistics { CullStatistics statistics; };
-layout(push_constant) uniform Push
-{
-    uint first_item;
-    uint item_count;
-    uint instance_count; // 0 where the other pass counts them
-};
+layout(set = kSetTables, binding = kTableFrame, std140) uniform Frame { FrameView view; };
+layout(set = kSetTables, binding = kTableInstances, std430) readonly buffer Instances { Instance instances[]; };
+layout(set = kSetTables, binding = kTableStates, std430) readonly buffer States { InstanceState states[]; };
+layout(set = kSetTables, binding = kTableBounds, std430) readonly buffer Bounds { MeshBounds bounds[]; };
+layout(set = kSetTables, binding = kTableItems, std430) readonly buffer Items { WorkItem items[]; };
+layout(set = kSetTables, binding = kTableOrder, std430) readonly buffer Order { uint order[]; };
+layout(set = kSetTables, binding = kTableGroups, std430) readonly buffer Groups { Group groups[]; };
+layout(set = kSetTables, binding = kTableStatistics, std430) buffer Statistics { CullStatistics statistics; };
+layout(push_constant) uniform Push { CullStatisticsPush push; };
 
 shared uint cluster_counts[kOutcomeCount];
 shared uint triangle_counts[kOutcomeCount];
@@ -62,11 +58,11 @@ void main()
     if (lane < kOutcomeCount)
         cluster_counts[lane] = triangle_counts[lane] = 0u;
     barrier();
-    if (group * 64u + lane < instance_count)
+    if (group * 64u + lane < push.instance_count)
         countInstance(group * 64u + lane);
-    if (group < item_count && lane < items[first_item + group].count)
+    if (group < push.item_count && lane < items[push.first_item + group].count)
     {
-        WorkItem item = items[first_item + group];
+        WorkItem item = items[push.first_item + group];
         uint cluster = order[item.first + lane];
         uint outcome = instanceOutcome(item, cluster);
         atomicAdd(cluster_counts[outcome], 1u);

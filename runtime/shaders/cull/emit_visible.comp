@@ -4,28 +4,26 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/bindings.h"
+#include "formats/gpu_shared/push_constants.h"
 #include "formats/gpu_shared/records.h"
 
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 0, std430) readonly buffer Items { WorkItem items[]; };
-layout(set = 0, binding = 1, std430) readonly buffer Order { uint order[]; };
-layout(set = 0, binding = 2, std430) readonly buffer Results { WorkResult results[]; };
-layout(set = 0, binding = 3, std430) readonly buffer Totals { uint totals[]; };
-layout(set = 0, binding = 4, std430) readonly buffer Draws { ClusterDraw cluster_draws[]; };
-layout(set = 0, binding = 5, std430) writeonly buffer Visible { VisibleCluster visible[]; };
+layout(set = kSetTables, binding = kTableItems, std430) readonly buffer Items { WorkItem items[]; };
+layout(set = kSetTables, binding = kTableOrder, std430) readonly buffer Order { uint order[]; };
+layout(set = kSetTables, binding = kTableResults, std430) readonly buffer Results { WorkResult results[]; };
+layout(set = kSetTables, binding = kTableTotals, std430) readonly buffer Totals { uint totals[]; };
+layout(set = kSetTables, binding = kTableDraws, std430) readonly buffer Draws { ClusterDraw cluster_draws[]; };
+layout(set = kSetTables, binding = kTableVisible, std430) writeonly buffer Visible { VisibleCluster visible[]; };
 // VkDrawIndirectCommand of the full-screen triangle of each material: four words, all 0 before this pass
-layout(set = 0, binding = 6, std430) buffer MaterialDraws { uint material_draws[]; };
-layout(push_constant) uniform Push
-{
-    uint item_count;
-    uint slot_capacity;
-};
+layout(set = kSetTables, binding = kTableMaterialDraws, std430) buffer MaterialDraws { uint material_draws[]; };
+layout(push_constant) uniform Push { EmitVisiblePush push; };
 
 void main()
 {
     uint item_index = gl_WorkGroupID.y * kMaxDispatchX + gl_WorkGroupID.x;
-    if (item_index >= item_count)
+    if (item_index >= push.item_count)
         return;
     uint lane = gl_LocalInvocationIndex;
     WorkResult result = results[item_index];
@@ -35,7 +33,7 @@ void main()
         return;
     uint rank = uint(bitCount(word & ((1u << bit) - 1u))) + (lane < 32u ? 0u : uint(bitCount(result.mask_low)));
     uint slot = totals[item_index / kScanBlockItems] + result.offset + rank;
-    if (slot >= slot_capacity)
+    if (slot >= push.slot_capacity)
         return;
     WorkItem item = items[item_index];
     uint cluster = order[item.first + lane];

@@ -1,13 +1,14 @@
 // Occlusion test against the depth pyramid (hierarchical Z), and the views it was rendered from: set 1 of the
 // culling pipelines.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/gpu_shared/bindings.h"
 
-layout(set = 1, binding = 0, std140) uniform Occlusion
+layout(set = kSetOcclusion, binding = kOcclusionViews, std140) uniform Occlusion
 {
     OcclusionView last_view;    // view of the pyramid that the early phase reads, rendered by the last frame
     OcclusionView current_view; // view of the pyramid that the late phase reads, rendered by the early phase
 };
-layout(set = 1, binding = 1, std430) readonly buffer Pyramid { float pyramid[]; };
+layout(set = kSetOcclusion, binding = kOcclusionPyramid, std430) readonly buffer Pyramid { float pyramid[]; };
 
 // True if everything in the box lies behind the depth in the pyramid.
 bool isHidden(OcclusionView seen_from, Instance instance, vec3 box_min, vec3 box_max)

@@ -2,21 +2,19 @@
 // one thread per group. Finds the pages that the frame needs, resident or not, with a priority for each.
 // Requests depend on the view alone, not on the pages loaded or the clusters drawn so far.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/gpu_shared/bindings.h"
+#include "formats/gpu_shared/push_constants.h"
 
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 0, std140) uniform Frame { FrameView view; };
-layout(set = 0, binding = 1, std430) readonly buffer Instances { Instance instances[]; };
-layout(set = 0, binding = 2, std430) readonly buffer States { InstanceState states[]; };
-layout(set = 0, binding = 3, std430) readonly buffer Items { GroupItem items[]; };
-layout(set = 0, binding = 4, std430) readonly buffer Clusters { Cluster clusters[]; };
-layout(set = 0, binding = 5, std430) readonly buffer Groups { Group groups[]; };
-layout(set = 0, binding = 6, std430) buffer Requests { uint requests[]; };
-layout(push_constant) uniform Push
-{
-    uint first_item;
-    uint item_count;
-};
+layout(set = kSetTables, binding = kTableFrame, std140) uniform Frame { FrameView view; };
+layout(set = kSetTables, binding = kTableInstances, std430) readonly buffer Instances { Instance instances[]; };
+layout(set = kSetTables, binding = kTableStates, std430) readonly buffer States { InstanceState states[]; };
+layout(set = kSetTables, binding = kTableGroupItems, std430) readonly buffer Items { GroupItem items[]; };
+layout(set = kSetTables, binding = kTableClusters, std430) readonly buffer Clusters { Cluster clusters[]; };
+layout(set = kSetTables, binding = kTableGroups, std430) readonly buffer Groups { Group groups[]; };
+layout(set = kSetTables, binding = kTablePageRequests, std430) buffer Requests { uint requests[]; };
+layout(push_constant) uniform Push { PageRequestPush push; };
 
 // transformedGroup: the group with the bounds that the cut test uses. inFrustum: true if the cluster passes
 // the frustum test.
@@ -33,9 +31,9 @@ void requestPage(uint group, uint request)
 void main()
 {
     uint item_index = gl_WorkGroupID.y * kMaxDispatchX + gl_WorkGroupID.x;
-    if (item_index >= item_count)
+    if (item_index >= push.item_count)
         return;
-    GroupItem item = items[first_item + item_index];
+    GroupItem item = items[push.first_item + item_index];
     // clusters occluded in the last frame are still in the frustum, so they are requested as well
     if (gl_LocalInvocationIndex >= item.count || states[item.instance].visible == kInstanceHidden)
         return;

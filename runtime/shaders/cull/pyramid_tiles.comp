@@ -2,31 +2,29 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/bindings.h"
 #include "formats/gpu_shared/occlusion.h"
+#include "formats/gpu_shared/push_constants.h"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 
-layout(set = 0, binding = 1, std430) writeonly buffer Pyramid { float pyramid[]; };
-layout(set = 0, binding = 2) uniform sampler2D depth_buffer;
-layout(push_constant) uniform Push
-{
-    uint width;
-    uint height;
-};
+layout(set = kSetPyramid, binding = kOcclusionPyramid, std430) writeonly buffer Pyramid { float pyramid[]; };
+layout(set = kSetPyramid, binding = kOcclusionDepth) uniform sampler2D depth_buffer;
+layout(push_constant) uniform Push { PyramidPush push; };
 
 shared float tile[16][16];
 
 // Depth of a pixel. Pixels beyond the edge are clamped to the edge; they lie in the same texel.
 float depthAt(uvec2 pixel)
 {
-    return texelFetch(depth_buffer, ivec2(min(pixel, uvec2(width - 1u, height - 1u))), 0).x;
+    return texelFetch(depth_buffer, ivec2(min(pixel, uvec2(push.width - 1u, push.height - 1u))), 0).x;
 }
 
 void write(uint level, uvec2 texel, float farthest)
 {
-    uvec2 size = uvec2(pyramidSize(width, level), pyramidSize(height, level));
+    uvec2 size = uvec2(pyramidSize(push.width, level), pyramidSize(push.height, level));
     if (texel.x < size.x && texel.y < size.y)
-        pyramid[pyramidOffset(width, height, level) + texel.y * size.x + texel.x] = farthest;
+        pyramid[pyramidOffset(push.width, push.height, level) + texel.y * size.x + texel.x] = farthest;
 }
 
 void main()
@@ -36,7 +34,7 @@ void main()
     float farthest = min(min(depthAt(pixel), depthAt(pixel + uvec2(1u, 0u))),
                          min(depthAt(pixel + uvec2(0u, 1u)), depthAt(pixel + uvec2(1u, 1u))));
     write(1u, gl_GlobalInvocationID.xy, farthest);
-    uint last = min(pyramidLevels(width, height), 5u);
+    uint last = min(pyramidLevels(push.width, push.height), 5u);
     for (uint level = 2u; level <= last; ++level)
     {
         uint side = 32u >> level;

@@ -2,26 +2,24 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/bindings.h"
 #include "formats/gpu_shared/occlusion.h"
+#include "formats/gpu_shared/push_constants.h"
 
 layout(local_size_x = 256) in;
 
-layout(set = 0, binding = 1, std430) coherent buffer Pyramid { float pyramid[]; };
-layout(push_constant) uniform Push
-{
-    uint width;
-    uint height;
-};
+layout(set = kSetPyramid, binding = kOcclusionPyramid, std430) coherent buffer Pyramid { float pyramid[]; };
+layout(push_constant) uniform Push { PyramidPush push; };
 
 void main()
 {
-    uint levels = pyramidLevels(width, height);
+    uint levels = pyramidLevels(push.width, push.height);
     for (uint level = 6u; level <= levels; ++level)
     {
-        uint below = pyramidOffset(width, height, level - 1u);
-        uvec2 size_below = uvec2(pyramidSize(width, level - 1u), pyramidSize(height, level - 1u));
-        uint offset = pyramidOffset(width, height, level);
-        uvec2 size = uvec2(pyramidSize(width, level), pyramidSize(height, level));
+        uint below = pyramidOffset(push.width, push.height, level - 1u);
+        uvec2 size_below = uvec2(pyramidSize(push.width, level - 1u), pyramidSize(push.height, level - 1u));
+        uint offset = pyramidOffset(push.width, push.height, level);
+        uvec2 size = uvec2(pyramidSize(push.width, level), pyramidSize(push.height, level));
         for (uint i = gl_LocalInvocationIndex; i < size.x * size.y; i += 256u)
         {
             uvec2 low = uvec2(i % size.x, i / size.x) * 2u;

@@ -3,14 +3,16 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/bindings.h"
+#include "formats/gpu_shared/push_constants.h"
 #include "formats/gpu_shared/records.h"
 #include "runtime/shaders/cull/scan.glsl"
 
 layout(local_size_x = 256) in;
 
-layout(set = 0, binding = 0, std430) buffer Results { WorkResult results[]; };
-layout(set = 0, binding = 1, std430) writeonly buffer Totals { uint totals[]; };
-layout(push_constant) uniform Push { uint item_count; };
+layout(set = kSetTables, binding = kTableResults, std430) buffer Results { WorkResult results[]; };
+layout(set = kSetTables, binding = kTableTotals, std430) writeonly buffer Totals { uint totals[]; };
+layout(push_constant) uniform Push { ScanBlocksPush push; };
 
 const uint kItemsPerThread = kScanBlockItems / 256u;
 
@@ -22,7 +24,7 @@ void main()
     for (uint i = 0u; i < kItemsPerThread; ++i)
     {
         counts[i] = 0u;
-        if (first + i < item_count)
+        if (first + i < push.item_count)
             counts[i] = uint(bitCount(results[first + i].mask_low) + bitCount(results[first + i].mask_high));
         sum += counts[i];
     }
@@ -30,7 +32,7 @@ void main()
     uint offset = exclusiveScan256(sum, total);
     for (uint i = 0u; i < kItemsPerThread; ++i)
     {
-        if (first + i < item_count)
+        if (first + i < push.item_count)
             results[first + i].offset = offset;
         offset += counts[i];
     }

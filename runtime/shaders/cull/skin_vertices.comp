@@ -4,16 +4,18 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/bindings.h"
 #include "formats/gpu_shared/deformation.h"
+#include "formats/gpu_shared/push_constants.h"
 #include "runtime/shaders/scene/scene.glsl"
-#define DEFORMATION_SET 0
-#define DEFORMATION_BINDING 7
+#define DEFORMATION_SET kSetScene
+#define DEFORMATION_BINDING kSceneDeformation
 #define DEFORMATION_WRITES
 #include "runtime/shaders/scene/deformation.glsl"
 #include "runtime/shaders/scene/pose_vertex.glsl"
 
 layout(local_size_x = 64) in;
-layout(push_constant) uniform Push { uint phase; };
+layout(push_constant) uniform Push { PhasePush push; };
 
 void writeVector(uint word, vec3 v)
 {
@@ -27,7 +29,7 @@ void main()
     uint at = gl_WorkGroupID.y * kMaxDispatchX + gl_WorkGroupID.x;
     if (at >= deformation[2].w)
         return;
-    uint slot = (phase == kPhaseLate ? deformation[1].z : deformation[1].x) + at;
+    uint slot = (push.phase == kPhaseLate ? deformation[1].z : deformation[1].x) + at;
     VisibleCluster shown = visible[slot];
     ClusterDraw draw = cluster_draws[shown.cluster];
     Pose pose = loadPose(readPoseRow(shown.instance));

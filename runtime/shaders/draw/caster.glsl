@@ -1,17 +1,12 @@
 // Vertex of a shadow caster, shared by caster.vert and caster_masked.vert.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/gpu_shared/bindings.h"
+#include "formats/gpu_shared/push_constants.h"
 #include "runtime/shaders/scene/shadow_block.glsl"
 #include "runtime/shaders/scene/drawn_vertex.glsl"
 
-layout(set = 2, binding = 0, std430) readonly buffer BinDraws { BinDraw bin_draws[]; };
-layout(push_constant) uniform Push
-{
-    uint bin_index;
-    uint debug_view;
-    float depth_scale;
-    uint light_row;
-    uint map_index;
-};
+layout(set = kSetBins, binding = kBinsDraws, std430) readonly buffer BinDraws { BinDraw bin_draws[]; };
+layout(push_constant) uniform Push { BinPush push; };
 
 struct CasterCorner
 {
@@ -24,7 +19,7 @@ struct CasterCorner
 // Vertex normals would round off silhouettes in the map.
 CasterCorner casterCorner()
 {
-    uint slot = bin_draws[bin_index].first_slot + gl_InstanceIndex;
+    uint slot = bin_draws[push.bin].first_slot + gl_InstanceIndex;
     uint triangle = gl_VertexIndex / 3u;
     CasterCorner corner;
     corner.draw = cluster_draws[visible[slot].cluster];
@@ -34,7 +29,7 @@ CasterCorner casterCorner()
         return corner;
     Instance instance = instances[visible[slot].instance];
     DrawnPose pose = drawnPose(visible[slot].instance, slot);
-    ShadowLight light = shadows.lights[light_row];
+    ShadowLight light = shadows.lights[push.light_row];
     uint turn = cornerInBin(instance, gl_VertexIndex % 3u);
     vec3 points[3]; // the corner of this invocation, then the other two in order
     for (uint i = 0u; i < 3u; ++i)
@@ -52,6 +47,6 @@ CasterCorner casterCorner()
     float nearest = min(length(points[0]), min(length(points[1]), length(points[2])));
     float longest = max(length(points[1] - points[0]),
                         max(length(points[2] - points[1]), length(points[0] - points[2])));
-    corner.position = shadowCasterClip(light, shadows.maps[map_index], points[0], normal, max(nearest - longest, 0.0));
+    corner.position = shadowCasterClip(light, shadows.maps[push.map_index], points[0], normal, max(nearest - longest, 0.0));
     return corner;
 }

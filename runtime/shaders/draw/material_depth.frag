@@ -5,8 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "formats/gpu_shared/decisions.h"
 #include "runtime/shaders/scene/scene.glsl"
-
-layout(input_attachment_index = 0, set = 2, binding = 0) uniform usubpassInput visibility;
+#include "runtime/shaders/scene/visibility_input.glsl"
 
 void main()
 {

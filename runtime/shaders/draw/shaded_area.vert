@@ -4,12 +4,14 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/bindings.h"
 #include "formats/gpu_shared/material_tiles.h"
+#include "formats/gpu_shared/push_constants.h"
 #include "formats/gpu_shared/records.h"
 
-layout(set = 0, binding = 0, std140) uniform Frame { FrameView view; };
-layout(set = 2, binding = 1, std430) readonly buffer TileLists { uint tile_lists[]; };
-layout(push_constant) uniform Push { float depth; };
+layout(set = kSetScene, binding = kSceneFrame, std140) uniform Frame { FrameView view; };
+layout(set = kSetAttachments, binding = kAttachmentTileLists, std430) readonly buffer TileLists { uint tile_lists[]; };
+layout(push_constant) uniform Push { ShadingPush push; };
 
 // Corners 0 1 2 and 2 1 3 of a quad, two bits each, the first one in the lowest bits.
 const uint kQuadCorners = 0xDA4u;
@@ -28,5 +30,5 @@ void main()
         vec2 size = vec2(view.width, view.height);
         ndc = min(vec2(pixel), size) * 2.0 / size - 1.0;
     }
-    gl_Position = vec4(ndc, depth, 1.0);
+    gl_Position = vec4(ndc, push.depth, 1.0);
 }

@@ -3,17 +3,18 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/bindings.h"
 #include "formats/gpu_shared/records.h"
 #include "runtime/shaders/draw/tiles.glsl"
 #include "runtime/shaders/cull/scan.glsl"
 
 layout(local_size_x = 256) in;
 
-layout(set = 0, binding = 0, std430) readonly buffer Visible { VisibleCluster visible[]; };
-layout(set = 0, binding = 1, std430) readonly buffer Draws { ClusterDraw cluster_draws[]; };
-layout(set = 0, binding = 2, std430) buffer TileDraws { TileDraw tile_draws[]; };
-layout(set = 1, binding = 0) uniform usampler2D visibility;
-layout(set = 1, binding = 1, std430) writeonly buffer TileMaterials { uint tile_materials[]; };
+layout(set = kSetTables, binding = kTableVisible, std430) readonly buffer Visible { VisibleCluster visible[]; };
+layout(set = kSetTables, binding = kTableDraws, std430) readonly buffer Draws { ClusterDraw cluster_draws[]; };
+layout(set = kSetTables, binding = kTableTileDraws, std430) buffer TileDraws { TileDraw tile_draws[]; };
+layout(set = kSetTiles, binding = kTilesVisibility) uniform usampler2D visibility;
+layout(set = kSetTiles, binding = kTilesMaterials, std430) writeonly buffer TileMaterials { uint tile_materials[]; };
 
 const uint kPixelsPerThread = kMaterialTilePixels * kMaterialTilePixels / 256u;
 
@@ -22,7 +23,7 @@ shared uint visible_bits[kTileRoundMaterials / 32u]; // bit m: material first_ma
 // Material id of a pixel. 0 is the sky.
 uint materialAt(uvec2 pixel)
 {
-    if (pixel.x >= width || pixel.y >= height)
+    if (pixel.x >= push.width || pixel.y >= push.height)
         return kNoTileMaterial;
     uint id = texelFetch(visibility, ivec2(pixel), 0).x;
     return id == kVisibilitySky ? 0u : cluster_draws[visible[id >> kTriangleBits].cluster].material;
@@ -57,7 +58,7 @@ void main()
     }
 
     uint found = 0u;
-    for (uint first = 0u; first < draw_count; first += kTileRoundMaterials)
+    for (uint first = 0u; first < push.draw_count; first += kTileRoundMaterials)
     {
         visible_bits[lane] = 0u;
         barrier();

@@ -1,9 +1,11 @@
 // Vertex of a visible cluster, shared by visibility.vert and visibility_masked.vert.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/gpu_shared/bindings.h"
+#include "formats/gpu_shared/push_constants.h"
 #include "runtime/shaders/scene/drawn_vertex.glsl"
 
-layout(set = 2, binding = 0, std430) readonly buffer BinDraws { BinDraw bin_draws[]; };
-layout(push_constant) uniform Push { uint bin_index; };
+layout(set = kSetBins, binding = kBinsDraws, std430) readonly buffer BinDraws { BinDraw bin_draws[]; };
+layout(push_constant) uniform Push { BinPush push; };
 
 struct VisibleCorner
 {
@@ -15,7 +17,7 @@ struct VisibleCorner
 
 VisibleCorner visibleCorner()
 {
-    uint slot = bin_draws[bin_index].first_slot + gl_InstanceIndex;
+    uint slot = bin_draws[push.bin].first_slot + gl_InstanceIndex;
     uint triangle = gl_VertexIndex / 3u;
     VisibleCorner corner;
     corner.draw = cluster_draws[visible[slot].cluster];

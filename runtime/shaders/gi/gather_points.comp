@@ -3,9 +3,10 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/bindings.h"
 #include "formats/gpu_shared/decisions.h"
-#include "formats/gpu_shared/shading.h"
 #include "formats/gpu_shared/gather.h"
+#include "formats/gpu_shared/shading.h"
 #include "runtime/shaders/scene/scene.glsl"
 #include "runtime/shaders/scene/material.glsl"
 #include "runtime/shaders/scene/surface_point.glsl"
@@ -13,8 +14,8 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(set = 1, binding = 0) uniform usampler2D visibility;
-layout(set = 1, binding = 1, std430) writeonly buffer GatherPoints { GatherPoint gather_points[]; };
+layout(set = kSetGatherPoint, binding = kGatherPointVisibility) uniform usampler2D visibility;
+layout(set = kSetGatherPoint, binding = kGatherPointPoints, std430) writeonly buffer GatherPoints { GatherPoint gather_points[]; };
 
 const uint kCandidates = 5u;
 const uvec2 kCandidatePixels[kCandidates] = uvec2[](uvec2(4u, 4u), uvec2(2u, 2u), uvec2(6u, 2u), uvec2(2u, 6u), uvec2(6u, 6u));

@@ -3,15 +3,16 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/bindings.h"
 #include "runtime/shaders/scene/bricks.glsl"
 #include "formats/gpu_shared/gather.h"
 #include "formats/gpu_shared/gather_lobe.h"
 
 layout(local_size_x = 16, local_size_y = 4) in; // kGatherRays and 2 kGatherLobeRays, kGatherGroupPoints
 
-layout(set = 1, binding = 0, std140) uniform Gather { GatherView gather; };
-layout(set = 1, binding = 1, std430) buffer GatherPoints { GatherPoint gather_points[]; };
-layout(set = 1, binding = 2, std430) readonly buffer GatherBefore { GatherPoint points_before[]; };
+layout(set = kSetGather, binding = kGatherView, std140) uniform Gather { GatherView gather; };
+layout(set = kSetGather, binding = kGatherPoints, std430) buffer GatherPoints { GatherPoint gather_points[]; };
+layout(set = kSetGather, binding = kGatherHistory, std430) readonly buffer GatherBefore { GatherPoint points_before[]; };
 
 // Radiance of a ray (rgb) and sky share (a); direction of the ray.
 shared vec4 ray_light[kGatherGroupPoints][kGatherRays];

@@ -3,15 +3,16 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/bindings.h"
 #include "formats/gpu_shared/brick_codes.h"
 #include "formats/gpu_shared/gather.h"
 #include "runtime/shaders/gi/gather_encoding.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(set = 0, binding = 0, std140) uniform Gather { GatherView gather; };
-layout(set = 0, binding = 1, std430) readonly buffer GatherPoints { GatherPoint gather_points[]; };
-layout(set = 0, binding = 3, rgba32ui) uniform writeonly uimage2D gather_texels;
+layout(set = kSetGatherSmooth, binding = kGatherView, std140) uniform Gather { GatherView gather; };
+layout(set = kSetGatherSmooth, binding = kGatherPoints, std430) readonly buffer GatherPoints { GatherPoint gather_points[]; };
+layout(set = kSetGatherSmooth, binding = kGatherTexels, rgba32ui) uniform writeonly uimage2D gather_texels;
 
 // Weight of a neighbour tile's point: high if both lie on the same surface. Never quite 0, so that enclosed
 // points borrow from their neighbours.

@@ -3,13 +3,14 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/bindings.h"
 #include "runtime/shaders/scene/bricks.glsl"
 
 layout(local_size_x = 64) in;
 
 // lights of the faces due in this frame, in order; copied to the buffer that is read when all are done
-layout(set = 1, binding = 0, std430) writeonly buffer FreshLights { BrickLight fresh_lights[]; };
-layout(set = 1, binding = 1, std430) readonly buffer BrickPlaces { BrickLocation brick_places[]; };
+layout(set = kSetFreshLight, binding = kFreshLightFaces, std430) writeonly buffer FreshLights { BrickLight fresh_lights[]; };
+layout(set = kSetFreshLight, binding = kFreshLightLocations, std430) readonly buffer BrickPlaces { BrickLocation brick_places[]; };
 
 // Find the last due brick whose first face is not after this one. Bricks without faces come before it.
 uint findBrickOfFace(uint face)

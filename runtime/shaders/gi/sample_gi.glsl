@@ -1,11 +1,12 @@
 // Interpolates the gathered light (GI) at a pixel from the four tiles around it, weighted by plane and normal
 // similarity (joint bilateral upsampling).
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/gpu_shared/bindings.h"
 #include "formats/gpu_shared/brick_codes.h"
 #include "formats/gpu_shared/gather.h"
 #include "runtime/shaders/gi/gather_encoding.glsl"
 
-layout(set = 2, binding = 2) uniform usampler2D gathered;
+layout(set = kSetAttachments, binding = kAttachmentGi) uniform usampler2D gathered;
 
 struct GiSample
 {

@@ -1,21 +1,22 @@
 // Bricks of the scene (GI): set 0 of the passes over them, and the accessors that
 // formats/gpu_shared/brick_lighting.h needs.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/gpu_shared/bindings.h"
+#include "formats/gpu_shared/brick_codes.h"
+#include "formats/gpu_shared/brick_lighting.h"
+#include "formats/gpu_shared/brick_march.h"
+#include "formats/gpu_shared/brick_view.h"
 #include "formats/gpu_shared/records.h"
 #include "formats/gpu_shared/shading.h"
-#include "formats/gpu_shared/brick_view.h"
-#include "formats/gpu_shared/brick_codes.h"
-#include "formats/gpu_shared/brick_march.h"
-#include "formats/gpu_shared/brick_lighting.h"
 
-layout(set = 0, binding = 0, std140) uniform Frame { FrameView view; };
-layout(set = 0, binding = 1, std140) uniform Bricks { BrickView brick_view; };
-layout(set = 0, binding = 2, std430) readonly buffer BrickGroups { BrickGroup brick_groups[]; };
-layout(set = 0, binding = 3, std430) readonly buffer BrickTable { Brick bricks[]; };
-layout(set = 0, binding = 4, std430) readonly buffer BrickOpacities { uint brick_opacities[]; };
-layout(set = 0, binding = 5, std430) readonly buffer BrickSurfaces { uint brick_surfaces[]; };
-layout(set = 0, binding = 6, std430) readonly buffer BrickLighting { BrickLight brick_lights[]; };
-layout(set = 0, binding = 7, std140) readonly buffer LightingBlock { Lighting lighting; };
+layout(set = kSetBricks, binding = kBricksFrame, std140) uniform Frame { FrameView view; };
+layout(set = kSetBricks, binding = kBricksView, std140) uniform Bricks { BrickView brick_view; };
+layout(set = kSetBricks, binding = kBricksGroups, std430) readonly buffer BrickGroups { BrickGroup brick_groups[]; };
+layout(set = kSetBricks, binding = kBricksBricks, std430) readonly buffer BrickTable { Brick bricks[]; };
+layout(set = kSetBricks, binding = kBricksOpacity, std430) readonly buffer BrickOpacities { uint brick_opacities[]; };
+layout(set = kSetBricks, binding = kBricksSurfaces, std430) readonly buffer BrickSurfaces { uint brick_surfaces[]; };
+layout(set = kSetBricks, binding = kBricksLight, std430) readonly buffer BrickLighting { BrickLight brick_lights[]; };
+layout(set = kSetBricks, binding = kBricksLighting, std140) readonly buffer LightingBlock { Lighting lighting; };
 
 BrickGroup brickGroupAt(BrickGrid grid, uint group) { return brick_groups[group]; }
 Brick brickAt(BrickGrid grid, uint brick) { return bricks[brick]; }

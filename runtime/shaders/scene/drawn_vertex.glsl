@@ -1,15 +1,14 @@
 // Vertices of the slots of the visible list as drawn, of rigid and of deformed instances. Include after
 // scene.glsl.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#define DEFORMATION_SET 0
-#define DEFORMATION_BINDING 7
+#include "formats/gpu_shared/bindings.h"
+#include "formats/gpu_shared/specialization.h"
+#define DEFORMATION_SET kSetScene
+#define DEFORMATION_BINDING kSceneDeformation
 #include "runtime/shaders/scene/deformation.glsl"
 #include "runtime/shaders/scene/pose_vertex.glsl"
 
-// gpu::DeformedVertices. Rigid scenes and bins pay nothing for deformation.
-layout(constant_id = 4) const uint kDeformed = 0u;
-const uint kSkinnedOnDemand = 1u;      // skinned on demand by the shader that draws
-const uint kPreSkinned = 2u; // skinned by an earlier pass, as far as the scratch buffer has room
+layout(constant_id = kConstantDeformed) const uint kDeformed = kDeformedNone;
 
 struct DrawnPose
 {
@@ -20,10 +19,10 @@ struct DrawnPose
 DrawnPose drawnPose(uint instance, uint slot)
 {
     DrawnPose pose = DrawnPose(0u, 0u);
-    if (kDeformed == 0u)
+    if (kDeformed == kDeformedNone)
         return pose;
     pose.row = readPoseRow(instance);
-    if (kDeformed == kPreSkinned && pose.row != 0u)
+    if (kDeformed == kDeformedPreSkinned && pose.row != 0u)
         pose.scratch = readScratchBlock(slot);
     return pose;
 }
@@ -36,7 +35,7 @@ vec3 scratchVector(uint word)
 // Position relative to the eye, world axes. index: index of the vertex in its cluster.
 vec3 drawnPosition(Instance instance, ClusterDraw draw, DrawnPose pose, uint index, vec3 eye)
 {
-    if (kDeformed == 0u || pose.row == 0u)
+    if (kDeformed == kDeformedNone || pose.row == 0u)
         return toEyeRelative(instance, eye, vertexPosition(draw, vertexAddress(draw, index)));
     precise vec3 position = pose.scratch != 0u ? scratchVector(pose.scratch + index * 3u)
                                                : posedPosition(draw, loadPose(pose.row), index);

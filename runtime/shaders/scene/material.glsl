@@ -1,12 +1,13 @@
 // Material of a draw: set 1 of the pipelines that read materials.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/gpu_shared/bindings.h"
 
-layout(set = 1, binding = 0, std140) uniform MaterialBlock { Material material; };
-layout(set = 1, binding = 1) uniform sampler2D base_color_texture;
-layout(set = 1, binding = 2) uniform sampler2D metallic_roughness_texture;
-layout(set = 1, binding = 3) uniform sampler2D normal_texture;
-layout(set = 1, binding = 4) uniform sampler2D occlusion_texture;
-layout(set = 1, binding = 5) uniform sampler2D emissive_texture;
+layout(set = kSetMaterial, binding = kMaterialBlock, std140) uniform MaterialBlock { Material material; };
+layout(set = kSetMaterial, binding = kMaterialTextures + kTextureBaseColor) uniform sampler2D base_color_texture;
+layout(set = kSetMaterial, binding = kMaterialTextures + kTextureMetallicRoughness) uniform sampler2D metallic_roughness_texture;
+layout(set = kSetMaterial, binding = kMaterialTextures + kTextureNormal) uniform sampler2D normal_texture;
+layout(set = kSetMaterial, binding = kMaterialTextures + kTextureOcclusion) uniform sampler2D occlusion_texture;
+layout(set = kSetMaterial, binding = kMaterialTextures + kTextureEmissive) uniform sampler2D emissive_texture;
 
 // formats::MaterialFlags and formats::AlphaMode
 const uint kMaterialDoubleSided = 1u;

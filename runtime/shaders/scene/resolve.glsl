@@ -135,7 +135,7 @@ vec3 worldNormal(Instance instance, vec3 n)
     return isMirrored(instance) ? -r : r;
 }
 
-bool isDeformed(Surface s) { return kDeformed != 0u && s.pose.row != 0u; }
+bool isDeformed(Surface s) { return kDeformed != kDeformedNone && s.pose.row != 0u; }
 
 vec3 geometricNormal(Surface s)
 {

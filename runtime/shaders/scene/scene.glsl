@@ -1,18 +1,19 @@
 // Scene tables for drawing: set 0 of the visibility, material-depth and shading pipelines.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/gpu_shared/bindings.h"
+#include "formats/gpu_shared/specialization.h"
 
-layout(set = 0, binding = 0, std140) uniform Frame { FrameView view; };
-layout(set = 0, binding = 1, std430) readonly buffer Instances { Instance instances[]; };
-layout(set = 0, binding = 2, std430) readonly buffer Visible { VisibleCluster visible[]; };
-layout(set = 0, binding = 3, std430) readonly buffer Draws { ClusterDraw cluster_draws[]; };
-layout(set = 0, binding = 4, std430) readonly buffer Pool0 { uint pool0[]; };
-layout(set = 0, binding = 5, std430) readonly buffer Pool1 { uint pool1[]; };
-layout(set = 0, binding = 6, std430) readonly buffer Pool2 { uint pool2[]; };
-layout(set = 0, binding = 7, std430) readonly buffer Pool3 { uint pool3[]; };
+layout(set = kSetScene, binding = kSceneFrame, std140) uniform Frame { FrameView view; };
+layout(set = kSetScene, binding = kSceneInstances, std430) readonly buffer Instances { Instance instances[]; };
+layout(set = kSetScene, binding = kSceneVisible, std430) readonly buffer Visible { VisibleCluster visible[]; };
+layout(set = kSetScene, binding = kSceneDraws, std430) readonly buffer Draws { ClusterDraw cluster_draws[]; };
+layout(set = kSetScene, binding = kScenePool, std430) readonly buffer Pool0 { uint pool0[]; };
+layout(set = kSetScene, binding = kScenePool + 1u, std430) readonly buffer Pool1 { uint pool1[]; };
+layout(set = kSetScene, binding = kScenePool + 2u, std430) readonly buffer Pool2 { uint pool2[]; };
+layout(set = kSetScene, binding = kScenePool + 3u, std430) readonly buffer Pool3 { uint pool3[]; };
 
-// Pool slices that the scene uses: 1 or kPoolSlices. Most scenes fit into one slice, and then reading a word
-// needs no branch.
-layout(constant_id = 0) const uint kUsedSlices = kPoolSlices;
+// Most scenes fit into one slice of the pool, and then reading a word needs no branch.
+layout(constant_id = kConstantUsedSlices) const uint kUsedSlices = kPoolSlices;
 
 uint poolWord(uint address)
 {

@@ -1,4 +1,5 @@
 // Shadow maps of the frame. Needs formats/gpu_shared/shadow.h.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/gpu_shared/bindings.h"
 
-layout(set = 0, binding = 9, std140) uniform Shadows { ShadowBlock shadows; };
+layout(set = kSetScene, binding = kSceneShadows, std140) uniform Shadows { ShadowBlock shadows; };

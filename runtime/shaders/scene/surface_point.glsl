@@ -1,11 +1,12 @@
 // Surface point as shading sees it, and the textures of its material. The present textures and their UV sets
 // are specialization constants: a scene has few combinations, and absent textures cost nothing.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/gpu_shared/specialization.h"
 #include "formats/gpu_shared/visibility_cone.h"
 
-layout(constant_id = 1) const uint kTextures = 0u; // as Material.textures
-layout(constant_id = 2) const uint kUvSets = 0u;   // as Material.uv_sets
-layout(constant_id = 5) const bool kSkyVisibility = false; // some of the meshes have sky visibility
+layout(constant_id = kConstantTextures) const uint kTextures = 0u;
+layout(constant_id = kConstantUvSets) const uint kUvSets = 0u;
+layout(constant_id = kConstantSkyVisibility) const bool kSkyVisibility = false;
 
 struct SurfacePoint
 {

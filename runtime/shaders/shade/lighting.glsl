@@ -2,14 +2,16 @@
 // exposure. Needs `lightVisibility` (shadowing of a light) from shadow.glsl or unshadowed.glsl, and
 // `surroundingLight` (light of the environment) from surrounding_sky.glsl or surrounding_bricks.glsl.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/gpu_shared/bindings.h"
+#include "formats/gpu_shared/specialization.h"
 
-layout(set = 0, binding = 8, std140) readonly buffer LightingBlock { Lighting lighting; };
+layout(set = kSetScene, binding = kSceneLighting, std140) readonly buffer LightingBlock { Lighting lighting; };
 #include "runtime/shaders/shade/brdf.glsl"
 #include "runtime/shaders/shade/sky.glsl"
 #include "runtime/shaders/shade/tonemap.glsl"
 #include "runtime/shaders/shade/sky_occlusion.glsl"
 
-layout(constant_id = 3) const bool kUnlit = false;
+layout(constant_id = kConstantUnlit) const bool kUnlit = false;
 
 // formats::LightType
 const uint kLightDirectional = 0u;

@@ -8,11 +8,10 @@
 #include "runtime/shaders/scene/material.glsl"
 #include "runtime/shaders/scene/surface_point.glsl"
 #include "runtime/shaders/scene/resolve.glsl"
+#include "runtime/shaders/scene/visibility_input.glsl"
 #include "runtime/shaders/shade/unshadowed.glsl"
 #include "runtime/shaders/shade/lighting.glsl"
 #include "runtime/shaders/shade/surrounding_sky.glsl"
-
-layout(input_attachment_index = 0, set = 2, binding = 0) uniform usubpassInput visibility;
 
 // explicit because lavapipe otherwise shades every pixel before the depth test, which takes five times the
 // frame time

@@ -8,11 +8,10 @@
 #include "runtime/shaders/scene/material.glsl"
 #include "runtime/shaders/scene/surface_point.glsl"
 #include "runtime/shaders/scene/resolve.glsl"
+#include "runtime/shaders/scene/visibility_input.glsl"
 #include "runtime/shaders/shade/unshadowed.glsl"
 #include "runtime/shaders/shade/lighting.glsl"
 #include "runtime/shaders/shade/surrounding_bricks.glsl"
-
-layout(input_attachment_index = 0, set = 2, binding = 0) uniform usubpassInput visibility;
 
 layout(early_fragment_tests) in; // see shading.frag
 layout(location = 0) out vec4 out_color;

@@ -1,10 +1,11 @@
 // Looks up shadow maps: the share of a light that reaches a point. Needs formats/gpu_shared/shadow.h and
 // `view`.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/gpu_shared/bindings.h"
 #include "runtime/shaders/scene/shadow_block.glsl"
 
 // compares: 1 where the point is no deeper than the texel; one mip, so derivatives do not matter
-layout(set = 0, binding = 10) uniform sampler2DArrayShadow shadow_maps;
+layout(set = kSetScene, binding = kSceneShadowMaps) uniform sampler2DArrayShadow shadow_maps;
 
 // Point in the space of a light, and the densest of the light's shadow maps that contains it.
 struct ShadowLookup

@@ -2,19 +2,17 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/bindings.h"
+#include "formats/gpu_shared/push_constants.h"
 #include "formats/gpu_shared/records.h"
 #include "formats/gpu_shared/shading.h"
 #include "runtime/shaders/shade/tonemap.glsl"
 
-layout(set = 0, binding = 0, std140) uniform Frame { FrameView view; };
-layout(set = 0, binding = 8, std140) readonly buffer LightingBlock { Lighting lighting; };
+layout(set = kSetScene, binding = kSceneFrame, std140) uniform Frame { FrameView view; };
+layout(set = kSetScene, binding = kSceneLighting, std140) readonly buffer LightingBlock { Lighting lighting; };
 #include "runtime/shaders/shade/sky.glsl"
 
-layout(push_constant) uniform Push
-{
-    float depth;
-    uint debug_view;
-};
+layout(push_constant) uniform Push { ShadingPush push; };
 layout(early_fragment_tests) in;
 layout(location = 0) out vec4 out_color;
 
@@ -25,6 +23,6 @@ void main()
     vec3 x = view.clip_x.xyz;
     vec3 y = view.clip_y.xyz;
     vec3 direction = normalize(view.clip_w.xyz + x * (ndc.x / dot(x, x)) + y * (ndc.y / dot(y, y)));
-    vec3 color = debug_view == kViewFinal ? toneMap(skyRadiance(direction, 0.4)) : linearFromSrgb(vec3(0.08));
+    vec3 color = push.debug_view == kViewFinal ? toneMap(skyRadiance(direction, 0.4)) : linearFromSrgb(vec3(0.08));
     out_color = vec4(color, 1.0);
 }

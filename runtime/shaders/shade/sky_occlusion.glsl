@@ -3,19 +3,15 @@
 // runtime/gpu/README.md the cost.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/ambient_occlusion.h"
+#include "formats/gpu_shared/bindings.h"
+#include "formats/gpu_shared/push_constants.h"
 #include "formats/gpu_shared/specular_occlusion.h"
 
 // 16 x 16 texels (aperture, roughness); squares for the nodes of beta below each other; white in scenes
 // without a table
-layout(set = 0, binding = 11) uniform sampler2D specular_table;
+layout(set = kSetScene, binding = kSceneSpecularTable) uniform sampler2D specular_table;
 
-layout(push_constant) uniform Push
-{
-    float depth;
-    uint debug_view;
-    float depth_scale; // metres that the depth view shows as half brightness
-    layout(offset = 20) uint sky_occlusion; // skyOcclusionBits
-};
+layout(push_constant) uniform Push { ShadingPush push; };
 
 // Visibility cone of a point, and its angles to the normals.
 struct SkyView
@@ -39,7 +35,7 @@ SkyView skyView(SurfacePoint point, vec3 normal)
 
 float diffuseSky(SkyView sky)
 {
-    return ambientOcclusion(sky_occlusion & 255u, sky.cone.scale, sky.cone.cos_aperture, sky.cone.aperture,
+    return ambientOcclusion(push.sky_occlusion & 255u, sky.cone.scale, sky.cone.cos_aperture, sky.cone.aperture,
                             sky.geometric, sky.shading);
 }
 
@@ -57,13 +53,13 @@ float specularTableShare(vec3 place)
 // mirror: reflection of the view direction at the shading normal, unit
 float specularSky(SkyView sky, float roughness, float n_dot_v, vec3 mirror)
 {
-    uint mode = sky_occlusion >> 8 & 255u;
+    uint mode = push.sky_occlusion >> 8 & 255u;
     if (mode == kSpecularOcclusionOff)
         return 1.0;
     float r_dot_axis = dot(mirror, sky.cone.axis);
     float share = mode == kSpecularOcclusionTable
                       ? specularTableShare(specularTableCoordinates(sky.cone.cos_aperture, roughness, r_dot_axis,
-                                                              sky_occlusion >> 16))
+                                                              push.sky_occlusion >> 16))
                       : specularOcclusionFit(sky.cone.cos_aperture, roughness, n_dot_v, sky.shading, r_dot_axis);
     return share * sky.cone.scale;
 }

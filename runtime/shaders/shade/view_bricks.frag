@@ -4,15 +4,12 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/push_constants.h"
 #include "runtime/shaders/scene/bricks.glsl"
 #include "runtime/shaders/shade/tonemap.glsl"
 #include "runtime/shaders/shade/sky.glsl"
 
-layout(push_constant) uniform Push
-{
-    float depth;
-    uint debug_view;
-};
+layout(push_constant) uniform Push { ShadingPush push; };
 
 layout(location = 0) out vec4 out_color;
 
@@ -37,7 +34,7 @@ void main()
     vec3 direction = normalize(view.clip_w.xyz + x * (ndc.x / dot(x, x)) + y * (ndc.y / dot(y, y)));
     BrickGrid grid = brick_view.grid;
     BrickRay ray = brickMarch(grid, brickRay(grid, view.eye, direction, kBrickInfinity));
-    bool lit = debug_view == kViewBrickLighting;
+    bool lit = push.debug_view == kViewBrickLighting;
     vec3 color = lit ? toneMap(skyRadiance(direction, 0.4)) : linearFromSrgb(vec3(0.08));
     if (ray.inside != 0u)
     {

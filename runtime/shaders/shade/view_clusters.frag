@@ -3,22 +3,21 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/bindings.h"
 #include "formats/gpu_shared/decisions.h"
+#include "formats/gpu_shared/push_constants.h"
 #include "formats/gpu_shared/shading.h"
 #include "runtime/shaders/shade/tonemap.glsl"
 
-layout(set = 0, binding = 0, std140) uniform Frame { FrameView view; };
-layout(set = 0, binding = 1, std430) readonly buffer Instances { Instance instances[]; };
-layout(set = 0, binding = 2, std430) readonly buffer Visible { VisibleCluster visible[]; };
-layout(set = 0, binding = 3, std430) readonly buffer Clusters { Cluster clusters[]; };
-layout(set = 0, binding = 4, std430) readonly buffer Groups { Group groups[]; };
-layout(input_attachment_index = 0, set = 1, binding = 0) uniform usubpassInput visibility;
+layout(set = kSetTables, binding = kTableFrame, std140) uniform Frame { FrameView view; };
+layout(set = kSetTables, binding = kTableInstances, std430) readonly buffer Instances { Instance instances[]; };
+layout(set = kSetTables, binding = kTableVisible, std430) readonly buffer Visible { VisibleCluster visible[]; };
+layout(set = kSetTables, binding = kTableClusters, std430) readonly buffer Clusters { Cluster clusters[]; };
+layout(set = kSetTables, binding = kTableGroups, std430) readonly buffer Groups { Group groups[]; };
+layout(input_attachment_index = kInputVisibility, set = kSetClusterAttachments, binding = kAttachmentVisibility)
+    uniform usubpassInput visibility;
 
-layout(push_constant) uniform Push
-{
-    float depth;
-    uint debug_view;
-};
+layout(push_constant) uniform Push { ShadingPush push; };
 
 layout(early_fragment_tests) in;
 layout(location = 0) out vec4 out_color;
@@ -52,7 +51,7 @@ void main()
 {
     VisibleCluster slot = visible[subpassLoad(visibility).x >> kTriangleBits];
     Cluster cluster = clusters[slot.cluster];
-    vec3 color = debug_view == kViewCones ? coneColor(cluster)
+    vec3 color = push.debug_view == kViewCones ? coneColor(cluster)
                                           : errorColor(errorRatio(instances[slot.instance], cluster));
     out_color = vec4(linearFromSrgb(color), 1.0);
 }

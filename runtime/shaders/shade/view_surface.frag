@@ -9,10 +9,9 @@
 #include "runtime/shaders/scene/material.glsl"
 #include "runtime/shaders/scene/surface_point.glsl"
 #include "runtime/shaders/scene/resolve.glsl"
+#include "runtime/shaders/scene/visibility_input.glsl"
 #include "runtime/shaders/shade/tonemap.glsl"
 #include "runtime/shaders/shade/sky_occlusion.glsl"
-
-layout(input_attachment_index = 0, set = 2, binding = 0) uniform usubpassInput visibility;
 
 layout(early_fragment_tests) in;
 layout(location = 0) out vec4 out_color;
@@ -56,11 +55,11 @@ vec3 skyVisibilityColor(Surface s)
     SurfaceUvs uvs = surfaceUvs(s);
     vec3 normal = shadingNormal(point, uvs);
     SkyView sky = skyView(point, normal);
-    if (debug_view == kViewAmbientOcclusion)
+    if (push.debug_view == kViewAmbientOcclusion)
         return vec3(diffuseSky(sky));
-    if (debug_view == kViewBentNormal)
+    if (push.debug_view == kViewBentNormal)
         return sky.cone.axis * 0.5 + 0.5;
-    if (debug_view == kViewAperture)
+    if (push.debug_view == kViewAperture)
         return vec3(sky.cone.aperture * (2.0 / kVisibilityPi));
     vec4 metallic_roughness = sampleSurface(uvs, kTextureMetallicRoughness, metallic_roughness_texture);
     vec3 to_eye = normalizeOr(-point.position, normal);
@@ -73,21 +72,21 @@ void main()
     // dimmed by the angle to the eye, so that the shape is visible
     float facing = 0.35 + 0.65 * abs(dot(geometricNormal(s), normalizeOr(s.position, vec3(0.0))));
     vec3 color;
-    if (debug_view == kViewClusters)
+    if (push.debug_view == kViewClusters)
         color = facing * hashColor(s.slot.cluster * 7919u + s.slot.instance);
-    else if (debug_view == kViewLod)
+    else if (push.debug_view == kViewLod)
         color = facing * (0.15 + 0.85 * levelColor(clusterLevel(s.draw)));
-    else if (debug_view == kViewTriangles)
+    else if (push.debug_view == kViewTriangles)
         color = facing * hashColor((s.slot.cluster * 128u + s.triangle) * 31u + s.slot.instance);
-    else if (debug_view == kViewMaterials)
+    else if (push.debug_view == kViewMaterials)
         color = facing * hashColor(s.draw.material);
-    else if (debug_view == kViewBones)
+    else if (push.debug_view == kViewBones)
         color = facing * boneColor(s);
-    else if (isSkyView(debug_view))
+    else if (isSkyView(push.debug_view))
         color = skyVisibilityColor(s);
-    else if (debug_view == kViewNormals)
+    else if (push.debug_view == kViewNormals)
         color = shadingNormal(surfacePoint(s), surfaceUvs(s)) * 0.5 + 0.5;
     else
-        color = vec3(depth_scale / (depth_scale + s.distance_w));
+        color = vec3(push.depth_scale / (push.depth_scale + s.distance_w));
     out_color = vec4(linearFromSrgb(color), 1.0);
 }

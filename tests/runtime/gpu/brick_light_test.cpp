@@ -154,12 +154,16 @@ TEST_F(BrickLightTest, marchesLikeTheCpuToTheBit)
     const gpu::Buffer hit_buffer =
         arena.createBuffer(2 * rays.size() * sizeof(TestHit), kUsage, gpu::MemoryKind::device).value();
     const gpu::DrawLayouts layouts = gpu::DrawLayouts::create(device).value();
-    const VkDescriptorSetLayout set_layouts[] = {layouts.bricks.get(), layouts.fresh_light.get()};
+    const gpu::NumberedSet set_layouts[] = {{shared::kSetBricks, layouts.bricks.get()},
+                                            {shared::kSetFreshLight, layouts.fresh_light.get()}};
     const gpu::ComputePipeline pipeline =
         gpu::createComputePipeline(device, shaders::brick_march_comp, set_layouts).value();
     const gpu::UniqueDescriptorPool pool = gpu::createDescriptorPool(device, 1, {.storages = 2}).value();
     const VkDescriptorSet set = gpu::allocateSet(device, pool.get(), layouts.fresh_light.get()).value();
-    gpu::DescriptorWriter(set).storage(0, hit_buffer).storage(1, ray_buffer).write(device);
+    gpu::DescriptorWriter(set)
+        .storage(shared::kFreshLightFaces, hit_buffer)
+        .storage(shared::kFreshLightLocations, ray_buffer)
+        .write(device);
     std::optional<gpu::Uploader> uploader;
     ASSERT_TRUE(host()
                     .run(
@@ -172,7 +176,8 @@ TEST_F(BrickLightTest, marchesLikeTheCpuToTheBit)
                             device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
                                                         pipeline.pipeline.get());
                             device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
-                                                              pipeline.layout.get(), 0, 2, sets, 0, nullptr);
+                                                              pipeline.layout.get(), shared::kSetBricks, 2,
+                                                              sets, 0, nullptr);
                             device.vk.vkCmdDispatch(commands, uint32_t(rays.size() + 63) / 64, 1, 1);
                             return success();
                         })

@@ -121,11 +121,23 @@ std::vector<T> readTexels(viewer::VulkanHost& host, const gpu::Device& device, c
     return texels;
 }
 
+/// Push constants of forward.vert.
 struct ForwardPush
 {
     uint32_t bin;
     uint32_t material_number;
 };
+
+/// Create a layout with the sets of the visibility pass. The fragment stage includes the shading code, whose
+/// block of push constants is larger and is not read without sky visibility.
+gpu::UniquePipelineLayout createForwardLayout(const gpu::Device& device, const gpu::DrawLayouts& layouts)
+{
+    const gpu::NumberedSet sets[] = {{shared::kSetScene, layouts.scene.get()},
+                                     {shared::kSetMaterial, layouts.material.get()},
+                                     {shared::kSetBins, layouts.bins.get()}};
+    return take(
+        gpu::createPipelineLayout(device, sets, gpu::kShadingPushStages, sizeof(shared::ShadingPush)));
+}
 
 } // namespace
 
@@ -133,6 +145,7 @@ ForwardRenderer::ForwardRenderer(viewer::VulkanHost& host, const gpu::Device& de
     : host_(host),
       device_(device),
       layouts_(take(gpu::DrawLayouts::create(device))),
+      forward_layout_(createForwardLayout(device, layouts_)),
       forward_pass_(createForwardPass(device)),
       derivatives_pass_(createDerivativesPass(device))
 {
@@ -161,11 +174,15 @@ gpu::UniquePipeline ForwardRenderer::createPipeline(const gpu::Scene& scene, uin
                                                     gpu::Facing facing) const
 {
     const gpu::ShadingVariant& variant = scene.materials[row].variant;
-    const uint32_t constants[] = {variant.used_slices, variant.textures, variant.uv_sets, variant.unlit};
+    gpu::DrawConstants constants{};
+    constants[shared::kConstantUsedSlices] = variant.used_slices;
+    constants[shared::kConstantTextures] = variant.textures;
+    constants[shared::kConstantUvSets] = variant.uv_sets;
+    constants[shared::kConstantUnlit] = variant.unlit;
     return take(gpu::createGraphicsPipeline(
         device_, {.vertex = shaders::forward_vert,
                   .fragment = shaders::forward_frag,
-                  .layout = layouts_.visibility.get(),
+                  .layout = forward_layout_.get(),
                   .render_pass = forward_pass_.get(),
                   .subpass = 0,
                   .cull = VkCullModeFlags(facing == gpu::Facing::doubleSided ? VK_CULL_MODE_NONE
@@ -181,13 +198,13 @@ gpu::UniquePipeline ForwardRenderer::createPipeline(const gpu::Scene& scene, uin
 void ForwardRenderer::drawMaterial(VkCommandBuffer commands, const gpu::Scene& scene, uint32_t row,
                                    uint32_t bin, VkPipeline pipeline) const
 {
-    const VkPipelineLayout layout = layouts_.visibility.get();
+    const VkPipelineLayout layout = forward_layout_.get();
     const VkDescriptorSet sets[] = {scene.draw_set, scene.materials[row].set, scene.bins_set};
     const ForwardPush push{bin, row + 1};
     device_.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
-    device_.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 3, sets, 0,
-                                       nullptr);
-    device_.vk.vkCmdPushConstants(commands, layout, gpu::kDrawPushStages, 0, sizeof(push), &push);
+    device_.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, shared::kSetScene,
+                                       3, sets, 0, nullptr);
+    device_.vk.vkCmdPushConstants(commands, layout, gpu::kShadingPushStages, 0, sizeof(push), &push);
     device_.vk.vkCmdDrawIndirect(commands, scene.buffers.bin_draws.handle.get(),
                                  bin * sizeof(shared::BinDraw), 1, sizeof(shared::BinDraw));
 }
@@ -250,11 +267,11 @@ std::vector<std::array<float, 4>> ForwardRenderer::uvDerivatives(const gpu::Scen
         {
             begin(commands, derivatives_pass_.get(), framebuffer.get(), extent);
             const VkDescriptorSet sets[] = {scene.draw_set, scene.materials[0].set, targets.attachments()};
-            const gpu::DrawPush push{.depth = 0};
+            const shared::ShadingPush push{};
             device_.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.get());
-            device_.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 3, sets,
-                                               0, nullptr);
-            device_.vk.vkCmdPushConstants(commands, layout, gpu::kDrawPushStages, 0, sizeof(push), &push);
+            device_.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout,
+                                               shared::kSetScene, 3, sets, 0, nullptr);
+            device_.vk.vkCmdPushConstants(commands, layout, gpu::kShadingPushStages, 0, sizeof(push), &push);
             device_.vk.vkCmdDraw(commands, 3, 1, 0, 0);
             device_.vk.vkCmdEndRenderPass(commands);
             return success();

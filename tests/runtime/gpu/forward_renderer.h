@@ -34,6 +34,7 @@ private:
     viewer::VulkanHost& host_;
     const gpu::Device& device_;
     gpu::DrawLayouts layouts_;
+    gpu::UniquePipelineLayout forward_layout_;
     gpu::UniqueRenderPass forward_pass_;
     gpu::UniqueRenderPass derivatives_pass_;
 };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/bindings.h"
 #include "runtime/shaders/scene/bricks.glsl"
 
 layout(local_size_x = 64) in;
@@ -26,8 +27,8 @@ struct TestHit
     uint steps;
 };
 
-layout(set = 1, binding = 0, std430) writeonly buffer Hits { TestHit hits[]; };
-layout(set = 1, binding = 1, std430) readonly buffer Rays { TestRay rays[]; };
+layout(set = kSetFreshLight, binding = kFreshLightFaces, std430) writeonly buffer Hits { TestHit hits[]; };
+layout(set = kSetFreshLight, binding = kFreshLightLocations, std430) readonly buffer Rays { TestRay rays[]; };
 
 TestHit hitOf(BrickRay ray)
 {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/bindings.h"
 #include "formats/gpu_shared/decisions.h"
 #include "formats/gpu_shared/shading.h"
 #include "runtime/shaders/scene/scene.glsl"
@@ -9,7 +10,7 @@
 #include "runtime/shaders/scene/surface_point.glsl"
 #include "runtime/shaders/scene/resolve.glsl"
 
-layout(set = 2, binding = 0, std430) readonly buffer BinDraws { BinDraw bin_draws[]; };
+layout(set = kSetBins, binding = kBinsDraws, std430) readonly buffer BinDraws { BinDraw bin_draws[]; };
 layout(push_constant) uniform Push
 {
     uint bin_index;

@@ -1,0 +1,106 @@
+// Push constants of all pipelines, a struct for each block. One source for C++ and GLSL: a shader declares
+// layout(push_constant) uniform Push { CullPush push; }. Members are uints and floats, whose offsets are the
+// same in std430 and C++.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#ifndef HEARTH_SHARED_PUSH_CONSTANTS_H
+#define HEARTH_SHARED_PUSH_CONSTANTS_H
+
+#include "formats/gpu_shared/language.h"
+
+HEARTH_SHARED_BEGIN
+
+/// Instance culling, and skinning of vertices.
+struct PhasePush
+{
+    uint phase; ///< kPhase*, here and below
+};
+
+/// Cluster culling.
+struct CullPush
+{
+    uint first_item;
+    uint item_count;
+    uint phase;
+};
+
+struct ScanBlocksPush
+{
+    uint item_count;
+};
+
+struct ScanTotalsPush
+{
+    uint block_count;
+    uint slot_capacity;
+    uint phase;
+};
+
+struct EmitVisiblePush
+{
+    uint item_count;
+    uint slot_capacity;
+};
+
+struct EmitDrawsPush
+{
+    uint bin_count;
+    uint item_count;
+    uint block_count;
+    uint slot_capacity;
+    uint phase;
+};
+
+struct PageRequestPush
+{
+    uint first_item;
+    uint item_count;
+};
+
+struct CullStatisticsPush
+{
+    uint first_item;
+    uint item_count;
+    uint instance_count; ///< 0 where the other pass counts them
+};
+
+struct SkinningPlanPush
+{
+    uint bin_count;
+    uint first_bin; ///< first bin of deformed clusters
+    uint phase;
+};
+
+struct PyramidPush
+{
+    uint width; ///< pixels of the frame, here and below
+    uint height;
+};
+
+/// Material tiles.
+struct TilesPush
+{
+    uint width;
+    uint height;
+    uint draw_count; ///< the sky and the materials of the scene
+};
+
+/// Visibility pass, overdraw view and shadow casters.
+struct BinPush
+{
+    uint bin;
+    uint light_row; ///< casters: row of the ShadowBlock
+    uint map_index; ///< casters
+};
+
+/// Material depth, shading and debug views.
+struct ShadingPush
+{
+    float depth; ///< at which the area is drawn: material id / 65535
+    uint debug_view;
+    float depth_scale;  ///< metres that the depth view shows as half brightness
+    uint sky_occlusion; ///< skyOcclusionBits
+};
+
+HEARTH_SHARED_END
+
+#endif

@@ -1,0 +1,28 @@
+// Specialization constants of the pipelines that draw and shade clusters: their ids, and the values that are no
+// numbers. One source for C++ and GLSL.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#ifndef HEARTH_SHARED_SPECIALIZATION_H
+#define HEARTH_SHARED_SPECIALIZATION_H
+
+#include "formats/gpu_shared/language.h"
+
+HEARTH_SHARED_BEGIN
+
+/// Pool slices that the scene uses: 1 or kPoolSlices.
+HEARTH_CONSTANT uint kConstantUsedSlices = 0;
+HEARTH_CONSTANT uint kConstantTextures = 1;      ///< as Material::textures
+HEARTH_CONSTANT uint kConstantUvSets = 2;        ///< as Material::uv_sets
+HEARTH_CONSTANT uint kConstantUnlit = 3;         ///< 1: the material is unlit
+HEARTH_CONSTANT uint kConstantDeformed = 4;      ///< source of the vertices of deformed meshes, below
+HEARTH_CONSTANT uint kConstantSkyVisibility = 5; ///< 1: some of the meshes have sky visibility
+HEARTH_CONSTANT uint kConstantCount = 6;
+
+/// Source of the vertices of deformed meshes.
+HEARTH_CONSTANT uint kDeformedNone = 0; ///< no deformed meshes: rigid scenes and bins pay nothing for them
+HEARTH_CONSTANT uint kDeformedOnDemand = 1; ///< skinned on demand by the shader that draws
+/// Skinned by an earlier pass, as far as the scratch buffer has room.
+HEARTH_CONSTANT uint kDeformedPreSkinned = 2;
+
+HEARTH_SHARED_END
+
+#endif
