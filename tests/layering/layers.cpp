@@ -208,6 +208,7 @@ const std::vector<Library>& libraries()
         {"gtest/", {}, true},
         {"gmock/", {}, true},
         {"benchmark/", {}, true},
+        {"spirv_cross/", {}}, // reflects shaders, in tests
     };
     return list;
 }

@@ -1,0 +1,201 @@
+// Tests that shaders and C++ agree about everything that crosses between them: reflects every shader of the
+// renderer and compares it with the layouts, push constants, specialization constants and structs of C++.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/passes/cull_statistics_pass.h"
+#include "tests/runtime/gpu/brick_scene.h"
+#include "tests/runtime/gpu/deformed_scene.h"
+#include "tests/runtime/gpu/interface_check.h"
+#include "tests/runtime/shaders/shader_list.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/shapes.h"
+
+#include <fstream>
+#include <gmock/gmock.h>
+#include <iterator>
+
+namespace hearth::test
+{
+
+namespace
+{
+
+using testing::AllOf;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::vector<uint32_t> readWords(const char* path)
+{
+    std::ifstream file(path, std::ios::binary);
+    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
+    EXPECT_FALSE(bytes.empty()) << path;
+    std::vector<uint32_t> words(bytes.size() / sizeof(uint32_t));
+    std::memcpy(words.data(), bytes.data(), words.size() * sizeof(uint32_t));
+    return words;
+}
+
+/// The specialization constants by their names in GLSL.
+std::map<std::string, uint32_t> constantIds()
+{
+    return {{"kUsedSlices", shared::kConstantUsedSlices}, {"kTextures", shared::kConstantTextures},
+            {"kUvSets", shared::kConstantUvSets},         {"kUnlit", shared::kConstantUnlit},
+            {"kDeformed", shared::kConstantDeformed},     {"kSkyVisibility", shared::kConstantSkyVisibility}};
+}
+
+class GpuInterfaceTest : public GpuTest
+{
+protected:
+    /// Record all pipelines that the renderer can create. Nothing is drawn.
+    void SetUp() override
+    {
+        GpuTest::SetUp();
+        if (!both_.pipelines.empty())
+            return;
+        auto created = gpu::Renderer::create(recordPipelines(host().description()));
+        ASSERT_TRUE(created.ok());
+        gpu::Renderer& recorded = **created;
+        uploadRocks(recorded);
+        uploadDeformed(recorded);
+        uploadBricks(recorded, {});
+        uploadBricks(recorded, {.max_maps = 4});
+        ASSERT_TRUE(recorded.prepareOverdraw().ok());
+        both_ = {{}, recordedPipelines(), sharedStructs(), constantIds()};
+        for (const ListedShader& shader : listedShaders())
+            both_.shaders.push_back({shader.name,
+                                     {shader.words.begin(), shader.words.end()},
+                                     reflectShader(readWords(shader.named_file))});
+    }
+
+    static std::unique_ptr<gpu::Scene> uploadWith(gpu::Renderer& recorded, const formats::PackView& pack,
+                                                  const gpu::SceneOptions& options)
+    {
+        std::unique_ptr<gpu::Scene> scene;
+        const Status status = host().run(
+            [&](VkCommandBuffer commands) -> Status
+            {
+                HEARTH_ASSIGN_OR_RETURN(scene, recorded.upload(pack, commands, options));
+                return success();
+            });
+        HEARTH_ASSERT(status.ok());
+        scene->staging.reset();
+        return scene;
+    }
+
+    static void uploadRocks(gpu::Renderer& recorded)
+    {
+        TestScene test;
+        test.addInstance(test.addMesh(withMaterial(shapes::rock(10, 0.2f), kInvalidIndex)), Affine3{});
+        const formats::PackView pack = test.build();
+        uploadWith(recorded, pack, {});
+    }
+
+    static void uploadDeformed(gpu::Renderer& recorded)
+    {
+        const DeformedScene deformed({.rings = 8}, 1);
+        const auto scene = uploadWith(recorded, deformed.pack(), {.shadows = {.max_maps = 4}});
+        EXPECT_TRUE(gpu::CullStatisticsPass::create(recorded.device(), *scene).ok());
+    }
+
+    static void uploadBricks(gpu::Renderer& recorded, const gpu::ShadowOptions& shadows)
+    {
+        TestScene test;
+        test.addInstance(test.addMesh(withMaterial(makeQuad(1, 1), kInvalidIndex)), Affine3{});
+        setBricks(test, brickModel({8, 8, 8}, shellOf({8, 8, 8}),
+                                   [](std::array<uint32_t, 3>, uint32_t) { return FaceLook{}; }));
+        const formats::PackView pack = test.build();
+        uploadWith(recorded, pack, {.shadows = shadows});
+    }
+
+    /// The first recorded pipeline that has this shader.
+    static RecordedPipeline& pipelineOf(GpuInterface& sides, const std::string& shader)
+    {
+        for (const InterfaceShader& listed : sides.shaders)
+            for (RecordedPipeline& pipeline : sides.pipelines)
+                for (const RecordedStage& stage : pipeline.stages)
+                    if (listed.name == shader && stage.words == listed.words)
+                        return pipeline;
+        HEARTH_ASSERT(false);
+        return sides.pipelines.front();
+    }
+
+    static GpuInterface both_;
+};
+
+GpuInterface GpuInterfaceTest::both_;
+
+} // namespace
+
+TEST_F(GpuInterfaceTest, shadersAndCppAgree)
+{
+    for (const std::string& difference : findDifferences(both_))
+        ADD_FAILURE() << difference;
+    EXPECT_GT(both_.shaders.size(), 40u);
+    EXPECT_GT(both_.pipelines.size(), both_.shaders.size());
+}
+
+TEST_F(GpuInterfaceTest, findsADescriptorOfAnotherTypeOrStage)
+{
+    GpuInterface changed = both_;
+    RecordedSet& tables = pipelineOf(changed, "cull_instances_comp").sets[shared::kSetTables];
+    tables[0].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    tables[1].stageFlags = VK_SHADER_STAGE_VERTEX_BIT;
+    EXPECT_THAT(findDifferences(changed),
+                ElementsAre(AllOf(HasSubstr("cull_instances_comp: "), HasSubstr("uniform buffer"),
+                                  HasSubstr("the layout has a storage buffer")),
+                            AllOf(HasSubstr("cull_instances_comp: "),
+                                  HasSubstr("the layout has it for other stages"))));
+}
+
+TEST_F(GpuInterfaceTest, findsABindingThatOneSideLacks)
+{
+    GpuInterface changed = both_;
+    RecordedSet& tables = pipelineOf(changed, "scan_totals_comp").sets[shared::kSetTables];
+    tables[0].binding = 30;
+    EXPECT_THAT(findDifferences(changed),
+                ElementsAre(AllOf(HasSubstr("scan_totals_comp: "), HasSubstr("no such binding")),
+                            HasSubstr("no shader uses binding 30 (storage buffer) of a set layout of 2 "
+                                      "bindings: scan_totals_comp")));
+}
+
+TEST_F(GpuInterfaceTest, findsPushConstantsOfAnotherSize)
+{
+    GpuInterface changed = both_;
+    pipelineOf(changed, "pyramid_top_comp").push[0].size = 4;
+    EXPECT_THAT(findDifferences(changed),
+                ElementsAre("pyramid_top_comp: PyramidPush has 8 bytes, the layout 4 from byte 0"));
+}
+
+TEST_F(GpuInterfaceTest, findsAMemberInAnotherPlace)
+{
+    GpuInterface changed = both_;
+    for (SharedStruct& known : changed.structs)
+        if (known.name == "SkinningPlanPush")
+            std::swap(known.members[0].offset, known.members[1].offset);
+    EXPECT_THAT(findDifferences(changed),
+                ElementsAre("plan_skinning_comp: struct SkinningPlanPush has uint bin_count at byte 0, C++ "
+                            "uint bin_count at byte 4",
+                            "plan_skinning_comp: struct SkinningPlanPush has uint first_bin at byte 4, C++ "
+                            "uint first_bin at byte 0"));
+}
+
+TEST_F(GpuInterfaceTest, findsAConstantWithAnotherIdOrWithoutValue)
+{
+    GpuInterface changed = both_;
+    changed.constant_ids["kUnlit"] = 7;
+    pipelineOf(changed, "skin_vertices_comp").stages[0].constants.erase(shared::kConstantUsedSlices);
+    const std::vector<std::string> found = findDifferences(changed);
+    EXPECT_THAT(found, Contains("shading_frag: constant kUnlit (id 3) has id 7 in C++"));
+    EXPECT_THAT(found,
+                Contains("skin_vertices_comp: constant kUsedSlices (id 0): a pipeline gives it no value"));
+}
+
+TEST_F(GpuInterfaceTest, findsAShaderThatNoPipelineHas)
+{
+    GpuInterface changed = both_;
+    const std::vector<uint32_t> words = pipelineOf(changed, "gather_smooth_comp").stages[0].words;
+    std::erase_if(changed.pipelines,
+                  [&](const RecordedPipeline& pipeline) { return pipeline.stages[0].words == words; });
+    EXPECT_THAT(findDifferences(changed), Contains("gather_smooth_comp: no pipeline has it"));
+}
+
+} // namespace hearth::test

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "tests/runtime/gpu/pipeline_recorder.h"
+
+#include <span>
+#include <string_view>
+
+namespace hearth::test
+{
+
+namespace
+{
+
+struct RecordedLayout
+{
+    std::vector<RecordedSet> sets;
+    std::vector<VkPushConstantRange> push;
+};
+
+/// Real functions, and the objects by their latest handles.
+struct Recorder
+{
+    PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
+    PFN_vkGetDeviceProcAddr get_device_proc_addr = nullptr;
+    PFN_vkCreateShaderModule create_shader_module = nullptr;
+    PFN_vkCreateDescriptorSetLayout create_set_layout = nullptr;
+    PFN_vkCreatePipelineLayout create_pipeline_layout = nullptr;
+    PFN_vkCreateComputePipelines create_compute_pipelines = nullptr;
+    PFN_vkCreateGraphicsPipelines create_graphics_pipelines = nullptr;
+
+    std::map<VkShaderModule, std::vector<uint32_t>> modules;
+    std::map<VkDescriptorSetLayout, RecordedSet> sets;
+    std::map<VkPipelineLayout, RecordedLayout> layouts;
+    std::vector<RecordedPipeline> pipelines;
+
+    void add(VkPipelineLayout layout, std::span<const VkPipelineShaderStageCreateInfo> stages)
+    {
+        RecordedPipeline pipeline{{}, layouts.at(layout).sets, layouts.at(layout).push};
+        for (const VkPipelineShaderStageCreateInfo& info : stages)
+        {
+            RecordedStage stage{info.stage, modules.at(info.module), {}};
+            if (const VkSpecializationInfo* constants = info.pSpecializationInfo; constants != nullptr)
+                for (const VkSpecializationMapEntry& entry :
+                     std::span(constants->pMapEntries, constants->mapEntryCount))
+                    stage.constants[entry.constantID] = entry.size;
+            pipeline.stages.push_back(std::move(stage));
+        }
+        pipelines.push_back(std::move(pipeline));
+    }
+};
+Recorder recorder;
+
+VKAPI_ATTR VkResult VKAPI_CALL createShaderModule(VkDevice device, const VkShaderModuleCreateInfo* info,
+                                                  const VkAllocationCallbacks* allocator,
+                                                  VkShaderModule* module)
+{
+    const VkResult result = recorder.create_shader_module(device, info, allocator, module);
+    recorder.modules[*module].assign(info->pCode, info->pCode + info->codeSize / sizeof(uint32_t));
+    return result;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL createSetLayout(VkDevice device, const VkDescriptorSetLayoutCreateInfo* info,
+                                               const VkAllocationCallbacks* allocator,
+                                               VkDescriptorSetLayout* layout)
+{
+    const VkResult result = recorder.create_set_layout(device, info, allocator, layout);
+    recorder.sets[*layout].assign(info->pBindings, info->pBindings + info->bindingCount);
+    return result;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL createPipelineLayout(VkDevice device, const VkPipelineLayoutCreateInfo* info,
+                                                    const VkAllocationCallbacks* allocator,
+                                                    VkPipelineLayout* layout)
+{
+    const VkResult result = recorder.create_pipeline_layout(device, info, allocator, layout);
+    RecordedLayout& recorded = recorder.layouts[*layout] = {};
+    for (const VkDescriptorSetLayout set : std::span(info->pSetLayouts, info->setLayoutCount))
+        recorded.sets.push_back(recorder.sets.at(set));
+    recorded.push.assign(info->pPushConstantRanges, info->pPushConstantRanges + info->pushConstantRangeCount);
+    return result;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL createComputePipelines(VkDevice device, VkPipelineCache cache, uint32_t count,
+                                                      const VkComputePipelineCreateInfo* infos,
+                                                      const VkAllocationCallbacks* allocator,
+                                                      VkPipeline* pipelines)
+{
+    for (const VkComputePipelineCreateInfo& info : std::span(infos, count))
+        recorder.add(info.layout, {&info.stage, 1});
+    return recorder.create_compute_pipelines(device, cache, count, infos, allocator, pipelines);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL createGraphicsPipelines(VkDevice device, VkPipelineCache cache, uint32_t count,
+                                                       const VkGraphicsPipelineCreateInfo* infos,
+                                                       const VkAllocationCallbacks* allocator,
+                                                       VkPipeline* pipelines)
+{
+    for (const VkGraphicsPipelineCreateInfo& info : std::span(infos, count))
+        recorder.add(info.layout, {info.pStages, info.stageCount});
+    return recorder.create_graphics_pipelines(device, cache, count, infos, allocator, pipelines);
+}
+
+/// Replace the function by `mine`, and store the original in `real`.
+template <typename T>
+PFN_vkVoidFunction replace(PFN_vkVoidFunction function, T& real, T mine)
+{
+    real = reinterpret_cast<T>(function);
+    return reinterpret_cast<PFN_vkVoidFunction>(mine);
+}
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, const char* name)
+{
+    const PFN_vkVoidFunction function = recorder.get_device_proc_addr(device, name);
+    const std::string_view which = name;
+    if (which == "vkCreateShaderModule")
+        return replace(function, recorder.create_shader_module, createShaderModule);
+    if (which == "vkCreateDescriptorSetLayout")
+        return replace(function, recorder.create_set_layout, createSetLayout);
+    if (which == "vkCreatePipelineLayout")
+        return replace(function, recorder.create_pipeline_layout, createPipelineLayout);
+    if (which == "vkCreateComputePipelines")
+        return replace(function, recorder.create_compute_pipelines, createComputePipelines);
+    if (which == "vkCreateGraphicsPipelines")
+        return replace(function, recorder.create_graphics_pipelines, createGraphicsPipelines);
+    return function;
+}
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getInstanceProcAddr(VkInstance instance, const char* name)
+{
+    const PFN_vkVoidFunction function = recorder.get_instance_proc_addr(instance, name);
+    if (std::string_view(name) == "vkGetDeviceProcAddr")
+        return replace(function, recorder.get_device_proc_addr, getDeviceProcAddr);
+    return function;
+}
+
+} // namespace
+
+gpu::DeviceDescription recordPipelines(const gpu::DeviceDescription& description)
+{
+    recorder = {};
+    recorder.get_instance_proc_addr = description.get_instance_proc_addr;
+    gpu::DeviceDescription recording = description;
+    recording.get_instance_proc_addr = getInstanceProcAddr;
+    return recording;
+}
+
+const std::vector<RecordedPipeline>& recordedPipelines()
+{
+    return recorder.pipelines;
+}
+
+} // namespace hearth::test

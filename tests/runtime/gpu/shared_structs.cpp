@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "tests/runtime/gpu/shared_structs.h"
+
+#include "formats/gpu_shared/brick_lighting.h"
+#include "formats/gpu_shared/brick_view.h"
+#include "formats/gpu_shared/cull_statistics.h"
+#include "formats/gpu_shared/gather.h"
+#include "formats/gpu_shared/material_tiles.h"
+#include "formats/gpu_shared/push_constants.h"
+#include "formats/gpu_shared/shading.h"
+#include "formats/gpu_shared/shadow.h"
+
+#include <type_traits>
+
+namespace hearth::test
+{
+
+namespace
+{
+
+template <typename T>
+struct TypeName; // specialized for every type of a member
+
+// Applies a macro to the name of a struct and to each of its members.
+#define HEARTH_EXPAND(...) HEARTH_EXPAND4(HEARTH_EXPAND4(HEARTH_EXPAND4(__VA_ARGS__)))
+#define HEARTH_EXPAND4(...) HEARTH_EXPAND2(HEARTH_EXPAND2(HEARTH_EXPAND2(__VA_ARGS__)))
+#define HEARTH_EXPAND2(...) HEARTH_EXPAND1(HEARTH_EXPAND1(HEARTH_EXPAND1(__VA_ARGS__)))
+#define HEARTH_EXPAND1(...) __VA_ARGS__
+#define HEARTH_EACH(macro, type, ...) __VA_OPT__(HEARTH_EXPAND(HEARTH_EACH_NEXT(macro, type, __VA_ARGS__)))
+#define HEARTH_EACH_NEXT(macro, type, member, ...)                                                           \
+    macro(type, member) __VA_OPT__(HEARTH_EACH_AGAIN HEARTH_PARENTHESES(macro, type, __VA_ARGS__))
+#define HEARTH_EACH_AGAIN() HEARTH_EACH_NEXT
+#define HEARTH_PARENTHESES ()
+
+#define HEARTH_MEMBER(type, member)                                                                          \
+    makeMember<decltype(shared::type::member)>(#member, offsetof(shared::type, member)),
+#define HEARTH_STRUCT(type, ...)                                                                             \
+    SharedStruct                                                                                             \
+    {                                                                                                        \
+        #type, sizeof(shared::type),                                                                         \
+        {                                                                                                    \
+            HEARTH_EACH(HEARTH_MEMBER, type, __VA_ARGS__)                                                    \
+        }                                                                                                    \
+    }
+#define HEARTH_TYPE(type, name)                                                                              \
+    template <>                                                                                              \
+    struct TypeName<type>                                                                                    \
+    {                                                                                                        \
+        static constexpr const char* value = name;                                                           \
+    }
+
+HEARTH_TYPE(uint32_t, "uint");
+HEARTH_TYPE(int32_t, "int");
+HEARTH_TYPE(float, "float");
+HEARTH_TYPE(Float3, "float3");
+HEARTH_TYPE(Float4, "float4");
+HEARTH_TYPE(shared::Light, "Light");
+HEARTH_TYPE(shared::ShadowLight, "ShadowLight");
+HEARTH_TYPE(shared::ShadowMap, "ShadowMap");
+HEARTH_TYPE(shared::BrickGrid, "BrickGrid");
+HEARTH_TYPE(shared::EmissionBox, "EmissionBox");
+
+template <typename T>
+SharedMember makeMember(const char* name, size_t offset)
+{
+    using Element = std::remove_all_extents_t<T>;
+    return {name, offset, TypeName<Element>::value, std::is_array_v<T> ? sizeof(Element) : 0};
+}
+
+std::vector<SharedStruct> pushStructs()
+{
+    return {
+        HEARTH_STRUCT(PhasePush, phase),
+        HEARTH_STRUCT(CullPush, first_item, item_count, phase),
+        HEARTH_STRUCT(ScanBlocksPush, item_count),
+        HEARTH_STRUCT(ScanTotalsPush, block_count, slot_capacity, phase),
+        HEARTH_STRUCT(EmitVisiblePush, item_count, slot_capacity),
+        HEARTH_STRUCT(EmitDrawsPush, bin_count, item_count, block_count, slot_capacity, phase),
+        HEARTH_STRUCT(PageRequestPush, first_item, item_count),
+        HEARTH_STRUCT(CullStatisticsPush, first_item, item_count, instance_count),
+        HEARTH_STRUCT(SkinningPlanPush, bin_count, first_bin, phase),
+        HEARTH_STRUCT(PyramidPush, width, height),
+        HEARTH_STRUCT(TilesPush, width, height, draw_count),
+        HEARTH_STRUCT(BinPush, bin, light_row, map_index),
+        HEARTH_STRUCT(ShadingPush, depth, debug_view, depth_scale, sky_occlusion),
+    };
+}
+
+std::vector<SharedStruct> tableStructs()
+{
+    return {
+        HEARTH_STRUCT(Instance, world_from_object_x, world_from_object_y, world_from_object_z, mesh, node,
+                      flags, scale_max),
+        HEARTH_STRUCT(Group, sphere_center, sphere_radius, error, level, first_cluster, cluster_count, page,
+                      set_offset, position_error, normal_error, uv_error, absent, reserved0, reserved1),
+        HEARTH_STRUCT(Cluster, base_x, base_y, base_z, extent_xy, extent_z, cone, cone_back, counts, material,
+                      group, refined_group, page),
+        HEARTH_STRUCT(MeshBounds, box_min, grid_step, box_max, reserved),
+        HEARTH_STRUCT(InstanceInverse, object_from_world_x, object_from_world_y, object_from_world_z),
+        HEARTH_STRUCT(InstanceState, eye_object, eye_slack, visible, cone_valid, grid_step, reserved),
+        HEARTH_STRUCT(WorkItem, instance, first, count, flags),
+        HEARTH_STRUCT(GroupItem, instance, first, count),
+        HEARTH_STRUCT(WorkResult, mask_low, mask_high, offset, later_low, later_high),
+        HEARTH_STRUCT(VisibleCluster, instance, cluster),
+        HEARTH_STRUCT(Bin, first_item, item_count),
+        HEARTH_STRUCT(BinDraw, vertex_count, instance_count, first_vertex, first_instance, first_slot,
+                      reserved0, reserved1, reserved2),
+        HEARTH_STRUCT(FrameCounters, drawn_clusters, dropped_clusters, early_clusters, reserved),
+        HEARTH_STRUCT(ClusterDraw, address, counts, vertex_layout, material, base_x, base_y, base_z,
+                      grid_step),
+        HEARTH_STRUCT(TileDraw, vertex_count, instance_count, first_vertex, first_instance),
+        HEARTH_STRUCT(CullStatistics, empty_instances, outside_instances, occluded_instances, late_instances,
+                      visible_instances, clusters, triangles_low, triangles_high),
+    };
+}
+
+std::vector<SharedStruct> frameStructs()
+{
+    return {
+        HEARTH_STRUCT(FrameView, clip_x, clip_y, clip_w, planes, eye, z_near, lod_scale, threshold, flags,
+                      instance_count, width, height, reserved0, reserved1, lod_curve),
+        HEARTH_STRUCT(OcclusionView, clip_x, clip_y, clip_w, eye, z_near, width, height, level_count,
+                      reserved),
+        HEARTH_STRUCT(Material, base_color, emissive, alpha_cutoff, metallic, roughness, normal_scale,
+                      occlusion_strength, flags, alpha_mode, textures, uv_sets, uv_rows),
+        HEARTH_STRUCT(Light, position, type, direction, range, intensity, shadow_row, cone_scale, cone_offset,
+                      reserved1, reserved2),
+        HEARTH_STRUCT(Lighting, sky_zenith, light_count, sky_horizon, reserved0, sky_ground, reserved1,
+                      lights),
+        HEARTH_STRUCT(ShadowLight, right, depth_scale, down, depth_offset, direction, perspective, origin,
+                      depth_step, rounding, first_map, map_count, eye_shift),
+        HEARTH_STRUCT(ShadowMap, scale_x, scale_y, offset_x, offset_y, size, kernel, density, layer),
+        HEARTH_STRUCT(ShadowBlock, lights, maps, error_bias, layer_size, reserved0, reserved1),
+        HEARTH_STRUCT(BrickGrid, origin, voxel_size, voxels_x, voxels_y, voxels_z, reserved),
+        HEARTH_STRUCT(BrickView, grid, face_count, first_brick, slice_bricks, slice_faces, emission_box_count,
+                      light_rays, reserved0, reserved1, emission_boxes),
+        HEARTH_STRUCT(EmissionBox, box_min, factor, box_max, reserved),
+        HEARTH_STRUCT(BrickGroup, brick_mask_low, brick_mask_high, first_brick),
+        HEARTH_STRUCT(Brick, voxel_mask_low, voxel_mask_high, face_masks, first_voxel, first_face),
+        HEARTH_STRUCT(BrickLight, code, rest),
+        HEARTH_STRUCT(BrickLocation, xy, z),
+        HEARTH_STRUCT(GatherView, clip_x, clip_y, clip_w, eye_step, history_frames, eye, frame, tiles_x,
+                      tiles_y, has_history, tile_angle),
+        HEARTH_STRUCT(GatherPoint, position, count, normal, sky, mean, has_surface, red, green, blue, wide,
+                      reserved),
+    };
+}
+
+} // namespace
+
+const std::vector<SharedStruct>& sharedStructs()
+{
+    static const std::vector<SharedStruct> all = []
+    {
+        std::vector<SharedStruct> structs = pushStructs();
+        for (const std::vector<SharedStruct>& more : {tableStructs(), frameStructs()})
+            structs.insert(structs.end(), more.begin(), more.end());
+        return structs;
+    }();
+    return all;
+}
+
+} // namespace hearth::test
