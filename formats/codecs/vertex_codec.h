@@ -1,12 +1,12 @@
-// Defines the vertex layout of geometry pages: word offsets, and the codes of positions, normals, tangents,
-// UVs and colours. Octahedral map: Q. Meyer et al., "On floating-point normal vectors", 2010; its rounding:
-// Z. Cigolle et al., "A survey of efficient representations for independent unit vectors", 2014; frame of a
-// normal: T. Duff et al., "Building an orthonormal basis, revisited", 2017. The bit definitions are in
-// FORMAT.md.
+// Encodes the vertices of geometry pages: codes of positions, normals, tangents, UVs and colours. Their layout
+// and decoders are in formats/gpu_shared/vertex_layout.h, which shaders share; the bit definitions are in
+// FORMAT.md. Octahedral map: Q. Meyer et al., "On floating-point normal vectors", 2010; its rounding: Z. Cigolle
+// et al., "A survey of efficient representations for independent unit vectors", 2014.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
 #include "formats/base/math.h"
+#include "formats/gpu_shared/vertex_layout.h"
 #include "formats/records/mesh.h"
 
 #include <array>
@@ -14,7 +14,6 @@
 #include <cstdint>
 
 // Only + - * / and sqrt on 32-bit floats are used, each rounded once: every machine gets the same bits.
-// runtime/shaders/scene/scene.glsl and resolve.glsl decode the same codes.
 //
 //   position     (base + offset) * grid_step: integers of at most 24 bits times a power of two, exact as
 //                floats. The base is the cluster's, offsets are 3 x u16, x in the lowest bits, or 3 x u32 in
@@ -51,11 +50,18 @@ inline constexpr int32_t kMaxGridCoordinate = 1 << 24;
 /// Largest distance in steps from a cluster's base that a 16-bit offset reaches.
 inline constexpr int64_t kMaxNarrowOffset = 65535;
 
-/// Return n of UV set `set`, whose grid has steps of 2^-n; 0 for floats.
-constexpr uint32_t uvFractionBits(uint32_t layout, uint32_t set)
-{
-    return layout >> (kVertexUvStepShift + 4 * set) & 15u;
-}
+// of a layout, a code or a word
+using shared::decodeNormal;
+using shared::decodeTangent;
+using shared::directionFromOctahedral;
+using shared::kMorphNormalSteps;
+using shared::makeNormalFrame;
+using shared::morphNormal;
+using shared::morphPosition;
+using shared::NormalFrame;
+using shared::tangentAngleBits;
+using shared::uvFractionBits;
+using shared::uvStep;
 
 /// True if the layout is legal for a mesh: unused bits are 0, no coding bit is set for an absent attribute,
 /// and tangents and visibility require normals.
@@ -82,7 +88,7 @@ constexpr uint32_t attributeWord(uint32_t layout, uint32_t bit)
 /// Return the word of UV set `set`'s base among the uvBaseWords before a cluster's vertices.
 constexpr uint32_t uvBaseWord(uint32_t layout, uint32_t set)
 {
-    return uvBaseWords(layout & (((kVertexUv0 << set) - 1) | ~kVertexAttributesAll));
+    return uvBaseWords(layout) - shared::uvBaseDistance(layout, set);
 }
 
 /// Return the bytes of a cluster in its page, without its morph section: UV bases, vertices, then three u8
@@ -111,21 +117,11 @@ constexpr size_t morphSectionWords(size_t targets, size_t vertex_count)
 }
 
 inline constexpr int32_t kMaxMorphPositionSteps = (1 << 19) - 1;
-/// Unit of normal deltas, in the difference of two orthogonal normals.
-inline constexpr float kMorphNormalSteps = 1024;
 
 /// Pack the deltas of a position, in [-2^19, 2^19), and of a normal, in [-2^11, 2^11).
 constexpr uint32_t packMorphDelta(int32_t position, int32_t normal)
 {
     return (static_cast<uint32_t>(position) & 0xFFFFFu) | static_cast<uint32_t>(normal) << 20;
-}
-constexpr int32_t morphPosition(uint32_t word)
-{
-    return static_cast<int32_t>(word << 12) >> 12;
-}
-constexpr int32_t morphNormal(uint32_t word)
-{
-    return static_cast<int32_t>(word) >> 20;
 }
 
 constexpr uint32_t packHalves(int32_t low, int32_t high)
@@ -153,12 +149,6 @@ inline float gridToFloat(int32_t coordinate, float step)
     return static_cast<float>(coordinate) * step;
 }
 
-/// Return 2^-n, n < 127.
-constexpr float uvStep(uint32_t fraction_bits)
-{
-    return std::bit_cast<float>((127 - fraction_bits) << 23);
-}
-
 /// Return the point of the square [-1, 1]^2 for a direction of any length > 0.
 inline Float2 octahedralFromDirection(Float3 d)
 {
@@ -168,17 +158,6 @@ inline Float2 octahedralFromDirection(Float3 d)
         p = {(1.0f - std::abs(p.y)) * (p.x < 0 ? -1.0f : 1.0f),
              (1.0f - std::abs(p.x)) * (p.y < 0 ? -1.0f : 1.0f)};
     return p;
-}
-
-inline Float3 directionFromOctahedral(Float2 p)
-{
-    Float3 d{p.x, p.y, 1.0f - std::abs(p.x) - std::abs(p.y)};
-    if (d.z < 0)
-    {
-        d.x = (1.0f - std::abs(p.y)) * (p.x < 0 ? -1.0f : 1.0f);
-        d.y = (1.0f - std::abs(p.x)) * (p.y < 0 ? -1.0f : 1.0f);
-    }
-    return d / length(d); // |d| >= 1/sqrt(3): never zero
 }
 
 using FourFloats = float __attribute__((vector_size(16)));
@@ -223,11 +202,7 @@ struct NormalCode
     }
     static constexpr bool legal(uint32_t code) { return x(code) >= -kMaxCode && y(code) >= -kMaxCode; }
 
-    static Float3 decode(uint32_t code)
-    {
-        return directionFromOctahedral(
-            {static_cast<float>(x(code)) / kMaxCode, static_cast<float>(y(code)) / kMaxCode});
-    }
+    static Float3 decode(uint32_t code) { return decodeNormal(B == 16 ? kVertexNormal16 : 0, code); }
 
     /// Encode a normal: the code with the smallest angle of the four around the direction. `normal` is finite
     /// and not zero.
@@ -259,35 +234,10 @@ inline uint32_t encodeNormal(uint32_t layout, Float3 normal)
 {
     return (layout & kVertexNormal16) ? NormalCode<16>::encode(normal) : NormalCode<8>::encode(normal);
 }
-inline Float3 decodeNormal(uint32_t layout, uint32_t code)
-{
-    return (layout & kVertexNormal16) ? NormalCode<16>::decode(code) : NormalCode<8>::decode(code);
-}
 constexpr bool isLegalNormal(uint32_t layout, uint32_t code)
 {
     return (layout & kVertexNormal16) ? NormalCode<16>::legal(code)
                                       : code <= 0xFFFF && NormalCode<8>::legal(code);
-}
-
-/// Return the number of bits of a tangent's angle.
-constexpr uint32_t tangentAngleBits(uint32_t layout)
-{
-    return (layout & kVertexNormal16) ? 15 : 7;
-}
-
-/// Two unit vectors orthogonal to a unit normal and to each other.
-struct NormalFrame
-{
-    Float3 first;
-    Float3 second;
-};
-
-inline NormalFrame makeNormalFrame(Float3 n)
-{
-    const float sign = n.z < 0 ? -1.0f : 1.0f;
-    const float a = -1.0f / (sign + n.z);
-    const float b = n.x * n.y * a;
-    return {{1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}};
 }
 
 /// Encode a tangent. `tangent` xyz is finite, w < 0 if the bitangent is flipped; `normal` as decoded. The
@@ -306,21 +256,6 @@ inline uint32_t encodeTangent(uint32_t layout, Float4 tangent, Float3 normal)
     const uint32_t quarter = 1u << (tangentAngleBits(layout) - 2);
     const auto angle = static_cast<uint32_t>(std::lround(turn * static_cast<float>(quarter)));
     return (angle & (4 * quarter - 1)) << 1 | (tangent.w < 0 ? 1u : 0u);
-}
-
-/// Decode a tangent: xyz unit, w = +1 or -1.
-inline Float4 decodeTangent(uint32_t layout, uint32_t code, Float3 normal)
-{
-    const uint32_t quarter = 1u << (tangentAngleBits(layout) - 2);
-    const uint32_t angle = code >> 1;
-    const float along = static_cast<float>(angle & (quarter - 1)) / static_cast<float>(quarter);
-    const uint32_t turn = angle / quarter;
-    const float u = turn == 0 ? 1 - along : turn == 1 ? -along : turn == 2 ? along - 1 : along;
-    const float v = turn == 0 ? along : turn == 1 ? 1 - along : turn == 2 ? -along : along - 1;
-    const NormalFrame frame = makeNormalFrame(normal);
-    const Float3 t = frame.first * u + frame.second * v;
-    const Float3 unit = t / length(t);
-    return {unit.x, unit.y, unit.z, (code & 1) != 0 ? -1.0f : 1.0f};
 }
 
 constexpr bool isLegalTangent(uint32_t layout, uint32_t code)
@@ -342,12 +277,7 @@ inline std::array<uint32_t, 2> encodeColor(uint32_t layout, Float4 color)
 
 inline Float4 decodeColor(uint32_t layout, std::array<uint32_t, 2> words)
 {
-    const auto part = [](uint32_t q, float most) { return static_cast<float>(q) / most; };
-    if (layout & kVertexColor16)
-        return {part(words[0] & 0xFFFFu, 65535), part(words[0] >> 16, 65535), part(words[1] & 0xFFFFu, 65535),
-                part(words[1] >> 16, 65535)};
-    return {part(words[0] & 0xFFu, 255), part(words[0] >> 8 & 0xFFu, 255), part(words[0] >> 16 & 0xFFu, 255),
-            part(words[0] >> 24, 255)};
+    return shared::decodeColor(layout, words[0], words[1]);
 }
 
 } // namespace hearth::formats

@@ -19,6 +19,7 @@
     {
 #define HEARTH_SHARED_END }
 #define HEARTH_FUNCTION inline
+#define HEARTH_CONSTEXPR_FUNCTION constexpr
 #define HEARTH_IN(type) const type&
 #define HEARTH_CONSTANT inline constexpr
 #define HEARTH_PRECISE
@@ -48,14 +49,38 @@ inline uint floatBits(float value)
 {
     return std::bit_cast<uint>(value);
 }
-inline float floatFromBits(uint bits)
+constexpr float floatFromBits(uint bits)
 {
     return std::bit_cast<float>(bits);
 }
 /// Return the number of set bits.
-inline int bitCount(uint bits)
+constexpr int bitCount(uint bits)
 {
     return std::popcount(bits);
+}
+inline Float3 normalize(Float3 v)
+{
+    return v / length(v);
+}
+/// Decode normalized integers, the first in the lowest bits. The smallest of a signed one is no legal code.
+inline Float2 unpackSnorm2x8(uint code)
+{
+    return {static_cast<float>(static_cast<int8_t>(code)) / 127.0f,
+            static_cast<float>(static_cast<int8_t>(code >> 8)) / 127.0f};
+}
+inline Float2 unpackSnorm2x16(uint code)
+{
+    return {static_cast<float>(static_cast<int16_t>(code)) / 32767.0f,
+            static_cast<float>(static_cast<int16_t>(code >> 16)) / 32767.0f};
+}
+inline Float2 unpackUnorm2x16(uint code)
+{
+    return {static_cast<float>(code & 0xFFFFu) / 65535.0f, static_cast<float>(code >> 16) / 65535.0f};
+}
+inline Float4 unpackUnorm4x8(uint code)
+{
+    return {static_cast<float>(code & 0xFFu) / 255.0f, static_cast<float>(code >> 8 & 0xFFu) / 255.0f,
+            static_cast<float>(code >> 16 & 0xFFu) / 255.0f, static_cast<float>(code >> 24) / 255.0f};
 }
 } // namespace hearth::shared
 
@@ -64,6 +89,7 @@ inline int bitCount(uint bits)
 #define HEARTH_SHARED_BEGIN
 #define HEARTH_SHARED_END
 #define HEARTH_FUNCTION
+#define HEARTH_CONSTEXPR_FUNCTION
 #define HEARTH_IN(type) type
 #define HEARTH_CONSTANT const
 // forbids contraction into fused multiply-adds: the C++ side is compiled with -ffp-contract=off
@@ -72,6 +98,10 @@ inline int bitCount(uint bits)
 #define floatBits floatBitsToUint
 #define floatFromBits uintBitsToFloat
 #define arcTangent atan
+vec2 unpackSnorm2x8(uint code)
+{
+    return unpackSnorm4x8(code).xy;
+}
 
 #define Float2 vec2
 #define Float3 vec3

@@ -157,8 +157,8 @@ struct FrameCounters
 struct ClusterDraw
 {
     uint address;       ///< first vertex, in words of the geometry pool; the UV bases are stored before it
-    uint counts;        ///< vertices | triangles << 9 | level << 17 | kDrawMorphs
-    uint vertex_layout; ///< formats::VertexAttributes
+    uint counts;        ///< packDrawCounts, and kDrawMorphs
+    uint vertex_layout; ///< bits kVertex* (vertex_layout.h)
     uint material;      ///< 1 + row of the material table; 0 is the sky
     int base_x;         ///< positions are (base + offset) * grid_step
     int base_y;
@@ -168,6 +168,24 @@ struct ClusterDraw
 
 /// Bit of ClusterDraw::counts: morph targets are stored after the triangles.
 HEARTH_CONSTANT uint kDrawMorphs = 0x80000000u;
+
+/// Return ClusterDraw::counts without kDrawMorphs; the functions below read it.
+HEARTH_FUNCTION uint packDrawCounts(uint vertices, uint triangles, uint level)
+{
+    return vertices | triangles << 9 | level << 17;
+}
+HEARTH_FUNCTION uint vertexCount(HEARTH_IN(ClusterDraw) draw)
+{
+    return draw.counts & 0x1FFu;
+}
+HEARTH_FUNCTION uint triangleCount(HEARTH_IN(ClusterDraw) draw)
+{
+    return draw.counts >> 9 & 0xFFu;
+}
+HEARTH_FUNCTION uint clusterLevel(HEARTH_IN(ClusterDraw) draw)
+{
+    return draw.counts >> 17 & 0xFFu;
+}
 
 /// Number of knots of the LOD curve (lod_curve.h).
 HEARTH_CONSTANT uint kLodKnots = 8;
@@ -207,7 +225,11 @@ struct OcclusionView
     uint reserved;
 };
 
+/// Clusters or groups of a work item: threads of its workgroup.
 HEARTH_CONSTANT uint kWorkItemClusters = 64;
+/// Threads of a workgroup of the passes with a thread for each instance, or for each bin.
+HEARTH_CONSTANT uint kGroupInstances = 64;
+HEARTH_CONSTANT uint kGroupBins = 64;
 /// Work items that one workgroup of the scan sums.
 HEARTH_CONSTANT uint kScanBlockItems = 1024;
 /// Workgroups of a dispatch in x; the rest go to y (65535 is guaranteed in each).
@@ -230,7 +252,7 @@ HEARTH_CONSTANT uint kCullEverything = 15;
 HEARTH_CONSTANT uint kCullMoving = 16;
 HEARTH_CONSTANT uint kCullStatic = 32;
 
-/// Bit of Instance::flags, beside formats::InstanceFlags: the instance has moved since loading.
+/// Bit of Instance::flags, beside kInstanceMirrored: the instance has moved since loading.
 HEARTH_CONSTANT uint kInstanceMoved = 0x80000000u;
 /// Bit of Instance::flags: the handedness of the matrix has changed since loading. Its bin would draw the
 /// wrong side of its triangles, so their corners are taken in reverse order.

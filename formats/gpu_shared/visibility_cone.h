@@ -6,7 +6,7 @@
 #ifndef HEARTH_SHARED_VISIBILITY_CONE_H
 #define HEARTH_SHARED_VISIBILITY_CONE_H
 
-#include "formats/gpu_shared/language.h"
+#include "formats/gpu_shared/vertex_layout.h"
 
 HEARTH_SHARED_BEGIN
 
@@ -75,12 +75,8 @@ HEARTH_FUNCTION VisibilityMoments decodeVisibilityInFrame(uint code)
 HEARTH_FUNCTION VisibilityMoments decodeVisibility(uint code, Float3 normal)
 {
     VisibilityMoments moments = decodeVisibilityInFrame(code);
-    float side = normal.z < 0.0f ? -1.0f : 1.0f;
-    float a = -1.0f / (side + normal.z);
-    float b = normal.x * normal.y * a;
-    Float3 first = Float3(1.0f + side * normal.x * normal.x * a, side * b, -side * normal.x);
-    Float3 second = Float3(b, side + normal.y * normal.y * a, -normal.y);
-    moments.m1 = first * moments.m1.x + second * moments.m1.y + normal * moments.m1.z;
+    NormalFrame frame = makeNormalFrame(normal);
+    moments.m1 = frame.first * moments.m1.x + frame.second * moments.m1.y + normal * moments.m1.z;
     return moments;
 }
 

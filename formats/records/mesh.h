@@ -3,9 +3,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "formats/gpu_shared/vertex_layout.h"
 #include "formats/records/container.h"
-
-#include <bit>
 
 namespace hearth::formats
 {
@@ -24,77 +23,29 @@ inline constexpr uint32_t kMaxClusterTriangles = 128;
 inline constexpr uint32_t kMaxClusterVertices = 256;
 inline constexpr uint32_t kMaxPageBytes = 65536;
 
-/// Vertex layout of a mesh: its attributes, and how each is coded. A vertex is 32-bit words in this order:
-/// position, normal, tangent, UV sets, colour, visibility, joints, weights. The codes are defined in
-/// vertex_codec.h and visibility_code.h.
-enum VertexAttributes : uint32_t
-{
-    kVertexNormal = 1,
-    kVertexTangent = 2, ///< only with a normal
-    kVertexUv0 = 4,
-    kVertexUv1 = 8,
-    kVertexUv2 = 16,
-    kVertexUv3 = 32,
-    kVertexColor = 64,
-    kVertexVisibility = 128, ///< visibility of the hemisphere; only with a normal
+// vertex layout of a mesh, which shaders share
+using shared::kVertexColor;
+using shared::kVertexColor16;
+using shared::kVertexInfluences;
+using shared::kVertexInfluences8;
+using shared::kVertexNormal;
+using shared::kVertexNormal16;
+using shared::kVertexTangent;
+using shared::kVertexUv0;
+using shared::kVertexUv1;
+using shared::kVertexUv2;
+using shared::kVertexUv3;
+using shared::kVertexUvs;
+using shared::kVertexUvStepShift;
+using shared::kVertexVisibility;
+using shared::kVertexWideOffsets;
 
-    kVertexNormal16 = 256,     ///< normal 2 x 16 bits instead of 2 x 8, tangent 15 bits instead of 7
-    kVertexColor16 = 512,      ///< 4 x 16 bits instead of 4 x 8
-    kVertexWideOffsets = 8192, ///< of a cluster, never of a mesh: grid offsets have 32 bits instead of 16
-
-    kVertexInfluences = 1 << 14,  ///< four joints of the mesh's skin, and their weights
-    kVertexInfluences8 = 1 << 15, ///< eight instead of four; only with kVertexInfluences
-};
+using shared::gridUvs;
+using shared::influencesPerVertex;
+using shared::uvBaseWords;
+using shared::vertexWords;
 
 inline constexpr uint32_t kVertexInfluenceBits = kVertexInfluences | kVertexInfluences8;
-
-inline constexpr uint32_t kVertexUvs = kVertexUv0 | kVertexUv1 | kVertexUv2 | kVertexUv3;
-
-/// First bit of four bits for each UV set: n, where the steps of its grid are 2^-n; 0 for floats or no set.
-inline constexpr uint32_t kVertexUvStepShift = 16;
-
-/// Return the UV sets that have a grid, as bits kVertexUv0 to kVertexUv3.
-constexpr uint32_t gridUvs(uint32_t layout)
-{
-    // reduce each four bits to their lowest: set if any of the four is
-    uint32_t steps = layout >> kVertexUvStepShift;
-    steps |= steps >> 2;
-    steps = (steps | steps >> 1) & 0x1111u;
-    // bits 0, 4, 8, 12 to bits 0 to 3
-    steps |= steps >> 3;
-    steps |= steps >> 6;
-    return (steps & 15u) * kVertexUv0;
-}
-
-/// Return the number of influences of one vertex with this layout: a joint and a weight of 16 bits each.
-constexpr uint32_t influencesPerVertex(uint32_t layout)
-{
-    if ((layout & kVertexInfluences) == 0)
-        return 0;
-    return (layout & kVertexInfluences8) != 0 ? 8 : 4;
-}
-
-/// Return the number of words of one vertex with this layout.
-constexpr uint32_t vertexWords(uint32_t layout)
-{
-    const bool own_normal_word = (layout & (kVertexNormal16 | kVertexWideOffsets)) != 0;
-    const uint32_t two_word_uvs = (layout & kVertexWideOffsets) ? uint32_t{kVertexUvs} : ~gridUvs(layout);
-    uint32_t words = (layout & kVertexWideOffsets) ? 3 : 2;
-    words += (layout & kVertexNormal) && own_normal_word ? 1 : 0;
-    words += (layout & kVertexTangent) ? 1 : 0;
-    words += static_cast<uint32_t>(std::popcount(layout & kVertexUvs) +
-                                   std::popcount(layout & kVertexUvs & two_word_uvs));
-    words += (layout & kVertexColor) ? ((layout & kVertexColor16) ? 2 : 1) : 0;
-    words += (layout & kVertexVisibility) ? 1 : 0;
-    return words + influencesPerVertex(layout);
-}
-
-/// Return the number of words before a cluster's vertices: for each UV set on a grid, u and v of the base
-/// grid point.
-constexpr uint32_t uvBaseWords(uint32_t layout)
-{
-    return 2 * static_cast<uint32_t>(std::popcount(layout & kVertexUvs & gridUvs(layout)));
-}
 
 struct MeshRecord
 {

@@ -150,8 +150,8 @@ shared::ClusterDraw makeClusterDraw(const formats::PackView& pack, uint32_t clus
     const formats::ClusterRecord& record = pack.clusters()[cluster];
     const formats::MeshRecord& mesh = pack.meshes()[pack.pages()[record.page].mesh];
     return {.address = page_address + record.page_word + formats::uvBaseWords(mesh.attributes),
-            .counts = uint32_t{record.vertex_count} | uint32_t{record.triangle_count} << 9 |
-                      uint32_t{record.level} << 17 | (mesh.morph_target_count > 0 ? shared::kDrawMorphs : 0u),
+            .counts = shared::packDrawCounts(record.vertex_count, record.triangle_count, record.level) |
+                      (mesh.morph_target_count > 0 ? shared::kDrawMorphs : 0u),
             .vertex_layout = formats::clusterVertexLayout(record, mesh.attributes),
             .material = 1 + materialRow(pack, record.material),
             .base_x = record.base[0],

@@ -20,7 +20,7 @@ uint vertexHalf(uint word, uint half_index)
 BlendedJoints blendedJoints(ClusterDraw draw, Pose pose, uint vertex)
 {
     uint layout_bits = draw.vertex_layout;
-    uint count = influenceCount(layout_bits);
+    uint count = influencesPerVertex(layout_bits);
     if (count == 0u)
     {
         PaletteRow node = loadJoint(pose, 0u);
@@ -67,12 +67,11 @@ MorphDelta morphDelta(ClusterDraw draw, Pose pose, uint index)
         if (weight == 0.0)
             continue;
         precise float step_weight = poolFloat(section + 2u + 2u * i) * weight;
-        precise float normal_weight = weight * (1.0 / 1024.0);
+        precise float normal_weight = weight * (1.0 / kMorphNormalSteps);
         uint word = deltas + (i * vertexCount(draw) + index) * 3u;
-        ivec3 codes = ivec3(poolWord(word), poolWord(word + 1u), poolWord(word + 2u));
-        // the arithmetic right shifts extend the sign
-        delta.position += vec3(codes << 12 >> 12) * step_weight;
-        delta.normal += vec3(codes >> 20) * normal_weight;
+        uvec3 codes = uvec3(poolWord(word), poolWord(word + 1u), poolWord(word + 2u));
+        delta.position += vec3(morphPosition(codes.x), morphPosition(codes.y), morphPosition(codes.z)) * step_weight;
+        delta.normal += vec3(morphNormal(codes.x), morphNormal(codes.y), morphNormal(codes.z)) * normal_weight;
     }
     return delta;
 }
