@@ -11,6 +11,7 @@
 #define HEARTH_SHARED_BRICK_LIGHTING_H
 
 #include "formats/gpu_shared/brick_rays.h"
+#include "formats/gpu_shared/record_values.h"
 #include "formats/gpu_shared/shading.h"
 
 HEARTH_SHARED_BEGIN
@@ -35,10 +36,6 @@ HEARTH_CONSTANT float kMaxBrickDepth = 3.0f;
 HEARTH_CONSTANT float kBrickLampRadius = 0.1f;
 
 HEARTH_CONSTANT float kBrickPi = 3.14159265f;
-
-/// formats::LightType
-HEARTH_CONSTANT uint kBrickLightDirectional = 0u;
-HEARTH_CONSTANT uint kBrickLightSpot = 2u;
 
 // ---- faces that a frame lights
 
@@ -284,7 +281,7 @@ HEARTH_FUNCTION BrickUnshadowedLight brickUnshadowedLight(HEARTH_IN(BrickGrid) g
     incident.irradiance = Float3(0.0f, 0.0f, 0.0f);
     incident.direction = -light.direction;
     incident.distance_to_light = kBrickInfinity;
-    if (light.type == kBrickLightDirectional)
+    if (light.type == kLightDirectional)
     {
         incident.irradiance = light.intensity * (max(dot(start.normal, incident.direction), 0.0f) / kBrickPi);
         return incident;
@@ -301,7 +298,7 @@ HEARTH_FUNCTION BrickUnshadowedLight brickUnshadowedLight(HEARTH_IN(BrickGrid) g
         float ratio = metres / light.range;
         share *= min(max(1.0f - ratio * ratio * ratio * ratio, 0.0f), 1.0f);
     }
-    if (light.type == kBrickLightSpot)
+    if (light.type == kLightSpot)
     {
         float cone =
             min(max(light.cone_offset - dot(light.direction, to_light) * light.cone_scale, 0.0f), 1.0f);
@@ -322,7 +319,7 @@ HEARTH_FUNCTION Float3 brickDirect(HEARTH_IN(BrickScene) scene, HEARTH_IN(BrickS
 {
     BrickGrid grid = brickMasksGrid(brickSceneMasks(scene));
     Float3 lamp = Float3(0.0f, 0.0f, 0.0f);
-    if (light.type != kBrickLightDirectional)
+    if (light.type != kLightDirectional)
         lamp = brickLampPosition(scene, (light.position - grid.origin) * (1.0f / grid.voxel_size));
     BrickUnshadowedLight incident = brickUnshadowedLight(grid, start, surface, light, lamp);
     if (incident.irradiance.x + incident.irradiance.y + incident.irradiance.z <= 0.0f ||

@@ -33,6 +33,9 @@ struct BrickView
     EmissionBox emission_boxes[kMaxEmissionBoxes];
 };
 
+/// Faces that a workgroup lights, one a thread.
+HEARTH_CONSTANT uint kGroupFaces = 64;
+
 /// Location of a brick: its first voxel.
 struct BrickLocation
 {

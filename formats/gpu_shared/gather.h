@@ -35,7 +35,10 @@ HEARTH_CONSTANT float kGatherWideRoughness = 0.55f;
 /// Frames that the lobes average, about: short, because lobes depend on the eye.
 HEARTH_CONSTANT float kGatherLobeHistoryFrames = 8.0f;
 
-/// Points of a workgroup.
+/// Side, in tiles, of the square of a workgroup that has a thread for each tile.
+HEARTH_CONSTANT uint kGatherGroupTiles = 8;
+
+/// Points of a workgroup that traces rays.
 HEARTH_CONSTANT uint kGatherGroupPoints = 4;
 
 /// Radius of the smoothing filter, in tiles.

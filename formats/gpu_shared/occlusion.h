@@ -22,6 +22,10 @@ HEARTH_CONSTANT float kPixelMargin = 0.015625f;
 /// nearest corner's by this much.
 HEARTH_CONSTANT float kDepthMargin = 1.52587890625e-5f;
 
+/// Side in pixels of the square that a workgroup of the pyramid pass reduces, by that many levels.
+HEARTH_CONSTANT uint kPyramidTilePixels = 32;
+HEARTH_CONSTANT uint kPyramidTileLevels = 5;
+
 HEARTH_FUNCTION uint pyramidSize(uint pixels, uint level)
 {
     return (pixels + (1u << level) - 1u) >> level;

@@ -25,8 +25,8 @@ struct Material
     float roughness;
     float normal_scale;
     float occlusion_strength;
-    uint flags;         ///< formats::MaterialFlags
-    uint alpha_mode;    ///< formats::AlphaMode
+    uint flags;         ///< bits kMaterial* (record_values.h)
+    uint alpha_mode;    ///< kAlpha*
     uint textures;      ///< bit i: texture i is present
     uint uv_sets;       ///< four bits each
     Float4 uv_rows[10]; ///< two rows for each texture; uv = (row0 . (u, v, 1), row1 . (u, v, 1))
@@ -36,7 +36,7 @@ struct Material
 struct Light
 {
     Float3 position;  ///< world
-    uint type;        ///< formats::LightType
+    uint type;        ///< kLight*
     Float3 direction; ///< unit, direction of the light's rays
     float range;      ///< metres; 0: unlimited
     Float3 intensity; ///< linear colour times candela or lux, after exposure

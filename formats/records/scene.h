@@ -4,6 +4,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "formats/gpu_shared/record_values.h"
 #include "formats/records/container.h"
 
 #include <bit>
@@ -44,10 +45,7 @@ struct NodeRecord
     Range morph_weights;
 };
 
-enum InstanceFlags : uint32_t
-{
-    kInstanceMirrored = 1, ///< determinant of world_from_object < 0: triangles have reversed winding
-};
+using shared::kInstanceMirrored; // a bit of InstanceRecord::flags
 
 /// Drawn copy of a mesh in the rest pose.
 struct InstanceRecord
@@ -81,9 +79,9 @@ struct CameraRecord
 
 enum class LightType : uint32_t
 {
-    directional = 0,
-    point = 1,
-    spot = 2,
+    directional = shared::kLightDirectional,
+    point = shared::kLightPoint,
+    spot = shared::kLightSpot,
 };
 
 /// Punctual light, as in KHR_lights_punctual. It shines along its local -Z.
@@ -141,16 +139,14 @@ struct TextureRef
 
 enum class AlphaMode : uint32_t
 {
-    opaque = 0,
-    mask = 1,
-    blend = 2,
+    opaque = shared::kAlphaOpaque,
+    mask = shared::kAlphaMask,
+    blend = shared::kAlphaBlend,
 };
 
-enum MaterialFlags : uint32_t
-{
-    kMaterialDoubleSided = 1,
-    kMaterialUnlit = 2,
-};
+// bits of MaterialRecord::flags
+using shared::kMaterialDoubleSided;
+using shared::kMaterialUnlit;
 
 /// Metallic-roughness material of glTF 2.0.
 struct MaterialRecord

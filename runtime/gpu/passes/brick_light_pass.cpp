@@ -13,7 +13,6 @@ namespace hearth::gpu
 namespace
 {
 
-constexpr uint32_t kGroupFaces = 64; // as in light_faces.comp
 constexpr VkPipelineStageFlags kReaders =
     VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
 
@@ -85,7 +84,7 @@ void BrickLightPass::record(const Device& device, VkCommandBuffer commands, cons
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, faces_.pipeline.get());
     device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, faces_.layout.get(),
                                       shared::kSetBricks, 2, sets, 0, nullptr);
-    const uint32_t groups = (bricks.share.face_count + kGroupFaces - 1) / kGroupFaces;
+    const uint32_t groups = (bricks.share.face_count + shared::kGroupFaces - 1) / shared::kGroupFaces;
     device.vk.vkCmdDispatch(commands, std::min(groups, shared::kMaxDispatchX),
                             (groups + shared::kMaxDispatchX - 1) / shared::kMaxDispatchX, 1);
     // all threads have read the old values: a frame sees the light of the frame before, whatever the order of

@@ -126,7 +126,7 @@ void CullPass::record(const Device& device, VkCommandBuffer commands, const Scen
         barrier(device, commands, VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT,
                 0, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0);
     dispatch(device, commands, instances_, {sets.instances, targets.occlusionSet()},
-             divideRoundUp(scene.instance_count, 64), shared::PhasePush{phase});
+             divideRoundUp(scene.instance_count, shared::kGroupInstances), shared::PhasePush{phase});
     computeBarrier(device, commands);
     const uint32_t rigid = rigidItems(scene);
     dispatch(device, commands, clusters_, {sets.clusters, targets.occlusionSet()}, rigid,
@@ -142,7 +142,7 @@ void CullPass::record(const Device& device, VkCommandBuffer commands, const Scen
     computeBarrier(device, commands);
     dispatch(device, commands, emit_visible_, {sets.emit_visible}, items,
              shared::EmitVisiblePush{items, scene.slot_capacity});
-    dispatch(device, commands, emit_draws_, {sets.emit_draws}, divideRoundUp(bins, 64),
+    dispatch(device, commands, emit_draws_, {sets.emit_draws}, divideRoundUp(bins, shared::kGroupBins),
              shared::EmitDrawsPush{bins, items, blocks, scene.slot_capacity, phase});
     barrier(device, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
             VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |

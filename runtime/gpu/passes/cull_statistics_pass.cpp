@@ -75,7 +75,9 @@ void CullStatisticsPass::record(const Device& device, VkCommandBuffer commands, 
         device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout,
                                           shared::kSetTables, 1, &counting.set, 0, nullptr);
         device.vk.vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(push), &push);
-        const uint32_t groups = std::max(push.item_count, (push.instance_count + 63) / 64);
+        const uint32_t groups =
+            std::max(push.item_count,
+                     (push.instance_count + shared::kWorkItemClusters - 1) / shared::kWorkItemClusters);
         if (groups > 0)
             device.vk.vkCmdDispatch(commands, std::min(groups, shared::kMaxDispatchX),
                                     (groups + shared::kMaxDispatchX - 1) / shared::kMaxDispatchX, 1);

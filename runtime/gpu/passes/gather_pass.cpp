@@ -10,8 +10,6 @@ namespace hearth::gpu
 namespace
 {
 
-constexpr uint32_t kGroupTiles = 8; // per side, as in gather_points.comp and gather_smooth.comp
-
 void bind(const Device& device, VkCommandBuffer commands, const ComputePipeline& pipeline, uint32_t first_set,
           std::initializer_list<VkDescriptorSet> sets)
 {
@@ -66,8 +64,8 @@ void GatherPass::record(const Device& device, VkCommandBuffer commands, const Sc
     barrier(device, commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, kCompute,
             VK_ACCESS_UNIFORM_READ_BIT);
 
-    const uint32_t groups_x = (tiles_x + kGroupTiles - 1) / kGroupTiles,
-                   groups_y = (tiles_y + kGroupTiles - 1) / kGroupTiles;
+    const uint32_t groups_x = (tiles_x + shared::kGatherGroupTiles - 1) / shared::kGatherGroupTiles,
+                   groups_y = (tiles_y + shared::kGatherGroupTiles - 1) / shared::kGatherGroupTiles;
     const auto wait = [&]
     {
         barrier(device, commands, kCompute, VK_ACCESS_SHADER_WRITE_BIT,

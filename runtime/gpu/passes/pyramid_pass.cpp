@@ -7,15 +7,6 @@
 namespace hearth::gpu
 {
 
-namespace
-{
-
-// Tile size in pixels and number of levels that one workgroup of pyramid_tiles.comp reduces.
-constexpr uint32_t kTilePixels = 32;
-constexpr uint32_t kTileLevels = 5;
-
-} // namespace
-
 Result<PyramidPass> PyramidPass::create(const Device& device, const DrawLayouts& layouts)
 {
     PyramidPass pass;
@@ -44,8 +35,9 @@ void PyramidPass::record(const Device& device, VkCommandBuffer commands, const F
                 VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
                 VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_READ_BIT);
     };
-    dispatch(tiles_, (width + kTilePixels - 1) / kTilePixels, (height + kTilePixels - 1) / kTilePixels);
-    if (shared::pyramidLevels(width, height) > kTileLevels)
+    dispatch(tiles_, (width + shared::kPyramidTilePixels - 1) / shared::kPyramidTilePixels,
+             (height + shared::kPyramidTilePixels - 1) / shared::kPyramidTilePixels);
+    if (shared::pyramidLevels(width, height) > shared::kPyramidTileLevels)
         dispatch(top_, 1, 1);
 }
 

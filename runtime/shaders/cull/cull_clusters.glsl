@@ -6,7 +6,7 @@
 #include "formats/gpu_shared/push_constants.h"
 #include "runtime/shaders/cull/occlusion.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = kWorkItemClusters) in;
 
 layout(set = kSetTables, binding = kTableFrame, std140) uniform Frame { FrameView view; };
 layout(set = kSetTables, binding = kTableInstances, std430) readonly buffer Instances { Instance instances[]; };

@@ -8,7 +8,7 @@
 #include "formats/gpu_shared/push_constants.h"
 #include "runtime/shaders/cull/occlusion.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = kGroupInstances) in;
 
 layout(set = kSetTables, binding = kTableFrame, std140) uniform Frame { FrameView view; };
 layout(set = kSetTables, binding = kTableInstances, std430) readonly buffer Instances { Instance instances[]; };
@@ -19,7 +19,7 @@ layout(push_constant) uniform Push { PhasePush push; };
 
 void main()
 {
-    uint i = gl_GlobalInvocationID.y * (kMaxDispatchX * 64u) + gl_GlobalInvocationID.x;
+    uint i = gl_GlobalInvocationID.y * (kMaxDispatchX * kGroupInstances) + gl_GlobalInvocationID.x;
     if (i >= view.instance_count)
         return;
     Instance instance = instances[i];

@@ -6,7 +6,7 @@
 #include "formats/gpu_shared/cull_statistics.h"
 #include "formats/gpu_shared/push_constants.h"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = kWorkItemClusters) in;
 
 layout(set = kSetTables, binding = kTableFrame, std140) uniform Frame { FrameView view; };
 layout(set = kSetTables, binding = kTableInstances, std430) readonly buffer Instances { Instance instances[]; };
@@ -58,8 +58,8 @@ void main()
     if (lane < kOutcomeCount)
         cluster_counts[lane] = triangle_counts[lane] = 0u;
     barrier();
-    if (group * 64u + lane < push.instance_count)
-        countInstance(group * 64u + lane);
+    if (group * kWorkItemClusters + lane < push.instance_count)
+        countInstance(group * kWorkItemClusters + lane);
     if (group < push.item_count && lane < items[push.first_item + group].count)
     {
         WorkItem item = items[push.first_item + group];

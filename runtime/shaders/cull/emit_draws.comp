@@ -7,7 +7,7 @@
 #include "formats/gpu_shared/push_constants.h"
 #include "formats/gpu_shared/records.h"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = kGroupBins) in;
 
 layout(set = kSetTables, binding = kTableBins, std430) readonly buffer Bins { Bin bins[]; };
 layout(set = kSetTables, binding = kTableResults, std430) readonly buffer Results { WorkResult results[]; };

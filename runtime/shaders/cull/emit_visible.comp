@@ -8,7 +8,7 @@
 #include "formats/gpu_shared/push_constants.h"
 #include "formats/gpu_shared/records.h"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = kWorkItemClusters) in;
 
 layout(set = kSetTables, binding = kTableItems, std430) readonly buffer Items { WorkItem items[]; };
 layout(set = kSetTables, binding = kTableOrder, std430) readonly buffer Order { uint order[]; };

@@ -6,13 +6,13 @@
 #include "formats/gpu_shared/occlusion.h"
 #include "formats/gpu_shared/push_constants.h"
 
-layout(local_size_x = 16, local_size_y = 16) in;
+layout(local_size_x = kPyramidTilePixels / 2u, local_size_y = kPyramidTilePixels / 2u) in;
 
 layout(set = kSetPyramid, binding = kOcclusionPyramid, std430) writeonly buffer Pyramid { float pyramid[]; };
 layout(set = kSetPyramid, binding = kOcclusionDepth) uniform sampler2D depth_buffer;
 layout(push_constant) uniform Push { PyramidPush push; };
 
-shared float tile[16][16];
+shared float tile[kPyramidTilePixels / 2u][kPyramidTilePixels / 2u];
 
 // Depth of a pixel. Pixels beyond the edge are clamped to the edge; they lie in the same texel.
 float depthAt(uvec2 pixel)
@@ -34,10 +34,10 @@ void main()
     float farthest = min(min(depthAt(pixel), depthAt(pixel + uvec2(1u, 0u))),
                          min(depthAt(pixel + uvec2(0u, 1u)), depthAt(pixel + uvec2(1u, 1u))));
     write(1u, gl_GlobalInvocationID.xy, farthest);
-    uint last = min(pyramidLevels(push.width, push.height), 5u);
+    uint last = min(pyramidLevels(push.width, push.height), kPyramidTileLevels);
     for (uint level = 2u; level <= last; ++level)
     {
-        uint side = 32u >> level;
+        uint side = kPyramidTilePixels >> level;
         tile[local.y][local.x] = farthest;
         barrier();
         bool in_tile = local.x < side && local.y < side;

@@ -14,7 +14,7 @@ layout(push_constant) uniform Push { PyramidPush push; };
 void main()
 {
     uint levels = pyramidLevels(push.width, push.height);
-    for (uint level = 6u; level <= levels; ++level)
+    for (uint level = kPyramidTileLevels + 1u; level <= levels; ++level)
     {
         uint below = pyramidOffset(push.width, push.height, level - 1u);
         uvec2 size_below = uvec2(pyramidSize(push.width, level - 1u), pyramidSize(push.height, level - 1u));

@@ -12,7 +12,7 @@
 #include "runtime/shaders/scene/surface_point.glsl"
 #include "runtime/shaders/scene/resolve.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = kGatherGroupTiles, local_size_y = kGatherGroupTiles) in;
 
 layout(set = kSetGatherPoint, binding = kGatherPointVisibility) uniform usampler2D visibility;
 layout(set = kSetGatherPoint, binding = kGatherPointPoints, std430) writeonly buffer GatherPoints { GatherPoint gather_points[]; };

@@ -8,7 +8,7 @@
 #include "formats/gpu_shared/gather.h"
 #include "formats/gpu_shared/gather_lobe.h"
 
-layout(local_size_x = 16, local_size_y = 4) in; // kGatherRays and 2 kGatherLobeRays, kGatherGroupPoints
+layout(local_size_x = kGatherRays, local_size_y = kGatherGroupPoints) in; // kGatherRays is 2 kGatherLobeRays
 
 layout(set = kSetGather, binding = kGatherView, std140) uniform Gather { GatherView gather; };
 layout(set = kSetGather, binding = kGatherPoints, std430) buffer GatherPoints { GatherPoint gather_points[]; };

@@ -8,7 +8,7 @@
 #include "formats/gpu_shared/gather.h"
 #include "runtime/shaders/gi/gather_encoding.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = kGatherGroupTiles, local_size_y = kGatherGroupTiles) in;
 
 layout(set = kSetGatherSmooth, binding = kGatherView, std140) uniform Gather { GatherView gather; };
 layout(set = kSetGatherSmooth, binding = kGatherPoints, std430) readonly buffer GatherPoints { GatherPoint gather_points[]; };

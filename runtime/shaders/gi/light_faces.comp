@@ -6,7 +6,7 @@
 #include "formats/gpu_shared/bindings.h"
 #include "runtime/shaders/scene/bricks.glsl"
 
-layout(local_size_x = 64) in;
+layout(local_size_x = kGroupFaces) in;
 
 // lights of the faces due in this frame, in order; copied to the buffer that is read when all are done
 layout(set = kSetFreshLight, binding = kFreshLightFaces, std430) writeonly buffer FreshLights { BrickLight fresh_lights[]; };
@@ -55,7 +55,7 @@ float emissionFactor(vec3 middle)
 
 void main()
 {
-    uint in_share = (gl_WorkGroupID.x + gl_WorkGroupID.y * kMaxDispatchX) * 64u + gl_LocalInvocationID.x;
+    uint in_share = (gl_WorkGroupID.x + gl_WorkGroupID.y * kMaxDispatchX) * kGroupFaces + gl_LocalInvocationID.x;
     if (in_share >= brick_view.slice_faces)
         return;
     uint face = bricks[brick_view.first_brick].first_face + in_share;

@@ -1,6 +1,8 @@
 // Material of a draw: set 1 of the pipelines that read materials.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/bindings.h"
+#include "formats/gpu_shared/record_values.h"
+#include "formats/gpu_shared/shading.h"
 
 layout(set = kSetMaterial, binding = kMaterialBlock, std140) uniform MaterialBlock { Material material; };
 layout(set = kSetMaterial, binding = kMaterialTextures + kTextureBaseColor) uniform sampler2D base_color_texture;
@@ -8,12 +10,6 @@ layout(set = kSetMaterial, binding = kMaterialTextures + kTextureMetallicRoughne
 layout(set = kSetMaterial, binding = kMaterialTextures + kTextureNormal) uniform sampler2D normal_texture;
 layout(set = kSetMaterial, binding = kMaterialTextures + kTextureOcclusion) uniform sampler2D occlusion_texture;
 layout(set = kSetMaterial, binding = kMaterialTextures + kTextureEmissive) uniform sampler2D emissive_texture;
-
-// formats::MaterialFlags and formats::AlphaMode
-const uint kMaterialDoubleSided = 1u;
-const uint kMaterialUnlit = 2u;
-const uint kAlphaMask = 1u;
-const uint kAlphaBlend = 2u;
 
 vec2 transformUv(uint slot, vec2 uv)
 {

@@ -2,6 +2,7 @@
 // homogeneous edge functions, without a division by w, so that triangles may cross the near plane. M. Olano,
 // T. Greer, "Triangle scan conversion using 2D homogeneous coordinates", 1997.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/gpu_shared/record_values.h"
 #include "runtime/shaders/scene/drawn_vertex.glsl"
 
 struct Surface
@@ -23,7 +24,7 @@ struct Surface
     float distance_w;  // along the view direction
 };
 
-bool isMirrored(Instance instance) { return (instance.flags & 1u) != 0u; }
+bool isMirrored(Instance instance) { return (instance.flags & kInstanceMirrored) != 0u; }
 
 Surface resolveSurface(uint id, vec2 pixel)
 {

@@ -3,6 +3,7 @@
 // `surroundingLight` (light of the environment) from surrounding_sky.glsl or surrounding_bricks.glsl.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/bindings.h"
+#include "formats/gpu_shared/record_values.h"
 #include "formats/gpu_shared/specialization.h"
 
 layout(set = kSetScene, binding = kSceneLighting, std140) readonly buffer LightingBlock { Lighting lighting; };
@@ -12,10 +13,6 @@ layout(set = kSetScene, binding = kSceneLighting, std140) readonly buffer Lighti
 #include "runtime/shaders/shade/sky_occlusion.glsl"
 
 layout(constant_id = kConstantUnlit) const bool kUnlit = false;
-
-// formats::LightType
-const uint kLightDirectional = 0u;
-const uint kLightSpot = 2u;
 
 // Irradiance of a light on a surface that faces it, and the direction to the light. KHR_lights_punctual.
 vec3 lightIrradiance(Light light, vec3 position, out vec3 to_light)

@@ -321,7 +321,7 @@ TEST(FaceLighting, spotsEndAtTheirCone)
     Lighting lit = darkness();
     addLamp(lit, {10.5f, 11, 10.5f}, {100, 100, 100});
     Light& spot = lit.lights[0];
-    spot.type = kBrickLightSpot;
+    spot.type = kLightSpot;
     spot.direction = {0, -1, 0};
     const float inner = std::cos(0.2f), outer = std::cos(0.5f);
     spot.cone_scale = 1 / (inner - outer);

@@ -25,7 +25,7 @@ Lighting constantSky(Float3 radiance)
 void addSun(Lighting& lighting, Float3 direction, Float3 illuminance)
 {
     Light& sun = lighting.lights[lighting.light_count++];
-    sun.type = kBrickLightDirectional;
+    sun.type = kLightDirectional;
     sun.direction = direction / length(direction);
     sun.intensity = illuminance;
 }
