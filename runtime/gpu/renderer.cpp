@@ -106,6 +106,8 @@ Status Renderer::prepareDeformed()
     }
     HEARTH_TRY(cull_.prepareDeformed(device_, layouts_));
     HEARTH_TRY(page_requests_.prepareDeformed(device_));
+    if (overdraw_)
+        HEARTH_TRY(overdraw_->prepareDeformed(device_));
     return visibility_.prepareDeformed(device_);
 }
 

@@ -329,6 +329,37 @@ TEST_F(DeformationTest, farFromTheOriginNothingFallsApart)
     }
 }
 
+TEST_F(DeformationTest, overdrawMayBePreparedBeforeTheScene)
+{
+    const DeformedScene test({.rocks = 0}, 10);
+    auto made = gpu::Renderer::create(host().description());
+    ASSERT_TRUE(made.ok() && (*made)->prepareOverdraw().ok());
+    gpu::Renderer& early = **made;
+    const DrawOptions options{.width = 96, .height = 72, .debug_view = kViewOverdraw};
+    const Camera camera{.position = {0, 0, 8}, .target = {}};
+    std::unique_ptr<gpu::Scene> scene;
+    auto targets = early.createTargets({options.width, options.height});
+    ASSERT_TRUE(targets.ok());
+    const auto run = [&](const auto& record) { ASSERT_TRUE(host().run(record).ok()); };
+    run(
+        [&](VkCommandBuffer commands) -> Status
+        {
+            HEARTH_ASSIGN_OR_RETURN(scene, early.upload(test.pack(), commands));
+            return success();
+        });
+    scene->staging.reset();
+    run(
+        [&](VkCommandBuffer commands)
+        {
+            early.record(
+                commands, *scene, *targets,
+                {.view = viewOf(*scene, camera, options), .shading = {.debug_view = options.debug_view}});
+            return success();
+        });
+    const auto late = upload(test.pack());
+    EXPECT_EQ(readPicture(*scene, *targets).color, draw(*late, camera, options).color);
+}
+
 TEST_F(DeformationTest, whatAPoseCannotBeIsNamedAndLeftOut)
 {
     std::mt19937 random(58);
