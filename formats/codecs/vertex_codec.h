@@ -1,7 +1,8 @@
-// Encodes the vertices of geometry pages: codes of positions, normals, tangents, UVs and colours. Their layout
-// and decoders are in formats/gpu_shared/vertex_layout.h, which shaders share; the bit definitions are in
-// FORMAT.md. Octahedral map: Q. Meyer et al., "On floating-point normal vectors", 2010; its rounding: Z. Cigolle
-// et al., "A survey of efficient representations for independent unit vectors", 2014.
+// Encodes the vertices of geometry pages: codes of positions, normals, tangents, UVs and colours. Their
+// layout and decoders are in formats/gpu_shared/vertex_layout.h, which shaders share; the bit definitions
+// are in FORMAT.md. Octahedral map: Q. Meyer et al., "On floating-point normal vectors", 2010; its
+// rounding: Z. Cigolle et al., "A survey of efficient representations for independent unit vectors",
+// 2014.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 

@@ -8,15 +8,15 @@
 
 HEARTH_SHARED_BEGIN
 
-/// Sets of the pipelines that draw and shade clusters. The compute passes that read vertices have the scene as
-/// their set 0.
+/// Sets of the pipelines that draw and shade clusters. The compute passes that read vertices have the
+/// scene as their set 0.
 HEARTH_CONSTANT uint kSetScene = 0;
 HEARTH_CONSTANT uint kSetMaterial = 1;
 HEARTH_CONSTANT uint kSetBins = 2;        ///< visibility pass and shadow casters
 HEARTH_CONSTANT uint kSetAttachments = 2; ///< material depth and shading
 
-/// Bindings of the scene. Seven storage buffers in the vertex stage, to which each set 2 adds one, and eight in
-/// the fragment stage, which is the limit of the renderer.
+/// Bindings of the scene. Seven storage buffers in the vertex stage, to which each set 2 adds one, and
+/// eight in the fragment stage, which is the limit of the renderer.
 HEARTH_CONSTANT uint kSceneFrame = 0;
 HEARTH_CONSTANT uint kSceneInstances = 1;
 HEARTH_CONSTANT uint kSceneVisible = 2;

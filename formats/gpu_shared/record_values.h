@@ -1,5 +1,5 @@
-// Values in the records of packs that shaders compare: flags of instances and materials, modes of alpha, types
-// of lights. One source for C++ and GLSL.
+// Values in the records of packs that shaders compare: flags of instances and materials, modes of alpha,
+// types of lights. One source for C++ and GLSL.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #ifndef HEARTH_SHARED_RECORD_VALUES_H
 #define HEARTH_SHARED_RECORD_VALUES_H

@@ -1,5 +1,5 @@
-// Specialization constants of the pipelines that draw and shade clusters: their ids, and the values that are no
-// numbers. One source for C++ and GLSL.
+// Specialization constants of the pipelines that draw and shade clusters: their ids, and the values that
+// are no numbers. One source for C++ and GLSL.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #ifndef HEARTH_SHARED_SPECIALIZATION_H
 #define HEARTH_SHARED_SPECIALIZATION_H

@@ -9,8 +9,8 @@
 
 HEARTH_SHARED_BEGIN
 
-/// Bits of the vertex layout of a mesh: its attributes, and how each is coded. A vertex is 32-bit words in this
-/// order: position, normal, tangent, UV sets, colour, visibility, joints, weights.
+/// Bits of the vertex layout of a mesh: its attributes, and how each is coded. A vertex is 32-bit words
+/// in this order: position, normal, tangent, UV sets, colour, visibility, joints, weights.
 HEARTH_CONSTANT uint kVertexNormal = 1;
 HEARTH_CONSTANT uint kVertexTangent = 2; ///< only with a normal
 HEARTH_CONSTANT uint kVertexUv0 = 4;
@@ -58,8 +58,8 @@ HEARTH_CONSTEXPR_FUNCTION float uvStep(uint fraction_bits)
     return floatFromBits((127u - fraction_bits) << 23);
 }
 
-/// Return the number of words before a cluster's vertices: for each UV set on a grid, u and v of the base grid
-/// point.
+/// Return the number of words before a cluster's vertices: for each UV set on a grid, u and v of the base
+/// grid point.
 HEARTH_CONSTEXPR_FUNCTION uint uvBaseWords(uint layout_bits)
 {
     return 2u * uint(bitCount(layout_bits & kVertexUvs & gridUvs(layout_bits)));
@@ -72,8 +72,8 @@ HEARTH_CONSTEXPR_FUNCTION uint uvBaseDistance(uint layout_bits, uint set)
     return 2u * uint(bitCount(gridUvs(layout_bits) & layout_bits & ~before));
 }
 
-/// Return the word of a vertex at which those of its UV sets end that are in the mask `sets`: the next set, or
-/// the next attribute, starts there.
+/// Return the word of a vertex at which those of its UV sets end that are in the mask `sets`: the next
+/// set, or the next attribute, starts there.
 HEARTH_CONSTEXPR_FUNCTION uint uvEnd(uint layout_bits, uint sets)
 {
     bool wide = (layout_bits & kVertexWideOffsets) != 0u;

@@ -24,8 +24,8 @@ GraphicsDescription describe(std::span<const uint32_t> fragment, VkPipelineLayou
             .color = true};
 }
 
-/// Return the constants of a variant; with `resolves_only` those that reconstructing a surface needs, for scenes
-/// of any size.
+/// Return the constants of a variant; with `resolves_only` those that reconstructing a surface needs, for
+/// scenes of any size.
 DrawConstants drawConstants(const ShadingVariant& variant, bool resolves_only)
 {
     DrawConstants constants{};

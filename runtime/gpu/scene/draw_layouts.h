@@ -1,5 +1,5 @@
-// Layouts that passes share, of descriptor sets and of drawing pipelines: formats/gpu_shared/bindings.h has the
-// numbers of their sets and bindings.
+// Layouts that passes share, of descriptor sets and of drawing pipelines: formats/gpu_shared/bindings.h
+// has the numbers of their sets and bindings.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 

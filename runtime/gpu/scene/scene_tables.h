@@ -1,4 +1,5 @@
-// Tables of a scene as bindings: one list of tables makes the set layout of a compute pass and fills its sets.
+// Tables of a scene as bindings: one list of tables makes the set layout of a compute pass and fills its
+// sets.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 

@@ -1,5 +1,5 @@
-// Compares shaders with the C++ side of their interface: layouts, push constants, specialization constants and
-// structs.
+// Compares shaders with the C++ side of their interface: layouts, push constants, specialization
+// constants and structs.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
