@@ -90,6 +90,13 @@ private:
             else
                 compareStruct(who, in_shader, *in_cpp);
         }
+        for (const ReflectedStruct& block : shader.reflection.blocks)
+            for (const ReflectedMember& member : block.members)
+                if (const SharedStruct* element = findStruct(member.type);
+                    element != nullptr && member.array_stride != 0 && member.array_stride != element->size)
+                    report(shader.name + ": an array of " + member.type + " in " + block.name + " has " +
+                           std::to_string(member.array_stride) + " bytes for each, in C++ " +
+                           std::to_string(element->size));
     }
 
     void compareStruct(const std::string& who, const ReflectedStruct& in_shader, const SharedStruct& in_cpp)

@@ -24,15 +24,14 @@ struct Recorder
     PFN_vkCreateShaderModule create_shader_module = nullptr;
     PFN_vkCreateDescriptorSetLayout create_set_layout = nullptr;
     PFN_vkCreatePipelineLayout create_pipeline_layout = nullptr;
-    PFN_vkCreateComputePipelines create_compute_pipelines = nullptr;
-    PFN_vkCreateGraphicsPipelines create_graphics_pipelines = nullptr;
 
     std::map<VkShaderModule, std::vector<uint32_t>> modules;
     std::map<VkDescriptorSetLayout, RecordedSet> sets;
     std::map<VkPipelineLayout, RecordedLayout> layouts;
     std::vector<RecordedPipeline> pipelines;
 
-    void add(VkPipelineLayout layout, std::span<const VkPipelineShaderStageCreateInfo> stages)
+    /// Return a handle that is no pipeline.
+    VkPipeline add(VkPipelineLayout layout, std::span<const VkPipelineShaderStageCreateInfo> stages)
     {
         RecordedPipeline pipeline{{}, layouts.at(layout).sets, layouts.at(layout).push};
         for (const VkPipelineShaderStageCreateInfo& info : stages)
@@ -45,6 +44,7 @@ struct Recorder
             pipeline.stages.push_back(std::move(stage));
         }
         pipelines.push_back(std::move(pipeline));
+        return reinterpret_cast<VkPipeline>(pipelines.size());
     }
 };
 Recorder recorder;
@@ -79,24 +79,29 @@ VKAPI_ATTR VkResult VKAPI_CALL createPipelineLayout(VkDevice device, const VkPip
     return result;
 }
 
-VKAPI_ATTR VkResult VKAPI_CALL createComputePipelines(VkDevice device, VkPipelineCache cache, uint32_t count,
+VKAPI_ATTR VkResult VKAPI_CALL createComputePipelines(VkDevice, VkPipelineCache, uint32_t count,
                                                       const VkComputePipelineCreateInfo* infos,
-                                                      const VkAllocationCallbacks* allocator,
-                                                      VkPipeline* pipelines)
+                                                      const VkAllocationCallbacks*, VkPipeline* pipelines)
 {
-    for (const VkComputePipelineCreateInfo& info : std::span(infos, count))
-        recorder.add(info.layout, {&info.stage, 1});
-    return recorder.create_compute_pipelines(device, cache, count, infos, allocator, pipelines);
+    for (uint32_t i = 0; i < count; ++i)
+        pipelines[i] = recorder.add(infos[i].layout, {&infos[i].stage, 1});
+    return VK_SUCCESS;
 }
 
-VKAPI_ATTR VkResult VKAPI_CALL createGraphicsPipelines(VkDevice device, VkPipelineCache cache, uint32_t count,
+VKAPI_ATTR VkResult VKAPI_CALL createGraphicsPipelines(VkDevice, VkPipelineCache, uint32_t count,
                                                        const VkGraphicsPipelineCreateInfo* infos,
-                                                       const VkAllocationCallbacks* allocator,
-                                                       VkPipeline* pipelines)
+                                                       const VkAllocationCallbacks*, VkPipeline* pipelines)
 {
-    for (const VkGraphicsPipelineCreateInfo& info : std::span(infos, count))
-        recorder.add(info.layout, {info.pStages, info.stageCount});
-    return recorder.create_graphics_pipelines(device, cache, count, infos, allocator, pipelines);
+    for (uint32_t i = 0; i < count; ++i)
+        pipelines[i] = recorder.add(infos[i].layout, {infos[i].pStages, infos[i].stageCount});
+    return VK_SUCCESS;
+}
+
+VKAPI_ATTR void VKAPI_CALL destroyPipeline(VkDevice, VkPipeline, const VkAllocationCallbacks*) {}
+
+VKAPI_ATTR void VKAPI_CALL updateDescriptorSets(VkDevice, uint32_t, const VkWriteDescriptorSet*, uint32_t,
+                                                const VkCopyDescriptorSet*)
+{
 }
 
 /// Replace the function by `mine`, and store the original in `real`.
@@ -118,9 +123,13 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, cons
     if (which == "vkCreatePipelineLayout")
         return replace(function, recorder.create_pipeline_layout, createPipelineLayout);
     if (which == "vkCreateComputePipelines")
-        return replace(function, recorder.create_compute_pipelines, createComputePipelines);
+        return reinterpret_cast<PFN_vkVoidFunction>(createComputePipelines);
     if (which == "vkCreateGraphicsPipelines")
-        return replace(function, recorder.create_graphics_pipelines, createGraphicsPipelines);
+        return reinterpret_cast<PFN_vkVoidFunction>(createGraphicsPipelines);
+    if (which == "vkDestroyPipeline")
+        return reinterpret_cast<PFN_vkVoidFunction>(destroyPipeline);
+    if (which == "vkUpdateDescriptorSets")
+        return reinterpret_cast<PFN_vkVoidFunction>(updateDescriptorSets);
     return function;
 }
 

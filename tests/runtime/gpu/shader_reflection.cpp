@@ -70,11 +70,10 @@ private:
     {
         const auto decoration = [&](SpvDecoration which)
         { return spvc_compiler_get_decoration(compiler_, resource.id, which); };
-        result_.resources.push_back({resource.name, decoration(SpvDecorationDescriptorSet),
-                                     decoration(SpvDecorationBinding), type,
-                                     decoration(SpvDecorationInputAttachmentIndex)});
+        result_.resources.push_back(
+            {resource.name, decoration(SpvDecorationDescriptorSet), decoration(SpvDecorationBinding), type});
         if (type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER || type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER)
-            describe(resource.base_type_id);
+            result_.blocks.push_back(describe(resource.base_type_id));
     }
 
     void addConstants()

@@ -18,7 +18,6 @@ struct ReflectedResource
     uint32_t set;
     uint32_t binding;
     VkDescriptorType type;
-    uint32_t input_attachment; ///< index, of input attachments
 };
 
 struct ReflectedMember
@@ -46,7 +45,8 @@ struct ShaderReflection
 {
     std::vector<ReflectedResource> resources; ///< that the shader uses
     std::optional<ReflectedStruct> push;      ///< block of push constants
-    std::vector<ReflectedStruct> structs;     ///< structs inside blocks, each once; not the blocks themselves
+    std::vector<ReflectedStruct> blocks;      ///< uniform blocks and storage buffers
+    std::vector<ReflectedStruct> structs;     ///< structs inside blocks, each once
     std::vector<ReflectedConstant> constants;
 };
 
