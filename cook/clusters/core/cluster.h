@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "cook/clusters/core/index_types.h"
 #include "cook/clusters/core/mesh_motion.h"
 #include "cook/mesh/deformation.h"
 #include "cook/mesh/grid.h"
@@ -19,7 +20,7 @@ namespace hearth::clusters
 
 /// Prepared mesh: the triangles that remain and the vertices of all levels. A vertex is an index into the
 /// arrays of `vertices`: first those of the source (the first of equal ones), then those that simplification
-/// made. A position id stands for all vertices at the same position.
+/// made.
 struct PreparedMesh
 {
     mesh::SourceMesh vertices; ///< on the grid; without indices and materials
@@ -27,22 +28,39 @@ struct PreparedMesh
     uint32_t attributes = 0;
     uint32_t degenerate_count = 0;
     uint32_t position_count = 0;
-    bool gently_curved = false;                  ///< normals need more than 8 bits
-    std::vector<uint32_t> corners;               ///< three vertices for each triangle
-    std::vector<uint32_t> materials;             ///< for each triangle
-    std::vector<uint32_t> position_id_of_vertex; ///< position id of each vertex
-    const MeshMotion* motion = nullptr;          ///< motion of a deformed mesh; null: nothing moves it
+    bool gently_curved = false; ///< normals need more than 8 bits
+    CornerVector<VertexId> corners;
+    IdVector<TriangleId, uint32_t> materials;
+    IdVector<VertexId, MeshPositionId> position_id_of_vertex;
+    const MeshMotion* motion = nullptr; ///< motion of a deformed mesh; null: nothing moves it
     mesh::InfluenceLoss influence_loss;
     std::optional<double> influence_displacement; ///< as in BuildCounts
     std::vector<float> morph_steps;               ///< step of each morph target's deltas; a power of two
 
-    size_t triangleCount() const { return corners.size() / 3; }
+    size_t triangleCount() const { return corners.triangleCount(); }
+    IdSpan<VertexId, const Float3> positions() const
+    {
+        return IdSpan<VertexId, const Float3>(vertices.positions);
+    }
     bool deforms() const { return !vertices.joint_sets.empty() || !vertices.morph_targets.empty(); }
 };
 
-/// First id of the vertices that a simplification makes while its level is unfinished:
-/// kFirstNewVertex + k is the k-th.
+/// First id of the vertices that a simplification makes while its level is unfinished. They are not in the
+/// prepared mesh yet: kFirstNewVertex + k is the k-th.
 inline constexpr uint32_t kFirstNewVertex = 0x80000000u;
+
+constexpr VertexId makeNewVertex(uint32_t number)
+{
+    return VertexId{kFirstNewVertex + number};
+}
+constexpr bool isNewVertex(VertexId vertex)
+{
+    return toIndex(vertex) >= kFirstNewVertex;
+}
+constexpr uint32_t newVertexNumber(VertexId vertex)
+{
+    return toIndex(vertex) - kFirstNewVertex;
+}
 
 /// Return the maximum vertices of a cluster: below the format's limit where the morph targets of two clusters
 /// would not fit into a page.
@@ -69,13 +87,13 @@ struct ClusterShape
 /// Clusters with their vertices, indices and errors in shared arrays.
 struct ClusterStore
 {
-    std::vector<ClusterShape> shapes;
-    std::vector<uint32_t> vertices; ///< vertex ids of the prepared mesh
+    IdVector<ClusterId, ClusterShape> shapes;
+    std::vector<VertexId> vertices;
     std::vector<uint8_t> indices;
     /// Error of each triangle, object space: bounds the distance to the source in both directions.
     std::vector<float> errors;
 
-    std::span<const uint32_t> clusterVertices(const ClusterShape& shape) const
+    std::span<const VertexId> clusterVertices(const ClusterShape& shape) const
     {
         return std::span(vertices).subspan(shape.first_vertex, shape.vertex_count);
     }

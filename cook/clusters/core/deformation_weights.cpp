@@ -27,12 +27,13 @@ constexpr double kUnboundedTurn = 2;
 
 /// Return the joints of a group's vertices with the sums of their weights, largest sum first.
 std::vector<std::pair<double, uint32_t>> jointSums(const mesh::SourceMesh& vertices,
-                                                   std::span<const uint32_t> group)
+                                                   std::span<const VertexId> group)
 {
     std::map<uint32_t, double> sums;
-    for (const uint32_t vertex : group)
+    for (const VertexId id : group)
         for (size_t set = 0; set < vertices.joint_sets.size(); ++set)
         {
+            const uint32_t vertex = toIndex(id);
             const Float4 w = vertices.weight_sets[set][vertex];
             const std::array<float, 4> weights{w.x, w.y, w.z, w.w};
             for (size_t i = 0; i < 4; ++i)
@@ -57,8 +58,8 @@ double jointLength(const PreparedMesh& mesh, const GroupMesh& group, uint32_t ma
     if (!departure || !std::isfinite(departure->rotation) || !std::isfinite(departure->shift))
         return kUnboundedTurn;
     double sum = 0;
-    for (const uint32_t vertex : group.vertex_of_wedge)
-        sum += hearth::length(widen(mesh.vertices.positions[vertex]) - departure->pivot);
+    for (const VertexId vertex : group.vertex_of_wedge)
+        sum += hearth::length(widen(mesh.positions()[vertex]) - departure->pivot);
     const double mean = sum / static_cast<double>(group.vertex_of_wedge.size());
     return (departure->rotation * mean + departure->shift) / group.scale;
 }
@@ -68,9 +69,10 @@ void chooseMorphWeights(const PreparedMesh& mesh, GroupMesh& group)
     std::vector<std::pair<float, uint32_t>> moves;
     for (uint32_t target = 0; target < mesh.vertices.morph_targets.size(); ++target)
     {
+        const IdSpan<VertexId, const Float3> deltas(mesh.vertices.morph_targets[target].positions);
         float most = 0;
-        for (const uint32_t vertex : group.vertex_of_wedge)
-            most = std::max(most, hearth::length(mesh.vertices.morph_targets[target].positions[vertex]));
+        for (const VertexId vertex : group.vertex_of_wedge)
+            most = std::max(most, hearth::length(deltas[vertex]));
         const bool known = mesh.motion != nullptr && target < mesh.motion->max_morph_weights.size();
         const float weight = known ? mesh.motion->max_morph_weights[target] : 1.0f;
         if (most * weight > 0)

@@ -21,22 +21,23 @@ namespace
 constexpr float kMinNormalChange = 1.5f;
 
 /// Numbers keys 0, 1, ... in order of first use.
+template <IndexType Id>
 class KeyNumbering
 {
 public:
     explicit KeyNumbering(size_t most) : slots_(std::bit_ceil(most * 2 + 1)), mask_(slots_.size() - 1) {}
 
     /// Return the key's number; equal to `next` if the key is new.
-    uint32_t findOrAssign(uint64_t key, uint32_t next)
+    Id findOrAssign(uint64_t key, Id next)
     {
         size_t slot = ((key * 0x9E3779B97F4A7C15u) >> 32) & mask_;
         while (slots_[slot].number_plus_one != 0)
         {
             if (slots_[slot].key == key)
-                return slots_[slot].number_plus_one - 1;
+                return Id{slots_[slot].number_plus_one - 1};
             slot = (slot + 1) & mask_;
         }
-        slots_[slot] = {key, next + 1};
+        slots_[slot] = {key, toIndex(next) + 1};
         return next;
     }
 
@@ -52,8 +53,9 @@ private:
 
 /// Prefetch the data that setLocalPositions and gatherAttributes read: on large meshes it is not in the
 /// cache.
-void prefetchVertex(const mesh::SourceMesh& vertices, uint32_t vertex)
+void prefetchVertex(const mesh::SourceMesh& vertices, VertexId id)
 {
+    const uint32_t vertex = toIndex(id);
     __builtin_prefetch(&vertices.positions[vertex]);
     if (!vertices.normals.empty())
         __builtin_prefetch(&vertices.normals[vertex]);
@@ -62,44 +64,44 @@ void prefetchVertex(const mesh::SourceMesh& vertices, uint32_t vertex)
 }
 
 /// Gather the triangles of the members. Returns the material of each wedge.
-std::vector<uint32_t> gatherTriangles(GroupMesh& group, const PreparedMesh& mesh, const ClusterStore& store,
-                                      std::span<const uint32_t> members, std::span<const uint8_t> locked)
+IdVector<WedgeId, uint32_t> gatherTriangles(GroupMesh& group, const PreparedMesh& mesh,
+                                            const ClusterStore& store, std::span<const ClusterId> members,
+                                            IdSpan<MeshPositionId, const uint8_t> locked)
 {
     size_t vertex_count = 0;
     size_t triangle_count = 0;
-    for (const uint32_t member : members)
+    for (const ClusterId member : members)
     {
         vertex_count += store.shapes[member].vertex_count;
         triangle_count += store.shapes[member].triangle_count;
     }
     group.corners.reserve(triangle_count * 3);
     group.materials.reserve(triangle_count);
-    KeyNumbering wedges(vertex_count);
-    KeyNumbering positions(vertex_count);
-    std::vector<uint32_t> wedge_of_local;
-    std::vector<uint32_t> material_of_wedge;
-    for (const uint32_t member : members)
+    KeyNumbering<WedgeId> wedges(vertex_count);
+    KeyNumbering<PositionId> positions(vertex_count);
+    std::vector<WedgeId> wedge_of_local;
+    IdVector<WedgeId, uint32_t> material_of_wedge;
+    for (const ClusterId member : members)
     {
         const ClusterShape& shape = store.shapes[member];
         wedge_of_local.clear();
-        for (const uint32_t vertex : store.clusterVertices(shape))
+        for (const VertexId vertex : store.clusterVertices(shape))
         {
-            const auto next_wedge = static_cast<uint32_t>(group.vertex_of_wedge.size());
-            const uint32_t wedge = wedges.findOrAssign(uint64_t{shape.material} << 32 | vertex, next_wedge);
+            const WedgeId next_wedge = group.vertex_of_wedge.nextId();
+            const WedgeId wedge =
+                wedges.findOrAssign(uint64_t{shape.material} << 32 | toIndex(vertex), next_wedge);
             wedge_of_local.push_back(wedge);
             if (wedge != next_wedge)
                 continue;
             prefetchVertex(mesh.vertices, vertex);
-            const uint32_t global = mesh.position_id_of_vertex[vertex];
-            const auto next_position = static_cast<uint32_t>(group.global_position_id.size());
-            const uint32_t position = positions.findOrAssign(global, next_position);
+            const MeshPositionId mesh_position = mesh.position_id_of_vertex[vertex];
+            const PositionId next_position = group.locked.nextId();
+            const PositionId position = positions.findOrAssign(toIndex(mesh_position), next_position);
             group.vertex_of_wedge.push_back(vertex);
             group.position_id_of_wedge.push_back(position);
             material_of_wedge.push_back(shape.material);
-            if (position != next_position)
-                continue;
-            group.global_position_id.push_back(global);
-            group.locked.push_back(locked[global]);
+            if (position == next_position)
+                group.locked.push_back(locked[mesh_position]);
         }
         for (const uint8_t index : store.clusterIndices(shape))
             group.corners.push_back(wedge_of_local[index]);
@@ -110,10 +112,10 @@ std::vector<uint32_t> gatherTriangles(GroupMesh& group, const PreparedMesh& mesh
     return material_of_wedge;
 }
 
-void setLocalPositions(GroupMesh& group, std::span<const Float3> source_positions)
+void setLocalPositions(GroupMesh& group, IdSpan<VertexId, const Float3> source_positions)
 {
     Box3 box;
-    for (const uint32_t vertex : group.vertex_of_wedge)
+    for (const VertexId vertex : group.vertex_of_wedge)
         box.add(source_positions[vertex]);
     group.scale = 0;
     for (int axis = 0; axis < 3; ++axis)
@@ -121,11 +123,11 @@ void setLocalPositions(GroupMesh& group, std::span<const Float3> source_position
         group.center[axis] = (double{box.min[axis]} + box.max[axis]) * 0.5;
         group.scale = std::max(group.scale, (double{box.max[axis]} - box.min[axis]) * 0.5);
     }
-    group.positions.resize(group.global_position_id.size());
-    for (size_t w = 0; w < group.vertex_of_wedge.size(); ++w)
+    group.positions.resize(group.locked.size());
+    for (const WedgeId wedge : group.vertex_of_wedge.ids())
     {
-        const Float3 p = source_positions[group.vertex_of_wedge[w]];
-        Float3& local = group.positions[group.position_id_of_wedge[w]];
+        const Float3 p = source_positions[group.vertex_of_wedge[wedge]];
+        Float3& local = group.positions[group.position_id_of_wedge[wedge]];
         for (int axis = 0; axis < 3; ++axis)
             local[axis] = static_cast<float>((p[axis] - group.center[axis]) / group.scale);
     }
@@ -133,19 +135,18 @@ void setLocalPositions(GroupMesh& group, std::span<const Float3> source_position
 
 /// Compute the local length of one unit of UV: square root of the ratio of the areas on the surface and in
 /// the texture.
-float uvScale(const GroupMesh& group, std::span<const Float2> uvs)
+float uvScale(const GroupMesh& group, IdSpan<VertexId, const Float2> uvs)
 {
     double surface = 0;
     double texture = 0;
-    for (size_t t = 0; t < group.corners.size(); t += 3)
+    for (const TriangleId triangle : group.corners.triangles())
     {
-        const Float3 a = group.positions[group.positionIdAt(t)];
-        const Float3 b = group.positions[group.positionIdAt(t + 1)];
-        const Float3 c = group.positions[group.positionIdAt(t + 2)];
+        const auto [a, b, c] = group.trianglePositions(triangle);
         surface += length(cross(b - a, c - a));
-        const Float2 ua = uvs[group.vertex_of_wedge[group.corners[t]]];
-        const Float2 ub = uvs[group.vertex_of_wedge[group.corners[t + 1]]];
-        const Float2 uc = uvs[group.vertex_of_wedge[group.corners[t + 2]]];
+        const auto [wedge_a, wedge_b, wedge_c] = group.corners.triangle(triangle);
+        const Float2 ua = uvs[group.vertex_of_wedge[wedge_a]];
+        const Float2 ub = uvs[group.vertex_of_wedge[wedge_b]];
+        const Float2 uc = uvs[group.vertex_of_wedge[wedge_c]];
         texture += std::abs((double{ub.x} - ua.x) * (double{uc.y} - ua.y) -
                             (double{ub.y} - ua.y) * (double{uc.x} - ua.x));
     }
@@ -156,8 +157,9 @@ float uvScale(const GroupMesh& group, std::span<const Float2> uvs)
 
 /// True if two vertices have the same attributes except normal and tangent. A hard edge may lie between them,
 /// but no texture seam, and they deform alike.
-bool sameChart(const mesh::SourceMesh& source, uint32_t a, uint32_t b)
+bool sameChart(const mesh::SourceMesh& source, VertexId vertex_a, VertexId vertex_b)
 {
+    const uint32_t a = toIndex(vertex_a), b = toIndex(vertex_b);
     for (const auto& uvs : source.uvs)
         if (!uvs.empty() && !(uvs[a] == uvs[b]))
             return false;
@@ -173,35 +175,35 @@ bool sameChart(const mesh::SourceMesh& source, uint32_t a, uint32_t b)
 
 /// Identify each chart at a position by its first wedge.
 void assignCharts(GroupMesh& group, const mesh::SourceMesh& source,
-                  std::span<const uint32_t> material_of_wedge)
+                  IdSpan<WedgeId, const uint32_t> material_of_wedge)
 {
-    std::vector<uint32_t> latest(group.global_position_id.size(), kInvalidIndex);
-    std::vector<uint32_t> before(group.vertex_of_wedge.size());
+    IdVector<PositionId, WedgeId> latest(group.locked.size(), kInvalid);
+    IdVector<WedgeId, WedgeId> before(group.vertex_of_wedge.size());
     group.chart_of_wedge.resize(group.vertex_of_wedge.size());
-    for (uint32_t w = 0; w < group.vertex_of_wedge.size(); ++w)
+    for (const WedgeId wedge : before.ids())
     {
-        before[w] = std::exchange(latest[group.position_id_of_wedge[w]], w);
-        group.chart_of_wedge[w] = w;
-        for (uint32_t other = before[w]; other != kInvalidIndex; other = before[other])
-            if (material_of_wedge[w] == material_of_wedge[other] &&
-                sameChart(source, group.vertex_of_wedge[w], group.vertex_of_wedge[other]))
-                group.chart_of_wedge[w] = group.chart_of_wedge[other];
+        before[wedge] = std::exchange(latest[group.position_id_of_wedge[wedge]], wedge);
+        group.chart_of_wedge[wedge] = wedge;
+        for (WedgeId other = before[wedge]; other != kInvalid; other = before[other])
+            if (material_of_wedge[wedge] == material_of_wedge[other] &&
+                sameChart(source, group.vertex_of_wedge[wedge], group.vertex_of_wedge[other]))
+                group.chart_of_wedge[wedge] = group.chart_of_wedge[other];
     }
 }
 
 /// Compute the mean change of normals over the surface, about in radians for each local unit of length. A
 /// mean, not a mean square: a few sharp places must not make the normals of all others cheap.
-float normalChange(const GroupMesh& group, std::span<const Float3> normals)
+float normalChange(const GroupMesh& group, IdSpan<VertexId, const Float3> normals)
 {
     double changes = 0;
     double lengths = 0;
-    for (size_t t = 0; t < group.corners.size(); t += 3)
+    for (const TriangleId triangle : group.corners.triangles())
     {
         float change2 = 0;
         float length2 = 0;
-        for (size_t k = 0; k < 3; ++k)
+        for (const CornerId a : makeCorners(triangle))
         {
-            const size_t a = t + k, b = t + (k + 1) % 3;
+            const CornerId b = nextHalfEdge(a);
             const Float3 along =
                 group.positions[group.positionIdAt(b)] - group.positions[group.positionIdAt(a)];
             const Float3 change = normals[group.vertex_of_wedge[group.corners[b]]] -
@@ -220,9 +222,10 @@ void gatherAttributes(GroupMesh& group, const PreparedMesh& mesh, const Config& 
     const mesh::SourceMesh& vertices = mesh.vertices;
     if (!vertices.normals.empty() && config.normal_weight > 0)
         group.weights.normal =
-            config.normal_weight / std::max(normalChange(group, vertices.normals), kMinNormalChange);
+            config.normal_weight /
+            std::max(normalChange(group, IdSpan<VertexId, const Float3>(vertices.normals)), kMinNormalChange);
     if (!vertices.uvs[0].empty())
-        group.uv_length = uvScale(group, vertices.uvs[0]);
+        group.uv_length = uvScale(group, IdSpan<VertexId, const Float2>(vertices.uvs[0]));
     group.weights.uv = config.uv_weight * group.uv_length;
     if (!vertices.colors.empty())
         group.weights.color = config.color_weight;
@@ -231,21 +234,21 @@ void gatherAttributes(GroupMesh& group, const PreparedMesh& mesh, const Config& 
     group.attribute_count = group.weights.count();
     group.attribute_rows = group.weights.rows();
     group.attributes.assign(group.attribute_rows * group.vertex_of_wedge.size(), Lanes{});
-    for (size_t wedge = 0; wedge < group.vertex_of_wedge.size(); ++wedge)
-        packAttributes(vertices, group.vertex_of_wedge[wedge], group.weights,
-                       group.attributes.data() + wedge * group.attribute_rows);
+    for (const WedgeId wedge : group.vertex_of_wedge.ids())
+        packAttributes(vertices, toIndex(group.vertex_of_wedge[wedge]), group.weights,
+                       group.attributes.data() + group.firstRow(wedge));
 }
 
 } // namespace
 
-GroupMesh gatherGroup(const PreparedMesh& mesh, const ClusterStore& store, std::span<const uint32_t> members,
-                      std::span<const uint8_t> locked, const Config& config)
+GroupMesh gatherGroup(const PreparedMesh& mesh, const ClusterStore& store, std::span<const ClusterId> members,
+                      IdSpan<MeshPositionId, const uint8_t> locked, const Config& config)
 {
     GroupMesh group;
-    const std::vector<uint32_t> material_of_wedge = gatherTriangles(group, mesh, store, members, locked);
+    const auto material_of_wedge = gatherTriangles(group, mesh, store, members, locked);
     group.grid_step = mesh.grid.step;
     assignCharts(group, mesh.vertices, material_of_wedge);
-    setLocalPositions(group, mesh.vertices.positions);
+    setLocalPositions(group, mesh.positions());
     gatherAttributes(group, mesh, config);
     group.positions_fixed = !mesh.vertices.morph_targets.empty();
     for (float& error : group.errors)
@@ -253,25 +256,26 @@ GroupMesh gatherGroup(const PreparedMesh& mesh, const ClusterStore& store, std::
     return group;
 }
 
-std::vector<uint32_t> gatherPositionIds(const GroupMesh& group, std::span<const uint32_t> wedges)
+CornerVector<PositionId> gatherPositionIds(const GroupMesh& group, CornerSpan<const WedgeId> wedges)
 {
-    std::vector<uint32_t> positions;
+    CornerVector<PositionId> positions;
     positions.reserve(wedges.size());
-    for (const uint32_t wedge : wedges)
+    for (const WedgeId wedge : wedges)
         positions.push_back(group.position_id_of_wedge[wedge]);
     return positions;
 }
 
-std::vector<uint8_t> markOpenPositions(const GroupMesh& group)
+IdVector<PositionId, uint8_t> markOpenPositions(const GroupMesh& group)
 {
-    std::vector<uint64_t> difference(group.positions.size(), 0);
-    for (size_t t = 0; t < group.corners.size(); t += 3)
-        for (size_t k = 0; k < 3; ++k)
-            difference[group.positionIdAt(t + k)] += hashNumber(group.positionIdAt(t + (k + 1) % 3)) -
-                                                     hashNumber(group.positionIdAt(t + (k + 2) % 3));
-    std::vector<uint8_t> open(difference.size());
-    for (size_t p = 0; p < open.size(); ++p)
-        open[p] = difference[p] != 0 ? 1 : 0;
+    const auto hashAt = [&](CornerId corner) { return hashNumber(toIndex(group.positionIdAt(corner))); };
+    IdVector<PositionId, uint64_t> difference(group.positions.size(), 0);
+    for (const TriangleId triangle : group.corners.triangles())
+        for (const CornerId corner : makeCorners(triangle))
+            difference[group.positionIdAt(corner)] +=
+                hashAt(nextHalfEdge(corner)) - hashAt(previousHalfEdge(corner));
+    IdVector<PositionId, uint8_t> open(difference.size());
+    for (const PositionId position : open.ids())
+        open[position] = difference[position] != 0 ? 1 : 0;
     return open;
 }
 

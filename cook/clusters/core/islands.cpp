@@ -39,35 +39,42 @@ void DisjointSets::unite(uint32_t a, uint32_t b)
         parent_[std::max(a, b)] = std::min(a, b);
 }
 
-std::vector<uint32_t> islandOfTriangles(std::span<const uint32_t> positions, size_t position_count)
+template <IndexType Id>
+IdVector<TriangleId, Id> islandOfTriangles(const CornerVector<Id>& corners, size_t limit)
 {
-    DisjointSets sets(position_count);
-    for (size_t i = 0; i < positions.size(); i += 3)
+    DisjointSets sets(limit);
+    for (const TriangleId triangle : corners.triangles())
     {
-        sets.unite(positions[i], positions[i + 1]);
-        sets.unite(positions[i], positions[i + 2]);
+        const auto [a, b, c] = corners.triangle(triangle);
+        sets.unite(toIndex(a), toIndex(b));
+        sets.unite(toIndex(a), toIndex(c));
     }
-    std::vector<uint32_t> island(positions.size() / 3);
-    for (size_t t = 0; t < island.size(); ++t)
-        island[t] = sets.find(positions[t * 3]);
+    IdVector<TriangleId, Id> island(corners.triangleCount());
+    for (const TriangleId triangle : island.ids())
+        island[triangle] = Id{sets.find(toIndex(corners[makeCorner(triangle, 0)]))};
     return island;
 }
 
-void moveToIslandCenters(std::span<Float3> centers, std::span<const uint32_t> vertices, size_t vertex_count)
+template <IndexType Id>
+void moveToIslandCenters(IdSpan<TriangleId, Float3> centers, const CornerVector<Id>& corners, size_t limit)
 {
-    const std::vector<uint32_t> island = islandOfTriangles(vertices, vertex_count);
-    std::vector<uint32_t> size(vertex_count, 0);
-    for (const uint32_t i : island)
+    const IdVector<TriangleId, Id> island = islandOfTriangles(corners, limit);
+    IdVector<Id, uint32_t> size(limit, 0);
+    for (const Id i : island)
         ++size[i];
-    if (std::none_of(island.begin(), island.end(), [&](uint32_t i) { return size[i] <= kMaxSmallIsland; }))
+    if (std::none_of(island.begin(), island.end(), [&](Id i) { return size[i] <= kMaxSmallIsland; }))
         return;
-    std::vector<Float3> island_center(vertex_count);
-    for (size_t t = 0; t < centers.size(); ++t)
-        if (size[island[t]] <= kMaxSmallIsland)
-            island_center[island[t]] += centers[t] / static_cast<float>(size[island[t]]);
-    for (size_t t = 0; t < centers.size(); ++t)
-        if (size[island[t]] <= kMaxSmallIsland)
-            centers[t] = island_center[island[t]];
+    IdVector<Id, Float3> island_center(limit);
+    for (const TriangleId triangle : centers.ids())
+        if (const Id i = island[triangle]; size[i] <= kMaxSmallIsland)
+            island_center[i] += centers[triangle] / static_cast<float>(size[i]);
+    for (const TriangleId triangle : centers.ids())
+        if (const Id i = island[triangle]; size[i] <= kMaxSmallIsland)
+            centers[triangle] = island_center[i];
 }
+
+template IdVector<TriangleId, PositionId> islandOfTriangles(const CornerVector<PositionId>&, size_t);
+template void moveToIslandCenters(IdSpan<TriangleId, Float3>, const CornerVector<WedgeId>&, size_t);
+template void moveToIslandCenters(IdSpan<TriangleId, Float3>, const CornerVector<VertexId>&, size_t);
 
 } // namespace hearth::clusters

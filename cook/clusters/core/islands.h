@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/clusters/core/cluster.h"
+#include "cook/clusters/core/index_types.h"
 #include "formats/base/math.h"
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace hearth::clusters
@@ -24,17 +23,19 @@ private:
     std::vector<uint32_t> parent_;
 };
 
-/// Return the smallest position (or vertex, depending on the corners) of each triangle's island.
-/// corners  three for each triangle, all below corner_limit
-std::vector<uint32_t> islandOfTriangles(std::span<const uint32_t> corners, size_t corner_limit);
+/// Return the smallest position of each triangle's island; or wedge or vertex, whatever connects the corners.
+/// corners  all below `limit`
+template <IndexType Id>
+IdVector<TriangleId, Id> islandOfTriangles(const CornerVector<Id>& corners, size_t limit);
 
 /// Set the centers that the splitter uses. Triangles of an island of at most 32 triangles move to the
 /// island's center, so that a leaf, a pebble or a small chart is not torn apart between clusters. Islands are
 /// by vertex here: pieces that share no vertex cost nothing to separate.
 ///
-/// centers   of the triangles, changed in place
-/// vertices  three for each triangle, all below vertex_count
-void moveToIslandCenters(std::span<Float3> centers, std::span<const uint32_t> vertices, size_t vertex_count);
+/// centers  of the triangles, changed in place
+/// corners  vertices or wedges, all below `limit`
+template <IndexType Id>
+void moveToIslandCenters(IdSpan<TriangleId, Float3> centers, const CornerVector<Id>& corners, size_t limit);
 
 /// Return the center of a triangle, without overflow for any finite corners.
 inline Float3 triangleCenter(Float3 a, Float3 b, Float3 c)

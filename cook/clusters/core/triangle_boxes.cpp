@@ -16,14 +16,14 @@ constexpr size_t kRun = kLanes * kBlocksPerRun;
 
 void TriangleBoxes::makeBoxes()
 {
-    const size_t count = position_ids_.size() / 3;
-    std::vector<Box3> boxes(count);
+    const size_t count = position_ids_.triangleCount();
+    IdVector<TriangleId, Box3> boxes(count);
     std::vector<Box3> run_boxes((count + kRun - 1) / kRun);
-    for (uint32_t f = 0; f < count; ++f)
+    for (const TriangleId triangle : boxes.ids())
     {
-        for (size_t k = 0; k < 3; ++k)
-            boxes[f].add(corner(f, k));
-        run_boxes[f / kRun].add(boxes[f]);
+        for (const PositionId position : position_ids_.triangle(triangle))
+            boxes[triangle].add(positions_[position]);
+        run_boxes[toIndex(triangle) / kRun].add(boxes[triangle]);
     }
     boxes_ = makeBlocks(boxes);
     run_boxes_ = makeBlocks(run_boxes);
@@ -56,7 +56,7 @@ LaneMask TriangleBoxes::overlap(const BoxBlock& blocks, const Box3& box)
            (blocks.max.y >= low.y) & (blocks.min.z <= high.z) & (blocks.max.z >= low.z);
 }
 
-void TriangleBoxes::query(const Box3& box, std::vector<uint32_t>& found)
+void TriangleBoxes::query(const Box3& box, std::vector<TriangleId>& found)
 {
     if (boxes_.empty())
         makeBoxes();
@@ -75,8 +75,8 @@ void TriangleBoxes::query(const Box3& box, std::vector<uint32_t>& found)
                         const size_t first = (r * kLanes + lane) * kBlocksPerRun;
                         const size_t last = std::min(first + kBlocksPerRun, boxes_.size());
                         for (size_t b = first; b < last; ++b)
-                            forEachLane(overlap(boxes_[b], box), [&](size_t k)
-                                        { found.push_back(static_cast<uint32_t>(b * kLanes + k)); });
+                            forEachLane(overlap(boxes_[b], box),
+                                        [&](size_t k) { found.push_back(toId<TriangleId>(b * kLanes + k)); });
                     });
 }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "cook/clusters/core/index_types.h"
 #include "cook/clusters/core/triangle_block.h"
 #include "formats/base/math.h"
 
@@ -18,20 +19,20 @@ namespace hearth::clusters
 class TriangleBoxes
 {
 public:
-    /// position_ids  position ids, three for each triangle
-    /// positions     position of each id, finite
-    TriangleBoxes(std::span<const uint32_t> position_ids, std::span<const Float3> positions)
+    /// positions  finite
+    TriangleBoxes(CornerSpan<const PositionId> position_ids, IdSpan<PositionId, const Float3> positions)
         : position_ids_(position_ids), positions_(positions)
     {
     }
 
-    DistanceTriangle triangle(uint32_t f) const
+    DistanceTriangle triangle(TriangleId triangle) const
     {
-        return makeDistanceTriangle(corner(f, 0), corner(f, 1), corner(f, 2));
+        const auto [a, b, c] = position_ids_.triangle(triangle);
+        return makeDistanceTriangle(positions_[a], positions_[b], positions_[c]);
     }
 
     /// Write the triangles whose boxes touch the given one to `found`, ascending.
-    void query(const Box3& box, std::vector<uint32_t>& found);
+    void query(const Box3& box, std::vector<TriangleId>& found);
 
 private:
     /// Four boxes.
@@ -40,13 +41,12 @@ private:
         LaneVector min;
         LaneVector max;
     };
-    Float3 corner(uint32_t f, size_t k) const { return positions_[position_ids_[size_t{f} * 3 + k]]; }
     void makeBoxes();
     static std::vector<BoxBlock> makeBlocks(std::span<const Box3> boxes);
     static LaneMask overlap(const BoxBlock& blocks, const Box3& box);
 
-    std::span<const uint32_t> position_ids_;
-    std::span<const Float3> positions_;
+    CornerSpan<const PositionId> position_ids_;
+    IdSpan<PositionId, const Float3> positions_;
     std::vector<BoxBlock> boxes_; ///< empty before the first query
     std::vector<BoxBlock> run_boxes_;
 };

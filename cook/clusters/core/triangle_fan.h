@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "cook/clusters/core/index_types.h"
 #include "cook/clusters/core/triangle_block.h"
-#include "formats/base/index.h"
 #include "formats/base/math.h"
 
 #include <algorithm>
@@ -20,14 +20,15 @@ namespace hearth::clusters
 /// Point of a triangle: (1 - v - w) * corner 0 + v * corner 1 + w * corner 2.
 struct TrianglePoint
 {
-    uint32_t triangle = kInvalidIndex;
+    TriangleId triangle = kInvalid;
     float v = 0, w = 0;
     float distance2 = 0; ///< squared distance from the position that was projected
 
     std::array<float, 3> parts() const { return {1 - v - w, v, w}; }
 };
 
-inline Float3 trianglePosition(const TrianglePoint& point, std::span<const DistanceTriangle> triangles)
+inline Float3 trianglePosition(const TrianglePoint& point,
+                               IdSpan<TriangleId, const DistanceTriangle> triangles)
 {
     const DistanceTriangle& triangle = triangles[point.triangle];
     return triangle.a + triangle.ab * point.v + triangle.ac * point.w;
@@ -39,9 +40,10 @@ class TriangleFan
 public:
     /// Load some triangles of a surface.
     /// triangles  triangles of the surface
-    /// fan        ids of some of them, at least one; must outlive the use of the fan
-    void load(std::span<const DistanceTriangle> triangles, std::span<const uint32_t> fan)
+    /// fan        some of them, at least one; must outlive the use of the fan
+    void load(IdSpan<TriangleId, const DistanceTriangle> triangles, std::span<const TriangleId> fan)
     {
+        HEARTH_ASSERT(!fan.empty());
         fan_ = fan;
         blocks_.clear();
         // unused lanes repeat the last triangle
@@ -91,7 +93,7 @@ public:
     }
 
 private:
-    std::span<const uint32_t> fan_;
+    std::span<const TriangleId> fan_;
     std::vector<TriangleBlock> blocks_;
 };
 

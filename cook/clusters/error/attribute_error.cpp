@@ -6,6 +6,7 @@
 #include "cook/clusters/surface/surface.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -55,17 +56,17 @@ public:
     {
         if (!has_normals_ && !has_uvs_)
             return {};
-        for (uint32_t wedge = 0; wedge < differences_.size(); ++wedge)
-            if (const TrianglePoint& point = after_.points[wedge]; point.triangle != kInvalidIndex)
+        for (const WedgeId wedge : differences_.ids())
+            if (const TrianglePoint& point = after_.points[wedge]; point.triangle != kInvalid)
                 differences_[wedge] = differenceAt(wedge, point);
         return {meanOfDifferences(), edgeLength()};
     }
 
 private:
     /// Return the new surface's attributes minus the wedge's.
-    Difference differenceAt(uint32_t wedge, const TrianglePoint& point) const
+    Difference differenceAt(WedgeId wedge, const TrianglePoint& point) const
     {
-        const uint32_t vertex = group_.vertex_of_wedge[wedge];
+        const uint32_t vertex = toIndex(group_.vertex_of_wedge[wedge]);
         const mesh::SourceMesh& mesh = after_.mesh;
         Difference difference;
         if (has_normals_)
@@ -86,19 +87,21 @@ private:
     Value valueAt(const TrianglePoint& point, const std::vector<Value>& of_mesh,
                   const std::vector<Value>& of_made) const
     {
-        const auto corner = [&](size_t k)
+        const auto value = [&](WedgeId wedge)
         {
-            const uint32_t vertex = after_.vertex_of_wedge[simplified_.corners[point.triangle * 3 + k]];
-            return vertex < kFirstNewVertex ? of_mesh[vertex] : of_made[vertex - kFirstNewVertex];
+            const VertexId vertex = after_.vertex_of_wedge[wedge];
+            return isNewVertex(vertex) ? of_made[newVertexNumber(vertex)] : of_mesh[toIndex(vertex)];
         };
-        return corner(0) * (1 - point.v - point.w) + corner(1) * point.v + corner(2) * point.w;
+        const auto [a, b, c] = simplified_.corners.triangle(point.triangle);
+        return value(a) * (1 - point.v - point.w) + value(b) * point.v + value(c) * point.w;
     }
 
-    bool isPruned(size_t triangle) const
+    bool isPruned(TriangleId triangle) const
     {
-        const auto gone = [&](size_t corner)
-        { return simplified_.target_of_position[group_.positionIdAt(corner)] == kPruned; };
-        return simplified_.pruned && (gone(triangle * 3) || gone(triangle * 3 + 1) || gone(triangle * 3 + 2));
+        const auto gone = [&](WedgeId wedge)
+        { return simplified_.target_of_position[group_.position_id_of_wedge[wedge]] == kPruned; };
+        const auto [a, b, c] = group_.corners.triangle(triangle);
+        return simplified_.pruned && (gone(a) || gone(b) || gone(c));
     }
 
     /// Integrate linear functions: the mean square over a triangle is the sum of the squares of the corner
@@ -106,16 +109,16 @@ private:
     AttributeError meanOfDifferences() const
     {
         double area = 0, normal2 = 0, uv2 = 0;
-        for (size_t t = 0; t < group_.triangleCount(); ++t)
+        for (const TriangleId triangle : group_.corners.triangles())
         {
-            if (isPruned(t))
+            if (isPruned(triangle))
                 continue;
-            const Float3 a = group_.positions[group_.positionIdAt(t * 3)];
-            const auto own = double{length(cross(group_.positions[group_.positionIdAt(t * 3 + 1)] - a,
-                                                 group_.positions[group_.positionIdAt(t * 3 + 2)] - a))};
-            const Difference& d0 = differences_[group_.corners[t * 3]];
-            const Difference& d1 = differences_[group_.corners[t * 3 + 1]];
-            const Difference& d2 = differences_[group_.corners[t * 3 + 2]];
+            const auto [a, b, c] = group_.trianglePositions(triangle);
+            const auto own = double{length(cross(b - a, c - a))};
+            const std::array<WedgeId, 3> wedges = group_.corners.triangle(triangle);
+            const Difference& d0 = differences_[wedges[0]];
+            const Difference& d1 = differences_[wedges[1]];
+            const Difference& d2 = differences_[wedges[2]];
             const Float3 normal = d0.normal + d1.normal + d2.normal;
             area += own;
             normal2 += own * double{d0.normal2 + d1.normal2 + d2.normal2 + hearth::dot(normal, normal)};
@@ -144,7 +147,7 @@ private:
     std::span<const DistanceTriangle> triangles_;
     bool has_normals_;
     bool has_uvs_;
-    std::vector<Difference> differences_; ///< for each wedge of the group
+    IdVector<WedgeId, Difference> differences_;
 };
 
 } // namespace

@@ -9,9 +9,6 @@
 #include "cook/clusters/surface/surface_points.h"
 #include "cook/mesh/source_mesh.h"
 
-#include <cstdint>
-#include <span>
-
 namespace hearth::clusters
 {
 
@@ -29,16 +26,16 @@ struct AttributeStep
     float edge_length = 0; ///< object space, root mean square over the new triangles
 };
 
-/// SimplifiedGroup group with its vertices: kFirstNewVertex + i is vertex i of `made`, others are the mesh's.
+/// Simplified group with its vertices: new ones are those of `made`, others the mesh's.
 struct NewSurface
 {
     const SimplifiedGroup& simplified;
     const Surface& surface;
     /// For each wedge that was removed or moved, its point on the surface.
-    std::span<const TrianglePoint> points;
+    IdSpan<WedgeId, const TrianglePoint> points;
     const mesh::SourceMesh& mesh;
     const mesh::SourceMesh& made;
-    std::span<const uint32_t> vertex_of_wedge;
+    IdSpan<WedgeId, const VertexId> vertex_of_wedge;
 };
 
 /// Compare the attributes of the group's vertices with those at the nearest points of the new surface around

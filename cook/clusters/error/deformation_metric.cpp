@@ -38,12 +38,12 @@ public:
     void add(const DeformedPoint& point, double sign)
     {
         for (size_t k = 0; k < 3; ++k)
-            for (const auto& influence : point.surface->influences(point.vertices[k]))
+            for (const auto& influence : point.surface->influences(point.wedges[k]))
             {
                 JointDifference& difference = findOrAdd(influence.joint);
                 const double weight = sign * point.parts[k] * influence.weight;
                 difference.weight += weight;
-                difference.moved = difference.moved + point.surface->place(point.vertices[k]) * weight;
+                difference.moved = difference.moved + point.surface->place(point.wedges[k]) * weight;
             }
     }
 
@@ -68,7 +68,7 @@ Double3 interpolatePosition(const DeformedPoint& point)
 {
     Double3 place;
     for (size_t k = 0; k < 3; ++k)
-        place = place + point.surface->place(point.vertices[k]) * point.parts[k];
+        place = place + point.surface->place(point.wedges[k]) * point.parts[k];
     return place;
 }
 
@@ -77,10 +77,10 @@ Double3 weightedDelta(const DeformedPoint& point, uint32_t joint, size_t target)
 {
     Double3 sum;
     for (size_t k = 0; k < 3; ++k)
-        for (const auto& influence : point.surface->influences(point.vertices[k]))
+        for (const auto& influence : point.surface->influences(point.wedges[k]))
             if (influence.joint == joint)
                 sum = sum +
-                      point.surface->deltas(point.vertices[k])[target] * (point.parts[k] * influence.weight);
+                      point.surface->deltas(point.wedges[k])[target] * (point.parts[k] * influence.weight);
     return sum;
 }
 
@@ -88,7 +88,7 @@ Double3 interpolateDelta(const DeformedPoint& point, size_t target)
 {
     Double3 sum;
     for (size_t k = 0; k < 3; ++k)
-        sum = sum + point.surface->deltas(point.vertices[k])[target] * point.parts[k];
+        sum = sum + point.surface->deltas(point.wedges[k])[target] * point.parts[k];
     return sum;
 }
 
@@ -148,8 +148,8 @@ std::optional<uint32_t> DeformationMetric::mainJoint(const DeformedPoint& point,
     std::vector<uint32_t> joints;
     const auto addJoints = [&](const DeformedPoint& of)
     {
-        for (const uint32_t vertex : of.vertices)
-            for (const auto& influence : of.surface->influences(vertex))
+        for (const WedgeId wedge : of.wedges)
+            for (const auto& influence : of.surface->influences(wedge))
                 if (std::find(joints.begin(), joints.end(), influence.joint) == joints.end())
                     joints.push_back(influence.joint);
     };
@@ -190,7 +190,7 @@ double DeformationMetric::between(const DeformedPoint& a, const DeformedPoint& b
 
 double DeformationMetric::morphTerm(const DeformedPoint& a, const DeformedPoint& b, uint32_t main)
 {
-    const size_t targets = a.surface->deltas(a.vertices[0]).size();
+    const size_t targets = a.surface->deltas(a.wedges[0]).size();
     double sum = 0;
     for (size_t target = 0; target < targets; ++target)
     {

@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "cook/clusters/core/index_types.h"
 #include "cook/clusters/core/mesh_motion.h"
 #include "cook/mesh/source_mesh.h"
 #include "formats/base/double3.h"
@@ -17,7 +18,7 @@
 namespace hearth::clusters
 {
 
-/// Deformation data of the vertices of one surface.
+/// Deformation data of the wedges of one surface.
 class DeformedSurface
 {
 public:
@@ -27,35 +28,36 @@ public:
         double weight;
     };
 
-    /// Append a vertex.
+    /// Append a wedge.
     /// place   position in units of `scale`
     /// source  its vertex `vertex` has the joints, weights and morph deltas
     void add(Float3 place, const mesh::SourceMesh& source, uint32_t vertex, double scale);
 
-    Double3 place(uint32_t vertex) const { return places_[vertex]; }
-    std::span<const Influence> influences(uint32_t vertex) const
+    Double3 place(WedgeId wedge) const { return places_[wedge]; }
+    std::span<const Influence> influences(WedgeId wedge) const
     {
+        const uint32_t w = toIndex(wedge);
         return std::span(influences_)
-            .subspan(first_influence_[vertex], first_influence_[vertex + 1] - first_influence_[vertex]);
+            .subspan(first_influence_[w], first_influence_[w + 1] - first_influence_[w]);
     }
-    std::span<const Double3> deltas(uint32_t vertex) const
+    std::span<const Double3> deltas(WedgeId wedge) const
     {
-        return std::span(deltas_).subspan(vertex * delta_count_, delta_count_);
+        return std::span(deltas_).subspan(toIndex(wedge) * delta_count_, delta_count_);
     }
 
 private:
-    std::vector<Double3> places_;
+    IdVector<WedgeId, Double3> places_;
     std::vector<Influence> influences_;
     std::vector<size_t> first_influence_{0};
-    std::vector<Double3> deltas_; ///< for each vertex, one for each target
+    std::vector<Double3> deltas_; ///< for each wedge, one for each target
     size_t delta_count_ = 0;
 };
 
-/// Point of a surface: barycentric coordinates in a triangle of three vertices.
+/// Point of a surface: barycentric coordinates in a triangle of three wedges.
 struct DeformedPoint
 {
     const DeformedSurface* surface;
-    std::array<uint32_t, 3> vertices;
+    std::array<WedgeId, 3> wedges;
     std::array<double, 3> parts; ///< sum to 1
 };
 

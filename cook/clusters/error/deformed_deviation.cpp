@@ -29,22 +29,23 @@ constexpr float kPosedCarriedSlack = kSlack - 1;
 /// Surface before or after the simplification.
 struct GroupSurface
 {
-    std::span<const uint32_t> position_ids; ///< position ids, three for each triangle
-    std::span<const uint32_t> wedges;       ///< three for each triangle
-    std::span<const Float3> positions;      ///< position of each position id
-    DeformedSurface vertices;               ///< by wedge
-    IndexLists triangles_at;                ///< triangles at each position
+    CornerSpan<const PositionId> position_ids;
+    CornerSpan<const WedgeId> corners;
+    IdSpan<PositionId, const Float3> positions;
+    DeformedSurface wedges;
+    TriangleLists triangles_at;
     TriangleBoxes index;
 
-    size_t triangleCount() const { return position_ids.size() / 3; }
-    Corners triangleCorners(size_t triangle) const
+    size_t triangleCount() const { return position_ids.triangleCount(); }
+    IdRange<TriangleId> triangles() const { return position_ids.triangles(); }
+    Corners triangleCorners(TriangleId triangle) const
     {
-        return {positions[position_ids[triangle * 3]], positions[position_ids[triangle * 3 + 1]],
-                positions[position_ids[triangle * 3 + 2]]};
+        const auto [a, b, c] = position_ids.triangle(triangle);
+        return {positions[a], positions[b], positions[c]};
     }
-    DeformedPoint trianglePoint(size_t triangle, const std::array<double, 3>& parts) const
+    DeformedPoint trianglePoint(TriangleId triangle, const std::array<double, 3>& parts) const
     {
-        return {&vertices, {wedges[triangle * 3], wedges[triangle * 3 + 1], wedges[triangle * 3 + 2]}, parts};
+        return {&wedges, corners.triangle(triangle), parts};
     }
 };
 
@@ -59,18 +60,18 @@ std::array<double, 3> barycentrics(double v, double w)
 class TriangleMetric final : public SurfaceMetric
 {
 public:
-    TriangleMetric(DeformationMetric& metric, const GroupSurface& from, size_t triangle,
+    TriangleMetric(DeformationMetric& metric, const GroupSurface& from, TriangleId triangle,
                    const GroupSurface& to)
         : metric_(metric), from_(from), triangle_(triangle), to_(to)
     {
     }
 
     /// Load the candidate triangles. False if no joint bounds the motion of all others.
-    bool load(std::span<const uint32_t> triangles) override
+    bool load(std::span<const TriangleId> triangles) override
     {
         triangles_.assign(triangles.begin(), triangles.end());
         std::vector<DeformedPoint> others;
-        for (const uint32_t triangle : triangles)
+        for (const TriangleId triangle : triangles)
             others.push_back(to_.trianglePoint(triangle, kMiddle));
         const auto main = metric_.mainJoint(from_.trianglePoint(triangle_, kMiddle), others);
         main_ = main.value_or(0);
@@ -100,18 +101,18 @@ public:
 private:
     DeformationMetric& metric_;
     const GroupSurface& from_;
-    size_t triangle_;
+    TriangleId triangle_;
     const GroupSurface& to_;
     std::array<Float2, 3> piece_{Float2{0, 0}, Float2{1, 0}, Float2{0, 1}};
-    std::vector<uint32_t> triangles_;
-    uint32_t main_ = 0;
+    std::vector<TriangleId> triangles_;
+    uint32_t main_ = 0; ///< joint
 };
 
 /// Triangle to compare with the other surface.
 struct Task
 {
     float moved; ///< largest distance of a corner to its target: the largest bound rules others out
-    uint32_t triangle;
+    TriangleId triangle;
     bool before;
 };
 
@@ -127,26 +128,26 @@ public:
                   group.corners,
                   group.positions,
                   {},
-                  IndexLists::byKey<3>(group.positions.size(), positions_before_),
+                  TriangleLists(group.positions.size(), positions_before_),
                   TriangleBoxes(positions_before_, group.positions)},
           after_{after.position_ids,
                  simplified.corners,
                  after.position_of_id,
                  {},
-                 IndexLists::byKey<3>(group.positions.size(), after.position_ids),
+                 TriangleLists(group.positions.size(), after.position_ids),
                  TriangleBoxes(after.position_ids, after.position_of_id)},
           metric_({group.center[0], group.center[1], group.center[2]}, group.scale, motion),
           errors_(after.triangleCount(), 0)
     {
-        for (size_t wedge = 0; wedge < group.vertex_of_wedge.size(); ++wedge)
+        for (const WedgeId wedge : group.vertex_of_wedge.ids())
         {
-            const uint32_t position = group.position_id_of_wedge[wedge];
-            before_.vertices.add(group.positions[position], vertices.mesh, group.vertex_of_wedge[wedge],
-                                 group.scale);
-            const uint32_t vertex = vertices.vertex_of_wedge[wedge];
-            const bool made = vertex >= kFirstNewVertex;
-            after_.vertices.add(after.position_of_id[position], made ? vertices.made : vertices.mesh,
-                                made ? vertex - kFirstNewVertex : vertex, group.scale);
+            const PositionId position = group.position_id_of_wedge[wedge];
+            before_.wedges.add(group.positions[position], vertices.mesh,
+                               toIndex(group.vertex_of_wedge[wedge]), group.scale);
+            const VertexId vertex = vertices.vertex_of_wedge[wedge];
+            const bool made = isNewVertex(vertex);
+            after_.wedges.add(after.position_of_id[position], made ? vertices.made : vertices.mesh,
+                              made ? newVertexNumber(vertex) : toIndex(vertex), group.scale);
         }
     }
 
@@ -160,28 +161,25 @@ public:
     }
 
 private:
-    bool sameAsBefore(size_t triangle) const
+    bool sameAsBefore(TriangleId triangle) const
     {
-        const size_t source = simplified_.source_triangle[triangle];
-        for (size_t k = 0; k < 3; ++k)
-        {
-            const uint32_t wedge = simplified_.corners[triangle * 3 + k];
-            if (wedge != group_.corners[source * 3 + k] ||
-                simplified_.placement.modified[group_.position_id_of_wedge[wedge]] != 0)
-                return false;
-        }
-        return true;
+        const std::array<WedgeId, 3> wedges = simplified_.corners.triangle(triangle);
+        if (wedges != group_.corners.triangle(simplified_.source_triangle[triangle]))
+            return false;
+        return std::none_of(
+            wedges.begin(), wedges.end(),
+            [&](WedgeId wedge)
+            { return simplified_.placement.modified[group_.position_id_of_wedge[wedge]] != 0; });
     }
 
-    uint32_t targetPosition(uint32_t position) const { return simplified_.target_of_position[position]; }
+    PositionId targetPosition(PositionId position) const { return simplified_.target_of_position[position]; }
 
-    float maxDisplacement(const GroupSurface& side, size_t triangle) const
+    float maxDisplacement(const GroupSurface& side, TriangleId triangle) const
     {
         float farthest = 0;
-        for (size_t corner = triangle * 3; corner < triangle * 3 + 3; ++corner)
+        for (const PositionId position : side.position_ids.triangle(triangle))
         {
-            const uint32_t position = side.position_ids[corner];
-            const uint32_t target = targetPosition(position);
+            const PositionId target = targetPosition(position);
             if (target != kPruned)
                 farthest = std::max(farthest, length(after_.positions[target] - before_.positions[position]));
         }
@@ -192,11 +190,11 @@ private:
     /// first.
     std::vector<Task> findTasks()
     {
-        std::vector<uint8_t> kept(before_.triangleCount(), 0);
+        IdVector<TriangleId, uint8_t> kept(before_.triangleCount(), 0);
         std::vector<Task> tasks;
-        for (uint32_t t = 0; t < after_.triangleCount(); ++t)
+        for (const TriangleId t : after_.triangles())
         {
-            const uint32_t source = simplified_.source_triangle[t];
+            const TriangleId source = simplified_.source_triangle[t];
             if (sameAsBefore(t))
             {
                 kept[source] = 1;
@@ -205,7 +203,7 @@ private:
             else
                 tasks.push_back({maxDisplacement(after_, t), t, false});
         }
-        for (uint32_t t = 0; t < before_.triangleCount(); ++t)
+        for (const TriangleId t : before_.triangles())
             if (kept[t] == 0)
                 tasks.push_back({maxDisplacement(before_, t), t, true});
         std::stable_sort(tasks.begin(), tasks.end(),
@@ -213,39 +211,38 @@ private:
         return tasks;
     }
 
-    void measureBefore(uint32_t t)
+    void measureBefore(TriangleId t)
     {
         likely_.clear();
-        for (size_t corner = size_t{t} * 3; corner < size_t{t} * 3 + 3; ++corner)
-            if (const uint32_t target = targetPosition(positions_before_[corner]); target != kPruned)
+        for (const PositionId position : positions_before_.triangle(t))
+            if (const PositionId target = targetPosition(position); target != kPruned)
                 addLikely(after_.triangles_at.list(target));
         const float carried = group_.errors[t];
         const float total = carried + bound(before_, t, after_, carried);
         worst_ = std::max(worst_, total);
-        for (const uint32_t triangle : used_)
+        for (const TriangleId triangle : used_)
             errors_[triangle] = std::max(errors_[triangle], total);
     }
 
-    void measureAfter(uint32_t t)
+    void measureAfter(TriangleId t)
     {
         likely_.clear();
-        const size_t source = simplified_.source_triangle[t];
-        for (size_t corner = source * 3; corner < source * 3 + 3; ++corner)
-            addLikely(before_.triangles_at.list(positions_before_[corner]));
+        for (const PositionId position : positions_before_.triangle(simplified_.source_triangle[t]))
+            addLikely(before_.triangles_at.list(position));
         float carried = 0;
-        for (const uint32_t triangle : likely_)
+        for (const TriangleId triangle : likely_)
             carried = std::max(carried, group_.errors[triangle]);
         const float distance = bound(after_, t, before_, carried);
         carried = 0;
-        for (const uint32_t triangle : used_)
+        for (const TriangleId triangle : used_)
             carried = std::max(carried, group_.errors[triangle]);
         errors_[t] = std::max(errors_[t], carried + distance);
         worst_ = std::max(worst_, carried + distance);
     }
 
-    void addLikely(std::span<const uint32_t> triangles)
+    void addLikely(std::span<const TriangleId> triangles)
     {
-        for (const uint32_t triangle : triangles)
+        for (const TriangleId triangle : triangles)
             if (likely_.size() < kMaxPosedLikely &&
                 std::find(likely_.begin(), likely_.end(), triangle) == likely_.end())
                 likely_.push_back(triangle);
@@ -253,7 +250,7 @@ private:
 
     /// Bound the distance of any point of the triangle to the other surface. Leaves the triangles that the
     /// bound was taken from in used_.
-    float bound(const GroupSurface& from, uint32_t triangle, GroupSurface& to, float carried)
+    float bound(const GroupSurface& from, TriangleId triangle, GroupSurface& to, float carried)
     {
         TriangleMetric metric(metric_, from, triangle, to);
         const Tolerance tolerance{worst_ - carried, carried * kPosedCarriedSlack};
@@ -265,15 +262,15 @@ private:
 
     const GroupMesh& group_;
     const SimplifiedGroup& simplified_;
-    std::vector<uint32_t> positions_before_; ///< three position ids for each triangle
+    CornerVector<PositionId> positions_before_;
     GroupSurface before_;
     GroupSurface after_;
     DeformationMetric metric_;
     NearestBound nearest_;
-    std::vector<uint32_t> likely_; ///< triangles of the other surface, each once
-    std::vector<uint32_t> used_;
-    float worst_ = 0;           ///< largest total up to now
-    std::vector<float> errors_; ///< for each triangle after
+    std::vector<TriangleId> likely_; ///< triangles of the other surface, each once
+    std::vector<TriangleId> used_;
+    float worst_ = 0;                    ///< largest total up to now
+    IdVector<TriangleId, float> errors_; ///< for each triangle after
 };
 
 } // namespace
@@ -290,16 +287,18 @@ namespace
 {
 
 /// Bound the distance of the triangles of one surface to the other one.
-double oneSidedDistance(const GroupSurface& from, const GroupSurface& to, DeformationMetric& metric)
+///
+/// tree  of `to`
+double oneSidedDistance(const GroupSurface& from, const GroupSurface& to, const SurfaceTree& tree,
+                        DeformationMetric& metric)
 {
-    const SurfaceTree tree({to.positions, to.position_ids});
     PieceBounder bounder;
     Candidates candidates;
-    std::vector<uint32_t> triangles;
+    std::vector<TriangleId> triangles;
     std::vector<DistanceTriangle> loaded;
     double worst = 0;
-    uint32_t hint = 0;
-    for (size_t t = 0; t < from.triangleCount(); ++t)
+    TriangleId hint{};
+    for (const TriangleId t : from.triangles())
     {
         const Corners c = from.triangleCorners(t);
         triangles.clear();
@@ -327,23 +326,41 @@ double oneSidedDistance(const GroupSurface& from, const GroupSurface& to, Deform
 
 } // namespace
 
-double boundDeformedSurfaces(const PreparedMesh& mesh, std::span<const uint32_t> source,
-                             std::span<const uint32_t> level)
+double boundDeformedSurfaces(const PreparedMesh& mesh, CornerSpan<const VertexId> source,
+                             CornerSpan<const VertexId> level)
 {
     HEARTH_ASSERT(!source.empty() && !level.empty());
     const mesh::SourceMesh& vertices = mesh.vertices;
     DeformedSurface surface;
     for (uint32_t v = 0; v < vertices.vertexCount(); ++v)
         surface.add(vertices.positions[v], vertices, v, 1);
-    const auto makeSurface = [&](std::span<const uint32_t> corners)
+    // each vertex is a wedge with a position of its own
+    struct SurfaceCorners
     {
-        return GroupSurface{corners, corners, vertices.positions,
-                            surface, {},      TriangleBoxes(corners, vertices.positions)};
+        CornerVector<PositionId> positions;
+        CornerVector<WedgeId> wedges;
     };
-    const GroupSurface of_source = makeSurface(source), of_level = makeSurface(level);
+    const auto convert = [](CornerSpan<const VertexId> corners)
+    {
+        return SurfaceCorners{CornerVector<PositionId>(convertIds<PositionId>(corners)),
+                              CornerVector<WedgeId>(convertIds<WedgeId>(corners))};
+    };
+    const IdSpan<PositionId, const Float3> positions{std::span(vertices.positions)};
+    const auto makeSurface = [&](const SurfaceCorners& corners)
+    {
+        return GroupSurface{corners.positions,
+                            corners.wedges,
+                            positions,
+                            surface,
+                            {},
+                            TriangleBoxes(corners.positions, positions)};
+    };
+    const SurfaceCorners source_corners = convert(source), level_corners = convert(level);
+    const GroupSurface of_source = makeSurface(source_corners), of_level = makeSurface(level_corners);
+    const SurfaceTree source_tree({mesh.positions(), source}), level_tree({mesh.positions(), level});
     DeformationMetric metric({}, 1, meshMotion(mesh));
-    return std::max(oneSidedDistance(of_source, of_level, metric),
-                    oneSidedDistance(of_level, of_source, metric));
+    return std::max(oneSidedDistance(of_source, of_level, level_tree, metric),
+                    oneSidedDistance(of_level, of_source, source_tree, metric));
 }
 
 const MeshMotion& meshMotion(const PreparedMesh& mesh)

@@ -9,12 +9,12 @@
 namespace hearth::clusters
 {
 
-/// Vertices of a simplified group: those of `mesh`, and from kFirstNewVertex on those of `made`.
+/// Vertices of a simplified group: new ones are those of `made`, others the mesh's.
 struct SimplifiedVertices
 {
     const mesh::SourceMesh& mesh;
     const mesh::SourceMesh& made;
-    std::span<const uint32_t> vertex_of_wedge;
+    IdSpan<WedgeId, const VertexId> vertex_of_wedge;
 };
 
 /// Bound the deviation like boundDeviation, over all poses: errors are for a scale of 1 of the joints'
@@ -28,9 +28,9 @@ Deviation boundDeformedDeviation(const GroupMesh& group, const SimplifiedGroup& 
 /// Bound the two-sided distance of two surfaces of a deformed mesh over all poses, in object space: for
 /// authored LODs. Compares each triangle with the triangles nearest to a few of its points, so the bound may
 /// be loose where the surfaces are far apart.
-/// source, level  three vertices of the mesh for each triangle, at least one each
-double boundDeformedSurfaces(const PreparedMesh& mesh, std::span<const uint32_t> source,
-                             std::span<const uint32_t> level);
+/// source, level  vertices of the mesh, of at least one triangle each
+double boundDeformedSurfaces(const PreparedMesh& mesh, CornerSpan<const VertexId> source,
+                             CornerSpan<const VertexId> level);
 
 /// Return the mesh's motion; if it is unknown, only morph targets move it.
 const MeshMotion& meshMotion(const PreparedMesh& mesh);

@@ -34,7 +34,7 @@ constexpr float kSlackOfCarried = kSlack - 1;
 class LikelyTriangles
 {
 public:
-    explicit LikelyTriangles(size_t facet_count) : list_of_triangle_(facet_count, 0) {}
+    explicit LikelyTriangles(size_t triangle_count) : list_of_triangle_(triangle_count, 0) {}
 
     void clear()
     {
@@ -42,29 +42,29 @@ public:
         triangles_.clear();
     }
 
-    void addAround(const Surface& surface, uint32_t position)
+    void addAround(const Surface& surface, PositionId position)
     {
-        for (const uint32_t triangle : surface.triangles_at.list(position))
+        for (const TriangleId triangle : surface.triangles_at.list(position))
             add(triangle);
     }
 
     /// Add the triangles around the corner where a half-edge starts.
-    void addAround(std::span<const uint32_t> opposites, uint32_t start)
+    void addAround(IdSpan<HalfEdgeId, const HalfEdgeId> opposites, HalfEdgeId start)
     {
-        uint32_t half_edge = start;
+        HalfEdgeId half_edge = start;
         do
         {
-            add(half_edge / 3);
+            add(cornerTriangle(half_edge));
             half_edge = opposites[previousHalfEdge(half_edge)];
-        } while (half_edge != kInvalidIndex && half_edge != start);
+        } while (half_edge != kInvalid && half_edge != start);
         if (half_edge == start)
             return;
-        for (half_edge = opposites[start]; half_edge != kInvalidIndex;
+        for (half_edge = opposites[start]; half_edge != kInvalid;
              half_edge = opposites[nextHalfEdge(half_edge)])
-            add(half_edge / 3);
+            add(cornerTriangle(half_edge));
     }
 
-    void add(uint32_t triangle)
+    void add(TriangleId triangle)
     {
         if (list_of_triangle_[triangle] == list_ || triangles_.size() == kMaxLikely)
             return;
@@ -72,19 +72,19 @@ public:
         triangles_.push_back(triangle);
     }
 
-    std::span<const uint32_t> triangles() const { return triangles_; }
+    std::span<const TriangleId> triangles() const { return triangles_; }
 
 private:
-    std::vector<uint32_t> list_of_triangle_; ///< number of the last list that contained each triangle
+    IdVector<TriangleId, uint32_t> list_of_triangle_; ///< number of the last list with each triangle
     uint32_t list_ = 0;
-    std::vector<uint32_t> triangles_;
+    std::vector<TriangleId> triangles_;
 };
 
 /// Upper bound of a triangle's total: its carried error plus its distance.
 struct Total
 {
     float upper;
-    uint32_t triangle;
+    TriangleId triangle;
     bool before;
 
     bool operator<(const Total& b) const
@@ -100,7 +100,7 @@ class DeviationMeasure
 {
 public:
     DeviationMeasure(const GroupMesh& group, const SimplifiedGroup& simplified, const Surface& after,
-                     std::span<const TrianglePoint> points)
+                     IdSpan<PositionId, const TrianglePoint> points)
         : group_(group),
           simplified_(simplified),
           after_(after),
@@ -118,12 +118,12 @@ public:
 
     Deviation run()
     {
-        for (uint32_t t = 0; t < after_.triangleCount(); ++t)
-            if (const uint32_t source = simplified_.source_triangle[t]; changed_[source] == 0)
+        for (const TriangleId t : errors_.ids())
+            if (const TriangleId source = simplified_.source_triangle[t]; changed_[source] == 0)
                 errors_[t] = group_.errors[source];
         sums_ = map_.maxSums(group_.errors);
         resolveLargest();
-        for (uint32_t t = 0; t < errors_.size(); ++t)
+        for (const TriangleId t : errors_.ids())
         {
             // larger sums come from triangles that were searched
             raiseError(t, std::min(sums_[t], worst_));
@@ -133,30 +133,25 @@ public:
     }
 
 private:
-    std::vector<uint8_t> movedPositions() const
+    IdVector<PositionId, uint8_t> movedPositions() const
     {
-        std::vector<uint8_t> moved(simplified_.placement.modified);
-        for (uint32_t position = 0; position < moved.size(); ++position)
+        IdVector<PositionId, uint8_t> moved(simplified_.placement.modified);
+        for (const PositionId position : moved.ids())
             moved[position] =
                 simplified_.target_of_position[position] != position ? uint8_t{1} : moved[position];
         return moved;
     }
 
-    std::vector<uint8_t> changedTriangles() const
+    IdVector<TriangleId, uint8_t> changedTriangles() const
     {
-        std::vector<uint8_t> changed(group_.triangleCount(), 1);
-        for (const size_t source : simplified_.source_triangle)
-            changed[source] =
-                static_cast<uint8_t>(moved(source * 3) | moved(source * 3 + 1) | moved(source * 3 + 2));
+        IdVector<TriangleId, uint8_t> changed(group_.triangleCount(), 1);
+        for (const TriangleId source : simplified_.source_triangle)
+        {
+            const auto [a, b, c] = positions_before_.triangle(source);
+            changed[source] = static_cast<uint8_t>(moved_[a] | moved_[b] | moved_[c]);
+        }
         return changed;
     }
-
-    uint32_t targetPosition(size_t corner) const
-    {
-        return simplified_.target_of_position[positions_before_[corner]];
-    }
-
-    uint8_t moved(size_t corner) const { return moved_[positions_before_[corner]]; }
 
     /// Call visit(total) for all changed triangles whose total by the map is at least `least` (>= 0). Few
     /// are: that is the only branch.
@@ -168,13 +163,13 @@ private:
             const float upper = known ? sum : kInfinity;
             return changed != 0 ? upper : -1.0f;
         };
-        for (uint32_t t = 0; t < changed_.size(); ++t)
+        for (const TriangleId t : changed_.ids())
         {
             const float upper = upperBound(changed_[t], map_.maps(t), group_.errors[t] + map_.maxDistance(t));
             if (upper >= least)
                 visit(Total{upper, t, true});
         }
-        for (uint32_t t = 0; t < sums_.size(); ++t)
+        for (const TriangleId t : sums_.ids())
         {
             const float upper =
                 upperBound(changed_[simplified_.source_triangle[t]], map_.covers(t), sums_[t]);
@@ -187,7 +182,7 @@ private:
     /// rules most of them out.
     void resolveLargest()
     {
-        Total largest{0, 0, false};
+        Total largest{0, TriangleId{0}, false};
         bool changed = false;
         forEachTotal(largest.upper,
                      [&](const Total& total)
@@ -233,49 +228,49 @@ private:
         return total.upper - carried <= kFlat * std::sqrt(std::max(dot(e1, e1), dot(e2, e2)));
     }
 
-    void raiseError(uint32_t triangle, float error)
+    void raiseError(TriangleId triangle, float error)
     {
         errors_[triangle] = std::max(errors_[triangle], error);
     }
 
-    Corners cornersBefore(size_t t) const
+    Corners cornersBefore(TriangleId triangle) const
     {
-        return {group_.positions[positions_before_[t * 3]], group_.positions[positions_before_[t * 3 + 1]],
-                group_.positions[positions_before_[t * 3 + 2]]};
+        const auto [a, b, c] = positions_before_.triangle(triangle);
+        return {group_.positions[a], group_.positions[b], group_.positions[c]};
     }
 
-    void searchBefore(uint32_t t)
+    void searchBefore(TriangleId t)
     {
         const float carried = group_.errors[t];
         likely_after_.clear();
         if (map_.maps(t))
-            map_.forEachTriangleOf(t, [&](uint32_t triangle) { likely_after_.add(triangle); });
-        for (size_t corner = size_t{t} * 3; corner < size_t{t} * 3 + 3; ++corner)
-            if (const uint32_t target = targetPosition(corner); target != kPruned && moved(corner) != 0)
+            map_.forEachTriangleOf(t, [&](TriangleId triangle) { likely_after_.add(triangle); });
+        for (const PositionId position : positions_before_.triangle(t))
+            if (const PositionId target = simplified_.target_of_position[position];
+                target != kPruned && moved_[position] != 0)
                 likely_after_.addAround(after_, target);
         if (likely_after_.triangles().empty())
             addNeighboursInOrder(t);
         const float total = carried + nearest_.bound(cornersBefore(t), index_after_,
                                                      likely_after_.triangles(), tolerance(carried));
-        for (const uint32_t triangle : nearest_.used())
+        for (const TriangleId triangle : nearest_.used())
             raiseError(triangle, total);
         worst_ = std::max(worst_, total);
     }
 
-    void searchAfter(uint32_t t)
+    void searchAfter(TriangleId t)
     {
         float carried = 0;
         likely_before_.clear();
-        const size_t source = simplified_.source_triangle[t];
-        for (size_t corner = source * 3; corner < source * 3 + 3; ++corner)
-            if (moved(corner) != 0)
-                likely_before_.addAround(map_.oppositesBefore(), static_cast<uint32_t>(corner));
-        for (const uint32_t triangle : likely_before_.triangles())
+        for (const CornerId corner : makeCorners(simplified_.source_triangle[t]))
+            if (moved_[positions_before_[corner]] != 0)
+                likely_before_.addAround(map_.oppositesBefore(), corner);
+        for (const TriangleId triangle : likely_before_.triangles())
             carried = std::max(carried, group_.errors[triangle]);
         const float distance = nearest_.bound(after_.triangleCorners(t), index_before_,
                                               likely_before_.triangles(), tolerance(carried));
         carried = 0;
-        for (const uint32_t triangle : nearest_.used())
+        for (const TriangleId triangle : nearest_.used())
             carried = std::max(carried, group_.errors[triangle]);
         raiseError(t, carried + distance);
         worst_ = std::max(worst_, carried + distance);
@@ -286,7 +281,7 @@ private:
 
     /// Add new triangles that are close to an old one in the clusters' order: a fair guess for islands that
     /// were removed.
-    void addNeighboursInOrder(size_t source)
+    void addNeighboursInOrder(TriangleId source)
     {
         const auto& left = simplified_.source_triangle;
         const auto after =
@@ -294,30 +289,30 @@ private:
         const size_t last_start = left.size() - std::min(left.size(), kNeighbours);
         const size_t start = std::min(after - std::min(after, kNeighbours / 2), last_start);
         for (size_t i = start; i < std::min(start + kNeighbours, left.size()); ++i)
-            likely_after_.add(static_cast<uint32_t>(i));
+            likely_after_.add(toId<TriangleId>(i));
     }
 
     const GroupMesh& group_;
     const SimplifiedGroup& simplified_;
     const Surface& after_;
-    std::vector<uint32_t> positions_before_; ///< three position ids for each triangle
-    std::vector<uint8_t> moved_;             ///< for each position: it is not where it was
-    std::vector<uint8_t> changed_;           ///< for each triangle before: it was removed or changed
+    CornerVector<PositionId> positions_before_;
+    IdVector<PositionId, uint8_t> moved_;   ///< 1 for positions that are not where they were
+    IdVector<TriangleId, uint8_t> changed_; ///< 1 for triangles before that were removed or changed
     SurfaceMap map_;
     TriangleBoxes index_before_;
     TriangleBoxes index_after_;
-    std::vector<float> sums_; ///< for each triangle after, SurfaceMap::maxSums
+    IdVector<TriangleId, float> sums_; ///< for each triangle after, SurfaceMap::maxSums
     LikelyTriangles likely_before_;
     LikelyTriangles likely_after_;
     NearestBound nearest_;
-    float worst_ = 0;           ///< largest total so far, among those that were searched
-    std::vector<float> errors_; ///< for each triangle after
+    float worst_ = 0;                    ///< largest total so far, among those that were searched
+    IdVector<TriangleId, float> errors_; ///< for each triangle after
 };
 
 } // namespace
 
 Deviation boundDeviation(const GroupMesh& group, const SimplifiedGroup& simplified, const Surface& after,
-                         std::span<const TrianglePoint> points)
+                         IdSpan<PositionId, const TrianglePoint> points)
 {
     HEARTH_ASSERT(simplified.triangleCount() > 0);
     return DeviationMeasure(group, simplified, after, points).run();

@@ -8,8 +8,6 @@
 #include "cook/clusters/surface/surface_points.h"
 
 #include <cstdint>
-#include <span>
-#include <vector>
 
 namespace hearth::clusters
 {
@@ -19,7 +17,7 @@ struct Deviation
 {
     /// Error of each triangle of the simplified group, in local units: no point of it is farther from the
     /// source, and no point of the source that it represents is farther from it.
-    std::vector<float> errors;
+    IdVector<TriangleId, float> errors;
     uint64_t loose_pieces = 0; ///< pieces whose search ended early, so that their bounds are not tight
 };
 
@@ -30,6 +28,6 @@ struct Deviation
 /// after   the simplified group's surface
 /// points  points of `after` to which the group's removed or moved positions map
 Deviation boundDeviation(const GroupMesh& group, const SimplifiedGroup& simplified, const Surface& after,
-                         std::span<const TrianglePoint> points);
+                         IdSpan<PositionId, const TrianglePoint> points);
 
 } // namespace hearth::clusters

@@ -69,11 +69,16 @@ AuthoredLod takeTriangles(const PreparedMesh& prepared, size_t& first, size_t en
                           std::span<const uint32_t> materials)
 {
     AuthoredLod level;
-    const size_t begin = first;
-    while (first < prepared.materials.size() && prepared.materials[first] < end)
-        level.materials.push_back(materials[prepared.materials[first++]]);
-    level.corners.assign(prepared.corners.begin() + static_cast<std::ptrdiff_t>(begin * 3),
-                         prepared.corners.begin() + static_cast<std::ptrdiff_t>(first * 3));
+    for (; first < prepared.materials.size(); ++first)
+    {
+        const auto triangle = toId<TriangleId>(first);
+        const uint32_t number = prepared.materials[triangle];
+        if (number >= end)
+            break;
+        level.materials.push_back(materials[number]);
+        for (const VertexId vertex : prepared.corners.triangle(triangle))
+            level.corners.push_back(vertex);
+    }
     return level;
 }
 
@@ -131,66 +136,76 @@ constexpr size_t kMinMiddles = 65536;
 
 using CornerWeights = std::array<float, 3>;
 
+using TriangleVertices = std::array<VertexId, 3>;
+
+/// Return the values of a triangle's vertices.
 template <typename Value>
-Value valueAt(const std::vector<Value>& values, std::span<const uint32_t> corners,
+std::array<Value, 3> triangleValues(const std::vector<Value>& values, const TriangleVertices& vertices)
+{
+    return {values[toIndex(vertices[0])], values[toIndex(vertices[1])], values[toIndex(vertices[2])]};
+}
+
+template <typename Value>
+Value valueAt(const std::vector<Value>& values, const TriangleVertices& vertices,
               const CornerWeights& weights)
 {
-    return values[corners[0]] * weights[0] + values[corners[1]] * weights[1] +
-           values[corners[2]] * weights[2];
+    const auto [a, b, c] = triangleValues(values, vertices);
+    return a * weights[0] + b * weights[1] + c * weights[2];
 }
 
 /// Return the point of a triangle that is nearest to a position.
-CornerWeights nearestPoint(std::span<const Float3> positions, std::span<const uint32_t> corners, Float3 place)
+CornerWeights nearestPoint(const std::vector<Float3>& positions, const TriangleVertices& vertices,
+                           Float3 place)
 {
-    const DistanceTriangle triangle = makeDistanceTriangle(
-        positions[corners[0]] - place, positions[corners[1]] - place, positions[corners[2]] - place);
+    const auto [a, b, c] = triangleValues(positions, vertices);
+    const DistanceTriangle triangle = makeDistanceTriangle(a - place, b - place, c - place);
     const TriangleBlock::Nearest nearest =
         makeTriangleBlock({&triangle, &triangle, &triangle, &triangle}).nearest({});
     return {1 - nearest.v[0] - nearest.w[0], nearest.v[0], nearest.w[0]};
 }
 
-double triangleArea(std::span<const Float3> positions, std::span<const uint32_t> corners)
+double triangleArea(const std::vector<Float3>& positions, const TriangleVertices& vertices)
 {
-    const Float3 a = positions[corners[0]];
-    return double{length(cross(positions[corners[1]] - a, positions[corners[2]] - a))};
+    const auto [a, b, c] = triangleValues(positions, vertices);
+    return double{length(cross(b - a, c - a))};
 }
 
-double triangleArea(std::span<const Float2> uvs, std::span<const uint32_t> corners)
+double triangleArea(const std::vector<Float2>& uvs, const TriangleVertices& vertices)
 {
-    const Float2 ab = uvs[corners[1]] - uvs[corners[0]], ac = uvs[corners[2]] - uvs[corners[0]];
+    const auto [a, b, c] = triangleValues(uvs, vertices);
+    const Float2 ab = b - a, ac = c - a;
     return std::abs(double{ab.x} * double{ac.y} - double{ab.y} * double{ac.x});
 }
 
-float edgeLength(std::span<const Float3> positions, std::span<const uint32_t> corners)
+float edgeLength(IdSpan<VertexId, const Float3> positions, CornerSpan<const VertexId> corners)
 {
     double sum = 0;
-    for (size_t t = 0; t < corners.size(); t += 3)
-        for (size_t k = 0; k < 3; ++k)
-        {
-            const Float3 edge = positions[corners[t + (k + 1) % 3]] - positions[corners[t + k]];
-            sum += double{dot(edge, edge)};
-        }
+    for (const HalfEdgeId half_edge : corners.ids())
+    {
+        const Float3 edge = positions[corners[nextHalfEdge(half_edge)]] - positions[corners[half_edge]];
+        sum += double{dot(edge, edge)};
+    }
     return roundUp(std::sqrt(sum / static_cast<double>(corners.size())));
 }
 
 } // namespace
 
-AttributeStep measureAttributes(const PreparedMesh& mesh, std::span<const uint32_t> source_corners,
+AttributeStep measureAttributes(const PreparedMesh& mesh, CornerSpan<const VertexId> source_corners,
                                 const AuthoredLod& level)
 {
     constexpr CornerWeights kCentroid{1.0f / 3, 1.0f / 3, 1.0f / 3};
     const mesh::SourceMesh& vertices = mesh.vertices;
     const bool has_normals = !vertices.normals.empty(), has_uvs = !vertices.uvs[0].empty();
-    const size_t stride = std::max<size_t>(1, source_corners.size() / 3 / kMinMiddles);
-    const SurfaceTree tree({vertices.positions, level.corners});
+    const size_t stride = std::max<size_t>(1, source_corners.triangleCount() / kMinMiddles);
+    const SurfaceTree tree({mesh.positions(), level.corners});
     double surface = 0, texture = 0, normal2 = 0, uv2 = 0;
-    uint32_t hint = 0;
-    for (size_t t = 0; t < source_corners.size(); t += 3 * stride)
+    TriangleId hint{};
+    for (size_t t = 0; t < source_corners.triangleCount(); t += stride)
     {
-        const auto from = source_corners.subspan(t, 3);
+        const TriangleVertices from = source_corners.triangle(toId<TriangleId>(t));
         const Float3 middle = valueAt(vertices.positions, from, kCentroid);
         hint = tree.nearest(widen(middle), 0, hint).triangle;
-        const auto to = std::span(level.corners).subspan(size_t{hint} * 3, 3);
+        const TriangleVertices to = level.corners.triangle(hint);
         const CornerWeights weights = nearestPoint(vertices.positions, to, middle);
         const double area = triangleArea(vertices.positions, from);
         surface += area;
@@ -214,7 +229,7 @@ AttributeStep measureAttributes(const PreparedMesh& mesh, std::span<const uint32
     // the mean square is uv2 / surface; the square of a UV unit's length is surface / texture
     if (texture > 0 && !std::isnan(uv2))
         step.error.uv = roundUp(std::sqrt(uv2 / texture));
-    step.edge_length = edgeLength(vertices.positions, level.corners);
+    step.edge_length = edgeLength(mesh.positions(), level.corners);
     return step;
 }
 

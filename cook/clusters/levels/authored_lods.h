@@ -18,9 +18,9 @@ namespace hearth::clusters
 /// Triangles of an authored LOD, with the vertices of the prepared mesh.
 struct AuthoredLod
 {
-    std::vector<uint32_t> corners;   ///< three vertices for each triangle
-    std::vector<uint32_t> materials; ///< for each triangle
-    size_t authored = 0;             ///< index of the authored mesh
+    CornerVector<VertexId> corners;
+    IdVector<TriangleId, uint32_t> materials;
+    size_t authored = 0; ///< index of the authored mesh
 
     size_t triangleCount() const { return materials.size(); }
 };
@@ -41,7 +41,7 @@ JoinedMesh joinAuthored(mesh::SourceMesh source, std::span<const mesh::SourceMes
 /// Compare the attributes of an authored LOD with those of the source, whose triangles are `source_corners`.
 /// Samples the centers of at most 131072 of these, evenly through their order, and the nearest points of the
 /// LOD.
-AttributeStep measureAttributes(const PreparedMesh& mesh, std::span<const uint32_t> source_corners,
+AttributeStep measureAttributes(const PreparedMesh& mesh, CornerSpan<const VertexId> source_corners,
                                 const AuthoredLod& level);
 
 /// Link each page to its parents where groups switch together. As in pages.h, but each group of a set needs

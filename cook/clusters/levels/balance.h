@@ -15,7 +15,7 @@ struct LevelView
     const PreparedMesh& mesh;
     const ClusterStore& store;
     const Groups& groups;
-    std::span<const uint8_t> locked; ///< for each position
+    IdSpan<MeshPositionId, const uint8_t> locked;
     const Config& config;
 };
 

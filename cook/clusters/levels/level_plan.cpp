@@ -27,11 +27,11 @@ struct GroupShare
 };
 
 GroupShare groupShare(const Reduction& reduction, uint32_t level, const ClusterStore& store,
-                      std::span<const uint32_t> members)
+                      std::span<const ClusterId> members)
 {
     GroupShare share;
     std::vector<uint32_t> materials;
-    for (const uint32_t member : members)
+    for (const ClusterId member : members)
     {
         share.triangles += store.shapes[member].triangle_count;
         if (materials.empty() || materials.back() != store.shapes[member].material)

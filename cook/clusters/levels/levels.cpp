@@ -25,12 +25,12 @@ namespace
 
 /// Return a sphere that contains the members' geometry and the spheres of all groups that they were made
 /// from.
-Sphere groupSphere(const Build& build, const Level& level, std::span<const uint32_t> members)
+Sphere groupSphere(const Build& build, const Level& level, std::span<const ClusterId> members)
 {
     // the finer spheres contain the points of the finer groups, and so all of the members' points
     std::vector<Sphere> spheres;
     uint32_t last_refined = kInvalidIndex;
-    for (const uint32_t member : members)
+    for (const ClusterId member : members)
         if (const uint32_t refined = level.refined_group[member];
             refined != kInvalidIndex && refined != last_refined)
         {
@@ -41,18 +41,18 @@ Sphere groupSphere(const Build& build, const Level& level, std::span<const uint3
     for (const Sphere& sphere : spheres)
         points.push_back(sphere.center);
     if (spheres.empty())
-        for (const uint32_t member : members)
-            for (const uint32_t vertex : level.store.clusterVertices(level.store.shapes[member]))
-                points.push_back(build.mesh.vertices.positions[vertex]);
+        for (const ClusterId member : members)
+            for (const VertexId vertex : level.store.clusterVertices(level.store.shapes[member]))
+                points.push_back(build.mesh.positions()[vertex]);
     const Sphere around_points = sphereOfPoints(points);
     const Sphere sphere = spheres.empty() ? around_points : sphereOfSpheres(spheres, around_points);
     return {sphere.center, roundUp(sphere.radius * kMonotoneSlack)};
 }
 
-ErrorAccumulator accumulateErrors(const Build& build, const Level& level, std::span<const uint32_t> members)
+ErrorAccumulator accumulateErrors(const Build& build, const Level& level, std::span<const ClusterId> members)
 {
     ErrorAccumulator errors(build.mesh.grid.error);
-    for (const uint32_t member : members)
+    for (const ClusterId member : members)
         if (level.refined_group[member] != kInvalidIndex)
             errors.add(build.group(level.refined_group[member]).errors,
                        level.store.shapes[member].triangle_count);
@@ -61,11 +61,12 @@ ErrorAccumulator accumulateErrors(const Build& build, const Level& level, std::s
 
 /// Pass a stuck group on unchanged if it has retries left or an authored LOD will replace it; else leave it
 /// as a root.
-void retryOrKeep(const Build& build, const Level& level, std::span<const uint32_t> members, LevelGroup& group)
+void retryOrKeep(const Build& build, const Level& level, std::span<const ClusterId> members,
+                 LevelGroup& group)
 {
     const auto tries =
         std::min_element(members.begin(), members.end(),
-                         [&](uint32_t a, uint32_t b) { return level.retries[a] < level.retries[b]; });
+                         [&](ClusterId a, ClusterId b) { return level.retries[a] < level.retries[b]; });
     const bool alone = level.store.shapes.size() == members.size();
     if (build.authored.empty() && (alone || level.retries[*tries] >= build.config.max_retries))
     {
@@ -74,7 +75,7 @@ void retryOrKeep(const Build& build, const Level& level, std::span<const uint32_
     }
     group.retried = true;
     group.errors = accumulateErrors(build, level, members).errorsOfReplacement({}, build.config);
-    for (const uint32_t member : members)
+    for (const ClusterId member : members)
         group.clusters.appendCluster(level.store, level.store.shapes[member]);
 }
 
@@ -86,7 +87,7 @@ size_t countTriangles(const ClusterStore& store)
     return count;
 }
 
-GroupErrors reductionErrors(const Build& build, const Level& level, std::span<const uint32_t> members,
+GroupErrors reductionErrors(const Build& build, const Level& level, std::span<const ClusterId> members,
                             const GroupReduction& reduced, const GroupGoal& goal)
 {
     return accumulateErrors(build, level, members)
@@ -101,8 +102,8 @@ bool losesNothing(const PreparedMesh& mesh, const GroupErrors& errors)
 }
 
 /// Simplify a group, or handle a stuck one: pass it on, or leave it as a root.
-LevelGroup buildGroup(const Build& build, const Level& level, std::span<const uint32_t> members,
-                      std::span<const uint8_t> locked, const GroupGoal& goal)
+LevelGroup buildGroup(const Build& build, const Level& level, std::span<const ClusterId> members,
+                      IdSpan<MeshPositionId, const uint8_t> locked, const GroupGoal& goal)
 {
     LevelGroup group;
     group.sphere = groupSphere(build, level, members);
@@ -149,7 +150,7 @@ std::vector<size_t> keptTriangles(const Level& level)
     {
         kept.push_back(countTriangles(level.built[g].clusters));
         if (level.built[g].isRoot())
-            for (const uint32_t member : level.groups.groupMembers(g))
+            for (const ClusterId member : level.groups.groupMembers(g))
                 kept.back() += level.store.shapes[member].triangle_count;
     }
     return kept;
@@ -157,7 +158,8 @@ std::vector<size_t> keptTriangles(const Level& level)
 
 /// Build the level's groups by the plan. If a target is missed because some groups cannot do their share, the
 /// others do more.
-void buildGroups(const Build& build, Level& level, std::span<const uint8_t> locked, LevelPlan plan)
+void buildGroups(const Build& build, Level& level, IdSpan<MeshPositionId, const uint8_t> locked,
+                 LevelPlan plan)
 {
     // the first correction mostly suffices; each one builds the level again
     constexpr int kMaxCorrections = 3;
@@ -178,12 +180,12 @@ void buildGroups(const Build& build, Level& level, std::span<const uint8_t> lock
 }
 
 /// Pin the positions of roots, which can never move again: their neighbours are drawn together with them.
-void pinRoots(const PreparedMesh& mesh, const Level& level, std::vector<uint8_t>& pinned)
+void pinRoots(const PreparedMesh& mesh, const Level& level, IdVector<MeshPositionId, uint8_t>& pinned)
 {
     for (uint32_t g = 0; g < level.groups.count(); ++g)
         if (level.built[g].isRoot())
-            for (const uint32_t member : level.groups.groupMembers(g))
-                for (const uint32_t vertex : level.store.clusterVertices(level.store.shapes[member]))
+            for (const ClusterId member : level.groups.groupMembers(g))
+                for (const VertexId vertex : level.store.clusterVertices(level.store.shapes[member]))
                     pinned[mesh.position_id_of_vertex[vertex]] = 1;
 }
 
@@ -191,12 +193,12 @@ void pinRoots(const PreparedMesh& mesh, const Level& level, std::vector<uint8_t>
 void takeVertices(PreparedMesh& mesh, GroupReduction& outcome, ClusterStore& clusters)
 {
     const auto first_vertex = static_cast<uint32_t>(mesh.vertices.vertexCount());
-    for (uint32_t& vertex : clusters.vertices)
-        if (vertex >= kFirstNewVertex)
-            vertex = vertex - kFirstNewVertex + first_vertex;
+    for (VertexId& vertex : clusters.vertices)
+        if (isNewVertex(vertex))
+            vertex = VertexId{newVertexNumber(vertex) + first_vertex};
     appendVertices(mesh.vertices, outcome.made);
     for (const uint32_t position : outcome.new_position_ids)
-        mesh.position_id_of_vertex.push_back(mesh.position_count + position);
+        mesh.position_id_of_vertex.push_back(MeshPositionId{mesh.position_count + position});
     mesh.position_count += outcome.new_position_count;
     outcome.made = {};
     mesh::freeMemory(outcome.new_position_ids);
@@ -222,7 +224,7 @@ Level nextLevel(PreparedMesh& mesh, Level& level)
         next.store.append(group.clusters);
         group.clusters = {};
         if (group.isRoot())
-            for (const uint32_t member : members)
+            for (const ClusterId member : members)
                 next.drawn_below += level.store.shapes[member].triangle_count;
     }
     mesh::freeMemory(level.store.errors);
@@ -240,19 +242,19 @@ Sphere setSphere(const Build& build, const Level& level, const AuthoredLod& auth
         points.push_back(sphere.center);
     Sphere sphere = sphereOfSpheres(spheres, sphereOfPoints(points));
     points.clear();
-    for (const uint32_t vertex : authored.corners)
-        points.push_back(build.mesh.vertices.positions[vertex]);
+    for (const VertexId vertex : authored.corners)
+        points.push_back(build.mesh.positions()[vertex]);
     growToContain(sphere, points);
     return {sphere.center, roundUp(sphere.radius * kMonotoneSlack)};
 }
 
 /// Replace all groups of the level at once by the next authored LOD, and return that level.
 Level switchToAuthored(Build& build, Level& level, const LevelPlan& plan,
-                       std::span<const uint32_t> source_corners)
+                       CornerSpan<const VertexId> source_corners)
 {
     const AuthoredLod& authored = build.authored.front();
-    const auto& positions = build.mesh.vertices.positions;
-    const auto all = std::span<const uint32_t>(level.groups.members);
+    const IdSpan<VertexId, const Float3> positions = build.mesh.positions();
+    const auto all = std::span<const ClusterId>(level.groups.members);
     // distances below the error of the level below make no difference
     const float carried = *std::max_element(level.store.errors.begin(), level.store.errors.end());
     const SurfaceBound bound =
@@ -283,8 +285,8 @@ Level switchToAuthored(Build& build, Level& level, const LevelPlan& plan,
     build.mesh.corners = authored.corners;
     build.mesh.materials = authored.materials;
     next.store = splitMesh(build.mesh);
-    mesh::freeMemory(build.mesh.corners);
-    mesh::freeMemory(build.mesh.materials);
+    mesh::freeMemory(build.mesh.corners.values());
+    mesh::freeMemory(build.mesh.materials.values());
     mesh::freeMemory(level.store.errors);
     next.store.errors.assign(next.store.errors.size(), distance);
     next.refined_group.assign(next.store.shapes.size(), level.first_group);
@@ -304,8 +306,8 @@ bool authoredIsNext(const Build& build, const LevelPlan& plan)
 }
 
 /// Return the level that replaces the groups: their simplification, or an authored LOD.
-Level replaceGroups(Build& build, Level& level, std::span<const uint8_t> locked,
-                    std::span<const uint32_t> source_corners)
+Level replaceGroups(Build& build, Level& level, IdSpan<MeshPositionId, const uint8_t> locked,
+                    CornerSpan<const VertexId> source_corners)
 {
     LevelPlan plan = planLevel(build.config.reduction, static_cast<uint32_t>(build.levels.size() - 1),
                                level.store, level.groups, level.drawn_below);
@@ -324,14 +326,14 @@ Level replaceGroups(Build& build, Level& level, std::span<const uint8_t> locked,
 void buildLevels(Build& build)
 {
     // authored LODs are measured against the source, and replace it in the mesh
-    const std::vector<uint32_t> source_corners =
-        build.authored.empty() ? std::vector<uint32_t>{} : build.mesh.corners;
-    std::vector<uint8_t> pinned(build.mesh.position_count, 0);
-    std::vector<uint8_t> locked = pinned;
+    const CornerVector<VertexId> source_corners =
+        build.authored.empty() ? CornerVector<VertexId>{} : build.mesh.corners;
+    IdVector<MeshPositionId, uint8_t> pinned(build.mesh.position_count, 0);
+    IdVector<MeshPositionId, uint8_t> locked = pinned;
     Level first;
     first.store = splitMesh(build.mesh);
-    mesh::freeMemory(build.mesh.corners);
-    mesh::freeMemory(build.mesh.materials);
+    mesh::freeMemory(build.mesh.corners.values());
+    mesh::freeMemory(build.mesh.materials.values());
     first.refined_group.assign(first.store.shapes.size(), kInvalidIndex);
     first.retries.assign(first.store.shapes.size(), 0);
     build.levels.push_back(std::move(first));

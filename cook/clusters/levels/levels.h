@@ -34,9 +34,9 @@ struct LevelGroup
 struct Level
 {
     ClusterStore store;
-    std::vector<uint32_t>
-        refined_group; ///< for each cluster, number of the group it was made from, or kInvalidIndex
-    std::vector<uint8_t> retries; ///< for each cluster, number of times it was passed on unchanged
+    /// Number of the group that each cluster was made from, or kInvalidIndex.
+    IdVector<ClusterId, uint32_t> refined_group;
+    IdVector<ClusterId, uint8_t> retries; ///< number of times that each cluster was passed on unchanged
     Groups groups;
     uint32_t first_group = 0; ///< number of its first group
     uint64_t drawn_below = 0; ///< triangles of the roots of finer levels

@@ -2,6 +2,7 @@
 #include "cook/clusters/core/cluster.h"
 #include "cook/clusters/core/influence_displacement.h"
 #include "cook/mesh/deformation.h"
+#include "cook/mesh/free_memory.h"
 #include "cook/mesh/triangles.h"
 #include "cook/mesh/weld.h"
 #include "formats/codecs/vertex_codec.h"
@@ -66,15 +67,16 @@ std::vector<uint8_t> degenerateTriangles(const mesh::SourceMesh& source)
 
 /// True if normals bend, but along three edges of four by less than six degrees: then an error of 0.7
 /// degrees, as codes of 8 bits have, is visible. Creases do not hide it on the sheets between them.
-bool isGentlyCurved(const mesh::SourceMesh& source, std::span<const uint32_t> corners)
+bool isGentlyCurved(IdSpan<VertexId, const Float3> normals, CornerSpan<const VertexId> corners)
 {
     constexpr float kFlat2 = 1e-6f;
     constexpr float kGentle2 = 1e-2f; // length of the difference of two normals, squared
     size_t bent = 0, gentle = 0;
-    for (size_t corner = 0; corner < corners.size() && !source.normals.empty(); ++corner)
+    if (normals.empty())
+        return false;
+    for (const HalfEdgeId half_edge : corners.ids())
     {
-        const size_t next = corner % 3 == 2 ? corner - 2 : corner + 1;
-        const Float3 change = source.normals[corners[next]] - source.normals[corners[corner]];
+        const Float3 change = normals[corners[nextHalfEdge(half_edge)]] - normals[corners[half_edge]];
         const float change2 = dot(change, change);
         bent += change2 > kFlat2 ? 1 : 0;
         gentle += change2 < kGentle2 ? 1 : 0;
@@ -168,15 +170,15 @@ PreparedMesh prepareMesh(mesh::SourceMesh source, uint32_t influences, const Mes
     std::vector<uint32_t> first_equal;
     tbb::parallel_invoke([&] { weld = mesh::weldPositions(source.positions); },
                          [&] { first_equal = mesh::firstEqualVertices(source); });
-    // the arrays of the source are reused for the result
-    prepared.corners = std::move(source.indices);
-    prepared.materials = std::move(source.triangle_materials);
+    prepared.corners.reserve(source.indices.size());
+    // the array of the source is reused for the result
+    std::vector<uint32_t>& materials = source.triangle_materials;
     size_t kept = 0;
     for (size_t t = 0; t < degenerate.size(); ++t)
     {
-        const uint32_t a = first_equal[prepared.corners[t * 3]];
-        const uint32_t b = first_equal[prepared.corners[t * 3 + 1]];
-        const uint32_t c = first_equal[prepared.corners[t * 3 + 2]];
+        const uint32_t a = first_equal[source.indices[t * 3]];
+        const uint32_t b = first_equal[source.indices[t * 3 + 1]];
+        const uint32_t c = first_equal[source.indices[t * 3 + 2]];
         // triangles that became flat on the grid stay: removing them would disconnect their neighbours
         if (degenerate[t] != 0 || source.positions[a] == source.positions[b] ||
             source.positions[b] == source.positions[c] || source.positions[c] == source.positions[a])
@@ -184,16 +186,17 @@ PreparedMesh prepareMesh(mesh::SourceMesh source, uint32_t influences, const Mes
             ++prepared.degenerate_count;
             continue;
         }
-        prepared.corners[kept * 3] = a;
-        prepared.corners[kept * 3 + 1] = b;
-        prepared.corners[kept * 3 + 2] = c;
-        prepared.materials[kept] = prepared.materials[t];
-        ++kept;
+        for (const uint32_t vertex : {a, b, c})
+            prepared.corners.push_back(VertexId{vertex});
+        materials[kept++] = materials[t];
     }
-    prepared.corners.resize(kept * 3);
-    prepared.materials.resize(kept);
-    prepared.gently_curved = isGentlyCurved(source, prepared.corners);
-    prepared.position_id_of_vertex = std::move(weld.position_id_of_vertex);
+    mesh::freeMemory(source.indices);
+    materials.resize(kept);
+    prepared.materials = IdVector<TriangleId, uint32_t>(std::move(materials));
+    prepared.gently_curved = isGentlyCurved(IdSpan<VertexId, const Float3>(source.normals), prepared.corners);
+    prepared.position_id_of_vertex =
+        IdVector<VertexId, MeshPositionId>(convertIds<MeshPositionId>(weld.position_id_of_vertex));
+    mesh::freeMemory(weld.position_id_of_vertex);
     prepared.position_count = weld.position_count;
     prepared.vertices = std::move(source);
     return prepared;

@@ -46,7 +46,7 @@ void addLevelRecords(const Build& build, uint32_t l, std::span<const uint32_t> r
         group.level = l;
         group.set_offset = built.set_offset;
         group.clusters.first = static_cast<uint32_t>(hierarchy.clusters.size());
-        for (const uint32_t member : level.groups.groupMembers(g))
+        for (const ClusterId member : level.groups.groupMembers(g))
         {
             ClusterShape shape = level.store.shapes[member];
             ClusterRecord record{};

@@ -32,7 +32,7 @@ public:
 
     /// Copy the influences of an earlier made vertex at the same position to a made vertex, if they moved
     /// alike.
-    void share(uint32_t wedge, uint32_t vertex)
+    void share(WedgeId wedge, uint32_t vertex)
     {
         auto& others = new_vertices_at_[group_.position_id_of_wedge[wedge]];
         for (const NewVertex& other : others)
@@ -51,12 +51,13 @@ public:
 private:
     struct NewVertex
     {
-        uint32_t wedge;
-        uint32_t vertex;
+        WedgeId wedge;
+        uint32_t vertex; ///< of the made ones
     };
 
-    bool moveAlike(uint32_t a, uint32_t b) const
+    bool moveAlike(VertexId vertex_a, VertexId vertex_b) const
     {
+        const uint32_t a = toIndex(vertex_a), b = toIndex(vertex_b);
         for (size_t set = 0; set < source_.joint_sets.size(); ++set)
             if (!std::ranges::equal(source_.joint_sets[set][a].joint, source_.joint_sets[set][b].joint) ||
                 !(source_.weight_sets[set][a] == source_.weight_sets[set][b]))
@@ -67,59 +68,62 @@ private:
     const mesh::SourceMesh& source_;
     const GroupMesh& group_;
     mesh::SourceMesh& made_;
-    std::vector<std::vector<NewVertex>> new_vertices_at_; ///< distinct ones, by position
+    IdVector<PositionId, std::vector<NewVertex>> new_vertices_at_; ///< distinct ones
 };
 
 /// Return the vertex of each remaining wedge; those of modified positions are new.
-std::vector<uint32_t> makeVertices(const PreparedMesh& mesh, const GroupMesh& group,
-                                   const SimplifiedGroup& simplified, GroupReduction& reduced)
+IdVector<WedgeId, VertexId> makeVertices(const PreparedMesh& mesh, const GroupMesh& group,
+                                         const SimplifiedGroup& simplified, GroupReduction& reduced)
 {
     constexpr uint32_t kNoNumber = 0xFFFFFFFFu;
     const Placement& placement = simplified.placement;
-    std::vector<uint32_t> vertices = group.vertex_of_wedge;
-    std::vector<uint32_t> position_numbers(group.positions.size(), kNoNumber);
-    std::vector<uint8_t> done(vertices.size());
-    for (size_t wedge = 0; wedge < done.size(); ++wedge)
+    IdVector<WedgeId, VertexId> vertices = group.vertex_of_wedge;
+    IdVector<PositionId, uint32_t> position_numbers(group.positions.size(), kNoNumber);
+    IdVector<WedgeId, uint8_t> done(vertices.size());
+    for (const WedgeId wedge : done.ids())
         done[wedge] = placement.modified[group.position_id_of_wedge[wedge]] == 0 ? 1 : 0;
     CoincidentInfluences influences(mesh, group, reduced.made);
-    for (const uint32_t wedge : simplified.corners)
+    for (const WedgeId wedge : simplified.corners)
     {
         if (std::exchange(done[wedge], uint8_t{1}) != 0)
             continue;
-        const uint32_t position = group.position_id_of_wedge[wedge];
+        const PositionId position = group.position_id_of_wedge[wedge];
         if (position_numbers[position] == kNoNumber)
             position_numbers[position] = reduced.new_position_count++;
         const auto made = static_cast<uint32_t>(reduced.made.vertexCount());
-        appendVertex(reduced.made, mesh.vertices, group.vertex_of_wedge[wedge]);
+        appendVertex(reduced.made, mesh.vertices, toIndex(group.vertex_of_wedge[wedge]));
         reduced.made.positions[made] = placement.object_positions[position];
-        unpackAttributes(placement.attributes.data() + size_t{wedge} * group.attribute_rows, group.weights,
-                         reduced.made, made);
+        unpackAttributes(placement.attributes.data() + group.firstRow(wedge), group.weights, reduced.made,
+                         made);
         influences.share(wedge, made);
         reduced.new_position_ids.push_back(position_numbers[position]);
-        vertices[wedge] = kFirstNewVertex + made;
+        vertices[wedge] = makeNewVertex(made);
     }
     return vertices;
 }
 
 /// Split the remaining triangles into clusters, material by material in ascending order.
 ClusterStore splitSimplified(const GroupMesh& group, const SimplifiedGroup& simplified,
-                             std::span<const uint32_t> vertex_of_wedge, std::span<const float> errors,
-                             uint32_t vertex_limit)
+                             IdSpan<WedgeId, const VertexId> vertex_of_wedge,
+                             IdSpan<TriangleId, const float> errors, uint32_t vertex_limit)
 {
     const size_t count = simplified.triangleCount();
-    std::vector<uint32_t> vertices(count * 3);
-    for (size_t i = 0; i < vertices.size(); ++i)
-        vertices[i] = vertex_of_wedge[simplified.corners[i]];
-    const auto place = [&](size_t corner)
-    { return simplified.placement.positions[group.position_id_of_wedge[simplified.corners[corner]]]; };
-    std::vector<Float3> centers(count);
-    for (size_t t = 0; t < count; ++t)
-        centers[t] = triangleCenter(place(t * 3), place(t * 3 + 1), place(t * 3 + 2));
-    moveToIslandCenters(centers, simplified.corners, group.vertex_of_wedge.size());
+    CornerVector<VertexId> vertices(simplified.corners.size());
+    for (const CornerId corner : vertices.ids())
+        vertices[corner] = vertex_of_wedge[simplified.corners[corner]];
+    const auto place = [&](WedgeId wedge)
+    { return simplified.placement.positions[group.position_id_of_wedge[wedge]]; };
+    IdVector<TriangleId, Float3> centers(count);
+    for (const TriangleId triangle : centers.ids())
+    {
+        const auto [a, b, c] = simplified.corners.triangle(triangle);
+        centers[triangle] = triangleCenter(place(a), place(b), place(c));
+    }
+    moveToIslandCenters<WedgeId>(centers, simplified.corners, group.vertex_of_wedge.size());
     std::vector<SplitItem> items;
     items.reserve(count);
-    for (uint32_t t = 0; t < count; ++t)
-        items.push_back({centers[t], t});
+    for (const TriangleId triangle : centers.ids())
+        items.push_back({centers[triangle], triangle});
     const auto& materials = simplified.materials;
     if (!std::is_sorted(materials.begin(), materials.end()))
         std::stable_sort(items.begin(), items.end(),
@@ -142,7 +146,7 @@ ClusterStore splitSimplified(const GroupMesh& group, const SimplifiedGroup& simp
 } // namespace
 
 GroupReduction reduceGroup(const PreparedMesh& mesh, const ClusterStore& store,
-                           std::span<const uint32_t> members, std::span<const uint8_t> locked,
+                           std::span<const ClusterId> members, IdSpan<MeshPositionId, const uint8_t> locked,
                            const GroupGoal& goal, const Config& config)
 {
     GroupReduction reduced;
@@ -171,7 +175,7 @@ GroupReduction reduceGroup(const PreparedMesh& mesh, const ClusterStore& store,
     Surface after(gatherPositionIds(group, simplified.corners), simplified.placement.positions);
     SurfacePoints points = findPoints(group, simplified, after);
     fitToGroup(group, simplified, after, points);
-    const std::vector<uint32_t> vertices = makeVertices(mesh, group, simplified, reduced);
+    const IdVector<WedgeId, VertexId> vertices = makeVertices(mesh, group, simplified, reduced);
     Deviation deviation =
         mesh.deforms() ? boundDeformedDeviation(group, simplified, after,
                                                 {mesh.vertices, reduced.made, vertices}, meshMotion(mesh))

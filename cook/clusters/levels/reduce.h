@@ -17,7 +17,7 @@ namespace hearth::clusters
 struct GroupReduction
 {
     bool progressed = false;                ///< false: the group is stuck and the other members are not set
-    ClusterStore clusters;                  ///< vertices from kFirstNewVertex on are new ones
+    ClusterStore clusters;                  ///< some of its vertices are new ones
     mesh::SourceMesh made;                  ///< attributes of made vertices
     std::vector<uint32_t> new_position_ids; ///< position id of each made vertex, from 0
     uint32_t new_position_count = 0;
@@ -32,9 +32,9 @@ struct GroupReduction
 /// Gather, simplify, measure and split a group.
 ///
 /// members   clusters of `store`
-/// locked    [position_count] positions that must stay
+/// locked    1 for positions that must stay
 GroupReduction reduceGroup(const PreparedMesh& mesh, const ClusterStore& store,
-                           std::span<const uint32_t> members, std::span<const uint8_t> locked,
+                           std::span<const ClusterId> members, IdSpan<MeshPositionId, const uint8_t> locked,
                            const GroupGoal& goal, const Config& config);
 
 } // namespace hearth::clusters

@@ -61,9 +61,9 @@ bool needsFineColors(const PreparedMesh& mesh)
     };
     const auto& colors = mesh.vertices.colors;
     return std::any_of(mesh.corners.begin(), mesh.corners.end(),
-                       [&](uint32_t corner)
+                       [&](VertexId vertex)
                        {
-                           const Float4 c = colors[corner];
+                           const Float4 c = colors[toIndex(vertex)];
                            return !(coarse(c.x) && coarse(c.y) && coarse(c.z) && coarse(c.w));
                        });
 }
@@ -72,7 +72,7 @@ bool needsFineColors(const PreparedMesh& mesh)
 class ClusterCoder
 {
 public:
-    ClusterCoder(const PreparedMesh& mesh, std::span<const uint32_t> vertices, uint32_t mesh_layout)
+    ClusterCoder(const PreparedMesh& mesh, std::span<const VertexId> vertices, uint32_t mesh_layout)
         : mesh_(mesh),
           source_(mesh.vertices),
           steps_(1 / mesh.grid.step),
@@ -90,10 +90,11 @@ public:
             if (bits == 0)
                 continue;
             StepRange u, v;
-            for (const uint32_t vertex : vertices_)
+            for (const VertexId vertex : vertices_)
             {
-                u.add(uvPoint(source_.uvs[set][vertex].x, bits));
-                v.add(uvPoint(source_.uvs[set][vertex].y, bits));
+                const Float2 uv = source_.uvs[set][toIndex(vertex)];
+                u.add(uvPoint(uv.x, bits));
+                v.add(uvPoint(uv.y, bits));
             }
             uv_base_[set] = {static_cast<int32_t>(u.low), static_cast<int32_t>(v.low)};
             spread_ =
@@ -116,7 +117,7 @@ public:
                     *word++ = static_cast<uint32_t>(base);
         std::array<uint8_t, kMaxClusterVertices> new_of_old;
         for (size_t i = 0; i < vertices_.size(); ++i)
-            new_of_old[i] = static_cast<uint8_t>(findOrAppend(record, vertices_[i], word));
+            new_of_old[i] = static_cast<uint8_t>(findOrAppend(record, toIndex(vertices_[i]), word));
         cluster.words.resize(uvBaseWords(layout_) + count_ * vertex_words_);
         cluster.morphs = morphSection();
         cluster.indices.resize(indices.size());
@@ -210,9 +211,9 @@ private:
         for (uint32_t target = 0; target < source_.morph_targets.size(); ++target)
         {
             const mesh::MorphTarget& morph = source_.morph_targets[target];
-            const bool moves = std::any_of(vertices_.begin(), vertices_.end(),
-                                           [&](uint32_t vertex)
-                                           { return deltaWords(morph, target, vertex) != DeltaWords{}; });
+            const bool moves = std::any_of(
+                vertices_.begin(), vertices_.end(),
+                [&](VertexId vertex) { return deltaWords(morph, target, toIndex(vertex)) != DeltaWords{}; });
             if (moves)
                 targets_.push_back(target);
         }
@@ -293,7 +294,7 @@ private:
     const PreparedMesh& mesh_;
     const mesh::SourceMesh& source_;
     double steps_; ///< steps of the grid in a unit; a power of two
-    std::span<const uint32_t> vertices_;
+    std::span<const VertexId> vertices_;
     uint32_t layout_;
     size_t vertex_words_ = 0;
     std::array<std::array<int32_t, 2>, kUvSets> uv_base_{};
@@ -328,7 +329,7 @@ CodedCluster codeCluster(const PreparedMesh& mesh, const ClusterStore& store, co
     const auto indices = store.clusterIndices(shape);
     std::vector<Float3> points(vertices.size()), places(indices.size());
     for (size_t i = 0; i < vertices.size(); ++i)
-        points[i] = mesh.vertices.positions[vertices[i]];
+        points[i] = mesh.positions()[vertices[i]];
     for (size_t i = 0; i < indices.size(); ++i)
         places[i] = points[indices[i]];
     ClusterCoder coder(mesh, store.clusterVertices(shape), layout);

@@ -27,34 +27,39 @@ constexpr size_t kMaxLinked = 12;
 
 struct Link
 {
-    uint32_t other;
+    ClusterId other;
     float weight;
 };
 
 /// Items by key, as offsets and items (compressed sparse rows).
+template <IndexType Key, IndexType Item>
 struct IndexTable
 {
-    std::vector<uint32_t> items;
+    std::vector<Item> items;
     std::vector<uint32_t> offsets;
 
-    std::span<const uint32_t> list(size_t key) const
+    size_t keyCount() const { return offsets.size() - 1; }
+    std::span<const Item> list(Key key) const
     {
-        return std::span(items).subspan(offsets[key], offsets[key + 1] - offsets[key]);
+        const uint32_t k = toIndex(key);
+        return std::span(items).subspan(offsets[k], offsets[k + 1] - offsets[k]);
     }
 };
+using PositionsByCluster = IndexTable<ClusterId, MeshPositionId>;
+using ClustersByPosition = IndexTable<MeshPositionId, ClusterId>;
 
 /// Return the positions of each cluster, each once.
-IndexTable gatherClusterPositions(const PreparedMesh& mesh, const ClusterStore& store)
+PositionsByCluster gatherClusterPositions(const PreparedMesh& mesh, const ClusterStore& store)
 {
-    IndexTable lists;
+    PositionsByCluster lists;
     lists.offsets.push_back(0);
     lists.items.reserve(store.vertices.size());
-    std::vector<uint32_t> seen(mesh.position_count, kInvalidIndex);
-    for (uint32_t c = 0; c < store.shapes.size(); ++c)
+    IdVector<MeshPositionId, ClusterId> seen(mesh.position_count, kInvalid);
+    for (const ClusterId c : store.shapes.ids())
     {
-        for (const uint32_t vertex : store.clusterVertices(store.shapes[c]))
+        for (const VertexId vertex : store.clusterVertices(store.shapes[c]))
         {
-            const uint32_t position = mesh.position_id_of_vertex[vertex];
+            const MeshPositionId position = mesh.position_id_of_vertex[vertex];
             if (seen[position] != c)
                 lists.items.push_back(position);
             seen[position] = c;
@@ -65,45 +70,46 @@ IndexTable gatherClusterPositions(const PreparedMesh& mesh, const ClusterStore& 
 }
 
 /// Return the clusters that use each position, ascending (the transpose).
-IndexTable transposeLists(const IndexTable& positions, size_t position_count)
+ClustersByPosition transposeLists(const PositionsByCluster& positions, size_t position_count)
 {
-    IndexTable lists;
+    ClustersByPosition lists;
     lists.offsets.assign(position_count + 1, 0);
-    for (const uint32_t position : positions.items)
-        ++lists.offsets[position + 1];
+    for (const MeshPositionId position : positions.items)
+        ++lists.offsets[toIndex(position) + 1];
     std::partial_sum(lists.offsets.begin(), lists.offsets.end(), lists.offsets.begin());
     lists.items.resize(positions.items.size());
-    std::vector<uint32_t> next(lists.offsets.begin(), lists.offsets.end() - 1);
-    for (uint32_t c = 0; c + 1 < positions.offsets.size(); ++c)
-        for (const uint32_t position : positions.list(c))
+    IdVector<MeshPositionId, uint32_t> next(
+        std::vector<uint32_t>(lists.offsets.begin(), lists.offsets.end() - 1));
+    for (const ClusterId c : makeIds<ClusterId>(positions.keyCount()))
+        for (const MeshPositionId position : positions.list(c))
             lists.items[next[position]++] = c;
     return lists;
 }
 
 /// Return the neighbours of each cluster with the weight of the shared border.
-std::vector<std::vector<Link>> linkClusters(const IndexTable& positions, const IndexTable& users,
-                                            std::span<const uint8_t> locked)
+IdVector<ClusterId, std::vector<Link>> linkClusters(const PositionsByCluster& positions,
+                                                    const ClustersByPosition& users,
+                                                    IdSpan<MeshPositionId, const uint8_t> locked)
 {
-    const size_t cluster_count = positions.offsets.size() - 1;
-    std::vector<std::vector<Link>> links(cluster_count);
-    std::vector<float> weight(cluster_count, 0.0f);
-    std::vector<uint32_t> touched;
-    for (uint32_t c = 0; c < cluster_count; ++c)
+    IdVector<ClusterId, std::vector<Link>> links(positions.keyCount());
+    IdVector<ClusterId, float> weight(links.size(), 0.0f);
+    std::vector<ClusterId> touched;
+    for (const ClusterId c : links.ids())
     {
         touched.clear();
-        const auto touch = [&](uint32_t other, float added)
+        const auto touch = [&](ClusterId other, float added)
         {
             if (weight[other] == 0)
                 touched.push_back(other);
             weight[other] += added;
         };
-        for (const uint32_t position : positions.list(c))
+        for (const MeshPositionId position : positions.list(c))
         {
             const auto clusters = users.list(position);
             const float added = locked[position] != 0 ? kLockedWeight : 1.0f;
             if (clusters.size() <= kMaxLinked)
             {
-                for (const uint32_t other : clusters)
+                for (const ClusterId other : clusters)
                     if (other != c)
                         touch(other, added);
                 continue;
@@ -115,7 +121,7 @@ std::vector<std::vector<Link>> linkClusters(const IndexTable& positions, const I
                 touch(*(self + 1), added);
         }
         std::sort(touched.begin(), touched.end());
-        for (const uint32_t other : touched)
+        for (const ClusterId other : touched)
         {
             links[c].push_back({other, weight[other]});
             weight[other] = 0;
@@ -124,23 +130,24 @@ std::vector<std::vector<Link>> linkClusters(const IndexTable& positions, const I
     return links;
 }
 
-/// Group while groups still merge. A group that was merged into another refers to it by `merged_into`.
+/// Group while groups still merge: named by the cluster that it began as. A group that was merged into
+/// another refers to it by `merged_into`.
 struct MergingGroup
 {
-    std::vector<uint32_t> members;
+    std::vector<ClusterId> members;
     std::vector<Link> links;
     uint32_t bytes = 0;
-    uint32_t merged_into = kInvalidIndex;
+    ClusterId merged_into = kInvalid;
 };
 
 class Merger
 {
 public:
-    Merger(const PreparedMesh& mesh, const ClusterStore& store, std::vector<std::vector<Link>> links,
+    Merger(const PreparedMesh& mesh, const ClusterStore& store, IdVector<ClusterId, std::vector<Link>> links,
            const Config& config)
         : config_(config), groups_(store.shapes.size()), weight_(store.shapes.size(), 0.0f)
     {
-        for (uint32_t c = 0; c < groups_.size(); ++c)
+        for (const ClusterId c : groups_.ids())
         {
             const ClusterShape& shape = store.shapes[c];
             groups_[c].members = {c};
@@ -159,22 +166,22 @@ public:
         struct Entry
         {
             uint32_t size;
-            uint32_t group;
+            ClusterId group;
             bool operator>(const Entry& b) const { return size != b.size ? size > b.size : group > b.group; }
         };
         std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-        for (uint32_t g = 0; g < groups_.size(); ++g)
+        for (const ClusterId g : groups_.ids())
             queue.push({clusterCount(g), g});
         while (!queue.empty())
         {
             const Entry entry = queue.top();
             queue.pop();
-            const uint32_t group = entry.group;
-            if (groups_[group].merged_into != kInvalidIndex || clusterCount(group) != entry.size ||
+            const ClusterId group = entry.group;
+            if (groups_[group].merged_into != kInvalid || clusterCount(group) != entry.size ||
                 entry.size >= config_.group_target_clusters)
                 continue;
-            const uint32_t neighbour = bestNeighbour(group);
-            if (neighbour == kInvalidIndex)
+            const ClusterId neighbour = bestNeighbour(group);
+            if (neighbour == kInvalid)
                 continue;
             merge(neighbour, group);
             queue.push({clusterCount(neighbour), neighbour});
@@ -182,59 +189,58 @@ public:
     }
 
     /// Merge small groups that are consecutive in `order`.
-    void mergeInOrder(std::span<const uint32_t> order)
+    void mergeInOrder(std::span<const ClusterId> order)
     {
-        uint32_t open = kInvalidIndex;
-        for (const uint32_t group : order)
+        ClusterId open = kInvalid;
+        for (const ClusterId group : order)
         {
             if (clusterCount(group) * 2 >= config_.group_target_clusters)
                 continue;
-            if (open != kInvalidIndex && fits(open, group) &&
-                clusterCount(open) < config_.group_target_clusters)
+            if (open != kInvalid && fits(open, group) && clusterCount(open) < config_.group_target_clusters)
                 merge(open, group);
             else
                 open = group;
         }
     }
 
-    std::vector<uint32_t> alive() const
+    std::vector<ClusterId> alive() const
     {
-        std::vector<uint32_t> groups;
-        for (uint32_t g = 0; g < groups_.size(); ++g)
-            if (groups_[g].merged_into == kInvalidIndex)
+        std::vector<ClusterId> groups;
+        for (const ClusterId g : groups_.ids())
+            if (groups_[g].merged_into == kInvalid)
                 groups.push_back(g);
         return groups;
     }
 
-    std::span<const uint32_t> groupMembers(uint32_t group) const { return groups_[group].members; }
+    std::span<const ClusterId> groupMembers(ClusterId group) const { return groups_[group].members; }
 
 private:
-    uint32_t clusterCount(uint32_t group) const
+    uint32_t clusterCount(ClusterId group) const
     {
         return static_cast<uint32_t>(groups_[group].members.size());
     }
 
-    bool fits(uint32_t a, uint32_t b) const
+    bool fits(ClusterId a, ClusterId b) const
     {
         return clusterCount(a) + clusterCount(b) <= config_.group_max_clusters &&
                groups_[a].bytes + groups_[b].bytes <= formats::kMaxPageBytes;
     }
 
-    uint32_t findMerged(uint32_t group)
+    ClusterId findMerged(ClusterId group)
     {
-        while (groups_[group].merged_into != kInvalidIndex)
+        while (groups_[group].merged_into != kInvalid)
             group = groups_[group].merged_into;
         return group;
     }
 
     /// Update links: replace merged groups by the groups that contain them, one link for each neighbour.
-    void refreshLinks(uint32_t group)
+    void refreshLinks(ClusterId group)
     {
         std::vector<Link>& links = groups_[group].links;
         size_t kept = 0;
         for (const Link& link : links)
         {
-            const uint32_t other = findMerged(link.other);
+            const ClusterId other = findMerged(link.other);
             if (other == group)
                 continue;
             if (weight_[other] == 0)
@@ -249,10 +255,10 @@ private:
         }
     }
 
-    uint32_t bestNeighbour(uint32_t group)
+    ClusterId bestNeighbour(ClusterId group)
     {
         refreshLinks(group);
-        uint32_t best = kInvalidIndex;
+        ClusterId best = kInvalid;
         float best_score = 0;
         for (const Link& link : groups_[group].links)
         {
@@ -269,7 +275,7 @@ private:
         return best;
     }
 
-    void merge(uint32_t into, uint32_t from)
+    void merge(ClusterId into, ClusterId from)
     {
         MergingGroup& a = groups_[into];
         MergingGroup& b = groups_[from];
@@ -282,15 +288,15 @@ private:
     }
 
     const Config& config_;
-    std::vector<MergingGroup> groups_;
-    std::vector<float> weight_; ///< scratch of refreshLinks, zero between calls
+    IdVector<ClusterId, MergingGroup> groups_;
+    IdVector<ClusterId, float> weight_; ///< scratch of refreshLinks, zero between calls
 };
 
 Box3 clusterBox(const PreparedMesh& mesh, const ClusterStore& store, const ClusterShape& shape)
 {
     Box3 box;
-    for (const uint32_t vertex : store.clusterVertices(shape))
-        box.add(mesh.vertices.positions[vertex]);
+    for (const VertexId vertex : store.clusterVertices(shape))
+        box.add(mesh.positions()[vertex]);
     return box;
 }
 
@@ -301,28 +307,28 @@ Float3 middle(const Box3& box)
 }
 
 /// Sort groups along the Morton curve by the centers of their boxes.
-std::vector<uint32_t> spatialOrder(const Merger& merger, std::span<const Box3> cluster_boxes)
+std::vector<ClusterId> spatialOrder(const Merger& merger, IdSpan<ClusterId, const Box3> cluster_boxes)
 {
     struct Key
     {
         uint64_t code;
-        uint32_t group;
+        ClusterId group;
     };
     Box3 all;
     for (const Box3& box : cluster_boxes)
         all.add(box);
     std::vector<Key> keys;
-    for (const uint32_t group : merger.alive())
+    for (const ClusterId group : merger.alive())
     {
         Box3 box;
-        for (const uint32_t member : merger.groupMembers(group))
+        for (const ClusterId member : merger.groupMembers(group))
             box.add(cluster_boxes[member]);
         keys.push_back({mortonCode(middle(box), all), group});
     }
     std::sort(keys.begin(), keys.end(),
               [](const Key& a, const Key& b)
               { return a.code != b.code ? a.code < b.code : a.group < b.group; });
-    std::vector<uint32_t> order;
+    std::vector<ClusterId> order;
     for (const Key& key : keys)
         order.push_back(key.group);
     return order;
@@ -330,22 +336,22 @@ std::vector<uint32_t> spatialOrder(const Merger& merger, std::span<const Box3> c
 
 } // namespace
 
-Groups groupClusters(const PreparedMesh& mesh, const ClusterStore& store, std::span<const uint8_t> locked,
-                     const Config& config)
+Groups groupClusters(const PreparedMesh& mesh, const ClusterStore& store,
+                     IdSpan<MeshPositionId, const uint8_t> locked, const Config& config)
 {
     HEARTH_ASSERT(!store.shapes.empty());
-    const IndexTable positions = gatherClusterPositions(mesh, store);
-    const IndexTable users = transposeLists(positions, mesh.position_count);
+    const PositionsByCluster positions = gatherClusterPositions(mesh, store);
+    const ClustersByPosition users = transposeLists(positions, mesh.position_count);
     Merger merger(mesh, store, linkClusters(positions, users, locked), config);
     merger.mergeNeighbours();
 
-    std::vector<Box3> boxes;
+    IdVector<ClusterId, Box3> boxes;
     for (const ClusterShape& shape : store.shapes)
         boxes.push_back(clusterBox(mesh, store, shape));
     merger.mergeInOrder(spatialOrder(merger, boxes));
 
     Groups groups;
-    for (const uint32_t group : spatialOrder(merger, boxes))
+    for (const ClusterId group : spatialOrder(merger, boxes))
     {
         const auto members = merger.groupMembers(group);
         groups.members.insert(groups.members.end(), members.begin(), members.end());
@@ -355,16 +361,17 @@ Groups groupClusters(const PreparedMesh& mesh, const ClusterStore& store, std::s
     return groups;
 }
 
-std::vector<uint8_t> lockSharedPositions(const PreparedMesh& mesh, const ClusterStore& store,
-                                         const Groups& groups, std::span<const uint8_t> pinned)
+IdVector<MeshPositionId, uint8_t> lockSharedPositions(const PreparedMesh& mesh, const ClusterStore& store,
+                                                      const Groups& groups,
+                                                      IdSpan<MeshPositionId, const uint8_t> pinned)
 {
-    std::vector<uint8_t> locked(pinned.begin(), pinned.end());
-    std::vector<uint32_t> owner(mesh.position_count, kInvalidIndex);
+    IdVector<MeshPositionId, uint8_t> locked(std::vector<uint8_t>(pinned.begin(), pinned.end()));
+    IdVector<MeshPositionId, uint32_t> owner(mesh.position_count, kInvalidIndex);
     for (uint32_t g = 0; g < groups.count(); ++g)
-        for (const uint32_t member : groups.groupMembers(g))
-            for (const uint32_t vertex : store.clusterVertices(store.shapes[member]))
+        for (const ClusterId member : groups.groupMembers(g))
+            for (const VertexId vertex : store.clusterVertices(store.shapes[member]))
             {
-                const uint32_t position = mesh.position_id_of_vertex[vertex];
+                const MeshPositionId position = mesh.position_id_of_vertex[vertex];
                 if (owner[position] == kInvalidIndex)
                     owner[position] = g;
                 else if (owner[position] != g)

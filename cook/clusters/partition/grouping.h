@@ -16,11 +16,11 @@ namespace hearth::clusters
 /// Lists of clusters: the members of group g are members[offsets[g] .. offsets[g + 1]).
 struct Groups
 {
-    std::vector<uint32_t> members;
+    std::vector<ClusterId> members;
     std::vector<uint32_t> offsets{0};
 
     size_t count() const { return offsets.size() - 1; }
-    std::span<const uint32_t> groupMembers(size_t group) const
+    std::span<const ClusterId> groupMembers(size_t group) const
     {
         return std::span(members).subspan(offsets[group], offsets[group + 1] - offsets[group]);
     }
@@ -32,14 +32,15 @@ struct Groups
 /// distance. A group's geometry fits in one page.
 ///
 /// store     all its clusters are grouped; at least one
-/// locked    [position_count] positions that were locked on the previous level
+/// locked    1 for positions that were locked on the previous level
 /// returns   groups in spatial order (Morton), members ascending
 /// source    growing the smallest group first follows meshoptimizer's meshopt_partitionClusters
-Groups groupClusters(const PreparedMesh& mesh, const ClusterStore& store, std::span<const uint8_t> locked,
-                     const Config& config);
+Groups groupClusters(const PreparedMesh& mesh, const ClusterStore& store,
+                     IdSpan<MeshPositionId, const uint8_t> locked, const Config& config);
 
-/// Return locks, [position_count]: 1 for each position that several groups share or that is in `pinned`.
-std::vector<uint8_t> lockSharedPositions(const PreparedMesh& mesh, const ClusterStore& store,
-                                         const Groups& groups, std::span<const uint8_t> pinned);
+/// Return locks: 1 for each position that several groups share or that is in `pinned`.
+IdVector<MeshPositionId, uint8_t> lockSharedPositions(const PreparedMesh& mesh, const ClusterStore& store,
+                                                      const Groups& groups,
+                                                      IdSpan<MeshPositionId, const uint8_t> pinned);
 
 } // namespace hearth::clusters

@@ -46,11 +46,11 @@ public:
     explicit VertexNumbering(uint32_t limit) : limit_(limit) {}
 
     /// Return the number of `vertex`, or kMaxClusterVertices if it exceeds the limit.
-    uint32_t findOrAdd(uint32_t vertex)
+    uint32_t findOrAdd(VertexId vertex)
     {
         // appended in any case, because a branch on its novelty would be unpredictable
         vertices_[count_] = vertex;
-        uint32_t slot = (vertex * 0x9E3779B1u) >> 22;
+        uint32_t slot = (toIndex(vertex) * 0x9E3779B1u) >> 22;
         while (vertices_[std::min(numbers_[slot], count_)] != vertex)
             slot = (slot + 1) % kSlotCount;
         const uint32_t number = std::min(numbers_[slot], count_);
@@ -59,7 +59,7 @@ public:
         return count_ <= limit_ ? number : kMaxClusterVertices;
     }
 
-    std::span<const uint32_t> vertices() const { return std::span(vertices_).first(count_); }
+    std::span<const VertexId> vertices() const { return std::span(vertices_).first(count_); }
 
 private:
     static constexpr uint32_t kSlotCount = 1024; ///< four times the number of entries
@@ -73,7 +73,7 @@ private:
     }
 
     std::array<uint32_t, kSlotCount> numbers_ = allFree();
-    std::array<uint32_t, kMaxClusterVertices + 1> vertices_; ///< one more than the limit
+    std::array<VertexId, kMaxClusterVertices + 1> vertices_; ///< one more than the limit
     uint32_t limit_;
     uint32_t count_ = 0;
 };
@@ -85,9 +85,9 @@ bool appendLeaf(std::span<const SplitItem> items, const SplitTriangles& triangle
     std::array<uint8_t, kMaxClusterTriangles * 3> indices;
     size_t index_count = 0;
     for (const SplitItem& item : items)
-        for (size_t k = 0; k < 3; ++k)
+        for (const VertexId vertex : triangles.corners.triangle(item.triangle))
         {
-            const uint32_t number = numbers.findOrAdd(triangles.corners[size_t{item.triangle} * 3 + k]);
+            const uint32_t number = numbers.findOrAdd(vertex);
             if (number == kMaxClusterVertices)
                 return false;
             indices[index_count++] = static_cast<uint8_t>(number);
@@ -326,11 +326,11 @@ private:
 /// Return the average triangles of a cluster of these items before it reaches the vertex limit.
 size_t clusterCapacity(std::span<const SplitItem> items, const SplitTriangles& triangles)
 {
-    std::vector<uint32_t> vertices;
+    std::vector<VertexId> vertices;
     vertices.reserve(items.size() * 3);
     for (const SplitItem& item : items)
-        for (size_t k = 0; k < 3; ++k)
-            vertices.push_back(triangles.corners[size_t{item.triangle} * 3 + k]);
+        for (const VertexId vertex : triangles.corners.triangle(item.triangle))
+            vertices.push_back(vertex);
     std::sort(vertices.begin(), vertices.end());
     const auto unique = static_cast<size_t>(std::unique(vertices.begin(), vertices.end()) - vertices.begin());
     return std::clamp<size_t>(triangles.vertex_limit * items.size() / unique, 1, kMaxClusterTriangles);
@@ -412,18 +412,19 @@ std::vector<std::span<SplitItem>> splitTop(std::span<SplitItem> items)
 /// Return the triangles ordered by material, with their centers.
 std::vector<SplitItem> makeSplitItems(const PreparedMesh& mesh)
 {
-    std::vector<Float3> centers(mesh.triangleCount());
-    for (size_t t = 0; t < centers.size(); ++t)
+    const IdSpan<VertexId, const Float3> positions = mesh.positions();
+    IdVector<TriangleId, Float3> centers(mesh.triangleCount());
+    for (const TriangleId triangle : centers.ids())
     {
-        const uint32_t* corner = &mesh.corners[t * 3];
-        const auto place = [&](size_t k) { return mesh.vertices.positions[corner[k]]; };
-        centers[t] = triangleCenter(place(0), place(1), place(2));
+        const auto [a, b, c] = mesh.corners.triangle(triangle);
+        centers[triangle] = triangleCenter(positions[a], positions[b], positions[c]);
     }
-    moveToIslandCenters(centers, mesh.corners, mesh.vertices.vertexCount());
-    std::vector<SplitItem> items(centers.size());
-    for (uint32_t t = 0; t < items.size(); ++t)
-        items[t] = {centers[t], t};
-    const auto materials = std::span(mesh.materials);
+    moveToIslandCenters<VertexId>(centers, mesh.corners, positions.size());
+    std::vector<SplitItem> items;
+    items.reserve(centers.size());
+    for (const TriangleId triangle : centers.ids())
+        items.push_back({centers[triangle], triangle});
+    const IdSpan<TriangleId, const uint32_t> materials = mesh.materials;
     const bool mixed = std::any_of(materials.begin(), materials.end(),
                                    [&](uint32_t material) { return material != materials.front(); });
     if (mixed)
@@ -458,7 +459,7 @@ void splitIntoClusters(std::span<SplitItem> items, const SplitTriangles& triangl
 ClusterStore splitMesh(const PreparedMesh& mesh)
 {
     std::vector<SplitItem> items = makeSplitItems(mesh);
-    const std::vector<float> errors(mesh.triangleCount(), mesh.grid.error);
+    const IdVector<TriangleId, float> errors(mesh.triangleCount(), mesh.grid.error);
     ClusterStore out;
     for (size_t first = 0; first < items.size();)
     {

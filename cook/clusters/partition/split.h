@@ -18,14 +18,14 @@ namespace hearth::clusters
 struct SplitItem
 {
     Float3 center;
-    uint32_t triangle;
+    TriangleId triangle;
 };
 
 /// Input of the splitter.
 struct SplitTriangles
 {
-    std::span<const uint32_t> corners; ///< three vertices for each triangle
-    std::span<const float> errors;     ///< for each triangle, as in ClusterStore
+    CornerSpan<const VertexId> corners;
+    IdSpan<TriangleId, const float> errors; ///< as in ClusterStore
     uint32_t material;
     uint32_t vertex_limit = formats::kMaxClusterVertices; ///< for each cluster: clusterVertexLimit
 };

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "cook/clusters/core/index_types.h"
+
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -16,17 +18,17 @@ class HeapEntry
 public:
     /// cost     at least 0
     /// version  counted by the caller
-    HeapEntry(float cost, uint32_t position, uint32_t target, uint32_t version)
+    HeapEntry(float cost, PositionId position, PositionId target, uint32_t version)
         : // + 0.0: no negative zero
-          order_(uint64_t{std::bit_cast<uint32_t>(cost + 0.0f)} << 32 | position),
+          order_(uint64_t{std::bit_cast<uint32_t>(cost + 0.0f)} << 32 | toIndex(position)),
           target_(target),
           version_(version)
     {
     }
 
     float cost() const { return std::bit_cast<float>(static_cast<uint32_t>(order_ >> 32)); }
-    uint32_t position() const { return static_cast<uint32_t>(order_); }
-    uint32_t target() const { return target_; }
+    PositionId position() const { return PositionId{static_cast<uint32_t>(order_)}; }
+    PositionId target() const { return target_; }
     uint32_t version() const { return version_; }
 
     /// Compare by cost, then by position.
@@ -34,7 +36,7 @@ public:
 
 private:
     uint64_t order_; ///< non-negative floats are ordered as their bits
-    uint32_t target_;
+    PositionId target_;
     uint32_t version_;
 };
 

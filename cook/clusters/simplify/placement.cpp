@@ -45,26 +45,26 @@ public:
         : group_(group),
           mesh_(mesh),
           quadrics_(quadrics),
-          result_{group.positions, std::vector<Float3>(group.positions.size()),
-                  std::vector<uint8_t>(group.positions.size(), 0), group.attributes}
+          result_{group.positions, IdVector<PositionId, Float3>(group.positions.size()),
+                  IdVector<PositionId, uint8_t>(group.positions.size(), 0), group.attributes}
     {
     }
 
-    Placement run(std::span<const uint8_t> movable)
+    Placement run(IdSpan<PositionId, const uint8_t> movable)
     {
-        for (uint32_t p = 0; p < movable.size(); ++p)
-            if (movable[p] != 0 && mesh_.degree(p) > 0)
-                place(p);
+        for (const PositionId position : movable.ids())
+            if (movable[position] != 0 && mesh_.degree(position) > 0)
+                place(position);
         return std::move(result_);
     }
 
 private:
-    void place(uint32_t position)
+    void place(PositionId position)
     {
         if (!gatherWedges(position))
             return;
         PositionQuadric quadric = quadrics_.position[position];
-        for (const uint32_t wedge : wedges_)
+        for (const WedgeId wedge : wedges_)
             eliminateAttributes(wedge, quadric);
         const std::optional<Float3> best = solve(quadric);
         Float3 offset = best ? *best : Float3{};
@@ -82,14 +82,14 @@ private:
             result_.object_positions[position] = object_position;
             break;
         }
-        for (const uint32_t wedge : wedges_)
+        for (const WedgeId wedge : wedges_)
             solveAttributes(wedge, result_.positions[position] - group_.positions[position]);
         result_.modified[position] = 1;
     }
 
     /// Collect the wedges of a position. False at an open border: its position stays, the next mesh may lie
     /// against it.
-    bool gatherWedges(uint32_t position)
+    bool gatherWedges(PositionId position)
     {
         if (mesh_.gatherFan(position))
         {
@@ -103,10 +103,10 @@ private:
                            [&](const Spoke& spoke) { return spoke.regular(mesh_.layers()); });
     }
 
-    float longestEdge(uint32_t position) const
+    float longestEdge(PositionId position) const
     {
         float longest2 = 0;
-        for (const Corner corner : mesh_.star(position))
+        for (const StarCorner corner : mesh_.star(position))
         {
             // around a closed star, each neighbour is the next corner once
             const Float3 along =
@@ -118,14 +118,14 @@ private:
 
     /// Reduce the quadric to the position alone, with the wedge's attributes optimal at each position (Schur
     /// complement).
-    void eliminateAttributes(uint32_t wedge, PositionQuadric& quadric) const
+    void eliminateAttributes(WedgeId wedge, PositionQuadric& quadric) const
     {
         const Lanes inverse = splat(inverseOr0(quadrics_.wedge_weight[wedge]));
         PlaneSums sums;
         LaneVector of_b{};
         for (uint32_t r = 0; r < group_.attribute_rows; ++r)
         {
-            const AttributeGradients& g = quadrics_.gradients[size_t{wedge} * group_.attribute_rows + r];
+            const AttributeGradients& g = quadrics_.gradients[group_.firstRow(wedge) + r];
             const LaneVector scaled = g.gradient * inverse;
             sums.add(g.gradient, scaled);
             of_b = of_b + scaled * g.offset;
@@ -138,21 +138,20 @@ private:
         quadric.b -= gain.b;
     }
 
-    void solveAttributes(uint32_t wedge, Float3 offset)
+    void solveAttributes(WedgeId wedge, Float3 offset)
     {
         const Lanes inverse = splat(inverseOr0(quadrics_.wedge_weight[wedge]));
         const LaneVector moved = splat(offset);
         for (uint32_t r = 0; r < group_.attribute_rows; ++r)
         {
-            const AttributeGradients& g = quadrics_.gradients[size_t{wedge} * group_.attribute_rows + r];
-            result_.attributes[size_t{wedge} * group_.attribute_rows + r] +=
-                (dot(g.gradient, moved) + g.offset) * inverse;
+            const AttributeGradients& g = quadrics_.gradients[group_.firstRow(wedge) + r];
+            result_.attributes[group_.firstRow(wedge) + r] += (dot(g.gradient, moved) + g.offset) * inverse;
         }
     }
 
-    bool flipsTriangle(uint32_t position, Float3 place) const
+    bool flipsTriangle(PositionId position, Float3 place) const
     {
-        for (const Corner corner : mesh_.star(position))
+        for (const StarCorner corner : mesh_.star(position))
             if (moveFlipsTriangle(result_.positions[mesh_.positionIdAt(nextCorner(corner))],
                                   result_.positions[mesh_.positionIdAt(previousCorner(corner))],
                                   result_.positions[position], place))
@@ -164,7 +163,7 @@ private:
     StarMesh& mesh_;
     const Quadrics& quadrics_;
     Placement result_;
-    std::vector<uint32_t> wedges_; ///< wedges of the current position
+    std::vector<WedgeId> wedges_; ///< wedges of the current position
 };
 
 } // namespace
@@ -186,7 +185,7 @@ Float3 toLocalSpace(const GroupMesh& group, Float3 object)
 }
 
 Placement optimizePlacement(const GroupMesh& group, StarMesh& mesh, const Quadrics& quadrics,
-                            std::span<const uint8_t> movable)
+                            IdSpan<PositionId, const uint8_t> movable)
 {
     return Placer(group, mesh, quadrics).run(movable);
 }
@@ -195,7 +194,7 @@ void growIslands(const GroupMesh& group, const Growth& growth, Placement& placem
 {
     for (size_t i = 0; i < growth.positions.size(); ++i)
     {
-        const uint32_t position = growth.positions[i];
+        const PositionId position = growth.positions[i];
         const Float3 center = growth.centers[i];
         placement.object_positions[position] =
             toObjectSpace(group, center + (placement.positions[position] - center) * growth.factor);

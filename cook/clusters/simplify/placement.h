@@ -20,11 +20,11 @@ namespace hearth::clusters
 /// moved.
 struct Placement
 {
-    std::vector<Float3> positions; ///< local position of each position id
-    std::vector<Float3>
-        object_positions;          ///< object-space position on the grid, for each modified position id
-    std::vector<uint8_t> modified; ///< 1 for each position id with a new position or new attributes
-    std::vector<Lanes> attributes; ///< rows of each wedge, weighted like the group's
+    IdVector<PositionId, Float3> positions; ///< local
+    /// Object-space position on the grid of each modified position.
+    IdVector<PositionId, Float3> object_positions;
+    IdVector<PositionId, uint8_t> modified; ///< 1 for each position that moved or has new attributes
+    std::vector<Lanes> attributes;          ///< rows of each wedge, weighted like the group's
 };
 
 /// Convert a local position to object space, on the grid.
@@ -35,7 +35,7 @@ Float3 toLocalSpace(const GroupMesh& group, Float3 object);
 /// Move each `movable` position to the minimum of its quadric, on the mesh's grid, and give its wedges the
 /// best attributes there. Positions whose triangles would flip move half as far, or stay.
 Placement optimizePlacement(const GroupMesh& group, StarMesh& mesh, const Quadrics& quadrics,
-                            std::span<const uint8_t> movable);
+                            IdSpan<PositionId, const uint8_t> movable);
 
 /// Move the positions of islands away from the islands' centers.
 void growIslands(const GroupMesh& group, const Growth& growth, Placement& placement);

@@ -27,14 +27,13 @@ GradientBasis gradientBasis(Float3 e1, Float3 e2)
     return {(e1 * d22 - e2 * d12) / det, (e2 * d11 - e1 * d12) / det};
 }
 
-void addTriangle(Quadrics& quadrics, const GroupMesh& group, size_t first_corner)
+void addTriangle(Quadrics& quadrics, const GroupMesh& group, TriangleId triangle)
 {
-    uint32_t wedge[3];
-    uint32_t position[3];
+    const std::array<WedgeId, 3> wedge = group.corners.triangle(triangle);
+    PositionId position[3];
     bool free[3];
     for (size_t k = 0; k < 3; ++k)
     {
-        wedge[k] = group.corners[first_corner + k];
         position[k] = group.position_id_of_wedge[wedge[k]];
         free[k] = group.locked[position[k]] == 0;
     }
@@ -65,7 +64,7 @@ void addTriangle(Quadrics& quadrics, const GroupMesh& group, size_t first_corner
         for (size_t k = 0; k < 3; ++k)
             if (free[k])
             {
-                LaneVector& sum = quadrics.gradients[size_t{wedge[k]} * rows + r].gradient;
+                LaneVector& sum = quadrics.gradients[group.firstRow(wedge[k]) + r].gradient;
                 sum = sum + weighted;
             }
     }
@@ -82,7 +81,7 @@ void addTriangle(Quadrics& quadrics, const GroupMesh& group, size_t first_corner
 
 } // namespace
 
-void Quadrics::move(const GroupMesh& group, uint32_t from, uint32_t to, std::span<const WedgeMove> moves)
+void Quadrics::move(const GroupMesh& group, PositionId from, PositionId to, std::span<const WedgeMove> moves)
 {
     const Float3 t = group.positions[to] - group.positions[from];
     const LaneVector t_lanes = splat(t);
@@ -97,8 +96,8 @@ void Quadrics::move(const GroupMesh& group, uint32_t from, uint32_t to, std::spa
         for (uint32_t r = 0; r < rows; ++r)
         {
             const Lanes delta = group.wedgeAttributes(wedge.to)[r] - group.wedgeAttributes(wedge.from)[r];
-            const AttributeGradients g = gradients[size_t{wedge.from} * rows + r];
-            AttributeGradients& goal = gradients[size_t{wedge.to} * rows + r];
+            const AttributeGradients g = gradients[group.firstRow(wedge.from) + r];
+            AttributeGradients& goal = gradients[group.firstRow(wedge.to) + r];
             moved_c += delta * (weight * delta - 2 * g.offset);
             moved_b = moved_b - g.gradient * delta;
             goal.gradient = goal.gradient + g.gradient;
@@ -116,8 +115,8 @@ Quadrics computeQuadrics(const GroupMesh& group)
     quadrics.position.resize(group.positions.size());
     quadrics.wedge_weight.resize(group.vertex_of_wedge.size());
     quadrics.gradients.resize(group.vertex_of_wedge.size() * group.attribute_rows);
-    for (size_t corner = 0; corner < group.corners.size(); corner += 3)
-        addTriangle(quadrics, group, corner);
+    for (const TriangleId triangle : group.corners.triangles())
+        addTriangle(quadrics, group, triangle);
     return quadrics;
 }
 

@@ -115,8 +115,8 @@ struct AttributeGradients
 /// to A, b and c; each wedge has an area weight and attribute_rows gradients.
 struct Quadrics
 {
-    std::vector<PositionQuadric> position;
-    std::vector<float> wedge_weight;
+    IdVector<PositionId, PositionQuadric> position;
+    IdVector<WedgeId, float> wedge_weight;
     std::vector<AttributeGradients> gradients;
 
     /// Return the error that the attributes of a wedge add when it moves by `t`, lane by lane.
@@ -125,7 +125,7 @@ struct Quadrics
         const float weight = wedge_weight[move.from];
         const Lanes* from = group.wedgeAttributes(move.from);
         const Lanes* to = group.wedgeAttributes(move.to);
-        const AttributeGradients* g = gradients.data() + size_t{move.from} * group.attribute_rows;
+        const AttributeGradients* g = gradients.data() + group.firstRow(move.from);
         Lanes error{};
         for (uint32_t r = 0; r < group.attribute_rows; ++r)
         {
@@ -137,13 +137,13 @@ struct Quadrics
 
     /// Return the errors of collapses from a position with one wedge to four ends.
     /// t  offsets of the ends
-    Lanes errorsOfFour(const GroupMesh& group, uint32_t position_from, uint32_t wedge,
-                       const std::array<uint32_t, kLanes>& to, LaneVector t) const
+    Lanes errorsOfFour(const GroupMesh& group, PositionId position_from, WedgeId wedge,
+                       const std::array<WedgeId, kLanes>& to, LaneVector t) const
     {
         Lanes error = position[position_from].at(t);
         const Lanes weight = splat(wedge_weight[wedge]);
         const Lanes* from = group.wedgeAttributes(wedge);
-        const AttributeGradients* g = gradients.data() + size_t{wedge} * group.attribute_rows;
+        const AttributeGradients* g = gradients.data() + group.firstRow(wedge);
         for (uint32_t r = 0, left = group.attribute_count; r < group.attribute_rows; ++r)
         {
             const std::array<Lanes, kLanes> of_ends =
@@ -163,9 +163,9 @@ struct Quadrics
     }
 
     /// Return the most that optimal attributes at its target could subtract from the error of a wedge.
-    Lanes maxAttributeGain(const GroupMesh& group, uint32_t wedge, LaneVector t) const
+    Lanes maxAttributeGain(const GroupMesh& group, WedgeId wedge, LaneVector t) const
     {
-        const AttributeGradients* g = gradients.data() + size_t{wedge} * group.attribute_rows;
+        const AttributeGradients* g = gradients.data() + group.firstRow(wedge);
         Lanes squares{};
         for (uint32_t r = 0; r < group.attribute_rows; ++r)
         {
@@ -176,11 +176,11 @@ struct Quadrics
     }
 
     /// Add the quadrics of a position to those of its collapse target, with its wedges.
-    void move(const GroupMesh& group, uint32_t from, uint32_t to, std::span<const WedgeMove> moves);
+    void move(const GroupMesh& group, PositionId from, PositionId to, std::span<const WedgeMove> moves);
 };
 
 /// Return the squared distance of two wedges' attributes.
-inline float attributeDistance2(const GroupMesh& group, uint32_t a, uint32_t b)
+inline float attributeDistance2(const GroupMesh& group, WedgeId a, WedgeId b)
 {
     const Lanes* attributes_a = group.wedgeAttributes(a);
     const Lanes* attributes_b = group.wedgeAttributes(b);

@@ -9,7 +9,6 @@
 #include "cook/clusters/simplify/triangle_flip.h"
 #include "cook/clusters/simplify/wedge_map.h"
 #include "formats/base/assert.h"
-#include "formats/base/index.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,7 +27,7 @@ constexpr double kTargetTolerance = 1.1;
 struct Candidate
 {
     float cost;
-    uint32_t target;
+    PositionId target;
     /// Else the cost is a lower bound, until the wedges without an edge along the collapse have targets.
     bool exact;
 
@@ -44,15 +43,15 @@ public:
           wedges_(group, mesh_),
           quadrics_(computeQuadrics(group)),
           version_(group.positions.size(), 0),
-          best_target_(group.positions.size(), kInvalidIndex),
+          best_target_(group.positions.size(), kInvalid),
           outdated_(group.positions.size(), 0),
           target_(group.positions.size()),
           edge_planes_added_(group.positions.size(), 0),
           wedge_blocked_(group.positions.size(), 0),
           is_target_(group.positions.size(), 0)
     {
-        for (uint32_t p = 0; p < target_.size(); ++p)
-            target_[p] = p;
+        for (const PositionId position : target_.ids())
+            target_[position] = position;
     }
 
     size_t triangleCount() const { return mesh_.aliveCount(); }
@@ -112,9 +111,10 @@ private:
     {
         wedges_.permissive = permissive;
         heap_.clear();
-        for (uint32_t p = 0; p < target_.size(); ++p)
-            if (target_[p] == p && group_.locked[p] == 0 && (!permissive || wedge_blocked_[p] != 0))
-                evaluate(p);
+        for (const PositionId position : target_.ids())
+            if (target_[position] == position && group_.locked[position] == 0 &&
+                (!permissive || wedge_blocked_[position] != 0))
+                evaluate(position);
     }
     /// Return the cost of the next collapse, in object space: no later one costs less.
     double nextCost() const
@@ -122,59 +122,59 @@ private:
         const double scale2 = group_.scale * group_.scale;
         return double{heap_.front().cost()} * scale2 * scale2;
     }
-    void addEdgePlanes(uint32_t position);
-    void gather(uint32_t position)
+    void addEdgePlanes(PositionId position);
+    void gather(PositionId position)
     {
         if (!mesh_.gatherFan(position))
             mesh_.gather(position);
     }
-    void evaluate(uint32_t position)
+    void evaluate(PositionId position)
     {
         gather(position);
         evaluateGathered(position);
     }
     template <typename Visit>
-    void forEachOfFan(uint32_t position, Visit visit) const;
-    float cost(uint32_t from, uint32_t to) const;
-    void gatherCandidates(uint32_t position, bool along_seams);
-    void push(uint32_t position, Candidate candidate);
-    std::optional<Candidate> nextCandidate(uint32_t position);
-    void evaluateGathered(uint32_t position);
-    void evaluateValid(uint32_t position, float popped_cost);
-    bool flipsTriangle(uint32_t from, uint32_t to);
-    bool valid(uint32_t from, uint32_t to)
+    void forEachOfFan(PositionId position, Visit visit) const;
+    float cost(PositionId from, PositionId to) const;
+    void gatherCandidates(PositionId position, bool along_seams);
+    void push(PositionId position, Candidate candidate);
+    std::optional<Candidate> nextCandidate(PositionId position);
+    void evaluateGathered(PositionId position);
+    void evaluateValid(PositionId position, float popped_cost);
+    bool flipsTriangle(PositionId from, PositionId to);
+    bool valid(PositionId from, PositionId to)
     {
         return mesh_.satisfiesLinkCondition(from, to) && !flipsTriangle(from, to);
     }
     void step();
-    void updateNeighbours(uint32_t center);
+    void updateNeighbours(PositionId center);
 
     const GroupMesh& group_;
     StarMesh mesh_;
     WedgeMap wedges_; ///< of the gathered position
     Quadrics quadrics_;
-    std::vector<uint32_t> version_;          ///< heap entries with another version are stale
-    std::vector<uint32_t> best_target_;      ///< target of the heap entry, or kInvalidIndex
-    std::vector<uint8_t> outdated_;          ///< 1 if the cost in the heap dates from before a collapse
-    std::vector<uint32_t> target_;           ///< next position for removed ones
-    std::vector<uint8_t> edge_planes_added_; ///< 1 if addEdgePlanes was called
-    std::vector<uint8_t> wedge_blocked_;     ///< 1 if wedges without an edge along it blocked a collapse
-    std::vector<uint8_t> is_target_;         ///< 1 for positions that others collapsed to
+    IdVector<PositionId, uint32_t> version_;       ///< heap entries with another version are stale
+    IdVector<PositionId, PositionId> best_target_; ///< target of the heap entry, or kInvalid
+    IdVector<PositionId, uint8_t> outdated_;       ///< 1 if the cost in the heap dates from before a collapse
+    IdVector<PositionId, PositionId> target_;      ///< next position for removed ones
+    IdVector<PositionId, uint8_t> edge_planes_added_; ///< 1 if addEdgePlanes was called
+    IdVector<PositionId, uint8_t> wedge_blocked_; ///< 1 if wedges without an edge along it blocked a collapse
+    IdVector<PositionId, uint8_t> is_target_;     ///< 1 for positions that others collapsed to
     CollapseHeap heap_;
     Growth growth_;
 
     // scratch
     std::vector<Candidate> candidates_;
-    std::vector<uint32_t> around_;
+    std::vector<PositionId> around_;
 };
 
 /// Add planes that hold open borders, edges of more than two triangles, and seams at the gathered position.
 /// Each end of an edge adds its own when its collapses are first evaluated.
-void Collapser::addEdgePlanes(uint32_t position)
+void Collapser::addEdgePlanes(PositionId position)
 {
     edge_planes_added_[position] = 1;
     const Float3 place = group_.positions[position];
-    const auto hold = [&](uint32_t end, uint32_t tip)
+    const auto hold = [&](PositionId end, PositionId tip)
     {
         const Spoke& spoke = *mesh_.spokeTo(end);
         const bool regular = spoke.regular(mesh_.layers());
@@ -184,10 +184,10 @@ void Collapser::addEdgePlanes(uint32_t position)
                                                      group_.positions[tip] - place,
                                                      regular ? kSeamWeight : kBorderWeight));
     };
-    for (const Corner corner : mesh_.star(position))
+    for (const StarCorner corner : mesh_.star(position))
     {
-        const uint32_t next = mesh_.positionIdAt(nextCorner(corner));
-        const uint32_t previous = mesh_.positionIdAt(previousCorner(corner));
+        const PositionId next = mesh_.positionIdAt(nextCorner(corner));
+        const PositionId previous = mesh_.positionIdAt(previousCorner(corner));
         hold(next, previous);
         hold(previous, next);
     }
@@ -195,7 +195,7 @@ void Collapser::addEdgePlanes(uint32_t position)
 
 /// Return the quadric error of the collapse that wedges_ describes. Wedges without an edge along it count
 /// with the smallest error of any attributes.
-float Collapser::cost(uint32_t from, uint32_t to) const
+float Collapser::cost(PositionId from, PositionId to) const
 {
     const Float3 t = group_.positions[to] - group_.positions[from];
     const LaneVector t_lanes = splat(t);
@@ -203,7 +203,7 @@ float Collapser::cost(uint32_t from, uint32_t to) const
     for (const WedgeMove& move : wedges_.moves())
         attribute_error += quadrics_.attributeError(group_, move, t_lanes);
     if (!wedges_.complete())
-        for (const uint32_t wedge : mesh_.wedges())
+        for (const WedgeId wedge : mesh_.wedges())
             if (!wedges_.has(wedge))
                 attribute_error -= quadrics_.maxAttributeGain(group_, wedge, t_lanes);
     return std::max(quadrics_.position[from].at(t) + sumOfLanes(attribute_error), 0.0f);
@@ -211,7 +211,7 @@ float Collapser::cost(uint32_t from, uint32_t to) const
 
 /// Call `visit` with each collapse of the gathered fan, with the last one up to four times.
 template <typename Visit>
-void Collapser::forEachOfFan(uint32_t position, Visit visit) const
+void Collapser::forEachOfFan(PositionId position, Visit visit) const
 {
     if (mesh_.degree(position) <= 2)
         return;
@@ -239,7 +239,7 @@ void Collapser::forEachOfFan(uint32_t position, Visit visit) const
 
 /// Collect all collapses of the gathered position that respect borders and wedges in candidates_.
 /// along_seams  if a candidate keeps two wedges along it, leave out those that keep fewer
-void Collapser::gatherCandidates(uint32_t position, bool along_seams)
+void Collapser::gatherCandidates(PositionId position, bool along_seams)
 {
     candidates_.clear();
     wedge_blocked_[position] = 0;
@@ -280,14 +280,14 @@ void Collapser::gatherCandidates(uint32_t position, bool along_seams)
     }
 }
 
-void Collapser::push(uint32_t position, Candidate candidate)
+void Collapser::push(PositionId position, Candidate candidate)
 {
     best_target_[position] = candidate.target;
     heap_.push({candidate.cost, position, candidate.target, version_[position]});
 }
 
 /// Remove the cheapest candidate from the list and return it; nullopt if the list is empty.
-std::optional<Candidate> Collapser::nextCandidate(uint32_t position)
+std::optional<Candidate> Collapser::nextCandidate(PositionId position)
 {
     while (!candidates_.empty())
     {
@@ -308,18 +308,18 @@ std::optional<Candidate> Collapser::nextCandidate(uint32_t position)
 }
 
 /// Push the cheapest collapse of the gathered position to the heap; its validity is tested when it is popped.
-void Collapser::evaluateGathered(uint32_t position)
+void Collapser::evaluateGathered(PositionId position)
 {
     ++version_[position];
     outdated_[position] = 0;
-    best_target_[position] = kInvalidIndex;
+    best_target_[position] = kInvalid;
     if (mesh_.plain())
     {
         wedge_blocked_[position] = 0;
         edge_planes_added_[position] = 1;
-        Candidate best{std::numeric_limits<float>::infinity(), kInvalidIndex, true};
+        Candidate best{std::numeric_limits<float>::infinity(), kInvalid, true};
         forEachOfFan(position, [&](const Candidate& candidate) { best = std::min(best, candidate); });
-        if (best.target != kInvalidIndex)
+        if (best.target != kInvalid)
             push(position, best);
         return;
     }
@@ -329,11 +329,11 @@ void Collapser::evaluateGathered(uint32_t position)
 }
 
 /// Push the cheapest valid collapse of the gathered position to the heap.
-void Collapser::evaluateValid(uint32_t position, float popped_cost)
+void Collapser::evaluateValid(PositionId position, float popped_cost)
 {
     ++version_[position];
     outdated_[position] = 0;
-    best_target_[position] = kInvalidIndex;
+    best_target_[position] = kInvalid;
     gatherCandidates(position, false);
     while (auto candidate = nextCandidate(position))
         if (valid(position, candidate->target))
@@ -345,13 +345,13 @@ void Collapser::evaluateValid(uint32_t position, float popped_cost)
 }
 
 /// Tests all triangles: few flip, and a branch on the removed ones would be unpredictable.
-bool Collapser::flipsTriangle(uint32_t from, uint32_t to)
+bool Collapser::flipsTriangle(PositionId from, PositionId to)
 {
     uint32_t turned = 0;
-    for (const Corner corner : mesh_.star(from))
+    for (const StarCorner corner : mesh_.star(from))
     {
-        const uint32_t next = mesh_.positionIdAt(nextCorner(corner));
-        const uint32_t previous = mesh_.positionIdAt(previousCorner(corner));
+        const PositionId next = mesh_.positionIdAt(nextCorner(corner));
+        const PositionId previous = mesh_.positionIdAt(previousCorner(corner));
         const bool turns = moveFlipsTriangle(group_.positions[next], group_.positions[previous],
                                              group_.positions[from], group_.positions[to]);
         turned |= static_cast<uint32_t>(turns) & static_cast<uint32_t>(next != to) &
@@ -363,24 +363,24 @@ bool Collapser::flipsTriangle(uint32_t from, uint32_t to)
 /// Update the positions around `center` after a collapse to it. Its own cost has probably risen and is
 /// evaluated again when popped, like that of positions whose target is gone. Positions without a candidate
 /// may have one now.
-void Collapser::updateNeighbours(uint32_t center)
+void Collapser::updateNeighbours(PositionId center)
 {
     outdated_[center] = 1;
     around_.clear();
-    const auto note = [&](uint32_t position)
+    const auto note = [&](PositionId position)
     {
-        if (best_target_[position] == kInvalidIndex && group_.locked[position] == 0)
+        if (best_target_[position] == kInvalid && group_.locked[position] == 0)
             around_.push_back(position);
     };
     note(center);
-    for (const Corner corner : mesh_.star(center))
+    for (const StarCorner corner : mesh_.star(center))
     {
         note(mesh_.positionIdAt(nextCorner(corner)));
         note(mesh_.positionIdAt(previousCorner(corner)));
     }
     std::sort(around_.begin(), around_.end());
     around_.erase(std::unique(around_.begin(), around_.end()), around_.end());
-    for (const uint32_t position : around_)
+    for (const PositionId position : around_)
         evaluate(position);
 }
 
@@ -423,25 +423,26 @@ SimplifiedGroup Collapser::result()
     result.source_triangle = mesh_.aliveTriangles();
     result.corners.reserve(mesh_.aliveCount() * 3);
     result.materials.reserve(mesh_.aliveCount());
-    for (const uint32_t t : result.source_triangle)
+    for (const TriangleId triangle : result.source_triangle)
     {
-        for (const Corner corner : StarMesh::triangleCorners(t))
+        for (const StarCorner corner : StarMesh::triangleCorners(triangle))
             result.corners.push_back(mesh_.wedgeAt(corner));
-        result.materials.push_back(group_.materials[t]);
+        result.materials.push_back(group_.materials[triangle]);
     }
     result.target_of_position.resize(target_.size());
-    for (uint32_t p = 0; p < target_.size(); ++p)
+    for (const PositionId position : target_.ids())
     {
-        uint32_t target = p;
+        PositionId target = position;
         while (target != kPruned && target_[target] != target)
             target = target_[target];
-        result.target_of_position[p] = target;
+        result.target_of_position[position] = target;
     }
-    for (uint32_t p = 0; p < target_.size(); ++p)
+    for (const PositionId position : target_.ids())
     {
-        const bool left = target_[p] == p, free = group_.locked[p] == 0, asked = edge_planes_added_[p] != 0;
+        const bool left = target_[position] == position, free = group_.locked[position] == 0,
+                   asked = edge_planes_added_[position] != 0;
         const bool may_move = left & free & asked & !group_.positions_fixed;
-        is_target_[p] &= may_move ? 1 : 0;
+        is_target_[position] &= may_move ? 1 : 0;
     }
     result.placement = optimizePlacement(group_, mesh_, quadrics_, is_target_);
     growIslands(group_, growth_, result.placement);

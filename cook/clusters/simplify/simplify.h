@@ -14,22 +14,23 @@ namespace hearth::clusters
 {
 
 /// Target of a position whose island was removed.
-inline constexpr uint32_t kPruned = 0xFFFFFFFFu;
+inline constexpr PositionId kPruned = kInvalid;
 
 /// Result of simplifying a group.
 struct SimplifiedGroup
 {
-    std::vector<uint32_t> corners;   ///< wedges of the group's mesh, three for each remaining triangle
-    std::vector<uint32_t> materials; ///< material of each remaining triangle
+    CornerVector<WedgeId> corners;            ///< wedges of the group's mesh, for the remaining triangles
+    IdVector<TriangleId, uint32_t> materials; ///< material of each remaining triangle
     /// For each remaining triangle, the triangle of the group that it was.
-    std::vector<uint32_t> source_triangle;
-    std::vector<uint32_t> target_of_position; ///< target of each position: itself, another, or kPruned
-    Placement placement;                      ///< positions and attributes of the remaining position ids
-    bool permissive = false;                  ///< attributes jump across a seam
-    bool pruned = false;                      ///< whole islands were removed
-    bool merged = false;                      ///< positions were merged by cells
+    IdVector<TriangleId, TriangleId> source_triangle;
+    /// Target of each position: itself, another, or kPruned.
+    IdVector<PositionId, PositionId> target_of_position;
+    Placement placement;     ///< positions and attributes of the remaining positions
+    bool permissive = false; ///< attributes jump across a seam
+    bool pruned = false;     ///< whole islands were removed
+    bool merged = false;     ///< positions were merged by cells
 
-    size_t triangleCount() const { return corners.size() / 3; }
+    size_t triangleCount() const { return corners.triangleCount(); }
 };
 
 /// Alternative stop criterion: where collapses begin to cost more than `cost`, at the next lower number of

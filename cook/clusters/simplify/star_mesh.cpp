@@ -20,17 +20,20 @@ StarMesh::StarMesh(const GroupMesh& group)
       hash_of_wedge_(group.vertex_of_wedge.size()),
       mark_(group.positions.size(), 0)
 {
-    for (uint32_t w = 0; w < hash_of_wedge_.size(); ++w)
-        hash_of_wedge_[w] = hashNumber(w);
-    for (uint32_t t = 0; t < alive_.size(); ++t)
-        for (uint32_t k = 0; k < 3; ++k)
+    for (const WedgeId wedge : hash_of_wedge_.ids())
+        hash_of_wedge_[wedge] = hashNumber(toIndex(wedge));
+    for (const TriangleId triangle : alive_.ids())
+    {
+        const std::array<StarCorner, 3> corners = triangleCorners(triangle);
+        const std::array<WedgeId, 3> wedges = group.corners.triangle(triangle);
+        for (size_t k = 0; k < 3; ++k)
         {
-            const uint32_t wedge = group.corners[size_t{t} * 3 + k];
-            const uint32_t position = group.position_id_of_wedge[wedge];
-            wedge_of_corner_[t * 4 + k] = wedge;
-            position_id_of_corner_[t * 4 + k] = position;
+            const PositionId position = group.position_id_of_wedge[wedges[k]];
+            wedge_of_corner_[corners[k]] = wedges[k];
+            position_id_of_corner_[corners[k]] = position;
             ++stars_[position].alive;
         }
+    }
     uint32_t first = 0;
     for (Star& star : stars_)
     {
@@ -40,31 +43,31 @@ StarMesh::StarMesh(const GroupMesh& group)
     // a collapse appends the new star: about six triangles for two that are removed
     star_items_.reserve(group.corners.size() * 3);
     star_items_.resize(group.corners.size());
-    for (uint32_t t = 0; t < alive_.size(); ++t)
-        for (const Corner corner : triangleCorners(t))
+    for (const TriangleId triangle : alive_.ids())
+        for (const StarCorner corner : triangleCorners(triangle))
         {
             Star& star = stars_[position_id_of_corner_[corner]];
             star_items_[star.first + star.count++] = corner;
         }
 }
 
-std::vector<uint32_t> StarMesh::aliveTriangles() const
+IdVector<TriangleId, TriangleId> StarMesh::aliveTriangles() const
 {
-    std::vector<uint32_t> triangles(alive_.size());
+    std::vector<TriangleId> alive(alive_.size());
     size_t count = 0;
-    for (uint32_t t = 0; t < alive_.size(); ++t)
+    for (const TriangleId triangle : alive_.ids())
     {
-        triangles[count] = t;
-        count += alive_[t];
+        alive[count] = triangle;
+        count += alive_[triangle];
     }
-    triangles.resize(count);
-    return triangles;
+    alive.resize(count);
+    return IdVector<TriangleId, TriangleId>(std::move(alive));
 }
 
-std::span<const Corner> StarMesh::star(uint32_t position)
+std::span<const StarCorner> StarMesh::star(PositionId position)
 {
     Star& star = stars_[position];
-    Corner* items = star_items_.data() + star.first;
+    StarCorner* items = star_items_.data() + star.first;
     if (star.count != star.alive)
     {
         uint32_t kept = 0;
@@ -90,7 +93,7 @@ void StarMesh::clearGathered()
     fan_size_ = 0;
 }
 
-bool StarMesh::gatherFan(uint32_t center)
+bool StarMesh::gatherFan(PositionId center)
 {
     clearGathered();
     const auto corners = star(center);
@@ -104,9 +107,9 @@ bool StarMesh::gatherFan(uint32_t center)
     bool plain = true;
     FanEnd* end = fan_.data();
     uint32_t mark = mark_value_;
-    for (const Corner corner : corners)
+    for (const StarCorner corner : corners)
     {
-        const Corner next = nextCorner(corner);
+        const StarCorner next = nextCorner(corner);
         *end = {position_id_of_corner_[next], wedge_of_corner_[next]};
         uint32_t& mark_of_end = mark_[end->position];
         // marks of other positions are smaller
@@ -122,11 +125,11 @@ bool StarMesh::gatherFan(uint32_t center)
     return false;
 }
 
-void StarMesh::gather(uint32_t center)
+void StarMesh::gather(PositionId center)
 {
     clearGathered();
     wedges_.clear();
-    const auto findOrAddSpoke = [&](uint32_t position) -> Spoke&
+    const auto findOrAddSpoke = [&](PositionId position) -> Spoke&
     {
         const uint32_t place = mark_[position] - mark_value_;
         if (place < ring_.size())
@@ -134,11 +137,11 @@ void StarMesh::gather(uint32_t center)
         mark_[position] = mark_value_ + static_cast<uint32_t>(ring_.size());
         return ring_.emplace_back(Spoke{.position = position});
     };
-    for (const Corner corner : star(center))
+    for (const StarCorner corner : star(center))
     {
-        const Corner next = nextCorner(corner);
-        const Corner previous = previousCorner(corner);
-        const uint32_t wedge = wedge_of_corner_[corner];
+        const StarCorner next = nextCorner(corner);
+        const StarCorner previous = previousCorner(corner);
+        const WedgeId wedge = wedge_of_corner_[corner];
         Spoke& out = findOrAddSpoke(position_id_of_corner_[next]);
         ++out.out_count;
         out.out = {wedge, wedge_of_corner_[next]};
@@ -154,24 +157,24 @@ void StarMesh::gather(uint32_t center)
 }
 
 /// Test the link condition around a plain fan, without branches that depend on the stars except the last.
-bool StarMesh::satisfiesLinkConditionInFan(uint32_t from, uint32_t to)
+bool StarMesh::satisfiesLinkConditionInFan(PositionId from, PositionId to)
 {
     const uint32_t size = fan_size_;
     const auto star_from = star(from);
     const auto star_to = star(to);
     // one triangle runs from here to there, and one back
-    uint32_t tip_out = 0, tip_in = 0;
-    for (const Corner corner : star_from)
+    PositionId tip_out{}, tip_in{};
+    for (const StarCorner corner : star_from)
     {
-        const uint32_t next = position_id_of_corner_[nextCorner(corner)];
-        const uint32_t previous = position_id_of_corner_[previousCorner(corner)];
+        const PositionId next = position_id_of_corner_[nextCorner(corner)];
+        const PositionId previous = position_id_of_corner_[previousCorner(corner)];
         tip_out = next == to ? previous : tip_out;
         tip_in = previous == to ? next : tip_in;
     }
     // the tips must be the only common neighbours
     uint32_t others = 0;
-    for (const Corner corner : star_to)
-        for (const uint32_t p :
+    for (const StarCorner corner : star_to)
+        for (const PositionId p :
              {position_id_of_corner_[nextCorner(corner)], position_id_of_corner_[previousCorner(corner)]})
             others += static_cast<uint32_t>(mark_[p] >= mark_value_) & static_cast<uint32_t>(p != tip_out) &
                       static_cast<uint32_t>(p != tip_in);
@@ -179,13 +182,13 @@ bool StarMesh::satisfiesLinkConditionInFan(uint32_t from, uint32_t to)
         return false;
     // the third triangle of a fan of three may coincide with an existing one
     return size > 3 || std::none_of(star_to.begin(), star_to.end(),
-                                    [&](Corner corner) {
+                                    [&](StarCorner corner) {
                                         return has(cornerTriangle(corner), tip_out) &&
                                                has(cornerTriangle(corner), tip_in);
                                     });
 }
 
-bool StarMesh::satisfiesLinkCondition(uint32_t from, uint32_t to)
+bool StarMesh::satisfiesLinkCondition(PositionId from, PositionId to)
 {
     if (plain())
         return satisfiesLinkConditionInFan(from, to);
@@ -193,49 +196,49 @@ bool StarMesh::satisfiesLinkCondition(uint32_t from, uint32_t to)
     const auto star_to = star(to);
     uint32_t common = 0;
     tips_.clear();
-    for (const Corner corner : star_from)
+    for (const StarCorner corner : star_from)
     {
-        const uint32_t next = position_id_of_corner_[nextCorner(corner)];
-        const uint32_t previous = position_id_of_corner_[previousCorner(corner)];
+        const PositionId next = position_id_of_corner_[nextCorner(corner)];
+        const PositionId previous = position_id_of_corner_[previousCorner(corner)];
         if (next != to && previous != to)
             continue;
         ++common;
-        if (const uint32_t tip = next == to ? previous : next; !isTip(tip))
+        if (const PositionId tip = next == to ? previous : next; !isTip(tip))
             tips_.push_back(tip);
     }
     if (common == 0 || common == star_from.size() || common == star_to.size())
         return false;
 
     // the tips of the common triangles must be the only common neighbours
-    for (const Corner corner : star_to)
-        for (const Corner far : {nextCorner(corner), previousCorner(corner)})
-            if (const uint32_t p = position_id_of_corner_[far]; gathered(p) && !isTip(p))
+    for (const StarCorner corner : star_to)
+        for (const StarCorner far : {nextCorner(corner), previousCorner(corner)})
+            if (const PositionId p = position_id_of_corner_[far]; gathered(p) && !isTip(p))
                 return false;
-    for (const uint32_t tip : tips_)
+    for (const PositionId tip : tips_)
         if (degree(tip) <= 1)
             return false;
 
     // a moved triangle whose far edge joins two tips may coincide with an existing one
-    for (const Corner corner : star_from)
+    for (const StarCorner corner : star_from)
     {
-        const uint32_t a = position_id_of_corner_[nextCorner(corner)];
-        const uint32_t b = position_id_of_corner_[previousCorner(corner)];
+        const PositionId a = position_id_of_corner_[nextCorner(corner)];
+        const PositionId b = position_id_of_corner_[previousCorner(corner)];
         if (a == to || b == to || !isTip(a) || !isTip(b))
             continue;
-        for (const Corner other : star_to)
+        for (const StarCorner other : star_to)
             if (has(cornerTriangle(other), a) && has(cornerTriangle(other), b))
                 return false;
     }
     return true;
 }
 
-void StarMesh::collapse(uint32_t from, uint32_t to, std::span<const WedgeMove> moves)
+void StarMesh::collapse(PositionId from, PositionId to, std::span<const WedgeMove> moves)
 {
     // collected without a branch, which would be unpredictable
     const auto star_from = star(from);
     removed_.resize(star_from.size());
     size_t removed_count = 0;
-    for (const Corner corner : star_from)
+    for (const StarCorner corner : star_from)
     {
         removed_[removed_count] = cornerTriangle(corner);
         removed_count += has(cornerTriangle(corner), to) ? 1u : 0u;
@@ -244,7 +247,7 @@ void StarMesh::collapse(uint32_t from, uint32_t to, std::span<const WedgeMove> m
         remove(removed_[i]);
     const size_t first = star_items_.size();
     star_items_.resize(first + stars_[to].count + stars_[from].count);
-    Corner* end = star_items_.data() + first;
+    StarCorner* end = star_items_.data() + first;
     const auto copyStar = [&](const Star& star)
     {
         for (uint32_t i = star.first; i < star.first + star.count; ++i)
@@ -254,11 +257,11 @@ void StarMesh::collapse(uint32_t from, uint32_t to, std::span<const WedgeMove> m
         }
     };
     copyStar(stars_[to]);
-    const Corner* const moved = end;
+    const StarCorner* const moved = end;
     copyStar(stars_[from]);
-    for (const Corner corner : std::span(moved, end))
+    for (const StarCorner corner : std::span(moved, end))
     {
-        uint32_t& wedge = wedge_of_corner_[corner];
+        WedgeId& wedge = wedge_of_corner_[corner];
         position_id_of_corner_[corner] = to;
         wedge = std::find_if(moves.begin(), moves.end(), [&](WedgeMove m) { return m.from == wedge; })->to;
     }
@@ -268,11 +271,11 @@ void StarMesh::collapse(uint32_t from, uint32_t to, std::span<const WedgeMove> m
     stars_[from] = {};
 }
 
-void StarMesh::remove(uint32_t triangle)
+void StarMesh::remove(TriangleId triangle)
 {
     alive_[triangle] = 0;
     --alive_count_;
-    for (const Corner corner : triangleCorners(triangle))
+    for (const StarCorner corner : triangleCorners(triangle))
         --stars_[position_id_of_corner_[corner]].alive;
 }
 

@@ -17,7 +17,7 @@ namespace hearth::clusters
 /// Neighbour of a position, with the half-edges between them.
 struct Spoke
 {
-    uint32_t position;
+    PositionId position;
     uint32_t out_count = 0; ///< triangles with the half-edge center -> position
     uint32_t in_count = 0;  ///< triangles with the half-edge position -> center
     WedgeMove out{};        ///< wedges of center and position in the last of these triangles
@@ -32,24 +32,28 @@ struct Spoke
 /// Neighbour of a position in a plain fan, with the neighbour's wedge.
 struct FanEnd
 {
-    uint32_t position;
-    uint32_t wedge;
+    PositionId position;
+    WedgeId wedge;
 };
 
-/// Corner id: corner k of triangle t is 4 t + k, so steps around a triangle need no division.
-using Corner = uint32_t;
+/// Corner in a StarMesh: corner k of triangle t is 4 t + k, so steps around a triangle need no division.
+enum class StarCorner : uint32_t
+{
+};
 
-inline uint32_t cornerTriangle(Corner corner)
+constexpr TriangleId cornerTriangle(StarCorner corner)
 {
-    return corner >> 2;
+    return TriangleId{toIndex(corner) >> 2};
 }
-inline Corner nextCorner(Corner corner)
+constexpr StarCorner nextCorner(StarCorner corner)
 {
-    return (corner & 3) == 2 ? corner - 2 : corner + 1;
+    const uint32_t number = toIndex(corner);
+    return StarCorner{(number & 3) == 2 ? number - 2 : number + 1};
 }
-inline Corner previousCorner(Corner corner)
+constexpr StarCorner previousCorner(StarCorner corner)
 {
-    return (corner & 3) == 0 ? corner + 2 : corner - 1;
+    const uint32_t number = toIndex(corner);
+    return StarCorner{(number & 3) == 0 ? number + 2 : number - 1};
 }
 
 /// Triangle mesh with stars for half-edge collapses.
@@ -58,46 +62,47 @@ class StarMesh
 public:
     explicit StarMesh(const GroupMesh& group);
 
-    size_t triangleLimit() const { return alive_.size(); }
-    bool alive(uint32_t triangle) const { return alive_[triangle] != 0; }
     size_t aliveCount() const { return alive_count_; }
-    std::vector<uint32_t> aliveTriangles() const;
 
-    static std::array<Corner, 3> triangleCorners(uint32_t triangle)
+    /// Return the remaining triangles, ascending.
+    IdVector<TriangleId, TriangleId> aliveTriangles() const;
+
+    static std::array<StarCorner, 3> triangleCorners(TriangleId triangle)
     {
-        return {triangle * 4, triangle * 4 + 1, triangle * 4 + 2};
+        const uint32_t first = toIndex(triangle) * 4;
+        return {StarCorner{first}, StarCorner{first + 1}, StarCorner{first + 2}};
     }
-    uint32_t positionIdAt(Corner corner) const { return position_id_of_corner_[corner]; }
-    uint32_t wedgeAt(Corner corner) const { return wedge_of_corner_[corner]; }
+    PositionId positionIdAt(StarCorner corner) const { return position_id_of_corner_[corner]; }
+    WedgeId wedgeAt(StarCorner corner) const { return wedge_of_corner_[corner]; }
 
     /// Return the number of triangles around a position.
-    uint32_t degree(uint32_t position) const { return stars_[position].alive; }
+    uint32_t degree(PositionId position) const { return stars_[position].alive; }
 
     /// Return the corners, at the position, of the triangles around it.
-    std::span<const Corner> star(uint32_t position);
+    std::span<const StarCorner> star(PositionId position);
 
     /// Collect the fan of a position if it is plain: closed, manifold (each edge between two triangles of
     /// opposite direction), without seams at the position or along its edges. Most are, and this is faster
     /// than the ring. False if it is not plain.
-    bool gatherFan(uint32_t center);
+    bool gatherFan(PositionId center);
     bool plain() const { return fan_size_ != 0; } ///< true if a fan is gathered, not a ring
     std::span<const FanEnd> fan() const { return std::span(fan_).first(fan_size_); }
-    uint32_t fanWedge() const { return fan_wedge_; }
+    WedgeId fanWedge() const { return fan_wedge_; }
 
     /// Collect the ring of a position: its neighbours, each once, and the wedges of its triangles there.
-    void gather(uint32_t center);
+    void gather(PositionId center);
     std::span<const Spoke> ring() const { return ring_; }
-    std::span<const uint32_t> wedges() const { return wedges_; }
+    std::span<const WedgeId> wedges() const { return wedges_; }
 
     /// Return the gathered spoke to a position, or nullptr.
-    const Spoke* spokeTo(uint32_t position) const
+    const Spoke* spokeTo(PositionId position) const
     {
         const uint32_t place = mark_[position] - mark_value_;
         return place < ring_.size() ? &ring_[place] : nullptr;
     }
 
     /// Return the gathered end at a position, or nullptr.
-    const FanEnd* endAt(uint32_t position) const
+    const FanEnd* endAt(PositionId position) const
     {
         const uint32_t place = mark_[position] - mark_value_;
         return place < fan_size_ ? &fan_[place] : nullptr;
@@ -108,23 +113,23 @@ public:
     uint32_t layers() const { return layers_; }
 
     /// True if collapsing the gathered position along the spoke would leave an end without triangles.
-    bool emptiesStar(uint32_t center, const Spoke& spoke) const
+    bool emptiesStar(PositionId center, const Spoke& spoke) const
     {
         return spoke.triangleCount() == degree(center) || spoke.triangleCount() == degree(spoke.position);
     }
 
     /// True if the gathered position can collapse to another without joining sheets (link condition), without
     /// a triangle coinciding with another, and without emptying a star.
-    bool satisfiesLinkCondition(uint32_t from, uint32_t to);
+    bool satisfiesLinkCondition(PositionId from, PositionId to);
 
     /// Collapse a position: triangles with both positions are removed; triangles with `from` alone get `to`
     /// and its wedges.
-    void collapse(uint32_t from, uint32_t to, std::span<const WedgeMove> moves);
+    void collapse(PositionId from, PositionId to, std::span<const WedgeMove> moves);
 
-    void remove(uint32_t triangle);
+    void remove(TriangleId triangle);
 
 private:
-    bool satisfiesLinkConditionInFan(uint32_t from, uint32_t to);
+    bool satisfiesLinkConditionInFan(PositionId from, PositionId to);
 
     struct Star
     {
@@ -133,40 +138,41 @@ private:
         uint32_t alive = 0;
     };
 
-    bool has(uint32_t triangle, uint32_t position) const
+    bool has(TriangleId triangle, PositionId position) const
     {
-        const uint32_t* at = &position_id_of_corner_[size_t{triangle} * 4];
+        const PositionId* at = position_id_of_corner_.data() + size_t{toIndex(triangle)} * 4;
         const bool first = at[0] == position, second = at[1] == position, third = at[2] == position;
         return first | second | third;
     }
     void clearGathered();
-    bool gathered(uint32_t position) const
+    bool gathered(PositionId position) const
     {
         return mark_[position] - mark_value_ < ring_.size() + fan_size_;
     }
-    bool isTip(uint32_t position) const
+    bool isTip(PositionId position) const
     {
         return std::find(tips_.begin(), tips_.end(), position) != tips_.end();
     }
 
-    std::vector<uint32_t> position_id_of_corner_;
-    std::vector<uint32_t> wedge_of_corner_;
-    std::vector<uint8_t> alive_; ///< for each triangle, 1 or 0
+    IdVector<StarCorner, PositionId> position_id_of_corner_;
+    IdVector<StarCorner, WedgeId> wedge_of_corner_;
+    IdVector<TriangleId, uint8_t> alive_; ///< 1 or 0
     size_t alive_count_;
-    std::vector<Star> stars_; ///< ranges of star_items_, which may include removed triangles
-    std::vector<Corner> star_items_;
+    IdVector<PositionId, Star> stars_; ///< ranges of star_items_, which may include removed triangles
+    std::vector<StarCorner> star_items_;
 
-    std::vector<uint64_t> hash_of_wedge_;
+    IdVector<WedgeId, uint64_t> hash_of_wedge_;
     std::vector<FanEnd> fan_; ///< of the gathered position, or ring_; larger than needed
     uint32_t fan_size_ = 0;
-    uint32_t fan_wedge_ = 0;
+    WedgeId fan_wedge_{};
     std::vector<Spoke> ring_;
-    std::vector<uint32_t> wedges_;
+    std::vector<WedgeId> wedges_;
     uint32_t layers_ = 1;
-    std::vector<uint32_t> mark_; ///< mark_value_ + index in fan_ or ring_, for the positions in it
+    /// mark_value_ + index in fan_ or ring_, for the positions in it.
+    IdVector<PositionId, uint32_t> mark_;
     uint32_t mark_value_ = 0;
-    std::vector<uint32_t> tips_;
-    std::vector<uint32_t> removed_; ///< triangles that a collapse removes
+    std::vector<PositionId> tips_;
+    std::vector<TriangleId> removed_; ///< triangles that a collapse removes
 };
 
 } // namespace hearth::clusters

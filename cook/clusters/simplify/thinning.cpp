@@ -24,36 +24,33 @@ struct Island
     Box3 box;
     bool locked = false;
     uint32_t order = 0; ///< among equals
-    std::vector<uint32_t> triangles;
+    std::vector<TriangleId> triangles;
 
     int sizeClass() const { return std::ilogb(std::max(length(box.max - box.min), 1e-30f)); }
 };
 
 std::vector<Island> looseIslands(const GroupMesh& group, const StarMesh& mesh)
 {
-    std::vector<uint32_t> triangles;
-    std::vector<uint32_t> positions;
-    for (uint32_t t = 0; t < mesh.triangleLimit(); ++t)
-        if (mesh.alive(t))
-        {
-            triangles.push_back(t);
-            for (const Corner corner : StarMesh::triangleCorners(t))
-                positions.push_back(mesh.positionIdAt(corner));
-        }
-    const std::vector<uint32_t> island_of = islandOfTriangles(positions, group.positions.size());
-    std::vector<Island> islands(group.positions.size());
-    for (size_t i = 0; i < triangles.size(); ++i)
+    const IdVector<TriangleId, TriangleId> alive = mesh.aliveTriangles();
+    CornerVector<PositionId> positions;
+    for (const TriangleId triangle : alive)
+        for (const StarCorner corner : StarMesh::triangleCorners(triangle))
+            positions.push_back(mesh.positionIdAt(corner));
+    const auto island_of_triangle = islandOfTriangles(positions, group.positions.size());
+    IdVector<PositionId, Island> islands(group.positions.size());
+    for (const TriangleId i : alive.ids())
     {
-        Island& island = islands[island_of[i]];
-        island.triangles.push_back(triangles[i]);
-        for (size_t k = 0; k < 3; ++k)
+        Island& island = islands[island_of_triangle[i]];
+        island.triangles.push_back(alive[i]);
+        for (const PositionId position : positions.triangle(i))
         {
-            island.box.add(group.positions[positions[i * 3 + k]]);
-            island.locked |= group.locked[positions[i * 3 + k]] != 0;
+            island.box.add(group.positions[position]);
+            island.locked |= group.locked[position] != 0;
         }
     }
-    std::erase_if(islands, [](const Island& island) { return island.triangles.empty() || island.locked; });
-    return islands;
+    std::erase_if(islands.values(),
+                  [](const Island& island) { return island.triangles.empty() || island.locked; });
+    return std::move(islands.values());
 }
 
 uint32_t reversedBits(uint32_t x)
@@ -83,9 +80,9 @@ double growableArea(const GroupMesh& group, const StarMesh& mesh, const Island& 
     double area = 0;
     if (island.triangles.size() > kMaxGrownTriangles)
         return area;
-    for (const uint32_t t : island.triangles)
+    for (const TriangleId triangle : island.triangles)
     {
-        const auto corners = StarMesh::triangleCorners(t);
+        const auto corners = StarMesh::triangleCorners(triangle);
         const Float3 a = group.positions[mesh.positionIdAt(corners[0])];
         const Float3 b = group.positions[mesh.positionIdAt(corners[1])];
         const Float3 c = group.positions[mesh.positionIdAt(corners[2])];
@@ -94,12 +91,13 @@ double growableArea(const GroupMesh& group, const StarMesh& mesh, const Island& 
     return area;
 }
 
-void addGrowth(const StarMesh& mesh, const Island& island, std::vector<uint8_t>& added, Growth& growth)
+void addGrowth(const StarMesh& mesh, const Island& island, IdVector<PositionId, uint8_t>& added,
+               Growth& growth)
 {
-    for (const uint32_t t : island.triangles)
-        for (const Corner corner : StarMesh::triangleCorners(t))
+    for (const TriangleId triangle : island.triangles)
+        for (const StarCorner corner : StarMesh::triangleCorners(triangle))
         {
-            const uint32_t position = mesh.positionIdAt(corner);
+            const PositionId position = mesh.positionIdAt(corner);
             if (added[position] != 0)
                 continue;
             added[position] = 1;
@@ -111,7 +109,7 @@ void addGrowth(const StarMesh& mesh, const Island& island, std::vector<uint8_t>&
 } // namespace
 
 Thinning thinIslands(const GroupMesh& group, StarMesh& mesh, size_t target_triangles,
-                     std::vector<uint32_t>& target_of_position)
+                     IdVector<PositionId, PositionId>& target_of_position)
 {
     Thinning thinning;
     std::vector<Island> islands = looseIslands(group, mesh);
@@ -126,18 +124,18 @@ Thinning thinIslands(const GroupMesh& group, StarMesh& mesh, size_t target_trian
     {
         const Island& island = islands[removed++];
         area_left -= growableArea(group, mesh, island);
-        for (const uint32_t t : island.triangles)
+        for (const TriangleId triangle : island.triangles)
         {
-            for (const Corner corner : StarMesh::triangleCorners(t))
+            for (const StarCorner corner : StarMesh::triangleCorners(triangle))
                 target_of_position[mesh.positionIdAt(corner)] = kPruned;
-            mesh.remove(t);
+            mesh.remove(triangle);
         }
     }
     thinning.pruned = removed > 0;
     if (!thinning.pruned || !(area_left > 0))
         return thinning;
     thinning.growth.factor = std::min(static_cast<float>(std::sqrt(area / area_left)), kMaxGrowth);
-    std::vector<uint8_t> added(group.positions.size(), 0);
+    IdVector<PositionId, uint8_t> added(group.positions.size(), 0);
     for (size_t i = removed; i < islands.size() && thinning.growth.factor > kMinGrowth; ++i)
         if (islands[i].triangles.size() <= kMaxGrownTriangles)
             addGrowth(mesh, islands[i], added, thinning.growth);

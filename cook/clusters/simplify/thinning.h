@@ -21,7 +21,7 @@ inline constexpr size_t kMaxGrownTriangles = 16;
 struct Growth
 {
     float factor = 1; ///< factor on lengths
-    std::vector<uint32_t> positions;
+    std::vector<PositionId> positions;
     std::vector<Float3> centers; ///< center of the island, for each of the positions
 };
 
@@ -37,6 +37,6 @@ struct Thinning
 /// triangle.
 /// target_of_position  set to kPruned for removed positions
 Thinning thinIslands(const GroupMesh& group, StarMesh& mesh, size_t target_triangles,
-                     std::vector<uint32_t>& target_of_position);
+                     IdVector<PositionId, PositionId>& target_of_position);
 
 } // namespace hearth::clusters

@@ -6,12 +6,12 @@
 namespace hearth::clusters
 {
 
-bool WedgeMap::mapAlong(uint32_t from, const Spoke& spoke)
+bool WedgeMap::mapAlong(PositionId from, const Spoke& spoke)
 {
     return mesh_.layers() == 1 ? mapWedges(spoke) : mapLayers(from, spoke.position);
 }
 
-bool WedgeMap::mapTo(uint32_t from, uint32_t to)
+bool WedgeMap::mapTo(PositionId from, PositionId to)
 {
     if (!mesh_.plain())
     {
@@ -35,18 +35,18 @@ bool WedgeMap::mapWedges(const Spoke& spoke)
     else if (spoke.in_count > 0 && wedgeChart(spoke.in.to) != wedgeChart(spoke.out.to) && !permissive)
         return false;
     return permissive || std::all_of(mesh_.wedges().begin(), mesh_.wedges().end(),
-                                     [&](uint32_t wedge) { return findMoveOfChart(wedge) != nullptr; });
+                                     [&](WedgeId wedge) { return findMoveOfChart(wedge) != nullptr; });
 }
 
 /// Map the wedges where several sheets coincide.
-bool WedgeMap::mapLayers(uint32_t from, uint32_t to)
+bool WedgeMap::mapLayers(PositionId from, PositionId to)
 {
     moves_.clear();
-    for (const Corner corner : mesh_.star(from))
+    for (const StarCorner corner : mesh_.star(from))
     {
-        const Corner next = nextCorner(corner);
-        const Corner previous = previousCorner(corner);
-        const Corner goal = mesh_.positionIdAt(next) == to ? next : previous;
+        const StarCorner next = nextCorner(corner);
+        const StarCorner previous = previousCorner(corner);
+        const StarCorner goal = mesh_.positionIdAt(next) == to ? next : previous;
         if (mesh_.positionIdAt(goal) != to)
             continue;
         const WedgeMove move{mesh_.wedgeAt(corner), mesh_.wedgeAt(goal)};
@@ -61,30 +61,30 @@ bool WedgeMap::mapLayers(uint32_t from, uint32_t to)
 }
 
 /// Return the move of a wedge of the same chart, or nullptr.
-const WedgeMove* WedgeMap::findMoveOfChart(uint32_t wedge) const
+const WedgeMove* WedgeMap::findMoveOfChart(WedgeId wedge) const
 {
     const auto found = std::find_if(moves_.begin(), moves_.end(),
                                     [&](WedgeMove m) { return wedgeChart(m.from) == wedgeChart(wedge); });
     return found == moves_.end() ? nullptr : &*found;
 }
 
-void WedgeMap::mapRemaining(uint32_t to)
+void WedgeMap::mapRemaining(PositionId to)
 {
     if (complete())
         return;
     targets_.clear();
-    for (const Corner corner : mesh_.star(to))
-        if (const uint32_t wedge = mesh_.wedgeAt(corner);
+    for (const StarCorner corner : mesh_.star(to))
+        if (const WedgeId wedge = mesh_.wedgeAt(corner);
             std::find(targets_.begin(), targets_.end(), wedge) == targets_.end())
             targets_.push_back(wedge);
-    for (const uint32_t wedge : mesh_.wedges())
+    for (const WedgeId wedge : mesh_.wedges())
     {
         if (has(wedge))
             continue;
         const WedgeMove* guide = findMoveOfChart(wedge);
-        uint32_t best = guide != nullptr ? guide->to : targets_.front();
+        WedgeId best = guide != nullptr ? guide->to : targets_.front();
         float best_distance2 = attributeDistance2(group_, wedge, best);
-        for (const uint32_t goal : targets_)
+        for (const WedgeId goal : targets_)
         {
             if (guide != nullptr && wedgeChart(goal) != wedgeChart(guide->to))
                 continue;
@@ -103,11 +103,11 @@ bool WedgeMap::hasMoreThanTwoCharts() const
     const auto wedges = mesh_.wedges();
     if (wedges.size() <= 2)
         return false;
-    const uint32_t first = wedgeChart(wedges[0]);
-    uint32_t second = first;
-    for (const uint32_t wedge : wedges.subspan(1))
+    const WedgeId first = wedgeChart(wedges[0]);
+    WedgeId second = first;
+    for (const WedgeId wedge : wedges.subspan(1))
     {
-        const uint32_t chart = wedgeChart(wedge);
+        const WedgeId chart = wedgeChart(wedge);
         if (chart == first || chart == second)
             continue;
         if (second != first)

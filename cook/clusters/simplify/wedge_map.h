@@ -24,17 +24,17 @@ public:
 
     /// Map the wedges for a collapse of the position along the spoke; false if one of them has no edge along
     /// it that keeps the attributes continuous.
-    bool mapAlong(uint32_t from, const Spoke& spoke);
+    bool mapAlong(PositionId from, const Spoke& spoke);
 
     /// Map the wedges for a collapse to any neighbour; false for other positions.
-    bool mapTo(uint32_t from, uint32_t to);
+    bool mapTo(PositionId from, PositionId to);
 
     /// Map wedges without an edge to the nearest attributes, in the chart that wedges of their own chart map
     /// to, if any.
-    void mapRemaining(uint32_t to);
+    void mapRemaining(PositionId to);
 
     std::span<const WedgeMove> moves() const { return moves_; }
-    bool has(uint32_t wedge) const
+    bool has(WedgeId wedge) const
     {
         return std::any_of(moves_.begin(), moves_.end(), [&](WedgeMove m) { return m.from == wedge; });
     }
@@ -45,14 +45,14 @@ public:
 
 private:
     bool mapWedges(const Spoke& spoke);
-    bool mapLayers(uint32_t from, uint32_t to);
-    uint32_t wedgeChart(uint32_t wedge) const { return group_.chart_of_wedge[wedge]; }
-    const WedgeMove* findMoveOfChart(uint32_t wedge) const;
+    bool mapLayers(PositionId from, PositionId to);
+    WedgeId wedgeChart(WedgeId wedge) const { return group_.chart_of_wedge[wedge]; }
+    const WedgeMove* findMoveOfChart(WedgeId wedge) const;
 
     const GroupMesh& group_;
     StarMesh& mesh_;
     std::vector<WedgeMove> moves_;
-    std::vector<uint32_t> targets_; ///< scratch
+    std::vector<WedgeId> targets_; ///< scratch
 };
 
 } // namespace hearth::clusters

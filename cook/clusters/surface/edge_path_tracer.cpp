@@ -42,8 +42,8 @@ ClosestApproach closestApproach(Float3 p, Float3 q, Float3 a, Float3 b)
 } // namespace
 
 EdgePathTracer::EdgePathTracer(const GroupMesh& group, const SimplifiedGroup& simplified,
-                               std::span<const uint32_t> positions_before, const Surface& after,
-                               std::span<const TrianglePoint> points)
+                               CornerSpan<const PositionId> positions_before, const Surface& after,
+                               IdSpan<PositionId, const TrianglePoint> points)
     : position_ids_(positions_before),
       local_positions_(group.positions),
       after_(after),
@@ -57,24 +57,25 @@ EdgePathTracer::EdgePathTracer(const GroupMesh& group, const SimplifiedGroup& si
 }
 
 void EdgePathTracer::findMappedPoints(const GroupMesh& group, const SimplifiedGroup& simplified,
-                                      std::span<const TrianglePoint> points)
+                                      IdSpan<PositionId, const TrianglePoint> points)
 {
-    for (uint32_t p = 0; p < group.positions.size(); ++p)
+    for (const PositionId position : group.positions.ids())
     {
-        MappedPoint& mapped = mapped_points_[p];
-        if (const TrianglePoint& point = points[p]; point.triangle != kInvalidIndex)
+        MappedPoint& mapped = mapped_points_[position];
+        if (const TrianglePoint& point = points[position]; point.triangle != kInvalid)
         {
             mapped.triangle = point.triangle;
             mapped.at = {point.v, point.w};
             mapped.distance = std::sqrt(point.distance2);
             const bool at_0 = point.v <= 0 && point.w <= 0, at_1 = point.v >= 1, at_2 = point.w >= 1;
             if (at_0 || at_1 || at_2)
-                mapped.vertex = after_.position_ids[point.triangle * 3 + (at_0 ? 0u : at_1 ? 1u : 2u)];
+                mapped.vertex = after_.position_ids[makeCorner(point.triangle, at_0 ? 0 : at_1 ? 1 : 2)];
         }
-        else if (simplified.target_of_position[p] == p && !after_.triangles_at.list(p).empty())
+        else if (simplified.target_of_position[position] == position &&
+                 !after_.triangles_at.list(position).empty())
         {
-            mapped.triangle = after_.triangles_at.list(p).front();
-            mapped.vertex = p;
+            mapped.triangle = after_.triangles_at.list(position).front();
+            mapped.vertex = position;
         }
     }
 }
@@ -87,19 +88,18 @@ Float3 EdgePathTracer::mappedPosition(const MappedPoint& mapped) const
     return triangle.a + triangle.ab * mapped.at.v + triangle.ac * mapped.at.w;
 }
 
-bool EdgePathTracer::contains(uint32_t triangle, const MappedPoint& mapped) const
+bool EdgePathTracer::contains(TriangleId triangle, const MappedPoint& mapped) const
 {
-    return mapped.isVertex() ? cornerAt(triangle, mapped.vertex) != kInvalidIndex
-                             : triangle == mapped.triangle;
+    return mapped.isVertex() ? cornerAt(triangle, mapped.vertex) != kInvalid : triangle == mapped.triangle;
 }
 
-void EdgePathTracer::tracePath(uint32_t half_edge)
+void EdgePathTracer::tracePath(HalfEdgeId half_edge)
 {
     path_of_half_edge_[half_edge] = static_cast<uint32_t>(paths_.size());
     TracedPath& path = paths_.emplace_back();
     path.half_edge = half_edge;
     path.first = static_cast<uint32_t>(crossings_.size());
-    const uint32_t from = position_ids_[half_edge], to = position_ids_[nextHalfEdge(half_edge)];
+    const PositionId from = position_ids_[half_edge], to = position_ids_[nextHalfEdge(half_edge)];
     const MappedPoint& start = mapped_points_[from];
     const MappedPoint& end = mapped_points_[to];
     if (!start.isValid() || !end.isValid())
@@ -117,7 +117,7 @@ void EdgePathTracer::tracePath(uint32_t half_edge)
 
 bool EdgePathTracer::tracePath(const MappedPoint& start, const MappedPoint& end, TracedPath& path)
 {
-    if (const uint32_t triangle = commonTriangle(start, end); triangle != kInvalidIndex)
+    if (const TriangleId triangle = commonTriangle(start, end); triangle != kInvalid)
     {
         path.from = path.to = triangle;
         return true;
@@ -129,19 +129,19 @@ bool EdgePathTracer::tracePath(const MappedPoint& start, const MappedPoint& end,
     return traceShortest(start, end, path);
 }
 
-uint32_t EdgePathTracer::commonTriangle(const MappedPoint& a, const MappedPoint& b) const
+TriangleId EdgePathTracer::commonTriangle(const MappedPoint& a, const MappedPoint& b) const
 {
     if (!b.isVertex())
-        return contains(b.triangle, a) ? b.triangle : kInvalidIndex;
+        return contains(b.triangle, a) ? b.triangle : kInvalid;
     if (!a.isVertex())
-        return contains(a.triangle, b) ? a.triangle : kInvalidIndex;
-    for (const uint32_t triangle : after_.triangles_at.list(a.vertex))
-        if (cornerAt(triangle, b.vertex) != kInvalidIndex)
+        return contains(a.triangle, b) ? a.triangle : kInvalid;
+    for (const TriangleId triangle : after_.triangles_at.list(a.vertex))
+        if (cornerAt(triangle, b.vertex) != kInvalid)
             return triangle;
-    return kInvalidIndex;
+    return kInvalid;
 }
 
-void EdgePathTracer::cross(uint32_t half_edge, TracedPath& path)
+void EdgePathTracer::cross(HalfEdgeId half_edge, TracedPath& path)
 {
     const ClosestApproach closest = closestApproach(from_, to_, after_.corner_positions[half_edge],
                                                     after_.corner_positions[nextHalfEdge(half_edge)]);
@@ -160,67 +160,67 @@ bool EdgePathTracer::traceStraight(const MappedPoint& start, const MappedPoint& 
         line_.left = hearth::cross(hearth::cross(f.ab, f.ac) + hearth::cross(g.ab, g.ac),
                                    mappedPosition(end) - line_.origin);
     };
-    const auto signedArea = [&](uint32_t corner)
+    const auto signedArea = [&](CornerId corner)
     { return line_.signedArea(after_.corner_positions[corner]); };
-    const auto leadsToEnd = [&](uint32_t half_edge)
-    { return opposites_[half_edge] != kInvalidIndex && contains(opposites_[half_edge] / 3, end); };
+    const auto leadsToEnd = [&](HalfEdgeId half_edge)
+    { return opposites_[half_edge] != kInvalid && contains(cornerTriangle(opposites_[half_edge]), end); };
 
     // find the triangle to start in, and the half-edge to leave it by
-    uint32_t exit = kInvalidIndex;
+    HalfEdgeId exit = kInvalid;
     std::array<float, 3> signed_areas{};
     if (start.isVertex())
     {
         const auto fan = after_.triangles_at.list(start.vertex);
-        for (const uint32_t triangle : fan)
-            if (const uint32_t opposite = nextHalfEdge(cornerAt(triangle, start.vertex));
+        for (const TriangleId triangle : fan)
+            if (const HalfEdgeId opposite = nextHalfEdge(cornerAt(triangle, start.vertex));
                 leadsToEnd(opposite))
                 exit = opposite;
-        if (exit == kInvalidIndex)
+        if (exit == kInvalid)
         {
             makeLine();
-            for (const uint32_t triangle : fan)
+            for (const TriangleId triangle : fan)
             {
-                const uint32_t opposite = nextHalfEdge(cornerAt(triangle, start.vertex));
-                if (opposites_[opposite] == kInvalidIndex)
+                const HalfEdgeId opposite = nextHalfEdge(cornerAt(triangle, start.vertex));
+                if (opposites_[opposite] == kInvalid)
                     continue;
                 const float at_start = signedArea(opposite), at_end = signedArea(nextHalfEdge(opposite));
                 if (at_start < 0 && at_end >= 0)
                 {
                     exit = opposite;
-                    signed_areas[exit % 3] = at_start;
-                    signed_areas[(exit + 1) % 3] = at_end;
+                    signed_areas[cornerNumber(exit)] = at_start;
+                    signed_areas[cornerNumber(nextHalfEdge(exit))] = at_end;
                     break;
                 }
             }
         }
-        path.from = exit / 3;
+        path.from = cornerTriangle(exit);
     }
     else
     {
         path.from = start.triangle;
-        for (uint32_t half_edge = start.triangle * 3; half_edge < start.triangle * 3 + 3; ++half_edge)
+        for (const HalfEdgeId half_edge : makeCorners(start.triangle))
             if (leadsToEnd(half_edge))
                 exit = half_edge;
-        if (exit == kInvalidIndex)
+        if (exit == kInvalid)
         {
             makeLine();
             for (uint32_t k = 0; k < 3; ++k)
-                signed_areas[k] = signedArea(start.triangle * 3 + k);
+                signed_areas[k] = signedArea(makeCorner(start.triangle, k));
             for (uint32_t k = 0; k < 3; ++k)
                 if (signed_areas[k] < 0 && signed_areas[(k + 1) % 3] >= 0)
-                    exit = start.triangle * 3 + k;
+                    exit = makeCorner(start.triangle, k);
         }
     }
     for (size_t steps = 0; steps < kMaxSteps; ++steps)
     {
-        if (exit == kInvalidIndex || opposites_[exit] == kInvalidIndex)
+        if (exit == kInvalid || opposites_[exit] == kInvalid)
             return false;
         cross(exit, path);
-        const uint32_t entered = opposites_[exit];
-        path.to = entered / 3;
+        const HalfEdgeId entered = opposites_[exit];
+        path.to = cornerTriangle(entered);
         if (contains(path.to, end))
             return true;
-        const uint32_t next = nextHalfEdge(entered), last = previousHalfEdge(entered);
+        const HalfEdgeId next = nextHalfEdge(entered), last = previousHalfEdge(entered);
         if (leadsToEnd(next))
             exit = next;
         else if (leadsToEnd(last))
@@ -228,12 +228,13 @@ bool EdgePathTracer::traceStraight(const MappedPoint& start, const MappedPoint& 
         else
         {
             const float tip = signedArea(last);
-            const float left = signed_areas[(exit + 1) % 3], right = signed_areas[exit % 3];
+            const float left = signed_areas[cornerNumber(nextHalfEdge(exit))],
+                        right = signed_areas[cornerNumber(exit)];
             // if the tip is to the right, leave between the tip and the left corner
             exit = tip < 0 ? last : next;
-            signed_areas[entered % 3] = left;
-            signed_areas[next % 3] = right;
-            signed_areas[last % 3] = tip;
+            signed_areas[cornerNumber(entered)] = left;
+            signed_areas[cornerNumber(next)] = right;
+            signed_areas[cornerNumber(last)] = tip;
         }
     }
     return false;
@@ -244,23 +245,22 @@ bool EdgePathTracer::traceShortest(const MappedPoint& start, const MappedPoint& 
 {
     struct VisitedTriangle
     {
-        uint32_t triangle;
-        uint32_t half_edge; ///< half-edge that was crossed to get there
+        TriangleId triangle;
+        HalfEdgeId half_edge; ///< half-edge that was crossed to get there
         size_t before;
     };
     std::vector<VisitedTriangle> visited;
     if (start.isVertex())
-        for (const uint32_t triangle : after_.triangles_at.list(start.vertex))
-            visited.push_back({triangle, kInvalidIndex, 0});
+        for (const TriangleId triangle : after_.triangles_at.list(start.vertex))
+            visited.push_back({triangle, kInvalid, 0});
     else
-        visited.push_back({start.triangle, kInvalidIndex, 0});
+        visited.push_back({start.triangle, kInvalid, 0});
     for (size_t i = 0; i < visited.size() && visited.size() < kMaxTriangles; ++i)
-        for (uint32_t half_edge = visited[i].triangle * 3; half_edge < visited[i].triangle * 3 + 3;
-             ++half_edge)
+        for (const HalfEdgeId half_edge : makeCorners(visited[i].triangle))
         {
-            if (opposites_[half_edge] == kInvalidIndex)
+            if (opposites_[half_edge] == kInvalid)
                 continue;
-            const uint32_t triangle = opposites_[half_edge] / 3;
+            const TriangleId triangle = cornerTriangle(opposites_[half_edge]);
             if (std::any_of(visited.begin(), visited.end(),
                             [&](const VisitedTriangle& r) { return r.triangle == triangle; }))
                 continue;
@@ -268,7 +268,7 @@ bool EdgePathTracer::traceShortest(const MappedPoint& start, const MappedPoint& 
             if (!contains(triangle, end))
                 continue;
             size_t at = visited.size() - 1;
-            for (; visited[at].half_edge != kInvalidIndex; at = visited[at].before)
+            for (; visited[at].half_edge != kInvalid; at = visited[at].before)
                 cross(visited[at].half_edge, path);
             std::reverse(crossings_.begin() + static_cast<ptrdiff_t>(path.first), crossings_.end());
             path.from = visited[at].triangle;
@@ -278,30 +278,30 @@ bool EdgePathTracer::traceShortest(const MappedPoint& start, const MappedPoint& 
     return false;
 }
 
-std::span<const uint32_t> EdgePathTracer::turn(uint32_t vertex, uint32_t from, uint32_t to)
+std::span<const HalfEdgeId> EdgePathTracer::turn(PositionId vertex, TriangleId from, TriangleId to)
 {
     turn_.clear();
-    const uint32_t start = cornerAt(from, vertex);
-    uint32_t left = start, right = start;
+    const HalfEdgeId start = cornerAt(from, vertex);
+    HalfEdgeId left = start, right = start;
     for (size_t steps = 1; steps < kMaxSteps; ++steps)
     {
-        if (left != kInvalidIndex)
+        if (left != kInvalid)
         {
             left = opposites_[previousHalfEdge(left)];
-            if (left != kInvalidIndex && left / 3 == to)
+            if (left != kInvalid && cornerTriangle(left) == to)
             {
-                for (uint32_t at = start; at / 3 != to; at = opposites_[turn_.back()])
+                for (HalfEdgeId at = start; cornerTriangle(at) != to; at = opposites_[turn_.back()])
                     turn_.push_back(previousHalfEdge(at));
                 break;
             }
         }
-        if (right != kInvalidIndex)
+        if (right != kInvalid)
         {
             right = opposites_[right];
-            right = right == kInvalidIndex ? kInvalidIndex : nextHalfEdge(right);
-            if (right != kInvalidIndex && right / 3 == to)
+            right = right == kInvalid ? right : nextHalfEdge(right);
+            if (right != kInvalid && cornerTriangle(right) == to)
             {
-                for (uint32_t at = start; at / 3 != to; at = nextHalfEdge(opposites_[at]))
+                for (HalfEdgeId at = start; cornerTriangle(at) != to; at = nextHalfEdge(opposites_[at]))
                     turn_.push_back(at);
                 break;
             }

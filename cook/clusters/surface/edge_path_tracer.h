@@ -33,35 +33,35 @@ inline BarycentricPoint cornerPoint(uint32_t k)
 /// triangles around it, or a point within a triangle.
 struct MappedPoint
 {
-    uint32_t triangle = kInvalidIndex;
-    uint32_t vertex = kInvalidIndex; ///< position id
+    TriangleId triangle = kInvalid;
+    PositionId vertex = kInvalid;
     BarycentricPoint at;
     float distance = 0; ///< distance between the position and the point
 
-    bool isVertex() const { return vertex != kInvalidIndex; }
-    bool isValid() const { return triangle != kInvalidIndex; }
+    bool isVertex() const { return vertex != kInvalid; }
+    bool isValid() const { return triangle != kInvalid; }
 };
 
 /// Crossing of a traced path from triangle to triangle.
 struct Crossing
 {
     /// Half-edge of the triangle before, and its opposite in the triangle behind.
-    std::array<uint32_t, 2> half_edges;
+    std::array<HalfEdgeId, 2> half_edges;
     float t;        ///< from the start (0) to the end (1) of the half-edge that is left
     float distance; ///< distance from the point of the traced half-edge that maps there
 
-    uint32_t leaving() const { return half_edges[0]; }
-    uint32_t entering() const { return half_edges[1]; }
+    HalfEdgeId leaving() const { return half_edges[0]; }
+    HalfEdgeId entering() const { return half_edges[1]; }
 };
 
 /// Traced path of a half-edge: from the point that its start maps to, to that of its end.
 struct TracedPath
 {
-    uint32_t half_edge = 0;
-    uint32_t first = 0;        ///< first crossing
-    uint32_t count = 0;        ///< number of crossings
-    uint32_t from = 0, to = 0; ///< triangles
-    float distance = -1;       ///< largest distance of the crossings; less than 0: no path was found
+    HalfEdgeId half_edge{};
+    uint32_t first = 0; ///< first crossing
+    uint32_t count = 0; ///< number of crossings
+    TriangleId from{}, to{};
+    float distance = -1; ///< largest distance of the crossings; less than 0: no path was found
 
     bool isFound() const { return distance >= 0; }
 };
@@ -71,22 +71,22 @@ class EdgePathTracer
 {
 public:
     EdgePathTracer(const GroupMesh& group, const SimplifiedGroup& simplified,
-                   std::span<const uint32_t> positions_before, const Surface& after,
-                   std::span<const TrianglePoint> points);
+                   CornerSpan<const PositionId> positions_before, const Surface& after,
+                   IdSpan<PositionId, const TrianglePoint> points);
 
-    const MappedPoint& mappedPoint(uint32_t position) const { return mapped_points_[position]; }
+    const MappedPoint& mappedPoint(PositionId position) const { return mapped_points_[position]; }
 
     /// Return the coordinates of a mapped position in a triangle that contains it.
-    BarycentricPoint pointIn(uint32_t triangle, const MappedPoint& mapped) const
+    BarycentricPoint pointIn(TriangleId triangle, const MappedPoint& mapped) const
     {
-        return mapped.isVertex() ? cornerPoint(cornerAt(triangle, mapped.vertex) - triangle * 3) : mapped.at;
+        return mapped.isVertex() ? cornerPoint(cornerNumber(cornerAt(triangle, mapped.vertex))) : mapped.at;
     }
 
     /// Trace the path of a half-edge; call once for each.
-    void tracePath(uint32_t half_edge);
+    void tracePath(HalfEdgeId half_edge);
 
     /// Return the path of a half-edge that was traced.
-    const TracedPath& tracedPath(uint32_t half_edge) const { return paths_[path_of_half_edge_[half_edge]]; }
+    const TracedPath& tracedPath(HalfEdgeId half_edge) const { return paths_[path_of_half_edge_[half_edge]]; }
 
     std::span<const Crossing> crossings(const TracedPath& path) const
     {
@@ -96,31 +96,31 @@ public:
     /// Return all traced paths.
     std::span<const TracedPath> paths() const { return paths_; }
 
-    std::span<const uint32_t> opposites() const { return opposites_; }
+    IdSpan<HalfEdgeId, const HalfEdgeId> opposites() const { return opposites_; }
 
     /// Return the half-edges to cross from a triangle to another one around the same position, by the
     /// shorter turn; empty if there is none.
-    std::span<const uint32_t> turn(uint32_t vertex, uint32_t from, uint32_t to);
+    std::span<const HalfEdgeId> turn(PositionId vertex, TriangleId from, TriangleId to);
 
 private:
     void findMappedPoints(const GroupMesh& group, const SimplifiedGroup& simplified,
-                          std::span<const TrianglePoint> points);
+                          IdSpan<PositionId, const TrianglePoint> points);
     bool tracePath(const MappedPoint& start, const MappedPoint& end, TracedPath& path);
     bool traceStraight(const MappedPoint& start, const MappedPoint& end, TracedPath& path);
-    uint32_t commonTriangle(const MappedPoint& a, const MappedPoint& b) const;
+    TriangleId commonTriangle(const MappedPoint& a, const MappedPoint& b) const;
     bool traceShortest(const MappedPoint& start, const MappedPoint& end, TracedPath& path);
-    void cross(uint32_t half_edge, TracedPath& path);
+    void cross(HalfEdgeId half_edge, TracedPath& path);
     Float3 mappedPosition(const MappedPoint& mapped) const;
-    bool contains(uint32_t triangle, const MappedPoint& mapped) const;
+    bool contains(TriangleId triangle, const MappedPoint& mapped) const;
 
-    /// Return the corner of a triangle that lies at a position, or kInvalidIndex.
-    uint32_t cornerAt(uint32_t triangle, uint32_t position) const
+    /// Return the corner of a triangle that lies at a position, or kInvalid.
+    CornerId cornerAt(TriangleId triangle, PositionId position) const
     {
-        const uint32_t* corners = &after_.position_ids[size_t{triangle} * 3];
-        return corners[0] == position   ? triangle * 3
-               : corners[1] == position ? triangle * 3 + 1
-               : corners[2] == position ? triangle * 3 + 2
-                                        : kInvalidIndex;
+        const auto [a, b, c] = after_.position_ids.triangle(triangle);
+        return a == position   ? makeCorner(triangle, 0)
+               : b == position ? makeCorner(triangle, 1)
+               : c == position ? makeCorner(triangle, 2)
+                               : CornerId{kInvalid};
     }
 
     /// Line that a traced path follows. signedArea(position) is twice the signed area that a corner
@@ -131,15 +131,15 @@ private:
         float signedArea(Float3 place) const { return dot(left, place - origin); }
     };
 
-    std::span<const uint32_t> position_ids_;
-    std::span<const Float3> local_positions_;
+    CornerSpan<const PositionId> position_ids_;
+    IdSpan<PositionId, const Float3> local_positions_;
     const Surface& after_;
-    std::vector<uint32_t> opposites_; ///< opposite half-edges of the surface after
-    std::vector<MappedPoint> mapped_points_;
-    std::vector<uint32_t> path_of_half_edge_; ///< of the half-edges before
+    IdVector<HalfEdgeId, HalfEdgeId> opposites_; ///< opposite half-edges of the surface after
+    IdVector<PositionId, MappedPoint> mapped_points_;
+    IdVector<HalfEdgeId, uint32_t> path_of_half_edge_; ///< of the half-edges before
     std::vector<TracedPath> paths_;
     std::vector<Crossing> crossings_;
-    std::vector<uint32_t> turn_;
+    std::vector<HalfEdgeId> turn_;
 
     // of the half-edge that is traced
     Float3 from_, to_;

@@ -56,7 +56,7 @@ bool LoopFiller::turnsLeft(size_t i) const
 
 /// Return the half-edge, in the entered triangle, that starts at the corner to the left or right of the
 /// crossing.
-uint32_t LoopFiller::cornerAt(const Crossing& crossing, bool left) const
+HalfEdgeId LoopFiller::cornerAt(const Crossing& crossing, bool left) const
 {
     return left ? crossing.entering : nextHalfEdge(crossing.entering);
 }
@@ -85,10 +85,10 @@ bool LoopFiller::closeRing()
     const bool left = turnsLeft(0);
     for (size_t i = 0; i < count_; ++i)
     {
-        const uint32_t entering = crossings_[i].entering;
-        const uint32_t next = crossings_[(i + 1) % count_].leaving;
+        const HalfEdgeId entering = crossings_[i].entering;
+        const HalfEdgeId next = crossings_[(i + 1) % count_].leaving;
         if (next != (left ? previousHalfEdge(entering) : nextHalfEdge(entering)) ||
-            (i > 0 && entering / 3 == crossings_[0].entering / 3))
+            (i > 0 && cornerTriangle(entering) == cornerTriangle(crossings_[0].entering)))
             return false;
     }
     inner_.push_back(cornerAt(crossings_[0], left));
@@ -112,20 +112,20 @@ bool LoopFiller::pushOver()
         if (run + 1 > count_)
             continue;
         // half-edges to cross when going around the corner the other way
-        const uint32_t goal = crossings_[(start + run) % count_].entering / 3;
-        std::array<uint32_t, kMaxCrossings> half_edges;
+        const TriangleId goal = cornerTriangle(crossings_[(start + run) % count_].entering);
+        std::array<HalfEdgeId, kMaxCrossings> half_edges;
         size_t found = 0;
-        const uint32_t behind = crossings_[start].leaving;
-        uint32_t at = left ? nextHalfEdge(behind) : behind; // starts at the corner
-        while (at / 3 != goal && found < run)
+        const HalfEdgeId behind = crossings_[start].leaving;
+        HalfEdgeId at = left ? nextHalfEdge(behind) : behind; // starts at the corner
+        while (cornerTriangle(at) != goal && found < run)
         {
-            const uint32_t half_edge = left ? at : previousHalfEdge(at);
-            if (opposites_[half_edge] == kInvalidIndex)
+            const HalfEdgeId half_edge = left ? at : previousHalfEdge(at);
+            if (opposites_[half_edge] == kInvalid)
                 break;
             half_edges[found++] = half_edge;
             at = left ? nextHalfEdge(opposites_[half_edge]) : opposites_[half_edge];
         }
-        if (at / 3 != goal)
+        if (cornerTriangle(at) != goal)
             continue;
         std::rotate(crossings_.begin(), crossings_.begin() + static_cast<ptrdiff_t>(start),
                     crossings_.begin() + static_cast<ptrdiff_t>(count_));
@@ -137,7 +137,7 @@ bool LoopFiller::pushOver()
 
 /// Replace the first `run` + 1 crossings, between which the path turns left or right around one corner, by
 /// crossings of the given half-edges at that corner.
-void LoopFiller::replaceRun(size_t run, bool left, std::span<const uint32_t> half_edges)
+void LoopFiller::replaceRun(size_t run, bool left, std::span<const HalfEdgeId> half_edges)
 {
     inner_.push_back(cornerAt(crossings_[0], left));
     for (size_t i = 0; i <= run; ++i)

@@ -18,7 +18,7 @@ namespace hearth::clusters
 /// Cut of a disc along a half-edge, so that each piece of the disc lies in one triangle.
 struct Chord
 {
-    uint32_t half_edge;
+    HalfEdgeId half_edge;
     float length; ///< signed, in parts of the half-edge
 };
 
@@ -30,7 +30,7 @@ class LoopFiller
 {
 public:
     /// opposites  opposite half-edges of the surface
-    explicit LoopFiller(std::span<const uint32_t> opposites)
+    explicit LoopFiller(IdSpan<HalfEdgeId, const HalfEdgeId> opposites)
         : opposites_(opposites), chords_(4 * kMaxCrossings)
     {
     }
@@ -45,7 +45,7 @@ public:
 
     /// Cross from a triangle to the next one at t of a half-edge with an opposite. Prepares both cases
     /// without a branch, because a return over the half-edge that was crossed last is unpredictable.
-    void cross(uint32_t leaving, uint32_t entering, float t)
+    void cross(HalfEdgeId leaving, HalfEdgeId entering, float t)
     {
         const Crossing& last = crossings_[count_ - 1];
         const bool back = last.entering == leaving;
@@ -64,7 +64,7 @@ public:
     bool close();
 
     /// Return the corners of triangles that the path went around, each as a half-edge that starts there.
-    std::span<const uint32_t> inner() const { return inner_; }
+    std::span<const HalfEdgeId> inner() const { return inner_; }
 
     /// Return the chords of all paths that could be filled.
     std::span<const Chord> chords() const { return std::span(chords_).first(chord_count_); }
@@ -72,22 +72,22 @@ public:
 private:
     struct Crossing
     {
-        uint32_t leaving = kInvalidIndex;
-        uint32_t entering = kInvalidIndex; ///< opposite half-edge of `leaving`
-        float t = 0;                       ///< along `leaving`
+        HalfEdgeId leaving = kInvalid;
+        HalfEdgeId entering = kInvalid; ///< opposite half-edge of `leaving`
+        float t = 0;                    ///< along `leaving`
     };
     static constexpr size_t kMaxCrossings = 64;
 
     void growOrOverflow();
     void addChord(const Crossing& from, float to);
     bool turnsLeft(size_t i) const;
-    uint32_t cornerAt(const Crossing& crossing, bool left) const;
+    HalfEdgeId cornerAt(const Crossing& crossing, bool left) const;
     void reduce();
     bool closeRing();
     bool pushOver();
-    void replaceRun(size_t run, bool left, std::span<const uint32_t> half_edges);
+    void replaceRun(size_t run, bool left, std::span<const HalfEdgeId> half_edges);
 
-    std::span<const uint32_t> opposites_;
+    IdSpan<HalfEdgeId, const HalfEdgeId> opposites_;
     std::vector<Chord> chords_; ///< the first chord_count_ are in use
     size_t chord_count_ = 0;
     size_t first_chord_ = 0; ///< chords of earlier paths
@@ -95,7 +95,7 @@ private:
     std::array<Crossing, kMaxCrossings> crossings_;
     size_t count_ = 1;
     bool overflow_ = false;
-    std::vector<uint32_t> inner_;
+    std::vector<HalfEdgeId> inner_;
 };
 
 } // namespace hearth::clusters

@@ -72,7 +72,7 @@ std::pair<NearestBound::Piece, NearestBound::Piece> NearestBound::halve(const Pi
             {{middle, q, apex}, {plane_middle, plane_q, plane_apex}}};
 }
 
-float NearestBound::bound(const Corners& triangle, TriangleBoxes& index, std::span<const uint32_t> likely,
+float NearestBound::bound(const Corners& triangle, TriangleBoxes& index, std::span<const TriangleId> likely,
                           Tolerance tolerance, SurfaceMetric* metric)
 {
     metric_ = metric;
@@ -119,7 +119,7 @@ float NearestBound::bound(const Corners& triangle, TriangleBoxes& index, std::sp
 }
 
 Bound NearestBound::boundByLikely(const Corners& triangle, TriangleBoxes& index,
-                                  std::span<const uint32_t> likely)
+                                  std::span<const TriangleId> likely)
 {
     const auto few = likely.first(std::min(likely.size(), kFewLikely));
     if (metric_ != nullptr)
@@ -135,18 +135,18 @@ Bound NearestBound::boundByLikely(const Corners& triangle, TriangleBoxes& index,
 }
 
 /// Load the candidate triangles. False if the metric has no bound.
-bool NearestBound::load(const TriangleBoxes& index, std::span<const uint32_t> triangles)
+bool NearestBound::load(const TriangleBoxes& index, std::span<const TriangleId> triangles)
 {
     triangles_.clear();
-    for (const uint32_t f : triangles)
-        triangles_.push_back(index.triangle(f));
+    for (const TriangleId triangle : triangles)
+        triangles_.push_back(index.triangle(triangle));
     candidates_.load(triangles_);
     return metric_ == nullptr || metric_->load(triangles);
 }
 
 /// Record the loaded triangles that the last bound was taken from: all of them without a metric, which does
 /// not track them.
-void NearestBound::addUsed(std::span<const uint32_t> triangles)
+void NearestBound::addUsed(std::span<const TriangleId> triangles)
 {
     for (size_t i = 0; i < triangles.size(); ++i)
         if (metric_ == nullptr || bounder_.wasUsed(i))
@@ -196,9 +196,9 @@ void NearestBound::dropDistant(const Corners& piece, TriangleBoxes& index, float
                              hearth::dot(outward[k], piece[2])}) +
                    length(outward[k]) * (radius + kSideMargin);
     }
-    const auto beside = [&](uint32_t f)
+    const auto beside = [&](TriangleId candidate)
     {
-        const DistanceTriangle triangle = index.triangle(f);
+        const DistanceTriangle triangle = index.triangle(candidate);
         for (size_t k = 0; k < 3; ++k)
         {
             const float a = hearth::dot(outward[k], triangle.a);
@@ -218,11 +218,11 @@ void NearestBound::keepNearest(const Corners& piece, TriangleBoxes& index)
 {
     const Float3 middle = (piece[0] + piece[1] + piece[2]) / 3.0f;
     by_distance_.clear();
-    for (const uint32_t f : found_)
+    for (const TriangleId candidate : found_)
     {
-        const DistanceTriangle triangle = index.triangle(f);
+        const DistanceTriangle triangle = index.triangle(candidate);
         const Float3 away = triangle.a + (triangle.ab + triangle.ac) / 3.0f - middle;
-        by_distance_.push_back({hearth::dot(away, away), f});
+        by_distance_.push_back({hearth::dot(away, away), candidate});
     }
     std::nth_element(by_distance_.begin(), by_distance_.begin() + kMaxCandidates, by_distance_.end());
     found_.clear();

@@ -26,7 +26,7 @@ class SurfaceMetric : public PointMetric
 {
 public:
     /// Set the candidate triangles. False if the metric has no bound among them.
-    virtual bool load(std::span<const uint32_t> triangles) = 0;
+    virtual bool load(std::span<const TriangleId> triangles) = 0;
 
     /// Set the corners of the next piece to bound, in multiples of the triangle's edges from corner 0.
     virtual void setPiece(const std::array<Float2, 3>& corners) = 0;
@@ -44,11 +44,11 @@ public:
     ///         searched; may be empty
     /// metric  instead of the distance; then only triangles close to the given one are searched, and the
     ///         bound may be infinite. null: the distance
-    float bound(const Corners& triangle, TriangleBoxes& index, std::span<const uint32_t> likely,
+    float bound(const Corners& triangle, TriangleBoxes& index, std::span<const TriangleId> likely,
                 Tolerance tolerance, SurfaceMetric* metric = nullptr);
 
     /// Return the triangles that the last bound was taken from; may contain duplicates.
-    std::span<const uint32_t> used() const { return used_; }
+    std::span<const TriangleId> used() const { return used_; }
 
     /// Return the number of pieces whose search ended early, so that their bounds are not tight.
     uint64_t loosePieces() const { return loose_pieces_; }
@@ -61,23 +61,23 @@ private:
         std::array<Float2, 3> plane;
     };
     static std::pair<Piece, Piece> halve(const Piece& piece);
-    Bound boundByLikely(const Corners& triangle, TriangleBoxes& index, std::span<const uint32_t> likely);
+    Bound boundByLikely(const Corners& triangle, TriangleBoxes& index, std::span<const TriangleId> likely);
     Bound boundPiece(const Piece& piece, TriangleBoxes& index, float allowed2, float radius);
     void dropDistant(const Corners& piece, TriangleBoxes& index, float radius);
     void keepNearest(const Corners& piece, TriangleBoxes& index);
-    bool load(const TriangleBoxes& index, std::span<const uint32_t> triangles);
-    void addUsed(std::span<const uint32_t> triangles);
+    bool load(const TriangleBoxes& index, std::span<const TriangleId> triangles);
+    void addUsed(std::span<const TriangleId> triangles);
     float allowed2() const;
 
     Tolerance tolerance_;
     float floor2_ = 0;
     float lower2_ = 0; ///< lower bound: some point of the triangle is this far away
     uint64_t loose_pieces_ = 0;
-    std::vector<std::pair<float, uint32_t>> by_distance_;
+    std::vector<std::pair<float, TriangleId>> by_distance_;
     SurfaceMetric* metric_ = nullptr;
     std::vector<Piece> stack_;
-    std::vector<uint32_t> found_;
-    std::vector<uint32_t> used_;
+    std::vector<TriangleId> found_;
+    std::vector<TriangleId> used_;
     std::vector<DistanceTriangle> triangles_;
     Candidates candidates_;
     PieceBounder bounder_;

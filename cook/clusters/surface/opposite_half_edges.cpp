@@ -14,7 +14,7 @@ namespace hearth::clusters
 namespace
 {
 
-constexpr uint32_t kNonManifold = kInvalidIndex - 1;
+constexpr HalfEdgeId kNonManifold{kInvalidIndex - 1};
 
 using Numbers = uint32_t __attribute__((vector_size(kLanes * sizeof(uint32_t))));
 
@@ -28,15 +28,15 @@ uint32_t sumNumbers(Numbers x)
 struct IncomingHalfEdges
 {
     static constexpr size_t kSlots = 2 * kLanes;
-    std::array<uint32_t, kSlots> start; ///< kInvalidIndex in unused slots
-    std::array<uint32_t, kSlots> half_edge;
+    std::array<PositionId, kSlots> start; ///< kInvalid in unused slots
+    std::array<HalfEdgeId, kSlots> half_edge;
 
     struct Found
     {
         uint32_t count;
-        uint32_t half_edge; ///< valid if the count is one
+        HalfEdgeId half_edge; ///< valid if the count is one
     };
-    Found find(uint32_t position) const
+    Found find(PositionId position) const
     {
         Numbers count{}, found{};
         for (size_t first = 0; first < kSlots; first += kLanes)
@@ -44,36 +44,35 @@ struct IncomingHalfEdges
             Numbers starts, half_edges;
             std::memcpy(&starts, &start[first], sizeof(starts));
             std::memcpy(&half_edges, &half_edge[first], sizeof(half_edges));
-            const auto hit = reinterpret_cast<Numbers>(starts == position);
+            const auto hit = reinterpret_cast<Numbers>(starts == toIndex(position));
             count -= hit;
             found += hit & half_edges;
         }
-        return {sumNumbers(count), sumNumbers(found)};
+        return {sumNumbers(count), HalfEdgeId{sumNumbers(found)}};
     }
 };
 
-constexpr IncomingHalfEdges kNoIncoming{{kInvalidIndex, kInvalidIndex, kInvalidIndex, kInvalidIndex,
-                                         kInvalidIndex, kInvalidIndex, kInvalidIndex, kInvalidIndex},
-                                        {}};
+constexpr IncomingHalfEdges kNoIncoming{
+    {kInvalid, kInvalid, kInvalid, kInvalid, kInvalid, kInvalid, kInvalid, kInvalid}, {}};
 
 class OppositeFinder
 {
 public:
-    OppositeFinder(std::span<const uint32_t> positions, size_t position_count)
+    OppositeFinder(CornerSpan<const PositionId> positions, size_t position_count)
         : positions_(positions),
           count_at_(position_count, 0),
           incoming_(position_count, kNoIncoming),
-          opposites_(positions.size(), kInvalidIndex)
+          opposites_(positions.size(), kInvalid)
     {
     }
 
-    std::vector<uint32_t> run()
+    IdVector<HalfEdgeId, HalfEdgeId> run()
     {
         sort();
-        for (const uint32_t half_edge : rising_)
+        for (const HalfEdgeId half_edge : rising_)
             findOpposite(half_edge);
         if (non_manifold_)
-            std::replace(opposites_.begin(), opposites_.end(), kNonManifold, kInvalidIndex);
+            std::replace(opposites_.begin(), opposites_.end(), kNonManifold, HalfEdgeId{kInvalid});
         return std::move(opposites_);
     }
 
@@ -82,12 +81,12 @@ private:
     {
         rising_.resize(positions_.size());
         size_t rising_count = 0;
-        for (uint32_t first = 0; first < positions_.size(); first += 3)
+        for (const TriangleId triangle : positions_.triangles())
             for (uint32_t k = 0; k < 3; ++k)
             {
-                const uint32_t half_edge = first + k;
-                const uint32_t start = positions_[half_edge],
-                               end = positions_[k == 2 ? first : half_edge + 1];
+                const HalfEdgeId half_edge = makeCorner(triangle, k);
+                const PositionId start = positions_[half_edge],
+                                 end = positions_[makeCorner(triangle, k == 2 ? 0 : k + 1)];
                 rising_[rising_count] = half_edge;
                 rising_count += start < end ? 1 : 0;
                 uint32_t& count = count_at_[end];
@@ -103,14 +102,14 @@ private:
             }
         rising_.resize(rising_count);
         // terminate each list
-        for (size_t position = 0; position < count_at_.size(); ++position)
+        for (const PositionId position : count_at_.ids())
             if (const uint32_t count = count_at_[position]; count < IncomingHalfEdges::kSlots)
-                incoming_[position].start[count] = kInvalidIndex;
+                incoming_[position].start[count] = kInvalid;
     }
 
-    void findOpposite(uint32_t half_edge)
+    void findOpposite(HalfEdgeId half_edge)
     {
-        const uint32_t start = positions_[half_edge], end = positions_[nextHalfEdge(half_edge)];
+        const PositionId start = positions_[half_edge], end = positions_[nextHalfEdge(half_edge)];
         const IncomingHalfEdges& incoming = incoming_[start];
         if (const IncomingHalfEdges::Found found = incoming.find(end); found.count == 1)
             pair(half_edge, found.half_edge);
@@ -119,37 +118,38 @@ private:
                 if (incoming.start[i] == end)
                     pair(half_edge, incoming.half_edge[i]);
         if (count_at_[start] > IncomingHalfEdges::kSlots)
-            for (const uint32_t other : overflow_)
+            for (const HalfEdgeId other : overflow_)
                 if (positions_[other] == end && positions_[nextHalfEdge(other)] == start)
                     pair(half_edge, other);
     }
 
-    void pair(uint32_t half_edge, uint32_t back)
+    void pair(HalfEdgeId half_edge, HalfEdgeId back)
     {
-        if (opposites_[half_edge] == kInvalidIndex && opposites_[back] == kInvalidIndex)
+        if (opposites_[half_edge] == kInvalid && opposites_[back] == kInvalid)
         {
             opposites_[half_edge] = back;
             opposites_[back] = half_edge;
             return;
         }
         non_manifold_ = true;
-        for (const uint32_t one : {half_edge, back})
-            if (const uint32_t other = std::exchange(opposites_[one], kNonManifold); other < kNonManifold)
+        for (const HalfEdgeId one : {half_edge, back})
+            if (const HalfEdgeId other = std::exchange(opposites_[one], kNonManifold); other < kNonManifold)
                 opposites_[other] = kNonManifold;
     }
 
-    std::span<const uint32_t> positions_;
-    std::vector<uint32_t> count_at_; ///< half-edges that arrive from larger ids, for each position
-    std::vector<IncomingHalfEdges> incoming_;
-    std::vector<uint32_t> rising_;   ///< half-edges to a larger id
-    std::vector<uint32_t> overflow_; ///< half-edges to a smaller id that did not fit
-    std::vector<uint32_t> opposites_;
+    CornerSpan<const PositionId> positions_;
+    IdVector<PositionId, uint32_t> count_at_; ///< half-edges that arrive from larger ids
+    IdVector<PositionId, IncomingHalfEdges> incoming_;
+    std::vector<HalfEdgeId> rising_;   ///< half-edges to a larger id
+    std::vector<HalfEdgeId> overflow_; ///< half-edges to a smaller id that did not fit
+    IdVector<HalfEdgeId, HalfEdgeId> opposites_;
     bool non_manifold_ = false; ///< several half-edges run in the same direction between the same positions
 };
 
 } // namespace
 
-std::vector<uint32_t> findOppositeHalfEdges(std::span<const uint32_t> positions, size_t position_count)
+IdVector<HalfEdgeId, HalfEdgeId> findOppositeHalfEdges(CornerSpan<const PositionId> positions,
+                                                       size_t position_count)
 {
     return OppositeFinder(positions, position_count).run();
 }

@@ -37,14 +37,12 @@ constexpr size_t kRun = 256;
 // Rounding of a distance, in parts of the coordinates: a few times 2^-53, with margin.
 constexpr double kBoundRounding = 1e-14;
 
-constexpr uint32_t kNotCut = 0xFFFFFFFFu;
-
 /// Piece of a triangle: a triangle itself.
 struct Piece
 {
     Corners3 corners;
-    uint32_t near = 0;         ///< a nearby triangle of the other surface
-    uint32_t cut_by = kNotCut; ///< the triangle that it was cut along
+    TriangleId near{};            ///< a nearby triangle of the other surface
+    TriangleId cut_by = kInvalid; ///< the triangle that it was cut along, if any
 };
 
 /// Result of one triangle.
@@ -124,7 +122,7 @@ void cut(const Polygon& polygon, const Height& height, Polygon& below, Polygon& 
 }
 
 /// Append the triangles of a fan.
-void addFan(const Polygon& polygon, uint32_t near, uint32_t cut_by, std::vector<Piece>& pieces)
+void addFan(const Polygon& polygon, TriangleId near, TriangleId cut_by, std::vector<Piece>& pieces)
 {
     for (size_t i = 2; i < polygon.size(); ++i)
         pieces.push_back({{polygon[0], polygon[i - 1], polygon[i]}, near, cut_by});
@@ -197,18 +195,18 @@ TriangleBound boundTriangle(const Corners3& triangle, const SurfaceTree& other, 
 /// Return the largest distance of the surface's corners: mostly the farthest point of a surface is a corner.
 double distanceOfCorners(const SurfaceView& from, const SurfaceTree& to)
 {
-    std::vector<uint32_t> corners(from.triangles.begin(), from.triangles.end());
-    std::sort(corners.begin(), corners.end());
-    corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-    std::vector<double> farthest2((corners.size() + kRun - 1) / kRun, 0);
+    std::vector<VertexId> vertices(from.corners.begin(), from.corners.end());
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+    std::vector<double> farthest2((vertices.size() + kRun - 1) / kRun, 0);
     tbb::parallel_for(size_t{0}, farthest2.size(),
                       [&](size_t run)
                       {
-                          uint32_t near = 0;
-                          for (size_t i = run * kRun; i < std::min(corners.size(), (run + 1) * kRun); ++i)
+                          TriangleId near{};
+                          for (size_t i = run * kRun; i < std::min(vertices.size(), (run + 1) * kRun); ++i)
                           {
                               const auto nearest =
-                                  to.nearest(widen(from.positions[corners[i]]), farthest2[run], near);
+                                  to.nearest(widen(from.positions[vertices[i]]), farthest2[run], near);
                               near = nearest.triangle;
                               farthest2[run] = std::max(farthest2[run], nearest.distance2);
                           }
@@ -227,7 +225,7 @@ double distanceOfCenters(const SurfaceTree& from, size_t triangle_count, const S
     tbb::parallel_for(size_t{0}, triangle_count,
                       [&](size_t t)
                       {
-                          std::vector<Piece> pieces{{from.triangle(static_cast<uint32_t>(t))}};
+                          std::vector<Piece> pieces{{from.triangle(toId<TriangleId>(t))}};
                           for (size_t i = 0; i < halvings; ++i)
                           {
                               std::vector<Piece> finer;
@@ -235,7 +233,7 @@ double distanceOfCenters(const SurfaceTree& from, size_t triangle_count, const S
                                   halve(piece, finer);
                               pieces = std::move(finer);
                           }
-                          uint32_t near = 0;
+                          TriangleId near{};
                           for (const Piece& piece : pieces)
                           {
                               const auto nearest = to.nearest(pieceCenter(piece.corners), farthest2[t], near);
@@ -250,7 +248,7 @@ double distanceOfCenters(const SurfaceTree& from, size_t triangle_count, const S
 void boundOneSide(const SurfaceView& surface, const SurfaceTree& from, const SurfaceTree& to, double enough,
                   SurfaceBound& bound)
 {
-    const size_t triangle_count = surface.triangles.size() / 3;
+    const size_t triangle_count = surface.corners.triangleCount();
     bound.sure =
         std::max({bound.sure, distanceOfCorners(surface, to), distanceOfCenters(from, triangle_count, to)});
     std::vector<TriangleBound> found(std::min(triangle_count, kBlock));
@@ -260,8 +258,7 @@ void boundOneSide(const SurfaceView& surface, const SurfaceTree& from, const Sur
         const double known = std::max(enough, bound.sure);
         tbb::parallel_for(size_t{0}, count,
                           [&](size_t i) {
-                              found[i] =
-                                  boundTriangle(from.triangle(static_cast<uint32_t>(first + i)), to, known);
+                              found[i] = boundTriangle(from.triangle(toId<TriangleId>(first + i)), to, known);
                           });
         for (size_t i = 0; i < count; ++i)
         {
@@ -275,9 +272,9 @@ void boundOneSide(const SurfaceView& surface, const SurfaceTree& from, const Sur
 double largestCoordinate(const SurfaceView& surface)
 {
     double largest = 0;
-    for (const uint32_t position : surface.triangles)
+    for (const VertexId vertex : surface.corners)
         for (int axis = 0; axis < 3; ++axis)
-            largest = std::max(largest, std::abs(double{surface.positions[position][axis]}));
+            largest = std::max(largest, std::abs(double{surface.positions[vertex][axis]}));
     return largest;
 }
 
@@ -285,7 +282,7 @@ double largestCoordinate(const SurfaceView& surface)
 
 SurfaceBound boundSurfaces(const SurfaceView& a, const SurfaceView& b, double enough)
 {
-    HEARTH_ASSERT(!a.triangles.empty() && !b.triangles.empty() && enough >= 0);
+    HEARTH_ASSERT(!a.corners.empty() && !b.corners.empty() && enough >= 0);
     const double coordinates = std::max(largestCoordinate(a), largestCoordinate(b));
     // smaller distances cannot be distinguished from 0 in the float positions of the surfaces
     const double least = std::max(enough, coordinates * 1e-6);

@@ -3,19 +3,19 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "cook/clusters/core/index_types.h"
 #include "formats/base/math.h"
 
 #include <cstdint>
-#include <span>
 
 namespace hearth::clusters
 {
 
-/// Surface: three indices into `positions` for each triangle.
+/// Triangulated surface of a whole mesh.
 struct SurfaceView
 {
-    std::span<const Float3> positions;
-    std::span<const uint32_t> triangles;
+    IdSpan<VertexId, const Float3> positions;
+    CornerSpan<const VertexId> corners;
 };
 
 /// Bounds of the two-sided distance of two surfaces.

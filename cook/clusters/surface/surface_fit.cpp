@@ -43,17 +43,17 @@ public:
 
     void run()
     {
-        for (uint32_t triangle = 0; triangle < points_.of_middle.size(); ++triangle)
-            if (points_.of_middle[triangle].triangle != kInvalidIndex)
+        for (const TriangleId triangle : points_.of_middle.ids())
+            if (points_.of_middle[triangle].triangle != kInvalid)
                 addMiddle(triangle);
-        for (uint32_t wedge = 0; wedge < attribute_weights_.size(); ++wedge)
+        for (const WedgeId wedge : attribute_weights_.ids())
         {
             const bool has_residual = attribute_weights_[wedge] > 0;
             const bool modified = placement_.modified[group_.position_id_of_wedge[wedge]] != 0;
             if (has_residual & modified)
                 changeAttributes(wedge);
         }
-        for (uint32_t position = 0; position < position_residuals_.size(); ++position)
+        for (const PositionId position : position_residuals_.ids())
         {
             const bool has_residual = position_residuals_[position][3] > 2 * exact_weights_[position];
             const bool modified = placement_.modified[position] != 0;
@@ -61,24 +61,20 @@ public:
                 move(position);
         }
         after_.setPositions(placement_.positions);
-        for (uint32_t position = 0; position < points_.of_position.size(); ++position)
+        for (const PositionId position : points_.of_position.ids())
             measure(points_.of_position[position], position);
-        for (uint32_t wedge = 0; wedge < points_.of_wedge.size(); ++wedge)
+        for (const WedgeId wedge : points_.of_wedge.ids())
             measure(points_.of_wedge[wedge], group_.position_id_of_wedge[wedge]);
     }
 
 private:
     /// Distribute the residual between the middle of a triangle and its point on the new surface to the
     /// corners of the triangle there.
-    void addMiddle(uint32_t triangle)
+    void addMiddle(TriangleId triangle)
     {
-        const uint32_t* before = &group_.corners[size_t{triangle} * 3];
         const TrianglePoint& point = points_.of_middle[triangle];
-        const uint32_t* after = &corners_[size_t{point.triangle} * 3];
-        const uint32_t* positions = &after_.position_ids[size_t{point.triangle} * 3];
-        const Float3 a = group_.positions[group_.position_id_of_wedge[before[0]]];
-        const Float3 b = group_.positions[group_.position_id_of_wedge[before[1]]];
-        const Float3 c = group_.positions[group_.position_id_of_wedge[before[2]]];
+        const std::array<PositionId, 3> positions = after_.position_ids.triangle(point.triangle);
+        const auto [a, b, c] = group_.trianglePositions(triangle);
         const Float3 away = triangleCenter(a, b, c) - trianglePosition(point, after_.triangles);
         if (!isPerpendicular(point, away))
             return;
@@ -93,7 +89,7 @@ private:
         // at a seam both sides would have to change equally, and the middle may lie on the other side
         if ((points_.on_seam[positions[0]] | points_.on_seam[positions[1]] | points_.on_seam[positions[2]]) ==
             0)
-            addAttributes(before, after, parts, area);
+            addAttributes(group_.corners.triangle(triangle), corners_.triangle(point.triangle), parts, area);
     }
 
     /// True if the line to a point is perpendicular to the triangle. On the rim of the fan it is not: other
@@ -105,8 +101,8 @@ private:
                std::abs(dot(away, triangle.ac)) <= kPerpendicularTolerance * triangle.ac_ac;
     }
 
-    void addAttributes(const uint32_t* before, const uint32_t* after, const std::array<float, 3>& parts,
-                       float area)
+    void addAttributes(const std::array<WedgeId, 3>& before, const std::array<WedgeId, 3>& after,
+                       const std::array<float, 3>& parts, float area)
     {
         const uint32_t rows = group_.attribute_rows;
         const Lanes* of_after = placement_.attributes.data();
@@ -116,24 +112,24 @@ private:
                               group_.wedgeAttributes(before[2])[r]) *
                              splat(1.0f / 3);
             for (size_t k = 0; k < 3; ++k)
-                residual -= of_after[size_t{after[k]} * rows + r] * splat(parts[k]);
+                residual -= of_after[group_.firstRow(after[k]) + r] * splat(parts[k]);
             residual *= splat(area);
             for (size_t k = 0; k < 3; ++k)
-                attribute_residuals_[size_t{after[k]} * rows + r] += residual * splat(parts[k]);
+                attribute_residuals_[group_.firstRow(after[k]) + r] += residual * splat(parts[k]);
         }
         for (size_t k = 0; k < 3; ++k)
             attribute_weights_[after[k]] += parts[k] * area;
     }
 
-    void changeAttributes(uint32_t wedge)
+    void changeAttributes(WedgeId wedge)
     {
         const Lanes step = splat(kOverrelaxation / attribute_weights_[wedge]);
-        const size_t first = size_t{wedge} * group_.attribute_rows;
+        const size_t first = group_.firstRow(wedge);
         for (size_t row = first; row < first + group_.attribute_rows; ++row)
             placement_.attributes[row] += attribute_residuals_[row] * step;
     }
 
-    void move(uint32_t position)
+    void move(PositionId position)
     {
         const Lanes step =
             position_residuals_[position] * splat(kOverrelaxation / position_residuals_[position][3]);
@@ -146,12 +142,12 @@ private:
         placement_.object_positions[position] = object_position;
     }
 
-    bool flipsTriangle(uint32_t position, Float3 place) const
+    bool flipsTriangle(PositionId position, Float3 place) const
     {
-        const std::vector<Float3>& positions = placement_.positions;
-        for (const uint32_t triangle : after_.triangles_at.list(position))
+        const IdVector<PositionId, Float3>& positions = placement_.positions;
+        for (const TriangleId triangle : after_.triangles_at.list(position))
         {
-            const uint32_t* p = &after_.position_ids[size_t{triangle} * 3];
+            const std::array<PositionId, 3> p = after_.position_ids.triangle(triangle);
             const size_t k = (p[1] == position ? 1u : 0u) + (p[2] == position ? 2u : 0u);
             if (moveFlipsTriangle(positions[p[(k + 1) % 3]], positions[p[(k + 2) % 3]], positions[position],
                                   place))
@@ -160,9 +156,9 @@ private:
         return false;
     }
 
-    void measure(TrianglePoint& point, uint32_t position) const
+    void measure(TrianglePoint& point, PositionId position) const
     {
-        if (point.triangle == kInvalidIndex)
+        if (point.triangle == kInvalid)
             return;
         const Float3 away = group_.positions[position] - trianglePosition(point, after_.triangles);
         point.distance2 = dot(away, away);
@@ -170,14 +166,14 @@ private:
 
     const GroupMesh& group_;
     Placement& placement_;
-    std::span<const uint32_t> corners_; ///< wedges of the new surface's triangles
+    CornerSpan<const WedgeId> corners_; ///< wedges of the new surface's triangles
     Surface& after_;
     SurfacePoints& points_;
-    std::vector<Lanes> position_residuals_;  ///< sum for each position, and its weight
-    std::vector<float> exact_weights_;       ///< part of the weight that is already on the new surface
-    float exact_distance2_;                  ///< resolution of the grid
-    std::vector<Lanes> attribute_residuals_; ///< rows of each wedge
-    std::vector<float> attribute_weights_;   ///< for each wedge
+    IdVector<PositionId, Lanes> position_residuals_; ///< sum, and its weight
+    IdVector<PositionId, float> exact_weights_; ///< part of the weight that is already on the new surface
+    float exact_distance2_;                     ///< resolution of the grid
+    std::vector<Lanes> attribute_residuals_;    ///< rows of each wedge
+    IdVector<WedgeId, float> attribute_weights_;
 };
 
 } // namespace

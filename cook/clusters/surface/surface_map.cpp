@@ -25,9 +25,9 @@ float distanceTo(const Corners& triangle, Float3 place)
 }
 
 /// Return the point on a half-edge at t from its start (0) to its end (1).
-BarycentricPoint pointOnHalfEdge(uint32_t half_edge, float t)
+BarycentricPoint pointOnHalfEdge(HalfEdgeId half_edge, float t)
 {
-    switch (half_edge % 3)
+    switch (cornerNumber(half_edge))
     {
     case 0:
         return {t, 0};
@@ -41,8 +41,9 @@ BarycentricPoint pointOnHalfEdge(uint32_t half_edge, float t)
 } // namespace
 
 SurfaceMap::SurfaceMap(const GroupMesh& group, const SimplifiedGroup& simplified,
-                       std::span<const uint32_t> positions_before, const Surface& after,
-                       std::span<const TrianglePoint> points, std::span<const uint8_t> wanted)
+                       CornerSpan<const PositionId> positions_before, const Surface& after,
+                       IdSpan<PositionId, const TrianglePoint> points,
+                       IdSpan<TriangleId, const uint8_t> wanted)
     : group_(group),
       positions_(positions_before),
       after_(after),
@@ -53,71 +54,74 @@ SurfaceMap::SurfaceMap(const GroupMesh& group, const SimplifiedGroup& simplified
       covered_(after.triangleCount(), 0)
 {
     tracePaths(wanted);
-    for (uint32_t t = 0; t < wanted.size(); ++t)
-        if (wanted[t] != 0 && !mapTriangle(t))
-            distances_[t] = kNotMapped;
+    for (const TriangleId triangle : wanted.ids())
+        if (wanted[triangle] != 0 && !mapTriangle(triangle))
+            distances_[triangle] = kNotMapped;
     findCovered();
 }
 
 /// Trace the half-edges of wanted triangles, each edge once. They are listed first, because a branch on the
 /// order of two opposite half-edges would be unpredictable.
-void SurfaceMap::tracePaths(std::span<const uint8_t> wanted)
+void SurfaceMap::tracePaths(IdSpan<TriangleId, const uint8_t> wanted)
 {
-    std::vector<uint32_t> half_edges(positions_.size());
+    std::vector<HalfEdgeId> half_edges(positions_.size());
     size_t count = 0;
-    for (uint32_t half_edge = 0; half_edge < positions_.size(); ++half_edge)
+    for (const HalfEdgeId half_edge : opposites_.ids())
     {
-        const uint32_t opposite = opposites_[half_edge];
-        const uint32_t other = opposite == kInvalidIndex ? half_edge : opposite;
+        const HalfEdgeId opposite = opposites_[half_edge];
+        const HalfEdgeId other = opposite == kInvalid ? half_edge : opposite;
         half_edges[count] = half_edge;
-        count += static_cast<uint32_t>(half_edge < opposite) & (wanted[half_edge / 3] | wanted[other / 3]);
+        count += static_cast<uint32_t>(half_edge < opposite) &
+                 (wanted[cornerTriangle(half_edge)] | wanted[cornerTriangle(other)]);
     }
-    for (const uint32_t half_edge : std::span(half_edges).first(count))
+    for (const HalfEdgeId half_edge : std::span(half_edges).first(count))
         tracer_.tracePath(half_edge);
 }
 
 /// Map a triangle by following the traced paths of its three half-edges.
-bool SurfaceMap::mapTriangle(uint32_t t)
+bool SurfaceMap::mapTriangle(TriangleId triangle)
 {
     /// Traced path of one half-edge; the path of a half-edge is that of its opposite backwards.
     struct FollowedPath
     {
         const TracedPath* path;
         bool backwards;
-        uint32_t from, to;
+        TriangleId from, to;
     };
     std::array<FollowedPath, 3> half_edges;
-    distances_[t] = 0;
+    distances_[triangle] = 0;
     for (uint32_t k = 0; k < 3; ++k)
     {
-        const uint32_t half_edge = t * 3 + k, opposite = opposites_[half_edge];
+        const HalfEdgeId half_edge = makeCorner(triangle, k), opposite = opposites_[half_edge];
         const bool backwards = opposite < half_edge;
         const TracedPath& path = tracer_.tracedPath(std::min(half_edge, opposite));
         if (!path.isFound())
             return false;
         half_edges[k] = {&path, backwards, backwards ? path.to : path.from, backwards ? path.from : path.to};
-        distances_[t] =
-            std::max({distances_[t], path.distance, tracer_.mappedPoint(positions_[half_edge]).distance});
+        distances_[triangle] = std::max(
+            {distances_[triangle], path.distance, tracer_.mappedPoint(positions_[half_edge]).distance});
     }
     fill_.begin();
     for (uint32_t k = 0; k < 3; ++k)
     {
         follow(*half_edges[k].path, half_edges[k].backwards);
-        const uint32_t end = half_edges[k].to, next = half_edges[(k + 1) % 3].from;
+        const TriangleId end = half_edges[k].to, next = half_edges[(k + 1) % 3].from;
         if (end == next)
             continue;
-        if (turn(t, tracer_.mappedPoint(positions_[t * 3 + (k + 1) % 3]), end, next))
+        const PositionId position = positions_[makeCorner(triangle, (k + 1) % 3)];
+        if (turn(triangle, tracer_.mappedPoint(position), end, next))
             continue;
         fill_.drop();
         return false;
     }
     if (!fill_.close())
         return false;
-    for (const uint32_t half_edge : fill_.inner())
+    for (const HalfEdgeId half_edge : fill_.inner())
     {
-        const Corners corners{group_.positions[positions_[t * 3]], group_.positions[positions_[t * 3 + 1]],
-                              group_.positions[positions_[t * 3 + 2]]};
-        addInner(t, after_.position_ids[half_edge], distanceTo(corners, after_.corner_positions[half_edge]));
+        const auto [a, b, c] = positions_.triangle(triangle);
+        const Corners corners{group_.positions[a], group_.positions[b], group_.positions[c]};
+        addInner(triangle, after_.position_ids[half_edge],
+                 distanceTo(corners, after_.corner_positions[half_edge]));
     }
     return true;
 }
@@ -137,31 +141,34 @@ void SurfaceMap::follow(const TracedPath& path, bool backwards)
 }
 
 /// Cross from triangle to triangle around a position.
-bool SurfaceMap::turn(uint32_t t, const MappedPoint& mapped, uint32_t from, uint32_t to)
+bool SurfaceMap::turn(TriangleId triangle, const MappedPoint& mapped, TriangleId from, TriangleId to)
 {
     const auto half_edges = tracer_.turn(mapped.vertex, from, to);
-    for (const uint32_t half_edge : half_edges)
+    for (const HalfEdgeId half_edge : half_edges)
     {
-        const uint32_t opposite = tracer_.opposites()[half_edge];
+        const HalfEdgeId opposite = tracer_.opposites()[half_edge];
         fill_.cross(half_edge, opposite, after_.position_ids[half_edge] == mapped.vertex ? 0.0f : 1.0f);
-        if (opposite / 3 != to)
-            passed_.push_back({t, opposite / 3, mapped.distance});
+        if (const TriangleId passed = cornerTriangle(opposite); passed != to)
+            passed_.push_back({triangle, passed, mapped.distance});
     }
     return !half_edges.empty();
 }
 
-void SurfaceMap::addInner(uint32_t triangle, uint32_t position, float distance)
+void SurfaceMap::addInner(TriangleId triangle, PositionId position, float distance)
 {
     inner_.push_back({triangle, position, distance});
     distances_[triangle] = std::max(distances_[triangle], distance);
 }
 
-std::vector<float> SurfaceMap::maxSums(std::span<const float> carried) const
+IdVector<TriangleId, float> SurfaceMap::maxSums(IdSpan<TriangleId, const float> carried) const
 {
-    std::vector<float> sums(covered_.size(), 0);
-    const auto mappedError = [&](uint32_t half_edge)
-    { return half_edge != kInvalidIndex && maps(half_edge / 3) ? carried[half_edge / 3] : kNotMapped; };
-    const auto give = [&](uint32_t new_triangle, float sum)
+    IdVector<TriangleId, float> sums(covered_.size(), 0);
+    const auto mappedError = [&](HalfEdgeId half_edge)
+    {
+        const bool mapped = half_edge != kInvalid && maps(cornerTriangle(half_edge));
+        return mapped ? carried[cornerTriangle(half_edge)] : kNotMapped;
+    };
+    const auto give = [&](TriangleId new_triangle, float sum)
     { sums[new_triangle] = std::max(sums[new_triangle], sum); };
     for (const TracedPath& path : tracer_.paths())
     {
@@ -171,8 +178,8 @@ std::vector<float> SurfaceMap::maxSums(std::span<const float> carried) const
         give(path.from, most + tracer_.mappedPoint(positions_[path.half_edge]).distance);
         for (const Crossing& crossing : tracer_.crossings(path))
         {
-            give(crossing.leaving() / 3, most + crossing.distance);
-            give(crossing.entering() / 3, most + crossing.distance);
+            give(cornerTriangle(crossing.leaving()), most + crossing.distance);
+            give(cornerTriangle(crossing.entering()), most + crossing.distance);
         }
         give(path.to, most + tracer_.mappedPoint(positions_[nextHalfEdge(path.half_edge)]).distance);
     }
@@ -181,7 +188,7 @@ std::vector<float> SurfaceMap::maxSums(std::span<const float> carried) const
             give(passed.new_triangle, carried[passed.triangle] + passed.distance);
     for (const InnerPoint& inner : inner_)
         if (maps(inner.triangle))
-            for (const uint32_t new_triangle : after_.triangles_at.list(inner.position))
+            for (const TriangleId new_triangle : after_.triangles_at.list(inner.position))
                 give(new_triangle, carried[inner.triangle] + inner.distance);
     return sums;
 }
@@ -192,49 +199,52 @@ std::vector<float> SurfaceMap::maxSums(std::span<const float> carried) const
 void SurfaceMap::findCovered()
 {
     const auto opposites = tracer_.opposites();
-    std::vector<float> lengths(opposites.size(), 0);
+    IdVector<HalfEdgeId, float> lengths(opposites.size(), 0);
     for (const Chord& chord : fill_.chords())
         lengths[chord.half_edge] += chord.length;
     decides_.resize(opposites.size());
-    for (uint32_t half_edge = 0; half_edge < opposites.size(); ++half_edge)
+    for (const HalfEdgeId half_edge : opposites.ids())
         decides_[half_edge] =
-            opposites[half_edge] != kInvalidIndex &&
+            opposites[half_edge] != kInvalid &&
             std::abs(lengths[half_edge] + lengths[opposites[half_edge]] - 1) < kRoundingOfLengths;
     open_.assign(covered_.size(), 0);
-    for (uint32_t t = 0; t < distances_.size(); ++t)
-        if (maps(t))
-            for (uint32_t half_edge = t * 3; half_edge < t * 3 + 3; ++half_edge)
-                if (const uint32_t opposite = opposites_[half_edge];
-                    opposite == kInvalidIndex || !maps(opposite / 3))
+    for (const TriangleId triangle : distances_.ids())
+        if (maps(triangle))
+            for (const HalfEdgeId half_edge : makeCorners(triangle))
+                if (const HalfEdgeId opposite = opposites_[half_edge];
+                    opposite == kInvalid || !maps(cornerTriangle(opposite)))
                     markOpenAlong(std::min(half_edge, opposite));
-    for (size_t f = 0; f < covered_.size(); ++f)
-        covered_[f] = open_[f] == 0 && (decides_[f * 3] | decides_[f * 3 + 1] | decides_[f * 3 + 2]) != 0;
+    for (const TriangleId new_triangle : covered_.ids())
+    {
+        const auto [a, b, c] = decides_.triangle(new_triangle);
+        covered_[new_triangle] = open_[new_triangle] == 0 && (a | b | c) != 0;
+    }
 }
 
 /// Mark the triangles that the path of a half-edge passes through as unknown: only one triangle beside it is
 /// mapped.
-void SurfaceMap::markOpenAlong(uint32_t half_edge)
+void SurfaceMap::markOpenAlong(HalfEdgeId half_edge)
 {
     const TracedPath& path = tracer_.tracedPath(half_edge);
-    uint32_t new_triangle = path.from;
+    TriangleId new_triangle = path.from;
     BarycentricPoint point = tracer_.pointIn(new_triangle, tracer_.mappedPoint(positions_[half_edge]));
     for (const Crossing& crossing : tracer_.crossings(path))
     {
         markOpenBetween(new_triangle, point, pointOnHalfEdge(crossing.leaving(), crossing.t));
-        new_triangle = crossing.entering() / 3;
+        new_triangle = cornerTriangle(crossing.entering());
         point = pointOnHalfEdge(crossing.entering(), 1 - crossing.t);
     }
     markOpenBetween(new_triangle, point,
                     tracer_.pointIn(new_triangle, tracer_.mappedPoint(positions_[nextHalfEdge(half_edge)])));
 }
 
-void SurfaceMap::markOpenBetween(uint32_t new_triangle, BarycentricPoint a, BarycentricPoint b)
+void SurfaceMap::markOpenBetween(TriangleId new_triangle, BarycentricPoint a, BarycentricPoint b)
 {
     const auto outside = [](BarycentricPoint p) { return p.v + p.w >= 1; };
     const std::array<bool, 3> along{a.w <= 0 && b.w <= 0, outside(a) && outside(b), a.v <= 0 && b.v <= 0};
-    for (size_t k = 0; k < 3; ++k)
+    for (uint32_t k = 0; k < 3; ++k)
         if (along[k])
-            decides_[new_triangle * 3 + k] = 0;
+            decides_[makeCorner(new_triangle, k)] = 0;
     if (!along[0] && !along[1] && !along[2])
         open_[new_triangle] = 1;
 }

@@ -2,9 +2,9 @@
 #include "cook/clusters/surface/surface_points.h"
 
 #include "cook/clusters/core/islands.h"
-#include "formats/base/index.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <span>
 #include <utility>
@@ -29,101 +29,99 @@ public:
     {
         findSeams();
         findTargets();
-        const KeyedLists wedges(targets_.size(), points_.of_wedge.size(),
-                                [&](uint32_t wedge) { return targets_[group_.position_id_of_wedge[wedge]]; });
+        const ListsByTarget<WedgeId> wedges(targets_.size(), points_.of_wedge.size(),
+                                            [&](WedgeId wedge)
+                                            { return targets_[group_.position_id_of_wedge[wedge]]; });
         if (!simplified_.pruned && !simplified_.merged)
             points_.of_middle.resize(group_.triangleCount());
         if (!points_.of_middle.empty())
-            for (uint32_t t = 0; t < simplified_.triangleCount(); ++t)
-                takeOwnTriangle(simplified_.source_triangle[t], t);
-        const KeyedLists triangles(targets_.size(), points_.of_middle.size(),
-                                   [&](uint32_t triangle) {
-                                       return points_.of_middle[triangle].triangle != kInvalidIndex
-                                                  ? kInvalidIndex
-                                                  : firstTarget(triangle);
-                                   });
-        for (uint32_t goal = 0; goal < targets_.size(); ++goal)
+            for (const TriangleId triangle : simplified_.corners.triangles())
+                takeOwnTriangle(simplified_.source_triangle[triangle], triangle);
+        const ListsByTarget<TriangleId> triangles(
+            targets_.size(), points_.of_middle.size(),
+            [&](TriangleId triangle)
+            { return points_.of_middle[triangle].triangle != kInvalid ? kInvalid : firstTarget(triangle); });
+        for (const PositionId goal : targets_.ids())
         {
             if ((wedges.isEmpty(goal) && triangles.isEmpty(goal)) || after_.triangles_at.list(goal).empty())
                 continue;
             fan_.load(after_.triangles, after_.triangles_at.list(goal));
-            wedges.forEach(goal, [&](uint32_t wedge) { locate(wedge, points_.on_seam[goal] != 0); });
-            triangles.forEach(goal, [&](uint32_t triangle)
+            wedges.forEach(goal, [&](WedgeId wedge) { locate(wedge, points_.on_seam[goal] != 0); });
+            triangles.forEach(goal, [&](TriangleId triangle)
                               { points_.of_middle[triangle] = fan_.nearest(triangleMiddle(triangle)); });
         }
         return std::move(points_);
     }
 
 private:
-    /// Linked lists of items by key.
-    class KeyedLists
+    /// Linked lists of wedges or triangles by their target position.
+    template <IndexType Item>
+    class ListsByTarget
     {
     public:
-        /// getKey(item) is kInvalidIndex for items of no list
-        template <typename GetKey>
-        KeyedLists(size_t key_count, size_t item_count, GetKey getKey)
-            : head_(key_count, kInvalidIndex), next_(item_count)
+        /// getTarget(item) is kInvalid for items of no list
+        template <typename GetTarget>
+        ListsByTarget(size_t position_count, size_t item_count, GetTarget getTarget)
+            : head_(position_count, kInvalid), next_(item_count)
         {
-            for (uint32_t item = 0; item < item_count; ++item)
-                if (const uint32_t key = getKey(item); key != kInvalidIndex)
-                    next_[item] = std::exchange(head_[key], item);
+            for (const Item item : next_.ids())
+                if (const PositionId target = getTarget(item); target != kInvalid)
+                    next_[item] = std::exchange(head_[target], item);
         }
 
-        bool isEmpty(uint32_t key) const { return head_[key] == kInvalidIndex; }
+        bool isEmpty(PositionId target) const { return head_[target] == kInvalid; }
 
         template <typename Visit>
-        void forEach(uint32_t key, Visit visit) const
+        void forEach(PositionId target, Visit visit) const
         {
-            for (uint32_t item = head_[key]; item != kInvalidIndex; item = next_[item])
+            for (Item item = head_[target]; item != kInvalid; item = next_[item])
                 visit(item);
         }
 
     private:
-        std::vector<uint32_t> head_;
-        std::vector<uint32_t> next_;
+        IdVector<PositionId, Item> head_;
+        IdVector<Item, Item> next_;
     };
 
     void findTargets()
     {
-        static_assert(kPruned == kInvalidIndex);
+        static_assert(kPruned == kInvalid);
         targets_.resize(group_.positions.size());
-        for (uint32_t position = 0; position < targets_.size(); ++position)
+        for (const PositionId position : targets_.ids())
         {
-            const uint32_t target = simplified_.target_of_position[position];
+            const PositionId target = simplified_.target_of_position[position];
             const bool stayed = position == target, modified = simplified_.placement.modified[position] != 0;
             const bool unchanged = stayed & !modified;
-            targets_[position] = unchanged ? kInvalidIndex : target;
+            targets_[position] = unchanged ? kInvalid : target;
         }
     }
 
-    uint32_t firstTarget(uint32_t triangle) const
+    PositionId firstTarget(TriangleId triangle) const
     {
-        const uint32_t* wedges = &group_.corners[size_t{triangle} * 3];
-        const uint32_t goal0 = targets_[group_.position_id_of_wedge[wedges[0]]];
-        const uint32_t goal1 = targets_[group_.position_id_of_wedge[wedges[1]]];
-        return goal0 != kInvalidIndex   ? goal0
-               : goal1 != kInvalidIndex ? goal1
-                                        : targets_[group_.position_id_of_wedge[wedges[2]]];
+        const auto [a, b, c] = group_.corners.triangle(triangle);
+        const PositionId goal_a = targets_[group_.position_id_of_wedge[a]];
+        const PositionId goal_b = targets_[group_.position_id_of_wedge[b]];
+        return goal_a != kInvalid   ? goal_a
+               : goal_b != kInvalid ? goal_b
+                                    : targets_[group_.position_id_of_wedge[c]];
     }
 
     /// Take the triangle's own remainder if its middle lies above it, as most do.
-    void takeOwnTriangle(uint32_t triangle, uint32_t number)
+    void takeOwnTriangle(TriangleId triangle, TriangleId remaining)
     {
-        const DistanceTriangle& remainder = after_.triangles[number];
+        const DistanceTriangle& remainder = after_.triangles[remaining];
         const Float3 away = triangleMiddle(triangle) - remainder.a;
         const float ab_ap = dot(remainder.ab, away), ac_ap = dot(remainder.ac, away);
         const float v = (remainder.ac_ac * ab_ap - remainder.ab_ac * ac_ap) * remainder.inverse_det;
         const float w = (remainder.ab_ab * ac_ap - remainder.ab_ac * ab_ap) * remainder.inverse_det;
         if (v > 0 && w > 0 && v + w < 1)
-            points_.of_middle[triangle] = {number, v, w, 0};
+            points_.of_middle[triangle] = {remaining, v, w, 0};
     }
 
-    Float3 triangleMiddle(uint32_t triangle) const
+    Float3 triangleMiddle(TriangleId triangle) const
     {
-        const size_t corner = size_t{triangle} * 3;
-        return triangleCenter(group_.positions[group_.positionIdAt(corner)],
-                              group_.positions[group_.positionIdAt(corner + 1)],
-                              group_.positions[group_.positionIdAt(corner + 2)]);
+        const auto [a, b, c] = group_.trianglePositions(triangle);
+        return triangleCenter(a, b, c);
     }
 
     void findSeams()
@@ -131,21 +129,21 @@ private:
         points_.on_seam.assign(group_.positions.size(), 0);
         if (group_.positions.size() == group_.vertex_of_wedge.size())
             return;
-        std::vector<uint32_t> wedge_at(group_.positions.size(), kInvalidIndex);
-        for (const uint32_t wedge : simplified_.corners)
+        IdVector<PositionId, WedgeId> wedge_at(group_.positions.size(), kInvalid);
+        for (const WedgeId wedge : simplified_.corners)
         {
-            uint32_t& first = wedge_at[group_.position_id_of_wedge[wedge]];
-            if (first == kInvalidIndex)
+            WedgeId& first = wedge_at[group_.position_id_of_wedge[wedge]];
+            if (first == kInvalid)
                 first = wedge;
             else if (first != wedge)
                 points_.on_seam[group_.position_id_of_wedge[wedge]] = 1;
         }
     }
 
-    void locate(uint32_t wedge, bool on_seam)
+    void locate(WedgeId wedge, bool on_seam)
     {
         TrianglePoint& nearest = points_.of_position[group_.position_id_of_wedge[wedge]];
-        if (nearest.triangle == kInvalidIndex)
+        if (nearest.triangle == kInvalid)
             nearest = fan_.nearest(group_.positions[group_.position_id_of_wedge[wedge]]);
         // inside a chart the fan is continuous
         points_.of_wedge[wedge] = on_seam ? nearestWithAttributes(wedge) : nearest;
@@ -153,7 +151,7 @@ private:
 
     /// Return the nearest point on each of the triangles, and of these the nearest one in position and
     /// attributes: at a seam this is on the wedge's own side.
-    TrianglePoint nearestWithAttributes(uint32_t wedge) const
+    TrianglePoint nearestWithAttributes(WedgeId wedge) const
     {
         TrianglePoint best;
         float least = std::numeric_limits<float>::infinity();
@@ -162,7 +160,7 @@ private:
                             {
                                 const float cost = point.distance2 + attributeDistance2(wedge, point);
                                 // the first serves if distances are NaN
-                                if (cost < least || best.triangle == kInvalidIndex)
+                                if (cost < least || best.triangle == kInvalid)
                                 {
                                     least = std::min(least, cost);
                                     best = point;
@@ -171,13 +169,13 @@ private:
         return best;
     }
 
-    float attributeDistance2(uint32_t wedge, const TrianglePoint& point) const
+    float attributeDistance2(WedgeId wedge, const TrianglePoint& point) const
     {
         const Lanes* before = group_.wedgeAttributes(wedge);
+        const std::array<WedgeId, 3> corners = simplified_.corners.triangle(point.triangle);
         const Lanes* rows[3];
         for (size_t k = 0; k < 3; ++k)
-            rows[k] = simplified_.placement.attributes.data() +
-                      size_t{simplified_.corners[point.triangle * 3 + k]} * group_.attribute_rows;
+            rows[k] = simplified_.placement.attributes.data() + group_.firstRow(corners[k]);
         const Lanes v = splat(point.v), w = splat(point.w), u = splat(1 - point.v - point.w);
         Lanes sum{};
         for (size_t row = 0; row < group_.attribute_rows; ++row)
@@ -192,8 +190,8 @@ private:
     const SimplifiedGroup& simplified_;
     const Surface& after_;
     SurfacePoints points_;
-    std::vector<uint32_t>
-        targets_;     ///< target of each position that was removed or moved; others: kInvalidIndex
+    /// Target of each position that was removed or moved; others: kInvalid.
+    IdVector<PositionId, PositionId> targets_;
     TriangleFan fan_; ///< triangles around one position
 };
 

@@ -7,8 +7,6 @@
 #include "cook/clusters/simplify/simplify.h"
 #include "cook/clusters/surface/surface.h"
 
-#include <vector>
-
 namespace hearth::clusters
 {
 
@@ -16,14 +14,14 @@ namespace hearth::clusters
 /// unchanged positions and for pruned ones.
 struct SurfacePoints
 {
-    std::vector<TrianglePoint> of_position; ///< nearest point
+    IdVector<PositionId, TrianglePoint> of_position; ///< nearest point
     /// Nearest point; at a seam the nearest one that takes attributes into account as well.
-    std::vector<TrianglePoint> of_wedge;
+    IdVector<WedgeId, TrianglePoint> of_wedge;
     /// Point near the middle of each triangle: in the remainder of the triangle, if the middle lies over
     /// that, else among the triangles around the target of its first changed corner. Empty if islands were
     /// pruned or grown, or positions were merged by cells: the rest is not meant to lie like that.
-    std::vector<TrianglePoint> of_middle;
-    std::vector<uint8_t> on_seam; ///< for each position: several wedges remain at it
+    IdVector<TriangleId, TrianglePoint> of_middle;
+    IdVector<PositionId, uint8_t> on_seam; ///< 1 for positions at which several wedges remain
 };
 
 SurfacePoints findPoints(const GroupMesh& group, const SimplifiedGroup& simplified, const Surface& after);

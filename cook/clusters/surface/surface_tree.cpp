@@ -6,7 +6,6 @@
 #include "formats/base/assert.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace hearth::clusters
 {
@@ -62,30 +61,31 @@ double distance2(Double3 point, const Corners3& triangle)
                      edgeDistance2(point, triangle[2], triangle[0])});
 }
 
-SurfaceTree::SurfaceTree(const SurfaceView& surface) : surface_(surface), order_(surface.triangles.size() / 3)
+SurfaceTree::SurfaceTree(const SurfaceView& surface)
+    : surface_(surface), order_(surface.corners.triangleCount())
 {
     HEARTH_ASSERT(!order_.empty());
-    std::iota(order_.begin(), order_.end(), 0u);
+    const IdRange<TriangleId> all = surface.corners.triangles();
+    std::copy(all.begin(), all.end(), order_.begin());
     nodes_.reserve(order_.size());
     build(0, static_cast<uint32_t>(order_.size()));
 }
 
-Corners3 SurfaceTree::triangle(uint32_t index) const
+Corners3 SurfaceTree::triangle(TriangleId triangle) const
 {
-    const auto corner = [&](size_t k)
-    { return widen(surface_.positions[surface_.triangles[size_t{index} * 3 + k]]); };
-    return {corner(0), corner(1), corner(2)};
+    const auto [a, b, c] = surface_.corners.triangle(triangle);
+    return {widen(surface_.positions[a]), widen(surface_.positions[b]), widen(surface_.positions[c])};
 }
 
 /// Halve the triangles along the longest side of their centers' box. Recursion is as deep as the tree, 32 at
 /// most.
 void SurfaceTree::build(uint32_t first, uint32_t count)
 {
-    const auto center = [&](uint32_t t, int axis)
+    const auto center = [&](TriangleId triangle, int axis)
     {
         float sum = 0;
-        for (size_t k = 0; k < 3; ++k)
-            sum += surface_.positions[surface_.triangles[size_t{t} * 3 + k]][axis];
+        for (const VertexId vertex : surface_.corners.triangle(triangle))
+            sum += surface_.positions[vertex][axis];
         return sum;
     };
     const auto at = static_cast<uint32_t>(nodes_.size());
@@ -93,8 +93,8 @@ void SurfaceTree::build(uint32_t first, uint32_t count)
     Box3 centers;
     for (uint32_t i = first; i < first + count; ++i)
     {
-        for (size_t k = 0; k < 3; ++k)
-            nodes_[at].box.add(surface_.positions[surface_.triangles[size_t{order_[i]} * 3 + k]]);
+        for (const VertexId vertex : surface_.corners.triangle(order_[i]))
+            nodes_[at].box.add(surface_.positions[vertex]);
         centers.add(Float3{center(order_[i], 0), center(order_[i], 1), center(order_[i], 2)});
     }
     nodes_[at].first = first;
@@ -105,7 +105,7 @@ void SurfaceTree::build(uint32_t first, uint32_t count)
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const uint32_t half = count / 2;
     std::nth_element(order_.begin() + first, order_.begin() + first + half, order_.begin() + first + count,
-                     [&](uint32_t a, uint32_t b)
+                     [&](TriangleId a, TriangleId b)
                      {
                          const float ca = center(a, axis), cb = center(b, axis);
                          return ca != cb ? ca < cb : a < b;
@@ -116,7 +116,7 @@ void SurfaceTree::build(uint32_t first, uint32_t count)
     build(first + half, count - half);
 }
 
-SurfaceTree::Nearest SurfaceTree::nearest(Double3 point, double enough2, uint32_t hint) const
+SurfaceTree::Nearest SurfaceTree::nearest(Double3 point, double enough2, TriangleId hint) const
 {
     Nearest best{hint, distance2(point, triangle(hint))};
     struct Entry

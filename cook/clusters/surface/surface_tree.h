@@ -27,16 +27,16 @@ public:
 
     struct Nearest
     {
-        uint32_t triangle = 0;
+        TriangleId triangle{};
         double distance2 = 0;
     };
 
     /// Find the triangle nearest to a point; or, as soon as one is found, any whose squared distance is at
     /// most `enough2`.
     /// hint  a triangle that is probably near
-    Nearest nearest(Double3 point, double enough2, uint32_t hint) const;
+    Nearest nearest(Double3 point, double enough2, TriangleId hint) const;
 
-    Corners3 triangle(uint32_t index) const;
+    Corners3 triangle(TriangleId triangle) const;
 
 private:
     /// Node of the tree. A leaf has `count` triangles; an inner node's first child follows it, its second is
@@ -52,7 +52,7 @@ private:
     void build(uint32_t first, uint32_t count);
 
     SurfaceView surface_;
-    std::vector<uint32_t> order_; ///< triangles, leaf by leaf
+    std::vector<TriangleId> order_; ///< leaf by leaf
     std::vector<Node> nodes_;
 };
 

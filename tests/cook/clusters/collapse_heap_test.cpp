@@ -28,7 +28,7 @@ TEST(CollapseHeap, givesTheCheapestFirstAsASortedSetDoes)
         {
             const auto cost = static_cast<float>(random() % 16) * 0.125f;
             const uint32_t position = i * 0x9E3779B1u;
-            heap.push({cost, position, position ^ 1, i});
+            heap.push({cost, PositionId{position}, PositionId{position ^ 1}, i});
             expected.insert({cost, position, i});
         }
         if (!expected.empty() && (!grows || random() % 2 == 0))
@@ -38,8 +38,8 @@ TEST(CollapseHeap, givesTheCheapestFirstAsASortedSetDoes)
             ASSERT_EQ(heap.front().cost(), cost);
             const HeapEntry entry = heap.pop();
             ASSERT_EQ(entry.cost(), cost);
-            ASSERT_EQ(entry.position(), position);
-            ASSERT_EQ(entry.target(), position ^ 1);
+            ASSERT_EQ(entry.position(), PositionId{position});
+            ASSERT_EQ(entry.target(), PositionId{position ^ 1});
             ASSERT_EQ(entry.version(), version);
         }
         ASSERT_EQ(heap.empty(), expected.empty());
@@ -51,13 +51,16 @@ TEST(CollapseHeap, knowsOneZeroAndOrdersAllMagnitudes)
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     constexpr float kLeast = std::numeric_limits<float>::denorm_min();
     CollapseHeap heap;
-    heap.push({kInfinity, 0, 0, 0});
-    heap.push({1e30f, 1, 0, 0});
-    heap.push({kLeast, 2, 0, 0});
-    heap.push({-0.0f, 4, 0, 0});
-    heap.push({0.0f, 3, 0, 0});
+    const auto push = [&](float cost, uint32_t position) {
+        heap.push({cost, PositionId{position}, PositionId{0}, 0});
+    };
+    push(kInfinity, 0);
+    push(1e30f, 1);
+    push(kLeast, 2);
+    push(-0.0f, 4);
+    push(0.0f, 3);
     for (const uint32_t position : {3u, 4u, 2u, 1u, 0u})
-        EXPECT_EQ(heap.pop().position(), position);
+        EXPECT_EQ(heap.pop().position(), PositionId{position});
     EXPECT_TRUE(heap.empty());
 }
 

@@ -22,14 +22,15 @@ using namespace hearth::clusters;
 struct Soup
 {
     std::vector<SplitItem> items;
-    std::vector<uint32_t> corners;
-    std::vector<float> errors;
+    CornerVector<VertexId> corners;
+    IdVector<TriangleId, float> errors;
 
     Soup(size_t count, auto&& center) : corners(count * 3), errors(count, 0)
     {
         for (uint32_t t = 0; t < count; ++t)
-            items.push_back({center(t), t});
-        std::iota(corners.begin(), corners.end(), 0u);
+            items.push_back({center(t), TriangleId{t}});
+        for (const CornerId corner : corners.ids())
+            corners[corner] = VertexId{toIndex(corner)};
     }
 
     /// Return the triangles of each cluster.
@@ -41,8 +42,8 @@ struct Soup
         for (const ClusterShape& shape : store.shapes)
         {
             result.emplace_back();
-            for (const uint32_t vertex : store.clusterVertices(shape))
-                result.back().insert(vertex / 3);
+            for (const VertexId vertex : store.clusterVertices(shape))
+                result.back().insert(toIndex(vertex) / 3);
         }
         return result;
     }

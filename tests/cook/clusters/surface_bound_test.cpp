@@ -21,10 +21,20 @@ using clusters::SurfaceBound;
 using clusters::SurfaceView;
 using mesh::SourceMesh;
 
-SurfaceView viewOf(const SourceMesh& mesh)
+/// Surface of a mesh; converts to a view of itself.
+class MeshSurface
 {
-    return {mesh.positions, mesh.indices};
-}
+public:
+    explicit MeshSurface(const SourceMesh& mesh)
+        : positions_(mesh.positions), corners_(clusters::convertIds<clusters::VertexId>(mesh.indices))
+    {
+    }
+    operator SurfaceView() const { return {positions_, corners_}; }
+
+private:
+    clusters::IdVector<clusters::VertexId, Float3> positions_;
+    clusters::CornerVector<clusters::VertexId> corners_;
+};
 
 /// Return the distance between two surfaces by sampling.
 double sampled(const SourceMesh& a, const SourceMesh& b)
@@ -37,7 +47,7 @@ double sampled(const SourceMesh& a, const SourceMesh& b)
 
 void expectTight(const SourceMesh& a, const SourceMesh& b)
 {
-    const SurfaceBound bound = boundSurfaces(viewOf(a), viewOf(b), 0);
+    const SurfaceBound bound = boundSurfaces(MeshSurface(a), MeshSurface(b), 0);
     const double found = sampled(a, b);
     EXPECT_GE(bound.upper, found * (1 - 1e-6));
     EXPECT_LE(bound.upper, 1.1 * bound.sure * (1 + 1e-9));
@@ -83,7 +93,7 @@ TEST(SurfaceBound, ofAFoldIsFoundInsideALargeTriangle)
     flat.indices = {0, 1, 2};
     ridge.positions = {{-10, 0, -10}, {0, 0, 10}, {10, 0, -10}, {-1, 0, 0}, {1, 0, 0}};
     ridge.indices = {0, 3, 1, 1, 4, 2};
-    const SurfaceBound bound = boundSurfaces(viewOf(flat), viewOf(ridge), 0);
+    const SurfaceBound bound = boundSurfaces(MeshSurface(flat), MeshSurface(ridge), 0);
     EXPECT_GE(bound.upper, sampled(flat, ridge) * (1 - 1e-6));
     EXPECT_LE(bound.upper, 1.1 * sampled(flat, ridge) * 1.02);
 }
@@ -91,7 +101,8 @@ TEST(SurfaceBound, ofAFoldIsFoundInsideALargeTriangle)
 TEST(SurfaceBound, onAPlaneIsRounding)
 {
     // common refinement of both surfaces, at an offset that gives them no common edge
-    const SurfaceBound bound = boundSurfaces(viewOf(square(2, {0, 0, 0})), viewOf(square(37, {0, 0, 0})), 0);
+    const SurfaceBound bound =
+        boundSurfaces(MeshSurface(square(2, {0, 0, 0})), MeshSurface(square(37, {0, 0, 0})), 0);
     EXPECT_LE(bound.upper, 2e-6);
     EXPECT_EQ(bound.loose_pieces, 0u);
 }
@@ -99,7 +110,7 @@ TEST(SurfaceBound, onAPlaneIsRounding)
 TEST(SurfaceBound, ofParallelPlanesIsTheirDistance)
 {
     const SurfaceBound bound =
-        boundSurfaces(viewOf(square(3, {0, 0.25f, 0})), viewOf(square(10, {0, 0, 0})), 0);
+        boundSurfaces(MeshSurface(square(3, {0, 0.25f, 0})), MeshSurface(square(10, {0, 0, 0})), 0);
     EXPECT_NEAR(bound.sure, 0.25, 1e-7);
     EXPECT_GE(bound.upper, 0.25 - 1e-7);
     EXPECT_LE(bound.upper, 0.275 + 1e-7);
@@ -108,8 +119,8 @@ TEST(SurfaceBound, ofParallelPlanesIsTheirDistance)
 TEST(SurfaceBound, doesNotTellApartWhatIsNearEnough)
 {
     const SourceMesh fine = shapes::rock(40, 0.4f), coarse = shapes::rock(20, 0.4f);
-    const double tight = boundSurfaces(viewOf(fine), viewOf(coarse), 0).upper;
-    const double enough = boundSurfaces(viewOf(fine), viewOf(coarse), 10 * tight).upper;
+    const double tight = boundSurfaces(MeshSurface(fine), MeshSurface(coarse), 0).upper;
+    const double enough = boundSurfaces(MeshSurface(fine), MeshSurface(coarse), 10 * tight).upper;
     EXPECT_GE(enough, sampled(fine, coarse) * (1 - 1e-6));
     EXPECT_LE(enough, 11 * tight);
 }
@@ -117,9 +128,9 @@ TEST(SurfaceBound, doesNotTellApartWhatIsNearEnough)
 TEST(SurfaceBound, doesNotDependOnThreads)
 {
     const SourceMesh a = shapes::rock(50, 0.4f), b = shapes::rock(11, 0.3f);
-    const SurfaceBound many = boundSurfaces(viewOf(a), viewOf(b), 0);
+    const SurfaceBound many = boundSurfaces(MeshSurface(a), MeshSurface(b), 0);
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-    const SurfaceBound single = boundSurfaces(viewOf(a), viewOf(b), 0);
+    const SurfaceBound single = boundSurfaces(MeshSurface(a), MeshSurface(b), 0);
     EXPECT_EQ(many.upper, single.upper);
     EXPECT_EQ(many.sure, single.sure);
 }
@@ -127,7 +138,8 @@ TEST(SurfaceBound, doesNotDependOnThreads)
 TEST(SurfaceTree, findsTheNearestTriangle)
 {
     const SourceMesh mesh = shapes::tangle(60, 300);
-    const clusters::SurfaceTree tree(viewOf(mesh));
+    const MeshSurface surface(mesh);
+    const clusters::SurfaceTree tree(surface);
     std::mt19937 random(5);
     const auto uniform = [&] { return static_cast<double>(random()) / 2147483648.0 - 1.0; };
     for (int i = 0; i < 500; ++i)
@@ -135,9 +147,10 @@ TEST(SurfaceTree, findsTheNearestTriangle)
         const Double3 point{uniform(), uniform(), uniform()};
         double nearest2 = 1e30;
         for (uint32_t t = 0; t < mesh.triangleCount(); ++t)
-            nearest2 = std::min(nearest2, clusters::distance2(point, tree.triangle(t)));
-        EXPECT_EQ(tree.nearest(point, 0, 0).distance2, nearest2);
-        EXPECT_LE(tree.nearest(point, 4 * nearest2, 0).distance2, 4 * nearest2);
+            nearest2 = std::min(
+                nearest2, clusters::distance2(point, tree.triangle(clusters::toId<clusters::TriangleId>(t))));
+        EXPECT_EQ(tree.nearest(point, 0, clusters::TriangleId{0}).distance2, nearest2);
+        EXPECT_LE(tree.nearest(point, 4 * nearest2, clusters::TriangleId{0}).distance2, 4 * nearest2);
     }
 }
 

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace
 {
@@ -35,11 +34,11 @@ Fitted fit(const SourceMesh& mesh, double share, size_t lock_every)
 {
     const PreparedMesh prepared = prepareMesh(mesh);
     const ClusterStore store = splitMesh(prepared);
-    std::vector<uint32_t> members(store.shapes.size());
-    std::iota(members.begin(), members.end(), 0u);
-    std::vector<uint8_t> locked(prepared.position_count, 0);
+    const IdRange<ClusterId> all = store.shapes.ids();
+    const std::vector<ClusterId> members(all.begin(), all.end());
+    IdVector<MeshPositionId, uint8_t> locked(prepared.position_count, 0);
     for (size_t p = 0; p < locked.size(); p += lock_every)
-        locked[p] = 1;
+        locked[toId<MeshPositionId>(p)] = 1;
     GroupMesh group = gatherGroup(prepared, store, members, locked, {});
     const auto target = static_cast<size_t>(share * static_cast<double>(group.triangleCount()));
     const SimplifiedGroup before = simplifyGroup(group, target, target);
@@ -52,8 +51,15 @@ Fitted fit(const SourceMesh& mesh, double share, size_t lock_every)
 
 double rmsDistance(const GroupMesh& group, const SimplifiedGroup& simplified)
 {
-    const std::vector<uint32_t> old_triangles = gatherPositionIds(group, group.corners);
-    const std::vector<uint32_t> new_triangles = gatherPositionIds(group, simplified.corners);
+    const auto numbers = [](const CornerVector<PositionId>& ids)
+    {
+        std::vector<uint32_t> result;
+        for (const PositionId id : ids)
+            result.push_back(toIndex(id));
+        return result;
+    };
+    const std::vector<uint32_t> old_triangles = numbers(gatherPositionIds(group, group.corners));
+    const std::vector<uint32_t> new_triangles = numbers(gatherPositionIds(group, simplified.corners));
     const SurfaceDistance distance(simplified.placement.positions, new_triangles);
     double sum = 0;
     const auto points = evenlySpread(group.positions, old_triangles, 20000);
@@ -141,21 +147,22 @@ TEST(SurfaceFit, movesOnlyWhatIsRemade)
 {
     const Fitted rock = fit(shapes::rock(20, 0.3f), 0.4, 3);
     size_t moved = 0;
-    for (size_t p = 0; p < rock.group.positions.size(); ++p)
+    for (const PositionId p : rock.group.positions.ids())
     {
         const bool stays = rock.after.placement.positions[p] == rock.before.placement.positions[p];
-        EXPECT_TRUE(stays || (rock.before.placement.modified[p] != 0 && rock.group.locked[p] == 0)) << p;
+        EXPECT_TRUE(stays || (rock.before.placement.modified[p] != 0 && rock.group.locked[p] == 0))
+            << toIndex(p);
         moved += stays ? 0 : 1;
     }
     EXPECT_GT(moved, 100u);
-    EXPECT_EQ(rock.after.corners, rock.before.corners);
-    EXPECT_EQ(rock.after.placement.modified, rock.before.placement.modified);
+    EXPECT_EQ(rock.after.corners.values(), rock.before.corners.values());
+    EXPECT_EQ(rock.after.placement.modified.values(), rock.before.placement.modified.values());
 }
 
 TEST(SurfaceFit, keepsMovedPlacesOnTheGrid)
 {
     const Fitted rock = fit(shapes::rock(20, 0.3f), 0.4, 3);
-    for (size_t p = 0; p < rock.group.positions.size(); ++p)
+    for (const PositionId p : rock.group.positions.ids())
         if (rock.after.placement.modified[p] != 0)
             for (int axis = 0; axis < 3; ++axis)
             {
@@ -170,17 +177,17 @@ TEST(SurfaceFit, leavesAttributesAtSeamsAlone)
     const Fitted rock = fit(shapes::rock(20, 0.2f), 0.4, 1000000);
     const uint32_t rows = rock.group.attribute_rows;
     size_t changed = 0, at_seams = 0;
-    for (size_t wedge = 0; wedge < rock.group.vertex_of_wedge.size(); ++wedge)
+    for (const WedgeId wedge : rock.group.vertex_of_wedge.ids())
     {
-        const uint32_t position = rock.group.position_id_of_wedge[wedge];
+        const PositionId position = rock.group.position_id_of_wedge[wedge];
         bool same = true;
         for (uint32_t r = 0; r < rows; ++r)
             for (size_t lane = 0; lane < kLanes; ++lane)
-                same &= rock.after.placement.attributes[wedge * rows + r][lane] ==
-                        rock.before.placement.attributes[wedge * rows + r][lane];
+                same &= rock.after.placement.attributes[rock.group.firstRow(wedge) + r][lane] ==
+                        rock.before.placement.attributes[rock.group.firstRow(wedge) + r][lane];
         if (rock.points.on_seam[position] != 0 && rock.after.placement.modified[position] != 0)
         {
-            EXPECT_TRUE(same) << wedge;
+            EXPECT_TRUE(same) << toIndex(wedge);
             ++at_seams;
         }
         changed += same ? 0 : 1;
@@ -192,12 +199,11 @@ TEST(SurfaceFit, leavesAttributesAtSeamsAlone)
 TEST(SurfaceFit, pointsAndSurfaceGoWithIt)
 {
     const Fitted rock = fit(shapes::rock(20, 0.3f), 0.4, 3);
-    for (size_t f = 0; f < rock.surface.triangleCount(); ++f)
-        for (size_t k = 0; k < 3; ++k)
-            EXPECT_EQ(rock.surface.corner_positions[f * 3 + k],
-                      rock.after.placement.positions[rock.surface.position_ids[f * 3 + k]]);
-    for (size_t p = 0; p < rock.group.positions.size(); ++p)
-        if (const TrianglePoint& point = rock.points.of_position[p]; point.triangle != kInvalidIndex)
+    for (const CornerId corner : rock.surface.position_ids.ids())
+        EXPECT_EQ(rock.surface.corner_positions[corner],
+                  rock.after.placement.positions[rock.surface.position_ids[corner]]);
+    for (const PositionId p : rock.group.positions.ids())
+        if (const TrianglePoint& point = rock.points.of_position[p]; point.triangle != kInvalid)
         {
             const Float3 away = rock.group.positions[p] - trianglePosition(point, rock.surface.triangles);
             EXPECT_EQ(point.distance2, dot(away, away));

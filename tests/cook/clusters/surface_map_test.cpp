@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <random>
 
 namespace
@@ -42,9 +41,9 @@ GroupMesh groupOf(const SourceMesh& mesh, double locked_share, std::mt19937& ran
 {
     const PreparedMesh prepared = prepareMesh(mesh);
     const ClusterStore store = splitMesh(prepared);
-    std::vector<uint32_t> members(std::min<size_t>(store.shapes.size(), 8));
-    std::iota(members.begin(), members.end(), 0u);
-    std::vector<uint8_t> locked(prepared.position_count);
+    const auto few = makeIds<ClusterId>(std::min<size_t>(store.shapes.size(), 8));
+    const std::vector<ClusterId> members(few.begin(), few.end());
+    IdVector<MeshPositionId, uint8_t> locked(prepared.position_count);
     std::bernoulli_distribution stays(locked_share);
     for (uint8_t& lock : locked)
         lock = stays(random) ? 1 : 0;
@@ -114,17 +113,20 @@ void expectNear(const Surface& from, const Surface& to, Tells tells, Allowed all
 {
     std::mt19937 random(9);
     size_t bad = 0;
-    for (size_t t = 0; t < from.triangleCount(); t += test::kSanitized ? 10 : 1)
+    for (size_t i = 0; i < from.triangleCount(); i += test::kSanitized ? 10 : 1)
     {
+        const auto t = toId<TriangleId>(i);
         if (!tells(t))
             continue;
         for (const Float3 point : samplesOf(from.triangleCorners(t), random))
         {
-            bool found = false;
-            for (size_t f = 0; f < to.triangleCount() && !found; ++f)
-                if (const double limit = allowed(t, f) + kRounding; limit >= 0)
-                    found = distanceToTriangle(point, to.triangleCorners(f)) <= limit;
-            bad += found ? 0 : 1;
+            const auto isNear = [&](TriangleId f)
+            {
+                const double limit = allowed(t, f) + kRounding;
+                return limit >= 0 && distanceToTriangle(point, to.triangleCorners(f)) <= limit;
+            };
+            const auto others = to.triangles.ids();
+            bad += std::any_of(others.begin(), others.end(), isNear) ? 0 : 1;
         }
     }
     EXPECT_EQ(bad, 0u) << what;
@@ -136,26 +138,26 @@ struct Shares
 };
 
 /// Check everything that the map claims.
-Shares expectSoundMap(const Pair& pair, std::span<const TrianglePoint> points)
+Shares expectSoundMap(const Pair& pair, IdSpan<PositionId, const TrianglePoint> points)
 {
-    std::vector<uint8_t> all(pair.before.triangleCount(), 1);
+    IdVector<TriangleId, uint8_t> all(pair.before.triangleCount(), 1);
     const SurfaceMap map(pair.group, pair.simplified, pair.before.position_ids, pair.after, points, all);
-    const std::vector<float>& errors = pair.group.errors;
-    const std::vector<float> sums = map.maxSums(errors);
+    const IdVector<TriangleId, float>& errors = pair.group.errors;
+    const IdVector<TriangleId, float> sums = map.maxSums(errors);
     // a source point at the maximum distance from a triangle is near the triangle's image
     expectNear(
-        pair.before, pair.after, [&](size_t t) { return map.maps(t); },
-        [&](size_t t, size_t f)
+        pair.before, pair.after, [&](TriangleId t) { return map.maps(t); },
+        [&](TriangleId t, TriangleId f)
         { return std::min(double{map.maxDistance(t)}, double{sums[f]} - double{errors[t]}); },
         "before to after");
     expectNear(
-        pair.after, pair.before, [&](size_t f) { return map.covers(f); },
-        [&](size_t f, size_t t) { return map.maps(t) ? double{sums[f]} - double{errors[t]} : -1.0; },
+        pair.after, pair.before, [&](TriangleId f) { return map.covers(f); },
+        [&](TriangleId f, TriangleId t) { return map.maps(t) ? double{sums[f]} - double{errors[t]} : -1.0; },
         "after to before");
     Shares shares;
-    for (size_t t = 0; t < all.size(); ++t)
+    for (const TriangleId t : all.ids())
         shares.mapped += map.maps(t) ? 1.0 : 0.0;
-    for (size_t f = 0; f < pair.after.triangleCount(); ++f)
+    for (const TriangleId f : pair.after.triangles.ids())
         shares.covered += map.covers(f) ? 1.0 : 0.0;
     shares.mapped /= static_cast<double>(all.size());
     shares.covered /= static_cast<double>(pair.after.triangleCount());
@@ -166,28 +168,28 @@ void expectSoundErrors(const Pair& pair)
 {
     const Deviation deviation =
         boundDeviation(pair.group, pair.simplified, pair.after, pair.points.of_position);
-    const auto allowed = [&](size_t t, size_t f)
+    const auto allowed = [&](TriangleId t, TriangleId f)
     { return double{deviation.errors[f]} - double{pair.group.errors[t]}; };
-    const auto always = [](size_t) { return true; };
+    const auto always = [](TriangleId) { return true; };
     expectNear(pair.before, pair.after, always, allowed, "errors, before to after");
     expectNear(
-        pair.after, pair.before, always, [&](size_t f, size_t t) { return allowed(t, f); },
+        pair.after, pair.before, always, [&](TriangleId f, TriangleId t) { return allowed(t, f); },
         "errors, after to before");
 }
 
 /// Points scattered at random: the map may be bad, but its claims must hold.
-std::vector<TrianglePoint> scattered(const Pair& pair, double share, std::mt19937& random)
+IdVector<PositionId, TrianglePoint> scattered(const Pair& pair, double share, std::mt19937& random)
 {
-    std::vector<TrianglePoint> points = pair.points.of_position;
+    IdVector<PositionId, TrianglePoint> points = pair.points.of_position;
     std::uniform_real_distribution<float> unit(0, 1);
-    for (size_t p = 0; p < points.size(); ++p)
+    for (const PositionId p : points.ids())
     {
         TrianglePoint& point = points[p];
-        if (point.triangle == kInvalidIndex || unit(random) > share)
+        if (point.triangle == kInvalid || unit(random) > share)
             continue;
         for (int steps = 0; steps < 2; ++steps)
         {
-            const uint32_t corner = point.triangle * 3 + static_cast<uint32_t>(random() % 3);
+            const CornerId corner = makeCorner(point.triangle, static_cast<uint32_t>(random() % 3));
             const auto fan = pair.after.triangles_at.list(pair.after.position_ids[corner]);
             point.triangle = fan[random() % fan.size()];
         }
@@ -286,22 +288,28 @@ TEST(SurfaceMap, ofSheetsThatLieOnEachOtherIsSound)
     expectSound(mesh);
 }
 
-TEST(SideTwins, areWhereTwoSidesMeetTheOtherWayRound)
+std::vector<HalfEdgeId> findOpposites(std::span<const uint32_t> positions, size_t position_count)
+{
+    const CornerVector<PositionId> ids(convertIds<PositionId>(positions));
+    return findOppositeHalfEdges(ids, position_count).values();
+}
+
+TEST(OppositeHalfEdges, areWhereTwoRunTheOtherWayBetweenTheSamePositions)
 {
     // two triangles that share an edge; three around another edge; one with a corner twice
     const std::vector<uint32_t> positions{0, 1, 2, 0, 2, 3, 3, 4, 5, 4, 3, 6, 4, 3, 7, 8, 8, 9};
-    const std::vector<uint32_t> opposites = findOppositeHalfEdges(positions, 10);
-    EXPECT_EQ(opposites[2], 3u);
-    EXPECT_EQ(opposites[3], 2u);
-    for (size_t side = 4; side < 16; ++side)
-        EXPECT_EQ(opposites[side], kInvalidIndex) << side;
+    const std::vector<HalfEdgeId> opposites = findOpposites(positions, 10);
+    EXPECT_EQ(opposites[2], HalfEdgeId{3});
+    EXPECT_EQ(opposites[3], HalfEdgeId{2});
+    for (size_t half_edge = 4; half_edge < 16; ++half_edge)
+        EXPECT_EQ(opposites[half_edge], HalfEdgeId{kInvalid}) << half_edge;
     // more triangles around one position than usual
     std::vector<uint32_t> fan;
     for (uint32_t k = 1; k <= 30; ++k)
         fan.insert(fan.end(), {0, k, k % 30 + 1});
-    const std::vector<uint32_t> around = findOppositeHalfEdges(fan, 31);
+    const std::vector<HalfEdgeId> around = findOpposites(fan, 31);
     for (uint32_t k = 0; k < 30; ++k)
-        EXPECT_EQ(around[k * 3], (k + 29) % 30 * 3 + 2);
+        EXPECT_EQ(around[k * 3], HalfEdgeId{(k + 29) % 30 * 3 + 2});
 }
 
 } // namespace
