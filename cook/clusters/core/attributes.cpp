@@ -2,6 +2,7 @@
 #include "cook/clusters/core/attributes.h"
 
 #include "cook/mesh/deformation.h"
+#include "formats/base/assert.h"
 
 #include <algorithm>
 #include <cmath>
@@ -83,6 +84,7 @@ void setJoints(mesh::SourceMesh& vertices, uint32_t vertex, uint32_t main_joint,
 void packAttributes(const mesh::SourceMesh& vertices, uint32_t vertex, const AttributeWeights& weights,
                     Lanes* rows)
 {
+    HEARTH_RUNTIME_ASSERT(vertex < vertices.vertexCount());
     size_t next = 0;
     const auto add = [&](float value)
     {
@@ -112,11 +114,13 @@ void packAttributes(const mesh::SourceMesh& vertices, uint32_t vertex, const Att
         const Float3 delta = vertices.morph_targets[morph.index].positions[vertex] * morph.length;
         add(delta.x), add(delta.y), add(delta.z);
     }
+    HEARTH_RUNTIME_ASSERT(next == weights.count());
 }
 
 void unpackAttributes(const Lanes* rows, const AttributeWeights& weights, mesh::SourceMesh& vertices,
                       uint32_t vertex)
 {
+    HEARTH_RUNTIME_ASSERT(vertex < vertices.vertexCount());
     size_t next = 0;
     const auto take = [&](float weight)
     {

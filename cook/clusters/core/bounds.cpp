@@ -296,7 +296,9 @@ Sphere sphereOfPoints(std::span<const Float3> points)
         }
         center += (farthest.point - center) * (0.3f / static_cast<float>(step + 1));
     }
-    return roundedSphere(start.center + widen(best) * start.radius, points);
+    const Sphere sphere = roundedSphere(start.center + widen(best) * start.radius, points);
+    HEARTH_ASSERT(sphere.radius >= 0);
+    return sphere;
 }
 
 Sphere sphereOfSpheres(std::span<const Sphere> spheres, const Sphere& start)
@@ -327,7 +329,9 @@ Sphere sphereOfSpheres(std::span<const Sphere> spheres, const Sphere& start)
         middle = middle + (widen(farthest->center) - middle) * (0.5 / (step + 1));
     }
     const Float3 stored = narrow(best);
-    return {stored, roundUp(radiusAround(stored, spheres))};
+    const Sphere result{stored, roundUp(radiusAround(stored, spheres))};
+    HEARTH_ASSERT(result.radius >= 0);
+    return result;
 }
 
 void growToContain(Sphere& sphere, std::span<const Float3> points)
@@ -339,6 +343,7 @@ void growToContain(Sphere& sphere, std::span<const Float3> points)
 
 NormalCone computeNormalCone(std::span<const Float3> corners, Float3 middle)
 {
+    HEARTH_ASSERT(corners.size() % 3 == 0);
     NormalCone cone;
     const std::vector<PlanePair> planes = computePlanes(corners);
     // a triangle too thin for a normal in double precision could face anywhere
@@ -376,13 +381,14 @@ NormalCone computeNormalCone(std::span<const Float3> corners, Float3 middle)
     const double magnitude = length(widen(middle)) + reach + back;
     cone.back = back + 1e-5 * (reach + back) + magnitude * 4e-7 / cosine;
     cone.cutoff = std::min(1.0, std::sqrt(std::max(0.0, 1 - cosine * cosine)) + kConeMargin);
+    HEARTH_ASSERT(cone.cutoff > 0 && cone.back >= 0);
     return cone;
 }
 
 void setBounds(formats::ClusterRecord& record, double grid_step, std::span<const Float3> points,
                std::span<const Float3> corners, bool wide)
 {
-    HEARTH_ASSERT(!points.empty());
+    HEARTH_ASSERT(!points.empty() && grid_step > 0);
     Box3 box;
     for (const Float3 point : points)
         box.add(point);
@@ -396,6 +402,7 @@ void setBounds(formats::ClusterRecord& record, double grid_step, std::span<const
     uint32_t shift = wide ? 1 : 0;
     while (most > uint64_t{0xFFFF} << shift)
         ++shift;
+    HEARTH_ASSERT(shift <= 16);
     record.extent_shift = static_cast<uint8_t>(shift);
     for (int axis = 0; axis < 3; ++axis)
         record.extent[axis] = static_cast<uint16_t>((steps[axis] + (int64_t{1} << shift) - 1) >> shift);

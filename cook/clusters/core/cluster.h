@@ -7,6 +7,7 @@
 #include "cook/mesh/deformation.h"
 #include "cook/mesh/grid.h"
 #include "cook/mesh/source_mesh.h"
+#include "formats/base/assert.h"
 #include "formats/records/mesh.h"
 
 #include <cstddef>
@@ -59,6 +60,7 @@ constexpr bool isNewVertex(VertexId vertex)
 }
 constexpr uint32_t newVertexNumber(VertexId vertex)
 {
+    HEARTH_RUNTIME_ASSERT(isNewVertex(vertex));
     return toIndex(vertex) - kFirstNewVertex;
 }
 
@@ -95,15 +97,18 @@ struct ClusterStore
 
     std::span<const VertexId> clusterVertices(const ClusterShape& shape) const
     {
+        HEARTH_RUNTIME_ASSERT(shape.first_vertex + shape.vertex_count <= vertices.size());
         return std::span(vertices).subspan(shape.first_vertex, shape.vertex_count);
     }
     std::span<const uint8_t> clusterIndices(const ClusterShape& shape) const
     {
+        HEARTH_RUNTIME_ASSERT(shape.first_index + size_t{shape.triangle_count} * 3 <= indices.size());
         return std::span(indices).subspan(shape.first_index, size_t{shape.triangle_count} * 3);
     }
 
     std::span<const float> clusterErrors(const ClusterShape& shape) const
     {
+        HEARTH_RUNTIME_ASSERT(shape.first_index / 3 + shape.triangle_count <= errors.size());
         return std::span(errors).subspan(shape.first_index / 3, shape.triangle_count);
     }
 

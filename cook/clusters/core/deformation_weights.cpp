@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/core/deformation_weights.h"
 
+#include "formats/base/assert.h"
 #include "formats/base/double3.h"
 
 #include <algorithm>
@@ -93,6 +94,7 @@ void chooseMorphWeights(const PreparedMesh& mesh, GroupMesh& group)
 
 void chooseDeformationWeights(const PreparedMesh& mesh, GroupMesh& group)
 {
+    HEARTH_ASSERT(group.scale > 0 && !group.vertex_of_wedge.empty());
     const auto joints = jointSums(mesh.vertices, group.vertex_of_wedge);
     if (!joints.empty())
         group.weights.main_joint = joints.front().second;
@@ -103,6 +105,7 @@ void chooseDeformationWeights(const PreparedMesh& mesh, GroupMesh& group)
         group.weights.joints.push_back({joint, static_cast<float>(std::max(length, kMinJointLength))});
     }
     chooseMorphWeights(mesh, group);
+    HEARTH_ASSERT(group.weights.joints.size() <= kMaxJoints && group.weights.morphs.size() <= kMaxMorphs);
 }
 
 } // namespace hearth::clusters

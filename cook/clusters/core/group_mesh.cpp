@@ -4,6 +4,7 @@
 #include "cook/clusters/core/bounds.h"
 #include "cook/clusters/core/deformation_weights.h"
 #include "cook/clusters/core/set_hash.h"
+#include "formats/base/assert.h"
 #include "formats/base/index.h"
 
 #include <algorithm>
@@ -244,6 +245,8 @@ void gatherAttributes(GroupMesh& group, const PreparedMesh& mesh, const Config& 
 GroupMesh gatherGroup(const PreparedMesh& mesh, const ClusterStore& store, std::span<const ClusterId> members,
                       IdSpan<MeshPositionId, const uint8_t> locked, const Config& config)
 {
+    HEARTH_ASSERT(!members.empty() && allBelow(members, store.shapes.size()));
+    HEARTH_ASSERT(locked.size() == mesh.position_count);
     GroupMesh group;
     const auto material_of_wedge = gatherTriangles(group, mesh, store, members, locked);
     group.grid_step = mesh.grid.step;
@@ -253,11 +256,17 @@ GroupMesh gatherGroup(const PreparedMesh& mesh, const ClusterStore& store, std::
     group.positions_fixed = !mesh.vertices.morph_targets.empty();
     for (float& error : group.errors)
         error = roundUp(error / group.scale);
+    HEARTH_ASSERT(group.scale > 0);
+    HEARTH_RUNTIME_ASSERT(allBelow(group.corners, group.vertex_of_wedge.size()));
+    HEARTH_ASSERT(allBelow(group.position_id_of_wedge, group.positions.size()));
+    HEARTH_ASSERT(group.materials.size() == group.triangleCount() &&
+                  group.errors.size() == group.triangleCount());
     return group;
 }
 
 CornerVector<PositionId> gatherPositionIds(const GroupMesh& group, CornerSpan<const WedgeId> wedges)
 {
+    HEARTH_RUNTIME_ASSERT(allBelow(wedges, group.position_id_of_wedge.size()));
     CornerVector<PositionId> positions;
     positions.reserve(wedges.size());
     for (const WedgeId wedge : wedges)

@@ -102,6 +102,17 @@ std::vector<Id> convertIds(const Numbers& numbers)
     return ids;
 }
 
+/// True if all indices are below `limit`. A pass over the corners of a group costs a thousandth of building
+/// it: for debug builds, except where the indices come from afar.
+template <typename Ids>
+constexpr bool allBelow(const Ids& ids, size_t limit)
+{
+    uint32_t largest = 0;
+    for (const auto id : ids)
+        largest = std::max(largest, toIndex(id));
+    return ids.empty() || largest < limit;
+}
+
 /// Consecutive indices.
 template <IndexType Id>
 class IdRange
@@ -285,9 +296,9 @@ public:
         : Access(Values(vector.values()))
     {
     }
-    constexpr IdSpan(IdSpan<Id, std::remove_const_t<T>> other)
-        requires std::is_const_v<T>
-        : Access(Values(other.data(), other.size()))
+    template <typename Other>
+        requires std::same_as<const Other, T>
+    constexpr IdSpan(IdSpan<Id, Other> other) : Access(Values(other.data(), other.size()))
     {
     }
 

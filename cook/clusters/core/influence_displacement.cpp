@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/core/influence_displacement.h"
 
+#include "formats/base/assert.h"
+
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -198,6 +200,8 @@ private:
 std::optional<double> influenceDisplacement(const mesh::SourceMesh& all, const mesh::SourceMesh& kept,
                                             const MeshMotion& motion)
 {
+    HEARTH_ASSERT(motion.skin != nullptr);
+    HEARTH_ASSERT(!all.joint_sets.empty() && all.joint_sets.front().size() == kept.vertexCount());
     using Search = VertexDisplacement::Search;
     struct Candidate
     {
@@ -225,6 +229,7 @@ std::optional<double> influenceDisplacement(const mesh::SourceMesh& all, const m
             break;
         const auto tight =
             displacement(JointChanges(all, kept, candidate.vertex), candidate.vertex, Search::tight);
+        HEARTH_ASSERT(tight.has_value());
         most = std::max(most, std::min(candidate.quick, *tight));
     }
     return most;

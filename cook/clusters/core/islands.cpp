@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/core/islands.h"
 
+#include "formats/base/assert.h"
+
 #include <algorithm>
 #include <numeric>
 
@@ -23,6 +25,7 @@ DisjointSets::DisjointSets(size_t count) : parent_(count)
 
 uint32_t DisjointSets::find(uint32_t element)
 {
+    HEARTH_RUNTIME_ASSERT(element < parent_.size());
     while (parent_[element] != element)
     {
         parent_[element] = parent_[parent_[element]];
@@ -42,6 +45,7 @@ void DisjointSets::unite(uint32_t a, uint32_t b)
 template <IndexType Id>
 IdVector<TriangleId, Id> islandOfTriangles(const CornerVector<Id>& corners, size_t limit)
 {
+    HEARTH_RUNTIME_ASSERT(allBelow(corners, limit));
     DisjointSets sets(limit);
     for (const TriangleId triangle : corners.triangles())
     {
@@ -58,6 +62,7 @@ IdVector<TriangleId, Id> islandOfTriangles(const CornerVector<Id>& corners, size
 template <IndexType Id>
 void moveToIslandCenters(IdSpan<TriangleId, Float3> centers, const CornerVector<Id>& corners, size_t limit)
 {
+    HEARTH_ASSERT(centers.size() == corners.triangleCount());
     const IdVector<TriangleId, Id> island = islandOfTriangles(corners, limit);
     IdVector<Id, uint32_t> size(limit, 0);
     for (const Id i : island)

@@ -16,10 +16,12 @@ LevelStep findGroupStep(const Reduction& reduction, uint32_t level, std::span<co
     {
         const auto own = reduction.curve_of_material.find(material);
         const LevelCurve& curve = own == reduction.curve_of_material.end() ? reduction.curve : own->second;
+        HEARTH_ASSERT(!curve.empty());
         const LevelStep& step = curve[std::min<size_t>(level, curve.size() - 1)];
         largest.keep = std::max(largest.keep, step.keep);
         largest.error_weight = std::max(largest.error_weight, step.error_weight);
     }
+    HEARTH_ASSERT(largest.keep > 0 && largest.error_weight >= 1);
     return largest;
 }
 

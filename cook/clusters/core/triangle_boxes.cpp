@@ -58,6 +58,7 @@ LaneMask TriangleBoxes::overlap(const BoxBlock& blocks, const Box3& box)
 
 void TriangleBoxes::query(const Box3& box, std::vector<TriangleId>& found)
 {
+    HEARTH_RUNTIME_ASSERT(!box.empty());
     if (boxes_.empty())
         makeBoxes();
     found.clear();

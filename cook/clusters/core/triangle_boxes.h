@@ -4,6 +4,7 @@
 
 #include "cook/clusters/core/index_types.h"
 #include "cook/clusters/core/triangle_block.h"
+#include "formats/base/assert.h"
 #include "formats/base/math.h"
 
 #include <cstdint>
@@ -23,6 +24,7 @@ public:
     TriangleBoxes(CornerSpan<const PositionId> position_ids, IdSpan<PositionId, const Float3> positions)
         : position_ids_(position_ids), positions_(positions)
     {
+        HEARTH_RUNTIME_ASSERT(allBelow(position_ids, positions.size()));
     }
 
     DistanceTriangle triangle(TriangleId triangle) const

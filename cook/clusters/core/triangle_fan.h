@@ -4,6 +4,7 @@
 
 #include "cook/clusters/core/index_types.h"
 #include "cook/clusters/core/triangle_block.h"
+#include "formats/base/assert.h"
 #include "formats/base/math.h"
 
 #include <algorithm>
@@ -59,6 +60,7 @@ public:
     /// Find the nearest point on all of the triangles, by TriangleBlock::nearest.
     TrianglePoint nearest(Float3 place) const
     {
+        HEARTH_RUNTIME_ASSERT(!blocks_.empty());
         Lanes least = splat(std::numeric_limits<float>::infinity());
         Lanes v{}, w{};
         LaneMask blocks{};

@@ -4,6 +4,7 @@
 #include "cook/clusters/core/bounds.h"
 #include "cook/clusters/core/cluster.h"
 #include "cook/clusters/surface/surface.h"
+#include "formats/base/assert.h"
 
 #include <algorithm>
 #include <array>
@@ -154,6 +155,9 @@ private:
 
 AttributeStep measureAttributes(const GroupMesh& group, const NewSurface& after)
 {
+    HEARTH_ASSERT(after.points.size() == group.vertex_of_wedge.size() &&
+                  after.vertex_of_wedge.size() == group.vertex_of_wedge.size());
+    HEARTH_ASSERT(after.surface.triangleCount() == after.simplified.triangleCount());
     return AttributeMeasure(group, after).run();
 }
 

@@ -96,6 +96,8 @@ Double3 interpolateDelta(const DeformedPoint& point, size_t target)
 
 void DeformedSurface::add(Float3 place, const mesh::SourceMesh& source, uint32_t vertex, double scale)
 {
+    HEARTH_ASSERT(vertex < source.vertexCount() && scale > 0);
+    HEARTH_ASSERT(places_.empty() || delta_count_ == source.morph_targets.size());
     places_.push_back(widen(place));
     for (size_t set = 0; set < source.joint_sets.size(); ++set)
         for (size_t i = 0; i < 4; ++i)
@@ -110,6 +112,7 @@ void DeformedSurface::add(Float3 place, const mesh::SourceMesh& source, uint32_t
 DeformationMetric::DeformationMetric(Double3 center, double scale, const MeshMotion& motion)
     : center_(center), scale_(scale), motion_(motion)
 {
+    HEARTH_ASSERT(scale > 0);
 }
 
 const DeformationMetric::IdentityDeviation& DeformationMetric::departure(uint32_t main, uint32_t joint)
@@ -173,6 +176,7 @@ std::optional<uint32_t> DeformationMetric::mainJoint(const DeformedPoint& point,
 
 double DeformationMetric::between(const DeformedPoint& a, const DeformedPoint& b, uint32_t main)
 {
+    HEARTH_RUNTIME_ASSERT(a.surface->deltas(a.wedges[0]).size() == b.surface->deltas(b.wedges[0]).size());
     double sum = length(interpolatePosition(a) - interpolatePosition(b));
     JointDifferences differences;
     differences.add(a, 1);

@@ -6,6 +6,7 @@
 #include "cook/clusters/core/triangle_boxes.h"
 #include "cook/clusters/surface/nearest_bound.h"
 #include "cook/clusters/surface/surface_tree.h"
+#include "formats/base/assert.h"
 
 #include <algorithm>
 #include <cmath>
@@ -279,8 +280,11 @@ Deviation boundDeformedDeviation(const GroupMesh& group, const SimplifiedGroup& 
                                  const Surface& after, const SimplifiedVertices& vertices,
                                  const MeshMotion& motion)
 {
-    HEARTH_ASSERT(simplified.triangleCount() > 0);
-    return DeformedMeasure(group, simplified, after, vertices, motion).run();
+    HEARTH_ASSERT(simplified.triangleCount() > 0 && after.triangleCount() == simplified.triangleCount());
+    HEARTH_ASSERT(vertices.vertex_of_wedge.size() == group.vertex_of_wedge.size());
+    Deviation deviation = DeformedMeasure(group, simplified, after, vertices, motion).run();
+    HEARTH_ASSERT(deviation.errors.size() == after.triangleCount());
+    return deviation;
 }
 
 namespace
@@ -330,6 +334,8 @@ double boundDeformedSurfaces(const PreparedMesh& mesh, CornerSpan<const VertexId
                              CornerSpan<const VertexId> level)
 {
     HEARTH_ASSERT(!source.empty() && !level.empty());
+    HEARTH_ASSERT(allBelow(source, mesh.vertices.vertexCount()) &&
+                  allBelow(level, mesh.vertices.vertexCount()));
     const mesh::SourceMesh& vertices = mesh.vertices;
     DeformedSurface surface;
     for (uint32_t v = 0; v < vertices.vertexCount(); ++v)

@@ -314,8 +314,12 @@ private:
 Deviation boundDeviation(const GroupMesh& group, const SimplifiedGroup& simplified, const Surface& after,
                          IdSpan<PositionId, const TrianglePoint> points)
 {
-    HEARTH_ASSERT(simplified.triangleCount() > 0);
-    return DeviationMeasure(group, simplified, after, points).run();
+    HEARTH_ASSERT(simplified.triangleCount() > 0 && after.triangleCount() == simplified.triangleCount());
+    HEARTH_ASSERT(points.size() == group.positions.size());
+    HEARTH_ASSERT(group.errors.size() == group.triangleCount());
+    Deviation deviation = DeviationMeasure(group, simplified, after, points).run();
+    HEARTH_ASSERT(deviation.errors.size() == after.triangleCount());
+    return deviation;
 }
 
 } // namespace hearth::clusters

@@ -2,6 +2,7 @@
 #include "cook/clusters/error/group_errors.h"
 
 #include "cook/clusters/core/bounds.h"
+#include "formats/base/assert.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,6 +29,7 @@ GroupErrors rootErrors()
 
 void ErrorAccumulator::add(const GroupErrors& errors, uint32_t triangles)
 {
+    HEARTH_ASSERT(errors.lod >= 0 && errors.position >= 0 && triangles > 0);
     largest_.lod = std::max(largest_.lod, errors.lod);
     largest_.position = std::max(largest_.position, errors.position);
     largest_.attributes.normal = std::max(largest_.attributes.normal, errors.attributes.normal);
@@ -56,6 +58,7 @@ GroupErrors ErrorAccumulator::errorsAgainstSource(const Replacement& replacement
 GroupErrors ErrorAccumulator::errorsWith(const AttributeError& attributes, const Replacement& replacement,
                                          const Config& config) const
 {
+    HEARTH_ASSERT(replacement.distance >= 0 && replacement.weight >= 1);
     GroupErrors errors;
     errors.attributes = {std::max(attributes.normal, largest_.attributes.normal),
                          std::max(attributes.uv, largest_.attributes.uv)};
@@ -66,6 +69,7 @@ GroupErrors ErrorAccumulator::errorsWith(const AttributeError& attributes, const
     const double lod = std::max({distance, double{config.normal_error_weight} * wave,
                                  double{config.uv_error_weight} * double{attributes.uv}});
     errors.lod = roundUp(std::max(lod * double{replacement.weight}, double{largest_.lod}) * kMonotoneSlack);
+    HEARTH_ASSERT(errors.lod >= largest_.lod && errors.position >= largest_.position);
     return errors;
 }
 

@@ -4,6 +4,7 @@
 #include "cook/clusters/core/bounds.h"
 #include "cook/clusters/core/triangle_block.h"
 #include "cook/clusters/surface/surface_tree.h"
+#include "formats/base/assert.h"
 
 #include <algorithm>
 #include <cmath>
@@ -93,6 +94,7 @@ JoinedMesh joinAuthored(mesh::SourceMesh source, std::span<const mesh::SourceMes
         joined.mesh = prepareMesh(std::move(source), influences, motion);
         return joined;
     }
+    HEARTH_ASSERT(source.triangle_materials.size() == source.triangleCount());
     // materials are replaced by triangle numbers, to see which triangles remain
     std::vector<uint32_t> materials = std::move(source.triangle_materials);
     std::vector<size_t> ends{source.triangleCount()};
@@ -117,6 +119,7 @@ JoinedMesh joinAuthored(mesh::SourceMesh source, std::span<const mesh::SourceMes
     {
         AuthoredLod level = takeTriangles(joined.mesh, first, ends[i + 1], materials);
         level.authored = i;
+        HEARTH_ASSERT(level.corners.triangleCount() == level.triangleCount());
         if (level.triangleCount() == 0 || level.triangleCount() >= coarsest)
             continue;
         coarsest = level.triangleCount();
@@ -193,6 +196,7 @@ float edgeLength(IdSpan<VertexId, const Float3> positions, CornerSpan<const Vert
 AttributeStep measureAttributes(const PreparedMesh& mesh, CornerSpan<const VertexId> source_corners,
                                 const AuthoredLod& level)
 {
+    HEARTH_ASSERT(!source_corners.empty() && !level.corners.empty());
     constexpr CornerWeights kCentroid{1.0f / 3, 1.0f / 3, 1.0f / 3};
     const mesh::SourceMesh& vertices = mesh.vertices;
     const bool has_normals = !vertices.normals.empty(), has_uvs = !vertices.uvs[0].empty();
@@ -239,6 +243,7 @@ void linkPagesOfSets(Hierarchy& hierarchy)
     std::vector<std::vector<uint32_t>> pages_of_set(hierarchy.groups.size());
     for (uint32_t g = 0; g < hierarchy.groups.size(); ++g)
     {
+        HEARTH_ASSERT(hierarchy.groups[g].set_offset <= g);
         std::vector<uint32_t>& pages = pages_of_set[g - hierarchy.groups[g].set_offset];
         if (pages.empty() || pages.back() != hierarchy.groups[g].page)
             pages.push_back(hierarchy.groups[g].page);

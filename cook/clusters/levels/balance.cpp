@@ -2,6 +2,7 @@
 #include "cook/clusters/levels/balance.h"
 
 #include "cook/clusters/core/group_mesh.h"
+#include "formats/base/assert.h"
 
 #include <algorithm>
 #include <map>
@@ -91,6 +92,8 @@ void balanceAlike(const LevelView& level, std::span<const size_t> alike, std::sp
 
 void balanceGoals(const LevelView& level, std::span<GroupGoal> goals)
 {
+    HEARTH_ASSERT(goals.size() == level.groups.count());
+    HEARTH_ASSERT(level.locked.size() == level.mesh.position_count);
     std::map<float, std::vector<size_t>> groups_of_keep;
     for (size_t g = 0; g < goals.size(); ++g)
         groups_of_keep[goals[g].keep].push_back(g);

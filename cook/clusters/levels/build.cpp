@@ -2,6 +2,7 @@
 #include "cook/clusters/core/hierarchy.h"
 #include "cook/clusters/levels/levels.h"
 #include "cook/clusters/levels/records.h"
+#include "formats/base/assert.h"
 #include "formats/codecs/cluster_bounds.h"
 
 namespace hearth::clusters
@@ -69,6 +70,7 @@ Hierarchy buildHierarchy(mesh::SourceMesh source, std::span<const mesh::SourceMe
         build.mesh.attributes |= kVertexVisibility;
     hierarchy.counts.influence_loss = build.mesh.influence_loss;
     hierarchy.counts.influence_displacement = build.mesh.influence_displacement;
+    HEARTH_ASSERT(joined.levels.size() <= authored.size());
     if (build.mesh.triangleCount() > 0)
     {
         buildLevels(build);
@@ -76,6 +78,7 @@ Hierarchy buildHierarchy(mesh::SourceMesh source, std::span<const mesh::SourceMe
         writeRecords(build, hierarchy);
     }
     hierarchy.authored_levels = std::move(build.level_of_authored);
+    HEARTH_ASSERT(hierarchy.authored_levels.size() == authored.size());
     fillMeshRecord(build.mesh, hierarchy);
     return hierarchy;
 }

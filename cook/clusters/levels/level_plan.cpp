@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/levels/level_plan.h"
 
+#include "formats/base/assert.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -113,6 +115,7 @@ void planExactly(LevelPlan& plan, std::span<const GroupShare> shares, double fac
 LevelPlan planLevel(const Reduction& reduction, uint32_t level, const ClusterStore& store,
                     const Groups& groups, uint64_t drawn_below)
 {
+    HEARTH_ASSERT(groups.count() > 0 && groups.members.size() == store.shapes.size());
     LevelPlan plan;
     std::vector<GroupShare> shares;
     uint64_t triangles = 0;
@@ -135,6 +138,7 @@ LevelPlan planLevel(const Reduction& reduction, uint32_t level, const ClusterSto
         return plan;
     }
 
+    HEARTH_ASSERT(target->level > level && target->triangles > drawn_below);
     const uint32_t steps = target->level - level;
     const auto remaining = static_cast<double>(target->triangles - drawn_below);
     const double part = std::pow(remaining / static_cast<double>(triangles), 1.0 / steps);
@@ -157,6 +161,7 @@ LevelPlan planLevel(const Reduction& reduction, uint32_t level, const ClusterSto
 
 bool isStuck(const LevelPlan& plan, std::span<const size_t> kept)
 {
+    HEARTH_ASSERT(kept.size() == plan.goals.size());
     double source_triangles = 0;
     double planned = 0;
     for (const GroupGoal& goal : plan.goals)
@@ -170,6 +175,7 @@ bool isStuck(const LevelPlan& plan, std::span<const size_t> kept)
 
 bool correctPlan(LevelPlan& plan, std::span<const size_t> kept, std::vector<uint8_t>& changed)
 {
+    HEARTH_ASSERT(kept.size() == plan.goals.size());
     const auto target_triangles = static_cast<double>(plan.target_triangles);
     double sum = 0;
     double stiff = 0;    // kept by groups that cannot reach their goals

@@ -8,6 +8,7 @@
 #include "cook/clusters/partition/split.h"
 #include "cook/clusters/surface/surface_bound.h"
 #include "cook/mesh/free_memory.h"
+#include "formats/base/assert.h"
 
 #include <algorithm>
 #include <cmath>
@@ -135,6 +136,7 @@ LevelGroup buildGroup(const Build& build, const Level& level, std::span<const Cl
         retryOrKeep(build, level, members, group);
         return group;
     }
+    HEARTH_ASSERT(errors.lod >= 0 && errors.position >= 0);
     growToContain(group.sphere, reduced.made.positions);
     group.errors = errors;
     group.clusters = std::move(reduced.clusters);
@@ -163,6 +165,7 @@ void buildGroups(const Build& build, Level& level, IdSpan<MeshPositionId, const 
 {
     // the first correction mostly suffices; each one builds the level again
     constexpr int kMaxCorrections = 3;
+    HEARTH_ASSERT(plan.goals.size() == level.groups.count());
     std::vector<uint8_t> wanted(level.groups.count(), 1);
     level.built.resize(level.groups.count());
     for (int correction = 0; correction <= kMaxCorrections; ++correction)
@@ -196,10 +199,12 @@ void takeVertices(PreparedMesh& mesh, GroupReduction& outcome, ClusterStore& clu
     for (VertexId& vertex : clusters.vertices)
         if (isNewVertex(vertex))
             vertex = VertexId{newVertexNumber(vertex) + first_vertex};
+    HEARTH_ASSERT(outcome.new_position_ids.size() == outcome.made.vertexCount());
     appendVertices(mesh.vertices, outcome.made);
     for (const uint32_t position : outcome.new_position_ids)
         mesh.position_id_of_vertex.push_back(MeshPositionId{mesh.position_count + position});
     mesh.position_count += outcome.new_position_count;
+    HEARTH_ASSERT(mesh.position_id_of_vertex.size() == mesh.vertices.vertexCount());
     outcome.made = {};
     mesh::freeMemory(outcome.new_position_ids);
 }
@@ -276,6 +281,7 @@ Level switchToAuthored(Build& build, Level& level, const LevelPlan& plan,
             .errorsAgainstSource({distance, measureAttributes(build.mesh, source_corners, authored), weight},
                                  build.config);
     group.outcome.loose_pieces = bound.loose_pieces;
+    HEARTH_ASSERT(authored.authored < build.level_of_authored.size());
     level.built.assign(level.groups.count(), group);
     for (uint32_t g = 0; g < level.built.size(); ++g)
         level.built[g].set_offset = g;
@@ -325,6 +331,7 @@ Level replaceGroups(Build& build, Level& level, IdSpan<MeshPositionId, const uin
 
 void buildLevels(Build& build)
 {
+    HEARTH_ASSERT(build.levels.empty() && build.mesh.triangleCount() > 0);
     // authored LODs are measured against the source, and replace it in the mesh
     const CornerVector<VertexId> source_corners =
         build.authored.empty() ? CornerVector<VertexId>{} : build.mesh.corners;
@@ -340,10 +347,13 @@ void buildLevels(Build& build)
     while (true)
     {
         Level& level = build.levels.back();
+        HEARTH_ASSERT(level.refined_group.size() == level.store.shapes.size() &&
+                      level.retries.size() == level.store.shapes.size());
         level.groups = groupClusters(build.mesh, level.store, locked, build.config);
         locked = lockSharedPositions(build.mesh, level.store, level.groups, pinned);
         const size_t authored_left = build.authored.size();
         Level next = replaceGroups(build, level, locked, source_corners);
+        HEARTH_ASSERT(level.built.size() == level.groups.count());
         pinRoots(build.mesh, level, pinned);
         if (build.authored.size() != authored_left)
             locked.assign(locked.size(), 0);

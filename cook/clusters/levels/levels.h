@@ -8,6 +8,7 @@
 #include "cook/clusters/levels/authored_lods.h"
 #include "cook/clusters/levels/reduce.h"
 #include "cook/clusters/partition/grouping.h"
+#include "formats/base/assert.h"
 
 #include <cstdint>
 #include <span>
@@ -57,7 +58,9 @@ struct Build
         const auto after =
             std::upper_bound(levels.begin(), levels.end(), number,
                              [](uint32_t n, const Level& level) { return n < level.first_group; });
+        HEARTH_ASSERT(after != levels.begin());
         const Level& level = *(after - 1);
+        HEARTH_ASSERT(number - level.first_group < level.built.size());
         return level.built[number - level.first_group];
     }
 };

@@ -5,6 +5,7 @@
 #include "cook/mesh/free_memory.h"
 #include "cook/mesh/triangles.h"
 #include "cook/mesh/weld.h"
+#include "formats/base/assert.h"
 #include "formats/codecs/vertex_codec.h"
 
 #include <algorithm>
@@ -19,6 +20,7 @@ namespace hearth::clusters
 
 void ClusterStore::append(const ClusterStore& other)
 {
+    HEARTH_ASSERT(other.errors.size() * 3 == other.indices.size());
     const auto vertex_offset = static_cast<uint32_t>(vertices.size());
     const auto index_offset = static_cast<uint32_t>(indices.size());
     for (ClusterShape shape : other.shapes)
@@ -114,6 +116,7 @@ void forEachArray(mesh::SourceMesh& to, const mesh::SourceMesh& from, Visit visi
 
 void appendVertex(mesh::SourceMesh& to, const mesh::SourceMesh& from, uint32_t vertex)
 {
+    HEARTH_ASSERT(vertex < from.vertexCount());
     forEachArray(to, from,
                  [vertex](auto& target, const auto& source)
                  {
@@ -130,6 +133,7 @@ void appendVertices(mesh::SourceMesh& to, const mesh::SourceMesh& from)
     forEachArray(to, from,
                  [](auto& target, const auto& source)
                  { target.insert(target.end(), source.begin(), source.end()); });
+    HEARTH_ASSERT(to.normals.empty() || to.normals.size() == to.vertexCount());
 }
 
 uint32_t clusterVertexLimit(const PreparedMesh& mesh)
@@ -148,6 +152,11 @@ uint32_t clusterVertexLimit(const PreparedMesh& mesh)
 
 PreparedMesh prepareMesh(mesh::SourceMesh source, uint32_t influences, const MeshMotion* motion)
 {
+    HEARTH_ASSERT(source.indices.size() % 3 == 0 &&
+                  source.triangle_materials.size() == source.triangleCount());
+    HEARTH_ASSERT(source.indices.empty() ||
+                  *std::max_element(source.indices.begin(), source.indices.end()) < source.vertexCount());
+    HEARTH_ASSERT(influences == 4 || influences == 8);
     PreparedMesh prepared;
     prepared.motion = motion;
     mesh::SourceMesh all; // only joints and weights
@@ -199,6 +208,8 @@ PreparedMesh prepareMesh(mesh::SourceMesh source, uint32_t influences, const Mes
     mesh::freeMemory(weld.position_id_of_vertex);
     prepared.position_count = weld.position_count;
     prepared.vertices = std::move(source);
+    HEARTH_ASSERT(prepared.materials.size() == prepared.triangleCount());
+    HEARTH_ASSERT(prepared.position_id_of_vertex.size() == prepared.vertices.vertexCount());
     return prepared;
 }
 

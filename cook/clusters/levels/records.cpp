@@ -2,6 +2,7 @@
 #include "cook/clusters/levels/records.h"
 
 #include "cook/clusters/pages/pages.h"
+#include "formats/base/assert.h"
 
 #include <algorithm>
 
@@ -54,6 +55,7 @@ void addLevelRecords(const Build& build, uint32_t l, std::span<const uint32_t> r
             record.refined_group = kInvalidIndex;
             if (const uint32_t refined = level.refined_group[member]; refined != kInvalidIndex)
             {
+                HEARTH_ASSERT(refined < record_of_group.size());
                 record.refined_group = record_of_group[refined];
                 level_record.max_error = std::max(level_record.max_error, build.group(refined).errors.lod);
             }
@@ -76,6 +78,7 @@ void addLevelRecords(const Build& build, uint32_t l, std::span<const uint32_t> r
 
 void writeRecords(Build& build, Hierarchy& hierarchy)
 {
+    HEARTH_ASSERT(!build.levels.empty() && hierarchy.clusters.empty());
     const std::vector<uint32_t> record_of_group = recordNumbers(build);
     ClusterStore store;
     std::vector<ClusterShape> shapes;
@@ -90,6 +93,8 @@ void writeRecords(Build& build, Hierarchy& hierarchy)
         store.indices.insert(store.indices.end(), from.indices.begin(), from.indices.end());
         from = {};
     }
+    HEARTH_ASSERT(hierarchy.groups.size() == record_of_group.size());
+    HEARTH_ASSERT(hierarchy.clusters.size() == shapes.size());
     buildPages(build.mesh, store, shapes, build.config, hierarchy);
     if (std::any_of(build.level_of_authored.begin(), build.level_of_authored.end(),
                     [](uint32_t level) { return level != kInvalidIndex; }))

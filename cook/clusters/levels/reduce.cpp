@@ -10,6 +10,7 @@
 #include "cook/clusters/simplify/cell_merge.h"
 #include "cook/clusters/simplify/simplify.h"
 #include "cook/clusters/surface/surface_fit.h"
+#include "formats/base/assert.h"
 
 #include <algorithm>
 #include <utility>
@@ -149,6 +150,7 @@ GroupReduction reduceGroup(const PreparedMesh& mesh, const ClusterStore& store,
                            std::span<const ClusterId> members, IdSpan<MeshPositionId, const uint8_t> locked,
                            const GroupGoal& goal, const Config& config)
 {
+    HEARTH_ASSERT(goal.triangles > 0);
     GroupReduction reduced;
     const GroupMesh group = gatherGroup(mesh, store, members, locked, config);
     // one cluster less than before
@@ -190,6 +192,8 @@ GroupReduction reduceGroup(const PreparedMesh& mesh, const ClusterStore& store,
         measureAttributes(group, {simplified, after, points.of_wedge, mesh.vertices, reduced.made, vertices});
     reduced.clusters =
         splitSimplified(group, simplified, vertices, deviation.errors, clusterVertexLimit(mesh));
+    HEARTH_ASSERT(reduced.new_position_ids.size() == reduced.made.vertexCount());
+    HEARTH_ASSERT(reduced.clusters.errors.size() == simplified.triangleCount());
     reduced.progressed = goal.exact || reduced.clusters.shapes.size() < members.size();
     return reduced;
 }

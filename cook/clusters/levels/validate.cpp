@@ -5,6 +5,7 @@
 #include "cook/mesh/grid.h"
 #include "cook/mesh/triangles.h"
 #include "cook/mesh/weld.h"
+#include "formats/base/assert.h"
 #include "formats/codecs/page_decode.h"
 #include "formats/pack/pack_view.h"
 
@@ -350,9 +351,12 @@ uint64_t vertexHash(const ClusterGeometry& geometry, const ClusterRecord& cluste
         words.push_back(geometry.word(v, first));
         words.push_back((layout & kVertexColor16) ? geometry.word(v, first + 1) : 0);
     }
-    const auto joints = geometry.joints(v), weights = geometry.weightCodes(v);
-    for (uint32_t i = 0; i < geometry.influenceCount(); ++i)
-        words.push_back(joints[i] | weights[i] << 16);
+    if (geometry.influenceCount() > 0)
+    {
+        const auto joints = geometry.joints(v), weights = geometry.weightCodes(v);
+        for (uint32_t i = 0; i < geometry.influenceCount(); ++i)
+            words.push_back(joints[i] | weights[i] << 16);
+    }
     for (uint32_t target = 0, next = 0; target < morph_targets; ++target)
     {
         const bool moves = next < geometry.morphCount() && geometry.morphTarget(next) == target;
@@ -482,6 +486,7 @@ Result<DecodedHierarchy> decodeHierarchy(const Hierarchy& h)
 
 std::vector<uint32_t> findCutClusters(const Hierarchy& h, std::span<const uint8_t> replaced)
 {
+    HEARTH_ASSERT(replaced.size() == h.groups.size());
     std::vector<uint32_t> drawn;
     for (uint32_t c = 0; c < h.clusters.size(); ++c)
     {

@@ -309,6 +309,8 @@ private:
 
 uint32_t chooseLayout(const PreparedMesh& mesh, const Config& config)
 {
+    HEARTH_ASSERT(config.uv_fraction_bits >= 1 && config.uv_fraction_bits <= 15);
+    HEARTH_ASSERT(config.normal_bits == 0 || config.normal_bits == 8 || config.normal_bits == 16);
     uint32_t layout = mesh.attributes;
     if ((layout & kVertexNormal) == 0)
         layout &= ~uint32_t{kVertexTangent | kVertexVisibility};
@@ -327,6 +329,7 @@ CodedCluster codeCluster(const PreparedMesh& mesh, const ClusterStore& store, co
 {
     const auto vertices = store.clusterVertices(shape);
     const auto indices = store.clusterIndices(shape);
+    HEARTH_ASSERT(!indices.empty() && !vertices.empty() && vertices.size() <= kMaxClusterVertices);
     std::vector<Float3> points(vertices.size()), places(indices.size());
     for (size_t i = 0; i < vertices.size(); ++i)
         points[i] = mesh.positions()[vertices[i]];
@@ -339,6 +342,8 @@ CodedCluster codeCluster(const PreparedMesh& mesh, const ClusterStore& store, co
     record.vertex_count =
         static_cast<uint16_t>(vertex_words / vertexWords(clusterVertexLayout(record, layout)));
     record.triangle_count = static_cast<uint8_t>(shape.triangle_count);
+    HEARTH_ASSERT(record.vertex_count > 0 && record.vertex_count <= vertices.size());
+    HEARTH_ASSERT(record.triangle_count == shape.triangle_count);
     return cluster;
 }
 

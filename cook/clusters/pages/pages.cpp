@@ -58,7 +58,11 @@ private:
     /// Clusters of a batch, enough for many threads: about forty pages.
     static constexpr uint32_t kBatchClusters = 2048;
 
-    const CodedCluster& codedCluster(uint32_t cluster) const { return coded_[cluster - first_coded_]; }
+    const CodedCluster& codedCluster(uint32_t cluster) const
+    {
+        HEARTH_ASSERT(cluster >= first_coded_ && cluster - first_coded_ < coded_.size());
+        return coded_[cluster - first_coded_];
+    }
 
     /// Reserve the decoded size, which bounds the stored size. Untouched memory costs nothing, but a copy
     /// would.
@@ -135,6 +139,7 @@ private:
                                               hierarchy_.mesh.attributes,
                                               std::span(coded_).subspan(first - first_coded_, count));
         page.codec = static_cast<uint32_t>(PageCodec::clusters);
+        HEARTH_ASSERT(!bytes.empty() && page.size <= kMaxPageBytes);
         page.stored_size = static_cast<uint32_t>(bytes.size());
         page.hash = hashBytes(bytes);
         return bytes;
@@ -177,9 +182,11 @@ void linkPages(Hierarchy& hierarchy)
 void buildPages(const PreparedMesh& mesh, const ClusterStore& store, std::span<const ClusterShape> shapes,
                 const Config& config, Hierarchy& hierarchy)
 {
+    HEARTH_ASSERT(shapes.size() == hierarchy.clusters.size() && hierarchy.pages.empty());
     hierarchy.mesh.attributes = chooseLayout(mesh, config);
     hierarchy.mesh.grid_step = static_cast<float>(mesh.grid.step);
     PageWriter(mesh, store, shapes, hierarchy).write();
+    HEARTH_ASSERT(!hierarchy.pages.empty());
     linkPages(hierarchy);
 }
 

@@ -151,6 +151,7 @@ public:
         {
             const ClusterShape& shape = store.shapes[c];
             groups_[c].members = {c};
+            HEARTH_ASSERT(shape.triangle_count > 0 && shape.triangle_count <= formats::kMaxClusterTriangles);
             groups_[c].links = std::move(links[c]);
             groups_[c].bytes = formats::clusterBytes(formats::worstCaseLayout(mesh.attributes),
                                                      shape.vertex_count, shape.triangle_count);
@@ -277,6 +278,7 @@ private:
 
     void merge(ClusterId into, ClusterId from)
     {
+        HEARTH_ASSERT(into != from && fits(into, from));
         MergingGroup& a = groups_[into];
         MergingGroup& b = groups_[from];
         a.members.insert(a.members.end(), b.members.begin(), b.members.end());
@@ -339,7 +341,9 @@ std::vector<ClusterId> spatialOrder(const Merger& merger, IdSpan<ClusterId, cons
 Groups groupClusters(const PreparedMesh& mesh, const ClusterStore& store,
                      IdSpan<MeshPositionId, const uint8_t> locked, const Config& config)
 {
-    HEARTH_ASSERT(!store.shapes.empty());
+    HEARTH_ASSERT(!store.shapes.empty() && locked.size() == mesh.position_count);
+    HEARTH_ASSERT(config.group_target_clusters <= config.group_max_clusters);
+    HEARTH_ASSERT(allBelow(store.vertices, mesh.position_id_of_vertex.size()));
     const PositionsByCluster positions = gatherClusterPositions(mesh, store);
     const ClustersByPosition users = transposeLists(positions, mesh.position_count);
     Merger merger(mesh, store, linkClusters(positions, users, locked), config);
@@ -357,7 +361,9 @@ Groups groupClusters(const PreparedMesh& mesh, const ClusterStore& store,
         groups.members.insert(groups.members.end(), members.begin(), members.end());
         std::sort(groups.members.begin() + groups.offsets.back(), groups.members.end());
         groups.offsets.push_back(static_cast<uint32_t>(groups.members.size()));
+        HEARTH_ASSERT(!members.empty() && members.size() <= config.group_max_clusters);
     }
+    HEARTH_ASSERT(groups.members.size() == store.shapes.size());
     return groups;
 }
 
@@ -365,6 +371,8 @@ IdVector<MeshPositionId, uint8_t> lockSharedPositions(const PreparedMesh& mesh, 
                                                       const Groups& groups,
                                                       IdSpan<MeshPositionId, const uint8_t> pinned)
 {
+    HEARTH_ASSERT(pinned.size() == mesh.position_count);
+    HEARTH_ASSERT(groups.members.size() == store.shapes.size());
     IdVector<MeshPositionId, uint8_t> locked(std::vector<uint8_t>(pinned.begin(), pinned.end()));
     IdVector<MeshPositionId, uint32_t> owner(mesh.position_count, kInvalidIndex);
     for (uint32_t g = 0; g < groups.count(); ++g)

@@ -5,6 +5,7 @@
 
 #include "cook/clusters/core/cluster.h"
 #include "cook/clusters/core/hierarchy.h"
+#include "formats/base/assert.h"
 
 #include <cstdint>
 #include <span>
@@ -22,6 +23,7 @@ struct Groups
     size_t count() const { return offsets.size() - 1; }
     std::span<const ClusterId> groupMembers(size_t group) const
     {
+        HEARTH_RUNTIME_ASSERT(group < count());
         return std::span(members).subspan(offsets[group], offsets[group + 1] - offsets[group]);
     }
 };

@@ -356,6 +356,7 @@ bool splitNode(std::span<SplitItem> root, size_t capacity, bool halve, const Spl
             part = (items.size() + 1) / 2;
         }
         const size_t left = cutNode(items, part);
+        HEARTH_ASSERT(left > 0 && left < items.size());
         stack.push_back(items.subspan(left));
         stack.push_back(items.first(left));
     }
@@ -439,6 +440,9 @@ std::vector<SplitItem> makeSplitItems(const PreparedMesh& mesh)
 void splitIntoClusters(std::span<SplitItem> items, const SplitTriangles& triangles, ClusterStore& out)
 {
     HEARTH_ASSERT(!items.empty());
+    HEARTH_ASSERT(triangles.vertex_limit >= 3 && triangles.vertex_limit <= kMaxClusterVertices);
+    HEARTH_ASSERT(triangles.errors.size() == triangles.corners.triangleCount());
+    const size_t error_count = out.errors.size();
     NodeCutter cutNode(items.size());
     std::vector<std::span<SplitItem>> stack{items};
     while (!stack.empty())
@@ -454,10 +458,13 @@ void splitIntoClusters(std::span<SplitItem> items, const SplitTriangles& triangl
         stack.push_back(node.subspan(left));
         stack.push_back(node.first(left));
     }
+    HEARTH_ASSERT(out.errors.size() == error_count + items.size());
+    HEARTH_ASSERT(out.indices.size() == out.errors.size() * 3);
 }
 
 ClusterStore splitMesh(const PreparedMesh& mesh)
 {
+    HEARTH_ASSERT(mesh.materials.size() == mesh.triangleCount());
     std::vector<SplitItem> items = makeSplitItems(mesh);
     const IdVector<TriangleId, float> errors(mesh.triangleCount(), mesh.grid.error);
     ClusterStore out;
@@ -479,6 +486,7 @@ ClusterStore splitMesh(const PreparedMesh& mesh)
         }
         first = last;
     }
+    HEARTH_ASSERT(out.errors.size() == mesh.triangleCount());
     return out;
 }
 

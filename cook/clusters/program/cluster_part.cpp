@@ -3,6 +3,7 @@
 
 #include "cook/clusters/program/part_motion.h"
 #include "cook/mesh/free_memory.h"
+#include "formats/base/assert.h"
 #include "formats/pack/pack_view.h"
 #include "formats/records/provenance.h"
 
@@ -169,6 +170,7 @@ Result<LodLists> readLodLists(const ContainerReader& part, uint32_t mesh_count)
 void appendAuthoredLevels(Tables& tables, uint32_t mesh, std::span<const uint32_t> level_of_lod,
                           std::span<const AuthoredLodMesh> lods)
 {
+    HEARTH_ASSERT(level_of_lod.empty() || level_of_lod.size() == lods.size());
     for (size_t i = 0; i < level_of_lod.size(); ++i)
         if (level_of_lod[i] != kInvalidIndex)
             tables.authored_levels.push_back(

@@ -260,6 +260,8 @@ WholeMesh wholeMesh(const Hierarchy& hierarchy, const IsDrawn& isDrawn)
             recordsInRange(std::span<const ClusterRecord>(hierarchy.clusters), page.clusters);
         if (std::none_of(clusters.begin(), clusters.end(), isDrawn))
             continue;
+        HEARTH_ASSERT(page.size <= decoded.size() &&
+                      page.offset + page.stored_size <= hierarchy.page_bytes.size());
         const auto stored = std::span(hierarchy.page_bytes).subspan(page.offset, page.stored_size);
         const auto bytes = std::span(decoded).first(page.size);
         HEARTH_ASSERT(decoder.decode(stored, clusters, hierarchy.mesh.attributes, bytes));

@@ -2,6 +2,7 @@
 #include "cook/clusters/program/statistics.h"
 
 #include "cook/json/json.h"
+#include "formats/base/assert.h"
 #include "formats/pack/pack_view.h"
 
 #include <cmath>
@@ -28,6 +29,7 @@ ErrorStatistics errorStatistics(const Hierarchy& hierarchy, const LevelRecord& l
         errors.max = std::max(errors.max, value);
         errors.mean += value * cluster.triangle_count;
     }
+    HEARTH_ASSERT(level.triangle_count > 0);
     errors.mean /= level.triangle_count;
     return errors;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/simplify/cell_merge.h"
 
+#include "formats/base/assert.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -182,7 +184,12 @@ private:
 
 void mergeByCells(const GroupMesh& group, size_t target_triangles, SimplifiedGroup& simplified)
 {
+    HEARTH_ASSERT(target_triangles > 0 && simplified.triangleCount() > 0);
+    HEARTH_ASSERT(simplified.target_of_position.size() == group.positions.size());
     CellMerger(group, simplified).run(target_triangles);
+    HEARTH_ASSERT(simplified.triangleCount() > 0);
+    HEARTH_ASSERT(simplified.materials.size() == simplified.triangleCount() &&
+                  simplified.source_triangle.size() == simplified.triangleCount());
 }
 
 } // namespace hearth::clusters

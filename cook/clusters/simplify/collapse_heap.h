@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cook/clusters/core/index_types.h"
+#include "formats/base/assert.h"
 
 #include <bit>
 #include <cstddef>
@@ -16,7 +17,7 @@ namespace hearth::clusters
 class HeapEntry
 {
 public:
-    /// cost     at least 0
+    /// cost     at least 0; NaN is dearer than any
     /// version  counted by the caller
     HeapEntry(float cost, PositionId position, PositionId target, uint32_t version)
         : // + 0.0: no negative zero
@@ -24,6 +25,7 @@ public:
           target_(target),
           version_(version)
     {
+        HEARTH_RUNTIME_ASSERT(!(cost < 0));
     }
 
     float cost() const { return std::bit_cast<float>(static_cast<uint32_t>(order_ >> 32)); }
@@ -57,6 +59,7 @@ public:
 
     HeapEntry pop()
     {
+        HEARTH_RUNTIME_ASSERT(!empty());
         const HeapEntry cheapest = entries_.front();
         const HeapEntry last = entries_.back();
         entries_.pop_back();

@@ -5,6 +5,7 @@
 
 #include "cook/clusters/simplify/triangle_flip.h"
 #include "cook/mesh/grid.h"
+#include "formats/base/assert.h"
 
 #include <cmath>
 #include <optional>
@@ -170,6 +171,7 @@ private:
 
 Float3 toObjectSpace(const GroupMesh& group, Float3 local)
 {
+    HEARTH_RUNTIME_ASSERT(group.grid_step > 0);
     Float3 place;
     for (int axis = 0; axis < 3; ++axis)
         place[axis] = mesh::snap(group.center[axis] + group.scale * local[axis], group.grid_step);
@@ -187,11 +189,15 @@ Float3 toLocalSpace(const GroupMesh& group, Float3 object)
 Placement optimizePlacement(const GroupMesh& group, StarMesh& mesh, const Quadrics& quadrics,
                             IdSpan<PositionId, const uint8_t> movable)
 {
+    HEARTH_ASSERT(movable.size() == group.positions.size());
+    HEARTH_ASSERT(quadrics.position.size() == group.positions.size() &&
+                  quadrics.wedge_weight.size() == group.vertex_of_wedge.size());
     return Placer(group, mesh, quadrics).run(movable);
 }
 
 void growIslands(const GroupMesh& group, const Growth& growth, Placement& placement)
 {
+    HEARTH_ASSERT(growth.factor >= 1 && growth.centers.size() == growth.positions.size());
     for (size_t i = 0; i < growth.positions.size(); ++i)
     {
         const PositionId position = growth.positions[i];

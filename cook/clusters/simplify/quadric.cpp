@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/simplify/quadric.h"
 
+#include "formats/base/assert.h"
+
 namespace hearth::clusters
 {
 
@@ -83,6 +85,7 @@ void addTriangle(Quadrics& quadrics, const GroupMesh& group, TriangleId triangle
 
 void Quadrics::move(const GroupMesh& group, PositionId from, PositionId to, std::span<const WedgeMove> moves)
 {
+    HEARTH_RUNTIME_ASSERT(from != to && !moves.empty());
     const Float3 t = group.positions[to] - group.positions[from];
     const LaneVector t_lanes = splat(t);
     const uint32_t rows = group.attribute_rows;
@@ -111,6 +114,8 @@ void Quadrics::move(const GroupMesh& group, PositionId from, PositionId to, std:
 
 Quadrics computeQuadrics(const GroupMesh& group)
 {
+    HEARTH_ASSERT(group.attributes.size() == group.vertex_of_wedge.size() * group.attribute_rows);
+    HEARTH_ASSERT(group.attribute_count <= group.attribute_rows * kLanes);
     Quadrics quadrics;
     quadrics.position.resize(group.positions.size());
     quadrics.wedge_weight.resize(group.vertex_of_wedge.size());
@@ -122,6 +127,7 @@ Quadrics computeQuadrics(const GroupMesh& group)
 
 PositionQuadric edgeQuadric(Float3 along, Float3 side, float factor)
 {
+    HEARTH_RUNTIME_ASSERT(factor > 0);
     PositionQuadric quadric;
     const float length2 = dot(along, along);
     if (!(length2 > 0))

@@ -449,17 +449,37 @@ SimplifiedGroup Collapser::result()
     return result;
 }
 
+/// True if no locked position is removed or moved.
+[[maybe_unused]] bool lockedStay(const GroupMesh& group, const SimplifiedGroup& simplified)
+{
+    const auto positions = group.locked.ids();
+    return std::all_of(positions.begin(), positions.end(),
+                       [&](PositionId position)
+                       {
+                           return group.locked[position] == 0 ||
+                                  (simplified.target_of_position[position] == position &&
+                                   simplified.placement.modified[position] == 0);
+                       });
+}
+
 } // namespace
 
 std::vector<CollapseStep> collapseCosts(const GroupMesh& group, size_t least)
 {
-    return Collapser(group).costsUntil(least);
+    HEARTH_ASSERT(least > 0);
+    std::vector<CollapseStep> steps = Collapser(group).costsUntil(least);
+    HEARTH_RUNTIME_ASSERT(std::is_sorted(steps.begin(), steps.end(),
+                                         [](const CollapseStep& a, const CollapseStep& b)
+                                         { return a.cost < b.cost; }));
+    return steps;
 }
 
 SimplifiedGroup simplifyGroup(const GroupMesh& group, size_t target_triangles, size_t max_triangles,
                               const std::optional<CostStop>& stop)
 {
-    HEARTH_ASSERT(target_triangles > 0);
+    HEARTH_ASSERT(target_triangles > 0 && group.triangleCount() > 0);
+    HEARTH_ASSERT(group.locked.size() == group.positions.size());
+    HEARTH_ASSERT(!stop || (stop->min_triangles > 0 && stop->min_triangles <= stop->max_triangles));
     Collapser collapser(group);
     bool permissive = false;
     bool pruned = false;
@@ -481,6 +501,10 @@ SimplifiedGroup simplifyGroup(const GroupMesh& group, size_t target_triangles, s
     SimplifiedGroup result = collapser.result();
     result.permissive = permissive;
     result.pruned = pruned;
+    HEARTH_ASSERT(result.triangleCount() > 0 && result.triangleCount() <= group.triangleCount());
+    HEARTH_ASSERT(result.materials.size() == result.triangleCount() &&
+                  result.source_triangle.size() == result.triangleCount());
+    HEARTH_RUNTIME_ASSERT(lockedStay(group, result));
     return result;
 }
 

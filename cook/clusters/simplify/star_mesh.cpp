@@ -4,6 +4,7 @@
 #include "cook/clusters/simplify/star_mesh.h"
 
 #include "cook/clusters/core/set_hash.h"
+#include "formats/base/assert.h"
 
 #include <algorithm>
 #include <limits>
@@ -20,6 +21,7 @@ StarMesh::StarMesh(const GroupMesh& group)
       hash_of_wedge_(group.vertex_of_wedge.size()),
       mark_(group.positions.size(), 0)
 {
+    HEARTH_ASSERT(group.position_id_of_wedge.size() == group.vertex_of_wedge.size());
     for (const WedgeId wedge : hash_of_wedge_.ids())
         hash_of_wedge_[wedge] = hashNumber(toIndex(wedge));
     for (const TriangleId triangle : alive_.ids())
@@ -190,6 +192,7 @@ bool StarMesh::satisfiesLinkConditionInFan(PositionId from, PositionId to)
 
 bool StarMesh::satisfiesLinkCondition(PositionId from, PositionId to)
 {
+    HEARTH_RUNTIME_ASSERT(from != to);
     if (plain())
         return satisfiesLinkConditionInFan(from, to);
     const auto star_from = star(from);
@@ -234,6 +237,7 @@ bool StarMesh::satisfiesLinkCondition(PositionId from, PositionId to)
 
 void StarMesh::collapse(PositionId from, PositionId to, std::span<const WedgeMove> moves)
 {
+    HEARTH_RUNTIME_ASSERT(from != to && degree(from) > 0 && degree(to) > 0);
     // collected without a branch, which would be unpredictable
     const auto star_from = star(from);
     removed_.resize(star_from.size());
@@ -269,10 +273,12 @@ void StarMesh::collapse(PositionId from, PositionId to, std::span<const WedgeMov
     star_items_.resize(first + count);
     stars_[to] = {static_cast<uint32_t>(first), count, count};
     stars_[from] = {};
+    HEARTH_RUNTIME_ASSERT(count > 0);
 }
 
 void StarMesh::remove(TriangleId triangle)
 {
+    HEARTH_RUNTIME_ASSERT(alive_[triangle] != 0);
     alive_[triangle] = 0;
     --alive_count_;
     for (const StarCorner corner : triangleCorners(triangle))

@@ -3,6 +3,7 @@
 
 #include "cook/clusters/core/islands.h"
 #include "cook/clusters/simplify/simplify.h"
+#include "formats/base/assert.h"
 
 #include <algorithm>
 #include <cmath>
@@ -111,6 +112,7 @@ void addGrowth(const StarMesh& mesh, const Island& island, IdVector<PositionId, 
 Thinning thinIslands(const GroupMesh& group, StarMesh& mesh, size_t target_triangles,
                      IdVector<PositionId, PositionId>& target_of_position)
 {
+    HEARTH_ASSERT(target_of_position.size() == group.positions.size() && mesh.aliveCount() > 0);
     Thinning thinning;
     std::vector<Island> islands = looseIslands(group, mesh);
     orderForRemoval(islands);
@@ -131,6 +133,7 @@ Thinning thinIslands(const GroupMesh& group, StarMesh& mesh, size_t target_trian
             mesh.remove(triangle);
         }
     }
+    HEARTH_ASSERT(mesh.aliveCount() > 0);
     thinning.pruned = removed > 0;
     if (!thinning.pruned || !(area_left > 0))
         return thinning;

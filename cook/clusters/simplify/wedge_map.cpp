@@ -2,6 +2,7 @@
 #include "cook/clusters/simplify/wedge_map.h"
 
 #include "cook/clusters/simplify/quadric.h"
+#include "formats/base/assert.h"
 
 namespace hearth::clusters
 {
@@ -72,6 +73,7 @@ void WedgeMap::mapRemaining(PositionId to)
 {
     if (complete())
         return;
+    HEARTH_RUNTIME_ASSERT(mesh_.degree(to) > 0);
     targets_.clear();
     for (const StarCorner corner : mesh_.star(to))
         if (const WedgeId wedge = mesh_.wedgeAt(corner);
@@ -96,6 +98,7 @@ void WedgeMap::mapRemaining(PositionId to)
         }
         moves_.push_back({wedge, best});
     }
+    HEARTH_RUNTIME_ASSERT(complete());
 }
 
 bool WedgeMap::hasMoreThanTwoCharts() const

@@ -2,6 +2,7 @@
 #include "cook/clusters/surface/edge_path_tracer.h"
 
 #include "cook/clusters/core/triangle_block.h"
+#include "formats/base/assert.h"
 
 #include <algorithm>
 #include <array>
@@ -51,6 +52,8 @@ EdgePathTracer::EdgePathTracer(const GroupMesh& group, const SimplifiedGroup& si
       mapped_points_(group.positions.size()),
       path_of_half_edge_(positions_before.size(), kInvalidIndex)
 {
+    HEARTH_ASSERT(points.size() == group.positions.size());
+    HEARTH_ASSERT(simplified.target_of_position.size() == group.positions.size());
     paths_.reserve(positions_before.size()); // references to paths stay valid while others are traced
     crossings_.reserve(positions_before.size() * 2 / 3);
     findMappedPoints(group, simplified, points);
@@ -95,6 +98,7 @@ bool EdgePathTracer::contains(TriangleId triangle, const MappedPoint& mapped) co
 
 void EdgePathTracer::tracePath(HalfEdgeId half_edge)
 {
+    HEARTH_RUNTIME_ASSERT(path_of_half_edge_[half_edge] == kInvalidIndex);
     path_of_half_edge_[half_edge] = static_cast<uint32_t>(paths_.size());
     TracedPath& path = paths_.emplace_back();
     path.half_edge = half_edge;
@@ -113,6 +117,7 @@ void EdgePathTracer::tracePath(HalfEdgeId half_edge)
         path.distance = -1;
     }
     path.count = static_cast<uint32_t>(crossings_.size()) - path.first;
+    HEARTH_RUNTIME_ASSERT(!path.isFound() || path.count > 0 || path.from == path.to);
 }
 
 bool EdgePathTracer::tracePath(const MappedPoint& start, const MappedPoint& end, TracedPath& path)
@@ -143,6 +148,7 @@ TriangleId EdgePathTracer::commonTriangle(const MappedPoint& a, const MappedPoin
 
 void EdgePathTracer::cross(HalfEdgeId half_edge, TracedPath& path)
 {
+    HEARTH_RUNTIME_ASSERT(opposites_[half_edge] != kInvalid);
     const ClosestApproach closest = closestApproach(from_, to_, after_.corner_positions[half_edge],
                                                     after_.corner_positions[nextHalfEdge(half_edge)]);
     crossings_.push_back({{half_edge, opposites_[half_edge]}, closest.t, closest.distance});
@@ -282,6 +288,7 @@ std::span<const HalfEdgeId> EdgePathTracer::turn(PositionId vertex, TriangleId f
 {
     turn_.clear();
     const HalfEdgeId start = cornerAt(from, vertex);
+    HEARTH_RUNTIME_ASSERT(start != kInvalid);
     HalfEdgeId left = start, right = start;
     for (size_t steps = 1; steps < kMaxSteps; ++steps)
     {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/surface/loop_fill.h"
 
+#include "formats/base/assert.h"
+
 #include <algorithm>
 
 namespace hearth::clusters
@@ -38,6 +40,7 @@ bool LoopFiller::close()
         }
         if (count_ == 0)
         {
+            HEARTH_RUNTIME_ASSERT(chord_count_ < chords_.size());
             crossings_[0] = {};
             return true;
         }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "cook/clusters/surface/opposite_half_edges.h"
+#include "formats/base/assert.h"
 
 #include <array>
 #include <cstddef>
@@ -47,6 +48,7 @@ public:
     /// without a branch, because a return over the half-edge that was crossed last is unpredictable.
     void cross(HalfEdgeId leaving, HalfEdgeId entering, float t)
     {
+        HEARTH_RUNTIME_ASSERT(opposites_[leaving] == entering);
         const Crossing& last = crossings_[count_ - 1];
         const bool back = last.entering == leaving;
         chords_[chord_count_] = {last.leaving, (1 - t) - last.t};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/surface/nearest_bound.h"
 
+#include "formats/base/assert.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -75,6 +77,7 @@ std::pair<NearestBound::Piece, NearestBound::Piece> NearestBound::halve(const Pi
 float NearestBound::bound(const Corners& triangle, TriangleBoxes& index, std::span<const TriangleId> likely,
                           Tolerance tolerance, SurfaceMetric* metric)
 {
+    HEARTH_RUNTIME_ASSERT(likely.size() <= kMaxCandidates && tolerance.slack >= 0);
     metric_ = metric;
     const size_t max_parts = metric == nullptr ? kMaxParts : kMaxMetricParts;
     const float size = longestEdge(triangle);
@@ -115,6 +118,7 @@ float NearestBound::bound(const Corners& triangle, TriangleBoxes& index, std::sp
         addUsed(found_);
         worst2 = std::max(worst2, bound.upper2);
     }
+    HEARTH_RUNTIME_ASSERT(!used_.empty() || metric != nullptr);
     return std::sqrt(worst2);
 }
 

@@ -2,6 +2,7 @@
 #include "cook/clusters/surface/opposite_half_edges.h"
 
 #include "cook/clusters/core/lanes.h"
+#include "formats/base/assert.h"
 
 #include <algorithm>
 #include <array>
@@ -146,12 +147,28 @@ private:
     bool non_manifold_ = false; ///< several half-edges run in the same direction between the same positions
 };
 
+/// True if each opposite of a half-edge has that half-edge as its own.
+[[maybe_unused]] bool arePairs(IdSpan<HalfEdgeId, const HalfEdgeId> opposites)
+{
+    const auto half_edges = opposites.ids();
+    return std::all_of(half_edges.begin(), half_edges.end(),
+                       [&](HalfEdgeId half_edge)
+                       {
+                           const HalfEdgeId opposite = opposites[half_edge];
+                           return opposite == kInvalid || opposites[opposite] == half_edge;
+                       });
+}
+
 } // namespace
 
 IdVector<HalfEdgeId, HalfEdgeId> findOppositeHalfEdges(CornerSpan<const PositionId> positions,
                                                        size_t position_count)
 {
-    return OppositeFinder(positions, position_count).run();
+    HEARTH_ASSERT(positions.size() % 3 == 0);
+    HEARTH_RUNTIME_ASSERT(allBelow(positions, position_count));
+    IdVector<HalfEdgeId, HalfEdgeId> opposites = OppositeFinder(positions, position_count).run();
+    HEARTH_RUNTIME_ASSERT(arePairs(opposites));
+    return opposites;
 }
 
 } // namespace hearth::clusters

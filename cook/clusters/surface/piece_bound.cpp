@@ -28,6 +28,8 @@ Lanes exitParameter(Lanes x, Lanes y)
 Bound PieceBounder::bound(const Corners& piece, std::span<const TriangleBlock> blocks, float allowed2,
                           float radius, size_t max_points, const PointMetric* metric)
 {
+    HEARTH_RUNTIME_ASSERT(!blocks.empty() && blocks.size() <= kMaxBlocks);
+    HEARTH_RUNTIME_ASSERT(max_points >= 3 && max_points <= kMaxPoints);
     blocks_ = blocks;
     metric_ = metric;
     used_ = 0;
@@ -81,6 +83,7 @@ float PieceBounder::tolerance2() const
 
 uint8_t PieceBounder::addPoint(Float3 place, Float2 plane)
 {
+    HEARTH_RUNTIME_ASSERT(point_count_ < points_.size());
     Probe& probe = points_[point_count_];
     probe.place = place;
     probe.plane = plane;

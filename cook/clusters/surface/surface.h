@@ -5,6 +5,7 @@
 #include "cook/clusters/core/index_types.h"
 #include "cook/clusters/core/triangle_block.h"
 #include "cook/clusters/surface/piece_bound.h"
+#include "formats/base/assert.h"
 #include "formats/base/math.h"
 
 #include <cstdint>
@@ -25,6 +26,7 @@ public:
     TriangleLists(size_t position_count, CornerSpan<const PositionId> position_ids)
         : offsets_(position_count + 1, 0), triangles_(position_ids.size())
     {
+        HEARTH_RUNTIME_ASSERT(allBelow(position_ids, position_count));
         for (const PositionId position : position_ids)
             ++offsets_[toIndex(position) + 1];
         std::partial_sum(offsets_.begin(), offsets_.end(), offsets_.begin());
@@ -62,11 +64,13 @@ struct Surface
           position_of_id(std::vector<Float3>(all_positions.begin(), all_positions.end())),
           triangles_at(all_positions.size(), position_ids)
     {
+        HEARTH_ASSERT(position_ids.size() % 3 == 0);
     }
 
     /// Move the positions; the triangles stay the same.
     void setPositions(IdSpan<PositionId, const Float3> all_positions)
     {
+        HEARTH_ASSERT(all_positions.size() == position_of_id.size());
         corner_positions = gatherPositions(position_ids, all_positions);
         triangles = makeDistanceTriangles(corner_positions);
         position_of_id.assign(all_positions.begin(), all_positions.end());

@@ -283,6 +283,7 @@ double largestCoordinate(const SurfaceView& surface)
 SurfaceBound boundSurfaces(const SurfaceView& a, const SurfaceView& b, double enough)
 {
     HEARTH_ASSERT(!a.corners.empty() && !b.corners.empty() && enough >= 0);
+    HEARTH_ASSERT(allBelow(a.corners, a.positions.size()) && allBelow(b.corners, b.positions.size()));
     const double coordinates = std::max(largestCoordinate(a), largestCoordinate(b));
     // smaller distances cannot be distinguished from 0 in the float positions of the surfaces
     const double least = std::max(enough, coordinates * 1e-6);
@@ -292,6 +293,7 @@ SurfaceBound boundSurfaces(const SurfaceView& a, const SurfaceView& b, double en
     boundOneSide(a, tree_a, tree_b, least, bound);
     boundOneSide(b, tree_b, tree_a, least, bound);
     bound.upper += coordinates * kBoundRounding;
+    HEARTH_ASSERT(bound.upper >= 0 && bound.sure >= 0);
     return bound;
 }
 

@@ -4,6 +4,7 @@
 #include "cook/clusters/core/islands.h"
 #include "cook/clusters/core/triangle_fan.h"
 #include "cook/clusters/simplify/triangle_flip.h"
+#include "formats/base/assert.h"
 
 #include <array>
 #include <cmath>
@@ -180,6 +181,10 @@ private:
 
 void fitToGroup(const GroupMesh& group, SimplifiedGroup& simplified, Surface& after, SurfacePoints& points)
 {
+    HEARTH_ASSERT(points.of_middle.empty() || points.of_middle.size() == group.triangleCount());
+    HEARTH_ASSERT(points.of_position.size() == group.positions.size() &&
+                  points.of_wedge.size() == group.vertex_of_wedge.size());
+    HEARTH_ASSERT(after.triangleCount() == simplified.triangleCount());
     if (!points.of_middle.empty())
         SurfaceFit(group, simplified, after, points).run();
 }

@@ -2,6 +2,7 @@
 #include "cook/clusters/surface/surface_map.h"
 
 #include "cook/clusters/core/triangle_block.h"
+#include "formats/base/assert.h"
 
 #include <array>
 #include <cmath>
@@ -53,6 +54,8 @@ SurfaceMap::SurfaceMap(const GroupMesh& group, const SimplifiedGroup& simplified
       distances_(wanted.size(), kNotMapped),
       covered_(after.triangleCount(), 0)
 {
+    HEARTH_ASSERT(wanted.size() == positions_before.triangleCount());
+    HEARTH_ASSERT(after.triangleCount() == simplified.triangleCount());
     tracePaths(wanted);
     for (const TriangleId triangle : wanted.ids())
         if (wanted[triangle] != 0 && !mapTriangle(triangle))
@@ -162,6 +165,7 @@ void SurfaceMap::addInner(TriangleId triangle, PositionId position, float distan
 
 IdVector<TriangleId, float> SurfaceMap::maxSums(IdSpan<TriangleId, const float> carried) const
 {
+    HEARTH_ASSERT(carried.size() == distances_.size());
     IdVector<TriangleId, float> sums(covered_.size(), 0);
     const auto mappedError = [&](HalfEdgeId half_edge)
     {

@@ -2,6 +2,7 @@
 #include "cook/clusters/surface/surface_points.h"
 
 #include "cook/clusters/core/islands.h"
+#include "formats/base/assert.h"
 
 #include <algorithm>
 #include <array>
@@ -199,6 +200,10 @@ private:
 
 SurfacePoints findPoints(const GroupMesh& group, const SimplifiedGroup& simplified, const Surface& after)
 {
+    HEARTH_ASSERT(after.triangleCount() == simplified.triangleCount());
+    HEARTH_ASSERT(simplified.source_triangle.size() == simplified.triangleCount() &&
+                  allBelow(simplified.source_triangle, group.triangleCount()));
+    HEARTH_ASSERT(simplified.placement.positions.size() == group.positions.size());
     return PointFinder(group, simplified, after).run();
 }
 

@@ -64,7 +64,7 @@ double distance2(Double3 point, const Corners3& triangle)
 SurfaceTree::SurfaceTree(const SurfaceView& surface)
     : surface_(surface), order_(surface.corners.triangleCount())
 {
-    HEARTH_ASSERT(!order_.empty());
+    HEARTH_ASSERT(!order_.empty() && allBelow(surface.corners, surface.positions.size()));
     const IdRange<TriangleId> all = surface.corners.triangles();
     std::copy(all.begin(), all.end(), order_.begin());
     nodes_.reserve(order_.size());
@@ -118,6 +118,7 @@ void SurfaceTree::build(uint32_t first, uint32_t count)
 
 SurfaceTree::Nearest SurfaceTree::nearest(Double3 point, double enough2, TriangleId hint) const
 {
+    HEARTH_RUNTIME_ASSERT(toIndex(hint) < order_.size());
     Nearest best{hint, distance2(point, triangle(hint))};
     struct Entry
     {
@@ -142,6 +143,7 @@ SurfaceTree::Nearest SurfaceTree::nearest(Double3 point, double enough2, Triangl
         Entry far{node.second, boxDistance2(point, nodes_[node.second].box)};
         if (far.distance2 < near.distance2)
             std::swap(near, far);
+        HEARTH_RUNTIME_ASSERT(size + 2 <= kMaxStack);
         stack[size++] = far;
         stack[size++] = near;
     }
