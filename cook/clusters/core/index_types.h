@@ -35,6 +35,11 @@ enum class ClusterId : uint32_t
 {
 };
 
+/// Group of the hierarchy under construction: counted over all levels, finest level first.
+enum class GroupId : uint32_t
+{
+};
+
 /// Position of a group.
 enum class PositionId : uint32_t
 {

@@ -30,10 +30,10 @@ Sphere groupSphere(const Build& build, const Level& level, std::span<const Clust
 {
     // the finer spheres contain the points of the finer groups, and so all of the members' points
     std::vector<Sphere> spheres;
-    uint32_t last_refined = kInvalidIndex;
+    GroupId last_refined = kInvalid;
     for (const ClusterId member : members)
-        if (const uint32_t refined = level.refined_group[member];
-            refined != kInvalidIndex && refined != last_refined)
+        if (const GroupId refined = level.refined_group[member];
+            refined != kInvalid && refined != last_refined)
         {
             last_refined = refined;
             spheres.push_back(build.group(refined).sphere);
@@ -54,9 +54,8 @@ ErrorAccumulator accumulateErrors(const Build& build, const Level& level, std::s
 {
     ErrorAccumulator errors(build.mesh.grid.error);
     for (const ClusterId member : members)
-        if (level.refined_group[member] != kInvalidIndex)
-            errors.add(build.group(level.refined_group[member]).errors,
-                       level.store.shapes[member].triangle_count);
+        if (const GroupId refined = level.refined_group[member]; refined != kInvalid)
+            errors.add(build.group(refined).errors, level.store.shapes[member].triangle_count);
     return errors;
 }
 
@@ -213,7 +212,7 @@ void takeVertices(PreparedMesh& mesh, GroupReduction& outcome, ClusterStore& clu
 Level nextLevel(PreparedMesh& mesh, Level& level)
 {
     Level next;
-    next.first_group = level.first_group + static_cast<uint32_t>(level.groups.count());
+    next.first_group = level.endGroup();
     next.drawn_below = level.drawn_below;
     for (uint32_t g = 0; g < level.groups.count(); ++g)
     {
@@ -221,7 +220,7 @@ Level nextLevel(PreparedMesh& mesh, Level& level)
         const auto members = level.groups.groupMembers(g);
         for (size_t i = 0; i < group.clusters.shapes.size(); ++i)
         {
-            next.refined_group.push_back(level.first_group + g);
+            next.refined_group.push_back(level.groupId(g));
             const int tried = group.retried ? std::min(level.retries[members[i]] + 1, 255) : 0;
             next.retries.push_back(static_cast<uint8_t>(tried));
         }
@@ -287,7 +286,7 @@ Level switchToAuthored(Build& build, Level& level, const LevelPlan& plan,
         level.built[g].set_offset = g;
 
     Level next;
-    next.first_group = level.first_group + static_cast<uint32_t>(level.groups.count());
+    next.first_group = level.endGroup();
     build.mesh.corners = authored.corners;
     build.mesh.materials = authored.materials;
     next.store = splitMesh(build.mesh);
@@ -341,7 +340,7 @@ void buildLevels(Build& build)
     first.store = splitMesh(build.mesh);
     mesh::freeMemory(build.mesh.corners.values());
     mesh::freeMemory(build.mesh.materials.values());
-    first.refined_group.assign(first.store.shapes.size(), kInvalidIndex);
+    first.refined_group.assign(first.store.shapes.size(), kInvalid);
     first.retries.assign(first.store.shapes.size(), 0);
     build.levels.push_back(std::move(first));
     while (true)

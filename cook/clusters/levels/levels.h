@@ -17,7 +17,7 @@
 namespace hearth::clusters
 {
 
-/// Group of a level under construction. Groups of all levels have consecutive numbers, finest level first.
+/// Group of a level under construction.
 struct LevelGroup
 {
     Sphere sphere;
@@ -35,16 +35,22 @@ struct LevelGroup
 struct Level
 {
     ClusterStore store;
-    /// Number of the group that each cluster was made from, or kInvalidIndex.
-    IdVector<ClusterId, uint32_t> refined_group;
+    /// Group that each cluster was made from, or kInvalid.
+    IdVector<ClusterId, GroupId> refined_group;
     IdVector<ClusterId, uint8_t> retries; ///< number of times that each cluster was passed on unchanged
     Groups groups;
-    uint32_t first_group = 0; ///< number of its first group
+    GroupId first_group{};
     uint64_t drawn_below = 0; ///< triangles of the roots of finer levels
     std::vector<LevelGroup> built;
+
+    /// Return the id of group `g` of the level.
+    GroupId groupId(size_t g) const { return toId<GroupId>(toIndex(first_group) + g); }
+
+    /// Return the id of the next level's first group.
+    GroupId endGroup() const { return groupId(groups.count()); }
 };
 
-/// Levels so far, and lookups by group number.
+/// Levels so far, and lookups by group.
 struct Build
 {
     PreparedMesh mesh;
@@ -53,15 +59,16 @@ struct Build
     std::span<const AuthoredLod> authored;   ///< authored LODs that are still to come
     std::vector<uint32_t> level_of_authored; ///< level of each authored mesh; kInvalidIndex: not used
 
-    const LevelGroup& group(uint32_t number) const
+    const LevelGroup& group(GroupId id) const
     {
         const auto after =
-            std::upper_bound(levels.begin(), levels.end(), number,
-                             [](uint32_t n, const Level& level) { return n < level.first_group; });
+            std::upper_bound(levels.begin(), levels.end(), id,
+                             [](GroupId group, const Level& level) { return group < level.first_group; });
         HEARTH_ASSERT(after != levels.begin());
         const Level& level = *(after - 1);
-        HEARTH_ASSERT(number - level.first_group < level.built.size());
-        return level.built[number - level.first_group];
+        const size_t g = toIndex(id) - toIndex(level.first_group);
+        HEARTH_ASSERT(g < level.built.size());
+        return level.built[g];
     }
 };
 

@@ -15,19 +15,18 @@ namespace
 {
 
 /// Return the file index of each group of the build: coarse to fine, in spatial order within a level.
-std::vector<uint32_t> recordNumbers(const Build& build)
+IdVector<GroupId, uint32_t> recordNumbers(const Build& build)
 {
-    std::vector<uint32_t> record_of_group;
+    IdVector<GroupId, uint32_t> record_of_group(toIndex(build.levels.back().endGroup()));
     uint32_t next = 0;
-    record_of_group.resize(build.levels.back().first_group + build.levels.back().built.size());
     for (size_t l = build.levels.size(); l-- > 0;)
-        for (uint32_t g = 0; g < build.levels[l].built.size(); ++g)
-            record_of_group[build.levels[l].first_group + g] = next++;
+        for (size_t g = 0; g < build.levels[l].built.size(); ++g)
+            record_of_group[build.levels[l].groupId(g)] = next++;
     return record_of_group;
 }
 
 /// Append the records of level l, and the shapes of its clusters in the same order.
-void addLevelRecords(const Build& build, uint32_t l, std::span<const uint32_t> record_of_group,
+void addLevelRecords(const Build& build, uint32_t l, IdSpan<GroupId, const uint32_t> record_of_group,
                      Hierarchy& hierarchy, std::vector<ClusterShape>& shapes, uint32_t vertex_offset,
                      uint32_t index_offset)
 {
@@ -51,11 +50,11 @@ void addLevelRecords(const Build& build, uint32_t l, std::span<const uint32_t> r
         {
             ClusterShape shape = level.store.shapes[member];
             ClusterRecord record{};
-            record.group = record_of_group[level.first_group + g];
+            record.group = record_of_group[level.groupId(g)];
             record.refined_group = kInvalidIndex;
-            if (const uint32_t refined = level.refined_group[member]; refined != kInvalidIndex)
+            if (const GroupId refined = level.refined_group[member]; refined != kInvalid)
             {
-                HEARTH_ASSERT(refined < record_of_group.size());
+                HEARTH_ASSERT(record_of_group.contains(refined));
                 record.refined_group = record_of_group[refined];
                 level_record.max_error = std::max(level_record.max_error, build.group(refined).errors.lod);
             }
@@ -79,7 +78,7 @@ void addLevelRecords(const Build& build, uint32_t l, std::span<const uint32_t> r
 void writeRecords(Build& build, Hierarchy& hierarchy)
 {
     HEARTH_ASSERT(!build.levels.empty() && hierarchy.clusters.empty());
-    const std::vector<uint32_t> record_of_group = recordNumbers(build);
+    const IdVector<GroupId, uint32_t> record_of_group = recordNumbers(build);
     ClusterStore store;
     std::vector<ClusterShape> shapes;
     hierarchy.levels.resize(build.levels.size());

@@ -126,7 +126,7 @@ void expectNear(const Surface& from, const Surface& to, Tells tells, Allowed all
                 return limit >= 0 && distanceToTriangle(point, to.triangleCorners(f)) <= limit;
             };
             const auto others = to.triangles.ids();
-            bad += std::any_of(others.begin(), others.end(), isNear) ? 0 : 1;
+            bad += std::any_of(others.begin(), others.end(), isNear) ? 0u : 1u;
         }
     }
     EXPECT_EQ(bad, 0u) << what;
