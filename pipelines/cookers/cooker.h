@@ -41,6 +41,8 @@ struct Cooker
     std::vector<std::string_view> reads{};
     /// true: it reads the source's files, its authored LODs, and files that these name
     bool reads_files = false;
+    /// true: hearth-link reads its part; false: the part is for other cookers, or only for reports
+    bool is_linked = true;
     /// cooker whose chunks its part contains too: where it runs, only its own part is linked; empty: none
     std::string_view replaces{};
     /// option of hearth-link before the part of a cooker of the pack

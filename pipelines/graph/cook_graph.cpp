@@ -170,14 +170,16 @@ void addLink(Draft& draft)
     Action link = makeAction(cooker, draft.settings.sources.size(), draft.settings.output);
     for (const ActionIndices& actions : draft.actions_of_source)
         for (const Cooker& read : cookers::allCookers())
-            if (actions.contains(read.name) && read.replaces.empty())
+            if (actions.contains(read.name) && read.is_linked && read.replaces.empty())
                 addInput(link, sourcePartInput(draft.graph, linkedAction(read, actions)));
     for (const Cooker& read : cookers::allCookers())
-        if (const auto found = draft.actions_of_pack.find(read.name); found != draft.actions_of_pack.end())
-        {
-            addWord(link, read.link_option);
-            addInput(link, partInput(draft.graph, found->second));
-        }
+    {
+        const auto found = draft.actions_of_pack.find(read.name);
+        if (found == draft.actions_of_pack.end() || !read.is_linked)
+            continue;
+        addWord(link, read.link_option);
+        addInput(link, partInput(draft.graph, found->second));
+    }
     addOutput(link, "-o", "pack.hearth");
     draft.graph.actions.push_back(std::move(link));
 }

@@ -209,7 +209,21 @@ Status writeAssets(ContainerWriter& writer, std::span<const Source> sources)
     return writer.addRecords<AssetRecord>(kChunkAssets, assets);
 }
 
-/// Write one table, merged from all sources.
+/// Write the tables of all sources one after the other: records that refer to nothing.
+template <typename T>
+Status writeJoined(ContainerWriter& writer, std::span<const Source> sources, uint32_t type,
+                   PackView Source::*part, std::span<const T> (PackView::*table)() const)
+{
+    std::vector<T> merged;
+    for (const Source& source : sources)
+    {
+        const std::span<const T> records = ((source.*part).*table)();
+        merged.insert(merged.end(), records.begin(), records.end());
+    }
+    return writer.addRecords<T>(type, merged);
+}
+
+/// Write one table, merged from all sources, with references into the merged tables.
 template <typename T>
 Status writeTable(ContainerWriter& writer, std::span<const Source> sources, uint32_t type,
                   PackView Source::*part, std::span<const T> (PackView::*table)() const)
@@ -227,10 +241,10 @@ Status writeTable(ContainerWriter& writer, std::span<const Source> sources, uint
 /// Write the packed keys of all sources; no chunk if there are none.
 Status writeKeyBits(ContainerWriter& writer, std::span<const Source> sources)
 {
-    std::vector<uint32_t> merged;
-    for (const Source& source : sources)
-        merged.insert(merged.end(), source.import_part.keyBits().begin(), source.import_part.keyBits().end());
-    return merged.empty() ? success() : writer.addRecords<uint32_t>(kChunkKeyBits, merged);
+    const auto isPacked = [](const Source& source) { return !source.import_part.keyBits().empty(); };
+    return std::any_of(sources.begin(), sources.end(), isPacked)
+               ? writeJoined(writer, sources, kChunkKeyBits, &Source::import_part, &PackView::keyBits)
+               : success();
 }
 
 Status writeScene(ContainerWriter& writer, std::span<const Source> sources)
@@ -248,9 +262,9 @@ Status writeScene(ContainerWriter& writer, std::span<const Source> sources)
     HEARTH_TRY(write(kChunkJoints, &PackView::joints));
     HEARTH_TRY(write(kChunkAnimations, &PackView::animations));
     HEARTH_TRY(write(kChunkChannels, &PackView::channels));
-    HEARTH_TRY(write(kChunkKeys, &PackView::keys));
+    HEARTH_TRY(writeJoined(writer, sources, kChunkKeys, &Source::import_part, &PackView::keys));
     HEARTH_TRY(writeKeyBits(writer, sources));
-    return write(kChunkMorphWeights, &PackView::morphWeights);
+    return writeJoined(writer, sources, kChunkMorphWeights, &Source::import_part, &PackView::morphWeights);
 }
 
 /// Write the groups of all sources; groups of deformed meshes get the spheres that hold in all poses.
@@ -307,12 +321,9 @@ Status writeDeformedMeshes(ContainerWriter& writer, std::span<const Source> sour
         return success();
     HEARTH_TRY(write(kChunkDeformedMeshes, &PackView::deformedMeshes));
     HEARTH_TRY(write(kChunkDeformedClusters, &PackView::deformedClusters));
-    // joint numbers are relative to their skin: no rebase
-    std::vector<uint32_t> joints;
-    for (const Source& source : sources)
-        joints.insert(joints.end(), source.skinning_part.clusterJoints().begin(),
-                      source.skinning_part.clusterJoints().end());
-    return writer.addRecords<uint32_t>(kChunkClusterJoints, joints);
+    // joint numbers are relative to their skin
+    return writeJoined(writer, sources, kChunkClusterJoints, &Source::skinning_part,
+                       &PackView::clusterJoints);
 }
 
 Status writePages(ContainerWriter& writer, std::span<const Source> sources)

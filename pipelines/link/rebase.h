@@ -56,6 +56,5 @@ void rebase(formats::AuthoredLevelRecord& level, const TableOffsets& offsets);
 void rebase(formats::DeformedMeshRecord& mesh, const TableOffsets& offsets);
 void rebase(formats::DeformedClusterRecord& cluster, const TableOffsets& offsets);
 void rebase(uint32_t& page_parent, const TableOffsets& offsets);
-inline void rebase(float&, const TableOffsets&) {} ///< keys and morph weights refer to nothing
 
 } // namespace hearth::link

@@ -135,7 +135,7 @@ void Renderer::record(VkCommandBuffer commands, const Scene& scene, FrameTargets
     drawVisibility(commands, scene, input);
     writeTimestamp(device_, commands, input.timestamps, kTimestampVisibility);
     writeTimestamp(device_, commands, input.timestamps, kTimestampMaterialTiles);
-    recordPicture(commands, scene, targets, input);
+    recordShading(commands, scene, targets, input);
 }
 
 void Renderer::recordCull(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
@@ -187,8 +187,8 @@ void Renderer::recordMaterials(VkCommandBuffer commands, const Scene& scene, Fra
         gather_->record(device_, commands, scene, targets, input.view, scene.bricks->quick_frames > 0);
     }
     writeTimestamp(device_, commands, input.timestamps, kTimestampMaterialTiles);
-    beginPass(commands, targets, passes_.picture.get());
-    recordPicture(commands, scene, targets, input);
+    beginPass(commands, targets, passes_.shading.get());
+    recordShading(commands, scene, targets, input);
 }
 
 void Renderer::recordPrefetch(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
@@ -324,7 +324,7 @@ void Renderer::recordOverdraw(VkCommandBuffer commands, const Scene& scene, cons
 }
 
 /// Record from after the first subpass to the end of the render pass.
-void Renderer::recordPicture(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
+void Renderer::recordShading(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
                              const FrameInput& input) const
 {
     device_.vk.vkCmdNextSubpass(commands, VK_SUBPASS_CONTENTS_INLINE);

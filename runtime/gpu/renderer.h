@@ -117,7 +117,7 @@ private:
                      const FrameInput& input) const;
     void drawVisibility(VkCommandBuffer commands, const Scene& scene, const FrameInput& input) const;
     void endAtVisibility(VkCommandBuffer commands) const;
-    void recordPicture(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
+    void recordShading(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
                        const FrameInput& input) const;
     void recordOverdraw(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets) const;
     void beginPass(VkCommandBuffer commands, const FrameTargets& targets, VkRenderPass render_pass) const;

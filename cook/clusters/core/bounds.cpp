@@ -7,9 +7,7 @@
 #include "formats/codecs/cluster_bounds.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 namespace hearth::clusters
@@ -267,16 +265,6 @@ Float3 findConeAxis(std::span<const LaneVector> normals)
 }
 
 } // namespace
-
-float roundUp(double value)
-{
-    constexpr float kMaxFloat = std::numeric_limits<float>::max();
-    if (!(value < kMaxFloat))
-        return kMaxFloat;
-    const auto rounded = static_cast<float>(value);
-    // the next float has the next bits
-    return std::bit_cast<float>(std::bit_cast<uint32_t>(rounded) + (rounded < value ? 1u : 0u));
-}
 
 Sphere sphereOfPoints(std::span<const Float3> points)
 {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "formats/base/math.h"
+#include "formats/base/rounding.h"
 #include "formats/records/mesh.h"
 
 #include <cstdint>
@@ -14,9 +15,6 @@ namespace hearth::clusters
 /// Factor by which a group's sphere and error exceed their contents, so that float arithmetic in the runtime
 /// cannot see a parent below its child.
 inline constexpr double kMonotoneSlack = 1.0 + 1.0 / 262144.0;
-
-/// Return `value`, at least 0, rounded up to a float; the largest finite float if it is beyond the range.
-float roundUp(double value);
 
 /// Compute a bounding sphere of the points, at most a few per cent larger than the smallest.
 /// source  J. Ritter, "An efficient bounding sphere", 1990, then steps towards the farthest point as in M.

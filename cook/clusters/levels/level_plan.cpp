@@ -115,7 +115,7 @@ void planExactly(LevelPlan& plan, std::span<const GroupShare> shares, double fac
 LevelPlan planLevel(const Reduction& reduction, uint32_t level, const ClusterStore& store,
                     const Groups& groups, uint64_t drawn_below)
 {
-    HEARTH_ASSERT(groups.count() > 0 && groups.members.size() == store.shapes.size());
+    HEARTH_ASSERT(groups.count() > 0 && groups.members.items().size() == store.shapes.size());
     LevelPlan plan;
     std::vector<GroupShare> shares;
     uint64_t triangles = 0;

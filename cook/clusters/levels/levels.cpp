@@ -258,7 +258,7 @@ Level switchToAuthored(Build& build, Level& level, const LevelPlan& plan,
 {
     const AuthoredLod& authored = build.authored.front();
     const IdSpan<VertexId, const Float3> positions = build.mesh.positions();
-    const auto all = std::span<const ClusterId>(level.groups.members);
+    const auto all = std::span<const ClusterId>(level.groups.members.items());
     // distances below the error of the level below make no difference
     const float carried = *std::max_element(level.store.errors.begin(), level.store.errors.end());
     const SurfaceBound bound =

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <queue>
 
 namespace hearth::clusters
@@ -31,29 +30,15 @@ struct Link
     float weight;
 };
 
-/// Items by key, as offsets and items (compressed sparse rows).
-template <IndexType Key, IndexType Item>
-struct IndexTable
-{
-    std::vector<Item> items;
-    std::vector<uint32_t> offsets;
+/// Positions of each cluster, each once.
+using PositionsByCluster = CsrLists<MeshPositionId>;
+/// Clusters that use each position, ascending.
+using ClustersByPosition = CsrLists<ClusterId>;
 
-    size_t keyCount() const { return offsets.size() - 1; }
-    std::span<const Item> list(Key key) const
-    {
-        const uint32_t k = toIndex(key);
-        return std::span(items).subspan(offsets[k], offsets[k + 1] - offsets[k]);
-    }
-};
-using PositionsByCluster = IndexTable<ClusterId, MeshPositionId>;
-using ClustersByPosition = IndexTable<MeshPositionId, ClusterId>;
-
-/// Return the positions of each cluster, each once.
 PositionsByCluster gatherClusterPositions(const PreparedMesh& mesh, const ClusterStore& store)
 {
     PositionsByCluster lists;
-    lists.offsets.push_back(0);
-    lists.items.reserve(store.vertices.size());
+    lists.reserve(store.vertices.size());
     IdVector<MeshPositionId, ClusterId> seen(mesh.position_count, kInvalid);
     for (const ClusterId c : store.shapes.ids())
     {
@@ -61,29 +46,23 @@ PositionsByCluster gatherClusterPositions(const PreparedMesh& mesh, const Cluste
         {
             const MeshPositionId position = mesh.position_id_of_vertex[vertex];
             if (seen[position] != c)
-                lists.items.push_back(position);
+                lists.add(position);
             seen[position] = c;
         }
-        lists.offsets.push_back(static_cast<uint32_t>(lists.items.size()));
+        lists.endList();
     }
     return lists;
 }
 
-/// Return the clusters that use each position, ascending (the transpose).
 ClustersByPosition transposeLists(const PositionsByCluster& positions, size_t position_count)
 {
-    ClustersByPosition lists;
-    lists.offsets.assign(position_count + 1, 0);
-    for (const MeshPositionId position : positions.items)
-        ++lists.offsets[toIndex(position) + 1];
-    std::partial_sum(lists.offsets.begin(), lists.offsets.end(), lists.offsets.begin());
-    lists.items.resize(positions.items.size());
-    IdVector<MeshPositionId, uint32_t> next(
-        std::vector<uint32_t>(lists.offsets.begin(), lists.offsets.end() - 1));
-    for (const ClusterId c : makeIds<ClusterId>(positions.keyCount()))
-        for (const MeshPositionId position : positions.list(c))
-            lists.items[next[position]++] = c;
-    return lists;
+    return ClustersByPosition(position_count,
+                              [&](const auto& add)
+                              {
+                                  for (const ClusterId c : makeIds<ClusterId>(positions.size()))
+                                      for (const MeshPositionId position : positions[toIndex(c)])
+                                          add(toIndex(position), c);
+                              });
 }
 
 /// Return the neighbours of each cluster with the weight of the shared border.
@@ -91,7 +70,7 @@ IdVector<ClusterId, std::vector<Link>> linkClusters(const PositionsByCluster& po
                                                     const ClustersByPosition& users,
                                                     IdSpan<MeshPositionId, const uint8_t> locked)
 {
-    IdVector<ClusterId, std::vector<Link>> links(positions.keyCount());
+    IdVector<ClusterId, std::vector<Link>> links(positions.size());
     IdVector<ClusterId, float> weight(links.size(), 0.0f);
     std::vector<ClusterId> touched;
     for (const ClusterId c : links.ids())
@@ -103,9 +82,9 @@ IdVector<ClusterId, std::vector<Link>> linkClusters(const PositionsByCluster& po
                 touched.push_back(other);
             weight[other] += added;
         };
-        for (const MeshPositionId position : positions.list(c))
+        for (const MeshPositionId position : positions[toIndex(c)])
         {
-            const auto clusters = users.list(position);
+            const auto clusters = users[toIndex(position)];
             const float added = locked[position] != 0 ? kLockedWeight : 1.0f;
             if (clusters.size() <= kMaxLinked)
             {
@@ -358,12 +337,13 @@ Groups groupClusters(const PreparedMesh& mesh, const ClusterStore& store,
     for (const ClusterId group : spatialOrder(merger, boxes))
     {
         const auto members = merger.groupMembers(group);
-        groups.members.insert(groups.members.end(), members.begin(), members.end());
-        std::sort(groups.members.begin() + groups.offsets.back(), groups.members.end());
-        groups.offsets.push_back(static_cast<uint32_t>(groups.members.size()));
+        for (const ClusterId member : members)
+            groups.members.add(member);
+        groups.members.endList();
+        std::ranges::sort(groups.members[groups.count() - 1]);
         HEARTH_ASSERT(!members.empty() && members.size() <= config.group_max_clusters);
     }
-    HEARTH_ASSERT(groups.members.size() == store.shapes.size());
+    HEARTH_ASSERT(groups.members.items().size() == store.shapes.size());
     return groups;
 }
 
@@ -372,7 +352,7 @@ IdVector<MeshPositionId, uint8_t> lockSharedPositions(const PreparedMesh& mesh, 
                                                       IdSpan<MeshPositionId, const uint8_t> pinned)
 {
     HEARTH_ASSERT(pinned.size() == mesh.position_count);
-    HEARTH_ASSERT(groups.members.size() == store.shapes.size());
+    HEARTH_ASSERT(groups.members.items().size() == store.shapes.size());
     IdVector<MeshPositionId, uint8_t> locked(std::vector<uint8_t>(pinned.begin(), pinned.end()));
     IdVector<MeshPositionId, uint32_t> owner(mesh.position_count, kInvalidIndex);
     for (uint32_t g = 0; g < groups.count(); ++g)

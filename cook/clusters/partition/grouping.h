@@ -6,6 +6,7 @@
 #include "cook/clusters/core/cluster.h"
 #include "cook/clusters/core/hierarchy.h"
 #include "formats/base/assert.h"
+#include "formats/base/csr_lists.h"
 
 #include <cstdint>
 #include <span>
@@ -14,17 +15,16 @@
 namespace hearth::clusters
 {
 
-/// Lists of clusters: the members of group g are members[offsets[g] .. offsets[g + 1]).
+/// Lists of clusters.
 struct Groups
 {
-    std::vector<ClusterId> members;
-    std::vector<uint32_t> offsets{0};
+    CsrLists<ClusterId> members; ///< of each group
 
-    size_t count() const { return offsets.size() - 1; }
+    size_t count() const { return members.size(); }
     std::span<const ClusterId> groupMembers(size_t group) const
     {
         HEARTH_RUNTIME_ASSERT(group < count());
-        return std::span(members).subspan(offsets[group], offsets[group + 1] - offsets[group]);
+        return members[group];
     }
 };
 

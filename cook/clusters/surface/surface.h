@@ -6,17 +6,17 @@
 #include "cook/clusters/core/triangle_block.h"
 #include "cook/clusters/surface/piece_bound.h"
 #include "formats/base/assert.h"
+#include "formats/base/csr_lists.h"
 #include "formats/base/math.h"
 
 #include <cstdint>
-#include <numeric>
 #include <span>
 #include <vector>
 
 namespace hearth::clusters
 {
 
-/// Triangles at each position (compressed sparse rows).
+/// Triangles at each position.
 class TriangleLists
 {
 public:
@@ -24,27 +24,21 @@ public:
 
     /// position_ids  below `position_count`
     TriangleLists(size_t position_count, CornerSpan<const PositionId> position_ids)
-        : offsets_(position_count + 1, 0), triangles_(position_ids.size())
+        : lists_(position_count,
+                 [&](const auto& add)
+                 {
+                     HEARTH_RUNTIME_ASSERT(allBelow(position_ids, position_count));
+                     for (const TriangleId triangle : position_ids.triangles())
+                         for (const PositionId position : position_ids.triangle(triangle))
+                             add(toIndex(position), triangle);
+                 })
     {
-        HEARTH_RUNTIME_ASSERT(allBelow(position_ids, position_count));
-        for (const PositionId position : position_ids)
-            ++offsets_[toIndex(position) + 1];
-        std::partial_sum(offsets_.begin(), offsets_.end(), offsets_.begin());
-        IdVector<PositionId, uint32_t> next(std::vector<uint32_t>(offsets_.begin(), offsets_.end() - 1));
-        for (const TriangleId triangle : position_ids.triangles())
-            for (const PositionId position : position_ids.triangle(triangle))
-                triangles_[next[position]++] = triangle;
     }
 
-    std::span<const TriangleId> list(PositionId position) const
-    {
-        const uint32_t p = toIndex(position);
-        return std::span(triangles_).subspan(offsets_[p], offsets_[p + 1] - offsets_[p]);
-    }
+    std::span<const TriangleId> list(PositionId position) const { return lists_[toIndex(position)]; }
 
 private:
-    std::vector<uint32_t> offsets_;
-    std::vector<TriangleId> triangles_;
+    CsrLists<TriangleId> lists_;
 };
 
 /// Triangulated surface of a group; all arrays are in local units.

@@ -3,10 +3,10 @@
 #pragma once
 
 #include "cook/clusters/surface/surface_bound.h"
+#include "cook/mesh/triangle_tree.h"
 #include "formats/base/double3.h"
 
 #include <array>
-#include <vector>
 
 namespace hearth::clusters
 {
@@ -39,21 +39,8 @@ public:
     Corners3 triangle(TriangleId triangle) const;
 
 private:
-    /// Node of the tree. A leaf has `count` triangles; an inner node's first child follows it, its second is
-    /// at `second`.
-    struct Node
-    {
-        Box3 box;
-        uint32_t first = 0;
-        uint32_t count = 0;
-        uint32_t second = 0;
-    };
-
-    void build(uint32_t first, uint32_t count);
-
     SurfaceView surface_;
-    std::vector<TriangleId> order_; ///< leaf by leaf
-    std::vector<Node> nodes_;
+    mesh::TriangleTree tree_;
 };
 
 } // namespace hearth::clusters

@@ -5,10 +5,10 @@
 #include "cook/visibility/fit/normal_equations.h"
 
 #include "formats/base/assert.h"
+#include "formats/base/csr_lists.h"
 #include "formats/base/double3.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace hearth::visibility
 {
@@ -72,7 +72,6 @@ std::vector<TriangleSums> sumSamples(size_t triangle_count, std::span<const Surf
 SparseMatrix createPattern(const Proxy& proxy)
 {
     const size_t rows = proxy.positions.size();
-    std::vector<uint32_t> next(rows + 1, 0);
     // every pair twice, once for each row; pairs along an edge once for each triangle of the edge
     const auto forPairs = [&](const auto& use)
     {
@@ -82,34 +81,27 @@ SparseMatrix createPattern(const Proxy& proxy)
         for (const InteriorEdge& edge : proxy.edges)
             use(edge.k, edge.l);
     };
-    std::vector<uint32_t> first(rows + 1, 0);
-    for (size_t row = 0; row < rows; ++row)
-        first[row + 1] = 1; // the diagonal
-    forPairs(
-        [&](uint32_t a, uint32_t b)
-        {
-            ++first[a + 1];
-            ++first[b + 1];
-        });
-    std::partial_sum(first.begin(), first.end(), first.begin());
-    std::vector<uint32_t> entries(first.back());
-    std::copy(first.begin(), first.end(), next.begin());
-    for (uint32_t row = 0; row < rows; ++row)
-        entries[next[row]++] = row;
-    forPairs(
-        [&](uint32_t a, uint32_t b)
-        {
-            entries[next[a]++] = b;
-            entries[next[b]++] = a;
-        });
+    CsrLists<uint32_t> entries(rows,
+                               [&](const auto& add)
+                               {
+                                   for (uint32_t row = 0; row < rows; ++row)
+                                       add(row, row); // the diagonal
+                                   forPairs(
+                                       [&](uint32_t a, uint32_t b)
+                                       {
+                                           add(a, b);
+                                           add(b, a);
+                                       });
+                               });
     SparseMatrix matrix;
     matrix.row_start.push_back(0);
-    matrix.columns.reserve(entries.size());
+    matrix.columns.reserve(entries.items().size());
     for (size_t row = 0; row < rows; ++row)
     {
-        const auto begin = entries.begin() + first[row], end = entries.begin() + first[row + 1];
-        std::sort(begin, end);
-        matrix.columns.insert(matrix.columns.end(), begin, std::unique(begin, end));
+        const std::span<uint32_t> columns = entries[row];
+        std::sort(columns.begin(), columns.end());
+        matrix.columns.insert(matrix.columns.end(), columns.begin(),
+                              std::unique(columns.begin(), columns.end()));
         matrix.row_start.push_back(static_cast<uint32_t>(matrix.columns.size()));
     }
     matrix.values.assign(matrix.columns.size(), 0);

@@ -10,19 +10,6 @@ namespace hearth::visibility
 namespace
 {
 
-constexpr uint32_t kLeafTriangles = 4;
-
-// Depth of a tree that halves 2^32 triangles, plus one sibling for each node on the path.
-constexpr size_t kMaxStack = 64;
-
-double boxDistance2(Double3 p, const Box3& box)
-{
-    const double x = std::max({double{box.min.x} - p.x, p.x - double{box.max.x}, 0.0});
-    const double y = std::max({double{box.min.y} - p.y, p.y - double{box.max.y}, 0.0});
-    const double z = std::max({double{box.min.z} - p.z, p.z - double{box.max.z}, 0.0});
-    return x * x + y * y + z * z;
-}
-
 /// Return a / (a + b), for a and b at least 0 apart from rounding errors. An edge of length 0 gives 0, its
 /// first end.
 double edgeFraction(double a, double b)
@@ -71,54 +58,19 @@ Weights closestPointWeights(Double3 ab, Double3 ac, Double3 ap)
 ClosestPoint::ClosestPoint(const MeshView& mesh, size_t triangle_count)
     : triangles_(triangle_count), slot_of_triangle_(triangle_count)
 {
-    for (size_t t = 0; t < triangle_count; ++t)
+    const auto corners = [&mesh](uint32_t triangle) -> std::array<Float3, 3>
     {
-        for (size_t k = 0; k < 3; ++k)
-            triangles_[t].corners[k] = mesh.positions[mesh.indices[t * 3 + k]];
-        triangles_[t].triangle = static_cast<uint32_t>(t);
-    }
-    if (triangle_count == 0)
-        return;
-    nodes_.reserve(triangle_count);
-    build(0, static_cast<uint32_t>(triangle_count));
+        const auto position = [&](size_t k)
+        { return mesh.positions[mesh.indices[size_t{triangle} * 3 + k]]; };
+        return {position(0), position(1), position(2)};
+    };
+    tree_ = mesh::TriangleTree(static_cast<uint32_t>(triangle_count), corners);
     for (uint32_t i = 0; i < triangle_count; ++i)
-        slot_of_triangle_[triangles_[i].triangle] = i;
-}
-
-/// Split the triangles at the median, along the longest side of the box of their centers. The recursion is as
-/// deep as the tree, at most 32.
-void ClosestPoint::build(uint32_t first, uint32_t count)
-{
-    const auto center = [](const Triangle& item, int axis)
-    { return item.corners[0][axis] + item.corners[1][axis] + item.corners[2][axis]; };
-    const auto at = static_cast<uint32_t>(nodes_.size());
-    nodes_.push_back({});
-    Box3 centers;
-    for (uint32_t i = first; i < first + count; ++i)
     {
-        const Triangle& item = triangles_[i];
-        for (const Float3 corner : item.corners)
-            nodes_[at].box.add(corner);
-        centers.add(Float3{center(item, 0), center(item, 1), center(item, 2)});
+        const uint32_t triangle = tree_.order()[i];
+        triangles_[i] = {corners(triangle), triangle};
+        slot_of_triangle_[triangle] = i;
     }
-    nodes_[at].first = first;
-    nodes_[at].count = count;
-    if (count <= kLeafTriangles)
-        return;
-    const Float3 size = centers.max - centers.min;
-    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const uint32_t half = count / 2;
-    std::nth_element(triangles_.begin() + first, triangles_.begin() + first + half,
-                     triangles_.begin() + first + count,
-                     [&](const Triangle& a, const Triangle& b)
-                     {
-                         const float ca = center(a, axis), cb = center(b, axis);
-                         return ca != cb ? ca < cb : a.triangle < b.triangle;
-                     });
-    nodes_[at].count = 0;
-    build(first, half);
-    nodes_[at].second = static_cast<uint32_t>(nodes_.size());
-    build(first + half, count - half);
 }
 
 void ClosestPoint::visit(Double3 point, Double3 normal, const Triangle& item, Hit& best) const
@@ -138,37 +90,19 @@ void ClosestPoint::visit(Double3 point, Double3 normal, const Triangle& item, Hi
 ClosestPoint::Hit ClosestPoint::find(Float3 point, Float3 normal, double limit2, uint32_t hint) const
 {
     Hit best{kInvalidIndex, 0, 0, limit2};
-    if (nodes_.empty())
+    if (tree_.empty())
         return best;
     const Double3 p = widen(point), n = widen(normal);
     if (hint != kInvalidIndex)
         visit(p, n, triangles_[slot_of_triangle_[hint]], best);
-    struct Entry
-    {
-        uint32_t node;
-        double distance2;
-    };
-    std::array<Entry, kMaxStack> stack;
-    size_t size = 0;
-    stack[size++] = {0, boxDistance2(p, nodes_[0].box)};
-    while (size > 0)
-    {
-        const Entry entry = stack[--size];
-        if (entry.distance2 > best.distance2 ||
-            (entry.distance2 == best.distance2 && best.triangle != kInvalidIndex))
-            continue;
-        const Node& node = nodes_[entry.node];
-        for (uint32_t i = node.first; i < node.first + node.count; ++i)
-            visit(p, n, triangles_[i], best);
-        if (node.count > 0)
-            continue;
-        Entry near{entry.node + 1, boxDistance2(p, nodes_[entry.node + 1].box)};
-        Entry far{node.second, boxDistance2(p, nodes_[node.second].box)};
-        if (far.distance2 < near.distance2)
-            std::swap(near, far);
-        stack[size++] = far;
-        stack[size++] = near;
-    }
+    tree_.visitNearest(
+        p,
+        [&](double box_distance2)
+        {
+            return box_distance2 < best.distance2 ||
+                   (box_distance2 == best.distance2 && best.triangle == kInvalidIndex);
+        },
+        [&](uint32_t i) { visit(p, n, triangles_[i], best); });
     return best;
 }
 

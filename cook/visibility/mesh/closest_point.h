@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "cook/mesh/triangle_tree.h"
 #include "cook/visibility/mesh/mesh_view.h"
 #include "formats/base/double3.h"
 
@@ -35,27 +36,17 @@ public:
     Hit find(Float3 point, Float3 normal, double limit2, uint32_t hint) const;
 
 private:
-    /// Leaf with `count` triangles, or inner node with count 0: its first child follows it, its second child
-    /// is at `second`.
-    struct Node
-    {
-        Box3 box;
-        uint32_t first = 0;
-        uint32_t count = 0;
-        uint32_t second = 0;
-    };
     struct Triangle
     {
         std::array<Float3, 3> corners;
         uint32_t triangle = 0;
     };
 
-    void build(uint32_t first, uint32_t count);
     void visit(Double3 point, Double3 normal, const Triangle& item, Hit& best) const;
 
+    mesh::TriangleTree tree_;
     std::vector<Triangle> triangles_; ///< in the order of the leaves
     std::vector<uint32_t> slot_of_triangle_;
-    std::vector<Node> nodes_;
 };
 
 } // namespace hearth::visibility

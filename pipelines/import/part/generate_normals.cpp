@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/part/generate_normals.h"
 
+#include "formats/base/csr_lists.h"
 #include "formats/base/double3.h"
 #include "pipelines/import/part/mesh_pieces.h"
 
@@ -68,28 +69,17 @@ std::vector<uint32_t> computePointIds(const mesh::SourceMesh& mesh)
     return point_of_vertex;
 }
 
-/// Corners (3 * triangle + k) sorted by point; the corners of point i are
-/// corners[offsets[i] .. offsets[i + 1]).
-struct PointCorners
+/// Return the corners (3 * triangle + k) at each point.
+CsrLists<uint32_t> groupCorners(const mesh::SourceMesh& mesh, const std::vector<uint32_t>& point_of_vertex)
 {
-    std::vector<uint32_t> offsets;
-    std::vector<uint32_t> corners;
-};
-
-PointCorners groupCorners(const mesh::SourceMesh& mesh, const std::vector<uint32_t>& point_of_vertex)
-{
-    PointCorners groups;
     const uint32_t point_count =
         point_of_vertex.empty() ? 0 : *std::max_element(point_of_vertex.begin(), point_of_vertex.end()) + 1;
-    groups.offsets.assign(point_count + 1, 0);
-    for (const uint32_t vertex : mesh.indices)
-        ++groups.offsets[point_of_vertex[vertex] + 1];
-    std::partial_sum(groups.offsets.begin(), groups.offsets.end(), groups.offsets.begin());
-    groups.corners.resize(mesh.indices.size());
-    std::vector<uint32_t> next(groups.offsets.begin(), groups.offsets.end() - 1);
-    for (uint32_t corner = 0; corner < mesh.indices.size(); ++corner)
-        groups.corners[next[point_of_vertex[mesh.indices[corner]]]++] = corner;
-    return groups;
+    return CsrLists<uint32_t>(point_count,
+                              [&](const auto& add)
+                              {
+                                  for (uint32_t corner = 0; corner < mesh.indices.size(); ++corner)
+                                      add(point_of_vertex[mesh.indices[corner]], corner);
+                              });
 }
 
 /// Direction of a face around a point. A point has at most kMaxDirections, so that the cost of a fan of a
@@ -183,20 +173,16 @@ std::vector<Float3> cornerNormals(const mesh::SourceMesh& mesh, float crease_ang
     constexpr double kCosineRounding = 1e-6;
     const double min_cosine = std::cos(static_cast<double>(crease_angle_rad)) - kCosineRounding;
     const std::vector<FaceNormal> faces = faceNormals(mesh);
-    const PointCorners groups = groupCorners(mesh, computePointIds(mesh));
+    const CsrLists<uint32_t> corners_at = groupCorners(mesh, computePointIds(mesh));
     std::vector<Float3> normals(mesh.indices.size());
-    tbb::parallel_for(tbb::blocked_range<size_t>(0, groups.offsets.size() - 1),
+    tbb::parallel_for(tbb::blocked_range<size_t>(0, corners_at.size()),
                       [&](const tbb::blocked_range<size_t>& points)
                       {
                           std::vector<FaceDirection> directions;
                           for (size_t point = points.begin(); point < points.end(); ++point)
                           {
-                              const auto corners =
-                                  std::span(groups.corners)
-                                      .subspan(groups.offsets[point],
-                                               groups.offsets[point + 1] - groups.offsets[point]);
-                              collectDirections(corners, faces, directions);
-                              for (const uint32_t corner : corners)
+                              collectDirections(corners_at[point], faces, directions);
+                              for (const uint32_t corner : corners_at[point])
                                   normals[corner] = cornerNormal(faces[corner / 3], directions, min_cosine);
                           }
                       });

@@ -142,10 +142,10 @@ Result<FramePasses> FramePasses::create(const Device& device)
         late[kept].initialLayout = early[kept].finalLayout;
     }
 
-    Attachments picture = whole;
-    picture[kVisibility].loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
-    picture[kVisibility].initialLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-    picture[kDepth].loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+    Attachments shading = whole;
+    shading[kVisibility].loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
+    shading[kVisibility].initialLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    shading[kDepth].loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
 
     FramePasses passes;
     HEARTH_ASSIGN_OR_RETURN(passes.whole, createRenderPass(device, whole));
@@ -153,7 +153,7 @@ Result<FramePasses> FramePasses::create(const Device& device)
     HEARTH_ASSIGN_OR_RETURN(passes.late, createRenderPass(device, late));
     HEARTH_ASSIGN_OR_RETURN(passes.whole_visibility, createRenderPass(device, endAtVisibility(whole)));
     HEARTH_ASSIGN_OR_RETURN(passes.late_visibility, createRenderPass(device, endAtVisibility(late)));
-    HEARTH_ASSIGN_OR_RETURN(passes.picture, createRenderPass(device, picture));
+    HEARTH_ASSIGN_OR_RETURN(passes.shading, createRenderPass(device, shading));
     return passes;
 }
 

@@ -43,7 +43,7 @@ struct FramePasses
     /// From nothing to the visibility buffer, which can be sampled afterwards.
     UniqueRenderPass whole_visibility;
     UniqueRenderPass late_visibility; ///< continues after `early`, to the visibility buffer
-    UniqueRenderPass picture;         ///< from the visibility buffer to the shaded frame
+    UniqueRenderPass shading;         ///< from the visibility buffer to the shaded frame
 
     static Result<FramePasses> create(const Device& device);
 };

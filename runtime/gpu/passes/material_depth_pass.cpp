@@ -13,7 +13,7 @@ Result<MaterialDepthPass> MaterialDepthPass::create(const Device& device, const 
     HEARTH_ASSIGN_OR_RETURN(pass.pipeline_,
                             createGraphicsPipeline(device, {.vertex = shaders::fullscreen_vert,
                                                             .fragment = shaders::material_depth_frag,
-                                                            .layout = layouts.picture.get(),
+                                                            .layout = layouts.shading.get(),
                                                             .render_pass = render_pass,
                                                             .subpass = kSubpassMaterialDepth,
                                                             .depth_compare = VK_COMPARE_OP_ALWAYS,
@@ -25,7 +25,7 @@ Result<MaterialDepthPass> MaterialDepthPass::create(const Device& device, const 
 void MaterialDepthPass::record(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
                                const Scene& scene, const FrameTargets& targets) const
 {
-    const VkPipelineLayout layout = layouts.picture.get();
+    const VkPipelineLayout layout = layouts.shading.get();
     const VkDescriptorSet attachments = targets.attachments();
     const shared::ShadingPush push{};
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_.get());

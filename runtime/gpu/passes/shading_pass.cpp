@@ -65,7 +65,7 @@ Result<ShadingPass> ShadingPass::create(const Device& device, const DrawLayouts&
     pass.render_pass_ = render_pass;
     HEARTH_ASSIGN_OR_RETURN(
         pass.sky_,
-        createGraphicsPipeline(device, describe(shaders::sky_frag, layouts.picture.get(), render_pass)));
+        createGraphicsPipeline(device, describe(shaders::sky_frag, layouts.shading.get(), render_pass)));
     GraphicsDescription clusters = describe(shaders::view_clusters_frag, layouts.clusters.get(), render_pass);
     clusters.vertex = shaders::fullscreen_vert;
     clusters.depth_compare = VK_COMPARE_OP_LESS; // drawn at depth 0, which is the depth of the sky
@@ -81,7 +81,7 @@ Result<ShadingPipelines> ShadingPass::prepare(const Device& device, const DrawLa
     {
         const DrawConstants constants = drawConstants(variant, true);
         GraphicsDescription maps =
-            describe(shaders::view_shadow_maps_frag, layouts.picture.get(), render_pass_);
+            describe(shaders::view_shadow_maps_frag, layouts.shading.get(), render_pass_);
         maps.vertex = shaders::fullscreen_vert;
         maps.constants = constants;
         maps.depth_compare = VK_COMPARE_OP_LESS; // as clusters
@@ -96,7 +96,7 @@ Result<ShadingPipelines> ShadingPass::prepare(const Device& device, const DrawLa
         const DrawConstants constants = drawConstants(variant, false);
         GraphicsDescription description =
             describe(variant.shadows != 0 ? shaders::shading_shadowed_frag : shaders::shading_frag,
-                     layouts.picture.get(), render_pass_);
+                     layouts.shading.get(), render_pass_);
         description.constants = constants;
         HEARTH_ASSIGN_OR_RETURN(pipelines.final_pipeline, createGraphicsPipeline(device, description));
         if (variant.bricks != 0)
@@ -128,7 +128,7 @@ Status ShadingPass::prepareBrickViews(const Device& device, const DrawLayouts& l
     if (gathered.get() == VK_NULL_HANDLE)
     {
         const DrawConstants constants = drawConstants(variant, true);
-        GraphicsDescription light = describe(shaders::view_gi_frag, layouts.picture.get(), render_pass_);
+        GraphicsDescription light = describe(shaders::view_gi_frag, layouts.shading.get(), render_pass_);
         light.vertex = shaders::fullscreen_vert;
         light.constants = constants;
         light.depth_compare = VK_COMPARE_OP_LESS; // as clusters
@@ -164,7 +164,7 @@ void ShadingPass::recordSky(const Device& device, VkCommandBuffer commands, cons
                             const Scene& scene, const FrameTargets& targets,
                             const ShadingSettings& view) const
 {
-    const VkPipelineLayout layout = layouts.picture.get();
+    const VkPipelineLayout layout = layouts.shading.get();
     const VkDescriptorSet attachments = targets.attachments();
     device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, shared::kSetScene, 1,
                                       &scene.draw_set, 0, nullptr);
@@ -202,7 +202,7 @@ void ShadingPass::recordShadowMapView(const Device& device, VkCommandBuffer comm
 {
     HEARTH_ASSERT(scene.shadows != nullptr);
     const shared::ShadingPush push{.depth = 0, .debug_view = view.debug_view};
-    device.vk.vkCmdPushConstants(commands, layouts.picture.get(), kShadingPushStages, 0, sizeof(push), &push);
+    device.vk.vkCmdPushConstants(commands, layouts.shading.get(), kShadingPushStages, 0, sizeof(push), &push);
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
                                 shadow_map_views_[showsDeformed(scene) ? 1 : 0].get());
     device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
@@ -228,7 +228,7 @@ void ShadingPass::recordGiView(const Device& device, VkCommandBuffer commands, c
 {
     HEARTH_ASSERT(scene.bricks != nullptr);
     const shared::ShadingPush push{.depth = 0, .debug_view = view.debug_view};
-    device.vk.vkCmdPushConstants(commands, layouts.picture.get(), kShadingPushStages, 0, sizeof(push), &push);
+    device.vk.vkCmdPushConstants(commands, layouts.shading.get(), kShadingPushStages, 0, sizeof(push), &push);
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
                                 gi_views_[showsDeformed(scene) ? 1 : 0].get());
     device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
@@ -238,7 +238,7 @@ void ShadingPass::recordGiView(const Device& device, VkCommandBuffer commands, c
 void ShadingPass::recordMaterials(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
                                   const Scene& scene, const ShadingSettings& view) const
 {
-    const VkPipelineLayout layout = layouts.picture.get();
+    const VkPipelineLayout layout = layouts.shading.get();
     const VkBuffer draws =
         (shadesTiles(scene, view.area) ? scene.buffers.tile_draws : scene.buffers.material_draws)
             .handle.get();

@@ -106,10 +106,10 @@ Status DrawLayouts::createPipelineLayouts(const Device& device)
         visibility, createPipelineLayout(device, visibility_sets, kBinPushStages, sizeof(shared::BinPush)));
     const auto createShading = [&](std::span<const NumberedSet> sets)
     { return createPipelineLayout(device, sets, kShadingPushStages, sizeof(shared::ShadingPush)); };
-    const NumberedSet picture_sets[] = {{shared::kSetScene, scene.get()},
+    const NumberedSet shading_sets[] = {{shared::kSetScene, scene.get()},
                                         {shared::kSetMaterial, material.get()},
                                         {shared::kSetAttachments, attachments.get()}};
-    HEARTH_ASSIGN_OR_RETURN(picture, createShading(picture_sets));
+    HEARTH_ASSIGN_OR_RETURN(shading, createShading(shading_sets));
     const NumberedSet cluster_sets[] = {{shared::kSetTables, cluster_view.get()},
                                         {shared::kSetClusterAttachments, attachments.get()}};
     HEARTH_ASSIGN_OR_RETURN(clusters, createShading(cluster_sets));

@@ -40,7 +40,7 @@ struct DrawLayouts
     UniqueSetLayout gather_point;     ///< shared::kGatherPoint*
     UniqueSetLayout gather;           ///< shared::kGatherView to kGatherTexels
     UniquePipelineLayout visibility;  ///< scene, material, bins; shared::BinPush
-    UniquePipelineLayout picture;     ///< scene, material, attachments; shared::ShadingPush, as the next two
+    UniquePipelineLayout shading;     ///< scene, material, attachments; shared::ShadingPush, as the next two
     UniquePipelineLayout clusters;    ///< cluster_view, attachments: debug views of clusters
     UniquePipelineLayout brick_views; ///< bricks: debug views of bricks
 

@@ -37,21 +37,6 @@ protected:
     std::mt19937 random_{7};
 };
 
-TEST_F(Bounds, roundUpNeverFalls)
-{
-    std::uniform_real_distribution<double> exponent(-40, 38);
-    for (int i = 0; i < 100000; ++i)
-    {
-        const double value = std::pow(10.0, exponent(random_));
-        const float rounded = clusters::roundUp(value);
-        ASSERT_GE(rounded, value);
-        ASSERT_LT(std::nextafter(rounded, 0.0f), value) << "not the next float";
-    }
-    EXPECT_EQ(clusters::roundUp(0), 0.0f);
-    EXPECT_EQ(clusters::roundUp(0.5), 0.5f);
-    EXPECT_EQ(clusters::roundUp(1e300), std::numeric_limits<float>::max());
-}
-
 // A compiler that does not round the centre to floats before the radius is measured fails about once in 200
 // times.
 TEST_F(Bounds, sphereOfPointsHoldsThem)

@@ -357,7 +357,7 @@ TEST_F(DeformationTest, overdrawMayBePreparedBeforeTheScene)
             return success();
         });
     const auto late = upload(test.pack());
-    EXPECT_EQ(readPicture(*scene, *targets).color, draw(*late, camera, options).color);
+    EXPECT_EQ(readImage(*scene, *targets).color, draw(*late, camera, options).color);
 }
 
 TEST_F(DeformationTest, whatAPoseCannotBeIsNamedAndLeftOut)

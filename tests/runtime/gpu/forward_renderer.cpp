@@ -252,7 +252,7 @@ std::vector<std::array<float, 4>> ForwardRenderer::uvDerivatives(const gpu::Scen
                            .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT}));
     const gpu::UniqueFramebuffer framebuffer = createFramebuffer(
         device_, derivatives_pass_.get(), extent, {image.view.get(), targets.visibility().view.get()});
-    const VkPipelineLayout layout = layouts_.picture.get();
+    const VkPipelineLayout layout = layouts_.shading.get();
     const gpu::UniquePipeline pipeline =
         take(gpu::createGraphicsPipeline(device_, {.vertex = shaders::fullscreen_vert,
                                                    .fragment = shaders::uv_derivatives_frag,
