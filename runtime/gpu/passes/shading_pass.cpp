@@ -41,6 +41,15 @@ DrawConstants drawConstants(const ShadingVariant& variant, bool resolves_only)
     return constants;
 }
 
+/// Return the push constants of an area drawn at `depth`; only materials need the sky occlusion.
+shared::ShadingPush shadingPush(const ShadingSettings& view, float depth = 0, uint32_t sky_occlusion = 0)
+{
+    return {.depth = depth,
+            .debug_view = view.debug_view,
+            .depth_scale = view.depth_scale,
+            .sky_occlusion = sky_occlusion};
+}
+
 bool showsDeformed(const Scene& scene)
 {
     return std::any_of(scene.materials.begin(), scene.materials.end(),
@@ -170,8 +179,7 @@ void ShadingPass::recordSky(const Device& device, VkCommandBuffer commands, cons
                                       &scene.draw_set, 0, nullptr);
     device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout,
                                       shared::kSetAttachments, 1, &attachments, 0, nullptr);
-    const shared::ShadingPush push{
-        .depth = 0, .debug_view = view.debug_view, .depth_scale = view.depth_scale};
+    const shared::ShadingPush push = shadingPush(view);
     device.vk.vkCmdPushConstants(commands, layout, kShadingPushStages, 0, sizeof(push), &push);
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, sky_.get());
     if (shadesTiles(scene, view.area))
@@ -187,7 +195,7 @@ void ShadingPass::recordClusterView(const Device& device, VkCommandBuffer comman
 {
     const VkPipelineLayout layout = layouts.clusters.get();
     const VkDescriptorSet sets[] = {scene.cluster_view_set, targets.attachments()};
-    const shared::ShadingPush push{.depth = 0, .debug_view = view.debug_view};
+    const shared::ShadingPush push = shadingPush(view);
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, cluster_views_.get());
     device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, shared::kSetTables,
                                       2, sets, 0, nullptr);
@@ -201,7 +209,7 @@ void ShadingPass::recordShadowMapView(const Device& device, VkCommandBuffer comm
                                       const ShadingSettings& view) const
 {
     HEARTH_ASSERT(scene.shadows != nullptr);
-    const shared::ShadingPush push{.depth = 0, .debug_view = view.debug_view};
+    const shared::ShadingPush push = shadingPush(view);
     device.vk.vkCmdPushConstants(commands, layouts.shading.get(), kShadingPushStages, 0, sizeof(push), &push);
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
                                 shadow_map_views_[showsDeformed(scene) ? 1 : 0].get());
@@ -214,7 +222,7 @@ void ShadingPass::recordBrickView(const Device& device, VkCommandBuffer commands
 {
     HEARTH_ASSERT(scene.bricks != nullptr);
     const VkPipelineLayout layout = layouts.brick_views.get();
-    const shared::ShadingPush push{.depth = 0, .debug_view = view.debug_view};
+    const shared::ShadingPush push = shadingPush(view);
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, brick_views_.get());
     device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, shared::kSetBricks,
                                       1, &scene.bricks->set, 0, nullptr);
@@ -227,7 +235,7 @@ void ShadingPass::recordGiView(const Device& device, VkCommandBuffer commands, c
                                const Scene& scene, const ShadingSettings& view) const
 {
     HEARTH_ASSERT(scene.bricks != nullptr);
-    const shared::ShadingPush push{.depth = 0, .debug_view = view.debug_view};
+    const shared::ShadingPush push = shadingPush(view);
     device.vk.vkCmdPushConstants(commands, layouts.shading.get(), kShadingPushStages, 0, sizeof(push), &push);
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
                                 gi_views_[showsDeformed(scene) ? 1 : 0].get());
@@ -252,10 +260,8 @@ void ShadingPass::recordMaterials(const Device& device, VkCommandBuffer commands
                                     : usesGi(scene, view) ? material.pipelines.final_gi_pipeline
                                                           : material.pipelines.final_pipeline);
         const uint32_t number = row + 1; // 0 is the sky
-        const shared::ShadingPush push{.depth = static_cast<float>(number) / 65535.0f,
-                                       .debug_view = view.debug_view,
-                                       .depth_scale = view.depth_scale,
-                                       .sky_occlusion = sky_occlusion};
+        const shared::ShadingPush push =
+            shadingPush(view, static_cast<float>(number) / 65535.0f, sky_occlusion);
         device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout,
                                           shared::kSetMaterial, 1, &material.set, 0, nullptr);
         device.vk.vkCmdPushConstants(commands, layout, kShadingPushStages, 0, sizeof(push), &push);

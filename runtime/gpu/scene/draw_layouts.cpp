@@ -11,9 +11,9 @@ namespace hearth::gpu
 namespace
 {
 
-constexpr VkShaderStageFlags kVertex = VK_SHADER_STAGE_VERTEX_BIT;
-constexpr VkShaderStageFlags kFragment = VK_SHADER_STAGE_FRAGMENT_BIT;
-constexpr VkShaderStageFlags kCompute = VK_SHADER_STAGE_COMPUTE_BIT;
+constexpr VkShaderStageFlags kVertexStage = VK_SHADER_STAGE_VERTEX_BIT;
+constexpr VkShaderStageFlags kFragmentStage = VK_SHADER_STAGE_FRAGMENT_BIT;
+constexpr VkShaderStageFlags kComputeStage = VK_SHADER_STAGE_COMPUTE_BIT;
 
 static_assert(shared::kSceneDeformation == shared::kScenePool + shared::kDeformationSlice);
 static_assert(shared::kSceneLighting == shared::kScenePool + shared::kPoolSlices);
@@ -23,56 +23,57 @@ static_assert(shared::kSceneLighting == shared::kScenePool + shared::kPoolSlices
 Status DrawLayouts::createSceneSets(const Device& device)
 {
     // the skinning pass and the pass that chooses gather points read the scene like vertex shaders
-    constexpr VkShaderStageFlags kAll = kVertex | kFragment | kCompute;
+    constexpr VkShaderStageFlags kAll = kVertexStage | kFragmentStage | kComputeStage;
     std::vector<SetBinding> scene_bindings = {
         uniformBinding(shared::kSceneFrame, kAll),
         storageBinding(shared::kSceneInstances, kAll),
         storageBinding(shared::kSceneVisible, kAll),
         storageBinding(shared::kSceneDraws, kAll),
-        storageBinding(shared::kSceneLighting, kFragment),
-        uniformBinding(shared::kSceneShadows, kVertex | kFragment),
-        textureBinding(shared::kSceneShadowMaps, kFragment),
-        textureBinding(shared::kSceneSpecularTable, kFragment),
+        storageBinding(shared::kSceneLighting, kFragmentStage),
+        uniformBinding(shared::kSceneShadows, kVertexStage | kFragmentStage),
+        textureBinding(shared::kSceneShadowMaps, kFragmentStage),
+        textureBinding(shared::kSceneSpecularTable, kFragmentStage),
     };
     for (uint32_t slice = 0; slice < shared::kPoolSlices; ++slice)
         scene_bindings.push_back(storageBinding(shared::kScenePool + slice, kAll));
     HEARTH_ASSIGN_OR_RETURN(scene, createSetLayout(device, scene_bindings));
 
-    std::vector<SetBinding> material_bindings = {uniformBinding(shared::kMaterialBlock, kVertex | kFragment)};
+    std::vector<SetBinding> material_bindings = {
+        uniformBinding(shared::kMaterialBlock, kVertexStage | kFragmentStage)};
     for (uint32_t slot = 0; slot < shared::kTextureCount; ++slot)
-        material_bindings.push_back(textureBinding(shared::kMaterialTextures + slot, kFragment));
+        material_bindings.push_back(textureBinding(shared::kMaterialTextures + slot, kFragmentStage));
     HEARTH_ASSIGN_OR_RETURN(material, createSetLayout(device, material_bindings));
 
-    const SetBinding bin_bindings[] = {storageBinding(shared::kBinsDraws, kVertex)};
+    const SetBinding bin_bindings[] = {storageBinding(shared::kBinsDraws, kVertexStage)};
     HEARTH_ASSIGN_OR_RETURN(bins, createSetLayout(device, bin_bindings));
     HEARTH_ASSIGN_OR_RETURN(cluster_view,
-                            createSetLayout(device, tableBindings(kClusterViewTables, kFragment)));
+                            createSetLayout(device, tableBindings(kClusterViewTables, kFragmentStage)));
     return success();
 }
 
 Status DrawLayouts::createFrameSets(const Device& device)
 {
     const SetBinding attachment_bindings[] = {
-        {shared::kAttachmentVisibility, VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT, kFragment},
-        storageBinding(shared::kAttachmentTileLists, kVertex),
-        textureBinding(shared::kAttachmentGi, kFragment)};
+        {shared::kAttachmentVisibility, VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT, kFragmentStage},
+        storageBinding(shared::kAttachmentTileLists, kVertexStage),
+        textureBinding(shared::kAttachmentGi, kFragmentStage)};
     HEARTH_ASSIGN_OR_RETURN(attachments, createSetLayout(device, attachment_bindings));
 
-    const SetBinding occlusion_bindings[] = {uniformBinding(shared::kOcclusionViews, kCompute),
-                                             storageBinding(shared::kOcclusionPyramid, kCompute),
-                                             textureBinding(shared::kOcclusionDepth, kCompute)};
+    const SetBinding occlusion_bindings[] = {uniformBinding(shared::kOcclusionViews, kComputeStage),
+                                             storageBinding(shared::kOcclusionPyramid, kComputeStage),
+                                             textureBinding(shared::kOcclusionDepth, kComputeStage)};
     HEARTH_ASSIGN_OR_RETURN(occlusion, createSetLayout(device, occlusion_bindings));
 
-    const SetBinding tile_bindings[] = {textureBinding(shared::kTilesVisibility, kCompute),
-                                        storageBinding(shared::kTilesMaterials, kCompute),
-                                        storageBinding(shared::kTilesLists, kCompute)};
+    const SetBinding tile_bindings[] = {textureBinding(shared::kTilesVisibility, kComputeStage),
+                                        storageBinding(shared::kTilesMaterials, kComputeStage),
+                                        storageBinding(shared::kTilesLists, kComputeStage)};
     HEARTH_ASSIGN_OR_RETURN(tiles, createSetLayout(device, tile_bindings));
     return success();
 }
 
 Status DrawLayouts::createBrickSets(const Device& device)
 {
-    constexpr VkShaderStageFlags kBoth = kCompute | kFragment;
+    constexpr VkShaderStageFlags kBoth = kComputeStage | kFragmentStage;
     const SetBinding brick_bindings[] = {
         uniformBinding(shared::kBricksFrame, kBoth),   uniformBinding(shared::kBricksView, kBoth),
         storageBinding(shared::kBricksGroups, kBoth),  storageBinding(shared::kBricksBricks, kBoth),
@@ -80,19 +81,19 @@ Status DrawLayouts::createBrickSets(const Device& device)
         storageBinding(shared::kBricksLight, kBoth),   storageBinding(shared::kBricksLighting, kBoth)};
     HEARTH_ASSIGN_OR_RETURN(bricks, createSetLayout(device, brick_bindings));
 
-    const SetBinding fresh_bindings[] = {storageBinding(shared::kFreshLightFaces, kCompute),
-                                         storageBinding(shared::kFreshLightLocations, kCompute)};
+    const SetBinding fresh_bindings[] = {storageBinding(shared::kFreshLightFaces, kComputeStage),
+                                         storageBinding(shared::kFreshLightLocations, kComputeStage)};
     HEARTH_ASSIGN_OR_RETURN(fresh_light, createSetLayout(device, fresh_bindings));
 
-    const SetBinding point_bindings[] = {textureBinding(shared::kGatherPointVisibility, kCompute),
-                                         storageBinding(shared::kGatherPointPoints, kCompute)};
+    const SetBinding point_bindings[] = {textureBinding(shared::kGatherPointVisibility, kComputeStage),
+                                         storageBinding(shared::kGatherPointPoints, kComputeStage)};
     HEARTH_ASSIGN_OR_RETURN(gather_point, createSetLayout(device, point_bindings));
 
     const SetBinding gather_bindings[] = {
-        uniformBinding(shared::kGatherView, kCompute),
-        storageBinding(shared::kGatherPoints, kCompute),
-        storageBinding(shared::kGatherHistory, kCompute),
-        {shared::kGatherTexels, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, kCompute}};
+        uniformBinding(shared::kGatherView, kComputeStage),
+        storageBinding(shared::kGatherPoints, kComputeStage),
+        storageBinding(shared::kGatherHistory, kComputeStage),
+        {shared::kGatherTexels, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, kComputeStage}};
     HEARTH_ASSIGN_OR_RETURN(gather, createSetLayout(device, gather_bindings));
     return success();
 }

@@ -130,6 +130,7 @@ private:
 
     void compareStage(const RecordedPipeline& pipeline, const RecordedStage& stage)
     {
+        const auto flags = static_cast<VkShaderStageFlags>(stage.stage);
         bool listed = false;
         for (const InterfaceShader& shader : sides_.shaders)
             if (std::equal(shader.words.begin(), shader.words.end(), stage.words.begin(), stage.words.end()))
@@ -137,8 +138,8 @@ private:
                 listed = true;
                 seen_shaders_.insert(shader.name);
                 for (const ReflectedResource& resource : shader.reflection.resources)
-                    compareResource(shader.name, resource, pipeline, stage.stage);
-                comparePush(shader, pipeline, stage.stage);
+                    compareResource(shader.name, resource, pipeline, flags);
+                comparePush(shader, pipeline, flags);
                 compareConstants(shader, stage);
             }
         if (!listed)
@@ -148,7 +149,7 @@ private:
     }
 
     void compareResource(const std::string& shader, const ReflectedResource& resource,
-                         const RecordedPipeline& pipeline, VkShaderStageFlagBits stage)
+                         const RecordedPipeline& pipeline, VkShaderStageFlags stage)
     {
         const std::string who = shader + ": " + resource.name + " (set " + std::to_string(resource.set) +
                                 ", binding " + std::to_string(resource.binding) + ", " +
@@ -169,7 +170,7 @@ private:
     }
 
     void comparePush(const InterfaceShader& shader, const RecordedPipeline& pipeline,
-                     VkShaderStageFlagBits stage)
+                     VkShaderStageFlags stage)
     {
         if (!shader.reflection.push)
             return;

@@ -44,7 +44,7 @@ struct Recorder
             pipeline.stages.push_back(std::move(stage));
         }
         pipelines.push_back(std::move(pipeline));
-        return reinterpret_cast<VkPipeline>(pipelines.size());
+        return reinterpret_cast<VkPipeline>(this);
     }
 };
 Recorder recorder;

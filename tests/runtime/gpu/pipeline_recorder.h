@@ -27,8 +27,8 @@ struct RecordedPipeline
 };
 
 /// Forget all records. Return the description with entry points that record; call it for one renderer at a
-/// time. The driver gets neither the pipelines nor the writes to descriptor sets, because it may crash where a
-/// shader and a layout differ: such a renderer can upload scenes, but not draw.
+/// time. The driver gets neither the pipelines nor the writes to descriptor sets, because it may crash where
+/// a shader and a layout differ: such a renderer can upload scenes, but not draw.
 gpu::DeviceDescription recordPipelines(const gpu::DeviceDescription& description);
 
 const std::vector<RecordedPipeline>& recordedPipelines();
