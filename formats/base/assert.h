@@ -21,7 +21,7 @@ namespace hearth
     (static_cast<bool>(condition) ? static_cast<void>(0)                                                     \
                                   : ::hearth::assertionFailed(#condition, HEARTH_FILE_NAME, __LINE__))
 
-/// Check a contract in inner loops of the runtime: disabled by NDEBUG.
+/// Check a contract in inner loops, or by a pass over many values: disabled by NDEBUG.
 #ifdef NDEBUG
 #define HEARTH_RUNTIME_ASSERT(condition) static_cast<void>(0)
 #else

@@ -41,7 +41,7 @@ TEST(RenderProgress, hasALineAtTheStartEveryTenSecondsAndAtTheEnd)
                                   "so far       20.00 s    80 of 100  images of the report"}));
     shown.lines.clear();
     shown.progress.end();
-    EXPECT_EQ(shown.lines, Lines{"images     25.00 s   100 of 100  drawn for the report"});
+    EXPECT_EQ(shown.lines, Lines{"images       25.00 s   100 of 100  drawn for the report"});
 }
 
 TEST(RenderProgress, saysNothingWhereNothingIsDrawnOrNobodyAsks)

@@ -154,8 +154,9 @@ PreparedMesh prepareMesh(mesh::SourceMesh source, uint32_t influences, const Mes
 {
     HEARTH_ASSERT(source.indices.size() % 3 == 0 &&
                   source.triangle_materials.size() == source.triangleCount());
-    HEARTH_ASSERT(source.indices.empty() ||
-                  *std::max_element(source.indices.begin(), source.indices.end()) < source.vertexCount());
+    HEARTH_RUNTIME_ASSERT(source.indices.empty() ||
+                          *std::max_element(source.indices.begin(), source.indices.end()) <
+                              source.vertexCount());
     HEARTH_ASSERT(influences == 4 || influences == 8);
     PreparedMesh prepared;
     prepared.motion = motion;
