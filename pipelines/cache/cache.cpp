@@ -66,8 +66,8 @@ std::optional<Fields> Cache::readEntry(Slot& slot, const std::string& key)
     if (slot.is_disabled || !slot.is_read)
         return std::nullopt;
     EntryRequest wanted{key, std::nullopt};
-    if (const auto told = slot.prefetched.find(key); told != slot.prefetched.end())
-        wanted.text = told->second;
+    if (const auto found = slot.prefetched.find(key); found != slot.prefetched.end())
+        wanted.text = found->second;
     else if (const Status lookup = slot.level->entries({&wanted, 1}); !lookup.ok())
         disable(slot, lookup.error());
     if (!wanted.text)

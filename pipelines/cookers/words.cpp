@@ -12,10 +12,9 @@ void addOption(const Values& values, std::string_view key, const std::string& op
     const Value* value = settings::findValue(values, key);
     if (value == nullptr)
         return;
-    // texts lose their quotation marks; numbers have none
-    const std::vector<std::string> texts = settings::valueTexts(*value);
     const bool is_text = value->text.starts_with('"') || value->text.starts_with('[');
-    for (const std::string& text : is_text ? texts : std::vector{value->text})
+    // texts lose their quotation marks; numbers have none
+    for (const std::string& text : is_text ? settings::valueTexts(*value) : std::vector{value->text})
         arguments.words.insert(arguments.words.end(), {option, text});
 }
 

@@ -48,10 +48,11 @@ std::vector<Setting> makeCommandSettings()
                 "--cache", "SPEC"),
             "HEARTH_CACHE"),
         withVariable(
-            choiceSetting("log",
-                          "how much is told: errors alone, or all that cookers say as well; -q and -v "
-                          "of the command line",
-                          "normal", {"quiet", "normal", "verbose"}),
+            choiceSetting(
+                "log",
+                "which messages are printed: errors only, or also all messages of cookers; -q and -v "
+                "of the command line",
+                "normal", {"quiet", "normal", "verbose"}),
             "HEARTH_LOG"),
         withVariable(
             withOption(

@@ -55,7 +55,10 @@ std::optional<std::string> readAndRemove(const std::string& path)
 class ImageRenderer
 {
 public:
-    ImageRenderer(std::string pack, ImageProgress told) : pack_(std::move(pack)), told_(std::move(told)) {}
+    ImageRenderer(std::string pack, ImageProgress progress)
+        : pack_(std::move(pack)), progress_(std::move(progress))
+    {
+    }
 
     bool prepare()
     {
@@ -129,14 +132,14 @@ private:
     /// Report progress; files in the folder count as drawn.
     void reportProgress() const
     {
-        if (!told_)
+        if (!progress_)
             return;
         std::error_code error;
         size_t files = 0;
         for (auto file = std::filesystem::directory_iterator(folder_->path(), error);
              !error && file != std::filesystem::directory_iterator(); file.increment(error))
             ++files;
-        told_(std::min(taken_ + files, count_), count_);
+        progress_(std::min(taken_ + files, count_), count_);
     }
 
     bool run(const std::vector<std::string>& command)
@@ -160,7 +163,7 @@ private:
     }
 
     std::string pack_;
-    ImageProgress told_;
+    ImageProgress progress_;
     size_t count_ = 0;
     size_t taken_ = 0; ///< images taken out of the folder
     std::optional<TempDirectory> folder_;
@@ -213,12 +216,12 @@ uint64_t totalBytes(const Images& images)
 } // namespace
 
 Images renderImages(const std::string& pack_path, const std::vector<PackMesh>& meshes,
-                    const ImageProgress& told, const ImageLimits& limits)
+                    const ImageProgress& progress, const ImageLimits& limits)
 {
     Images images;
     images.left_out = meshes.size();
     const auto reader = openPack(pack_path);
-    ImageRenderer renderer(pack_path, told);
+    ImageRenderer renderer(pack_path, progress);
     if (!reader.ok() || !renderer.prepare())
     {
         images.why_left_out = reader.ok() ? "there is no folder for them" : formatMessage(reader.error());

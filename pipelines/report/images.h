@@ -41,8 +41,8 @@ using ImageProgress = std::function<void(size_t drawn, size_t count)>;
 /// Take the images of a pack.
 /// meshes  most important first; meshes that the pack does not have under that index and name, or never
 ///         draws, are skipped
-/// told    progress callback; may be empty
+/// progress  callback; may be empty
 Images renderImages(const std::string& pack, const std::vector<PackMesh>& meshes,
-                    const ImageProgress& told = {}, const ImageLimits& limits = {});
+                    const ImageProgress& progress = {}, const ImageLimits& limits = {});
 
 } // namespace hearth::report

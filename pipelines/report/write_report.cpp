@@ -11,7 +11,7 @@ namespace hearth::report
 {
 
 Status writeReport(const std::string& json, const std::string& path, const std::string& pack,
-                   const std::string& name, const ImageProgress& told)
+                   const std::string& name, const ImageProgress& progress)
 {
     const auto report = Json::parse(json).value_or(Json());
     if (!report.is_object() || report.value("schema", Json()) != "hearth.report/1")
@@ -21,7 +21,8 @@ Status writeReport(const std::string& json, const std::string& path, const std::
         if (path.ends_with(".html"))
         {
             const std::string data = pageData(json);
-            const Images images = pack.empty() ? Images{} : renderImages(pack, importantMeshes(json), told);
+            const Images images =
+                pack.empty() ? Images{} : renderImages(pack, importantMeshes(json), progress);
             return writeText(path, reportPage(data, imagesData(images)));
         }
         if (path.ends_with(".xml"))

@@ -15,9 +15,9 @@ namespace hearth::report
 ///
 /// json     of schema hearth.report/1
 /// pack     cooked pack, for the page's images; empty: none
-/// told     progress of the page's images; may be empty
+/// progress  of the page's images; may be empty
 /// errors   json_syntax, naming `name`; cannot_write; read_failed for standard output
 Status writeReport(const std::string& json, const std::string& path, const std::string& pack,
-                   const std::string& name = "report", const ImageProgress& told = {});
+                   const std::string& name = "report", const ImageProgress& progress = {});
 
 } // namespace hearth::report

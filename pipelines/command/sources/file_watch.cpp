@@ -180,7 +180,7 @@ std::optional<FileWatch::Change> FileWatch::readEvents()
             at += static_cast<ssize_t>(sizeof(inotify_event) + event->len);
             const auto names = names_.find(event->wd);
             if ((event->mask & IN_Q_OVERFLOW) != 0)
-                changed = preferredChange(changed, Change{"more than can be told"});
+                changed = preferredChange(changed, Change{"too many changes to name one"});
             if (names == names_.end())
                 continue;
             const auto name = names->second.find(event->len > 0 ? event->name : "");

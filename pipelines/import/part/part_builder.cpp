@@ -170,13 +170,13 @@ void PartBuilder::warn(Issue issue, std::string where, std::string detail, std::
 
 std::vector<Error> PartBuilder::warnings() const
 {
-    std::vector<Error> told;
+    std::vector<Error> errors;
     for (const Warning& warning : warnings_)
     {
-        told.push_back(warning.error);
-        told.back().detail += warning.remark;
+        errors.push_back(warning.error);
+        errors.back().detail += warning.remark;
     }
-    return told;
+    return errors;
 }
 
 void PartBuilder::addSource(std::string name, std::span<const std::byte> content)

@@ -1,6 +1,7 @@
 // Tests that the renderer uses all that the caller provides: memory, allocation callbacks, pipeline cache,
 // labels, messages.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "tests/runtime/gpu/replace_function.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/shapes.h"
 #include "tests/support/test_scene.h"
@@ -72,24 +73,16 @@ VKAPI_ATTR void VKAPI_CALL endLabel(VkCommandBuffer commands)
     spy.end_label(commands);
 }
 
-/// Replace the function by `mine`, and store the original in `real`.
-template <typename T>
-PFN_vkVoidFunction replace(PFN_vkVoidFunction function, T& real, T mine)
-{
-    real = reinterpret_cast<T>(function);
-    return reinterpret_cast<PFN_vkVoidFunction>(mine);
-}
-
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, const char* name)
 {
     const PFN_vkVoidFunction function = spy.get_device_proc_addr(device, name);
     const std::string_view which = name;
     if (which == "vkAllocateMemory")
-        return replace(function, spy.allocate_memory, allocateMemory);
+        return replaceFunction(function, spy.allocate_memory, allocateMemory);
     if (which == "vkCreateComputePipelines")
-        return replace(function, spy.create_compute_pipelines, createComputePipelines);
+        return replaceFunction(function, spy.create_compute_pipelines, createComputePipelines);
     if (which == "vkCreateGraphicsPipelines")
-        return replace(function, spy.create_graphics_pipelines, createGraphicsPipelines);
+        return replaceFunction(function, spy.create_graphics_pipelines, createGraphicsPipelines);
     return function;
 }
 
@@ -98,11 +91,11 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getInstanceProcAddr(VkInstance instance
     const PFN_vkVoidFunction function = spy.get_instance_proc_addr(instance, name);
     const std::string_view which = name;
     if (which == "vkGetDeviceProcAddr")
-        return replace(function, spy.get_device_proc_addr, getDeviceProcAddr);
+        return replaceFunction(function, spy.get_device_proc_addr, getDeviceProcAddr);
     if (which == "vkCmdBeginDebugUtilsLabelEXT")
-        return replace(function, spy.begin_label, beginLabel);
+        return replaceFunction(function, spy.begin_label, beginLabel);
     if (which == "vkCmdEndDebugUtilsLabelEXT")
-        return replace(function, spy.end_label, endLabel);
+        return replaceFunction(function, spy.end_label, endLabel);
     return function;
 }
 

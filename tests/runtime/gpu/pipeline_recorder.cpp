@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/runtime/gpu/pipeline_recorder.h"
 
+#include "tests/runtime/gpu/replace_function.h"
+
 #include <span>
 #include <string_view>
 
@@ -104,24 +106,16 @@ VKAPI_ATTR void VKAPI_CALL updateDescriptorSets(VkDevice, uint32_t, const VkWrit
 {
 }
 
-/// Replace the function by `mine`, and store the original in `real`.
-template <typename T>
-PFN_vkVoidFunction replace(PFN_vkVoidFunction function, T& real, T mine)
-{
-    real = reinterpret_cast<T>(function);
-    return reinterpret_cast<PFN_vkVoidFunction>(mine);
-}
-
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, const char* name)
 {
     const PFN_vkVoidFunction function = recorder.get_device_proc_addr(device, name);
     const std::string_view which = name;
     if (which == "vkCreateShaderModule")
-        return replace(function, recorder.create_shader_module, createShaderModule);
+        return replaceFunction(function, recorder.create_shader_module, createShaderModule);
     if (which == "vkCreateDescriptorSetLayout")
-        return replace(function, recorder.create_set_layout, createSetLayout);
+        return replaceFunction(function, recorder.create_set_layout, createSetLayout);
     if (which == "vkCreatePipelineLayout")
-        return replace(function, recorder.create_pipeline_layout, createPipelineLayout);
+        return replaceFunction(function, recorder.create_pipeline_layout, createPipelineLayout);
     if (which == "vkCreateComputePipelines")
         return reinterpret_cast<PFN_vkVoidFunction>(createComputePipelines);
     if (which == "vkCreateGraphicsPipelines")
@@ -137,7 +131,7 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getInstanceProcAddr(VkInstance instance
 {
     const PFN_vkVoidFunction function = recorder.get_instance_proc_addr(instance, name);
     if (std::string_view(name) == "vkGetDeviceProcAddr")
-        return replace(function, recorder.get_device_proc_addr, getDeviceProcAddr);
+        return replaceFunction(function, recorder.get_device_proc_addr, getDeviceProcAddr);
     return function;
 }
 
