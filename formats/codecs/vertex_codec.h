@@ -96,7 +96,8 @@ constexpr uint32_t uvBaseWord(uint32_t layout, uint32_t set)
 /// indices for each triangle, padded with zeros to words.
 constexpr uint32_t clusterBytes(uint32_t layout, uint32_t vertex_count, uint32_t triangle_count)
 {
-    return 4 * (uvBaseWords(layout) + vertex_count * vertexWords(layout) + (triangle_count * 3 + 3) / 4);
+    return 4 *
+           (uvBaseWords(layout) + vertex_count * vertexWords(layout) + shared::indexWords(triangle_count));
 }
 
 /// Return the layout with these attributes that needs the most bytes.

@@ -1,5 +1,5 @@
-// Vertex layout of geometry pages: attribute bits, word offsets, and the decoders of normals, tangents, UVs,
-// colours and morph deltas. One source for C++ and GLSL; formats/codecs/vertex_codec.h defines the codes and
+// Layout of clusters in geometry pages: attribute bits, word offsets, and the decoders of positions, normals,
+// tangents, UVs, colours, influences, indices and morph deltas. One source for C++ and GLSL; formats/codecs/vertex_codec.h defines the codes and
 // encodes them. Frame of a normal: T. Duff et al., "Building an orthonormal basis, revisited", 2017.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #ifndef HEARTH_SHARED_VERTEX_LAYOUT_H
@@ -141,6 +141,63 @@ HEARTH_CONSTEXPR_FUNCTION uint vertexWords(uint layout_bits)
     return influenceWord(layout_bits) + influencesPerVertex(layout_bits);
 }
 
+/// Offset of a position from its cluster's base, in grid steps.
+struct GridOffset
+{
+    uint x;
+    uint y;
+    uint z;
+};
+
+/// Unpack a position from the first words of its vertex.
+/// third  0 unless the layout has kVertexWideOffsets
+HEARTH_CONSTEXPR_FUNCTION GridOffset unpackPosition(uint layout_bits, uint first, uint second, uint third)
+{
+    bool wide = (layout_bits & kVertexWideOffsets) != 0u;
+    GridOffset offset;
+    offset.x = wide ? first : first & 0xFFFFu;
+    offset.y = wide ? second : first >> 16;
+    offset.z = wide ? third : second & 0xFFFFu;
+    return offset;
+}
+
+/// Offset of a UV from its cluster's base, in steps of its set's grid.
+struct UvOffset
+{
+    uint u;
+    uint v;
+};
+
+/// Unpack a UV of a set on a grid.
+/// second  0 unless the layout has kVertexWideOffsets
+HEARTH_CONSTEXPR_FUNCTION UvOffset unpackUv(uint layout_bits, uint first, uint second)
+{
+    bool wide = (layout_bits & kVertexWideOffsets) != 0u;
+    UvOffset offset;
+    offset.u = wide ? first : first & 0xFFFFu;
+    offset.v = wide ? second : first >> 16;
+    return offset;
+}
+
+/// Return joint or weight `i` of a vertex, from word i / 2 of its joints or weights.
+HEARTH_CONSTEXPR_FUNCTION uint unpackInfluence(uint word, uint i)
+{
+    return word >> ((i & 1u) * 16u) & 0xFFFFu;
+}
+
+/// Return the number of words of a cluster's indices, which follow its vertices: a byte for each corner.
+HEARTH_CONSTEXPR_FUNCTION uint indexWords(uint triangle_count)
+{
+    return (triangle_count * 3u + 3u) / 4u;
+}
+
+/// Return the vertex of a corner, from word corner / 4 of the indices. corner: three times the triangle, plus
+/// 0 to 2.
+HEARTH_CONSTEXPR_FUNCTION uint unpackIndex(uint word, uint corner)
+{
+    return word >> ((corner & 3u) * 8u) & 0xFFu;
+}
+
 /// Return the direction of a point of the square [-1, 1]^2.
 HEARTH_FUNCTION Float3 directionFromOctahedral(Float2 p)
 {
@@ -219,6 +276,26 @@ HEARTH_FUNCTION Float4 decodeColor(uint layout_bits, uint first, uint second)
     Float2 red_green = unpackUnorm2x16(first);
     Float2 blue_alpha = unpackUnorm2x16(second);
     return Float4(red_green.x, red_green.y, blue_alpha.x, blue_alpha.y);
+}
+
+/// Return the word of the morph section with the number of the mesh's target that is the cluster's target
+/// `i`. The section follows the indices: the number n of the cluster's targets, n times { target, step of its
+/// position deltas as a float }, then three words for each vertex of each target.
+HEARTH_CONSTEXPR_FUNCTION uint morphTargetWord(uint i)
+{
+    return 1u + 2u * i;
+}
+
+/// Return the word of the morph section with the step of the position deltas of target `i`.
+HEARTH_CONSTEXPR_FUNCTION uint morphStepWord(uint i)
+{
+    return 2u + 2u * i;
+}
+
+/// Return the first of the three words of the morph section with the deltas of a vertex for target `i`.
+HEARTH_CONSTEXPR_FUNCTION uint morphDeltaWord(uint target_count, uint vertex_count, uint i, uint vertex)
+{
+    return morphTargetWord(target_count) + (i * vertex_count + vertex) * 3u;
 }
 
 /// Return the position delta of a word of a morph target, in steps.

@@ -107,18 +107,19 @@ public:
     std::array<uint32_t, 3> triangle(uint32_t triangle) const
     {
         HEARTH_RUNTIME_ASSERT(triangle < triangle_count_);
-        const std::byte* index =
-            data_.data() + (uvBaseWords(layout_) + size_t{vertex_count_} * words_) * 4 + size_t{triangle} * 3;
-        return {std::to_integer<uint32_t>(index[0]), std::to_integer<uint32_t>(index[1]),
-                std::to_integer<uint32_t>(index[2])};
+        const size_t first = uvBaseWords(layout_) + size_t{vertex_count_} * words_;
+        const auto index = [&](uint32_t corner)
+        { return shared::unpackIndex(wordAt(first + corner / 4), corner); };
+        return {index(3 * triangle), index(3 * triangle + 1), index(3 * triangle + 2)};
     }
 
     /// Return the offset from the cluster's base, in grid steps.
     std::array<uint32_t, 3> gridOffset(uint32_t vertex) const
     {
-        if (has(kVertexWideOffsets))
-            return {word(vertex, 0), word(vertex, 1), word(vertex, 2)};
-        return {word(vertex, 0) & 0xFFFFu, word(vertex, 0) >> 16, word(vertex, 1) & 0xFFFFu};
+        const uint32_t third = has(kVertexWideOffsets) ? word(vertex, 2) : 0;
+        const shared::GridOffset offset =
+            shared::unpackPosition(layout_, word(vertex, 0), word(vertex, 1), third);
+        return {offset.x, offset.y, offset.z};
     }
     Float3 position(uint32_t vertex) const
     {
@@ -133,10 +134,7 @@ public:
     /// Require has(attribute), like the accessors below.
     uint32_t normalCode(uint32_t vertex) const
     {
-        const uint32_t value = word(vertex, attributeWordIndex(kVertexNormal));
-        if (has(kVertexNormal16))
-            return value;
-        return has(kVertexWideOffsets) ? value : value >> 16;
+        return shared::normalCode(layout_, word(vertex, attributeWordIndex(kVertexNormal)));
     }
     Float3 normal(uint32_t vertex) const { return decodeNormal(layout_, normalCode(vertex)); }
     Float4 tangent(uint32_t vertex) const
@@ -149,9 +147,9 @@ public:
         HEARTH_RUNTIME_ASSERT(uvFractionBits(layout_, set) != 0);
         const uint32_t first = attributeWordIndex(kVertexUv0 << set);
         const uint32_t base = uvBaseWord(layout_, set);
-        const uint32_t u = has(kVertexWideOffsets) ? word(vertex, first) : word(vertex, first) & 0xFFFFu;
-        const uint32_t v = has(kVertexWideOffsets) ? word(vertex, first + 1) : word(vertex, first) >> 16;
-        return {wrappingAdd(wordAt(base), u), wrappingAdd(wordAt(base + 1), v)};
+        const uint32_t second = has(kVertexWideOffsets) ? word(vertex, first + 1) : 0;
+        const shared::UvOffset offset = shared::unpackUv(layout_, word(vertex, first), second);
+        return {wrappingAdd(wordAt(base), offset.u), wrappingAdd(wordAt(base + 1), offset.v)};
     }
     Float2 uv(uint32_t vertex, uint32_t set) const
     {
@@ -201,8 +199,11 @@ public:
     /// Return the number of the mesh's morph targets that move a vertex of the cluster; `i` below counts
     /// them.
     uint32_t morphCount() const { return morph_count_; }
-    uint32_t morphTarget(uint32_t i) const { return wordAt(morphWord(1 + 2 * size_t{i})); }
-    float morphStep(uint32_t i) const { return std::bit_cast<float>(wordAt(morphWord(2 + 2 * size_t{i}))); }
+    uint32_t morphTarget(uint32_t i) const { return wordAt(morphWord(shared::morphTargetWord(i))); }
+    float morphStep(uint32_t i) const
+    {
+        return std::bit_cast<float>(wordAt(morphWord(shared::morphStepWord(i))));
+    }
     /// Return the change of position and normal for a weight of 1.
     Float3 morphPosition(uint32_t i, uint32_t vertex) const
     {
@@ -223,8 +224,7 @@ public:
     std::array<uint32_t, 3> morphWords(uint32_t i, uint32_t vertex) const
     {
         HEARTH_RUNTIME_ASSERT(i < morph_count_ && vertex < vertex_count_);
-        const size_t first =
-            morphWord(morphSectionWords(morph_count_, 0) + (size_t{i} * vertex_count_ + vertex) * 3);
+        const size_t first = morphWord(shared::morphDeltaWord(morph_count_, vertex_count_, i, vertex));
         return {wordAt(first), wordAt(first + 1), wordAt(first + 2)};
     }
 
@@ -235,7 +235,7 @@ private:
         std::array<uint32_t, 8> halves{};
         const uint32_t first = attributeWordIndex(kVertexInfluences) + first_word;
         for (uint32_t i = 0; i < influenceCount(); ++i)
-            halves[i] = word(vertex, first + i / 2) >> (i % 2 * 16) & 0xFFFFu;
+            halves[i] = shared::unpackInfluence(word(vertex, first + i / 2), i);
         return halves;
     }
     size_t morphWord(size_t word) const

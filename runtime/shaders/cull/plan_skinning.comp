@@ -22,9 +22,23 @@ void main()
     BinDraw last = bin_draws[bins + push.bin_count - 1u];
     uint first = bin_draws[bins + push.first_bin].first_slot;
     uint end = last.first_slot + last.instance_count;
-    uvec4 slots = push.phase == kPhaseLate ? uvec4(deformation[1].xy, first, end) : uvec4(first, end, end, end);
-    uint before = push.phase == kPhaseLate ? min(slots.y - slots.x, deformation[0].w) : 0u;
-    uint count = min(end - first, deformation[0].w - before);
-    deformation[1] = slots;
-    deformation[2] = uvec4(min(count, kMaxDispatchX), (count + kMaxDispatchX - 1u) / kMaxDispatchX, 1u, count);
+    DeformationHeader header = readDeformationHeader();
+    uint before = 0u;
+    if (push.phase == kPhaseLate)
+    {
+        before = min(header.early_end - header.early_first, header.block_count);
+        header.late_first = first;
+    }
+    else
+    {
+        header.early_first = first;
+        header.early_end = end;
+        header.late_first = end;
+    }
+    header.late_end = end;
+    header.group_count = min(end - first, header.block_count - before);
+    header.groups_x = min(header.group_count, kMaxDispatchX);
+    header.groups_y = (header.group_count + kMaxDispatchX - 1u) / kMaxDispatchX;
+    header.groups_z = 1u;
+    writeSkinningPlan(header);
 }

@@ -27,9 +27,10 @@ void writeVector(uint word, vec3 v)
 void main()
 {
     uint at = gl_WorkGroupID.y * kMaxDispatchX + gl_WorkGroupID.x;
-    if (at >= deformation[2].w)
+    DeformationHeader header = readDeformationHeader();
+    if (at >= header.group_count)
         return;
-    uint slot = (push.phase == kPhaseLate ? deformation[1].z : deformation[1].x) + at;
+    uint slot = (push.phase == kPhaseLate ? header.late_first : header.early_first) + at;
     VisibleCluster shown = visible[slot];
     ClusterDraw draw = cluster_draws[shown.cluster];
     Pose pose = loadPose(readPoseRow(shown.instance));

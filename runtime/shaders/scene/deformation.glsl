@@ -12,8 +12,25 @@ uint deformationWord(uint word) { return deformation[word >> 2][word & 3u]; }
 
 vec4 deformationFloats(uint row) { return uintBitsToFloat(deformation[row]); }
 
+DeformationHeader readDeformationHeader()
+{
+    uvec4 a = deformation[0];
+    uvec4 b = deformation[1];
+    uvec4 c = deformation[2];
+    return DeformationHeader(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w, c.x, c.y, c.z, c.w);
+}
+
+#ifdef DEFORMATION_WRITES
+/// Write the slots and the dispatch; the other members are the CPU's.
+void writeSkinningPlan(DeformationHeader header)
+{
+    deformation[1] = uvec4(header.early_first, header.early_end, header.late_first, header.late_end);
+    deformation[2] = uvec4(header.groups_x, header.groups_y, header.groups_z, header.group_count);
+}
+#endif
+
 /// Row of the pose of an instance; 0: the instance is rigid.
-uint readPoseRow(uint instance) { return deformationWord(deformation[0].x + instance); }
+uint readPoseRow(uint instance) { return deformationWord(readDeformationHeader().instance_word + instance); }
 
 Pose loadPose(uint row)
 {
@@ -59,9 +76,8 @@ TransformedBox boxInPose(Instance instance, Pose pose, DeformedCluster cluster)
 /// Word of the block with the skinned vertices of a slot; 0: none, its vertices are skinned on demand.
 uint readScratchBlock(uint slot)
 {
-    uvec4 constants = deformation[0];
-    uvec4 slots = deformation[1];
-    bool early = slot >= slots.x && slot < slots.y;
-    uint block = early ? slot - slots.x : slots.y - slots.x + (slot - slots.z);
-    return block < constants.w ? constants.y + block * constants.z : 0u;
+    DeformationHeader header = readDeformationHeader();
+    bool early = slot >= header.early_first && slot < header.early_end;
+    uint block = early ? slot - header.early_first : header.early_end - header.early_first + (slot - header.late_first);
+    return block < header.block_count ? header.scratch_word + block * header.block_words : 0u;
 }

@@ -11,11 +11,8 @@ struct BlendedJoints
     vec4 z;
 };
 
-uint vertexHalf(uint word, uint half_index)
-{
-    uint pair = poolWord(word + (half_index >> 1));
-    return (half_index & 1u) == 0u ? pair & 0xFFFFu : pair >> 16;
-}
+// Joint or weight i of a vertex. first: address of the first word of its joints or weights.
+uint vertexInfluence(uint first, uint i) { return unpackInfluence(poolWord(first + (i >> 1)), i); }
 
 BlendedJoints blendedJoints(ClusterDraw draw, Pose pose, uint vertex)
 {
@@ -31,12 +28,12 @@ BlendedJoints blendedJoints(ClusterDraw draw, Pose pose, uint vertex)
     precise BlendedJoints blended = BlendedJoints(vec4(0.0), vec4(0.0), vec4(0.0));
     for (uint i = 0u; i < count; ++i)
     {
-        uint code = vertexHalf(weights, i);
+        uint code = vertexInfluence(weights, i);
         // the largest weights come first
         if (code == 0u)
             break;
         precise float weight = float(code) * (1.0 / 65535.0);
-        uint row = pose.palette_row + vertexHalf(joints, i) * kPaletteRows;
+        uint row = pose.palette_row + vertexInfluence(joints, i) * kPaletteRows;
         blended.x += deformationFloats(row) * weight;
         blended.y += deformationFloats(row + 1u) * weight;
         blended.z += deformationFloats(row + 2u) * weight;
@@ -51,24 +48,22 @@ struct MorphDelta
     vec3 normal;
 };
 
-// Layout after the triangles: n, n times { target, step }, then three words per vertex for each of the n
-// targets. The words hold 20 bits of the position delta and 12 bits of the normal delta.
+// Sum up the targets of the cluster's morph section.
 MorphDelta morphDelta(ClusterDraw draw, Pose pose, uint index)
 {
     precise MorphDelta delta = MorphDelta(vec3(0.0), vec3(0.0));
     if ((draw.counts & kDrawMorphs) == 0u)
         return delta;
-    uint section = draw.address + vertexCount(draw) * vertexWords(draw.vertex_layout) + (triangleCount(draw) * 3u + 3u) / 4u;
+    uint section = indexAddress(draw) + indexWords(triangleCount(draw));
     uint count = poolWord(section);
-    uint deltas = section + 1u + 2u * count;
     for (uint i = 0u; i < count; ++i)
     {
-        precise float weight = uintBitsToFloat(deformationWord(pose.morph_word + poolWord(section + 1u + 2u * i)));
+        precise float weight = uintBitsToFloat(deformationWord(pose.morph_word + poolWord(section + morphTargetWord(i))));
         if (weight == 0.0)
             continue;
-        precise float step_weight = poolFloat(section + 2u + 2u * i) * weight;
+        precise float step_weight = poolFloat(section + morphStepWord(i)) * weight;
         precise float normal_weight = weight * (1.0 / kMorphNormalSteps);
-        uint word = deltas + (i * vertexCount(draw) + index) * 3u;
+        uint word = section + morphDeltaWord(count, vertexCount(draw), i, index);
         uvec3 codes = uvec3(poolWord(word), poolWord(word + 1u), poolWord(word + 2u));
         delta.position += vec3(morphPosition(codes.x), morphPosition(codes.y), morphPosition(codes.z)) * step_weight;
         delta.normal += vec3(morphNormal(codes.x), morphNormal(codes.y), morphNormal(codes.z)) * normal_weight;

@@ -32,12 +32,14 @@ uint poolWord(uint address)
 
 float poolFloat(uint address) { return uintBitsToFloat(poolWord(address)); }
 
-// Index of a triangle corner's vertex in its cluster. Indices are bytes stored after the vertices.
+// Address of the indices of a cluster.
+uint indexAddress(ClusterDraw draw) { return draw.address + vertexCount(draw) * vertexWords(draw.vertex_layout); }
+
+// Index of a triangle corner's vertex in its cluster.
 uint cornerVertex(ClusterDraw draw, uint triangle, uint corner)
 {
     uint index = triangle * 3u + corner;
-    uint word = poolWord(draw.address + vertexCount(draw) * vertexWords(draw.vertex_layout) + (index >> 2));
-    return word >> ((index & 3u) * 8u) & 0xFFu;
+    return unpackIndex(poolWord(indexAddress(draw) + (index >> 2)), index);
 }
 
 // Map a corner 0..2 to the winding order in which the bin of the instance sees the front of its triangles.
@@ -52,11 +54,10 @@ uint vertexAddress(ClusterDraw draw, uint vertex) { return draw.address + vertex
 // Position in object space. Integers of at most 24 bits times a power of two: exact.
 vec3 vertexPosition(ClusterDraw draw, uint vertex)
 {
-    uint x = poolWord(vertex);
-    uint y = poolWord(vertex + 1u);
-    ivec3 offset = (draw.vertex_layout & kVertexWideOffsets) != 0u ? ivec3(x, y, poolWord(vertex + 2u))
-                                                            : ivec3(x & 0xFFFFu, x >> 16, y & 0xFFFFu);
-    return vec3(ivec3(draw.base_x, draw.base_y, draw.base_z) + offset) * draw.grid_step;
+    uint third = (draw.vertex_layout & kVertexWideOffsets) != 0u ? poolWord(vertex + 2u) : 0u;
+    GridOffset offset = unpackPosition(draw.vertex_layout, poolWord(vertex), poolWord(vertex + 1u), third);
+    ivec3 base = ivec3(draw.base_x, draw.base_y, draw.base_z);
+    return vec3(base + ivec3(offset.x, offset.y, offset.z)) * draw.grid_step;
 }
 
 // Normal of a vertex that has one.
@@ -82,9 +83,9 @@ vec2 vertexUv(ClusterDraw draw, uint vertex, uint set)
     if (fraction_bits == 0u)
         return vec2(poolFloat(at), poolFloat(at + 1u));
     uint base = draw.address - uvBaseDistance(layout_bits, set);
-    uint word = poolWord(at);
-    ivec2 offset = (layout_bits & kVertexWideOffsets) != 0u ? ivec2(word, poolWord(at + 1u)) : ivec2(word & 0xFFFFu, word >> 16);
-    return vec2(ivec2(poolWord(base), poolWord(base + 1u)) + offset) * uvStep(fraction_bits);
+    uint second = (layout_bits & kVertexWideOffsets) != 0u ? poolWord(at + 1u) : 0u;
+    UvOffset offset = unpackUv(layout_bits, poolWord(at), second);
+    return vec2(ivec2(poolWord(base), poolWord(base + 1u)) + ivec2(offset.u, offset.v)) * uvStep(fraction_bits);
 }
 
 vec4 vertexColor(ClusterDraw draw, uint vertex)
