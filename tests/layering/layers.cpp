@@ -20,8 +20,10 @@ struct Layer
     Folders may_include; ///< besides itself
 };
 
-// All layers, from the lowest to the highest. Cookers do not include each other, and nothing of the runtime
-// includes cook/ or pipelines/.
+// Row of the cookers that have no row of their own. Cookers do not include each other.
+constexpr std::string_view kCooker = "cook/*";
+
+// All layers, from the lowest to the highest. Nothing of the runtime includes cook/ or pipelines/.
 const std::vector<Layer>& layers()
 {
     static const std::vector<Layer> list = {
@@ -46,12 +48,12 @@ const std::vector<Layer>& layers()
         {"cook/sampling", {"formats"}},
         {"cook/animation_bounds", {"formats"}},
 
-        // cookers
         {"cook/animation_compression", {"formats", "cook/tools", "cook/animation_bounds"}},
-        {"cook/textures", {"formats", "cook/command_line", "cook/json", "cook/tools"}},
-        {"cook/specular", {"formats", "cook/command_line", "cook/json"}},
-        {"cook/skinning",
-         {"formats", "cook/command_line", "cook/json", "cook/tools", "cook/animation_bounds"}},
+
+        // cookers
+        {kCooker,
+         {"formats", "cook/command_line", "cook/json", "cook/tools", "cook/mesh", "cook/pages",
+          "cook/sampling", "cook/animation_bounds"}},
 
         {"cook/clusters/core", {"formats", "cook/mesh", "cook/animation_bounds"}},
         {"cook/clusters/partition", {"formats", "cook/mesh", "cook/clusters/core"}},
@@ -246,11 +248,19 @@ bool isBelow(std::string_view folder, std::string_view other)
     return folder == other || (folder.starts_with(other) && folder.substr(other.size()).starts_with('/'));
 }
 
-const Layer* layerOf(std::string_view folder)
+/// Return the row of a folder; of a folder of cook/ without one, the row of cookers.
+const Layer* findLayer(std::string_view folder)
 {
-    const auto found = std::find_if(layers().begin(), layers().end(),
-                                    [&](const Layer& layer) { return layer.folder == folder; });
-    return found == layers().end() ? nullptr : &*found;
+    const auto find = [](std::string_view row) -> const Layer*
+    {
+        const auto found = std::find_if(layers().begin(), layers().end(),
+                                        [&](const Layer& layer) { return layer.folder == row; });
+        return found == layers().end() ? nullptr : &*found;
+    };
+    if (const Layer* own = find(folder))
+        return own;
+    const bool is_in_cook = folder.starts_with("cook/") && folder.find('/', 5) == std::string_view::npos;
+    return is_in_cook ? find(kCooker) : nullptr;
 }
 
 bool names(std::string_view pattern, std::string_view header)
@@ -260,7 +270,7 @@ bool names(std::string_view pattern, std::string_view header)
 
 } // namespace
 
-std::string_view folderOf(std::string_view path)
+std::string_view getFolder(std::string_view path)
 {
     return path.substr(0, path.rfind('/'));
 }
@@ -269,14 +279,15 @@ std::vector<Arrow> allArrows()
 {
     std::vector<Arrow> arrows;
     for (const Layer& layer : layers())
-        for (const std::string_view to : layer.may_include)
-            arrows.push_back({layer.folder, to});
+        if (layer.folder != kCooker)
+            for (const std::string_view to : layer.may_include)
+                arrows.push_back({layer.folder, to});
     return arrows;
 }
 
-std::optional<Arrow> arrowOf(std::string_view from, std::string_view to)
+std::optional<Arrow> findArrow(std::string_view from, std::string_view to)
 {
-    const Layer* layer = layerOf(from);
+    const Layer* layer = findLayer(from);
     if (layer == nullptr)
         return std::nullopt;
     for (const std::string_view allowed : layer->may_include)
@@ -287,10 +298,10 @@ std::optional<Arrow> arrowOf(std::string_view from, std::string_view to)
 
 std::optional<std::string> wrongArrow(std::string_view file, std::string_view header)
 {
-    const std::string_view from = folderOf(file), to = folderOf(header);
-    if (from == to || isBelow(from, "tests") || arrowOf(from, to))
+    const std::string_view from = getFolder(file), to = getFolder(header);
+    if (from == to || isBelow(from, "tests") || findArrow(from, to))
         return std::nullopt;
-    if (layerOf(from) == nullptr)
+    if (findLayer(from) == nullptr)
         return std::string(from) + " is not in the table of folders";
     return std::string(file) + " may not include " + std::string(header);
 }
@@ -299,10 +310,16 @@ std::optional<std::string> wrongLink(std::string_view from, std::string_view to)
 {
     if (isBelow(from, "tests") || isBelow(from, to) || isBelow(to, from))
         return std::nullopt;
+    const auto allows = [&](const Layer& layer)
+    {
+        return std::any_of(layer.may_include.begin(), layer.may_include.end(),
+                           [&](std::string_view f) { return isBelow(f, to); });
+    };
+    if (const Layer* own = findLayer(from); own != nullptr && allows(*own))
+        return std::nullopt;
     // A library consists of its folder and the folders below.
     for (const Layer& layer : layers())
-        if (isBelow(layer.folder, from) && std::any_of(layer.may_include.begin(), layer.may_include.end(),
-                                                       [&](std::string_view f) { return isBelow(f, to); }))
+        if (isBelow(layer.folder, from) && allows(layer))
             return std::nullopt;
     return std::string(from) + " may not link " + std::string(to);
 }
@@ -343,7 +360,7 @@ std::optional<std::string> wrongLibrary(std::string_view file, std::string_view 
     return std::nullopt;
 }
 
-std::vector<Include> includesOf(std::string_view text)
+std::vector<Include> findIncludes(std::string_view text)
 {
     std::vector<Include> includes;
     const auto skipSpace = [](std::string_view line)

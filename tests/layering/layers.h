@@ -21,14 +21,15 @@ struct Arrow
     bool operator==(const Arrow&) const = default;
 };
 
-/// Table of arrows between folders. Tests may include everything and are not in it.
+/// Table of arrows between folders. Tests may include everything and are not in it, and neither are cookers
+/// without a row of their own: each of these may include all that cookers share.
 std::vector<Arrow> allArrows();
 
 /// Arrow of the table that lets files of a folder include files of another; nullopt if there is none.
-std::optional<Arrow> arrowOf(std::string_view from, std::string_view to);
+std::optional<Arrow> findArrow(std::string_view from, std::string_view to);
 
 /// The folder of a file.
-std::string_view folderOf(std::string_view path);
+std::string_view getFolder(std::string_view path);
 
 /// Rule that is broken if `file` includes `header` (of the repository); nullopt if the include is allowed.
 std::optional<std::string> wrongArrow(std::string_view file, std::string_view header);
@@ -52,6 +53,6 @@ struct Include
     bool angled = false;
     std::string header;
 };
-std::vector<Include> includesOf(std::string_view text);
+std::vector<Include> findIncludes(std::string_view text);
 
 } // namespace hearth::test
