@@ -57,7 +57,7 @@ int program(int argc, char** argv)
     app.addOption("-o,--output", arguments.output, "skinning part to write").required();
     app.addOption("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
     app.addOption("--stats", arguments.statistics,
-                  "write what became of each mesh as JSON; - is standard output");
+                  "write statistics of each mesh as JSON; - is standard output");
     app.setFooter(
         "Example: hearth-skinning fox.import.part fox.clusters.part -o fox.skinning.part --stats -\n"
         "Exit codes: 0 done, 2 usage, 65 malformed input, 66 input missing, 70 internal, 73 cannot write, "

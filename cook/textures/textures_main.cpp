@@ -51,7 +51,7 @@ int program(int argc, char** argv)
                   "texels: the longer side of what is kept; finer mips are left out")
         .range(1u, textures::kMaxTextureSize, "UINT");
     app.addOption("--stats", arguments.statistics,
-                  "write what became of each image as JSON, its error measured; - is standard output");
+                  "write statistics of each image as JSON, with its measured error; - is standard output");
     app.setFooter(
         "Example: hearth-textures scene.import.part -o scene.textures.part\n"
         "Exit codes: 0 done, 2 usage, 65 malformed input, 66 input missing, 70 internal, 73 cannot write, "

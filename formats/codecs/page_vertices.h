@@ -260,7 +260,7 @@ private:
     static void writeVertices(std::span<const Slot<Blocks>> vertices, const Slot<Blocks> base, std::byte* out,
                               size_t vertex_bytes, const std::byte* end)
     {
-        const auto offsetOf = [&](const Slot<Blocks>& vertex)
+        const auto getOffset = [&](const Slot<Blocks>& vertex)
         {
             Slot<Blocks> offset;
             for (size_t i = 0; i < Blocks; ++i)
@@ -273,13 +273,13 @@ private:
             room < sizeof(base) ? 0 : std::min(vertices.size(), (room - sizeof(base)) / vertex_bytes + 1);
         for (const Slot<Blocks>& vertex : vertices.first(whole))
         {
-            const Slot<Blocks> offset = offsetOf(vertex);
+            const Slot<Blocks> offset = getOffset(vertex);
             std::memcpy(out, &offset, sizeof(offset));
             out += vertex_bytes;
         }
         for (const Slot<Blocks>& vertex : vertices.subspan(whole))
         {
-            const Slot<Blocks> offset = offsetOf(vertex);
+            const Slot<Blocks> offset = getOffset(vertex);
             std::memcpy(out, &offset, vertex_bytes);
             out += vertex_bytes;
         }

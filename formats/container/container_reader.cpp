@@ -210,7 +210,7 @@ Status ContainerReader::checkStructure()
                                           [this](uint32_t a, uint32_t b)
                                           { return chunkKey(table_[a]) == chunkKey(table_[b]); });
     if (twice != entries_by_id_.end())
-        return fail(Issue::container_table, "the chunk stands twice",
+        return fail(Issue::container_table, "the chunk occurs twice",
                     chunkName(table_[*twice].type, table_[*twice].index));
     return success();
 }

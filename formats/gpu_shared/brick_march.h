@@ -149,7 +149,7 @@ HEARTH_FUNCTION BrickRay brickRayInVoxels(HEARTH_IN(BrickGrid) grid, Float3 orig
     ray.start = Float3(start_x, start_y, start_z);
     ray.start_t = enter;
     // the same arithmetic as for the planes of voxels: at a smaller distance the ray has not left the box. A
-    // ray that misses the box now stands on a plane that it leaves through
+    // ray that misses the box is now on a plane that it leaves through
     HEARTH_PRECISE float end_x = ((up_x ? most.x : 0.0f) - start_x) * ray.inverse.x;
     HEARTH_PRECISE float end_y = ((up_y ? most.y : 0.0f) - start_y) * ray.inverse.y;
     HEARTH_PRECISE float end_z = ((up_z ? most.z : 0.0f) - start_z) * ray.inverse.z;

@@ -28,7 +28,7 @@ HEARTH_CONSTANT uint kViewSpecularOcclusion = 15; ///< from the eye, by the mate
 // views of scenes with bricks
 HEARTH_CONSTANT uint kViewBricks = 16;        ///< the voxels that a pixel's ray meets first, by albedo
 HEARTH_CONSTANT uint kViewBrickLighting = 17; ///< the same by outgoing radiance
-HEARTH_CONSTANT uint kViewGi = 18;            ///< light of bricks alone, on white surfaces
+HEARTH_CONSTANT uint kViewGi = 18;            ///< global illumination alone, on white surfaces
 
 HEARTH_SHARED_END
 

@@ -100,7 +100,7 @@ Status checkAuthoredLevels(const PackView& view)
         { return std::pair(records[record].mesh, records[record].level); };
         if (i > 0 && key(i) <= key(i - 1))
             return makeError(view, Issue::meaning_order, kAuthoredLevel, i,
-                             "it does not stand behind the one before it by mesh and level");
+                             "it is not sorted by mesh and level");
     }
     return success();
 }

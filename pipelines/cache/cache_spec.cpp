@@ -53,9 +53,9 @@ Result<CacheSpec> parseCacheSpec(const std::string& text, const std::string& opt
             HEARTH_ASSIGN_OR_RETURN(spec.limit_bytes, parseSize(parts[i].substr(5), option + " " + text));
         }
         else if (is_server)
-            return wrong("'" + parts[i] + "' is not known: after the URL may stand ,ro");
+            return wrong("'" + parts[i] + "' is not known: only ,ro may follow the URL");
         else
-            return wrong("'" + parts[i] + "' is not known: after the folder may stand ,ro and ,size=20G");
+            return wrong("'" + parts[i] + "' is not known: only ,ro and ,size=20G may follow the folder");
     return spec;
 }
 

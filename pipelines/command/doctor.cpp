@@ -68,10 +68,10 @@ DoctorCheck checkPrograms(const std::string& folder)
     }
     if (!missing.empty())
         return {"programs", State::wrong, fmt::format("{} lacks {}", folder, fmt::join(missing, ", ")),
-                "install Hearth whole: its programs lie in one folder"};
+                "install all of Hearth: its programs must be in one folder"};
     if (!others.empty())
         return {"programs", State::wrong,
-                fmt::format("this is hearth " HEARTH_VERSION ", beside it lie {}", fmt::join(others, ", ")),
+                fmt::format("this is hearth " HEARTH_VERSION ", beside it are {}", fmt::join(others, ", ")),
                 "install Hearth anew: all of its programs come from one build"};
     return {"programs", State::ok, fmt::format("all of " HEARTH_VERSION ", in {}", folder), ""};
 }
@@ -184,7 +184,7 @@ DoctorCheck checkDevice(const std::string& folder)
     const std::string program = folder + "/hearth-render";
     if (::access(program.c_str(), X_OK) != 0)
         return {"device", State::wrong, "hearth-render, which would say what draws, is not there",
-                "install Hearth whole: its programs lie in one folder"};
+                "install all of Hearth: its programs must be in one folder"};
     std::string line;
     if (commandSucceeds(shellQuoted(program) + " --name-device", line))
         return {"device", State::ok, "draws with " + line, ""};

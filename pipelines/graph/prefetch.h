@@ -10,7 +10,7 @@ namespace hearth::graph
 
 /// Prefetch, for cache::Cache::beforeRemoteLookup. Each wave has the actions whose input hashes are known by
 /// then: first those that read user files, then those that read their outputs, and so on. The actions behind
-/// a cache miss are not looked up, so that the only requests in vain are for actions that must run.
+/// a cache miss are not looked up, so that requests without a result are only for actions that must run.
 void prefetch(const Graph& graph, cache::Cache& cache, ActionCache& actions);
 
 } // namespace hearth::graph

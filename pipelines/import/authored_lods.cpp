@@ -18,7 +18,7 @@ namespace
 
 /// Hint for users who did not ask for levels: files become levels by their names alone.
 constexpr const char* kOptOutHint =
-    "if these files are no levels of one mesh, let them stand alone: hearth.toml, [[rule]], import.lods = []";
+    "if these files are not levels of one mesh, keep them apart: hearth.toml, [[rule]], import.lods = []";
 
 /// Return the only instance: one mesh in one place. errors: lod_file.
 Result<InstanceRecord> requireSingleInstance(std::span<const InstanceRecord> instances,
@@ -105,7 +105,7 @@ Status addLevel(const PackView& from, const tools::LodFile& file, const BaseMesh
     const auto object_from_world = inverted(widened(base.instance.world_from_object));
     if (!object_from_world || !bakeTransform(mesh, *object_from_world * widened(instance.world_from_object)))
     {
-        drop("cannot be moved to where its source stands");
+        drop("cannot be moved to the place of its source");
         return success();
     }
     const auto first_material = static_cast<uint32_t>(part.materials.size());

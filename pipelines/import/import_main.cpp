@@ -123,7 +123,7 @@ int program(int argc, char** argv)
         .oneValueEach()
         .excludes(profile);
     app.addOption("--depfile", arguments.depfile,
-                  "write which files were read, and which were looked for in vain, as sha256sum would");
+                  "write which files were read, and which were not found, as sha256sum would");
     app.addOption("--stats", arguments.statistics,
                   "write what was read, what was left out and what was counted, as the part's META has it; - "
                   "is standard output");

@@ -173,7 +173,7 @@ Result<ConfigFile> readConfig(const TomlNode& root, const std::string& path, boo
             HEARTH_TRY(readRules(node, at, file));
         else if (node.key == "rule")
             return at.wrong(Issue::profile_key, node,
-                            "rules go by the paths of a project: they stand in its hearth.toml");
+                            "rules match paths of a project: put them into its hearth.toml");
         else
             return unknownKey(place, node, node.key, known);
     }

@@ -99,7 +99,7 @@ Json listMember(const Json& object, const char* key)
     return list != nullptr && list->is_array() ? *list : Json::array();
 }
 
-uint64_t numberOf(const Json& object, const char* key)
+uint64_t getNumber(const Json& object, const char* key)
 {
     const Json* number = object.find(key);
     return number != nullptr && number->is_number_unsigned() ? number->get<uint64_t>() : 0;
@@ -112,7 +112,7 @@ struct Asset
     std::vector<size_t> actions;
 };
 
-std::vector<Asset> assetsOf(const CookReport& cook)
+std::vector<Asset> makeAssets(const CookReport& cook)
 {
     std::vector<Asset> assets(cook.sources.size());
     for (size_t i = 0; i < assets.size(); ++i)
@@ -179,11 +179,11 @@ Json visibilityJson(const CookReport& cook, size_t action)
     return json;
 }
 
-uint64_t sumOf(const Json& list, const char* group, const char* key)
+uint64_t sumMember(const Json& list, const char* group, const char* key)
 {
     uint64_t sum = 0;
     for (const Json& item : list)
-        sum += numberOf(group == nullptr ? item : item.value(group, Json::object()), key);
+        sum += getNumber(group == nullptr ? item : item.value(group, Json::object()), key);
     return sum;
 }
 
@@ -229,15 +229,15 @@ Json assetJson(const CookReport& cook, const Asset& asset)
                 why.push_back(cause);
     }
     json.update({{"seconds", seconds}, {"cpu_seconds", cpu_seconds}, {"peak_rss_bytes", peak}});
-    json["bytes_in"] = sumOf(listMember(import_report, "sources"), nullptr, "bytes");
+    json["bytes_in"] = sumMember(listMember(import_report, "sources"), nullptr, "bytes");
     json["why"] = why;
     json["deps"] = dependenciesJson(cook, asset, import_report);
     json["stages"] = stages;
 
     const Json clusters = parseStatistics(cook, findAction("clusters"));
     const Json textures = listMember(parseStatistics(cook, findAction("textures")), "images");
-    json["sizes"] = {{"geometry", sumOf(listMember(clusters, "meshes"), "bytes", "pages_stored")},
-                     {"textures", sumOf(textures, nullptr, "bytes_stored")}};
+    json["sizes"] = {{"geometry", sumMember(listMember(clusters, "meshes"), "bytes", "pages_stored")},
+                     {"textures", sumMember(textures, nullptr, "bytes_stored")}};
     if (import_report.contains("counts"))
         json["counts"] = import_report["counts"];
     if (!clusters.is_null())
@@ -344,7 +344,7 @@ Json totalsJson(const CookReport& cook, const Json& assets)
                 {"wall_s", cook.seconds},
                 {"cpu_s", cpu_seconds},
                 {"peak_rss", peak},
-                {"bytes_in", sumOf(assets, nullptr, "bytes_in")},
+                {"bytes_in", sumMember(assets, nullptr, "bytes_in")},
                 {"bytes_out", cook.output_bytes},
                 {"actions", actions}};
     if (!cook.bytes_of_chunks.empty())
@@ -371,7 +371,7 @@ Json joinLists(const Json& assets, const char* key)
 std::string reportJson(const CookReport& cook)
 {
     Json assets = Json::array();
-    for (const Asset& asset : assetsOf(cook))
+    for (const Asset& asset : makeAssets(cook))
         assets.push_back(assetJson(cook, asset));
     Json report{{"schema", "hearth.report/1"},
                 {"tool", {{"name", "hearth"}, {"version", HEARTH_VERSION}}},

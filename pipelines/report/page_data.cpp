@@ -18,7 +18,7 @@ namespace
 // Maximum of listed dependencies of an asset; the page shows only the number of the others.
 constexpr size_t kMaxDependencies = 100;
 
-Json elementsOf(const Json& object, const char* key)
+Json getElements(const Json& object, const char* key)
 {
     const Json* list = object.find(key);
     return list != nullptr && list->is_array() ? *list : Json::array();
@@ -47,7 +47,7 @@ Json meshRow(const Json& mesh, size_t asset)
 {
     const Json source = mesh.value("source", Json::object());
     Json levels = Json::array();
-    for (const Json& level : elementsOf(mesh, "levels"))
+    for (const Json& level : getElements(mesh, "levels"))
         levels.push_back(levelRow(level));
     return Json::array({mesh.value("name", ""), asset, source.value("triangles", uint64_t{0}),
                         source.value("vertices", uint64_t{0}),
@@ -55,7 +55,7 @@ Json meshRow(const Json& mesh, size_t asset)
                         mesh.value("clusters", 0), mesh.value("pages", 0), levels});
 }
 
-Json psnrOf(const Json& texture, const char* key)
+Json getPsnr(const Json& texture, const char* key)
 {
     const Json error = texture.value(key, Json());
     return error.is_object() ? error.value("psnr_db", Json()) : Json();
@@ -65,7 +65,7 @@ Json psnrOf(const Json& texture, const char* key)
 Json usesRow(const Json& texture)
 {
     Json uses = Json::array();
-    for (const Json& use : elementsOf(texture, "uses"))
+    for (const Json& use : getElements(texture, "uses"))
         uses.push_back(Json::array({use.value("material", ""), use.value("role", "")}));
     return uses;
 }
@@ -79,12 +79,12 @@ Json textureRow(const Json& texture, size_t asset)
                         texture.value("height", 0), texture.value("mips", 0), texture.value("format", ""),
                         texture.value("content", ""), texture.value("bytes_stored", uint64_t{0}),
                         texture.value("bytes", uint64_t{0}),
-                        texture.value("error", Json::object()).value("rms", 0.0), psnrOf(texture, "error"),
-                        psnrOf(texture, "half_size_error"), texture.contains("half_size_error"),
+                        texture.value("error", Json::object()).value("rms", 0.0), getPsnr(texture, "error"),
+                        getPsnr(texture, "half_size_error"), texture.contains("half_size_error"),
                         texture.value("placeholder", false), usesRow(texture)});
 }
 
-Json assetOf(const Json& asset)
+Json makeAsset(const Json& asset)
 {
     Json slim;
     for (const char* key : {"source", "state", "seconds", "cpu_seconds", "peak_rss_bytes", "bytes_in", "key",
@@ -92,9 +92,9 @@ Json assetOf(const Json& asset)
         if (asset.contains(key))
             slim[key] = asset[key];
     slim["stages"] = Json::array();
-    for (const Json& stage : elementsOf(asset, "stages"))
+    for (const Json& stage : getElements(asset, "stages"))
         slim["stages"].push_back(stageRow(stage));
-    const Json dependencies = elementsOf(asset, "deps");
+    const Json dependencies = getElements(asset, "deps");
     slim["dep_count"] = dependencies.size();
     slim["deps"] = Json::array();
     for (size_t i = 0; i < std::min(dependencies.size(), kMaxDependencies); ++i)
@@ -102,7 +102,7 @@ Json assetOf(const Json& asset)
     return slim;
 }
 
-std::string codeOf(const IssueInfo& info)
+std::string formatCode(const IssueInfo& info)
 {
     return (info.kind == IssueClass::warning ? "W" : "E") + std::to_string(static_cast<unsigned>(info.issue));
 }
@@ -112,12 +112,12 @@ Json explanations(const Json& report)
 {
     std::set<std::string> codes;
     for (const char* key : {"failures", "messages"})
-        for (const Json& message : elementsOf(report, key))
+        for (const Json& message : getElements(report, key))
             codes.insert(message.value("code", ""));
     Json texts = Json::object();
     for (const IssueInfo& info : allIssues())
-        if (codes.contains(codeOf(info)))
-            texts[codeOf(info)] = {{"summary", info.summary}, {"hint", info.hint}};
+        if (codes.contains(formatCode(info)))
+            texts[formatCode(info)] = {{"summary", info.summary}, {"hint", info.hint}};
     return texts;
 }
 
@@ -133,15 +133,15 @@ Json savings()
     return of_cooker;
 }
 
-uint64_t bytesOf(const Json& mesh)
+uint64_t sumBytes(const Json& mesh)
 {
     return mesh.value("bytes", Json::object()).value("pages_stored", uint64_t{0});
 }
 
-Json meshesOf(const Json& asset)
+Json makeMeshes(const Json& asset)
 {
     const Json clusters = asset.value("clusters", Json());
-    return clusters.is_object() ? elementsOf(clusters, "meshes") : Json::array();
+    return clusters.is_object() ? getElements(clusters, "meshes") : Json::array();
 }
 
 std::string dataUri(const std::string& jpeg)
@@ -161,13 +161,13 @@ std::string pageData(const std::string& report_text)
             data[key] = report[key];
     for (const char* key : {"assets", "meshes", "textures", "stages"})
         data[key] = Json::array();
-    const Json assets = elementsOf(report, "assets");
+    const Json assets = getElements(report, "assets");
     for (size_t i = 0; i < assets.size(); ++i)
     {
-        data["assets"].push_back(assetOf(assets[i]));
-        for (const Json& mesh : meshesOf(assets[i]))
+        data["assets"].push_back(makeAsset(assets[i]));
+        for (const Json& mesh : makeMeshes(assets[i]))
             data["meshes"].push_back(meshRow(mesh, i));
-        for (const Json& texture : elementsOf(assets[i], "textures"))
+        for (const Json& texture : getElements(assets[i], "textures"))
             data["textures"].push_back(textureRow(texture, i));
     }
     // stages that belong to no asset
@@ -189,12 +189,12 @@ std::vector<PackMesh> importantMeshes(const std::string& report_text)
         bool is_largest; ///< largest mesh of its asset
     };
     std::vector<RankedMesh> ranked;
-    for (const Json& asset : elementsOf(report, "assets"))
+    for (const Json& asset : getElements(report, "assets"))
     {
         const size_t first = ranked.size();
-        for (const Json& mesh : meshesOf(asset))
+        for (const Json& mesh : makeMeshes(asset))
             ranked.push_back(
-                {{static_cast<uint32_t>(ranked.size()), mesh.value("name", "")}, bytesOf(mesh), false});
+                {{static_cast<uint32_t>(ranked.size()), mesh.value("name", "")}, sumBytes(mesh), false});
         const auto largest =
             std::max_element(ranked.begin() + static_cast<std::ptrdiff_t>(first), ranked.end(),
                              [](const RankedMesh& a, const RankedMesh& b) { return a.bytes < b.bytes; });

@@ -81,10 +81,10 @@ StreamChanges PageStream::beginFrame(uint64_t serial, uint64_t completed_serial)
         for (const uint32_t page : freed)
             freeSlot(page);
 
-    const auto sizeOf = [&](uint64_t sum, uint32_t page) { return sum + view_->pages()[page].size; };
+    const auto computeSize = [&](uint64_t sum, uint32_t page) { return sum + view_->pages()[page].size; };
     statistics_.bytes_resident +=
-        std::accumulate(changes.published.begin(), changes.published.end(), uint64_t{0}, sizeOf) -
-        std::accumulate(changes.evicted.begin(), changes.evicted.end(), uint64_t{0}, sizeOf);
+        std::accumulate(changes.published.begin(), changes.published.end(), uint64_t{0}, computeSize) -
+        std::accumulate(changes.evicted.begin(), changes.evicted.end(), uint64_t{0}, computeSize);
     statistics_.pages_resident += static_cast<uint32_t>(changes.published.size() - changes.evicted.size());
     statistics_.failures += static_cast<uint32_t>(changes.failed.size());
     if (!changes.evicted.empty() || !changes.published.empty())

@@ -37,7 +37,7 @@ struct FrameChanges
     std::span<const uint32_t> published;
     /// Evicted earlier and not read by any frame any more: their memory is free.
     std::span<const uint32_t> released;
-    /// Loaded in vain, since a page that they need has failed; their memory is free.
+    /// Loaded and dropped, since a page that they need has failed; their memory is free.
     std::span<const uint32_t> discarded;
     /// Loads that failed since the last frame. Each failure is reported once.
     std::span<const uint32_t> failed;

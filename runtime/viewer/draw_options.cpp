@@ -32,7 +32,7 @@ constexpr std::string_view kDrawHelp =
     "                          of the sky's mirror image, the same: fit (default), table (the pack's, else "
     "the fit),\n"
     "                          off\n"
-    "      --gi off|on         the light of bricks, in packs that have them (default: on); off: a constant "
+    "      --gi off|on         global illumination, in packs with bricks (default: on); off: a constant "
     "sky\n"
     "      --shadows SETTINGS  off (default), on, or some of maps=N (16 at most), texels=N (1024), kernel=N "
     "(1:\n"
@@ -112,13 +112,13 @@ Status parseChoice(const std::string& option, std::span<const Named<T>> choices,
 
 Status parseSize(std::string_view text, DrawOptions& options)
 {
-    constexpr uint32_t kLargest = 16384;
+    constexpr uint32_t kMaxSide = 16384;
     const auto parts = splitText(text, 'x');
     if (parts.size() == 2)
     {
         const auto width = parseNumber<uint32_t>(parts[0]);
         const auto height = parseNumber<uint32_t>(parts[1]);
-        if (width && height && *width >= 1 && *height >= 1 && *width <= kLargest && *height <= kLargest)
+        if (width && height && *width >= 1 && *height >= 1 && *width <= kMaxSide && *height <= kMaxSide)
         {
             options.width = *width;
             options.height = *height;

@@ -17,7 +17,7 @@ namespace
 using namespace hearth;
 
 /// Ambient occlusion of each vertex of a mesh's finest level, cluster by cluster.
-std::vector<float> occlusionOf(const visibility::MeshPages& pages)
+std::vector<float> computeOcclusion(const visibility::MeshPages& pages)
 {
     std::vector<float> occlusion;
     for (const auto& part : visibility::extractFinestLevel(pages).parts)
@@ -58,7 +58,8 @@ Status compare(const std::string& baked_path, const std::string& reference_path)
             continue;
         HEARTH_ASSIGN_OR_RETURN(const auto pages, visibility::MeshPages::read(baked, mesh));
         HEARTH_ASSIGN_OR_RETURN(const auto reference_pages, visibility::MeshPages::read(reference, mesh));
-        print(std::string(baked.text(record.name)).c_str(), occlusionOf(pages), occlusionOf(reference_pages));
+        print(std::string(baked.text(record.name)).c_str(), computeOcclusion(pages),
+              computeOcclusion(reference_pages));
     }
     return success();
 }

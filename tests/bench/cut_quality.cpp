@@ -50,7 +50,7 @@ Sums sumOver(size_t count, const AddOne& add_one)
         [](const Sums& a, const Sums& b) { return a + b; });
 }
 
-double areaOf(const CutSurface& surface, std::span<const Float3> places, size_t first_triangle)
+double computeArea(const CutSurface& surface, std::span<const Float3> places, size_t first_triangle)
 {
     double area = 0;
     for (size_t i = first_triangle * 3; i < surface.triangles.size(); i += 3)
@@ -133,7 +133,7 @@ CutSurface surfaceOfCut(const clusters::Hierarchy& hierarchy, const clusters::De
                 surface.triangles.push_back(first + corner);
         surface.stored_error =
             std::max(surface.stored_error, double{formats::clusterError(cluster, hierarchy.groups)});
-        const double own = areaOf(surface, surface.positions, first_triangle);
+        const double own = computeArea(surface, surface.positions, first_triangle);
         area += own;
         if (cluster.refined_group == kInvalidIndex)
             continue;
@@ -166,8 +166,9 @@ CutQuality CutMeter::measure(const CutSurface& cut) const
         std::sqrt((out.distance2 + back.distance2) / static_cast<double>(on_cut.size() + on_source_.size()));
     quality.max = std::max(out.max, back.max);
     quality.normal_rms_deg = std::sqrt(out.angle2 / static_cast<double>(std::max<size_t>(on_cut.size(), 1)));
-    const double texture = source_.uvs.empty() ? 0 : areaOf(source_, source_.uvs, 0);
-    const double length_of_uv = texture > 0 ? std::sqrt(areaOf(source_, source_.positions, 0) / texture) : 0;
+    const double texture = source_.uvs.empty() ? 0 : computeArea(source_, source_.uvs, 0);
+    const double length_of_uv =
+        texture > 0 ? std::sqrt(computeArea(source_, source_.positions, 0) / texture) : 0;
     quality.uv_rms =
         length_of_uv * std::sqrt(out.uv2 / static_cast<double>(std::max<size_t>(on_cut.size(), 1)));
     quality.stored_error = cut.stored_error;

@@ -18,11 +18,11 @@ constexpr int kColumns = 4;
 // Axes: share of the triangles from 1 to 1/1000, rms distance from 1e-5 to 1e-2 of the diagonal.
 constexpr double kMinShare = -3, kMinError = -5, kMaxError = -2;
 
-double xOf(double share)
+double getX(double share)
 {
     return std::log10(share) / kMinShare * kWidth;
 }
-double yOf(double error)
+double getY(double error)
 {
     return kHeight - (std::log10(error) - kMinError) / (kMaxError - kMinError) * kHeight;
 }
@@ -33,14 +33,14 @@ std::string axes()
         fmt::format("<rect width='{}' height='{}' fill='#fff' stroke='#999'/>\n", kWidth, kHeight);
     for (int power = 0; power >= static_cast<int>(kMinShare); --power)
     {
-        const double x = xOf(std::pow(10.0, power));
+        const double x = getX(std::pow(10.0, power));
         svg += fmt::format("<line x1='{0:.1f}' x2='{0:.1f}' y2='{1}' stroke='#ddd'/>\n", x, kHeight);
         svg += fmt::format("<text x='{:.1f}' y='{}' text-anchor='middle'>{} %</text>\n", x, kHeight + 16,
                            std::pow(10.0, power + 2));
     }
     for (int power = static_cast<int>(kMinError); power <= static_cast<int>(kMaxError); ++power)
     {
-        const double y = yOf(std::pow(10.0, power));
+        const double y = getY(std::pow(10.0, power));
         svg += fmt::format("<line x2='{0}' y1='{1:.1f}' y2='{1:.1f}' stroke='#ddd'/>\n", kWidth, y);
         svg += fmt::format("<text x='-6' y='{:.1f}' text-anchor='end'>1e{}</text>\n", y + 4, power);
     }
@@ -60,16 +60,16 @@ std::string panel(const MeshCurve& curve)
     for (const CutQuality& cut : curve.cuts)
         if (cut.rms > 0)
             points += fmt::format("{:.1f},{:.1f} ",
-                                  xOf(static_cast<double>(cut.triangles) / curve.source_triangles),
-                                  yOf(cut.rms / curve.diagonal));
+                                  getX(static_cast<double>(cut.triangles) / curve.source_triangles),
+                                  getY(cut.rms / curve.diagonal));
     // nested <svg> that clips at the axes
     svg += fmt::format("<svg width='{}' height='{}'><polyline points='{}' fill='none' stroke='#c0392b' "
                        "stroke-width='2'/></svg>\n",
                        kWidth, kHeight, points);
     for (const PeerCut& cut : curve.peer->cuts)
         if (cut.share > 0 && cut.rms > 0)
-            svg += fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='4' fill='#2c3e50'/>\n", xOf(cut.share),
-                               yOf(cut.rms));
+            svg += fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='4' fill='#2c3e50'/>\n", getX(cut.share),
+                               getY(cut.rms));
     return svg;
 }
 

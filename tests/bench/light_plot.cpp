@@ -19,11 +19,11 @@ constexpr double kMinSize = 0.02, kMaxSize = 2, kMinError = 0.005, kMaxError = 2
 /// Error limit that the project sets itself.
 constexpr double kLimit = 0.15;
 
-double xOf(double size)
+double getX(double size)
 {
     return std::log(size / kMinSize) / std::log(kMaxSize / kMinSize) * kWidth;
 }
-double yOf(double error)
+double getY(double error)
 {
     return kHeight -
            std::log(std::max(error, kMinError) / kMinError) / std::log(kMaxError / kMinError) * kHeight;
@@ -36,14 +36,14 @@ std::string axes()
     for (const double size : {0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0})
         svg += fmt::format("<line x1='{0:.1f}' x2='{0:.1f}' y2='{1}' stroke='#ddd'/>\n"
                            "<text x='{0:.1f}' y='{2}' text-anchor='middle'>{3} m</text>\n",
-                           xOf(size), kHeight, kHeight + 16, size);
+                           getX(size), kHeight, kHeight + 16, size);
     for (const double error : {0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0})
         svg += fmt::format("<line x2='{0}' y1='{1:.1f}' y2='{1:.1f}' stroke='#ddd'/>\n"
                            "<text x='-6' y='{2:.1f}' text-anchor='end'>{3:.0f} %</text>\n",
-                           kWidth, yOf(error), yOf(error) + 4, 100 * error);
+                           kWidth, getY(error), getY(error) + 4, 100 * error);
     return svg + fmt::format("<line x2='{0}' y1='{1:.1f}' y2='{1:.1f}' stroke='#27ae60' "
                              "stroke-dasharray='5 3'/>\n",
-                             kWidth, yOf(kLimit));
+                             kWidth, getY(kLimit));
 }
 
 template <typename Value>
@@ -52,7 +52,7 @@ std::string line(const LightCurve& curve, const char* color, const Value& value)
     std::string points, dots;
     for (const LightCurve::Size& size : curve.sizes)
     {
-        const double x = xOf(size.voxel_size), y = yOf(value(size));
+        const double x = getX(size.voxel_size), y = getY(value(size));
         points += fmt::format("{:.1f},{:.1f} ", x, y);
         dots += fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='3' fill='{}'/>\n", x, y, color);
     }

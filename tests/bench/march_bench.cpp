@@ -88,7 +88,7 @@ const Terrain& terrain()
     return the_terrain;
 }
 
-BrickRay rayOf(const BrickMasks& masks, const Ray& ray)
+BrickRay makeRay(const BrickMasks& masks, const Ray& ray)
 {
     return brickRayInVoxels(masks.grid, ray.origin, ray.direction, kBrickInfinity);
 }
@@ -123,7 +123,7 @@ void march(benchmark::State& state, const std::vector<Ray>& rays)
     Count count;
     for (auto _ : state)
         for (const Ray& ray : rays)
-            count.add(brickMarch(masks, rayOf(masks, ray)));
+            count.add(brickMarch(masks, makeRay(masks, ray)));
     count.report(state);
 }
 
@@ -138,7 +138,7 @@ void marchLanes(benchmark::State& state, const std::vector<Ray>& rays)
         for (size_t first = 0; first < rays.size(); first += some.size())
         {
             for (size_t i = 0; i < some.size(); ++i)
-                some[i] = rayOf(masks, rays[first + i]);
+                some[i] = makeRay(masks, rays[first + i]);
             bricks::marchRays(table, some);
             for (const BrickRay& end : some)
                 count.add(end);

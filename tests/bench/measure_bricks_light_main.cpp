@@ -36,7 +36,7 @@ struct Arguments
     uint32_t image_paths = 256;
 };
 
-std::string nameOf(const std::string& prefix)
+std::string getName(const std::string& prefix)
 {
     return prefix.substr(prefix.find_last_of('/') + 1);
 }
@@ -81,7 +81,7 @@ Result<LightCurve::Size> measureSize(const bricks::StaticScene& scene, const sha
 }
 
 /// Camera of the comparison: the scene's first camera, or one above a corner of the scene.
-shared::Camera cameraOf(const formats::PackView& pack)
+shared::Camera readCamera(const formats::PackView& pack)
 {
     shared::Camera camera;
     if (!pack.cameras().empty())
@@ -110,7 +110,7 @@ Status writeImage(const reference::ShadedScene& scene, const formats::PackView& 
                   const BrickGather& gather, uint32_t paths, double mean, const std::string& path)
 {
     constexpr uint32_t kWidth = 320, kHeight = 214;
-    const shared::Camera camera = cameraOf(pack);
+    const shared::Camera camera = readCamera(pack);
     const Double3 eye(camera.position), forward = normalize(Double3(camera.target) - eye);
     const Double3 right = normalize(cross(forward, {0, 1, 0})), up = cross(right, forward);
     const double slope = std::tan(double{camera.y_fov_rad} / 2);
@@ -171,9 +171,9 @@ Result<LightCurve> measureScene(const std::string& prefix, const Arguments& argu
         std::count_if(points.begin(), points.end(), [](const LitPoint& p) { return p.near_lamp; });
     std::printf("%s: %zu points, %zu of them within %.2f m of lamps; paths took %.1f s\n"
                 "    voxel                   all light indirect     bias   of indirect\n",
-                nameOf(prefix).c_str(), points.size(), static_cast<size_t>(near_lamps), kNearLamp,
+                getName(prefix).c_str(), points.size(), static_cast<size_t>(near_lamps), kNearLamp,
                 secondsSince(start));
-    LightCurve curve{nameOf(prefix), {}};
+    LightCurve curve{getName(prefix), {}};
     const shared::Lighting lighting = sharedLighting(shaded.lighting());
     for (const double voxel_size : arguments.sizes)
     {

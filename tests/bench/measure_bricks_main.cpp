@@ -23,7 +23,7 @@ using namespace hearth::bricks;
 constexpr uint64_t kTalksBytes = uint64_t{28} << 20;
 constexpr uint64_t kAnyMemory = std::numeric_limits<uint64_t>::max();
 
-GridSettings settingsOf(double voxel_size, double error_share, uint64_t memory)
+GridSettings makeSettings(double voxel_size, double error_share, uint64_t memory)
 {
     GridSettings settings;
     settings.voxel_size = voxel_size;
@@ -52,7 +52,7 @@ Result<Timed> timed(const StaticScene& scene, const GridSettings& settings)
 /// Count the solid voxels that the other grid lacks; both have the same groups.
 uint64_t voxelsMissing(const BrickTables& from, const BrickTables& other)
 {
-    const auto maskOf = [](uint32_t low, uint32_t high) { return uint64_t{high} << 32 | low; };
+    const auto makeMask = [](uint32_t low, uint32_t high) { return uint64_t{high} << 32 | low; };
     uint64_t missing = 0;
     for (size_t g = 0; g < from.groups.size(); ++g)
         for (uint32_t bit = 0; bit < 64; ++bit)
@@ -65,7 +65,7 @@ uint64_t voxelsMissing(const BrickTables& from, const BrickTables& other)
                 const formats::BrickRecord& brick =
                     tables.bricks[group.first_brick +
                                   shared::maskCountBelow(group.brick_mask_low, group.brick_mask_high, bit)];
-                return maskOf(brick.voxel_mask_low, brick.voxel_mask_high);
+                return makeMask(brick.voxel_mask_low, brick.voxel_mask_high);
             };
             missing += static_cast<uint64_t>(std::popcount(voxelsAt(from) & ~voxelsAt(other)));
         }
@@ -83,13 +83,13 @@ Status measure(const std::vector<std::string>& paths)
     std::printf("512 x 512 x 128 m, %zu instances, voxels of 1 m, %zu threads\n\n", scene.instances.size(),
                 tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
 
-    HEARTH_ASSIGN_OR_RETURN(const Timed finest, timed(scene, settingsOf(1, 0, kAnyMemory)));
+    HEARTH_ASSIGN_OR_RETURN(const Timed finest, timed(scene, makeSettings(1, 0, kAnyMemory)));
     std::printf("%-22s%12s%12s%10s%10s%8s%16s\n", "clusters off by", "triangles", "pieces", "seconds",
                 "CPU s", "ratio", "voxels differ");
     std::string memory;
     for (const double share : {0.5, 0.25, 0.125, 0.0})
     {
-        HEARTH_ASSIGN_OR_RETURN(const Timed cooked, timed(scene, settingsOf(1, share, kAnyMemory)));
+        HEARTH_ASSIGN_OR_RETURN(const Timed cooked, timed(scene, makeSettings(1, share, kAnyMemory)));
         const CookedGrid& grid = cooked.grid;
         const uint64_t differ =
             voxelsMissing(grid.tables, finest.grid.tables) + voxelsMissing(finest.grid.tables, grid.tables);
@@ -110,7 +110,7 @@ Status measure(const std::vector<std::string>& paths)
     for (const double size : {1.0, 0.8, 0.64, 0.5, 0.4})
     {
         HEARTH_ASSIGN_OR_RETURN(const Timed cooked,
-                                timed(scene, settingsOf(size, GridSettings().error_share, kTalksBytes)));
+                                timed(scene, makeSettings(size, GridSettings().error_share, kTalksBytes)));
         const GridStatistics& statistics = cooked.grid.statistics;
         if (statistics.dropped.any())
             break;

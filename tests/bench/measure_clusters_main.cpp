@@ -49,7 +49,7 @@ double userSeconds()
 }
 
 /// Minimum of three runs, as for the peers' figures.
-Times timesOf(const std::function<void()>& work)
+Times measureTimes(const std::function<void()>& work)
 {
     Times least{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
     for (int run = 0; run < 3; ++run)
@@ -68,7 +68,7 @@ Times timesOf(const std::function<void()>& work)
 double calibrationSeconds(const mesh::SourceMesh& mesh)
 {
     constexpr size_t kVertices = 255, kTriangles = 128;
-    return timesOf(
+    return measureTimes(
                [&]
                {
                    const size_t bound =
@@ -260,7 +260,7 @@ void printShape(const clusters::Hierarchy& hierarchy)
                 hierarchy.levels.size(), 100 * all / (128.0 * static_cast<double>(hierarchy.clusters.size())),
                 all / source, root.clusters.count, root.triangle_count,
                 static_cast<unsigned long long>(hierarchy.counts.stuck_groups));
-    const bench::PageFigures pages = bench::pageFiguresOf(hierarchy);
+    const bench::PageFigures pages = bench::measurePages(hierarchy);
     std::printf("  %.2f bytes a source triangle: tables %.2f",
                 (static_cast<double>(hierarchy.page_bytes.size()) + records) / source, records / source);
     for (const auto& kind : pages.kinds)
@@ -291,12 +291,12 @@ bench::MeshCurve measureMesh(const std::string& name, const mesh::SourceMesh& me
     Times one, levels, two;
     {
         const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, 1);
-        one = timesOf(build);
-        levels = timesOf([&] { buildLevelsAlone(mesh); });
+        one = measureTimes(build);
+        levels = measureTimes([&] { buildLevelsAlone(mesh); });
     }
     {
         const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, 2);
-        two = timesOf(build);
+        two = measureTimes(build);
     }
     const double calibration = calibrationSeconds(mesh);
     const double ktris = static_cast<double>(mesh.triangleCount()) / 1000;

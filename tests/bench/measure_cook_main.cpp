@@ -29,7 +29,7 @@ constexpr auto kPollEvery = std::chrono::milliseconds(20);
 constexpr double kMiB = 1 << 20;
 
 /// A process and all its descendants, on Linux.
-std::vector<pid_t> familyOf(pid_t process)
+std::vector<pid_t> findFamily(pid_t process)
 {
     std::vector<pid_t> family{process};
     std::error_code error;
@@ -40,7 +40,7 @@ std::vector<pid_t> familyOf(pid_t process)
         std::ifstream children(task->path() / "children");
         for (pid_t child = 0; children >> child;)
         {
-            const std::vector<pid_t> more = familyOf(child);
+            const std::vector<pid_t> more = findFamily(child);
             family.insert(family.end(), more.begin(), more.end());
         }
     }
@@ -48,7 +48,7 @@ std::vector<pid_t> familyOf(pid_t process)
 }
 
 /// Memory of the processes together. Shared pages count once (sum of PSS, proc(5)).
-uint64_t memoryOf(const std::vector<pid_t>& processes)
+uint64_t measureMemory(const std::vector<pid_t>& processes)
 {
     uint64_t kilobytes = 0;
     for (const pid_t process : processes)
@@ -97,7 +97,7 @@ std::optional<Cook> cook(const std::string& source, const std::string& output, b
     int status = 0;
     while (::waitpid(process, &status, WNOHANG) == 0)
     {
-        result.peak_bytes = std::max(result.peak_bytes, memoryOf(familyOf(process)));
+        result.peak_bytes = std::max(result.peak_bytes, measureMemory(findFamily(process)));
         std::this_thread::sleep_for(kPollEvery);
     }
     if (status != 0)
@@ -128,7 +128,7 @@ void print(unsigned cores, const Cook& cook)
         static_cast<double>(cook.peak_bytes));
 }
 
-uint64_t trianglesOf(const Cook& cook)
+uint64_t sumTriangles(const Cook& cook)
 {
     uint64_t triangles = 0;
     for (const auto& mesh : cook.report["assets"][0]["clusters"]["meshes"])
@@ -147,7 +147,7 @@ int measure(const std::string& source, const std::string& output)
     print(1, *slow);
     print(cores, *fast);
     const auto seconds = [](const Cook& cook) { return cook.report["totals"]["wall_s"].get<double>(); };
-    const auto triangles = static_cast<double>(trianglesOf(*fast));
+    const auto triangles = static_cast<double>(sumTriangles(*fast));
     std::printf(
         "%.1f million triangles; %.1f bytes of memory and %.2f of pack a triangle; %u cores are %.2f times "
         "as fast as one\n",

@@ -22,7 +22,7 @@ using namespace hearth;
 constexpr double kMebi = 1 << 20;
 constexpr int kWarmRuns = 5;
 
-double secondsOf(const auto& work)
+double measureSeconds(const auto& work)
 {
     const auto start = std::chrono::steady_clock::now();
     work();
@@ -62,12 +62,12 @@ Status measureOpening(const std::string& path)
         if (!pack.ok())
             opened = pack.error();
     };
-    const double cold = secondsOf(open);
+    const double cold = measureSeconds(open);
     HEARTH_TRY(std::move(opened));
     const double read = static_cast<double>(bytesFromDisk() - before);
     double warm = cold;
     for (int i = 0; i < kWarmRuns; ++i)
-        warm = std::min(warm, secondsOf(open));
+        warm = std::min(warm, measureSeconds(open));
     std::printf("open, not in memory  %8.3f s, %.1f MiB from the disk\n", cold, read / kMebi);
     std::printf("open, in memory      %8.3f s\n", warm);
     return success();
@@ -85,9 +85,9 @@ Result<double> microsecondsOfAPage(const formats::PackView& pack, uint32_t strid
             status = pack.decodePage(page, std::span(buffer).first(pack.pages()[page].size));
     };
     readPages(); // the file is in the page cache afterwards
-    double seconds = secondsOf(readPages);
+    double seconds = measureSeconds(readPages);
     for (int i = 1; i < kWarmRuns; ++i)
-        seconds = std::min(seconds, secondsOf(readPages));
+        seconds = std::min(seconds, measureSeconds(readPages));
     HEARTH_TRY(std::move(status));
     return seconds * 1e6 / ((count + stride - 1) / stride);
 }
@@ -110,7 +110,7 @@ Status measure(const std::string& path)
                     all - decode);
     }
     Status whole = success();
-    const double seconds = secondsOf([&] { whole = pack.checkAll(); });
+    const double seconds = measureSeconds([&] { whole = pack.checkAll(); });
     HEARTH_TRY(std::move(whole));
     std::printf("check all            %8.3f s: %u pages, %.1f MiB, one core\n", seconds, pages,
                 static_cast<double>(pack->container().header().file_size) / kMebi);

@@ -123,7 +123,7 @@ Status printCounts(const Arguments& arguments, const formats::PackView& pack, co
     for (const auto& [kind, figures] : kinds)
         printVisible(kind.c_str(), figures, frames);
     kinds.erase("sky"); // a backdrop: many pixels for almost no triangles
-    const bench::VisibleFigures all = bench::sumOf(kinds);
+    const bench::VisibleFigures all = bench::sumUp(kinds);
     printVisible("scene", all, frames);
     std::printf("  aims: clusters drawn / seen <= 1.6, triangles a covered pixel <= 0.35\n");
     const double slot_bytes =

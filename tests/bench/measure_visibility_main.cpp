@@ -108,7 +108,7 @@ void inTasks(size_t items, size_t rays_per_item, Trace trace)
                       });
 }
 
-RTCRay rayOf(const SamplePoint& point, float x, float y, float z, float distance)
+RTCRay makeRay(const SamplePoint& point, float x, float y, float z, float distance)
 {
     const Float3 origin = rayOrigin(point);
     RTCRay ray{};
@@ -124,7 +124,7 @@ RTCRay rayOf(const SamplePoint& point, float x, float y, float z, float distance
 }
 
 /// The same rays that the stage makes.
-std::vector<RTCRay> raysOf(std::span<const SamplePoint> points, float distance)
+std::vector<RTCRay> makeRays(std::span<const SamplePoint> points, float distance)
 {
     std::vector<RTCRay> rays;
     rays.reserve(points.size() * kRays);
@@ -134,12 +134,12 @@ std::vector<RTCRay> raysOf(std::span<const SamplePoint> points, float distance)
         sampling::hemisphereDirections(0, sampling::deriveSeed(0, p), sampling::frameAround(points[p].normal),
                                        x, y, z);
         for (uint32_t i = 0; i < kRays; ++i)
-            rays.push_back(rayOf(points[p], x[i], y[i], z[i], distance));
+            rays.push_back(makeRay(points[p], x[i], y[i], z[i], distance));
     }
     return rays;
 }
 
-std::vector<RTCRay16> packetsOf(std::span<const RTCRay> rays)
+std::vector<RTCRay16> makePackets(std::span<const RTCRay> rays)
 {
     std::vector<RTCRay16> packets(rays.size() / 16);
     for (size_t i = 0; i < rays.size(); ++i)
@@ -177,7 +177,7 @@ Way stageWay(const Occluders& occluders, std::span<const SamplePoint> points, co
 
 void measureAnyHit(const Occluders& occluders, std::span<const SamplePoint> points, int rounds)
 {
-    const std::vector<RTCRay> rays = raysOf(points, kInfinity);
+    const std::vector<RTCRay> rays = makeRays(points, kInfinity);
     std::vector<RTCRay> traced;
     std::vector<RTCRay16> packets;
     RTCScene scene = occluders.scene();
@@ -199,7 +199,7 @@ void measureAnyHit(const Occluders& occluders, std::span<const SamplePoint> poin
                                 });
                     },
                     hidden});
-    ways.push_back({"bare rtcOccluded16", [&] { packets = packetsOf(rays); },
+    ways.push_back({"bare rtcOccluded16", [&] { packets = makePackets(rays); },
                     [&]
                     {
                         inTasks(packets.size(), 16,
@@ -246,7 +246,7 @@ void measureAnyHit(const Occluders& occluders, std::span<const SamplePoint> poin
 void measureNearestHit(const Occluders& occluders, std::span<const SamplePoint> points, int rounds)
 {
     constexpr float kDistance = 100; // larger than the mesh
-    const std::vector<RTCRay> rays = raysOf(points, kDistance);
+    const std::vector<RTCRay> rays = makeRays(points, kDistance);
     std::vector<RTCRayHit> traced(rays.size());
     RTCScene scene = occluders.scene();
     const auto copy = [&]

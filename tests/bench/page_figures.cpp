@@ -145,7 +145,7 @@ size_t decompressFrame(ZSTD_DCtx* context, std::span<const std::byte> stored, st
 
 } // namespace
 
-PageFigures pageFiguresOf(const clusters::Hierarchy& hierarchy)
+PageFigures measurePages(const clusters::Hierarchy& hierarchy)
 {
     PageFigures figures;
     std::map<std::string, double> bytes_of_kind;

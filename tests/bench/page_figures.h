@@ -23,6 +23,6 @@ struct PageFigures
     double zstd_seconds = 0; ///< zstd's part of `seconds`
 };
 
-PageFigures pageFiguresOf(const clusters::Hierarchy& hierarchy);
+PageFigures measurePages(const clusters::Hierarchy& hierarchy);
 
 } // namespace hearth::bench

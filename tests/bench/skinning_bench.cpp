@@ -128,7 +128,7 @@ Character makeCharacter()
     return character;
 }
 
-std::vector<animation_bounds::Box3d> reachOf(const Character& character)
+std::vector<animation_bounds::Box3d> computeReach(const Character& character)
 {
     std::vector<animation_bounds::Box3d> reach(kJoints);
     for (const DeformedCluster& cluster : character.clusters)
@@ -155,7 +155,7 @@ void characterBounds(benchmark::State& state)
     {
         const AnimationTables tables = character.tables();
         const std::vector<animation_bounds::NodeMotion> nodes = animation_bounds::nodeMotions(tables);
-        const std::vector<animation_bounds::Box3d> reach = reachOf(character);
+        const std::vector<animation_bounds::Box3d> reach = computeReach(character);
         const animation_bounds::SkinMotion skin(tables, nodes, 0, reach);
         const animation_bounds::PoseRegions regions(tables, nodes);
         const skinning::Deformation deformation{&skin, {}, &regions};

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/visibility/fit/level_fit.h"
 #include "cook/visibility/fit/normal_equations.h"
-#include "tests/cook/visibility/surface_samples_of.h"
+#include "tests/cook/visibility/mesh_samples.h"
 #include "tests/support/shapes.h"
 
 #include <benchmark/benchmark.h>
@@ -19,14 +19,14 @@ using namespace hearth::visibility;
 struct Scene
 {
     mesh::SourceMesh rock = shapes::rock(129, 0.5f);
-    std::vector<SurfaceSample> samples = test::samplesOf(test::viewOf(rock), 4);
+    std::vector<SurfaceSample> samples = test::makeSamples(test::makeMeshView(rock), 4);
     std::vector<Moments> values;
 
     Scene()
     {
         for (size_t i = 0; i < samples.size(); ++i)
         {
-            const Float3 p = test::pointOf(test::viewOf(rock), samples[i]);
+            const Float3 p = test::getPoint(test::makeMeshView(rock), samples[i]);
             const float noise = static_cast<float>(i * 2654435761u % 1024) / 5120 - 0.1f;
             values.push_back({4 + p.x + noise, {0.5f * p.y, p.z + noise, 1 + noise}});
         }
@@ -46,16 +46,16 @@ void proxy(benchmark::State& state)
 {
     const OneCore one(kParallelism, 1);
     for (auto _ : state)
-        benchmark::DoNotOptimize(makeProxy(test::viewOf(scene().rock)));
+        benchmark::DoNotOptimize(makeProxy(test::makeMeshView(scene().rock)));
 }
 BENCHMARK(proxy)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 void assembly(benchmark::State& state)
 {
     const OneCore one(kParallelism, 1);
-    const Proxy proxy = makeProxy(test::viewOf(scene().rock));
+    const Proxy proxy = makeProxy(test::makeMeshView(scene().rock));
     const std::vector<SurfaceSample> samples =
-        mapSamplesToProxy(proxy, test::viewOf(scene().rock), scene().samples);
+        mapSamplesToProxy(proxy, test::makeMeshView(scene().rock), scene().samples);
     for (auto _ : state)
         benchmark::DoNotOptimize(assemble(proxy, samples, scene().values, {}));
 }
@@ -65,9 +65,9 @@ BENCHMARK(assembly)->Unit(benchmark::kMillisecond)->UseRealTime();
 void solution(benchmark::State& state)
 {
     const OneCore one(kParallelism, 1);
-    const Proxy proxy = makeProxy(test::viewOf(scene().rock));
+    const Proxy proxy = makeProxy(test::makeMeshView(scene().rock));
     const std::vector<SurfaceSample> samples =
-        mapSamplesToProxy(proxy, test::viewOf(scene().rock), scene().samples);
+        mapSamplesToProxy(proxy, test::makeMeshView(scene().rock), scene().samples);
     const NormalEquations system = assemble(proxy, samples, scene().values, {});
     SolveStatistics statistics;
     for (auto _ : state)
@@ -89,9 +89,9 @@ void levels(benchmark::State& state)
     std::vector<mesh::SourceMesh> meshes;
     for (const uint32_t n : {91u, 64u, 45u, 32u, 23u, 16u, 11u, 8u, 6u})
         meshes.push_back(shapes::rock(n, 0.5f));
-    std::vector<LevelMesh> views{{test::viewOf(scene().rock), {}, 0}};
+    std::vector<LevelMesh> views{{test::makeMeshView(scene().rock), {}, 0}};
     for (const mesh::SourceMesh& mesh : meshes)
-        views.push_back({test::viewOf(mesh), {}, 0});
+        views.push_back({test::makeMeshView(mesh), {}, 0});
     for (auto _ : state)
         benchmark::DoNotOptimize(fitLevels(views, scene().samples, scene().values));
 }

@@ -61,7 +61,7 @@ Result<std::vector<uint32_t>> countPixels(const Dump& dump, const std::string& p
     return pixels_of_triangle;
 }
 
-std::string kindOf(const formats::PackView& pack, uint32_t instance)
+std::string getKind(const formats::PackView& pack, uint32_t instance)
 {
     const std::string_view name = pack.text(pack.meshes()[pack.instances()[instance].mesh].name);
     return std::string(name.substr(0, name.find('_')));
@@ -106,12 +106,12 @@ Result<FiguresOfKind> readVisibleFigures(const std::string& path, const formats:
             one.owning_triangles += pixels_of_triangle[triangle] > 0 ? 1u : 0u;
         }
         one.owning_clusters = one.covered_pixels > 0 ? 1u : 0u;
-        figures[kindOf(pack, visible.instance)].add(one);
+        figures[getKind(pack, visible.instance)].add(one);
     }
     return figures;
 }
 
-VisibleFigures sumOf(const FiguresOfKind& figures)
+VisibleFigures sumUp(const FiguresOfKind& figures)
 {
     VisibleFigures sum;
     for (const auto& [kind, of_kind] : figures)

@@ -30,6 +30,6 @@ using FiguresOfKind = std::map<std::string, VisibleFigures>;
 /// errors: input_missing; usage if the file is no dump of that pack.
 Result<FiguresOfKind> readVisibleFigures(const std::string& path, const formats::PackView& pack);
 
-VisibleFigures sumOf(const FiguresOfKind& figures);
+VisibleFigures sumUp(const FiguresOfKind& figures);
 
 } // namespace hearth::bench

@@ -101,7 +101,7 @@ protected:
 
     size_t processes(const std::string& what) const
     {
-        return programs.has("processes") ? countOf(programs.read("processes"), what + "\n") : 0;
+        return programs.has("processes") ? countOccurrences(programs.read("processes"), what + "\n") : 0;
     }
 
     /// Returns the events of each action, "import a.gltf", of a cook with_events: "start end cooked".
@@ -132,7 +132,7 @@ TEST_F(Batches, aFewProcessesRunManyActions)
     EXPECT_EQ(end.exit_code, 0) << end.err;
     EXPECT_TRUE(command::verifyFile(folder / "a.hearth").ok());
     EXPECT_EQ(folder.list(), std::vector<std::string>{"a.hearth"});
-    EXPECT_EQ(countOf(end.err, "    4 cookers  "), 12u) << end.err;
+    EXPECT_EQ(countOccurrences(end.err, "    4 cookers  "), 12u) << end.err;
     const std::map<std::string, std::string> of_action = eventsOfActions();
     EXPECT_EQ(of_action.size(), 4 * 12u + 1) << "each source's, and the link";
     for (const auto& [action, events] : of_action)
@@ -169,12 +169,12 @@ TEST_F(Batches, aCrashCostsTheActionThatCrashed)
     sources[5] = "crash.gltf";
     const ProgramEnd end = cook(sources);
     EXPECT_EQ(end.exit_code, 70) << end.err;
-    EXPECT_EQ(countOf(end.err, ": error: "), 2u) << "at once, and again at the end: " << end.err;
+    EXPECT_EQ(countOccurrences(end.err, ": error: "), 2u) << "at once, and again at the end: " << end.err;
     EXPECT_NE(end.err.find("crash.gltf: error: hearth-import was ended by signal 11 (Segmentation fault): "
                            "contract broken [E7001]"),
               std::string::npos)
         << end.err;
-    EXPECT_EQ(countOf(end.err, "    4 cookers  "), 11u) << end.err;
+    EXPECT_EQ(countOccurrences(end.err, "    4 cookers  "), 11u) << end.err;
     EXPECT_EQ(folder.list(), std::vector<std::string>{});
 }
 
@@ -184,10 +184,11 @@ TEST_F(Batches, failuresAndWarningsBelongToTheirSource)
     sources[5] = "malformed.gltf";
     const ProgramEnd end = cook(sources);
     EXPECT_EQ(end.exit_code, 65) << end.err;
-    EXPECT_EQ(countOf(end.err, "malformed.gltf|/meshes/0: error: is bad [E1101]"), 2u)
+    EXPECT_EQ(countOccurrences(end.err, "malformed.gltf|/meshes/0: error: is bad [E1101]"), 2u)
         << "at once, and again at the end: " << end.err;
     for (size_t i = 0; i < sources.size(); ++i)
-        EXPECT_EQ(countOf(end.err, sources[i] + "|/extras: warning: left out [W1400]"), i == 5 ? 0u : 1u)
+        EXPECT_EQ(countOccurrences(end.err, sources[i] + "|/extras: warning: left out [W1400]"),
+                  i == 5 ? 0u : 1u)
             << end.err;
 }
 
@@ -245,8 +246,10 @@ TEST(RealBatches, runEachLineAsIfAlone)
         EXPECT_GT(json["peak_rss_bytes"].get<double>(), 1 << 20);
     }
     EXPECT_EQ(exits, (std::vector<int>{0, 66, 0, 2, 2})) << end.out;
-    EXPECT_EQ(countOf(end.err, "none.obj: error: "), 1u) << end.err;
-    EXPECT_EQ(countOf(end.err, "line 6: error: --batch reads lines that are each a JSON array of words"), 1u)
+    EXPECT_EQ(countOccurrences(end.err, "none.obj: error: "), 1u) << end.err;
+    EXPECT_EQ(
+        countOccurrences(end.err, "line 6: error: --batch reads lines that are each a JSON array of words"),
+        1u)
         << end.err;
     EXPECT_EQ(folder.run({HEARTH_BIN "/hearth-import", "o.obj", "-o", "alone.part"}).exit_code, 0);
     EXPECT_EQ(folder.read("o.part"), folder.read("alone.part"));

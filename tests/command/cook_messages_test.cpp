@@ -20,9 +20,9 @@ TEST_F(Cook, passesWarningsOnButNotNoise)
 {
     const ProgramEnd end = cook({"warning.gltf", "-o", "a.hearth"});
     EXPECT_EQ(end.exit_code, 0);
-    EXPECT_EQ(countOf(end.err, "warning.gltf|/extras: warning: left out [W1400]"), 1u) << end.err;
-    EXPECT_EQ(countOf(end.err, "noise"), 0u);
-    EXPECT_EQ(countOf(cook({"-v", "warning.gltf", "-o", "a.hearth"}).err, "noise"), 1u);
+    EXPECT_EQ(countOccurrences(end.err, "warning.gltf|/extras: warning: left out [W1400]"), 1u) << end.err;
+    EXPECT_EQ(countOccurrences(end.err, "noise"), 0u);
+    EXPECT_EQ(countOccurrences(cook({"-v", "warning.gltf", "-o", "a.hearth"}).err, "noise"), 1u);
 }
 
 TEST_F(Cook, failuresAndWarningsComeTogetherAtItsEnd)
@@ -31,7 +31,7 @@ TEST_F(Cook, failuresAndWarningsComeTogetherAtItsEnd)
                                            "a.hearth",       "-j1"};
     const ProgramEnd end = cook(sources);
     const std::string failure = "malformed.gltf|/meshes/0: error: is bad [E1101] hint: mend it\n";
-    EXPECT_EQ(countOf(end.err, failure), 2u) << end.err;
+    EXPECT_EQ(countOccurrences(end.err, failure), 2u) << end.err;
     EXPECT_TRUE(end.err.ends_with("the failure again:\n" + failure +
                                   "1 warning: 1 W1400 (a part of the source is not kept)\n"
                                   "a.hearth: not linked, because a dependency failed: 1 of 3 sources\n"))
@@ -42,8 +42,8 @@ TEST_F(Cook, failuresAndWarningsComeTogetherAtItsEnd)
     arguments.back() = "--no-cache";
     arguments.insert(arguments.end(), {"--log-format", "json"});
     const std::string json = cook(arguments).err;
-    EXPECT_EQ(countOf(json, "E1101"), 1u) << "a program is told once: " << json;
-    EXPECT_EQ(countOf(json, "W1400"), 1u) << json;
+    EXPECT_EQ(countOccurrences(json, "E1101"), 1u) << "a script sees it once: " << json;
+    EXPECT_EQ(countOccurrences(json, "W1400"), 1u) << json;
 }
 
 TEST_F(Cook, filesOfAFolderThatNobodyReadsAreNamed)
@@ -56,12 +56,12 @@ TEST_F(Cook, filesOfAFolderThatNobodyReadsAreNamed)
     const std::string line =
         "left out  1 texture that no source uses (art/sky.hdr), 1 file of a kind that is not "
         "read (art/notes/plan.txt)\n";
-    EXPECT_EQ(countOf(cook({"art", "-o", "art/a.hearth", "--report", "art/a.json"}).err, line), 1u)
+    EXPECT_EQ(countOccurrences(cook({"art", "-o", "art/a.hearth", "--report", "art/a.json"}).err, line), 1u)
         << cook({"art", "-o", "art/a.hearth", "--report", "art/a.json"}).err;
     EXPECT_EQ(cook({"art", "-o", "art/a.hearth", "-q"}).err, "");
-    EXPECT_EQ(countOf(cook({"art/a.gltf", "-o", "a.hearth"}).err, "left out"), 0u);
+    EXPECT_EQ(countOccurrences(cook({"art/a.gltf", "-o", "a.hearth"}).err, "left out"), 0u);
     folder.write("art/malformed.gltf", "");
-    EXPECT_EQ(countOf(cook({"art", "-o", "b.hearth"}).err, "left out"), 0u)
+    EXPECT_EQ(countOccurrences(cook({"art", "-o", "b.hearth"}).err, "left out"), 0u)
         << "nobody knows what it would use";
 }
 
@@ -117,11 +117,11 @@ TEST_F(Cook, progressIsABarOrLinesOrNothing)
         return cook({"a.gltf", "-o", "a.hearth", "--no-cache", "--progress", style}).err;
     };
     const std::string plain = err("plain");
-    EXPECT_EQ(countOf(plain, "source  "), 1u) << plain;
-    EXPECT_EQ(countOf(plain, " 4 cookers  a.gltf\n"), 1u) << plain;
-    EXPECT_EQ(countOf(plain, "import "), 0u) << "no line for each cooker: " << plain;
-    EXPECT_EQ(countOf(err("auto"), "source  "), 1u) << "no terminal";
-    EXPECT_EQ(countOf(err("none"), "source  "), 0u);
+    EXPECT_EQ(countOccurrences(plain, "source  "), 1u) << plain;
+    EXPECT_EQ(countOccurrences(plain, " 4 cookers  a.gltf\n"), 1u) << plain;
+    EXPECT_EQ(countOccurrences(plain, "import "), 0u) << "no line for each cooker: " << plain;
+    EXPECT_EQ(countOccurrences(err("auto"), "source  "), 1u) << "no terminal";
+    EXPECT_EQ(countOccurrences(err("none"), "source  "), 0u);
     const std::string bar = err("bar");
     EXPECT_NE(bar.find("\r\033[K[                        ] 0/5  import a.gltf"), std::string::npos) << bar;
     EXPECT_NE(bar.rfind("\r\033[Kcooked"), std::string::npos) << "taken away before the last line: " << bar;
@@ -142,25 +142,26 @@ TEST_F(Cook, whatItTellsIsASetting)
         return end.err;
     };
     EXPECT_EQ(err({"HEARTH_LOG=quiet"}), "");
-    EXPECT_EQ(countOf(err({"HEARTH_LOG=quiet"}, {"-v"}), "noise"), 1u) << "the command line goes over it";
-    EXPECT_EQ(countOf(err({"HEARTH_LOG=verbose"}), "noise"), 1u);
+    EXPECT_EQ(countOccurrences(err({"HEARTH_LOG=quiet"}, {"-v"}), "noise"), 1u)
+        << "the command line goes over it";
+    EXPECT_EQ(countOccurrences(err({"HEARTH_LOG=verbose"}), "noise"), 1u);
     EXPECT_EQ(err({"HEARTH_LOG=verbose"}, {"-q"}), "");
-    EXPECT_EQ(countOf(err({"HEARTH_PROGRESS=none"}), "source  "), 0u);
-    EXPECT_EQ(countOf(err({"HEARTH_PROGRESS=none"}, {"--progress", "plain"}), "source  "), 1u);
+    EXPECT_EQ(countOccurrences(err({"HEARTH_PROGRESS=none"}), "source  "), 0u);
+    EXPECT_EQ(countOccurrences(err({"HEARTH_PROGRESS=none"}, {"--progress", "plain"}), "source  "), 1u);
     EXPECT_EQ(cook({"warning.gltf", "-o", "a.hearth"}, {"HEARTH_LOG=loud"}).exit_code, 78);
 
     folder.write("hearth.toml", "[defaults]\nlog = 'quiet'\ncolor = 'always'\nprogress = 'none'\n");
     EXPECT_EQ(err({}), "");
     const std::string in_color = err({"HEARTH_LOG=normal"});
-    EXPECT_EQ(countOf(in_color, "\033[1;33mwarning:\033[0m"), 1u) << in_color;
-    EXPECT_EQ(countOf(in_color, "source  "), 0u) << in_color;
+    EXPECT_EQ(countOccurrences(in_color, "\033[1;33mwarning:\033[0m"), 1u) << in_color;
+    EXPECT_EQ(countOccurrences(in_color, "source  "), 0u) << in_color;
     EXPECT_EQ(err({"HEARTH_LOG=normal", "NO_COLOR=1"}).find('\033'), std::string::npos);
     // also for verbs that need no other setting
     EXPECT_NE(folder.run({programs / "hearth", "verify", "none"}, {}).err.find("\033[1;31merror:"),
               std::string::npos);
     folder.write("hearth.toml", "[defaults]\ncolour = 'always'\n");
     EXPECT_EQ(folder.run({programs / "hearth", "verify", "a.hearth"}, {}).exit_code, 0)
-        << "a file that is wrong is told of by those that need it";
+        << "a file that is wrong is reported by those that need it";
 }
 
 } // namespace hearth::test

@@ -125,7 +125,7 @@ TEST_F(Cook, tellsThatImagesAreDrawnAndCountsTheirTime)
     const std::string events = folder.read("events");
     EXPECT_GE(Json::parse(events.substr(events.find("{\"event\":\"done\""))).value()["seconds"].get<double>(),
               1.2);
-    EXPECT_EQ(countOf(folder.read("page.html"), "data:image/jpeg"), 8u);
+    EXPECT_EQ(countOccurrences(folder.read("page.html"), "data:image/jpeg"), 8u);
 
     std::filesystem::remove(folder / "a.hearth");
     EXPECT_EQ(cook({"good.gltf", "-q", "-o", "a.hearth", "--report", "page.html"}).err, "");
@@ -137,9 +137,9 @@ TEST_F(Cook, writesReportsForWhoeverReadsThem)
                                  "--report", "r.html", "--report", "r.xml", "--report", "r.csv"});
     EXPECT_EQ(end.exit_code, 65);
     EXPECT_EQ(folder.list(), (std::vector<std::string>{"r.csv", "r.html", "r.json", "r.xml"}));
-    EXPECT_EQ(countOf(folder.read("r.xml"), "<testcase "), 3u);
-    EXPECT_EQ(countOf(folder.read("r.xml"), "<failure "), 2u) << "the source, and the pack";
-    EXPECT_EQ(countOf(folder.read("r.csv"), "\r\n"), 3u);
+    EXPECT_EQ(countOccurrences(folder.read("r.xml"), "<testcase "), 3u);
+    EXPECT_EQ(countOccurrences(folder.read("r.xml"), "<failure "), 2u) << "the source, and the pack";
+    EXPECT_EQ(countOccurrences(folder.read("r.csv"), "\r\n"), 3u);
     EXPECT_NE(folder.read("r.html").find("E1101"), std::string::npos);
 
     // the same values in the JSON

@@ -24,22 +24,22 @@ TEST_F(Cook, makesAPackAndLeavesNothingElse)
     EXPECT_EQ(folder.list(), std::vector<std::string>{"a.hearth"});
     EXPECT_TRUE(command::verifyFile(folder / "a.hearth").ok());
     for (const char* line : {"source ", "cooked "})
-        EXPECT_EQ(countOf(end.err, line), 1u) << end.err;
+        EXPECT_EQ(countOccurrences(end.err, line), 1u) << end.err;
     EXPECT_EQ(end.err.find('\033'), std::string::npos) << "colour without a terminal";
     const std::string all = "\n" + cook({"a.gltf", "-v", "-o", "a.hearth", "--no-cache"}).err;
     for (const char* stage : {"import", "textures", "clusters", "skinning", "link", "cooked"})
-        EXPECT_EQ(countOf(all, "\n" + std::string(stage) + " "), 1u) << all;
+        EXPECT_EQ(countOccurrences(all, "\n" + std::string(stage) + " "), 1u) << all;
 }
 
 TEST_F(Cook, tellsCookersWhatItsProfileSaysByValue)
 {
     programs.write("house.toml", "[animation]\nerror = 0.001\n[clusters]\ninfluences = 4\n");
-    const ProgramEnd end = cook({"told.gltf", "-o", "a.hearth", "--profile", programs / "house.toml"});
+    const ProgramEnd end = cook({"echoed.gltf", "-o", "a.hearth", "--profile", programs / "house.toml"});
     ASSERT_EQ(end.exit_code, 0) << end.err;
     const std::string asked = folder.read("asked");
-    EXPECT_EQ(countOf(asked, "--set animation.error=0.001"), 1u) << asked;
-    EXPECT_EQ(countOf(asked, "--set clusters.influences=4"), 1u) << asked;
-    EXPECT_EQ(countOf(asked, "house.toml"), 0u) << asked;
+    EXPECT_EQ(countOccurrences(asked, "--set animation.error=0.001"), 1u) << asked;
+    EXPECT_EQ(countOccurrences(asked, "--set clusters.influences=4"), 1u) << asked;
+    EXPECT_EQ(countOccurrences(asked, "house.toml"), 0u) << asked;
 }
 
 TEST_F(Cook, aRuleThatChangesTouchesItsSourcesAlone)
@@ -143,7 +143,7 @@ TEST_F(Cook, aCookerThatMakesNothingIsCaught)
     folder.write("clusters-lie", "");
     const ProgramEnd end = cook({"a.gltf", "-o", "a.hearth"});
     EXPECT_NE(end.exit_code, 0);
-    EXPECT_EQ(countOf(end.err, ": error: "), 1u) << end.err;
+    EXPECT_EQ(countOccurrences(end.err, ": error: "), 1u) << end.err;
     EXPECT_FALSE(folder.has("a.hearth"));
 }
 
@@ -159,7 +159,7 @@ TEST_F(Cook, anOldOutputStaysAsItWasUntilTheNewOneIsWhole)
 TEST_F(Cook, makesTheBricksOfAllSourcesWhereAsked)
 {
     const std::vector<std::string> sources{"a.gltf", "b.gltf", "-o", "a.hearth", "-v", "--no-cache"};
-    EXPECT_EQ(countOf(cook(sources).err, "hearth-bricks"), 0u);
+    EXPECT_EQ(countOccurrences(cook(sources).err, "hearth-bricks"), 0u);
     auto arguments = sources;
     arguments.insert(arguments.end(),
                      {"--bricks", "--voxel-size", "0.5", "--brick-memory", "4096", "--report", "r.json"});
@@ -175,7 +175,7 @@ TEST_F(Cook, makesTheBricksOfAllSourcesWhereAsked)
         EXPECT_NE(at, std::string::npos) << part << " in " << command;
         command.erase(0, at); // in this order
     }
-    EXPECT_EQ(countOf(end.err, "warning: too little [W1400]"), 1u) << end.err;
+    EXPECT_EQ(countOccurrences(end.err, "warning: too little [W1400]"), 1u) << end.err;
     EXPECT_TRUE(command::verifyFile(folder / "a.hearth").ok());
     const auto reader = formats::ContainerReader::open(folder / "a.hearth");
     ASSERT_TRUE(reader.ok());

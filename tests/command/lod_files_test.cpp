@@ -107,16 +107,16 @@ protected:
     }
 
     /// Return the bytes of the pack.
-    std::string packOf(const std::vector<std::string>& arguments)
+    std::string cookPack(const std::vector<std::string>& arguments)
     {
         const ProgramEnd end = cook(arguments);
         EXPECT_EQ(end.exit_code, 0) << end.err;
         return folder.read("a.hearth");
     }
 
-    Scene sceneOf(const std::vector<std::string>& arguments)
+    Scene cookScene(const std::vector<std::string>& arguments)
     {
-        packOf(arguments);
+        cookPack(arguments);
         auto reader = ContainerReader::open(folder / "a.hearth");
         EXPECT_TRUE(reader.ok());
         const bool has_chunk = reader->find(kChunkAuthoredLevels) != nullptr;
@@ -140,7 +140,7 @@ protected:
 
 TEST_F(LodFiles, ofAFolderAreOneSource)
 {
-    const Scene scene = sceneOf({"props"});
+    const Scene scene = cookScene({"props"});
     EXPECT_EQ(scene.instances, 2u) << "the rock and the tree";
     EXPECT_EQ(scene.authored, kLevelsOfRock);
 }
@@ -148,16 +148,16 @@ TEST_F(LodFiles, ofAFolderAreOneSource)
 TEST_F(LodFiles, areThoseOfTheirSourceBehindOthers)
 {
     const std::vector<std::string> sources{"props/tree.obj", "props/rock_*", "props/Rock_*"};
-    EXPECT_EQ(sceneOf(sources).authored, kLevelsOfRock);
+    EXPECT_EQ(cookScene(sources).authored, kLevelsOfRock);
     std::vector<std::string> visible = sources;
     visible.insert(visible.end(), {"--visibility", "--visibility-quality", "draft"});
-    EXPECT_EQ(sceneOf(visible).authored, kLevelsOfRock)
+    EXPECT_EQ(cookScene(visible).authored, kLevelsOfRock)
         << "the visibility cooker keeps what it does not know";
 }
 
 TEST_F(LodFiles, areShownWithTheNumbersOfTheirNames)
 {
-    packOf({"props"});
+    cookPack({"props"});
     const std::string text = hearth({"inspect", "a.hearth"}).out;
     EXPECT_NE(text.find("  by hand: rock_LOD1.ply (LOD 1)\n"), std::string::npos) << text;
     EXPECT_NE(text.find("  by hand: Rock_lod3.obj (LOD 3)\n"), std::string::npos) << text;
@@ -173,20 +173,20 @@ TEST_F(LodFiles, areShownWithTheNumbersOfTheirNames)
 
 TEST_F(LodFiles, areTheSameHoweverTheyAreNamed)
 {
-    const std::string of_folder = packOf({"props"});
-    EXPECT_EQ(packOf({"props/*"}), of_folder);
-    EXPECT_EQ(packOf({"./props/Rock_lod3.obj", "props/rock_LOD1.ply", "props/rock_LOD0.obj", "props/tree.obj",
-                      "props/rock_LOD1.ply"}),
+    const std::string of_folder = cookPack({"props"});
+    EXPECT_EQ(cookPack({"props/*"}), of_folder);
+    EXPECT_EQ(cookPack({"./props/Rock_lod3.obj", "props/rock_LOD1.ply", "props/rock_LOD0.obj",
+                        "props/tree.obj", "props/rock_LOD1.ply"}),
               of_folder);
-    EXPECT_EQ(
-        packOf({"props/rock_*", "props/Rock_*"}),
-        packOf({"props/rock_LOD0.obj", "--lod", "3=props/Rock_lod3.obj", "--lod", "1=props/rock_LOD1.ply"}));
+    EXPECT_EQ(cookPack({"props/rock_*", "props/Rock_*"}),
+              cookPack({"props/rock_LOD0.obj", "--lod", "3=props/Rock_lod3.obj", "--lod",
+                        "1=props/rock_LOD1.ply"}));
 }
 
 TEST_F(LodFiles, standAloneWithoutALevel0)
 {
     fs::rename(folder / "props/rock_LOD0.obj", folder / "props/rock.obj");
-    const Scene scene = sceneOf({"props"});
+    const Scene scene = cookScene({"props"});
     EXPECT_EQ(scene.instances, 4u);
     EXPECT_FALSE(scene.has_chunk);
 }
@@ -195,12 +195,12 @@ TEST_F(LodFiles, ofTwoFoldersAreStrangers)
 {
     fs::create_directory(folder / "props/far");
     fs::rename(folder / "props/rock_LOD1.ply", folder / "props/far/rock_LOD1.ply");
-    const Scene scene = sceneOf({"props"});
+    const Scene scene = cookScene({"props"});
     EXPECT_EQ(scene.instances, 3u);
     EXPECT_EQ(scene.authored, (std::vector<Level>{{kLowTriangles, 3, "Rock_lod3.obj"}}));
 }
 
-TEST_F(LodFiles, ofOneLevelAreToldOf)
+TEST_F(LodFiles, warnOfOneLevel)
 {
     folder.write("props/rock_LOD1.obj", objSquare(5));
     const ProgramEnd end = cook({"props"});
@@ -210,21 +210,21 @@ TEST_F(LodFiles, ofOneLevelAreToldOf)
               std::string::npos)
         << end.err;
     EXPECT_NE(end.err.find("1 file that no source uses (props/rock_LOD1.ply)"), std::string::npos) << end.err;
-    EXPECT_EQ(sceneOf({"props"}).authored,
+    EXPECT_EQ(cookScene({"props"}).authored,
               (std::vector<Level>{{2 * 5 * 5, 1, "rock_LOD1.obj"}, kLevelsOfRock[1]}));
     EXPECT_NE(cook({"props", "--warnings-as-errors=W1514"}).exit_code, 0);
     const ProgramEnd planned = hearth({"plan", "props", "-o", "p.json"});
-    EXPECT_EQ(countOf(planned.err, "[W1514]"), 1u) << planned.err;
+    EXPECT_EQ(countOccurrences(planned.err, "[W1514]"), 1u) << planned.err;
 }
 
-TEST_F(LodFiles, ofTwoLevels0AreToldOf)
+TEST_F(LodFiles, warnOfTwoLevels0)
 {
     folder.write("props/rock_LOD0.ply", plySquare(9));
     const ProgramEnd end = cook({"props"});
     EXPECT_NE(end.err.find("props/rock_LOD0.ply: warning: is level 0, as is props/rock_LOD0.obj"),
               std::string::npos)
         << end.err;
-    const Scene scene = sceneOf({"props"});
+    const Scene scene = cookScene({"props"});
     EXPECT_EQ(scene.instances, 3u);
     EXPECT_EQ(scene.authored, kLevelsOfRock);
 }
@@ -232,13 +232,13 @@ TEST_F(LodFiles, ofTwoLevels0AreToldOf)
 TEST_F(LodFiles, standAloneWhereARuleSaysSo)
 {
     folder.write("hearth.toml", "[[rule]]\nmatch = 'props/rock*'\nimport.lods = []\n");
-    const Scene scene = sceneOf({"props"});
+    const Scene scene = cookScene({"props"});
     EXPECT_EQ(scene.instances, 4u) << "Rock_lod3, which the rule does not match, has no level 0";
     EXPECT_FALSE(scene.has_chunk);
     fs::remove(folder / "hearth.toml");
-    EXPECT_EQ(sceneOf({"props", "--set", "import.lods=[]"}).instances, 4u);
+    EXPECT_EQ(cookScene({"props", "--set", "import.lods=[]"}).instances, 4u);
     folder.write("hearth.toml", "[[rule]]\nmatch = 'props/*.ply'\nimport.lods = []\n");
-    const Scene but_one = sceneOf({"props"});
+    const Scene but_one = cookScene({"props"});
     EXPECT_EQ(but_one.instances, 3u);
     EXPECT_EQ(but_one.authored, (std::vector<Level>{kLevelsOfRock[1]}));
 }
@@ -255,7 +255,7 @@ TEST_F(LodFiles, areThoseThatARuleLists)
     for (const char* match : {"props/stone.obj", "props/stone*"})
     {
         folder.write("hearth.toml", std::string("[[rule]]\nmatch = '") + match + "'\n" + list);
-        const Scene scene = sceneOf({"props"});
+        const Scene scene = cookScene({"props"});
         EXPECT_EQ(scene.instances, 2u) << match;
         EXPECT_EQ(scene.authored, expected) << match;
     }
@@ -285,7 +285,7 @@ TEST_F(LodFiles, thatARuleMakesLevelsOfThemselvesAreRefused)
 TEST_F(LodFiles, ofACommandLineGoOverNamesAndRules)
 {
     folder.write("hearth.toml", "[[rule]]\nmatch = '**'\nimport.lods = ['none.obj']\n");
-    const Scene scene = sceneOf({"props/rock_LOD0.obj", "--lod", "5=props/tree.obj"});
+    const Scene scene = cookScene({"props/rock_LOD0.obj", "--lod", "5=props/tree.obj"});
     EXPECT_EQ(scene.authored, (std::vector<Level>{{2 * 2 * 2, 5, "tree.obj"}}));
     const ProgramEnd two = cook({"props/rock_LOD0.obj", "props/rock_LOD1.ply", "--lod", "5=props/tree.obj"});
     EXPECT_EQ(two.exit_code, 2);
@@ -307,7 +307,7 @@ TEST_F(LodFiles, thatCannotBeGroupedNameTheRemedy)
     EXPECT_NE(end.err.find("rock_LOD0.gltf: error: draws 2 meshes"), std::string::npos) << end.err;
     EXPECT_NE(end.err.find("import.lods = []"), std::string::npos) << end.err;
     folder.write("hearth.toml", "[[rule]]\nmatch = 'props/rock*'\nimport.lods = []\n");
-    EXPECT_EQ(sceneOf({"props"}).instances, 5u) << "two of them are of rock_LOD0.gltf";
+    EXPECT_EQ(cookScene({"props"}).instances, 5u) << "two of them are of rock_LOD0.gltf";
 }
 
 TEST_F(LodFiles, areNotOverwritten)
@@ -322,20 +322,20 @@ TEST_F(LodFiles, areNotOverwritten)
 
 TEST_F(LodFiles, areNamedByDepfilesAndByWhy)
 {
-    packOf({"props", "--depfile", "a.d"});
+    cookPack({"props", "--depfile", "a.d"});
     EXPECT_NE(folder.read("a.d").find("props/rock_LOD1.ply"), std::string::npos) << folder.read("a.d");
     const ProgramEnd again = cook({"props"});
-    EXPECT_EQ(countOf(again.err, "left out"), 0u) << "levels are used: " << again.err;
+    EXPECT_EQ(countOccurrences(again.err, "left out"), 0u) << "levels are used: " << again.err;
     folder.write("props/rock_LOD1.ply", plySquare(7));
     const std::string why = hearth({"why", "a.hearth"}).out;
     EXPECT_NE(why.find("rock_LOD1.ply: its content has changed"), std::string::npos) << why;
-    EXPECT_EQ(countOf(why, "tree.obj"), 0u) << why;
-    EXPECT_EQ(sceneOf({"props"}).authored.front(), (Level{2 * 7 * 7, 1, "rock_LOD1.ply"}));
+    EXPECT_EQ(countOccurrences(why, "tree.obj"), 0u) << why;
+    EXPECT_EQ(cookScene({"props"}).authored.front(), (Level{2 * 7 * 7, 1, "rock_LOD1.ply"}));
 }
 
 TEST_F(LodFiles, areCookedByAFarm)
 {
-    const std::string local = packOf({"props"});
+    const std::string local = cookPack({"props"});
     ASSERT_EQ(hearth({"plan", "props", "-o", "p.json", "--shards", "2"}).exit_code, 0);
     const Json plan = Json::parse(folder.read("p.json")).value();
     EXPECT_EQ(plan["cook"]["lods"].dump(), R"([["1=props/rock_LOD1.ply","3=props/Rock_lod3.obj"],[]])");

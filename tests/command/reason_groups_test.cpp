@@ -11,7 +11,7 @@ namespace hearth::command
 namespace
 {
 
-graph::Action actionOf(const std::string& cooker, const std::string& subject)
+graph::Action makeAction(const std::string& cooker, const std::string& subject)
 {
     graph::Action action;
     action.cooker = cooker;
@@ -26,11 +26,11 @@ TEST(ReasonGroups, haveALineForEachReason)
     ReasonGroups groups;
     for (const char* source : {"a.glb", "b.glb", "c.glb", "d.glb", "e.glb"})
     {
-        groups.add(actionOf("import", source), "", {"forced"});
-        groups.add(actionOf("clusters", source), "", {"import runs before it", "it failed last time"});
+        groups.add(makeAction("import", source), "", {"forced"});
+        groups.add(makeAction("clusters", source), "", {"import runs before it", "it failed last time"});
     }
-    groups.add(actionOf("import", "f.glb"), " (failed)", {"forced"});
-    groups.add(actionOf("link", "x.hearth"), "", {"forced"});
+    groups.add(makeAction("import", "f.glb"), " (failed)", {"forced"});
+    groups.add(makeAction("link", "x.hearth"), "", {"forced"});
     EXPECT_EQ(groups.text(), "  import     5 sources (a.glb, b.glb, c.glb and 2 more): forced\n"
                              "  clusters   5 sources (a.glb, b.glb, c.glb and 2 more): import runs before "
                              "it; it failed last time\n"
@@ -41,12 +41,12 @@ TEST(ReasonGroups, haveALineForEachReason)
 TEST(ReasonGroups, areTheSameWhereEachSourceNamesItself)
 {
     ReasonGroups groups;
-    groups.add(actionOf("import", "a.glb"), "", {"a.glb: its content has changed"});
-    groups.add(actionOf("textures", "a.glb"), "", {"what import made of a.glb: its content has changed"});
-    groups.add(actionOf("import", "b.glb"), "", {"b.glb: its content has changed"});
-    groups.add(actionOf("textures", "b.glb"), "", {"what import made of b.glb: its content has changed"});
-    groups.add(actionOf("import", "c.glb"), "", {"wood.png: its content has changed"});
-    groups.add(actionOf("skinning", "a.glb"), "", {"a.glb: is read now"});
+    groups.add(makeAction("import", "a.glb"), "", {"a.glb: its content has changed"});
+    groups.add(makeAction("textures", "a.glb"), "", {"what import made of a.glb: its content has changed"});
+    groups.add(makeAction("import", "b.glb"), "", {"b.glb: its content has changed"});
+    groups.add(makeAction("textures", "b.glb"), "", {"what import made of b.glb: its content has changed"});
+    groups.add(makeAction("import", "c.glb"), "", {"wood.png: its content has changed"});
+    groups.add(makeAction("skinning", "a.glb"), "", {"a.glb: is read now"});
     EXPECT_EQ(groups.text(),
               "  import     2 sources (a.glb, b.glb): its content has changed\n"
               "  textures   2 sources (a.glb, b.glb): what import made of it: its content has changed\n"

@@ -101,7 +101,7 @@ TEST_F(SameBytes, forAnyOrder)
         orders.insert(programs.read(std::string("order") + seed));
     }
     EXPECT_EQ(orders.size(), 3u) << "none was like another";
-    EXPECT_GE(countOf(*orders.begin(), "\n"), 17u) << *orders.begin();
+    EXPECT_GE(countOccurrences(*orders.begin(), "\n"), 17u) << *orders.begin();
 }
 
 } // namespace hearth::test

@@ -144,8 +144,8 @@ TEST_F(SecondCook, repeatsTheWarnings)
     const ProgramEnd first = cook({"tree.gltf", "-o", "a.hearth"});
     const ProgramEnd second = cook({"./tree.gltf", "-o", "a.hearth"});
     EXPECT_TRUE(isUpToDate(second)) << second.err;
-    EXPECT_EQ(countOf(first.err, "tree.gltf|/images/0: warning: "), 1u) << first.err;
-    EXPECT_EQ(countOf(second.err, "\n./tree.gltf|/images/0: warning: ") +
+    EXPECT_EQ(countOccurrences(first.err, "tree.gltf|/images/0: warning: "), 1u) << first.err;
+    EXPECT_EQ(countOccurrences(second.err, "\n./tree.gltf|/images/0: warning: ") +
                   (second.err.starts_with("./tree.gltf|/images/0: warning: ") ? 1u : 0u),
               1u)
         << second.err;
@@ -165,27 +165,30 @@ TEST_F(SecondCook, foldsTheWarningsThatWereTold)
         return cook(all, {"HEARTH_LOG=normal"}).err;
     };
     const std::string first = cookWith({});
-    EXPECT_EQ(countOf(first, warning), 1u) << first;
-    EXPECT_EQ(
-        countOf(first, "\n2 warnings: 1 W1302 (an image is missing; a placeholder is drawn), 1 W1401 ("), 1u)
+    EXPECT_EQ(countOccurrences(first, warning), 1u) << first;
+    EXPECT_EQ(countOccurrences(
+                  first, "\n2 warnings: 1 W1302 (an image is missing; a placeholder is drawn), 1 W1401 ("),
+              1u)
         << first;
     for (int i = 0; i < 2; ++i)
     {
         const std::string again = cookWith({});
-        EXPECT_EQ(countOf(again, warning), 0u) << again;
-        EXPECT_EQ(countOf(again, folded), 1u) << again;
+        EXPECT_EQ(countOccurrences(again, warning), 0u) << again;
+        EXPECT_EQ(countOccurrences(again, folded), 1u) << again;
     }
     EXPECT_EQ(cookWith({"-q"}), "");
-    EXPECT_EQ(countOf(cookWith({"-v"}), warning), 1u);
-    EXPECT_EQ(countOf(cookWith({"--log-format", "json"}), "W1302"), 1u) << "a program is told each time";
-    EXPECT_EQ(countOf(cookWith({"--warnings-as-errors"}), warning), 1u) << "why there is no pack";
-    EXPECT_EQ(countOf(cook({"tree.gltf", "-o", "b.hearth"}).err, warning), 1u)
-        << "the cache has it, but no cook into this pack has told it";
+    EXPECT_EQ(countOccurrences(cookWith({"-v"}), warning), 1u);
+    EXPECT_EQ(countOccurrences(cookWith({"--log-format", "json"}), "W1302"), 1u)
+        << "a script sees it each time";
+    EXPECT_EQ(countOccurrences(cookWith({"--warnings-as-errors"}), warning), 1u) << "why there is no pack";
+    EXPECT_EQ(countOccurrences(cook({"tree.gltf", "-o", "b.hearth"}).err, warning), 1u)
+        << "the cache has it, but no cook into this pack has reported it";
     // another source does not unfold the warning; a change of its own source prints it in full
-    EXPECT_EQ(countOf(cook({"house.obj", "tree.gltf", "-o", "a.hearth"}, {"HEARTH_LOG=normal"}).err, folded),
+    EXPECT_EQ(countOccurrences(cook({"house.obj", "tree.gltf", "-o", "a.hearth"}, {"HEARTH_LOG=normal"}).err,
+                               folded),
               1u);
     writeGltf(folder, "tree", 0.5F);
-    EXPECT_EQ(countOf(cook({"house.obj", "tree.gltf", "-o", "a.hearth"}).err, warning), 1u);
+    EXPECT_EQ(countOccurrences(cook({"house.obj", "tree.gltf", "-o", "a.hearth"}).err, warning), 1u);
 }
 
 TEST_F(SecondCook, anEditOfAnOutputHarmsNothing)
@@ -341,10 +344,10 @@ TEST_F(SecondCook, whatFailedIsTriedAgain)
     writeObj(folder, "house", 3);
     const ProgramEnd end = cook({"tree.gltf", "house.obj", "-o", "a.hearth"});
     EXPECT_EQ(end.exit_code, 65);
-    EXPECT_EQ(countOf(end.err, ": error: "), 2u) << "at once, and again at the end: " << end.err;
+    EXPECT_EQ(countOccurrences(end.err, ": error: "), 2u) << "at once, and again at the end: " << end.err;
     EXPECT_NE(end.err.find("a.hearth: not linked, because a dependency failed: 1 of 2 sources"),
               std::string::npos);
-    EXPECT_EQ(countOf(end.err, "clusters  "), 1u) << "the other source was cooked: " << end.err;
+    EXPECT_EQ(countOccurrences(end.err, "clusters  "), 1u) << "the other source was cooked: " << end.err;
     EXPECT_EQ(folder.read("a.hearth"), pack);
     const std::string why = hearth({"why", "a.hearth"}).out;
     EXPECT_NE(why.find("import     tree.gltf (failed): tree.bin: its content has changed"), std::string::npos)
@@ -362,12 +365,13 @@ TEST_F(SecondCook, severalFailuresAreAllTold)
     folder.write("tree.bin", "short");
     const ProgramEnd end = cook({"tree.gltf", "missing.obj", "house.obj", "-o", "a.hearth"});
     EXPECT_EQ(end.exit_code, 1) << "65 and 66";
-    EXPECT_EQ(countOf(end.err.substr(end.err.find("all failures again:\n")), ": error: "), 2u) << end.err;
+    EXPECT_EQ(countOccurrences(end.err.substr(end.err.find("all failures again:\n")), ": error: "), 2u)
+        << end.err;
     EXPECT_NE(end.err.find("2 of 3 sources"), std::string::npos) << end.err;
     EXPECT_FALSE(folder.has("a.hearth"));
-    EXPECT_EQ(
-        countOf(cook({"tree.gltf", "missing.obj", "-o", "a.hearth", "--fail-fast", "-j1"}).err, ": error: "),
-        1u);
+    EXPECT_EQ(countOccurrences(cook({"tree.gltf", "missing.obj", "-o", "a.hearth", "--fail-fast", "-j1"}).err,
+                               ": error: "),
+              1u);
 }
 
 TEST_F(SecondCook, aDryRunWritesNothing)
@@ -443,19 +447,19 @@ TEST_F(SecondCook, aCacheThatCannotBeUsedOnlyWarns)
     folder.write("file", "not a folder");
     const ProgramEnd end = cook({"house.obj", "-o", "a.hearth", "--cache", "dir:file"});
     EXPECT_EQ(ran(end).size(), 5u);
-    EXPECT_EQ(countOf(end.err, "[W4100]"), 1u) << end.err;
+    EXPECT_EQ(countOccurrences(end.err, "[W4100]"), 1u) << end.err;
     EXPECT_TRUE(command::verifyFile(folder / "a.hearth").ok());
     EXPECT_EQ(ran(cook({"house.obj", "-o", "a.hearth"}, {"HEARTH_CACHE=off"})).size(), 5u);
     const ProgramEnd nowhere = cook({"house.obj", "-o", "a.hearth", "--cache", "dir:nowhere,ro"});
     EXPECT_EQ(ran(nowhere).size(), 5u);
-    EXPECT_EQ(countOf(nowhere.err, "W4100"), 0u) << nowhere.err;
+    EXPECT_EQ(countOccurrences(nowhere.err, "W4100"), 0u) << nowhere.err;
     EXPECT_FALSE(folder.has("nowhere"));
     EXPECT_EQ(cook({"house.obj", "-o", "a.hearth", "--cache", "ftp://host/x"}).exit_code, 2);
 }
 
 TEST_F(SecondCook, tellsWatchersWhatHappens)
 {
-    const auto eventsOf = [&](const std::vector<std::string>& arguments)
+    const auto readEvents = [&](const std::vector<std::string>& arguments)
     {
         cook(arguments);
         std::istringstream lines(folder.read("events"));
@@ -464,7 +468,7 @@ TEST_F(SecondCook, tellsWatchersWhatHappens)
             events.push_back(Json::parse(line).value());
         return events;
     };
-    const auto first = eventsOf({"house.obj", "-o", "a.hearth", "--events", "events"});
+    const auto first = readEvents({"house.obj", "-o", "a.hearth", "--events", "events"});
     ASSERT_EQ(first.size(), 12u) << "a start and an end of five cookers, and of the cook";
     EXPECT_EQ(first.front()["schema"], "hearth.events/1");
     EXPECT_EQ(first.front()["actions"], 5);
@@ -474,11 +478,11 @@ TEST_F(SecondCook, tellsWatchersWhatHappens)
     EXPECT_GT(first[2]["bytes"].get<double>(), 0);
     EXPECT_EQ(first.back()["event"], "done");
     EXPECT_EQ(first.back()["exit"], 0);
-    const auto second = eventsOf({"house.obj", "-o", "a.hearth", "--events", "events"});
+    const auto second = readEvents({"house.obj", "-o", "a.hearth", "--events", "events"});
     ASSERT_EQ(second.size(), 7u);
     EXPECT_EQ(second[1]["state"], "kept");
     folder.write("tree.bin", "short");
-    const auto failed = eventsOf({"tree.gltf", "-o", "a.hearth", "--events", "events"});
+    const auto failed = readEvents({"tree.gltf", "-o", "a.hearth", "--events", "events"});
     ASSERT_EQ(failed.size(), 5u);
     EXPECT_EQ(failed[2]["state"], "failed");
     EXPECT_EQ(failed[3]["event"], "error");

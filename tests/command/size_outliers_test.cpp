@@ -49,9 +49,10 @@ TEST_F(SizeOutliers, areNamedAsTheyWereTyped)
 {
     const ProgramEnd end = cook(kSources);
     EXPECT_EQ(end.exit_code, 0) << end.err;
-    EXPECT_EQ(countOf(end.err, kWarning), 1u) << end.err;
-    EXPECT_EQ(countOf(end.err, "[W1410]"), 1u) << "of one alone: " << end.err;
-    EXPECT_EQ(countOf(end.err, "1 warning: 1 W1410 (a source is much larger or smaller than the others of "
+    EXPECT_EQ(countOccurrences(end.err, kWarning), 1u) << end.err;
+    EXPECT_EQ(countOccurrences(end.err, "[W1410]"), 1u) << "of one alone: " << end.err;
+    EXPECT_EQ(countOccurrences(end.err,
+                               "1 warning: 1 W1410 (a source is much larger or smaller than the others of "
                                "its cook)\n"),
               1u)
         << end.err;
@@ -62,21 +63,23 @@ TEST_F(SizeOutliers, areToldOrCountedWhenAllIsInTheCache)
     ASSERT_EQ(cook(kSources).exit_code, 0);
     const ProgramEnd again = cook(kSources);
     EXPECT_NE(again.err.find("up to date"), std::string::npos) << again.err;
-    EXPECT_EQ(countOf(again.err, kWarning), 0u) << "told by the cook before: " << again.err;
-    EXPECT_EQ(countOf(again.err, "1 warning of unchanged sources, as in the cook before: 1 W1410"), 1u)
+    EXPECT_EQ(countOccurrences(again.err, kWarning), 0u) << "reported by the cook before: " << again.err;
+    EXPECT_EQ(countOccurrences(again.err, "1 warning of unchanged sources, as in the cook before: 1 W1410"),
+              1u)
         << again.err;
 
     std::vector<std::string> verbose = kSources;
     verbose.emplace_back("-v");
-    EXPECT_EQ(countOf(cook(verbose).err, kWarning), 1u);
+    EXPECT_EQ(countOccurrences(cook(verbose).err, kWarning), 1u);
 
     // the same from the cache alone under another name: the warning is repeated
     std::filesystem::rename(folder / "busts", folder / "heads");
     std::vector<std::string> elsewhere = kSources;
     elsewhere[1] = "heads/hero.obj";
     const ProgramEnd moved = cook(elsewhere, "other.hearth");
-    EXPECT_EQ(countOf(moved.err, "heads/hero.obj: warning: its largest side is 500 m"), 1u) << moved.err;
-    EXPECT_EQ(countOf(moved.err, "busts"), 0u) << moved.err;
+    EXPECT_EQ(countOccurrences(moved.err, "heads/hero.obj: warning: its largest side is 500 m"), 1u)
+        << moved.err;
+    EXPECT_EQ(countOccurrences(moved.err, "busts"), 0u) << moved.err;
 }
 
 TEST_F(SizeOutliers, mayCountAsErrorsAndMayBeLeftOut)
@@ -90,7 +93,7 @@ TEST_F(SizeOutliers, mayCountAsErrorsAndMayBeLeftOut)
     fatal.emplace_back("--warnings-as-errors=W1410");
     const ProgramEnd end = cook(fatal);
     EXPECT_EQ(end.exit_code, 1);
-    EXPECT_EQ(countOf(end.err, kWarning), 1u) << end.err;
+    EXPECT_EQ(countOccurrences(end.err, kWarning), 1u) << end.err;
     EXPECT_NE(end.err.find("not written, because warnings count as errors: 1"), std::string::npos) << end.err;
     EXPECT_FALSE(folder.has("all.hearth"));
     EXPECT_EQ(cook(fatal).exit_code, 1) << "and again from the cache";
@@ -113,7 +116,7 @@ TEST_F(SizeOutliers, standInTheReport)
 
 TEST_F(SizeOutliers, ofTwoAndOfSourcesThatDrawNothingThereAreNone)
 {
-    EXPECT_EQ(countOf(cook({"crate.obj", "busts/hero.obj"}).err, "W1410"), 0u);
+    EXPECT_EQ(countOccurrences(cook({"crate.obj", "busts/hero.obj"}).err, "W1410"), 0u);
     for (const char* name : {"sun.gltf", "moon.gltf"})
         folder.write(
             name, R"({"asset":{"version":"2.0"},"extensionsUsed":["KHR_lights_punctual"],"scene":0,)"
@@ -121,7 +124,7 @@ TEST_F(SizeOutliers, ofTwoAndOfSourcesThatDrawNothingThereAreNone)
                   R"("extensions":{"KHR_lights_punctual":{"lights":[{"type":"directional"}]}}})");
     const ProgramEnd lights = cook({"crate.obj", "busts/hero.obj", "sun.gltf", "moon.gltf"});
     EXPECT_EQ(lights.exit_code, 0) << lights.err;
-    EXPECT_EQ(countOf(lights.err, "W1410"), 0u) << lights.err;
+    EXPECT_EQ(countOccurrences(lights.err, "W1410"), 0u) << lights.err;
 }
 
 TEST_F(SizeOutliers, mayBeTooSmallAsWell)
@@ -129,15 +132,15 @@ TEST_F(SizeOutliers, mayBeTooSmallAsWell)
     writeObj(folder, "house", 60);
     writeObj(folder, "tower", 70);
     const ProgramEnd end = cook({"crate.obj", "house.obj", "tower.obj"});
-    EXPECT_EQ(countOf(end.err,
-                      "crate.obj: warning: its largest side is 1 m, 60 times smaller than that of the "
-                      "median of 3 sources, 60 m [W1410]"),
+    EXPECT_EQ(countOccurrences(
+                  end.err, "crate.obj: warning: its largest side is 1 m, 60 times smaller than that of the "
+                           "median of 3 sources, 60 m [W1410]"),
               1u)
         << end.err;
     // 2.5 m is a 24th of 60 m, and 3.5 m a 17th
     writeObj(folder, "door", 3.5);
-    EXPECT_EQ(countOf(cook({"door.obj", "house.obj", "tower.obj"}).err, "W1410"), 0u);
-    EXPECT_EQ(countOf(cook({"post.obj", "house.obj", "tower.obj"}).err, "[W1410]"), 1u);
+    EXPECT_EQ(countOccurrences(cook({"door.obj", "house.obj", "tower.obj"}).err, "W1410"), 0u);
+    EXPECT_EQ(countOccurrences(cook({"post.obj", "house.obj", "tower.obj"}).err, "[W1410]"), 1u);
 }
 
 } // namespace hearth::test

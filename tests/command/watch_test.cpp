@@ -29,7 +29,7 @@ bool comes(const std::function<bool()>& condition)
     return false;
 }
 
-std::string pathOf(const std::optional<command::FileWatch::Change>& change)
+std::string getPath(const std::optional<command::FileWatch::Change>& change)
 {
     return change ? change->path : "";
 }
@@ -59,7 +59,7 @@ protected:
         return ended;
     }
 
-    size_t cooks() const { return countOf(folder.errSoFar(), "watching "); }
+    size_t cooks() const { return countOccurrences(folder.errSoFar(), "watching "); }
     bool waitsAfter(size_t cooks_before)
     {
         return comes([&] { return cooks() == cooks_before + 1; });
@@ -102,7 +102,7 @@ TEST_F(Watch, aFailureWaitsForItsMend)
     fs::remove(folder / "tree.bin");
     start({"house.obj", "tree.gltf"});
     ASSERT_TRUE(waitsAfter(0)) << folder.errSoFar();
-    EXPECT_EQ(countOf(folder.errSoFar(), ": error: "), 2u)
+    EXPECT_EQ(countOccurrences(folder.errSoFar(), ": error: "), 2u)
         << "at once, and again at the end: " << folder.errSoFar();
     EXPECT_FALSE(folder.has("a.hearth"));
     writeGltf(folder, "tree");
@@ -111,7 +111,7 @@ TEST_F(Watch, aFailureWaitsForItsMend)
     ASSERT_TRUE(comes(waits)) << folder.errSoFar();
     // an image that was probed for but missing
     folder.write("tree.tga", tgaImage(7));
-    EXPECT_TRUE(comes([&] { return countOf(folder.errSoFar(), "tree.tga has changed") > 0; }))
+    EXPECT_TRUE(comes([&] { return countOccurrences(folder.errSoFar(), "tree.tga has changed") > 0; }))
         << folder.errSoFar();
     EXPECT_TRUE(comes(waits)) << folder.errSoFar();
     EXPECT_EQ(end(SIGTERM).exit_code, 130);
@@ -199,13 +199,13 @@ TEST(FileWatch, tellsOfFilesInFoldersThatComeLater)
     ASSERT_TRUE(files->watch({path, path}, fs::file_time_type::clock::now()).ok());
     EXPECT_EQ(files->size(), 1u);
     fs::create_directories(folder / "textures/wood");
-    EXPECT_EQ(pathOf(files->wait()), path);
+    EXPECT_EQ(getPath(files->wait()), path);
     ASSERT_TRUE(files->watch({path}, fs::file_time_type::clock::now()).ok());
     folder.write("textures/wood/oak.tga", "oak");
-    EXPECT_EQ(pathOf(files->wait()), path);
+    EXPECT_EQ(getPath(files->wait()), path);
     fs::remove_all(folder / "textures");
     ASSERT_TRUE(files->watch({path}, fs::file_time_type::clock::now()).ok());
-    EXPECT_EQ(pathOf(files->wait()), path);
+    EXPECT_EQ(getPath(files->wait()), path);
 }
 
 TEST(FileWatch, looksAtTimesInNewFoldersOnly)
@@ -216,11 +216,11 @@ TEST(FileWatch, looksAtTimesInNewFoldersOnly)
     ASSERT_TRUE(files.ok());
     const auto long_ago = fs::file_time_type::min();
     ASSERT_TRUE(files->watch({folder / "here.obj"}, long_ago).ok());
-    EXPECT_EQ(pathOf(files->wait()), folder / "here.obj") << "written before anybody looked";
+    EXPECT_EQ(getPath(files->wait()), folder / "here.obj") << "written before anybody looked";
     // a watched folder reports changes by itself
     ASSERT_TRUE(files->watch({folder / "here.obj", folder / "later.obj"}, long_ago).ok());
     folder.write("later.obj", "");
-    EXPECT_EQ(pathOf(files->wait()), folder / "later.obj");
+    EXPECT_EQ(getPath(files->wait()), folder / "later.obj");
 }
 
 TEST(FileWatch, tellsOfFilesThatComeIntoFolders)
@@ -238,17 +238,17 @@ TEST(FileWatch, tellsOfFilesThatComeIntoFolders)
     EXPECT_EQ(files->size(), 1u);
     folder.write("there.obj", "");
     const auto change = files->wait();
-    EXPECT_EQ(pathOf(change), folder.path());
+    EXPECT_EQ(getPath(change), folder.path());
     EXPECT_TRUE(change->is_in_folder);
     // a watched file has priority over other changes
     folder.write("elsewhere.obj", "");
     folder.write("here.obj", "another");
-    EXPECT_EQ(pathOf(files->wait()), folder / "here.obj");
+    EXPECT_EQ(getPath(files->wait()), folder / "here.obj");
     fs::create_directory(folder / "later");
     (void)files->wait();
     ASSERT_TRUE(watch().ok());
     folder.write("later/tree.obj", "");
-    EXPECT_EQ(pathOf(files->wait()), folder / "later");
+    EXPECT_EQ(getPath(files->wait()), folder / "later");
 }
 
 TEST(FileWatch, tellsOfFilesBehindLinks)
@@ -261,7 +261,7 @@ TEST(FileWatch, tellsOfFilesBehindLinks)
     ASSERT_TRUE(files.ok());
     ASSERT_TRUE(files->watch({folder / "oak.tga"}, fs::file_time_type::clock::now()).ok());
     folder.write("store/oak.tga", "another");
-    EXPECT_EQ(pathOf(files->wait()), fs::canonical(folder / "store/oak.tga").string());
+    EXPECT_EQ(getPath(files->wait()), fs::canonical(folder / "store/oak.tga").string());
 }
 
 } // namespace hearth::test

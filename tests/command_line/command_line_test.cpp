@@ -19,7 +19,7 @@ using ::testing::Not;
 
 using Words = std::vector<std::string>;
 
-std::string faultOf(CommandLine& command_line, const Words& words)
+std::string getFault(CommandLine& command_line, const Words& words)
 {
     return command_line.parseWords(words).fault;
 }
@@ -47,9 +47,9 @@ TEST(CommandLine, setsVariablesOfEveryType)
     command_line.addOption("--never", never, "");
     command_line.addFlag("-f,--flag", flag, "");
     command_line.addFlag("--other-flag", other_flag, "");
-    ASSERT_EQ(faultOf(command_line,
-                      {"word", "--integer", "-3", "--small=4294967295", "--large", "18446744073709551615",
-                       "--single", "0.5", "-n", "1e300", "--maybe", "7", "-f"}),
+    ASSERT_EQ(getFault(command_line,
+                       {"word", "--integer", "-3", "--small=4294967295", "--large", "18446744073709551615",
+                        "--single", "0.5", "-n", "1e300", "--maybe", "7", "-f"}),
               "");
     EXPECT_EQ(text, "word");
     EXPECT_EQ(integer, -3);
@@ -72,7 +72,7 @@ TEST(CommandLine, leavesVariablesOfOptionsThatAreNotGiven)
     command_line.addOption("--text", text, "");
     command_line.addOption("--number", number, "");
     command_line.addOption("--words", words, "");
-    ASSERT_EQ(faultOf(command_line, {}), "");
+    ASSERT_EQ(getFault(command_line, {}), "");
     EXPECT_EQ(text, "before");
     EXPECT_EQ(number, 5u);
     EXPECT_THAT(words, ElementsAre("a"));
@@ -85,7 +85,7 @@ TEST(CommandLine, listsTakeAllWordsOrOneEach)
     command_line.addOption("FILES", files, "");
     command_line.addOption("--all", all, "");
     command_line.addOption("--each", each, "").oneValueEach();
-    ASSERT_EQ(faultOf(command_line, {"--each", "1", "x", "--each", "2", "y", "--all", "3", "4"}), "");
+    ASSERT_EQ(getFault(command_line, {"--each", "1", "x", "--each", "2", "y", "--all", "3", "4"}), "");
     EXPECT_THAT(files, ElementsAre("x", "y"));
     EXPECT_THAT(all, ElementsAre("3", "4"));
     EXPECT_THAT(each, ElementsAre("1", "2"));
@@ -100,13 +100,13 @@ TEST(CommandLine, listsOfNumbersAreSplitAndCounted)
     command_line.addOption("--camera", camera, "").delimiter(',').expected(2);
     command_line.addOption("--sizes", sizes, "").delimiter(',');
     command_line.addOption("--point", points, "").delimiter(',').expected(3);
-    ASSERT_EQ(faultOf(command_line,
-                      {"--camera", "1,2", "--sizes", "1", "2,3", "--point", "1,2,3", "--point", "4,5,6"}),
+    ASSERT_EQ(getFault(command_line,
+                       {"--camera", "1,2", "--sizes", "1", "2,3", "--point", "1,2,3", "--point", "4,5,6"}),
               "");
     EXPECT_THAT(camera, ElementsAre(1.0f, 2.0f));
     EXPECT_THAT(sizes, ElementsAre(1.0, 2.0, 3.0));
     EXPECT_THAT(points, ElementsAre(ElementsAre(1, 2, 3), ElementsAre(4, 5, 6)));
-    EXPECT_THAT(faultOf(command_line, {"--camera", "1"}), HasSubstr("--camera"));
+    EXPECT_THAT(getFault(command_line, {"--camera", "1"}), HasSubstr("--camera"));
 }
 
 TEST(CommandLine, flagsMayHaveAValueOrNoVariable)
@@ -115,10 +115,10 @@ TEST(CommandLine, flagsMayHaveAValueOrNoVariable)
     std::string fatal;
     command_line.addFlag("--fatal{all}", fatal, "");
     const Option keeps_going = command_line.addFlag("-k,--keep-going", "");
-    ASSERT_EQ(faultOf(command_line, {"--fatal", "-k", "--keep-going"}), "");
+    ASSERT_EQ(getFault(command_line, {"--fatal", "-k", "--keep-going"}), "");
     EXPECT_EQ(fatal, "all");
     EXPECT_EQ(keeps_going.count(), 2u);
-    ASSERT_EQ(faultOf(command_line, {"--fatal=W1"}), "");
+    ASSERT_EQ(getFault(command_line, {"--fatal=W1"}), "");
     EXPECT_EQ(fatal, "W1");
     EXPECT_EQ(keeps_going.count(), 0u);
 }
@@ -133,9 +133,9 @@ TEST(CommandLine, choicesOfAnEnumeration)
     CommandLine command_line("Test");
     Color color = Color::red;
     command_line.addChoice("--color", color, {{"red", Color::red}, {"green", Color::green}}, "");
-    ASSERT_EQ(faultOf(command_line, {"--color", "green"}), "");
+    ASSERT_EQ(getFault(command_line, {"--color", "green"}), "");
     EXPECT_EQ(color, Color::green);
-    EXPECT_THAT(faultOf(command_line, {"--color", "blue"}), HasSubstr("blue"));
+    EXPECT_THAT(getFault(command_line, {"--color", "blue"}), HasSubstr("blue"));
 }
 
 TEST(CommandLine, refusesWordsThatAreNoNumber)
@@ -145,12 +145,12 @@ TEST(CommandLine, refusesWordsThatAreNoNumber)
     double real = 0;
     command_line.addOption("--number", number, "");
     command_line.addOption("--real", real, "");
-    EXPECT_THAT(faultOf(command_line, {"--number", "x"}), HasSubstr("--number"));
-    EXPECT_THAT(faultOf(command_line, {"--number", "-1"}), HasSubstr("--number"));
-    EXPECT_THAT(faultOf(command_line, {"--number", "4294967296"}), HasSubstr("--number"));
-    EXPECT_THAT(faultOf(command_line, {"--real", "1m"}), HasSubstr("--real"));
-    EXPECT_THAT(faultOf(command_line, {"--unknown"}), HasSubstr("--unknown"));
-    EXPECT_THAT(faultOf(command_line, {"--number"}), HasSubstr("--number"));
+    EXPECT_THAT(getFault(command_line, {"--number", "x"}), HasSubstr("--number"));
+    EXPECT_THAT(getFault(command_line, {"--number", "-1"}), HasSubstr("--number"));
+    EXPECT_THAT(getFault(command_line, {"--number", "4294967296"}), HasSubstr("--number"));
+    EXPECT_THAT(getFault(command_line, {"--real", "1m"}), HasSubstr("--real"));
+    EXPECT_THAT(getFault(command_line, {"--unknown"}), HasSubstr("--unknown"));
+    EXPECT_THAT(getFault(command_line, {"--number"}), HasSubstr("--number"));
 }
 
 TEST(CommandLine, holdsValuesToTheirRange)
@@ -165,8 +165,8 @@ TEST(CommandLine, holdsValuesToTheirRange)
     command_line.addOption("--large", large, "").range(uint64_t{1}, uint64_t{1} << 40);
     command_line.addOption("--number", number, "").range(0.0, 0.5);
     command_line.addOption("--distance", distance, "").positive();
-    EXPECT_EQ(faultOf(command_line, {"--integer", "-1", "--small", "3", "--large", "1099511627776",
-                                     "--number", "0.5", "--distance", "1e-9"}),
+    EXPECT_EQ(getFault(command_line, {"--integer", "-1", "--small", "3", "--large", "1099511627776",
+                                      "--number", "0.5", "--distance", "1e-9"}),
               "");
     const std::vector<std::array<const char*, 2>> wrong{{"--integer", "2"},
                                                         {"--small", "0"},
@@ -174,7 +174,7 @@ TEST(CommandLine, holdsValuesToTheirRange)
                                                         {"--number", "0.6"},
                                                         {"--distance", "0"}};
     for (const auto& [option, value] : wrong)
-        EXPECT_THAT(faultOf(command_line, {option, value}), HasSubstr("not in range")) << option;
+        EXPECT_THAT(getFault(command_line, {option, value}), HasSubstr("not in range")) << option;
 }
 
 TEST(CommandLine, holdsValuesToTheirChoicesAndChecks)
@@ -187,10 +187,10 @@ TEST(CommandLine, holdsValuesToTheirChoicesAndChecks)
     command_line.addOption("--block", block, "").choices(blocks);
     command_line.addOption("--name", name, "")
         .check([](const std::string& value) { return value == "bad" ? "this is bad" : ""; });
-    EXPECT_EQ(faultOf(command_line, {"--format", "json", "--block", "8", "--name", "good"}), "");
-    EXPECT_THAT(faultOf(command_line, {"--format", "xml"}), HasSubstr("xml not in {text,json}"));
-    EXPECT_THAT(faultOf(command_line, {"--block", "6"}), HasSubstr("6 not in {4,8}"));
-    EXPECT_THAT(faultOf(command_line, {"--name", "bad"}), HasSubstr("this is bad"));
+    EXPECT_EQ(getFault(command_line, {"--format", "json", "--block", "8", "--name", "good"}), "");
+    EXPECT_THAT(getFault(command_line, {"--format", "xml"}), HasSubstr("xml not in {text,json}"));
+    EXPECT_THAT(getFault(command_line, {"--block", "6"}), HasSubstr("6 not in {4,8}"));
+    EXPECT_THAT(getFault(command_line, {"--name", "bad"}), HasSubstr("this is bad"));
 }
 
 TEST(CommandLine, holdsOptionsToEachOther)
@@ -202,10 +202,10 @@ TEST(CommandLine, holdsOptionsToEachOther)
     const Option option_a = command_line.addFlag("-a", a, "");
     command_line.addFlag("-b", b, "").needs(option_a);
     command_line.addFlag("-c", c, "").excludes(option_a);
-    EXPECT_EQ(faultOf(command_line, {"file", "-a", "-b"}), "");
-    EXPECT_EQ(faultOf(command_line, {}), "FILE is required");
-    EXPECT_THAT(faultOf(command_line, {"file", "-b"}), HasSubstr("requires"));
-    EXPECT_THAT(faultOf(command_line, {"file", "-a", "-c"}), HasSubstr("excludes"));
+    EXPECT_EQ(getFault(command_line, {"file", "-a", "-b"}), "");
+    EXPECT_EQ(getFault(command_line, {}), "FILE is required");
+    EXPECT_THAT(getFault(command_line, {"file", "-b"}), HasSubstr("requires"));
+    EXPECT_THAT(getFault(command_line, {"file", "-a", "-c"}), HasSubstr("excludes"));
 }
 
 TEST(CommandLine, checksTheWholeBeforeItActs)
@@ -216,9 +216,9 @@ TEST(CommandLine, checksTheWholeBeforeItActs)
     command_line.addOption("--number", number, "");
     command_line.setCheck([&number] { return number > 5 ? "--number: too many" : ""; });
     command_line.setAction([&] { acted_on = number; });
-    EXPECT_EQ(faultOf(command_line, {"--number", "6"}), "--number: too many");
+    EXPECT_EQ(getFault(command_line, {"--number", "6"}), "--number: too many");
     EXPECT_EQ(acted_on, 0u);
-    EXPECT_EQ(faultOf(command_line, {"--number", "5"}), "");
+    EXPECT_EQ(getFault(command_line, {"--number", "5"}), "");
     EXPECT_EQ(acted_on, 5u);
 }
 
@@ -231,17 +231,17 @@ TEST(CommandLine, actsForTheSubcommandThatIsNamed)
         command_line.addSubcommand(name, "").setAction([&acted, name] { acted += name; });
     command_line.addSubcommand("farm", "").addSubcommand("slurm", "").setAction([&] { acted += "slurm"; });
     command_line.requireSubcommand();
-    EXPECT_THAT(faultOf(command_line, {}), HasSubstr("subcommand is required"));
+    EXPECT_THAT(getFault(command_line, {}), HasSubstr("subcommand is required"));
     EXPECT_FALSE(command_line.hasSubcommand());
-    EXPECT_EQ(faultOf(command_line, {"look"}), "");
+    EXPECT_EQ(getFault(command_line, {"look"}), "");
     EXPECT_TRUE(command_line.hasSubcommand());
     EXPECT_EQ(acted, "look");
-    EXPECT_EQ(faultOf(command_line, {"farm", "slurm"}), "");
+    EXPECT_EQ(getFault(command_line, {"farm", "slurm"}), "");
     EXPECT_EQ(acted, "lookslurm");
     // options of the whole stand before its subcommands, unless they are shared
-    EXPECT_THAT(faultOf(command_line, {"cook", "-C", "x"}), HasSubstr("-C"));
+    EXPECT_THAT(getFault(command_line, {"cook", "-C", "x"}), HasSubstr("-C"));
     command_line.shareOptions();
-    EXPECT_EQ(faultOf(command_line, {"cook", "-C", "x"}), "");
+    EXPECT_EQ(getFault(command_line, {"cook", "-C", "x"}), "");
     EXPECT_EQ(directory, "x");
 }
 

@@ -76,19 +76,19 @@ protected:
     void cookWhatHasChanged(const std::string& target, const std::string& pack)
     {
         const std::string first = build(target);
-        EXPECT_EQ(countOf(first, "Cooking " + pack), 1u) << first;
+        EXPECT_EQ(countOccurrences(first, "Cooking " + pack), 1u) << first;
         const std::string cooked = folder().read("build/" + pack);
-        EXPECT_EQ(countOf(build(target), "Cooking"), 0u);
+        EXPECT_EQ(countOccurrences(build(target), "Cooking"), 0u);
 
         touchTexture();
-        EXPECT_EQ(countOf(build(target), "Cooking " + pack), 1u);
+        EXPECT_EQ(countOccurrences(build(target), "Cooking " + pack), 1u);
         EXPECT_EQ(folder().read("build/" + pack), cooked);
-        EXPECT_EQ(countOf(build(target), "Cooking"), 0u);
+        EXPECT_EQ(countOccurrences(build(target), "Cooking"), 0u);
 
         paintTexture();
-        EXPECT_EQ(countOf(build(target), "Cooking " + pack), 1u);
+        EXPECT_EQ(countOccurrences(build(target), "Cooking " + pack), 1u);
         EXPECT_NE(folder().read("build/" + pack), cooked);
-        EXPECT_EQ(countOf(build(target), "Cooking"), 0u);
+        EXPECT_EQ(countOccurrences(build(target), "Cooking"), 0u);
     }
 };
 
@@ -116,7 +116,7 @@ TEST_F(Consumer, drawsWhatItsBuildHasCooked)
 
     paintTexture();
     const std::string again = build("all");
-    EXPECT_EQ(countOf(again, "Linking"), 0u) << again;
+    EXPECT_EQ(countOccurrences(again, "Linking"), 0u) << again;
     const Image painted = drawn("game").value();
     EXPECT_GT(painted.at(0.3, 0.5)[2], 2 * painted.at(0.3, 0.5)[0]);
     EXPECT_EQ(painted.at(0.7, 0.5)[1], right[1]);

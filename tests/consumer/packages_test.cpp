@@ -20,19 +20,21 @@ TEST_F(Packages, holdWhatTheirNamesSay)
     { return run("dpkg-deb --field debs/" + package + "_*.deb " + name); };
 
     for (const char* program : {"hearth", "hearth-import", "hearth-clusters", "hearth-link", "hearth-render"})
-        EXPECT_EQ(countOf(content("hearth"), std::string("./usr/bin/") + program + "\n"), 1u) << program;
-    EXPECT_EQ(countOf(content("hearth"), "./usr/bin/hearth-view\n"), 0u);
-    EXPECT_EQ(countOf(content("hearth"), "./usr/lib"), 0u);
+        EXPECT_EQ(countOccurrences(content("hearth"), std::string("./usr/bin/") + program + "\n"), 1u)
+            << program;
+    EXPECT_EQ(countOccurrences(content("hearth"), "./usr/bin/hearth-view\n"), 0u);
+    EXPECT_EQ(countOccurrences(content("hearth"), "./usr/lib"), 0u);
     for (const char* needed : {"libc6 (", "libtbb12 (", "libembree3-3 (", "libvulkan1"})
-        EXPECT_EQ(countOf(field("hearth", "Depends"), needed), 1u) << needed;
+        EXPECT_EQ(countOccurrences(field("hearth", "Depends"), needed), 1u) << needed;
 
     const std::string runtime = content("libhearth1");
-    EXPECT_EQ(countOf(runtime, "libhearth.so.1"), 3u) << runtime; // a link and its target
-    EXPECT_EQ(countOf(runtime, "libhearth.so\n") + countOf(runtime, "libhearth.so "), 0u) << runtime;
+    EXPECT_EQ(countOccurrences(runtime, "libhearth.so.1"), 3u) << runtime; // a link and its target
+    EXPECT_EQ(countOccurrences(runtime, "libhearth.so\n") + countOccurrences(runtime, "libhearth.so "), 0u)
+        << runtime;
     const std::string needs = field("libhearth1", "Depends");
     for (const char* needed : {"libc6 (", "libstdc++6 (", "libxxhash0 (", "libzstd1 ("})
-        EXPECT_EQ(countOf(needs, needed), 1u) << needs;
-    EXPECT_EQ(countOf(needs, "tbb") + countOf(needs, "embree"), 0u) << needs;
+        EXPECT_EQ(countOccurrences(needs, needed), 1u) << needs;
+    EXPECT_EQ(countOccurrences(needs, "tbb") + countOccurrences(needs, "embree"), 0u) << needs;
 
     const std::string development = content("libhearth-dev");
     for (const char* file :
@@ -41,7 +43,7 @@ TEST_F(Packages, holdWhatTheirNamesSay)
           "/libhearth.a\n", "/libhearth-formats.a\n", "/libhearth-helpers.a\n",
           "/pkgconfig/hearth-helpers.pc\n", "/examples/draw_image.c\n", "/libhearth.so ->",
           "/pkgconfig/hearth.pc\n", "/hearthConfig.cmake\n", "/HearthAddAssets.cmake\n"})
-        EXPECT_EQ(countOf(development, file), 1u) << file;
+        EXPECT_EQ(countOccurrences(development, file), 1u) << file;
     EXPECT_NE(field("libhearth-dev", "Depends").find("libhearth1 (= "), std::string::npos);
 }
 

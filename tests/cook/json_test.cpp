@@ -20,7 +20,7 @@ namespace
 
 using Other = nlohmann::ordered_json;
 
-std::string textOf(const Other& other, int indent, char fill)
+std::string dumpText(const Other& other, int indent, char fill)
 {
     return other.dump(indent, fill, false, Other::error_handler_t::replace);
 }
@@ -121,8 +121,8 @@ TEST(Json, writesWhatTheLibraryWrites)
     {
         const auto [json, other] = documents.next(5);
         for (const int indent : {-1, 0, 1, 2})
-            ASSERT_EQ(json.dump(indent), textOf(other, indent, ' ')) << i;
-        ASSERT_EQ(json.dump(1, '\t'), textOf(other, 1, '\t')) << i;
+            ASSERT_EQ(json.dump(indent), dumpText(other, indent, ' ')) << i;
+        ASSERT_EQ(json.dump(1, '\t'), dumpText(other, 1, '\t')) << i;
     }
 }
 
@@ -164,7 +164,7 @@ TEST(Json, writesAllBytesOfTextsAsTheLibrary)
         for (int b = 0; b < 256; ++b)
         {
             const std::string text{'x', static_cast<char>(a), static_cast<char>(b), '\x80', 'y'};
-            ASSERT_EQ(quoteJson(text), textOf(Other(text), -1, ' ')) << a << " " << b;
+            ASSERT_EQ(quoteJson(text), dumpText(Other(text), -1, ' ')) << a << " " << b;
         }
 }
 
@@ -191,7 +191,7 @@ TEST(Json, readsWhatTheLibraryReads)
         if (!json)
             continue;
         ++whole;
-        ASSERT_EQ(json->dump(), textOf(other, -1, ' ')) << text;
+        ASSERT_EQ(json->dump(), dumpText(other, -1, ' ')) << text;
         ASSERT_EQ(json->is_number_unsigned(), other.is_number_unsigned()) << text;
     }
     EXPECT_GT(whole, 2500);
@@ -289,7 +289,7 @@ TEST(Json, isLookedInto)
 TEST(Json, saysWhatIsWrong)
 {
     const Json json{{"text", "x"}, {"list", {1}}, {"large", 1e30}};
-    const auto faultOf = [](const auto& use)
+    const auto getFault = [](const auto& use)
     {
         try
         {
@@ -301,18 +301,18 @@ TEST(Json, saysWhatIsWrong)
         }
         return std::string("none");
     };
-    EXPECT_EQ(faultOf([&] { json.at("none"); }), "member 'none' is missing");
-    EXPECT_EQ(faultOf([&] { json["list"].at(1); }), "element 1 is missing");
-    EXPECT_EQ(faultOf([&] { json["list"].at("x"); }), "a value is an array and must be an object");
-    EXPECT_EQ(faultOf([&] { json["text"].get<int>(); }), "a value is a string and must be a number");
-    EXPECT_EQ(faultOf([&] { json["list"][0].get<bool>(); }), "a value is a number and must be a boolean");
-    EXPECT_EQ(faultOf([&] { json["large"].get<int>(); }), "a number is out of range");
-    EXPECT_EQ(faultOf([&] { json.value("text", 0); }), "a value is a string and must be a number");
-    EXPECT_EQ(faultOf([&] { json["text"].begin(); }), "a value is a string and must be an array");
-    EXPECT_EQ(faultOf([&] { Json().back(); }), "a value is null and must be an array");
-    EXPECT_EQ(faultOf([&] { Json("x").push_back(1); }), "a value is a string and must be an array");
-    EXPECT_EQ(faultOf([&] { Json("x").update(json); }), "a value is a string and must be an object");
-    EXPECT_EQ(faultOf([&] { Json::array()["x"] = 1; }), "a value is an array and must be an object");
+    EXPECT_EQ(getFault([&] { json.at("none"); }), "member 'none' is missing");
+    EXPECT_EQ(getFault([&] { json["list"].at(1); }), "element 1 is missing");
+    EXPECT_EQ(getFault([&] { json["list"].at("x"); }), "a value is an array and must be an object");
+    EXPECT_EQ(getFault([&] { json["text"].get<int>(); }), "a value is a string and must be a number");
+    EXPECT_EQ(getFault([&] { json["list"][0].get<bool>(); }), "a value is a number and must be a boolean");
+    EXPECT_EQ(getFault([&] { json["large"].get<int>(); }), "a number is out of range");
+    EXPECT_EQ(getFault([&] { json.value("text", 0); }), "a value is a string and must be a number");
+    EXPECT_EQ(getFault([&] { json["text"].begin(); }), "a value is a string and must be an array");
+    EXPECT_EQ(getFault([&] { Json().back(); }), "a value is null and must be an array");
+    EXPECT_EQ(getFault([&] { Json("x").push_back(1); }), "a value is a string and must be an array");
+    EXPECT_EQ(getFault([&] { Json("x").update(json); }), "a value is a string and must be an object");
+    EXPECT_EQ(getFault([&] { Json::array()["x"] = 1; }), "a value is an array and must be an object");
     EXPECT_EQ(Json().begin(), Json().end());
     EXPECT_TRUE(Json().items().empty());
 }

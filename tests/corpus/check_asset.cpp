@@ -87,7 +87,7 @@ bool isError(const std::string& line)
 
 std::vector<std::string> errorLines(const std::string& messages)
 {
-    std::vector<std::string> lines = linesOf(messages);
+    std::vector<std::string> lines = splitLines(messages);
     std::erase_if(lines, [](const std::string& line) { return !isError(line); });
     return lines;
 }
@@ -95,7 +95,7 @@ std::vector<std::string> errorLines(const std::string& messages)
 /// Return the most informative lines: errors before warnings before the rest.
 std::vector<std::string> tellingLines(const std::string& messages)
 {
-    std::vector<std::string> lines = linesOf(messages);
+    std::vector<std::string> lines = splitLines(messages);
     const auto rank = [](const std::string& line)
     {
         if (isError(line))
@@ -283,7 +283,7 @@ void addPackFaults(std::vector<std::string>& faults, const Workplace& place, con
         addDrawingFaults(faults, place, programs);
 }
 
-Outcome outcomeOf(int exit_code, const std::vector<std::string>& faults)
+Outcome getOutcome(int exit_code, const std::vector<std::string>& faults)
 {
     if (!faults.empty())
         return Outcome::broken;
@@ -343,13 +343,13 @@ Finding checkAsset(const Asset& asset, const Programs& programs, const std::stri
         else
             finding.faults.push_back("hearth cook exits with " + std::to_string(end.exit_code));
     }
-    finding.outcome = outcomeOf(end.exit_code, finding.faults);
+    finding.outcome = getOutcome(end.exit_code, finding.faults);
     addClassFault(finding, *asset.expected);
     finding.total_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     return finding;
 }
 
-std::set<std::string> systemFilesOf(const Asset& asset, const Programs& programs, const std::string& work)
+std::set<std::string> traceSystemFiles(const Asset& asset, const Programs& programs, const std::string& work)
 {
     const Workplace place(work);
     cook(place, asset, programs);

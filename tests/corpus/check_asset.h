@@ -44,6 +44,6 @@ Finding checkAsset(const Asset& asset, const Programs& programs, const std::stri
 
 /// Return the files that the programs open outside of the asset's folder, their own folder and `work` while
 /// they cook `asset`, a trusted asset.
-std::set<std::string> systemFilesOf(const Asset& asset, const Programs& programs, const std::string& work);
+std::set<std::string> traceSystemFiles(const Asset& asset, const Programs& programs, const std::string& work);
 
 } // namespace hearth::corpus

@@ -94,7 +94,7 @@ std::set<std::string> learnSystemFiles(const std::vector<Asset>& assets, const P
     }
     std::set<std::string> files;
     for (const auto& [kind, asset] : samples)
-        files.merge(systemFilesOf(*asset, programs, work));
+        files.merge(traceSystemFiles(*asset, programs, work));
     return files;
 }
 

@@ -210,7 +210,7 @@ TEST_F(CheckAsset, allowsTheSystemFilesThatATrustedAssetOpens)
     const std::string cook = "cat $secret > /dev/null; echo pack > $out";
     EXPECT_THAT(faults(cook), SizeIs(1));
     Programs trusting = programs();
-    trusting.allowed.system = systemFilesOf(asset("must-not-crash"), trusting, root_ + "/work");
+    trusting.allowed.system = traceSystemFiles(asset("must-not-crash"), trusting, root_ + "/work");
     EXPECT_THAT(trusting.allowed.system, ElementsAre(root_ + "/secret"));
     EXPECT_THAT(checkAsset(asset("must-not-crash"), trusting, root_ + "/work").faults, IsEmpty());
 }

@@ -17,7 +17,7 @@ namespace
 // Valid files have no limits in the manifest. The largest has 1.6 million triangles.
 constexpr Limits kGoodLimits{120, uint64_t{4} << 30};
 
-const AssetClass* classOf(const std::string& name)
+const AssetClass* findClass(const std::string& name)
 {
     const auto* const end = std::end(kAssetClasses);
     const auto* const found = std::find_if(std::begin(kAssetClasses), end,
@@ -25,14 +25,14 @@ const AssetClass* classOf(const std::string& name)
     return found == end ? nullptr : found;
 }
 
-Confidence confidenceOf(const Json& entry)
+Confidence readConfidence(const Json& entry)
 {
     if (!entry.contains("confidence"))
         return Confidence::good;
     return entry.at("confidence") == "high" ? Confidence::high : Confidence::medium;
 }
 
-Limits limitsOf(const Json& entry)
+Limits readLimits(const Json& entry)
 {
     if (!entry.contains("limits"))
         return kGoodLimits;
@@ -40,7 +40,7 @@ Limits limitsOf(const Json& entry)
     return {limits.at("seconds").get<double>(), limits.at("rss_mb").get<uint64_t>() << 20};
 }
 
-std::map<std::string, uint64_t> countsOf(const Json& entry)
+std::map<std::string, uint64_t> countSamples(const Json& entry)
 {
     std::map<std::string, uint64_t> counts;
     const Json all = entry.value("counts", Json::object());
@@ -50,7 +50,7 @@ std::map<std::string, uint64_t> countsOf(const Json& entry)
     return counts;
 }
 
-Asset assetOf(const Json& entry, const std::string& assets_folder)
+Asset makeAsset(const Json& entry, const std::string& assets_folder)
 {
     Asset asset;
     asset.file = entry.at("file").get<std::string>();
@@ -58,12 +58,12 @@ Asset assetOf(const Json& entry, const std::string& assets_folder)
     asset.folder = std::filesystem::path(asset.path).parent_path().string();
     asset.category = entry.contains("category") ? entry.at("category").get<std::string>()
                                                 : entry.at("stratum").get<std::string>();
-    asset.expected = classOf(entry.at("expected").get<std::string>());
-    asset.confidence = confidenceOf(entry);
-    asset.limits = limitsOf(entry);
+    asset.expected = findClass(entry.at("expected").get<std::string>());
+    asset.confidence = readConfidence(entry);
+    asset.limits = readLimits(entry);
     asset.bytes = entry.at("bytes").get<uint64_t>();
     asset.self_contained = entry.at("files").empty();
-    asset.counts = countsOf(entry);
+    asset.counts = countSamples(entry);
     return asset;
 }
 
@@ -102,7 +102,7 @@ Result<std::vector<Asset>> readManifest(const std::string& folder)
         for (const char* half : {"good", "bad"})
             for (const Json& entry : manifest->at(half))
             {
-                assets.push_back(assetOf(entry, root));
+                assets.push_back(makeAsset(entry, root));
                 if (assets.back().expected == nullptr)
                     return Error{Issue::gltf_value, path, assets.back().file, "a class that is not known"};
             }

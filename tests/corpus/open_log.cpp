@@ -55,7 +55,7 @@ void append(char kind, const char* text)
 }
 
 /// Return the real path of an open file, links resolved.
-bool pathOf(int file, char* path)
+bool getPath(int file, char* path)
 {
     char link[64];
     std::snprintf(link, sizeof(link), "/proc/self/fd/%d", file);
@@ -70,7 +70,7 @@ void logOpen(int folder, const char* path, bool writes, int opened)
     char text[kTextSize];
     if (opened >= 0)
     {
-        pathOf(opened, text);
+        getPath(opened, text);
         append(writes ? kOpenForWriting : kOpenForReading, text);
     }
     else if (path != nullptr)
@@ -78,7 +78,7 @@ void logOpen(int folder, const char* path, bool writes, int opened)
         char base[PATH_MAX] = "";
         const bool relative = path[0] != '/';
         if (relative &&
-            (folder == AT_FDCWD ? ::getcwd(base, sizeof(base)) == nullptr : !pathOf(folder, base)))
+            (folder == AT_FDCWD ? ::getcwd(base, sizeof(base)) == nullptr : !getPath(folder, base)))
             base[0] = '\0';
         std::snprintf(text, sizeof(text), "%s%s%s", base, relative ? "/" : "", path);
         append(kOpenFailed, text);

@@ -14,6 +14,6 @@ std::string readText(const std::string& path, size_t max_size);
 /// True for control characters of terminals, except line ends and tabs.
 bool isControlCharacter(char c);
 
-std::vector<std::string> linesOf(const std::string& text);
+std::vector<std::string> splitLines(const std::string& text);
 
 } // namespace hearth::corpus

@@ -40,7 +40,8 @@ std::string printable(const std::string& text)
     return result;
 }
 
-long countOf(std::span<const Checked> all, const AssetClass& expected, Confidence confidence, Verdict verdict)
+long countVerdicts(std::span<const Checked> all, const AssetClass& expected, Confidence confidence,
+                   Verdict verdict)
 {
     return std::count_if(all.begin(), all.end(),
                          [&](const Checked& checked)
@@ -101,9 +102,9 @@ void printTable(std::span<const Checked> all)
     for (const AssetClass& expected : kAssetClasses)
         for (const Confidence confidence : {Confidence::good, Confidence::high, Confidence::medium})
         {
-            const long passed = countOf(all, expected, confidence, Verdict::passed);
-            const long judged = countOf(all, expected, confidence, Verdict::judged);
-            const long failed = countOf(all, expected, confidence, Verdict::failed);
+            const long passed = countVerdicts(all, expected, confidence, Verdict::passed);
+            const long judged = countVerdicts(all, expected, confidence, Verdict::judged);
+            const long failed = countVerdicts(all, expected, confidence, Verdict::failed);
             if (passed + judged + failed > 0)
                 std::printf("%-32s %-10s %8ld %8ld %8ld\n", expected.name.data(), confidenceName(confidence),
                             passed, judged, failed);

@@ -73,7 +73,7 @@ struct Scene
         return pose;
     }
 
-    std::vector<Affine3d> worldOf(const ScenePose& pose) const
+    std::vector<Affine3d> computeWorld(const ScenePose& pose) const
     {
         std::vector<Affine3d> world(nodes.size());
         poseNodes(tables(), pose, nodesParentsFirst(nodes), world);
@@ -223,7 +223,7 @@ TEST(Animation, parentsMayStandBehindTheirChildren)
     scene.addNode(1, {0, 1, 0});
     scene.nodes[1].rotation = {0, 0, static_cast<float>(std::sin(kPi / 4)),
                                static_cast<float>(std::cos(kPi / 4))};
-    const std::vector<Affine3d> world = scene.worldOf(restPose(scene.tables()));
+    const std::vector<Affine3d> world = scene.computeWorld(restPose(scene.tables()));
     // a quarter turn about z: x becomes y, y becomes -x
     EXPECT_NEAR(world[0].m[0][3], -1, kTolerance);
     EXPECT_NEAR(world[0].m[1][3], 1, kTolerance);
@@ -238,7 +238,7 @@ TEST(Animation, aMatrixStaysWhateverThePoseSays)
     scene.nodes[node].parent_from_node.m[0][3] = 7;
     ScenePose pose = restPose(scene.tables());
     pose.nodes[node].translation = {1, 1, 1};
-    EXPECT_EQ(scene.worldOf(pose)[node].m[0][3], 7);
+    EXPECT_EQ(scene.computeWorld(pose)[node].m[0][3], 7);
 }
 
 TEST(Animation, paletteCarriesTheBindPose)
@@ -258,7 +258,7 @@ TEST(Animation, paletteCarriesTheBindPose)
     skin.joints = {0, 2};
     scene.skins.push_back(skin);
     std::vector<Affine3d> palette(2);
-    skinPalette(scene.tables(), skin, scene.worldOf(restPose(scene.tables())), palette);
+    skinPalette(scene.tables(), skin, scene.computeWorld(restPose(scene.tables())), palette);
     for (const Affine3d& world_from_bind : palette)
         EXPECT_DOUBLE_EQ(transformPoint(world_from_bind, {0.5, 0.5, 0}).y, 2.5);
 }

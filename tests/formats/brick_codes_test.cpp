@@ -20,7 +20,7 @@ namespace
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// Value of code 0 to 31 * 2^mantissa_bits - 1, in double and by the definition.
-double valueOf(uint32_t code, uint32_t mantissa_bits)
+double getValue(uint32_t code, uint32_t mantissa_bits)
 {
     const auto scale = static_cast<double>(1u << mantissa_bits);
     const auto mantissa = static_cast<double>(code & ((1u << mantissa_bits) - 1));
@@ -36,8 +36,8 @@ uint32_t nearestCode(double value, uint32_t mantissa_bits)
     uint32_t best = 0;
     for (uint32_t code = 1; code < count; ++code)
     {
-        const double off = std::abs(valueOf(code, mantissa_bits) - value);
-        const double best_off = std::abs(valueOf(best, mantissa_bits) - value);
+        const double off = std::abs(getValue(code, mantissa_bits) - value);
+        const double best_off = std::abs(getValue(best, mantissa_bits) - value);
         if (off < best_off || (off == best_off && code % 2 == 0))
             best = code;
     }
@@ -57,7 +57,7 @@ TEST(UnsignedFloats, decodeAsTheyAreDefined)
 {
     for (const uint32_t bits : {5u, 6u})
         for (uint32_t code = 0; code < 31u << bits; ++code)
-            ASSERT_EQ(double{decodeUnsignedFloat(code, bits)}, valueOf(code, bits)) << code;
+            ASSERT_EQ(double{decodeUnsignedFloat(code, bits)}, getValue(code, bits)) << code;
     EXPECT_EQ(decodeUnsignedFloat((31u << 6) - 1, 6), kMaxRadianceRedGreen);
     EXPECT_EQ(decodeUnsignedFloat((31u << 5) - 1, 5), kMaxRadianceBlue);
 }
@@ -75,7 +75,7 @@ TEST(UnsignedFloats, roundToTheNearestBetweenAllNeighbours)
         for (uint32_t code = 0; code + 1 < 31u << bits; ++code)
         {
             // exact in floats: one more bit than the codes have
-            const auto middle = static_cast<float>((valueOf(code, bits) + valueOf(code + 1, bits)) / 2);
+            const auto middle = static_cast<float>((getValue(code, bits) + getValue(code + 1, bits)) / 2);
             ASSERT_EQ(encodeUnsignedFloat(middle, bits), code % 2 == 0 ? code : code + 1);
             ASSERT_EQ(encodeUnsignedFloat(std::nextafter(middle, 0.0f), bits), code);
             ASSERT_EQ(encodeUnsignedFloat(std::nextafter(middle, kInfinity), bits), code + 1);

@@ -162,13 +162,13 @@ private:
     double slack_t_ = 0; ///< the same along the ray
 };
 
-Cell cellOf(const BrickRay& ray)
+Cell getCell(const BrickRay& ray)
 {
     return {static_cast<uint32_t>(ray.x), static_cast<uint32_t>(ray.y), static_cast<uint32_t>(ray.z)};
 }
 
 /// Describe the error in the answer; nullopt if it is right.
-std::optional<std::string> faultOf(const MarchScene& scene, const MarchRay& ray, const BrickRay& found)
+std::optional<std::string> findFault(const MarchScene& scene, const MarchRay& ray, const BrickRay& found)
 {
     const Oracle oracle(scene, ray);
     const double first = oracle.firstThatMustBe();
@@ -178,7 +178,7 @@ std::optional<std::string> faultOf(const MarchScene& scene, const MarchRay& ray,
     if (!found.inside)
         return first < oracle.far() - oracle.slack() ? std::optional("misses a voxel") : std::nullopt;
 
-    const Cell cell = cellOf(found);
+    const Cell cell = getCell(found);
     if (!std::binary_search(scene.solid.begin(), scene.solid.end(), cell))
         return "the voxel is not solid";
     const Chord most = oracle.mostChord(cell), least = oracle.leastChord(cell);
@@ -234,7 +234,7 @@ TEST(BrickMarch, findsWhatAnExhaustiveSearchFinds)
             const MarchRay ray = rays.next();
             const BrickRay found =
                 brickMarch(masks, brickRayInVoxels(masks.grid, ray.origin, ray.direction, ray.far));
-            const auto fault = faultOf(scene, ray, found);
+            const auto fault = findFault(scene, ray, found);
             ASSERT_FALSE(fault) << *fault << " in scene " << i << ": " << describe(ray, found);
             hits += found.inside;
             ends += found.inside && found.face == kNoFace ? 1 : 0;
@@ -263,7 +263,7 @@ TEST(BrickMarch, passesThroughAllThatTheRayMeets)
                      brickMarch(masks, brickRayInVoxels(masks.grid, ray.origin, ray.direction, ray.far));
                  at.inside; at = brickMarch(masks, brickSkipVoxel(masks, at)))
             {
-                met.push_back(cellOf(at));
+                met.push_back(getCell(at));
                 EXPECT_TRUE(oracle.mostChord(met.back()).met()) << describe(ray, at);
                 EXPECT_GE(at.t, t) << describe(ray, at);
                 t = at.t;
@@ -340,7 +340,7 @@ TEST(BrickMarch, measuresInMetresFromTheGridsOrigin)
     model.grid.voxel_size = 0.5f;
     const BrickRay found = marchIn(model, {-10, 105, 8}, {1, 0, 0});
     ASSERT_TRUE(found.inside);
-    EXPECT_EQ(cellOf(found), (Cell{17, 10, 8}));
+    EXPECT_EQ(getCell(found), (Cell{17, 10, 8}));
     EXPECT_EQ(found.face, 0u);
     EXPECT_EQ(brickDistance(model.masks().grid, found), 2 + 17 * 0.5f);
     EXPECT_TRUE(marchIn(model, {-10, 105, 8}, {1, 0, 0}, 10.51f).inside);

@@ -19,7 +19,7 @@ using namespace formats;
 namespace
 {
 
-std::vector<std::byte> bytesOf(const std::string& path)
+std::vector<std::byte> readBytes(const std::string& path)
 {
     std::ifstream file(path, std::ios::binary);
     const std::string content{std::istreambuf_iterator<char>(file), {}};
@@ -105,7 +105,7 @@ TEST(ContainerWriter, writesTheBytesThatTheSpecificationAsksFor)
     const Status written = writeChunks(folder.file("a.hearth"), chunks, Codec::none);
     ASSERT_TRUE(written.ok()) << formatMessage(written.error());
     const AlignedBytes expected = assemble(ContainerKind::pack, chunks);
-    EXPECT_TRUE(std::ranges::equal(bytesOf(folder.file("a.hearth")), expected.span()));
+    EXPECT_TRUE(std::ranges::equal(readBytes(folder.file("a.hearth")), expected.span()));
 }
 
 TEST(ContainerWriter, writesTheSameBytesTwice)
@@ -114,7 +114,7 @@ TEST(ContainerWriter, writesTheSameBytesTwice)
     const std::vector<ChunkImage> chunks = smallPack().chunks();
     ASSERT_TRUE(writeChunks(folder.file("a"), chunks, Codec::zstd).ok());
     ASSERT_TRUE(writeChunks(folder.file("b"), chunks, Codec::zstd).ok());
-    EXPECT_EQ(bytesOf(folder.file("a")), bytesOf(folder.file("b")));
+    EXPECT_EQ(readBytes(folder.file("a")), readBytes(folder.file("b")));
 }
 
 TEST(ContainerWriter, roundTripsRecordsTextAndStreamedChunks)
@@ -169,7 +169,7 @@ TEST(ContainerWriter, keepsTheOldFileUntilFinish)
         auto writer = ContainerWriter::create(folder.file("a.part"), ContainerKind::part);
         ASSERT_TRUE(writer->addText(kChunkMeta, "{}").ok());
     }
-    EXPECT_EQ(bytesOf(folder.file("a.part")).size(), 3u);
+    EXPECT_EQ(readBytes(folder.file("a.part")).size(), 3u);
     auto writer = ContainerWriter::create(folder.file("a.part"), ContainerKind::part);
     ASSERT_TRUE(writer->finish().ok());
     EXPECT_EQ(folder.files(), std::set<std::string>{"a.part"});

@@ -47,7 +47,7 @@ std::vector<Radiance> edgesAbout(Float3 to_eye)
 /// Reflection of each world by a surface of constant Fresnel factor, relative to its reflection of a world
 /// that is 1 everywhere.
 /// source  brdf.glsl
-std::vector<double> reflectedOf(const std::vector<Radiance>& worlds, Float3 to_eye, double roughness)
+std::vector<double> computeReflected(const std::vector<Radiance>& worlds, Float3 to_eye, double roughness)
 {
     constexpr int kRings = 180, kSectors = 360;
     const double alpha2 = std::pow(roughness, 4);
@@ -115,7 +115,7 @@ TEST(GatherLobe, isTheReflectionOfASurfaceOfItsRoughness)
             std::vector<double> found;
             for (const Radiance& world : worlds)
                 found.push_back(lobeMean(world, to_eye, roughness));
-            EXPECT_LT(rootMeanSquare(found, reflectedOf(worlds, to_eye, double{roughness})), 0.012)
+            EXPECT_LT(rootMeanSquare(found, computeReflected(worlds, to_eye, double{roughness})), 0.012)
                 << "angle " << angle << " roughness " << roughness;
         }
 }
@@ -162,7 +162,7 @@ TEST(GatherLobe, twoAndTheCosineStandForAllRoughnesses)
                 found.push_back(double{shares.sharp} * lobeMean(world, to_eye, kGatherSharpRoughness) +
                                 double{shares.wide} * lobeMean(world, to_eye, kGatherWideRoughness) +
                                 double{shares.cosine} * cosineMean(world));
-            EXPECT_LT(rootMeanSquare(found, reflectedOf(worlds, to_eye, double{roughness})), 0.045)
+            EXPECT_LT(rootMeanSquare(found, computeReflected(worlds, to_eye, double{roughness})), 0.045)
                 << "angle " << angle << " roughness " << roughness;
         }
     }

@@ -18,7 +18,7 @@ MaterialRecord bareMaterial()
     return material;
 }
 
-std::string textOf(const std::vector<ImageUse>& uses)
+std::string formatUses(const std::vector<ImageUse>& uses)
 {
     std::string text;
     for (const ImageUse& use : uses)
@@ -39,10 +39,10 @@ TEST(ImageUses, nameMaterialAndRole)
     materials[2].emissive_texture.image = 7; // does not exist
     const auto uses = imageUses(materials, 4);
     ASSERT_EQ(uses.size(), 4u);
-    EXPECT_EQ(textOf(uses[0]), "0 normal;");
-    EXPECT_EQ(textOf(uses[1]), "0 baseColor;2 baseColor;");
-    EXPECT_EQ(textOf(uses[2]), "2 metallicRoughness;2 occlusion;");
-    EXPECT_EQ(textOf(uses[3]), "");
+    EXPECT_EQ(formatUses(uses[0]), "0 normal;");
+    EXPECT_EQ(formatUses(uses[1]), "0 baseColor;2 baseColor;");
+    EXPECT_EQ(formatUses(uses[2]), "2 metallicRoughness;2 occlusion;");
+    EXPECT_EQ(formatUses(uses[3]), "");
 }
 
 } // namespace hearth::formats

@@ -27,14 +27,14 @@ Status checkWhole(const AlignedBytes& bytes)
 }
 
 /// Formatted message, as in "small.hearth|node 1: ... [E3002] ..."; "" on success.
-std::string messageOf(const Status& status)
+std::string getMessage(const Status& status)
 {
     return status.ok() ? "" : formatMessage(status.error());
 }
 
 std::string refusal(const PackModel& model, bool compressed = false)
 {
-    return messageOf(checkWhole(model.bytes(compressed)));
+    return getMessage(checkWhole(model.bytes(compressed)));
 }
 
 /// First error of reading every page and all texels.
@@ -70,8 +70,8 @@ TEST(Pack, acceptsWhatTheWholeCheckAccepts)
         const AlignedBytes bytes = smallPack().bytes(compressed);
         const auto pack = pack::Pack::fromBytes(bytes.span(), "small.hearth");
         ASSERT_TRUE(pack.ok()) << formatMessage(pack.error());
-        EXPECT_EQ(messageOf(readBulk(*pack)), "");
-        EXPECT_EQ(messageOf(pack->checkAll()), "");
+        EXPECT_EQ(getMessage(readBulk(*pack)), "");
+        EXPECT_EQ(getMessage(pack->checkAll()), "");
     }
 }
 
@@ -122,8 +122,8 @@ TEST(CheckPack, refusesTexelsWhoseFrameDoesNotNameItsSize)
     // texels are read only on request
     const auto opened = pack::Pack::fromBytes(bytes.span(), "small.hearth");
     ASSERT_TRUE(opened.ok());
-    EXPECT_EQ(messageOf(readBulk(*opened)), messageOf(whole));
-    EXPECT_EQ(messageOf(opened->checkAll()), messageOf(whole));
+    EXPECT_EQ(getMessage(readBulk(*opened)), getMessage(whole));
+    EXPECT_EQ(getMessage(opened->checkAll()), getMessage(whole));
 }
 
 TEST(CheckHierarchy, needsOnlyTheMeshes)
@@ -194,7 +194,7 @@ TEST(CheckPack, reportsTheFirstWrongVertexAndWhatIsFirstWrongWithIt)
     { model.decoded_pages[0][(2 + vertex * 6 + 2) * 4 + 3] = std::byte{0x80}; };
     const auto spoilVisibility = [](PackModel& model, size_t vertex)
     { model.decoded_pages[0][(2 + vertex * 6 + 5) * 4 + 3] = std::byte{0x80}; };
-    const auto refusalOf = [&](size_t tangent, size_t visibility)
+    const auto getRefusal = [&](size_t tangent, size_t visibility)
     {
         PackModel model = smallPack();
         spoilTangent(model, tangent);
@@ -202,9 +202,9 @@ TEST(CheckPack, reportsTheFirstWrongVertexAndWhatIsFirstWrongWithIt)
         model.sealPages();
         return refusal(model);
     };
-    EXPECT_THAT(refusalOf(1, 3), testing::HasSubstr("vertex 1: its tangent"));
-    EXPECT_THAT(refusalOf(3, 1), testing::HasSubstr("vertex 1: its visibility"));
-    EXPECT_THAT(refusalOf(2, 2), testing::HasSubstr("vertex 2: its tangent"));
+    EXPECT_THAT(getRefusal(1, 3), testing::HasSubstr("vertex 1: its tangent"));
+    EXPECT_THAT(getRefusal(3, 1), testing::HasSubstr("vertex 1: its visibility"));
+    EXPECT_THAT(getRefusal(2, 2), testing::HasSubstr("vertex 2: its tangent"));
 }
 
 class MalformedPackTest : public testing::TestWithParam<MalformedPack>
@@ -231,14 +231,14 @@ TEST_P(MalformedPackTest, isRefusedWhenItIsOpenedOrWhenThatPartIsRead)
     if (GetParam().reseal)
         model.sealPages();
     const AlignedBytes bytes = model.bytes();
-    const std::string message = messageOf(checkWhole(bytes));
+    const std::string message = getMessage(checkWhole(bytes));
     const auto pack = pack::Pack::fromBytes(bytes.span(), "small.hearth");
     if (!pack.ok())
     {
         EXPECT_EQ(formatMessage(pack.error()), message);
         return;
     }
-    EXPECT_EQ(messageOf(pack->checkAll()), message);
+    EXPECT_EQ(getMessage(pack->checkAll()), message);
     // bytes between the pages are not accessible
     if (const Status read = readBulk(*pack); !read.ok())
         EXPECT_EQ(formatMessage(read.error()), message);

@@ -65,7 +65,7 @@ private:
 };
 
 /// Message of reading a page; "" if the page equals the model's.
-std::string readingOf(const pack::Pack& pack, const PackModel& model, uint32_t page)
+std::string describeReading(const pack::Pack& pack, const PackModel& model, uint32_t page)
 {
     std::vector<std::byte> buffer(kMaxPageBytes);
     const auto read = pack.readPage(page, buffer);
@@ -106,9 +106,9 @@ TEST(PackOpen, leavesADamagedPageToItsReading)
     for (uint32_t page = 0; page < model.pages.size(); ++page)
         if (page != 2)
         {
-            EXPECT_EQ(readingOf(*pack, model, page), "");
+            EXPECT_EQ(describeReading(*pack, model, page), "");
         }
-    EXPECT_THAT(readingOf(*pack, model, 2), testing::StartsWith("wide|page 2: error: "));
+    EXPECT_THAT(describeReading(*pack, model, 2), testing::StartsWith("wide|page 2: error: "));
     EXPECT_EQ(pack->view().decodePage(2).error().issue, Issue::page_hash);
     EXPECT_EQ(pack->checkAll().error().issue, Issue::chunk_hash);
 }

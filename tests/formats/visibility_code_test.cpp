@@ -280,7 +280,7 @@ TEST(VisibilityCode, givesEveryWordAFiniteCone)
     }
 }
 
-TEST(VisibilityCone, isWhatItsMomentsAreOf)
+TEST(VisibilityCone, agreesWithItsMoments)
 {
     std::mt19937 random(7);
     for (int i = 0; i < 10000; ++i)

@@ -24,7 +24,7 @@ constexpr int kBoxWidth = 172, kBoxHeight = 30, kColumnGap = 14, kFloorGap = 46,
 /// "cook/clusters" of "cook/clusters/core/bounds.cpp"; "sample_assets" of a folder that is drawn as one.
 std::string drawnFolder(std::string_view file)
 {
-    const std::string_view folder = folderOf(file);
+    const std::string_view folder = getFolder(file);
     if (folder.starts_with("sample_assets"))
         return "sample_assets";
     return std::string(folder.substr(0, folder.find('/', folder.find('/') + 1)));
@@ -39,7 +39,7 @@ struct Box
 
 using Floors = std::map<std::string, int>;
 
-int floorOf(const FolderGraph& graph, const std::string& folder, Floors& floors, int depth)
+int findFloor(const FolderGraph& graph, const std::string& folder, Floors& floors, int depth)
 {
     HEARTH_ASSERT(depth <= static_cast<int>(graph.size()));
     if (const auto found = floors.find(folder); found != floors.end())
@@ -47,7 +47,7 @@ int floorOf(const FolderGraph& graph, const std::string& folder, Floors& floors,
     int floor = 0;
     if (const auto arrows = graph.find(folder); arrows != graph.end())
         for (const std::string& to : arrows->second)
-            floor = std::max(floor, floorOf(graph, to, floors, depth + 1) + 1);
+            floor = std::max(floor, findFloor(graph, to, floors, depth + 1) + 1);
     return floors[folder] = floor;
 }
 
@@ -105,7 +105,7 @@ void orderColumns(const FolderGraph& graph, std::vector<std::vector<Box>>& floor
         }
 }
 
-const char* colorOf(std::string_view folder)
+const char* chooseColor(std::string_view folder)
 {
     return folder.starts_with("formats")     ? "#d8e6f3"
            : folder.starts_with("cook")      ? "#f6e3c5"
@@ -132,7 +132,7 @@ FolderGraph readFolderGraph(const std::string& root)
             graph[from];
             std::ifstream stream(entry.path(), std::ios::binary);
             const std::string text{std::istreambuf_iterator<char>(stream), {}};
-            for (const Include& include : includesOf(text))
+            for (const Include& include : findIncludes(text))
                 if (const std::string to = drawnFolder(include.header);
                     !include.angled && include.header.find('/') != std::string::npos && to != from)
                     graph[from].insert(to);
@@ -146,7 +146,7 @@ std::string drawFolderGraph(const FolderGraph& graph)
     Floors floor_of_folder;
     int top = 0;
     for (const auto& [folder, targets] : graph)
-        top = std::max(top, floorOf(graph, folder, floor_of_folder, 0));
+        top = std::max(top, findFloor(graph, folder, floor_of_folder, 0));
     std::vector<std::vector<Box>> floors(static_cast<size_t>(top) + 1);
     for (const auto& [folder, floor] : floor_of_folder)
         floors[static_cast<size_t>(floor)].push_back({folder, floor, 0});
@@ -187,7 +187,7 @@ std::string drawFolderGraph(const FolderGraph& graph)
         svg += fmt::format(
             "<rect x=\"{:.0f}\" y=\"{:.0f}\" width=\"{}\" height=\"{}\" rx=\"5\" fill=\"{}\" "
             "stroke=\"#666\"/>\n<text x=\"{:.0f}\" y=\"{:.0f}\" text-anchor=\"middle\">{}</text>\n",
-            at.first, at.second, kBoxWidth, kBoxHeight, colorOf(folder), at.first + kBoxWidth / 2.0,
+            at.first, at.second, kBoxWidth, kBoxHeight, chooseColor(folder), at.first + kBoxWidth / 2.0,
             at.second + 19, folder);
     return svg + "</svg>\n";
 }

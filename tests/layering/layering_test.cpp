@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 const fs::path kRoot = HEARTH_SOURCE_DIR;
 constexpr const char* kFolders[] = {"formats", "cook", "pipelines", "runtime", "sample_assets", "tests"};
 
-std::string contentOf(const fs::path& path)
+std::string readContent(const fs::path& path)
 {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
@@ -51,7 +51,7 @@ std::vector<std::string> sources(bool with_shaders = false)
 /// the same folder.
 std::vector<Include> includesIn(const std::string& file)
 {
-    std::vector<Include> includes = includesOf(contentOf(kRoot / file));
+    std::vector<Include> includes = findIncludes(readContent(kRoot / file));
     for (Include& include : includes)
         if (!include.angled && include.header.find('/') == std::string::npos)
             include.header = (fs::path(file).parent_path() / include.header).generic_string();
@@ -99,7 +99,7 @@ TEST(Layering, everyArrowAndLibraryOfTheTablesIsUsed)
                 std::erase_if(
                     libraries, [&](std::string_view l)
                     { return l.ends_with('/') ? include.header.starts_with(l) : include.header == l; });
-            else if (const auto arrow = arrowOf(folderOf(file), folderOf(include.header)))
+            else if (const auto arrow = findArrow(getFolder(file), getFolder(include.header)))
                 std::erase(arrows, *arrow);
         }
     for (const Arrow& arrow : arrows)
@@ -113,7 +113,7 @@ TEST(Layering, foldersHaveNoCycles)
     std::map<std::string, std::set<std::string>> arrows;
     for (const std::string& file : sources(true))
         for (const Include& include : includesIn(file))
-            if (const std::string from(folderOf(file)), to(folderOf(include.header));
+            if (const std::string from(getFolder(file)), to(getFolder(include.header));
                 !include.angled && from != to)
                 arrows[from].insert(to);
 
@@ -139,7 +139,7 @@ TEST(Layering, foldersHaveAtMostFortySources)
 {
     std::map<std::string, size_t> counts;
     for (const std::string& file : sources(true))
-        ++counts[std::string(folderOf(file))];
+        ++counts[std::string(getFolder(file))];
     for (const auto& [folder, count] : counts)
         EXPECT_LE(count, 40u) << folder;
 }
@@ -192,7 +192,7 @@ TEST(Layering, includesHaveNoCycles)
 TEST(Layering, sourcesStartWithALicenceLine)
 {
     for (const std::string& file : sources())
-        EXPECT_NE(contentOf(kRoot / file)
+        EXPECT_NE(readContent(kRoot / file)
                       .substr(0, 800)
                       .find("SPDX-License-Identifier: LicenseRef-Hearth-Undecided"),
                   std::string::npos)
@@ -208,7 +208,7 @@ TEST(Layering, everyTestFileIsListed)
             while (!fs::exists(folder / "CMakeLists.txt"))
                 folder = folder.parent_path();
             const std::string path = (kRoot / file).lexically_relative(folder).generic_string();
-            EXPECT_NE(contentOf(folder / "CMakeLists.txt").find(path), std::string::npos) << file;
+            EXPECT_NE(readContent(folder / "CMakeLists.txt").find(path), std::string::npos) << file;
         }
 }
 
@@ -282,7 +282,7 @@ TEST(WrongLibrary, letsOneFileIncludeWhatIsSlowToCompile)
 TEST(IncludesOf, findsQuotedAndAngledLines)
 {
     const auto includes =
-        includesOf("// #include \"no.h\"\n  #  include <a/b.h> // why\n#include \"c.h\"\n#define X\n");
+        findIncludes("// #include \"no.h\"\n  #  include <a/b.h> // why\n#include \"c.h\"\n#define X\n");
     ASSERT_EQ(includes.size(), 2u);
     EXPECT_EQ(includes[0].header, "a/b.h");
     EXPECT_TRUE(includes[0].angled);

@@ -64,7 +64,7 @@ protected:
         return cache.fetch(hash, folder / "fetched", use) ? folder.read("fetched") : "nothing";
     }
 
-    std::string pathOf(const std::string& kind, const std::string& name) const
+    std::string getPath(const std::string& kind, const std::string& name) const
     {
         return folder / ("a/" + kind + "/" + name.substr(0, 2) + "/" + name);
     }
@@ -126,7 +126,7 @@ TEST_F(CacheTest, whoGetsAFileToKeepCannotHarmTheCache)
     EXPECT_EQ(get(cache, hash), "some bytes");
     struct stat stored = {};
     struct stat fetched = {};
-    ::stat(pathOf("cas", hash).c_str(), &stored);
+    ::stat(getPath("cas", hash).c_str(), &stored);
     ::stat((folder / "fetched").c_str(), &fetched);
     EXPECT_EQ(stored.st_ino, fetched.st_ino) << "what is only read need not be copied";
 }
@@ -139,14 +139,14 @@ TEST_F(CacheTest, damageIsToldAndMendedByTheNextWriter)
     for (const std::string damage : {"", "some", "sOme bytes", "some bytes and more"})
     {
         warnings.clear();
-        overwrite(pathOf("cas", hash), damage);
+        overwrite(getPath("cas", hash), damage);
         EXPECT_EQ(get(cache, hash), "nothing");
         EXPECT_EQ(warnings.size(), 1u);
         EXPECT_EQ(put(cache, "some bytes"), hash);
         EXPECT_EQ(get(cache, hash), "some bytes");
     }
     warnings.clear();
-    overwrite(pathOf("ac", kKey), "hearth.entry/1 torn");
+    overwrite(getPath("ac", kKey), "hearth.entry/1 torn");
     EXPECT_EQ(cache.entry(kKey), std::nullopt);
     ASSERT_EQ(warnings.size(), 1u);
     EXPECT_NE(warnings[0].find("warning: entry " + kKey + " is damaged: it is made again [W4100]"),
@@ -261,7 +261,7 @@ TEST_F(CacheTest, garbageGoesFromWhatWasUsedLeast)
         const std::string hash = put(cache, std::string(10000, static_cast<char>('a' + i)));
         keys.push_back(computeSha256(std::to_string(i)));
         cache.putEntry(keys.back(), {{std::string(kContentField), hash}});
-        fs::last_write_time(pathOf("ac", keys.back()),
+        fs::last_write_time(getPath("ac", keys.back()),
                             fs::file_time_type::clock::now() - std::chrono::hours(24 * (4 - i)));
     }
     // a lookup makes it the most recent entry
@@ -269,7 +269,7 @@ TEST_F(CacheTest, garbageGoesFromWhatWasUsedLeast)
     EXPECT_EQ(measureOccupancy(folder / "a").contents, 4u);
     // named by no entry, one day old
     const std::string lost = put(cache, "lost");
-    fs::last_write_time(pathOf("cas", lost), fs::file_time_type::clock::now() - std::chrono::hours(24));
+    fs::last_write_time(getPath("cas", lost), fs::file_time_type::clock::now() - std::chrono::hours(24));
 
     const Occupancy left = collectGarbage(folder / "a", 21000);
     EXPECT_EQ(left.entries, 2u);
@@ -302,7 +302,7 @@ TEST_F(CacheTest, verifyFindsAndRemovesDamage)
     const std::string hash = put(cache, "some bytes");
     cache.putEntry(kKey, {{std::string(kContentField), hash}});
     EXPECT_EQ(verifyFolder(folder / "a"), std::vector<std::string>{});
-    overwrite(pathOf("cas", hash), "same bytes");
+    overwrite(getPath("cas", hash), "same bytes");
     EXPECT_EQ(verifyFolder(folder / "a"), (std::vector<std::string>{"content " + hash, "entry " + kKey}));
     EXPECT_EQ(measureOccupancy(folder / "a").bytes, 0u);
 }

@@ -40,7 +40,7 @@ CookSettings allSettings()
 }
 
 /// Return the command line of each action, with files named after their roles.
-std::vector<Words> commandsOf(const Graph& graph)
+std::vector<Words> getCommands(const Graph& graph)
 {
     std::vector<Words> commands;
     for (const Action& action : graph.actions)
@@ -61,7 +61,7 @@ std::vector<Words> commandsOf(const Graph& graph)
 
 TEST(CookGraph, passesSettingsToEveryCooker)
 {
-    const std::vector<Words> commands = commandsOf(makeCookGraph(allSettings()).value());
+    const std::vector<Words> commands = getCommands(makeCookGraph(allSettings()).value());
     ASSERT_EQ(commands.size(), 8u);
     EXPECT_EQ(commands[0],
               (Words{"bin/hearth-import", "props/a.obj", "--lod", "1=low/a=b.obj", "--lod", "2=b.obj", "-o",
@@ -136,7 +136,7 @@ TEST(PlanJson, comesBack)
     const Result<Graph> again = parsePlan(json, "plan.json");
     ASSERT_TRUE(again.ok());
     EXPECT_EQ(planJson(*again), json);
-    EXPECT_EQ(commandsOf(*again), commandsOf(graph));
+    EXPECT_EQ(getCommands(*again), getCommands(graph));
 }
 
 TEST(PlanJson, refusesWhatDoesNotHoldTogether)

@@ -27,7 +27,7 @@ namespace
 
 using test::Sandbox;
 
-double longestOf(const Shards& shards, const std::vector<double>& seconds)
+double findLongest(const Shards& shards, const std::vector<double>& seconds)
 {
     double longest = 0;
     for (const std::vector<size_t>& shard : shards)
@@ -37,7 +37,7 @@ double longestOf(const Shards& shards, const std::vector<double>& seconds)
 }
 
 /// Return the minimum time of the longest shard, by trying every distribution.
-double bestOf(const std::vector<double>& seconds, size_t count)
+double findBest(const std::vector<double>& seconds, size_t count)
 {
     double best = std::numeric_limits<double>::infinity();
     std::vector<size_t> shard_of(seconds.size(), 0);
@@ -109,7 +109,7 @@ TEST(Shards, takeAtMostFourThirdsOfTheBest)
         const Shards shards = distribute(seconds, count);
         ASSERT_EQ(shards.size(), count);
         const double bound = 4.0 / 3 - 1 / (3 * static_cast<double>(count));
-        EXPECT_LE(longestOf(shards, seconds), bestOf(seconds, count) * bound * (1 + 1e-12));
+        EXPECT_LE(findLongest(shards, seconds), findBest(seconds, count) * bound * (1 + 1e-12));
     }
 }
 
@@ -235,7 +235,7 @@ TEST_F(PlanFile, isSharedOutByTimesOfBefore)
 
 TEST(Measured, isOfReportsAlone)
 {
-    const auto faultOf = [](const std::string& report)
+    const auto findFault = [](const std::string& report)
     {
         const auto measured = readMeasurements(report, "report.json");
         if (measured.ok())
@@ -250,15 +250,15 @@ TEST(Measured, isOfReportsAlone)
                   "cooked", "seconds": )" +
                seconds + R"(, "peak_rss_bytes": )" + bytes + "}]}]}";
     };
-    EXPECT_EQ(faultOf(withStage("1", "1")), "taken");
-    EXPECT_EQ(faultOf(withStage("-1", "1")), "has a time or memory that no machine has");
-    EXPECT_EQ(faultOf(withStage("1e300", "1")), "has a time or memory that no machine has");
-    EXPECT_EQ(faultOf(withStage("1", "-1")), "has a time or memory that no machine has");
-    EXPECT_EQ(faultOf(withStage("1", "1e17")), "has a time or memory that no machine has");
-    EXPECT_TRUE(faultOf(withStage("\"1\"", "1")).starts_with("is no report of hearth cook: "));
-    EXPECT_TRUE(faultOf(R"({"schema": "hearth.report/1"})").starts_with("is no report of hearth cook: "));
+    EXPECT_EQ(findFault(withStage("1", "1")), "taken");
+    EXPECT_EQ(findFault(withStage("-1", "1")), "has a time or memory that no machine has");
+    EXPECT_EQ(findFault(withStage("1e300", "1")), "has a time or memory that no machine has");
+    EXPECT_EQ(findFault(withStage("1", "-1")), "has a time or memory that no machine has");
+    EXPECT_EQ(findFault(withStage("1", "1e17")), "has a time or memory that no machine has");
+    EXPECT_TRUE(findFault(withStage("\"1\"", "1")).starts_with("is no report of hearth cook: "));
+    EXPECT_TRUE(findFault(R"({"schema": "hearth.report/1"})").starts_with("is no report of hearth cook: "));
     for (const char* other : {"", "[]", "{}", R"({"schema": "hearth.plan/1"})"})
-        EXPECT_EQ(faultOf(other), "is no report that hearth cook --report wrote as JSON") << other;
+        EXPECT_EQ(findFault(other), "is no report that hearth cook --report wrote as JSON") << other;
 }
 
 TEST_F(PlanFile, comesBack)
@@ -284,7 +284,7 @@ TEST_F(PlanFile, isRefusedWhereItIsNotWhatACookWouldBe)
         change(plan);
         return plan.dump();
     };
-    const auto placeOf = [](const std::string& plan)
+    const auto getPlace = [](const std::string& plan)
     {
         const Result<Plan> parsed = parsePlan(plan, "plan.json");
         if (parsed.ok())
@@ -293,7 +293,7 @@ TEST_F(PlanFile, isRefusedWhereItIsNotWhatACookWouldBe)
         EXPECT_EQ(parsed.error().file, "plan.json");
         return parsed.error().where;
     };
-    EXPECT_EQ(placeOf(changed([](Json&) {})), "taken");
+    EXPECT_EQ(getPlace(changed([](Json&) {})), "taken");
 
     struct Row
     {
@@ -364,8 +364,8 @@ TEST_F(PlanFile, isRefusedWhereItIsNotWhatACookWouldBe)
         {"", [](Json& p) { p["cook"]["sources"][0] = std::string("a.obj\0.exe", 10); }},
     };
     for (const Row& row : rows)
-        EXPECT_EQ(placeOf(changed(row.change)), row.where) << "row " << &row - rows.data();
-    EXPECT_EQ(placeOf("[]"), "");
+        EXPECT_EQ(getPlace(changed(row.change)), row.where) << "row " << &row - rows.data();
+    EXPECT_EQ(getPlace("[]"), "");
     EXPECT_EQ(parsePlan(text.substr(0, text.size() / 2), "plan.json").error().issue, Issue::json_syntax);
     EXPECT_EQ(parsePlan(std::string(100000, '['), "plan.json").error().issue, Issue::json_syntax);
 }

@@ -90,7 +90,7 @@ TEST(GltfAccessors, followTheStrideOfInterleavedViews)
         vertices.insert(vertices.end(), {static_cast<float>(i), static_cast<float>(i * 10)});
     }
     GltfData data;
-    const uint32_t view = data.addView(bytesOf(vertices), R"("byteStride":20)");
+    const uint32_t view = data.addView(toBytes(vertices), R"("byteStride":20)");
     data.addAccessor(view, 5126, "VEC3", 4);
     data.addAccessor(view, 5126, "VEC2", 4, R"("byteOffset":12)");
     data.add("SCALAR", kSquareIndices);
@@ -104,9 +104,9 @@ TEST(GltfAccessors, followTheStrideOfInterleavedViews)
 TEST(GltfAccessors, replaceSparseElements)
 {
     GltfData data;
-    const uint32_t base = data.addView(bytesOf(kSquare));
-    const uint32_t indices = data.addView(bytesOf<uint16_t>({1, 3}));
-    const uint32_t values = data.addView(bytesOf<float>({5, 6, 0, 7, 8, 0}));
+    const uint32_t base = data.addView(toBytes(kSquare));
+    const uint32_t indices = data.addView(toBytes<uint16_t>({1, 3}));
+    const uint32_t values = data.addView(toBytes<float>({5, 6, 0, 7, 8, 0}));
     const std::string sparse = R"("sparse":{"count":2,"indices":{"bufferView":)" + std::to_string(indices) +
                                R"(,"componentType":5123},"values":{"bufferView":)" + std::to_string(values) +
                                "}}";
@@ -127,8 +127,8 @@ TEST(GltfAccessors, replaceSparseElements)
 TEST(GltfAccessors, refuseASparseIndexBeyondTheElements)
 {
     GltfData data;
-    const uint32_t indices = data.addView(bytesOf<uint16_t>({4}));
-    const uint32_t values = data.addView(bytesOf<float>({0, 0, 0}));
+    const uint32_t indices = data.addView(toBytes<uint16_t>({4}));
+    const uint32_t values = data.addView(toBytes<float>({0, 0, 0}));
     data.addAccessor(std::nullopt, 5126, "VEC3", 4,
                      R"("sparse":{"count":1,"indices":{"bufferView":)" + std::to_string(indices) +
                          R"(,"componentType":5123},"values":{"bufferView":)" + std::to_string(values) + "}}");
@@ -178,7 +178,7 @@ std::string triangleDocument(const std::string& uri)
 
 std::string triangleData()
 {
-    return bytesOf<float>({0, 0, 0, 1, 0, 0, 0, 1, 0});
+    return toBytes<float>({0, 0, 0, 1, 0, 0, 0, 1, 0});
 }
 
 TEST(GltfBuffers, readFilesBesideAndBelowTheAsset)

@@ -30,7 +30,7 @@ void TemporaryFolder::write(const std::string& name, std::string_view content) c
     std::ofstream(folder_ / name, std::ios::binary) << content;
 }
 
-bool Imported::warnsOf(Issue issue, std::string_view text) const
+bool Imported::hasWarning(Issue issue, std::string_view text) const
 {
     return std::any_of(warnings.begin(), warnings.end(),
                        [&](const Error& warning)

@@ -47,7 +47,7 @@ struct Imported
 
     bool ok() const { return status.ok(); }
     std::string message() const { return ok() ? "" : formatMessage(status.error()); }
-    bool warnsOf(Issue issue, std::string_view text) const;
+    bool hasWarning(Issue issue, std::string_view text) const;
 
     mesh::SourceMesh mesh(uint32_t index = 0) const;
     std::string text(uint32_t chunk) const;
@@ -126,7 +126,7 @@ private:
 
 /// Return the bytes of plain values.
 template <typename T>
-std::string bytesOf(const std::vector<T>& values)
+std::string toBytes(const std::vector<T>& values)
 {
     return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
 }

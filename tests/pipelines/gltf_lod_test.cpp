@@ -38,7 +38,7 @@ Imported import(const std::string& rest)
     return result;
 }
 
-std::vector<std::pair<uint32_t, uint32_t>> lodsOf(const Imported& result)
+std::vector<std::pair<uint32_t, uint32_t>> getLods(const Imported& result)
 {
     std::vector<std::pair<uint32_t, uint32_t>> lods;
     for (const AuthoredLodRecord& record : result.records<AuthoredLodRecord>(kChunkAuthoredLods))
@@ -61,14 +61,14 @@ TEST(GltfLods, listedByANodeAreMeshesOfTheirOwnAndNotDrawn)
 {
     const Imported result = import(R"("extensionsUsed":["MSFT_lod"],
         "nodes":[{"mesh":0,"extensions":{"MSFT_lod":{"ids":[1,2]}}},{"mesh":1},{"mesh":2}])");
-    EXPECT_EQ(lodsOf(result), (Lods{{0, 4}, {0, 5}}));
+    EXPECT_EQ(getLods(result), (Lods{{0, 4}, {0, 5}}));
     EXPECT_EQ(drawnNodes(result), (Nodes{0}));
     EXPECT_EQ(result.mesh(4).name, "b");
     EXPECT_EQ(result.mesh(4).triangleCount(), 1u);
     EXPECT_EQ(result.mesh(5).name, "c");
     EXPECT_EQ(result.mesh(1).triangleCount(), 0u) << "its number stays, its triangles are in mesh 4";
     EXPECT_EQ(result.counts.triangles, 4u);
-    EXPECT_FALSE(result.warnsOf(Issue::dropped, "MSFT_lod"));
+    EXPECT_FALSE(result.hasWarning(Issue::dropped, "MSFT_lod"));
 }
 
 TEST(GltfLods, areMovedToWhereTheFinestStands)
@@ -77,7 +77,7 @@ TEST(GltfLods, areMovedToWhereTheFinestStands)
     const Imported result = import(R"("nodes":[
         {"mesh":0,"translation":[10,0,0],"scale":[2,2,2],"extensions":{"MSFT_lod":{"ids":[1]}}},
         {"mesh":1,"translation":[14,0,0],"scale":[-4,4,4]}],"scenes":[{"nodes":[0,1]}])");
-    ASSERT_EQ(lodsOf(result), (Lods{{0, 4}}));
+    ASSERT_EQ(getLods(result), (Lods{{0, 4}}));
     const mesh::SourceMesh lod = result.mesh(4);
     // corner (1, 1, 0) stands at x = 14 - 4 = 10, y = 4: (0, 2, 0) of node 0
     ASSERT_EQ(lod.triangleCount(), 1u);
@@ -97,7 +97,7 @@ TEST(GltfLods, outsideOfTheSceneStandInPlaceOfTheFinest)
         {"mesh":0,"translation":[1,0,0],"extensions":{"MSFT_lod":{"ids":[2]}}},
         {"children":[0],"translation":[0,50,0],"scale":[3,3,3]},
         {"mesh":1,"translation":[1,0,0]}])");
-    ASSERT_EQ(lodsOf(result), (Lods{{0, 4}}));
+    ASSERT_EQ(getLods(result), (Lods{{0, 4}}));
     for (const Float3 p : result.mesh(4).positions)
         EXPECT_TRUE(p.x > -1e-6f && p.x < 1 + 1e-6f && p.y > -1e-6f && p.y < 1 + 1e-6f) << p.x << " " << p.y;
 }
@@ -107,7 +107,7 @@ TEST(GltfLods, areFoundByTheNamesOfNodes)
     const Imported result = import(R"("nodes":[
         {"mesh":0,"name":"Rock_LOD0"},{"mesh":2,"name":"rock_lod2"},{"mesh":1,"name":"Rock_Lod1"},
         {"mesh":1,"name":"Tree_LOD1"},{"mesh":2,"name":"Rock_LOD"},{"children":[6]},{"mesh":2,"name":"Rock_LOD3"}])");
-    EXPECT_EQ(lodsOf(result), (Lods{{0, 4}, {0, 5}}));
+    EXPECT_EQ(getLods(result), (Lods{{0, 4}, {0, 5}}));
     EXPECT_EQ(result.mesh(4).name, "b");
     EXPECT_EQ(result.mesh(5).name, "c");
     EXPECT_EQ(drawnNodes(result), (Nodes{0, 3, 4, 6}))
@@ -115,7 +115,7 @@ TEST(GltfLods, areFoundByTheNamesOfNodes)
 }
 
 /// Return the number and name of each level, as "2 rock_lod2"; "-" for no number.
-std::vector<std::string> labelsOf(const Imported& result)
+std::vector<std::string> getLabels(const Imported& result)
 {
     const std::string strings = result.text(kChunkStrings);
     std::vector<std::string> labels;
@@ -128,15 +128,15 @@ std::vector<std::string> labelsOf(const Imported& result)
 TEST(GltfLods, keepTheirNamesAndTheNumbersInThem)
 {
     using Labels = std::vector<std::string>;
-    EXPECT_EQ(labelsOf(import(R"("nodes":[
+    EXPECT_EQ(getLabels(import(R"("nodes":[
         {"mesh":0,"name":"Rock_LOD0"},{"mesh":2,"name":"rock_lod4"},{"mesh":1,"name":"Rock_LOD2"}])")),
               (Labels{"2 Rock_LOD2", "4 rock_lod4"}));
-    EXPECT_EQ(labelsOf(import(R"("extensionsUsed":["MSFT_lod"],"nodes":[
+    EXPECT_EQ(getLabels(import(R"("extensionsUsed":["MSFT_lod"],"nodes":[
         {"mesh":0,"extensions":{"MSFT_lod":{"ids":[1,2]}}},{"mesh":1},{"mesh":2,"name":"far"}])")),
               (Labels{"- b", "- far"}))
         << "a node without a name has that of its mesh";
     const std::string named = replaced(replaced(kMeshes, R"("a")", R"("x_LOD0")"), R"("b")", R"("x_LOD7")");
-    EXPECT_EQ(labelsOf(lodData().import(named + R"("nodes":[{"mesh":0,"name":"n"},{"mesh":1,"name":"m"}])")),
+    EXPECT_EQ(getLabels(lodData().import(named + R"("nodes":[{"mesh":0,"name":"n"},{"mesh":1,"name":"m"}])")),
               (Labels{"7 x_LOD7"}))
         << "the mesh's name has the number";
 }
@@ -149,7 +149,7 @@ TEST(GltfLods, areFoundByTheNamesOfMeshes)
                              R"("c")", R"("X_lod2")") +
                     R"("nodes":[{"mesh":0},{"mesh":1}])");
     ASSERT_TRUE(result.ok()) << result.message();
-    EXPECT_EQ(lodsOf(result), (Lods{{0, 4}})) << "node 1 is the level of node 0";
+    EXPECT_EQ(getLods(result), (Lods{{0, 4}})) << "node 1 is the level of node 0";
     EXPECT_EQ(drawnNodes(result), (Nodes{0}));
 }
 
@@ -160,7 +160,7 @@ TEST(GltfLods, mayBeMeshesThatNoNodeHas)
         data.import(replaced(replaced(kMeshes, R"("a")", R"("x_LOD0")"), R"("b")", R"("x_LOD1")") +
                     R"("nodes":[{"mesh":0,"translation":[5,5,5]}])");
     ASSERT_TRUE(result.ok()) << result.message();
-    EXPECT_EQ(lodsOf(result), (Lods{{0, 4}}));
+    EXPECT_EQ(getLods(result), (Lods{{0, 4}}));
     EXPECT_EQ(result.mesh(4).positions.size(), 3u);
     EXPECT_LE(result.mesh(4).positions[0].x, 1);
 }
@@ -169,7 +169,7 @@ TEST(GltfLods, ofAMeshThatIsAlsoDrawnAreCopies)
 {
     const Imported result = import(R"("nodes":[
         {"mesh":0,"extensions":{"MSFT_lod":{"ids":[1]}}},{"mesh":1},{"mesh":1,"translation":[3,0,0]}])");
-    EXPECT_EQ(lodsOf(result), (Lods{{0, 4}}));
+    EXPECT_EQ(getLods(result), (Lods{{0, 4}}));
     EXPECT_EQ(drawnNodes(result), (Nodes{0, 2}));
     EXPECT_EQ(result.mesh(1).triangleCount(), 1u);
     EXPECT_EQ(result.counts.triangles, 4u) << "mesh 1 counts once";
@@ -181,77 +181,77 @@ TEST(GltfLods, ofAMeshInSeveralNodesAreThoseOfTheFirst)
         {"mesh":0,"extensions":{"MSFT_lod":{"ids":[2]}}},
         {"mesh":0,"translation":[9,0,0],"extensions":{"MSFT_lod":{"ids":[3]}}},
         {"mesh":1},{"mesh":1,"translation":[9,0,0]}])");
-    EXPECT_EQ(lodsOf(same), (Lods{{0, 4}}));
+    EXPECT_EQ(getLods(same), (Lods{{0, 4}}));
     EXPECT_EQ(drawnNodes(same), (Nodes{0, 1}));
-    EXPECT_FALSE(same.warnsOf(Issue::dropped, "other levels"));
+    EXPECT_FALSE(same.hasWarning(Issue::dropped, "other levels"));
 
     const Imported other = import(R"("nodes":[
         {"mesh":0,"extensions":{"MSFT_lod":{"ids":[2]}}},{"mesh":0,"extensions":{"MSFT_lod":{"ids":[3]}}},
         {"mesh":1},{"mesh":2}])");
-    EXPECT_EQ(lodsOf(other), (Lods{{0, 4}}));
-    EXPECT_TRUE(other.warnsOf(Issue::dropped, "mesh 0 has other levels of detail in node 0"));
+    EXPECT_EQ(getLods(other), (Lods{{0, 4}}));
+    EXPECT_TRUE(other.hasWarning(Issue::dropped, "mesh 0 has other levels of detail in node 0"));
 }
 
 TEST(GltfLods, thatAreNotUsableAreDroppedByName)
 {
     const Imported range = import(R"("nodes":[
         {"mesh":0,"extensions":{"MSFT_lod":{"ids":[1,7,-1,0.5,1e30]}}},{"mesh":1}])");
-    EXPECT_EQ(lodsOf(range), (Lods{{0, 4}})) << "the others stay";
+    EXPECT_EQ(getLods(range), (Lods{{0, 4}})) << "the others stay";
     for (const char* id : {"detail 7 is", "detail -1 is", "detail 0.5 is", "detail 1e+30 is"})
-        EXPECT_TRUE(range.warnsOf(Issue::dropped, id)) << id;
+        EXPECT_TRUE(range.hasWarning(Issue::dropped, id)) << id;
 
     const Imported itself = import(R"("nodes":[{"mesh":0,"extensions":{"MSFT_lod":{"ids":[0]}}}])");
-    EXPECT_TRUE(lodsOf(itself).empty());
+    EXPECT_TRUE(getLods(itself).empty());
     EXPECT_EQ(drawnNodes(itself), (Nodes{0}));
-    EXPECT_TRUE(itself.warnsOf(Issue::dropped, "node 0 cannot be a level of detail of what it holds"));
+    EXPECT_TRUE(itself.hasWarning(Issue::dropped, "node 0 cannot be a level of detail of what it holds"));
 
     const Imported above = import(R"("nodes":[
         {"mesh":1,"children":[1]},{"mesh":0,"extensions":{"MSFT_lod":{"ids":[0]}}}])");
     EXPECT_EQ(drawnNodes(above), (Nodes{0, 1}));
-    EXPECT_TRUE(above.warnsOf(Issue::dropped, "node 0 cannot be a level"));
+    EXPECT_TRUE(above.hasWarning(Issue::dropped, "node 0 cannot be a level"));
 
     const Imported cycle = import(R"("nodes":[
         {"mesh":0,"extensions":{"MSFT_lod":{"ids":[1]}}},{"mesh":1,"extensions":{"MSFT_lod":{"ids":[0]}}}])");
-    EXPECT_EQ(lodsOf(cycle), (Lods{{0, 4}}));
-    EXPECT_TRUE(cycle.warnsOf(Issue::dropped, "cannot have levels of its own"));
+    EXPECT_EQ(getLods(cycle), (Lods{{0, 4}}));
+    EXPECT_TRUE(cycle.hasWarning(Issue::dropped, "cannot have levels of its own"));
 
     const Imported backwards = import(R"("nodes":[
         {"mesh":0,"extensions":{"MSFT_lod":{"ids":[2]}}},{"mesh":1,"extensions":{"MSFT_lod":{"ids":[0]}}},
         {"mesh":2}])");
-    EXPECT_EQ(lodsOf(backwards), (Lods{{0, 4}}));
+    EXPECT_EQ(getLods(backwards), (Lods{{0, 4}}));
     EXPECT_EQ(drawnNodes(backwards), (Nodes{0, 1}));
-    EXPECT_TRUE(backwards.warnsOf(Issue::dropped, "node 0 cannot be a level of detail: it has levels"));
+    EXPECT_TRUE(backwards.hasWarning(Issue::dropped, "node 0 cannot be a level of detail: it has levels"));
 }
 
 TEST(GltfLods, withoutAMeshAreDroppedByName)
 {
     const Imported empty = import(R"("nodes":[
         {"mesh":0,"extensions":{"MSFT_lod":{"ids":[1,2,3]}}},{"name":"empty"},{"mesh":3},{"mesh":0}])");
-    EXPECT_TRUE(lodsOf(empty).empty());
+    EXPECT_TRUE(getLods(empty).empty());
     EXPECT_EQ(drawnNodes(empty), (Nodes{0}));
-    EXPECT_TRUE(empty.warnsOf(Issue::dropped, "a level of detail of node 0 has no mesh"));
-    EXPECT_TRUE(empty.warnsOf(Issue::dropped, "a level of detail of mesh 0 has no triangles"));
-    EXPECT_TRUE(empty.warnsOf(Issue::dropped, "has the same mesh"));
+    EXPECT_TRUE(empty.hasWarning(Issue::dropped, "a level of detail of node 0 has no mesh"));
+    EXPECT_TRUE(empty.hasWarning(Issue::dropped, "a level of detail of mesh 0 has no triangles"));
+    EXPECT_TRUE(empty.hasWarning(Issue::dropped, "has the same mesh"));
 
     const Imported base = import(R"("nodes":[
         {"extensions":{"MSFT_lod":{"ids":[1]}},"children":[2]},{"mesh":1},{"mesh":0}])");
-    EXPECT_TRUE(lodsOf(base).empty());
+    EXPECT_TRUE(getLods(base).empty());
     EXPECT_EQ(drawnNodes(base), (Nodes{2})) << "the finest is drawn, and the level is not";
-    EXPECT_TRUE(base.warnsOf(Issue::dropped, "levels of detail of a node without a mesh"));
+    EXPECT_TRUE(base.hasWarning(Issue::dropped, "levels of detail of a node without a mesh"));
 
     const Imported below = import(R"("nodes":[
         {"mesh":0,"extensions":{"MSFT_lod":{"ids":[1]}}},{"mesh":1,"children":[2]},{"mesh":2}])");
-    EXPECT_EQ(lodsOf(below), (Lods{{0, 4}}));
+    EXPECT_EQ(getLods(below), (Lods{{0, 4}}));
     EXPECT_EQ(drawnNodes(below), (Nodes{0}));
-    EXPECT_TRUE(below.warnsOf(Issue::dropped, "meshes below a level of detail"));
+    EXPECT_TRUE(below.hasWarning(Issue::dropped, "meshes below a level of detail"));
 }
 
 TEST(GltfLods, areAFewCopiesAtMost)
 {
     const Imported twice = import(R"("nodes":[
         {"mesh":0,"extensions":{"MSFT_lod":{"ids":[1,1,2]}}},{"mesh":1},{"mesh":1}])");
-    EXPECT_EQ(lodsOf(twice), (Lods{{0, 4}}));
-    EXPECT_TRUE(twice.warnsOf(Issue::dropped, "has the same mesh"));
+    EXPECT_EQ(getLods(twice), (Lods{{0, 4}}));
+    EXPECT_TRUE(twice.hasWarning(Issue::dropped, "has the same mesh"));
 
     std::string meshes, nodes, ids;
     for (int i = 0; i < 100; ++i)
@@ -265,34 +265,34 @@ TEST(GltfLods, areAFewCopiesAtMost)
                          R"({"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],"nodes":[)" + nodes +
                          R"({"mesh":100,"extensions":{"MSFT_lod":{"ids":[)" + ids + "]}}}]");
     ASSERT_TRUE(many.ok()) << many.message();
-    EXPECT_EQ(lodsOf(many).size(), 64u);
-    EXPECT_TRUE(many.warnsOf(Issue::dropped, "more than 64 levels"));
+    EXPECT_EQ(getLods(many).size(), 64u);
+    EXPECT_TRUE(many.hasWarning(Issue::dropped, "more than 64 levels"));
 }
 
 TEST(GltfLods, ofMaterialsAreDroppedByName)
 {
     const Imported result =
         import(R"("materials":[{"extensions":{"MSFT_lod":{"ids":[1]}}},{}],"nodes":[{"mesh":0}])");
-    EXPECT_TRUE(result.warnsOf(Issue::dropped, "levels of detail of materials"));
+    EXPECT_TRUE(result.hasWarning(Issue::dropped, "levels of detail of materials"));
 }
 
 TEST(GltfLods, mustBeSkinnedLikeTheFinest)
 {
     const Imported result = import(R"("skins":[{"joints":[2]}],"nodes":[
         {"mesh":0,"extensions":{"MSFT_lod":{"ids":[1]}}},{"mesh":1,"skin":0},{}])");
-    EXPECT_TRUE(lodsOf(result).empty());
-    EXPECT_TRUE(result.warnsOf(Issue::dropped, "must be skinned like it"));
+    EXPECT_TRUE(getLods(result).empty());
+    EXPECT_TRUE(result.hasWarning(Issue::dropped, "must be skinned like it"));
 }
 
 TEST(GltfLods, thatCannotBeMovedAreDropped)
 {
     const Imported flat = import(R"("nodes":[
         {"mesh":0,"scale":[1,1,0],"extensions":{"MSFT_lod":{"ids":[1]}}},{"mesh":1}])");
-    EXPECT_TRUE(lodsOf(flat).empty());
-    EXPECT_TRUE(flat.warnsOf(Issue::dropped, "cannot be moved"));
+    EXPECT_TRUE(getLods(flat).empty());
+    EXPECT_TRUE(flat.hasWarning(Issue::dropped, "cannot be moved"));
     const Imported far = import(R"("nodes":[
         {"mesh":0,"extensions":{"MSFT_lod":{"ids":[1]}}},{"mesh":1,"translation":[2e9,0,0]}])");
-    EXPECT_TRUE(lodsOf(far).empty());
+    EXPECT_TRUE(getLods(far).empty());
 }
 
 TEST(GltfLods, inADeepTreeDoNotCostItsDepth)
@@ -304,7 +304,7 @@ TEST(GltfLods, inADeepTreeDoNotCostItsDepth)
         nodes += R"({"mesh":0,"children":[)" + std::to_string(i + 1) +
                  R"(],"extensions":{"MSFT_lod":{"ids":[)" + std::to_string(kDepth + 1) + "]}}},";
     const Imported result = import(nodes + R"({"mesh":0},{"mesh":1}],"scenes":[{"nodes":[0]}])");
-    EXPECT_EQ(lodsOf(result), (Lods{{0, 4}}));
+    EXPECT_EQ(getLods(result), (Lods{{0, 4}}));
 }
 
 TEST(ParseLodName, findsTheLevel)

@@ -17,7 +17,7 @@ using namespace formats;
 std::string tga(uint16_t width, uint16_t height, std::string_view bgra)
 {
     std::string bytes("\0\0\2\0\0\0\0\0\0\0\0\0", 12);
-    bytes += bytesOf<uint16_t>({width, height});
+    bytes += toBytes<uint16_t>({width, height});
     bytes += std::string("\x20\x28", 2); // 32 bits, top to bottom, 8 bits of alpha
     for (int i = 0; i < width * height; ++i)
         bytes += bgra;
@@ -26,7 +26,7 @@ std::string tga(uint16_t width, uint16_t height, std::string_view bgra)
 
 const std::string kGrey = std::string("\x80\x80\x80\xFF", 4);
 
-std::vector<MaterialRecord> materialsOf(const Imported& result)
+std::vector<MaterialRecord> getMaterials(const Imported& result)
 {
     EXPECT_TRUE(result.ok()) << result.message();
     return result.ok() ? result.records<MaterialRecord>(kChunkMaterials) : std::vector<MaterialRecord>{};
@@ -34,7 +34,7 @@ std::vector<MaterialRecord> materialsOf(const Imported& result)
 
 TEST(GltfMaterials, haveTheDefaultsOfTheSpecification)
 {
-    const auto materials = materialsOf(GltfData().import(R"("materials":[{}])"));
+    const auto materials = getMaterials(GltfData().import(R"("materials":[{}])"));
     ASSERT_EQ(materials.size(), 1u);
     EXPECT_EQ(materials[0].base_color, (Float4{1, 1, 1, 1}));
     EXPECT_EQ(materials[0].metallic, 1.0f);
@@ -52,7 +52,7 @@ TEST(GltfMaterials, readFactorsFlagsAndExtensions)
         "pbrMetallicRoughness":{"baseColorFactor":[0.1,0.2,0.3,0.4],"metallicFactor":0.5,"roughnessFactor":2},
         "emissiveFactor":[1,0.5,0],"extensions":{"KHR_materials_unlit":{},
         "KHR_materials_emissive_strength":{"emissiveStrength":8},"KHR_materials_clearcoat":{"clearcoatFactor":1}}}])");
-    const auto materials = materialsOf(result);
+    const auto materials = getMaterials(result);
     ASSERT_EQ(materials.size(), 1u);
     EXPECT_EQ(materials[0].base_color, (Float4{0.1f, 0.2f, 0.3f, 0.4f}));
     EXPECT_EQ(materials[0].metallic, 0.5f);
@@ -60,8 +60,8 @@ TEST(GltfMaterials, readFactorsFlagsAndExtensions)
     EXPECT_EQ(materials[0].emissive, (Float3{8, 4, 0}));
     EXPECT_EQ(materials[0].flags, uint32_t{kMaterialDoubleSided | kMaterialUnlit});
     EXPECT_EQ(materials[0].alpha_mode, static_cast<uint32_t>(AlphaMode::blend));
-    EXPECT_TRUE(result.warnsOf(Issue::repaired, "outside 0 to 1"));
-    EXPECT_TRUE(result.warnsOf(Issue::dropped, "extension KHR_materials_clearcoat"))
+    EXPECT_TRUE(result.hasWarning(Issue::repaired, "outside 0 to 1"));
+    EXPECT_TRUE(result.hasWarning(Issue::dropped, "extension KHR_materials_clearcoat"))
         << "also when it is not declared";
     EXPECT_EQ(result.text(kChunkStrings).substr(materials[0].name.offset, materials[0].name.length), "lamp");
 }
@@ -69,7 +69,7 @@ TEST(GltfMaterials, readFactorsFlagsAndExtensions)
 TEST(GltfMaterials, transformUvsAsTheExtensionSays)
 {
     const auto materials =
-        materialsOf(GltfData().import(R"("textures":[{}],"materials":[{"pbrMetallicRoughness":
+        getMaterials(GltfData().import(R"("textures":[{}],"materials":[{"pbrMetallicRoughness":
         {"baseColorTexture":{"index":0,"texCoord":1,"extensions":{"KHR_texture_transform":
         {"offset":[0.25,0.5],"rotation":1.5707963267948966,"scale":[2,3],"texCoord":2}}}}}])"));
     ASSERT_EQ(materials.size(), 1u);
@@ -84,7 +84,7 @@ TEST(GltfMaterials, transformUvsAsTheExtensionSays)
 TEST(GltfMaterials, readSamplers)
 {
     const auto materials =
-        materialsOf(GltfData().import(R"("samplers":[{"wrapS":33071,"wrapT":33648,"magFilter":9728}],
+        getMaterials(GltfData().import(R"("samplers":[{"wrapS":33071,"wrapT":33648,"magFilter":9728}],
         "textures":[{"sampler":0},{}],"materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0}},
         "emissiveTexture":{"index":1}}])"));
     ASSERT_EQ(materials.size(), 1u);
@@ -102,8 +102,8 @@ TEST(GltfMaterials, dropTexturesOfUvSetsThatNoMeshCanHave)
         const Imported result = GltfData().import(
             std::string(R"("textures":[{}],"materials":[{"emissiveTexture":{"index":0,"texCoord":)") + set +
             "}}]");
-        EXPECT_EQ(materialsOf(result)[0].emissive_texture.image, kInvalidIndex);
-        EXPECT_TRUE(result.warnsOf(Issue::dropped, "UV set"));
+        EXPECT_EQ(getMaterials(result)[0].emissive_texture.image, kInvalidIndex);
+        EXPECT_TRUE(result.hasWarning(Issue::dropped, "UV set"));
     }
 }
 
@@ -117,7 +117,7 @@ TEST(GltfImages, areWrittenOnceForEachPurpose)
          "normalTexture":{"index":0},"occlusionTexture":{"index":0},"emissiveTexture":{"index":1}},
         {"pbrMetallicRoughness":{"baseColorTexture":{"index":1}}}]})",
                                         &folder);
-    const auto materials = materialsOf(result);
+    const auto materials = getMaterials(result);
     const auto images = result.records<ImageRecord>(kChunkImages);
     ASSERT_EQ(images.size(), 3u);
     EXPECT_EQ(materials[0].base_color_texture.image, materials[0].emissive_texture.image);
@@ -167,7 +167,7 @@ TEST(GltfImages, becomePlaceholdersWhenTheyAreMissingOrBroken)
         const Imported result = GltfData().import(
             std::string(R"("textures":[{"source":0}],"images":[)") + image +
             R"(],"materials":[{"emissiveTexture":{"index":0},"normalTexture":{"index":0}}])");
-        const auto materials = materialsOf(result);
+        const auto materials = getMaterials(result);
         const auto images = result.records<ImageRecord>(kChunkImages);
         ASSERT_EQ(images.size(), 2u);
         const uint32_t color = materials[0].emissive_texture.image;
@@ -178,7 +178,7 @@ TEST(GltfImages, becomePlaceholdersWhenTheyAreMissingOrBroken)
         EXPECT_EQ(result.texels(color)[0], 255);
         EXPECT_EQ(result.texels(color)[1], 0);
         EXPECT_EQ(result.texels(normal)[2], 255) << "a missing normal map leaves the surface as it is";
-        EXPECT_TRUE(result.warnsOf(issue, "")) << image;
+        EXPECT_TRUE(result.hasWarning(issue, "")) << image;
     }
 }
 
@@ -217,12 +217,12 @@ TEST(GltfImages, nameTheirMaterialAndTheNearestFileWhereTheyAreMissing)
             &folder);
         ASSERT_TRUE(result.ok()) << result.message();
         ASSERT_EQ(result.warnings.size(), 1u) << row.uri;
-        const std::string& told = result.warnings[0].detail;
-        EXPECT_NE(told.find(R"(of material "oak": ")" + std::string(row.path) + R"(" beside test.gltf: )"),
+        const std::string& detail = result.warnings[0].detail;
+        EXPECT_NE(detail.find(R"(of material "oak": ")" + std::string(row.path) + R"(" beside test.gltf: )"),
                   std::string::npos)
-            << told;
-        const size_t nearest = told.find("; nearest: ");
-        EXPECT_EQ(nearest == std::string::npos ? "" : told.substr(nearest + 11), row.nearest) << told;
+            << detail;
+        const size_t nearest = detail.find("; nearest: ");
+        EXPECT_EQ(nearest == std::string::npos ? "" : detail.substr(nearest + 11), row.nearest) << detail;
         EXPECT_EQ(result.text(kChunkMeta).find("nearest"), std::string::npos)
             << "the part does not depend on files that were not read";
     }
@@ -233,7 +233,7 @@ TEST(GltfImages, preferTheOneOfTheTextureAndElseThatOfAnExtension)
     const TemporaryFolder folder;
     folder.write("a.tga", tga(1, 1, kGrey));
     folder.write("b.tga", tga(2, 2, kGrey));
-    const auto widthOf = [&](const std::string& texture)
+    const auto getWidth = [&](const std::string& texture)
     {
         const Imported result =
             importBytes(R"({"asset":{"version":"2.0"},"images":[{"uri":"a.tga"},{"uri":"b.tga"}],
@@ -243,17 +243,17 @@ TEST(GltfImages, preferTheOneOfTheTextureAndElseThatOfAnExtension)
         EXPECT_TRUE(result.ok()) << result.message();
         return result.records<ImageRecord>(kChunkImages)[0].width;
     };
-    EXPECT_EQ(widthOf(R"({"source":0,"extensions":{"EXT_texture_webp":{"source":1}}})"), 1u);
-    EXPECT_EQ(widthOf(R"({"extensions":{"EXT_texture_webp":{"source":1}}})"), 2u);
-    EXPECT_EQ(widthOf(R"({"extensions":{"KHR_texture_basisu":{"source":1}}})"), 2u);
+    EXPECT_EQ(getWidth(R"({"source":0,"extensions":{"EXT_texture_webp":{"source":1}}})"), 1u);
+    EXPECT_EQ(getWidth(R"({"extensions":{"EXT_texture_webp":{"source":1}}})"), 2u);
+    EXPECT_EQ(getWidth(R"({"extensions":{"KHR_texture_basisu":{"source":1}}})"), 2u);
 }
 
 TEST(GltfImages, areNamedWhenNothingUsesThem)
 {
     const Imported result = GltfData().import(R"("images":[{"name":"spare","uri":"absent.png"}])");
     ASSERT_TRUE(result.ok()) << result.message();
-    EXPECT_TRUE(result.warnsOf(Issue::dropped, "spare"));
-    EXPECT_FALSE(result.warnsOf(Issue::image_missing, ""));
+    EXPECT_TRUE(result.hasWarning(Issue::dropped, "spare"));
+    EXPECT_FALSE(result.hasWarning(Issue::image_missing, ""));
 }
 
 TEST(SpecularGlossiness, ofADielectricKeepsItsColor)
@@ -287,7 +287,7 @@ TEST(SpecularGlossiness, isConvertedTexelByTexel)
         "textures":[{"source":0},{"source":1}],"materials":[{"extensions":{"KHR_materials_pbrSpecularGlossiness":
         {"diffuseFactor":[1,1,1,1],"diffuseTexture":{"index":0},"specularGlossinessTexture":{"index":1}}}}]})",
                     &folder);
-    const auto materials = materialsOf(result);
+    const auto materials = getMaterials(result);
     ASSERT_EQ(materials.size(), 1u);
     const auto images = result.records<ImageRecord>(kChunkImages);
     const uint32_t base = materials[0].base_color_texture.image;
@@ -303,7 +303,7 @@ TEST(SpecularGlossiness, isConvertedTexelByTexel)
     EXPECT_EQ(base_texels[3], 128);
     EXPECT_EQ(result.texels(surface)[1], 255 - 64);
     EXPECT_EQ(result.texels(surface)[2], 0);
-    EXPECT_TRUE(result.warnsOf(Issue::degraded, "specular-glossiness"));
+    EXPECT_TRUE(result.hasWarning(Issue::degraded, "specular-glossiness"));
 }
 
 } // namespace

@@ -55,7 +55,7 @@ TEST(GltfPrimitives, leaveOutIndicesThatMakeNoWholeTriangle)
     const Imported result = importStrip(4);
     ASSERT_TRUE(result.ok()) << result.message();
     EXPECT_EQ(corners(result.mesh()), stripPoints({0, 1, 2}));
-    EXPECT_TRUE(result.warnsOf(Issue::dropped, "no whole triangle"));
+    EXPECT_TRUE(result.hasWarning(Issue::dropped, "no whole triangle"));
 }
 
 TEST(GltfPrimitives, nameThePointsAndLinesThatAreLeftOut)
@@ -66,7 +66,8 @@ TEST(GltfPrimitives, nameThePointsAndLinesThatAreLeftOut)
         ASSERT_TRUE(result.ok()) << result.message();
         EXPECT_EQ(result.mesh().triangleCount(), 0u);
         EXPECT_EQ(result.counts.vertices, 5u);
-        EXPECT_TRUE(result.warnsOf(Issue::dropped, mode == 0 ? "primitive of points" : "primitive of lines"));
+        EXPECT_TRUE(
+            result.hasWarning(Issue::dropped, mode == 0 ? "primitive of points" : "primitive of lines"));
     }
 }
 
@@ -159,7 +160,7 @@ TEST(GltfPrimitives, mendNormalsWithoutDirection)
     ASSERT_TRUE(result.ok()) << result.message();
     for (const Float3 normal : result.mesh().normals)
         EXPECT_EQ(normal, (Float3{0, 0, 1}));
-    EXPECT_TRUE(result.warnsOf(Issue::repaired, "normals"));
+    EXPECT_TRUE(result.hasWarning(Issue::repaired, "normals"));
 }
 
 /// Return the square with normals and UVs, with or without tangents, and a material with or without a normal
@@ -203,7 +204,7 @@ TEST(GltfPrimitives, haveNoTangentsThatNothingUses)
     EXPECT_TRUE(importTangents(false, false).mesh().tangents.empty());
     const Imported dropped = importTangents(true, false);
     EXPECT_TRUE(dropped.mesh().tangents.empty());
-    EXPECT_TRUE(dropped.warnsOf(Issue::dropped, "TANGENT"));
+    EXPECT_TRUE(dropped.hasWarning(Issue::dropped, "TANGENT"));
 }
 
 TEST(GltfPrimitives, nameTheAttributesThatAreLeftOut)
@@ -218,8 +219,8 @@ TEST(GltfPrimitives, nameTheAttributesThatAreLeftOut)
     ASSERT_TRUE(result.ok()) << result.message();
     EXPECT_EQ(result.mesh().uvs[3].size(), 4u);
     for (const char* name : {"attribute TEXCOORD_4", "attribute _WIND", "attribute COLOR_1"})
-        EXPECT_TRUE(result.warnsOf(Issue::dropped, name)) << name;
-    EXPECT_FALSE(result.warnsOf(Issue::dropped, "TEXCOORD_3"));
+        EXPECT_TRUE(result.hasWarning(Issue::dropped, name)) << name;
+    EXPECT_FALSE(result.hasWarning(Issue::dropped, "TEXCOORD_3"));
     EXPECT_NE(
         result.text(formats::kChunkMeta)
             .find(
@@ -234,7 +235,7 @@ TEST(GltfPrimitives, nameOneWithoutPositions)
     data.add("VEC2", std::vector<float>(8));
     const Imported result = data.import(R"("meshes":[{"primitives":[{"attributes":{"TEXCOORD_0":0}}]}])");
     ASSERT_TRUE(result.ok()) << result.message();
-    EXPECT_TRUE(result.warnsOf(Issue::dropped, "without POSITION"));
+    EXPECT_TRUE(result.hasWarning(Issue::dropped, "without POSITION"));
     EXPECT_EQ(result.mesh().triangleCount(), 0u);
 }
 
@@ -256,7 +257,7 @@ TEST(GltfPrimitives, normalizeJointWeights)
     EXPECT_EQ(mesh.joint_sets[0][0].joint[3], 0) << "a joint without weight is joint 0";
     EXPECT_EQ(mesh.weight_sets[0][1], (Float4{1, 0, 0, 0}));
     EXPECT_EQ(mesh.weight_sets[0][2], (Float4{0, 0, 1, 0}));
-    EXPECT_TRUE(result.warnsOf(Issue::repaired, "weights"));
+    EXPECT_TRUE(result.hasWarning(Issue::repaired, "weights"));
 }
 
 TEST(GltfMorphTargets, moveNothingYet)

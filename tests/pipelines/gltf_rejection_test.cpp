@@ -65,13 +65,13 @@ std::string documentData()
     std::string data(448, '\0');
     const auto put = [&](size_t offset, const std::string& bytes)
     { data.replace(offset, bytes.size(), bytes); };
-    put(0, bytesOf(kSquare));
-    put(96, bytesOf<float>({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}));
-    put(160, bytesOf(kSquareIndices));
-    put(224, bytesOf<float>({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}));
-    put(288, bytesOf<float>({0, 1}));
-    put(296, bytesOf<float>({0, 0, 0, 1, 0, 0, 0, 1}));
-    put(328, bytesOf<uint16_t>({0, 1, 2, 3}));
+    put(0, toBytes(kSquare));
+    put(96, toBytes<float>({1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}));
+    put(160, toBytes(kSquareIndices));
+    put(224, toBytes<float>({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}));
+    put(288, toBytes<float>({0, 1}));
+    put(296, toBytes<float>({0, 0, 0, 1, 0, 0, 0, 1}));
+    put(328, toBytes<uint16_t>({0, 1, 2, 3}));
     return data;
 }
 
@@ -327,7 +327,7 @@ TEST(GltfReader, survivesFlippedBytes)
 TEST(GltfReader, refusesPositionsThatAreNotFinite)
 {
     std::string data = documentData();
-    data.replace(0, 4, bytesOf<float>({std::numeric_limits<float>::infinity()}));
+    data.replace(0, 4, toBytes<float>({std::numeric_limits<float>::infinity()}));
     const Imported result = importBytes(glb(kDocument, data));
     ASSERT_FALSE(result.ok());
     EXPECT_EQ(result.status.error().issue, Issue::gltf_data);
@@ -339,7 +339,7 @@ TEST(GltfReader, refusesAnIndexBeyondTheVertices)
     for (const uint16_t index : {uint16_t{4}, uint16_t{65535}})
     {
         std::string data = documentData();
-        data.replace(160, 2, bytesOf<uint16_t>({index}));
+        data.replace(160, 2, toBytes<uint16_t>({index}));
         const Imported result = importBytes(glb(kDocument, data));
         ASSERT_FALSE(result.ok());
         EXPECT_EQ(result.status.error().issue, Issue::index_out_of_range);

@@ -27,7 +27,7 @@ GltfData squareData()
 }
 const std::string kSquareMesh = R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],)";
 
-std::vector<InstanceRecord> instancesOf(const Imported& result)
+std::vector<InstanceRecord> getInstances(const Imported& result)
 {
     return result.records<InstanceRecord>(kChunkInstances);
 }
@@ -46,7 +46,7 @@ TEST(GltfScene, multipliesTransformsDownTheTree)
         {"mesh":0,"translation":[1,0,0],"scale":[2,2,2]},
         {"children":[0],"translation":[0,10,0],"rotation":[0,0,0.70710678,0.70710678]}])");
     ASSERT_TRUE(result.ok()) << result.message();
-    const auto instances = instancesOf(result);
+    const auto instances = getInstances(result);
     ASSERT_EQ(instances.size(), 1u);
     expectNear(transformPoint(instances[0].world_from_object, {1, 0, 0}), {0, 13, 0});
     EXPECT_NEAR(instances[0].scale_max, 2, 1e-5);
@@ -63,7 +63,7 @@ TEST(GltfScene, readsMatricesByColumns)
     const Imported result = squareData().import(
         kSquareMesh + R"("nodes":[{"mesh":0,"matrix":[0,1,0,0, -1,0,0,0, 0,0,1,0, 5,6,7,1]}])");
     ASSERT_TRUE(result.ok()) << result.message();
-    expectNear(transformPoint(instancesOf(result)[0].world_from_object, {1, 0, 0}), {5, 7, 7});
+    expectNear(transformPoint(getInstances(result)[0].world_from_object, {1, 0, 0}), {5, 7, 7});
     EXPECT_EQ(result.records<NodeRecord>(kChunkNodes)[0].has_trs, 0u);
 }
 
@@ -72,7 +72,7 @@ TEST(GltfScene, marksMirroredInstances)
     const Imported result = squareData().import(
         kSquareMesh + R"("nodes":[{"mesh":0,"scale":[-1,1,1]},{"mesh":0,"scale":[-1,-1,1]}])");
     ASSERT_TRUE(result.ok()) << result.message();
-    const auto instances = instancesOf(result);
+    const auto instances = getInstances(result);
     EXPECT_EQ(instances[0].flags, uint32_t{kInstanceMirrored});
     EXPECT_EQ(instances[1].flags, 0u);
 }
@@ -85,7 +85,7 @@ TEST(GltfScene, drawsOnlyTheDefaultScene)
         const Imported result = squareData().import(kSquareMesh + nodes + scenes);
         EXPECT_TRUE(result.ok()) << result.message();
         std::vector<uint32_t> drawn;
-        for (const InstanceRecord& instance : instancesOf(result))
+        for (const InstanceRecord& instance : getInstances(result))
             drawn.push_back(instance.node);
         return drawn;
     };
@@ -103,7 +103,7 @@ TEST(GltfScene, keepsMillimetresFarFromTheOrigin)
     const Imported result = squareData().import(kSquareMesh + R"("nodes":[
         {"mesh":0,"translation":[-20000000,0,0.001]},{"children":[0],"translation":[20000000,0,0]}])");
     ASSERT_TRUE(result.ok()) << result.message();
-    expectNear(transformPoint(instancesOf(result)[0].world_from_object, {}), {0, 0, 0.001f}, 1e-7f);
+    expectNear(transformPoint(getInstances(result)[0].world_from_object, {}), {0, 0, 0.001f}, 1e-7f);
 }
 
 TEST(GltfScene, survivesAChainOfAHundredThousandNodes)
@@ -114,7 +114,7 @@ TEST(GltfScene, survivesAChainOfAHundredThousandNodes)
         nodes += R"(,{"translation":[1,0,0],"children":[)" + std::to_string(i - 1) + "]}";
     const Imported result = squareData().import(kSquareMesh + nodes + "]");
     ASSERT_TRUE(result.ok()) << result.message();
-    EXPECT_EQ(instancesOf(result)[0].world_from_object.m[0][3], static_cast<float>(kCount));
+    EXPECT_EQ(getInstances(result)[0].world_from_object.m[0][3], static_cast<float>(kCount));
 }
 
 TEST(GltfScene, mendsRotationsThatAreNotUnit)
@@ -122,9 +122,9 @@ TEST(GltfScene, mendsRotationsThatAreNotUnit)
     const Imported result = squareData().import(
         kSquareMesh + R"("nodes":[{"mesh":0,"rotation":[0,0,3,3]},{"mesh":0,"rotation":[0,0,0,0]}])");
     ASSERT_TRUE(result.ok()) << result.message();
-    expectNear(transformPoint(instancesOf(result)[0].world_from_object, {1, 0, 0}), {0, 1, 0});
-    expectNear(transformPoint(instancesOf(result)[1].world_from_object, {1, 0, 0}), {1, 0, 0});
-    EXPECT_TRUE(result.warnsOf(Issue::repaired, "rotation"));
+    expectNear(transformPoint(getInstances(result)[0].world_from_object, {1, 0, 0}), {0, 1, 0});
+    expectNear(transformPoint(getInstances(result)[1].world_from_object, {1, 0, 0}), {1, 0, 0});
+    EXPECT_TRUE(result.hasWarning(Issue::repaired, "rotation"));
 }
 
 TEST(GltfInstancing, multipliesEachCopyIntoTheNode)
@@ -138,11 +138,11 @@ TEST(GltfInstancing, multipliesEachCopyIntoTheNode)
         "nodes":[{"mesh":0,"scale":[10,10,10],"extensions":{"EXT_mesh_gpu_instancing":{"attributes":
         {"TRANSLATION":2,"ROTATION":3,"SCALE":4,"_ID":5}}}}])");
     ASSERT_TRUE(result.ok()) << result.message();
-    const auto instances = instancesOf(result);
+    const auto instances = getInstances(result);
     ASSERT_EQ(instances.size(), 2u);
     expectNear(transformPoint(instances[0].world_from_object, {1, 0, 0}), {20, 0, 0});
     expectNear(transformPoint(instances[1].world_from_object, {1, 0, 0}), {-20, 10, 0});
-    EXPECT_TRUE(result.warnsOf(Issue::dropped, "instance attribute _ID"));
+    EXPECT_TRUE(result.hasWarning(Issue::dropped, "instance attribute _ID"));
 }
 
 TEST(GltfInstancing, ofASkinnedMeshLeavesOneCopyWhereItsJointsAre)
@@ -159,14 +159,14 @@ TEST(GltfInstancing, ofASkinnedMeshLeavesOneCopyWhereItsJointsAre)
     const Imported skinned =
         data.import(meshes + R"("skins":[{"joints":[1]}],)" + replaced(node, "%", R"("skin":0,)"));
     ASSERT_TRUE(skinned.ok()) << skinned.message();
-    ASSERT_EQ(instancesOf(skinned).size(), 1u);
-    EXPECT_EQ(instancesOf(skinned)[0].world_from_object, Affine3{});
-    EXPECT_TRUE(skinned.warnsOf(Issue::dropped, "instancing of a skinned mesh is not kept"));
+    ASSERT_EQ(getInstances(skinned).size(), 1u);
+    EXPECT_EQ(getInstances(skinned)[0].world_from_object, Affine3{});
+    EXPECT_TRUE(skinned.hasWarning(Issue::dropped, "instancing of a skinned mesh is not kept"));
     // without the skin the same node draws three
     const Imported rigid = data.import(meshes + replaced(node, "%", ""));
     ASSERT_TRUE(rigid.ok()) << rigid.message();
-    EXPECT_EQ(instancesOf(rigid).size(), 3u);
-    EXPECT_FALSE(rigid.warnsOf(Issue::dropped, "instancing"));
+    EXPECT_EQ(getInstances(rigid).size(), 3u);
+    EXPECT_FALSE(rigid.hasWarning(Issue::dropped, "instancing"));
 }
 
 TEST(GltfInstancing, refusesCountsThatDifferAndTooManyCopies)
@@ -244,7 +244,7 @@ TEST(GltfScene, takesShadowSpheresFromExtras)
     EXPECT_EQ(spheres[0].texels, 0u);
 
     // the light's name selects every node that has it; a node's name selects this node
-    const auto lightsOf = [](const std::string& name)
+    const auto makeLights = [](const std::string& name)
     {
         const Imported result = importShadowSphere(
             R"({"hearth_shadow_radius":3,"hearth_shadow_texels":512,"hearth_shadow_light":")" + name + "\"}");
@@ -255,14 +255,14 @@ TEST(GltfScene, takesShadowSpheresFromExtras)
             EXPECT_EQ(sphere.texels, 512u);
             lights.push_back(sphere.light);
         }
-        EXPECT_EQ(result.warnsOf(Issue::dropped, name), lights.empty());
+        EXPECT_EQ(result.hasWarning(Issue::dropped, name), lights.empty());
         return lights;
     };
-    EXPECT_EQ(lightsOf("lamp"), (std::vector<uint32_t>{1, 2}));
-    EXPECT_EQ(lightsOf("right"), (std::vector<uint32_t>{2}));
-    EXPECT_EQ(lightsOf("noon"), (std::vector<uint32_t>{0}));
-    EXPECT_EQ(lightsOf("bulb"), std::vector<uint32_t>{});
-    EXPECT_EQ(lightsOf("moon"), std::vector<uint32_t>{});
+    EXPECT_EQ(makeLights("lamp"), (std::vector<uint32_t>{1, 2}));
+    EXPECT_EQ(makeLights("right"), (std::vector<uint32_t>{2}));
+    EXPECT_EQ(makeLights("noon"), (std::vector<uint32_t>{0}));
+    EXPECT_EQ(makeLights("bulb"), std::vector<uint32_t>{});
+    EXPECT_EQ(makeLights("moon"), std::vector<uint32_t>{});
 }
 
 TEST(GltfScene, leavesOtherExtrasAloneAndRefusesWrongSpheres)
@@ -274,16 +274,16 @@ TEST(GltfScene, leavesOtherExtrasAloneAndRefusesWrongSpheres)
         EXPECT_TRUE(result.ok()) << extras << result.message();
         EXPECT_TRUE(result.records<ShadowSphereRecord>(kChunkShadowSpheres).empty());
     }
-    const auto issueOf = [](const char* extras)
+    const auto getIssue = [](const char* extras)
     {
         const Imported result = importShadowSphere(extras);
         return result.ok() ? std::nullopt : std::optional(result.status.error().issue);
     };
-    EXPECT_EQ(issueOf(R"({"hearth_shadow_radius":"3"})"), Issue::gltf_structure);
-    EXPECT_EQ(issueOf(R"({"hearth_shadow_radius":0})"), Issue::gltf_value);
-    EXPECT_EQ(issueOf(R"({"hearth_shadow_radius":3e38})"), Issue::gltf_value);
-    EXPECT_EQ(issueOf(R"({"hearth_shadow_radius":3,"hearth_shadow_texels":500})"), Issue::gltf_value);
-    EXPECT_EQ(issueOf(R"({"hearth_shadow_radius":3,"hearth_shadow_light":4})"), Issue::gltf_structure);
+    EXPECT_EQ(getIssue(R"({"hearth_shadow_radius":"3"})"), Issue::gltf_structure);
+    EXPECT_EQ(getIssue(R"({"hearth_shadow_radius":0})"), Issue::gltf_value);
+    EXPECT_EQ(getIssue(R"({"hearth_shadow_radius":3e38})"), Issue::gltf_value);
+    EXPECT_EQ(getIssue(R"({"hearth_shadow_radius":3,"hearth_shadow_texels":500})"), Issue::gltf_value);
+    EXPECT_EQ(getIssue(R"({"hearth_shadow_radius":3,"hearth_shadow_light":4})"), Issue::gltf_structure);
 }
 
 /// Square bound to two joints by its accessors 2 to 4: joint 0 moves it all, or each joint moves two corners.
@@ -307,8 +307,8 @@ TEST(GltfSkins, keepTheMeshAsItIsBound)
     const Imported result = importSkinned(true, R"("nodes":[{"mesh":0,"skin":0,"translation":[100,0,0]},
         {"translation":[5,2,0],"children":[2]},{"translation":[0,1,0],"rotation":[0,0,0.70710678,0.70710678]}])");
     ASSERT_TRUE(result.ok()) << result.message();
-    EXPECT_EQ(instancesOf(result)[0].world_from_object, Affine3{});
-    EXPECT_NEAR(instancesOf(result)[0].scale_max, 1, 1e-5);
+    EXPECT_EQ(getInstances(result)[0].world_from_object, Affine3{});
+    EXPECT_NEAR(getInstances(result)[0].scale_max, 1, 1e-5);
     const auto joints = result.records<JointRecord>(kChunkJoints);
     ASSERT_EQ(joints.size(), 2u);
     EXPECT_EQ(joints[1].node, 2u);
@@ -328,7 +328,7 @@ TEST(GltfSkins, sayWhichWayTrianglesTurnUnderTheirJoints)
         const Imported result =
             importSkinned(true, R"("nodes":[{"mesh":0,"skin":0,"scale":[-1,1,1]},)" + root + "," + tip + "]");
         EXPECT_TRUE(result.ok()) << result.message();
-        return instancesOf(result)[0];
+        return getInstances(result)[0];
     };
     const std::string plain_root = R"({"children":[2]})", plain_tip = R"({"translation":[0,1,0]})";
     const std::string mirrored_root = R"({"scale":[1,1,-2],"children":[2]})";
@@ -381,7 +381,7 @@ TEST(GltfSkins, giveACopyToEachFurtherSkin)
         {"translation":[5,0,0]},{}])");
     ASSERT_TRUE(result.ok()) << result.message();
     const auto nodes = result.records<NodeRecord>(kChunkNodes);
-    const auto instances = instancesOf(result);
+    const auto instances = getInstances(result);
     constexpr std::array<uint32_t, 5> kMeshes{0, 2, 3, 1, 2};
     constexpr std::array<uint32_t, 5> kSkins{0, 1, kInvalidIndex, 1, 1};
     for (size_t node = 0; node < kMeshes.size(); ++node)
@@ -402,8 +402,8 @@ TEST(GltfSkins, leaveTheMeshAtItsNodeWhereTheyCannotMoveIt)
     const Imported flat = importSkinned(true, R"("nodes":[{"mesh":0,"skin":0,"translation":[100,0,0]},
         {"translation":[5,0,0],"scale":[0,0,0]},{"translation":[7,1,0],"scale":[0,0,0]}])");
     ASSERT_TRUE(flat.ok()) << flat.message();
-    EXPECT_TRUE(flat.warnsOf(Issue::degraded, "does not move its mesh"));
-    EXPECT_EQ(instancesOf(flat)[0].world_from_object.m[0][3], 100.0f);
+    EXPECT_TRUE(flat.hasWarning(Issue::degraded, "does not move its mesh"));
+    EXPECT_EQ(getInstances(flat)[0].world_from_object.m[0][3], 100.0f);
     EXPECT_EQ(flat.records<NodeRecord>(kChunkNodes)[0].skin, kInvalidIndex);
     EXPECT_TRUE(flat.mesh().joint_sets.empty());
     // position outside the range of floats
@@ -411,7 +411,7 @@ TEST(GltfSkins, leaveTheMeshAtItsNodeWhereTheyCannotMoveIt)
         importSkinned(true, R"("nodes":[{"mesh":0,"skin":0},{"translation":[3e38,0,0],"children":[2]},
         {"translation":[3e38,1,0]}])");
     ASSERT_TRUE(far.ok()) << far.message();
-    EXPECT_TRUE(far.warnsOf(Issue::degraded, "32-bit numbers"));
+    EXPECT_TRUE(far.hasWarning(Issue::degraded, "32-bit numbers"));
     EXPECT_TRUE(far.mesh().joint_sets.empty());
 }
 
@@ -441,9 +441,9 @@ TEST(GltfAnimations, keepKeysAndMendThem)
         << "tangents stay as they are, values get length 1";
     EXPECT_EQ(std::vector<float>(spline + 16, spline + 20), (std::vector<float>{0, 0, 0, 1}));
     EXPECT_EQ(result.records<AnimationRecord>(kChunkAnimations)[0].duration, 4.0f);
-    EXPECT_TRUE(result.warnsOf(Issue::repaired, "time does not grow"));
-    EXPECT_TRUE(result.warnsOf(Issue::repaired, "rotations"));
-    EXPECT_TRUE(result.warnsOf(Issue::dropped, "animation of \"pointer\""));
+    EXPECT_TRUE(result.hasWarning(Issue::repaired, "time does not grow"));
+    EXPECT_TRUE(result.hasWarning(Issue::repaired, "rotations"));
+    EXPECT_TRUE(result.hasWarning(Issue::dropped, "animation of \"pointer\""));
 }
 
 TEST(GltfAnimations, refuseNumbersThatAreNotFinite)

@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 using test::Sandbox;
 
 /// Return one of two values that differ; flags are true, then false.
-settings::Value valueOf(const settings::Setting& setting, size_t which)
+settings::Value chooseValue(const settings::Setting& setting, size_t which)
 {
     using settings::Kind;
     switch (setting.kind)
@@ -80,7 +80,7 @@ protected:
             for (const settings::Setting& setting : cooker.settings)
                 (cooker.scope == settings::Scope::source ? settings.values_of_source[0]
                                                          : settings.values_of_pack)[setting.key] =
-                    valueOf(setting, 0);
+                    chooseValue(setting, 0);
         return settings;
     }
 
@@ -194,7 +194,7 @@ TEST_F(Keys, everySettingChangesThoseOfItsCookerAndItsReaders)
             CookSettings other = settings;
             settings::Values& values =
                 cooker.scope == settings::Scope::source ? other.values_of_source[0] : other.values_of_pack;
-            values[setting.key] = valueOf(setting, 1);
+            values[setting.key] = chooseValue(setting, 1);
             EXPECT_EQ(changed(before, keys(other)), readers.at(std::string(cooker.name))) << setting.key;
             // a power needs a distance
             if (setting.key == "visibility.distance")
@@ -296,17 +296,17 @@ TEST_F(Keys, differentWordsAreDifferentRecords)
     Action action;
     action.cooker = "x";
     action.outputs = {"out"};
-    const auto keyOf = [&](std::vector<Word> words)
+    const auto makeKey = [&](std::vector<Word> words)
     {
         action.words = std::move(words);
         return resultKey(makeRecord(action, "v", {}));
     };
-    const std::set<std::string> keys{keyOf({{Word::Kind::text, "a b", 0}}),
-                                     keyOf({{Word::Kind::text, "a", 0}, {Word::Kind::text, "b", 0}}),
-                                     keyOf({{Word::Kind::text, "a\tb", 0}}),
-                                     keyOf({{Word::Kind::text, "a\nword\ttext b", 0}}),
-                                     keyOf({{Word::Kind::text, "{out}", 0}}),
-                                     keyOf({{Word::Kind::output, "", 0}})};
+    const std::set<std::string> keys{makeKey({{Word::Kind::text, "a b", 0}}),
+                                     makeKey({{Word::Kind::text, "a", 0}, {Word::Kind::text, "b", 0}}),
+                                     makeKey({{Word::Kind::text, "a\tb", 0}}),
+                                     makeKey({{Word::Kind::text, "a\nword\ttext b", 0}}),
+                                     makeKey({{Word::Kind::text, "{out}", 0}}),
+                                     makeKey({{Word::Kind::output, "", 0}})};
     EXPECT_EQ(keys.size(), 6u);
 }
 

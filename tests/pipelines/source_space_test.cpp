@@ -96,7 +96,7 @@ Points worldPoints(const Part& part, double time)
     return points;
 }
 
-double sizeOf(const Points& points)
+double computeSize(const Points& points)
 {
     double size = 0;
     for (const Double3& p : points)
@@ -112,7 +112,7 @@ void expectEqual(const Points& points, const Points& expected, double tolerance)
     double most = 0;
     for (size_t i = 0; i < points.size(); ++i)
         most = std::max(most, length(points[i] - expected[i]));
-    EXPECT_LE(most, tolerance * sizeOf(expected));
+    EXPECT_LE(most, tolerance * computeSize(expected));
 }
 
 class SourceSpace : public ::testing::Test

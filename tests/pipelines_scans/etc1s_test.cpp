@@ -201,7 +201,7 @@ void expectBlock(const DecodedImage& image, size_t block_x, size_t block_y, size
 {
     for (size_t y = 0; y < 4; ++y)
         for (size_t x = 0; x < 4; ++x)
-            ASSERT_EQ(texelOf(image, block_x * 4 + x, block_y * 4 + y),
+            ASSERT_EQ(getTexel(image, block_x * 4 + x, block_y * 4 + y),
                       expectedTexel(endpoint, selector, x, y))
                 << "block " << block_x << " " << block_y << " texel " << x << " " << y;
 }
@@ -267,7 +267,7 @@ TEST(DecodeEtc1s, theSecondSliceIsAlpha)
         {
             Rgba8 expected = expectedTexel(1, 1, x, y);
             expected[3] = expected[1];
-            EXPECT_EQ(texelOf(*image, 4 + x, y), expected);
+            EXPECT_EQ(getTexel(*image, 4 + x, y), expected);
         }
 }
 

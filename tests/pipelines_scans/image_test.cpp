@@ -33,14 +33,14 @@ DecodedImage decodeGood(const Bytes& bytes)
     return image.ok() ? std::move(image).value() : DecodedImage{};
 }
 
-Rgba8 texelOf(const DecodedImage& image, size_t x, size_t y)
+Rgba8 getTexel(const DecodedImage& image, size_t x, size_t y)
 {
     Rgba8 texel{};
     std::memcpy(texel.data(), &image.texels.at((y * image.width + x) * 4), 4);
     return texel;
 }
 
-std::array<float, 4> lightOf(const DecodedImage& image, size_t x, size_t y)
+std::array<float, 4> getLight(const DecodedImage& image, size_t x, size_t y)
 {
     std::array<uint16_t, 4> half{};
     std::memcpy(half.data(), &image.texels.at((y * image.width + x) * 8), 8);
@@ -83,26 +83,26 @@ void expectRefusedWhenCut(const Bytes& bytes, size_t longest)
 TEST(DecodePng, readsEveryKindAsRgba8)
 {
     const DecodedImage rgba = decodeGood(kPngRgba8);
-    forEachTexel(rgba, [&](size_t x, size_t y) { EXPECT_EQ(texelOf(rgba, x, y), pattern(x, y)); });
+    forEachTexel(rgba, [&](size_t x, size_t y) { EXPECT_EQ(getTexel(rgba, x, y), pattern(x, y)); });
     const DecodedImage rgb16 = decodeGood(kPngRgb16Interlaced);
     forEachTexel(rgb16,
                  [&](size_t x, size_t y)
                  {
                      Rgba8 expected = pattern(x, y);
                      expected[3] = 255;
-                     EXPECT_EQ(texelOf(rgb16, x, y), expected);
+                     EXPECT_EQ(getTexel(rgb16, x, y), expected);
                  });
     const DecodedImage grey = decodeGood(kPngGrey8);
     const auto level = [](size_t y) { return static_cast<uint8_t>(y * 100); };
     forEachTexel(grey,
                  [&](size_t x, size_t y) {
-                     EXPECT_EQ(texelOf(grey, x, y), (Rgba8{level(y), level(y), level(y), 255}));
+                     EXPECT_EQ(getTexel(grey, x, y), (Rgba8{level(y), level(y), level(y), 255}));
                  });
     const DecodedImage palette = decodeGood(kPngPalette2);
-    EXPECT_EQ(texelOf(palette, 0, 0), (Rgba8{10, 20, 30, 0}));
-    EXPECT_EQ(texelOf(palette, 1, 0), (Rgba8{40, 50, 60, 128}));
-    EXPECT_EQ(texelOf(palette, 3, 2), (Rgba8{100, 110, 120, 255}));
-    EXPECT_EQ(texelOf(palette, 4, 1), (Rgba8{40, 50, 60, 128}));
+    EXPECT_EQ(getTexel(palette, 0, 0), (Rgba8{10, 20, 30, 0}));
+    EXPECT_EQ(getTexel(palette, 1, 0), (Rgba8{40, 50, 60, 128}));
+    EXPECT_EQ(getTexel(palette, 3, 2), (Rgba8{100, 110, 120, 255}));
+    EXPECT_EQ(getTexel(palette, 4, 1), (Rgba8{40, 50, 60, 128}));
 }
 
 TEST(DecodePng, refusesCutAndDamagedFiles)
@@ -124,18 +124,21 @@ TEST(DecodeJpeg, readsBaselineProgressiveAndGrey)
         const DecodedImage image = decodeGood(bytes);
         forEachTexel(image,
                      [&](size_t x, size_t y) {
-                         expectNear(texelOf(image, x, y), {180, 90, 40, 255}, 2);
+                         expectNear(getTexel(image, x, y), {180, 90, 40, 255}, 2);
                      });
     }
     const DecodedImage grey = decodeGood(kJpegGrey);
-    forEachTexel(grey, [&](size_t x, size_t y) { expectNear(texelOf(grey, x, y), {77, 77, 77, 255}, 1); });
+    forEachTexel(grey, [&](size_t x, size_t y) { expectNear(getTexel(grey, x, y), {77, 77, 77, 255}, 1); });
 }
 
 TEST(DecodeJpeg, convertsInkAsAdobeStoresIt)
 {
     // 255 is no ink: 200 / 255 of red and 128 / 255 of what black leaves
     const DecodedImage image = decodeGood(kJpegCmyk);
-    forEachTexel(image, [&](size_t x, size_t y) { expectNear(texelOf(image, x, y), {100, 50, 25, 255}, 2); });
+    forEachTexel(image,
+                 [&](size_t x, size_t y) {
+                     expectNear(getTexel(image, x, y), {100, 50, 25, 255}, 2);
+                 });
 }
 
 TEST(DecodeJpeg, refusesCutFiles)
@@ -147,10 +150,10 @@ TEST(DecodeJpeg, refusesCutFiles)
 TEST(DecodeWebp, readsLosslessAndLossy)
 {
     const DecodedImage lossless = decodeGood(kWebpLossless);
-    forEachTexel(lossless, [&](size_t x, size_t y) { EXPECT_EQ(texelOf(lossless, x, y), pattern(x, y)); });
+    forEachTexel(lossless, [&](size_t x, size_t y) { EXPECT_EQ(getTexel(lossless, x, y), pattern(x, y)); });
     const DecodedImage lossy = decodeGood(kWebpLossy);
     // chroma has half the resolution; alpha has no loss
-    forEachTexel(lossy, [&](size_t x, size_t y) { EXPECT_EQ(texelOf(lossy, x, y)[3], pattern(x, y)[3]); });
+    forEachTexel(lossy, [&](size_t x, size_t y) { EXPECT_EQ(getTexel(lossy, x, y)[3], pattern(x, y)[3]); });
 }
 
 TEST(DecodeWebp, refusesCutFiles)
@@ -179,8 +182,8 @@ TEST(DecodeTga, readsAllFourOrigins)
     const auto order = [&](uint8_t descriptor)
     {
         const DecodedImage image = decodeGood(tga(3, 8, descriptor, body));
-        return std::array<int, 4>{texelOf(image, 0, 0)[0], texelOf(image, 1, 0)[0], texelOf(image, 0, 1)[0],
-                                  texelOf(image, 1, 1)[0]};
+        return std::array<int, 4>{getTexel(image, 0, 0)[0], getTexel(image, 1, 0)[0],
+                                  getTexel(image, 0, 1)[0], getTexel(image, 1, 1)[0]};
     };
     EXPECT_EQ(order(0x00), (std::array{3, 4, 1, 2}));
     EXPECT_EQ(order(0x10), (std::array{4, 3, 2, 1}));
@@ -191,24 +194,24 @@ TEST(DecodeTga, readsAllFourOrigins)
 TEST(DecodeTga, readsColoursGreyMapsAndRuns)
 {
     const DecodedImage rgb = decodeGood(tga(2, 24, 0x20, {3, 2, 1, 6, 5, 4, 9, 8, 7, 12, 11, 10}));
-    EXPECT_EQ(texelOf(rgb, 0, 0), (Rgba8{1, 2, 3, 255}));
-    EXPECT_EQ(texelOf(rgb, 1, 1), (Rgba8{10, 11, 12, 255}));
+    EXPECT_EQ(getTexel(rgb, 0, 0), (Rgba8{1, 2, 3, 255}));
+    EXPECT_EQ(getTexel(rgb, 1, 1), (Rgba8{10, 11, 12, 255}));
     const DecodedImage rgba = decodeGood(tga(10, 32, 0x28, {0x82, 3, 2, 1, 77, 0x00, 9, 8, 7, 0}));
-    EXPECT_EQ(texelOf(rgba, 0, 1), (Rgba8{1, 2, 3, 77}));
-    EXPECT_EQ(texelOf(rgba, 1, 1), (Rgba8{7, 8, 9, 0}));
+    EXPECT_EQ(getTexel(rgba, 0, 1), (Rgba8{1, 2, 3, 77}));
+    EXPECT_EQ(getTexel(rgba, 1, 1), (Rgba8{7, 8, 9, 0}));
     const DecodedImage rgb555 =
         decodeGood(tga(2, 16, 0x20, {0x00, 0x7C, 0xE0, 0x03, 0x1F, 0x00, 0x10, 0x42}));
-    EXPECT_EQ(texelOf(rgb555, 0, 0), (Rgba8{255, 0, 0, 255}));
-    EXPECT_EQ(texelOf(rgb555, 1, 0), (Rgba8{0, 255, 0, 255}));
-    EXPECT_EQ(texelOf(rgb555, 1, 1), (Rgba8{132, 132, 132, 255}));
+    EXPECT_EQ(getTexel(rgb555, 0, 0), (Rgba8{255, 0, 0, 255}));
+    EXPECT_EQ(getTexel(rgb555, 1, 0), (Rgba8{0, 255, 0, 255}));
+    EXPECT_EQ(getTexel(rgb555, 1, 1), (Rgba8{132, 132, 132, 255}));
     Bytes mapped = tga(1, 8, 0x20, {30, 20, 10, 60, 50, 40, 5, 6, 6, 5});
     mapped[1] = 1; // a map that starts at index 5, with two entries of 24 bits
     mapped[3] = 5;
     mapped[5] = 2;
     mapped[7] = 24;
     const DecodedImage image = decodeGood(mapped);
-    EXPECT_EQ(texelOf(image, 0, 0), (Rgba8{10, 20, 30, 255}));
-    EXPECT_EQ(texelOf(image, 1, 0), (Rgba8{40, 50, 60, 255}));
+    EXPECT_EQ(getTexel(image, 0, 0), (Rgba8{10, 20, 30, 255}));
+    EXPECT_EQ(getTexel(image, 1, 0), (Rgba8{40, 50, 60, 255}));
     mapped.back() = 7;
     EXPECT_EQ(decode(mapped).error().issue, Issue::image_malformed);
 }
@@ -253,20 +256,20 @@ TEST(DecodeBmp, readsColoursPalettesAndBitFields)
 {
     // rows from the bottom up, padded to four bytes
     const DecodedImage rgb = decodeGood(bmp(1, 2, 24, 0, {}, {3, 2, 1, 0, 6, 5, 4, 0}));
-    EXPECT_EQ(texelOf(rgb, 0, 0), (Rgba8{4, 5, 6, 255}));
-    EXPECT_EQ(texelOf(rgb, 0, 1), (Rgba8{1, 2, 3, 255}));
+    EXPECT_EQ(getTexel(rgb, 0, 0), (Rgba8{4, 5, 6, 255}));
+    EXPECT_EQ(getTexel(rgb, 0, 1), (Rgba8{1, 2, 3, 255}));
     const DecodedImage down =
         decodeGood(bmp(1, static_cast<uint32_t>(-2), 24, 0, {}, {3, 2, 1, 0, 6, 5, 4, 0}));
-    EXPECT_EQ(texelOf(down, 0, 0), (Rgba8{1, 2, 3, 255}));
+    EXPECT_EQ(getTexel(down, 0, 0), (Rgba8{1, 2, 3, 255}));
     const DecodedImage bits = decodeGood(bmp(3, 1, 1, 0, {30, 20, 10, 0, 60, 50, 40, 0}, {0xA0, 0, 0, 0}));
-    EXPECT_EQ(texelOf(bits, 0, 0), (Rgba8{40, 50, 60, 255}));
-    EXPECT_EQ(texelOf(bits, 1, 0), (Rgba8{10, 20, 30, 255}));
+    EXPECT_EQ(getTexel(bits, 0, 0), (Rgba8{40, 50, 60, 255}));
+    EXPECT_EQ(getTexel(bits, 1, 0), (Rgba8{10, 20, 30, 255}));
     Bytes masks;
     for (const uint32_t mask : {0xF800u, 0x07E0u, 0x001Fu})
         append(masks, mask, 4);
     const DecodedImage rgb565 = decodeGood(bmp(2, 1, 16, 3, masks, {0xE0, 0x07, 0x00, 0x80}));
-    EXPECT_EQ(texelOf(rgb565, 0, 0), (Rgba8{0, 255, 0, 255}));
-    EXPECT_EQ(texelOf(rgb565, 1, 0), (Rgba8{132, 0, 0, 255}));
+    EXPECT_EQ(getTexel(rgb565, 0, 0), (Rgba8{0, 255, 0, 255}));
+    EXPECT_EQ(getTexel(rgb565, 1, 0), (Rgba8{132, 0, 0, 255}));
 }
 
 TEST(DecodeBmp, refusesDamage)
@@ -291,24 +294,24 @@ TEST(DecodeHdr, readsFlatOldAndNewRuns)
 {
     const std::string header = "#?RADIANCE\n# c\nFORMAT=32-bit_rle_rgbe\n\n";
     const DecodedImage flat = decodeGood(hdr(header + "-Y 1 +X 2\n", {128, 64, 0, 129, 0, 0, 0, 0}));
-    EXPECT_EQ(lightOf(flat, 0, 0), (std::array<float, 4>{1, 0.5f, 0, 1}));
-    EXPECT_EQ(lightOf(flat, 1, 0), (std::array<float, 4>{0, 0, 0, 1}));
+    EXPECT_EQ(getLight(flat, 0, 0), (std::array<float, 4>{1, 0.5f, 0, 1}));
+    EXPECT_EQ(getLight(flat, 1, 0), (std::array<float, 4>{0, 0, 0, 1}));
     // one texel, twice more, and 256 times more
     const DecodedImage old_runs =
         decodeGood(hdr(header + "-Y 1 +X 259\n", {128, 64, 32, 129, 1, 1, 1, 2, 1, 1, 1, 1}));
-    EXPECT_EQ(lightOf(old_runs, 258, 0), (std::array<float, 4>{1, 0.5f, 0.25f, 1}));
+    EXPECT_EQ(getLight(old_runs, 258, 0), (std::array<float, 4>{1, 0.5f, 0.25f, 1}));
     const DecodedImage new_runs =
         decodeGood(hdr(header + "-Y 1 +X 8\n", {2, 2, 0, 8, 136, 128, 2, 64, 32, 134, 0, 136, 0, 136, 129}));
-    EXPECT_EQ(lightOf(new_runs, 0, 0), (std::array<float, 4>{1, 0.5f, 0, 1}));
-    EXPECT_EQ(lightOf(new_runs, 1, 0), (std::array<float, 4>{1, 0.25f, 0, 1}));
-    EXPECT_EQ(lightOf(new_runs, 7, 0), (std::array<float, 4>{1, 0, 0, 1}));
+    EXPECT_EQ(getLight(new_runs, 0, 0), (std::array<float, 4>{1, 0.5f, 0, 1}));
+    EXPECT_EQ(getLight(new_runs, 1, 0), (std::array<float, 4>{1, 0.25f, 0, 1}));
+    EXPECT_EQ(getLight(new_runs, 7, 0), (std::array<float, 4>{1, 0, 0, 1}));
 }
 
 TEST(DecodeHdr, turnsWhatIsNotFromTheUpperLeft)
 {
     const Bytes body = {128, 0, 0, 129, 0, 128, 0, 129}; // red, then green
     const auto first_is_red = [&](const std::string& resolution)
-    { return lightOf(decodeGood(hdr("#?RGBE\n\n" + resolution + "\n", body)), 0, 0)[0] == 1; };
+    { return getLight(decodeGood(hdr("#?RGBE\n\n" + resolution + "\n", body)), 0, 0)[0] == 1; };
     EXPECT_TRUE(first_is_red("-Y 1 +X 2"));
     EXPECT_FALSE(first_is_red("-Y 1 -X 2"));
     EXPECT_TRUE(first_is_red("-Y 2 +X 1"));
@@ -321,7 +324,7 @@ TEST(DecodeHdr, dividesByTheExposure)
 {
     const DecodedImage image =
         decodeGood(hdr("#?RGBE\nEXPOSURE=2\nEXPOSURE= 4\n\n-Y 1 +X 1\n", {128, 0, 0, 132}));
-    EXPECT_EQ(lightOf(image, 0, 0)[0], 1);
+    EXPECT_EQ(getLight(image, 0, 0)[0], 1);
 }
 
 TEST(DecodeHdr, refusesDamage)
@@ -346,17 +349,17 @@ TEST(DecodeExr, readsCompressionsWindowsAndChroma)
     forEachTexel(zip,
                  [&](size_t x, size_t y)
                  {
-                     EXPECT_EQ(lightOf(zip, x, y),
+                     EXPECT_EQ(getLight(zip, x, y),
                                (std::array<float, 4>{0.5f * static_cast<float>(x), static_cast<float>(y), 2,
                                                      0.25f * static_cast<float>(x)}));
                  });
     const DecodedImage dwaa = decodeGood(kExrDwaa);
     forEachTexel(dwaa, [&](size_t x, size_t y)
-                 { EXPECT_NEAR(lightOf(dwaa, x, y)[0], 0.5f * static_cast<float>(x), 0.1f); });
+                 { EXPECT_NEAR(getLight(dwaa, x, y)[0], 0.5f * static_cast<float>(x), 0.1f); });
     const DecodedImage chroma = decodeGood(kExrChroma);
     EXPECT_EQ(chroma.width, 4u);
-    EXPECT_NEAR(lightOf(chroma, 3, 1)[0], 0.5f, 0.01f);
-    EXPECT_NEAR(lightOf(chroma, 3, 1)[2], 0.125f, 0.01f);
+    EXPECT_NEAR(getLight(chroma, 3, 1)[0], 0.5f, 0.01f);
+    EXPECT_NEAR(getLight(chroma, 3, 1)[2], 0.125f, 0.01f);
 }
 
 TEST(DecodeExr, theImageIsTheDataWindow)
@@ -368,8 +371,8 @@ TEST(DecodeExr, theImageIsTheDataWindow)
     forEachTexel(image,
                  [&](size_t x, size_t y)
                  {
-                     EXPECT_EQ(lightOf(image, x, y), (std::array<float, 4>{0.5f * static_cast<float>(x),
-                                                                           static_cast<float>(y), 2, 1}));
+                     EXPECT_EQ(getLight(image, x, y), (std::array<float, 4>{0.5f * static_cast<float>(x),
+                                                                            static_cast<float>(y), 2, 1}));
                  });
 }
 
@@ -395,12 +398,12 @@ TEST(DecodeImage, obeysTheLimits)
 
 TEST(DecodeImage, namesFormatsThatItDoesNotRead)
 {
-    const auto issueOf = [](std::string_view start)
+    const auto getIssue = [](std::string_view start)
     { return decode(Bytes(start.begin(), start.end())).error().issue; };
-    EXPECT_EQ(issueOf("GIF89a"), Issue::image_unsupported);
-    EXPECT_EQ(issueOf("8BPS...."), Issue::image_unsupported);
-    EXPECT_EQ(issueOf("hello"), Issue::image_malformed);
-    EXPECT_EQ(issueOf(""), Issue::image_malformed);
+    EXPECT_EQ(getIssue("GIF89a"), Issue::image_unsupported);
+    EXPECT_EQ(getIssue("8BPS...."), Issue::image_unsupported);
+    EXPECT_EQ(getIssue("hello"), Issue::image_malformed);
+    EXPECT_EQ(getIssue(""), Issue::image_malformed);
 }
 
 TEST(LooksLikeImage, byContentOrName)

@@ -81,7 +81,7 @@ void write(const TemporaryFolder& folder, const std::string& name, std::string_v
     std::ofstream(folder.file(name), std::ios::binary) << content;
 }
 
-std::string_view textOf(const std::vector<uint8_t>& bytes)
+std::string_view toText(const std::vector<uint8_t>& bytes)
 {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
@@ -132,7 +132,7 @@ TEST(ImportScan, takesMaterialsAndTexturesFromItsFolder)
     const TemporaryFolder folder;
     write(folder, "a.mtl",
           "newmtl m\nKd 0.5 0.5 0.5\nNs 30\nmap_Kd -s 2 3 -clamp on t.png\nnewmtl clear\nd 0.5\n");
-    write(folder, "t.png", textOf(test::kPngRgba8));
+    write(folder, "t.png", toText(test::kPngRgba8));
     const Imported scan =
         import(importScan, folder, "a.obj",
                "mtllib a.mtl\n" + kQuad +
@@ -159,7 +159,7 @@ TEST(ImportScan, aBlackColourBesideAMapIsIgnored)
 {
     const TemporaryFolder folder;
     write(folder, "a.mtl", "newmtl m\nKd 0 0 0\nmap_Kd t.png\n");
-    write(folder, "t.png", textOf(test::kPngRgba8));
+    write(folder, "t.png", toText(test::kPngRgba8));
     const Imported scan =
         import(importScan, folder, "a.obj", "mtllib a.mtl\n" + kQuad + "usemtl m\nf 1 2 3\n");
     EXPECT_EQ(scan.materials.at(0).base_color, (Float4{1, 1, 1, 1}));
@@ -169,7 +169,7 @@ TEST(ImportScan, missingFilesAreWarningsAndPlaceholders)
 {
     const TemporaryFolder folder;
     write(folder, "a.mtl", "newmtl m\nmap_Kd none.png\nnorm none.png\nnewmtl n\nmap_Kd broken.png\n");
-    write(folder, "broken.png", textOf(test::kPngRgba8).substr(0, 60));
+    write(folder, "broken.png", toText(test::kPngRgba8).substr(0, 60));
     const Imported scan = import(importScan, folder, "a.obj",
                                  "mtllib a.mtl\nmtllib gone.mtl\n" + kQuad +
                                      "usemtl m\nf 1 2 3\nusemtl n\nf 1 2 3\nusemtl who\nf 1 2 3\n");
@@ -188,7 +188,7 @@ TEST(ImportScan, missingFilesAreNamedWithTheirMaterialAndTheNearestFile)
 {
     const TemporaryFolder folder;
     write(folder, "a.mtl", "newmtl oak\nmap_Kd wood.PNG\n");
-    write(folder, "wood.png", textOf(test::kPngRgba8));
+    write(folder, "wood.png", toText(test::kPngRgba8));
     const Imported scan =
         import(importScan, folder, "a.obj", "mtllib A.mtl\nmtllib a.mtl\n" + kQuad + "usemtl oak\nf 1 2 3\n");
     EXPECT_TRUE(scan.warned(Issue::image_missing,
@@ -203,7 +203,7 @@ TEST(ImportScan, neverLeavesItsFolder)
 {
     const TemporaryFolder outside;
     write(outside, "secret.mtl", "newmtl m\nKd 0.125 0 0\n");
-    write(outside, "secret.png", textOf(test::kPngRgba8));
+    write(outside, "secret.png", toText(test::kPngRgba8));
     const TemporaryFolder folder;
     const std::string there = outside.file("secret");
     std::filesystem::create_symlink(there + ".png", folder.file("link.png"));
@@ -227,8 +227,8 @@ TEST(ImportScan, opacityMapsBecomeAlphaAndAMask)
 {
     const TemporaryFolder folder;
     write(folder, "a.mtl", "newmtl m\nmap_Kd t.png\nmap_d g.png\n");
-    write(folder, "t.png", textOf(test::kPngRgba8));
-    write(folder, "g.png", textOf(test::kPngGrey8));
+    write(folder, "t.png", toText(test::kPngRgba8));
+    write(folder, "g.png", toText(test::kPngGrey8));
     const Imported scan =
         import(importScan, folder, "a.obj", "mtllib a.mtl\n" + kQuad + "usemtl m\nf 1 2 3\n");
     ASSERT_EQ(scan.images.size(), 1u);
@@ -245,8 +245,8 @@ TEST(ImportScan, heightMapsAreNamedAndNormalMapsKept)
 {
     const TemporaryFolder folder;
     write(folder, "a.mtl", "newmtl m\nmap_Bump g.png\nnewmtl n\nmap_Bump -bm 0.5 t.png\n");
-    write(folder, "g.png", textOf(test::kPngGrey8));
-    write(folder, "t.png", textOf(test::kPngRgba8));
+    write(folder, "g.png", toText(test::kPngGrey8));
+    write(folder, "t.png", toText(test::kPngRgba8));
     const Imported scan =
         import(importScan, folder, "a.obj",
                "mtllib a.mtl\n" + kQuad + "usemtl m\nf 1/1 2/2 3/3\nusemtl n\nf 1/1 2/2 3/3\n");
@@ -261,7 +261,7 @@ TEST(ImportScan, heightMapsAreNamedAndNormalMapsKept)
 TEST(ImportScan, aPlyTakesTheTextureItNames)
 {
     const TemporaryFolder folder;
-    write(folder, "t.png", textOf(test::kPngRgba8));
+    write(folder, "t.png", toText(test::kPngRgba8));
     const Imported scan = import(importScan, folder, "a.ply",
                                  "ply\nformat ascii 1.0\ncomment TextureFile t.png\nelement vertex "
                                  "3\nproperty float x\nproperty float y\nproperty float z\n"
@@ -276,7 +276,7 @@ TEST(ImportScan, aPlyTakesTheTextureItNames)
 TEST(ImportImage, anImageBecomesAnUnlitCard)
 {
     const TemporaryFolder folder;
-    const Imported card = import(importImage, folder, "t.png", textOf(test::kPngGrey8));
+    const Imported card = import(importImage, folder, "t.png", toText(test::kPngGrey8));
     ASSERT_TRUE(card.status.ok());
     EXPECT_EQ(card.counts.triangles, 2u);
     EXPECT_EQ(card.counts.vertices, 4u);
@@ -291,16 +291,16 @@ TEST(ImportImage, anImageBecomesAnUnlitCard)
 TEST(ImportImage, lightStaysFloatAndTransparencyBlends)
 {
     const TemporaryFolder folder;
-    EXPECT_EQ(import(importImage, folder, "a.exr", textOf(test::kExrZip)).images.at(0).format,
+    EXPECT_EQ(import(importImage, folder, "a.exr", toText(test::kExrZip)).images.at(0).format,
               static_cast<uint32_t>(TexelFormat::rgba16_float));
-    EXPECT_EQ(import(importImage, folder, "a.png", textOf(test::kPngRgba8)).materials.at(0).alpha_mode,
+    EXPECT_EQ(import(importImage, folder, "a.png", toText(test::kPngRgba8)).materials.at(0).alpha_mode,
               static_cast<uint32_t>(AlphaMode::blend));
 }
 
 TEST(ImportImage, aDamagedImageLeavesNothing)
 {
     const TemporaryFolder folder;
-    const Imported card = import(importImage, folder, "t.png", textOf(test::kPngRgba8).substr(0, 50));
+    const Imported card = import(importImage, folder, "t.png", toText(test::kPngRgba8).substr(0, 50));
     EXPECT_EQ(card.status.error().issue, Issue::image_malformed);
     EXPECT_TRUE(folder.files().empty());
 }

@@ -97,7 +97,7 @@ inline Result<DecodedImage> decode(const Bytes& bytes)
     return decodeImage(std::as_bytes(std::span(bytes)), "texture", {});
 }
 
-inline Rgba8 texelOf(const DecodedImage& image, size_t x, size_t y)
+inline Rgba8 getTexel(const DecodedImage& image, size_t x, size_t y)
 {
     Rgba8 texel{};
     std::memcpy(texel.data(), &image.texels.at((y * image.width + x) * 4), 4);

@@ -23,18 +23,18 @@ TEST(DecodeKtx2, readsUncompressedTexels)
         ktx.levels[0][i] = static_cast<uint8_t>(i);
     const auto rgba = decode(ktx.file());
     ASSERT_TRUE(rgba.ok());
-    EXPECT_EQ(texelOf(*rgba, 1, 1), (Rgba8{12, 13, 14, 15}));
+    EXPECT_EQ(getTexel(*rgba, 1, 1), (Rgba8{12, 13, 14, 15}));
 
     ktx.vk_format = 50; // B8G8R8A8_SRGB
-    EXPECT_EQ(texelOf(*decode(ktx.file()), 0, 1), (Rgba8{10, 9, 8, 11}));
+    EXPECT_EQ(getTexel(*decode(ktx.file()), 0, 1), (Rgba8{10, 9, 8, 11}));
     ktx.vk_format = 23; // R8G8B8_UNORM
     ktx.levels[0].resize(12);
     ktx.uncompressed = {12};
-    EXPECT_EQ(texelOf(*decode(ktx.file()), 0, 1), (Rgba8{6, 7, 8, 255}));
+    EXPECT_EQ(getTexel(*decode(ktx.file()), 0, 1), (Rgba8{6, 7, 8, 255}));
     ktx.vk_format = 9; // R8_UNORM
     ktx.levels[0].resize(4);
     ktx.uncompressed = {4};
-    EXPECT_EQ(texelOf(*decode(ktx.file()), 1, 0), (Rgba8{1, 1, 1, 255}));
+    EXPECT_EQ(getTexel(*decode(ktx.file()), 1, 0), (Rgba8{1, 1, 1, 255}));
 }
 
 TEST(DecodeKtx2, readsFloatsAsHalves)
@@ -62,7 +62,7 @@ TEST(DecodeKtx2, unpacksZstandard)
     packed.resize(ZSTD_compress(packed.data(), packed.size(), texels.data(), texels.size(), 1));
     ktx.scheme = 2;
     ktx.levels = {packed};
-    EXPECT_EQ(texelOf(*decode(ktx.file()), 1, 1), (Rgba8{77, 77, 77, 77}));
+    EXPECT_EQ(getTexel(*decode(ktx.file()), 1, 1), (Rgba8{77, 77, 77, 77}));
     ktx.levels[0].pop_back();
     EXPECT_EQ(decode(ktx.file()).error().issue, Issue::image_malformed);
 }
@@ -73,7 +73,7 @@ TEST(DecodeKtx2, takesTheFinestOfSeveralLevels)
     ktx.level_count = 2;
     ktx.levels = {Bytes(16, 9), Bytes(4, 5)};
     ktx.uncompressed = {16, 4};
-    EXPECT_EQ(texelOf(*decode(ktx.file()), 0, 0), (Rgba8{9, 9, 9, 9}));
+    EXPECT_EQ(getTexel(*decode(ktx.file()), 0, 0), (Rgba8{9, 9, 9, 9}));
 }
 
 TEST(DecodeKtx2, refusesWhatTheSpecificationForbids)

@@ -24,7 +24,7 @@ std::vector<uint32_t> triangulated(const std::vector<Float3>& corners)
     return triangles;
 }
 
-Float3 areaOf(Float3 a, Float3 b, Float3 c)
+Float3 computeArea(Float3 a, Float3 b, Float3 c)
 {
     return cross(b - a, c - a) * 0.5f;
 }
@@ -36,13 +36,13 @@ struct Areas
     float all = 0;
 };
 
-Areas areasOf(const std::vector<Float3>& corners, const std::vector<uint32_t>& triangles, Float3 up)
+Areas computeAreas(const std::vector<Float3>& corners, const std::vector<uint32_t>& triangles, Float3 up)
 {
     Areas areas;
     for (size_t t = 0; t < triangles.size(); t += 3)
     {
         const Float3 area =
-            areaOf(corners[triangles[t]], corners[triangles[t + 1]], corners[triangles[t + 2]]);
+            computeArea(corners[triangles[t]], corners[triangles[t + 1]], corners[triangles[t + 2]]);
         areas.along += dot(area, up);
         areas.all += length(area);
     }
@@ -78,8 +78,8 @@ TEST(TriangulatePolygon, fillsConcavePolygonsExactly)
         ASSERT_EQ(triangles.size(), (count - 2) * 3);
         float outline = 0;
         for (uint32_t i = 0; i < count; ++i)
-            outline += dot(areaOf({}, corners[i], corners[(i + 1) % count]), up);
-        const Areas areas = areasOf(corners, triangles, up);
+            outline += dot(computeArea({}, corners[i], corners[(i + 1) % count]), up);
+        const Areas areas = computeAreas(corners, triangles, up);
         // no triangle is flipped, and the areas sum to the polygon's: none overlap and none stick out
         EXPECT_NEAR(areas.along, outline, 1e-4f) << seed;
         EXPECT_NEAR(areas.all, outline, 1e-4f) << seed;
@@ -105,7 +105,7 @@ TEST(TriangulatePolygon, aBridgeToAHoleIsFollowed)
     // a square with a square hole, joined by a bridge edge that is traversed twice
     const std::vector<Float3> corners = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {0, 0, 0},
                                          {1, 1, 0}, {1, 3, 0}, {3, 3, 0}, {3, 1, 0}, {1, 1, 0}};
-    const Areas areas = areasOf(corners, triangulated(corners), {0, 0, 1});
+    const Areas areas = computeAreas(corners, triangulated(corners), {0, 0, 1});
     EXPECT_NEAR(areas.along, 12, 1e-5f);
     EXPECT_NEAR(areas.all, 12, 1e-5f);
 }
@@ -118,7 +118,7 @@ TEST(TriangulatePolygon, takesTheDiagonalInsideAConcaveQuad)
     {
         std::vector<Float3> turned = corners;
         std::rotate(turned.begin(), turned.begin() + static_cast<std::ptrdiff_t>(turn), turned.end());
-        const Areas areas = areasOf(turned, triangulated(turned), {0, 0, 1});
+        const Areas areas = computeAreas(turned, triangulated(turned), {0, 0, 1});
         EXPECT_NEAR(areas.along, areas.all, 1e-6f) << turn;
     }
 }
@@ -154,7 +154,7 @@ std::vector<Float3> comb(int teeth)
 }
 
 /// Return the CPU seconds for the polygon.
-double secondsOf(const std::vector<Float3>& corners)
+double measureSeconds(const std::vector<Float3>& corners)
 {
     const std::clock_t start = std::clock();
     EXPECT_EQ(triangulated(corners).size(), (corners.size() - 2) * 3);
@@ -165,11 +165,11 @@ TEST(TriangulatePolygon, hugePolygonsTakeTimeInProportion)
 {
     // testing every corner for every ear would take four times as long for twice the corners; other programs
     // may take the processor from any run, but hardly from all
-    double half = secondsOf(comb(4000)), whole = secondsOf(comb(8000));
+    double half = measureSeconds(comb(4000)), whole = measureSeconds(comb(8000));
     for (int i = 0; i < 9; ++i)
     {
-        half = std::min(half, secondsOf(comb(4000)));
-        whole = std::min(whole, secondsOf(comb(8000)));
+        half = std::min(half, measureSeconds(comb(4000)));
+        whole = std::min(whole, measureSeconds(comb(8000)));
     }
     EXPECT_LT(whole, 3 * half);
 }

@@ -17,7 +17,7 @@ using namespace test;
 
 using Patterns = std::array<uint8_t, 16>;
 
-Patterns patternOf(uint32_t seed, uint32_t count)
+Patterns makePatterns(uint32_t seed, uint32_t count)
 {
     Patterns pattern{};
     for (uint32_t i = 0; i < 16; ++i)
@@ -36,7 +36,7 @@ TEST(UastcPatterns, ofTwoPartsAreThoseOfBc7)
     for (size_t i = 0; i < kBc7.size(); ++i)
     {
         uint32_t bits = 0;
-        const Patterns pattern = patternOf(uastcSeeds(2)[i], 2);
+        const Patterns pattern = makePatterns(uastcSeeds(2)[i], 2);
         for (uint32_t texel = 0; texel < 16; ++texel)
             bits |= static_cast<uint32_t>(pattern[texel]) << texel;
         // ASTC may number the two subsets in the other order
@@ -51,7 +51,7 @@ TEST(UastcPatterns, areDistinctAndHaveAllTheirParts)
         std::set<Patterns> distinct;
         for (const uint16_t seed : uastcSeeds(mode))
         {
-            const Patterns pattern = patternOf(seed, parts);
+            const Patterns pattern = makePatterns(seed, parts);
             EXPECT_EQ(std::set<uint8_t>(pattern.begin(), pattern.end()).size(), parts);
             distinct.insert(pattern);
         }
@@ -163,7 +163,7 @@ TEST(DecodeUastc, readsEveryMode)
         putEndpoints(out, layout, highs);
 
         const Patterns parts =
-            layout.subsets == 1 ? Patterns{} : patternOf(uastcSeeds(layout.mode)[pattern], layout.subsets);
+            layout.subsets == 1 ? Patterns{} : makePatterns(uastcSeeds(layout.mode)[pattern], layout.subsets);
         const auto isAnchor = [&](uint32_t texel)
         { return std::find(parts.begin(), parts.end(), parts[texel]) == parts.begin() + texel; };
         for (uint32_t texel = 0; texel < 16; ++texel)
@@ -182,7 +182,7 @@ TEST(DecodeUastc, readsEveryMode)
                     highWeight(texel, isAnchor(texel), layout.planes == 2 && c == channel ? 1 : 0);
                 const bool high =
                     component >= layout.components || firstIsHigh(parts[texel], component) != high_weight;
-                EXPECT_EQ(texelOf(image, texel % 4, texel / 4)[c], high ? 255 : 0)
+                EXPECT_EQ(getTexel(image, texel % 4, texel / 4)[c], high ? 255 : 0)
                     << "texel " << texel << " channel " << c;
             }
     }
@@ -202,7 +202,7 @@ TEST(DecodeUastc, readsSolidBlocksAndInterpolates)
     DecodedImage image{4, 4, false, std::vector<std::byte>(64)};
     const Bytes solid = solidBlock({1, 2, 3, 4});
     ASSERT_TRUE(decodeUastc(std::as_bytes(std::span(solid)), true, image));
-    EXPECT_EQ(texelOf(image, 3, 3), (Rgba8{1, 2, 3, 4}));
+    EXPECT_EQ(getTexel(image, 3, 3), (Rgba8{1, 2, 3, 4}));
 
     // mode 18: endpoints of 5 bits, weights of 5 bits
     BitWriter out;
@@ -213,10 +213,10 @@ TEST(DecodeUastc, readsSolidBlocksAndInterpolates)
     for (uint32_t texel = 0; texel < 16; ++texel)
         out.put(texel * 2, texel == 0 ? 4 : 5);
     ASSERT_TRUE(decodeUastc(std::as_bytes(std::span(out.block())), false, image));
-    EXPECT_EQ(texelOf(image, 0, 0), (Rgba8{0, 82, 255, 255}));
+    EXPECT_EQ(getTexel(image, 0, 0), (Rgba8{0, 82, 255, 255}));
     // weight 16 of 31 becomes 34 of 64 (33 by its bits, and ASTC adds one beyond the middle):
     // 65535 * 34 / 64 = 135.99 * 256
-    EXPECT_EQ(texelOf(image, 0, 2), (Rgba8{135, 82, 120, 255}));
+    EXPECT_EQ(getTexel(image, 0, 2), (Rgba8{135, 82, 120, 255}));
 }
 
 Ktx2 uastcFile(const Bytes& blocks, uint32_t width, uint32_t height)
@@ -239,18 +239,18 @@ TEST(DecodeUastc, readsWholeFilesAndRefusesDamage)
     blocks.insert(blocks.end(), second.begin(), second.end());
     const auto image = decode(uastcFile(blocks, 8, 4).file());
     ASSERT_TRUE(image.ok()) << image.error().detail;
-    EXPECT_EQ(texelOf(*image, 3, 3), (Rgba8{10, 20, 30, 40}));
-    EXPECT_EQ(texelOf(*image, 4, 0), (Rgba8{50, 60, 70, 80}));
+    EXPECT_EQ(getTexel(*image, 3, 3), (Rgba8{10, 20, 30, 40}));
+    EXPECT_EQ(getTexel(*image, 4, 0), (Rgba8{50, 60, 70, 80}));
 
-    const auto issueOf = [](const Ktx2& ktx) { return decode(ktx.file()).error().issue; };
-    EXPECT_EQ(issueOf(uastcFile(blocks, 12, 4)), Issue::image_malformed);
-    EXPECT_EQ(issueOf(uastcFile(blocks, 7, 4)), Issue::image_malformed);
+    const auto getIssue = [](const Ktx2& ktx) { return decode(ktx.file()).error().issue; };
+    EXPECT_EQ(getIssue(uastcFile(blocks, 12, 4)), Issue::image_malformed);
+    EXPECT_EQ(getIssue(uastcFile(blocks, 7, 4)), Issue::image_malformed);
     blocks[16] = 0x45; // the only prefix code without a mode
-    EXPECT_EQ(issueOf(uastcFile(blocks, 8, 4)), Issue::image_malformed);
+    EXPECT_EQ(getIssue(uastcFile(blocks, 8, 4)), Issue::image_malformed);
     blocks[16] = 0x1D; // mode 2 with pattern 31; there are only 30
     blocks[18] = 0xFF;
     blocks[19] = 0xFF;
-    EXPECT_EQ(issueOf(uastcFile(blocks, 8, 4)), Issue::image_malformed);
+    EXPECT_EQ(getIssue(uastcFile(blocks, 8, 4)), Issue::image_malformed);
 }
 
 } // namespace

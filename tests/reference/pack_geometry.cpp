@@ -6,7 +6,7 @@ namespace hearth::reference
 
 using namespace formats;
 
-SceneTables tablesOf(const PackView& view)
+SceneTables readTables(const PackView& view)
 {
     return {view.instances(), view.materials()};
 }

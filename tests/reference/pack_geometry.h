@@ -35,7 +35,7 @@ struct SceneTables
     std::span<const formats::MaterialRecord> materials;
 };
 
-SceneTables tablesOf(const formats::PackView& view);
+SceneTables readTables(const formats::PackView& view);
 
 /// True if back faces of the material are drawn; those of the default material are not.
 bool isDoubleSided(std::span<const formats::MaterialRecord> materials, uint32_t material);

@@ -9,7 +9,7 @@ using namespace formats;
 namespace
 {
 
-std::vector<Affine3d> worldOf(const AnimationTables& tables, const ScenePose& pose)
+std::vector<Affine3d> computeWorld(const AnimationTables& tables, const ScenePose& pose)
 {
     std::vector<Affine3d> world_from_node(tables.nodes.size());
     poseNodes(tables, pose, nodesParentsFirst(tables.nodes), world_from_node);
@@ -46,8 +46,8 @@ Placement::Placement(const PackGeometry& geometry, const ScenePose* pose) : geom
     const PackView& view = geometry.view();
     const AnimationTables tables = animationTables(view);
     const ScenePose rest = restPose(tables);
-    const std::vector<Affine3d> at_rest = worldOf(tables, rest);
-    const std::vector<Affine3d> now = pose != nullptr ? worldOf(tables, *pose) : at_rest;
+    const std::vector<Affine3d> at_rest = computeWorld(tables, rest);
+    const std::vector<Affine3d> now = pose != nullptr ? computeWorld(tables, *pose) : at_rest;
     for (uint32_t i = 0; i < view.instances().size(); ++i)
     {
         const InstanceRecord& record = view.instances()[i];

@@ -91,10 +91,10 @@ TEST_F(ImagesOfMeshes, areInThePage)
         GTEST_SKIP() << "no device";
     EXPECT_NE(page.find("\"is_sheet\":true"), std::string::npos) << "both stand at the origin";
     // three views each, of the scene and of both meshes
-    EXPECT_EQ(countOf(page, "data:image/jpeg;base64,/9j/"), 9u);
+    EXPECT_EQ(countOccurrences(page, "data:image/jpeg;base64,/9j/"), 9u);
     const std::vector<std::string> files{"report", "report.json", "--html", "later.html"};
     ASSERT_EQ(hearth(files).exit_code, 0);
-    EXPECT_EQ(countOf(folder.read("later.html"), "data:image/jpeg"), 0u) << "the pack is not named";
+    EXPECT_EQ(countOccurrences(folder.read("later.html"), "data:image/jpeg"), 0u) << "the pack is not named";
     std::vector<std::string> with_pack = files;
     with_pack.insert(with_pack.end(), {"--pack", "both.hearth"});
     ASSERT_EQ(hearth(with_pack).exit_code, 0);

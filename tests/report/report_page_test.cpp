@@ -14,11 +14,11 @@ namespace hearth::report
 namespace
 {
 
-using test::countOf;
+using test::countOccurrences;
 
 constexpr int kAssets = 4200;
 
-Json meshOf(int number)
+Json makeMesh(int number)
 {
     Json levels = Json::array();
     uint64_t triangles = 100 + static_cast<uint64_t>(number) * 37;
@@ -34,7 +34,7 @@ Json meshOf(int number)
             {"levels", levels}};
 }
 
-Json stageOf(const char* stage, int number, bool ran)
+Json makeStage(const char* stage, int number, bool ran)
 {
     Json json{{"stage", stage}, {"state", ran ? "cooked" : "cached"}, {"seconds", 0.25}, {"bytes", 1000}};
     if (ran)
@@ -45,7 +45,7 @@ Json stageOf(const char* stage, int number, bool ran)
 }
 
 /// Return the report of a cook of `assets` assets, one of which has failed.
-Json reportOf(int assets)
+Json makeReport(int assets)
 {
     Json report{{"schema", "hearth.report/1"},
                 {"tool", {{"name", "hearth"}, {"version", "0"}}},
@@ -82,7 +82,7 @@ Json reportOf(int assets)
                    {"bytes_in", 1000 + i},
                    {"sizes", {{"geometry", 900 + i * 300}, {"textures", 100}}},
                    {"stages", Json::array()},
-                   {"clusters", {{"meshes", {meshOf(i)}}}},
+                   {"clusters", {{"meshes", {makeMesh(i)}}}},
                    {"textures",
                     {{{"name", "bark"},
                       {"uses", {{{"material", "Old Oak"}, {"role", "metallicRoughness"}}}},
@@ -92,7 +92,7 @@ Json reportOf(int assets)
                       {"error", {{"rms", 0.0}, {"psnr_db", nullptr}}}}}},
                    {"messages", Json::array()}};
         for (const char* stage : {"import", "textures", "clusters", "skinning"})
-            asset["stages"].push_back(stageOf(stage, i, i % 100 == 0));
+            asset["stages"].push_back(makeStage(stage, i, i % 100 == 0));
         report["assets"].push_back(asset);
     }
     return report;
@@ -136,7 +136,7 @@ protected:
 
     /// Return a number that the script has stored at the root of the page; -1 if the script did not get
     /// there.
-    static int numberOf(const std::string& dom, const std::string& attribute)
+    static int getNumber(const std::string& dom, const std::string& attribute)
     {
         const size_t at = dom.find("data-" + attribute + "=\"");
         return at == std::string::npos ? -1 : std::stoi(dom.substr(at + attribute.size() + 7));
@@ -150,15 +150,15 @@ protected:
 
 TEST_F(Page, showsRowsAreasCurvesAndTheFailureFirst)
 {
-    ASSERT_TRUE(writeReport(reportOf(40).dump(), folder / "page.html", "").ok());
+    ASSERT_TRUE(writeReport(makeReport(40).dump(), folder / "page.html", "").ok());
     const std::string dom = open("page.html");
-    ASSERT_GE(numberOf(dom, "ready"), 0) << dom.substr(0, 2000);
-    EXPECT_EQ(numberOf(dom, "requests"), 0);
-    EXPECT_GT(countOf(dom, "role=\"row\""), 30u);
-    EXPECT_GT(countOf(dom, "class=\"cell\""), 40u) << "the treemap has a cell a mesh";
-    EXPECT_GT(countOf(dom, "class=\"curve\""), 30u);
-    EXPECT_EQ(countOf(dom, "class=\"curve on\""), 1u) << "that of the largest mesh";
-    EXPECT_EQ(numberOf(dom, "bars"), 4) << "of the one asset that ran";
+    ASSERT_GE(getNumber(dom, "ready"), 0) << dom.substr(0, 2000);
+    EXPECT_EQ(getNumber(dom, "requests"), 0);
+    EXPECT_GT(countOccurrences(dom, "role=\"row\""), 30u);
+    EXPECT_GT(countOccurrences(dom, "class=\"cell\""), 40u) << "the treemap has a cell a mesh";
+    EXPECT_GT(countOccurrences(dom, "class=\"curve\""), 30u);
+    EXPECT_EQ(countOccurrences(dom, "class=\"curve on\""), 1u) << "that of the largest mesh";
+    EXPECT_EQ(getNumber(dom, "bars"), 4) << "of the one asset that ran";
     EXPECT_LT(dom.find("points nowhere"), dom.find("id=\"assets\""));
     EXPECT_NE(dom.find("hearth explain E1103"), std::string::npos);
     EXPECT_EQ(dom.find("<b>asset"), std::string::npos) << "names are text";
@@ -166,11 +166,11 @@ TEST_F(Page, showsRowsAreasCurvesAndTheFailureFirst)
 
 TEST_F(Page, hasRoomForAllColumnsThatItShows)
 {
-    ASSERT_TRUE(writeReport(reportOf(40).dump(), folder / "page.html", "").ok());
+    ASSERT_TRUE(writeReport(makeReport(40).dump(), folder / "page.html", "").ok());
     for (const int width : {1500, 1280, 800})
     {
         const std::string dom = open("page.html", width);
-        EXPECT_EQ(numberOf(dom, "cut"), 0) << "tables of a page " << width << " pixels wide";
+        EXPECT_EQ(getNumber(dom, "cut"), 0) << "tables of a page " << width << " pixels wide";
         EXPECT_NE(dom.find(">Half size<"), std::string::npos) << width;
     }
     const std::string dom = open("page.html", 800);
@@ -179,7 +179,7 @@ TEST_F(Page, hasRoomForAllColumnsThatItShows)
 
 TEST_F(Page, namesImagesByMaterialAndRole)
 {
-    ASSERT_TRUE(writeReport(reportOf(40).dump(), folder / "page.html", "").ok());
+    ASSERT_TRUE(writeReport(makeReport(40).dump(), folder / "page.html", "").ok());
     const std::string dom = open("page.html");
     EXPECT_NE(dom.find(">Old Oak<"), std::string::npos);
     EXPECT_NE(dom.find(">metallicRoughness<"), std::string::npos);
@@ -187,12 +187,12 @@ TEST_F(Page, namesImagesByMaterialAndRole)
 
 TEST_F(Page, saysWhatWasSlowAndWhichSettingHelps)
 {
-    ASSERT_TRUE(writeReport(reportOf(40).dump(), folder / "page.html", "").ok());
+    ASSERT_TRUE(writeReport(makeReport(40).dump(), folder / "page.html", "").ok());
     const std::string dom = open("page.html");
     const size_t slow = dom.find("id=\"slow\"");
     ASSERT_NE(slow, std::string::npos);
     const std::string part = dom.substr(slow, dom.find("</section>", slow) - slow);
-    EXPECT_EQ(countOf(part, "<tr>"), 5u) << "the head, and the cookers that ran: " << part;
+    EXPECT_EQ(countOccurrences(part, "<tr>"), 5u) << "the head, and the cookers that ran: " << part;
     EXPECT_NE(part.find("textures.max_size</code>: smaller textures are less to compress"), std::string::npos)
         << part;
     EXPECT_NE(part.find("no setting"), std::string::npos) << "of skinning: " << part;
@@ -201,28 +201,28 @@ TEST_F(Page, saysWhatWasSlowAndWhichSettingHelps)
 TEST_F(Page, ofThousandsOfAssetsOpensAtOnce)
 {
     const std::string path = folder / "page.html";
-    ASSERT_TRUE(writeReport(reportOf(kAssets).dump(), path, "").ok());
+    ASSERT_TRUE(writeReport(makeReport(kAssets).dump(), path, "").ok());
     EXPECT_LT(folder.read("page.html").size(), 20u << 20);
     // CPU seconds, relative to an empty page: other load on the machine does not matter then. The elapsed
     // time on an idle machine is less, since browsers work in parallel.
     folder.write("empty.html", "<!doctype html><title>empty</title>");
-    const auto secondsOf = [&](const std::string& name, std::string& dom)
+    const auto measureSeconds = [&](const std::string& name, std::string& dom)
     {
         const double before = childSeconds();
         dom = open(name);
         return childSeconds() - before;
     };
     std::string dom;
-    secondsOf("empty.html", dom); // the first start of a browser writes its profile
-    const double start = secondsOf("empty.html", dom);
-    const double seconds = secondsOf("page.html", dom) - start;
-    ASSERT_GE(numberOf(dom, "ready"), 0);
+    measureSeconds("empty.html", dom); // the first start of a browser writes its profile
+    const double start = measureSeconds("empty.html", dom);
+    const double seconds = measureSeconds("page.html", dom) - start;
+    ASSERT_GE(getNumber(dom, "ready"), 0);
     EXPECT_LT(seconds, 2);
-    EXPECT_EQ(numberOf(dom, "requests"), 0);
-    EXPECT_LT(countOf(dom, "role=\"row\""), 200u) << "only rows that are seen";
-    EXPECT_EQ(numberOf(dom, "bars"), 4 * kAssets / 100);
+    EXPECT_EQ(getNumber(dom, "requests"), 0);
+    EXPECT_LT(countOccurrences(dom, "role=\"row\""), 200u) << "only rows that are seen";
+    EXPECT_EQ(getNumber(dom, "bars"), 4 * kAssets / 100);
     RecordProperty("milliseconds", static_cast<int>(seconds * 1000));
-    RecordProperty("wall_milliseconds", numberOf(dom, "ready"));
+    RecordProperty("wall_milliseconds", getNumber(dom, "ready"));
 }
 
 } // namespace hearth::report

@@ -90,13 +90,13 @@ TEST(JunitXml, hasACaseForEachAssetAndOneForThePack)
               std::string::npos);
     EXPECT_NE(xml.find(R"(name="b&lt;&amp;&quot;.glb")"), std::string::npos) << xml;
     EXPECT_NE(xml.find(R"(message="/meshes/0: is &lt;bad&gt; [E1103]")"), std::string::npos) << xml;
-    EXPECT_EQ(test::countOf(xml, "<skipped/>"), 1u);
+    EXPECT_EQ(test::countOccurrences(xml, "<skipped/>"), 1u);
 }
 
 TEST(AssetTable, hasARowForEachAsset)
 {
     const std::string csv = assetTable(smallReport().dump());
-    EXPECT_EQ(test::countOf(csv, "\r\n"), 4u);
+    EXPECT_EQ(test::countOccurrences(csv, "\r\n"), 4u);
     EXPECT_NE(csv.find("\r\n\"a,1.glb\",cooked,1.250,0.000,0,10,5,7,17,2,1,1,1,\r\n"), std::string::npos)
         << csv;
     EXPECT_NE(csv.find("\r\n\"b<&\"\".glb\",failed,"), std::string::npos) << csv;
@@ -144,8 +144,8 @@ TEST(ReportPage, cannotBeLeftByWhatIsInIt)
     Json report = smallReport();
     report["assets"][0]["source"] = "</script><script>alert(1)</script><!--@DATA@";
     const std::string page = reportPage(pageData(report.dump()), imagesData({}));
-    EXPECT_EQ(test::countOf(page, "<script"), 3u);
-    EXPECT_EQ(test::countOf(page, "</script"), 3u);
+    EXPECT_EQ(test::countOccurrences(page, "<script"), 3u);
+    EXPECT_EQ(test::countOccurrences(page, "</script"), 3u);
     // as text
     EXPECT_NE(page.find("\\u003c/script>\\u003cscript>alert(1)"), std::string::npos);
 }
@@ -153,12 +153,12 @@ TEST(ReportPage, cannotBeLeftByWhatIsInIt)
 TEST(ReportPage, namesNothingThatIsElsewhere)
 {
     const std::string page = reportPage(pageData(smallReport().dump()), imagesData({}));
-    EXPECT_EQ(test::countOf(page, "http://"), 1u) << "the namespace of SVG";
-    EXPECT_EQ(test::countOf(page, "https://"), 0u);
-    EXPECT_EQ(test::countOf(page, "@import"), 0u);
-    EXPECT_EQ(test::countOf(page, "url("), 0u);
-    EXPECT_EQ(test::countOf(page, "fetch("), 0u);
-    EXPECT_EQ(test::countOf(page, "default-src 'none'"), 1u);
+    EXPECT_EQ(test::countOccurrences(page, "http://"), 1u) << "the namespace of SVG";
+    EXPECT_EQ(test::countOccurrences(page, "https://"), 0u);
+    EXPECT_EQ(test::countOccurrences(page, "@import"), 0u);
+    EXPECT_EQ(test::countOccurrences(page, "url("), 0u);
+    EXPECT_EQ(test::countOccurrences(page, "fetch("), 0u);
+    EXPECT_EQ(test::countOccurrences(page, "default-src 'none'"), 1u);
 }
 
 } // namespace hearth::report

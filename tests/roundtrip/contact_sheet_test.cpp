@@ -125,7 +125,7 @@ TEST_F(ContactSheet, isWhatNothingElseAsksFor)
     if (!draw("heap.hearth", "sheet.png", with({})))
         GTEST_SKIP() << "no device";
     EXPECT_EQ(render({"heap.hearth", "-o", "a.png", "--size", "320x180"}).out,
-              "contact sheet of 3 assets, which stand in one place (--sheet off draws the scene)\n");
+              "contact sheet of 3 assets, which overlap (--sheet off draws the scene)\n");
     ASSERT_TRUE(draw("heap.hearth", "on.png", with({"--sheet", "on"})));
     EXPECT_EQ(folder.read("on.png"), folder.read("sheet.png"));
     ASSERT_TRUE(draw("heap.hearth", "off.png", with({"--sheet", "off", "--stats", "off.json"})));

@@ -21,7 +21,7 @@ namespace hearth::roundtrip
 namespace
 {
 
-const char* pathOf(Program program)
+const char* getPath(Program program)
 {
     switch (program)
     {
@@ -45,7 +45,7 @@ const char* pathOf(Program program)
     return "";
 }
 
-std::string textOf(const std::string& path)
+std::string readText(const std::string& path)
 {
     std::ifstream file(path, std::ios::binary);
     std::ostringstream text;
@@ -59,7 +59,7 @@ void mustRun(Program program, const std::vector<std::string>& arguments)
     const ProgramEnd end = runProgram(program, arguments);
     if (end.exit_code == 0)
         return;
-    std::fprintf(stderr, "%s ended with %d: %s\n", pathOf(program), end.exit_code, end.errors.c_str());
+    std::fprintf(stderr, "%s ended with %d: %s\n", getPath(program), end.exit_code, end.errors.c_str());
     std::abort();
 }
 
@@ -97,7 +97,7 @@ std::string stampOfPrograms()
     for (const Program program : {Program::samples, Program::import, Program::clusters, Program::textures,
                                   Program::skinning, Program::link})
     {
-        const std::filesystem::path path = pathOf(program);
+        const std::filesystem::path path = getPath(program);
         stamp += path.string() + " " + std::to_string(std::filesystem::file_size(path)) + " " +
                  std::to_string(std::filesystem::last_write_time(path).time_since_epoch().count()) + "\n";
     }
@@ -126,7 +126,7 @@ void cookSample(const SampleSpec& spec, const std::filesystem::path& folder)
 
 ProgramEnd runProgram(Program program, const std::vector<std::string>& arguments)
 {
-    return runProgram(pathOf(program), arguments);
+    return runProgram(getPath(program), arguments);
 }
 
 ProgramEnd runProgram(const std::string& program, const std::vector<std::string>& arguments)
@@ -142,7 +142,7 @@ ProgramEnd runProgram(const std::string& program, const std::vector<std::string>
     const corpus::ProcessEnd end =
         corpus::runProcess(command, {.seconds = 300, .rss_bytes = uint64_t{8} << 30});
     const bool by_itself = end.started && end.signal == 0 && !end.over_time && !end.over_memory;
-    return {by_itself ? end.exit_code : -1, textOf(command.stdout_file), textOf(command.stderr_file)};
+    return {by_itself ? end.exit_code : -1, readText(command.stdout_file), readText(command.stderr_file)};
 }
 
 ScratchFolder::ScratchFolder()
@@ -168,7 +168,7 @@ CookedSample::CookedSample(const SampleSpec& spec)
     {
         const FileLock lock(folder / "lock");
         const std::string made_by = stampOfPrograms();
-        if (textOf(folder / "made-by") != made_by)
+        if (readText(folder / "made-by") != made_by)
         {
             cookSample(spec, folder);
             std::ofstream(folder / "made-by") << made_by;

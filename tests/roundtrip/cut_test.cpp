@@ -27,7 +27,7 @@ std::vector<uint32_t> finestClusters(const formats::PackView& pack, uint32_t mes
 }
 
 /// Errors at which the cut of a mesh changes, including both ends, thinned to about `count`.
-std::vector<float> thresholdsOf(const formats::PackView& pack, uint32_t mesh, size_t count)
+std::vector<float> chooseThresholds(const formats::PackView& pack, uint32_t mesh, size_t count)
 {
     std::vector<float> errors{0};
     for (const formats::GroupRecord& group :
@@ -73,7 +73,7 @@ TEST(Cut, hasNoCrackAtAnyThreshold)
         for (uint32_t mesh = 0; mesh < sample.pack().meshes().size(); ++mesh)
         {
             const auto source = trianglesOfClusters(sample.geometry(), finestClusters(sample.pack(), mesh));
-            for (const float threshold : thresholdsOf(sample.pack(), mesh, 9))
+            for (const float threshold : chooseThresholds(sample.pack(), mesh, 9))
             {
                 SCOPED_TRACE(spec.kind + ", mesh " + std::to_string(mesh) + ", error " +
                              std::to_string(threshold));
@@ -127,7 +127,7 @@ TEST(Cut, keepsTheVolumeOfAClosedMesh)
     double area2 = 0; // twice the area
     for (const auto& t : source)
         area2 += double{length(cross(t[1] - t[0], t[2] - t[0]))};
-    for (const float threshold : thresholdsOf(sample.pack(), 0, 9))
+    for (const float threshold : chooseThresholds(sample.pack(), 0, 9))
     {
         const auto cut = pack::selectCut(sample.pack(), 0, threshold);
         const double of_cut = reference::signedVolume6(trianglesOfClusters(sample.geometry(), cut));

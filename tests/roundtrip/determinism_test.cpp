@@ -13,7 +13,7 @@ namespace hearth::roundtrip
 namespace
 {
 
-std::string bytesOf(const std::string& path)
+std::string readBytes(const std::string& path)
 {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};
@@ -32,8 +32,8 @@ TEST(Samples, areTheSameBytesEveryTime)
     {
         for (const char* file : {"first.glb", "second.glb"})
             expectSuccess(Program::samples, {kind, "--texture-size", "64", "-o", folder.path(file)});
-        EXPECT_EQ(bytesOf(folder.path("first.glb")), bytesOf(folder.path("second.glb"))) << kind;
-        EXPECT_GT(bytesOf(folder.path("first.glb")).size(), 10000u);
+        EXPECT_EQ(readBytes(folder.path("first.glb")), readBytes(folder.path("second.glb"))) << kind;
+        EXPECT_GT(readBytes(folder.path("first.glb")).size(), 10000u);
     }
 }
 
@@ -70,10 +70,10 @@ TEST(Cook, givesTheSameBytesForAnyNumberOfThreads)
         for (const char* jobs : {"1", "2", "7"})
             expectSuccess(Program::clusters,
                           {part, "--jobs", jobs, "-o", folder.path(std::string("clusters") + jobs)});
-        const std::string one = bytesOf(folder.path("clusters1"));
+        const std::string one = readBytes(folder.path("clusters1"));
         EXPECT_GT(one.size(), 100000u);
-        EXPECT_TRUE(one == bytesOf(folder.path("clusters2"))) << kind;
-        EXPECT_TRUE(one == bytesOf(folder.path("clusters7"))) << kind;
+        EXPECT_TRUE(one == readBytes(folder.path("clusters2"))) << kind;
+        EXPECT_TRUE(one == readBytes(folder.path("clusters7"))) << kind;
     }
 }
 
@@ -87,8 +87,8 @@ TEST(Cook, givesTheSamePackTwice)
         expectSuccess(Program::hearth, {"cook", source, "-o", folder.path(file)});
         expectSuccess(Program::hearth, {"verify", folder.path(file)});
     }
-    EXPECT_TRUE(bytesOf(folder.path("first.hearth")) == bytesOf(folder.path("second.hearth")));
-    EXPECT_GT(bytesOf(folder.path("first.hearth")).size(), 100000u);
+    EXPECT_TRUE(readBytes(folder.path("first.hearth")) == readBytes(folder.path("second.hearth")));
+    EXPECT_GT(readBytes(folder.path("first.hearth")).size(), 100000u);
 }
 
 } // namespace

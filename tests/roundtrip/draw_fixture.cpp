@@ -33,7 +33,7 @@ void DrawTest::TearDown()
         ADD_FAILURE() << "validation: " << message;
 }
 
-std::vector<NamedView> viewsOf(const formats::PackView& pack)
+std::vector<NamedView> makeViews(const formats::PackView& pack)
 {
     const shared::Camera fit = viewer::fitCamera(pack, 1);
     const Float3 way = fit.position - fit.target;

@@ -43,7 +43,7 @@ struct NamedView
 
 /// Views from outside, from within, close to a surface that crosses the near plane, far away, tall, tiny, and
 /// at an angle.
-std::vector<NamedView> viewsOf(const formats::PackView& pack);
+std::vector<NamedView> makeViews(const formats::PackView& pack);
 
 /// Small samples that together have every kind of instance, material and mesh.
 std::vector<SampleSpec> drawnSamples();

@@ -57,7 +57,7 @@ TEST_F(ImageTest, everyViewShowsItsOwn)
 {
     const CookedSample& sample = cookedSample({"room"});
     const GpuScene scene = device().upload(sample.pack());
-    const NamedView named = viewsOf(sample.pack())[3];
+    const NamedView named = makeViews(sample.pack())[3];
     std::vector<Image> images;
     for (const uint32_t view : {shared::kViewFinal, shared::kViewClusters, shared::kViewLod,
                                 shared::kViewTriangles, shared::kViewNormals, shared::kViewDepth})
@@ -82,7 +82,7 @@ TEST_F(ImageTest, theFinalViewIsWhatRaysGive)
     {
         const CookedSample& sample = cookedSample(spec);
         const GpuScene scene = device().upload(sample.pack());
-        NamedView named = viewsOf(sample.pack())[spec.kind == "room" ? 3 : 0];
+        NamedView named = makeViews(sample.pack())[spec.kind == "room" ? 3 : 0];
         named.view.width = 512;
         named.view.height = 512;
         named.view.error_pixels = 1;

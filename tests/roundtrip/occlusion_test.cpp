@@ -413,7 +413,7 @@ TEST_F(Occlusion, ofAFloorThatGoesOnBelowARugIsThatOfWhatIsBesideIt)
     EXPECT_EQ(corners, 4u);
     const auto report = Json::parse(sandbox_.read("report.json")).value();
     const auto& mesh = report["assets"][0]["visibility"]["meshes"][0];
-    EXPECT_GT(mesh["buried"].get<double>(), 3);
+    EXPECT_GT(mesh["interior_samples"].get<double>(), 3);
     EXPECT_LE(mesh["solve"]["iterations"].get<double>(), 20);
 }
 

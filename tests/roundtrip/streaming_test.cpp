@@ -12,7 +12,7 @@ namespace hearth::roundtrip
 namespace
 {
 
-std::string contentOf(const std::string& file)
+std::string readContent(const std::string& file)
 {
     std::ifstream stream(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
@@ -50,14 +50,14 @@ TEST_F(StreamedRender, drawsTheSameImageWhereTheBudgetSuffices)
     ASSERT_EQ(whole.exit_code, 0) << whole.errors;
     const ProgramEnd streamed = render("streamed", {"--budget", "1G"});
     ASSERT_EQ(streamed.exit_code, 0) << streamed.errors;
-    EXPECT_EQ(contentOf(file("streamed.png")), contentOf(file("whole.png")));
-    EXPECT_EQ(member(contentOf(file("whole.json")), "converged"), "") << "nothing is streamed";
-    const std::string statistics = contentOf(file("streamed.json"));
+    EXPECT_EQ(readContent(file("streamed.png")), readContent(file("whole.png")));
+    EXPECT_EQ(member(readContent(file("whole.json")), "converged"), "") << "nothing is streamed";
+    const std::string statistics = readContent(file("streamed.json"));
     EXPECT_EQ(member(statistics, "converged"), "true");
     EXPECT_EQ(member(statistics, "error_scale"), "1.000");
     EXPECT_EQ(member(statistics, "failures"), "0");
     EXPECT_EQ(member(statistics, "drawn_triangles"),
-              member(contentOf(file("whole.json")), "drawn_triangles"));
+              member(readContent(file("whole.json")), "drawn_triangles"));
     EXPECT_GT(std::stoull(member(statistics, "bytes_streamed")), 100000u);
 }
 
@@ -65,7 +65,7 @@ TEST_F(StreamedRender, drawsCoarserWhereItDoesNot)
 {
     const ProgramEnd end = render("small", {"--budget", "512K", "--error-pixels", "0.1"});
     ASSERT_EQ(end.exit_code, 0) << end.errors;
-    const std::string statistics = contentOf(file("small.json"));
+    const std::string statistics = readContent(file("small.json"));
     EXPECT_GT(std::stod(member(statistics, "error_scale")), 1);
     EXPECT_LE(std::stoull(member(statistics, "bytes_in_use")), 512u * 1024);
     EXPECT_GT(std::stoull(member(statistics, "drawn_triangles")), 100u);
@@ -83,7 +83,7 @@ TEST_F(StreamedRender, aCameraPathTakesOneRoundOfLoadsAFrame)
     std::ofstream(file("path.txt")) << "3,1,3,0,0,0,45\n3,1,3,0,0,0,45\n3,1,3,0,0,0,45\n";
     const ProgramEnd end = render("path", {"--budget", "1G", "--camera-path", file("path.txt")});
     ASSERT_EQ(end.exit_code, 0) << end.errors;
-    const std::string statistics = contentOf(file("path.json"));
+    const std::string statistics = readContent(file("path.json"));
     const size_t frames = statistics.rfind("\"frames\":[");
     ASSERT_NE(frames, std::string::npos);
     EXPECT_EQ(member(statistics.substr(frames), "converged"), "false")

@@ -62,7 +62,7 @@ TEST_F(VisibilityTest, drawsExactlyTheClustersThatExhaustiveCullingKeeps)
     {
         const CookedSample& sample = cookedSample(spec);
         const GpuScene scene = device().upload(sample.pack());
-        for (NamedView named : viewsOf(sample.pack()))
+        for (NamedView named : makeViews(sample.pack()))
             for (const uint32_t flags :
                  {uint32_t{shared::kCullEverything}, 0u, uint32_t{shared::kCullInstances},
                   uint32_t{shared::kCullFrustum}, uint32_t{shared::kCullCone}})
@@ -99,14 +99,15 @@ TEST_F(VisibilityTest, equalsTheReferenceRasteriserPixelForPixel)
     {
         const CookedSample& sample = cookedSample(spec);
         const GpuScene scene = device().upload(sample.pack());
-        for (const NamedView& named : viewsOf(sample.pack()))
+        for (const NamedView& named : makeViews(sample.pack()))
         {
             SCOPED_TRACE(spec.kind + ", " + named.name);
             const shared::FrameView frame = named.frame(sample.pack());
             const DrawnFrame drawn = scene.draw(frame);
             const auto triangles = reference::trianglesOfSlots(sample.geometry(), drawn.slots);
             ASSERT_LE(triangles.size(), 200000u);
-            const auto expected = reference::rasterise(triangles, reference::tablesOf(sample.pack()), frame);
+            const auto expected =
+                reference::rasterise(triangles, reference::readTables(sample.pack()), frame);
             const auto one =
                 reference::compareIds(expected, drawn.ids, [](uint32_t a, uint32_t b) { return a == b; });
             EXPECT_EQ(one.different_unexcused, 0u);
@@ -131,7 +132,7 @@ TEST_F(VisibilityTest, showsTheSourceTrianglesAtErrorZero)
         const auto source = reference::trianglesOfImportPart(sample.importPart());
         ASSERT_TRUE(source.ok()) << formatMessage(source.error());
         const GpuScene scene = device().upload(sample.pack());
-        for (NamedView named : viewsOf(sample.pack()))
+        for (NamedView named : makeViews(sample.pack()))
         {
             SCOPED_TRACE(spec.kind + ", " + named.name);
             named.view.error_pixels = 0;
@@ -142,7 +143,7 @@ TEST_F(VisibilityTest, showsTheSourceTrianglesAtErrorZero)
             for (const reference::SceneTriangle& triangle : triangles)
                 triangle_of_id[triangle.id] = &triangle;
             const auto expected =
-                reference::rasterise(*source, reference::tablesOf(sample.importPart()), frame);
+                reference::rasterise(*source, reference::readTables(sample.importPart()), frame);
             const auto one = reference::compareIds(
                 expected, drawn.ids,
                 [&](uint32_t of_source, uint32_t of_gpu)
@@ -165,7 +166,7 @@ TEST_F(VisibilityTest, isTheSameImageWithAndWithoutCulling)
     {
         const CookedSample& sample = cookedSample(spec);
         const GpuScene scene = device().upload(sample.pack());
-        for (NamedView named : viewsOf(sample.pack()))
+        for (NamedView named : makeViews(sample.pack()))
         {
             const DrawnFrame culled = scene.draw(named.frame(sample.pack()));
             named.view.flags = 0;
@@ -184,7 +185,7 @@ TEST_F(VisibilityTest, isTheSameEveryTime)
 {
     const CookedSample& sample = cookedSample({"room"});
     const GpuScene scene = device().upload(sample.pack());
-    const NamedView named = viewsOf(sample.pack())[3];
+    const NamedView named = makeViews(sample.pack())[3];
     const DrawnFrame first = scene.draw(named.frame(sample.pack()));
     for (int i = 0; i < 5; ++i)
     {

@@ -16,7 +16,7 @@ constexpr const char* kImport = R"(#!/bin/sh
 case "$1" in
   *malformed*) echo "$1|/meshes/0: error: is bad [E1101] hint: mend it" >&2; exit 65 ;;
   *missing*) echo "$1: error: cannot open [E1001] hint: look" >&2; exit 66 ;;
-  *told*) echo "$*" >> asked ;;
+  *echoed*) echo "$*" >> asked ;;
   *silent*) exit 65 ;;
   *strange*) echo "terminate called" >&2; exit 1 ;;
   *crash*) echo "contract broken" >&2; kill -SEGV $$ ;;
@@ -92,7 +92,7 @@ Cook::Cook()
 void Cook::expectFailure(const ProgramEnd& end, int exit_code, const std::string& part_of_message)
 {
     EXPECT_EQ(end.exit_code, exit_code) << end.err;
-    EXPECT_EQ(countOf(end.err, ": error: "), 1u) << end.err;
+    EXPECT_EQ(countOccurrences(end.err, ": error: "), 1u) << end.err;
     EXPECT_EQ(end.out, "");
     EXPECT_NE(end.err.find(part_of_message), std::string::npos) << end.err;
     EXPECT_EQ(folder.list(), std::vector<std::string>{}) << end.err;

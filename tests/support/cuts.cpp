@@ -99,7 +99,7 @@ std::vector<uint64_t> oddEdges(std::span<const uint32_t> triangles)
 
 } // namespace
 
-Border borderOf(const Hierarchy& hierarchy, const DecodedHierarchy& decoded)
+Border buildBorder(const Hierarchy& hierarchy, const DecodedHierarchy& decoded)
 {
     const std::vector<uint8_t> nothing(hierarchy.groups.size(), 0);
     const auto triangles = trianglesOfCut(hierarchy, decoded, nothing);
@@ -141,7 +141,7 @@ std::vector<uint8_t> grownIslands(const Border& border, std::span<const uint32_t
 
 } // namespace
 
-std::string crackOf(const Border& border, std::span<const uint32_t> triangles)
+std::string findCrack(const Border& border, std::span<const uint32_t> triangles)
 {
     const std::vector<uint8_t> grown = grownIslands(border, triangles);
     const auto outside = [&](uint32_t from, uint32_t to)

@@ -34,10 +34,10 @@ struct Border
     bool closed = false;
     std::vector<uint8_t> is_border; ///< for each position
 };
-Border borderOf(const clusters::Hierarchy& hierarchy, const clusters::DecodedHierarchy& decoded);
+Border buildBorder(const clusters::Hierarchy& hierarchy, const clusters::DecodedHierarchy& decoded);
 
 /// Empty if the cut has no open edge except along the source's border or around small islands of an open
 /// surface, which grow when others are removed. Otherwise a message.
-std::string crackOf(const Border& border, std::span<const uint32_t> triangles);
+std::string findCrack(const Border& border, std::span<const uint32_t> triangles);
 
 } // namespace hearth::cuts

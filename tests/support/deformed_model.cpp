@@ -152,7 +152,7 @@ DeformedClusters::DeformedClusters(const clusters::Hierarchy& hierarchy)
     }
 }
 
-std::vector<uint32_t> DeformedClusters::trianglesOf(std::span<const uint32_t> clusters) const
+std::vector<uint32_t> DeformedClusters::getTriangles(std::span<const uint32_t> clusters) const
 {
     std::vector<uint32_t> triangles;
     for (const uint32_t cluster : clusters)

@@ -57,8 +57,8 @@ class DeformedClusters
 public:
     explicit DeformedClusters(const clusters::Hierarchy& hierarchy);
 
-    std::span<const uint32_t> trianglesOf(uint32_t cluster) const { return triangles_[cluster]; }
-    std::vector<uint32_t> trianglesOf(std::span<const uint32_t> clusters) const;
+    std::span<const uint32_t> getTriangles(uint32_t cluster) const { return triangles_[cluster]; }
+    std::vector<uint32_t> getTriangles(std::span<const uint32_t> clusters) const;
     std::vector<Float3> posed(const MeshPose& pose) const;
     size_t vertexCount() const { return keys_.size(); }
 

@@ -23,7 +23,7 @@ void keepDriverLoaded()
     ::dlopen("libVkLayer_khronos_validation.so", RTLD_LAZY | RTLD_NODELETE);
 }
 
-std::vector<uint32_t> wordsOf(const std::vector<std::byte>& bytes)
+std::vector<uint32_t> toWords(const std::vector<std::byte>& bytes)
 {
     std::vector<uint32_t> words(bytes.size() / 4);
     std::memcpy(words.data(), bytes.data(), words.size() * 4);
@@ -111,8 +111,8 @@ gpu::FrameTargets GpuTest::makeTargets(uint32_t width, uint32_t height)
     return std::move(*targets);
 }
 
-shared::FrameView GpuTest::viewOf(const gpu::Scene& scene, const shared::Camera& camera,
-                                  const DrawOptions& options)
+shared::FrameView GpuTest::makeView(const gpu::Scene& scene, const shared::Camera& camera,
+                                    const DrawOptions& options)
 {
     shared::FrameView view = shared::makeFrameView(camera, options.width, options.height,
                                                    options.error_pixels, scene.instance_count, options.flags);
@@ -132,7 +132,7 @@ Image GpuTest::draw(const gpu::Scene& scene, gpu::FrameTargets& targets, const s
 {
     if (options.debug_view == shared::kViewOverdraw)
         HEARTH_ASSERT(renderer().prepareOverdraw().ok());
-    const gpu::FrameInput input{.view = viewOf(scene, camera, options),
+    const gpu::FrameInput input{.view = makeView(scene, camera, options),
                                 .shading = {.debug_view = options.debug_view,
                                             .area = options.area,
                                             .ambient_occlusion = options.ambient_occlusion,
@@ -160,7 +160,7 @@ Image GpuTest::readImage(const gpu::Scene& scene, const gpu::FrameTargets& targe
     auto list = viewer::readVisibleList(host(), renderer(), scene);
     HEARTH_ASSERT(color.ok() && visibility.ok() && list.ok());
     const auto [width, height] = targets.extent();
-    return {width, height, wordsOf(*color), wordsOf(*visibility), std::move(*list)};
+    return {width, height, toWords(*color), toWords(*visibility), std::move(*list)};
 }
 
 } // namespace hearth::test

@@ -72,8 +72,8 @@ protected:
                const DrawOptions& options);
     /// Read back the last frame, which has been executed.
     static Image readImage(const gpu::Scene& scene, const gpu::FrameTargets& targets);
-    static shared::FrameView viewOf(const gpu::Scene& scene, const shared::Camera& camera,
-                                    const DrawOptions& options);
+    static shared::FrameView makeView(const gpu::Scene& scene, const shared::Camera& camera,
+                                      const DrawOptions& options);
     gpu::FrameTargets makeTargets(uint32_t width, uint32_t height);
 
     template <typename T>

@@ -25,7 +25,7 @@ bool matches(const std::string& text, const std::string& pattern)
 }
 
 /// Return the number of UTF-8 characters.
-size_t lengthOf(const std::string& text)
+size_t getLength(const std::string& text)
 {
     return static_cast<size_t>(
         std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
@@ -55,14 +55,14 @@ public:
         if (schema.is_boolean())
             return schema.get<bool>() ? "" : place + ": is not allowed";
         for (const auto& [keyword, rule] : schema.items())
-            if (std::string found = faultOf(keyword, rule, schema, value, place); !found.empty())
+            if (std::string found = findFault(keyword, rule, schema, value, place); !found.empty())
                 return found;
         return "";
     }
 
 private:
-    std::string faultOf(const std::string& keyword, const Json& rule, const Json& schema, const Json& value,
-                        const std::string& place) const
+    std::string findFault(const std::string& keyword, const Json& rule, const Json& schema, const Json& value,
+                          const std::string& place) const
     {
         const auto unless = [&](bool holds)
         { return holds ? "" : place + ": " + keyword + " " + rule.dump(); };
@@ -91,7 +91,7 @@ private:
             return schema.contains(next) ? fault(schema[next], value, place) : "";
         }
         if (keyword == "minLength")
-            return unless(!value.is_string() || lengthOf(value.get<std::string>()) >= rule.get<size_t>());
+            return unless(!value.is_string() || getLength(value.get<std::string>()) >= rule.get<size_t>());
         if (keyword == "oneOf")
             return unless(std::count_if(rule.begin(), rule.end(),
                                         [&](const Json& one)
@@ -148,7 +148,7 @@ private:
 
 } // namespace
 
-std::string faultOf(const Json& schema, const Json& value)
+std::string findFault(const Json& schema, const Json& value)
 {
     return Checker(schema).fault(schema, value, "");
 }
@@ -158,7 +158,7 @@ std::string faultOfSchema(const std::string& schema_file, const Json& value)
     std::ifstream file(schema_file);
     const std::string text(std::istreambuf_iterator<char>(file), {});
     const std::optional<Json> schema = Json::parse(text);
-    return schema ? faultOf(*schema, value) : schema_file + " is no JSON";
+    return schema ? findFault(*schema, value) : schema_file + " is no JSON";
 }
 
 } // namespace hearth::test

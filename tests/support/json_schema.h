@@ -13,7 +13,7 @@ namespace hearth::test
 
 /// Return the first violation, as "/assets/0/state: ..."; empty if there is none. An unknown keyword is a
 /// violation.
-std::string faultOf(const Json& schema, const Json& value);
+std::string findFault(const Json& schema, const Json& value);
 /// Validate against a schema in a file.
 std::string faultOfSchema(const std::string& schema_file, const Json& value);
 

@@ -118,7 +118,7 @@ ProgramEnd Sandbox::finish(pid_t process) const
             readFile(output_path_ + "/err")};
 }
 
-size_t countOf(const std::string& text, const std::string& part)
+size_t countOccurrences(const std::string& text, const std::string& part)
 {
     size_t count = 0;
     for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size()))

@@ -57,7 +57,7 @@ private:
 };
 
 /// Count the occurrences of `part` in `text`.
-size_t countOf(const std::string& text, const std::string& part);
+size_t countOccurrences(const std::string& text, const std::string& part);
 
 /// Replace every `what` in `text` by `by`.
 void replaceAll(std::string& text, const std::string& what, const std::string& by);

@@ -97,7 +97,7 @@ void appendMorphs(std::vector<std::byte>& page, size_t vertex_count)
 }
 
 /// Bounds of the shape: its box, and a cone that contains all its normals.
-ClusterRecord boundsOf(const Shape& shape, uint16_t cone_cutoff)
+ClusterRecord computeBounds(const Shape& shape, uint16_t cone_cutoff)
 {
     Box3 box;
     for (const Float3 p : shape.positions)
@@ -122,7 +122,7 @@ void addCluster(PackModel& pack, const Shape& shape, uint32_t refined_group)
     std::vector<std::byte>& page = pack.decoded_pages.back();
 
     const uint32_t layout = pack.meshes.back().attributes;
-    ClusterRecord cluster = boundsOf(shape, (layout & kVertexNormal) ? uint16_t{65536 / 5} : kNoCone);
+    ClusterRecord cluster = computeBounds(shape, (layout & kVertexNormal) ? uint16_t{65536 / 5} : kNoCone);
     cluster.material = mesh == 0 ? 0 : kInvalidIndex;
     cluster.page = static_cast<uint32_t>(pack.decoded_pages.size() - 1);
     cluster.page_word = static_cast<uint16_t>(page.size() / 4);

@@ -19,7 +19,7 @@ const uint32_t kClusterChunks[] = {kChunkMeshes,    kChunkLevels,      kChunkGro
 
 const uint32_t kSkinningChunks[] = {kChunkDeformedMeshes, kChunkDeformedClusters, kChunkClusterJoints};
 
-bool isOneOf(uint32_t type, std::span<const uint32_t> types)
+bool isOneOfTypes(uint32_t type, std::span<const uint32_t> types)
 {
     return std::find(types.begin(), types.end(), type) != types.end();
 }
@@ -55,13 +55,13 @@ void writeParts(const PackModel& pack, const std::string& folder, const std::str
     for (const ChunkImage& chunk : pack.chunks(true))
     {
         const uint32_t type = chunk.entry.type;
-        if (isOneOf(type, kClusterChunks) || isOneOf(type, shared))
+        if (isOneOfTypes(type, kClusterChunks) || isOneOfTypes(type, shared))
             clusters_chunks.push_back(chunk);
-        if (isOneOf(type, kSkinningChunks))
+        if (isOneOfTypes(type, kSkinningChunks))
             skinning_chunks.push_back(chunk);
-        else if (!isOneOf(type, kClusterChunks))
+        else if (!isOneOfTypes(type, kClusterChunks))
             import_chunks.push_back(chunk);
-        if (isOneOf(type, textures))
+        if (isOneOfTypes(type, textures))
             textures_chunks.push_back(chunk);
     }
     const std::byte mesh{1};

@@ -183,18 +183,18 @@ Float3 valueAt(const SurfacePoint& point, std::span<const Float3> of_vertices,
 std::vector<SurfacePoint> evenlySpread(std::span<const Float3> positions, std::span<const uint32_t> triangles,
                                        size_t count)
 {
-    const auto areaOf = [&](size_t t)
+    const auto computeArea = [&](size_t t)
     {
         const Float3 a = positions[triangles[t]];
         return double{length(cross(positions[triangles[t + 1]] - a, positions[triangles[t + 2]] - a))};
     };
     double total_area = 0;
     for (size_t t = 0; t < triangles.size(); t += 3)
-        total_area += areaOf(t);
+        total_area += computeArea(t);
     std::vector<SurfacePoint> points;
     double due = 0;
     for (size_t t = 0; t < triangles.size(); t += 3)
-        for (due += static_cast<double>(count) * areaOf(t) / total_area; due >= 1; due -= 1)
+        for (due += static_cast<double>(count) * computeArea(t) / total_area; due >= 1; due -= 1)
         {
             double v = radicalInverse(points.size() + 1, 2), w = radicalInverse(points.size() + 1, 3);
             if (v + w > 1)

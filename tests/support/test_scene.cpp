@@ -16,7 +16,7 @@ using namespace formats;
 namespace
 {
 
-uint32_t countOf(const auto& records)
+uint32_t countRecords(const auto& records)
 {
     return static_cast<uint32_t>(records.size());
 }
@@ -47,8 +47,8 @@ void appendHierarchy(PackModel& pack, const clusters::Hierarchy& h)
 {
     while (pack.page_bytes.size() % kChunkAlignment != 0)
         pack.page_bytes.push_back(std::byte{0});
-    const Bases b{countOf(pack.meshes),   countOf(pack.levels), countOf(pack.groups),
-                  countOf(pack.clusters), countOf(pack.pages),  countOf(pack.page_parents),
+    const Bases b{countRecords(pack.meshes),   countRecords(pack.levels), countRecords(pack.groups),
+                  countRecords(pack.clusters), countRecords(pack.pages),  countRecords(pack.page_parents),
                   pack.page_bytes.size()};
     append(pack.levels, h.levels, [&](LevelRecord& r) { r.clusters = moved(r.clusters, b.cluster); });
     append(pack.groups, h.groups,
@@ -96,11 +96,11 @@ MaterialRecord plainMaterial()
     for (TextureRef* texture :
          {&material.base_color_texture, &material.metallic_roughness_texture, &material.normal_texture,
           &material.occlusion_texture, &material.emissive_texture})
-        *texture = textureOf(kInvalidIndex);
+        *texture = makeTextureRef(kInvalidIndex);
     return material;
 }
 
-TextureRef textureOf(uint32_t image)
+TextureRef makeTextureRef(uint32_t image)
 {
     return {image, 0, 0, 0, 0, {1, 0, 0, 0, 1, 0}};
 }
@@ -108,7 +108,7 @@ TextureRef textureOf(uint32_t image)
 uint32_t TestScene::addMaterial(const MaterialRecord& material)
 {
     model_.materials.push_back(material);
-    return countOf(model_.materials) - 1;
+    return countRecords(model_.materials) - 1;
 }
 
 uint32_t TestScene::addImage(TexelFormat format, uint32_t width, uint32_t height,
@@ -120,7 +120,7 @@ uint32_t TestScene::addImage(TexelFormat format, uint32_t width, uint32_t height
     model_.images.push_back(image);
     const auto bytes = std::as_bytes(std::span(texels));
     model_.image_data.emplace_back(bytes.begin(), bytes.end());
-    return countOf(model_.images) - 1;
+    return countRecords(model_.images) - 1;
 }
 
 uint32_t TestScene::addMesh(const mesh::SourceMesh& mesh, const clusters::Config& config)
@@ -131,7 +131,7 @@ uint32_t TestScene::addMesh(const mesh::SourceMesh& mesh, const clusters::Config
 uint32_t TestScene::addHierarchy(const clusters::Hierarchy& hierarchy)
 {
     appendHierarchy(model_, hierarchy);
-    return countOf(model_.meshes) - 1;
+    return countRecords(model_.meshes) - 1;
 }
 
 uint32_t TestScene::addNode(uint32_t mesh, const Affine3& parent_from_node)
@@ -144,7 +144,7 @@ uint32_t TestScene::addNode(uint32_t mesh, const Affine3& parent_from_node)
     node.scale = {1, 1, 1};
     node.parent_from_node = parent_from_node;
     model_.nodes.push_back(node);
-    return countOf(model_.nodes) - 1;
+    return countRecords(model_.nodes) - 1;
 }
 
 void TestScene::addInstance(uint32_t mesh, const Affine3& world_from_object)

@@ -19,7 +19,7 @@ namespace hearth::test
 formats::MaterialRecord plainMaterial();
 
 /// Texture on UV set 0, with repeat wrapping.
-formats::TextureRef textureOf(uint32_t image);
+formats::TextureRef makeTextureRef(uint32_t image);
 
 class TestScene
 {

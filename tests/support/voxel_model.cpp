@@ -17,7 +17,7 @@ void setBit(uint32_t& low, uint32_t& high, uint32_t bit)
     (bit < 32 ? low : high) |= 1u << (bit & 31);
 }
 
-Float3 axisOf(uint32_t face)
+Float3 getAxis(uint32_t face)
 {
     Float3 axis;
     axis[static_cast<int>(face / 2)] = face % 2 == 1 ? 1.0f : -1.0f;
@@ -93,7 +93,7 @@ BrickTables VoxelModel::build() const
         for (uint32_t face = 0; face < kVoxelFaces; ++face)
             for (const auto& [bit, place] : places)
             {
-                const Float3 axis = axisOf(face);
+                const Float3 axis = getAxis(face);
                 const Voxel* beside =
                     at(place[2] + static_cast<int64_t>(axis.x), place[1] + static_cast<int64_t>(axis.y),
                        place[0] + static_cast<int64_t>(axis.z));

@@ -89,8 +89,8 @@ void replaceAll(std::string& text, const std::string& word, const std::string& b
         text.replace(at, word.size(), by);
 }
 
-std::string configOf(const std::string& folder, int port, const std::string& directives,
-                     const std::string& tls)
+std::string makeConfig(const std::string& folder, int port, const std::string& directives,
+                       const std::string& tls)
 {
     std::string config = kConfig;
     replaceAll(config, "PORT", std::to_string(port) + (tls.empty() ? "" : " ssl"));
@@ -128,7 +128,7 @@ void WebServer::start(const std::string& directives, const std::string& tls)
 {
     stop();
     const std::string config = folder_ + "/config";
-    std::ofstream(config) << configOf(folder_, port_, directives, tls);
+    std::ofstream(config) << makeConfig(folder_, port_, directives, tls);
     process_ = ::fork();
     HEARTH_ASSERT(process_ >= 0);
     if (process_ == 0)

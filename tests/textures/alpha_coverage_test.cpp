@@ -50,7 +50,7 @@ std::vector<std::byte> leaves(uint32_t size)
     return texels;
 }
 
-double coverageOf(const ImageRecord& image, const std::vector<std::byte>& chain, uint32_t mip)
+double computeCoverage(const ImageRecord& image, const std::vector<std::byte>& chain, uint32_t mip)
 {
     const auto begin = static_cast<size_t>(formats::mipOffset(image, mip));
     const auto end = static_cast<size_t>(formats::mipOffset(image, mip + 1));
@@ -71,21 +71,21 @@ TEST(AlphaCoverage, countsWhatTheShaderKeeps)
 TEST(AlphaCoverage, mipsKeepItWithinTwoPercent)
 {
     const ImageRecord image =
-        recordOf(256, 256, formats::TexelFormat::rgba8_srgb, formats::kImageAlphaTested);
+        makeRecord(256, 256, formats::TexelFormat::rgba8_srgb, formats::kImageAlphaTested);
     for (const std::vector<std::byte>& texels : {grass(256), leaves(256)})
     {
         const std::vector<std::byte> chain = buildMipChain(image, texels);
-        const double finest = coverageOf(image, chain, 0);
+        const double finest = computeCoverage(image, chain, 0);
         for (uint32_t mip = 1; mip <= 5; ++mip) // below 8 x 8 one texel is more than 2 %
-            EXPECT_NEAR(coverageOf(image, chain, mip), finest, 0.02) << "mip " << mip;
+            EXPECT_NEAR(computeCoverage(image, chain, mip), finest, 0.02) << "mip " << mip;
     }
 }
 
 TEST(AlphaCoverage, plainMeansWouldLoseIt)
 {
-    const std::vector<std::byte> chain = buildMipChain(recordOf(256, 256), grass(256));
-    const ImageRecord image = recordOf(256, 256);
-    EXPECT_LT(coverageOf(image, chain, 3), coverageOf(image, chain, 0) - 0.1);
+    const std::vector<std::byte> chain = buildMipChain(makeRecord(256, 256), grass(256));
+    const ImageRecord image = makeRecord(256, 256);
+    EXPECT_LT(computeCoverage(image, chain, 3), computeCoverage(image, chain, 0) - 0.1);
 }
 
 TEST(AlphaCoverage, nothingIsScaledWhereNothingOrAllPasses)

@@ -46,7 +46,7 @@ TEST(MipChain, endsAtOneTexelAndKeepsTheFinest)
 {
     for (const auto& [width, height] : kSizes)
     {
-        ImageRecord image = recordOf(width, height);
+        ImageRecord image = makeRecord(width, height);
         image.mip_count = fullMipCount(width, height);
         const std::vector<std::byte> texels = randomBytes(size_t{width} * height * 4, 1);
         const std::vector<std::byte> chain = buildMipChain(image, texels);
@@ -71,24 +71,24 @@ TEST(MipChain, constantStaysConstant)
                        texel));
         }
     };
-    check(recordOf(1, 1), {200, 3, 77, 255});
-    check(recordOf(1, 1), {200, 3, 77, 1});
-    check(recordOf(1, 1), {200, 3, 77, 0});
-    check(recordOf(1, 1, TexelFormat::rgba8_unorm), {1, 254, 128, 9});
-    check(recordOf(1, 1, TexelFormat::rgba8_unorm, formats::kImageNormalMap), {128, 128, 255, 255});
-    check(recordOf(1, 1, TexelFormat::rgba8_srgb, formats::kImageAlphaTested), {10, 20, 30, 255});
-    check(recordOf(1, 1, TexelFormat::rgba8_srgb, formats::kImageAlphaTested), {10, 20, 30, 128});
-    check(recordOf(1, 1, TexelFormat::rgba8_srgb, formats::kImageAlphaTested), {10, 20, 30, 127});
+    check(makeRecord(1, 1), {200, 3, 77, 255});
+    check(makeRecord(1, 1), {200, 3, 77, 1});
+    check(makeRecord(1, 1), {200, 3, 77, 0});
+    check(makeRecord(1, 1, TexelFormat::rgba8_unorm), {1, 254, 128, 9});
+    check(makeRecord(1, 1, TexelFormat::rgba8_unorm, formats::kImageNormalMap), {128, 128, 255, 255});
+    check(makeRecord(1, 1, TexelFormat::rgba8_srgb, formats::kImageAlphaTested), {10, 20, 30, 255});
+    check(makeRecord(1, 1, TexelFormat::rgba8_srgb, formats::kImageAlphaTested), {10, 20, 30, 128});
+    check(makeRecord(1, 1, TexelFormat::rgba8_srgb, formats::kImageAlphaTested), {10, 20, 30, 127});
 }
 
 TEST(MipChain, blackAndWhiteAverageInLinearLight)
 {
     std::vector<std::byte> texels = filled(2, 1, {0, 0, 0, 255});
     std::fill(texels.begin() + 4, texels.end(), std::byte{255});
-    const ImageRecord color = recordOf(2, 1);
-    EXPECT_EQ(mipOf(color, buildMipChain(color, texels), 1)[0], (Rgba8{188, 188, 188, 255}));
-    const ImageRecord data = recordOf(2, 1, TexelFormat::rgba8_unorm);
-    EXPECT_EQ(mipOf(data, buildMipChain(data, texels), 1)[0], (Rgba8{128, 128, 128, 255}));
+    const ImageRecord color = makeRecord(2, 1);
+    EXPECT_EQ(decodeMip(color, buildMipChain(color, texels), 1)[0], (Rgba8{188, 188, 188, 255}));
+    const ImageRecord data = makeRecord(2, 1, TexelFormat::rgba8_unorm);
+    EXPECT_EQ(decodeMip(data, buildMipChain(data, texels), 1)[0], (Rgba8{128, 128, 128, 255}));
 }
 
 TEST(MipChain, oddSizesWeightByArea)
@@ -97,8 +97,8 @@ TEST(MipChain, oddSizesWeightByArea)
     std::vector<std::byte> texels = filled(5, 1, {0, 0, 0, 0});
     for (size_t i = 0; i < 5; ++i)
         texels[i * 4] = static_cast<std::byte>(i * 50);
-    const ImageRecord image = recordOf(5, 1, TexelFormat::rgba8_unorm);
-    const std::vector<Rgba8> mip = mipOf(image, buildMipChain(image, texels), 1);
+    const ImageRecord image = makeRecord(5, 1, TexelFormat::rgba8_unorm);
+    const std::vector<Rgba8> mip = decodeMip(image, buildMipChain(image, texels), 1);
     ASSERT_EQ(mip.size(), 2u);
     EXPECT_EQ(mip[0][0], 40);  // (0 + 50 + 0.5 * 100) / 2.5
     EXPECT_EQ(mip[1][0], 160); // (0.5 * 100 + 150 + 200) / 2.5
@@ -108,28 +108,29 @@ TEST(MipChain, keepsTheEnergy)
 {
     for (const auto& [width, height] : kSizes)
     {
-        const ImageRecord image = recordOf(width, height);
+        const ImageRecord image = makeRecord(width, height);
         std::vector<std::byte> texels = randomBytes(size_t{width} * height * 4, width * 31 + height);
         for (size_t at = 3; at < texels.size(); at += 4)
             texels[at] = std::byte{255};
         const std::vector<std::byte> chain = buildMipChain(image, texels);
         for (size_t channel = 0; channel < 3; ++channel)
         {
-            const double finest = linearMean(mipOf(image, chain, 0), channel);
+            const double finest = linearMean(decodeMip(image, chain, 0), channel);
             for (uint32_t mip = 1; mip < fullMipCount(width, height); ++mip)
                 // half a step of 8 bits, where the curve is steepest
-                EXPECT_NEAR(linearMean(mipOf(image, chain, mip), channel), finest, 0.5 / 255 * 2.3);
+                EXPECT_NEAR(linearMean(decodeMip(image, chain, mip), channel), finest, 0.5 / 255 * 2.3);
         }
     }
 }
 
 TEST(MipChain, keepsTheMeanOfDataAndAlpha)
 {
-    const ImageRecord image = recordOf(61, 37, TexelFormat::rgba8_unorm);
+    const ImageRecord image = makeRecord(61, 37, TexelFormat::rgba8_unorm);
     const std::vector<std::byte> chain = buildMipChain(image, randomBytes(61 * 37 * 4, 5));
     for (size_t channel = 0; channel < 4; ++channel)
         for (uint32_t mip = 1; mip < fullMipCount(61, 37); ++mip)
-            EXPECT_NEAR(mean(mipOf(image, chain, mip), channel), mean(mipOf(image, chain, 0), channel), 0.5);
+            EXPECT_NEAR(mean(decodeMip(image, chain, mip), channel),
+                        mean(decodeMip(image, chain, 0), channel), 0.5);
 }
 
 TEST(MipChain, whatIsTransparentDoesNotBleed)
@@ -139,27 +140,27 @@ TEST(MipChain, whatIsTransparentDoesNotBleed)
     for (size_t i = 0; i < 64; i += 3)
         std::copy_n(filled(1, 1, {30, 200, 40, 255}).begin(), 4,
                     texels.begin() + static_cast<std::ptrdiff_t>(i * 4));
-    const ImageRecord image = recordOf(8, 8);
+    const ImageRecord image = makeRecord(8, 8);
     const std::vector<std::byte> chain = buildMipChain(image, texels);
     for (uint32_t mip = 1; mip < 4; ++mip)
-        for (const Rgba8& texel : mipOf(image, chain, mip))
+        for (const Rgba8& texel : decodeMip(image, chain, mip))
         {
             if (texel[3] == 0)
                 continue;
             EXPECT_EQ((Rgba8{texel[0], texel[1], texel[2], 0}), (Rgba8{30, 200, 40, 0}));
         }
-    EXPECT_NEAR(mipOf(image, chain, 3)[0][3], 255.0 * 22 / 64, 1);
+    EXPECT_NEAR(decodeMip(image, chain, 3)[0][3], 255.0 * 22 / 64, 1);
 }
 
 TEST(MipChain, whereAllIsTransparentTheColourIsThePlainMean)
 {
     std::vector<std::byte> texels = filled(2, 1, {0, 0, 0, 0});
     texels[4] = std::byte{255};
-    const ImageRecord image = recordOf(2, 1);
-    EXPECT_EQ(mipOf(image, buildMipChain(image, texels), 1)[0], (Rgba8{188, 0, 0, 0}));
+    const ImageRecord image = makeRecord(2, 1);
+    EXPECT_EQ(decodeMip(image, buildMipChain(image, texels), 1)[0], (Rgba8{188, 0, 0, 0}));
 }
 
-Float3 directionOf(const Rgba8& texel)
+Float3 getDirection(const Rgba8& texel)
 {
     const auto component = [](uint8_t value) { return static_cast<float>(value) / 127.5f - 1; };
     return {component(texel[0]), component(texel[1]), component(texel[2])};
@@ -167,11 +168,11 @@ Float3 directionOf(const Rgba8& texel)
 
 TEST(MipChain, normalsAreDirectionsAndUnit)
 {
-    const ImageRecord image = recordOf(33, 20, TexelFormat::rgba8_unorm, formats::kImageNormalMap);
+    const ImageRecord image = makeRecord(33, 20, TexelFormat::rgba8_unorm, formats::kImageNormalMap);
     const std::vector<std::byte> chain = buildMipChain(image, randomBytes(33 * 20 * 4, 9));
     for (uint32_t mip = 1; mip < fullMipCount(33, 20); ++mip)
-        for (const Rgba8& texel : mipOf(image, chain, mip))
-            EXPECT_NEAR(length(directionOf(texel)), 1, 0.01);
+        for (const Rgba8& texel : decodeMip(image, chain, mip))
+            EXPECT_NEAR(length(getDirection(texel)), 1, 0.01);
 }
 
 TEST(MipChain, normalsThatLeanApartMeetInTheMiddle)
@@ -181,8 +182,8 @@ TEST(MipChain, normalsThatLeanApartMeetInTheMiddle)
     const Rgba8 left = {128 - 45, 128, 128 + 45, 255};
     for (size_t c = 0; c < 4; ++c)
         texels[4 + c] = std::byte{left[c]};
-    const ImageRecord image = recordOf(2, 1, TexelFormat::rgba8_unorm, formats::kImageNormalMap);
-    const Float3 direction = directionOf(mipOf(image, buildMipChain(image, texels), 1)[0]);
+    const ImageRecord image = makeRecord(2, 1, TexelFormat::rgba8_unorm, formats::kImageNormalMap);
+    const Float3 direction = getDirection(decodeMip(image, buildMipChain(image, texels), 1)[0]);
     EXPECT_NEAR(direction.x, 0, 0.01);
     EXPECT_NEAR(direction.z, 1, 0.01);
 }
@@ -192,8 +193,8 @@ TEST(MipChain, opposedNormalsGiveTheFlatOne)
     std::vector<std::byte> texels = filled(2, 1, {255, 127, 127, 255});
     texels[4] = std::byte{0};
     texels[5] = texels[6] = std::byte{128};
-    const ImageRecord image = recordOf(2, 1, TexelFormat::rgba8_unorm, formats::kImageNormalMap);
-    EXPECT_EQ(mipOf(image, buildMipChain(image, texels), 1)[0], (Rgba8{128, 128, 255, 255}));
+    const ImageRecord image = makeRecord(2, 1, TexelFormat::rgba8_unorm, formats::kImageNormalMap);
+    EXPECT_EQ(decodeMip(image, buildMipChain(image, texels), 1)[0], (Rgba8{128, 128, 255, 255}));
 }
 
 TEST(MipChain, floatImagesKeepTheirRange)
@@ -203,7 +204,7 @@ TEST(MipChain, floatImagesKeepTheirRange)
                                           halfFromFloat(-2),    halfFromFloat(0)};
     std::vector<std::byte> texels(sizeof(half));
     std::memcpy(texels.data(), half.data(), sizeof(half));
-    const std::vector<std::byte> chain = buildMipChain(recordOf(2, 1, TexelFormat::rgba16_float), texels);
+    const std::vector<std::byte> chain = buildMipChain(makeRecord(2, 1, TexelFormat::rgba16_float), texels);
     ASSERT_EQ(chain.size(), 24u);
     std::array<uint16_t, 4> mip;
     std::memcpy(mip.data(), chain.data() + 16, sizeof(mip));
@@ -215,7 +216,7 @@ TEST(MipChain, floatImagesKeepTheirRange)
 
 TEST(MipChain, sameBytesForAnyNumberOfThreads)
 {
-    const ImageRecord image = recordOf(301, 203, TexelFormat::rgba8_srgb, formats::kImageAlphaTested);
+    const ImageRecord image = makeRecord(301, 203, TexelFormat::rgba8_srgb, formats::kImageAlphaTested);
     const std::vector<std::byte> texels = randomBytes(301 * 203 * 4, 3);
     std::vector<std::vector<std::byte>> chains;
     for (const size_t threads : {1u, 2u, 7u})

@@ -34,7 +34,7 @@ void writeImport(const std::string& path, std::span<const ImageRecord> images,
 TEST(CookTextures, writesEveryImageWithItsMips)
 {
     const TemporaryFolder folder;
-    std::vector<ImageRecord> images = {recordOf(12, 7), recordOf(4, 4, TexelFormat::rgba16_float)};
+    std::vector<ImageRecord> images = {makeRecord(12, 7), makeRecord(4, 4, TexelFormat::rgba16_float)};
     images[0].name = {3, 4};
     const std::vector<std::vector<std::byte>> texels = {randomBytes(12 * 7 * 4, 1),
                                                         std::vector<std::byte>(4 * 4 * 8)};
@@ -60,7 +60,7 @@ TEST(CookTextures, writesEveryImageWithItsMips)
 TEST(CookTextures, leavesOutMipsThatAreTooLarge)
 {
     const TemporaryFolder folder;
-    const std::vector<ImageRecord> images = {recordOf(12, 7), recordOf(5, 16), recordOf(1, 1)};
+    const std::vector<ImageRecord> images = {makeRecord(12, 7), makeRecord(5, 16), makeRecord(1, 1)};
     const std::vector<std::vector<std::byte>> texels = {randomBytes(12 * 7 * 4, 1),
                                                         randomBytes(5 * 16 * 4, 2), randomBytes(4, 3)};
     writeImport(folder.file("in.part"), images, texels);
@@ -93,7 +93,7 @@ TEST(CookTextures, leavesOutMipsThatAreTooLarge)
 TEST(CookTextures, saysWhatBecameOfEachImage)
 {
     const TemporaryFolder folder;
-    std::vector<ImageRecord> images = {recordOf(12, 7), recordOf(4, 4, TexelFormat::rgba16_float)};
+    std::vector<ImageRecord> images = {makeRecord(12, 7), makeRecord(4, 4, TexelFormat::rgba16_float)};
     images[0].name = {3, 400}; // outside of the strings
     const std::vector<std::vector<std::byte>> texels = {randomBytes(12 * 7 * 4, 1),
                                                         std::vector<std::byte>(4 * 4 * 8)};
@@ -133,7 +133,7 @@ TEST(CookTextures, saysWhichMaterialsShowAnImage)
     materials[1].name = {0, 4};
     materials[0].emissive_texture.image = 1;
     materials[1].normal_texture.image = 1;
-    const ImageRecord image = recordOf(1, 1);
+    const ImageRecord image = makeRecord(1, 1);
     {
         auto writer = ContainerWriter::create(folder.file("in.part"), ContainerKind::part);
         ASSERT_TRUE(writer.ok());
@@ -178,13 +178,13 @@ TEST(CookTextures, refusesDamagedRecordsAndLeavesNoOutput)
         size_t bytes;
         Issue issue;
     };
-    ImageRecord unknown_format = recordOf(2, 2);
+    ImageRecord unknown_format = makeRecord(2, 2);
     unknown_format.format = 77;
     const Case cases[] = {
-        {"no texels", recordOf(0, 4), 0, Issue::meaning_value},
-        {"too large", recordOf(16385, 1), 16385 * 4, Issue::meaning_value},
+        {"no texels", makeRecord(0, 4), 0, Issue::meaning_value},
+        {"too large", makeRecord(16385, 1), 16385 * 4, Issue::meaning_value},
         {"unknown format", unknown_format, 16, Issue::meaning_value},
-        {"too few bytes", recordOf(4, 4), 63, Issue::chunk_size},
+        {"too few bytes", makeRecord(4, 4), 63, Issue::chunk_size},
     };
     for (const Case& c : cases)
     {
@@ -203,7 +203,7 @@ TEST(CookTextures, refusesAMissingPartAndMissingTexels)
     const TemporaryFolder folder;
     EXPECT_EQ(cookTextures(folder.file("none.part"), folder.file("out.part")).error().issue,
               Issue::input_missing);
-    const ImageRecord image = recordOf(2, 2);
+    const ImageRecord image = makeRecord(2, 2);
     writeImport(folder.file("in.part"), {&image, 1}, {});
     EXPECT_EQ(cookTextures(folder.file("in.part"), folder.file("out.part")).error().issue,
               Issue::chunk_missing);

@@ -38,7 +38,7 @@ ImageRecord withMips(ImageRecord image)
 
 TEST(MipError, isNothingForOneColour)
 {
-    const ImageRecord image = withMips(recordOf(2, 2, TexelFormat::rgba8_unorm));
+    const ImageRecord image = withMips(makeRecord(2, 2, TexelFormat::rgba8_unorm));
     const Bytes texels = greys({{7, 255}, {7, 255}, {7, 255}, {7, 255}});
     EXPECT_EQ(mipError(image, buildMipChain(image, texels), 1), 0);
     EXPECT_EQ(mipError(image, buildMipChain(image, randomBytes(2 * 2 * 4, 1)), 0), 0) << "the finest itself";
@@ -47,14 +47,14 @@ TEST(MipError, isNothingForOneColour)
 TEST(MipError, isTheDifferenceFromTheMean)
 {
     // the mean is 100: each texel is 20 off in three of its four channels
-    const ImageRecord image = withMips(recordOf(2, 1, TexelFormat::rgba8_unorm));
+    const ImageRecord image = withMips(makeRecord(2, 1, TexelFormat::rgba8_unorm));
     const Bytes texels = greys({{80, 255}, {120, 255}});
     EXPECT_NEAR(mipError(image, buildMipChain(image, texels), 1), 20.0 / 255 * std::sqrt(3.0 / 4), 1e-12);
 }
 
 TEST(MipError, doesNotSeeTheColourOfWhatIsCutAway)
 {
-    const ImageRecord image = withMips(recordOf(2, 1, TexelFormat::rgba8_srgb));
+    const ImageRecord image = withMips(makeRecord(2, 1, TexelFormat::rgba8_srgb));
     const auto error = [&](int hidden) {
         return mipError(image, buildMipChain(image, greys({{200, 255}, {hidden, 0}})), 1);
     };
@@ -65,7 +65,7 @@ TEST(MipError, doesNotSeeTheColourOfWhatIsCutAway)
 TEST(MipError, stretchesSizesThatAreNotEven)
 {
     // slow reference: the whole of 5 x 3 on 2 x 1
-    const ImageRecord image = withMips(recordOf(5, 3, TexelFormat::rgba8_unorm));
+    const ImageRecord image = withMips(makeRecord(5, 3, TexelFormat::rgba8_unorm));
     const Bytes chain = buildMipChain(image, randomBytes(5 * 3 * 4, 3));
     double sum = 0;
     for (size_t y = 0; y < 3; ++y)
@@ -85,7 +85,7 @@ TEST(TextureStatistics, sayWhatBecameOfAnImage)
     ImageStatistics image;
     image.name = "bark";
     image.uses = {{"Oak", "baseColor"}, {"", "emissive"}};
-    image.image = withMips(recordOf(4, 2, TexelFormat::rgba8_srgb));
+    image.image = withMips(makeRecord(4, 2, TexelFormat::rgba8_srgb));
     image.bytes = 44;
     image.stored_bytes = 40;
     image.error = 0;

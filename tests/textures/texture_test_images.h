@@ -13,9 +13,9 @@ namespace hearth::textures::test
 
 using Rgba8 = std::array<uint8_t, 4>;
 
-inline formats::ImageRecord recordOf(uint32_t width, uint32_t height,
-                                     formats::TexelFormat format = formats::TexelFormat::rgba8_srgb,
-                                     uint32_t flags = 0)
+inline formats::ImageRecord makeRecord(uint32_t width, uint32_t height,
+                                       formats::TexelFormat format = formats::TexelFormat::rgba8_srgb,
+                                       uint32_t flags = 0)
 {
     formats::ImageRecord record{};
     record.width = width;
@@ -45,8 +45,8 @@ inline std::vector<std::byte> randomBytes(size_t count, uint32_t seed)
 }
 
 /// Return the texels of one mip of a chain, four bytes each.
-inline std::vector<Rgba8> mipOf(const formats::ImageRecord& image, const std::vector<std::byte>& chain,
-                                uint32_t mip)
+inline std::vector<Rgba8> decodeMip(const formats::ImageRecord& image, const std::vector<std::byte>& chain,
+                                    uint32_t mip)
 {
     std::vector<Rgba8> texels;
     const auto end = static_cast<size_t>(formats::mipOffset(image, mip + 1));

@@ -15,10 +15,10 @@ namespace
 
 constexpr float kAspect = 1.5f;
 
-viewer::AssetViews viewsOf(const PackModel& model)
+viewer::AssetViews makeViews(const PackModel& model)
 {
     const AlignedBytes bytes = model.bytes();
-    const formats::PackView pack = viewOf(bytes);
+    const formats::PackView pack = makePackView(bytes);
     return viewer::makeAssetViews(pack, pack::PosePlayer(pack), kAspect);
 }
 
@@ -26,7 +26,7 @@ viewer::AssetViews viewsOf(const PackModel& model)
 
 TEST(AssetViews, frameEachAssetAsAPackOfItsOwn)
 {
-    const viewer::AssetViews views = viewsOf(heapModel());
+    const viewer::AssetViews views = makeViews(heapModel());
     ASSERT_EQ(views.list.size(), 2u);
     EXPECT_EQ(views.list[0].name, "Lager\xC3\xB6, 4 m");
     EXPECT_EQ(views.list[1].name, "Lag, 1 m");
@@ -35,7 +35,7 @@ TEST(AssetViews, frameEachAssetAsAPackOfItsOwn)
         PackModel alone = heapModel();
         alone.instances.erase(alone.instances.begin() + static_cast<ptrdiff_t>(1 - i));
         const AlignedBytes bytes = alone.bytes();
-        const shared::Camera expected = viewer::fitCamera(viewOf(bytes), kAspect);
+        const shared::Camera expected = viewer::fitCamera(makePackView(bytes), kAspect);
         EXPECT_EQ(views.list[i].camera.position, expected.position);
         EXPECT_EQ(views.list[i].camera.target, expected.target);
     }
@@ -44,21 +44,21 @@ TEST(AssetViews, frameEachAssetAsAPackOfItsOwn)
 TEST(AssetViews, hideTheOthersWhereTheyStandInOnePlace)
 {
     PackModel model = heapModel();
-    EXPECT_TRUE(viewsOf(model).stage.has_value());
+    EXPECT_TRUE(makeViews(model).stage.has_value());
     for (Float3* corner : {&model.assets[1].box_min, &model.assets[1].box_max})
         corner->x += 10;
-    const viewer::AssetViews apart = viewsOf(model);
+    const viewer::AssetViews apart = makeViews(model);
     EXPECT_EQ(apart.list.size(), 2u) << "one can go there nevertheless";
     EXPECT_FALSE(apart.stage.has_value());
     model.assets.pop_back();
-    EXPECT_TRUE(viewsOf(model).list.empty()) << "there is nowhere to go";
+    EXPECT_TRUE(makeViews(model).list.empty()) << "there is nowhere to go";
 }
 
 TEST(AssetViews, theWholeSceneIsAPartOfItsOwn)
 {
     EXPECT_EQ(viewer::AssetViews::partIndex(std::nullopt), 0u);
     EXPECT_EQ(viewer::AssetViews::partIndex(0), 1u);
-    const viewer::AssetViews views = viewsOf(heapModel());
+    const viewer::AssetViews views = makeViews(heapModel());
     EXPECT_EQ(views.stage->cameras()[2].position, views.list[1].camera.position);
 }
 

@@ -20,7 +20,7 @@ protected:
     {
         viewer_.reset(); // one at a time
         bytes_ = model.bytes();
-        pack_.emplace(viewOf(bytes_));
+        pack_.emplace(makePackView(bytes_));
         viewer::ViewOptions options;
         options.width = 160;
         options.height = 120;

@@ -19,7 +19,7 @@ shared::Camera level()
     return {.position = {1, 2, 3}, .target = {1, 2, -7}};
 }
 
-Float3 directionOf(const FlyCamera& camera)
+Float3 getDirection(const FlyCamera& camera)
 {
     return normalizeOr(camera.camera().target - camera.camera().position, {});
 }
@@ -85,20 +85,20 @@ TEST(FlyCamera, looksToTheRightAndUp)
 {
     FlyCamera camera(level(), 1);
     camera.look(1.5707963f, 0);
-    expectNear(directionOf(camera), {1, 0, 0});
+    expectNear(getDirection(camera), {1, 0, 0});
     camera.look(0, 0.5f);
-    EXPECT_NEAR(directionOf(camera).y, std::sin(0.5f), 1e-5f);
+    EXPECT_NEAR(getDirection(camera).y, std::sin(0.5f), 1e-5f);
     EXPECT_NEAR(length(camera.camera().target - camera.camera().position), 10, 1e-4f);
     camera.look(0, 100);
-    EXPECT_LT(directionOf(camera).y, 1) << "what is to the right stays defined";
-    EXPECT_GT(directionOf(camera).y, 0.999f);
+    EXPECT_LT(getDirection(camera).y, 1) << "what is to the right stays defined";
+    EXPECT_GT(getDirection(camera).y, 0.999f);
 }
 
 TEST(FlyCamera, turnsFromStraightDownToWhereItsTopPoints)
 {
     FlyCamera camera({.position = {0, 5, 0}, .target = {0, 0, 0}, .up = {1, 0, 0}}, 1);
     camera.look(0, 1.5707963f);
-    EXPECT_GT(directionOf(camera).x, 0.99f);
+    EXPECT_GT(getDirection(camera).x, 0.99f);
 }
 
 TEST(FlyControls, flyWhileAKeyIsHeld)
@@ -146,12 +146,12 @@ TEST(FlyControls, lookWhileTheRightButtonIsHeld)
     EXPECT_EQ(camera.camera().target, level().target);
     controls.handle(rightButton(SDL_MOUSEBUTTONDOWN), {}, camera);
     controls.handle(motion(100, -50), {}, camera);
-    EXPECT_GT(directionOf(camera).x, 0.1f);
-    EXPECT_GT(directionOf(camera).y, 0.1f);
+    EXPECT_GT(getDirection(camera).x, 0.1f);
+    EXPECT_GT(getDirection(camera).y, 0.1f);
     controls.handle(rightButton(SDL_MOUSEBUTTONUP), {}, camera);
-    const Float3 direction = directionOf(camera);
+    const Float3 direction = getDirection(camera);
     controls.handle(motion(100, 100), {}, camera);
-    EXPECT_EQ(directionOf(camera), direction);
+    EXPECT_EQ(getDirection(camera), direction);
 }
 
 } // namespace hearth::test

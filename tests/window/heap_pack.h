@@ -27,7 +27,7 @@ inline PackModel heapModel()
 }
 
 /// bytes  must outlive the view, which is not checked
-inline formats::PackView viewOf(const AlignedBytes& bytes)
+inline formats::PackView makePackView(const AlignedBytes& bytes)
 {
     return formats::PackView::read(formats::ContainerReader::fromBytes(bytes.span(), "heap").value()).value();
 }

@@ -12,7 +12,7 @@ namespace hearth::roundtrip
 namespace
 {
 
-std::string contentOf(const std::string& file)
+std::string readContent(const std::string& file)
 {
     std::ifstream stream(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
@@ -36,9 +36,9 @@ protected:
         ASSERT_EQ(viewed.exit_code, 0) << viewed.errors;
         const ProgramEnd rendered = runProgram(Program::render, render);
         ASSERT_EQ(rendered.exit_code, 0) << rendered.errors;
-        const std::string image = contentOf(folder_.path("view.png"));
+        const std::string image = readContent(folder_.path("view.png"));
         EXPECT_GT(image.size(), 1000u);
-        EXPECT_TRUE(image == contentOf(folder_.path("render.png")));
+        EXPECT_TRUE(image == readContent(folder_.path("render.png")));
     }
 
     const CookedSample& sample_ = cookedSample({"rock", 150000});
@@ -75,15 +75,15 @@ TEST_F(Screenshot, ofASceneLargerThanItsBudget)
         HEARTH_VIEW_PROGRAM, {sample_.packPath(), "--size", "320x240", "--budget", "512K", "--error-pixels",
                               "0.1", "--frames", "1", "--screenshot", file, "--validate"});
     ASSERT_EQ(end.exit_code, 0) << end.errors;
-    EXPECT_GT(contentOf(file).size(), 1000u);
+    EXPECT_GT(readContent(file).size(), 1000u);
 }
 
 TEST_F(Screenshot, ofACharacterAtRestAndInMomentsOfItsClips)
 {
     expectSame(character_, {});
-    const std::string rest = contentOf(folder_.path("view.png"));
+    const std::string rest = readContent(folder_.path("view.png"));
     expectSame(character_, {"--animation", "walk", "--time", "0.4"});
-    EXPECT_FALSE(rest == contentOf(folder_.path("view.png")));
+    EXPECT_FALSE(rest == readContent(folder_.path("view.png")));
     expectSame(character_, {"--animation", "1", "--time", "0.9", "--view", "bones"});
     expectSame(character_, {"--animation", "walk", "--time", "77", "--budget", "64M"});
 }

@@ -133,7 +133,7 @@ void addOptions(cli::CommandLine& app, Arguments& arguments)
     const auto addPoint = [&app](const char* name, auto& values, const char* what)
     { return app.addOption(name, values, what).delimiter(',').expected(3).typeName("X,Y,Z"); };
     const cli::Option min = addPoint(
-        "--min", arguments.min, "least corner of the grid, metres; by default around all that stands still");
+        "--min", arguments.min, "least corner of the grid, metres; by default around the static geometry");
     const cli::Option max = addPoint("--max", arguments.max, "its greatest corner");
     const cli::Option seed = addPoint(
         "--seed", arguments.seeds,
@@ -154,7 +154,7 @@ void addOptions(cli::CommandLine& app, Arguments& arguments)
         .range(0, 64, "BOUNCES");
     const cli::Option statistics =
         app.addOption("--stats", arguments.statistics,
-                      "write what became of the scene as JSON, and print the memory; - is standard output");
+                      "write statistics of the scene as JSON, and print the memory; - is standard output");
     const cli::Option jobs =
         app.addOption("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
     cli::Option march = app.addOption(
@@ -177,8 +177,7 @@ void addOptions(cli::CommandLine& app, Arguments& arguments)
 int program(int argc, char** argv)
 {
     cli::CommandLine app(
-        "Makes the bricks that light is marched through, of all that stands still; or marches "
-        "rays through them.",
+        "Voxelises the static geometry of a scene into bricks; or marches rays through bricks.",
         "hearth-bricks");
     Arguments arguments;
     addOptions(app, arguments);

@@ -244,7 +244,7 @@ private:
         const float carried = group_.errors[t];
         likely_after_.clear();
         if (map_.maps(t))
-            map_.forEachTriangleOf(t, [&](TriangleId triangle) { likely_after_.add(triangle); });
+            map_.forEachSourceTriangle(t, [&](TriangleId triangle) { likely_after_.add(triangle); });
         for (const PositionId position : positions_before_.triangle(t))
             if (const PositionId target = simplified_.target_of_position[position];
                 target != kPruned && moved_[position] != 0)

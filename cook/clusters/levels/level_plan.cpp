@@ -143,7 +143,7 @@ LevelPlan planLevel(const Reduction& reduction, uint32_t level, const ClusterSto
     const auto remaining = static_cast<double>(target->triangles - drawn_below);
     const double part = std::pow(remaining / static_cast<double>(triangles), 1.0 / steps);
     const double target_triangles = part * static_cast<double>(triangles);
-    // no group stands still while others can take its share
+    // a group that cannot shrink leaves its share to the others
     const double largest_part = std::max(part, double{kMaxKeep});
     const double factor = spreadFactor(shares, target_triangles, largest_part);
     planExactly(plan, shares, factor, largest_part);

@@ -140,7 +140,7 @@ Status checkPages(const Hierarchy& h)
                 return wrong(Issue::meaning_reference, "cluster", next, "and its page do not agree");
         for (uint32_t i = 0; i < page.parents.count; ++i)
             if (h.page_parents[page.parents.first + i] >= p)
-                return wrong(Issue::meaning_order, "page", p, "a parent stands behind it");
+                return wrong(Issue::meaning_order, "page", p, "its parent comes after it");
     }
     for (size_t c = 0; c < h.clusters.size(); ++c)
     {
@@ -201,7 +201,7 @@ Status checkCone(const ClusterRecord& cluster, float grid_step, size_t c, Float3
 }
 
 /// True if the box is exact, except for the high corner of a box with a shift.
-bool isBoxOf(const ClusterRecord& cluster, float grid_step, const Box3& vertices)
+bool isTightBox(const ClusterRecord& cluster, float grid_step, const Box3& vertices)
 {
     const Box3 box = clusterBox(cluster, grid_step);
     for (int axis = 0; axis < 3; ++axis)
@@ -237,7 +237,7 @@ Status checkGeometry(const Hierarchy& h, const DecodedHierarchy& decoded)
                 return wrong(Issue::meaning_bounds, "cluster", c,
                              "a vertex leaves the sphere of the finer group");
         }
-        if (!isBoxOf(cluster, h.mesh.grid_step, box))
+        if (!isTightBox(cluster, h.mesh.grid_step, box))
             return wrong(Issue::meaning_bounds, "cluster", c, "its box is not that of its vertices");
         std::vector<uint8_t> used(cluster.vertex_count, 0);
         for (uint32_t t = 0; t < cluster.triangle_count; ++t)

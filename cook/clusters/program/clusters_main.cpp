@@ -182,7 +182,7 @@ int program(int argc, char** argv)
     app.addFlag("--visibility", arguments.visibility,
                 "give vertices with normals a visibility, open until hearth-visibility bakes it");
     const cli::Option statistics = app.addOption(
-        "--stats", arguments.statistics, "write what became of each mesh as JSON; - is standard output");
+        "--stats", arguments.statistics, "write statistics of each mesh as JSON; - is standard output");
     app.addFlag("--stats-times", arguments.statistics_with_times,
                 "add the seconds that each mesh took, which differ from run to run")
         .needs(statistics);

@@ -46,7 +46,7 @@ public:
 
     /// Call visit(triangle) for the triangles that a mapped triangle's border passes through.
     template <typename Visit>
-    void forEachTriangleOf(TriangleId triangle, Visit visit) const
+    void forEachSourceTriangle(TriangleId triangle, Visit visit) const
     {
         for (const HalfEdgeId half_edge : makeCorners(triangle))
         {

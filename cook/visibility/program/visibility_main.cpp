@@ -207,9 +207,9 @@ int program(int argc, char** argv)
     app.addFlag("--refine-cones", arguments.refine_cones,
                 "fit cones to nine harmonics instead of four moments; --stats says what that gained");
     app.addOption("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
-    const cli::Option statistics =
-        app.addOption("--stats", arguments.statistics,
-                      "write what became of each mesh as JSON, its noise estimated; - is standard output");
+    const cli::Option statistics = app.addOption(
+        "--stats", arguments.statistics,
+        "write statistics of each mesh as JSON, with its estimated noise; - is standard output");
     app.addFlag("--no-noise-estimate", arguments.statistics_without_noise,
                 "leave the noise out of --stats, which takes two fits more")
         .needs(statistics);

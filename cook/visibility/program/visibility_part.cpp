@@ -362,7 +362,7 @@ Json meshJson(const MeshStatistics& mesh)
         {"vertices", mesh.vertices},
         {"clamped", mesh.clamped},
         {"unseen", mesh.unseen},
-        {"buried", mesh.interior_samples},
+        {"interior_samples", mesh.interior_samples},
     };
     if (mesh.refined)
         json["refined"] = {{"cones", mesh.refined->cones},

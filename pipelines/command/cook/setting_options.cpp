@@ -133,7 +133,7 @@ void SettingOptions::addProfileSettings(cli::CommandLine& verb)
         .typeName("KEY=VALUE");
 }
 
-Result<Value> SettingOptions::valueOf(const Entry& entry)
+Result<Value> SettingOptions::getValue(const Entry& entry)
 {
     const std::string origin = longName(entry.setting->option);
     if (entry.setting->kind == Kind::flag)
@@ -156,7 +156,7 @@ Result<CommandLineValues> SettingOptions::overrides() const
     {
         if (entry.option->count() == 0)
             continue;
-        auto value = valueOf(entry);
+        auto value = getValue(entry);
         if (!value.ok())
             return Error{Issue::usage, value.error().file, value.error().where, value.error().detail};
         (entry.setting->scope == settings::Scope::command ? overrides.command : overrides.settings)[key] =

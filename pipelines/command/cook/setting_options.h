@@ -45,7 +45,7 @@ private:
         std::vector<std::string> words;
     };
     void add(cli::CommandLine& verb, const settings::Setting& setting);
-    static Result<settings::Value> valueOf(const Entry& entry);
+    static Result<settings::Value> getValue(const Entry& entry);
 
     // entries must not move while the command line refers to them
     std::map<std::string, Entry> entries_;

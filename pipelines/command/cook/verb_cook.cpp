@@ -84,7 +84,7 @@ void addCook(cli::CommandLine& app, VerbAction& run)
     options->settings.addCommandSettings(verb, {"profile", "jobs", "memory", "cache", "progress"});
     options->settings.addProfileSettings(verb);
     verb.addOption("--report", options->report_files,
-                   "write what became of it: FILE.html is a page with images, .xml JUnit's, .csv a table, "
+                   "write a report: FILE.html is a page with images, .xml JUnit's, .csv a table, "
                    "all else JSON; may be repeated")
         .oneValueEach();
     verb.addOption("--events", options->events_file,

@@ -12,7 +12,7 @@ namespace hearth::command
 namespace
 {
 
-// Return the fault of a partition's name; empty if it can stand in a line of a script.
+// Return the fault of a partition's name; empty if a line of a script can hold it.
 std::string partitionFault(const std::string& text)
 {
     const bool is_name =

@@ -158,12 +158,11 @@ void addMerge(cli::CommandLine& app, VerbAction& run)
                    "code 75: shards that are run again may make them")
         .choices({"cook", "list"})
         .showDefault();
-    verb.addOption("--report", options->report_files,
-                   "write what became of it, as hearth cook does; may be repeated")
+    verb.addOption("--report", options->report_files, "write a report, as hearth cook does; may be repeated")
         .oneValueEach();
     addRunLimitOptions(verb, options->settings);
     verb.setFooter("Example: hearth merge village.plan.json -o village.hearth\n"
-                   "Every result is read and hashed, whatever became of the processes that made it.");
+                   "Every result is read and hashed, even if the process that made it failed.");
     verb.setAction(
         [options, &run]
         {

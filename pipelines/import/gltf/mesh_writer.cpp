@@ -159,7 +159,7 @@ Status MeshWriter::writeLods(const GltfLodChain& chain)
                  (base.skin == SkinState::usable && use.skin != uses_.uses[finest].skin))
             drop("has not the skin of that");
         else if (!object_from_lod || !bakeTransform(level.mesh, *object_from_lod))
-            drop("cannot be moved to where that stands");
+            drop("cannot be moved to its place");
         else
             HEARTH_TRY(context_.part.addLod(finest, level.mesh, makeLabel(lod)));
     }

@@ -205,8 +205,7 @@ Status SceneWriter::writeInstances(uint32_t node)
         return writeInstance(node, world_from_object);
     if (meshes_[uses_.of_node[node]].skin == SkinState::usable)
     {
-        tally_.dropped("instancing of a skinned mesh is not kept: it stands where its joints are",
-                       nodePointer(node));
+        tally_.dropped("instancing of a skinned mesh is not kept: its joints place it", nodePointer(node));
         return writeInstance(node, world_from_object);
     }
     HEARTH_ASSIGN_OR_RETURN(const std::vector<Transform> copies,

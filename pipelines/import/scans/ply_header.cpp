@@ -155,7 +155,7 @@ private:
     Status readProperty(const std::vector<std::string_view>& words)
     {
         if (header_.elements.empty())
-            return failure("a property stands before the first element");
+            return failure("a property comes before the first element");
         const bool is_list = words.size() == 5;
         const auto type = parseType(words[is_list ? 3 : 1]);
         const auto count_type = is_list ? parseType(words[2]) : PlyType::uint8;

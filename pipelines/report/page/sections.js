@@ -54,7 +54,7 @@ function imageFigures(views, uris, name) {
 
 function sceneSection(images) {
   if (!images.scene.length) return null;
-  const part = section('scene', 'Scene', images.is_sheet ? 'contact sheet: the assets stand in one place' : 'all of the pack, framed', imageFigures(images.views, images.scene, 'the scene'));
+  const part = section('scene', 'Scene', images.is_sheet ? 'contact sheet: the assets overlap' : 'all of the pack, framed', imageFigures(images.views, images.scene, 'the scene'));
   part.classList.add('scene');
   if (images.is_sheet) part.classList.add('sheet');
   return part;

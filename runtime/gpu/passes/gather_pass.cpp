@@ -51,7 +51,7 @@ void GatherPass::record(const Device& device, VkCommandBuffer commands, const Sc
 {
     constexpr VkPipelineStageFlags kCompute = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
     GatherTargets& gather = targets.gather();
-    const shared::GatherView told = gather.beginFrame(view, scene.bricks->grid.origin, light_changes);
+    const shared::GatherView gather_view = gather.beginFrame(view, scene.bricks->grid.origin, light_changes);
     const auto [tiles_x, tiles_y] = gather.tiles();
     // waits for the gathering and shading of the last frame
     transition(device, commands, gather.texels(), VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL, 0,
@@ -60,7 +60,7 @@ void GatherPass::record(const Device& device, VkCommandBuffer commands, const Sc
             VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT,
             kCompute | VK_PIPELINE_STAGE_TRANSFER_BIT,
             VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
-    device.vk.vkCmdUpdateBuffer(commands, gather.view().handle.get(), 0, sizeof(told), &told);
+    device.vk.vkCmdUpdateBuffer(commands, gather.view().handle.get(), 0, sizeof(gather_view), &gather_view);
     barrier(device, commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, kCompute,
             VK_ACCESS_UNIFORM_READ_BIT);
 

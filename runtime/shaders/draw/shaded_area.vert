@@ -1,6 +1,6 @@
 // Draws the area in which one material is shaded, at its depth: the tiles of its list, one instance per tile,
 // or the whole frame, which is entry 0. Quads of the size of a tile avoid long diagonals, along which a
-// tile-based GPU bins triangles in vain.
+// tile-based GPU bins triangles without need.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require

@@ -454,9 +454,8 @@ Status drawSheet(const RenderOptions& options, const OutputCameras& images, cons
     }
     for (size_t view = 0; view < views.size(); ++view)
         HEARTH_TRY(writeImage(options, viewFile(options.output, views[view].name), sheets[view].pixels()));
-    std::printf(
-        "contact sheet of %zu assets%s\n", sheet.assets.size(),
-        options.sheet == SheetChoice::on ? "" : ", which stand in one place (--sheet off draws the scene)");
+    std::printf("contact sheet of %zu assets%s\n", sheet.assets.size(),
+                options.sheet == SheetChoice::on ? "" : ", which overlap (--sheet off draws the scene)");
     return success();
 }
 

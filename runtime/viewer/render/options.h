@@ -19,7 +19,7 @@ enum class PyramidStart
 /// Choice of a contact sheet, with the assets of a pack side by side.
 enum class SheetChoice
 {
-    automatic, ///< if the assets stand in one place, and no option says what else to draw
+    automatic, ///< if the assets overlap, and no option says what else to draw
     on,
     off,
 };

@@ -20,7 +20,7 @@ struct AssetViews
 {
     /// Assets that draw something; empty if there are fewer than two.
     std::vector<AssetView> list;
-    /// Hides all parts but partIndex(choice). None if the assets do not stand in one place.
+    /// Hides all parts but partIndex(choice). None if the assets do not overlap.
     std::optional<Stage> stage;
 
     /// choice  index in the list; none: the whole scene

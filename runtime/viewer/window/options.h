@@ -10,7 +10,7 @@ namespace hearth::viewer
 
 struct ViewOptions : DrawOptions
 {
-    AnimationSettings animation; ///< plays, or stands still at the given time
+    AnimationSettings animation; ///< plays, or is paused at the given time
     uint32_t frames = 0;         ///< 0: until the window is closed
     std::string screenshot;      ///< file for the last frame; empty: none
 };

@@ -158,8 +158,8 @@ Result<bool> Viewer::step(double seconds)
         HEARTH_TRY(resize());
     if (minimized_ || !targets_)
     {
-        constexpr int kPatienceMs = 50;
-        SDL_WaitEventTimeout(nullptr, kPatienceMs);
+        constexpr int kMaxWaitMs = 50;
+        SDL_WaitEventTimeout(nullptr, kMaxWaitMs);
         return false;
     }
     return drawFrame(settings_.panel, nullptr);

@@ -37,7 +37,7 @@ TEST_F(Farm, givesLinesToWhoeverTakesThem)
     const std::string pack = localPack();
     const ProgramEnd plan = over("plan", {"-o", "it's a plan.json", "--shards", "3", "--emit", "commands"});
     EXPECT_EQ(plan.exit_code, 0) << plan.err;
-    EXPECT_EQ(countOf(plan.out, "\n"), 3u) << plan.out;
+    EXPECT_EQ(countOccurrences(plan.out, "\n"), 3u) << plan.out;
     folder.write("lines", plan.out);
     const size_t merge = plan.err.find("after them: ");
     ASSERT_NE(merge, std::string::npos) << plan.err;
@@ -71,7 +71,7 @@ TEST_F(Farm, isBuiltByNinja)
               0);
     const ProgramEnd lied = ninja();
     EXPECT_NE(lied.exit_code, 0);
-    EXPECT_EQ(countOf(lied.out, "[E5101]"), 3u) << lied.out;
+    EXPECT_EQ(countOccurrences(lied.out, "[E5101]"), 3u) << lied.out;
     EXPECT_FALSE(folder.has("out put.hearth"));
 }
 

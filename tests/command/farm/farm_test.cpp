@@ -41,7 +41,7 @@ TEST_F(Farm, makesTheBytesOfALocalCook)
             {
                 const ProgramEnd end = run(shard, count);
                 EXPECT_EQ(end.exit_code, 0) << end.err;
-                EXPECT_TRUE(!is_warm || countOf(end.err, " 0 cooked") == 1) << end.err;
+                EXPECT_TRUE(!is_warm || countOccurrences(end.err, " 0 cooked") == 1) << end.err;
             }
             EXPECT_TRUE(merged() == pack) << count << " shards, " << (is_warm ? "warm" : "cold");
         }
@@ -74,7 +74,7 @@ TEST_F(Farm, makesTheSameBytesElsewhere)
         elsewhere, {"merge", folder / "plan.json", "-o", "farm.hearth", "--cache", folder.cacheSpec()});
     ::umask(mask);
     EXPECT_EQ(end.exit_code, 0) << end.err;
-    EXPECT_EQ(countOf(end.err, "source  "), 0u) << "nothing was left to cook: " << end.err;
+    EXPECT_EQ(countOccurrences(end.err, "source  "), 0u) << "nothing was left to cook: " << end.err;
     EXPECT_TRUE(elsewhere.read("farm.hearth") == pack);
 }
 
@@ -86,15 +86,15 @@ TEST_F(Farm, cooksWhatShardsHaveNotLeft)
     const ProgramEnd list = hearth({"merge", "plan.json", "-o", "farm.hearth", "--missing", "list"});
     EXPECT_EQ(list.exit_code, 75) << "the shard may be run again";
     EXPECT_FALSE(folder.has("farm.hearth"));
-    EXPECT_EQ(countOf(list.out, "shard 0/2\n"), 8u) << list.out;
-    EXPECT_EQ(countOf(list.out, "shard 1/2\n"), 0u) << list.out;
+    EXPECT_EQ(countOccurrences(list.out, "shard 0/2\n"), 8u) << list.out;
+    EXPECT_EQ(countOccurrences(list.out, "shard 1/2\n"), 0u) << list.out;
     EXPECT_NE(
         list.err.find("plan.json|shard 0/2: warning: 8 results are missing: no record was left [W5100]"),
         std::string::npos)
         << list.err;
     const ProgramEnd end = hearth({"merge", "plan.json", "-o", "farm.hearth"});
     EXPECT_EQ(end.exit_code, 0) << end.err;
-    EXPECT_EQ(countOf(end.err, "source  "), 2u) << end.err;
+    EXPECT_EQ(countOccurrences(end.err, "source  "), 2u) << end.err;
     EXPECT_NE(end.err.find("8 results are missing, and cooked here"), std::string::npos) << end.err;
     EXPECT_TRUE(
         end.err.ends_with("merged    2 of 4 sources were cooked here: those of shard 0/2 were missing\n"))
@@ -109,8 +109,9 @@ TEST_F(Farm, tellsOfLostShardsOnOneLine)
     EXPECT_EQ(run(2, 4).exit_code, 0);
     const ProgramEnd end = hearth({"merge", "plan.json", "-o", "farm.hearth"});
     EXPECT_EQ(end.exit_code, 0) << end.err;
-    EXPECT_EQ(countOf(end.err, "W5100"), 1u) << end.err;
-    EXPECT_EQ(countOf(end.err, "plan.json|shards 0-1, 3 of 4: warning: 12 results are missing, and cooked "
+    EXPECT_EQ(countOccurrences(end.err, "W5100"), 1u) << end.err;
+    EXPECT_EQ(countOccurrences(end.err,
+                               "plan.json|shards 0-1, 3 of 4: warning: 12 results are missing, and cooked "
                                "here: no record was left [W5100]\n"),
               1u)
         << end.err;
@@ -118,7 +119,7 @@ TEST_F(Farm, tellsOfLostShardsOnOneLine)
         "merged    3 of 4 sources were cooked here: those of shards 0-1, 3 of 4 were missing\n"))
         << end.err;
     const ProgramEnd again = hearth({"merge", "plan.json", "-o", "farm.hearth"});
-    EXPECT_EQ(countOf(again.err, "cooked here"), 0u) << again.err;
+    EXPECT_EQ(countOccurrences(again.err, "cooked here"), 0u) << again.err;
 }
 
 TEST_F(Farm, isSharedOutByAReportOfBefore)
@@ -253,7 +254,7 @@ TEST_F(Farm, refusesTexturesThatAreNotThoseOfThePlan)
     localPack();
     EXPECT_EQ(hearth({"cook", "house.obj", "-o", "house.hearth", "-q"}).exit_code, 0);
     plan(1);
-    EXPECT_EQ(countOf(folder.read("plan.json"), "source/house.tga"), 1u);
+    EXPECT_EQ(countOccurrences(folder.read("plan.json"), "source/house.tga"), 1u);
     folder.write("house.tga", tgaImage(9));
     const ProgramEnd end = run(0, 1);
     EXPECT_EQ(end.exit_code, 65);
@@ -266,7 +267,7 @@ TEST_F(Farm, refusesTexturesThatAreNotThoseOfThePlan)
     folder.write("house.tga", tgaImage(200));
     const std::string pack = localPack();
     const ProgramEnd list = hearth({"merge", "plan.json", "-o", "farm.hearth", "--missing", "list"});
-    EXPECT_EQ(countOf(list.out, "house.obj"), 4u) << list.out;
+    EXPECT_EQ(countOccurrences(list.out, "house.obj"), 4u) << list.out;
     EXPECT_TRUE(merged() == pack);
 }
 
@@ -280,7 +281,7 @@ TEST_F(Farm, aFailedSourceIsToldOnceAndByName)
         {
             ++failed;
             EXPECT_EQ(end.exit_code, 65);
-            EXPECT_EQ(countOf(end.err, ": error: "), 1u) << end.err;
+            EXPECT_EQ(countOccurrences(end.err, ": error: "), 1u) << end.err;
             EXPECT_NE(end.err.find("tree.gltf"), std::string::npos) << end.err;
         }
     EXPECT_EQ(failed, 1);
@@ -297,7 +298,7 @@ TEST_F(Farm, asksForAnotherTryWhereThatMayHelp)
     folder.write("file", "not a folder");
     const ProgramEnd lost = run(0, 1, {"--cache", "dir:file"});
     EXPECT_EQ(lost.exit_code, 75) << lost.err;
-    EXPECT_EQ(countOf(lost.err, "[E5102]"), 1u) << lost.err;
+    EXPECT_EQ(countOccurrences(lost.err, "[E5102]"), 1u) << lost.err;
     // a cooker that was killed by the machine
     const fs::path copies = folder / "bin";
     fs::create_directory(copies);
@@ -309,13 +310,13 @@ TEST_F(Farm, asksForAnotherTryWhereThatMayHelp)
     EXPECT_EQ(folder.run({program, "plan", "house.obj", "-o", "killed.json"}).exit_code, 0);
     const ProgramEnd killed = folder.run({program, "run", "killed.json", "--shard", "0/1"});
     EXPECT_EQ(killed.exit_code, 75) << killed.err;
-    EXPECT_EQ(countOf(killed.err, "[E5103]"), 1u) << killed.err;
+    EXPECT_EQ(countOccurrences(killed.err, "[E5103]"), 1u) << killed.err;
     const ProgramEnd nothing = run(0, 1, {"--cache", "dir:nowhere,ro"});
     EXPECT_EQ(nothing.exit_code, 2) << nothing.err;
     // another build of hearth
     const ProgramEnd other = folder.run({program, "run", "plan.json", "--shard", "0/1"});
     EXPECT_EQ(other.exit_code, 65) << other.err;
-    EXPECT_EQ(countOf(other.err, "[E5002]"), 1u) << other.err;
+    EXPECT_EQ(countOccurrences(other.err, "[E5002]"), 1u) << other.err;
 }
 
 TEST_F(Farm, settingsOfTheProjectAreInThePlanByValue)
@@ -357,7 +358,7 @@ TEST_F(Farm, refusesWhatIsNoPlan)
         {
             const ProgramEnd end = hearth(arguments);
             EXPECT_EQ(end.exit_code, code) << arguments[0] << end.err;
-            EXPECT_EQ(countOf(end.err, "\n"), 1u) << end.err;
+            EXPECT_EQ(countOccurrences(end.err, "\n"), 1u) << end.err;
             EXPECT_EQ(end.out, "");
         }
         EXPECT_FALSE(folder.has("a.hearth"));

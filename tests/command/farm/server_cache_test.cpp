@@ -51,7 +51,7 @@ size_t ranIn(const ProgramEnd& end)
 {
     size_t count = 0;
     for (const char* cooker : {"import", "textures", "clusters", "skinning", "link"})
-        count += countOf("\n" + end.err, std::string("\n") + cooker + " ");
+        count += countOccurrences("\n" + end.err, std::string("\n") + cooker + " ");
     return count;
 }
 
@@ -66,7 +66,7 @@ protected:
         const ProgramEnd end = first.cookWith(server->url());
         ASSERT_EQ(end.exit_code, 0) << end.err;
         ASSERT_EQ(ranIn(end), kActions) << end.err;
-        ASSERT_EQ(countOf(end.err, "W4100"), 0u) << end.err;
+        ASSERT_EQ(countOccurrences(end.err, "W4100"), 0u) << end.err;
     }
 
     /// Check that the cook succeeds, makes the same pack, and prints this many warnings about the server.
@@ -75,7 +75,7 @@ protected:
     {
         EXPECT_EQ(end.exit_code, 0) << end.err;
         EXPECT_EQ(ranIn(end), ran) << end.err;
-        EXPECT_EQ(countOf(end.err, "W4100"), warnings) << end.err;
+        EXPECT_EQ(countOccurrences(end.err, "W4100"), warnings) << end.err;
         EXPECT_NE(end.err.find(what), std::string::npos) << end.err;
         EXPECT_EQ(checkout.pack(), first.pack());
     }
@@ -118,7 +118,7 @@ TEST_F(ServerCache, aChangeCooksWhatReadItAndFetchesTheRest)
     second.folder.write("house.tga", tgaImage(7));
     const ProgramEnd end = second.cookWith(server->url());
     EXPECT_EQ(ranIn(end), 5u) << end.err;
-    EXPECT_EQ(countOf(end.err, "tree.gltf\n"), 0u) << end.err;
+    EXPECT_EQ(countOccurrences(end.err, "tree.gltf\n"), 0u) << end.err;
     Checkout third;
     third.folder.write("house.tga", tgaImage(7));
     EXPECT_EQ(ranIn(third.cookWith(server->url())), 0u);
@@ -154,7 +154,7 @@ TEST_F(ServerCache, full)
         const ProgramEnd end = second.cookWith(server->url());
         EXPECT_EQ(end.exit_code, 0) << end.err;
         EXPECT_EQ(ranIn(end), 5u) << "what is there is still taken: " << end.err;
-        EXPECT_EQ(countOf(end.err, "W4100"), 1u) << end.err;
+        EXPECT_EQ(countOccurrences(end.err, "W4100"), 1u) << end.err;
         EXPECT_NE(end.err.find("nothing more is put there"), std::string::npos) << end.err;
     }
 }
@@ -166,8 +166,9 @@ TEST_F(ServerCache, garbageForContents)
     // the entries are valid: only the pack is fetched, and linked again from parts, even though these are
     // garbage
     const ProgramEnd end = second.cookWith(server->url());
-    EXPECT_GE(countOf(end.err, "is damaged"), 1u);
-    expectSame(second, end, ranIn(end), countOf(end.err, "is damaged"), "is damaged: it is made again");
+    EXPECT_GE(countOccurrences(end.err, "is damaged"), 1u);
+    expectSame(second, end, ranIn(end), countOccurrences(end.err, "is damaged"),
+               "is damaged: it is made again");
     // the new results have repaired the server
     Checkout third;
     expectSame(third, third.cookWith(server->url()), 0, 0, "cooked");
@@ -178,7 +179,7 @@ TEST_F(ServerCache, garbageForEntries)
     overwriteAll("ac", "hearth.entry/1 torn");
     Checkout second;
     const ProgramEnd end = second.cookWith(server->url());
-    expectSame(second, end, kActions, countOf(end.err, "is damaged"), "is damaged");
+    expectSame(second, end, kActions, countOccurrences(end.err, "is damaged"), "is damaged");
     Checkout third;
     expectSame(third, third.cookWith(server->url()), 0, 0, "cooked");
 }

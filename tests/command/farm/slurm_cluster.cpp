@@ -96,7 +96,7 @@ std::vector<pid_t> processesWith(const std::vector<std::string>& variables)
 }
 
 /// Return the slurmstepd that a job's process runs under; 0 if there is none.
-pid_t stepOf(pid_t process)
+pid_t findStep(pid_t process)
 {
     for (int generation = 0; process > 1 && generation < 16; ++generation)
     {
@@ -155,7 +155,7 @@ SlurmCluster::~SlurmCluster()
         // jobs and their steps inherit this too: it is their configuration of the cluster
         for (const pid_t process : processesWith({"SLURM_CONF=" + path_ + "/slurm.conf"}))
         {
-            if (const pid_t step = stepOf(process); step != 0)
+            if (const pid_t step = findStep(process); step != 0)
                 ::kill(step, SIGKILL);
             ::kill(process, SIGKILL);
         }
@@ -247,14 +247,15 @@ bool SlurmCluster::waitForIdle(int count, int seconds)
 {
     for (int tries = 0; tries < seconds * 4; ++tries)
     {
-        if (countOf(run({"sinfo", "-h", "-N", "-o", "%t;"}).out, "idle;") >= static_cast<size_t>(count))
+        if (countOccurrences(run({"sinfo", "-h", "-N", "-o", "%t;"}).out, "idle;") >=
+            static_cast<size_t>(count))
             return true;
         std::this_thread::sleep_for(std::chrono::milliseconds(250));
     }
     return false;
 }
 
-std::string SlurmCluster::stateOf(const std::string& job)
+std::string SlurmCluster::getState(const std::string& job)
 {
     return run({"squeue", "-h", "-r", "-j", job, "-o", "%t %N"}).out;
 }
@@ -268,7 +269,7 @@ size_t SlurmCluster::killNode(const std::string& node)
         processesWith({"SLURM_CONF=" + path_ + "/slurm.conf", "SLURMD_NODENAME=" + node});
     std::vector<pid_t> steps;
     for (const pid_t process : processes)
-        if (const pid_t step = stepOf(process); step != 0)
+        if (const pid_t step = findStep(process); step != 0)
             steps.push_back(step);
     // kill the step first: it would report the end of its job to the controller
     for (const pid_t step : steps)

@@ -33,7 +33,7 @@ public:
 
     /// Return the state of a job or array task and its node, as "R w2"; empty if it is no longer in the
     /// queue.
-    std::string stateOf(const std::string& job);
+    std::string getState(const std::string& job);
 
     /// Simulate a power cut of a node: kill its daemon and everything that it runs by SIGKILL.
     /// returns  number of killed processes of jobs

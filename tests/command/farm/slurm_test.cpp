@@ -80,7 +80,7 @@ std::string jobIn(const std::string& text, const std::string& before)
 void waitFor(const std::string& job, SlurmCluster& cluster)
 {
     const auto ended_by = std::chrono::steady_clock::now() + std::chrono::seconds(150);
-    while (!cluster.stateOf(job).empty() && std::chrono::steady_clock::now() < ended_by)
+    while (!cluster.getState(job).empty() && std::chrono::steady_clock::now() < ended_by)
         std::this_thread::sleep_for(std::chrono::milliseconds(500));
 }
 
@@ -111,7 +111,7 @@ TEST_F(Slurm, cooksTheDemoWhateverBecomesOfANode)
     while (killed == 0 && now() < killed_by)
     {
         std::this_thread::sleep_for(std::chrono::milliseconds(200));
-        if (cluster.stateOf(shards).find("R w2\n") != std::string::npos)
+        if (cluster.getState(shards).find("R w2\n") != std::string::npos)
             killed = cluster.killNode("w2");
     }
     ASSERT_GT(killed, 0u) << cluster.logs();
@@ -126,7 +126,7 @@ TEST_F(Slurm, cooksTheDemoWhateverBecomesOfANode)
     const ProgramEnd status = folder.run({hearth, "farm", "status", "demo.plan.json"});
     EXPECT_EQ(status.exit_code, 0) << status.out;
     const ProgramEnd tasks = cluster.run({"scontrol", "show", "job", shards});
-    EXPECT_GE(countOf(tasks.out, "Restarts=1"), 1u) << tasks.out;
+    EXPECT_GE(countOccurrences(tasks.out, "Restarts=1"), 1u) << tasks.out;
 }
 
 TEST_F(Slurm, believesNoLauncher)
@@ -152,8 +152,8 @@ TEST_F(Slurm, believesNoLauncher)
     const ProgramEnd list =
         folder.run({hearth, "merge", "demo.plan.json", "-o", "a.hearth", "--missing", "list"});
     EXPECT_EQ(list.exit_code, 75);
-    EXPECT_EQ(countOf(list.out, "shard 1/2\n"), 4u) << list.out;
-    EXPECT_EQ(countOf(list.out, "shard 0/2\n"), 0u) << list.out;
+    EXPECT_EQ(countOccurrences(list.out, "shard 1/2\n"), 4u) << list.out;
+    EXPECT_EQ(countOccurrences(list.out, "shard 0/2\n"), 0u) << list.out;
     EXPECT_EQ(folder.run({hearth, "merge", "demo.plan.json", "-o", "a.hearth"}).exit_code, 0);
     EXPECT_TRUE(folder.read("a.hearth") == pack);
 }

@@ -41,7 +41,7 @@ protected:
     }
 
     /// Return lines such as "changed mesh strip: geometry" or "added light sun", one for each property.
-    static std::set<std::string> linesOf(const PackDiff& diff)
+    static std::set<std::string> formatLines(const PackDiff& diff)
     {
         std::set<std::string> lines;
         for (const EntryChange& change : diff.entries)
@@ -134,7 +134,7 @@ TEST_F(Diff, eachChangeIsToldUnderItsName)
         PackModel changed = smallPack();
         row.change(changed);
         const PackDiff diff = diffed(smallPack(), changed);
-        EXPECT_EQ(linesOf(diff), row.lines) << command::diffText(diff);
+        EXPECT_EQ(formatLines(diff), row.lines) << command::diffText(diff);
         EXPECT_TRUE(diff.settings.empty());
     }
 }
@@ -187,8 +187,8 @@ TEST_F(Diff, placesInTablesMeanNothing)
     std::rotate(shifted.materials.begin(), shifted.materials.end() - 1, shifted.materials.end());
     for (ClusterRecord& cluster : shifted.clusters)
         cluster.material += cluster.material == kInvalidIndex ? 0 : 1;
-    EXPECT_EQ(linesOf(diffed(smallPack(), shifted)), std::set<std::string>{"added material varnish"});
-    EXPECT_EQ(linesOf(diffed(shifted, smallPack())), std::set<std::string>{"removed material varnish"});
+    EXPECT_EQ(formatLines(diffed(smallPack(), shifted)), std::set<std::string>{"added material varnish"});
+    EXPECT_EQ(formatLines(diffed(shifted, smallPack())), std::set<std::string>{"removed material varnish"});
 }
 
 TEST_F(Diff, metaIsToldNumberByNumber)
@@ -197,7 +197,8 @@ TEST_F(Diff, metaIsToldNumberByNumber)
     PackModel b = smallPack();
     a.meta = importMeta("a.gltf");
     b.meta = importMeta("b.gltf");
-    EXPECT_EQ(linesOf(diffed(a, b)), (std::set<std::string>{"removed source a.gltf", "added source b.gltf"}));
+    EXPECT_EQ(formatLines(diffed(a, b)),
+              (std::set<std::string>{"removed source a.gltf", "added source b.gltf"}));
     a.meta = R"({"settings":{"clusters":{"levels":[1,2]}},"tool":{"version":"1"}})";
     b.meta = R"({"settings":{"clusters":{"levels":[1,3],"x":true}},"tool":{"version":"2"}})";
     const PackDiff diff = diffed(a, b);

@@ -282,7 +282,7 @@ TEST(ExtractSpecular, refusesFilesWithoutATable)
 namespace
 {
 
-std::vector<std::string> linesOf(const std::string& text)
+std::vector<std::string> splitLines(const std::string& text)
 {
     std::istringstream stream(text);
     std::vector<std::string> lines;
@@ -298,7 +298,7 @@ TEST(ExtractBricks, writesEveryFaceOfEverySolidVoxel)
     const Sandbox sandbox;
     writePackFile(smallPack(), sandbox / "small.hearth");
     ASSERT_TRUE(command::extractBricks(sandbox / "small.hearth", sandbox / "faces.csv").ok());
-    const std::vector<std::string> lines = linesOf(sandbox.read("faces.csv"));
+    const std::vector<std::string> lines = splitLines(sandbox.read("faces.csv"));
     ASSERT_EQ(lines.size(), 1 + 22u);
     EXPECT_EQ(lines[0], "x,y,z,face,opacity,albedo_r,albedo_g,albedo_b,normal_x,normal_y,normal_z,emissive_r,"
                         "emissive_g,emissive_b,lighting_r,lighting_g,lighting_b");
@@ -327,7 +327,7 @@ TEST(ExtractBricks, writesVoxelsWithoutFacesOnce)
     writeBricksPart(model, sandbox / "bricks.part");
     ASSERT_TRUE(command::extractBricks(sandbox / "bricks.part", sandbox / "faces.csv").ok());
     const std::string text = sandbox.read("faces.csv");
-    EXPECT_EQ(linesOf(text).size(), 1 + 54 + 1u);
+    EXPECT_EQ(splitLines(text).size(), 1 + 54 + 1u);
     EXPECT_NE(text.find("\n1,1,1,none,1,0,0,0,0,0,0,0,0,0,0,0,0\n"), std::string::npos);
 }
 

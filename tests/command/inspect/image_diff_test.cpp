@@ -109,8 +109,8 @@ TEST_F(ImageDiff, packsAreDrawnAndCompared)
     const ProgramEnd wrong =
         run("hearth", {"diff", "a.hearth", "b.hearth", "--image", "none.png", "--scene-camera", "9"});
     EXPECT_EQ(wrong.exit_code, 2);
-    EXPECT_EQ(countOf(wrong.err, "a.hearth: error: --scene-camera 9") +
-                  countOf(wrong.err, "b.hearth: error: --scene-camera 9"),
+    EXPECT_EQ(countOccurrences(wrong.err, "a.hearth: error: --scene-camera 9") +
+                  countOccurrences(wrong.err, "b.hearth: error: --scene-camera 9"),
               1u)
         << wrong.err;
     EXPECT_FALSE(folder.has("none.png"));

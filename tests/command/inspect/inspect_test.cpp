@@ -266,7 +266,7 @@ TEST(VerifyFile, saysWhatIsRight)
     writePackFile(smallPack(), sandbox / "a.hearth");
     const auto result = command::verifyFile(sandbox / "a.hearth");
     ASSERT_TRUE(result.ok());
-    EXPECT_EQ(countOf(*result, "\n"), 1u);
+    EXPECT_EQ(countOccurrences(*result, "\n"), 1u);
     EXPECT_NE(result->find("ok"), std::string::npos);
     EXPECT_TRUE(Json::parse(command::verifyJson("a", result)).value()["ok"].get<bool>());
 }

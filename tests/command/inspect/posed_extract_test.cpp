@@ -34,7 +34,7 @@ std::vector<Float3> plyPositions(const std::string& bytes)
     const std::string header = bytes.substr(0, data);
     const size_t count_at = header.find("element vertex ") + std::strlen("element vertex ");
     const size_t count = std::stoul(header.substr(count_at));
-    const size_t stride = 4 * countOf(header, "property float ");
+    const size_t stride = 4 * countOccurrences(header, "property float ");
     std::vector<Float3> positions(count);
     for (size_t i = 0; i < count; ++i)
         std::memcpy(&positions[i], bytes.data() + data + i * stride, sizeof(Float3));
@@ -72,7 +72,7 @@ std::vector<Float3> usedPlaces(const mesh::SourceMesh& mesh, const std::vector<F
 }
 
 /// Return a clip of the scene as the command line names it.
-std::string nameOf(const PackView& scene, uint32_t animation)
+std::string getName(const PackView& scene, uint32_t animation)
 {
     const std::string_view name = scene.text(scene.animations()[animation].name);
     return name.empty() ? std::to_string(animation) : std::string(name);
@@ -116,7 +116,7 @@ public:
                     -0.1, 1.1 * double{model_->scene().animations()[clip].duration});
                 const double seconds = time(random);
                 compare(mesh, poses.at(clip, seconds),
-                        {"--animation", nameOf(model_->scene(), clip), "--time", std::to_string(seconds)});
+                        {"--animation", getName(model_->scene(), clip), "--time", std::to_string(seconds)});
             }
         }
     }

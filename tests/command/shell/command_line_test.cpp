@@ -27,7 +27,7 @@ protected:
         const ProgramEnd end = hearth(arguments);
         EXPECT_EQ(end.exit_code, 2) << part;
         EXPECT_EQ(end.out, "");
-        EXPECT_EQ(countOf(end.err, "\n"), 1u) << end.err;
+        EXPECT_EQ(countOccurrences(end.err, "\n"), 1u) << end.err;
         EXPECT_NE(end.err.find(part), std::string::npos) << end.err;
     }
 
@@ -110,7 +110,7 @@ TEST_F(CommandLine, resultsGoToStdoutAndErrorsToStderr)
     const ProgramEnd missing = hearth({"verify", "b.hearth"});
     EXPECT_EQ(missing.exit_code, 66);
     EXPECT_EQ(missing.out, "");
-    EXPECT_EQ(countOf(missing.err, "b.hearth: error: "), 1u);
+    EXPECT_EQ(countOccurrences(missing.err, "b.hearth: error: "), 1u);
 
     folder.write("c.hearth", "not a pack");
     for (const char* verb : {"verify", "inspect"})

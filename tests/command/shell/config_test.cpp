@@ -115,7 +115,7 @@ TEST_F(Settings, thatAreWrongNameTheirPlace)
     EXPECT_EQ(hearth({"config", "--config", "none.toml"}).exit_code, 66);
 }
 
-TEST_F(Settings, reachTheCookersOfTheSourcesThatTheyAreOf)
+TEST_F(Settings, reachTheCookersOfTheirSources)
 {
     folder.write("hearth.toml", kProject);
     wouldRun({"props/a.glb", "b.glb", "--visibility"});
@@ -146,11 +146,12 @@ TEST_F(Settings, warnOfARuleThatMatchesNothing)
         "hearth.toml|line 9, column 9, rule[0].match: warning: 'props/**/*.glb' matches no source; nearest: "
         "assets/props/chair.gltf, which 'assets/props/**/*.gl*' would match [W1513] hint: ";
     const std::vector<std::string> dry_run{"cook", "assets/props", "-o", "a.hearth", "--dry-run"};
-    EXPECT_EQ(countOf(hearth(dry_run).err, warning), 1u) << hearth(dry_run).err;
-    EXPECT_EQ(countOf(hearth(dry_run).err, "W1513"), 1u) << "the rule for trees is one for another cook";
-    EXPECT_EQ(countOf(hearth({"plan", "assets/props", "-o", "-"}).err, warning), 1u);
+    EXPECT_EQ(countOccurrences(hearth(dry_run).err, warning), 1u) << hearth(dry_run).err;
+    EXPECT_EQ(countOccurrences(hearth(dry_run).err, "W1513"), 1u)
+        << "the rule for trees is one for another cook";
+    EXPECT_EQ(countOccurrences(hearth({"plan", "assets/props", "-o", "-"}).err, warning), 1u);
     EXPECT_EQ(hearth({"plan", "assets/props", "-o", "-", "-q"}).err, "");
-    EXPECT_EQ(countOf(hearth({"config"}).err, warning), 1u);
+    EXPECT_EQ(countOccurrences(hearth({"config"}).err, warning), 1u);
     EXPECT_EQ(hearth({"config", "assets/trees/oak.glb"}).err, "");
 
     std::filesystem::create_directories(folder / "elsewhere");

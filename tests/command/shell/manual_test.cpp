@@ -119,7 +119,7 @@ TEST_F(Manual, pagesAreThereForEveryVerbWithoutAWarning)
                 << name;
         }
     }
-    EXPECT_EQ(count, countOf(verbs.substr(0, verbs.find("Examples")), "\n  ") + 2);
+    EXPECT_EQ(count, countOccurrences(verbs.substr(0, verbs.find("Examples")), "\n  ") + 2);
     // as a terminal shows it
     const std::string cook =
         shell("groff -man -Tascii man/hearth-cook.1 | sed 's/.\\x08//g; s/\\x1b\\[[0-9]*m//g'").out;
@@ -140,7 +140,7 @@ TEST_F(Manual, whatIsWrittenFitsItsSchema)
     {
         const std::optional<Json> schema = Json::parse(hearth({"schema", name}).out);
         const std::optional<Json> value = Json::parse(text);
-        return !value || !schema ? "is no JSON" : faultOf(*schema, *value);
+        return !value || !schema ? "is no JSON" : findFault(*schema, *value);
     };
     writePackFile(smallPack(), folder / "a.hearth");
     folder.write("bad.hearth", "no pack");

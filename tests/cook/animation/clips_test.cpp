@@ -80,8 +80,8 @@ std::vector<Double3> placesAt(const Character& character, const AnimationTables&
 }
 
 /// Return random times, all key times, and the floats next to these.
-std::vector<double> timesOf(const Character& character, const AnimationRecord& animation, size_t count,
-                            uint32_t seed)
+std::vector<double> chooseTimes(const Character& character, const AnimationRecord& animation, size_t count,
+                                uint32_t seed)
 {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> any(-0.1, double{animation.duration} * 1.1 + 0.1);
@@ -102,7 +102,7 @@ std::vector<double> timesOf(const Character& character, const AnimationRecord& a
     return times;
 }
 
-AnimationTables tablesOf(const Character& character, const CompressedClips& clips)
+AnimationTables makeTables(const Character& character, const CompressedClips& clips)
 {
     AnimationTables tables = character.tables();
     tables.animations = clips.animations;
@@ -127,7 +127,7 @@ Figures check(const Character& character, const StatedError& stated, size_t time
     const AnimationTables source = character.tables();
     const std::vector<AttachedVertices> carried = carriedBy(character);
     const CompressedClips compressed = animation_compression::compressClips(source, carried, stated);
-    const AnimationTables tables = tablesOf(character, compressed);
+    const AnimationTables tables = makeTables(character, compressed);
     for (const AnimationChannelRecord& channel : tables.channels)
         figures.packed += isPacked(channel) ? 1u : 0u;
     for (size_t clip = 0; clip < source.animations.size(); ++clip)
@@ -137,7 +137,7 @@ Figures check(const Character& character, const StatedError& stated, size_t time
         EXPECT_GE(double{tables.animations[clip].error}, statistics.proven_error);
         EXPECT_LE(statistics.bytes_after, statistics.bytes_before);
         double worst = 0, slack = 0;
-        for (const double time : timesOf(character, source.animations[clip], trials(times), seed))
+        for (const double time : chooseTimes(character, source.animations[clip], trials(times), seed))
         {
             const auto wanted = placesAt(character, source, source.animations[clip], time);
             const auto is = placesAt(character, tables, tables.animations[clip], time);
@@ -356,11 +356,11 @@ TEST(CompressClips, withoutAnErrorPosesAreThoseOfTheSource)
         const Character character = randomCharacter(spec, 8);
         const CompressedClips exact =
             animation_compression::compressClips(character.tables(), carriedBy(character), {});
-        const AnimationTables tables = tablesOf(character, exact);
+        const AnimationTables tables = makeTables(character, exact);
         EXPECT_EQ(tables.animations[0].error, 0);
         EXPECT_TRUE(tables.key_bits.empty());
         for (size_t clip = 0; clip < character.animations.size(); ++clip)
-            for (const double time : timesOf(character, character.animations[clip], 500, 8))
+            for (const double time : chooseTimes(character, character.animations[clip], 500, 8))
             {
                 ScenePose wanted = restPose(tables), is = wanted;
                 sampleAnimation(character.tables(), character.animations[clip], time, wanted);
@@ -384,8 +384,8 @@ TEST(CompressClips, keepsMorphWeightsExactly)
     const Character character = randomCharacter(spec, 9);
     const CompressedClips loose =
         animation_compression::compressClips(character.tables(), carriedBy(character), {0.1, 0});
-    const AnimationTables tables = tablesOf(character, loose);
-    for (const double time : timesOf(character, character.animations[0], 500, 9))
+    const AnimationTables tables = makeTables(character, loose);
+    for (const double time : chooseTimes(character, character.animations[0], 500, 9))
     {
         ScenePose wanted = restPose(tables), is = wanted;
         sampleAnimation(character.tables(), character.animations[0], time, wanted);

@@ -35,7 +35,7 @@ Double3 direction(std::mt19937& random)
 }
 
 /// Return the distance of a rotation outside of the hull, tested along `count` directions.
-double outsideOf(const RotationHull& hull, const Quaternion& q, std::mt19937& random, int count = 20)
+double measureOutside(const RotationHull& hull, const Quaternion& q, std::mt19937& random, int count = 20)
 {
     const Affine3d r = makeAffineFromTrs({}, q, {1, 1, 1});
     double worst = -1;
@@ -81,7 +81,7 @@ RotationPoints pointsAround(std::mt19937& random, double swing, bool one_axis)
     return points;
 }
 
-AnimationChannelRecord channelOf(Interpolation kind, uint32_t components, uint32_t keys)
+AnimationChannelRecord makeChannel(Interpolation kind, uint32_t components, uint32_t keys)
 {
     AnimationChannelRecord channel{};
     channel.interpolation = static_cast<uint32_t>(kind);
@@ -109,7 +109,7 @@ TEST(RotationSet, holdsAllBlendsOfItsPoints)
             const RotationHull hull = set.hull(tolerance);
             EXPECT_LE(hull.matrices.size(), set.hullSize(tolerance));
             for (int k = 0; k < 40; ++k)
-                ASSERT_LE(outsideOf(hull, anyBlend(points, random), random), kRounding)
+                ASSERT_LE(measureOutside(hull, anyBlend(points, random), random), kRounding)
                     << "swing " << swing << ", tolerance " << tolerance;
         }
     }
@@ -156,7 +156,7 @@ TEST(RotationSet, turnsAboutOneAxisKeepIt)
     std::mt19937 random(3);
     const RotationHull hull = set.hull(0.02);
     for (int i = 0; i < 500; ++i)
-        ASSERT_LE(outsideOf(hull, anyBlend(points, random), random), kRounding);
+        ASSERT_LE(measureOutside(hull, anyBlend(points, random), random), kRounding);
     for (const Matrix3& m : hull.matrices)
         for (size_t row = 0; row < 3; ++row)
         {
@@ -172,7 +172,7 @@ TEST(RotationSet, splineThroughNothingCanBeAnyRotation)
     // no tangents, and the end is opposite to the start: the spline passes through 0
     const std::vector<float> keys{0,      1, /**/ 0, 0, 0, 0, 0, 0,  0, 1, 0, 0, 0, 0,
                                   /**/ 0, 0, 0,      0, 0, 0, 0, -1, 0, 0, 0, 0};
-    AnimationChannelRecord channel = channelOf(Interpolation::cubic_spline, 4, 2);
+    AnimationChannelRecord channel = makeChannel(Interpolation::cubic_spline, 4, 2);
     AnimationTables tables;
     tables.keys = keys;
     addRotations(tables, channel, points);
@@ -184,7 +184,7 @@ TEST(AddValues, splinesOvershootIsInside)
 {
     // from 0 to 0 with tangents of 4 and -4 for one second: 1 in the middle
     const std::vector<float> keys{0, 1, /**/ 0, 0, 4, /**/ -4, 0, 0};
-    AnimationChannelRecord channel = channelOf(Interpolation::cubic_spline, 1, 2);
+    AnimationChannelRecord channel = makeChannel(Interpolation::cubic_spline, 1, 2);
     Interval range;
     AnimationTables tables;
     tables.keys = keys;

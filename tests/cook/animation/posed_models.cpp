@@ -33,8 +33,8 @@ struct Watched
     size_t facing_wrong = 0;
 };
 
-Double3 placeOf(const DeformedCluster& cluster, size_t v, std::span<const Affine3d> main_from_bind,
-                const std::vector<double>& weights)
+Double3 computePlace(const DeformedCluster& cluster, size_t v, std::span<const Affine3d> main_from_bind,
+                     const std::vector<double>& weights)
 {
     Double3 bound = widen(cluster.positions[v]);
     for (const skinning::MorphDeltas& morph : cluster.morphs)
@@ -102,7 +102,7 @@ void watch(Watched& watched, const Box3& mesh_box, std::span<const Affine3d> mai
     std::vector<Double3> places;
     for (size_t v = 0; v < watched.cluster->positions.size(); ++v)
     {
-        const Double3 place = placeOf(*watched.cluster, v, main_from_bind, weights);
+        const Double3 place = computePlace(*watched.cluster, v, main_from_bind, weights);
         add(watched.tight, place);
         note(watched, outside(box, place));
         places.push_back(place);
@@ -138,7 +138,7 @@ double volumeRatio(const Watched& watched)
 }
 
 /// For each joint, the bounding box of the positions that it moves.
-std::vector<Box3d> reachOf(std::span<const DeformedCluster> clusters, uint32_t joints)
+std::vector<Box3d> computeReach(std::span<const DeformedCluster> clusters, uint32_t joints)
 {
     std::vector<Box3d> reach(joints);
     for (const DeformedCluster& cluster : clusters)
@@ -148,7 +148,7 @@ std::vector<Box3d> reachOf(std::span<const DeformedCluster> clusters, uint32_t j
     return reach;
 }
 
-size_t targetsOf(std::span<const DeformedCluster> clusters)
+size_t countTargets(std::span<const DeformedCluster> clusters)
 {
     size_t count = 0;
     for (const DeformedCluster& cluster : clusters)
@@ -194,9 +194,9 @@ void computeBounds(const AnimationTables& tables, PosedMesh& mesh)
 {
     const std::vector<animation_bounds::NodeMotion> nodes = animation_bounds::nodeMotions(tables);
     const std::vector<Interval> morph_weights =
-        animation_bounds::morphWeightRanges(tables, mesh.node, targetsOf(mesh.clusters));
+        animation_bounds::morphWeightRanges(tables, mesh.node, countTargets(mesh.clusters));
     const uint32_t joints = mesh.skin == kInvalidIndex ? 0 : tables.skins[mesh.skin].joints.count;
-    const std::vector<Box3d> reach = reachOf(mesh.clusters, joints);
+    const std::vector<Box3d> reach = computeReach(mesh.clusters, joints);
     std::optional<animation_bounds::SkinMotion> skin;
     if (mesh.skin != kInvalidIndex)
         skin.emplace(tables, nodes, mesh.skin, reach);
@@ -309,7 +309,7 @@ BoundsFigures checkBounds(const AnimationTables& tables, const PosedMesh& mesh, 
         watched.push_back({&mesh.clusters[i], &mesh.bounds[i], mesh.spheres[i], {}});
     PoseSource source(tables, seed);
     std::mt19937 random(seed + 1);
-    const size_t targets = targetsOf(mesh.clusters);
+    const size_t targets = countTargets(mesh.clusters);
     for (size_t p = 0; p < poses; ++p)
     {
         const ScenePose& pose = p == 0 ? source.rest() : source.next();

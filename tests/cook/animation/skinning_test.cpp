@@ -19,7 +19,7 @@ using test::CharacterSpec;
 namespace
 {
 
-BoundsFigures figuresOf(const CharacterSpec& spec, uint32_t seeds = 1, size_t poses = 2000)
+BoundsFigures measureBounds(const CharacterSpec& spec, uint32_t seeds = 1, size_t poses = 2000)
 {
     BoundsFigures figures;
     for (uint32_t seed = 1; seed <= seeds; ++seed)
@@ -43,12 +43,12 @@ void expectSound(const BoundsFigures& figures)
 
 TEST(DeformedBounds, holdOrdinaryClips)
 {
-    expectSound(figuresOf({}));
+    expectSound(measureBounds({}));
 }
 
 TEST(DeformedBounds, holdSmallMotionsWithCones)
 {
-    const BoundsFigures figures = figuresOf({.swing = 0.05, .influences = 2});
+    const BoundsFigures figures = measureBounds({.swing = 0.05, .influences = 2});
     expectSound(figures);
     EXPECT_GT(figures.cones, 0u) << "a cone that is always given up holds nothing";
     EXPECT_LE(figures.volume_ratio / static_cast<double>(figures.clusters), 1.5);
@@ -56,42 +56,42 @@ TEST(DeformedBounds, holdSmallMotionsWithCones)
 
 TEST(DeformedBounds, holdFastSpins)
 {
-    expectSound(figuresOf({.spins = true}));
+    expectSound(measureBounds({.spins = true}));
 }
 
 TEST(DeformedBounds, holdOppositeQuaternions)
 {
-    expectSound(figuresOf({.swing = 1.5, .opposite = true}));
+    expectSound(measureBounds({.swing = 1.5, .opposite = true}));
 }
 
 TEST(DeformedBounds, holdSplinesThatOvershoot)
 {
-    expectSound(figuresOf({.splines = true}));
+    expectSound(measureBounds({.splines = true}));
 }
 
 TEST(DeformedBounds, holdScales)
 {
-    expectSound(figuresOf({.scale_low = 0.5, .scale_high = 2}));
+    expectSound(measureBounds({.scale_low = 0.5, .scale_high = 2}));
 }
 
 TEST(DeformedBounds, holdScalesThatGoThroughNothing)
 {
-    expectSound(figuresOf({.scale_low = -0.5, .scale_high = 1}));
+    expectSound(measureBounds({.scale_low = -0.5, .scale_high = 1}));
 }
 
 TEST(DeformedBounds, holdMirroredJointsAndMatrices)
 {
-    expectSound(figuresOf({.mirrored = true, .matrices = true, .several_roots = true}));
+    expectSound(measureBounds({.mirrored = true, .matrices = true, .several_roots = true}));
 }
 
 TEST(DeformedBounds, holdTwoHundredJoints)
 {
-    expectSound(figuresOf({.joints = 200, .influences = 8, .far_influences = true}, 1, 400));
+    expectSound(measureBounds({.joints = 200, .influences = 8, .far_influences = true}, 1, 400));
 }
 
 TEST(DeformedBounds, holdMorphTargets)
 {
-    expectSound(figuresOf({.splines = true, .morph_targets = 5}));
+    expectSound(measureBounds({.splines = true, .morph_targets = 5}));
 }
 
 TEST(DeformedBounds, holdFreePosesWithAnyMorphWeights)

@@ -49,7 +49,7 @@ TEST_P(Furnace, goesToEmissionOverOneLessAlbedo)
         const std::vector<uint32_t> codes = lighting.codes();
         for (const LitFace& position : room.inner)
         {
-            expectRelative(radianceOf(lighting, position.face), expected, 2e-3f);
+            expectRelative(computeRadiance(lighting, position.face), expected, 2e-3f);
             // stored codes add half of a step: 1/128, for blue 1/64
             expectRelative(decodeRadiance(codes[position.face]), expected, 0.018f);
         }
@@ -69,7 +69,7 @@ TEST(BrickLight, doesNotDriftInHue)
     const Float3 emission = decodeRadiance(tables.emission[0]);
     for (const LitFace& position : room.inner)
     {
-        const Float3 light = radianceOf(lighting, position.face);
+        const Float3 light = computeRadiance(lighting, position.face);
         EXPECT_NEAR(light.z / light.x, emission.z / emission.x, 1e-3f);
         EXPECT_NEAR(light.y / light.x, 1, 1e-3f);
     }
@@ -140,7 +140,7 @@ TEST_P(Decay, isBelowOneHundredthInTheStatedFrames)
     {
         float most = 0;
         for (const LitFace& position : room.inner)
-            most = std::max(most, largest(radianceOf(lighting, position.face)));
+            most = std::max(most, largest(computeRadiance(lighting, position.face)));
         return most;
     };
     const float before = brightest();
@@ -173,7 +173,7 @@ TEST(SweepsToForget, areThoseOfThePowersOfTheAlbedo)
 // ---- direct light and the sky
 
 /// Floor of `side` x `side` voxels at height 1, with air above.
-BrickTables floorOf(uint32_t side, uint32_t height, const Voxel& voxel, float voxel_size = 1)
+BrickTables makeFloor(uint32_t side, uint32_t height, const Voxel& voxel, float voxel_size = 1)
 {
     VoxelModel model({side, height, side}, voxel_size);
     model.fill({0, 0, 0}, {side, 1, side}, voxel);
@@ -182,7 +182,7 @@ BrickTables floorOf(uint32_t side, uint32_t height, const Voxel& voxel, float vo
 
 TEST(FaceLighting, sunOnAPlaneIsItsCosine)
 {
-    const BrickTables tables = floorOf(20, 8, makeVoxel({0.5f, 0.5f, 0.5f}));
+    const BrickTables tables = makeFloor(20, 8, makeVoxel({0.5f, 0.5f, 0.5f}));
     const float albedo = decodeAlbedo(tables.albedo[0]).x;
     const BrickView view = makeBrickView(tables);
     FaceLighting lighting(view);
@@ -191,7 +191,8 @@ TEST(FaceLighting, sunOnAPlaneIsItsCosine)
     lighting.sweep(sun, 4, 1);
     const float cosine = -sun.lights[0].direction.y;
     for (const LitFace& position : facesIn(tables, {0, 1, 0}, {20, 2, 20}))
-        expectRelative(radianceOf(lighting, position.face), Float3{3, 2, 1} * (albedo * cosine / kPi), 1e-3f);
+        expectRelative(computeRadiance(lighting, position.face), Float3{3, 2, 1} * (albedo * cosine / kPi),
+                       1e-3f);
 }
 
 /// Voxels that are not opaque transmit the rest of the light.
@@ -207,7 +208,7 @@ TEST(FaceLighting, whatIsNotOpaqueStopsItsShare)
     Lighting sun = darkness();
     addSun(sun, {0, -1, 0}, {1, 1, 1});
     lighting.sweep(sun, 4, 1);
-    expectRelative(radianceOf(lighting, faceAt(tables, 4, 0, 4, kUp)),
+    expectRelative(computeRadiance(lighting, faceAt(tables, 4, 0, 4, kUp)),
                    Float3{1, 1, 1} * (0.6f * albedo / kPi), 2e-3f);
 }
 
@@ -233,7 +234,7 @@ TEST(FaceLighting, aLampOverAPlaneFollowsTheInverseSquare)
         const float d = length(lamp - middle);
         const float window = 1 - std::pow(d / 6, 4.0f);
         const float expected = albedo * 5 / kPi * (lamp.y - middle.y) / (d * d * d) * window;
-        const float value = radianceOf(lighting, position.face).x;
+        const float value = computeRadiance(lighting, position.face).x;
         if (value == 0)
         {
             ++shadowed;
@@ -243,7 +244,7 @@ TEST(FaceLighting, aLampOverAPlaneFollowsTheInverseSquare)
             EXPECT_NEAR(value, expected, 2e-3f * expected + 1e-6f);
     }
     EXPECT_GT(shadowed, 8u);
-    EXPECT_EQ(radianceOf(lighting, faceAt(tables, 25, 0, 16, kUp)).x, 0);
+    EXPECT_EQ(computeRadiance(lighting, faceAt(tables, 25, 0, 16, kUp)).x, 0);
 }
 
 /// The lamp stands in its own shade, which fills its voxel, but still lights downwards.
@@ -259,7 +260,7 @@ TEST(FaceLighting, aLampInsideItsOwnVoxelIsSeen)
     addLamp(lit, {5.5f, 8.1f, 5.5f}, {5, 5, 5});
     lighting.sweep(lit, 4, 1);
     for (uint32_t x = 0; x < 11; ++x)
-        EXPECT_GT(radianceOf(lighting, faceAt(tables, x, 0, 5, kUp)).x, 0) << x;
+        EXPECT_GT(computeRadiance(lighting, faceAt(tables, x, 0, 5, kUp)).x, 0) << x;
 }
 
 /// A slanted plane close to a lamp passes through the middle of its voxels on average, not along their sides.
@@ -283,7 +284,7 @@ TEST(FaceLighting, aLampBesideASlopeLightsThePlaneNotItsSteps)
     lighting.sweep(lit, 1, 1);
     for (const uint32_t side : {kUp, 0u})
     {
-        const float light = radianceOf(lighting, faceAt(tables, 12, 12, 12, side)).x;
+        const float light = computeRadiance(lighting, faceAt(tables, 12, 12, 12, side)).x;
         const float expected = 0.5f * 5 / kPi / (kAway * kAway);
         EXPECT_NEAR(light, expected, 0.01f * expected) << side;
     }
@@ -308,13 +309,14 @@ TEST(FaceLighting, aSlopeIsNotLitAsAStaircase)
     lighting.sweep(sun, 16, 1);
     const float expected = 2 * 0.5f / kPi * -dot(normal, sun.lights[0].direction);
     for (uint32_t x = 4; x < kSide - 4; ++x)
-        EXPECT_NEAR(radianceOf(lighting, faceAt(tables, x, x / 2, 12, kUp)).x, expected, 0.02f * expected)
+        EXPECT_NEAR(computeRadiance(lighting, faceAt(tables, x, x / 2, 12, kUp)).x, expected,
+                    0.02f * expected)
             << x;
 }
 
 TEST(FaceLighting, spotsEndAtTheirCone)
 {
-    const BrickTables tables = floorOf(21, 12, makeVoxel({0.5f, 0.5f, 0.5f}));
+    const BrickTables tables = makeFloor(21, 12, makeVoxel({0.5f, 0.5f, 0.5f}));
     const float albedo = decodeAlbedo(tables.albedo[0]).x;
     const BrickView view = makeBrickView(tables);
     FaceLighting lighting(view);
@@ -333,19 +335,20 @@ TEST(FaceLighting, spotsEndAtTheirCone)
         const float d = length(way), cosine = -way.y / d;
         const float cone = std::clamp((cosine - outer) / (inner - outer), 0.0f, 1.0f);
         const float expected = albedo * 100 / kPi * cosine / (d * d) * cone * cone;
-        EXPECT_NEAR(radianceOf(lighting, faceAt(tables, x, 0, 10, kUp)).x, expected, 2e-3f * expected + 1e-6f)
+        EXPECT_NEAR(computeRadiance(lighting, faceAt(tables, x, 0, 10, kUp)).x, expected,
+                    2e-3f * expected + 1e-6f)
             << x;
     }
 }
 
 TEST(FaceLighting, aConstantSkyLightsAnOpenPlaneByItsRadiance)
 {
-    const BrickTables tables = floorOf(12, 6, makeVoxel({0.5f, 0.25f, 0.75f}));
+    const BrickTables tables = makeFloor(12, 6, makeVoxel({0.5f, 0.25f, 0.75f}));
     const BrickView view = makeBrickView(tables);
     FaceLighting lighting(view);
     lighting.sweep(constantSky({2, 2, 2}), 16, 1);
     const uint32_t face = faceAt(tables, 6, 0, 6, kUp);
-    expectRelative(radianceOf(lighting, face), decodeAlbedo(tables.albedo[face]) * 2, 1e-3f);
+    expectRelative(computeRadiance(lighting, face), decodeAlbedo(tables.albedo[face]) * 2, 1e-3f);
     const BrickSky sky{{2, 2, 2}, {2, 2, 2}, {2, 2, 2}};
     const BrickStart start = brickSurfaceStart(lighting.scene(), {6.5f, 0.8f, 6.5f}, {0, 1, 0});
     expectRelative(brickGather(lighting.scene(), sky, start, 16, 1), {2, 2, 2}, 1e-5f);
@@ -374,7 +377,7 @@ TEST(FaceLighting, parallelPlatesExchangeByTheirFormFactor)
     const uint32_t face = faceAt(tables, 8, 0, 8, kUp);
     const float albedo = decodeAlbedo(tables.albedo[face]).x;
     const double expected = 2 * toSquare(0.5 * kSide / kGap);
-    EXPECT_NEAR(radianceOf(lighting, face).x / albedo, expected, 0.01 * expected);
+    EXPECT_NEAR(computeRadiance(lighting, face).x / albedo, expected, 0.01 * expected);
 }
 
 TEST(FaceLighting, aRedWallReddensTheFloorBesideIt)
@@ -390,7 +393,7 @@ TEST(FaceLighting, aRedWallReddensTheFloorBesideIt)
     lighting.sweep(sun, 64, 4);
     const auto redness = [&](uint32_t x)
     {
-        const Float3 light = radianceOf(lighting, faceAt(tables, x, 0, 8, kUp));
+        const Float3 light = computeRadiance(lighting, faceAt(tables, x, 0, 8, kUp));
         return light.x / light.y;
     };
     EXPECT_GT(redness(1), 1.1f);

@@ -31,7 +31,7 @@ Whole3 minus(const Whole3& a, const Whole3& b)
     return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
-Whole3 crossOf(const Whole3& a, const Whole3& b)
+Whole3 computeCross(const Whole3& a, const Whole3& b)
 {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
@@ -66,7 +66,7 @@ bool meets(const std::array<Whole3, 3>& triangle, const Cell& cell, int64_t grow
         return reach > 0 && (low >= reach || high <= -reach);
     };
     const std::array<Whole3, 3> edges{minus(p[1], p[0]), minus(p[2], p[1]), minus(p[0], p[2])};
-    if (apart(crossOf(edges[0], edges[1])))
+    if (apart(computeCross(edges[0], edges[1])))
         return false;
     for (size_t axis = 0; axis < 3; ++axis)
     {
@@ -75,7 +75,7 @@ bool meets(const std::array<Whole3, 3>& triangle, const Cell& cell, int64_t grow
         if (apart(unit))
             return false;
         for (const Whole3& edge : edges)
-            if (apart(crossOf(unit, edge)))
+            if (apart(computeCross(unit, edge)))
                 return false;
     }
     return true;
@@ -98,7 +98,7 @@ struct Pieces
     std::map<Cell, Double3> areas; ///< doubled
 };
 
-Pieces piecesOf(const Polygon& triangle, uint32_t size = kSize)
+Pieces clipToPieces(const Polygon& triangle, uint32_t size = kSize)
 {
     Pieces pieces;
     const Cell grid{size, size, size};
@@ -138,14 +138,14 @@ TEST(ForEachPiece, givesTheVoxelsThatSeparatingAxesGive)
         }
         if (i % 7 == 0)
             corners.at[2] = corners.at[0] + (corners.at[1] - corners.at[0]) * 0.4 + Double3{0, 0.001, 0};
-        const Polygon triangle = polygonOf(corners);
+        const Polygon triangle = makePolygon(corners);
         const Double3 area = doubleArea(triangle);
         if (length(area) == 0)
             continue;
         std::array<Whole3, 3> exact;
         for (size_t p = 0; p < 3; ++p)
             exact[p] = whole(triangle.points[p]);
-        const Pieces pieces = piecesOf(triangle);
+        const Pieces pieces = clipToPieces(triangle);
         for (uint32_t z = 0; z < kSize; ++z)
             for (uint32_t y = 0; y < kSize; ++y)
                 for (uint32_t x = 0; x < kSize; ++x)
@@ -177,9 +177,9 @@ TEST(ForEachPiece, keepsTheAreaAndItsDirection)
         Corners corners;
         for (Double3& corner : corners.at)
             corner = uniformPoint(random, 0, 8);
-        const Polygon triangle = polygonOf(corners);
+        const Polygon triangle = makePolygon(corners);
         Double3 sum;
-        for (const auto& [cell, area] : piecesOf(triangle).areas)
+        for (const auto& [cell, area] : clipToPieces(triangle).areas)
             sum = sum + area;
         EXPECT_LT(length(sum - doubleArea(triangle)), 1e-10);
     }
@@ -193,8 +193,8 @@ TEST(ForEachPiece, isTheSameHoweverTheGridIsDivided)
         Corners corners;
         for (Double3& corner : corners.at)
             corner = uniformPoint(random, 0, 8);
-        const Polygon triangle = polygonOf(corners);
-        const Pieces whole_grid = piecesOf(triangle);
+        const Polygon triangle = makePolygon(corners);
+        const Pieces whole_grid = clipToPieces(triangle);
         size_t found = 0;
         for (uint32_t begin = 0; begin < kSize; begin += 2)
             forEachPiece(triangle, doubleArea(triangle), {kSize, kSize, kSize},
@@ -227,9 +227,9 @@ TEST(ForEachPiece, givesWhatLiesBetweenVoxelsToTheOneBehind)
                 Corners corners{{at(2, 2), at(3, 2), at(2, 3)}};
                 if (!up)
                     std::swap(corners.at[1], corners.at[2]);
-                const Polygon triangle = polygonOf(corners);
+                const Polygon triangle = makePolygon(corners);
                 ASSERT_EQ(coordinate(doubleArea(triangle), axis) > 0, up);
-                const Pieces pieces = piecesOf(triangle);
+                const Pieces pieces = clipToPieces(triangle);
                 ASSERT_EQ(pieces.areas.size(), 1u);
                 const uint32_t behind = plane == 0 ? 0u : plane == 8 ? 7u : up ? 2u : 3u;
                 EXPECT_EQ(pieces.areas.begin()->first[static_cast<size_t>(axis)], behind);
@@ -266,7 +266,7 @@ TEST(HiddenSamples, giveEachSampleOfASheetToOnePieceAlone)
         std::map<std::array<uint32_t, 2>, int> count;
         for (size_t i = 0; i < rim.size(); ++i)
         {
-            const Polygon triangle = polygonOf({{middle, rim[(i + 1) % rim.size()], rim[i]}});
+            const Polygon triangle = makePolygon({{middle, rim[(i + 1) % rim.size()], rim[i]}});
             forEachPiece(triangle, doubleArea(triangle), {8, 8, 8}, {{0, 0, 0}, {8, 8, 8}},
                          [&](const Cell& cell, const Polygon& piece)
                          {

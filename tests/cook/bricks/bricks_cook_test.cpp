@@ -167,7 +167,7 @@ void addObject(Document& document, const char* name, TriangleMesh mesh, Material
     addRoot(document, node);
 }
 
-Float3 colorOf(uint32_t x, uint32_t z)
+Float3 chooseColor(uint32_t x, uint32_t z)
 {
     return {static_cast<float>((x * 37 + z * 11) % 97) / 97, static_cast<float>((x * 5 + z * 61) % 89) / 89,
             static_cast<float>((x * 71 + z * 29) % 83) / 83};
@@ -188,7 +188,7 @@ TEST_F(BricksCook, showsATextureVoxelByVoxel)
     for (uint32_t row = 0; row < 128; ++row)
         for (uint32_t column = 0; column < 128; ++column)
         {
-            const Float3 c = colorOf(column / 8, row / 8);
+            const Float3 c = chooseColor(column / 8, row / 8);
             for (const float channel : {c.x, c.y, c.z, 1.0f})
                 image.texels.push_back(static_cast<uint8_t>(std::lround(channel * 255)));
         }
@@ -207,7 +207,7 @@ TEST_F(BricksCook, showsATextureVoxelByVoxel)
         EXPECT_EQ(cell[1], 0u);
         EXPECT_EQ(voxel.opacity, 255);
         const Voxels::Face& face = voxel.faces.at(kUp);
-        const Float3 stored = colorOf(cell[0], cell[2]);
+        const Float3 stored = chooseColor(cell[0], cell[2]);
         for (int channel = 0; channel < 3; ++channel)
             EXPECT_NEAR(face.albedo[channel], linear(std::round(stored[channel] * 255) / 255), 1.01f / 1023);
         EXPECT_EQ(face.normal, (Float3{0, 1, 0}));
@@ -261,7 +261,7 @@ TEST_F(BricksCook, takesOnlyWhatStandsStill)
     const ProgramEnd both =
         bricks(joined(joined(room(), character), {"-o", "both.part", "--stats", "stats.json"}));
     ASSERT_EQ(both.exit_code, 0);
-    EXPECT_EQ(countOf(both.err, "both.part: warning: "), 1u) << both.err;
+    EXPECT_EQ(countOccurrences(both.err, "both.part: warning: "), 1u) << both.err;
     EXPECT_NE(both.err.find("1 deformed instances have no bricks [W1400]"), std::string::npos) << both.err;
     EXPECT_EQ(statistics()["left_out"]["deformed"], 1);
     EXPECT_EQ(folder.read("room.part"), folder.read("both.part"));

@@ -35,13 +35,13 @@ std::vector<Corners> rectangle(double height, Double3 low, Double3 high)
 }
 
 /// Return the only voxel of triangles that lie in one voxel, each with its own material.
-SolidVoxel voxelOf(const std::vector<std::pair<std::vector<Corners>, SurfaceMaterial>>& surfaces)
+SolidVoxel makeVoxelFrom(const std::vector<std::pair<std::vector<Corners>, SurfaceMaterial>>& surfaces)
 {
     const GridFrame frame = frameOfSize(4, 4, 4);
     Tile tile(frame, {0, 0, 0});
     for (const auto& [triangles, material] : surfaces)
         for (const Corners& triangle : triangles)
-            tile.add(polygonOf(triangle), {}, material, 1);
+            tile.add(makePolygon(triangle), {}, material, 1);
     const TileVoxels voxels = tile.finish();
     EXPECT_EQ(voxels.voxels.size(), 1u);
     return voxels.voxels[0];
@@ -53,7 +53,7 @@ void expectNear(Float3 a, Float3 b, float tolerance)
         << a.x << " " << a.y << " " << a.z << ", not " << b.x << " " << b.y << " " << b.z;
 }
 
-Float3 normalOf(const SolidVoxel& voxel, uint32_t face)
+Float3 decodeNormal(const SolidVoxel& voxel, uint32_t face)
 {
     return formats::NormalCode<8>::decode(voxel.normal[face]);
 }
@@ -76,7 +76,7 @@ TEST(Faces, ofABoxOnThePlanesOfTheGridAreItsSides)
 {
     std::vector<Corners> box;
     addBox(box, {6, 6.5, 7}, {2, 0, 0}, {0, 2.5, 0}, {0, 0, 3}, false);
-    const GridWithFaces grid = facedOf(solidOf(box, frameOfSize(12, 12, 12)));
+    const GridWithFaces grid = addFaces(makeSolidGrid(box, frameOfSize(12, 12, 12)));
     EXPECT_EQ(grid.solid.voxels.size(), 4u * 5 * 6 - 2 * 3 * 4); // minus the interior voxels
     EXPECT_EQ(countFaces(grid), (std::array<size_t, kFaces>{30, 30, 24, 24, 20, 20}));
     EXPECT_EQ(grid.seen.sealed, 1u);
@@ -89,7 +89,7 @@ TEST(Faces, ofABoxOnThePlanesOfTheGridAreItsSides)
             {
                 Float3 expected;
                 expected[faceAxis(face)] = isPositiveFace(face) ? 1.0f : -1.0f;
-                expectNear(normalOf(voxel, face), expected, 0);
+                expectNear(decodeNormal(voxel, face), expected, 0);
                 EXPECT_EQ(voxel.albedo[face], shared::encodeAlbedo({1, 1, 1}));
             }
     }
@@ -99,7 +99,7 @@ TEST(Faces, ofARoomAreWallsOfOneVoxelAroundIt)
 {
     std::vector<Corners> room;
     addBox(room, {6, 6.5, 7}, {2, 0, 0}, {0, 2.5, 0}, {0, 0, 3}, true);
-    const GridWithFaces grid = facedOf(solidOf(room, frameOfSize(12, 12, 12)));
+    const GridWithFaces grid = addFaces(makeSolidGrid(room, frameOfSize(12, 12, 12)));
     const size_t walls = 2 * (4 * 5 + 5 * 6 + 4 * 6);
     EXPECT_EQ(grid.solid.voxels.size(), walls);
     EXPECT_EQ(grid.seen.sealed, 0u);
@@ -117,17 +117,17 @@ TEST(VoxelLook, isWeighedByTheAreaThatASideSees)
 {
     const Float3 red{0.8f, 0.1f, 0.05f}, blue{0.1f, 0.2f, 0.9f};
     // a quarter red, the rest blue
-    const SolidVoxel level = voxelOf({{rectangle(1.5, {1, 0, 1}, {1.25, 0, 2}), colored(red)},
-                                      {rectangle(1.5, {1.25, 0, 1}, {2, 0, 2}), colored(blue)}});
+    const SolidVoxel level = makeVoxelFrom({{rectangle(1.5, {1, 0, 1}, {1.25, 0, 2}), colored(red)},
+                                            {rectangle(1.5, {1.25, 0, 1}, {2, 0, 2}), colored(blue)}});
     expectNear(shared::decodeAlbedo(level.albedo[kUp]), red * 0.25f + blue * 0.75f, kAlbedoStep);
-    expectNear(normalOf(level, kUp), {0, 1, 0}, 0);
+    expectNear(decodeNormal(level, kUp), {0, 1, 0}, 0);
     EXPECT_EQ(level.front_visible, 1u << kUp);
 
     // a step: upward surface is red, surface facing x is blue, and each face of the voxel takes its own
     const Double3 a{1.5, 1.5, 1}, b{1.5, 1.9, 1}, c{1.5, 1.9, 2}, d{1.5, 1.5, 2};
     const std::vector<Corners> riser{Corners{{a, b, c}}, Corners{{a, c, d}}};
     const SolidVoxel step =
-        voxelOf({{rectangle(1.5, {1, 0, 1}, {2, 0, 2}), colored(red)}, {riser, colored(blue)}});
+        makeVoxelFrom({{rectangle(1.5, {1, 0, 1}, {2, 0, 2}), colored(red)}, {riser, colored(blue)}});
     expectNear(shared::decodeAlbedo(step.albedo[kUp]), red, kAlbedoStep);
     expectNear(shared::decodeAlbedo(step.albedo[1]), blue, kAlbedoStep);
     EXPECT_EQ(step.front_visible, 1u << kUp | 1u << 1);
@@ -135,28 +135,28 @@ TEST(VoxelLook, isWeighedByTheAreaThatASideSees)
     // a slope that faces (3, 4, 0) / 5 has its own normal on both faces that see it
     const std::vector<Corners> slope{
         Corners{{Double3{1.2, 1.8, 1.1}, Double3{1.2, 1.8, 1.9}, Double3{1.6, 1.5, 1.1}}}};
-    const SolidVoxel slanted = voxelOf({{slope, colored(red)}});
+    const SolidVoxel slanted = makeVoxelFrom({{slope, colored(red)}});
     EXPECT_EQ(slanted.front_visible, 1u << kUp | 1u << 1);
     for (const uint32_t face : {1u, kUp})
-        EXPECT_GT(dot(normalOf(slanted, face), Float3{0.6f, 0.8f, 0}), 0.9998f);
+        EXPECT_GT(dot(decodeNormal(slanted, face), Float3{0.6f, 0.8f, 0}), 0.9998f);
 }
 
 TEST(VoxelLook, ofASheetFromBehindIsItsColourButNotItsLight)
 {
     const Float3 green{0.2f, 0.7f, 0.3f}, shine{4, 2, 0.5f};
     const std::vector<Corners> sheet = rectangle(1.5, {1, 0, 1}, {2, 0, 2});
-    const SolidVoxel single = voxelOf({{sheet, colored(green, shine)}});
+    const SolidVoxel single = makeVoxelFrom({{sheet, colored(green, shine)}});
     expectNear(shared::decodeRadiance(single.emission[kUp]), shine, 0); // powers of two, and half of one
     EXPECT_EQ(single.emission[kDown], 0u);
     expectNear(shared::decodeAlbedo(single.albedo[kDown]), green, kAlbedoStep);
-    expectNear(normalOf(single, kDown), {0, -1, 0}, 0);
-    expectNear(normalOf(single, 0), {-1, 0, 0}, 0);
+    expectNear(decodeNormal(single, kDown), {0, -1, 0}, 0);
+    expectNear(decodeNormal(single, 0), {-1, 0, 0}, 0);
     EXPECT_EQ(single.front_visible, 1u << kUp);
 
-    const SolidVoxel both = voxelOf({{sheet, colored(green, shine, true)}});
+    const SolidVoxel both = makeVoxelFrom({{sheet, colored(green, shine, true)}});
     EXPECT_EQ(both.front_visible, 1u << kUp | 1u << kDown);
     EXPECT_EQ(both.emission[kDown], both.emission[kUp]);
-    expectNear(normalOf(both, kDown), {0, -1, 0}, 0);
+    expectNear(decodeNormal(both, kDown), {0, -1, 0}, 0);
 }
 
 TEST(VoxelLook, ofBlendedSurfacesHidesAsMuchAsTheirAlpha)
@@ -166,7 +166,8 @@ TEST(VoxelLook, ofBlendedSurfacesHidesAsMuchAsTheirAlpha)
         SurfaceMaterial glass = colored({1, 1, 1});
         glass.record.alpha_mode = static_cast<uint32_t>(formats::AlphaMode::blend);
         glass.record.base_color.w = alpha;
-        const SolidGrid grid = solidOf(rectangle(1.5, {0, 0, 0}, {4, 0, 4}), frameOfSize(4, 4, 4), glass);
+        const SolidGrid grid =
+            makeSolidGrid(rectangle(1.5, {0, 0, 0}, {4, 0, 4}), frameOfSize(4, 4, 4), glass);
         if (alpha == 0)
         {
             EXPECT_TRUE(grid.voxels.empty());
@@ -197,7 +198,7 @@ TEST(VoxelLook, ofASphereTurnsWithIt)
             sphere.push_back({{at(ring, sector), at(ring + 1, sector), at(ring + 1, sector + 1)}});
             sphere.push_back({{at(ring, sector), at(ring + 1, sector + 1), at(ring, sector + 1)}});
         }
-    const GridWithFaces grid = facedOf(solidOf(sphere, frameOfSize(32, 32, 32)));
+    const GridWithFaces grid = addFaces(makeSolidGrid(sphere, frameOfSize(32, 32, 32)));
     EXPECT_EQ(grid.seen.sealed, 1u);
     grid.solid.forEachBrick(
         [&](uint32_t brick, const Cell& least)
@@ -213,7 +214,7 @@ TEST(VoxelLook, ofASphereTurnsWithIt)
                         (grid.solid.voxels[v].front_visible >> face & 1) != 0)
                     {
                         EXPECT_GT(
-                            dot(normalOf(grid.solid.voxels[v], face), narrow(from * (1 / length(from)))),
+                            dot(decodeNormal(grid.solid.voxels[v], face), narrow(from * (1 / length(from)))),
                             0.99f);
                     }
             }
@@ -241,7 +242,7 @@ TEST(SideMix, keepsAnAlbedoThatAllSurfacesHaveAndAddsNoLight)
                       along = cross(c, a), b = along * (4 / length(along));
         std::vector<Corners> box;
         addBox(box, Double3{10, 10, 10}, a, b, c, i % 2 != 0);
-        SolidGrid grid = solidOf(box, frameOfSize(20, 20, 20), colored(albedo, emission));
+        SolidGrid grid = makeSolidGrid(box, frameOfSize(20, 20, 20), colored(albedo, emission));
         blendSides(grid);
         for (const SolidVoxel& voxel : grid.voxels)
             for (uint32_t face = 0; face < kFaces; ++face)
@@ -265,10 +266,10 @@ TEST(WithinBudget, keepsTheNearestBricksThatFit)
         const Double3 at = uniformPoint(random, 2, 62);
         soup.push_back({{at, at + uniformPoint(random, -2, 2), at + uniformPoint(random, -2, 2)}});
     }
-    const SolidGrid solid = solidOf(soup, frameOfSize(64, 64, 64));
-    const GridWithFaces whole = facedOf(solid);
+    const SolidGrid solid = makeSolidGrid(soup, frameOfSize(64, 64, 64));
+    const GridWithFaces whole = addFaces(solid);
     const Float3 focus{10, 20, 30};
-    const auto distanceOf = [&](const Cell& cell) {
+    const auto computeDistance = [&](const Cell& cell) {
         return length(Double3{cell[0] + 2.0, cell[1] + 2.0, cell[2] + 2.0} - widen(focus));
     };
     for (const double share : {1.0, 0.7, 0.2, 0.02})
@@ -286,10 +287,10 @@ TEST(WithinBudget, keepsTheNearestBricksThatFit)
         // one more would not have fitted
         EXPECT_GT(some.bytes().total() + sizeof(formats::BrickRecord) + 64 * (1 + 6 * 14), memory);
         some.solid.forEachBrick([&](uint32_t, const Cell& cell)
-                                { EXPECT_LE(distanceOf(cell), some.dropped.from_distance); });
+                                { EXPECT_LE(computeDistance(cell), some.dropped.from_distance); });
         size_t nearer = 0;
         whole.solid.forEachBrick([&](uint32_t, const Cell& cell)
-                                 { nearer += distanceOf(cell) < some.dropped.from_distance ? 1u : 0u; });
+                                 { nearer += computeDistance(cell) < some.dropped.from_distance ? 1u : 0u; });
         EXPECT_LE(nearer, some.solid.bricks.size());
         const BrickTables tables = makeBrickTables(some.solid, some.faces);
         EXPECT_EQ(computeBrickBytes(tables.groups.size(), tables.bricks.size(), tables.opacity.size(),

@@ -29,7 +29,7 @@ protected:
     {
         const ProgramEnd end = march("a.part", rays);
         EXPECT_EQ(end.exit_code, 65) << part;
-        EXPECT_EQ(countOf(end.err, "\n"), 1u) << end.err;
+        EXPECT_EQ(countOccurrences(end.err, "\n"), 1u) << end.err;
         EXPECT_NE(end.err.find("rays.csv|" + part), std::string::npos) << end.err;
         EXPECT_NE(end.err.find("[E1601] hint: "), std::string::npos) << end.err;
         EXPECT_FALSE(folder.has("hits.csv"));

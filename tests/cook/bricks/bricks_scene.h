@@ -17,7 +17,7 @@ struct Corners
     std::array<Double3, 3> at; ///< in voxels, from the grid's origin
 };
 
-inline Polygon polygonOf(const Corners& corners)
+inline Polygon makePolygon(const Corners& corners)
 {
     Polygon polygon;
     for (const Double3& corner : corners.at)
@@ -52,8 +52,8 @@ inline GridFrame frameOfSize(uint32_t x, uint32_t y, uint32_t z)
 }
 
 /// Voxels of triangles of one material, with opacities set.
-inline SolidGrid solidOf(const std::vector<Corners>& triangles, const GridFrame& frame,
-                         const SurfaceMaterial& material = defaultMaterial())
+inline SolidGrid makeSolidGrid(const std::vector<Corners>& triangles, const GridFrame& frame,
+                               const SurfaceMaterial& material = defaultMaterial())
 {
     const Cell count = tileCounts(frame);
     std::vector<TileVoxels> tiles;
@@ -61,7 +61,7 @@ inline SolidGrid solidOf(const std::vector<Corners>& triangles, const GridFrame&
     {
         Tile tile(frame, tileAt(frame, t));
         for (const Corners& triangle : triangles)
-            tile.add(polygonOf(triangle), {}, material, 1);
+            tile.add(makePolygon(triangle), {}, material, 1);
         tiles.push_back(tile.finish());
     }
     SolidGrid grid = mergeTiles(frame, tiles);
@@ -70,7 +70,7 @@ inline SolidGrid solidOf(const std::vector<Corners>& triangles, const GridFrame&
 }
 
 /// Compute spaces and faces too, without a memory limit.
-inline GridWithFaces facedOf(SolidGrid grid, std::span<const Float3> seen_points = {})
+inline GridWithFaces addFaces(SolidGrid grid, std::span<const Float3> seen_points = {})
 {
     const Float3 focus;
     return fitToMemory(std::move(grid), seen_points, {&focus, 1}, std::numeric_limits<uint64_t>::max());

@@ -14,7 +14,7 @@ namespace hearth::bricks
 namespace
 {
 
-uint32_t indexOf(const GridFrame& frame, const Cell& cell)
+uint32_t getIndex(const GridFrame& frame, const Cell& cell)
 {
     return cell[0] + frame.voxels[0] * (cell[1] + frame.voxels[1] * cell[2]);
 }
@@ -30,7 +30,7 @@ void forEachCell(const GridFrame& frame, const Visit& visit)
 
 /// Grid with these voxels, all with opacity 100 and front faces on all sides.
 template <typename IsSolid>
-SolidGrid gridOf(const GridFrame& frame, const IsSolid& is_solid)
+SolidGrid makeGrid(const GridFrame& frame, const IsSolid& is_solid)
 {
     SolidGrid grid{frame, std::vector<MaskedCells>(frame.groupCount()), {}, {}};
     SolidVoxel voxel{};
@@ -69,9 +69,9 @@ std::vector<uint32_t> floodedSpaces(const GridFrame& frame, const Opens& opens)
         {
             const Cell cell = queue.back();
             queue.pop_back();
-            if (!isInside(frame, cell) || !opens(cell) || spaces[indexOf(frame, cell)] != kInvalidIndex)
+            if (!isInside(frame, cell) || !opens(cell) || spaces[getIndex(frame, cell)] != kInvalidIndex)
                 continue;
-            spaces[indexOf(frame, cell)] = space;
+            spaces[getIndex(frame, cell)] = space;
             for (uint32_t face = 0; face < kFaces; ++face)
                 queue.push_back(across(cell, face));
         }
@@ -89,7 +89,7 @@ std::vector<uint32_t> floodedSpaces(const GridFrame& frame, const Opens& opens)
     forEachCell(frame,
                 [&](const Cell& cell)
                 {
-                    if (opens(cell) && spaces[indexOf(frame, cell)] == kInvalidIndex)
+                    if (opens(cell) && spaces[getIndex(frame, cell)] == kInvalidIndex)
                         flood({cell}, next++);
                 });
     return spaces;
@@ -106,7 +106,7 @@ void expectSameSpaces(const SolidGrid& grid, const EmptySpaces& spaces, const st
                     if (grid.voxelAt(cell) != kInvalidIndex)
                         return;
                     const uint32_t space = spaces.at(grid, cell);
-                    const auto [at, is_new] = number.emplace(expected[indexOf(grid.frame, cell)], space);
+                    const auto [at, is_new] = number.emplace(expected[getIndex(grid.frame, cell)], space);
                     EXPECT_EQ(at->second, space);
                     EXPECT_TRUE(!is_new || (used.insert(space).second && space != EmptySpaces::kOutside));
                     EXPECT_LT(space, spaces.count());
@@ -190,7 +190,7 @@ TEST(EmptySpaces, isWhatAFloodFinds)
             }
             return hash / 4294967296.0 < share;
         };
-        const SolidGrid grid = gridOf(frame, isSolid);
+        const SolidGrid grid = makeGrid(frame, isSolid);
         expectSameSpaces(grid, EmptySpaces(grid),
                          floodedSpaces(frame, [&](const Cell& cell) { return !isSolid(cell); }));
     }
@@ -198,7 +198,7 @@ TEST(EmptySpaces, isWhatAFloodFinds)
 
 TEST(EmptySpaces, isWholeWhereNothingIs)
 {
-    const SolidGrid grid = gridOf(frameOfSize(33, 20, 5), [](const Cell&) { return false; });
+    const SolidGrid grid = makeGrid(frameOfSize(33, 20, 5), [](const Cell&) { return false; });
     EXPECT_EQ(EmptySpaces(grid).count(), 1u);
 }
 
@@ -211,7 +211,7 @@ TEST(SeparateSpaces, leaveNoWayFromOneToAnother)
         std::vector<bool> solid(12 * 12 * 12);
         for (size_t i = 0; i < solid.size(); ++i)
             solid[i] = uniform(random, 0, 1) < 0.7;
-        SolidGrid grid = gridOf(frame, [&](const Cell& cell) { return solid[indexOf(frame, cell)]; });
+        SolidGrid grid = makeGrid(frame, [&](const Cell& cell) { return solid[getIndex(frame, cell)]; });
         for (SolidVoxel& voxel : grid.voxels)
             voxel.opacity = uniform(random, 0, 1) < 0.3 ? kOpaque : 100;
         const EmptySpaces spaces(grid);
@@ -231,7 +231,7 @@ TEST(SeparateSpaces, leaveNoWayFromOneToAnother)
                         if (voxel == kInvalidIndex)
                         {
                             const uint32_t space = spaces.at(grid, cell);
-                            EXPECT_EQ(space_of.emplace(through[indexOf(frame, cell)], space).first->second,
+                            EXPECT_EQ(space_of.emplace(through[getIndex(frame, cell)], space).first->second,
                                       space);
                             return;
                         }
@@ -253,7 +253,7 @@ TEST(SeparateSpaces, changesNothingInTheOpen)
 {
     Random random(7);
     SolidGrid grid =
-        gridOf(frameOfSize(20, 20, 20), [&](const Cell&) { return uniform(random, 0, 1) < 0.05; });
+        makeGrid(frameOfSize(20, 20, 20), [&](const Cell&) { return uniform(random, 0, 1) < 0.05; });
     separateSpaces(grid, EmptySpaces(grid));
     for (const SolidVoxel& voxel : grid.voxels)
         EXPECT_EQ(voxel.opacity, 100);
@@ -266,7 +266,7 @@ TEST(Rooms, areExactlyDarkHoweverTheyAreTurned)
     {
         const double thickness = round % 3 == 0 ? 0 : round % 3 == 1 ? 0.3 : 1.7;
         const Room room = randomRoom(random, 40, thickness, round % 2 == 0);
-        const GridWithFaces grid = facedOf(solidOf(room.triangles, frameOfSize(40, 40, 40)));
+        const GridWithFaces grid = addFaces(makeSolidGrid(room.triangles, frameOfSize(40, 40, 40)));
         const BrickTables tables = makeBrickTables(grid.solid, grid.faces);
         int rays = 0;
         for (int ray = 0; ray < 3000; ++ray)
@@ -296,7 +296,7 @@ TEST(Rooms, haveFacesInsideAndRocksDoNot)
         addBox(triangles, {16, 16, 16}, frame[0] * 8, frame[1] * 7, frame[2] * 6, inwards);
         const auto insideFaces = [&](std::span<const Float3> seeds)
         {
-            const GridWithFaces grid = facedOf(solidOf(triangles, frameOfSize(32, 32, 32)), seeds);
+            const GridWithFaces grid = addFaces(makeSolidGrid(triangles, frameOfSize(32, 32, 32)), seeds);
             EXPECT_EQ(grid.seen.sealed, inwards || !seeds.empty() ? 0u : 1u);
             const EmptySpaces spaces(grid.solid);
             size_t faces = 0;
@@ -334,8 +334,8 @@ TEST(Opacity, isAllOfAPlaneAndAShareOfBlades)
         const auto at = [&](double u, double v) { return middle + frame[0] * u + frame[1] * v; };
         const std::vector<Corners> plane{{{at(-80, -80), at(80, -80), at(80, 80)}},
                                          {{at(-80, -80), at(80, 80), at(-80, 80)}}};
-        const SolidGrid grid = solidOf(plane, frameOfSize(32, 32, 32));
-        const GridWithFaces faced = facedOf(grid);
+        const SolidGrid grid = makeSolidGrid(plane, frameOfSize(32, 32, 32));
+        const GridWithFaces faced = addFaces(grid);
         const BrickTables tables = makeBrickTables(faced.solid, faced.faces);
         for (int ray = 0; ray < 500; ++ray)
         {
@@ -354,7 +354,7 @@ TEST(Opacity, isAllOfAPlaneAndAShareOfBlades)
         const Double3 across{uniform(random, -0.05, 0.05), 0, uniform(random, -0.05, 0.05)};
         blades.push_back({{root - across, root + across, root + Double3{0, 0.8, 0}}});
     }
-    const SolidGrid grass = solidOf(blades, frameOfSize(20, 8, 20));
+    const SolidGrid grass = makeSolidGrid(blades, frameOfSize(20, 8, 20));
     double sum = 0;
     for (const SolidVoxel& voxel : grass.voxels)
     {

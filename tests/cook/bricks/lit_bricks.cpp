@@ -66,7 +66,7 @@ Room::Room(std::array<uint32_t, 3> inside, const Voxel& wall, float voxel_size)
                      static_cast<float>(inside[2] + 2)});
 }
 
-Float3 radianceOf(const FaceLighting& lighting, uint32_t face)
+Float3 computeRadiance(const FaceLighting& lighting, uint32_t face)
 {
     return decodeBrickLight(lighting.faces()[face]);
 }

@@ -34,7 +34,7 @@ struct Room
     Room(std::array<uint32_t, 3> inside, const Voxel& wall, float voxel_size = 1);
 };
 
-Float3 radianceOf(const FaceLighting& lighting, uint32_t face);
+Float3 computeRadiance(const FaceLighting& lighting, uint32_t face);
 
 /// tolerance  relative to the expected value, by channel
 void expectRelative(Float3 value, Float3 expected, float tolerance);

@@ -35,7 +35,7 @@ void expectSame(const BrickRay& found, const BrickRay& truth)
     ASSERT_EQ(found.bit, truth.bit);
 }
 
-std::vector<BrickRay> raysOf(const MarchScene& scene, size_t count, std::mt19937& random)
+std::vector<BrickRay> makeRays(const MarchScene& scene, size_t count, std::mt19937& random)
 {
     MarchRays make(scene, random);
     std::vector<BrickRay> rays;
@@ -65,7 +65,7 @@ TEST(MarchLanes, findWhatRaysFindOneByOne)
         const MarchTable table(masks);
         for (const size_t count : kSpans)
         {
-            std::vector<BrickRay> truth = raysOf(scene, count, random), found = truth;
+            std::vector<BrickRay> truth = makeRays(scene, count, random), found = truth;
             // advance to every voxel that the rays pass
             for (bool some = true; some;)
             {

@@ -35,7 +35,7 @@ Hierarchy build(const SourceMesh& source, const std::vector<SourceMesh>& authore
 }
 
 /// Return the mesh that a level is made from: the source (0) or the n-th authored mesh in use.
-uint32_t eraOf(const Hierarchy& hierarchy, uint32_t level)
+uint32_t findEra(const Hierarchy& hierarchy, uint32_t level)
 {
     uint32_t era = 0;
     for (const uint32_t authored : hierarchy.authored_levels)
@@ -57,7 +57,7 @@ struct Rock
     }
 };
 
-double volumeOf(const clusters::DecodedHierarchy& decoded, const std::vector<uint32_t>& triangles)
+double computeVolume(const clusters::DecodedHierarchy& decoded, const std::vector<uint32_t>& triangles)
 {
     double volume = 0;
     for (size_t t = 0; t < triangles.size(); t += 3)
@@ -82,7 +82,7 @@ TEST(AuthoredLevels, takeTheirPlacesAmongTheGenerated)
     EXPECT_EQ(hierarchy.authored_levels[0], 2u) << "one level is generated before: 19200, 9600, then 4800";
     for (const auto& cluster : hierarchy.clusters)
     {
-        const uint32_t era = eraOf(hierarchy, cluster.level);
+        const uint32_t era = findEra(hierarchy, cluster.level);
         EXPECT_EQ(cluster.material, era == 0 ? 0 : 9 + era) << "the materials of a level stay";
     }
     EXPECT_EQ(hierarchy.levels.back().clusters.count, 1u);
@@ -108,7 +108,7 @@ TEST(AuthoredLevels, areDrawnAloneAtEveryThreshold)
     {
         std::set<uint32_t> of_cut;
         for (const uint32_t c : clusters::findCutClusters(hierarchy, replaced))
-            of_cut.insert(eraOf(hierarchy, hierarchy.clusters[c].level));
+            of_cut.insert(findEra(hierarchy, hierarchy.clusters[c].level));
         ASSERT_EQ(of_cut.size(), 1u) << "a cut has clusters of one authored mesh alone";
         eras.insert(*of_cut.begin());
     }
@@ -121,21 +121,21 @@ TEST(AuthoredLevels, coverTheSurfaceOnceAtEveryThreshold)
     const Hierarchy hierarchy = build(rock.source, rock.levels);
     const auto decoded = clusters::decodeHierarchy(hierarchy);
     ASSERT_TRUE(decoded.ok());
-    const cuts::Border border = cuts::borderOf(hierarchy, *decoded);
+    const cuts::Border border = cuts::buildBorder(hierarchy, *decoded);
     ASSERT_TRUE(border.closed);
     std::set<double> thresholds;
     for (const auto& group : hierarchy.groups)
         if (std::isfinite(group.error))
             thresholds.insert({double{group.error}, std::nextafter(group.error, 0.0f)});
     const double source_volume =
-        volumeOf(*decoded, cuts::trianglesOfCut(hierarchy, *decoded, cuts::cutAtError(hierarchy, 0)));
+        computeVolume(*decoded, cuts::trianglesOfCut(hierarchy, *decoded, cuts::cutAtError(hierarchy, 0)));
     for (const double threshold : thresholds)
     {
         const auto triangles =
             cuts::trianglesOfCut(hierarchy, *decoded, cuts::cutAtError(hierarchy, threshold));
-        EXPECT_EQ(cuts::crackOf(border, triangles), "") << threshold;
+        EXPECT_EQ(cuts::findCrack(border, triangles), "") << threshold;
         // the ratio would be 2 if the volume were covered twice, and below 1 if a part were missing
-        EXPECT_NEAR(volumeOf(*decoded, triangles) / source_volume, 1, 0.45) << threshold;
+        EXPECT_NEAR(computeVolume(*decoded, triangles) / source_volume, 1, 0.45) << threshold;
     }
 }
 

@@ -22,7 +22,7 @@ namespace
 using namespace hearth;
 using formats::PackView;
 
-std::string messageOf(const Status& status)
+std::string getMessage(const Status& status)
 {
     return status.ok() ? "" : formatMessage(status.error());
 }
@@ -58,14 +58,14 @@ TEST(ClustersPart, holdsTheHierarchiesOfAllMeshes)
     };
     const auto import_part = formats::ContainerReader::open(import_path);
     ASSERT_TRUE(import_part.ok());
-    ASSERT_EQ(messageOf(clusters::writeClustersPart(*import_part, output_path, {}, observe)), "");
+    ASSERT_EQ(getMessage(clusters::writeClustersPart(*import_part, output_path, {}, observe)), "");
     EXPECT_EQ(seen, (std::vector<std::string>{"rock", "", "", "terrain"}));
 
     auto reader = formats::ContainerReader::open(output_path);
     ASSERT_TRUE(reader.ok());
     const auto view = PackView::read(std::move(*reader));
     ASSERT_TRUE(view.ok());
-    EXPECT_EQ(messageOf(formats::checkHierarchy(*view)), "");
+    EXPECT_EQ(getMessage(formats::checkHierarchy(*view)), "");
     ASSERT_EQ(view->meshes().size(), 4u);
     EXPECT_EQ(view->text(view->meshes()[0].name), "rock");
     EXPECT_EQ(view->text(view->meshes()[3].name), "terrain");
@@ -95,12 +95,12 @@ TEST(ClustersPart, hasAuthoredLevelsInTheMeshThatTheyBelongTo)
 {
     const test::TemporaryFolder folder;
     const auto part = partWithLods(folder, {{0, 1, 7, {0, 3}}, {0, 2, kInvalidIndex, {}}});
-    ASSERT_EQ(messageOf(clusters::writeClustersPart(part, folder.file("out.part"), {}, {})), "");
+    ASSERT_EQ(getMessage(clusters::writeClustersPart(part, folder.file("out.part"), {}, {})), "");
     auto reader = formats::ContainerReader::open(folder.file("out.part"));
     ASSERT_TRUE(reader.ok());
     const auto view = PackView::read(std::move(*reader));
     ASSERT_TRUE(view.ok());
-    EXPECT_EQ(messageOf(formats::checkHierarchy(*view)), "");
+    EXPECT_EQ(getMessage(formats::checkHierarchy(*view)), "");
     ASSERT_EQ(view->meshes().size(), 3u) << "they keep their numbers";
     EXPECT_EQ(view->meshes()[1].clusters.count, 0u);
     EXPECT_EQ(view->meshes()[2].clusters.count, 0u);
@@ -150,7 +150,7 @@ TEST(ClustersPart, isTheSameForAnyNumberOfThreads)
     {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         const std::string path = folder.file("out" + std::to_string(threads) + ".part");
-        ASSERT_EQ(messageOf(clusters::writeClustersPart(*import_part, path, {}, {})), "");
+        ASSERT_EQ(getMessage(clusters::writeClustersPart(*import_part, path, {}, {})), "");
         std::ifstream file(path, std::ios::binary);
         const std::string bytes{std::istreambuf_iterator<char>(file), {}};
         ASSERT_FALSE(bytes.empty());

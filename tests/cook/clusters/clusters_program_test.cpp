@@ -19,7 +19,7 @@ constexpr const char* kImport = HEARTH_BIN "/hearth-import";
 
 const std::string kProgram = HEARTH_BIN "/hearth-clusters";
 
-std::string objOf(const mesh::SourceMesh& mesh)
+std::string formatObj(const mesh::SourceMesh& mesh)
 {
     std::ostringstream text;
     for (const Float3& p : mesh.positions)
@@ -33,7 +33,7 @@ std::string objOf(const mesh::SourceMesh& mesh)
 class ClustersProgram : public ::testing::Test
 {
 protected:
-    ClustersProgram() { sandbox_.write("rock.obj", objOf(shapes::rock(16, 0.3f))); }
+    ClustersProgram() { sandbox_.write("rock.obj", formatObj(shapes::rock(16, 0.3f))); }
 
     test::ProgramEnd run(std::vector<std::string> arguments)
     {
@@ -211,7 +211,7 @@ TEST_F(ClustersProgram, givesVerticesAnOpenVisibilityOnRequest)
 
 TEST_F(ClustersProgram, takesLevelsMadeByHandAsTheImportDoes)
 {
-    sandbox_.write("low.obj", objOf(shapes::rock(8, 0.3f)));
+    sandbox_.write("low.obj", formatObj(shapes::rock(8, 0.3f)));
     ASSERT_EQ(run({"rock.obj", "--lod", "1=low.obj", "-o", "direct.part"}).exit_code, 0);
     ASSERT_EQ(sandbox_.run({kImport, "rock.obj", "--lod", "1=low.obj", "-o", "import.part"}).exit_code, 0);
     ASSERT_EQ(run({"import.part", "-o", "two-steps.part"}).exit_code, 0);
@@ -228,7 +228,7 @@ TEST_F(ClustersProgram, takesLevelsMadeByHandAsTheImportDoes)
 TEST_F(ClustersProgram, findsTheMaterialsOfAProfileByName)
 {
     sandbox_.write("rock.mtl", "newmtl stone\nKd 1 0 0\n");
-    sandbox_.write("stone.obj", "mtllib rock.mtl\nusemtl stone\n" + objOf(shapes::rock(16, 0.3f)));
+    sandbox_.write("stone.obj", "mtllib rock.mtl\nusemtl stone\n" + formatObj(shapes::rock(16, 0.3f)));
     sandbox_.write("house.toml", "[[clusters.material]]\nname = 'st*'\nlevels = [{ keep = 0.85 }]\n");
     const auto trianglesOfLevel1 = [&](const std::string& source)
     {

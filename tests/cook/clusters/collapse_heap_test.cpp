@@ -49,14 +49,14 @@ TEST(CollapseHeap, givesTheCheapestFirstAsASortedSetDoes)
 TEST(CollapseHeap, knowsOneZeroAndOrdersAllMagnitudes)
 {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    constexpr float kLeast = std::numeric_limits<float>::denorm_min();
+    constexpr float kMinFloat = std::numeric_limits<float>::denorm_min();
     CollapseHeap heap;
     const auto push = [&](float cost, uint32_t position) {
         heap.push({cost, PositionId{position}, PositionId{0}, 0});
     };
     push(kInfinity, 0);
     push(1e30f, 1);
-    push(kLeast, 2);
+    push(kMinFloat, 2);
     push(-0.0f, 4);
     push(0.0f, 3);
     for (const uint32_t position : {3u, 4u, 2u, 1u, 0u})

@@ -37,14 +37,14 @@ struct Figures
     double least_ratio = 1; ///< minimum over the levels of measured deviation / bound
 };
 
-double positionErrorOf(const Hierarchy& hierarchy, uint32_t cluster)
+double getPositionError(const Hierarchy& hierarchy, uint32_t cluster)
 {
     const uint32_t refined = hierarchy.clusters[cluster].refined_group;
     return refined == kInvalidIndex ? 0 : double{hierarchy.groups[refined].position_error};
 }
 
 /// Sample points of the triangles: corners, edge midpoints and centres.
-std::vector<Float3> pointsOf(std::span<const Float3> places, std::span<const uint32_t> triangles)
+std::vector<Float3> getPoints(std::span<const Float3> places, std::span<const uint32_t> triangles)
 {
     std::vector<Float3> points;
     for (size_t t = 0; t < triangles.size(); t += 3)
@@ -71,9 +71,9 @@ void expectBounded(const mesh::SourceMesh& source, const Hierarchy& hierarchy,
     const double grid = double{hierarchy.mesh.grid_error} * pose.scale;
     for (uint32_t c = 0; c < hierarchy.clusters.size(); ++c)
     {
-        const double bound = positionErrorOf(hierarchy, c) * pose.scale + grid + rounding;
+        const double bound = getPositionError(hierarchy, c) * pose.scale + grid + rounding;
         double worst = 0;
-        for (const Float3 point : pointsOf(places, decoded.trianglesOf(c)))
+        for (const Float3 point : getPoints(places, decoded.getTriangles(c)))
             worst = std::max(worst, to_source.to(point));
         EXPECT_LE(worst, bound) << "cluster " << c << " of level " << int{hierarchy.clusters[c].level};
     }
@@ -83,8 +83,8 @@ void expectBounded(const mesh::SourceMesh& source, const Hierarchy& hierarchy,
             hierarchy, cuts::cutAtError(hierarchy, double{hierarchy.levels[l].max_error}));
         double bound = 0;
         for (const uint32_t c : cut)
-            bound = std::max(bound, positionErrorOf(hierarchy, c) * pose.scale);
-        const std::vector<uint32_t> triangles = decoded.trianglesOf(cut);
+            bound = std::max(bound, getPositionError(hierarchy, c) * pose.scale);
+        const std::vector<uint32_t> triangles = decoded.getTriangles(cut);
         const SurfaceDistance to_cut(places, triangles);
         const double far = std::max(largestDistance(source_places, source.indices, kSamples, to_cut),
                                     largestDistance(places, triangles, kSamples, to_source));
@@ -104,13 +104,13 @@ void expectNoCracks(const Hierarchy& hierarchy, const DeformedClusters& decoded)
             finest.push_back(c);
     cuts::Border border;
     border.is_border.assign(decoded.vertexCount(), 0);
-    for (const auto& edge : mesh::openEdges(decoded.trianglesOf(finest)))
+    for (const auto& edge : mesh::openEdges(decoded.getTriangles(finest)))
         border.is_border[edge.from] = border.is_border[edge.to] = 1;
     std::mt19937 random(5);
     for (int i = 0; i < 20; ++i)
     {
         const auto cut = clusters::findCutClusters(hierarchy, cuts::randomCut(hierarchy, 0.7, random));
-        EXPECT_EQ(cuts::crackOf(border, decoded.trianglesOf(cut)), "") << "cut " << i;
+        EXPECT_EQ(cuts::findCrack(border, decoded.getTriangles(cut)), "") << "cut " << i;
     }
 }
 

@@ -45,7 +45,7 @@ clusters::DiscreteLod countCut(const Hierarchy& hierarchy, const std::vector<uin
     return lod;
 }
 
-uint64_t bytesOf(const clusters::DiscreteLod& lod, uint64_t vertex_bytes)
+uint64_t computeBytes(const clusters::DiscreteLod& lod, uint64_t vertex_bytes)
 {
     return lod.vertices * vertex_bytes + lod.triangles * 3 * (lod.vertices <= 65536 ? 2 : 4);
 }
@@ -106,7 +106,7 @@ TEST(DiscreteLods, areCutsOfTheHierarchy)
             EXPECT_EQ(chain.lods[lod].triangles, expected.triangles) << "lod " << lod;
             EXPECT_EQ(chain.lods[lod].vertices, expected.vertices) << "lod " << lod;
             EXPECT_GT(expected.triangles, (source >> lod) * 2 / 3) << "lod " << lod;
-            bytes += bytesOf(expected, vertex_bytes);
+            bytes += computeBytes(expected, vertex_bytes);
         }
         EXPECT_EQ(chain.bytes, bytes);
         EXPECT_LT(chain.bytes_zstd, bytes);
@@ -121,7 +121,7 @@ TEST(DiscreteLods, haveIndicesOf32BitsWhereTheyNeedThem)
     EXPECT_EQ(chain.lods[0].vertices, 261u * 261);
     uint64_t bytes = 0;
     for (const clusters::DiscreteLod& lod : chain.lods)
-        bytes += bytesOf(lod, 12);
+        bytes += computeBytes(lod, 12);
     EXPECT_EQ(chain.bytes, bytes);
     EXPECT_GT(chain.lods[0].vertices, 65536u);
     EXPECT_LT(chain.lods[1].vertices, 65536u);

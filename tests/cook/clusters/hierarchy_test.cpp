@@ -21,7 +21,7 @@ using clusters::buildHierarchy;
 using clusters::Hierarchy;
 using mesh::SourceMesh;
 
-std::string messageOf(const Status& status)
+std::string getMessage(const Status& status)
 {
     return status.ok() ? "" : formatMessage(status.error());
 }
@@ -63,7 +63,7 @@ TEST(Hierarchy, ofNothingIsEmpty)
     const Hierarchy hierarchy = buildHierarchy(mesh);
     EXPECT_TRUE(hierarchy.clusters.empty());
     EXPECT_TRUE(hierarchy.levels.empty());
-    EXPECT_EQ(messageOf(clusters::validateHierarchy(mesh, hierarchy)), "");
+    EXPECT_EQ(getMessage(clusters::validateHierarchy(mesh, hierarchy)), "");
 }
 
 TEST(Hierarchy, ofOneTriangleIsOneCluster)
@@ -94,7 +94,7 @@ TEST(Hierarchy, ofTrianglesWithoutAreaIsEmpty)
     const Hierarchy hierarchy = buildHierarchy(mesh);
     EXPECT_TRUE(hierarchy.clusters.empty());
     EXPECT_EQ(hierarchy.mesh.degenerate_triangles, 2u);
-    EXPECT_EQ(messageOf(clusters::validateHierarchy(mesh, hierarchy)), "");
+    EXPECT_EQ(getMessage(clusters::validateHierarchy(mesh, hierarchy)), "");
 }
 
 TEST(Hierarchy, ofAClosedRockEndsInOneCluster)
@@ -246,7 +246,7 @@ TEST(Hierarchy, withVisibilityIsValid)
         const bool has_normals = !source.normals.empty();
         const clusters::Hierarchy hierarchy = clusters::buildHierarchy(source, config);
         EXPECT_EQ((hierarchy.mesh.attributes & formats::kVertexVisibility) != 0, has_normals);
-        EXPECT_EQ(messageOf(clusters::validateHierarchy(source, hierarchy)), "");
+        EXPECT_EQ(getMessage(clusters::validateHierarchy(source, hierarchy)), "");
     }
 }
 

@@ -23,7 +23,7 @@ using clusters::MeshMotion;
 
 /// Vertices of a character's clusters, its weights in sets of four, and triangles between any of the
 /// vertices.
-mesh::SourceMesh meshOf(const Character& character)
+mesh::SourceMesh makeMesh(const Character& character)
 {
     mesh::SourceMesh mesh;
     for (const skinning::DeformedCluster& cluster : character.mesh.clusters)
@@ -58,7 +58,7 @@ mesh::SourceMesh meshOf(const Character& character)
     return mesh;
 }
 
-std::vector<animation_bounds::Box3d> reachOf(const mesh::SourceMesh& mesh, size_t joints)
+std::vector<animation_bounds::Box3d> computeReach(const mesh::SourceMesh& mesh, size_t joints)
 {
     std::vector<animation_bounds::Box3d> reach(joints);
     for (const auto& set : mesh.joint_sets)
@@ -86,7 +86,7 @@ Double3 posedVertex(const mesh::SourceMesh& mesh, size_t v, Double3 bind, std::s
     return place * (1 / sum);
 }
 
-std::set<uint16_t> jointsOf(const mesh::SourceMesh& mesh, size_t v)
+std::set<uint16_t> getJoints(const mesh::SourceMesh& mesh, size_t v)
 {
     std::set<uint16_t> joints;
     for (size_t set = 0; set < mesh.joint_sets.size(); ++set)
@@ -107,7 +107,7 @@ double measured(const Character& character, const mesh::SourceMesh& all, const m
 {
     std::vector<size_t> displaced;
     for (size_t v = 0; v < kept.vertexCount(); ++v)
-        if (jointsOf(kept, v) != jointsOf(all, v))
+        if (getJoints(kept, v) != getJoints(all, v))
             displaced.push_back(v);
     PoseSource source(character.tables(), seed);
     double most = 0;
@@ -137,11 +137,11 @@ double measured(const Character& character, const mesh::SourceMesh& all, const m
 struct Reduced
 {
     explicit Reduced(const Character& character)
-        : all(meshOf(character)),
+        : all(makeMesh(character)),
           kept(all),
           tables(character.tables()),
           nodes(animation_bounds::nodeMotions(tables)),
-          skin(tables, nodes, 0, reachOf(all, tables.skins[0].joints.count)),
+          skin(tables, nodes, 0, computeReach(all, tables.skins[0].joints.count)),
           motion{&skin, {}}
     {
         mesh::reduceInfluences(kept, 4);

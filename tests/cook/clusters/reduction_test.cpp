@@ -79,7 +79,7 @@ SourceMesh halfFlat(uint32_t cells)
     return mesh;
 }
 
-size_t trianglesOf(const Hierarchy& hierarchy, uint32_t level, uint32_t material)
+size_t countTriangles(const Hierarchy& hierarchy, uint32_t level, uint32_t material)
 {
     size_t count = 0;
     for (const formats::ClusterRecord& cluster : hierarchy.clusters)
@@ -93,8 +93,8 @@ TEST(Reduction, ofFewGroupsKeepsMoreWhereThereIsMoreToLose)
     const Hierarchy hierarchy = build(halfFlat(90), {});
     const auto kept = [&](uint32_t material)
     {
-        return static_cast<double>(trianglesOf(hierarchy, 1, material)) /
-               static_cast<double>(trianglesOf(hierarchy, 0, material));
+        return static_cast<double>(countTriangles(hierarchy, 1, material)) /
+               static_cast<double>(countTriangles(hierarchy, 0, material));
     };
     EXPECT_GT(kept(1), 1.3 * kept(0)) << kept(0) << " of the flat side, " << kept(1) << " of the waves";
     EXPECT_NEAR(partKept(hierarchy, 0), 0.47, 0.04) << "together as always";
@@ -115,7 +115,7 @@ TEST(Reduction, balancesOnlyGroupsThatKeepAlike)
     const Hierarchy named =
         build(mesh, {.curve = {{.keep = 0.4f}}, .curve_of_material = {{0, {{.keep = 0.8f}}}}, .targets = {}});
     const Hierarchy alike = build(mesh, {.curve = {{.keep = 0.4f}}});
-    EXPECT_GT(trianglesOf(named, 1, 0), trianglesOf(alike, 1, 0) * 3 / 2);
+    EXPECT_GT(countTriangles(named, 1, 0), countTriangles(alike, 1, 0) * 3 / 2);
 }
 
 TEST(Reduction, followsItsCurveAndRepeatsTheLastEntry)

@@ -37,7 +37,7 @@ struct Pair
 };
 
 /// A few clusters of a mesh, with some positions locked.
-GroupMesh groupOf(const SourceMesh& mesh, double locked_share, std::mt19937& random)
+GroupMesh makeGroup(const SourceMesh& mesh, double locked_share, std::mt19937& random)
 {
     const PreparedMesh prepared = prepareMesh(mesh);
     const ClusterStore store = splitMesh(prepared);
@@ -87,7 +87,7 @@ double distanceToTriangle(Float3 p, const Corners& t)
     return inside ? std::min(nearest, std::abs(double{dot(p - t[0], n)}) / length(n)) : nearest;
 }
 
-std::vector<Float3> samplesOf(const Corners& triangle, std::mt19937& random)
+std::vector<Float3> makeSamples(const Corners& triangle, std::mt19937& random)
 {
     std::vector<Float3> samples(triangle.begin(), triangle.end());
     std::uniform_real_distribution<float> unit(0, 1);
@@ -118,7 +118,7 @@ void expectNear(const Surface& from, const Surface& to, Tells tells, Allowed all
         const auto t = toId<TriangleId>(i);
         if (!tells(t))
             continue;
-        for (const Float3 point : samplesOf(from.triangleCorners(t), random))
+        for (const Float3 point : makeSamples(from.triangleCorners(t), random))
         {
             const auto isNear = [&](TriangleId f)
             {
@@ -214,7 +214,7 @@ Shares expectSound(const SourceMesh& mesh)
     Shares least{1, 1};
     for (const double locked : {0.0, 0.3})
     {
-        const GroupMesh group = groupOf(mesh, locked, random);
+        const GroupMesh group = makeGroup(mesh, locked, random);
         for (const double share : {0.5, 0.1})
             for (const bool merge : {false, true})
             {

@@ -119,12 +119,12 @@ TEST_F(Validate, seesTheCracksOfACutThatIsNotClosed)
 {
     const auto decoded = clusters::decodeHierarchy(hierarchy_);
     ASSERT_TRUE(decoded.ok());
-    const cuts::Border border = cuts::borderOf(hierarchy_, *decoded);
+    const cuts::Border border = cuts::buildBorder(hierarchy_, *decoded);
     ASSERT_TRUE(border.closed);
     auto triangles = cuts::trianglesOfCut(hierarchy_, *decoded, cuts::cutAtError(hierarchy_, 0.01));
-    EXPECT_EQ(cuts::crackOf(border, triangles), "");
+    EXPECT_EQ(cuts::findCrack(border, triangles), "");
     triangles.resize(triangles.size() - 3);
-    EXPECT_NE(cuts::crackOf(border, triangles), "");
+    EXPECT_NE(cuts::findCrack(border, triangles), "");
 }
 
 } // namespace

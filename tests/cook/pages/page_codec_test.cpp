@@ -39,7 +39,7 @@ bool decodes(std::span<const std::byte> stored, const RandomPage& page, std::vec
 
 /// Return a cluster's triangles; a corner is its vertex's words and morph deltas, and each triangle is
 /// rotated to the least of its three orders.
-std::multiset<std::vector<uint32_t>> trianglesOf(const RandomPage& page, size_t cluster)
+std::multiset<std::vector<uint32_t>> getTriangles(const RandomPage& page, size_t cluster)
 {
     const pages::CodedCluster& coded = page.clusters[cluster];
     const uint32_t layout = clusterVertexLayout(page.records[cluster], page.layout);
@@ -83,7 +83,7 @@ void expectRoundTrip(RandomPage page)
     const RandomPage original = page;
     const std::vector<std::byte> stored = encode(page);
     for (size_t c = 0; c < page.clusters.size(); ++c)
-        ASSERT_TRUE(trianglesOf(page, c) == trianglesOf(original, c)) << "cluster " << c;
+        ASSERT_TRUE(getTriangles(page, c) == getTriangles(original, c)) << "cluster " << c;
     const std::vector<std::byte> content = page.content();
     std::vector<std::byte> out(content.size(), std::byte{0xCD});
     ASSERT_TRUE(decodes(stored, page, out));

@@ -14,7 +14,7 @@ using namespace formats;
 namespace
 {
 
-size_t bytesOf(const pages::CodedCluster& cluster)
+size_t countBytes(const pages::CodedCluster& cluster)
 {
     return 4 * (cluster.words.size() + (cluster.indices.size() + 3) / 4 + cluster.morphs.size());
 }
@@ -24,7 +24,7 @@ ClusterRecord& beginCluster(RandomPage& page, bool wide, std::mt19937& random)
 {
     size_t used = 0;
     for (const pages::CodedCluster& cluster : page.clusters)
-        used += bytesOf(cluster);
+        used += countBytes(cluster);
     ClusterRecord record{};
     for (int32_t& base : record.base)
         base = static_cast<int32_t>(random() % 100000) - 50000;
@@ -80,7 +80,7 @@ std::vector<std::byte> RandomPage::content() const
             const auto part = std::as_bytes(std::span(values));
             bytes.insert(bytes.end(), part.begin(), part.end());
         };
-        const size_t end = bytes.size() + bytesOf(cluster);
+        const size_t end = bytes.size() + countBytes(cluster);
         append(cluster.words);
         append(cluster.indices);
         bytes.resize(end - cluster.morphs.size() * 4); // the padding of the indices

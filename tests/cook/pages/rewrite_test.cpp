@@ -23,7 +23,7 @@ using namespace hearth;
 using namespace hearth::formats;
 using pages::PageVertices;
 
-std::string messageOf(const Status& status)
+std::string getMessage(const Status& status)
 {
     return status.ok() ? "" : formatMessage(status.error());
 }
@@ -76,7 +76,7 @@ protected:
             config.visibility = true;
             return config;
         };
-        EXPECT_EQ(messageOf(clusters::writeClustersPart(open(import_path), path, configure, {})), "");
+        EXPECT_EQ(getMessage(clusters::writeClustersPart(open(import_path), path, configure, {})), "");
     }
 
     const test::TemporaryFolder folder;
@@ -84,7 +84,7 @@ protected:
 };
 
 /// Return a visibility code that depends on the position alone, so that clusters agree on shared vertices.
-uint32_t codeOf(Float3 position)
+uint32_t formatCode(Float3 position)
 {
     const auto wave = [](float x) { return std::abs(std::sin(7 * x)); };
     const float share = wave(position.x + position.y) * wave(position.z);
@@ -96,7 +96,7 @@ void editByPlace(const PageVertices& page, std::span<uint32_t> codes)
     size_t next = 0;
     for (const ClusterGeometry& cluster : page.geometry)
         for (uint32_t v = 0; v < cluster.vertexCount(); ++v)
-            codes[next++] = codeOf(cluster.position(v));
+            codes[next++] = formatCode(cluster.position(v));
     ASSERT_EQ(next, codes.size());
 }
 
@@ -109,7 +109,7 @@ TEST_F(Rewrite, ofNothingIsTheSameToTheByte)
         vertices += static_cast<uint32_t>(codes.size());
         open_vertices += static_cast<uint32_t>(std::count(codes.begin(), codes.end(), kVisibilityUnoccluded));
     };
-    ASSERT_EQ(messageOf(pages::rewriteVisibility(open(path), out, count)), "");
+    ASSERT_EQ(getMessage(pages::rewriteVisibility(open(path), out, count)), "");
     EXPECT_TRUE(readFile(path) == readFile(out));
     EXPECT_EQ(vertices, open_vertices) << "as hearth-clusters writes them";
     EXPECT_GT(vertices, 10000u);
@@ -118,10 +118,10 @@ TEST_F(Rewrite, ofNothingIsTheSameToTheByte)
 TEST_F(Rewrite, changesVisibilitiesAndNothingElse)
 {
     const std::string out = folder.file("edited.part");
-    ASSERT_EQ(messageOf(pages::rewriteVisibility(open(path), out, editByPlace)), "");
+    ASSERT_EQ(getMessage(pages::rewriteVisibility(open(path), out, editByPlace)), "");
     const auto before = PackView::read(open(path)), after = PackView::read(open(out));
     ASSERT_TRUE(before.ok() && after.ok());
-    EXPECT_EQ(messageOf(checkHierarchy(*after)), "");
+    EXPECT_EQ(getMessage(checkHierarchy(*after)), "");
     for (uint32_t p = 0; p < before->pages().size(); ++p)
     {
         const std::vector<std::byte> old_bytes = before->decodePage(p).value();
@@ -136,7 +136,7 @@ TEST_F(Rewrite, changesVisibilitiesAndNothingElse)
             ASSERT_TRUE(geometry.has_value());
             for (uint32_t v = 0; geometry->has(kVertexVisibility) && v < geometry->vertexCount(); ++v)
             {
-                ASSERT_EQ(geometry->visibilityCode(v), codeOf(geometry->position(v)));
+                ASSERT_EQ(geometry->visibilityCode(v), formatCode(geometry->position(v)));
                 const uint32_t layout = geometry->layout();
                 const size_t word = record.page_word + uvBaseWords(layout) + v * vertexWords(layout) +
                                     attributeWord(layout, kVertexVisibility);
@@ -149,7 +149,7 @@ TEST_F(Rewrite, changesVisibilitiesAndNothingElse)
     const std::string back = folder.file("back.part");
     const auto open_all = [](const PageVertices&, std::span<uint32_t> codes)
     { std::fill(codes.begin(), codes.end(), kVisibilityUnoccluded); };
-    ASSERT_EQ(messageOf(pages::rewriteVisibility(open(out), back, open_all)), "");
+    ASSERT_EQ(getMessage(pages::rewriteVisibility(open(out), back, open_all)), "");
     EXPECT_TRUE(readFile(path) == readFile(back));
 }
 
@@ -158,10 +158,10 @@ TEST_F(Rewrite, ofManyThreadsIsThatOfOne)
     const std::string one = folder.file("one.part"), many = folder.file("many.part");
     {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
-        ASSERT_EQ(messageOf(pages::rewriteVisibility(open(path), one, editByPlace)), "");
+        ASSERT_EQ(getMessage(pages::rewriteVisibility(open(path), one, editByPlace)), "");
     }
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 4);
-    ASSERT_EQ(messageOf(pages::rewriteVisibility(open(path), many, editByPlace)), "");
+    ASSERT_EQ(getMessage(pages::rewriteVisibility(open(path), many, editByPlace)), "");
     EXPECT_TRUE(readFile(one) == readFile(many));
 }
 
@@ -178,7 +178,7 @@ TEST_F(Rewrite, leavesMeshesWithoutNormalsAlone)
         EXPECT_EQ(view->pages()[page.page].clusters.first, page.clusters.first);
         ++pages_of_mesh[page.mesh];
     };
-    ASSERT_EQ(messageOf(pages::rewriteVisibility(open(path), folder.file("out.part"), count)), "");
+    ASSERT_EQ(getMessage(pages::rewriteVisibility(open(path), folder.file("out.part"), count)), "");
     for (uint32_t mesh = 0; mesh < 5; ++mesh)
         EXPECT_EQ(pages_of_mesh[mesh], view->meshes()[mesh].pages.count);
     EXPECT_EQ(pages_of_mesh[5], 0u);

@@ -14,7 +14,7 @@ using specular::Masking;
 namespace
 {
 
-double lambdaOf(double cosine, double alpha)
+double computeLambda(double cosine, double alpha)
 {
     return (std::sqrt(1 + alpha * alpha * (1 / (cosine * cosine) - 1)) - 1) / 2;
 }
@@ -22,10 +22,10 @@ double lambdaOf(double cosine, double alpha)
 /// G2 / G1(view).
 double shadowing(double view_cosine, double light_cosine, double alpha, Masking masking)
 {
-    const double light = lambdaOf(light_cosine, alpha);
+    const double light = computeLambda(light_cosine, alpha);
     if (masking == Masking::separable)
         return 1 / (1 + light);
-    const double view = lambdaOf(view_cosine, alpha);
+    const double view = computeLambda(view_cosine, alpha);
     return (1 + view) / (1 + view + light);
 }
 

@@ -45,7 +45,7 @@ protected:
         folder.write("rows.csv", text);
         const ProgramEnd end = specular({"--evaluate", "rows.csv", "-o", "out.csv"});
         EXPECT_EQ(end.exit_code, 65) << part;
-        EXPECT_EQ(countOf(end.err, "\n"), 1u) << end.err;
+        EXPECT_EQ(countOccurrences(end.err, "\n"), 1u) << end.err;
         EXPECT_NE(end.err.find("rows.csv|" + part), std::string::npos) << end.err;
         EXPECT_NE(end.err.find("[E1601] hint: "), std::string::npos) << end.err;
         EXPECT_EQ(folder.list(), std::vector<std::string>{"rows.csv"});

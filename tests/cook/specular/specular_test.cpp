@@ -59,7 +59,7 @@ std::vector<RandomCase> randomCases(size_t count, uint64_t seed)
     return cases;
 }
 
-double rmsOf(const std::vector<double>& errors)
+double computeRms(const std::vector<double>& errors)
 {
     double sum = 0;
     for (const double error : errors)
@@ -78,7 +78,7 @@ TEST(OcclusionOf, isWhatCountingVisibleNormalsFinds)
         EXPECT_LT(std::abs(errors.back()), 1e-3)
             << lobe.roughness << " " << lobe.theta_o << " " << cone.half_angle;
     }
-    EXPECT_LT(rmsOf(errors), 2e-4);
+    EXPECT_LT(computeRms(errors), 2e-4);
 }
 
 TEST(OcclusionOf, isTheIntegralOverDirections)
@@ -100,7 +100,7 @@ TEST(OcclusionOf, hardlyChangesWithMorePoints)
     for (const auto& [lobe, cone] : randomCases(200, 3))
         errors.push_back(computeOcclusion(lobe, cone) -
                          computeOcclusion(lobe, cone, {.outer = 72, .inner = 56}));
-    EXPECT_LT(rmsOf(errors), 2e-5);
+    EXPECT_LT(computeRms(errors), 2e-5);
 }
 
 TEST(OcclusionOf, hasTheLimitsOfAShare)
@@ -157,7 +157,7 @@ TEST(Table, isWithinWhatIsAskedOfDenseQuadrature)
             const Cone cone{place.axis, kRightAngle * formats::specularNodeAperture(node % 16)};
             errors.push_back(double{values[node]} - countedOcclusion(place.lobe, cone, 500));
         }
-        EXPECT_LT(rmsOf(errors), 5e-4);
+        EXPECT_LT(computeRms(errors), 5e-4);
     }
 }
 

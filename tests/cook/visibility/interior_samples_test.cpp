@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/visibility/fit/vertex_fit.h"
 #include "cook/visibility/rays/interior_samples.h"
+#include "tests/cook/visibility/mesh_samples.h"
 #include "tests/cook/visibility/ray_scenes.h"
-#include "tests/cook/visibility/surface_samples_of.h"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ bool isBuried(float height, Float3 position, float reach)
 {
     Mesh sheet;
     sheet.addQuad({-1, -1, height}, {1, -1, height}, {1, 1, height}, {-1, 1, height});
-    const Occluders occluders = occludersOf({sheet.occluder()});
+    const Occluders occluders = makeOccluders({sheet.occluder()});
     const SamplePoint point{position, kUp, 1e-6f};
     const auto moments = visibilityMoments(occluders, {&point, 1}, {});
     return findInteriorPoints(occluders, {&point, 1}, *moments, {&reach, 1}, 0)[0] != 0;
@@ -44,23 +44,23 @@ TEST(BuriedPoints, areNotThoseInTheDark)
     box.addQuad({-1, 1, 0}, {1, 1, 0}, {1, 1, 2}, {-1, 1, 2});
     box.addQuad({-1, -1, 0}, {-1, 1, 0}, {-1, 1, 2}, {-1, -1, 2});
     box.addQuad({1, -1, 0}, {1, -1, 2}, {1, 1, 2}, {1, 1, 0});
-    const Occluders occluders = occludersOf({box.occluder()});
+    const Occluders occluders = makeOccluders({box.occluder()});
     const SamplePoint points[] = {{{0, 0, 0}, kUp, 1e-6f}, {{0.9f, 0.9f, 0}, kUp, 1e-6f}};
     const auto moments = visibilityMoments(occluders, points, {});
     EXPECT_EQ((*moments)[0].m0, 0);
     const float reach[] = {0.06f, 0.06f};
-    for (const uint8_t buried : findInteriorPoints(occluders, points, *moments, reach, 0))
-        EXPECT_EQ(buried, 0);
+    for (const uint8_t is_interior : findInteriorPoints(occluders, points, *moments, reach, 0))
+        EXPECT_EQ(is_interior, 0);
 }
 
 TEST(FitVertices, doesNotChangeWhereAllSamplesCountAsLittle)
 {
     const mesh::SourceMesh rock = shapes::rock(8, 0.4f);
-    const Proxy proxy = makeProxy(test::viewOf(rock));
-    std::vector<SurfaceSample> samples = test::samplesOf(proxy.view(), 2);
+    const Proxy proxy = makeProxy(test::makeMeshView(rock));
+    std::vector<SurfaceSample> samples = test::makeSamples(proxy.view(), 2);
     std::vector<Moments> values;
     for (const SurfaceSample& sample : samples)
-        values.push_back({3 + test::pointOf(proxy.view(), sample).x, {0, 0.1f, 0.2f}});
+        values.push_back({3 + test::getPoint(proxy.view(), sample).x, {0, 0.1f, 0.2f}});
     const FitResult whole = fitVertices(proxy, samples, values);
     for (SurfaceSample& sample : samples)
         sample.weight = 1e-3f;
@@ -75,18 +75,18 @@ TEST(FitVertices, isRightBesideWhatIsBuriedInFewIterations)
     // affected
     mesh::SourceMesh grid = shapes::grid(40);
     grid.normals.assign(grid.vertexCount(), {});
-    const Proxy proxy = makeProxy(test::viewOf(grid));
+    const Proxy proxy = makeProxy(test::makeMeshView(grid));
     Box3 box;
     for (const Float3 p : proxy.positions)
         box.add(p);
     const float middle = box.center().x;
-    std::vector<SurfaceSample> samples = test::samplesOf(proxy.view(), 3);
+    std::vector<SurfaceSample> samples = test::makeSamples(proxy.view(), 3);
     std::vector<Moments> values;
     for (SurfaceSample& sample : samples)
     {
-        const bool buried = test::pointOf(proxy.view(), sample).x > middle + 0.01f;
-        sample.weight = buried ? 1e-3f : 1;
-        values.push_back({buried ? 0.0f : 6.0f, {}});
+        const bool is_interior = test::getPoint(proxy.view(), sample).x > middle + 0.01f;
+        sample.weight = is_interior ? 1e-3f : 1;
+        values.push_back({is_interior ? 0.0f : 6.0f, {}});
     }
     const FitResult fit = fitVertices(proxy, samples, values);
     EXPECT_LE(fit.statistics.solve.iterations, 25u);

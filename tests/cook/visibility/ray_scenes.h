@@ -32,13 +32,13 @@ struct Mesh
     OccluderMesh occluder() const { return {positions, corners}; }
 };
 
-inline Mesh meshOf(const mesh::SourceMesh& source)
+inline Mesh makeMesh(const mesh::SourceMesh& source)
 {
     return {source.positions, source.indices};
 }
 
 /// z = 0, facing up.
-inline Mesh floorOf(float size)
+inline Mesh makeFloor(float size)
 {
     Mesh mesh;
     mesh.addQuad({-size, -size, 0}, {size, -size, 0}, {size, size, 0}, {-size, size, 0});
@@ -46,7 +46,7 @@ inline Mesh floorOf(float size)
 }
 
 /// Part of a sphere of radius 1 from the bottom up to polar angle `top` * pi (1: whole sphere).
-inline Mesh sphereOf(uint32_t rings, uint32_t sectors, double top, bool inwards)
+inline Mesh makeSphere(uint32_t rings, uint32_t sectors, double top, bool inwards)
 {
     Mesh mesh;
     const auto at = [&](uint32_t ring, uint32_t sector)
@@ -86,7 +86,7 @@ inline Affine3 scaledAndMoved(float scale, Float3 by)
     return {{{scale, 0, 0, by.x}, {0, scale, 0, by.y}, {0, 0, scale, by.z}}};
 }
 
-inline Occluders occludersOf(std::initializer_list<OccluderMesh> meshes)
+inline Occluders makeOccluders(std::initializer_list<OccluderMesh> meshes)
 {
     Occluders occluders;
     for (const OccluderMesh& mesh : meshes)
@@ -102,13 +102,13 @@ inline Moments seenFrom(const Occluders& occluders, Float3 position, Float3 norm
     return visibilityMoments(occluders, {&point, 1}, settings).value()[0];
 }
 
-inline double occlusionOf(const Moments& m, Float3 normal)
+inline double computeOcclusion(const Moments& m, Float3 normal)
 {
     return double{dot(m.m1, normal)} / kPi;
 }
 
-inline std::vector<SamplePoint> pointsOf(const Mesh& mesh, double per_vertex,
-                                         const Affine3& world_from_mesh = {})
+inline std::vector<SamplePoint> makePoints(const Mesh& mesh, double per_vertex,
+                                           const Affine3& world_from_mesh = {})
 {
     return samplePoints(mesh.positions, mesh.corners,
                         surfaceSamples(mesh.positions, mesh.corners, {.samples_per_vertex = per_vertex}),

@@ -4,8 +4,8 @@
 #include "cook/visibility/fit/refined_levels.h"
 #include "cook/visibility/rays/sampled_moments.h"
 #include "formats/gpu_shared/visibility_cone.h"
+#include "tests/cook/visibility/mesh_samples.h"
 #include "tests/cook/visibility/ray_scenes.h"
-#include "tests/cook/visibility/surface_samples_of.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -27,7 +27,7 @@ Mesh nook()
 
 constexpr Affine3 kTurn{{{0, -1, 0, 5}, {0, 0, -1, 2}, {1, 0, 0, 1}}};
 
-MeshView viewOf(const Mesh& mesh)
+MeshView makeMeshView(const Mesh& mesh)
 {
     return {mesh.positions, {}, mesh.corners};
 }
@@ -37,7 +37,7 @@ SampledMoments seenIn(const Mesh& mesh, std::span<const SurfaceSample> samples, 
     RaySettings rays;
     rays.rays_per_sample = 1024;
     const auto go = [](size_t, uint64_t, uint64_t) { return true; };
-    return *sampledMoments(viewOf(mesh), samples, {&place, 1}, rays, true, go);
+    return *sampledMoments(makeMeshView(mesh), samples, {&place, 1}, rays, true, go);
 }
 
 void expectNear(const SampledMoments& a, const SampledMoments& b, double tolerance)
@@ -107,7 +107,7 @@ TEST(SampledMoments, areThoseOfTheMeshWhereverItIsTurned)
 {
     const Mesh mesh = nook(), moved = transformed(mesh, kTurn);
     const auto samples = surfaceSamples(mesh.positions, mesh.corners, {.samples_per_vertex = 4});
-    const Occluders itself = occludersOf({mesh.occluder()}), around = occludersOf({moved.occluder()});
+    const Occluders itself = makeOccluders({mesh.occluder()}), around = makeOccluders({moved.occluder()});
     const SampledMoments at_rest = seenIn(mesh, samples, {&itself, {}, {}});
     expectNear(at_rest, seenIn(mesh, samples, {&around, kTurn, {}}), 0.06);
     // as in a pose: the visible directions are rotated back with the triangles
@@ -120,29 +120,29 @@ TEST(SampledMoments, areMeansOverPlacesOfWhichEachHasItsRays)
     const auto samples = surfaceSamples(mesh.positions, mesh.corners, {.samples_per_vertex = 2});
     Occluders nothing;
     nothing.finish();
-    const Occluders itself = occludersOf({mesh.occluder()});
+    const Occluders itself = makeOccluders({mesh.occluder()});
     const Placement places[] = {{&itself, {}, {}}, {&nothing, {}, {}}};
     const auto go = [](size_t, uint64_t, uint64_t) { return true; };
-    const SampledMoments both = *sampledMoments(viewOf(mesh), samples, places, {}, false, go);
-    const SampledMoments first = *sampledMoments(viewOf(mesh), samples, {places, 1}, {}, false, go);
+    const SampledMoments both = *sampledMoments(makeMeshView(mesh), samples, places, {}, false, go);
+    const SampledMoments first = *sampledMoments(makeMeshView(mesh), samples, {places, 1}, {}, false, go);
     EXPECT_EQ(both.rays, 2 * first.rays);
     EXPECT_TRUE(both.second.empty());
     for (size_t s = 0; s < samples.size(); ++s)
         EXPECT_NEAR(both.moments[s].m0, (first.moments[s].m0 + 2 * kPi) / 2, 1e-5);
-    size_t told = 0;
-    const auto stop = [&](size_t place, uint64_t, uint64_t) { return ++told, place == 0; };
-    EXPECT_FALSE(sampledMoments(viewOf(mesh), samples, places, {}, false, stop));
-    EXPECT_GE(told, 2u);
+    size_t calls = 0;
+    const auto stop = [&](size_t place, uint64_t, uint64_t) { return ++calls, place == 0; };
+    EXPECT_FALSE(sampledMoments(makeMeshView(mesh), samples, places, {}, false, stop));
+    EXPECT_GE(calls, 2u);
 }
 
 TEST(RefineLevels, givesEachVertexTheConeNearestToNineHarmonics)
 {
     const mesh::SourceMesh fine = shapes::rock(8, 0), coarse = shapes::rock(4, 0);
     const TwoOpenings seen;
-    const auto samples = test::samplesOf(test::viewOf(fine), 4);
+    const auto samples = test::makeSamples(test::makeMeshView(fine), 4);
     const std::vector<Moments> values(samples.size(), seen.moments);
     const std::vector<SecondMoments> second(samples.size(), seen.second);
-    const LevelMesh levels[] = {{test::viewOf(fine), {}, 0}, {test::viewOf(coarse), {}, 0}};
+    const LevelMesh levels[] = {{test::makeMeshView(fine), {}, 0}, {test::makeMeshView(coarse), {}, 0}};
     // normals in all directions would clamp the directions below them
     LevelFitSettings settings;
     settings.fit.clamp = false;
@@ -170,8 +170,8 @@ TEST(RefineLevels, givesEachVertexTheConeNearestToNineHarmonics)
 TEST(RefineLevels, leavesConesAndOpenHemispheresAlone)
 {
     const mesh::SourceMesh fine = shapes::rock(8, 0);
-    const auto samples = test::samplesOf(test::viewOf(fine), 4);
-    const LevelMesh level{test::viewOf(fine), {}, 0};
+    const auto samples = test::makeSamples(test::makeMeshView(fine), 4);
+    const LevelMesh level{test::makeMeshView(fine), {}, 0};
     const Moments open{static_cast<float>(2 * kPi), {0, 0, static_cast<float>(kPi)}};
     const SecondMoments of_open{static_cast<float>(2 * kPi / 3), static_cast<float>(2 * kPi / 3),
                                 static_cast<float>(2 * kPi / 3)};
@@ -188,17 +188,17 @@ TEST(RefineLevels, leavesConesAndOpenHemispheresAlone)
 TEST(RefineLevels, keepsWhatLevelsHaveInCommonForAnyNumberOfThreads)
 {
     const mesh::SourceMesh fine = shapes::rock(8, 0);
-    const auto samples = test::samplesOf(test::viewOf(fine), 2);
+    const auto samples = test::makeSamples(test::makeMeshView(fine), 2);
     std::vector<uint32_t> same(fine.vertexCount(), kInvalidIndex);
     for (uint32_t v = 0; v < same.size() / 2; ++v)
         same[v] = v;
-    const LevelMesh levels[] = {{test::viewOf(fine), {}, 0}, {test::viewOf(fine), same, 0}};
+    const LevelMesh levels[] = {{test::makeMeshView(fine), {}, 0}, {test::makeMeshView(fine), same, 0}};
     const TwoOpenings seen;
     std::vector<Moments> values;
     std::vector<SecondMoments> second;
     for (const SurfaceSample& sample : samples)
     {
-        const float factor = 0.8f + 0.2f * test::pointOf(levels[0].mesh, sample).x;
+        const float factor = 0.8f + 0.2f * test::getPoint(levels[0].mesh, sample).x;
         values.push_back({seen.moments.m0 * factor, seen.moments.m1 * factor});
         const SecondMoments& m = seen.second;
         second.push_back(

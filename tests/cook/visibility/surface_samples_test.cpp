@@ -23,18 +23,18 @@ struct Mesh
     std::vector<uint32_t> corners;
 };
 
-Mesh meshOf(const mesh::SourceMesh& source)
+Mesh makeMesh(const mesh::SourceMesh& source)
 {
     return {source.positions, source.indices};
 }
 
-double areaOf(const Mesh& mesh, size_t triangle)
+double computeArea(const Mesh& mesh, size_t triangle)
 {
     const auto at = [&](size_t k) { return mesh.positions[mesh.corners[triangle * 3 + k]]; };
     return double{length(cross(at(1) - at(0), at(2) - at(0)))} / 2;
 }
 
-std::vector<uint32_t> countsOf(const Mesh& mesh, const std::vector<SurfaceSample>& samples)
+std::vector<uint32_t> countSamples(const Mesh& mesh, const std::vector<SurfaceSample>& samples)
 {
     std::vector<uint32_t> counts(mesh.corners.size() / 3);
     for (const SurfaceSample& sample : samples)
@@ -60,7 +60,8 @@ Mesh halfFine(uint32_t n)
 
 TEST(SurfaceSamples, standForTheWholeSurface)
 {
-    for (const Mesh& mesh : {meshOf(shapes::rock(12, 0.4f)), halfFine(100), meshOf(shapes::tangle(40, 200))})
+    for (const Mesh& mesh :
+         {makeMesh(shapes::rock(12, 0.4f)), halfFine(100), makeMesh(shapes::tangle(40, 200))})
     {
         const std::vector<SurfaceSample> samples = surfaceSamples(mesh.positions, mesh.corners, {});
         std::map<uint32_t, double> area_of_triangle;
@@ -73,29 +74,29 @@ TEST(SurfaceSamples, standForTheWholeSurface)
             area_of_triangle[s.triangle] += double{s.area};
         }
         for (uint32_t t = 0; t < mesh.corners.size() / 3; ++t)
-            EXPECT_NEAR(area_of_triangle[t], areaOf(mesh, t), 1e-5 * areaOf(mesh, t) + 1e-12);
+            EXPECT_NEAR(area_of_triangle[t], computeArea(mesh, t), 1e-5 * computeArea(mesh, t) + 1e-12);
     }
 }
 
 TEST(SurfaceSamples, areAsManyAsAskedForAndEvenInArea)
 {
-    const Mesh mesh = meshOf(shapes::rock(20, 0.4f));
+    const Mesh mesh = makeMesh(shapes::rock(20, 0.4f));
     const SurfaceSampleSettings settings{.samples_per_vertex = 16};
     const std::vector<SurfaceSample> samples = surfaceSamples(mesh.positions, mesh.corners, settings);
     EXPECT_NEAR(static_cast<double>(samples.size()), 16.0 * static_cast<double>(mesh.positions.size()), 1);
-    const std::vector<uint32_t> counts = countsOf(mesh, samples);
+    const std::vector<uint32_t> counts = countSamples(mesh, samples);
     double area = 0;
     for (size_t t = 0; t < counts.size(); ++t)
-        area += areaOf(mesh, t);
+        area += computeArea(mesh, t);
     const double density = static_cast<double>(samples.size()) / area;
     for (size_t t = 0; t < counts.size(); ++t)
     {
         ASSERT_GE(counts[t], 1u);
         // the samples of the smallest triangles are taken from all others alike: few here
-        ASSERT_LE(counts[t], std::max(1.0, std::ceil(areaOf(mesh, t) * density)));
-        if (areaOf(mesh, t) * density > 1.2)
+        ASSERT_LE(counts[t], std::max(1.0, std::ceil(computeArea(mesh, t) * density)));
+        if (computeArea(mesh, t) * density > 1.2)
         {
-            ASSERT_GE(counts[t], std::floor(0.95 * areaOf(mesh, t) * density));
+            ASSERT_GE(counts[t], std::floor(0.95 * computeArea(mesh, t) * density));
         }
     }
 }
@@ -106,13 +107,13 @@ TEST(SurfaceSamples, giveEachTriangleTheLeastNumberAndTheRestByArea)
     // 903 positions: 300 slivers with 4 samples each take 1200 of 1806; the large triangle gets the other 606
     const SurfaceSampleSettings settings{.samples_per_vertex = 2, .min_per_triangle = 4};
     const std::vector<uint32_t> counts =
-        countsOf(mesh, surfaceSamples(mesh.positions, mesh.corners, settings));
+        countSamples(mesh, surfaceSamples(mesh.positions, mesh.corners, settings));
     EXPECT_NEAR(counts[0], 606, 1);
     for (size_t t = 1; t < counts.size(); ++t)
         EXPECT_EQ(counts[t], 4u);
     // and no more than the minimum where the minimum exceeds the request
     for (const uint32_t count :
-         countsOf(mesh, surfaceSamples(mesh.positions, mesh.corners, {.samples_per_vertex = 0.3})))
+         countSamples(mesh, surfaceSamples(mesh.positions, mesh.corners, {.samples_per_vertex = 0.3})))
         EXPECT_EQ(count, 1u);
 }
 
@@ -120,17 +121,18 @@ TEST(SurfaceSamples, giveEachVertexTheLeastNumberInItsTriangles)
 {
     // a vertex whose only triangle has a hundredth of its neighbours' area: by area it would have at most one
     // sample
-    Mesh mesh = meshOf(shapes::grid(20));
+    Mesh mesh = makeMesh(shapes::grid(20));
     const Float3 a = mesh.positions[0], b = mesh.positions[1];
     const auto corner = static_cast<uint32_t>(mesh.positions.size());
     mesh.positions.insert(mesh.positions.end(), {a + (b - a) * 0.1f, a + Float3{0, 0, 0.005f}});
     mesh.corners.insert(mesh.corners.end(), {0, corner, corner + 1});
     SurfaceSampleSettings settings;
-    const uint32_t by_area = countsOf(mesh, surfaceSamples(mesh.positions, mesh.corners, settings)).back();
+    const uint32_t by_area =
+        countSamples(mesh, surfaceSamples(mesh.positions, mesh.corners, settings)).back();
     EXPECT_EQ(by_area, 1u);
     settings.min_per_vertex = 18;
     const std::vector<SurfaceSample> samples = surfaceSamples(mesh.positions, mesh.corners, settings);
-    const std::vector<uint32_t> counts = countsOf(mesh, samples);
+    const std::vector<uint32_t> counts = countSamples(mesh, samples);
     EXPECT_GE(counts.back(), 18u);
     EXPECT_NEAR(static_cast<double>(samples.size()), 8.0 * static_cast<double>(mesh.positions.size()), 1);
     EXPECT_EQ(*std::min_element(counts.begin(), counts.end()), 3u) << "six triangles around a vertex";
@@ -162,24 +164,24 @@ TEST(SurfaceSamples, areStratifiedWithinLargeTriangles)
 TEST(SurfaceSamples, areStratifiedOverSmallTriangles)
 {
     // half a sample for each triangle: each cell of 8 x 8 triangles has its 32 samples within a few
-    const Mesh mesh = meshOf(shapes::grid(64));
+    const Mesh mesh = makeMesh(shapes::grid(64));
     const size_t triangle_count = mesh.corners.size() / 3;
     const SurfaceSampleSettings settings{.samples_per_vertex = 3 * static_cast<double>(triangle_count) /
                                                                static_cast<double>(mesh.positions.size())};
     const std::vector<SurfaceSample> samples = surfaceSamples(mesh.positions, mesh.corners, settings);
-    for (const uint32_t count : countsOf(mesh, samples))
+    for (const uint32_t count : countSamples(mesh, samples))
         EXPECT_EQ(count, 3u);
 }
 
 TEST(SurfaceSamples, leaveOutTrianglesWithoutArea)
 {
-    Mesh mesh = meshOf(shapes::rock(4, 0.2f));
+    Mesh mesh = makeMesh(shapes::rock(4, 0.2f));
     const auto count = static_cast<uint32_t>(mesh.corners.size() / 3);
     mesh.corners.insert(mesh.corners.end(), {0, 0, 1, 2, 2, 2});
     mesh.positions.insert(mesh.positions.end(), {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}});
     const auto first = static_cast<uint32_t>(mesh.positions.size() - 3);
     mesh.corners.insert(mesh.corners.end(), {first, first + 1, first + 2});
-    const std::vector<uint32_t> counts = countsOf(mesh, surfaceSamples(mesh.positions, mesh.corners, {}));
+    const std::vector<uint32_t> counts = countSamples(mesh, surfaceSamples(mesh.positions, mesh.corners, {}));
     for (uint32_t t = 0; t < counts.size(); ++t)
         EXPECT_EQ(counts[t] > 0, t < count) << t;
     EXPECT_TRUE(surfaceSamples({}, {}, {}).empty());
@@ -188,7 +190,7 @@ TEST(SurfaceSamples, leaveOutTrianglesWithoutArea)
 
 TEST(SurfaceSamples, comeInAnOrderOfNeighbours)
 {
-    const Mesh mesh = meshOf(shapes::grid(40));
+    const Mesh mesh = makeMesh(shapes::grid(40));
     const std::vector<SurfaceSample> samples = surfaceSamples(mesh.positions, mesh.corners, {});
     const std::vector<SamplePoint> points = samplePoints(mesh.positions, mesh.corners, samples);
     double steps = 0;
@@ -216,7 +218,7 @@ TEST(SurfaceSamples, areTakenOfTheLargestAndTheSmallestOfMeshes)
 
 TEST(SurfaceSamples, areTheSameForAnyNumberOfThreads)
 {
-    const Mesh mesh = meshOf(shapes::rock(16, 0.4f));
+    const Mesh mesh = makeMesh(shapes::rock(16, 0.4f));
     const std::vector<SurfaceSample> samples = surfaceSamples(mesh.positions, mesh.corners, {});
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
     EXPECT_EQ(surfaceSamples(mesh.positions, mesh.corners, {}), samples);
@@ -225,7 +227,7 @@ TEST(SurfaceSamples, areTheSameForAnyNumberOfThreads)
 
 TEST(SamplePoints, lieOnTheTrianglesWithTheirNormals)
 {
-    const Mesh mesh = meshOf(shapes::rock(6, 0.4f));
+    const Mesh mesh = makeMesh(shapes::rock(6, 0.4f));
     const std::vector<SurfaceSample> samples = surfaceSamples(mesh.positions, mesh.corners, {});
     const std::vector<SamplePoint> points = samplePoints(mesh.positions, mesh.corners, samples);
     for (size_t i = 0; i < points.size(); ++i)
@@ -243,7 +245,7 @@ TEST(SamplePoints, lieOnTheTrianglesWithTheirNormals)
 
 TEST(SamplePoints, keepTheFrontInFrontInMirroredAndSkewedInstances)
 {
-    const Mesh mesh = meshOf(shapes::rock(6, 0.2f)); // around the origin, normals outwards
+    const Mesh mesh = makeMesh(shapes::rock(6, 0.2f)); // around the origin, normals outwards
     const std::vector<SurfaceSample> samples = surfaceSamples(mesh.positions, mesh.corners, {});
     for (const Affine3& world_from_mesh : {Affine3{{{-2, 0, 0, 5}, {0, 1, 0, 0}, {0, 0, 1, 0}}},
                                            Affine3{{{1, 0.5f, 0, 0}, {0, 1, 0, 3}, {0, -0.3f, 4, 0}}}})

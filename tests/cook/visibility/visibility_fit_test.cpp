@@ -5,7 +5,7 @@
 #include "cook/visibility/fit/normal_equations.h"
 #include "cook/visibility/fit/vertex_fit.h"
 #include "formats/base/double3.h"
-#include "tests/cook/visibility/surface_samples_of.h"
+#include "tests/cook/visibility/mesh_samples.h"
 #include "tests/support/shapes.h"
 
 #include <Eigen/Dense>
@@ -20,9 +20,9 @@
 namespace hearth::visibility
 {
 
-using test::pointOf;
-using test::samplesOf;
-using test::viewOf;
+using test::getPoint;
+using test::makeMeshView;
+using test::makeSamples;
 
 namespace
 {
@@ -31,9 +31,9 @@ using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
 /// Proxy of a mesh, without normals, so that the clamp does not change directions.
-Proxy proxyOf(const mesh::SourceMesh& mesh, const ProxySettings& settings = {})
+Proxy buildProxy(const mesh::SourceMesh& mesh, const ProxySettings& settings = {})
 {
-    Proxy proxy = makeProxy(viewOf(mesh), settings);
+    Proxy proxy = makeProxy(makeMeshView(mesh), settings);
     std::fill(proxy.normals.begin(), proxy.normals.end(), Float3{});
     return proxy;
 }
@@ -45,11 +45,11 @@ Moments fieldAt(Float3 p)
             {0.3f * std::cos(3 * p.y), 0.2f * p.z, 0.5f + 0.2f * std::sin(p.x + p.z)}};
 }
 
-std::vector<Moments> fieldOf(const Proxy& proxy, const std::vector<SurfaceSample>& samples)
+std::vector<Moments> sampleField(const Proxy& proxy, const std::vector<SurfaceSample>& samples)
 {
     std::vector<Moments> values;
     for (const SurfaceSample& sample : samples)
-        values.push_back(fieldAt(pointOf(proxy.view(), sample)));
+        values.push_back(fieldAt(getPoint(proxy.view(), sample)));
     return values;
 }
 
@@ -80,7 +80,7 @@ private:
 };
 
 /// Gradient of a linear function on a triangle in the plane, from its values at the corners.
-Eigen::Matrix<double, 2, 3> gradientOf(const std::array<Eigen::Vector2d, 3>& corners)
+Eigen::Matrix<double, 2, 3> computeGradient(const std::array<Eigen::Vector2d, 3>& corners)
 {
     Eigen::Matrix2d edges;
     edges << (corners[1] - corners[0]).transpose(), (corners[2] - corners[0]).transpose();
@@ -91,7 +91,7 @@ Eigen::Matrix<double, 2, 3> gradientOf(const std::array<Eigen::Vector2d, 3>& cor
 
 /// Return the matrix over vertices a, b, k, l of (A1 + A2)^2 |g1 - g2|^2. Both triangles lie in one plane
 /// with the edge along the first axis.
-Eigen::Matrix4d jumpOf(const Proxy& proxy, const InteriorEdge& edge)
+Eigen::Matrix4d computeJump(const Proxy& proxy, const InteriorEdge& edge)
 {
     const auto at = [&](uint32_t v) { return widen(proxy.positions[v]); };
     const Double3 along = at(edge.b) - at(edge.a);
@@ -103,7 +103,7 @@ Eigen::Matrix4d jumpOf(const Proxy& proxy, const InteriorEdge& edge)
         return Eigen::Vector2d(x, side * std::sqrt(std::max(0.0, dot(to, to) - x * x)));
     };
     const Eigen::Vector2d a(0, 0), b(size, 0), k = flat(edge.k, 1), l = flat(edge.l, -1);
-    const Eigen::Matrix<double, 2, 3> gk = gradientOf({a, b, k}), gl = gradientOf({a, b, l});
+    const Eigen::Matrix<double, 2, 3> gk = computeGradient({a, b, k}), gl = computeGradient({a, b, l});
     Eigen::Matrix<double, 2, 4> jump;
     jump << gk.col(0) - gl.col(0), gk.col(1) - gl.col(1), gk.col(2), -gl.col(2);
     const double area = size * (k.y() - l.y()) / 2;
@@ -111,7 +111,7 @@ Eigen::Matrix4d jumpOf(const Proxy& proxy, const InteriorEdge& edge)
 }
 
 /// Return the inverse matrix that the preconditioner applies.
-Matrix inverseOf(const SparseMatrix& matrix)
+Matrix invert(const SparseMatrix& matrix)
 {
     const size_t rows = matrix.rowCount();
     const IncompleteCholesky preconditioner(matrix);
@@ -137,8 +137,8 @@ struct Dense
     Matrix all(double alpha) const { return mass + alpha * jumps; }
 };
 
-Dense denseOf(const Proxy& proxy, const std::vector<SurfaceSample>& samples,
-              const std::vector<Moments>& values)
+Dense makeDense(const Proxy& proxy, const std::vector<SurfaceSample>& samples,
+                const std::vector<Moments>& values)
 {
     const auto n = static_cast<Eigen::Index>(proxy.positions.size());
     Dense dense{Matrix::Zero(n, n), Matrix::Zero(n, n), Matrix::Zero(n, 4)};
@@ -157,7 +157,7 @@ Dense denseOf(const Proxy& proxy, const std::vector<SurfaceSample>& samples,
     for (const InteriorEdge& edge : proxy.edges)
     {
         const std::array<uint32_t, 4> vertices{edge.a, edge.b, edge.k, edge.l};
-        const Eigen::Matrix4d jump = jumpOf(proxy, edge);
+        const Eigen::Matrix4d jump = computeJump(proxy, edge);
         for (int i = 0; i < 4; ++i)
             for (int j = 0; j < 4; ++j)
                 dense.jumps(vertices[static_cast<size_t>(i)], vertices[static_cast<size_t>(j)]) += jump(i, j);
@@ -234,20 +234,21 @@ TEST(GradientJump, isTheOuterProductOfBakingForAUnitSquare)
 
 TEST(GradientJump, isWhatDifferencesOfGradientsGive)
 {
-    const Proxy proxy = proxyOf(shapes::rock(3, 0.6f));
+    const Proxy proxy = buildProxy(shapes::rock(3, 0.6f));
     ASSERT_GT(proxy.edges.size(), 50u);
     for (const InteriorEdge& edge : proxy.edges)
     {
         const std::array<double, 4> jump = gradientJump(proxy.positions, edge);
         const Eigen::Vector4d row(jump.data());
-        EXPECT_LT((row * row.transpose() - jumpOf(proxy, edge)).norm(), 1e-9 * jumpOf(proxy, edge).norm());
+        EXPECT_LT((row * row.transpose() - computeJump(proxy, edge)).norm(),
+                  1e-9 * computeJump(proxy, edge).norm());
         EXPECT_NEAR(row.sum(), 0, 1e-9) << "constants have no gradient";
     }
 }
 
 TEST(GradientJump, isNothingForLinearFunctionsInAPlane)
 {
-    const Proxy proxy = proxyOf(unevenGrid(8));
+    const Proxy proxy = buildProxy(unevenGrid(8));
     for (const InteriorEdge& edge : proxy.edges)
     {
         const std::array<double, 4> jump = gradientJump(proxy.positions, edge);
@@ -263,19 +264,19 @@ TEST(FitVertices, isTheSolutionOfTheDenseSystem)
 {
     for (const double alpha : {0.0, 0.1, 1.0})
     {
-        const Proxy proxy = proxyOf(shapes::rock(4, 0.4f));
-        const std::vector<SurfaceSample> samples = samplesOf(proxy.view(), 5);
-        const std::vector<Moments> values = fieldOf(proxy, samples);
+        const Proxy proxy = buildProxy(shapes::rock(4, 0.4f));
+        const std::vector<SurfaceSample> samples = makeSamples(proxy.view(), 5);
+        const std::vector<Moments> values = sampleField(proxy, samples);
         FitSettings settings = asPublished();
         settings.alpha = alpha;
         const FitResult fit = fitVertices(proxy, samples, values, settings);
-        const Dense dense = denseOf(proxy, samples, values);
+        const Dense dense = makeDense(proxy, samples, values);
         const Matrix expected = dense.all(alpha).ldlt().solve(dense.right);
         EXPECT_LT(largestDifference(fit.moments, expected), 2e-6) << "alpha " << alpha;
         EXPECT_TRUE(fit.statistics.solve.converged);
         EXPECT_EQ(fit.statistics.clamped, 0u);
 
-        const Matrix inverse = inverseOf(assemble(proxy, samples, values, settings).matrix);
+        const Matrix inverse = invert(assemble(proxy, samples, values, settings).matrix);
         const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> eigen(dense.all(alpha), inverse.inverse());
         const double condition = eigen.eigenvalues().maxCoeff() / eigen.eigenvalues().minCoeff();
         EXPECT_LE(fit.statistics.solve.condition, condition * 1.01);
@@ -285,9 +286,9 @@ TEST(FitVertices, isTheSolutionOfTheDenseSystem)
 
 TEST(FitVertices, isWhatCeresFinds)
 {
-    const Proxy proxy = proxyOf(shapes::rock(2, 0.4f));
-    const std::vector<SurfaceSample> samples = samplesOf(proxy.view(), 4);
-    const std::vector<Moments> values = fieldOf(proxy, samples);
+    const Proxy proxy = buildProxy(shapes::rock(2, 0.4f));
+    const std::vector<SurfaceSample> samples = makeSamples(proxy.view(), 4);
+    const std::vector<Moments> values = sampleField(proxy, samples);
     auto* cost =
         new ceres::DynamicAutoDiffCostFunction<CeresResiduals, 8>(new CeresResiduals{proxy, samples, values});
     cost->AddParameterBlock(static_cast<int>(proxy.positions.size()));
@@ -318,8 +319,8 @@ TEST(FitVertices, bringsConstantsBackOnAnyMesh)
     for (mesh::SourceMesh& mesh : meshes)
     {
         mesh.normals.resize(mesh.vertexCount(), {0, 0, 1});
-        const Proxy proxy = proxyOf(mesh);
-        std::vector<SurfaceSample> samples = samplesOf(proxy.view(), 2);
+        const Proxy proxy = buildProxy(mesh);
+        std::vector<SurfaceSample> samples = makeSamples(proxy.view(), 2);
         std::mt19937 random(9);
         // some triangles have no sample; in the triangle soup, whole components have none
         std::erase_if(samples, [&](const SurfaceSample&) { return random() % 3 == 0; });
@@ -343,14 +344,14 @@ TEST(FitVertices, bringsConstantsBackOnAnyMesh)
 
 TEST(FitVertices, bringsLinearFunctionsBackInAPlane)
 {
-    const Proxy proxy = proxyOf(unevenGrid(10));
-    const std::vector<SurfaceSample> samples = samplesOf(proxy.view(), 40);
+    const Proxy proxy = buildProxy(unevenGrid(10));
+    const std::vector<SurfaceSample> samples = makeSamples(proxy.view(), 40);
     std::vector<Moments> values;
     const auto linear = [](Float3 p) {
         return Moments{3 + p.x - 2 * p.y, {0.1f * p.x, 0.1f * p.z, 0.2f * p.y}};
     };
     for (const SurfaceSample& sample : samples)
-        values.push_back(linear(pointOf(proxy.view(), sample)));
+        values.push_back(linear(getPoint(proxy.view(), sample)));
     FitSettings settings;
     settings.alpha = 1;
     const FitResult fit = fitVertices(proxy, samples, values, settings);
@@ -373,9 +374,9 @@ TEST(FitVertices, needsFewIterationsWhereSmallTrianglesMeetLargeOnes)
                 p[axis] = x * x * x * 0.99f + x * 0.01f;
             }
     mesh.normals.assign(mesh.vertexCount(), {0, 0, 1});
-    const Proxy proxy = proxyOf(mesh);
-    const std::vector<SurfaceSample> samples = samplesOf(proxy.view(), 4);
-    const std::vector<Moments> values = fieldOf(proxy, samples);
+    const Proxy proxy = buildProxy(mesh);
+    const std::vector<SurfaceSample> samples = makeSamples(proxy.view(), 4);
+    const std::vector<Moments> values = sampleField(proxy, samples);
     const SolveStatistics published = fitVertices(proxy, samples, values, asPublished()).statistics.solve;
     const FitResult fit = fitVertices(proxy, samples, values);
     std::printf("condition %.3g, %u iterations as published; %.3g, %u\n", published.condition,
@@ -390,10 +391,10 @@ TEST(FitVertices, makesTheBestOfTrianglesAlone)
 {
     mesh::SourceMesh soup = shapes::soup(300);
     soup.normals.assign(soup.vertexCount(), {0, 0, 1});
-    const Proxy proxy = proxyOf(soup);
+    const Proxy proxy = buildProxy(soup);
     for (const uint32_t per_triangle : {1u, 2u, 3u, 4u})
     {
-        const std::vector<SurfaceSample> samples = samplesOf(proxy.view(), per_triangle);
+        const std::vector<SurfaceSample> samples = makeSamples(proxy.view(), per_triangle);
         Normal normal(per_triangle);
         std::vector<Moments> values;
         for (size_t i = 0; i < samples.size(); ++i)
@@ -410,15 +411,15 @@ TEST(FitVertices, makesTheBestOfTrianglesAlone)
 TEST(FitVertices, doesNotKnowTheUnitOfLength)
 {
     mesh::SourceMesh mesh = shapes::rock(6, 0.4f);
-    const Proxy small = proxyOf(mesh);
-    const std::vector<SurfaceSample> samples = samplesOf(small.view(), 3);
-    const std::vector<Moments> values = fieldOf(small, samples);
+    const Proxy small = buildProxy(mesh);
+    const std::vector<SurfaceSample> samples = makeSamples(small.view(), 3);
+    const std::vector<Moments> values = sampleField(small, samples);
     for (const float factor : {100.0f, 1e-3f})
     {
         mesh::SourceMesh scaled = mesh;
         for (Float3& p : scaled.positions)
             p = p * factor;
-        const Proxy large = proxyOf(scaled);
+        const Proxy large = buildProxy(scaled);
         std::vector<SurfaceSample> moved = samples;
         for (SurfaceSample& sample : moved)
             sample.area *= factor * factor;
@@ -431,13 +432,13 @@ TEST(FitVertices, doesNotKnowTheUnitOfLength)
 
 TEST(FitVertices, solvesAroundVerticesThatAreHeld)
 {
-    const Proxy proxy = proxyOf(shapes::rock(4, 0.4f));
-    const std::vector<SurfaceSample> samples = samplesOf(proxy.view(), 4);
-    const std::vector<Moments> values = fieldOf(proxy, samples);
+    const Proxy proxy = buildProxy(shapes::rock(4, 0.4f));
+    const std::vector<SurfaceSample> samples = makeSamples(proxy.view(), 4);
+    const std::vector<Moments> values = sampleField(proxy, samples);
     const size_t count = proxy.positions.size();
     std::vector<uint8_t> is_held(count, 0);
     std::vector<Moments> moments(count);
-    const Dense dense = denseOf(proxy, samples, values);
+    const Dense dense = makeDense(proxy, samples, values);
     Matrix system = dense.all(0.1), right = dense.right;
     for (size_t v = 0; v < count; v += 3)
     {
@@ -458,8 +459,8 @@ TEST(FitVertices, solvesAroundVerticesThatAreHeld)
 
 TEST(FitVertices, carriesOnWhereNoSamplesAre)
 {
-    const Proxy proxy = proxyOf(shapes::grid(20));
-    std::vector<SurfaceSample> samples = samplesOf(proxy.view(), 4);
+    const Proxy proxy = buildProxy(shapes::grid(20));
+    std::vector<SurfaceSample> samples = makeSamples(proxy.view(), 4);
     // a gap in the samples as wide as a quarter of the square
     const Box3 box = [&]
     {
@@ -470,11 +471,11 @@ TEST(FitVertices, carriesOnWhereNoSamplesAre)
     }();
     const Float3 center = box.center();
     std::erase_if(samples,
-                  [&](const SurfaceSample& s) { return length(pointOf(proxy.view(), s) - center) < 0.2f; });
+                  [&](const SurfaceSample& s) { return length(getPoint(proxy.view(), s) - center) < 0.2f; });
     std::vector<Moments> values;
     const auto linear = [&](Float3 p) { return Moments{3 + dot(p - center, Float3{1, 1, 1}), {}}; };
     for (const SurfaceSample& sample : samples)
-        values.push_back(linear(pointOf(proxy.view(), sample)));
+        values.push_back(linear(getPoint(proxy.view(), sample)));
     const FitResult fit = fitVertices(proxy, samples, values);
     for (size_t v = 0; v < proxy.positions.size(); ++v)
         EXPECT_NEAR(fit.moments[v].m0, linear(proxy.positions[v]).m0, 0.02f);
@@ -496,13 +497,13 @@ TEST(FitVertices, needsFewIterationsOnlyWithoutSlivers)
     mesh.indices[t + 2] = middle;
     ProxySettings raw;
     raw.thinness = 0;
-    const Proxy with = proxyOf(mesh, raw), without = proxyOf(mesh);
-    const auto fitOf = [](const Proxy& proxy)
+    const Proxy with = buildProxy(mesh, raw), without = buildProxy(mesh);
+    const auto fitField = [](const Proxy& proxy)
     {
-        const std::vector<SurfaceSample> samples = samplesOf(proxy.view(), 4);
-        return fitVertices(proxy, samples, fieldOf(proxy, samples), asPublished()).statistics.solve;
+        const std::vector<SurfaceSample> samples = makeSamples(proxy.view(), 4);
+        return fitVertices(proxy, samples, sampleField(proxy, samples), asPublished()).statistics.solve;
     };
-    const SolveStatistics slivers = fitOf(with), clean = fitOf(without);
+    const SolveStatistics slivers = fitField(with), clean = fitField(without);
     EXPECT_EQ(without.statistics.thin.flipped, 1u);
     EXPECT_LE(clean.iterations, 40u);
     EXPECT_LE(clean.condition, 40);
@@ -517,9 +518,9 @@ TEST(FitVertices, needsFewIterationsForAnySize)
     for (const uint32_t per_triangle : {1u, 4u})
         for (const uint32_t n : {8u, 16u, 32u})
         {
-            const Proxy proxy = proxyOf(shapes::rock(n, 0.5f));
-            const std::vector<SurfaceSample> samples = samplesOf(proxy.view(), per_triangle);
-            const FitStatistics s = fitVertices(proxy, samples, fieldOf(proxy, samples)).statistics;
+            const Proxy proxy = buildProxy(shapes::rock(n, 0.5f));
+            const std::vector<SurfaceSample> samples = makeSamples(proxy.view(), per_triangle);
+            const FitStatistics s = fitVertices(proxy, samples, sampleField(proxy, samples)).statistics;
             EXPECT_LE(s.solve.iterations, 40u);
             std::printf("%5zu vertices, %u samples a triangle: condition %.3g, %u iterations\n",
                         proxy.positions.size(), per_triangle, s.solve.condition, s.solve.iterations);
@@ -528,8 +529,8 @@ TEST(FitVertices, needsFewIterationsForAnySize)
 
 TEST(FitVertices, takesNoiseAway)
 {
-    const Proxy proxy = proxyOf(shapes::grid(40));
-    const std::vector<SurfaceSample> samples = samplesOf(proxy.view(), 8);
+    const Proxy proxy = buildProxy(shapes::grid(40));
+    const std::vector<SurfaceSample> samples = makeSamples(proxy.view(), 8);
     const double per_vertex =
         static_cast<double>(samples.size()) / static_cast<double>(proxy.positions.size());
     struct Expected
@@ -579,9 +580,9 @@ TEST(FitVertices, hasTheSameBitsForAnyNumberOfThreads)
     for (const size_t threads : {1u, 2u, 3u})
     {
         const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-        const Proxy proxy = proxyOf(rock);
-        const std::vector<SurfaceSample> samples = samplesOf(proxy.view(), 2);
-        results.push_back(fitVertices(proxy, samples, fieldOf(proxy, samples)).moments);
+        const Proxy proxy = buildProxy(rock);
+        const std::vector<SurfaceSample> samples = makeSamples(proxy.view(), 2);
+        results.push_back(fitVertices(proxy, samples, sampleField(proxy, samples)).moments);
     }
     for (const std::vector<Moments>& other : results)
         EXPECT_EQ(std::memcmp(results[0].data(), other.data(), other.size() * sizeof(Moments)), 0);

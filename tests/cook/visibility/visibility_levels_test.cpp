@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/visibility/fit/level_fit.h"
 #include "cook/visibility/mesh/closest_point.h"
-#include "tests/cook/visibility/surface_samples_of.h"
+#include "tests/cook/visibility/mesh_samples.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/shapes.h"
 
@@ -17,9 +17,9 @@
 namespace hearth::visibility
 {
 
-using test::pointOf;
-using test::samplesOf;
-using test::viewOf;
+using test::getPoint;
+using test::makeMeshView;
+using test::makeSamples;
 
 namespace
 {
@@ -62,14 +62,14 @@ Levels makeLevels(float frequency = 7)
     Levels levels;
     for (const uint32_t n : test::kSanitized ? std::array{20u, 10u, 5u} : std::array{32u, 16u, 8u})
         levels.meshes.push_back(shapes::rock(n, 0));
-    levels.samples = samplesOf(viewOf(levels.meshes[0]), 4);
+    levels.samples = makeSamples(makeMeshView(levels.meshes[0]), 4);
     for (const SurfaceSample& sample : levels.samples)
-        levels.values.push_back(fieldAt(pointOf(viewOf(levels.meshes[0]), sample), frequency));
+        levels.values.push_back(fieldAt(getPoint(makeMeshView(levels.meshes[0]), sample), frequency));
     for (size_t i = 0; i < levels.meshes.size(); ++i)
     {
         levels.finer_vertex.push_back(i == 0 ? std::vector<uint32_t>{}
                                              : lockedIn(levels.meshes[i], levels.meshes[i - 1]));
-        levels.views.push_back({viewOf(levels.meshes[i]), levels.finer_vertex[i], 0});
+        levels.views.push_back({makeMeshView(levels.meshes[i]), levels.finer_vertex[i], 0});
     }
     return levels;
 }
@@ -81,9 +81,9 @@ double rmsError(const MeshView& level, const std::vector<Moments>& moments, cons
 {
     const ClosestPoint surface(level, level.triangleCount());
     double sum = 0, area = 0;
-    for (const SurfaceSample& sample : samplesOf(finest, 3, 77))
+    for (const SurfaceSample& sample : makeSamples(finest, 3, 77))
     {
-        const Float3 p = pointOf(finest, sample);
+        const Float3 p = getPoint(finest, sample);
         const ClosestPoint::Hit found = surface.find(p, p, 100, kInvalidIndex);
         const uint32_t* corners = &level.indices[size_t{found.triangle} * 3];
         const float weights[3] = {1 - found.u - found.v, found.u, found.v};
@@ -231,9 +231,9 @@ TEST(FitLevels, doNotTakeSamplesOfTheOtherSide)
             std::swap(back.indices[t], back.indices[t + 1]);
         shapes::append(*side, back);
     }
-    const std::array<LevelMesh, 2> views{LevelMesh{viewOf(fine), {}, 0},
-                                         LevelMesh{viewOf(coarse), {}, 0.05f}};
-    const std::vector<SurfaceSample> samples = samplesOf(views[0].mesh, 4);
+    const std::array<LevelMesh, 2> views{LevelMesh{makeMeshView(fine), {}, 0},
+                                         LevelMesh{makeMeshView(coarse), {}, 0.05f}};
+    const std::vector<SurfaceSample> samples = makeSamples(views[0].mesh, 4);
     std::vector<Moments> values;
     for (const SurfaceSample& sample : samples)
         values.push_back({sample.triangle < fine.triangleCount() / 2 ? 1.0f : 5.0f, {}});

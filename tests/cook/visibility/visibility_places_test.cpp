@@ -34,15 +34,15 @@ void expectOpen(const Mesh& mesh, const Affine3& world_from_mesh, const char* wh
             open += m.m0 == static_cast<float>(2 * kPi) ? 1 : 0;
         return static_cast<double>(open) / static_cast<double>(points.size());
     };
-    EXPECT_EQ(shareOpen(occludersOf({baked.occluder()}), pointsOf(baked, 8)), 1) << what;
-    EXPECT_EQ(shareOpen(instanced, pointsOf(mesh, 8, world_from_mesh)), 1) << what << ", as an instance";
+    EXPECT_EQ(shareOpen(makeOccluders({baked.occluder()}), makePoints(baked, 8)), 1) << what;
+    EXPECT_EQ(shareOpen(instanced, makePoints(mesh, 8, world_from_mesh)), 1) << what << ", as an instance";
 }
 
 TEST(VisibilityMoments, haveNoSpecksAtAnyScaleAndPlace)
 {
     // two pyramids: float rounding far from the origin must not make them concave
     const Mesh gem =
-        transformed(sphereOf(2, 7, 1, false), {{{0.8f, 0.6f, 0, 0}, {-0.6f, 0.8f, 0, 0}, {0, 0, 1, 0}}});
+        transformed(makeSphere(2, 7, 1, false), {{{0.8f, 0.6f, 0, 0}, {-0.6f, 0.8f, 0, 0}, {0, 0, 1, 0}}});
     expectOpen(gem, {}, "as it is");
     expectOpen(gem, scaledAndMoved(1, {1e4f, -7e3f, 333.3f}), "far away");
     expectOpen(gem, scaledAndMoved(1e-4f, {}), "tiny");
@@ -75,11 +75,11 @@ TEST(VisibilityMoments, areNotDarkenedByFlatSurfacesOfManyTrianglesInSlantedPlan
 {
     // rounding moves corners out of the plane by 1e-7 of its size: occlusion must not exceed that
     const Affine3 slanted{{{0.36f, 0.48f, -0.8f, 3}, {-0.8f, 0.6f, 0, 1}, {0.48f, 0.64f, 0.6f, -2}}};
-    const Mesh plane = transformed(meshOf(shapes::grid(40)), slanted);
-    const std::vector<SamplePoint> points = pointsOf(plane, 2);
-    const auto moments = visibilityMoments(occludersOf({plane.occluder()}), points, {});
+    const Mesh plane = transformed(makeMesh(shapes::grid(40)), slanted);
+    const std::vector<SamplePoint> points = makePoints(plane, 2);
+    const auto moments = visibilityMoments(makeOccluders({plane.occluder()}), points, {});
     for (size_t i = 0; i < points.size(); ++i)
-        EXPECT_GT(occlusionOf((*moments)[i], points[i].normal), 1 - 1e-4);
+        EXPECT_GT(computeOcclusion((*moments)[i], points[i].normal), 1 - 1e-4);
 }
 
 /// Return the mean difference of two sets of moments, as a share of the hemisphere.
@@ -94,7 +94,7 @@ double meanDifference(const std::vector<Moments>& a, const std::vector<Moments>&
 
 TEST(VisibilityMoments, ofInstancesAreThoseOfMeshesInTheirPlaces)
 {
-    const Mesh rock = meshOf(shapes::rock(10, 0.6f));
+    const Mesh rock = makeMesh(shapes::rock(10, 0.6f));
     const Affine3 places[] = {{{{2, 0, 0, 3}, {0, 2, 0, 0}, {0, 0, 2, 0}}},
                               {{{-1, 0, 0, 1}, {0, 0, 1, 1}, {0, 1, 0, 0.5f}}},
                               {{{1, 0.5f, 0, 0}, {0.25f, -1, 0, -1.5f}, {0, 0.125f, 1.5f, 0}}}};
@@ -111,11 +111,12 @@ TEST(VisibilityMoments, ofInstancesAreThoseOfMeshesInTheirPlaces)
     baked.finish();
     for (const Affine3& place : places)
     {
-        const std::vector<SamplePoint> points = pointsOf(rock, 1, place);
+        const std::vector<SamplePoint> points = makePoints(rock, 1, place);
         const auto a = visibilityMoments(instanced, points, {}), b = visibilityMoments(baked, points, {});
         EXPECT_LT(meanDifference(*a, *b), 2e-4);
         // check that the instances do occlude each other
-        const auto alone = visibilityMoments(occludersOf({transformed(rock, place).occluder()}), points, {});
+        const auto alone =
+            visibilityMoments(makeOccluders({transformed(rock, place).occluder()}), points, {});
         EXPECT_GT(meanDifference(*a, *alone), 1e-2);
     }
 }
@@ -160,7 +161,7 @@ TEST(VisibilityMoments, letRaysThroughMasks)
 
 TEST(VisibilityMoments, letRaysThroughBackFacesWhereTheMeshSaysSo)
 {
-    Mesh ceiling = floorOf(kFar); // facing up
+    Mesh ceiling = makeFloor(kFar); // facing up
     for (Float3& p : ceiling.positions)
         p.z = 1;
     OccluderMesh occluder = ceiling.occluder();
@@ -201,10 +202,10 @@ bool meets(const Mesh& mesh, Double3 origin, Double3 direction)
 
 TEST(VisibilityMoments, areThoseOfEachRayAgainstEachTriangle)
 {
-    const Mesh rock = meshOf(shapes::rock(5, 0.8f));
-    std::vector<SamplePoint> points = pointsOf(rock, 0.2);
+    const Mesh rock = makeMesh(shapes::rock(5, 0.8f));
+    std::vector<SamplePoint> points = makePoints(rock, 0.2);
     const RaySettings settings{.rays_per_sample = 48, .first_ray = 7, .seed = 5};
-    const auto moments = visibilityMoments(occludersOf({rock.occluder()}), points, settings);
+    const auto moments = visibilityMoments(makeOccluders({rock.occluder()}), points, settings);
     size_t occluded = 0;
     for (size_t i = 0; i < points.size(); ++i)
     {
@@ -224,9 +225,9 @@ TEST(VisibilityMoments, areThoseOfEachRayAgainstEachTriangle)
 
 TEST(VisibilityMoments, ofTwoPartsOfASequenceAverageToThoseOfTheWhole)
 {
-    const Mesh rock = meshOf(shapes::rock(8, 0.8f));
-    const Occluders occluders = occludersOf({rock.occluder()});
-    const std::vector<SamplePoint> points = pointsOf(rock, 0.5);
+    const Mesh rock = makeMesh(shapes::rock(8, 0.8f));
+    const Occluders occluders = makeOccluders({rock.occluder()});
+    const std::vector<SamplePoint> points = makePoints(rock, 0.5);
     const auto first = visibilityMoments(occluders, points, {.rays_per_sample = 64});
     const auto second = visibilityMoments(occluders, points, {.rays_per_sample = 64, .first_ray = 64});
     const auto whole = visibilityMoments(occluders, points, {.rays_per_sample = 128});
@@ -240,7 +241,7 @@ TEST(VisibilityMoments, ofTwoPartsOfASequenceAverageToThoseOfTheWhole)
 
 TEST(VisibilityMoments, areTheSameBytesForAnyNumberOfThreads)
 {
-    const Mesh rock = meshOf(shapes::rock(16, 0.6f));
+    const Mesh rock = makeMesh(shapes::rock(16, 0.6f));
     const auto run = [&](const RaySettings& settings)
     {
         Occluders occluders;
@@ -248,7 +249,7 @@ TEST(VisibilityMoments, areTheSameBytesForAnyNumberOfThreads)
         occluders.place(mesh);
         occluders.place(mesh, scaledAndMoved(0.5f, {1, 1, 1}));
         occluders.finish();
-        return visibilityMoments(occluders, pointsOf(rock, 3), settings).value();
+        return visibilityMoments(occluders, makePoints(rock, 3), settings).value();
     };
     for (const RaySettings& settings :
          {RaySettings{.rays_per_sample = 32}, RaySettings{.rays_per_sample = 20, .distance = 2, .power = 2}})
@@ -263,9 +264,9 @@ TEST(VisibilityMoments, areTheSameBytesForAnyNumberOfThreads)
 
 TEST(VisibilityMoments, tellHowFarTheyAreAndStopWhenTold)
 {
-    const Mesh rock = meshOf(shapes::rock(16, 0.6f));
-    const Occluders occluders = occludersOf({rock.occluder()});
-    const std::vector<SamplePoint> points = pointsOf(rock, 2);
+    const Mesh rock = makeMesh(shapes::rock(16, 0.6f));
+    const Occluders occluders = makeOccluders({rock.occluder()});
+    const std::vector<SamplePoint> points = makePoints(rock, 2);
     uint64_t last = 0;
     int calls = 0;
     const uint64_t total = points.size() * 64;

@@ -5,7 +5,7 @@
 #include "cook/visibility/mesh/moment_clamp.h"
 #include "cook/visibility/mesh/proxy.h"
 #include "cook/visibility/mesh/vertex_weld.h"
-#include "tests/cook/visibility/surface_samples_of.h"
+#include "tests/cook/visibility/mesh_samples.h"
 #include "tests/support/shapes.h"
 
 #include <gtest/gtest.h>
@@ -17,9 +17,9 @@
 namespace hearth::visibility
 {
 
-using test::pointOf;
-using test::samplesOf;
-using test::viewOf;
+using test::getPoint;
+using test::makeMeshView;
+using test::makeSamples;
 
 namespace
 {
@@ -55,10 +55,10 @@ double lowestTriangle(const Proxy& proxy)
     return least;
 }
 
-double areaOf(const MeshView& mesh)
+double computeArea(const MeshView& mesh)
 {
     double area = 0;
-    for (const SurfaceSample& sample : samplesOf(mesh, 1))
+    for (const SurfaceSample& sample : makeSamples(mesh, 1))
         area += sample.area;
     return area;
 }
@@ -137,13 +137,13 @@ TEST(WeldVertices, isWhatComparingAllPairsGives)
 TEST(MakeProxy, weldsSeamsAndKeepsHardEdges)
 {
     const mesh::SourceMesh rock = shapes::rock(8, 0.3f);
-    const Proxy smooth = makeProxy(viewOf(rock));
+    const Proxy smooth = makeProxy(makeMeshView(rock));
     EXPECT_LT(distinctPositions(rock.positions), rock.vertexCount()) << "the rock has no seams";
     EXPECT_EQ(smooth.positions.size(), distinctPositions(rock.positions));
     EXPECT_EQ(smooth.edges.size() * 2, smooth.smooth_count * 3) << "it is closed";
 
     const mesh::SourceMesh blocks = shapes::blocks(4);
-    const Proxy hard = makeProxy(viewOf(blocks));
+    const Proxy hard = makeProxy(makeMeshView(blocks));
     for (size_t v = 0; v < blocks.vertexCount(); ++v)
         EXPECT_EQ(dot(hard.normals[hard.bindings[v].vertices[0]], blocks.normals[v]), 1)
             << "of faces that meet at a right angle";
@@ -168,16 +168,16 @@ TEST(MakeProxy, dropsFacesThatAreThereTwice)
     EXPECT_EQ(proxy.positions.size(), 16u);
     EXPECT_EQ(proxy.statistics.thin.duplicate, once / 3 + 2);
     EXPECT_EQ(proxy.statistics.thin.degenerate, 1u);
-    const std::vector<SurfaceSample> samples = samplesOf(view, 2);
+    const std::vector<SurfaceSample> samples = makeSamples(view, 2);
     const std::vector<SurfaceSample> moved = mapSamplesToProxy(proxy, view, samples);
     for (size_t i = 0; i < samples.size(); ++i)
-        EXPECT_LT(length(pointOf(view, samples[i]) - pointOf(proxy.view(), moved[i])), 1e-6f);
+        EXPECT_LT(length(getPoint(view, samples[i]) - getPoint(proxy.view(), moved[i])), 1e-6f);
 }
 
 TEST(MakeProxy, collapsesNeedlesAndFlipsCaps)
 {
     FlatMesh mesh = square(4);
-    const double area = areaOf(mesh.view());
+    const double area = computeArea(mesh.view());
     // a T-junction: the midpoint of the edge between the triangles of the first quad, slightly off, and a cap
     // to close it; the triangle below is split there, the one above is not
     ASSERT_EQ((std::vector<uint32_t>(mesh.indices.begin(), mesh.indices.begin() + 6)),
@@ -205,13 +205,13 @@ TEST(MakeProxy, collapsesNeedlesAndFlipsCaps)
     EXPECT_GE(proxy.statistics.thin.flipped, 1u);
     EXPECT_EQ(proxy.statistics.thin.dropped, 0u);
     EXPECT_GE(lowestTriangle(proxy), 1e-3);
-    EXPECT_NEAR(areaOf(proxy.view()), area, 1e-4) << "a hole was left";
-    const std::vector<SurfaceSample> samples = samplesOf(view, 3),
+    EXPECT_NEAR(computeArea(proxy.view()), area, 1e-4) << "a hole was left";
+    const std::vector<SurfaceSample> samples = makeSamples(view, 3),
                                      moved = mapSamplesToProxy(proxy, view, samples);
     for (size_t i = 0; i < samples.size(); ++i)
     {
         ASSERT_NE(moved[i].triangle, kInvalidIndex);
-        EXPECT_LT(length(pointOf(proxy.view(), moved[i]) - pointOf(view, samples[i])), 3e-5f);
+        EXPECT_LT(length(getPoint(proxy.view(), moved[i]) - getPoint(view, samples[i])), 3e-5f);
     }
     for (const Binding& binding : proxy.bindings)
         EXPECT_EQ(binding.weights[0], 1) << "all vertices still have triangles";
@@ -230,7 +230,7 @@ TEST(MakeProxy, keepsAFanOfFineNeedlesFromCollapsingIntoOne)
     const Proxy proxy = makeProxy(strip.view());
     EXPECT_GE(lowestTriangle(proxy), 1e-3);
     EXPECT_GE(proxy.smooth_count, 500u);
-    EXPECT_NEAR(areaOf(proxy.view()), 1, 1e-3);
+    EXPECT_NEAR(computeArea(proxy.view()), 1, 1e-3);
 }
 
 TEST(MakeProxy, keepsABladeThatIsAllSlivers)
@@ -246,10 +246,10 @@ TEST(MakeProxy, keepsABladeThatIsAllSlivers)
     const Proxy proxy = makeProxy(view);
     EXPECT_EQ(proxy.smooth_count, 8u);
     EXPECT_EQ(proxy.statistics.loose, 2u);
-    const std::vector<SurfaceSample> samples = samplesOf(view, 4);
+    const std::vector<SurfaceSample> samples = makeSamples(view, 4);
     std::vector<Moments> values;
     for (const SurfaceSample& sample : samples)
-        values.push_back({sample.triangle < 8 ? 1.0f : 4.0f + pointOf(view, sample).z, {}});
+        values.push_back({sample.triangle < 8 ? 1.0f : 4.0f + getPoint(view, sample).z, {}});
     const FitResult fit = fitVertices(proxy, mapSamplesToProxy(proxy, view, samples), values);
     const std::vector<Moments> source = mapValuesToSource(proxy, fit.moments, view.normals);
     for (uint32_t v = 0; v < first; ++v)
@@ -319,9 +319,9 @@ TEST(MakeProxy, takesAnyTriangles)
     for (mesh::SourceMesh* mesh : {&tangle, &soup, &moebius})
     {
         mesh->normals.resize(mesh->vertexCount(), kUp);
-        const Proxy proxy = makeProxy(viewOf(*mesh));
+        const Proxy proxy = makeProxy(makeMeshView(*mesh));
         const std::vector<SurfaceSample> samples =
-            mapSamplesToProxy(proxy, viewOf(*mesh), samplesOf(viewOf(*mesh), 1));
+            mapSamplesToProxy(proxy, makeMeshView(*mesh), makeSamples(makeMeshView(*mesh), 1));
         std::vector<Moments> values(samples.size(), Moments{3, {}});
         for (const Moments& m : fitVertices(proxy, samples, values).moments)
             EXPECT_NEAR(m.m0, 3, 1e-5f);
@@ -331,7 +331,7 @@ TEST(MakeProxy, takesAnyTriangles)
 TEST(ClosestPoint, isWhatTryingAllTrianglesGives)
 {
     const mesh::SourceMesh rock = shapes::rock(5, 0.5f);
-    const MeshView view = viewOf(rock);
+    const MeshView view = makeMeshView(rock);
     const ClosestPoint tree(view, view.triangleCount());
     std::vector<ClosestPoint> single; // one per triangle
     for (size_t t = 0; t < view.triangleCount(); ++t)
@@ -349,7 +349,7 @@ TEST(ClosestPoint, isWhatTryingAllTrianglesGives)
         EXPECT_EQ(found.distance2, least);
         if (found.triangle == kInvalidIndex)
             continue;
-        const Float3 at = pointOf(view, {found.triangle, found.u, found.v, 0});
+        const Float3 at = getPoint(view, {found.triangle, found.u, found.v, 0});
         EXPECT_NEAR(length(at - p), std::sqrt(least), 1e-5);
         EXPECT_GE(std::min({found.u, found.v, 1 - found.u - found.v}), -1e-6f);
         const uint32_t* c = &view.indices[size_t{found.triangle} * 3];

@@ -13,9 +13,9 @@ namespace
 
 TEST(VisibilityMoments, ofAPlaneAreExactlyTheOpenHemisphere)
 {
-    const Mesh floor = floorOf(1);
-    const Occluders occluders = occludersOf({floor.occluder()});
-    const std::vector<SamplePoint> points = pointsOf(floor, 100);
+    const Mesh floor = makeFloor(1);
+    const Occluders occluders = makeOccluders({floor.occluder()});
+    const std::vector<SamplePoint> points = makePoints(floor, 100);
     const auto moments = visibilityMoments(occluders, points, {});
     for (const Moments& m : *moments)
     {
@@ -26,8 +26,8 @@ TEST(VisibilityMoments, ofAPlaneAreExactlyTheOpenHemisphere)
 
 TEST(VisibilityMoments, insideASolidAreExactlyNothing)
 {
-    const Mesh sphere = sphereOf(16, 32, 1, true);
-    const auto moments = visibilityMoments(occludersOf({sphere.occluder()}), pointsOf(sphere, 1), {});
+    const Mesh sphere = makeSphere(16, 32, 1, true);
+    const auto moments = visibilityMoments(makeOccluders({sphere.occluder()}), makePoints(sphere, 1), {});
     for (const Moments& m : *moments)
     {
         EXPECT_EQ(m.m0, 0);
@@ -37,10 +37,10 @@ TEST(VisibilityMoments, insideASolidAreExactlyNothing)
 
 TEST(VisibilityMoments, atACreaseAreHalf)
 {
-    Mesh mesh = floorOf(kFar);
+    Mesh mesh = makeFloor(kFar);
     mesh.addQuad({0, -kFar, 0}, {0, kFar, 0}, {0, kFar, kFar}, {0, -kFar, kFar});
-    const Moments m = seenFrom(occludersOf({mesh.occluder()}), {0.01f, 0, 0}, kUp);
-    EXPECT_NEAR(occlusionOf(m, kUp), 0.5, 3e-4);
+    const Moments m = seenFrom(makeOccluders({mesh.occluder()}), {0.01f, 0, 0}, kUp);
+    EXPECT_NEAR(computeOcclusion(m, kUp), 0.5, 3e-4);
     EXPECT_NEAR(m.m0, kPi, 2e-3);
     // reference cone: half angle 65.53 degrees, scale 0.8536
     const double rho = double{length(m.m1)} / double{m.m0};
@@ -50,11 +50,11 @@ TEST(VisibilityMoments, atACreaseAreHalf)
 
 TEST(VisibilityMoments, atACornerAreAQuarter)
 {
-    Mesh mesh = floorOf(kFar);
+    Mesh mesh = makeFloor(kFar);
     mesh.addQuad({0, -kFar, 0}, {0, kFar, 0}, {0, kFar, kFar}, {0, -kFar, kFar});
     mesh.addQuad({-kFar, 0, 0}, {kFar, 0, 0}, {kFar, 0, kFar}, {-kFar, 0, kFar});
-    const Moments m = seenFrom(occludersOf({mesh.occluder()}), {0.01f, 0.01f, 0}, kUp);
-    EXPECT_NEAR(occlusionOf(m, kUp), 0.25, 3e-4);
+    const Moments m = seenFrom(makeOccluders({mesh.occluder()}), {0.01f, 0.01f, 0}, kUp);
+    EXPECT_NEAR(computeOcclusion(m, kUp), 0.25, 3e-4);
     const double rho = double{length(m.m1)} / double{m.m0};
     EXPECT_NEAR(std::acos(2 * rho - 1) * 180 / kPi, 42.94, 0.05);
 }
@@ -62,9 +62,9 @@ TEST(VisibilityMoments, atACornerAreAQuarter)
 TEST(VisibilityMoments, besideAWallAreThoseOfItsHeight)
 {
     const float h = 1;
-    Mesh mesh = floorOf(kFar);
+    Mesh mesh = makeFloor(kFar);
     mesh.addQuad({0, -kFar, 0}, {0, kFar, 0}, {0, kFar, h}, {0, -kFar, h});
-    const Occluders occluders = occludersOf({mesh.occluder()});
+    const Occluders occluders = makeOccluders({mesh.occluder()});
     for (const float x : {0.1f, 0.5f, 1.0f, 4.0f})
     {
         const Moments m = seenFrom(occluders, {x, 0, 0}, kUp);
@@ -85,8 +85,8 @@ TEST(VisibilityMoments, atTheBottomOfAGrooveAreThoseOfItsOpening)
         Mesh mesh;
         mesh.addQuad({0, -kFar, 0}, {x, -kFar, z}, {x, kFar, z}, {0, kFar, 0});
         mesh.addQuad({0, -kFar, 0}, {0, kFar, 0}, {-x, kFar, z}, {-x, -kFar, z});
-        const Moments m = seenFrom(occludersOf({mesh.occluder()}), {0, 0, 1e-3f}, kUp);
-        EXPECT_NEAR(occlusionOf(m, kUp), std::sin(opening / 2), 1e-3) << opening;
+        const Moments m = seenFrom(makeOccluders({mesh.occluder()}), {0, 0, 1e-3f}, kUp);
+        EXPECT_NEAR(computeOcclusion(m, kUp), std::sin(opening / 2), 1e-3) << opening;
     }
 }
 
@@ -102,9 +102,9 @@ TEST(VisibilityMoments, inAPitAreThoseOfItsMouth)
         const Float3 at_b{r * static_cast<float>(std::cos(b)), r * static_cast<float>(std::sin(b)), 0};
         mesh.addQuad(at_a, at_a + kUp * d, at_b + kUp * d, at_b);
     }
-    const Moments m = seenFrom(occludersOf({mesh.occluder()}), {}, kUp);
+    const Moments m = seenFrom(makeOccluders({mesh.occluder()}), {}, kUp);
     const double exact = double{r} * r / (double{r} * r + double{d} * d);
-    EXPECT_NEAR(occlusionOf(m, kUp), exact, 5e-4);
+    EXPECT_NEAR(computeOcclusion(m, kUp), exact, 5e-4);
     // a cone of scale 1: its half angle equals the opening's
     const double rho = double{length(m.m1)} / double{m.m0};
     EXPECT_NEAR(2 * rho - 1, std::sqrt(1 - exact), 1e-3);
@@ -114,22 +114,22 @@ TEST(VisibilityMoments, inAPitAreThoseOfItsMouth)
 TEST(VisibilityMoments, underASphereAreThoseOfItsCap)
 {
     const float height = 1.2f;
-    const Mesh floor = floorOf(10);
-    const Mesh sphere = transformed(sphereOf(64, 128, 1, false), scaledAndMoved(1, {0, 0, height}));
-    const Occluders occluders = occludersOf({floor.occluder(), sphere.occluder()});
+    const Mesh floor = makeFloor(10);
+    const Mesh sphere = transformed(makeSphere(64, 128, 1, false), scaledAndMoved(1, {0, 0, height}));
+    const Occluders occluders = makeOccluders({floor.occluder(), sphere.occluder()});
     for (const float x : {0.0f, 0.8f, 2.0f})
     {
         const double h = double{height}, exact = 1 - h / std::pow(h * h + double{x} * x, 1.5);
-        EXPECT_NEAR(occlusionOf(seenFrom(occluders, {x, 0, 0}, kUp), kUp), exact, 1e-3) << x;
+        EXPECT_NEAR(computeOcclusion(seenFrom(occluders, {x, 0, 0}, kUp), kUp), exact, 1e-3) << x;
     }
 }
 
 TEST(VisibilityMoments, underAnAttenuatedCeilingAreThoseOfItsLaw)
 {
-    Mesh ceiling = floorOf(kFar);
+    Mesh ceiling = makeFloor(kFar);
     for (Float3& p : ceiling.positions)
         p.z = 0.6f;
-    const Occluders occluders = occludersOf({ceiling.occluder()});
+    const Occluders occluders = makeOccluders({ceiling.occluder()});
     const float distance = 1.5f;
     const double k = 0.4, log_k = std::log(k);
     const Moments p1 = seenFrom(occluders, {}, kUp, {.distance = distance, .power = 1});
@@ -153,17 +153,18 @@ TEST(VisibilityMoments, underAnAttenuatedCeilingAreThoseOfItsLaw)
 TEST(VisibilityMoments, ofABowlAreConstant)
 {
     // bottom of a sphere up to polar angle 0.4 pi: occlusion is 1 - A / (4 pi R^2) at every point
-    const Mesh bowl = sphereOf(40, 160, 0.4, true);
-    const std::vector<SamplePoint> all = pointsOf(bowl, 0);
+    const Mesh bowl = makeSphere(40, 160, 0.4, true);
+    const std::vector<SamplePoint> all = makePoints(bowl, 0);
     std::vector<SamplePoint> points;
     for (size_t i = 0; i < all.size(); i += 20)
         points.push_back(all[i]);
-    const auto moments = visibilityMoments(occludersOf({bowl.occluder()}), points, {.rays_per_sample = 1024});
+    const auto moments =
+        visibilityMoments(makeOccluders({bowl.occluder()}), points, {.rays_per_sample = 1024});
     const double exact = 1 - (1 - std::cos(0.4 * kPi)) / 2;
     double squares = 0, mean = 0;
     for (size_t i = 0; i < points.size(); ++i)
     {
-        const double ao = occlusionOf((*moments)[i], points[i].normal);
+        const double ao = computeOcclusion((*moments)[i], points[i].normal);
         mean += ao / static_cast<double>(points.size());
         squares += (ao - exact) * (ao - exact) / static_cast<double>(points.size());
     }
@@ -188,7 +189,7 @@ TEST(VisibilityHigherMoments, areThoseOfACapAndOfTheOpenHemisphere)
         };
         funnel.addQuad(at(i, 0), at(i, 1), at(i + 1, 1), at(i + 1, 0));
     }
-    const Occluders occluders = occludersOf({funnel.occluder()});
+    const Occluders occluders = makeOccluders({funnel.occluder()});
     const SamplePoint point{{}, kUp, 1e-6f};
     const RaySettings settings{.rays_per_sample = 1 << 16};
     const HigherMoments m = visibilityHigherMoments(occluders, {&point, 1}, settings).value()[0];
@@ -202,7 +203,7 @@ TEST(VisibilityHigherMoments, areThoseOfACapAndOfTheOpenHemisphere)
     EXPECT_NEAR(m.second.xx + m.second.yy + m.second.zz, m.moments.m0, 1e-5);
     EXPECT_EQ(m.moments.m1, visibilityMoments(occluders, {&point, 1}, settings).value()[0].m1);
 
-    const Occluders nothing = occludersOf({});
+    const Occluders nothing = makeOccluders({});
     const SecondMoments open = visibilityHigherMoments(nothing, {&point, 1}, {}).value()[0].second;
     EXPECT_EQ(open.xx, static_cast<float>(2 * kPi / 3));
     EXPECT_EQ(open.zz, static_cast<float>(2 * kPi / 3));
@@ -210,7 +211,7 @@ TEST(VisibilityHigherMoments, areThoseOfACapAndOfTheOpenHemisphere)
     // with a slanted normal the moments rotate along
     const Mesh wall = transformed(funnel, {{{0, 0, 1, 0}, {1, 0, 0, 0}, {0, 1, 0, 0}}});
     const SamplePoint sideways{{}, {1, 0, 0}, 1e-6f};
-    EXPECT_NEAR(visibilityHigherMoments(occludersOf({wall.occluder()}), {&sideways, 1}, settings)
+    EXPECT_NEAR(visibilityHigherMoments(makeOccluders({wall.occluder()}), {&sideways, 1}, settings)
                     .value()[0]
                     .second.xx,
                 zz, 1.5e-3);

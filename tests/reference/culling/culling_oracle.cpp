@@ -64,7 +64,7 @@ double reachInside(const OracleCamera& camera, const std::array<Double3, 8>& poi
     return worst;
 }
 
-std::array<Double3, 8> cornersOf(Double3 low, Double3 high)
+std::array<Double3, 8> getCorners(Double3 low, Double3 high)
 {
     std::array<Double3, 8> corners;
     for (size_t i = 0; i < 8; ++i)
@@ -77,7 +77,7 @@ std::array<Double3, 8> cornersOf(Double3 low, Double3 high)
 /// be culled.
 Answer boxOutside(const OracleCamera& camera, const DoubleAffine& transform, Float3 box_min, Float3 box_max)
 {
-    std::array<Double3, 8> moved = cornersOf(Double3(box_min), Double3(box_max));
+    std::array<Double3, 8> moved = getCorners(Double3(box_min), Double3(box_max));
     double magnitude = 0;
     Double3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
     for (Double3& p : moved)
@@ -93,7 +93,7 @@ Answer boxOutside(const OracleCamera& camera, const DoubleAffine& transform, Flo
     const Double3 offset = abs(transform.translation - camera.eye);
     magnitude = 3 * (magnitude + offset.x + offset.y + offset.z) + camera.near;
     const double band = kRelativeBand * magnitude * camera.planeScale();
-    return reachInside(camera, cornersOf(low, high)) < -band ? Answer::yes : Answer::either;
+    return reachInside(camera, getCorners(low, high)) < -band ? Answer::yes : Answer::either;
 }
 
 /// E(g) = s e K / max(|M c - eye| - s r, near) > threshold.

@@ -105,7 +105,7 @@ Tables randomTables(uint32_t seed)
     return tables;
 }
 
-PackView viewOf(const Tables& tables, const std::string& path)
+PackView makePackView(const Tables& tables, const std::string& path)
 {
     ContainerWriter writer = ContainerWriter::create(path, ContainerKind::part).value();
     EXPECT_TRUE(writer.addRecords<InstanceRecord>(kChunkInstances, tables.instances).ok());
@@ -142,7 +142,7 @@ std::vector<DrawnCluster> cull(const PackView& pack, const OracleView& view)
 
 TEST(CullExhaustively, agreesWithTheOracleForAnyTransformAndCamera)
 {
-    const PackView pack = viewOf(randomTables(1), testing::TempDir() + "reference_tables.part");
+    const PackView pack = makePackView(randomTables(1), testing::TempDir() + "reference_tables.part");
     Random random(2);
     CullingComparison sum;
     for (const uint32_t flags : {0u, uint32_t{shared::kCullInstances}, uint32_t{shared::kCullFrustum},
@@ -173,7 +173,7 @@ TEST(CullExhaustively, agreesWithTheOracleForAnyTransformAndCamera)
 
 TEST(CullingOracle, noticesAWrongDecision)
 {
-    const PackView pack = viewOf(randomTables(3), testing::TempDir() + "reference_tables_wrong.part");
+    const PackView pack = makePackView(randomTables(3), testing::TempDir() + "reference_tables_wrong.part");
     OracleView view;
     view.camera = {.position = {0, 0, 14}, .target = {0, 0, 0}, .y_fov_rad = 1.2f, .z_near = 0.1f};
     view.width = view.height = 512;

@@ -68,7 +68,7 @@ using PointKey = std::tuple<float, float, float>;
 using EdgeKey = std::pair<PointKey, PointKey>;
 
 /// Key of a position; -0 and 0 are equal.
-PointKey keyOf(Float3 p)
+PointKey makeKey(Float3 p)
 {
     return {p.x + 0.0f, p.y + 0.0f, p.z + 0.0f};
 }
@@ -81,7 +81,7 @@ std::map<EdgeKey, int> countEdges(const Triangles& triangles)
     for (const auto& t : triangles)
         for (size_t i = 0; i < 3; ++i)
         {
-            const PointKey a = keyOf(t[i]), b = keyOf(t[(i + 1) % 3]);
+            const PointKey a = makeKey(t[i]), b = makeKey(t[(i + 1) % 3]);
             if (a == b)
                 continue;
             if (a < b)
@@ -92,7 +92,7 @@ std::map<EdgeKey, int> countEdges(const Triangles& triangles)
     return balance;
 }
 
-Double3 pointOf(const PointKey& key)
+Double3 toPoint(const PointKey& key)
 {
     return Double3(Float3{std::get<0>(key), std::get<1>(key), std::get<2>(key)});
 }
@@ -108,7 +108,7 @@ double distanceToEdges(Double3 p, const std::vector<EdgeKey>& edges)
 {
     double nearest = std::numeric_limits<double>::infinity();
     for (const EdgeKey& edge : edges)
-        nearest = std::min(nearest, distanceToSegment(p, pointOf(edge.first), pointOf(edge.second)));
+        nearest = std::min(nearest, distanceToSegment(p, toPoint(edge.first), toPoint(edge.second)));
     return nearest;
 }
 
@@ -135,8 +135,8 @@ EdgeReport checkEdges(const Triangles& cut, const Triangles& source, double tole
         const auto in_source = source_balance.find(edge);
         if (in_source != source_balance.end() && in_source->second != 0)
             continue;
-        const double distance = std::max(distanceToEdges(pointOf(edge.first), source_open),
-                                         distanceToEdges(pointOf(edge.second), source_open));
+        const double distance = std::max(distanceToEdges(toPoint(edge.first), source_open),
+                                         distanceToEdges(toPoint(edge.second), source_open));
         report.worst_distance = std::max(report.worst_distance, distance);
         report.cracks += distance > tolerance;
     }

@@ -49,7 +49,7 @@ struct Scene
     }
 };
 
-size_t countOf(const RasterImage& image, uint32_t id)
+size_t countPixels(const RasterImage& image, uint32_t id)
 {
     return static_cast<size_t>(std::count(image.ids.begin(), image.ids.end(), id));
 }
@@ -68,7 +68,7 @@ TEST(Rasterise, coversExactlyThePixelsOfARectangle)
             EXPECT_EQ(image.ids[y * kSize + x] != kNothing, inside) << x << ", " << y;
             EXPECT_FLOAT_EQ(image.depths[y * kSize + x], inside ? 0.1f / 2 : 0.0f);
         }
-    EXPECT_EQ(countOf(image, 0) + countOf(image, 1), 16u * 32u);
+    EXPECT_EQ(countPixels(image, 0) + countPixels(image, 1), 16u * 32u);
 }
 
 TEST(Rasterise, givesSamplesOnAnEdgeToTheTopOrLeftSide)
@@ -78,7 +78,7 @@ TEST(Rasterise, givesSamplesOnAnEdgeToTheTopOrLeftSide)
     scene.add(atPixel(10.5f, 20.5f, 1), atPixel(10.5f, 40.5f, 1), atPixel(30.5f, 40.5f, 1));
     scene.add(atPixel(10.5f, 20.5f, 1), atPixel(30.5f, 40.5f, 1), atPixel(30.5f, 20.5f, 1));
     const RasterImage image = scene.draw();
-    EXPECT_EQ(countOf(image, 0) + countOf(image, 1), 20u * 20u);
+    EXPECT_EQ(countPixels(image, 0) + countPixels(image, 1), 20u * 20u);
     EXPECT_NE(image.ids[20 * kSize + 10], kNothing);
     EXPECT_EQ(image.ids[20 * kSize + 30], kNothing);
     EXPECT_EQ(image.ids[40 * kSize + 10], kNothing);
@@ -123,9 +123,9 @@ TEST(Rasterise, keepsTheNearerTriangle)
     Scene scene;
     scene.add(atPixel(4, 4, 2), atPixel(4, 60, 2), atPixel(60, 60, 2));
     scene.add(atPixel(4, 4, 5), atPixel(4, 60, 5), atPixel(60, 60, 5));
-    EXPECT_EQ(countOf(scene.draw(), 1), 0u);
+    EXPECT_EQ(countPixels(scene.draw(), 1), 0u);
     std::swap(scene.triangles[0], scene.triangles[1]);
-    EXPECT_EQ(countOf(scene.draw(), 1), 0u) << "whatever the order";
+    EXPECT_EQ(countPixels(scene.draw(), 1), 0u) << "whatever the order";
 }
 
 TEST(Rasterise, interpolatesDepthInPerspective)
@@ -147,9 +147,9 @@ TEST(Rasterise, dropsBackFacesUnlessTheMaterialIsDoubleSided)
 {
     Scene scene;
     scene.add(atPixel(4, 4, 2), atPixel(60, 60, 2), atPixel(4, 60, 2));
-    EXPECT_EQ(countOf(scene.draw(), 0), 0u);
+    EXPECT_EQ(countPixels(scene.draw(), 0), 0u);
     scene.materials[0].flags = formats::kMaterialDoubleSided;
-    EXPECT_GT(countOf(scene.draw(), 0), 1000u);
+    EXPECT_GT(countPixels(scene.draw(), 0), 1000u);
 }
 
 TEST(Rasterise, turnsFacesOfMirroredInstances)
@@ -158,9 +158,9 @@ TEST(Rasterise, turnsFacesOfMirroredInstances)
     scene.instances[0].world_from_object.m[0][0] = -1;
     scene.instances[0].flags = formats::kInstanceMirrored;
     scene.add({-1, -1, -2}, {1, -1, -2}, {0, 1, -2});
-    EXPECT_GT(countOf(scene.draw(), 0), 100u);
+    EXPECT_GT(countPixels(scene.draw(), 0), 100u);
     scene.instances[0].flags = 0;
-    EXPECT_EQ(countOf(scene.draw(), 0), 0u);
+    EXPECT_EQ(countPixels(scene.draw(), 0), 0u);
 }
 
 TEST(Rasterise, cutsTrianglesAtTheNearPlane)

@@ -43,7 +43,7 @@ struct EmbreeScene::State
     std::vector<MeshScene> deformed; ///< world space; one for each instance, empty unless it is deformed
 
     const PackView& view() const { return placement->geometry().view(); }
-    const MeshScene& sceneOf(uint32_t instance) const
+    const MeshScene& getScene(uint32_t instance) const
     {
         return placement->isDeformed(instance) ? deformed[instance]
                                                : meshes[view().instances()[instance].mesh];
@@ -108,7 +108,7 @@ void EmbreeScene::State::addInstance(uint32_t index)
 {
     if (placement->isDeformed(index))
         deformed[index] = makeScene(view().instances()[index].mesh, index);
-    const MeshScene& mesh = sceneOf(index);
+    const MeshScene& mesh = getScene(index);
     if (mesh.scene == nullptr)
         return;
     const Affine3 world_from_scene =
@@ -124,7 +124,7 @@ void EmbreeScene::State::addInstance(uint32_t index)
 SurfaceHit EmbreeScene::State::toHit(uint32_t instance, uint32_t primitive, float u, float v,
                                      float distance) const
 {
-    const auto [cluster, triangle] = sceneOf(instance).triangles[primitive];
+    const auto [cluster, triangle] = getScene(instance).triangles[primitive];
     SurfaceHit hit;
     hit.instance = instance;
     hit.cluster = cluster;

@@ -80,7 +80,7 @@ Status compare(const Image& reference, const Arguments& arguments)
     return arguments.flip_map.empty() ? success() : writePng(arguments.flip_map, makeFlipImage(map));
 }
 
-Result<formats::ScenePose> poseOf(const formats::PackView& view, const Arguments& arguments)
+Result<formats::ScenePose> readPose(const formats::PackView& view, const Arguments& arguments)
 {
     const std::optional<uint32_t> clip = pack::findAnimation(view, arguments.animation);
     if (!clip)
@@ -106,7 +106,7 @@ Status run(Arguments& arguments)
     formats::ScenePose pose;
     if (!arguments.animation.empty())
     {
-        HEARTH_ASSIGN_OR_RETURN(pose, poseOf(view, arguments));
+        HEARTH_ASSIGN_OR_RETURN(pose, readPose(view, arguments));
         arguments.options.pose = &pose;
     }
     HEARTH_ASSIGN_OR_RETURN(const Image image, renderReference(view, arguments.options));

@@ -41,7 +41,7 @@ std::vector<LitPoint> litPoints(const ShadedScene& scene, const std::vector<Seen
 /// Lights and sky of the reference in the form that shaders take.
 shared::Lighting sharedLighting(const SceneLighting& lighting);
 
-/// Converged light of bricks, and the gather from it.
+/// Converged light of the bricks, and the gather from it.
 class BrickGather
 {
 public:

@@ -32,7 +32,7 @@ struct HeldPack
     }
 };
 
-Coating coatingOf(double roughness, double metallic)
+Coating makeCoating(double roughness, double metallic)
 {
     return {{0.8, 0.5, 0.2}, metallic, roughness, 1, {}, {0, 1, 0}};
 }
@@ -48,7 +48,7 @@ TEST(Reflected, isTheSameBothWaysUpToTheCosine)
     for (const double roughness : {0.1, 0.5, 1.0})
         for (const double metallic : {0.0, 1.0})
         {
-            const Coating c = coatingOf(roughness, metallic);
+            const Coating c = makeCoating(roughness, metallic);
             const Double3 a = direction(0.4, 0.3), b = direction(1.1, 2.5);
             EXPECT_NEAR(reflected(c, a, b).x / b.y, reflected(c, b, a).x / a.y, 1e-9);
         }
@@ -62,7 +62,7 @@ TEST(Reflected, neverSendsBackMoreThanArrivesAtAWhiteMetal)
     for (const double roughness : {0.1, 0.3, 0.6, 1.0})
         for (const double elevation : {0.1, 0.7, 1.5})
         {
-            Coating c = coatingOf(roughness, 1);
+            Coating c = makeCoating(roughness, 1);
             c.base = {1, 1, 1};
             const Double3 view = direction(elevation, 0);
             constexpr int kUp = 400, kAround = 400;
@@ -80,7 +80,7 @@ TEST(Reflected, neverSendsBackMoreThanArrivesAtAWhiteMetal)
 
 TEST(Reflected, isLambertsLawForARoughDielectricSeenFromAbove)
 {
-    const Coating c = coatingOf(1, 0);
+    const Coating c = makeCoating(1, 0);
     // Straight up and down the Fresnel term is 0.04 and the specular lobe 0.04 / (4 pi).
     EXPECT_NEAR(reflected(c, {0, 1, 0}, {0, 1, 0}).x, 0.96 * 0.8 / kPi + 0.04 / (4 * kPi), 1e-9);
     EXPECT_EQ(reflected(c, {0, 1, 0}, {0, -1, 0}).x, 0);

@@ -25,7 +25,7 @@ Double3 mixed(Double3 a, Double3 b, double t)
     return a * (1 - t) + b * t;
 }
 
-SceneLight lightOf(const LightRecord& record)
+SceneLight makeLight(const LightRecord& record)
 {
     const DoubleAffine world(record.world_from_light);
     return {static_cast<LightType>(record.type),
@@ -118,12 +118,12 @@ Double3 SceneLighting::irradiance(Double3 normal) const
     return mixed(ground, mixed(horizon, zenith, 0.5 + 0.3 * normal.y), 0.5 + 0.5 * normal.y);
 }
 
-SceneLighting lightingOf(const PackView& view)
+SceneLighting readLighting(const PackView& view)
 {
     SceneLighting lighting{
         Double3(shared::kSkyZenith), Double3(shared::kSkyHorizon), Double3(shared::kSkyGround), {}};
     for (const LightRecord& record : view.lights())
-        lighting.lights.push_back(lightOf(record));
+        lighting.lights.push_back(makeLight(record));
     if (lighting.lights.empty())
         lighting.lights.push_back({LightType::directional,
                                    {},

@@ -40,6 +40,6 @@ struct SceneLighting
     Double3 irradiance(Double3 normal) const;
 };
 
-SceneLighting lightingOf(const formats::PackView& view);
+SceneLighting readLighting(const formats::PackView& view);
 
 } // namespace hearth::reference

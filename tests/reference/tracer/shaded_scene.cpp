@@ -31,7 +31,7 @@ MaterialRecord defaultMaterial()
 ShadedScene::ShadedScene(const PackGeometry& geometry, const TextureSet& textures, const ScenePose* pose)
     : geometry_(geometry),
       textures_(textures),
-      lighting_(lightingOf(geometry.view())),
+      lighting_(readLighting(geometry.view())),
       placement_(geometry, pose),
       rays_(
           placement_, [this](const SurfaceHit& hit) { return isThere(hit); },
@@ -44,14 +44,14 @@ std::optional<ShadedPoint> ShadedScene::nearest(const Ray& ray, double sample_an
     const auto hit = rays_.nearest(ray);
     if (!hit)
         return std::nullopt;
-    const MaterialRecord& material = materialOf(*hit);
+    const MaterialRecord& material = getMaterial(*hit);
     ShadedPoint point{*hit, surfaceAt(placement_, *hit, material.normal_texture.uv_set), {}, false};
     point.coating = coatingAt(*hit, point.surface, hit->distance * sample_angle);
     point.unlit = (material.flags & kMaterialUnlit) != 0;
     return point;
 }
 
-const MaterialRecord& ShadedScene::materialOf(const SurfaceHit& hit) const
+const MaterialRecord& ShadedScene::getMaterial(const SurfaceHit& hit) const
 {
     static const MaterialRecord otherwise = defaultMaterial();
     const uint32_t material = geometry_.view().clusters()[hit.cluster].material;
@@ -67,19 +67,19 @@ Rgba ShadedScene::look(const TextureRef& texture, const SurfacePoint& point, dou
 /// True unless the hit is a back face of a single-sided material or a hole of a mask.
 bool ShadedScene::isThere(const SurfaceHit& hit) const
 {
-    return (hit.front || (materialOf(hit).flags & kMaterialDoubleSided) != 0) && !isHole(hit);
+    return (hit.front || (getMaterial(hit).flags & kMaterialDoubleSided) != 0) && !isHole(hit);
 }
 
 bool ShadedScene::blocks(const SurfaceHit& hit) const
 {
-    return (materialOf(hit).flags & kMaterialUnlit) == 0 && !isHole(hit);
+    return (getMaterial(hit).flags & kMaterialUnlit) == 0 && !isHole(hit);
 }
 
 /// True in holes. A blended surface exists where its alpha exceeds one half: blending has no reference of its
 /// own.
 bool ShadedScene::isHole(const SurfaceHit& hit) const
 {
-    const MaterialRecord& material = materialOf(hit);
+    const MaterialRecord& material = getMaterial(hit);
     if (material.alpha_mode == static_cast<uint32_t>(AlphaMode::opaque))
         return false;
     const SurfacePoint point = surfaceAt(placement_, hit, 0);
@@ -91,7 +91,7 @@ bool ShadedScene::isHole(const SurfaceHit& hit) const
 
 Coating ShadedScene::coatingAt(const SurfaceHit& hit, const SurfacePoint& point, double sample_size) const
 {
-    const MaterialRecord& material = materialOf(hit);
+    const MaterialRecord& material = getMaterial(hit);
     Coating c;
     const Double3 factor{double{material.base_color.x}, double{material.base_color.y},
                          double{material.base_color.z}};

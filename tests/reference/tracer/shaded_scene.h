@@ -34,7 +34,7 @@ public:
     bool occluded(const Ray& ray) const { return rays_.occluded(ray); }
 
 private:
-    const formats::MaterialRecord& materialOf(const SurfaceHit& hit) const;
+    const formats::MaterialRecord& getMaterial(const SurfaceHit& hit) const;
     Rgba look(const formats::TextureRef& texture, const SurfacePoint& point, double sample_size) const;
     bool isThere(const SurfaceHit& hit) const;
     bool blocks(const SurfaceHit& hit) const;

@@ -19,7 +19,7 @@ Double3 anyAcross(Double3 n)
     return normalize(cross(n, std::abs(n.x) < 0.5 ? Double3{1, 0, 0} : Double3{0, 1, 0}));
 }
 
-double areaOf(Float2 a, Float2 b, Float2 c)
+double computeArea(Float2 a, Float2 b, Float2 c)
 {
     return (double{b.x} - double{a.x}) * (double{c.y} - double{a.y}) -
            (double{c.x} - double{a.x}) * (double{b.y} - double{a.y});
@@ -28,7 +28,7 @@ double areaOf(Float2 a, Float2 b, Float2 c)
 /// Direction in which u increases, from the triangle's world positions and UVs; zero if the UVs have no area.
 Double3 directionOfU(const Double3 corners[3], const Float2 uv[3])
 {
-    const double area = areaOf(uv[0], uv[1], uv[2]);
+    const double area = computeArea(uv[0], uv[1], uv[2]);
     if (area == 0)
         return {};
     return ((corners[1] - corners[0]) * (double{uv[2].y} - double{uv[0].y}) -
@@ -72,7 +72,7 @@ SurfacePoint surfaceAt(const Placement& placement, const SurfaceHit& hit, uint32
         const double world_area = length(area);
         if (world_area > 0)
             point.uv_per_metre[set] =
-                std::sqrt(std::abs(areaOf(uvs[set][0], uvs[set][1], uvs[set][2])) / world_area);
+                std::sqrt(std::abs(computeArea(uvs[set][0], uvs[set][1], uvs[set][2])) / world_area);
     }
 
     // glTF: bitangent = w cross(normal, tangent). Without stored tangents, u increases along the tangent, and
@@ -84,7 +84,7 @@ SurfacePoint surfaceAt(const Placement& placement, const SurfaceHit& hit, uint32
     {
         const Float2* const uv = uvs[tangent_set];
         tangent = directionOfU(corners, uv);
-        side = (areaOf(uv[0], uv[1], uv[2]) > 0 ? -1 : 1) * turn;
+        side = (computeArea(uv[0], uv[1], uv[2]) > 0 ? -1 : 1) * turn;
     }
     point.tangent = normalizeOr(tangent, anyAcross(point.normal));
     point.bitangent = normalizeOr(cross(point.normal, point.tangent), anyAcross(point.tangent)) * side;

@@ -55,7 +55,7 @@ TEST_F(CPoseTest, posesAreDrawnAsByTheClasses)
     hearth_frame frame = makeFrame();
     frame.poses = c_poses.data();
     frame.pose_count = static_cast<uint32_t>(c_poses.size());
-    const auto views = viewsOf(poses);
+    const auto views = makeViews(poses);
     for (const uint64_t skinning_bytes : {uint64_t{16} << 20, uint64_t{0}})
     {
         hearth_scene_options options = HEARTH_SCENE_OPTIONS_INIT;

@@ -53,7 +53,7 @@ Float3 rayTo(const Case& c)
     return c.light.perspective == 0 ? c.light.direction : c.point / length(c.point);
 }
 
-double depthOf(const ShadowLight& light, Double3 point)
+double computeDepth(const ShadowLight& light, Double3 point)
 {
     const double z = dot(widen(light.direction), point);
     return (z * double{light.depth_scale} + double{light.depth_offset}) / (light.perspective == 0 ? 1 : z);
@@ -64,7 +64,7 @@ double slopeByDifferences(const Case& c, const Plane& plane)
 {
     const Float2 at = shadowTexel(c.map, shadowPoint(c.light, c.point));
     const auto depthAt = [&](double x, double y)
-    { return depthOf(c.light, plane.meet(rayThrough(c.light, c.map, x, y))); };
+    { return computeDepth(c.light, plane.meet(rayThrough(c.light, c.map, x, y))); };
     const double x = double{at.x};
     const double y = double{at.y};
     return std::abs(depthAt(x + 0.5, y) - depthAt(x - 0.5, y)) +

@@ -20,7 +20,7 @@ using namespace shared;
 
 constexpr ShadowMapSize kSize{.texels = 512, .kernel = 1};
 
-Box3 sceneOf(float half)
+Box3 makeScene(float half)
 {
     return {{-half, -half, -half}, {half, half, half}};
 }
@@ -37,7 +37,7 @@ TEST(SunMap, holdsItsSphere)
     std::mt19937 random(1);
     for (int run = 0; run < 200; ++run)
     {
-        const ShadowLight light = makeSunShadow(randomUnit(random), sceneOf(100));
+        const ShadowLight light = makeSunShadow(randomUnit(random), makeScene(100));
         const Sphere sphere{randomUnit(random) * between(random, 0, 80), std::exp2(between(random, -4, 9))};
         const ShadowMap map = fitSunMap(light, sphere, kSize);
         EXPECT_GE(map.density, 0.97f * 512 / (2 * sphere.radius));
@@ -79,7 +79,7 @@ TEST(SunMap, movesInWholeTexelsAndKeepsVerticesInTheirPlaceToTheBit)
     std::mt19937 random(3);
     for (int run = 0; run < 100; ++run)
     {
-        const ShadowLight light = makeSunShadow(randomUnit(random), sceneOf(200));
+        const ShadowLight light = makeSunShadow(randomUnit(random), makeScene(200));
         const Sphere before{randomUnit(random) * between(random, 0, 50), between(random, 1, 40)};
         const Sphere after{before.center + randomUnit(random) * between(random, 0, 3), before.radius};
         const ShadowMap a = fitSunMap(light, before, kSize);
@@ -109,7 +109,7 @@ TEST(SunMap, movesInWholeTexelsAndKeepsVerticesInTheirPlaceToTheBit)
 
 TEST(SunMap, tinyAndHugeSpheresGetMapsThatFloatsCanAddress)
 {
-    const ShadowLight light = makeSunShadow({0.3f, -1, 0.2f}, sceneOf(500));
+    const ShadowLight light = makeSunShadow({0.3f, -1, 0.2f}, makeScene(500));
     for (const float radius : {1e-30f, 1e-6f, 1e-3f, 1.0f, 1e4f, 1e12f})
     {
         const Sphere sphere{{300, 20, -200}, radius};
@@ -274,7 +274,7 @@ TEST(ShadowMaps, theFirstThatHoldsAPointIsTheDensestThatDoes)
     size_t found = 0;
     for (int run = 0; run < 50; ++run)
     {
-        const ShadowLight light = makeSunShadow(randomUnit(random), sceneOf(50));
+        const ShadowLight light = makeSunShadow(randomUnit(random), makeScene(50));
         std::vector<ShadowMap> maps;
         for (int i = 0; i < 6; ++i)
             maps.push_back(fitSunMap(

@@ -106,8 +106,8 @@ protected:
 };
 
 /// Mean light of all rays of a lobe at the point of a tile.
-Float3 lobeOf(const BrickScene& scene, const BrickSky& sky, const BrickStart& start, const GatherPoint& point,
-              float roughness)
+Float3 gatherLobe(const BrickScene& scene, const BrickSky& sky, const BrickStart& start,
+                  const GatherPoint& point, float roughness)
 {
     constexpr uint32_t kRays = kGatherLobeRays * kGatherFrames;
     const Float3 to_eye = point.position * (-1 / length(point.position));
@@ -157,8 +157,8 @@ TEST_F(BrickImageTest, gathersWhatTheCpuGathers)
             continue;
         ++count;
         const Float3 truth = brickGather(scene, sky, start, 512, 1);
-        const Float3 sharp = lobeOf(scene, sky, start, point, kGatherSharpRoughness);
-        const Float3 wide = lobeOf(scene, sky, start, point, kGatherWideRoughness);
+        const Float3 sharp = gatherLobe(scene, sky, start, point, kGatherSharpRoughness);
+        const Float3 wide = gatherLobe(scene, sky, start, point, kGatherWideRoughness);
         const Float3 sharp_found{point.red.w, point.green.w, point.blue.w};
         for (int c = 0; c < 3; ++c)
         {

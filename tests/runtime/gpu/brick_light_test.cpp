@@ -34,7 +34,7 @@ struct TestHit
     friend bool operator==(const TestHit&, const TestHit&) = default;
 };
 
-TestHit hitOf(const BrickMasks& masks, const BrickRay& ray)
+TestHit makeHit(const BrickMasks& masks, const BrickRay& ray)
 {
     if (ray.inside == 0)
         return {0, 0, 0, 0, 0, 0, 0, ray.steps};
@@ -190,11 +190,11 @@ TEST_F(BrickLightTest, marchesLikeTheCpuToTheBit)
     {
         BrickRay ray =
             brickMarch(masks, brickRay(masks.grid, rays[i].origin, rays[i].direction, rays[i].far));
-        ASSERT_EQ(hits[2 * i], hitOf(masks, ray)) << i;
+        ASSERT_EQ(hits[2 * i], makeHit(masks, ray)) << i;
         found += ray.inside;
         if (ray.inside != 0)
             ray = brickMarch(masks, brickSkipVoxel(masks, ray));
-        ASSERT_EQ(hits[2 * i + 1], hitOf(masks, ray)) << i << ", second";
+        ASSERT_EQ(hits[2 * i + 1], makeHit(masks, ray)) << i << ", second";
     }
     EXPECT_GT(found, rays.size() / 8);
     EXPECT_LT(found, rays.size() * 7 / 8);
@@ -247,7 +247,7 @@ TEST_F(BrickLightTest, aFurnaceGoesToItsClosedForm)
     {
         SetUp();
         test_ = TestScene();
-        load(brickModel(kVoxels, shellOf(kVoxels),
+        load(brickModel(kVoxels, makeShell(kVoxels),
                         [&](auto, uint32_t) {
                             return FaceLook{{albedo, albedo, albedo}, {kEmission, kEmission, kEmission}};
                         }));
@@ -275,7 +275,7 @@ TEST_F(BrickLightTest, aSealedRoomStaysDarkUnderTheSun)
 {
     constexpr std::array<uint32_t, 3> kVoxels{9, 8, 11};
     test_.addLight(sun({0.4f, -1, 0.3f}));
-    load(brickModel(kVoxels, shellOf(kVoxels),
+    load(brickModel(kVoxels, makeShell(kVoxels),
                     [](auto, uint32_t) {
                         return FaceLook{{0.8f, 0.8f, 0.8f}, {}};
                     }));
@@ -301,7 +301,7 @@ TEST_F(BrickLightTest, aLightThatGoesOutIsForgotten)
     constexpr float kAlbedo = 0.8f;
     const formats::LightRecord lamp = light(formats::LightType::point, {4.5f, 4.5f, 4.5f}, {0, -1, 0}, 4);
     test_.addLight(lamp);
-    load(brickModel(kVoxels, shellOf(kVoxels),
+    load(brickModel(kVoxels, makeShell(kVoxels),
                     [](auto, uint32_t) {
                         return FaceLook{{kAlbedo, kAlbedo, kAlbedo}, {}};
                     }),
@@ -337,7 +337,7 @@ TEST_F(BrickLightTest, aLightThatGoesOutIsForgotten)
 TEST_F(BrickLightTest, emissionChangesInABox)
 {
     constexpr std::array<uint32_t, 3> kVoxels{8, 8, 8};
-    load(brickModel(kVoxels, shellOf(kVoxels),
+    load(brickModel(kVoxels, makeShell(kVoxels),
                     [](std::array<uint32_t, 3> v, uint32_t) {
                         return FaceLook{{0, 0, 0}, v[1] == 7 ? Float3{1, 1, 1} : Float3{}};
                     }));
@@ -361,7 +361,7 @@ TEST_F(BrickLightTest, emissionChangesInABox)
 TEST_F(BrickLightTest, changesOfLightsAreChecked)
 {
     test_.addLight(sun({0, -1, 0}));
-    load(brickModel({4, 4, 4}, shellOf({4, 4, 4}), colourful));
+    load(brickModel({4, 4, 4}, makeShell({4, 4, 4}), colourful));
     EXPECT_EQ(gpu::changeLight(*scene_, 1, sun({0, -1, 0})).error().issue, Issue::usage);
     EXPECT_EQ(gpu::changeLight(*scene_, 0, light(formats::LightType::point, {}, {0, -1, 0}, 1)).error().issue,
               Issue::usage);

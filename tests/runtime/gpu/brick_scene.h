@@ -36,7 +36,7 @@ struct FaceLocation
 std::vector<FaceLocation> faceLocations(const BrickModel& model);
 
 /// Shell of a box: solid within `thick` voxels of its surface.
-inline auto shellOf(std::array<uint32_t, 3> voxels, uint32_t thick = 1)
+inline auto makeShell(std::array<uint32_t, 3> voxels, uint32_t thick = 1)
 {
     return [=](uint32_t x, uint32_t y, uint32_t z)
     {

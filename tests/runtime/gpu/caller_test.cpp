@@ -132,7 +132,7 @@ private:
         const bool mapped = request.kind != gpu::MemoryKind::device;
         const VkDeviceSize offset = request.needs.alignment; // not the start of the memory
         const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr,
-                                        offset + request.needs.size, typeOf(request, mapped)};
+                                        offset + request.needs.size, findType(request, mapped)};
         if (const VkResult result =
                 device_.vk.vkAllocateMemory(device_.handle, &info, nullptr, &piece.memory);
             result != VK_SUCCESS)
@@ -149,7 +149,7 @@ private:
         return VK_SUCCESS;
     }
 
-    uint32_t typeOf(const gpu::MemoryRequest& request, bool mapped) const
+    uint32_t findType(const gpu::MemoryRequest& request, bool mapped) const
     {
         constexpr VkMemoryPropertyFlags kMapped =
             VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
@@ -263,7 +263,7 @@ protected:
                 [&](VkCommandBuffer commands)
                 {
                     renderer.record(commands, *scene, targets,
-                                    {.view = viewOf(*scene, camera, shown),
+                                    {.view = makeView(*scene, camera, shown),
                                      .shading = {.debug_view = shown.debug_view, .area = shown.area}});
                     return success();
                 }));
@@ -374,17 +374,17 @@ TEST_F(CallerTest, itsDebuggerSeesThePassesInOrder)
 TEST_F(CallerTest, itIsToldWhatIsDegraded)
 {
     std::vector<std::string> messages;
-    gpu::DeviceDescription told = description();
-    told.message_hook = {&messages, [](void* user, const char* message)
-                         { static_cast<std::vector<std::string>*>(user)->emplace_back(message); }};
-    (void)drawOnce(told);
+    gpu::DeviceDescription device = description();
+    device.message_hook = {&messages, [](void* user, const char* message)
+                           { static_cast<std::vector<std::string>*>(user)->emplace_back(message); }};
+    (void)drawOnce(device);
     EXPECT_TRUE(messages.empty());
 
     const auto page_count = static_cast<uint32_t>(pack_->pages().size());
     ASSERT_GT(page_count, 1u);
     // page 0 may be pinned from the start, and not read by the reader
     for (uint32_t page = 0; page < page_count && messages.empty(); ++page)
-        (void)drawOnce(told, {.geometry_budget = 8 << 20, .stream = {.read = reader(page)}},
+        (void)drawOnce(device, {.geometry_budget = 8 << 20, .stream = {.read = reader(page)}},
                        {.error_pixels = 0});
     ASSERT_EQ(messages.size(), 1u);
     EXPECT_THAT(messages[0], testing::HasSubstr("cannot be read"));
@@ -392,7 +392,7 @@ TEST_F(CallerTest, itIsToldWhatIsDegraded)
     messages.clear();
     for (uint32_t i = 0; i < shared::kMaxLights + 2; ++i)
         test_.addLight({});
-    (void)drawOnce(told);
+    (void)drawOnce(device);
     ASSERT_EQ(messages.size(), 1u);
     EXPECT_THAT(messages[0], testing::HasSubstr("2 lights are more than the 128"));
 }

@@ -18,7 +18,7 @@ CookedMesh::CookedMesh(const mesh::SourceMesh& source, std::span<const mesh::Sou
     auto decoded = clusters::decodeHierarchy(hierarchy_);
     HEARTH_ASSERT(decoded.ok());
     decoded_ = std::move(*decoded);
-    border_ = cuts::borderOf(hierarchy_, decoded_);
+    border_ = cuts::buildBorder(hierarchy_, decoded_);
 }
 
 void CookedMesh::expectWhole(const std::vector<uint32_t>& cut, bool watertight) const
@@ -32,15 +32,15 @@ void CookedMesh::expectWhole(const std::vector<uint32_t>& cut, bool watertight) 
                          decoded_.clusters[cluster].positions.end());
     if (watertight)
     {
-        EXPECT_EQ(cuts::crackOf(border_, triangles), "");
+        EXPECT_EQ(cuts::findCrack(border_, triangles), "");
     }
 }
 
 bool mixesLevels(const formats::PackView& view, const std::vector<uint32_t>& cut)
 {
-    const auto levelOf = [&](uint32_t cluster) { return view.clusters()[cluster].level; };
+    const auto getLevel = [&](uint32_t cluster) { return view.clusters()[cluster].level; };
     return std::any_of(cut.begin(), cut.end(),
-                       [&](uint32_t cluster) { return levelOf(cluster) != levelOf(cut.front()); });
+                       [&](uint32_t cluster) { return getLevel(cluster) != getLevel(cut.front()); });
 }
 
 mesh::SourceMesh plain(mesh::SourceMesh mesh)

@@ -61,7 +61,7 @@ protected:
     {
         const Pyramid last = readPyramid(targets);
         const Image image = draw(scene, targets, camera, options);
-        const FrameView view = viewOf(scene, camera, options);
+        const FrameView view = makeView(scene, camera, options);
         const Twin twin = makeTwin(pack, layout, view, last, readPyramid(targets));
         EXPECT_TRUE(sameBits(read<InstanceState>(scene.buffers.states, twin.states.size()), twin.states));
         EXPECT_TRUE(sameBits(read<WorkResult>(scene.buffers.results, twin.results.size()), twin.results));

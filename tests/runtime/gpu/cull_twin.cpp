@@ -22,12 +22,12 @@ std::vector<T> recordsAs(const auto& records)
     return result;
 }
 
-uint32_t countOf(const WorkResult& result)
+uint32_t getCount(const WorkResult& result)
 {
     return static_cast<uint32_t>(std::popcount(result.mask_low) + std::popcount(result.mask_high));
 }
 
-bool bitOf(uint32_t low, uint32_t high, uint32_t lane)
+bool getBit(uint32_t low, uint32_t high, uint32_t lane)
 {
     return ((lane < 32 ? low : high) >> (lane % 32) & 1) != 0;
 }
@@ -57,9 +57,9 @@ public:
 
     bool isDeformed(uint32_t instance) const
     {
-        return !words_.empty() && words_[headerOf().instance_word + instance] != 0;
+        return !words_.empty() && words_[readHeader().instance_word + instance] != 0;
     }
-    Pose pose(uint32_t instance) const { return at<Pose>(words_[headerOf().instance_word + instance]); }
+    Pose pose(uint32_t instance) const { return at<Pose>(words_[readHeader().instance_word + instance]); }
     PaletteRow joint(const Pose& pose, uint32_t joint) const
     {
         return at<PaletteRow>(pose.palette_row + joint * kPaletteRows);
@@ -81,7 +81,7 @@ public:
     }
 
 private:
-    DeformationHeader headerOf() const { return at<DeformationHeader>(0); }
+    DeformationHeader readHeader() const { return at<DeformationHeader>(0); }
 
     template <typename Record>
     Record at(uint32_t row) const
@@ -139,15 +139,15 @@ private:
     void phase(uint32_t which)
     {
         for (uint32_t i = 0; i < instances_.size(); ++i)
-            twin_.states[i] = stateOf(i, which);
+            twin_.states[i] = getState(i, which);
         for (uint32_t i = 0; i < layout_.items.size(); ++i)
-            twin_.results[i] = resultOf(i, which);
+            twin_.results[i] = getResult(i, which);
         emit(which);
         if (which != kPhaseLate)
             twin_.early_clusters = static_cast<uint32_t>(twin_.visible.size());
     }
 
-    InstanceState stateOf(uint32_t i, uint32_t which) const
+    InstanceState getState(uint32_t i, uint32_t which) const
     {
         const MeshBounds& mesh = layout_.bounds[instances_[i].mesh];
         if (which == kPhaseLate)
@@ -166,7 +166,7 @@ private:
         return state;
     }
 
-    WorkResult resultOf(uint32_t i, uint32_t which) const
+    WorkResult getResult(uint32_t i, uint32_t which) const
     {
         const WorkItem& item = layout_.items[i];
         const InstanceState& state = twin_.states[item.instance];
@@ -178,7 +178,7 @@ private:
         {
             const uint32_t cluster = layout_.order[item.first + lane];
             const bool asked_before = which == kPhaseLate && state.visible == kInstanceVisible;
-            if (!(asked_before ? bitOf(before.later_low, before.later_high, lane)
+            if (!(asked_before ? getBit(before.later_low, before.later_high, lane)
                                : decides(item, state, cluster)))
                 continue;
             const bool hidden = which != kPhaseWhole &&
@@ -207,7 +207,7 @@ private:
     bool decides(const WorkItem& item, const InstanceState& state, uint32_t number) const
     {
         if (poses_.isDeformed(item.instance))
-            return outcomeOf(item, number) >= kOutcomeCandidate;
+            return getOutcome(item, number) >= kOutcomeCandidate;
         const Cluster& cluster = clusters_[number];
         const Group& refined =
             groups_[cluster.refined_group == kNoGroup ? cluster.group : cluster.refined_group];
@@ -235,7 +235,7 @@ private:
     void countCluster(const WorkItem& item, uint32_t number)
     {
         const Cluster& cluster = clusters_[number];
-        const uint32_t outcome = outcomeOf(item, number);
+        const uint32_t outcome = getOutcome(item, number);
         CullStatistics& counts = twin_.statistics;
         ++counts.clusters[outcome];
         const uint64_t triangles =
@@ -246,7 +246,7 @@ private:
     }
 
     /// Apply the tests one after the other.
-    uint32_t outcomeOf(const WorkItem& item, uint32_t number) const
+    uint32_t getOutcome(const WorkItem& item, uint32_t number) const
     {
         const InstanceState& state = twin_.states[item.instance];
         if (state.visible == kInstanceHidden)
@@ -308,10 +308,10 @@ private:
             WorkResult& result = twin_.results[i];
             result.offset = slot - block_start;
             slot_of_item.push_back(slot);
-            slot += countOf(result);
+            slot += getCount(result);
             const WorkItem& item = layout_.items[i];
             for (uint32_t lane = 0; lane < item.count; ++lane)
-                if (bitOf(result.mask_low, result.mask_high, lane))
+                if (getBit(result.mask_low, result.mask_high, lane))
                     addVisible(item.instance, layout_.order[item.first + lane]);
         }
         twin_.totals.push_back(slot);

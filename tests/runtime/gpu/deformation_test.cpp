@@ -18,14 +18,14 @@ using namespace shared;
 class DeformationTest : public GpuTest
 {
 protected:
-    DeformationHeader headerOf(const gpu::Scene& scene)
+    DeformationHeader readHeader(const gpu::Scene& scene)
     {
         return read<DeformationHeader>(scene.deformation->buffer, 1)[0];
     }
 };
 
 /// Scratch block of a slot; nullopt if it has none.
-std::optional<uint32_t> blockOf(const DeformationHeader& header, uint32_t slot)
+std::optional<uint32_t> findBlock(const DeformationHeader& header, uint32_t slot)
 {
     const bool early = slot >= header.early_first && slot < header.early_end;
     const uint32_t block = early ? slot - header.early_first
@@ -71,7 +71,7 @@ TEST_F(DeformationTest, cullingIsLosslessInEveryPose)
         if (frame % 10 == 0)
             camera = randomCamera(random, 4);
         const auto poses = test.randomPoses(random);
-        const auto views = viewsOf(poses);
+        const auto views = makeViews(poses);
         const DrawOptions options{
             .width = 96, .height = 72, .error_pixels = frame % 2 == 0 ? 1.0f : 6.0f, .poses = views};
         const Image some = draw(*scene, targets, camera, options);
@@ -98,7 +98,7 @@ TEST_F(DeformationTest, eachTestAloneIsLossless)
     for (int frame = 0; frame < 24; ++frame)
     {
         const auto poses = poseAll(test, random);
-        const auto views = viewsOf(poses);
+        const auto views = makeViews(poses);
         const Camera camera = randomCamera(random, 4);
         DrawOptions options{.width = 96, .height = 72, .flags = 0, .poses = views};
         const Image whole = draw(*scene, camera, options);
@@ -138,7 +138,7 @@ TEST_F(DeformationTest, freePosesAreNeverCulledWrongly)
         for (const uint32_t instance : test.deformedInstances())
             poses.push_back(random() % 3 == 0 ? test.randomPose(instance, random)
                                               : test.freePose(instance, random));
-        const auto views = viewsOf(poses);
+        const auto views = makeViews(poses);
         const DrawOptions options{.width = 96, .height = 72, .error_pixels = 2, .poses = views};
         const Image some = draw(*scene, targets, camera, options);
         DrawOptions everything = options;
@@ -164,17 +164,17 @@ TEST_F(DeformationTest, skinnedVerticesAreWhereGltfSays)
     for (int frame = 0; frame < 6; ++frame)
     {
         const auto poses = poseAll(test, random);
-        const auto views = viewsOf(poses);
+        const auto views = makeViews(poses);
         Poses posed;
         keep(poses, posed);
         const Image image =
             draw(*scene, randomCamera(random, 3), {.error_pixels = 0.25f, .flags = 0, .poses = views});
-        const DeformationHeader header = headerOf(*scene);
+        const DeformationHeader header = readHeader(*scene);
         const auto words = read<float>(scene->deformation->buffer,
                                        header.scratch_word + size_t{header.block_words} * header.block_count);
         for (uint32_t slot = header.early_first; slot < header.early_end; ++slot)
         {
-            const auto block = blockOf(header, slot);
+            const auto block = findBlock(header, slot);
             ASSERT_TRUE(block);
             const VisibleCluster& visible = image.list.slots[slot];
             const TestPose& pose = posed.at(visible.instance);
@@ -210,7 +210,7 @@ TEST_F(DeformationTest, theSizeOfTheScratchDoesNotShow)
     std::mt19937 random(55);
     const DeformedScene test({.rocks = 8}, 5);
     const auto whole = upload(test.pack());
-    const uint64_t block_bytes = headerOf(*whole).block_words * 4;
+    const uint64_t block_bytes = readHeader(*whole).block_words * 4;
     const auto none = upload(test.pack(), {.deformation = {.scratch_bytes = 0}});
     const auto few = upload(test.pack(), {.deformation = {.scratch_bytes = 6 * block_bytes}});
     gpu::FrameTargets targets[] = {makeTargets(160, 120), makeTargets(160, 120), makeTargets(160, 120)};
@@ -221,17 +221,17 @@ TEST_F(DeformationTest, theSizeOfTheScratchDoesNotShow)
         if (frame % 4 == 0)
             camera = randomCamera(random, 4);
         const auto poses = test.randomPoses(random);
-        const auto views = viewsOf(poses);
+        const auto views = makeViews(poses);
         const DrawOptions options{.error_pixels = 0.5f, .poses = views};
         const Image expected = draw(*whole, targets[0], camera, options);
         const Image direct = draw(*none, targets[1], camera, options);
         const Image mixed = draw(*few, targets[2], camera, options);
-        ASSERT_EQ(headerOf(*none).group_count, 0u);
+        ASSERT_EQ(readHeader(*none).group_count, 0u);
         ASSERT_EQ(direct.visibility, expected.visibility) << "frame " << frame;
         ASSERT_EQ(direct.color, expected.color) << "frame " << frame;
         ASSERT_EQ(mixed.visibility, expected.visibility) << "frame " << frame;
         ASSERT_EQ(mixed.color, expected.color) << "frame " << frame;
-        const DeformationHeader header = headerOf(*few);
+        const DeformationHeader header = readHeader(*few);
         beyond += deformedSlots(header) > 6 ? 1u : 0u;
     }
     EXPECT_GT(beyond, 5u) << "a scratch that is never full is not tested";
@@ -246,7 +246,7 @@ TEST_F(DeformationTest, theImageIsTheCpuRasterisersOfThePosedTriangles)
     for (int frame = 0; frame < 8; ++frame)
     {
         const auto poses = poseAll(test, random);
-        const auto views = viewsOf(poses);
+        const auto views = makeViews(poses);
         Poses posed;
         keep(poses, posed);
         const DrawOptions options{.poses = views};
@@ -277,7 +277,7 @@ TEST_F(DeformationTest, theImageIsTheCpuRasterisersOfThePosedTriangles)
             }
         }
         const reference::RasterImage expected = reference::rasterise(
-            triangles, {unmoved, test.pack().materials()}, viewOf(*scene, camera, options));
+            triangles, {unmoved, test.pack().materials()}, makeView(*scene, camera, options));
         const auto comparison =
             reference::compareIds(expected, image.visibility, [](uint32_t a, uint32_t b) { return a == b; });
         EXPECT_EQ(comparison.coverage_unexcused, 0u) << "frame " << frame;
@@ -312,7 +312,7 @@ TEST_F(DeformationTest, farFromTheOriginNothingFallsApart)
             *point = {std::round(point->x * 4) / 4, std::round(point->y * 4) / 4,
                       std::round(point->z * 4) / 4};
         camera.target += {0, 0, 1};
-        const auto here = viewsOf(poses);
+        const auto here = makeViews(poses);
         const Image expected = draw(*scene, camera, {.poses = here});
         for (TestPose& pose : poses)
             for (Affine3d& joint : pose.world_from_bind)
@@ -323,7 +323,7 @@ TEST_F(DeformationTest, farFromTheOriginNothingFallsApart)
             }
         camera.position += narrow(offset);
         camera.target += narrow(offset);
-        const auto there = viewsOf(poses);
+        const auto there = makeViews(poses);
         const Image image = draw(*scene, camera, {.poses = there});
         EXPECT_EQ(image.seen(), expected.seen()) << "frame " << frame;
     }
@@ -353,7 +353,7 @@ TEST_F(DeformationTest, overdrawMayBePreparedBeforeTheScene)
         {
             early.record(
                 commands, *scene, *targets,
-                {.view = viewOf(*scene, camera, options), .shading = {.debug_view = options.debug_view}});
+                {.view = makeView(*scene, camera, options), .shading = {.debug_view = options.debug_view}});
             return success();
         });
     const auto late = upload(test.pack());
@@ -394,7 +394,7 @@ TEST_F(DeformationTest, castersAreDeformedAndMapsAreKept)
     for (int frame = 0; frame < 12; ++frame)
     {
         const auto poses = frame % 3 == 2 ? std::vector<TestPose>() : test.randomPoses(random);
-        const auto views = viewsOf(poses);
+        const auto views = makeViews(poses);
         const Image image = draw(*scene, camera, {.poses = views});
         const gpu::ShadowStatistics& statistics = scene->shadows->statistics();
         kept += frame % 3 == 2 && statistics.drawn_maps + statistics.moved_maps == 0 ? 1u : 0u;

@@ -23,7 +23,7 @@ bool sameBits(const std::vector<T>& a, const std::vector<T>& b)
 }
 
 /// Poses of all deformed instances; every second one is a free pose if `free` is set.
-std::vector<TestPose> posesOf(const DeformedScene& test, bool free, std::mt19937& random)
+std::vector<TestPose> makePoses(const DeformedScene& test, bool free, std::mt19937& random)
 {
     std::vector<TestPose> poses;
     for (const uint32_t instance : test.deformedInstances())
@@ -85,8 +85,8 @@ TEST_F(DeformationTwinTest, cullingEqualsItsTwinBitForBit)
     {
         if (frame % 4 == 0)
             camera = randomCamera(random, 4);
-        const auto poses = posesOf(test, frame % 3 == 0, random);
-        const auto views = viewsOf(poses);
+        const auto poses = makePoses(test, frame % 3 == 0, random);
+        const auto views = makeViews(poses);
         const DrawOptions options{
             .width = 96,
             .height = 72,
@@ -97,7 +97,7 @@ TEST_F(DeformationTwinTest, cullingEqualsItsTwinBitForBit)
         const Image image = draw(*scene, targets, camera, options);
         applyPoses(views, *layout);
         const Twin twin =
-            makeTwin(test.pack(), *layout, viewOf(*scene, camera, options), last, readPyramid(targets));
+            makeTwin(test.pack(), *layout, makeView(*scene, camera, options), last, readPyramid(targets));
         expectTwin(*scene, twin, image);
         for (uint32_t outcome = 0; outcome < kOutcomeCount; ++outcome)
             outcomes[outcome] += twin.statistics.clusters[outcome];
@@ -126,8 +126,8 @@ TEST_F(DeformationTwinTest, aStreamedSceneAsksAsItsTwinAndEndsAsTheWholeImage)
     size_t requested = 0;
     for (int view = 0; view < 6; ++view)
     {
-        const auto poses = posesOf(test, view % 3 == 2, random);
-        const auto views = viewsOf(poses);
+        const auto poses = makePoses(test, view % 3 == 2, random);
+        const auto views = makeViews(poses);
         applyPoses(views, *layout);
         const Camera camera = randomCamera(random, 3);
         const DrawOptions options{.error_pixels = 0.5f, .poses = views};
@@ -140,7 +140,7 @@ TEST_F(DeformationTwinTest, aStreamedSceneAsksAsItsTwinAndEndsAsTheWholeImage)
             image = draw(*streamed, camera, options);
         }
         const auto requests = read<uint32_t>(streamed->buffers.page_requests, test.pack().pages().size());
-        EXPECT_EQ(requests, makeRequestTwin(test.pack(), *layout, viewOf(*streamed, camera, options)));
+        EXPECT_EQ(requests, makeRequestTwin(test.pack(), *layout, makeView(*streamed, camera, options)));
         for (const uint32_t request : requests)
             requested += request != 0 ? 1u : 0u;
         EXPECT_EQ(image.color, draw(*whole, camera, options).color) << "view " << view;

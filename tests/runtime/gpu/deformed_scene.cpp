@@ -248,7 +248,7 @@ float morphReach(const ClusterGeometry& geometry)
 
 } // namespace
 
-std::vector<gpu::InstancePose> viewsOf(const std::vector<TestPose>& poses)
+std::vector<gpu::InstancePose> makeViews(const std::vector<TestPose>& poses)
 {
     std::vector<gpu::InstancePose> views;
     for (const TestPose& pose : poses)
@@ -462,14 +462,14 @@ void DeformedScene::boundGroups(const Mesh& mesh, std::span<const Box3> boxes)
     }
 }
 
-const DeformedScene::Mesh& DeformedScene::meshOf(uint32_t instance) const
+const DeformedScene::Mesh& DeformedScene::getMesh(uint32_t instance) const
 {
     const uint32_t mesh = pack_->instances()[instance].mesh;
     return *std::find_if(meshes_.begin(), meshes_.end(), [&](const Mesh& m) { return m.mesh == mesh; });
 }
 
 /// Random transform with rotation and scale, mirrored if the instance is.
-Affine3d DeformedScene::placeOf(uint32_t instance, std::mt19937& random) const
+Affine3d DeformedScene::choosePlace(uint32_t instance, std::mt19937& random) const
 {
     const float r = options_.reach;
     const double scale = static_cast<double>(uniform(random, 0.6f, 1.6f));
@@ -481,10 +481,10 @@ Affine3d DeformedScene::placeOf(uint32_t instance, std::mt19937& random) const
 
 TestPose DeformedScene::randomPose(uint32_t instance, std::mt19937& random) const
 {
-    const Mesh& mesh = meshOf(instance);
+    const Mesh& mesh = getMesh(instance);
     TestPose pose = mesh.poses[random() % mesh.poses.size()];
     pose.instance = instance;
-    const Affine3d place = placeOf(instance, random);
+    const Affine3d place = choosePlace(instance, random);
     for (Affine3d& joint : pose.world_from_bind)
         joint = place * joint;
     return pose;
@@ -493,7 +493,7 @@ TestPose DeformedScene::randomPose(uint32_t instance, std::mt19937& random) cons
 TestPose DeformedScene::freePose(uint32_t instance, std::mt19937& random) const
 {
     TestPose pose = randomPose(instance, random);
-    const Affine3d place = placeOf(instance, random);
+    const Affine3d place = choosePlace(instance, random);
     pose.world_from_bind = randomPalette(static_cast<uint32_t>(pose.world_from_bind.size()), 2.5, random);
     for (Affine3d& joint : pose.world_from_bind)
         joint = place * joint;

@@ -32,7 +32,7 @@ struct TestPose
     }
 };
 
-std::vector<gpu::InstancePose> viewsOf(const std::vector<TestPose>& poses);
+std::vector<gpu::InstancePose> makeViews(const std::vector<TestPose>& poses);
 
 /// A vertex in a pose as specified by glTF, in doubles: world space.
 struct PosedVertex
@@ -91,8 +91,8 @@ private:
     void addInstances(const Mesh& mesh, uint32_t count, std::mt19937& random);
     void boundMesh(const Mesh& mesh);
     void boundGroups(const Mesh& mesh, std::span<const Box3> boxes);
-    const Mesh& meshOf(uint32_t instance) const;
-    Affine3d placeOf(uint32_t instance, std::mt19937& random) const;
+    const Mesh& getMesh(uint32_t instance) const;
+    Affine3d choosePlace(uint32_t instance, std::mt19937& random) const;
 
     DeformedSceneOptions options_;
     TestScene test_;

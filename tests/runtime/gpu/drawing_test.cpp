@@ -282,7 +282,7 @@ TEST_F(DrawingTest, maskedSurfacesHaveTheHolesOfTheirTexture)
     leaf.alpha_mode = static_cast<uint32_t>(formats::AlphaMode::mask);
     // left half opaque, right half a hole
     leaf.base_color_texture =
-        textureOf(test.addImage(formats::TexelFormat::rgba8_srgb, 2, 1, {0xFFFFFFFF, 0x00FFFFFF}));
+        makeTextureRef(test.addImage(formats::TexelFormat::rgba8_srgb, 2, 1, {0xFFFFFFFF, 0x00FFFFFF}));
     leaf.base_color_texture.nearest = 1;
     test.addInstance(test.addMesh(withMaterial(makeQuad(2, 2), test.addMaterial(leaf))), Affine3{});
     const formats::PackView pack = test.build();

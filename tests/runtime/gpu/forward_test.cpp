@@ -55,7 +55,7 @@ std::vector<uint32_t> wavyTexels(uint32_t size, std::array<float, 3> middle, flo
 formats::MaterialRecord texturedMaterial(TestScene& scene, Mips mips)
 {
     const auto image = [&](formats::TexelFormat format, std::array<float, 3> middle, float height)
-    { return textureOf(scene.addImage(format, 64, 64, wavyTexels(64, middle, height, mips))); };
+    { return makeTextureRef(scene.addImage(format, 64, 64, wavyTexels(64, middle, height, mips))); };
     formats::MaterialRecord material = plainMaterial();
     material.metallic = 0.7f;
     material.emissive = {0.3f, 0.2f, 0.1f};
@@ -117,10 +117,10 @@ std::array<double, 2> uvOfPixel(const FrameView& view, const Affine3& quad, doub
 {
     const double ndc_x = x * 2 / double{view.width} - 1, ndc_y = y * 2 / double{view.height} - 1;
     const auto row = [](const Float4& r, int i) { return double{i == 0 ? r.x : i == 1 ? r.y : r.z}; };
-    const auto columnOf = [&](int i) -> Vector {
+    const auto getColumn = [&](int i) -> Vector {
         return {row(view.clip_x, i), row(view.clip_y, i), row(view.clip_w, i)};
     };
-    const Vector ray = solve(columnOf(0), columnOf(1), columnOf(2), {ndc_x, ndc_y, 1});
+    const Vector ray = solve(getColumn(0), getColumn(1), getColumn(2), {ndc_x, ndc_y, 1});
     const auto column = [&](int i) -> Vector {
         return {double{quad.m[0][i]}, double{quad.m[1][i]}, double{quad.m[2][i]}};
     };
@@ -190,7 +190,7 @@ TEST_F(ForwardTest, shadesAsTheRasteriserWould)
     formats::MaterialRecord one_sided = texturedMaterial(test, Mips::all);
     formats::MaterialRecord two_sided = one_sided;
     two_sided.flags = formats::kMaterialDoubleSided;
-    two_sided.normal_texture = textureOf(kInvalidIndex);
+    two_sided.normal_texture = makeTextureRef(kInvalidIndex);
     formats::MaterialRecord unlit = plainMaterial();
     unlit.flags = formats::kMaterialUnlit;
     unlit.base_color_texture = one_sided.base_color_texture;
@@ -256,7 +256,7 @@ TEST_F(ForwardTest, uvDerivativesAreThoseOfTheExactPlane)
         gpu::FrameTargets targets = makeTargets(options.width, options.height);
         const Image image = draw(*scene, targets, camera, options);
         const auto derivatives = other.uvDerivatives(*scene, targets);
-        const FrameView view = viewOf(*scene, camera, options);
+        const FrameView view = makeView(*scene, camera, options);
         const auto seen = image.seen();
         for (uint32_t pixel = 0; pixel < seen.size(); ++pixel)
         {

@@ -115,7 +115,7 @@ protected:
             const Image expected = draw(*whole, whole_targets, camera, options);
             if (parts->stream != nullptr)
                 parts->stream->beginFrame(frame, frame - 1);
-            const gpu::FrameInput input{.view = viewOf(*parts, camera, options),
+            const gpu::FrameInput input{.view = makeView(*parts, camera, options),
                                         .shading = {.debug_view = options.debug_view, .area = options.area}};
             const bool in_one = frame % 2 == 0;
             const Image image = in_one ? drawInOneBuffer(*parts, parts_targets, input)

@@ -104,14 +104,14 @@ protected:
     {
         TestScene test;
         test.addInstance(test.addMesh(withMaterial(makeQuad(1, 1), kInvalidIndex)), Affine3{});
-        setBricks(test, brickModel({8, 8, 8}, shellOf({8, 8, 8}),
+        setBricks(test, brickModel({8, 8, 8}, makeShell({8, 8, 8}),
                                    [](std::array<uint32_t, 3>, uint32_t) { return FaceLook{}; }));
         const formats::PackView pack = test.build();
         uploadWith(recorded, pack, {.shadows = shadows});
     }
 
     /// The first recorded pipeline that has this shader.
-    static RecordedPipeline& pipelineOf(GpuInterface& sides, const std::string& shader)
+    static RecordedPipeline& findPipeline(GpuInterface& sides, const std::string& shader)
     {
         for (const InterfaceShader& listed : sides.shaders)
             for (RecordedPipeline& pipeline : sides.pipelines)
@@ -141,7 +141,7 @@ TEST_F(GpuInterfaceTest, shadersAndCppAgree)
 TEST_F(GpuInterfaceTest, findsADescriptorOfAnotherTypeOrStage)
 {
     GpuInterface changed = both_;
-    RecordedSet& tables = pipelineOf(changed, "cull_instances_comp").sets[shared::kSetTables];
+    RecordedSet& tables = findPipeline(changed, "cull_instances_comp").sets[shared::kSetTables];
     tables[0].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
     tables[1].stageFlags = VK_SHADER_STAGE_VERTEX_BIT;
     EXPECT_THAT(findDifferences(changed),
@@ -154,7 +154,7 @@ TEST_F(GpuInterfaceTest, findsADescriptorOfAnotherTypeOrStage)
 TEST_F(GpuInterfaceTest, findsABindingThatOneSideLacks)
 {
     GpuInterface changed = both_;
-    RecordedSet& tables = pipelineOf(changed, "scan_totals_comp").sets[shared::kSetTables];
+    RecordedSet& tables = findPipeline(changed, "scan_totals_comp").sets[shared::kSetTables];
     tables[0].binding = 30;
     EXPECT_THAT(findDifferences(changed),
                 ElementsAre(AllOf(HasSubstr("scan_totals_comp: "), HasSubstr("no such binding")),
@@ -165,7 +165,7 @@ TEST_F(GpuInterfaceTest, findsABindingThatOneSideLacks)
 TEST_F(GpuInterfaceTest, findsPushConstantsOfAnotherSize)
 {
     GpuInterface changed = both_;
-    pipelineOf(changed, "pyramid_top_comp").push[0].size = 4;
+    findPipeline(changed, "pyramid_top_comp").push[0].size = 4;
     EXPECT_THAT(findDifferences(changed),
                 ElementsAre("pyramid_top_comp: PyramidPush has 8 bytes, the layout 4 from byte 0"));
 }
@@ -200,7 +200,7 @@ TEST_F(GpuInterfaceTest, findsAConstantWithAnotherIdOrWithoutValue)
 {
     GpuInterface changed = both_;
     changed.constant_ids["kUnlit"] = 7;
-    pipelineOf(changed, "skin_vertices_comp").stages[0].constants.erase(shared::kConstantUsedSlices);
+    findPipeline(changed, "skin_vertices_comp").stages[0].constants.erase(shared::kConstantUsedSlices);
     const std::vector<std::string> found = findDifferences(changed);
     EXPECT_THAT(found, Contains("shading_frag: constant kUnlit (id 3) has id 7 in C++"));
     EXPECT_THAT(found,
@@ -210,7 +210,7 @@ TEST_F(GpuInterfaceTest, findsAConstantWithAnotherIdOrWithoutValue)
 TEST_F(GpuInterfaceTest, findsAShaderThatNoPipelineHas)
 {
     GpuInterface changed = both_;
-    const std::vector<uint32_t> words = pipelineOf(changed, "gather_smooth_comp").stages[0].words;
+    const std::vector<uint32_t> words = findPipeline(changed, "gather_smooth_comp").stages[0].words;
     std::erase_if(changed.pipelines,
                   [&](const RecordedPipeline& pipeline) { return pipeline.stages[0].words == words; });
     EXPECT_THAT(findDifferences(changed), Contains("gather_smooth_comp: no pipeline has it"));

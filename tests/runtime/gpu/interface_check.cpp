@@ -32,7 +32,7 @@ std::string typeName(VkDescriptorType type)
 /// Binding, type and stages of each descriptor: layouts with equal keys are interchangeable.
 using SetKey = std::vector<std::array<uint32_t, 3>>;
 
-SetKey keyOf(const RecordedSet& set)
+SetKey makeKey(const RecordedSet& set)
 {
     SetKey key;
     for (const VkDescriptorSetLayoutBinding& binding : set)
@@ -145,7 +145,7 @@ private:
         if (!listed)
             report("a pipeline has a shader that is not in the list");
         for (const RecordedSet& set : pipeline.sets)
-            used_bindings_[keyOf(set)]; // also those that no resource uses
+            used_bindings_[makeKey(set)]; // also those that no resource uses
     }
 
     void compareResource(const std::string& shader, const ReflectedResource& resource,
@@ -162,7 +162,7 @@ private:
                                         { return binding.binding == resource.binding; });
         if (found == set.end())
             return report(who + ": the layout has no such binding");
-        used_bindings_[keyOf(set)].insert(resource.binding);
+        used_bindings_[makeKey(set)].insert(resource.binding);
         if (found->descriptorType != resource.type)
             report(who + ": the layout has a " + typeName(found->descriptorType));
         if ((found->stageFlags & stage) == 0)
@@ -217,18 +217,18 @@ private:
                 if (!used.contains(binding))
                     report("no shader uses binding " + std::to_string(binding) + " (" +
                            typeName(static_cast<VkDescriptorType>(type)) + ") of a set layout of " +
-                           std::to_string(set.size()) + " bindings: " + usersOf(set));
+                           std::to_string(set.size()) + " bindings: " + listUsers(set));
     }
 
     /// Name the shaders whose pipelines have a set layout.
-    std::string usersOf(const SetKey& set) const
+    std::string listUsers(const SetKey& set) const
     {
         std::string names;
         for (const InterfaceShader& shader : sides_.shaders)
             for (const RecordedPipeline& pipeline : sides_.pipelines)
                 if (pipeline.stages.back().words == shader.words &&
                     std::any_of(pipeline.sets.begin(), pipeline.sets.end(),
-                                [&](const RecordedSet& s) { return keyOf(s) == set; }))
+                                [&](const RecordedSet& s) { return makeKey(s) == set; }))
                 {
                     names += (names.empty() ? "" : ", ") + shader.name;
                     break;

@@ -30,7 +30,7 @@ formats::PackView buildRocks(TestScene& test, std::span<const Affine3> places)
     return test.build();
 }
 
-Affine3 placeOf(uint32_t rock, std::mt19937& random)
+Affine3 choosePlace(uint32_t rock, std::mt19937& random)
 {
     Affine3 place = randomAffine(random, 4);
     if ((determinant(place) < 0) != (rock % 3 == 0))
@@ -43,7 +43,7 @@ std::vector<Affine3> randomPlaces(std::mt19937& random)
 {
     std::vector<Affine3> places;
     for (uint32_t rock = 0; rock < kRocks; ++rock)
-        places.push_back(placeOf(rock, random));
+        places.push_back(choosePlace(rock, random));
     return places;
 }
 
@@ -163,7 +163,7 @@ TEST_F(MotionTest, cullingIsLosslessWhileThingsMove)
         for (uint32_t rock = 0; rock < kRocks; ++rock)
             if (random() % 3 == 0)
             {
-                const auto move = gpu::moveInstance(*scene, rock, placeOf(rock, random));
+                const auto move = gpu::moveInstance(*scene, rock, choosePlace(rock, random));
                 ASSERT_TRUE(move.ok());
                 moves.push_back(*move);
             }

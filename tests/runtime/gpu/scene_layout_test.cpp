@@ -234,7 +234,7 @@ TEST(SceneLighting, aSceneWithoutLightsGetsOneSun)
 
 TEST(SceneLighting, brightScenesAreScaledDownToTheKeyAndDimOnesAreNot)
 {
-    const auto intensityOf = [](float lux)
+    const auto getIntensity = [](float lux)
     {
         TestScene test;
         LightRecord sun{};
@@ -243,8 +243,8 @@ TEST(SceneLighting, brightScenesAreScaledDownToTheKeyAndDimOnesAreNot)
         test.addLight(sun);
         return gpu::makeLighting(test.build()).lights[0].intensity.x;
     };
-    EXPECT_FLOAT_EQ(intensityOf(0.5f), 0.5f);
-    EXPECT_NEAR(intensityOf(100000), shared::kKeyIlluminance, 1e-4f);
+    EXPECT_FLOAT_EQ(getIntensity(0.5f), 0.5f);
+    EXPECT_NEAR(getIntensity(100000), shared::kKeyIlluminance, 1e-4f);
 }
 
 TEST(SceneLighting, moreLightsThanFitAreLeftOut)

@@ -96,7 +96,7 @@ TEST_F(ShadingTest, texturesStandUprightAndKeepTheirBytes)
 {
     TestScene test;
     MaterialRecord material = unlitMaterial();
-    material.base_color_texture = textureOf(
+    material.base_color_texture = makeTextureRef(
         test.addImage(TexelFormat::rgba8_srgb, 2, 2, {0xFF0000FF, 0xFF00FF00, 0xFFFF0000, 0xFF808080}));
     material.base_color_texture.nearest = 1;
     const Image image = drawMaterial(test, material);
@@ -118,7 +118,7 @@ TEST_F(ShadingTest, theMipLevelFollowsTheSizeOnTheScreen)
         TestScene test;
         MaterialRecord material = unlitMaterial();
         material.base_color_texture =
-            textureOf(test.addImage(TexelFormat::rgba8_unorm, kSize, kSize, texels));
+            makeTextureRef(test.addImage(TexelFormat::rgba8_unorm, kSize, kSize, texels));
         test.addInstance(test.addMesh(withMaterial(makeQuad(size, size), test.addMaterial(material))),
                          Affine3{});
         const Image image = drawSquare(test);
@@ -134,7 +134,7 @@ TEST_F(ShadingTest, uvTransformAndUvSetAreFollowed)
     TestScene test;
     MaterialRecord material = unlitMaterial();
     material.base_color_texture =
-        textureOf(test.addImage(TexelFormat::rgba8_srgb, 2, 1, {gray(10), gray(240)}));
+        makeTextureRef(test.addImage(TexelFormat::rgba8_srgb, 2, 1, {gray(10), gray(240)}));
     material.base_color_texture.nearest = 1;
     material.base_color_texture.uv_set = 1;
     // swaps u and v, and shifts the new u by half the texture
@@ -199,7 +199,7 @@ TEST_F(ShadingTest, normalMapsTiltAlongTangentAndBitangent)
         {
             TestScene test;
             MaterialRecord material = plainMaterial();
-            material.normal_texture = textureOf(test.addImage(TexelFormat::rgba8_unorm, 1, 1, {texel}));
+            material.normal_texture = makeTextureRef(test.addImage(TexelFormat::rgba8_unorm, 1, 1, {texel}));
             mesh::SourceMesh quad = withMaterial(makeQuad(2, 2), test.addMaterial(material));
             if (!tangents)
                 quad.tangents.clear();
@@ -231,7 +231,7 @@ TEST_F(ShadingTest, occlusionDarkensTheSkyAndEmissionAdds)
         test.addLight(light(LightType::directional, 0)); // no default sun
         MaterialRecord material = plainMaterial();
         material.occlusion_texture =
-            textureOf(test.addImage(TexelFormat::rgba8_unorm, 1, 1, {gray(occlusion)}));
+            makeTextureRef(test.addImage(TexelFormat::rgba8_unorm, 1, 1, {gray(occlusion)}));
         material.emissive = {emissive, emissive, emissive};
         return channel(drawMaterial(test, material).at(32, 32), 0);
     };
@@ -249,7 +249,7 @@ TEST_F(ShadingTest, pointAndSpotLightsEndWhereTheySay)
         record.world_from_light = translated({0, 0, 1});
         test.addLight(record);
         MaterialRecord material = plainMaterial();
-        material.occlusion_texture = textureOf(test.addImage(TexelFormat::rgba8_unorm, 1, 1, {gray(0)}));
+        material.occlusion_texture = makeTextureRef(test.addImage(TexelFormat::rgba8_unorm, 1, 1, {gray(0)}));
         return drawMaterial(test, material);
     };
     LightRecord lamp = light(LightType::point, 3);
@@ -285,7 +285,7 @@ TEST_F(ShadingTest, aSurfaceAcrossTheEyePlaneIsShadedWithoutHoles)
     TestScene test;
     MaterialRecord material = unlitMaterial();
     material.flags |= kMaterialDoubleSided;
-    material.base_color_texture = textureOf(test.addImage(TexelFormat::rgba8_srgb, 1, 1, {gray(200)}));
+    material.base_color_texture = makeTextureRef(test.addImage(TexelFormat::rgba8_srgb, 1, 1, {gray(200)}));
     test.addInstance(test.addMesh(withMaterial(makeQuad(2000, 2000), test.addMaterial(material))), Affine3{});
     const PackView pack = test.build();
     const auto scene = upload(pack);
@@ -304,7 +304,7 @@ TEST_F(ShadingTest, everyMaterialShadesItsOwnPixels)
     {
         MaterialRecord material = unlitMaterial();
         material.base_color_texture =
-            textureOf(test.addImage(TexelFormat::rgba8_srgb, 1, 1, {gray(5 * i + 20)}));
+            makeTextureRef(test.addImage(TexelFormat::rgba8_srgb, 1, 1, {gray(5 * i + 20)}));
         const float y = 0.975f - 0.05f * static_cast<float>(i);
         test.addInstance(test.addMesh(withMaterial(makeQuad(2, 0.05f), test.addMaterial(material))),
                          translated({0, y, 0}));

@@ -18,7 +18,7 @@ using namespace formats;
 constexpr uint32_t kRocks = 6; ///< instances 1 and on; 0 is the floor
 constexpr DrawOptions kDrawn{.width = 64, .height = 48, .error_pixels = 1};
 
-Affine3 placeOf(std::mt19937& random)
+Affine3 choosePlace(std::mt19937& random)
 {
     return scaled(uniform(random, 0.3f, 0.8f),
                   {uniform(random, -6, 6), uniform(random, 0.3f, 2), uniform(random, -6, 6)});
@@ -33,7 +33,7 @@ PackView buildScene(TestScene& test, uint32_t detail)
     for (uint32_t i = 0; i < kRocks; ++i)
     {
         const uint32_t rock = test.addMesh(withMaterial(shapes::rock(detail, 0.25f, i), white));
-        test.addInstance(rock, placeOf(random));
+        test.addInstance(rock, choosePlace(random));
     }
     test.addLight(light(LightType::spot, {-4, 4, 1}, {0.3f, -1, 0}, 30));
     test.addLight(sun({0.3f, -1, -0.4f}));
@@ -65,12 +65,12 @@ shared::Camera cameraAt(std::mt19937& random)
 class ShadowCacheTest : public GpuTest
 {
 protected:
-    static const gpu::ShadowStatistics& statisticsOf(const gpu::Scene& scene)
+    static const gpu::ShadowStatistics& getStatistics(const gpu::Scene& scene)
     {
         return scene.shadows->statistics();
     }
 
-    std::vector<float> mapOf(const gpu::Scene& scene, uint32_t map)
+    std::vector<float> readMap(const gpu::Scene& scene, uint32_t map)
     {
         const uint32_t layer = scene.shadows->plan().block.maps[map].layer;
         auto depths = host().readDepth(renderer().device(), scene.shadows->image(), layer);
@@ -83,10 +83,10 @@ protected:
                     const Image& fresh_image, int frame)
     {
         ASSERT_EQ(kept_image.color, fresh_image.color) << "frame " << frame;
-        ASSERT_EQ(statisticsOf(kept).maps, statisticsOf(fresh).maps);
-        ASSERT_EQ(statisticsOf(fresh).drawn_maps, statisticsOf(fresh).maps);
-        for (uint32_t map = 0; map < statisticsOf(kept).maps; ++map)
-            ASSERT_EQ(mapOf(kept, map), mapOf(fresh, map)) << "frame " << frame << ", map " << map;
+        ASSERT_EQ(getStatistics(kept).maps, getStatistics(fresh).maps);
+        ASSERT_EQ(getStatistics(fresh).drawn_maps, getStatistics(fresh).maps);
+        for (uint32_t map = 0; map < getStatistics(kept).maps; ++map)
+            ASSERT_EQ(readMap(kept, map), readMap(fresh, map)) << "frame " << frame << ", map " << map;
     }
 };
 
@@ -114,7 +114,7 @@ public:
         if (random_() % 3 == 0)
         {
             const auto rock = static_cast<uint32_t>(1 + random_() % kRocks);
-            moves.push_back(*gpu::moveInstance(scene, rock, placeOf(random_)));
+            moves.push_back(*gpu::moveInstance(scene, rock, choosePlace(random_)));
         }
         return moves;
     }
@@ -152,9 +152,9 @@ TEST_F(ShadowCacheTest, keptMapsAreFreshOnesWhileThingsMove)
             const Image kept_image = draw(*kept, walk.camera(), options);
             const Image fresh_image = draw(*fresh, walk.camera(), options);
             ASSERT_NO_FATAL_FAILURE(expectSame(*kept, kept_image, *fresh, fresh_image, frame));
-            maps += statisticsOf(*kept).maps;
-            drawn += statisticsOf(*kept).drawn_maps;
-            moved += statisticsOf(*kept).moved_maps;
+            maps += getStatistics(*kept).maps;
+            drawn += getStatistics(*kept).drawn_maps;
+            moved += getStatistics(*kept).moved_maps;
         }
         EXPECT_LT(drawn, maps * 3 / 4);
         EXPECT_GT(drawn, 50u);
@@ -192,7 +192,7 @@ TEST_F(ShadowCacheTest, keptMapsAreFreshOnesWhilePagesComeAndGo)
         changed += kept->stream->changedGroups().empty() ? 0u : 1u;
         if (frame % 3 == 0) // the pages of these frames arrive while nothing is drawn
         {
-            const shared::FrameView view = viewOf(*kept, walk.camera(), fine);
+            const shared::FrameView view = makeView(*kept, walk.camera(), fine);
             const auto prefetch = [&](VkCommandBuffer commands)
             {
                 renderer().recordPrefetch(commands, *kept, targets, view);
@@ -215,8 +215,8 @@ TEST_F(ShadowCacheTest, keptMapsAreFreshOnesWhilePagesComeAndGo)
         const Image kept_image = draw(*kept, walk.camera(), options);
         const Image fresh_image = draw(*fresh, walk.camera(), options);
         ASSERT_NO_FATAL_FAILURE(expectSame(*kept, kept_image, *fresh, fresh_image, static_cast<int>(frame)));
-        maps += statisticsOf(*kept).maps;
-        drawn += statisticsOf(*kept).drawn_maps;
+        maps += getStatistics(*kept).maps;
+        drawn += getStatistics(*kept).drawn_maps;
     }
     EXPECT_GT(changed, 15u);
     EXPECT_LT(drawn, maps * 3 / 4);
@@ -234,7 +234,7 @@ TEST_F(ShadowCacheTest, mapsAreDrawnWhereSomethingChanges)
         const auto drawnBy = [&](const DrawOptions& options)
         {
             draw(*scene, camera, options);
-            return statisticsOf(*scene);
+            return getStatistics(*scene);
         };
         const auto drawnByMove = [&](Float3 place)
         {

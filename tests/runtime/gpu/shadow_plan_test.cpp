@@ -17,7 +17,7 @@ using gpu::ShadowSphere;
 constexpr Box3 kScene{{-10, 0, -10}, {10, 5, 10}};
 
 /// Lights that all shine straight down; spots at 4 m with 45 degrees to each side.
-shared::Lighting lightsOf(std::initializer_list<LightType> types)
+shared::Lighting makeLights(std::initializer_list<LightType> types)
 {
     shared::Lighting lighting{};
     for (const LightType type : types)
@@ -33,8 +33,8 @@ shared::Lighting lightsOf(std::initializer_list<LightType> types)
     return lighting;
 }
 
-gpu::ShadowPlan planOf(const shared::Lighting& lighting, const gpu::ShadowOptions& options,
-                       std::span<const ShadowSphere> spheres = {})
+gpu::ShadowPlan makePlan(const shared::Lighting& lighting, const gpu::ShadowOptions& options,
+                         std::span<const ShadowSphere> spheres = {})
 {
     const shared::FrameView view =
         shared::makeFrameView({.position = {0, 2, 8}, .target = {0, 0, 0}}, 640, 480, 1, 1);
@@ -42,7 +42,7 @@ gpu::ShadowPlan planOf(const shared::Lighting& lighting, const gpu::ShadowOption
                             spheres);
 }
 
-std::vector<uint32_t> sizesOf(const gpu::ShadowPlan& plan, uint32_t row)
+std::vector<uint32_t> getSizes(const gpu::ShadowPlan& plan, uint32_t row)
 {
     const shared::ShadowLight& light = plan.block.lights[row];
     std::vector<uint32_t> sizes;
@@ -55,7 +55,7 @@ std::vector<uint32_t> sizesOf(const gpu::ShadowPlan& plan, uint32_t row)
 
 TEST(ShadowRows, areGivenToSunsBeforeSpotsAndToNoPointLight)
 {
-    shared::Lighting lighting = lightsOf(
+    shared::Lighting lighting = makeLights(
         {LightType::spot, LightType::point, LightType::directional, LightType::spot, LightType::directional});
     std::vector<uint32_t> rows;
     for (uint32_t i = 0; i < lighting.light_count; ++i)
@@ -72,12 +72,12 @@ TEST(ShadowRows, areGivenToSunsBeforeSpotsAndToNoPointLight)
 
 TEST(ShadowPlan, hasSplitsOfSunsConesOfSpotsAndSpheresOfBoth)
 {
-    const auto lighting = lightsOf({LightType::directional, LightType::spot});
+    const auto lighting = makeLights({LightType::directional, LightType::spot});
     const ShadowSphere spheres[] = {{.center = {0, 0.5f, 0}, .radius = 0.5f},
                                     {.center = {2, 0.5f, 0}, .radius = 1, .light = 1},
                                     {.center = {9, 0.5f, 9}, .radius = 0.1f, .light = 1}, // beside the cone
                                     {.center = {0, 0.5f, 0}, .radius = 1, .light = 7}};   // no such light
-    const gpu::ShadowPlan plan = planOf(lighting, {.max_maps = 16, .splits = 3}, spheres);
+    const gpu::ShadowPlan plan = makePlan(lighting, {.max_maps = 16, .splits = 3}, spheres);
     EXPECT_EQ(plan.block.lights[0].map_count, 4u);
     EXPECT_EQ(plan.block.lights[1].map_count, 3u);
     EXPECT_EQ(plan.map_count, 7u);
@@ -101,20 +101,20 @@ TEST(ShadowPlan, hasSplitsOfSunsConesOfSpotsAndSpheresOfBoth)
 
 TEST(ShadowPlan, givesSpheresTheTexelsThatTheyAskFor)
 {
-    const auto lighting = lightsOf({LightType::directional});
+    const auto lighting = makeLights({LightType::directional});
     std::vector<ShadowSphere> spheres;
     // rounded down, limited by the filter and by the layer
     for (const uint32_t texels : {0u, 512u, 300u, 1u, 4096u})
         spheres.push_back({.center = {}, .radius = 1, .texels = texels});
-    auto sizes = sizesOf(planOf(lighting, {.max_maps = 16, .kernel = 2, .splits = 0}, spheres), 0);
+    auto sizes = getSizes(makePlan(lighting, {.max_maps = 16, .kernel = 2, .splits = 0}, spheres), 0);
     std::sort(sizes.begin(), sizes.end());
     EXPECT_EQ(sizes, (std::vector<uint32_t>{16, 256, 512, 1024, 1024}));
 }
 
 TEST(ShadowPlan, countsWhatHasNoLayer)
 {
-    const auto lighting = lightsOf({LightType::spot, LightType::directional, LightType::spot});
-    const gpu::ShadowPlan plan = planOf(lighting, {.max_maps = 3, .splits = 2});
+    const auto lighting = makeLights({LightType::spot, LightType::directional, LightType::spot});
+    const gpu::ShadowPlan plan = makePlan(lighting, {.max_maps = 3, .splits = 2});
     EXPECT_EQ(plan.map_count, 3u);
     EXPECT_EQ(plan.dropped_maps, 1u);
     EXPECT_EQ(plan.block.lights[0].map_count, 2u) << "the sun";

@@ -329,7 +329,7 @@ TEST_F(SkyViewTest, specularOcclusionIsLookedUpInTheTable)
 /// Image computed by the material model of the reference.
 TEST_F(SkyViewTest, theImageIsOccludedByLobe)
 {
-    const reference::SceneLighting lighting = reference::lightingOf(*pack_);
+    const reference::SceneLighting lighting = reference::readLighting(*pack_);
     for (const auto& [ambient, specular] : {std::pair{kAmbientOcclusionExact, kSpecularOcclusionFit},
                                             std::pair{kAmbientOcclusionSmoothstep, kSpecularOcclusionOff},
                                             std::pair{kAmbientOcclusionOff, kSpecularOcclusionFit}})
@@ -382,7 +382,7 @@ TEST_F(SkyOcclusionTest, conesOfCharactersTurnWithTheirPose)
         pose.free = true;
         poses.push_back(pose);
     }
-    const auto views = viewsOf(poses);
+    const auto views = makeViews(poses);
     for (const uint32_t view : {kViewBentNormal, kViewAmbientOcclusion})
     {
         const Image image =
@@ -463,7 +463,8 @@ TEST_F(SheetTest, aNormalMapBendsWhatIsLit)
 {
     MaterialRecord material = plainMaterial();
     constexpr uint32_t kBent = 190 | 90u << 8 | 220u << 16 | 255u << 24;
-    material.normal_texture = textureOf(test_.addImage(formats::TexelFormat::rgba8_unorm, 1, 1, {kBent}));
+    material.normal_texture =
+        makeTextureRef(test_.addImage(formats::TexelFormat::rgba8_unorm, 1, 1, {kBent}));
     addSheet(material, true);
     load();
     look({1, 0.5f, 4});
@@ -493,7 +494,7 @@ TEST_F(SheetTest, theSmallerOfTextureAndConeCounts)
     {
         test_ = {};
         material.occlusion_texture =
-            textureOf(test_.addImage(formats::TexelFormat::rgba8_unorm, 1, 1, {texel | 0xFF000000u}));
+            makeTextureRef(test_.addImage(formats::TexelFormat::rgba8_unorm, 1, 1, {texel | 0xFF000000u}));
         addSheet(material, true);
         load(
             [&](uint32_t, Float3, Float3 n) {

@@ -148,9 +148,9 @@ public:
         for (; !frames_.empty() && frames_.front().serial <= serial; frames_.pop_front())
         {
             for (const auto& [page, slot, staging_slot] : frames_.front().uploads)
-                std::copy_n(slotOf(staging_, staging_slot), view_.pages()[page].size, slotOf(pool_, slot));
+                std::copy_n(getSlot(staging_, staging_slot), view_.pages()[page].size, getSlot(pool_, slot));
             for (const auto& [page, slot] : frames_.front().drawn)
-                EXPECT_TRUE(std::equal(expected_[page].begin(), expected_[page].end(), slotOf(pool_, slot)))
+                EXPECT_TRUE(std::equal(expected_[page].begin(), expected_[page].end(), getSlot(pool_, slot)))
                     << page;
         }
     }
@@ -165,7 +165,7 @@ private:
         std::vector<std::pair<uint32_t, uint32_t>> drawn; ///< page and slot
     };
 
-    static std::vector<std::byte>::iterator slotOf(std::vector<std::byte>& memory, uint32_t slot)
+    static std::vector<std::byte>::iterator getSlot(std::vector<std::byte>& memory, uint32_t slot)
     {
         return memory.begin() + static_cast<ptrdiff_t>(slot) * formats::kMaxPageBytes;
     }
@@ -217,7 +217,7 @@ TEST(ResidentGroups, areThoseOfTheWholeRuleAfterEachChange)
     const PackView view = scene.build();
     std::mt19937 random(3);
     pack::ResidentGroups groups(view);
-    std::vector<uint8_t> pages(view.pages().size(), 0), told(view.groups().size(), 0);
+    std::vector<uint8_t> pages(view.pages().size(), 0), reported(view.groups().size(), 0);
     for (size_t i = 0; i < trials(400); ++i)
     {
         const auto page = static_cast<uint32_t>(random() % pages.size());
@@ -228,13 +228,13 @@ TEST(ResidentGroups, areThoseOfTheWholeRuleAfterEachChange)
             groups.remove(page);
         for (const auto& [group, resident] : groups.changes())
         {
-            EXPECT_NE(told[group] != 0, resident) << "only changes are told";
-            told[group] = resident ? 1 : 0;
+            EXPECT_NE(reported[group] != 0, resident) << "only changes are reported";
+            reported[group] = resident ? 1 : 0;
         }
         groups.clearChanges();
-        ASSERT_EQ(told, pack::residentGroups(view, pages));
-        for (uint32_t group = 0; group < told.size(); ++group)
-            ASSERT_EQ(groups.isResident(group), told[group] != 0);
+        ASSERT_EQ(reported, pack::residentGroups(view, pages));
+        for (uint32_t group = 0; group < reported.size(); ++group)
+            ASSERT_EQ(groups.isResident(group), reported[group] != 0);
     }
 }
 
@@ -277,7 +277,7 @@ TEST(PageStream, bringsEveryResidentPageToItsSlotWhateverThreadsReadIt)
     EXPECT_GE(stream.statistics().bytes_streamed, kEnough);
     while (stream.readsInFlight() > 0)
         frame(0);
-    EXPECT_EQ(failures, 1u) << "the page that cannot be read is told once";
+    EXPECT_EQ(failures, 1u) << "the page that cannot be read is reported once";
     EXPECT_EQ(stream.statistics().failures, 1u);
 }
 

@@ -14,13 +14,13 @@ namespace hearth::test
 namespace
 {
 
-std::vector<uint32_t> copyOf(std::span<const uint32_t> pages)
+std::vector<uint32_t> makeCopy(std::span<const uint32_t> pages)
 {
     return {pages.begin(), pages.end()};
 }
 
 template <typename T>
-bool oneOf(T value, std::initializer_list<T> values)
+bool isOneIn(T value, std::initializer_list<T> values)
 {
     return std::find(values.begin(), values.end(), value) != values.end();
 }
@@ -33,10 +33,10 @@ void raise(std::map<uint32_t, double>& priorities, uint32_t page, double priorit
 
 } // namespace
 
-ChangeLists listsOf(const pack::FrameChanges& changes)
+ChangeLists makeLists(const pack::FrameChanges& changes)
 {
-    return {copyOf(changes.evicted), copyOf(changes.published), copyOf(changes.released),
-            copyOf(changes.discarded), copyOf(changes.failed)};
+    return {makeCopy(changes.evicted), makeCopy(changes.published), makeCopy(changes.released),
+            makeCopy(changes.discarded), makeCopy(changes.failed)};
 }
 
 ResidencyModel::ResidencyModel(const std::vector<pack::PageNode>& nodes,
@@ -137,7 +137,7 @@ std::vector<uint32_t> ResidencyModel::schedule()
         std::vector<uint32_t> victims;
         const auto staying = [&]
         {
-            return bytesOf(trial, {State::resident, State::loading, State::loaded}) + promised +
+            return sumBytes(trial, {State::resident, State::loading, State::loaded}) + promised +
                    nodes_[page].size_bytes;
         };
         while (staying() > options_.budget_bytes)
@@ -185,27 +185,27 @@ void ResidencyModel::retryFailed()
 
 uint64_t ResidencyModel::bytesInUse() const
 {
-    return bytesOf(pages_, {State::resident, State::loading, State::loaded, State::leaving, State::held});
+    return sumBytes(pages_, {State::resident, State::loading, State::loaded, State::leaving, State::held});
 }
 
-uint64_t ResidencyModel::bytesOf(const Pages& pages, std::initializer_list<State> states) const
+uint64_t ResidencyModel::sumBytes(const Pages& pages, std::initializer_list<State> states) const
 {
     uint64_t bytes = 0;
     for (size_t page = 0; page < pages.size(); ++page)
-        bytes += oneOf(pages[page].state, states) ? nodes_[page].size_bytes : 0;
+        bytes += isOneIn(pages[page].state, states) ? nodes_[page].size_bytes : 0;
     return bytes;
 }
 
 bool ResidencyModel::needsAre(const Pages& pages, uint32_t page, std::initializer_list<State> states) const
 {
     return std::all_of(nodes_[page].needs.begin(), nodes_[page].needs.end(),
-                       [&](uint32_t needed) { return oneOf(pages[needed].state, states); });
+                       [&](uint32_t needed) { return isOneIn(pages[needed].state, states); });
 }
 
 bool ResidencyModel::hasDependents(const Pages& pages, uint32_t page) const
 {
     for (size_t other = 0; other < pages.size(); ++other)
-        if (oneOf(pages[other].state, {State::loading, State::loaded, State::resident}))
+        if (isOneIn(pages[other].state, {State::loading, State::loaded, State::resident}))
             for (const uint32_t needed : nodes_[other].needs)
                 if (needed == page)
                     return true;

@@ -19,7 +19,7 @@ struct ChangeLists
     friend bool operator==(const ChangeLists&, const ChangeLists&) = default;
 };
 
-ChangeLists listsOf(const pack::FrameChanges& changes);
+ChangeLists makeLists(const pack::FrameChanges& changes);
 
 class ResidencyModel
 {
@@ -56,7 +56,7 @@ private:
     using Pages = std::vector<Page>;
 
     std::map<uint32_t, double> wanted() const;
-    uint64_t bytesOf(const Pages& pages, std::initializer_list<State> states) const;
+    uint64_t sumBytes(const Pages& pages, std::initializer_list<State> states) const;
     bool needsAre(const Pages& pages, uint32_t page, std::initializer_list<State> states) const;
     bool hasDependents(const Pages& pages, uint32_t page) const;
     double worth(const Page& page) const;

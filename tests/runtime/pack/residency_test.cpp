@@ -39,7 +39,7 @@ std::vector<PageNode> chain(uint32_t count)
     return nodes;
 }
 
-Residency residencyOf(const std::vector<PageNode>& nodes, const ResidencyOptions& options)
+Residency makeResidency(const std::vector<PageNode>& nodes, const ResidencyOptions& options)
 {
     auto residency = Residency::create(pack::PageGraph(nodes), options);
     HEARTH_ASSERT(residency.ok());
@@ -74,7 +74,7 @@ TEST(Residency, beginsWithTheRootsAndWhatTheyNeed)
 {
     std::vector<PageNode> nodes = chain(4);
     nodes[2].holds_root = true;
-    const Residency residency = residencyOf(nodes, {.budget_bytes = 100});
+    const Residency residency = makeResidency(nodes, {.budget_bytes = 100});
     EXPECT_THAT(residency.graph().pinned(), ElementsAre(0, 1, 2));
     EXPECT_EQ(residency.bytesInUse(), 30u);
     EXPECT_FALSE(residency.isResident(3));
@@ -82,7 +82,7 @@ TEST(Residency, beginsWithTheRootsAndWhatTheyNeed)
 
 TEST(Residency, loadsWhatAPageNeedsBeforeIt)
 {
-    Residency residency = residencyOf(chain(4), {.budget_bytes = 100});
+    Residency residency = makeResidency(chain(4), {.budget_bytes = 100});
     residency.beginFrame(1, 0);
     residency.request(3, 5);
     EXPECT_THAT(residency.schedule(), ElementsAre(1, 2, 3));
@@ -95,7 +95,7 @@ TEST(Residency, loadsWhatAPageNeedsBeforeIt)
 
 TEST(Residency, startsTheLargestPriorityFirstThenTheLowestNumber)
 {
-    Residency residency = residencyOf(star(5), {.budget_bytes = 100, .max_loads = 4});
+    Residency residency = makeResidency(star(5), {.budget_bytes = 100, .max_loads = 4});
     residency.beginFrame(1, 0);
     for (const auto& [page, priority] :
          Requests{{5, 2}, {2, 2}, {3, 1}, {4, 1.5f}, {1, 0.5f}, {3, 9}, {3, 2}})
@@ -110,7 +110,7 @@ TEST(Residency, startsTheLargestPriorityFirstThenTheLowestNumber)
 
 TEST(Residency, aPageMakesRoomOnlyForTwiceItsPriority)
 {
-    Residency residency = residencyOf(star(2), {.budget_bytes = 20});
+    Residency residency = makeResidency(star(2), {.budget_bytes = 20});
     makeResident(residency, 1, {1});
     residency.request(1, 1);
     residency.request(2, 2);
@@ -124,7 +124,7 @@ TEST(Residency, aPageMakesRoomOnlyForTwiceItsPriority)
 
 TEST(Residency, whatIsNoLongerRequestedLosesHalfItsWorthEachRound)
 {
-    Residency residency = residencyOf(star(3), {.budget_bytes = 30});
+    Residency residency = makeResidency(star(3), {.budget_bytes = 30});
     makeResident(residency, 1, {1, 2});
     residency.request(1, 8);
     residency.request(2, 8);
@@ -142,7 +142,7 @@ TEST(Residency, whatIsNoLongerRequestedLosesHalfItsWorthEachRound)
 
 TEST(Residency, reusesMemoryOnceNoFrameReadsIt)
 {
-    Residency residency = residencyOf(star(2), {.budget_bytes = 20});
+    Residency residency = makeResidency(star(2), {.budget_bytes = 20});
     makeResident(residency, 1, {1});
     residency.request(2, 9);
     EXPECT_THAT(residency.schedule(), IsEmpty());
@@ -164,7 +164,7 @@ TEST(Residency, evictsAChainFromItsEndAndNoMoreThanHelps)
     std::vector<PageNode> nodes = chain(4);
     nodes.push_back({20, false, {0}, {}});
     nodes.push_back({31, false, {0}, {}});
-    Residency residency = residencyOf(nodes, {.budget_bytes = 40});
+    Residency residency = makeResidency(nodes, {.budget_bytes = 40});
     makeResident(residency, 1, {3});
     residency.request(5, 100);
     residency.schedule();
@@ -176,7 +176,7 @@ TEST(Residency, evictsAChainFromItsEndAndNoMoreThanHelps)
 
 TEST(Residency, tellsAFailureOnceAndStartsNothingThatNeedsThePage)
 {
-    Residency residency = residencyOf(chain(3), {.budget_bytes = 100});
+    Residency residency = makeResidency(chain(3), {.budget_bytes = 100});
     residency.beginFrame(1, 0);
     residency.request(2, 5);
     EXPECT_THAT(residency.schedule(), ElementsAre(1, 2));
@@ -197,7 +197,7 @@ TEST(Residency, tellsAFailureOnceAndStartsNothingThatNeedsThePage)
 
 TEST(Residency, aLoadBeyondAFailureStaysWhereTheFailureIsRetriedInTime)
 {
-    Residency residency = residencyOf(chain(3), {.budget_bytes = 100});
+    Residency residency = makeResidency(chain(3), {.budget_bytes = 100});
     residency.beginFrame(1, 0);
     residency.request(2, 5);
     residency.schedule();
@@ -215,7 +215,7 @@ TEST(Residency, requestsCompanionsOfWhatIsRequestedAlone)
     std::vector<PageNode> nodes = star(4);
     nodes[1].companions = {2};
     nodes[2].companions = {3};
-    Residency residency = residencyOf(nodes, {.budget_bytes = 100});
+    Residency residency = makeResidency(nodes, {.budget_bytes = 100});
     residency.beginFrame(1, 0);
     residency.request(1, 5);
     EXPECT_THAT(residency.schedule(), ElementsAre(1, 2));
@@ -297,7 +297,7 @@ std::map<uint32_t, float> wantedPages(const std::vector<PageNode>& nodes, const 
             raise(wanted, companion, priority);
     const std::map<uint32_t, float> heads = wanted;
     for (const auto& [page, priority] : heads)
-        for (const uint32_t needed : closureOf(nodes, {page}))
+        for (const uint32_t needed : computeClosure(nodes, {page}))
             raise(wanted, needed, priority);
     return wanted;
 }
@@ -317,7 +317,7 @@ std::set<uint32_t> pinnedPages(const std::vector<PageNode>& nodes)
     return {graph.pinned().begin(), graph.pinned().end()};
 }
 
-uint64_t bytesOf(const std::vector<PageNode>& nodes, const std::set<uint32_t>& pages)
+uint64_t sumBytes(const std::vector<PageNode>& nodes, const std::set<uint32_t>& pages)
 {
     uint64_t bytes = 0;
     for (const uint32_t page : pages)
@@ -345,7 +345,7 @@ TEST(Streaming, bringsExactlyWhatIsWantedWhereItFits)
         for (const auto& [page, priority] : wantedPages(nodes, requests))
             wanted.insert(page);
         ResidencyOptions options = randomOptions(random, nodes);
-        options.budget_bytes = bytesOf(nodes, wanted);
+        options.budget_bytes = sumBytes(nodes, wanted);
         const Machine machine = randomMachine(random);
 
         StreamingCaller fresh(nodes, options, machine, seed);
@@ -365,7 +365,7 @@ std::set<uint32_t> mostImportant(const std::vector<PageNode>& nodes, const Reque
                                  uint64_t budget)
 {
     std::set<uint32_t> pages = pinnedPages(nodes);
-    uint64_t bytes = bytesOf(nodes, pages);
+    uint64_t bytes = sumBytes(nodes, pages);
     for (const auto& [negative_priority, page] : inOrder(wantedPages(nodes, requests)))
     {
         if (pages.count(page) != 0)
@@ -390,8 +390,9 @@ void expectNothingMoreFits(const std::vector<PageNode>& nodes, const StreamingCa
         std::set<uint32_t> kept = pinnedPages(nodes);
         for (const auto& [page, priority] : wanted)
             if (caller.resident()[page] != 0 && priority * options.hysteresis >= -negative_priority)
-                kept.merge(closureOf(nodes, {page}));
-        EXPECT_GT(bytesOf(nodes, kept) + nodes[absent].size_bytes, options.budget_bytes) << "page " << absent;
+                kept.merge(computeClosure(nodes, {page}));
+        EXPECT_GT(sumBytes(nodes, kept) + nodes[absent].size_bytes, options.budget_bytes)
+            << "page " << absent;
         return;
     }
 }
@@ -447,7 +448,7 @@ TEST(Streaming, lacksNothingButWhatNeedsAFailedPage)
                   tried ? (std::map<uint32_t, uint32_t>{{bad, 1}}) : (std::map<uint32_t, uint32_t>{}));
         for (uint32_t page = 0; page < nodes.size(); ++page)
         {
-            const bool lost = tried && closureOf(nodes, {page}).count(bad) != 0;
+            const bool lost = tried && computeClosure(nodes, {page}).count(bad) != 0;
             const bool expected = pinned.count(page) != 0 || (wanted.count(page) != 0 && !lost);
             EXPECT_EQ(caller.resident()[page] != 0, expected) << "page " << page;
         }
@@ -464,7 +465,7 @@ TEST(Streaming, lacksNothingButWhatNeedsAFailedPage)
 
 TEST(ErrorScale, risesSlowlyWhileMoreIsWantedThanFitsAndFallsAgain)
 {
-    Residency residency = residencyOf(star(9), {.budget_bytes = 50});
+    Residency residency = makeResidency(star(9), {.budget_bytes = 50});
     residency.beginFrame(1, 0);
     float before = 1;
     for (int round = 0; round < 100; ++round)
@@ -488,7 +489,7 @@ TEST(ErrorScale, risesSlowlyWhileMoreIsWantedThanFitsAndFallsAgain)
 
 TEST(ErrorScale, doesNotCountWhatNeedsAFailedPage)
 {
-    Residency residency = residencyOf(chain(3), {.budget_bytes = 20});
+    Residency residency = makeResidency(chain(3), {.budget_bytes = 20});
     residency.beginFrame(1, 0);
     residency.request(1, 5);
     EXPECT_THAT(residency.schedule(), ElementsAre(1));
@@ -505,7 +506,7 @@ TEST(ErrorScale, doesNotCountWhatNeedsAFailedPage)
 TEST(ErrorScale, settlesWhereWhatIsDrawnFits)
 {
     // errors decrease by a tenth from page to page; feedback is three frames late
-    Residency residency = residencyOf(star(40), {.budget_bytes = 160});
+    Residency residency = makeResidency(star(40), {.budget_bytes = 160});
     std::vector<float> scales{1, 1, 1};
     for (uint64_t serial = 1; serial < 300; ++serial)
     {

@@ -27,7 +27,7 @@ float randomThreshold(const PackView& view, std::mt19937& random)
     return std::isfinite(error) && random() % 2 != 0 ? error : 0;
 }
 
-uint64_t countOf(const std::vector<uint8_t>& resident)
+uint64_t countResident(const std::vector<uint8_t>& resident)
 {
     return static_cast<uint64_t>(std::count(resident.begin(), resident.end(), uint8_t{1}));
 }
@@ -41,7 +41,7 @@ void expectWholeAtRandomSets(const CookedMesh& mesh, bool watertight, uint32_t s
     for (uint32_t i = 0; i < 100 && !testing::Test::HasFailure(); i += step)
     {
         const auto resident = randomClosedSet(graph, 0.3 + 0.007 * i, random);
-        partly_resident += countOf(resident) < graph.pageCount();
+        partly_resident += countResident(resident) < graph.pageCount();
         const auto cut = pack::selectCut(mesh.view(), 0, randomThreshold(mesh.view(), random),
                                          pack::residentGroups(mesh.view(), resident));
         for (const uint32_t cluster : cut)
@@ -96,7 +96,7 @@ void requestFiner(const PackView& view, pack::Residency& residency, float thresh
                               view.groups()[cluster.refined_group].error / threshold);
 }
 
-std::vector<uint32_t> cutOf(const PackView& view, const pack::Residency& residency, float threshold)
+std::vector<uint32_t> findCut(const PackView& view, const pack::Residency& residency, float threshold)
 {
     std::vector<uint8_t> resident(view.pages().size());
     for (uint32_t page = 0; page < resident.size(); ++page)
@@ -128,7 +128,7 @@ void streamFrames(const CookedMesh& mesh, float threshold, double share, bool wa
         for (const uint32_t page : loading)
             residency.completed(page, true);
         loading.assign(started.begin(), started.end());
-        cut = cutOf(view, residency, threshold * scale);
+        cut = findCut(view, residency, threshold * scale);
         if (cut != drawn_before)
             mesh.expectWhole(cut, watertight);
         drawn_before = cut;

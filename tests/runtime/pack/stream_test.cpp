@@ -194,11 +194,11 @@ protected:
         const Status written = host().run(
             [&](VkCommandBuffer commands)
             {
-                constexpr size_t kMost = 1024; // one command takes at most 64 KiB
-                for (size_t first = 0; first < groups.size(); first += kMost)
+                constexpr size_t kMaxGroups = 1024; // one command takes at most 64 KiB
+                for (size_t first = 0; first < groups.size(); first += kMaxGroups)
                     device.vk.vkCmdUpdateBuffer(
                         commands, whole_->buffers.groups.handle.get(), first * sizeof(Group),
-                        std::min(kMost, groups.size() - first) * sizeof(Group), &groups[first]);
+                        std::min(kMaxGroups, groups.size() - first) * sizeof(Group), &groups[first]);
                 gpu::barrier(device, commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
                              VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT);
                 return success();
@@ -220,7 +220,7 @@ protected:
     void expectWhole(const Image& image, const Camera& camera, const DrawOptions& options)
     {
         const std::vector<uint8_t> resident = residentGroups();
-        FrameView view = viewOf(*streamed_, camera, scaled(options));
+        FrameView view = makeView(*streamed_, camera, scaled(options));
         const Twin twin = makeTwin(*pack_, layout_, view, {}, {}, resident);
         ASSERT_EQ(image.list.slots.size(), twin.visible.size());
         EXPECT_EQ(std::memcmp(image.list.slots.data(), twin.visible.data(),
@@ -309,7 +309,7 @@ TEST_F(StreamTest, everyFrameIsWholeWhateverReadsDo)
         }
         moved += streamed_->stream->statistics().bytes_streamed > 0 ? 1u : 0u;
         failures += static_cast<uint32_t>(failed_.size());
-        EXPECT_EQ(failed_.size(), streamed_->stream->statistics().failures) << "each is told once";
+        EXPECT_EQ(failed_.size(), streamed_->stream->statistics().failures) << "each is reported once";
     }
     EXPECT_EQ(moved, 9u);
     EXPECT_GT(failures, 10u) << "or failures are not tested";
@@ -352,7 +352,7 @@ TEST_F(StreamTest, requestsEqualTheirTwinBitForBit)
                                   .lod_curve = curve};
         frame(camera, options);
         const auto requests = read<uint32_t>(streamed_->buffers.page_requests, pack_->pages().size());
-        const auto twin = makeRequestTwin(*pack_, layout_, viewOf(*streamed_, camera, scaled(options)));
+        const auto twin = makeRequestTwin(*pack_, layout_, makeView(*streamed_, camera, scaled(options)));
         EXPECT_EQ(requests, twin);
         for (uint32_t page = 0; page < requests.size(); ++page)
         {

@@ -38,7 +38,7 @@ bool StreamingCaller::frame(const Requests& requests)
     ++serial_;
     const uint64_t late = std::min<uint64_t>(roll(machine_.most_frames_late + 1), serial_ - 1);
     completed_serial_ = std::max(completed_serial_, serial_ - 1 - late);
-    ChangeLists changes = listsOf(residency_.beginFrame(serial_, completed_serial_));
+    ChangeLists changes = makeLists(residency_.beginFrame(serial_, completed_serial_));
     std::sort(changes.released.begin(), changes.released.end());
     EXPECT_EQ(changes, model_.beginFrame(serial_, completed_serial_));
     apply(changes);
@@ -103,7 +103,7 @@ void StreamingCaller::apply(const ChangeLists& changes)
     for (const uint32_t page : changes.failed)
     {
         ++failure_count_of_page_[page];
-        EXPECT_EQ(failure_count_of_page_[page], ended_badly_[page]) << "each failure is told once";
+        EXPECT_EQ(failure_count_of_page_[page], ended_badly_[page]) << "each failure is reported once";
     }
     expectBytesInBudget();
     for (uint32_t page = 0; page < nodes_.size(); ++page)
@@ -210,7 +210,7 @@ uint64_t allBytes(const std::vector<pack::PageNode>& nodes)
     return bytes;
 }
 
-std::set<uint32_t> closureOf(const std::vector<pack::PageNode>& nodes, std::set<uint32_t> pages)
+std::set<uint32_t> computeClosure(const std::vector<pack::PageNode>& nodes, std::set<uint32_t> pages)
 {
     for (uint32_t page = static_cast<uint32_t>(nodes.size()); page-- > 0;)
         if (pages.count(page) != 0)

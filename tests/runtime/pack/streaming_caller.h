@@ -84,6 +84,6 @@ uint64_t pinnedBytes(const std::vector<pack::PageNode>& nodes);
 uint64_t allBytes(const std::vector<pack::PageNode>& nodes);
 
 /// The pages together with all that they need, ascending.
-std::set<uint32_t> closureOf(const std::vector<pack::PageNode>& nodes, std::set<uint32_t> pages);
+std::set<uint32_t> computeClosure(const std::vector<pack::PageNode>& nodes, std::set<uint32_t> pages);
 
 } // namespace hearth::test

@@ -30,7 +30,7 @@ struct TestHit
 layout(set = kSetFreshLight, binding = kFreshLightFaces, std430) writeonly buffer Hits { TestHit hits[]; };
 layout(set = kSetFreshLight, binding = kFreshLightLocations, std430) readonly buffer Rays { TestRay rays[]; };
 
-TestHit hitOf(BrickRay ray)
+TestHit makeHit(BrickRay ray)
 {
     if (ray.inside == 0u)
         return TestHit(0u, 0u, 0u, 0u, 0u, 0u, 0u, ray.steps);
@@ -45,8 +45,8 @@ void main()
         return;
     BrickGrid grid = brick_view.grid;
     BrickRay ray = brickMarch(grid, brickRay(grid, rays[i].origin, rays[i].direction, rays[i].far));
-    hits[2u * i] = hitOf(ray);
+    hits[2u * i] = makeHit(ray);
     if (ray.inside != 0u)
         ray = brickMarch(grid, brickSkipVoxel(grid, ray));
-    hits[2u * i + 1u] = hitOf(ray);
+    hits[2u * i + 1u] = makeHit(ray);
 }

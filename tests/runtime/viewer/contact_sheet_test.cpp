@@ -20,7 +20,7 @@ namespace
 using namespace formats;
 
 /// A pack whose assets have these boxes; it is not checked.
-PackView packOf(const std::vector<Box3>& boxes)
+PackView makePack(const std::vector<Box3>& boxes)
 {
     PackModel model = smallPack();
     model.assets.clear();
@@ -44,7 +44,7 @@ Box3 standing(float side, float x = 0, float z = 0)
 
 bool inOnePlace(const std::vector<Box3>& boxes)
 {
-    return viewer::areUnplaced(packOf(boxes));
+    return viewer::areUnplaced(makePack(boxes));
 }
 
 /// Text as lines of # and spaces.
@@ -93,11 +93,11 @@ TEST(OnePlace, isNoneWhereTheyStandSideBySide)
 
 TEST(Sheet, hasACellForEachAssetThatDrawsSomething)
 {
-    const PackView pack = packOf({standing(1), Box3{{0, 0, 0}, {0, 0, 0}}, standing(2)});
+    const PackView pack = makePack({standing(1), Box3{{0, 0, 0}, {0, 0, 0}}, standing(2)});
     const auto sheet = viewer::makeSheet(pack, 640, 360);
     ASSERT_TRUE(sheet.ok());
     EXPECT_EQ(sheet->assets, (std::vector<uint32_t>{0, 2}));
-    EXPECT_EQ(viewer::makeSheet(packOf({}), 640, 360).error().issue, Issue::usage);
+    EXPECT_EQ(viewer::makeSheet(makePack({}), 640, 360).error().issue, Issue::usage);
     EXPECT_EQ(viewer::makeSheet(pack, 16, 16).error().issue, Issue::usage) << "no room";
 }
 
@@ -130,7 +130,7 @@ TEST(Sheet, cellsLieInTheImageAndApart)
 
 TEST(Sheet, imagesAreCopiedIntoTheirCells)
 {
-    const auto sheet = viewer::makeSheet(packOf({standing(1), standing(2), standing(3)}), 200, 100);
+    const auto sheet = viewer::makeSheet(makePack({standing(1), standing(2), standing(3)}), 200, 100);
     ASSERT_TRUE(sheet.ok());
     const viewer::SheetLayout& layout = sheet->layout;
     viewer::SheetImage image(*sheet);

@@ -70,7 +70,7 @@ protected:
                     {.width = 320, .height = 200, .error_pixels = 2, .debug_view = debug_view});
     }
 
-    const formats::ClusterRecord& clusterOf(const VisibleCluster& slot) const
+    const formats::ClusterRecord& getCluster(const VisibleCluster& slot) const
     {
         return pack_->clusters()[slot.cluster];
     }
@@ -106,13 +106,13 @@ protected:
 TEST_F(ViewTest, errorIsThatOfTheCutRuleOverTheAllowedOne)
 {
     const Image image = drawView(kViewError);
-    const FrameView view = viewOf(*scene_, rocksCamera(), {.width = 320, .height = 200, .error_pixels = 2});
+    const FrameView view = makeView(*scene_, rocksCamera(), {.width = 320, .height = 200, .error_pixels = 2});
     float largest = 0;
     const size_t colors = expectColors(
         image,
         [&](const VisibleCluster& slot)
         {
-            const formats::ClusterRecord& cluster = clusterOf(slot);
+            const formats::ClusterRecord& cluster = getCluster(slot);
             float ratio = 0;
             if (cluster.refined_group != kInvalidIndex)
             {
@@ -138,7 +138,7 @@ TEST_F(ViewTest, conesAreThoseOfTheClusters)
         drawView(kViewCones),
         [&](const VisibleCluster& slot) -> Float3
         {
-            const uint16_t cutoff = clusterOf(slot).cone_cutoff;
+            const uint16_t cutoff = getCluster(slot).cone_cutoff;
             if (cutoff == formats::kNoCone)
                 return {0.7f, 0.1f, 0.1f};
             return mix({0.1f, 0.7f, 0.3f}, {0.9f, 0.8f, 0.1f}, static_cast<float>(cutoff) / 65536);
@@ -183,7 +183,7 @@ TEST_F(ViewTest, thingsHaveAColourEach)
                         { return cluster(slot, 0) << 7 | triangle; }),
               500u);
     EXPECT_EQ(countHues(kViewMaterials, [&](const VisibleCluster& slot, uint32_t)
-                        { return uint64_t{clusterOf(slot).material}; }),
+                        { return uint64_t{getCluster(slot).material}; }),
               2u);
 }
 

@@ -160,7 +160,7 @@ Result<std::vector<std::byte>> GltfAccessors::elements(uint32_t index)
     {
         if (accessor.count > (kMaxZeroBytes - zero_bytes_) / size)
             return error(index, Issue::input_too_large,
-                         fmt::format("{} elements that no data stand for", accessor.count));
+                         fmt::format("{} elements without data", accessor.count));
         zero_bytes_ += accessor.count * size;
     }
     std::vector<std::byte> elements(accessor.count * size);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "tests/cook/visibility/surface_samples_of.h"
+#include "tests/cook/visibility/mesh_samples.h"
 
 #include <random>
 
@@ -9,7 +9,7 @@ namespace hearth::test
 using visibility::MeshView;
 using visibility::SurfaceSample;
 
-std::vector<SurfaceSample> samplesOf(const MeshView& mesh, uint32_t per_triangle, uint32_t seed)
+std::vector<SurfaceSample> makeSamples(const MeshView& mesh, uint32_t per_triangle, uint32_t seed)
 {
     std::mt19937 random(seed);
     // std::uniform_real_distribution gives other numbers with each standard library
@@ -30,7 +30,7 @@ std::vector<SurfaceSample> samplesOf(const MeshView& mesh, uint32_t per_triangle
     return samples;
 }
 
-Float3 pointOf(const MeshView& mesh, const SurfaceSample& sample)
+Float3 getPoint(const MeshView& mesh, const SurfaceSample& sample)
 {
     const uint32_t* corners = mesh.indices.data() + size_t{sample.triangle} * 3;
     const Float3 a = mesh.positions[corners[0]];

@@ -11,17 +11,17 @@
 namespace hearth::test
 {
 
-inline visibility::MeshView viewOf(const mesh::SourceMesh& mesh)
+inline visibility::MeshView makeMeshView(const mesh::SourceMesh& mesh)
 {
     return {mesh.positions, mesh.normals, mesh.indices};
 }
 
 /// Return `per_triangle` samples on each triangle, uniform at random; each weighs its share of the triangle's
 /// area.
-std::vector<visibility::SurfaceSample> samplesOf(const visibility::MeshView& mesh, uint32_t per_triangle,
-                                                 uint32_t seed = 1);
+std::vector<visibility::SurfaceSample> makeSamples(const visibility::MeshView& mesh, uint32_t per_triangle,
+                                                   uint32_t seed = 1);
 
 /// Return the position of a sample.
-Float3 pointOf(const visibility::MeshView& mesh, const visibility::SurfaceSample& sample);
+Float3 getPoint(const visibility::MeshView& mesh, const visibility::SurfaceSample& sample);
 
 } // namespace hearth::test
