@@ -2,14 +2,13 @@
 #include "formats/container/container_reader.h"
 
 #include "formats/base/byte_reader.h"
+#include "formats/base/regular_file.h"
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fcntl.h>
 #include <numeric>
 #include <sys/mman.h>
-#include <sys/stat.h>
 #include <unistd.h>
 #include <xxhash.h>
 #include <zstd.h>
@@ -101,30 +100,16 @@ std::string chunkName(uint32_t type, uint32_t index)
 
 Result<ContainerReader> ContainerReader::open(const std::string& path, Check check)
 {
-    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (file < 0)
-        return Error{Issue::input_missing, path, "", std::string("cannot open: ") + std::strerror(errno)};
-    struct stat info
-    {
-    };
-    if (::fstat(file, &info) != 0 || !S_ISREG(info.st_mode))
-    {
-        ::close(file);
-        return Error{Issue::input_missing, path, "", "is not a regular file"};
-    }
+    HEARTH_ASSIGN_OR_RETURN(const RegularFile file, openRegular(path));
     auto mapping = std::make_shared<Mapping>();
-    mapping->size = static_cast<size_t>(info.st_size);
+    mapping->size = static_cast<size_t>(file.size());
     if (mapping->size > 0)
     {
-        void* address = ::mmap(nullptr, mapping->size, PROT_READ, MAP_PRIVATE, file, 0);
+        void* address = ::mmap(nullptr, mapping->size, PROT_READ, MAP_PRIVATE, file.descriptor(), 0);
         if (address == MAP_FAILED)
-        {
-            ::close(file);
             return Error{Issue::read_failed, path, "", std::string("cannot map: ") + std::strerror(errno)};
-        }
         mapping->address = address;
     }
-    ::close(file);
 
     const std::span<const std::byte> bytes(static_cast<const std::byte*>(mapping->address), mapping->size);
     HEARTH_ASSIGN_OR_RETURN(ContainerReader reader, fromBytes(bytes, path, check));
