@@ -38,14 +38,6 @@ std::pair<uint32_t, uint32_t> chunkKey(const ChunkEntry& entry)
     return {entry.type, entry.index};
 }
 
-/// True if `stored` is exactly one zstd frame that declares `size` as its content size. Does not decompress
-/// it.
-bool isSingleFrame(std::span<const std::byte> stored, uint64_t size)
-{
-    return ZSTD_getFrameContentSize(stored.data(), stored.size()) == size &&
-           ZSTD_findFrameCompressedSize(stored.data(), stored.size()) == stored.size();
-}
-
 /// True if decompress() succeeds, tested with a small buffer.
 bool decompressesTo(std::span<const std::byte> stored, uint64_t size)
 {
@@ -79,6 +71,15 @@ bool allZero(std::span<const std::byte> bytes)
 uint64_t hashBytes(std::span<const std::byte> bytes)
 {
     return XXH3_64bits(bytes.data(), bytes.size());
+}
+
+bool isSingleFrame(std::span<const std::byte> stored, uint64_t size)
+{
+    // a block takes 4 bytes or more and holds 128 KiB or less
+    constexpr uint64_t kMinBlockBytes = 4;
+    return size / ZSTD_BLOCKSIZE_MAX <= stored.size() / kMinBlockBytes &&
+           ZSTD_getFrameContentSize(stored.data(), stored.size()) == size &&
+           ZSTD_findFrameCompressedSize(stored.data(), stored.size()) == stored.size();
 }
 
 bool decompress(std::span<const std::byte> stored, std::span<std::byte> out)
@@ -247,7 +248,7 @@ Result<ChunkData> ContainerReader::read(uint32_t type, uint32_t index) const
     {
         std::byte bytes[kChunkAlignment];
     };
-    if (ZSTD_getFrameContentSize(bytes.data(), bytes.size()) != entry->size)
+    if (!isSingleFrame(bytes, entry->size))
         return Error{Issue::chunk_codec, name_, chunkName(type, index), ""};
     auto blocks = std::make_shared<std::vector<Block>>((entry->size + kChunkAlignment - 1) / kChunkAlignment);
     const std::span<std::byte> out(reinterpret_cast<std::byte*>(blocks->data()),
