@@ -12,7 +12,8 @@ namespace hearth
 
 RegularFile::RegularFile(std::string path) : path_(std::move(path))
 {
-    // O_NONBLOCK: else opening a pipe waits for a writer. O_NOCTTY: a terminal must not take over the process.
+    // Without O_NONBLOCK opening a pipe waits for a writer.
+    // Without O_NOCTTY a terminal may become that of the process.
     const int opened = ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
     const bool is_described = opened >= 0 && ::fstat(opened, &metadata_) == 0;
     if (is_described && S_ISREG(metadata_.st_mode))

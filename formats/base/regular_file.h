@@ -43,8 +43,8 @@ public:
     const struct stat& metadata() const { return metadata_; }
     uint64_t size() const { return static_cast<uint64_t>(metadata_.st_size); }
 
-    /// Read the next bytes. Return their number, which is less than that of `out` at the end of the file only;
-    /// -1 on error, with errno set.
+    /// Read the next bytes. Return their number, which is less than that of `out` only at the end of the
+    /// file; -1 on error, with errno set.
     ssize_t read(std::span<std::byte> out) const;
 
     /// Read the whole file as readFile() does; fails as status() does if the file is not open.

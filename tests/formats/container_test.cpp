@@ -2,7 +2,7 @@
 #include "formats/container/container_reader.h"
 #include "formats/container/container_writer.h"
 #include "runtime/pack/pack.h"
-#include "tests/support/peak_memory.h"
+#include "tests/support/limits/peak_memory.h"
 #include "tests/support/small_pack.h"
 #include "tests/support/temporary_folder.h"
 

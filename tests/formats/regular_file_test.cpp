@@ -3,8 +3,8 @@
 
 #include "formats/container/container_reader.h"
 #include "runtime/pack/pack.h"
+#include "tests/support/limits/time_limit.h"
 #include "tests/support/sandbox.h"
-#include "tests/support/time_limit.h"
 
 #include <array>
 #include <cerrno>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/pipelines_scans/ktx2_builder.h"
 #include "tests/pipelines_scans/scan_test_tools.h"
-#include "tests/support/peak_memory.h"
+#include "tests/support/limits/peak_memory.h"
 
 #include <gtest/gtest.h>
 
@@ -192,8 +192,8 @@ TEST(ClaimedSizes, ofImagesTakeNoMemory)
             return !decoded.ok() && decoded.error().issue == Issue::image_malformed;
         };
         const std::optional<int> peak_mib = measurePeak_mib(refused);
-        ASSERT_TRUE(peak_mib.has_value()) << image.name << ": is read, or refused for another reason";
-        EXPECT_LE(*peak_mib, kMaxPeak_mib) << image.name;
+        EXPECT_TRUE(peak_mib.has_value()) << image.name << ": is read, or refused for another reason";
+        EXPECT_LE(peak_mib.value_or(0), kMaxPeak_mib) << image.name;
     }
 }
 
@@ -267,8 +267,8 @@ TEST(ClaimedSizes, ofDracoTakeNoMemory)
             return !mesh.ok() && mesh.error().issue == Issue::codec_failed;
         };
         const std::optional<int> peak_mib = measurePeak_mib(refused);
-        ASSERT_TRUE(peak_mib.has_value()) << name;
-        EXPECT_LE(*peak_mib, kMaxPeak_mib) << name;
+        EXPECT_TRUE(peak_mib.has_value()) << name;
+        EXPECT_LE(peak_mib.value_or(0), kMaxPeak_mib) << name;
     }
 }
 

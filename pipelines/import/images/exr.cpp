@@ -160,8 +160,8 @@ bool attributesFit(std::span<const std::byte> bytes)
     }
 }
 
-// Maximum ratios of compression, rounded up. Deflate packs best; PXR24 drops a byte of four before. DWA packs a
-// block of 64 texels of up to four bytes into two coefficients of two bytes, or runs, before.
+// Maximum ratios of compression, rounded up. Deflate packs best; PXR24 drops a byte of four before. DWA
+// packs a block of 64 texels of up to four bytes into two coefficients of two bytes, or runs, before.
 constexpr uint64_t kMaxRatio = 2 * kMaxDeflateRatio;
 constexpr uint64_t kMaxDwaRatio = 128 * kMaxDeflateRatio;
 

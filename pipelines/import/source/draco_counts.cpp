@@ -16,8 +16,8 @@ namespace hearth::import
 namespace
 {
 
-// Limit of the compression ratio. Entropy coding leaves about a thousandth of a byte for each point of a flat,
-// regular grid, the densest data. A claim of a few points is always allowed.
+// Limit of the compression ratio. Entropy coding leaves about a thousandth of a byte for each point of a
+// flat, regular grid, the densest data. A claim of a few points is always allowed.
 constexpr uint64_t kMaxCountPerByte = 4096;
 constexpr uint64_t kMinRefusedCount = 4096;
 

@@ -11,7 +11,7 @@ namespace hearth::import
 {
 
 /// Hold the numbers of points and faces that Draco data claim against the size of the data: the library
-/// allocates memory for them before it decodes. Return a description of the first claim that cannot be true, or
+/// allocates memory for them before it decodes. Return a description of a claim that cannot be true, or
 /// nullopt. Data without readable counts are left to the library.
 std::optional<std::string> findImpossibleDracoCount(std::span<const std::byte> bytes);
 

@@ -6,10 +6,10 @@
 #include "runtime/viewer/cull_report.h"
 #include "runtime/viewer/file_output.h"
 #include "runtime/viewer/render/options.h"
+#include "tests/support/limits/time_limit.h"
 #include "tests/support/shapes.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_scene.h"
-#include "tests/support/time_limit.h"
 
 #include <cmath>
 #include <filesystem>

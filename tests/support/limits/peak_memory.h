@@ -12,8 +12,8 @@
 namespace hearth::test
 {
 
-/// Return by how many MiB `work` raises the peak of resident memory, 254 at most. nullopt if it returns false or
-/// crashes. It runs in a child process, so that nothing before it counts.
+/// Return by how many MiB `work` raises the peak of resident memory, 254 at most; nullopt if it returns false
+/// or crashes. It runs in a child process, so that nothing before it counts.
 inline std::optional<int> measurePeak_mib(const std::function<bool()>& work)
 {
     constexpr long kMaxMib = 254;
