@@ -225,9 +225,10 @@ Bytes sequentialMesh(uint16_t flags)
     Bytes bytes = dracoHeader(1, 0, flags);
     if (flags != 0)
         bytes.insert(bytes.end(), {0, 0, 0}); // metadata: none of attributes, no entries, no children
-    appendVarint(bytes, 0);
+    appendVarint(bytes, 1);
     appendVarint(bytes, kManyPoints);
-    bytes.push_back(1);
+    bytes.push_back(1); // indices are not compressed
+    append(bytes, 0, 3 * sizeof(uint32_t));
     appendPositions(bytes);
     return bytes;
 }
