@@ -1,10 +1,10 @@
 // format_dump: regenerates the tables of FORMAT.md in place.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/base/regular_file.h"
 #include "formats/format_tables.h"
 
 #include <cstdio>
 #include <fstream>
-#include <iterator>
 
 int main(int argument_count, char** arguments)
 {
@@ -13,16 +13,14 @@ int main(int argument_count, char** arguments)
         std::fputs("usage: format_dump FORMAT.md\n", stderr);
         return 2;
     }
-    std::ifstream in(arguments[1], std::ios::binary);
-    if (!in)
+    const hearth::Result<std::string> document = hearth::readFile(arguments[1]);
+    if (!document)
     {
-        std::fprintf(stderr, "%s: error: cannot read\n", arguments[1]);
-        return 66;
+        std::fprintf(stderr, "%s\n", hearth::formatMessage(document.error()).c_str());
+        return hearth::exitCode(document.error());
     }
-    const std::string document{std::istreambuf_iterator<char>(in), {}};
-    in.close();
     std::ofstream out(arguments[1], std::ios::binary);
-    out << hearth::formats::regenerateTables(document);
+    out << hearth::formats::regenerateTables(*document);
     out.close();
     if (!out)
     {

@@ -4,12 +4,10 @@
 #include "cook/animation_compression/compress.h"
 #include "cook/tools/toml.h"
 #include "formats/base/nearest_match.h"
+#include "formats/base/regular_file.h"
 
 #include <array>
-#include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
-#include <iterator>
 
 namespace hearth::animation_compression
 {
@@ -58,12 +56,8 @@ Result<StatedError> readErrorSetting(const TomlNode& root, const std::string& fi
 
 Result<StatedError> readStatedError(const std::string& profile_path)
 {
-    std::error_code error;
-    std::ifstream file(profile_path, std::ios::binary);
-    if (!file.is_open() || std::filesystem::is_directory(profile_path, error))
-        return Error{Issue::input_missing, profile_path, "", "the profile cannot be read"};
-    return parseStatedError(
-        std::string(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()), profile_path);
+    HEARTH_ASSIGN_OR_RETURN(const std::string text, readFile(profile_path));
+    return parseStatedError(text, profile_path);
 }
 
 Result<StatedError> parseStatedError(std::string_view text, const std::string& name)

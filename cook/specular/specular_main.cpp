@@ -8,12 +8,11 @@
 #include "cook/specular/rows.h"
 #include "formats/base/atomic_file.h"
 #include "formats/base/program.h"
+#include "formats/base/regular_file.h"
 #include "formats/container/container_writer.h"
 
 #include <chrono>
 #include <cstdio>
-#include <fstream>
-#include <iterator>
 
 namespace
 {
@@ -35,18 +34,9 @@ struct Arguments
     size_t jobs = 0;
 };
 
-Result<std::string> readText(const std::string& path)
-{
-    std::ifstream file(path, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(file), {}};
-    if (!file.is_open() || file.bad())
-        return Error{Issue::input_missing, path, "", "cannot be read"};
-    return text;
-}
-
 Status evaluate(const Arguments& arguments)
 {
-    HEARTH_ASSIGN_OR_RETURN(const std::string text, readText(arguments.rows));
+    HEARTH_ASSIGN_OR_RETURN(const std::string text, readFile(arguments.rows));
     HEARTH_ASSIGN_OR_RETURN(const std::vector<Configuration> configurations, readRows(text, arguments.rows));
     // rounded, as in a pack
     const TableValues values = unpackTable(packTable(cookTable(arguments.settings), arguments.settings));

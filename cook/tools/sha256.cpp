@@ -6,14 +6,11 @@
 #define OPENSSL_SUPPRESS_DEPRECATED
 #include "cook/tools/sha256.h"
 
+#include "formats/base/regular_file.h"
+
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <fcntl.h>
-#include <memory>
 #include <openssl/sha.h>
-#include <sys/stat.h>
-#include <unistd.h>
 #include <vector>
 
 namespace hearth::tools
@@ -62,27 +59,20 @@ std::string computeSha256(std::string_view text)
 
 std::optional<std::string> computeFileSha256(const std::string& path)
 {
-    // without O_NONBLOCK the open of a pipe waits for a writer
-    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
-    if (file < 0)
+    const RegularFile file(path);
+    if (!file.isOpen())
         return std::nullopt;
-    struct stat info = {};
-    bool readable = ::fstat(file, &info) == 0 && S_ISREG(info.st_mode);
     Sha256 hash;
-    std::vector<std::byte> piece(std::clamp<size_t>(static_cast<size_t>(info.st_size) + 1, 4096, 1 << 18));
-    while (readable)
+    std::vector<std::byte> piece(std::clamp<size_t>(static_cast<size_t>(file.size()) + 1, 4096, 1 << 18));
+    for (;;)
     {
-        const ssize_t size = ::read(file, piece.data(), piece.size());
-        if (size < 0 && errno == EINTR)
-            continue;
-        if (size == 0)
-            break;
-        readable = size > 0;
-        if (readable)
-            hash.add(piece.data(), static_cast<size_t>(size));
+        const ssize_t size = file.read(piece);
+        if (size < 0)
+            return std::nullopt;
+        hash.add(piece.data(), static_cast<size_t>(size));
+        if (static_cast<size_t>(size) < piece.size())
+            return hash.hex();
     }
-    ::close(file);
-    return readable ? std::optional(hash.hex()) : std::nullopt;
 }
 
 bool isSha256(std::string_view text)

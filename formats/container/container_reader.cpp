@@ -2,14 +2,13 @@
 #include "formats/container/container_reader.h"
 
 #include "formats/base/byte_reader.h"
+#include "formats/base/regular_file.h"
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fcntl.h>
 #include <numeric>
 #include <sys/mman.h>
-#include <sys/stat.h>
 #include <unistd.h>
 #include <xxhash.h>
 #include <zstd.h>
@@ -37,14 +36,6 @@ struct Mapping
 std::pair<uint32_t, uint32_t> chunkKey(const ChunkEntry& entry)
 {
     return {entry.type, entry.index};
-}
-
-/// True if `stored` is exactly one zstd frame that declares `size` as its content size. Does not decompress
-/// it.
-bool isSingleFrame(std::span<const std::byte> stored, uint64_t size)
-{
-    return ZSTD_getFrameContentSize(stored.data(), stored.size()) == size &&
-           ZSTD_findFrameCompressedSize(stored.data(), stored.size()) == stored.size();
 }
 
 /// True if decompress() succeeds, tested with a small buffer.
@@ -82,6 +73,15 @@ uint64_t hashBytes(std::span<const std::byte> bytes)
     return XXH3_64bits(bytes.data(), bytes.size());
 }
 
+bool isSingleFrame(std::span<const std::byte> stored, uint64_t size)
+{
+    // a block takes 4 bytes or more and holds 128 KiB or less
+    constexpr uint64_t kMinBlockBytes = 4;
+    return size / ZSTD_BLOCKSIZE_MAX <= stored.size() / kMinBlockBytes &&
+           ZSTD_getFrameContentSize(stored.data(), stored.size()) == size &&
+           ZSTD_findFrameCompressedSize(stored.data(), stored.size()) == stored.size();
+}
+
 bool decompress(std::span<const std::byte> stored, std::span<std::byte> out)
 {
     return isSingleFrame(stored, out.size()) &&
@@ -101,30 +101,16 @@ std::string chunkName(uint32_t type, uint32_t index)
 
 Result<ContainerReader> ContainerReader::open(const std::string& path, Check check)
 {
-    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (file < 0)
-        return Error{Issue::input_missing, path, "", std::string("cannot open: ") + std::strerror(errno)};
-    struct stat info
-    {
-    };
-    if (::fstat(file, &info) != 0 || !S_ISREG(info.st_mode))
-    {
-        ::close(file);
-        return Error{Issue::input_missing, path, "", "is not a regular file"};
-    }
+    HEARTH_ASSIGN_OR_RETURN(const RegularFile file, openRegular(path));
     auto mapping = std::make_shared<Mapping>();
-    mapping->size = static_cast<size_t>(info.st_size);
+    mapping->size = static_cast<size_t>(file.size());
     if (mapping->size > 0)
     {
-        void* address = ::mmap(nullptr, mapping->size, PROT_READ, MAP_PRIVATE, file, 0);
+        void* address = ::mmap(nullptr, mapping->size, PROT_READ, MAP_PRIVATE, file.descriptor(), 0);
         if (address == MAP_FAILED)
-        {
-            ::close(file);
             return Error{Issue::read_failed, path, "", std::string("cannot map: ") + std::strerror(errno)};
-        }
         mapping->address = address;
     }
-    ::close(file);
 
     const std::span<const std::byte> bytes(static_cast<const std::byte*>(mapping->address), mapping->size);
     HEARTH_ASSIGN_OR_RETURN(ContainerReader reader, fromBytes(bytes, path, check));
@@ -262,7 +248,7 @@ Result<ChunkData> ContainerReader::read(uint32_t type, uint32_t index) const
     {
         std::byte bytes[kChunkAlignment];
     };
-    if (ZSTD_getFrameContentSize(bytes.data(), bytes.size()) != entry->size)
+    if (!isSingleFrame(bytes, entry->size))
         return Error{Issue::chunk_codec, name_, chunkName(type, index), ""};
     auto blocks = std::make_shared<std::vector<Block>>((entry->size + kChunkAlignment - 1) / kChunkAlignment);
     const std::span<std::byte> out(reinterpret_cast<std::byte*>(blocks->data()),

@@ -127,4 +127,8 @@ bool allZero(std::span<const std::byte> bytes);
 /// Decompress one zstd frame of known content size; false if it fails or the size differs.
 bool decompress(std::span<const std::byte> stored, std::span<std::byte> out);
 
+/// True if `stored` is exactly one zstd frame that declares `size` as its content size and is long enough to
+/// hold that much. Does not decompress it: ask before memory is allocated for decompress().
+bool isSingleFrame(std::span<const std::byte> stored, uint64_t size);
+
 } // namespace hearth::formats

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/cache/directory_store.h"
 
+#include "formats/base/regular_file.h"
+
 #include <cerrno>
 #include <cstring>
 #include <ctime>
@@ -58,17 +60,15 @@ bool writeAll(int file, const char* bytes, size_t size)
     return true;
 }
 
-bool copyBytes(int from, int to)
+bool copyBytes(const RegularFile& from, int to)
 {
     // copy-on-write copy (reflink) on btrfs and xfs; has no effect elsewhere
-    if (::ioctl(to, FICLONE, from) == 0)
+    if (::ioctl(to, FICLONE, from.descriptor()) == 0)
         return true;
     std::string piece(size_t{1} << 20, '\0');
     for (;;)
     {
-        const ssize_t size = ::read(from, piece.data(), piece.size());
-        if (size < 0 && errno == EINTR)
-            continue;
+        const ssize_t size = from.read(std::as_writable_bytes(std::span(piece)));
         if (size <= 0)
             return size == 0;
         if (!writeAll(to, piece.data(), static_cast<size_t>(size)))
@@ -89,45 +89,31 @@ Error failed(const std::string& level, const std::string& path, const char* what
     return {Issue::cache_failed, level, "", std::string(what) + " " + path + ": " + std::strerror(errno)};
 }
 
+/// Describe why an entry cannot be read, as an error of its level.
+Error asCacheError(const std::string& level, const Error& error)
+{
+    return {Issue::cache_failed, level, "", "cannot read " + error.file + ": " + error.detail};
+}
+
 } // namespace
 
 bool copyFile(const std::string& from, const std::string& to)
 {
-    const File source(::open(from.c_str(), O_RDONLY | O_CLOEXEC));
+    const RegularFile source(from);
     if (!source.isOpen())
+    {
+        errno = source.openError();
         return false;
+    }
     const File target(::open(to.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
     if (!target.isOpen())
         return false;
-    if (copyBytes(source.number(), target.number()))
+    if (copyBytes(source, target.number()))
         return true;
     const int error = errno;
     ::unlink(to.c_str());
     errno = error;
     return false;
-}
-
-std::optional<std::string> readText(const std::string& path)
-{
-    const File file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-    struct stat info = {};
-    if (!file.isOpen() || ::fstat(file.number(), &info) != 0)
-        return std::nullopt;
-    std::string text(static_cast<size_t>(info.st_size), '\0');
-    size_t filled = 0;
-    while (filled < text.size())
-    {
-        const ssize_t size = ::read(file.number(), text.data() + filled, text.size() - filled);
-        if (size < 0 && errno == EINTR)
-            continue;
-        if (size < 0)
-            return std::nullopt;
-        if (size == 0)
-            break;
-        filled += static_cast<size_t>(size);
-    }
-    text.resize(filled);
-    return text;
 }
 
 std::string DirectoryStore::path(const char* kind, const std::string& name) const
@@ -138,14 +124,16 @@ std::string DirectoryStore::path(const char* kind, const std::string& name) cons
 Result<std::optional<std::string>> DirectoryStore::entry(const std::string& key)
 {
     const std::string path = entryPath(key);
-    std::optional<std::string> text = readText(path);
+    const RegularFile file(path);
+    if (file.openError() == ENOENT || file.openError() == ENOTDIR)
+        return std::optional<std::string>();
+    Result<std::string> text = file.readText();
     if (!text)
-        return errno == ENOENT || errno == ENOTDIR ? Result<std::optional<std::string>>(std::nullopt)
-                                                   : failed(folder_, path, "cannot read");
+        return asCacheError(folder_, text.error());
     struct stat info = {};
     if (writable_ && ::stat(path.c_str(), &info) == 0 && info.st_mtime + kNoteUseEvery_s < std::time(nullptr))
         ::utimensat(AT_FDCWD, path.c_str(), nullptr, 0);
-    return text;
+    return std::optional<std::string>(std::move(text).value());
 }
 
 Status DirectoryStore::entries(std::span<EntryRequest> wanted)

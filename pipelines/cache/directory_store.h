@@ -54,7 +54,4 @@ private:
 /// returns  false on error, with errno set
 bool copyFile(const std::string& from, const std::string& to);
 
-/// Read a small file. nullopt on error, with errno set.
-std::optional<std::string> readText(const std::string& path);
-
 } // namespace hearth::cache

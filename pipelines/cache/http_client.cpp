@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/cache/http_client.h"
 
+#include "formats/base/regular_file.h"
+
 #include <algorithm>
 #include <array>
 #include <cerrno>
@@ -10,7 +12,6 @@
 #include <curl/curl.h>
 #include <dlfcn.h>
 #include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 namespace hearth::cache
@@ -269,11 +270,11 @@ Status HttpClient::Connections::start(Transfer& transfer, HttpRequest& request)
     auto put_bytes = static_cast<curl_off_t>(request.text.size());
     if (request.kind == HttpRequest::Kind::put_file)
     {
-        struct stat info = {};
-        transfer.file = ::open(request.path.c_str(), O_RDONLY | O_CLOEXEC);
-        if (transfer.file < 0 || ::fstat(transfer.file, &info) != 0)
-            return failed("cannot read " + request.path + ": " + std::strerror(errno));
-        put_bytes = info.st_size;
+        RegularFile file(request.path);
+        if (!file.isOpen())
+            return failed("cannot read " + request.path + ": " + std::strerror(file.openError()));
+        put_bytes = static_cast<curl_off_t>(file.size());
+        transfer.file = file.release();
     }
     transfer.request = &request;
     curl.easy_reset(transfer.easy);

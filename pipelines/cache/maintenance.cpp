@@ -3,7 +3,7 @@
 
 #include "cook/tools/sha256.h"
 #include "formats/base/atomic_file.h"
-#include "pipelines/cache/directory_store.h"
+#include "formats/base/regular_file.h"
 #include "pipelines/cache/entry_text.h"
 
 #include <algorithm>
@@ -69,7 +69,7 @@ std::vector<std::string> contentHashes(const Fields& fields)
 
 std::vector<std::string> readContentHashes(const std::string& path)
 {
-    const std::optional<std::string> text = readText(path);
+    const Result<std::string> text = readFile(path);
     const std::optional<Fields> fields = text ? parseEntry(*text) : std::nullopt;
     return fields ? contentHashes(*fields) : std::vector<std::string>();
 }
@@ -157,7 +157,7 @@ std::vector<std::string> verifyFolder(const std::string& folder)
     }
     for (const StoredFile& entry : listStoredFiles(folder + "/ac"))
     {
-        const std::optional<std::string> text = readText(entry.path);
+        const Result<std::string> text = readFile(entry.path);
         const std::optional<Fields> fields = text ? parseEntry(*text) : std::nullopt;
         bool whole = fields.has_value();
         for (const std::string& hash : fields ? contentHashes(*fields) : std::vector<std::string>())
@@ -176,9 +176,9 @@ void recordGrowth(const std::string& folder, uint64_t bytes, uint64_t limit_byte
         return;
     // only a hint: two cooks that write it at once lose some bytes until garbage is collected
     const std::string path = folder + "/size";
-    const std::string text = readText(path).value_or("");
+    const Result<std::string> text = readFile(path);
     uint64_t size = 0;
-    if (std::from_chars(text.data(), text.data() + text.size(), size).ec != std::errc())
+    if (!text || std::from_chars(text->data(), text->data() + text->size(), size).ec != std::errc())
         size = measureOccupancy(folder).bytes;
     else
         size += bytes;

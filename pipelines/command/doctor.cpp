@@ -3,8 +3,8 @@
 
 #include "cook/json/json.h"
 #include "cook/tools/child_processes.h"
+#include "formats/base/regular_file.h"
 #include "formats/base/temp_directory.h"
-#include "pipelines/cache/directory_store.h"
 #include "pipelines/cache/http_store.h"
 #include "pipelines/cache/maintenance.h"
 #include "pipelines/command/shell/terminal.h"
@@ -38,7 +38,8 @@ constexpr std::string_view kVersionMark = "hearth program version ";
 /// Read the version from a program's binary; empty: it is no program of Hearth.
 std::string readProgramVersion(const std::string& program)
 {
-    const std::string bytes = cache::readText(program).value_or("");
+    const Result<std::string> read = readFile(program);
+    const std::string bytes = read ? *read : "";
     // this program contains the mark too, as the constant of this search
     for (size_t at = bytes.find(kVersionMark); at != std::string::npos; at = bytes.find(kVersionMark, at + 1))
     {

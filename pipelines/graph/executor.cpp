@@ -3,7 +3,7 @@
 
 #include "cook/tools/dependency_list.h"
 #include "cook/tools/sha256.h"
-#include "pipelines/cache/directory_store.h"
+#include "formats/base/regular_file.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -23,6 +23,12 @@ std::optional<uint64_t> fileSize(const std::string& path)
     std::error_code error;
     const uintmax_t size = std::filesystem::file_size(path, error);
     return error ? std::nullopt : std::optional<uint64_t>(size);
+}
+
+std::optional<std::string> readIfThere(const std::string& path)
+{
+    Result<std::string> text = readFile(path);
+    return text ? std::optional<std::string>(std::move(text).value()) : std::nullopt;
 }
 
 /// Replace paths in temporary folders by the subject, which the user knows.
@@ -149,7 +155,7 @@ std::vector<std::string> Executor::probedFiles(size_t index) const
         return {};
     if (outcomes_[index].ending == Outcome::cached)
         return actions_->probedFiles(action, outcomes_[index].record);
-    const std::optional<std::string> text = cache::readText(readListPath(index));
+    const Result<std::string> text = readFile(readListPath(index));
     const auto reads = text ? tools::DependencyList::parse(*text) : std::nullopt;
     std::vector<std::string> paths;
     if (reads)
@@ -162,14 +168,14 @@ std::optional<std::string> Executor::readOutput(size_t action, size_t output)
 {
     const ActionOutcome& outcome = outcomes_[action];
     if (!outcome.paths.empty())
-        return cache::readText(outcome.paths[output]);
+        return readIfThere(outcome.paths[output]);
     if (cache_ == nullptr || makeFolders())
         return std::nullopt;
     const std::string path = contentPath(action, output);
     if (!fileSize(path) &&
         !cache_->fetch(outcome.result.outputs[output].hash, path, cache::FileAccess::read_only))
         return std::nullopt;
-    return cache::readText(path);
+    return readIfThere(path);
 }
 
 /// Make sure that the action's input files exist; an input that the cache has lost is made again first.
@@ -329,7 +335,7 @@ void Executor::cacheResult(size_t index)
         return;
     if (action.finds_files)
     {
-        const std::optional<std::string> text = cache::readText(readListPath(index));
+        const Result<std::string> text = readFile(readListPath(index));
         const auto reads = text ? tools::DependencyList::parse(*text) : std::nullopt;
         const auto whole = reads ? actions_->recordFromReads(action, outcome.record, *reads) : std::nullopt;
         if (!whole)

@@ -3,7 +3,7 @@
 
 #include "cook/tools/sha256.h"
 #include "formats/base/atomic_file.h"
-#include "pipelines/cache/directory_store.h"
+#include "formats/base/regular_file.h"
 #include "pipelines/cache/entry_text.h"
 
 #include <ctime>
@@ -31,7 +31,7 @@ std::string metadataText(const struct stat& info)
 
 void FileHashes::load(const std::string& path)
 {
-    const std::optional<std::string> text = cache::readText(path);
+    const Result<std::string> text = readFile(path);
     const std::optional<cache::Fields> fields = text ? cache::parseEntry(*text) : std::nullopt;
     if (!fields)
         return;

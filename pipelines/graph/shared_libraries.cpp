@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/graph/shared_libraries.h"
 
+#include "formats/base/regular_file.h"
 #include "formats/base/temp_directory.h"
 
 #include <algorithm>
@@ -8,7 +9,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <elf.h>
-#include <fcntl.h>
 #include <optional>
 #include <set>
 #include <unistd.h>
@@ -25,29 +25,23 @@ constexpr uint64_t kMaxBytes = uint64_t{64} << 20;
 class ElfFile
 {
 public:
-    explicit ElfFile(const std::string& path) : file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
-    ElfFile(const ElfFile&) = delete;
-    ElfFile& operator=(const ElfFile&) = delete;
-    ~ElfFile()
-    {
-        if (file_ >= 0)
-            ::close(file_);
-    }
+    explicit ElfFile(const std::string& path) : file_(path) {}
 
     template <typename T>
     std::vector<T> read(uint64_t offset, uint64_t count) const
     {
-        if (file_ < 0 || count > kMaxBytes / sizeof(T))
+        if (!file_.isOpen() || count > kMaxBytes / sizeof(T))
             return {};
         std::vector<T> records(count);
         const auto size = static_cast<ssize_t>(count * sizeof(T));
-        return ::pread(file_, records.data(), count * sizeof(T), static_cast<off_t>(offset)) == size
+        return ::pread(file_.descriptor(), records.data(), count * sizeof(T), static_cast<off_t>(offset)) ==
+                       size
                    ? records
                    : std::vector<T>();
     }
 
 private:
-    int file_;
+    RegularFile file_;
 };
 
 struct DynamicSection

@@ -2,8 +2,8 @@
 #include "pipelines/profiles/configuration.h"
 
 #include "formats/base/nearest_match.h"
+#include "formats/base/regular_file.h"
 #include "formats/base/text.h"
-#include "pipelines/cache/directory_store.h"
 #include "pipelines/profiles/built_in.h"
 #include "pipelines/profiles/command_settings.h"
 #include "pipelines/profiles/glob.h"
@@ -27,12 +27,12 @@ constexpr const char* kOff = "off";
 
 Result<std::string> readSettingsFile(const std::string& path, const char* what)
 {
-    std::error_code error;
-    const std::optional<std::string> text =
-        fs::is_directory(path, error) ? std::nullopt : cache::readText(path);
-    if (!text)
-        return Error{Issue::input_missing, path, "", fmt::format("{} cannot be read", what)};
-    return *text;
+    Result<std::string> text = readFile(path);
+    if (text.ok())
+        return text;
+    Error error = text.error();
+    error.detail = fmt::format("{}: {}", what, error.detail);
+    return error;
 }
 
 /// Return the path of the nearest project file, such as "hearth.toml" or "../../hearth.toml"; empty where

@@ -3,6 +3,7 @@
 
 #include "cook/json/json.h"
 #include "cook/tools/child_processes.h"
+#include "formats/base/regular_file.h"
 #include "formats/base/temp_directory.h"
 #include "formats/pack/pack_view.h"
 
@@ -10,8 +11,6 @@
 #include <chrono>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
-#include <iterator>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -42,13 +41,12 @@ constexpr const char* kSheetSize = "960x540";
 /// Read and remove a file.
 std::optional<std::string> readAndRemove(const std::string& path)
 {
-    std::ifstream file(path, std::ios::binary);
-    if (!file)
+    Result<std::string> content = readFile(path);
+    if (!content.ok())
         return std::nullopt;
-    std::string content(std::istreambuf_iterator<char>(file), {});
     std::error_code ignored;
     std::filesystem::remove(path, ignored);
-    return content;
+    return std::move(content).value();
 }
 
 /// Draws images with hearth-render into a temporary folder.

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/camera_path.h"
 
+#include "formats/base/regular_file.h"
 #include "formats/base/text.h"
 #include "runtime/viewer/camera_fit.h"
 #include "runtime/viewer/text.h"
 
 #include <array>
 #include <cstdio>
-#include <fstream>
 
 namespace hearth::viewer
 {
@@ -58,13 +58,12 @@ std::string formatCamera(const shared::Camera& camera)
 
 Result<std::vector<shared::Camera>> readCameraPath(const std::string& path)
 {
-    std::ifstream file(path);
-    if (!file)
-        return Error{Issue::input_missing, path, "", ""};
+    HEARTH_ASSIGN_OR_RETURN(const std::string text, readFile(path));
     std::vector<shared::Camera> cameras;
-    std::string line;
-    for (size_t number = 1; std::getline(file, line); ++number)
+    size_t number = 0;
+    for (std::string& line : splitText(text, '\n'))
     {
+        ++number;
         if (!line.empty() && line.back() == '\r')
             line.pop_back();
         if (line.empty() || line.front() == '#')

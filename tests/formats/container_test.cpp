@@ -2,6 +2,7 @@
 #include "formats/container/container_reader.h"
 #include "formats/container/container_writer.h"
 #include "runtime/pack/pack.h"
+#include "tests/support/limits/peak_memory.h"
 #include "tests/support/small_pack.h"
 #include "tests/support/temporary_folder.h"
 
@@ -195,6 +196,29 @@ TEST(ContainerReader, namesAFileThatIsMissing)
     EXPECT_EQ(exitCode(reader.error()), 66);
     EXPECT_EQ(ContainerReader::open(folder.file("")).error().issue, Issue::input_missing)
         << "a folder is no file";
+}
+
+TEST(ContainerReader, allocatesNothingForAClaimThatItsFrameCannotHold)
+{
+    constexpr uint64_t kClaim = uint64_t{1} << 30;
+    ChunkImage chunk = zstdChunk(fourCC("TEXT"), 0, 1, {});
+    chunk.entry.size = kClaim;
+    // a frame with a content size of 8 bytes, and one run of one byte
+    chunk.stored = {std::byte{0x28}, std::byte{0xB5}, std::byte{0x2F}, std::byte{0xFD}, std::byte{0xE0}};
+    const auto claim = std::as_bytes(std::span(&kClaim, 1));
+    chunk.stored.insert(chunk.stored.end(), claim.begin(), claim.end());
+    chunk.stored.insert(chunk.stored.end(), {std::byte{0x0B}, std::byte{0}, std::byte{0}, std::byte{0}});
+    const AlignedBytes bytes = assemble(ContainerKind::part, std::span(&chunk, 1));
+    const auto reader = ContainerReader::fromBytes(bytes.span(), "small.part");
+    ASSERT_TRUE(reader.ok()) << formatMessage(reader.error());
+    const std::optional<int> peak_mib = measurePeak_mib(
+        [&]
+        {
+            const auto content = reader->read(fourCC("TEXT"), 0);
+            return !content.ok() && content.error().issue == Issue::chunk_codec;
+        });
+    ASSERT_TRUE(peak_mib.has_value());
+    EXPECT_LE(*peak_mib, 8);
 }
 
 TEST(Pack, opensAFile)

@@ -79,6 +79,18 @@ TEST(GltfAccessors, clampColorsAndReplaceWhatIsNotFinite)
     EXPECT_EQ(uvs.uvs[0][1], (Float2{0.5f, 0.5f}));
 }
 
+TEST(GltfAccessors, withoutDataHaveABudgetOfDecodedBytes)
+{
+    // 57 MiB of positions, and 19 MiB of colours that become 76 MiB
+    const Imported result = importBytes(R"({"asset":{"version":"2.0"},
+        "accessors":[{"componentType":5126,"type":"VEC3","count":4999998},
+                     {"componentType":5121,"normalized":true,"type":"VEC4","count":4999998}],
+        "meshes":[{"primitives":[{"attributes":{"POSITION":0,"COLOR_0":1}}]}],"nodes":[{"mesh":0}]})");
+    ASSERT_FALSE(result.ok());
+    EXPECT_EQ(result.status.error().issue, Issue::input_too_large);
+    EXPECT_EQ(result.status.error().where, "/accessors/1");
+}
+
 TEST(GltfAccessors, followTheStrideOfInterleavedViews)
 {
     // position and UV of four vertices in one view: 20 bytes a vertex

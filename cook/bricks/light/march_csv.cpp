@@ -4,10 +4,10 @@
 #include "cook/bricks/light/march_lanes.h"
 #include "formats/base/atomic_file.h"
 #include "formats/base/csv_table.h"
+#include "formats/base/regular_file.h"
 #include "formats/pack/pack_check.h"
 
 #include <cmath>
-#include <fstream>
 #include <iterator>
 #include <optional>
 
@@ -33,15 +33,6 @@ std::optional<MarchRay> makeRay(std::span<const double> row)
     };
     const MarchRay ray{point(row[0], row[1], row[2]), point(row[3] / size, row[4] / size, row[5] / size)};
     return isFinite(ray.origin) ? std::optional(ray) : std::nullopt;
-}
-
-Result<std::string> readText(const std::string& path)
-{
-    std::ifstream file(path, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(file), {}};
-    if (!file.is_open() || file.bad())
-        return Error{Issue::input_missing, path, "", "cannot be read"};
-    return text;
 }
 
 /// Open and check a pack or a part with bricks.
@@ -94,7 +85,7 @@ std::string marchRaysToCsv(const shared::BrickMasks& bricks, const std::vector<M
 Status marchCsvFile(const std::string& input, const std::string& rays, const std::string& output)
 {
     HEARTH_ASSIGN_OR_RETURN(const formats::PackView file, openBricks(input));
-    HEARTH_ASSIGN_OR_RETURN(const std::string text, readText(rays));
+    HEARTH_ASSIGN_OR_RETURN(const std::string text, readFile(rays));
     HEARTH_ASSIGN_OR_RETURN(const std::vector<MarchRay> all, readRayCsv(text, rays));
     const shared::BrickMasks masks{formats::toBrickGrid(file.brickGrid()[0]), file.brickGroupsAlongAxis(),
                                    file.bricks()};

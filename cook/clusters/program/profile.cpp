@@ -3,13 +3,11 @@
 
 #include "cook/tools/toml.h"
 #include "formats/base/nearest_match.h"
+#include "formats/base/regular_file.h"
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
-#include <iterator>
 #include <limits>
 
 namespace hearth::clusters
@@ -253,12 +251,8 @@ Result<Profile> makeProfile(const TomlNode& root, const std::string& path)
 
 Result<Profile> readProfile(const std::string& path)
 {
-    std::error_code error;
-    std::ifstream file(path, std::ios::binary);
-    if (!file.is_open() || std::filesystem::is_directory(path, error))
-        return Error{Issue::input_missing, path, "", "the profile cannot be read"};
-    return parseProfile(std::string(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()),
-                        path);
+    HEARTH_ASSIGN_OR_RETURN(const std::string text, readFile(path));
+    return parseProfile(text, path);
 }
 
 Result<Profile> parseProfile(std::string_view text, const std::string& name)

@@ -2,13 +2,13 @@
 #include "cook/clusters/program/source_part.h"
 
 #include "cook/tools/child_processes.h"
+#include "formats/base/regular_file.h"
 #include "formats/base/temp_directory.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstring>
-#include <memory>
 
 namespace hearth::clusters
 {
@@ -38,14 +38,10 @@ SourcePart openPart(const std::string& path)
 /// message gives the reason.
 bool isContainer(const std::string& path)
 {
-    struct Close
-    {
-        void operator()(std::FILE* file) const { std::fclose(file); }
-    };
-    const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "rb"));
+    const RegularFile file(path);
     // only the first four bytes: a damaged container is left to the container's reader
     std::array<uint8_t, 4> start{};
-    return file && std::fread(start.data(), start.size(), 1, file.get()) == 1 &&
+    return file.isOpen() && file.read(std::as_writable_bytes(std::span(start))) == start.size() &&
            std::equal(start.begin(), start.end(), kMagic);
 }
 

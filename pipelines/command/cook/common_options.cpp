@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/cook/common_options.h"
 
-#include "pipelines/cache/directory_store.h"
+#include "formats/base/regular_file.h"
 #include "pipelines/command/cook/setting_options.h"
 #include "pipelines/command/shell/messages.h"
 #include "pipelines/command/shell/terminal.h"
@@ -103,10 +103,8 @@ Result<std::vector<std::string>> expandArgumentFiles(const std::vector<std::stri
             all.push_back(word);
             continue;
         }
-        const std::optional<std::string> text = cache::readText(word.substr(1));
-        if (!text)
-            return Error{Issue::input_missing, word.substr(1), "", "the list of arguments cannot be read"};
-        std::istringstream lines(*text);
+        HEARTH_ASSIGN_OR_RETURN(const std::string text, readFile(word.substr(1)));
+        std::istringstream lines(text);
         for (std::string line; std::getline(lines, line);)
             if (!line.empty() && line.front() != '#')
                 all.push_back(line);

@@ -5,6 +5,7 @@
 #include "cook/tools/sha256.h"
 #include "formats/base/atomic_file.h"
 #include "formats/base/flush.h"
+#include "formats/base/regular_file.h"
 #include "pipelines/command/cook/cook_report.h"
 #include "pipelines/command/cook/cook_state.h"
 #include "pipelines/command/cook/cook_summary.h"
@@ -27,7 +28,6 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
-#include <fcntl.h>
 #include <filesystem>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -312,11 +312,11 @@ std::string outputCause(const std::optional<std::string>& old_pack_hash)
 /// Flush a file to the disk, before it replaces the old pack.
 bool flush(const std::string& path)
 {
-    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    const bool flushed = file >= 0 && flushFile(file);
-    if (file >= 0)
-        ::close(file);
-    return flushed;
+    const RegularFile file(path);
+    if (file.isOpen())
+        return flushFile(file.descriptor());
+    errno = file.openError();
+    return false;
 }
 
 bool writeDepfile(const graph::Graph& graph, const graph::Executor& executor, const CookOptions& options,

@@ -3,6 +3,7 @@
 
 #include "cook/tools/child_processes.h"
 #include "formats/base/atomic_file.h"
+#include "formats/base/regular_file.h"
 #include "pipelines/cache/http_store.h"
 #include "pipelines/cache/maintenance.h"
 #include "pipelines/graph/prefetch.h"
@@ -64,7 +65,7 @@ void CookState::enablePrefetch(const graph::Graph& graph)
 const std::optional<graph::Journal>& CookState::journal()
 {
     if (!journal_is_read_ && !journal_path_.empty())
-        if (const std::optional<std::string> text = cache::readText(journal_path_ + kJournalEnding))
+        if (const Result<std::string> text = readFile(journal_path_ + kJournalEnding); text.ok())
             journal_ = graph::parseJournal(*text);
     journal_is_read_ = true;
     return journal_;
@@ -99,11 +100,13 @@ std::vector<graph::Journal> readAllJournals(const std::vector<cache::CacheSpec>&
         std::error_code error;
         for (auto at = std::filesystem::directory_iterator(spec.place + "/cooks", error);
              !error && at != std::filesystem::directory_iterator(); at.increment(error))
-            if (const auto text = at->path().extension() == kJournalEnding
-                                      ? cache::readText(at->path().string())
-                                      : std::nullopt)
-                if (auto journal = graph::parseJournal(*text))
-                    journals.push_back(std::move(*journal));
+        {
+            if (at->path().extension() != kJournalEnding)
+                continue;
+            const Result<std::string> text = readFile(at->path().string());
+            if (auto journal = text ? graph::parseJournal(*text) : std::nullopt)
+                journals.push_back(std::move(*journal));
+        }
     }
     std::sort(journals.begin(), journals.end(),
               [](const graph::Journal& a, const graph::Journal& b) { return a.output < b.output; });

@@ -2,6 +2,7 @@
 #include "pipelines/command/farm/farm_run.h"
 
 #include "formats/base/atomic_file.h"
+#include "formats/base/regular_file.h"
 #include "pipelines/command/cook/cook_state.h"
 #include "pipelines/command/cook/cook_tools.h"
 #include "pipelines/command/shell/progress_lines.h"
@@ -175,10 +176,8 @@ Result<farm::Measurements> readEstimates(const std::string& estimates_file)
 {
     if (estimates_file.empty())
         return farm::Measurements();
-    const std::optional<std::string> report = cache::readText(estimates_file);
-    if (!report)
-        return Error{Issue::input_missing, estimates_file, "", "cannot be read"};
-    return farm::readMeasurements(*report, estimates_file);
+    HEARTH_ASSIGN_OR_RETURN(const std::string report, readFile(estimates_file));
+    return farm::readMeasurements(report, estimates_file);
 }
 
 Result<std::string> makePlanText(const MakePlanOptions& options, const farm::Measurements& measured,

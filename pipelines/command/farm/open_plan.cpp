@@ -3,7 +3,7 @@
 
 #include "cook/tools/child_processes.h"
 #include "cook/tools/sha256.h"
-#include "pipelines/cache/directory_store.h"
+#include "formats/base/regular_file.h"
 #include "pipelines/graph/journal.h"
 
 #include <cstdlib>
@@ -55,15 +55,13 @@ std::vector<std::string> absoluteCaches(const std::vector<std::string>& caches)
 
 Result<OpenedPlan> openPlan(const PlanOptions& options)
 {
-    const std::optional<std::string> text = cache::readText(options.plan_file);
-    if (!text)
-        return Error{Issue::input_missing, options.plan_file, "", ""};
+    HEARTH_ASSIGN_OR_RETURN(const std::string text, readFile(options.plan_file));
     OpenedPlan opened;
-    HEARTH_ASSIGN_OR_RETURN(opened.plan, farm::parsePlan(*text, options.plan_file));
+    HEARTH_ASSIGN_OR_RETURN(opened.plan, farm::parsePlan(text, options.plan_file));
     if (!options.directory.empty())
         opened.plan.folder = opened.directory = graph::absolutePath(options.directory);
     opened.file = graph::absolutePath(options.plan_file);
-    opened.hash = tools::computeSha256(*text);
+    opened.hash = tools::computeSha256(text);
     opened.caches = absoluteCaches(options.caches);
     return opened;
 }

@@ -2,8 +2,8 @@
 #include "pipelines/command/inspect/image_diff.h"
 
 #include "cook/tools/child_processes.h"
+#include "formats/base/regular_file.h"
 #include "formats/base/temp_directory.h"
-#include "pipelines/cache/directory_store.h"
 #include "pipelines/graph/cooker_outcome.h"
 
 namespace hearth::command
@@ -75,8 +75,8 @@ ImageDiff diffImages(const std::string& pack_a, const std::string& pack_b, const
         runPrograms({{"compare",
                       options.output,
                       {image_a, "--with", image_b, "-o", options.output, "--stats", figures}}});
-    if (compared.exit_code == 0)
-        compared.figures = cache::readText(figures).value_or("");
+    if (const Result<std::string> text = readFile(figures); compared.exit_code == 0 && text.ok())
+        compared.figures = *text;
     return compared;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/cache/directory_store.h"
+#include "formats/base/regular_file.h"
 #include "pipelines/command/cook/cook_tools.h"
 #include "pipelines/command/cook/render_progress.h"
 #include "pipelines/command/shell/verb_tools.h"
@@ -36,9 +36,9 @@ int report(const Options& options)
             return printUsageError(fault);
     if (options.page.empty() && options.junit.empty() && options.table.empty())
         return printUsageError("report: nothing is asked for: name --html, --junit or --csv");
-    const std::optional<std::string> json = cache::readText(options.file);
+    const Result<std::string> json = readFile(options.file);
     if (!json)
-        return printError({Issue::input_missing, options.file, "", "cannot be read"});
+        return printError(json.error());
     for (const std::string& path : {options.page, options.junit, options.table})
     {
         if (path.empty())

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/gltf/draco.h"
 
+#include "pipelines/import/source/draco_counts.h"
+
 #include <draco/compression/decode.h>
 
 #include <fmt/format.h>
@@ -110,6 +112,8 @@ Result<DracoMesh> decodeDraco(std::span<const std::byte> compressed,
     };
     try
     {
+        if (const std::optional<std::string> reason = findImpossibleDracoCount(compressed))
+            return failure(*reason);
         DracoMesh mesh;
         if (const std::optional<std::string> reason = decode(compressed, attributes, mesh))
             return failure(*reason);

@@ -34,6 +34,14 @@ Result<DecodedImage> allocateImage(const EncodedImage& source, uint64_t width, u
 /// Check the size as allocateImage does, without allocating an image.
 Status checkImageSize(const EncodedImage& source, uint64_t width, uint64_t height);
 
+/// Check that the file can hold the image that its header claims, before memory is allocated for it.
+/// min_bytes  size of the shortest file with an image of this size, or less
+/// errors: image_malformed
+Status checkFileSize(const EncodedImage& source, const std::string& format, uint64_t min_bytes);
+
+/// Maximum number of bytes that one byte of Deflate data decodes to.
+inline constexpr uint64_t kMaxDeflateRatio = 1032;
+
 inline uint8_t* imageBytes(DecodedImage& image)
 {
     return reinterpret_cast<uint8_t*>(image.texels.data());

@@ -98,6 +98,13 @@ Status checkImageSize(const EncodedImage& source, uint64_t width, uint64_t heigh
     return success();
 }
 
+Status checkFileSize(const EncodedImage& source, const std::string& format, uint64_t min_bytes)
+{
+    if (source.bytes.size() >= min_bytes)
+        return success();
+    return source.malformed(format + ": the file ends too early");
+}
+
 Result<DecodedImage> allocateImage(const EncodedImage& source, uint64_t width, uint64_t height, bool is_float)
 {
     HEARTH_TRY(checkImageSize(source, width, height));

@@ -1,18 +1,23 @@
 // Decodes OpenEXR: scanlines and tiles, every lossless and lossy compression, RGB(A), grey, and luminance
 // with chroma. The image is the data window, as in other texture tools: a texture has no display window.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/base/byte_reader.h"
 #include "pipelines/import/images/codecs.h"
 
 #include <OpenEXR/IexBaseExc.h>
 #include <OpenEXR/ImfArray.h>
+#include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfRgbaFile.h>
+#include <OpenEXR/ImfTileDescription.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <exception>
+#include <optional>
+#include <string_view>
 
 namespace hearth::import
 {
@@ -87,6 +92,101 @@ void storeRow(std::span<const Imf::Rgba> row, size_t y, DecodedImage& image)
 // to 512.
 constexpr int kMaxTileSide = 4096;
 
+constexpr size_t kVersionOffset = 4; ///< after the magic number
+constexpr size_t kHeaderOffset = 8;
+constexpr uint32_t kMultiPartFlag = 0x1000;
+
+/// Read a text up to its zero; nullopt if there is none.
+std::optional<std::string_view> readName(ByteReader& reader, std::span<const std::byte> bytes)
+{
+    const std::string_view rest(reinterpret_cast<const char*>(bytes.data()) + reader.position(),
+                                reader.remaining());
+    const size_t end = rest.find('\0');
+    if (end == rest.npos)
+        return std::nullopt;
+    reader.skip(end + 1);
+    return rest.substr(0, end);
+}
+
+/// True if every attribute lies inside the file. OpenEXR allocates what an attribute claims before it reads.
+bool attributesFit(std::span<const std::byte> bytes)
+{
+    ByteReader reader(bytes);
+    reader.seek(std::min(kVersionOffset, bytes.size()));
+    const auto version = reader.read<uint32_t>();
+    if (!version)
+        return false;
+    // the headers of a file of several parts end with an empty one
+    const bool is_multi_part = (*version & kMultiPartFlag) != 0;
+    bool is_header_empty = true;
+    for (;;)
+    {
+        const auto name = readName(reader, bytes);
+        if (!name)
+            return false;
+        if (name->empty())
+        {
+            if (!is_multi_part || is_header_empty)
+                return true;
+            is_header_empty = true;
+            continue;
+        }
+        is_header_empty = false;
+        const auto type = readName(reader, bytes);
+        const auto size = type ? reader.read<uint32_t>() : std::nullopt;
+        if (!size || !reader.skip(*size))
+            return false;
+    }
+}
+
+// Maximum ratios of compression, rounded up. Deflate packs best; PXR24 drops a byte of four before. DWA
+// packs a block of 64 texels of up to four bytes into two coefficients of two bytes, or runs, before.
+constexpr uint64_t kMaxRatio = 2 * kMaxDeflateRatio;
+constexpr uint64_t kMaxDwaRatio = 128 * kMaxDeflateRatio;
+
+// Minimum size of a tile that can be too large. OpenEXR allocates a whole tile, however small the image.
+constexpr uint64_t kMinLargeTile_bytes = uint64_t{64} << 20;
+
+/// Return the bytes of a texel, in all channels.
+double texelBytes(const Imf::Header& header)
+{
+    double bytes = 0;
+    for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel)
+        bytes += (channel.channel().type == Imf::HALF ? 2.0 : 4.0) /
+                 (std::max(1.0, double(channel.channel().xSampling)) *
+                  std::max(1.0, double(channel.channel().ySampling)));
+    return bytes;
+}
+
+/// Check that the file can hold what the header of its first part claims, before OpenEXR allocates it.
+Status checkHeader(const EncodedImage& source)
+{
+    if (!attributesFit(source.bytes))
+        return source.malformed("EXR: the file ends too early");
+    MemoryStream stream(source.bytes, source.name.c_str());
+    stream.seekg(kHeaderOffset);
+    int version = 0;
+    std::memcpy(&version, source.bytes.data() + kVersionOffset, sizeof(version));
+    Imf::Header header;
+    header.readFrom(stream, version);
+    const Window data(header.dataWindow());
+    HEARTH_TRY(checkImageSize(source, data.width(), data.height()));
+    const double texel_bytes = texelBytes(header);
+    const auto image_bytes =
+        static_cast<uint64_t>(texel_bytes * static_cast<double>(data.width() * data.height()));
+    const bool is_dwa =
+        header.compression() == Imf::DWAA_COMPRESSION || header.compression() == Imf::DWAB_COMPRESSION;
+    HEARTH_TRY(checkFileSize(source, "EXR", image_bytes / (is_dwa ? kMaxDwaRatio : kMaxRatio)));
+    if (!header.hasTileDescription())
+        return success();
+    const Imf::TileDescription& tile = header.tileDescription();
+    if (texel_bytes * tile.xSize * tile.ySize >
+        static_cast<double>(std::max(kMinLargeTile_bytes, 4 * image_bytes)))
+        return source.unsupported("EXR: tiles of " + std::to_string(tile.xSize) + " x " +
+                                  std::to_string(tile.ySize) + " texels are not read");
+    return success();
+}
+
 /// Set the limits that OpenEXR checks before it allocates anything by the header.
 void setLibraryLimits(const ImportLimits& limits)
 {
@@ -98,6 +198,7 @@ void setLibraryLimits(const ImportLimits& limits)
 Result<DecodedImage> decode(const EncodedImage& source)
 {
     setLibraryLimits(source.limits);
+    HEARTH_TRY(checkHeader(source));
     MemoryStream stream(source.bytes, source.name.c_str());
     Imf::RgbaInputFile file(stream, 0);
     const Window data(file.dataWindow());

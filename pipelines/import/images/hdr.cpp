@@ -157,6 +157,15 @@ bool readFlat(ByteReader& reader, Rgbe first, std::vector<Rgbe>& scanline)
     }
 }
 
+/// Return the size of the texels of the shortest file: each scanline has a texel and old runs of at most 255
+/// and 65280 texels, four bytes each. The new coding is longer.
+uint64_t minTexelBytes(const HdrHeader& header)
+{
+    const uint64_t length = header.rows_are_columns ? header.height : header.width;
+    const uint64_t count = header.rows_are_columns ? header.width : header.height;
+    return count * sizeof(Rgbe) * (1u + (length > 1 ? 1u : 0u) + (length > 256 ? 1u : 0u));
+}
+
 bool readScanline(ByteReader& reader, std::vector<Rgbe>& scanline)
 {
     const auto first = reader.read<Rgbe>();
@@ -178,11 +187,7 @@ Result<DecodedImage> decodeHdr(const EncodedImage& source)
     if (header->xyze)
         return source.unsupported("HDR images in XYZ are not read");
     HEARTH_TRY(checkImageSize(source, header->width, header->height));
-    // a run of the new coding makes 127 texels from 2 bytes per component, an old run 255 from 4 bytes and
-    // more
-    if (header->width * header->height / 32768 > source.bytes.size())
-        return source.malformed("HDR: the file ends too early");
-
+    HEARTH_TRY(checkFileSize(source, "HDR", reader.position() + minTexelBytes(*header)));
     HEARTH_ASSIGN_OR_RETURN(DecodedImage image, allocateImage(source, header->width, header->height, true));
     const bool columns = header->rows_are_columns;
     std::vector<Rgbe> scanline(columns ? image.height : image.width);

@@ -79,6 +79,18 @@ bool readHeader(JpegState& state, std::span<const std::byte> bytes)
     return true;
 }
 
+/// Return the size of the shortest file with the image of the header: a Huffman code has one bit or more for
+/// each block. Arithmetic coding has no such minimum.
+uint64_t minFileBytes(const jpeg_decompress_struct& decoder)
+{
+    if (decoder.arith_code != FALSE)
+        return 0;
+    uint64_t blocks = 0;
+    for (int i = 0; i < decoder.num_components; ++i)
+        blocks += uint64_t{decoder.comp_info[i].width_in_blocks} * decoder.comp_info[i].height_in_blocks;
+    return blocks / 8;
+}
+
 /// Decode into RGBA8 rows; CMYK arrives as four channels as well.
 bool readTexels(JpegState& state, uint8_t* texels)
 {
@@ -124,6 +136,8 @@ Result<DecodedImage> decodeJpeg(const EncodedImage& source)
     const auto failed = [&] { return source.malformed(std::string("JPEG: ") + state.message.data()); };
     if (!readHeader(state, source.bytes))
         return failed();
+    HEARTH_TRY(checkImageSize(source, state.decoder.image_width, state.decoder.image_height));
+    HEARTH_TRY(checkFileSize(source, "JPEG", minFileBytes(state.decoder)));
     HEARTH_ASSIGN_OR_RETURN(DecodedImage image, allocateImage(source, state.decoder.image_width,
                                                               state.decoder.image_height, false));
     if (!readTexels(state, imageBytes(image)))

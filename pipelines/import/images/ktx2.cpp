@@ -151,6 +151,9 @@ Result<std::vector<std::byte>> readFinestLevel(const EncodedImage& source, const
         return std::vector<std::byte>(level.bytes.begin(), level.bytes.end());
     if (file.scheme != Ktx2Scheme::zstd)
         return source.unsupported("KTX2: ZLIB supercompression is not read");
+    // before memory is allocated for what the level claims
+    if (!formats::isSingleFrame(level.bytes, level.uncompressed_size))
+        return source.malformed("KTX2: the Zstandard data is damaged");
     std::vector<std::byte> texels(static_cast<size_t>(level.uncompressed_size));
     if (!formats::decompress(level.bytes, texels))
         return source.malformed("KTX2: the Zstandard data is damaged");

@@ -1,5 +1,6 @@
 // Decodes PNG through libpng: damaged checksums, missing rows and a missing end are errors.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/base/byte_reader.h"
 #include "pipelines/import/images/codecs.h"
 
 #include <png.h>
@@ -13,6 +14,29 @@ namespace hearth::import
 
 namespace
 {
+
+constexpr size_t kSignatureBytes = 8;
+constexpr uint64_t kChunkFrameBytes = 12; ///< length, type and checksum
+
+/// True if every chunk up to IEND lies inside the file. libpng allocates and clears what a chunk claims
+/// before it reads it. Chunks that are cut off in their frame are left to libpng.
+bool chunksFit(std::span<const std::byte> bytes)
+{
+    ByteReader reader(bytes);
+    reader.seek(kSignatureBytes);
+    while (reader.remaining() >= kChunkFrameBytes)
+    {
+        const auto length = *reader.read<std::array<uint8_t, 4>>(); // big-endian
+        const auto type = *reader.read<std::array<char, 4>>();
+        const uint64_t content = uint64_t{length[0]} << 24 | uint64_t{length[1]} << 16 |
+                                 uint64_t{length[2]} << 8 | uint64_t{length[3]};
+        if (!reader.skip(content) || !reader.skip(4))
+            return false;
+        if (type == std::array{'I', 'E', 'N', 'D'})
+            return true;
+    }
+    return true;
+}
 
 /// State for libpng's callbacks. libpng reports errors by longjmp: no function between setjmp and libpng may
 /// own anything, so decodePng holds the memory.
@@ -53,8 +77,19 @@ bool readHeader(PngState& state)
         return false;
     png_set_read_fn(state.png, &state, onRead);
     png_set_user_limits(state.png, PNG_UINT_31_MAX, PNG_UINT_31_MAX); // checkImageSize sets the limits
+    // of the chunks beside the image only tRNS is used; profiles and texts are not even decompressed
+    png_set_keep_unknown_chunks(state.png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
     png_read_info(state.png, state.info);
     return true;
+}
+
+/// Return the size of the shortest file with the image of the header: compressed as well as Deflate can.
+uint64_t minFileBytes(const PngState& state)
+{
+    const uint64_t texel_bits =
+        uint64_t{png_get_bit_depth(state.png, state.info)} * png_get_channels(state.png, state.info);
+    const uint64_t row_bytes = (png_get_image_width(state.png, state.info) * texel_bits + 7) / 8;
+    return row_bytes * png_get_image_height(state.png, state.info) / kMaxDeflateRatio;
 }
 
 /// Read the image, with every kind of PNG converted to RGBA8 by libpng.
@@ -79,6 +114,8 @@ bool readTexels(PngState& state, png_bytepp rows)
 
 Result<DecodedImage> decodePng(const EncodedImage& source)
 {
+    if (!chunksFit(source.bytes))
+        return source.malformed("PNG: the file ends too early");
     PngState state;
     state.rest = source.bytes;
     state.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &state, onError, onWarning);
@@ -89,6 +126,9 @@ Result<DecodedImage> decodePng(const EncodedImage& source)
 
     if (!readHeader(state))
         return failed();
+    HEARTH_TRY(checkImageSize(source, png_get_image_width(state.png, state.info),
+                              png_get_image_height(state.png, state.info)));
+    HEARTH_TRY(checkFileSize(source, "PNG", minFileBytes(state)));
     HEARTH_ASSIGN_OR_RETURN(DecodedImage image,
                             allocateImage(source, png_get_image_width(state.png, state.info),
                                           png_get_image_height(state.png, state.info), false));

@@ -127,6 +127,14 @@ std::optional<std::vector<Texel>> readMap(ByteReader& reader, const TgaHeader& h
     return map;
 }
 
+/// Return the size of the texels of the shortest file: runs of 128 texels, or every texel.
+uint64_t minTexelBytes(const TgaHeader& header)
+{
+    const uint64_t count = uint64_t{number(header.width)} * number(header.height);
+    const uint64_t texel_bytes = (header.depth + 7u) / 8u;
+    return (header.type & kTgaRunLength) != 0 ? (count + 127) / 128 * (1 + texel_bytes) : count * texel_bytes;
+}
+
 /// Call put(texel) for every texel in the order of the file. Return a description of the damage; empty on
 /// success.
 template <typename Put>
@@ -180,6 +188,7 @@ Result<DecodedImage> decodeTga(const EncodedImage& source)
     if (!map)
         return source.malformed("TGA: the file ends too early");
 
+    HEARTH_TRY(checkFileSize(source, "TGA", reader.position() + minTexelBytes(*header)));
     HEARTH_ASSIGN_OR_RETURN(DecodedImage image,
                             allocateImage(source, number(header->width), number(header->height), false));
     const TexelReader texels{*header, has_alpha, std::move(*map), number(header->map_first)};

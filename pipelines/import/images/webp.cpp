@@ -7,6 +7,21 @@
 namespace hearth::import
 {
 
+namespace
+{
+
+constexpr int kLossy = 1;
+
+/// Return the size of the shortest file with the image of the header: VP8 codes a macroblock's mode in two
+/// bits or more. A lossless image of one colour takes no bits a texel.
+uint64_t minFileBytes(const WebPBitstreamFeatures& features)
+{
+    const auto blocks = [](int size) { return (static_cast<uint64_t>(size) + 15) / 16; };
+    return features.format == kLossy ? blocks(features.width) * blocks(features.height) / 4 : 0;
+}
+
+} // namespace
+
 Result<DecodedImage> decodeWebp(const EncodedImage& source)
 {
     WebPBitstreamFeatures features;
@@ -18,6 +33,7 @@ Result<DecodedImage> decodeWebp(const EncodedImage& source)
                               static_cast<uint64_t>(features.height)));
     if (features.has_animation != 0)
         return source.unsupported("animated WebP images are not read");
+    HEARTH_TRY(checkFileSize(source, "WebP", minFileBytes(features)));
     HEARTH_ASSIGN_OR_RETURN(DecodedImage image, allocateImage(source, static_cast<uint64_t>(features.width),
                                                               static_cast<uint64_t>(features.height), false));
     if (WebPDecodeRGBAInto(source.data(), source.bytes.size(), imageBytes(image), image.texels.size(),

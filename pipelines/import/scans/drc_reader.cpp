@@ -1,6 +1,7 @@
 // Reads bare Draco files (.drc): meshes and point clouds.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/scans/scan_polygons.h"
+#include "pipelines/import/source/draco_counts.h"
 
 #include <draco/compression/decode.h>
 
@@ -138,6 +139,8 @@ Result<ScanPolygons> readDrc(const ScanSource& source)
     };
     try
     {
+        if (const std::optional<std::string> reason = findImpossibleDracoCount(source.bytes))
+            return failure(*reason);
         ScanPolygons file;
         const std::string problem = decode(source, file);
         if (!problem.empty())

@@ -2,13 +2,12 @@
 #include "pipelines/import/source/file_bytes.h"
 
 #include "formats/base/hash_stream.h"
+#include "formats/base/regular_file.h"
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fcntl.h>
 #include <sys/mman.h>
-#include <unistd.h>
 #include <utility>
 
 namespace hearth::import
@@ -21,19 +20,6 @@ namespace
 constexpr size_t kMinMappedBytes = size_t{64} << 20;
 constexpr size_t kPieceBytes = size_t{16} << 20;
 
-struct FileDescriptor
-{
-    int number;
-    explicit FileDescriptor(int opened) : number(opened) {}
-    FileDescriptor(const FileDescriptor&) = delete;
-    FileDescriptor& operator=(const FileDescriptor&) = delete;
-    ~FileDescriptor()
-    {
-        if (number >= 0)
-            ::close(number);
-    }
-};
-
 bool isSame(const struct stat& a, const struct stat& b)
 {
     return a.st_ino == b.st_ino && a.st_size == b.st_size && a.st_mtim.tv_sec == b.st_mtim.tv_sec &&
@@ -45,21 +31,14 @@ Error failure(Issue issue, const std::string& path, std::string detail)
     return {issue, path, "", std::move(detail)};
 }
 
-Result<std::vector<std::byte>> readCopy(int file, size_t size, const std::string& path)
+Result<std::vector<std::byte>> readCopy(const RegularFile& file, const std::string& path)
 {
-    std::vector<std::byte> bytes(size);
-    size_t filled = 0;
-    while (filled < bytes.size())
-    {
-        const ssize_t count = ::read(file, bytes.data() + filled, bytes.size() - filled);
-        if (count < 0 && errno == EINTR)
-            continue;
-        if (count < 0)
-            return failure(Issue::read_failed, path, std::strerror(errno));
-        if (count == 0)
-            return failure(Issue::read_failed, path, "the file shrank while it was read");
-        filled += static_cast<size_t>(count);
-    }
+    std::vector<std::byte> bytes(static_cast<size_t>(file.size()));
+    const ssize_t filled = file.read(bytes);
+    if (filled < 0)
+        return failure(Issue::read_failed, path, std::strerror(errno));
+    if (static_cast<size_t>(filled) < bytes.size())
+        return failure(Issue::read_failed, path, "the file shrank while it was read");
     return bytes;
 }
 
@@ -67,29 +46,21 @@ Result<std::vector<std::byte>> readCopy(int file, size_t size, const std::string
 
 Result<FileBytes> FileBytes::read(const std::string& path, uint64_t max_bytes)
 {
-    // without O_NONBLOCK, opening a pipe waits for a writer
-    const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
-    if (file.number < 0)
-        return failure(Issue::input_missing, path, std::strerror(errno));
-    struct stat info = {};
-    if (::fstat(file.number, &info) != 0)
-        return failure(Issue::read_failed, path, std::strerror(errno));
-    if (!S_ISREG(info.st_mode))
-        return failure(Issue::input_missing, path, "not a regular file");
-    if (static_cast<uint64_t>(info.st_size) > max_bytes)
-        return failure(Issue::input_too_large, path, std::to_string(info.st_size) + " bytes");
+    HEARTH_ASSIGN_OR_RETURN(const RegularFile file, openRegular(path));
+    if (file.size() > max_bytes)
+        return failure(Issue::input_too_large, path, std::to_string(file.size()) + " bytes");
 
-    const auto size = static_cast<size_t>(info.st_size);
+    const auto size = static_cast<size_t>(file.size());
     if (size >= kMinMappedBytes)
-        if (void* at = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.number, 0); at != MAP_FAILED)
+        if (void* at = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.descriptor(), 0); at != MAP_FAILED)
         {
             FileBytes mapping{std::vector<std::byte>()};
             mapping.mapped_ = {static_cast<const std::byte*>(at), size};
             mapping.path_ = path;
-            mapping.stat_at_open_ = info;
+            mapping.stat_at_open_ = file.metadata();
             return mapping;
         }
-    HEARTH_ASSIGN_OR_RETURN(std::vector<std::byte> bytes, readCopy(file.number, size, path));
+    HEARTH_ASSIGN_OR_RETURN(std::vector<std::byte> bytes, readCopy(file, path));
     return FileBytes(std::move(bytes));
 }
 

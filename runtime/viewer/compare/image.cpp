@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/compare/image.h"
 
+#include "formats/base/regular_file.h"
+
 #include <png.h>
 
 #include <cmath>
@@ -10,10 +12,11 @@ namespace hearth::viewer
 
 Result<Image> readPng(const std::string& path)
 {
+    HEARTH_ASSIGN_OR_RETURN(const std::string bytes, readFile(path));
     png_image png{};
     png.version = PNG_IMAGE_VERSION;
-    if (!png_image_begin_read_from_file(&png, path.c_str()))
-        return Error{Issue::input_missing, path, "", png.message};
+    if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()))
+        return Error{Issue::image_malformed, path, "", png.message};
     png.format = PNG_FORMAT_RGBA; // with alpha, so that libpng does not blend with a background
     std::vector<uint8_t> rgba(PNG_IMAGE_SIZE(png));
     if (!png_image_finish_read(&png, nullptr, rgba.data(), 0, nullptr))

@@ -6,6 +6,7 @@
 #include "runtime/viewer/cull_report.h"
 #include "runtime/viewer/file_output.h"
 #include "runtime/viewer/render/options.h"
+#include "tests/support/limits/time_limit.h"
 #include "tests/support/shapes.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_scene.h"
@@ -14,6 +15,7 @@
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 namespace hearth::test
 {
@@ -226,6 +228,14 @@ TEST(CameraPath, isACameraALine)
     EXPECT_EQ(wrong.error().issue, Issue::camera_path);
     EXPECT_EQ(written("# nothing\n").error().issue, Issue::camera_path);
     EXPECT_EQ(viewer::readCameraPath(file + ".none").error().issue, Issue::input_missing);
+}
+
+TEST(CameraPath, isNoPipe)
+{
+    const TemporaryFolder folder;
+    ASSERT_EQ(::mkfifo(folder.file("pipe").c_str(), 0600), 0);
+    const TimeLimit limit(20);
+    EXPECT_EQ(viewer::readCameraPath(folder.file("pipe")).error().issue, Issue::input_missing);
 }
 
 TEST(CameraPath, readsWhatItWrites)

@@ -158,10 +158,12 @@ Result<std::vector<std::byte>> GltfAccessors::elements(uint32_t index)
     const uint32_t size = elementSize(accessor.component, accessor.type);
     if (accessor.buffer_view == kInvalidIndex)
     {
-        if (accessor.count > (kMaxZeroBytes - zero_bytes_) / size)
+        // as they are decoded: each component becomes four bytes
+        const uint64_t decoded_size = uint64_t{componentCount(accessor.type)} * sizeof(float);
+        if (accessor.count > (kMaxZeroBytes - zero_bytes_) / decoded_size)
             return error(index, Issue::input_too_large,
                          fmt::format("{} elements without data", accessor.count));
-        zero_bytes_ += accessor.count * size;
+        zero_bytes_ += accessor.count * decoded_size;
     }
     std::vector<std::byte> elements(accessor.count * size);
     if (accessor.buffer_view != kInvalidIndex)
