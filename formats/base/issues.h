@@ -75,6 +75,8 @@ enum class IssueClass : uint8_t
       "put the file where the asset expects it")                                                             \
     X(image_replaced, 1303, warning, "an image cannot be used; a placeholder is drawn",                      \
       "save the image again as PNG, JPEG or WebP")                                                           \
+    X(image_alpha, 1304, warning, "an image's alpha is not opacity, as its file says; it is not kept",       \
+      "if it is opacity, save the image as PNG, or as TGA with attributes type 3")                           \
     X(dropped, 1400, warning, "a part of the source is not kept", "")                                        \
     X(degraded, 1401, warning, "a part of the source is drawn in a simpler way", "")                         \
     X(repaired, 1402, warning, "a part of the source was repaired", "")                                      \
