@@ -77,7 +77,9 @@ Result<FileBytes> FileBytes::read(const std::string& path, uint64_t max_bytes)
     if (!S_ISREG(info.st_mode))
         return failure(Issue::input_missing, path, "not a regular file");
     if (static_cast<uint64_t>(info.st_size) > max_bytes)
-        return failure(Issue::input_too_large, path, std::to_string(info.st_size) + " bytes");
+        return failure(Issue::input_too_large, path,
+                       std::to_string(info.st_size) + " bytes, at most " + std::to_string(max_bytes) +
+                           " are read");
 
     const auto size = static_cast<size_t>(info.st_size);
     if (size >= kMinMappedBytes)

@@ -159,8 +159,10 @@ Result<std::vector<std::byte>> GltfAccessors::elements(uint32_t index)
     if (accessor.buffer_view == kInvalidIndex)
     {
         if (accessor.count > (kMaxZeroBytes - zero_bytes_) / size)
-            return error(index, Issue::input_too_large,
-                         fmt::format("{} elements without data", accessor.count));
+            return error(
+                index, Issue::input_too_large,
+                fmt::format("{} elements of {} bytes without data, at most {} bytes of such are read",
+                            accessor.count, size, kMaxZeroBytes));
         zero_bytes_ += accessor.count * size;
     }
     std::vector<std::byte> elements(accessor.count * size);
