@@ -236,6 +236,10 @@ std::string scientific(double number)
 std::string limitTable()
 {
     const std::pair<std::string_view, std::string> rows[] = {
+        {"bytes of a table, decoded", std::to_string(kMaxTableBytes)},
+        {"bytes of all compressed tables, decoded, whatever they hold",
+         std::to_string(kMaxUniformTableBytes)},
+        {"bytes beyond, for each stored byte of them", std::to_string(kMaxBytesPerStoredByte)},
         {"triangles of a cluster", std::to_string(kMaxClusterTriangles)},
         {"vertices of a cluster", std::to_string(kMaxClusterVertices)},
         {"bytes of a decoded page", std::to_string(kMaxPageBytes)},

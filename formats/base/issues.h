@@ -59,6 +59,10 @@ enum class IssueClass : uint8_t
     X(codec_failed, 1114, malformed, "compressed geometry cannot be decoded",                                \
       "the file is damaged: export it again")                                                                \
     X(index_out_of_range, 1115, malformed, "an index points outside the vertices", "export the file again")  \
+    X(number_too_large, 1116, malformed, "a number is larger than Hearth can use",                           \
+      "use smaller numbers: a larger unit, or a model nearer to its origin")                                 \
+    X(gltf_extension_value, 1117, malformed, "an extension or custom property of a glTF file is not right",  \
+      "correct the property, or export the file without it")                                                 \
     X(mesh_syntax, 1200, malformed, "a mesh file is not written as its format asks",                         \
       "export the file again")                                                                               \
     X(mesh_counts, 1201, malformed, "a mesh file ends before its counts are met",                            \
@@ -75,9 +79,15 @@ enum class IssueClass : uint8_t
       "put the file where the asset expects it")                                                             \
     X(image_replaced, 1303, warning, "an image cannot be used; a placeholder is drawn",                      \
       "save the image again as PNG, JPEG or WebP")                                                           \
+    X(image_alpha, 1304, warning, "an image's alpha is not opacity, as its file says; it is not kept",       \
+      "if it is opacity, save the image as PNG, or as TGA with attributes type 3")                           \
     X(dropped, 1400, warning, "a part of the source is not kept", "")                                        \
     X(degraded, 1401, warning, "a part of the source is drawn in a simpler way", "")                         \
     X(repaired, 1402, warning, "a part of the source was repaired", "")                                      \
+    X(inconsistent, 1403, warning, "a source contradicts itself; what it holds is used",                     \
+      "export the file again")                                                                               \
+    X(nothing_drawn, 1404, warning, "a source has no triangle; nothing of it is drawn",                      \
+      "export meshes of triangles: points and lines are not drawn")                                          \
     X(size_outlier, 1410, warning, "a source is much larger or smaller than the others of its cook",         \
       "if its unit is wrong, set import.scale in a rule")                                                    \
     X(profile_syntax, 1500, config, "a file of settings is not valid TOML",                                  \

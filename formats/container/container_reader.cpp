@@ -3,6 +3,7 @@
 
 #include "formats/base/byte_reader.h"
 #include "formats/base/regular_file.h"
+#include "formats/container/table_sizes.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -188,6 +189,8 @@ Status ContainerReader::checkStructure()
     if (at != header_.table_offset)
         return fail(Issue::container_table, "there are bytes that belong to no chunk");
 
+    HEARTH_TRY(checkTableSizes(table_, Issue::chunk_size, name_));
+
     entries_by_id_.resize(table_.size());
     std::iota(entries_by_id_.begin(), entries_by_id_.end(), 0u);
     std::sort(entries_by_id_.begin(), entries_by_id_.end(),
@@ -250,8 +253,10 @@ Result<ChunkData> ContainerReader::read(uint32_t type, uint32_t index) const
     };
     if (!isSingleFrame(bytes, entry->size))
         return Error{Issue::chunk_codec, name_, chunkName(type, index), ""};
-    auto blocks = std::make_shared<std::vector<Block>>((entry->size + kChunkAlignment - 1) / kChunkAlignment);
-    const std::span<std::byte> out(reinterpret_cast<std::byte*>(blocks->data()),
+    // not set to zero: the system hands out memory as decoded bytes arrive, not by what the table claims
+    const size_t block_count = static_cast<size_t>((entry->size + kChunkAlignment - 1) / kChunkAlignment);
+    const std::shared_ptr<Block[]> blocks(new Block[block_count]);
+    const std::span<std::byte> out(reinterpret_cast<std::byte*>(blocks.get()),
                                    static_cast<size_t>(entry->size));
     if (!decompress(bytes, out))
         return Error{Issue::chunk_codec, name_, chunkName(type, index), ""};

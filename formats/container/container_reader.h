@@ -59,7 +59,8 @@ private:
 class ContainerReader
 {
 public:
-    /// Map the file and check it. errors: input_missing, container_*, chunk_hash.
+    /// Map the file and check it. errors: input_missing, container_*, chunk_hash, chunk_size (tables that
+    /// decode to more than is possible).
     static Result<ContainerReader> open(const std::string& path, Check check = Check::everything);
 
     /// Open bytes in memory, 64-byte aligned, that outlive the reader. `name` is used in messages.

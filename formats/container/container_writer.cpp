@@ -3,6 +3,7 @@
 
 #include "formats/base/flush.h"
 #include "formats/container/container_reader.h"
+#include "formats/container/table_sizes.h"
 
 #define XXH_STATIC_LINKING_ONLY // XXH3_state_t on the stack
 #include <xxhash.h>
@@ -182,6 +183,7 @@ Status ContainerWriter::finish()
 {
     State& s = *state_;
     HEARTH_ASSERT(!s.chunk_open);
+    HEARTH_TRY(checkTableSizes(s.table, Issue::input_too_large, s.path));
     HEARTH_TRY(s.align());
 
     FileHeader header{};

@@ -62,7 +62,8 @@ public:
     /// Return the number of bytes appended to the chunk that beginChunk opened.
     uint64_t chunkSize() const;
 
-    /// Write table and header, flush to the disk, and rename into place.
+    /// Write table and header, flush to the disk, and rename into place. errors: also input_too_large, for
+    /// tables that readers would refuse.
     Status finish();
 
 private:

@@ -58,22 +58,8 @@ Result<PackView> PackView::read(ContainerReader reader, PageBytes page_bytes)
 namespace
 {
 
-// Tables compress by 2 to 5 in real packs. A table with a far higher ratio is a decompression bomb.
-constexpr uint64_t kMaxTableRatio = 256;
-constexpr uint64_t kSmallTable = uint64_t{1} << 20;
-// the tables of bricks may be uniform, as where nothing emits light: any ratio is allowed up to their limits
-constexpr uint64_t kSmallBrickTable = uint64_t{1} << 26;
-// far above any real table, and low enough that indices and sums of ranges fit 32 bits
-constexpr uint64_t kMaxTableSize = uint64_t{1} << 32;
-
-/// Return the size up to which a table may have any ratio.
-constexpr uint64_t smallTableBytes(uint32_t type)
-{
-    return isBrickChunk(type) ? kSmallBrickTable : kSmallTable;
-}
-
-/// Check the version and size of a table. errors: chunk_version, chunk_size for tables that no writer makes.
-Status checkEntry(const ContainerReader& reader, const ChunkEntry& entry)
+/// Check the version of a chunk. errors: chunk_version.
+Status checkVersion(const ContainerReader& reader, const ChunkEntry& entry)
 {
     const ChunkInfo* info = chunkInfo(entry.type);
     if (info == nullptr)
@@ -83,12 +69,6 @@ Status checkEntry(const ContainerReader& reader, const ChunkEntry& entry)
         return Error{Issue::chunk_version, reader.name(), where,
                      "version " + std::to_string(entry.version) + ", this reads " +
                          std::to_string(info->version)};
-    const bool table = !info->one_per_index && entry.type != kChunkPages;
-    if (table && (entry.size > kMaxTableSize || (entry.size > smallTableBytes(entry.type) &&
-                                                 entry.size / kMaxTableRatio > entry.stored_size)))
-        return Error{Issue::chunk_size, reader.name(), where,
-                     std::to_string(entry.size) + " bytes from " + std::to_string(entry.stored_size) +
-                         " in the file are not plausible"};
     return success();
 }
 
@@ -97,7 +77,7 @@ Status checkEntry(const ContainerReader& reader, const ChunkEntry& entry)
 Status PackView::readTables(PageBytes page_bytes)
 {
     for (const ChunkEntry& entry : reader_.chunks())
-        HEARTH_TRY(checkEntry(reader_, entry));
+        HEARTH_TRY(checkVersion(reader_, entry));
 
     Status status = success();
     const auto read = [&]<typename T>(Table<T>& table)

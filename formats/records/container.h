@@ -29,6 +29,15 @@ inline constexpr uint32_t kVersionMinor = 0;
 inline constexpr uint32_t kEndianMark = 0x01020304;
 inline constexpr uint64_t kChunkAlignment = 64;
 
+/// Maximum size of a table in decoded bytes: indices and sums of ranges fit 32 bits.
+inline constexpr uint64_t kMaxTableBytes = uint64_t{1} << 32;
+/// Decoded bytes that the compressed tables of a file may have together, whatever they hold: equal records
+/// compress several thousand to one. Holds 5 million nodes that draw a mesh; the tables of bricks need half.
+inline constexpr uint64_t kMaxUniformTableBytes = uint64_t{1} << 30;
+/// Decoded bytes of compressed tables beyond kMaxUniformTableBytes, for each of their bytes in the file.
+/// Tables of real packs have 2 to 5.
+inline constexpr uint64_t kMaxBytesPerStoredByte = 256;
+
 enum class ContainerKind : uint32_t
 {
     part = fourCC("PART"), ///< result of one cooker, input of the next

@@ -45,6 +45,8 @@ Status importImage(const std::string& path, std::span<const std::byte> bytes, co
                    PartBuilder& part)
 {
     HEARTH_ASSIGN_OR_RETURN(const DecodedImage image, decodeImage(bytes, path, options.limits));
+    if (!image.alpha_note.empty())
+        part.warn(Issue::image_alpha, "", image.alpha_note);
     const std::string name = path.substr(path.rfind('/') + 1);
     formats::ImageRecord record{};
     record.name = part.intern(name);

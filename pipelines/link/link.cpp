@@ -144,7 +144,8 @@ bool advanceOffsets(const Source& source, TableOffsets& next)
 Status assignOffsets(std::vector<Source>& sources, const std::string& output)
 {
     const Error too_large{Issue::input_too_large, output, "",
-                          "the sources together are too large for one pack"};
+                          "the sources together are too large for one pack: a table has at most " +
+                              std::to_string(kInvalidIndex - 1) + " records"};
     TableOffsets next;
     for (Source& source : sources)
     {

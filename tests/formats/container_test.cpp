@@ -420,9 +420,8 @@ const std::vector<MalformedContainer>& malformedContainers()
         {"tableBomb", Issue::chunk_size,
          []
          {
-             std::vector<ChunkImage> chunks = smallPack().chunks();
-             chunks[2] = zstdChunk(kChunkNodes, 0, sizeof(NodeRecord),
-                                   std::vector<std::byte>(100000 * sizeof(NodeRecord)));
+             std::vector<ChunkImage> chunks = smallPack().chunks(true);
+             chunks[2].entry.size = 10'000'000 * sizeof(NodeRecord);
              return assemble(ContainerKind::pack, chunks);
          }},
         {"chunkVersion", Issue::chunk_version,

@@ -55,7 +55,8 @@ const std::string kDracoPrimitive =
     {"bufferView":0,"attributes":{"POSITION":0,"COLOR_0":1,"JOINTS_0":2}}}}]}],
     "skins":[{"joints":[1,2,3,4]}],"nodes":[{"mesh":0,"skin":0},{},{},{},{}])";
 
-Imported importDraco(const std::string& compressed, const std::string& document = kDracoPrimitive)
+Imported importDraco(const std::string& compressed, const std::string& document = kDracoPrimitive,
+                     size_t index_count = 6)
 {
     GltfData data;
     data.addView(compressed);
@@ -63,7 +64,9 @@ Imported importDraco(const std::string& compressed, const std::string& document 
     data.addAccessor(std::nullopt, 5121, "VEC4", 4, R"("normalized":true)");
     data.addAccessor(std::nullopt, 5121, "VEC4", 4);
     data.add("VEC4", std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
-    data.addAccessor(std::nullopt, 5123, "SCALAR", 6);
+    data.addAccessor(std::nullopt, 5123, "SCALAR", index_count);
+    data.addAccessor(std::nullopt, 5126, "VEC2", 4);
+    data.addAccessor(std::nullopt, 5126, "VEC4", 4);
     return data.import(document);
 }
 
@@ -86,6 +89,35 @@ TEST(Draco, givesBackTheTrianglesAndAttributes)
     for (const Float3 normal : mesh.normals)
         EXPECT_NEAR(normal.z, 1, 1e-6) << "the winding has stayed";
     EXPECT_EQ(result.counts.vertices, 4u);
+}
+
+TEST(Draco, leavesAttributesWithoutDataAtZero)
+{
+    const std::string skin = R"("skins":[{"joints":[1,2,3,4]}],"nodes":[{"mesh":0,"skin":0},{},{},{},{}])";
+    const std::string document =
+        replaced(replaced(kDracoPrimitive, R"("WEIGHTS_0":3})", R"("WEIGHTS_0":6,"TEXCOORD_0":5})"), skin,
+                 R"("nodes":[{"mesh":0}])");
+    const Imported result = importDraco(dracoSquare(), document);
+    ASSERT_TRUE(result.ok()) << result.message();
+    const mesh::SourceMesh mesh = result.mesh();
+    EXPECT_EQ(mesh.triangleCount(), 2u);
+    EXPECT_EQ(mesh.uvs[0], std::vector<Float2>(mesh.vertexCount()));
+    EXPECT_TRUE(mesh.weight_sets.empty()) << "there is no skin";
+}
+
+TEST(Draco, warnsOfAnotherNumberOfIndices)
+{
+    const Imported result = importDraco(dracoSquare(), kDracoPrimitive, 9);
+    ASSERT_TRUE(result.ok()) << result.message();
+    EXPECT_EQ(result.counts.triangles, 2u);
+    ASSERT_EQ(result.warnings.size(), 1u);
+    EXPECT_EQ(formatMessage(result.warnings[0]),
+              "test.glb|/meshes/0/primitives/0: warning: counts of indices that Draco decodes differ from "
+              "those of accessors: 6 are decoded, the accessor says 9 [W1403] hint: export the file again");
+    EXPECT_TRUE(importDraco(dracoSquare()).warnings.empty());
+    // a strip of four vertices counts four indices, and is decoded as two triangles
+    const std::string strip = replaced(kDracoPrimitive, R"("indices":4,)", R"("indices":4,"mode":5,)");
+    EXPECT_TRUE(importDraco(dracoSquare(), strip, 4).warnings.empty());
 }
 
 TEST(Draco, isRefusedWhenDamagedOrIncomplete)
@@ -193,18 +225,21 @@ TEST(Meshopt, refusesWhatTheLibraryTakesForGranted)
         Issue issue;
     };
     const Case cases[] = {
-        {R"("byteStride":12,"count":4)", R"("byteStride":3,"count":4)", Issue::gltf_value},
-        {R"("byteStride":12,"count":4)", R"("byteStride":260,"count":4)", Issue::gltf_value},
+        {R"("byteStride":12,"count":4)", R"("byteStride":3,"count":4)", Issue::gltf_extension_value},
+        {R"("byteStride":12,"count":4)", R"("byteStride":260,"count":4)", Issue::gltf_extension_value},
         {R"("byteStride":12,"count":4)", R"("byteStride":12,"count":3)", Issue::gltf_bounds},
         {R"("byteStride":12,"count":4)", R"("byteStride":12,"count":4294967295)", Issue::codec_failed},
-        {R"("byteStride":2,"count":6)", R"("byteStride":8,"count":6)", Issue::gltf_value},
-        {R"("byteStride":2,"count":6)", R"("byteStride":2,"count":5)", Issue::gltf_value},
+        {R"("byteStride":2,"count":6)", R"("byteStride":8,"count":6)", Issue::gltf_extension_value},
+        {R"("byteStride":2,"count":6)", R"("byteStride":2,"count":5)", Issue::gltf_extension_value},
         {R"("mode":"TRIANGLES")", R"("mode":"INDICES")", Issue::codec_failed},
-        {R"("mode":"TRIANGLES")", R"("mode":"ZLIB")", Issue::gltf_value},
-        {R"("mode":"ATTRIBUTES")", R"("mode":"ATTRIBUTES","filter":"OCTAHEDRAL")", Issue::gltf_value},
-        {R"("mode":"ATTRIBUTES")", R"("mode":"ATTRIBUTES","filter":"QUATERNION")", Issue::gltf_value},
-        {R"("mode":"ATTRIBUTES")", R"("mode":"ATTRIBUTES","filter":"WAVES")", Issue::gltf_value},
-        {R"("mode":"TRIANGLES")", R"("mode":"TRIANGLES","filter":"EXPONENTIAL")", Issue::gltf_value},
+        {R"("mode":"TRIANGLES")", R"("mode":"ZLIB")", Issue::gltf_extension_value},
+        {R"("mode":"ATTRIBUTES")", R"("mode":"ATTRIBUTES","filter":"OCTAHEDRAL")",
+         Issue::gltf_extension_value},
+        {R"("mode":"ATTRIBUTES")", R"("mode":"ATTRIBUTES","filter":"QUATERNION")",
+         Issue::gltf_extension_value},
+        {R"("mode":"ATTRIBUTES")", R"("mode":"ATTRIBUTES","filter":"WAVES")", Issue::gltf_extension_value},
+        {R"("mode":"TRIANGLES")", R"("mode":"TRIANGLES","filter":"EXPONENTIAL")",
+         Issue::gltf_extension_value},
     };
     for (const Case& c : cases)
     {

@@ -3,6 +3,7 @@
 #include "pipelines/import/gltf/specular_glossiness.h"
 #include "tests/pipelines/gltf_fixture.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace hearth::import::test
@@ -134,7 +135,30 @@ TEST(GltfImages, areWrittenOnceForEachPurpose)
     EXPECT_EQ(color.mip_count, 1u);
     EXPECT_EQ(result.texels(0), (std::vector<uint8_t>{128, 128, 128, 255, 128, 128, 128, 255}));
     EXPECT_EQ(result.text(kChunkStrings).substr(color.name.offset, color.name.length), "a.tga");
-    EXPECT_TRUE(result.warnings.empty());
+    ASSERT_EQ(result.warnings.size(), 1u);
+    EXPECT_EQ(result.warnings[0].issue, Issue::nothing_drawn) << "and nothing about images";
+}
+
+TEST(GltfImages, sayOnceThatAlphaIsNotOpacity)
+{
+    const TemporaryFolder folder;
+    std::string area(495, '\0'); // the last byte is attributes type 0: there is no alpha
+    folder.write("a.tga", tga(2, 1, std::string("\x80\x80\x80\0", 4)) + area + toBytes<uint32_t>({26, 0}) +
+                              std::string("TRUEVISION-XFILE.\0", 18));
+    const Imported result = importBytes(R"({"asset":{"version":"2.0"},"images":[{"uri":"a.tga"}],
+        "textures":[{"source":0}],"materials":[{"name":"oak","normalTexture":{"index":0},
+        "pbrMetallicRoughness":{"baseColorTexture":{"index":0},"metallicRoughnessTexture":{"index":0}}}]})",
+                                        &folder);
+    ASSERT_TRUE(result.ok()) << result.message();
+    EXPECT_EQ(result.texels(0)[3], 255);
+    const std::string expected =
+        "test.gltf|/images/0: warning: image \"a.tga\" of material \"oak\": alpha is not opacity, as "
+        "attributes type 0 of the TGA's extension area says: it is not kept [W1304] hint: if it is opacity, "
+        "save the image as PNG, or as TGA with attributes type 3";
+    EXPECT_EQ(std::count_if(result.warnings.begin(), result.warnings.end(),
+                            [&](const Error& warning) { return formatMessage(warning) == expected; }),
+              1)
+        << formatMessage(result.warnings.at(0));
 }
 
 TEST(GltfImages, keepTheCutoffOfAlphaTests)
@@ -216,7 +240,7 @@ TEST(GltfImages, nameTheirMaterialAndTheNearestFileWhereTheyAreMissing)
                 R"("}],"textures":[{"source":0}],"materials":[{"name":"oak","emissiveTexture":{"index":0}}]})",
             &folder);
         ASSERT_TRUE(result.ok()) << result.message();
-        ASSERT_EQ(result.warnings.size(), 1u) << row.uri;
+        ASSERT_EQ(result.warnings.size(), 2u) << row.uri << ": the other is of a source without triangles";
         const std::string& detail = result.warnings[0].detail;
         EXPECT_NE(detail.find(R"(of material "oak": ")" + std::string(row.path) + R"(" beside test.gltf: )"),
                   std::string::npos)

@@ -138,7 +138,7 @@ INSTANTIATE_TEST_SUITE_P(
         Defect{R"("camera": 0)", R"("camera": 1)", Issue::gltf_reference, "/nodes/1/camera"},
         Defect{R"([0, 0, 5])", R"([0, 0])", Issue::gltf_structure, "/nodes/1/translation"},
         Defect{R"([0, 0, 5])", R"([0, null, 0])", Issue::gltf_structure, "/nodes/1/translation/1"},
-        Defect{R"([0, 0, 5])", R"([0, 1e300, 0])", Issue::gltf_value, "/nodes/1/translation/1"},
+        Defect{R"([0, 0, 5])", R"([0, 1e300, 0])", Issue::number_too_large, "/nodes/1/translation/1"},
         Defect{R"("translation": [0, 0, 5])", R"("matrix": [1, 0, 0, 0])", Issue::gltf_structure,
                "/nodes/1/matrix"},
         Defect{R"("translation": [0, 0, 5])", R"("matrix": [1,0,0,1, 0,1,0,0, 0,0,1,0, 0,0,0,1])",
@@ -216,7 +216,6 @@ INSTANTIATE_TEST_SUITE_P(
 INSTANTIATE_TEST_SUITE_P(
     Data, GltfRejects,
     testing::Values(
-        Defect{R"("byteLength": 448)", R"("byteLength": 1099511627776)", Issue::buffer_short, "/buffers/0"},
         Defect{R"("byteLength": 448)", R"("byteLength": 18446744073709551616)", Issue::gltf_value,
                "/buffers/0/byteLength"},
         Defect{R"("byteLength": 448)", R"("byteLength": 0)", Issue::gltf_value, "/buffers/0/byteLength"},

@@ -178,7 +178,7 @@ TEST(GltfInstancing, refusesCountsThatDifferAndTooManyCopies)
         R"("nodes":[{"mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":2)";
     const Imported differing = data.import(kSquareMesh + node + R"(,"SCALE":3}}}}])");
     ASSERT_FALSE(differing.ok());
-    EXPECT_EQ(differing.status.error().issue, Issue::gltf_data);
+    EXPECT_EQ(differing.status.error().issue, Issue::gltf_extension_value);
 
     ImportOptions options;
     options.limits.max_instances = 1;
@@ -279,11 +279,12 @@ TEST(GltfScene, leavesOtherExtrasAloneAndRefusesWrongSpheres)
         const Imported result = importShadowSphere(extras);
         return result.ok() ? std::nullopt : std::optional(result.status.error().issue);
     };
-    EXPECT_EQ(getIssue(R"({"hearth_shadow_radius":"3"})"), Issue::gltf_structure);
-    EXPECT_EQ(getIssue(R"({"hearth_shadow_radius":0})"), Issue::gltf_value);
-    EXPECT_EQ(getIssue(R"({"hearth_shadow_radius":3e38})"), Issue::gltf_value);
-    EXPECT_EQ(getIssue(R"({"hearth_shadow_radius":3,"hearth_shadow_texels":500})"), Issue::gltf_value);
-    EXPECT_EQ(getIssue(R"({"hearth_shadow_radius":3,"hearth_shadow_light":4})"), Issue::gltf_structure);
+    EXPECT_EQ(getIssue(R"({"hearth_shadow_radius":"3"})"), Issue::gltf_extension_value);
+    EXPECT_EQ(getIssue(R"({"hearth_shadow_radius":0})"), Issue::gltf_extension_value);
+    EXPECT_EQ(getIssue(R"({"hearth_shadow_radius":3e38})"), Issue::gltf_extension_value);
+    EXPECT_EQ(getIssue(R"({"hearth_shadow_radius":3,"hearth_shadow_texels":500})"),
+              Issue::gltf_extension_value);
+    EXPECT_EQ(getIssue(R"({"hearth_shadow_radius":3,"hearth_shadow_light":4})"), Issue::gltf_extension_value);
 }
 
 /// Square bound to two joints by its accessors 2 to 4: joint 0 moves it all, or each joint moves two corners.

@@ -216,6 +216,51 @@ TEST(DecodeTga, readsColoursGreyMapsAndRuns)
     EXPECT_EQ(decode(mapped).error().issue, Issue::image_malformed);
 }
 
+/// Return four texels of 32 bits with an alpha of 0, and an extension area that says what alpha means.
+Bytes tgaWithAttributes(uint8_t type, const Bytes& body = {3, 2, 1, 0, 6, 5, 4, 0, 9, 8, 7, 0, 12, 11, 10, 0})
+{
+    Bytes bytes = tga(2, 32, 0x28, body);
+    const auto area = static_cast<uint8_t>(bytes.size());
+    bytes.resize(bytes.size() + 495);
+    bytes[area] = 495 & 0xFF;
+    bytes[area + 1] = 495 >> 8;
+    bytes.back() = type;
+    bytes.insert(bytes.end(), {area, 0, 0, 0, 0, 0, 0, 0});
+    const std::string_view signature("TRUEVISION-XFILE.\0", 18);
+    bytes.insert(bytes.end(), signature.begin(), signature.end());
+    return bytes;
+}
+
+TEST(DecodeTga, ignoresAlphaThatTheExtensionAreaCallsUndefined)
+{
+    for (const uint8_t type : {uint8_t{0}, uint8_t{1}, uint8_t{2}})
+    {
+        const DecodedImage image = decodeGood(tgaWithAttributes(type));
+        EXPECT_EQ(getTexel(image, 0, 0), (Rgba8{1, 2, 3, 255}));
+        EXPECT_EQ(getTexel(image, 1, 1), (Rgba8{10, 11, 12, 255}));
+        EXPECT_EQ(image.alpha_note, "alpha is not opacity, as attributes type " + std::to_string(type) +
+                                        " of the TGA's extension area says: it is not kept");
+    }
+    const Bytes opaque = {3, 2, 1, 255, 6, 5, 4, 255, 9, 8, 7, 255, 12, 11, 10, 255};
+    EXPECT_EQ(decodeGood(tgaWithAttributes(0, opaque)).alpha_note, "") << "nothing is lost";
+}
+
+TEST(DecodeTga, keepsAlphaOtherwise)
+{
+    for (const uint8_t type : {uint8_t{3}, uint8_t{4}})
+    {
+        const DecodedImage image = decodeGood(tgaWithAttributes(type));
+        EXPECT_EQ(getTexel(image, 0, 0), (Rgba8{1, 2, 3, 0}));
+        EXPECT_EQ(image.alpha_note, "");
+    }
+    Bytes outside = tgaWithAttributes(0); // an area that does not lie in the file
+    outside[outside.size() - 26 + 3] = 0xFF;
+    EXPECT_EQ(getTexel(decodeGood(outside), 0, 0), (Rgba8{1, 2, 3, 0}));
+    Bytes none = tgaWithAttributes(0);
+    none[none.size() - 26] = 0;
+    EXPECT_EQ(getTexel(decodeGood(none), 0, 0), (Rgba8{1, 2, 3, 0}));
+}
+
 TEST(DecodeTga, refusesCutFilesAndNoTexels)
 {
     expectRefusedWhenCut(tga(2, 24, 0x20, Bytes(12)), 18 + 11);
@@ -374,6 +419,18 @@ TEST(DecodeExr, theImageIsTheDataWindow)
                      EXPECT_EQ(getLight(image, x, y), (std::array<float, 4>{0.5f * static_cast<float>(x),
                                                                             static_cast<float>(y), 2, 1}));
                  });
+}
+
+TEST(DecodeExr, namesTheFileOnce)
+{
+    const Bytes cut(kExrZip.begin(), kExrZip.begin() + 20);
+    const std::string name = "textures/sky.exr";
+    const auto image = decodeImage(std::as_bytes(std::span(cut)), name, {});
+    ASSERT_FALSE(image.ok());
+    const std::string message = formatMessage(image.error());
+    EXPECT_EQ(message.rfind(name), message.find(name)) << message;
+    EXPECT_EQ(message.find("memory"), std::string::npos) << message;
+    EXPECT_NE(message.find("the file ends too early"), std::string::npos) << message;
 }
 
 TEST(DecodeExr, refusesCutFiles)

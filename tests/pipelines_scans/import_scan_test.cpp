@@ -124,7 +124,18 @@ TEST(ImportScan, aFileWithoutVerticesIsEmptyAndOneWithoutFacesIsNot)
     ASSERT_TRUE(points.status.ok());
     EXPECT_EQ(points.counts.vertices, 1u);
     EXPECT_EQ(points.counts.triangles, 0u);
-    EXPECT_TRUE(points.warned(Issue::degraded, "no faces"));
+    EXPECT_TRUE(points.warned(Issue::nothing_drawn, "no faces"));
+}
+
+TEST(ImportScan, namesTheLimitOfPositions)
+{
+    const TemporaryFolder folder;
+    const Imported scan = import(importScan, folder, "a.obj", "v 0 0 0\nv 1 0 0\nv 0 -4e9 0\nf 1 2 3\n");
+    ASSERT_FALSE(scan.status.ok());
+    EXPECT_EQ(formatMessage(scan.status.error()),
+              folder.file("a.obj") + "|position 2: error: it is (0, -4e+09, 0), coordinates go up to 1e+09 "
+                                     "[E1116] hint: use smaller numbers: a larger unit, or a model nearer to "
+                                     "its origin");
 }
 
 TEST(ImportScan, takesMaterialsAndTexturesFromItsFolder)
@@ -295,6 +306,24 @@ TEST(ImportImage, lightStaysFloatAndTransparencyBlends)
               static_cast<uint32_t>(TexelFormat::rgba16_float));
     EXPECT_EQ(import(importImage, folder, "a.png", toText(test::kPngRgba8)).materials.at(0).alpha_mode,
               static_cast<uint32_t>(AlphaMode::blend));
+}
+
+TEST(ImportImage, aCardWithoutOpacityIsOpaque)
+{
+    // a TGA of one texel with an alpha of 0, and an extension area of attributes type 2
+    std::string tga("\0\0\2\0\0\0\0\0\0\0\0\0\1\0\1\0\x20\x28\x80\x80\x80\0", 22);
+    tga += std::string(494, '\0') + '\2' + std::string("\x16\0\0\0\0\0\0\0TRUEVISION-XFILE.\0", 26);
+    const TemporaryFolder folder;
+    const Imported card = import(importImage, folder, "a.tga", tga);
+    ASSERT_TRUE(card.status.ok()) << formatMessage(card.status.error());
+    EXPECT_EQ(card.materials.at(0).alpha_mode, static_cast<uint32_t>(AlphaMode::opaque));
+    EXPECT_TRUE(card.warned(Issue::image_alpha, "attributes type 2"));
+    write(folder, "a.tga", tga);
+    write(folder, "a.mtl", "newmtl m\nmap_Kd a.tga\n");
+    const Imported quad =
+        import(importScan, folder, "a.obj", "mtllib a.mtl\nusemtl m\n" + kQuad + "f 1/1 2/2 3/3 4/4\n");
+    ASSERT_TRUE(quad.status.ok()) << formatMessage(quad.status.error());
+    EXPECT_TRUE(quad.warned(Issue::image_alpha, "image 'a.tga' of material 'm': alpha is not opacity"));
 }
 
 TEST(ImportImage, aDamagedImageLeavesNothing)

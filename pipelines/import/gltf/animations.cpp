@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/gltf/animations.h"
 
+#include "pipelines/import/part/limit_messages.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -174,8 +176,9 @@ Result<CurveLocation> AnimationWriter::findOrWriteCurve(const GltfAnimationSampl
         return found->second;
     HEARTH_ASSIGN_OR_RETURN(const Curve curve, readCurve(sampler, path, components));
     std::vector<float>& keys = context_.part.keys;
-    if (keys.size() + curve.times.size() + curve.values.size() > kMaxKeyFloats)
-        return context_.error(Issue::input_too_large, where_, "too many animation keys");
+    if (const size_t floats = keys.size() + curve.times.size() + curve.values.size(); floats > kMaxKeyFloats)
+        return context_.error(Issue::input_too_large, where_,
+                              describeExcess(floats, "times and values of animations", kMaxKeyFloats));
     CurveLocation findOrWriteCurve;
     findOrWriteCurve.key_count = static_cast<uint32_t>(curve.times.size());
     findOrWriteCurve.first_time = static_cast<uint32_t>(keys.size());

@@ -75,10 +75,16 @@ Result<DecodedImage> GltfImages::read(uint32_t image, const std::string& where)
 std::optional<DecodedImage> GltfImages::decode(uint32_t image, const std::string& where,
                                                const std::string& user)
 {
-    requested_[image] = true;
+    const bool first_time = requested_.emplace(image, true).second;
     Result<DecodedImage> read_image = read(image, where);
     if (read_image.ok())
+    {
+        if (first_time && !read_image->alpha_note.empty())
+            context_.part.warn(
+                Issue::image_alpha, where,
+                fmt::format("image \"{}\" of {}: {}", imageName(image), user, read_image->alpha_note));
         return std::move(read_image).value();
+    }
     const Error& error = read_image.error();
     const bool missing = error.issue == Issue::input_missing;
     const bool has_uri = image != kInvalidIndex && model_.images[image].uri.has_value();

@@ -58,6 +58,8 @@ Status importGltf(const std::string& path, const FileBytes& file, const ImportOp
     HEARTH_TRY(writeAnimations(model, accessors, context, tally));
     HEARTH_TRY(writeScene(model, uses, summaries, lods.hidden, accessors, context, tally));
     tally.report(part);
+    if (part.counts.triangles == 0)
+        part.warn(Issue::nothing_drawn, "/meshes", "no mesh has a triangle");
     return buffers.checkUnchanged();
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/gltf/instancing.h"
 
+#include "pipelines/import/part/limit_messages.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,11 +24,11 @@ Status checkAttribute(const GltfAttribute& attribute, uint64_t count, GltfAccess
                                                       accessor.component == ComponentType::i16);
     if (accessor.type != (is_rotation ? ElementType::vec4 : ElementType::vec3) ||
         !(accessor.component == ComponentType::f32 || (is_rotation && is_quantized)))
-        return accessors.error(attribute.accessor, Issue::gltf_value,
+        return accessors.error(attribute.accessor, Issue::gltf_extension_value,
                                fmt::format("{} cannot be a {}", attribute.semantic, formatName(accessor)));
     if (accessor.count != count)
         return accessors.error(
-            attribute.accessor, Issue::gltf_data,
+            attribute.accessor, Issue::gltf_extension_value,
             fmt::format("{} has {} elements, others have {}", attribute.semantic, accessor.count, count));
     return success();
 }
@@ -39,7 +41,7 @@ Result<std::vector<float>> readAttribute(const GltfAttributes& attributes, std::
         return std::vector<float>{};
     HEARTH_ASSIGN_OR_RETURN(std::vector<float> values, accessors.floats(index));
     if (!std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); }))
-        return accessors.error(index, Issue::gltf_data, fmt::format("{} is not finite", name));
+        return accessors.error(index, Issue::gltf_extension_value, fmt::format("{} is not finite", name));
     return values;
 }
 
@@ -89,7 +91,8 @@ Result<std::vector<Transform>> readInstancing(const GltfNode& node, uint32_t ind
         return std::vector<Transform>(1);
     }
     if (*count > context.options.limits.max_instances)
-        return context.error(Issue::input_too_large, where, fmt::format("{} instances", *count));
+        return context.error(Issue::input_too_large, where,
+                             describeExcess(*count, "instances", context.options.limits.max_instances));
 
     HEARTH_ASSIGN_OR_RETURN(const std::vector<float> translations,
                             readAttribute(node.instancing, "TRANSLATION", accessors));

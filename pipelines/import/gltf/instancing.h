@@ -8,7 +8,7 @@
 namespace hearth::import
 {
 
-/// Return node_from_copy for each copy of node `index`. errors: gltf_value (formats), gltf_data (counts that
+/// Return node_from_copy for each copy of node `index`. errors: gltf_extension_value (formats, counts that
 /// differ, numbers that are not finite), input_too_large.
 Result<std::vector<Transform>> readInstancing(const GltfNode& node, uint32_t index, GltfAccessors& accessors,
                                               const GltfContext& context, GltfTally& tally);

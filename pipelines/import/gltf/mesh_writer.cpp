@@ -3,6 +3,7 @@
 
 #include "pipelines/import/gltf/skinning.h"
 #include "pipelines/import/part/bake_transform.h"
+#include "pipelines/import/part/import_options.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -146,7 +147,7 @@ Status MeshWriter::writeLods(const GltfLodChain& chain)
         const MeshUse use = meshUseForLod(chain, lod);
         HEARTH_ASSIGN_OR_RETURN(MeshWithSummary level, read(use));
         const std::string where = fmt::format("/meshes/{}", lod.mesh);
-        const auto drop = [&](const char* why)
+        const auto drop = [&](std::string_view why)
         {
             context_.part.warn(
                 Issue::dropped, where,
@@ -159,7 +160,9 @@ Status MeshWriter::writeLods(const GltfLodChain& chain)
                  (base.skin == SkinState::usable && use.skin != uses_.uses[finest].skin))
             drop("has not the skin of that");
         else if (!object_from_lod || !bakeTransform(level.mesh, *object_from_lod))
-            drop("cannot be moved to its place");
+            drop(fmt::format("cannot be moved to its place, by a transform without inverse or to coordinates "
+                             "beyond {:g}",
+                             kMaxCoordinate));
         else
             HEARTH_TRY(context_.part.addLod(finest, level.mesh, makeLabel(lod)));
     }

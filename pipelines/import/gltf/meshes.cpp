@@ -3,6 +3,7 @@
 
 #include "pipelines/import/part/generate_normals.h"
 #include "pipelines/import/part/generate_tangents.h"
+#include "pipelines/import/part/limit_messages.h"
 
 #include "pipelines/import/gltf/triangles.h"
 #include "pipelines/import/part/mesh_pieces.h"
@@ -74,15 +75,21 @@ Result<mesh::SourceMesh> GltfMeshReader::read(uint32_t mesh_index)
     result.name = mesh.name;
     result.face_count = static_cast<uint32_t>(result.triangleCount());
     result.source_vertex_count = static_cast<uint32_t>(sourceVertexCount(mesh));
-    if (result.vertexCount() > context_.options.limits.max_vertices ||
-        result.triangleCount() > context_.options.limits.max_triangles)
-        return context_.error(
-            Issue::input_too_large, fmt::format("/meshes/{}", mesh_index),
-            fmt::format("{} vertices and {} triangles", result.vertexCount(), result.triangleCount()));
-    if (result.morph_targets.size() > kMaxMorphTargets)
-        return context_.error(Issue::input_too_large, fmt::format("/meshes/{}", mesh_index),
-                              fmt::format("{} morph targets", result.morph_targets.size()));
+    HEARTH_TRY(checkSize(result, fmt::format("/meshes/{}", mesh_index)));
     return result;
+}
+
+Status GltfMeshReader::checkSize(const mesh::SourceMesh& mesh, const std::string& where) const
+{
+    const auto check = [&](uint64_t count, std::string_view things, uint64_t limit)
+    {
+        return count <= limit ? success()
+                              : Status(context_.error(Issue::input_too_large, where,
+                                                      describeExcess(count, things, limit)));
+    };
+    HEARTH_TRY(check(mesh.vertexCount(), "vertices", context_.options.limits.max_vertices));
+    HEARTH_TRY(check(mesh.triangleCount(), "triangles", context_.options.limits.max_triangles));
+    return check(mesh.morph_targets.size(), "morph targets", kMaxMorphTargets);
 }
 
 uint64_t GltfMeshReader::sourceVertexCount(const GltfMesh& mesh) const
@@ -152,7 +159,8 @@ Status GltfMeshReader::addTriangles(const GltfPrimitive& primitive, const std::s
     mesh::SourceMesh& mesh = piece.vertices.mesh;
     if (triangles.size() / 3 > context_.options.limits.max_triangles - mesh.triangleCount())
         return context_.error(Issue::input_too_large, where,
-                              fmt::format("{} triangles", triangles.size() / 3));
+                              describeExcess(mesh.triangleCount() + triangles.size() / 3, "triangles",
+                                             context_.options.limits.max_triangles));
     mesh.indices.insert(mesh.indices.end(), triangles.begin(), triangles.end());
     mesh.triangle_materials.resize(mesh.triangleCount(), primitive.material);
     return success();

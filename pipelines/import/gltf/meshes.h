@@ -31,6 +31,7 @@ private:
         std::string where;
     };
 
+    Status checkSize(const mesh::SourceMesh& mesh, const std::string& where) const;
     uint64_t sourceVertexCount(const GltfMesh& mesh) const;
     Result<uint32_t> findOrAddPiece(const GltfPrimitive& primitive, const std::string& where);
     Status addTriangles(const GltfPrimitive& primitive, const std::string& where, Piece& piece);

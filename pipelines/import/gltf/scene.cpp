@@ -103,8 +103,13 @@ Result<Affine3> SceneWriter::narrow(const Transform& transform, uint32_t node) c
     const std::optional<Affine3> result = narrowed(transform);
     if (result)
         return *result;
-    return context_.error(Issue::gltf_value, nodePointer(node),
-                          "the transform is too large for 32-bit numbers");
+    double largest = 0;
+    for (const auto& row : transform.m)
+        for (const double number : row)
+            largest = std::max(largest, std::abs(number));
+    return context_.error(Issue::number_too_large, nodePointer(node),
+                          fmt::format("its transform has the number {:g}, at most {:g} fits 32 bits", largest,
+                                      std::numeric_limits<float>::max()));
 }
 
 void SceneWriter::writeMorphWeights(uint32_t node, NodeRecord& record)
@@ -281,7 +286,7 @@ Status SceneWriter::writeShadowSphere(uint32_t node)
     record.radius = sphere->radius * scaleBound(world_from_node);
     record.texels = sphere->texels;
     if (!(record.radius > 0) || !std::isfinite(record.radius))
-        return context_.error(Issue::gltf_value, nodePointer(node),
+        return context_.error(Issue::gltf_extension_value, nodePointer(node),
                               "the shadow sphere has no size in the world");
     std::vector<uint32_t> lights{kInvalidIndex};
     if (!sphere->light.empty())

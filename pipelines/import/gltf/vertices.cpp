@@ -3,7 +3,7 @@
 
 #include "pipelines/import/gltf/draco.h"
 #include "pipelines/import/gltf/skinning.h"
-#include "pipelines/import/part/import_options.h"
+#include "pipelines/import/part/limit_messages.h"
 
 #include <fmt/format.h>
 
@@ -76,6 +76,7 @@ public:
 
     Status checkFormats() const;
     Status decodeCompressed(const GltfModel& model, const GltfBuffers& buffers, const GltfContext& context);
+    void reportCounts(const GltfModel& model, const DracoMesh& mesh) const;
     Status readPositions();
     Status readFrame();
     Status readUvs();
@@ -89,6 +90,7 @@ public:
 private:
     Status checkFormat(const GltfAttribute& attribute, std::span<const AttributeFormat> formats) const;
     Status checkCount(uint32_t accessor, std::string_view semantic) const;
+    Status checkPositions(uint32_t accessor, std::string_view what, std::span<const Float3> vectors) const;
     Result<std::vector<float>> values(std::string_view semantic);
     template <typename T>
     Result<std::vector<T>> vectors(std::string_view semantic);
@@ -152,7 +154,7 @@ Status VertexReader::decodeCompressed(const GltfModel& model, const GltfBuffers&
             continue;
         const uint32_t accessor = findAttribute(primitive_.attributes, compressed.semantic);
         if (accessor == kInvalidIndex)
-            return context.error(Issue::gltf_value, where,
+            return context.error(Issue::gltf_extension_value, where,
                                  fmt::format("{} is not an attribute of the primitive", compressed.semantic));
         const GltfAccessor& format = model.accessors[accessor];
         semantics.push_back(compressed.semantic);
@@ -160,25 +162,31 @@ Status VertexReader::decodeCompressed(const GltfModel& model, const GltfBuffers&
     }
     HEARTH_ASSIGN_OR_RETURN(DracoMesh mesh, decodeDraco(buffers.view(primitive_.draco->buffer_view), wanted,
                                                         context.file, where));
-    const auto is_compressed = [&](const std::string& semantic)
-    { return std::find(semantics.begin(), semantics.end(), semantic) != semantics.end(); };
-    if (!is_compressed("POSITION"))
-        return context.error(Issue::gltf_value, where, "POSITION is not among the compressed attributes");
-    for (const GltfAttribute& attribute : primitive_.attributes)
-    {
-        const GltfAccessor& format = model.accessors[attribute.accessor];
-        const bool has_data = format.buffer_view != kInvalidIndex || format.sparse.has_value();
-        if (!has_data && findFormat(attribute.semantic, kVertexFormats) != nullptr &&
-            !is_compressed(attribute.semantic))
-            return context.error(Issue::gltf_value, where, fmt::format("{} has no data", attribute.semantic));
-    }
-    if (mesh.vertex_count != model.accessors[findAttribute(primitive_.attributes, "POSITION")].count)
-        tally_.repaired("accessor counts that differ from the vertices that Draco decodes were replaced",
-                        where_);
+    if (std::find(semantics.begin(), semantics.end(), "POSITION") == semantics.end())
+        return context.error(Issue::gltf_extension_value, where,
+                             "POSITION is not among the compressed attributes");
+    reportCounts(model, mesh);
     for (size_t i = 0; i < semantics.size(); ++i)
         decompressed_.emplace(semantics[i], std::move(mesh.attributes[i]));
     result.draco_indices = std::move(mesh.indices);
     return success();
+}
+
+/// Report counts of accessors that differ from what Draco has decoded, which is used.
+void VertexReader::reportCounts(const GltfModel& model, const DracoMesh& mesh) const
+{
+    const auto report = [&](std::string_view what, uint64_t stated, uint64_t decoded)
+    {
+        if (stated != decoded)
+            tally_.inconsistent(
+                fmt::format("counts of {} that Draco decodes differ from those of accessors", what), where_,
+                fmt::format("{} are decoded, the accessor says {}", decoded, stated));
+    };
+    report("vertices", model.accessors[findAttribute(primitive_.attributes, "POSITION")].count,
+           mesh.vertex_count);
+    // strips are decoded as triangles, which have other indices than the accessor counts
+    if (primitive_.indices != kInvalidIndex && primitive_.mode == PrimitiveMode::triangles)
+        report("indices", model.accessors[primitive_.indices].count, mesh.indices.size());
 }
 
 Result<std::vector<float>> VertexReader::values(std::string_view semantic)
@@ -198,7 +206,7 @@ Status VertexReader::checkCount(uint32_t accessor, std::string_view semantic) co
     const uint64_t count = accessors_.accessor(accessor).count;
     if (semantic == "POSITION" || count == result.mesh.vertexCount())
         return success();
-    return accessors_.error(accessor, Issue::gltf_data,
+    return accessors_.error(accessor, primitive_.draco ? Issue::gltf_extension_value : Issue::gltf_data,
                             fmt::format("{} has {} elements, but there are {} vertices", semantic, count,
                                         result.mesh.vertexCount()));
 }
@@ -218,22 +226,24 @@ Result<std::vector<T>> VertexReader::vectors(std::string_view semantic)
     return asVectors<T>(floats);
 }
 
-bool isPosition(Float3 p)
+/// Check that vectors of an accessor can be used as positions. errors: gltf_data (not finite),
+/// number_too_large.
+Status VertexReader::checkPositions(uint32_t accessor, std::string_view what,
+                                    std::span<const Float3> vectors) const
 {
-    return std::abs(p.x) <= kMaxCoordinate && std::abs(p.y) <= kMaxCoordinate &&
-           std::abs(p.z) <= kMaxCoordinate;
+    const std::optional<size_t> bad = findBadPosition(vectors);
+    if (!bad)
+        return success();
+    const Float3 v = vectors[*bad];
+    return accessors_.error(accessor, isFinite(v) ? Issue::number_too_large : Issue::gltf_data,
+                            fmt::format("{} {} is {}", what, *bad, describeBadPosition(v)));
 }
 
 Status VertexReader::readPositions()
 {
     HEARTH_ASSIGN_OR_RETURN(result.mesh.positions, vectors<Float3>("POSITION"));
-    const auto& positions = result.mesh.positions;
-    const auto bad = std::find_if_not(positions.begin(), positions.end(), isPosition);
-    if (bad != positions.end())
-        return accessors_.error(findAttribute(primitive_.attributes, "POSITION"), Issue::gltf_data,
-                                fmt::format("position {} is ({:g}, {:g}, {:g})", bad - positions.begin(),
-                                            bad->x, bad->y, bad->z));
-    return success();
+    return checkPositions(findAttribute(primitive_.attributes, "POSITION"), "position",
+                          result.mesh.positions);
 }
 
 /// Read NORMAL and TANGENT; tangents have no meaning without normals.
@@ -358,11 +368,7 @@ Result<std::vector<Float3>> VertexReader::deltas(const GltfAttributes& target, s
     HEARTH_TRY(checkCount(index, "target"));
     HEARTH_ASSIGN_OR_RETURN(const std::vector<float> floats, accessors_.floats(index));
     std::vector<Float3> vectors = asVectors<Float3>(floats);
-    const auto bad = std::find_if_not(vectors.begin(), vectors.end(), isPosition);
-    if (bad != vectors.end())
-        return accessors_.error(
-            index, Issue::gltf_data,
-            fmt::format("{} of vertex {} is not finite", semantic, bad - vectors.begin()));
+    HEARTH_TRY(checkPositions(index, fmt::format("{} of vertex", semantic), vectors));
     return vectors;
 }
 
@@ -402,18 +408,27 @@ void VertexReader::reportOthers() const
 
 } // namespace
 
-void GltfTally::add(Issue issue, const std::string& what, const std::string& where)
+void GltfTally::add(Issue issue, const std::string& what, const std::string& where,
+                    const std::string& example)
 {
     Entry& entry = entries_[{issue, what}];
-    if (entry.count++ == 0)
-        entry.first_where = where;
+    if (entry.count++ > 0)
+        return;
+    entry.first_where = where;
+    entry.first_example = example;
 }
 
 void GltfTally::report(PartBuilder& part) const
 {
     for (const auto& [key, entry] : entries_)
-        part.warn(key.first, entry.first_where,
-                  entry.count == 1 ? key.second : fmt::format("{} ({} times)", key.second, entry.count));
+    {
+        std::string text = key.second;
+        if (entry.count > 1)
+            text += fmt::format(" ({} times)", entry.count);
+        if (!entry.first_example.empty())
+            text += ": " + entry.first_example;
+        part.warn(key.first, entry.first_where, text);
+    }
 }
 
 uint32_t findAttribute(const GltfAttributes& attributes, std::string_view semantic)
@@ -431,7 +446,8 @@ Result<GltfVertices> readVertices(const GltfPrimitive& primitive, const std::str
     HEARTH_TRY(reader.checkFormats());
     const uint64_t vertex_count = accessors.accessor(findAttribute(primitive.attributes, "POSITION")).count;
     if (vertex_count > context.options.limits.max_vertices)
-        return context.error(Issue::input_too_large, where, fmt::format("{} vertices", vertex_count));
+        return context.error(Issue::input_too_large, where,
+                             describeExcess(vertex_count, "vertices", context.options.limits.max_vertices));
     HEARTH_TRY(reader.decodeCompressed(model, buffers, context));
     HEARTH_TRY(reader.readPositions());
     HEARTH_TRY(reader.readFrame());

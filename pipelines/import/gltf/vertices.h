@@ -18,6 +18,11 @@ public:
     void dropped(const std::string& what, const std::string& where) { add(Issue::dropped, what, where); }
     void repaired(const std::string& what, const std::string& where) { add(Issue::repaired, what, where); }
     void degraded(const std::string& what, const std::string& where) { add(Issue::degraded, what, where); }
+    /// `example` has the numbers of this place; only that of the first place is reported.
+    void inconsistent(const std::string& what, const std::string& where, const std::string& example)
+    {
+        add(Issue::inconsistent, what, where, example);
+    }
 
     /// Report everything, each with its first location and its count.
     void report(PartBuilder& part) const;
@@ -26,9 +31,10 @@ private:
     struct Entry
     {
         std::string first_where;
+        std::string first_example;
         uint64_t count = 0;
     };
-    void add(Issue issue, const std::string& what, const std::string& where);
+    void add(Issue issue, const std::string& what, const std::string& where, const std::string& example = "");
 
     std::map<std::pair<Issue, std::string>, Entry> entries_;
 };
@@ -43,7 +49,7 @@ struct GltfVertices
 
 /// Read the vertices of a primitive that has a POSITION. `where` is its JSON pointer.
 /// errors: gltf_value (format of an accessor), gltf_data (counts that differ, positions that are not finite),
-/// codec_failed, input_too_large.
+/// number_too_large, gltf_extension_value, codec_failed, input_too_large.
 Result<GltfVertices> readVertices(const GltfPrimitive& primitive, const std::string& where,
                                   GltfAccessors& accessors, const GltfModel& model,
                                   const GltfBuffers& buffers, const GltfContext& context, GltfTally& tally);

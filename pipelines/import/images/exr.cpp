@@ -25,10 +25,22 @@ namespace hearth::import
 namespace
 {
 
+// OpenEXR puts the name of its stream into its messages. Ours name the file already: this name is removed.
+constexpr const char* kStreamName = "(memory)";
+
+/// Return a message of OpenEXR without the name of its stream.
+std::string removeStreamName(std::string message)
+{
+    const std::string quoted = " \"" + std::string(kStreamName) + "\"";
+    for (size_t at = message.find(quoted); at != message.npos; at = message.find(quoted))
+        message.erase(at, quoted.size());
+    return message;
+}
+
 class MemoryStream final : public Imf::IStream
 {
 public:
-    MemoryStream(std::span<const std::byte> bytes, const char* name) : IStream(name), bytes_(bytes) {}
+    explicit MemoryStream(std::span<const std::byte> bytes) : IStream(kStreamName), bytes_(bytes) {}
 
     bool isMemoryMapped() const override { return false; }
 
@@ -199,7 +211,7 @@ Result<DecodedImage> decode(const EncodedImage& source)
 {
     setLibraryLimits(source.limits);
     HEARTH_TRY(checkHeader(source));
-    MemoryStream stream(source.bytes, source.name.c_str());
+    MemoryStream stream(source.bytes);
     Imf::RgbaInputFile file(stream, 0);
     const Window data(file.dataWindow());
     HEARTH_TRY(checkImageSize(source, data.width(), data.height()));
@@ -230,7 +242,7 @@ Result<DecodedImage> decodeExr(const EncodedImage& source)
     }
     catch (const std::exception& problem)
     {
-        return source.malformed(std::string("EXR: ") + problem.what());
+        return source.malformed("EXR: " + removeStreamName(problem.what()));
     }
     catch (...)
     {

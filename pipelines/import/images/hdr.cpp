@@ -183,7 +183,8 @@ Result<DecodedImage> decodeHdr(const EncodedImage& source)
     ByteReader reader(source.bytes);
     const auto header = readHeader(reader, source.bytes);
     if (!header)
-        return source.malformed("HDR: the header is damaged");
+        return source.malformed("HDR: the header is damaged, or has a line of more than " +
+                                std::to_string(kMaxLine) + " bytes");
     if (header->xyze)
         return source.unsupported("HDR images in XYZ are not read");
     HEARTH_TRY(checkImageSize(source, header->width, header->height));

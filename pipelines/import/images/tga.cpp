@@ -6,6 +6,7 @@
 #include "pipelines/import/images/codecs.h"
 
 #include <array>
+#include <cstring>
 
 namespace hearth::import
 {
@@ -172,6 +173,41 @@ std::string_view readTexels(ByteReader& reader, const TexelReader& texels, uint6
     return {};
 }
 
+/// Return the attributes type of the extension area at the end of the file, which says what alpha means.
+std::optional<uint8_t> readAttributesType(std::span<const std::byte> bytes)
+{
+    constexpr size_t kFooterBytes = 26;
+    constexpr std::string_view kSignature("TRUEVISION-XFILE.\0", 18);
+    constexpr size_t kAreaBytes = 495; // the attributes type is the last byte
+    if (bytes.size() < kFooterBytes)
+        return std::nullopt;
+    const std::span<const std::byte> footer = bytes.last(kFooterBytes);
+    const auto area_offset = ByteReader(footer).read<uint32_t>();
+    if (std::memcmp(footer.data() + kFooterBytes - kSignature.size(), kSignature.data(), kSignature.size()) !=
+            0 ||
+        *area_offset == 0)
+        return std::nullopt;
+    const auto area = checkedPart(bytes, *area_offset, kAreaBytes);
+    return area ? std::optional(static_cast<uint8_t>(area->back())) : std::nullopt;
+}
+
+/// Make texels opaque whose alpha is no opacity, as the extension area says: types 0 (no alpha), 1 and 2
+/// (undefined data). Says so only if alpha would have been seen.
+void dropUndefinedAlpha(std::span<const std::byte> bytes, DecodedImage& image)
+{
+    constexpr uint8_t kMaxUndefinedType = 2;
+    const std::optional<uint8_t> type = readAttributesType(bytes);
+    if (!type || *type > kMaxUndefinedType)
+        return;
+    for (size_t at = 3; at < image.texels.size(); at += 4)
+        if (image.texels[at] != std::byte{255})
+        {
+            image.texels[at] = std::byte{255};
+            image.alpha_note = "alpha is not opacity, as attributes type " + std::to_string(*type) +
+                               " of the TGA's extension area says: it is not kept";
+        }
+}
+
 } // namespace
 
 Result<DecodedImage> decodeTga(const EncodedImage& source)
@@ -210,6 +246,7 @@ Result<DecodedImage> decodeTga(const EncodedImage& source)
     const std::string_view problem = readTexels(reader, texels, uint64_t{image.width} * image.height, put);
     if (!problem.empty())
         return source.malformed("TGA: " + std::string(problem));
+    dropUndefinedAlpha(source.bytes, image);
     return image;
 }
 

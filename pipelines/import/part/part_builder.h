@@ -24,6 +24,7 @@ struct DecodedImage
     uint32_t height = 0;
     bool is_float = false;         ///< texels are RGBA16 float (linear), else RGBA8 as stored in the file
     std::vector<std::byte> texels; ///< width * height * (is_float ? 8 : 4)
+    std::string alpha_note{};      ///< says why alpha was not kept, for a warning image_alpha; else empty
 };
 
 /// Counts of the source in its own terms, for the report.

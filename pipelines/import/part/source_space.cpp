@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace hearth::import
 {
@@ -76,8 +77,10 @@ public:
 private:
     Error outOfRangeError() const
     {
-        return {Issue::input_too_large, part_.sourceName(), "",
-                fmt::format("scaled by {}, a place or a length does not fit 32-bit numbers", factor_)};
+        return {
+            Issue::input_too_large, part_.sourceName(), "",
+            fmt::format("scaled by {}, a place or a length does not fit 32-bit numbers, which are up to {:g}",
+                        factor_, std::numeric_limits<float>::max())};
     }
 
     Result<Affine3> narrow(const Affine3d& transform) const

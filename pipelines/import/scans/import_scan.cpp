@@ -5,6 +5,7 @@
 #include "pipelines/import/part/generate_normals.h"
 #include "pipelines/import/part/generate_tangents.h"
 #include "pipelines/import/part/import_options.h"
+#include "pipelines/import/part/limit_messages.h"
 #include "pipelines/import/part/part_builder.h"
 #include "pipelines/import/scans/obj_materials.h"
 #include "pipelines/import/scans/scan_polygons.h"
@@ -122,10 +123,13 @@ Status importScan(const std::string& path, std::span<const std::byte> bytes, con
     HEARTH_ASSIGN_OR_RETURN(ScanPolygons scan, read(source));
     if (scan.positions.empty())
         return Error{Issue::mesh_empty, path, "", "the file has no vertices"};
+    if (const std::optional<size_t> bad = findBadPosition(scan.positions))
+        return Error{Issue::number_too_large, path, "position " + std::to_string(*bad),
+                     "it is " + describeBadPosition(scan.positions[*bad])};
     for (const ScanNote& note : scan.notes)
         part.warn(note.issue, note.where, note.detail);
     if (scan.face_ends.empty())
-        part.warn(Issue::degraded, "", "the file has points but no faces: nothing is drawn");
+        part.warn(Issue::nothing_drawn, "", "the file has points but no faces");
 
     HEARTH_TRY(addMaterials(scan, source, options, part));
     mesh::SourceMesh mesh = meshFromScan(std::move(scan));

@@ -237,7 +237,11 @@ private:
     {
         HEARTH_ASSIGN_OR_RETURN(const FileBytes file, folder_.read(name, options_.limits.max_file_bytes));
         part_.addSource(name, file.bytes());
-        return decodeImage(file.bytes(), name, options_.limits);
+        Result<DecodedImage> image = decodeImage(file.bytes(), name, options_.limits);
+        if (image.ok() && !image->alpha_note.empty())
+            part_.warn(Issue::image_alpha, "",
+                       "image '" + name + "'" + describeUser() + ": " + image->alpha_note);
+        return image;
     }
 
     /// Load an image, or return the placeholder with a warning.
@@ -251,12 +255,15 @@ private:
         return makePlaceholderImage();
     }
 
+    /// Return the material that is being made, for a message about its images.
+    std::string describeUser() const { return material_.empty() ? "" : " of material '" + material_ + "'"; }
+
     void warnOfImage(const std::string& file, const Error& error)
     {
         const bool missing = error.issue == Issue::input_missing;
         part_.warn(missing ? Issue::image_missing : Issue::image_replaced, "",
-                   "image '" + file + "'" + (material_.empty() ? "" : " of material '" + material_ + "'") +
-                       " beside " + folder_.assetName() + ": " + error.detail,
+                   "image '" + file + "'" + describeUser() + " beside " + folder_.assetName() + ": " +
+                       error.detail,
                    folder_.suggestNearest(file, error.issue));
     }
 

@@ -1,6 +1,7 @@
 // Reads OFF: Geomview's Object File Format as text, with the prefixes ST, C and N in any combination.
 // Source: Geomview manual, "OFF files".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/import/part/limit_messages.h"
 #include "pipelines/import/scans/scan_polygons.h"
 #include "pipelines/import/scans/text_cursor.h"
 
@@ -121,7 +122,8 @@ private:
                                " faces do not fit into the " + std::to_string(text_.remaining()) +
                                " bytes that are left");
         if (vertex_count_ > source_.limits.max_vertices)
-            return failure(Issue::input_too_large, std::to_string(vertex_count_) + " vertices");
+            return failure(Issue::input_too_large,
+                           describeExcess(vertex_count_, "vertices", source_.limits.max_vertices));
         return success();
     }
 

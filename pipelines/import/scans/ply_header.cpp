@@ -69,7 +69,8 @@ public:
         {
             const auto line = nextLine();
             if (!line)
-                return failure("the header does not end");
+                return failure("the header does not end; at most " + std::to_string(kMaxHeaderBytes) +
+                               " bytes of it are read");
             if (trimmed(*line) == "end_header")
                 break;
             if (!line->starts_with("comment") && !line->starts_with("obj_info") && !trimmed(*line).empty())

@@ -1,6 +1,7 @@
 // Reads Stanford PLY: ascii and binary, any scalar types, any order of elements. Unknown elements and
 // properties are skipped and named in a warning.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/import/part/limit_messages.h"
 #include "pipelines/import/scans/ply_header.h"
 #include "pipelines/import/scans/ply_values.h"
 
@@ -215,7 +216,8 @@ private:
         if (!file_.positions.empty())
             return failure(Issue::mesh_syntax, "there are two elements 'vertex'");
         if (element.count > source_.limits.max_vertices)
-            return failure(Issue::input_too_large, std::to_string(element.count) + " vertices");
+            return failure(Issue::input_too_large,
+                           describeExcess(element.count, "vertices", source_.limits.max_vertices));
         HEARTH_ASSIGN_OR_RETURN(const VertexLayout layout, makeLayout(element));
         file_.positions.reserve(static_cast<size_t>(element.count));
         VertexRow row{};

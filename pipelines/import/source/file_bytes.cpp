@@ -48,7 +48,9 @@ Result<FileBytes> FileBytes::read(const std::string& path, uint64_t max_bytes)
 {
     HEARTH_ASSIGN_OR_RETURN(const RegularFile file, openRegular(path));
     if (file.size() > max_bytes)
-        return failure(Issue::input_too_large, path, std::to_string(file.size()) + " bytes");
+        return failure(Issue::input_too_large, path,
+                       std::to_string(file.size()) + " bytes, at most " + std::to_string(max_bytes) +
+                           " are read");
 
     const auto size = static_cast<size_t>(file.size());
     if (size >= kMinMappedBytes)

@@ -161,8 +161,10 @@ Result<std::vector<std::byte>> GltfAccessors::elements(uint32_t index)
         // as they are decoded: each component becomes four bytes
         const uint64_t decoded_size = uint64_t{componentCount(accessor.type)} * sizeof(float);
         if (accessor.count > (kMaxZeroBytes - zero_bytes_) / decoded_size)
-            return error(index, Issue::input_too_large,
-                         fmt::format("{} elements without data", accessor.count));
+            return error(
+                index, Issue::input_too_large,
+                fmt::format("{} elements of {} bytes without data, at most {} bytes of such are read",
+                            accessor.count, decoded_size, kMaxZeroBytes));
         zero_bytes_ += accessor.count * decoded_size;
     }
     std::vector<std::byte> elements(accessor.count * size);

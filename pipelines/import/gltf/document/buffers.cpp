@@ -34,6 +34,28 @@ std::vector<bool> findRequiredBuffers(const GltfModel& model)
     return needed;
 }
 
+/// Return the end of what a view reads of a buffer: of its compressed bytes, if it has any.
+uint64_t findEnd(const GltfBufferView& view, size_t buffer)
+{
+    if (view.meshopt)
+        return view.meshopt->buffer == buffer ? view.meshopt->byte_offset + view.meshopt->byte_length : 0;
+    return view.buffer == buffer ? view.byte_offset + view.byte_length : 0;
+}
+
+/// Check a buffer that is shorter than it says. It is usable, with a warning, if no view needs the rest.
+Status checkShortBuffer(const GltfModel& model, size_t buffer, size_t size, const GltfContext& context)
+{
+    const std::string where = fmt::format("/buffers/{}", buffer);
+    const std::string lengths =
+        fmt::format("byteLength is {}, but there are {} bytes", model.buffers[buffer].byte_length, size);
+    for (size_t i = 0; i < model.buffer_views.size(); ++i)
+        if (const uint64_t end = findEnd(model.buffer_views[i], buffer); end > size)
+            return context.error(Issue::buffer_short, where,
+                                 fmt::format("{}, and buffer view {} needs {}", lengths, i, end));
+    context.part.warn(Issue::inconsistent, where, lengths + "; nothing uses the missing part");
+    return success();
+}
+
 Result<FileBytes> readBufferUri(const std::string& uri, const std::string& where, const GltfContext& context)
 {
     Result<FileBytes> bytes = readUri(uri, where + "/uri", context);
@@ -77,31 +99,43 @@ Result<GltfBuffers> GltfBuffers::load(const GltfModel& model, const FileBytes& s
                                       const GltfContainer& container, const GltfContext& context)
 {
     GltfBuffers result(source);
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<Bytes> buffers, result.loadBuffers(model, container, context));
+    HEARTH_TRY(result.makeViews(model, buffers, context));
+    return result;
+}
+
+Result<std::vector<Bytes>> GltfBuffers::loadBuffers(const GltfModel& model, const GltfContainer& container,
+                                                    const GltfContext& context)
+{
     const std::vector<bool> needed = findRequiredBuffers(model);
     std::vector<Bytes> buffers(model.buffers.size());
     for (size_t i = 0; i < buffers.size(); ++i)
     {
         const GltfBuffer& buffer = model.buffers[i];
         const std::string where = fmt::format("/buffers/{}", i);
-        if (!needed[i])
+        const bool in_container = i == 0 && !buffer.uri && container.binary;
+        if (!needed[i] && (!in_container || buffer.fallback))
             continue;
         if (buffer.uri)
         {
             HEARTH_ASSIGN_OR_RETURN(FileBytes bytes, readBufferUri(*buffer.uri, where, context));
-            result.owned_.push_back(std::move(bytes));
-            buffers[i] = result.owned_.back().bytes();
+            owned_.push_back(std::move(bytes));
+            buffers[i] = owned_.back().bytes();
         }
-        else if (i == 0 && container.binary)
+        else if (in_container)
             buffers[i] = *container.binary;
         else
             return context.error(Issue::buffer_missing, where,
                                  "the buffer has neither a URI nor a BIN chunk");
         if (buffers[i].size() < buffer.byte_length)
-            return context.error(Issue::buffer_short, where,
-                                 fmt::format("byteLength is {}, but there are {} bytes", buffer.byte_length,
-                                             buffers[i].size()));
+            HEARTH_TRY(checkShortBuffer(model, i, buffers[i].size(), context));
     }
+    return buffers;
+}
 
+Status GltfBuffers::makeViews(const GltfModel& model, std::span<const Bytes> buffers,
+                              const GltfContext& context)
+{
     for (size_t i = 0; i < model.buffer_views.size(); ++i)
     {
         const GltfBufferView& view = model.buffer_views[i];
@@ -111,15 +145,15 @@ Result<GltfBuffers> GltfBuffers::load(const GltfModel& model, const FileBytes& s
         {
             const auto compressed = checkedPart(buffers[view.meshopt->buffer], view.meshopt->byte_offset,
                                                 view.meshopt->byte_length);
-            HEARTH_ASSERT(compressed.has_value()); // the model has checked it against byteLength
+            HEARTH_ASSERT(compressed.has_value()); // the model and loadBuffers have checked it
             HEARTH_ASSIGN_OR_RETURN(std::vector<std::byte> decoded,
                                     decodeMeshopt(*view.meshopt, *compressed, context.file, where));
             if (decoded.size() < view.byte_length)
                 return context.error(Issue::gltf_bounds, where,
                                      fmt::format("{} bytes were compressed, but byteLength is {}",
                                                  decoded.size(), view.byte_length));
-            result.owned_.emplace_back(std::move(decoded));
-            bytes = result.owned_.back().bytes().first(view.byte_length);
+            owned_.emplace_back(std::move(decoded));
+            bytes = owned_.back().bytes().first(view.byte_length);
         }
         else
         {
@@ -127,9 +161,9 @@ Result<GltfBuffers> GltfBuffers::load(const GltfModel& model, const FileBytes& s
             HEARTH_ASSERT(part.has_value());
             bytes = *part;
         }
-        result.views_.push_back(bytes);
+        views_.push_back(bytes);
     }
-    return result;
+    return success();
 }
 
 void GltfBuffers::releasePages() const

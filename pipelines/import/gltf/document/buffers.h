@@ -37,7 +37,8 @@ std::string suggestNearestForUri(const std::string& uri, Issue issue, const Gltf
 class GltfBuffers
 {
 public:
-    /// Load all buffers. errors: those of readUri, buffer_missing, buffer_short, codec_failed, gltf_bounds.
+    /// Load all buffers. A buffer may be shorter than it says if no view needs what is missing: a warning.
+    /// errors: those of readUri, buffer_missing, buffer_short, codec_failed, gltf_bounds.
     /// source  file of the container; outlives this object
     static Result<GltfBuffers> load(const GltfModel& model, const FileBytes& source,
                                     const GltfContainer& container, const GltfContext& context);
@@ -52,6 +53,10 @@ public:
 
 private:
     explicit GltfBuffers(const FileBytes& source) : source_(&source) {}
+    Result<std::vector<std::span<const std::byte>>>
+    loadBuffers(const GltfModel& model, const GltfContainer& container, const GltfContext& context);
+    Status makeViews(const GltfModel& model, std::span<const std::span<const std::byte>> buffers,
+                     const GltfContext& context);
 
     const FileBytes* source_;
     std::vector<FileBytes> owned_;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace hearth::import
@@ -14,12 +15,40 @@ namespace
 // upper bound of doubles below which every integer is exact
 constexpr double kMaxExactInteger = 9007199254740992.0;
 
+// Extensions that Hearth reads and the Khronos glTF validator does not check.
+constexpr std::string_view kUncheckedExtensions[] = {
+    "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
+    "KHR_draco_mesh_compression",
+    "KHR_texture_basisu",
+    "MSFT_lod",
+};
+
+/// True if the validator does not look at a place of a document: custom properties, and some extensions.
+bool isUnchecked(std::string_view pointer)
+{
+    constexpr std::string_view kExtensions = "/extensions/";
+    const size_t at = pointer.find(kExtensions);
+    const std::string_view name =
+        at == pointer.npos ? std::string_view() : pointer.substr(at + kExtensions.size());
+    return pointer.find("/extras/") != pointer.npos || pointer.ends_with("/extras") ||
+           std::any_of(std::begin(kUncheckedExtensions), std::end(kUncheckedExtensions),
+                       [&](std::string_view extension) { return name.starts_with(extension); });
+}
+
 } // namespace
 
 void GltfProblems::fail(Issue issue, const Json& at, std::string detail)
 {
-    if (!error_)
-        error_ = Error{issue, file_, at.pointer(), std::move(detail)};
+    if (error_)
+        return;
+    // these issues send the user to the validator, which would find nothing here
+    const bool names_validator =
+        issue == Issue::gltf_structure || issue == Issue::gltf_value || issue == Issue::gltf_reference;
+    std::string pointer = at.pointer();
+    if (names_validator && isUnchecked(pointer))
+        issue = Issue::gltf_extension_value;
+    error_ = Error{issue, file_, std::move(pointer), std::move(detail)};
 }
 
 void GltfProblems::warn(Issue issue, const Json& at, std::string detail)
@@ -129,9 +158,11 @@ float GltfObject::readNumber(const Json& value) const
         return 0;
     }
     const double number = value.number();
-    if (!(std::abs(number) <= static_cast<double>(std::numeric_limits<float>::max())))
+    constexpr double kMaxNumber = std::numeric_limits<float>::max();
+    if (!(std::abs(number) <= kMaxNumber))
     {
-        problems_->fail(Issue::gltf_value, value, fmt::format("{} is too large for a 32-bit number", number));
+        problems_->fail(Issue::number_too_large, value,
+                        fmt::format("{} is too large: 32-bit numbers go up to {:g}", number, kMaxNumber));
         return 0;
     }
     return static_cast<float>(number);

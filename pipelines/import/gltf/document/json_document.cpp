@@ -152,7 +152,8 @@ Result<JsonDocument> JsonDocument::parse(std::string_view text, const std::strin
 {
     if (text.size() > kMaxTextBytes)
         return Error{Issue::input_too_large, file, "",
-                     "the JSON text has " + std::to_string(text.size()) + " bytes"};
+                     "the JSON text has " + std::to_string(text.size()) + " bytes, at most " +
+                         std::to_string(kMaxTextBytes) + " are read"};
     if (text.starts_with("\xEF\xBB\xBF"))
         return Error{Issue::json_syntax, file, "", "the JSON text starts with a byte-order mark"};
     JsonDocument document;

@@ -74,12 +74,13 @@ Result<std::vector<std::byte>> decodeMeshopt(const GltfMeshopt& view, std::span<
                                              const std::string& file, const std::string& where)
 {
     if (const std::optional<std::string> reason = findViolation(view))
-        return Error{Issue::gltf_value, file, where, *reason};
+        return Error{Issue::gltf_extension_value, file, where, *reason};
     const uint64_t decoded_size = view.count * view.byte_stride; // at most 2^32 * 256
     if (decoded_size > compressed.size() * kMaxRatio + kBlockBytes)
-        return Error{
-            Issue::codec_failed, file, where,
-            fmt::format("{} bytes cannot come from {} compressed ones", decoded_size, compressed.size())};
+        return Error{Issue::codec_failed, file, where,
+                     fmt::format("{} bytes cannot come from {} compressed ones, which hold at most {}",
+                                 decoded_size, compressed.size(),
+                                 compressed.size() * kMaxRatio + kBlockBytes)};
     std::vector<std::byte> decoded(decoded_size);
     if (decode(view, compressed, decoded.data()) != 0)
         return Error{Issue::codec_failed, file, where, "the meshoptimizer data are damaged"};

@@ -310,7 +310,8 @@ struct GltfModel
 };
 
 /// Read and check the whole document, used or not. Unsupported contents get a warning by name.
-/// errors: gltf_structure, gltf_value, gltf_reference, gltf_version, gltf_extension, gltf_hierarchy.
+/// errors: gltf_structure, gltf_value, gltf_reference, gltf_version, gltf_extension, gltf_extension_value,
+/// gltf_hierarchy, gltf_bounds, number_too_large.
 Result<GltfModel> readGltfModel(const JsonDocument& document, const std::string& file, PartBuilder& part);
 
 /// Return the number of components of an element: 1, 2, 3, 4, 4, 9, 16.
