@@ -157,7 +157,7 @@ constexpr uint64_t kMaxRatio = 2 * kMaxDeflateRatio;
 constexpr uint64_t kMaxDwaRatio = 128 * kMaxDeflateRatio;
 
 // Minimum size of a tile that can be too large. OpenEXR allocates a whole tile, however small the image.
-constexpr uint64_t kMinLargeTile_bytes = uint64_t{64} << 20;
+constexpr uint64_t kMinLargeTileBytes = uint64_t{64} << 20;
 
 /// Return the bytes of a texel, in all channels.
 double texelBytes(const Imf::Header& header)
@@ -175,7 +175,7 @@ Status checkHeader(const EncodedImage& source)
 {
     if (!attributesFit(source.bytes))
         return source.malformed("EXR: the file ends too early");
-    MemoryStream stream(source.bytes, source.name.c_str());
+    MemoryStream stream(source.bytes);
     stream.seekg(kHeaderOffset);
     int version = 0;
     std::memcpy(&version, source.bytes.data() + kVersionOffset, sizeof(version));
@@ -193,7 +193,7 @@ Status checkHeader(const EncodedImage& source)
         return success();
     const Imf::TileDescription& tile = header.tileDescription();
     if (texel_bytes * tile.xSize * tile.ySize >
-        static_cast<double>(std::max(kMinLargeTile_bytes, 4 * image_bytes)))
+        static_cast<double>(std::max(kMinLargeTileBytes, 4 * image_bytes)))
         return source.unsupported("EXR: tiles of " + std::to_string(tile.xSize) + " x " +
                                   std::to_string(tile.ySize) + " texels are not read");
     return success();
