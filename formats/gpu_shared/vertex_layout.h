@@ -1,6 +1,7 @@
 // Layout of clusters in geometry pages: attribute bits, word offsets, and the decoders of positions, normals,
-// tangents, UVs, colours, influences, indices and morph deltas. One source for C++ and GLSL; formats/codecs/vertex_codec.h defines the codes and
-// encodes them. Frame of a normal: T. Duff et al., "Building an orthonormal basis, revisited", 2017.
+// tangents, UVs, colours, influences, indices and morph deltas. One source for C++ and GLSL;
+// formats/codecs/vertex_codec.h defines the codes and encodes them. Frame of a normal: T. Duff et al.,
+// "Building an orthonormal basis, revisited", 2017.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #ifndef HEARTH_SHARED_VERTEX_LAYOUT_H
 #define HEARTH_SHARED_VERTEX_LAYOUT_H

@@ -193,7 +193,7 @@ TEST_F(Manual, doctorSaysWhatIsWrongAndWhatToDo)
     EXPECT_EQ(alone.exit_code, 1);
     EXPECT_NE(alone.out.find("wrong    programs"), std::string::npos) << alone.out;
     EXPECT_NE(alone.out.find("lacks hearth-import, hearth-clusters"), std::string::npos) << alone.out;
-    EXPECT_NE(alone.out.find("what to do: install Hearth whole"), std::string::npos) << alone.out;
+    EXPECT_NE(alone.out.find("what to do: install all of Hearth"), std::string::npos) << alone.out;
     EXPECT_NE(alone.out.find("ok       cache"), std::string::npos) << alone.out;
 
     // a program of another version
