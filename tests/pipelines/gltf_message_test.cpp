@@ -32,38 +32,30 @@ Imported importWithLength(const std::string& length, const std::string& binary, 
                            binary));
 }
 
-TEST(GltfBuffers, warnOfAMissingPartThatNothingUses)
+TEST(GltfBuffers, mayBePadded)
 {
+    // the chunk of a GLB may be longer than its buffer by up to three bytes
     const std::string binary = makeSquare().binary();
-    ASSERT_EQ(binary.size(), 60u);
-    const Imported result = importWithLength("1099511627776", binary);
-    ASSERT_TRUE(result.ok()) << result.message();
-    EXPECT_EQ(result.counts.triangles, 2u);
-    ASSERT_EQ(result.warnings.size(), 1u);
-    EXPECT_EQ(formatMessage(result.warnings[0]),
-              "test.gltf|/buffers/0: warning: byteLength is 1099511627776, but there are 60 bytes; nothing "
-              "uses the missing part [W1403] hint: export the file again");
     EXPECT_TRUE(importWithLength("60", binary).warnings.empty());
-    // the chunk of a GLB may be padded by up to three bytes
     EXPECT_TRUE(importWithLength("60", binary + "abc").warnings.empty());
 }
 
-TEST(GltfBuffers, warnOfAMissingPartOfABufferWithoutViews)
+TEST(GltfBuffers, warnOfAShortBufferThatNothingUses)
 {
     const Imported result =
         importBytes(glb(R"({"asset":{"version":"2.0"},"buffers":[{"byteLength":100}]})", "abcd"));
     ASSERT_TRUE(result.ok()) << result.message();
-    EXPECT_TRUE(result.hasWarning(Issue::inconsistent, "byteLength is 100, but there are 4 bytes"));
+    EXPECT_TRUE(result.hasWarning(Issue::inconsistent,
+                                  "byteLength is 100, but there are 4 bytes; nothing uses the buffer"));
 }
 
-TEST(GltfBuffers, areRefusedWhereAViewNeedsTheMissingPart)
+TEST(GltfBuffers, areRefusedIfTheyAreShort)
 {
     const Imported result = importWithLength("60", makeSquare().binary().substr(0, 56));
     ASSERT_FALSE(result.ok());
     EXPECT_EQ(result.status.error().issue, Issue::buffer_short);
     EXPECT_EQ(result.status.error().where, "/buffers/0");
-    EXPECT_EQ(result.status.error().detail,
-              "byteLength is 60, but there are 56 bytes, and buffer view 1 needs 60");
+    EXPECT_EQ(result.status.error().detail, "byteLength is 60, but there are 56 bytes");
 }
 
 TEST(GltfReader, warnsOfAFileWithoutATriangle)

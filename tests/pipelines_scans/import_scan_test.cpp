@@ -127,17 +127,6 @@ TEST(ImportScan, aFileWithoutVerticesIsEmptyAndOneWithoutFacesIsNot)
     EXPECT_TRUE(points.warned(Issue::nothing_drawn, "no faces"));
 }
 
-TEST(ImportScan, namesTheLimitOfPositions)
-{
-    const TemporaryFolder folder;
-    const Imported scan = import(importScan, folder, "a.obj", "v 0 0 0\nv 1 0 0\nv 0 -4e9 0\nf 1 2 3\n");
-    ASSERT_FALSE(scan.status.ok());
-    EXPECT_EQ(formatMessage(scan.status.error()),
-              folder.file("a.obj") + "|position 2: error: it is (0, -4e+09, 0), coordinates go up to 1e+09 "
-                                     "[E1116] hint: use smaller numbers: a larger unit, or a model nearer to "
-                                     "its origin");
-}
-
 TEST(ImportScan, takesMaterialsAndTexturesFromItsFolder)
 {
     const TemporaryFolder folder;

@@ -5,7 +5,6 @@
 #include "pipelines/import/part/generate_normals.h"
 #include "pipelines/import/part/generate_tangents.h"
 #include "pipelines/import/part/import_options.h"
-#include "pipelines/import/part/limit_messages.h"
 #include "pipelines/import/part/part_builder.h"
 #include "pipelines/import/scans/obj_materials.h"
 #include "pipelines/import/scans/scan_polygons.h"
@@ -123,9 +122,6 @@ Status importScan(const std::string& path, std::span<const std::byte> bytes, con
     HEARTH_ASSIGN_OR_RETURN(ScanPolygons scan, read(source));
     if (scan.positions.empty())
         return Error{Issue::mesh_empty, path, "", "the file has no vertices"};
-    if (const std::optional<size_t> bad = findBadPosition(scan.positions))
-        return Error{Issue::number_too_large, path, "position " + std::to_string(*bad),
-                     "it is " + describeBadPosition(scan.positions[*bad])};
     for (const ScanNote& note : scan.notes)
         part.warn(note.issue, note.where, note.detail);
     if (scan.face_ends.empty())

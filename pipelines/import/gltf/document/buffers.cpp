@@ -34,25 +34,16 @@ std::vector<bool> findRequiredBuffers(const GltfModel& model)
     return needed;
 }
 
-/// Return the end of what a view reads of a buffer: of its compressed bytes, if it has any.
-uint64_t findEnd(const GltfBufferView& view, size_t buffer)
+/// Refuse a buffer that is shorter than it says. One that nothing uses gets a warning.
+Status checkShortBuffer(const GltfBuffer& buffer, size_t index, bool is_needed, size_t size,
+                        const GltfContext& context)
 {
-    if (view.meshopt)
-        return view.meshopt->buffer == buffer ? view.meshopt->byte_offset + view.meshopt->byte_length : 0;
-    return view.buffer == buffer ? view.byte_offset + view.byte_length : 0;
-}
-
-/// Check a buffer that is shorter than it says. It is usable, with a warning, if no view needs the rest.
-Status checkShortBuffer(const GltfModel& model, size_t buffer, size_t size, const GltfContext& context)
-{
-    const std::string where = fmt::format("/buffers/{}", buffer);
+    const std::string where = fmt::format("/buffers/{}", index);
     const std::string lengths =
-        fmt::format("byteLength is {}, but there are {} bytes", model.buffers[buffer].byte_length, size);
-    for (size_t i = 0; i < model.buffer_views.size(); ++i)
-        if (const uint64_t end = findEnd(model.buffer_views[i], buffer); end > size)
-            return context.error(Issue::buffer_short, where,
-                                 fmt::format("{}, and buffer view {} needs {}", lengths, i, end));
-    context.part.warn(Issue::inconsistent, where, lengths + "; nothing uses the missing part");
+        fmt::format("byteLength is {}, but there are {} bytes", buffer.byte_length, size);
+    if (is_needed)
+        return context.error(Issue::buffer_short, where, lengths);
+    context.part.warn(Issue::inconsistent, where, lengths + "; nothing uses the buffer");
     return success();
 }
 
@@ -128,7 +119,7 @@ Result<std::vector<Bytes>> GltfBuffers::loadBuffers(const GltfModel& model, cons
             return context.error(Issue::buffer_missing, where,
                                  "the buffer has neither a URI nor a BIN chunk");
         if (buffers[i].size() < buffer.byte_length)
-            HEARTH_TRY(checkShortBuffer(model, i, buffers[i].size(), context));
+            HEARTH_TRY(checkShortBuffer(buffer, i, needed[i], buffers[i].size(), context));
     }
     return buffers;
 }
@@ -145,7 +136,7 @@ Status GltfBuffers::makeViews(const GltfModel& model, std::span<const Bytes> buf
         {
             const auto compressed = checkedPart(buffers[view.meshopt->buffer], view.meshopt->byte_offset,
                                                 view.meshopt->byte_length);
-            HEARTH_ASSERT(compressed.has_value()); // the model and loadBuffers have checked it
+            HEARTH_ASSERT(compressed.has_value()); // the model has checked it against byteLength
             HEARTH_ASSIGN_OR_RETURN(std::vector<std::byte> decoded,
                                     decodeMeshopt(*view.meshopt, *compressed, context.file, where));
             if (decoded.size() < view.byte_length)

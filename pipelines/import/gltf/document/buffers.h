@@ -37,7 +37,7 @@ std::string suggestNearestForUri(const std::string& uri, Issue issue, const Gltf
 class GltfBuffers
 {
 public:
-    /// Load all buffers. A buffer may be shorter than it says if no view needs what is missing: a warning.
+    /// Load all buffers. A buffer that is shorter than it says is refused; a warning if nothing uses it.
     /// errors: those of readUri, buffer_missing, buffer_short, codec_failed, gltf_bounds.
     /// source  file of the container; outlives this object
     static Result<GltfBuffers> load(const GltfModel& model, const FileBytes& source,
