@@ -41,7 +41,8 @@ bool isContainer(const std::string& path)
     const RegularFile file(path);
     // only the first four bytes: a damaged container is left to the container's reader
     std::array<uint8_t, 4> start{};
-    return file.isOpen() && file.read(std::as_writable_bytes(std::span(start))) == start.size() &&
+    constexpr auto kStartBytes = static_cast<ssize_t>(start.size());
+    return file.isOpen() && file.read(std::as_writable_bytes(std::span(start))) == kStartBytes &&
            std::equal(start.begin(), start.end(), kMagic);
 }
 
