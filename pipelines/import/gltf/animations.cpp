@@ -179,15 +179,15 @@ Result<CurveLocation> AnimationWriter::findOrWriteCurve(const GltfAnimationSampl
     if (const size_t floats = keys.size() + curve.times.size() + curve.values.size(); floats > kMaxKeyFloats)
         return context_.error(Issue::input_too_large, where_,
                               describeExcess(floats, "times and values of animations", kMaxKeyFloats));
-    CurveLocation findOrWriteCurve;
-    findOrWriteCurve.key_count = static_cast<uint32_t>(curve.times.size());
-    findOrWriteCurve.first_time = static_cast<uint32_t>(keys.size());
-    findOrWriteCurve.first_value = findOrWriteCurve.first_time + findOrWriteCurve.key_count;
-    findOrWriteCurve.end_time = curve.times.back();
+    CurveLocation location;
+    location.key_count = static_cast<uint32_t>(curve.times.size());
+    location.first_time = static_cast<uint32_t>(keys.size());
+    location.first_value = location.first_time + location.key_count;
+    location.end_time = curve.times.back();
     keys.insert(keys.end(), curve.times.begin(), curve.times.end());
     keys.insert(keys.end(), curve.values.begin(), curve.values.end());
-    locations_.emplace(std::tuple(number, path, components), findOrWriteCurve);
-    return findOrWriteCurve;
+    locations_.emplace(std::tuple(number, path, components), location);
+    return location;
 }
 
 Status AnimationWriter::writeChannel(const GltfAnimationChannel& channel)

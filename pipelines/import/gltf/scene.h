@@ -20,8 +20,7 @@ struct MeshSummary
 };
 
 /// Write all nodes, and the instances, cameras and lights of the default scene (the first one, or without
-/// scenes all nodes). errors: gltf_extension_value, gltf_data,
-/// number_too_large, input_too_large.
+/// scenes all nodes). errors: gltf_extension_value, gltf_data, number_too_large, input_too_large.
 /// meshes  for each mesh of `uses`
 /// hidden  nodes whose contents are not drawn
 Status writeScene(const GltfModel& model, const MeshUses& uses, std::span<const MeshSummary> meshes,
