@@ -128,7 +128,8 @@ std::string shardCommands(const FarmJob& job)
 
 std::string mergeCommand(const FarmJob& job)
 {
-    return joinQuoted({job.hearth, "merge", job.plan_file, "-o", job.pack}) + commonWords(job);
+    return joinQuoted({job.hearth, "merge", job.plan_file, "-o", job.pack}) + commonWords(job) +
+           (job.skips_missing ? " --missing skip" : "");
 }
 
 std::string ninjaFile(const FarmJob& job, const std::string& launcher)

@@ -21,6 +21,7 @@ struct FarmJob
     std::string directory;           ///< folder of the sources; empty: as the plan says
     std::vector<std::string> caches; ///< values of --cache
     size_t shard_count = 1;
+    bool skips_missing = false; ///< the merge leaves out sources that cannot be cooked
 };
 
 /// Quote a word of a command line for a POSIX shell.

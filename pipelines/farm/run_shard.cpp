@@ -44,7 +44,7 @@ bool cookActions(const Plan& plan, size_t shard, const CacheHandles& caches, con
                  std::vector<graph::Failure>& failures, bool& is_all_cached)
 {
     std::vector<size_t> action_ids;
-    const graph::Graph graph = selectActions(plan.graph, plan.shards[shard], action_ids);
+    graph::Graph graph = selectActions(plan.graph, plan.shards[shard], action_ids);
     if (graph.actions.empty())
         return true;
     const std::optional<graph::Journal> no_journal;

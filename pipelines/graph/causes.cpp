@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/graph/causes.h"
 
+#include "pipelines/graph/skip_source.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>
@@ -36,6 +38,8 @@ Options parseOptions(const Record& record)
         if (is_text && word.starts_with("-") && word != "--set")
             options[word];
     }
+    // skipped sources are causes of their own
+    options.erase(std::string(kSkippedOption));
     return options;
 }
 
@@ -143,6 +147,28 @@ void addSourceCauses(const Graph& before, const Graph& now, std::vector<std::str
         causes.emplace_back("the sources are in another order");
 }
 
+/// Return the sources that a cook's link has read, by name.
+std::vector<std::string> listLinkedSources(const Graph& graph)
+{
+    const std::vector<std::string> sources = listSources(graph);
+    std::vector<std::string> linked;
+    for (const size_t source : sourcesRead(graph, graph.actions.back()))
+        linked.push_back(sources[source]);
+    return linked;
+}
+
+/// Add causes for an action that reads all sources: sources that one of the cooks skips.
+void addSkippedCauses(const Graph& before, const Graph& now, std::vector<std::string>& causes)
+{
+    const std::vector<std::string> old_linked = listLinkedSources(before);
+    const std::vector<std::string> new_linked = listLinkedSources(now);
+    const auto has = [](const std::vector<std::string>& list, const std::string& name)
+    { return std::find(list.begin(), list.end(), name) != list.end(); };
+    for (const std::string& source : listSources(now))
+        if (has(listSources(before), source) && has(old_linked, source) != has(new_linked, source))
+            causes.push_back(source + (has(new_linked, source) ? ": was skipped last time" : ": is skipped"));
+}
+
 bool hasSameField(std::string_view field, const Record& a, const Record& b)
 {
     return cache::fieldValue(a, field) == cache::fieldValue(b, field);
@@ -176,7 +202,10 @@ std::vector<std::string> findCauses(const Action& action, const Graph& graph, co
         return {"new in this pack"};
     std::vector<std::string> causes;
     if (action.source == graph.source_count)
+    {
         addSourceCauses(journal->graph, graph, causes);
+        addSkippedCauses(journal->graph, graph, causes);
+    }
     if (last->ending == Outcome::failed)
         causes.emplace_back("it failed last time");
     for (const std::string& cooker : state.pending_cookers)

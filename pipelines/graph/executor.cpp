@@ -4,6 +4,7 @@
 #include "cook/tools/dependency_list.h"
 #include "cook/tools/sha256.h"
 #include "formats/base/regular_file.h"
+#include "pipelines/graph/skip_source.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -45,7 +46,7 @@ std::string replacePaths(std::string text, const std::vector<std::string>& paths
 
 } // namespace
 
-Executor::Executor(const Graph& graph, Resolver& resolver, cache::Cache* cache, ActionCache* actions,
+Executor::Executor(Graph& graph, Resolver& resolver, cache::Cache* cache, ActionCache* actions,
                    ExecutorOptions options, ExecutorEvents events)
     : graph_(graph),
       resolver_(resolver),
@@ -56,7 +57,8 @@ Executor::Executor(const Graph& graph, Resolver& resolver, cache::Cache* cache, 
       pool_(graph, options_.limits),
       states_(graph.actions.size(), State::waiting),
       outcomes_(graph.actions.size()),
-      has_begun_(graph.actions.size())
+      has_begun_(graph.actions.size()),
+      is_skipped_(graph.source_count)
 {
 }
 
@@ -229,6 +231,45 @@ std::optional<Failure> Executor::start(size_t index)
     return std::nullopt;
 }
 
+/// Remove failed sources from the actions of the pack, unless all have failed. False where it is not yet
+/// known which will fail. A source can fail late, when a lost result is made again: what was made with it is
+/// then made again without it.
+bool Executor::skipFailedSources()
+{
+    std::vector<bool> has_failed(graph_.source_count, false);
+    for (size_t i = 0; i < states_.size(); ++i)
+    {
+        const size_t source = graph_.actions[i].source;
+        const bool is_settled = states_[i] == State::done || states_[i] == State::failed;
+        if (source < graph_.source_count ? !is_settled : states_[i] == State::running)
+            return false;
+        if (source < graph_.source_count && states_[i] == State::failed)
+            has_failed[source] = true;
+    }
+    if (has_failed == is_skipped_ || std::count(has_failed.begin(), has_failed.end(), false) == 0)
+        return true;
+    for (size_t i = 0; i < states_.size(); ++i)
+        if (readsSources(graph_, graph_.actions[i]) && states_[i] != State::failed)
+        {
+            states_[i] = State::waiting;
+            outcomes_[i].paths.clear();
+        }
+    for (size_t source = 0; source < graph_.source_count; ++source)
+        if (has_failed[source] && !is_skipped_[source])
+            skipSource(graph_, source, failures_);
+    is_skipped_ = has_failed;
+    return true;
+}
+
+std::vector<size_t> Executor::skippedSources() const
+{
+    std::vector<size_t> skipped;
+    for (size_t source = 0; source < is_skipped_.size(); ++source)
+        if (is_skipped_[source])
+            skipped.push_back(source);
+    return skipped;
+}
+
 /// Advance an action that waits or must run by one step. True if its state has changed.
 bool Executor::advance(size_t index)
 {
@@ -239,6 +280,8 @@ bool Executor::advance(size_t index)
         { return input.action != kNoAction && states_[input.action] == state; };
     };
     ActionOutcome& outcome = outcomes_[index];
+    if (options_.skips_failed_sources && readsSources(graph_, action) && !skipFailedSources())
+        return false;
     if (std::any_of(action.inputs.begin(), action.inputs.end(), isIn(State::failed)))
     {
         states_[index] = State::failed;
@@ -398,9 +441,13 @@ bool Executor::finishPack(const std::optional<std::string>& existing_hash)
     if (states_[last] != State::done)
         return true;
     if (cache_ != nullptr && existing_hash == outcomes_[last].result.outputs.front().hash)
+    {
+        has_pack_ = true;
         return true;
+    }
     if (!ensureResult(last))
         return false;
+    has_pack_ = true;
     pack_path_ = outcomes_[last].paths.front();
     return true;
 }

@@ -27,6 +27,9 @@ struct ExecutorOptions
     /// True if the last action makes the pack. Else all results go to the cache only, and `output` is just
     /// its name in messages.
     bool makes_pack = true;
+    /// True if a source with a failed action is left out of the pack, as skipSource does; else there is no
+    /// pack. If all sources fail there is none either.
+    bool skips_failed_sources = false;
 };
 
 struct ActionOutcome
@@ -61,8 +64,9 @@ struct ExecutorEvents
 class Executor
 {
 public:
+    /// graph           skipped sources are removed from its actions of the pack
     /// cache, actions  null: every action runs, and nothing is cached
-    Executor(const Graph& graph, Resolver& resolver, cache::Cache* cache, ActionCache* actions,
+    Executor(Graph& graph, Resolver& resolver, cache::Cache* cache, ActionCache* actions,
              ExecutorOptions options, ExecutorEvents events);
 
     /// Make the pack, unless the destination already has that hash. Without a pack, make sure that the cache
@@ -73,9 +77,13 @@ public:
     const std::vector<ActionOutcome>& outcomes() const { return outcomes_; }
     /// Failures, in order of time.
     const std::vector<Failure>& failures() const { return failures_; }
+    /// True if the pack exists, complete, at packPath() or at its destination.
+    bool hasPack() const { return has_pack_; }
     /// Path of the complete pack, to be moved to its destination; empty where it has failed or is already
     /// there.
     const std::string& packPath() const { return pack_path_; }
+    /// Sources that the pack lacks, ascending.
+    std::vector<size_t> skippedSources() const;
 
     /// Paths of files the action opened or probed that are not declared inputs. For a failed action, the
     /// files that it got to.
@@ -101,6 +109,7 @@ private:
 
     std::optional<Failure> startReady();
     bool advance(size_t action);
+    bool skipFailedSources();
     uint64_t partBytes(size_t action) const;
     std::optional<Failure> start(size_t action);
     std::optional<Failure> makeFolders();
@@ -118,7 +127,7 @@ private:
     std::string readListPath(size_t action) const;
     std::vector<std::string> cookerOutputPaths(size_t action) const;
 
-    const Graph& graph_;
+    Graph& graph_;
     Resolver& resolver_;
     cache::Cache* cache_;
     ActionCache* actions_;
@@ -135,6 +144,8 @@ private:
     std::vector<ActionOutcome> outcomes_;
     std::vector<bool> has_begun_; ///< for each action: events_.starting was called
     std::vector<Failure> failures_;
+    std::vector<bool> is_skipped_; ///< for each source: removed from the actions of the pack
+    bool has_pack_ = false;
     std::string pack_path_;
 };
 

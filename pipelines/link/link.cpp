@@ -164,13 +164,14 @@ Status assignOffsets(std::vector<Source>& sources, const std::string& output)
     return success();
 }
 
-Status writeMeta(ContainerWriter& writer, std::span<const Source> sources, const std::string& output)
+Status writeMeta(ContainerWriter& writer, std::span<const Source> sources,
+                 std::span<const std::string> skipped, const std::string& output)
 {
     std::vector<PartMetas> metas;
     for (const Source& source : sources)
         metas.push_back(
             {source.import_part.meta(), source.clusters_part.meta(), source.textures_part.meta()});
-    HEARTH_ASSIGN_OR_RETURN(const std::string text, mergeMeta(metas, output));
+    HEARTH_ASSIGN_OR_RETURN(const std::string text, mergeMeta(metas, skipped, output));
     return writer.addText(kChunkMeta, text);
 }
 
@@ -395,10 +396,11 @@ Status writeBricks(ContainerWriter& writer, const PackView& part)
 }
 
 Status writePack(const std::string& path, std::span<const Source> sources,
-                 const std::vector<SpecularTableRecord>& specular, const std::optional<PackView>& bricks)
+                 const std::vector<SpecularTableRecord>& specular, const std::optional<PackView>& bricks,
+                 std::span<const std::string> skipped)
 {
     HEARTH_ASSIGN_OR_RETURN(ContainerWriter writer, ContainerWriter::create(path, ContainerKind::pack));
-    HEARTH_TRY(writeMeta(writer, sources, path));
+    HEARTH_TRY(writeMeta(writer, sources, skipped, path));
     HEARTH_TRY(writeStrings(writer, sources));
     HEARTH_TRY(writeScene(writer, sources));
     HEARTH_TRY(writeAssets(writer, sources));
@@ -426,7 +428,8 @@ Status checkPackFile(const std::string& path)
 } // namespace
 
 Status linkPack(std::span<const SourceParts> sources, const std::string& output,
-                std::span<const std::string> specular_parts, const std::string& bricks_part)
+                std::span<const std::string> specular_parts, const std::string& bricks_part,
+                std::span<const std::string> skipped)
 {
     std::vector<Source> opened;
     for (const SourceParts& parts : sources)
@@ -439,7 +442,7 @@ Status linkPack(std::span<const SourceParts> sources, const std::string& output,
     HEARTH_ASSIGN_OR_RETURN(const std::optional<PackView> bricks, openBricks(bricks_part));
 
     const std::string unchecked = output + ".unchecked-" + std::to_string(::getpid());
-    Status status = writePack(unchecked, opened, specular, bricks);
+    Status status = writePack(unchecked, opened, specular, bricks, skipped);
     if (status.ok())
         status = checkPackFile(unchecked);
     if (status.ok() && ::rename(unchecked.c_str(), output.c_str()) != 0)

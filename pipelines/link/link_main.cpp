@@ -18,11 +18,16 @@ int program(int argc, char** argv)
     std::string output;
     std::vector<std::string> specular_parts;
     std::string bricks_part;
+    std::vector<std::string> skipped;
     app.addOption("PARTS", parts, "import, clusters, textures and skinning part of each source").required();
     app.addOption("-o,--output", output, "pack to write").required();
     app.addOption("--specular", specular_parts, "specular part, whose table the pack gets; once each")
         .oneValueEach();
     app.addOption("--bricks", bricks_part, "bricks part, whose grid the pack gets");
+    app.addOption("--skipped", skipped,
+                  "JSON with source, code, pointer and text: an error of a source that the pack lacks, which "
+                  "hearth inspect shows; once for each")
+        .oneValueEach();
     app.setCheck(
         [&parts]
         { return parts.size() % 4 == 0 ? std::string() : "PARTS: four parts are needed for each source"; });
@@ -38,7 +43,8 @@ int program(int argc, char** argv)
     std::vector<hearth::link::SourceParts> sources;
     for (size_t i = 0; i < parts.size(); i += 4)
         sources.push_back({parts[i], parts[i + 1], parts[i + 2], parts[i + 3]});
-    const hearth::Status status = hearth::link::linkPack(sources, output, specular_parts, bricks_part);
+    const hearth::Status status =
+        hearth::link::linkPack(sources, output, specular_parts, bricks_part, skipped);
     return status.ok() ? 0 : reportFailure(status.error());
 }
 

@@ -77,7 +77,8 @@ void mergePart(Json& merged, const Json& meta, const Json& asset)
 
 } // namespace
 
-Result<std::string> mergeMeta(std::span<const PartMetas> sources, const std::string& name)
+Result<std::string> mergeMeta(std::span<const PartMetas> sources, std::span<const std::string> skipped,
+                              const std::string& name)
 {
     Json merged{{"schema", "hearth.meta/1"}, {"tool", {{"name", "hearth"}, {"version", HEARTH_VERSION}}},
                 {"sources", Json::array()},  {"settings", Json::object()},
@@ -103,6 +104,13 @@ Result<std::string> mergeMeta(std::span<const PartMetas> sources, const std::str
             }
             mergePart(merged, meta, asset);
         }
+    }
+    for (const std::string& text : skipped)
+    {
+        Json failure = Json::parse(text).value_or(Json());
+        if (!failure.is_object())
+            return Error{Issue::meaning_value, name, "--skipped", "is not a JSON object"};
+        merged["skipped"].push_back(std::move(failure));
     }
     return merged.dump(1, '\t');
 }

@@ -21,8 +21,11 @@ struct PartMetas
 
 /// Return schema "hearth.meta/1". Sources, messages and dropped features follow each other in the order of
 /// the sources, counts are summed. The same parts give the same text: no dates, no paths of the machine.
-/// errors: meaning_value if a part's META is not a JSON object; `name` is used in the message.
-Result<std::string> mergeMeta(std::span<const PartMetas> sources, const std::string& name);
+/// skipped  JSON objects for the list of what the pack lacks; META has that list only if there are some
+/// errors: meaning_value if a part's META or a text of `skipped` is not a JSON object; `name` is used in the
+/// message.
+Result<std::string> mergeMeta(std::span<const PartMetas> sources, std::span<const std::string> skipped,
+                              const std::string& name);
 
 /// Return the name of the asset of an import part: the file name of its source without the extension; empty
 /// if META has none.

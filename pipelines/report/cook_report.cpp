@@ -3,8 +3,8 @@
 
 #include "cook/json/json.h"
 #include "formats/records/chunk_list.h"
+#include "pipelines/graph/message.h"
 #include "pipelines/report/base64.h"
-#include "pipelines/report/message.h"
 
 #include <algorithm>
 
@@ -43,7 +43,7 @@ bool hasResult(Outcome ending)
 
 Json messageJson(const std::string& line)
 {
-    const Message message = parseMessage(line);
+    const graph::Message message = graph::parseMessage(line);
     Json json{{"code", message.code}, {"severity", message.severity}, {"text", message.text}};
     if (!message.file.empty())
         json["file"] = message.file;
@@ -376,14 +376,19 @@ std::string reportJson(const CookReport& cook)
     Json report{{"schema", "hearth.report/1"},
                 {"tool", {{"name", "hearth"}, {"version", HEARTH_VERSION}}},
                 {"started", cook.started},
-                {"status", cook.exit_code == 0 ? "ok" : "failed"},
+                {"status", !cook.has_pack         ? "failed"
+                           : cook.skipped.empty() ? "ok"
+                                                  : "incomplete"},
                 {"exit", cook.exit_code},
                 {"output", cook.output},
                 {"up_to_date", cook.is_up_to_date},
                 {"totals", totalsJson(cook, assets)},
+                {"skipped", Json::array()},
                 {"failures", failuresJson(cook)},
                 {"messages", joinLists(assets, "messages")},
                 {"dropped", joinLists(assets, "dropped")}};
+    for (const size_t source : cook.skipped)
+        report["skipped"].push_back(cook.sources[source]);
     for (size_t i = 0; i < cook.outcomes.size(); ++i)
         if (const Action& action = cook.graph->actions[i]; action.source >= cook.sources.size())
         {

@@ -30,6 +30,9 @@ struct CookReport
     bool is_up_to_date = false; ///< the destination had the same pack already, byte for byte
     uint64_t output_bytes = 0;
     std::string error; ///< the first error line; empty where there is none
+    /// True if the pack is at its destination; exit_code is not 0 if it lacks sources.
+    bool has_pack = false;
+    std::vector<size_t> skipped; ///< sources that the pack lacks, ascending; empty where there is no pack
 
     /// null: the cook ended before a graph was made, and all members below are empty
     const graph::Graph* graph = nullptr;

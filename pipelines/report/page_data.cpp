@@ -155,8 +155,8 @@ std::string pageData(const std::string& report_text)
 {
     const Json report = Json::parse(report_text).value();
     Json data;
-    for (const char* key :
-         {"tool", "started", "status", "exit", "output", "up_to_date", "totals", "failures", "error"})
+    for (const char* key : {"tool", "started", "status", "exit", "output", "up_to_date", "totals", "skipped",
+                            "failures", "error"})
         if (report.contains(key))
             data[key] = report[key];
     for (const char* key : {"assets", "meshes", "textures", "stages"})

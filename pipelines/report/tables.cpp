@@ -102,7 +102,9 @@ std::string junitXml(const std::string& report_text)
     const auto output = report.at("output").get<std::string>();
     std::string content = failuresXml(failures, output);
     if (content.empty() && report.at("exit") != 0)
-        content = "    <failure type=\"dependency\" message=\"not made: a source could not be cooked\"/>\n";
+        content =
+            fmt::format("    <failure type=\"dependency\" message=\"{}: a source could not be cooked\"/>\n",
+                        report.at("status") == "incomplete" ? "not complete" : "not made");
     failed += content.empty() ? size_t{0} : size_t{1};
     cases += caseXml(output, report.at("totals").value("wall_s", 0.0), content);
     return fmt::format(

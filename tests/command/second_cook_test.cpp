@@ -374,6 +374,38 @@ TEST_F(SecondCook, severalFailuresAreAllTold)
               1u);
 }
 
+TEST_F(SecondCook, aSkippedSourceIsBackOnceItIsMended)
+{
+    const std::vector<std::string> arguments{"tree.gltf", "house.obj", "-o", "a.hearth", "--bricks"};
+    std::vector<std::string> skipping = arguments;
+    skipping.insert(skipping.end(), {"--missing", "skip"});
+    EXPECT_EQ(cook({"house.obj", "-o", "house.hearth", "--bricks", "--no-cache"}).exit_code, 0);
+    EXPECT_EQ(cook({"tree.gltf", "house.obj", "-o", "clean.hearth", "--bricks", "--no-cache"}).exit_code, 0);
+
+    folder.write("tree.bin", "short");
+    EXPECT_EQ(cook(skipping).exit_code, 1);
+    ASSERT_TRUE(folder.has("a.hearth"));
+    const std::string without = folder.read("a.hearth");
+    EXPECT_EQ(hearth({"diff", "a.hearth", "house.hearth"}).out.find("mesh"), std::string::npos)
+        << "the rest is as if it had never been named";
+    EXPECT_NE(without, folder.read("house.hearth")) << "the pack says what it lacks";
+    EXPECT_EQ(cook(arguments).exit_code, 65);
+    EXPECT_EQ(folder.read("a.hearth"), without) << "untouched by a cook without the option";
+
+    writeGltf(folder, "tree");
+    const ProgramEnd dry = cook({"tree.gltf", "house.obj", "-o", "a.hearth", "--bricks", "-n"});
+    EXPECT_NE(dry.out.find("import     tree.gltf: "), std::string::npos) << dry.out;
+    const ProgramEnd mended = cook(skipping);
+    EXPECT_EQ(mended.exit_code, 0) << mended.err;
+    EXPECT_EQ(ran(mended).count("import house.obj"), 0u) << mended.err;
+    EXPECT_TRUE(folder.read("a.hearth") == folder.read("clean.hearth"));
+    // damaged again: the pack without it comes from the cache
+    folder.write("tree.bin", "short");
+    EXPECT_EQ(cook(skipping).exit_code, 1);
+    EXPECT_TRUE(folder.read("a.hearth") == without);
+    EXPECT_NE(hearth({"why", "a.hearth"}).out.find("tree.gltf"), std::string::npos);
+}
+
 TEST_F(SecondCook, aDryRunWritesNothing)
 {
     const std::vector<std::string> files = folder.list();

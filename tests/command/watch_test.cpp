@@ -117,6 +117,19 @@ TEST_F(Watch, aFailureWaitsForItsMend)
     EXPECT_EQ(end(SIGTERM).exit_code, 130);
 }
 
+TEST_F(Watch, aSkippedSourceIsTakenOnceItIsMended)
+{
+    writeGltf(folder, "tree");
+    fs::remove(folder / "tree.bin");
+    start({"house.obj", "tree.gltf", "--missing", "skip"});
+    ASSERT_TRUE(waitsAfter(0)) << folder.errSoFar();
+    ASSERT_TRUE(folder.has("a.hearth")) << folder.errSoFar();
+    const std::string without = folder.read("a.hearth");
+    writeGltf(folder, "tree");
+    EXPECT_TRUE(comes([&] { return folder.read("a.hearth") != without; })) << folder.errSoFar();
+    EXPECT_EQ(end(SIGTERM).exit_code, 130);
+}
+
 TEST_F(Watch, settingsAreReadAnew)
 {
     folder.write("hearth.toml", "[[rule]]\nmatch = '*'\ntextures.max_size = 2\n");

@@ -5,6 +5,7 @@
 #include "pipelines/graph/cook_graph.h"
 #include "pipelines/graph/journal.h"
 #include "pipelines/graph/plan_json.h"
+#include "pipelines/graph/skip_source.h"
 
 #include <gtest/gtest.h>
 
@@ -58,6 +59,35 @@ std::vector<Words> getCommands(const Graph& graph)
 }
 
 } // namespace
+
+TEST(SkipSource, leavesTheOthersAsTheyAre)
+{
+    CookSettings settings;
+    settings.sources = {"a.obj", "props/b.obj", "c.obj"};
+    settings.output = "out.hearth";
+    settings.values_of_pack = {{"bricks.enabled", {"true", ""}}};
+    Graph graph = makeCookGraph(settings).value();
+    const Graph whole = graph;
+    const std::vector<Failure> failures{
+        {65, "props/b.obj|line 3: error: is bad [E1101] hint: mend it", 1, true, false},
+        {65, "c.obj: error: is not asked about [E1101]", 2, true, false}};
+    skipSource(graph, 1, failures);
+    const std::vector<Words> commands = getCommands(graph);
+    const size_t bricks = graph.actions.size() - 2;
+    EXPECT_EQ(sourcesRead(graph, graph.actions[bricks]), (std::vector<size_t>{0, 2}));
+    EXPECT_EQ(sourcesRead(graph, graph.actions.back()), (std::vector<size_t>{0, 2}));
+    EXPECT_EQ(graph.actions[bricks].inputs.size(), whole.actions[bricks].inputs.size() / 3 * 2);
+    EXPECT_EQ(commands.back(),
+              (Words{"bin/hearth-link", "{import.part}", "{clusters.part}", "{textures.part}",
+                     "{skinning.part}", "{import.part}", "{clusters.part}", "{textures.part}",
+                     "{skinning.part}", "--bricks", "{bricks.part}", "-o", "{pack.hearth}", "--skipped",
+                     R"({"source":"b.obj","code":"E1101","pointer":"line 3","text":"is bad"})"}));
+    const std::vector<Words> before = getCommands(whole);
+    EXPECT_TRUE(std::equal(before.begin(), before.end() - 2, commands.begin()));
+    // the parts that remain are those of the other sources, in order
+    for (const Input& input : graph.actions.back().inputs)
+        EXPECT_NE(input.action == kNoAction ? 0 : graph.actions[input.action].source, 1u);
+}
 
 TEST(CookGraph, passesSettingsToEveryCooker)
 {

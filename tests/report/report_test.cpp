@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
 #include "formats/base/result.h"
+#include "pipelines/graph/message.h"
 #include "pipelines/report/base64.h"
-#include "pipelines/report/message.h"
 #include "pipelines/report/page.h"
 #include "pipelines/report/page_data.h"
 #include "pipelines/report/tables.h"
@@ -15,6 +15,9 @@
 
 namespace hearth::report
 {
+
+using graph::Message;
+using graph::parseMessage;
 
 namespace
 {

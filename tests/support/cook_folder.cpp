@@ -26,10 +26,12 @@ case "$1" in
   *warning*) echo "$1|/extras: warning: left out [W1400]" >&2; echo "noise of a library" >&2 ;;
 esac
 cp "PARTS.import.part" "$3"
+case "$1" in *halfway*) echo "halfway" > "$3" ;; esac
 while [ $# -gt 0 ]; do if [ "$1" = "--stats" ]; then cp "PARTS.import.json" "$2"; fi; shift; done
 )";
 
 constexpr const char* kTextures = R"(#!/bin/sh
+if grep -q "^halfway" "$1"; then echo "$1|chunk IMGD 0: error: is bad [E2009] hint: again" >&2; exit 65; fi
 if [ -e ./textures-fail ]; then echo "$1|chunk IMGD 0: error: is bad [E2009] hint: again" >&2; exit 65; fi
 cp "PARTS.textures.part" "$3"
 while [ "$1" != "--stats" ]; do shift; done
@@ -39,6 +41,7 @@ echo '{"images": [{"name": "bark", "width": 4, "height": 2, "mips": 3, "format":
 
 constexpr const char* kClusters = R"(#!/bin/sh
 if [ "$4" = "--set" ]; then echo "$*" >> asked; fi
+if grep -q "^halfway" "$1"; then echo "$1|chunk SMSH 0: error: is bad [E2010] hint: again" >&2; exit 65; fi
 if [ -e ./clusters-lie ]; then exit 0; fi
 cp "PARTS.clusters.part" "$3"
 while [ "$1" != "--stats" ]; do shift; done

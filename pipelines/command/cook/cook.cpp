@@ -15,6 +15,7 @@
 #include "pipelines/command/cook/render_progress.h"
 #include "pipelines/command/shell/event_log.h"
 #include "pipelines/command/shell/messages.h"
+#include "pipelines/command/shell/name_list.h"
 #include "pipelines/command/shell/progress.h"
 #include "pipelines/command/shell/progress_lines.h"
 #include "pipelines/command/sources/size_outliers.h"
@@ -22,6 +23,7 @@
 #include "pipelines/command/sources/unused_files.h"
 #include "pipelines/graph/causes.h"
 #include "pipelines/graph/executor.h"
+#include "pipelines/graph/skip_source.h"
 #include "pipelines/report/write_report.h"
 
 #include <algorithm>
@@ -30,6 +32,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
+#include <set>
 #include <unistd.h>
 
 namespace hearth::command
@@ -188,11 +191,15 @@ void warnOfOutliers(const graph::Graph& graph, const graph::Executor& executor, 
     const std::string& linked = executor.packPath().empty() ? options.output : executor.packPath();
     const bool were_printed =
         wasPrintedBefore(graph.actions.back(), executor.outcomes().back(), graph, state);
-    for (const SizeOutlier& outlier : findSizeOutliers(linked, options.sources))
+    const std::vector<size_t> in_pack = graph::sourcesRead(graph, graph.actions.back());
+    std::vector<std::string> names;
+    for (const size_t source : in_pack)
+        names.push_back(options.sources[source]);
+    for (const SizeOutlier& outlier : findSizeOutliers(linked, names))
     {
         listeners.fatal_warnings +=
             printMessages({outlier.warning}, were_printed, options, listeners.summary);
-        recorder.report().source_warnings[outlier.source] = outlier.warning;
+        recorder.report().source_warnings[in_pack[outlier.source]] = outlier.warning;
     }
 }
 
@@ -200,12 +207,13 @@ void warnOfOutliers(const graph::Graph& graph, const graph::Executor& executor, 
 /// failures of their own.
 void printFailedCount(const graph::Graph& graph, const graph::Executor& executor, const CookOptions& options)
 {
-    const auto failed = static_cast<size_t>(
-        std::count_if(executor.failures().begin(), executor.failures().end(),
-                      [&](const Failure& failure) { return failure.source < graph.source_count; }));
-    if (failed > 0 && graph.source_count > 1 && options.verbosity != Verbosity::quiet)
+    std::set<size_t> failed;
+    for (const Failure& failure : executor.failures())
+        if (failure.source < graph.source_count)
+            failed.insert(failure.source);
+    if (!failed.empty() && graph.source_count > 1 && options.verbosity != Verbosity::quiet)
         printMessage(fmt::format("{}: not linked, because a dependency failed: {} of {} sources",
-                                 options.output, failed, graph.source_count));
+                                 options.output, failed.size(), graph.source_count));
 }
 
 /// Print which files of cooked folders no cooker has read. Only for a cook that succeeded: the import of a
@@ -303,6 +311,23 @@ void storeFailures(const std::vector<Failure>& failures, CookOutcome& outcome)
             outcome.exit_code = kSomeFailed;
 }
 
+/// Store in the outcome which sources the pack lacks, and print their names.
+void storeSkipped(const std::vector<size_t>& skipped, const std::vector<Failure>& failures,
+                  const CookOptions& options, CookOutcome& outcome)
+{
+    if (skipped.empty())
+        return;
+    outcome.skipped = skipped;
+    outcome.exit_code = kSomeFailed;
+    outcome.error = failures.front().error;
+    std::vector<std::string> names;
+    for (const size_t source : skipped)
+        names.push_back(options.sources[source]);
+    if (options.verbosity != Verbosity::quiet)
+        printMessage(fmt::format("{}: made without {} of {} sources: {}", options.output, skipped.size(),
+                                 options.sources.size(), namesText(names)));
+}
+
 /// Return the reason why the pack is put into place although no action has made it.
 std::string outputCause(const std::optional<std::string>& old_pack_hash)
 {
@@ -357,9 +382,37 @@ bool placePack(const graph::Executor& executor, const std::optional<std::string>
     return false;
 }
 
+/// Put a complete pack into place after its depfile; a cook without a pack fails.
+/// returns  the reason why the pack is replaced although no action has made it; empty if there is none
+std::string finishPack(const graph::Graph& graph, const graph::Executor& executor,
+                       const std::optional<std::string>& old_pack_hash, size_t fatal_warnings,
+                       const CookOptions& options, CookOutcome& outcome)
+{
+    if (!executor.hasPack())
+    {
+        storeFailures(executor.failures(), outcome);
+        printFailedCount(graph, executor, options);
+        return "";
+    }
+    if (fatal_warnings > 0)
+    {
+        failForWarnings(fatal_warnings, options, outcome);
+        return "";
+    }
+    // before the pack: whoever finds a new pack finds its depfile, too
+    if (!writeDepfile(graph, executor, options, outcome) ||
+        !placePack(executor, old_pack_hash, options, outcome))
+        return "";
+    outcome.has_pack = true;
+    storeSkipped(executor.skippedSources(), executor.failures(), options, outcome);
+    const bool is_replaced = !outcome.is_up_to_date && executor.outcomes().back().ending == Outcome::cached;
+    return is_replaced ? outputCause(old_pack_hash) : "";
+}
+
 /// Run the actions of the graph, and put the pack into place.
+/// graph  skipped sources are removed from its actions of the pack
 /// state  state of previous cooks; null: none
-void cookGraph(const graph::Graph& graph, CookState* state, const CookOptions& options, EventLog* log,
+void cookGraph(graph::Graph& graph, CookState* state, const CookOptions& options, EventLog* log,
                CookRecorder& recorder)
 {
     CookOutcome& outcome = recorder.report();
@@ -377,11 +430,12 @@ void cookGraph(const graph::Graph& graph, CookState* state, const CookOptions& o
     listeners.fatal_warnings = printMessages(options.setting_warnings, false, options, listeners.summary);
     graph::Executor executor(graph, resolver, cache, actions,
                              {makePoolLimits(options.jobs, options.memory_bytes), !options.fail_fast,
-                              options.lists_files, programFolder(), options.output},
+                              options.lists_files, programFolder(), options.output, true,
+                              options.skips_missing},
                              makeCookEvents(graph, options, state, listeners, recorder));
     const bool interrupted = !executor.run(old_pack_hash);
     clearBar();
-    if (!interrupted && executor.failures().empty())
+    if (!interrupted && executor.hasPack())
         warnOfOutliers(graph, executor, options, state, listeners, recorder);
     if (!interrupted && hasSummary(options))
         for (const std::string& line : listeners.summary.lines())
@@ -394,20 +448,8 @@ void cookGraph(const graph::Graph& graph, CookState* state, const CookOptions& o
         outcome.exit_code = kInterrupted;
         outcome.error = "interrupted";
     }
-    else if (!executor.failures().empty())
-    {
-        storeFailures(executor.failures(), outcome);
-        printFailedCount(graph, executor, options);
-    }
-    else if (listeners.fatal_warnings > 0)
-        failForWarnings(listeners.fatal_warnings, options, outcome);
-    // before the pack: whoever finds a new pack finds its depfile, too
-    else if (writeDepfile(graph, executor, options, outcome) &&
-             placePack(executor, old_pack_hash, options, outcome))
-    {
-        if (!outcome.is_up_to_date && executor.outcomes().back().ending == Outcome::cached)
-            output_cause = outputCause(old_pack_hash);
-    }
+    else
+        output_cause = finishPack(graph, executor, old_pack_hash, listeners.fatal_warnings, options, outcome);
     if (!options.report_files.empty())
         recorder.copyOutcomes(executor);
     if (state == nullptr)
@@ -456,14 +498,14 @@ void cookInto(const CookOptions& options, EventLog* log, std::optional<graph::Gr
 /// written.
 int writeReports(const CookOptions& options, CookOutcome& outcome)
 {
-    if (outcome.exit_code == 0)
+    if (outcome.has_pack)
         outcome.bytes_of_chunks = readChunkBytes(options.output);
     const std::string json = report::reportJson(outcome);
     for (const std::string& file : options.report_files)
     {
         RenderProgress progress(chooseProgressStyle(options), printFaint);
         const Status status =
-            report::writeReport(json, file, outcome.exit_code == 0 ? options.output : "", "report",
+            report::writeReport(json, file, outcome.has_pack ? options.output : "", "report",
                                 [&](size_t drawn, size_t count) { progress.show(drawn, count); });
         progress.end();
         if (status.ok())
@@ -518,7 +560,7 @@ int cook(const CookOptions& chosen, std::vector<std::string>* dependencies)
         log->done(exit_code, seconds);
     if (outcome.exit_code == 0)
         printUnusedFiles(files_in_folders, options, recorder.dependencies());
-    if (outcome.exit_code == 0 && options.verbosity != Verbosity::quiet)
+    if (outcome.has_pack && options.verbosity != Verbosity::quiet)
         printMessage(fmt::format("{:<10}{:>8.2f} s {:>12}  {}",
                                  outcome.is_up_to_date ? "up to date" : "cooked", seconds,
                                  readableSize(outcome.output_bytes), options.output));

@@ -17,6 +17,8 @@ struct CookOptions : graph::CookSettings, RunLimits
 {
     std::vector<std::string> lods; ///< values of --lod, "N=FILE": authored LODs of the only source
     bool fail_fast = false;        ///< stop at the first failure; else cook all that does not depend on it
+    /// Make the pack without the sources that cannot be cooked; else there is no pack.
+    bool skips_missing = false;
     std::vector<std::string>
         caches; ///< values of --cache, nearest first; none: cache::resolveCacheSpecs decides
     bool no_cache = false;
@@ -43,7 +45,7 @@ struct CookOptions : graph::CookSettings, RunLimits
 /// cache (incremental build). The output appears whole or not at all. After a failure or an interruption an
 /// old output is unchanged, and nothing else is left behind.
 /// dependencies  receives the files that were read or probed; null: not needed
-/// returns     the exit code; every problem has been printed on stderr
+/// returns     the exit code, 1 for a pack without some of its sources; every problem has been printed on stderr
 int cook(const CookOptions& options, std::vector<std::string>* dependencies = nullptr);
 
 } // namespace hearth::command

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/cook/missing_option.h"
 #include "pipelines/command/cook/setting_options.h"
 #include "pipelines/command/cook/watch.h"
 #include "pipelines/command/shell/verb_tools.h"
@@ -70,6 +71,7 @@ void addCook(cli::CommandLine& app, VerbAction& run)
     {
         SettingOptions settings;
         bool watches = false;
+        std::string missing;
         std::string fatal;
     };
     auto options = std::make_shared<Options>();
@@ -96,6 +98,17 @@ void addCook(cli::CommandLine& app, VerbAction& run)
         verb.addFlag("--fail-fast", options->fail_fast, "end at the first failure, not after all sources");
     verb.addFlag("-k,--keep-going", "cook the other sources after a failure: the default")
         .excludes(fail_fast);
+    addMissingOption(
+        verb, options->missing,
+        "where a source cannot be cooked there is no pack (error), or the pack is made without it, "
+        "lists it, and the exit code is 1 (skip)");
+    verb.setCheck(
+        [options]
+        {
+            return options->fail_fast && options->missing == kMissingSkip
+                       ? std::string("--fail-fast: ends at the first failure, where --missing skip goes on")
+                       : std::string();
+        });
     const cli::Option no_cache =
         verb.addFlag("--no-cache", options->no_cache, "run every cooker and keep nothing");
     verb.addFlag("-f,--force", options->force, "run every cooker, whatever the cache has").excludes(no_cache);
@@ -125,6 +138,7 @@ void addCook(cli::CommandLine& app, VerbAction& run)
     verb.setAction(
         [options, &run]
         {
+            options->skips_missing = options->missing == kMissingSkip;
             if (!options->fatal.empty())
                 options->fatal_warnings = parseCodes(options->fatal);
             run = [options]

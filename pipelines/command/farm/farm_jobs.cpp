@@ -6,6 +6,7 @@
 #include "formats/base/temp_directory.h"
 #include "pipelines/command/cook/cook_state.h"
 #include "pipelines/command/cook/cook_tools.h"
+#include "pipelines/command/cook/missing_option.h"
 #include "pipelines/farm/shard_record.h"
 
 #include <algorithm>
@@ -41,6 +42,13 @@ Status runScript(const std::string& script)
         ::waitpid(process, &status, 0) == process && WIFEXITED(status) && WEXITSTATUS(status) == 0)
         return success();
     return Error{Issue::submit_failed, "sbatch", "", ""};
+}
+
+farm::FarmJob makeMergingJob(const OpenedPlan& opened, const FarmVerbOptions& options)
+{
+    farm::FarmJob job = makeFarmJob(opened, options.pack);
+    job.skips_missing = options.missing == kMissingSkip;
+    return job;
 }
 
 const char* shardStateName(Kind kind)
@@ -113,7 +121,7 @@ int submitToSlurm(const SlurmVerbOptions& options)
         return printError(opened.error());
     const graph::Graph& graph = opened->plan.graph;
     const std::string script = farm::slurmScript(
-        makeFarmJob(*opened, options.pack),
+        makeMergingJob(*opened, options),
         {options.partition, options.memory_bytes.value_or(farm::shardMemory(graph)),
          std::max(farm::mergeMemory(graph), options.memory_bytes.value_or(0)), options.retries});
     return printStatus(options.prints ? writeText("-", script) : runScript(script));
@@ -125,7 +133,7 @@ int writeNinjaFile(const NinjaVerbOptions& options)
     if (!opened.ok())
         return printError(opened.error());
     return printStatus(
-        writeText(options.output, farm::ninjaFile(makeFarmJob(*opened, options.pack), options.launcher)));
+        writeText(options.output, farm::ninjaFile(makeMergingJob(*opened, options), options.launcher)));
 }
 
 int printFarmStatus(const PlanOptions& options, const std::string& format)

@@ -10,18 +10,23 @@
 namespace hearth::command
 {
 
-struct SlurmVerbOptions : PlanOptions
+/// Options of the verbs that write commands for a merge.
+struct FarmVerbOptions : PlanOptions
 {
-    std::string pack;
+    std::string pack;    ///< empty: beside the plan, and named after it
+    std::string missing; ///< word of --missing for the merge
+};
+
+struct SlurmVerbOptions : FarmVerbOptions
+{
     std::string partition;
     std::optional<uint64_t> memory_bytes; ///< of a shard; nullopt: the estimate for its cookers
     unsigned retries = 2;
     bool prints = false; ///< print the script instead of submitting it
 };
 
-struct NinjaVerbOptions : PlanOptions
+struct NinjaVerbOptions : FarmVerbOptions
 {
-    std::string pack;
     std::string output;
     std::string launcher;
 };

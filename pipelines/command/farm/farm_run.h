@@ -35,7 +35,8 @@ struct RunOptions : PlanOptions, RunLimits
 struct MergeOptions : PlanOptions, RunLimits
 {
     std::string output;
-    bool cooks_missing = true;             ///< false: list missing results instead
+    bool lists_missing = false;            ///< list missing results instead of cooking them here
+    bool skips_missing = false;            ///< as CookOptions::skips_missing
     std::vector<std::string> report_files; ///< as CookOptions::report_files
 };
 

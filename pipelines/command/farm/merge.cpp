@@ -97,7 +97,7 @@ void printMissing(const OpenedPlan& opened, const std::vector<size_t>& missing, 
         printError({Issue::shard_incomplete, options.plan_file,
                     shardNames(group.shards, opened.plan.shards.size()),
                     fmt::format("{} results are missing{}: {}", group.results,
-                                options.cooks_missing ? ", and cooked here" : "", group.reason)});
+                                options.lists_missing ? "" : ", and cooked here", group.reason)});
 }
 
 /// Print a line after the cook's: the sources that shards should have cooked, and this machine has.
@@ -138,7 +138,7 @@ Result<std::vector<size_t>> findMissing(const OpenedPlan& opened, const MergeOpt
                             TempDirectory::create(temporaryFolderOr("/tmp"), options.output));
     std::vector<size_t> missing =
         farm::missingResults(opened.plan.graph, cook_state.cache(), cook_state.actions(), scratch.path());
-    if (options.verbosity != Verbosity::quiet || !options.cooks_missing)
+    if (options.verbosity != Verbosity::quiet || options.lists_missing)
         printMissing(opened, missing, options, cook_state.cache());
     return missing;
 }
@@ -152,6 +152,7 @@ int cookPack(const OpenedPlan& opened, const MergeOptions& options)
     cooked.output = options.output;
     cooked.caches = opened.caches;
     cooked.report_files = options.report_files;
+    cooked.skips_missing = options.skips_missing;
     return cook(cooked);
 }
 
@@ -164,7 +165,7 @@ Result<int> mergePlan(const MergeOptions& options)
         return Error{Issue::usage, "--cache", "", "results of shards are in a cache: say which"};
     HEARTH_TRY(enterSourceFolder(opened));
     HEARTH_ASSIGN_OR_RETURN(const std::vector<size_t> missing, findMissing(opened, options, *cook_state));
-    if (!missing.empty() && !options.cooks_missing)
+    if (!missing.empty() && options.lists_missing)
     {
         HEARTH_TRY(writeText("-", missingList(opened.plan, missing)));
         return farm::kExitRetry;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/cache/cache_spec.h"
 #include "pipelines/command/cook/common_options.h"
+#include "pipelines/command/cook/missing_option.h"
 #include "pipelines/command/farm/farm_jobs.h"
 #include "pipelines/command/farm/plan_file_options.h"
 #include "pipelines/command/shell/verb_tools.h"
@@ -21,9 +22,12 @@ std::string partitionFault(const std::string& text)
     return is_name ? "" : "'" + text + "' is no name of a partition";
 }
 
-void addPack(cli::CommandLine& verb, std::string& pack)
+void addMergeOptions(cli::CommandLine& verb, FarmVerbOptions& options)
 {
-    verb.addOption("--pack", pack, "what the merge writes; by default beside the plan, and named after it");
+    verb.addOption("--pack", options.pack,
+                   "what the merge writes; by default beside the plan, and named after it");
+    addMissingOption(verb, options.missing,
+                     "of the merge: where a source cannot be cooked there is no pack, or a pack without it");
 }
 
 void addSlurm(cli::CommandLine& farm, VerbAction& run)
@@ -37,7 +41,7 @@ void addSlurm(cli::CommandLine& farm, VerbAction& run)
     };
     auto options = std::make_shared<Options>();
     addPlanFile(verb, *options, options->settings);
-    addPack(verb, options->pack);
+    addMergeOptions(verb, *options);
     verb.addOption("--partition", options->partition, "of the cluster; its own by default")
         .check(partitionFault);
     verb.addOption("--mem-per-shard", options->memory,
@@ -72,7 +76,7 @@ void addNinja(cli::CommandLine& farm, VerbAction& run)
     };
     auto options = std::make_shared<Options>();
     addPlanFile(verb, *options, options->settings);
-    addPack(verb, options->pack);
+    addMergeOptions(verb, *options);
     verb.addOption("-o,--output", options->output, "build file to write").required();
     verb.addOption("--launcher", options->launcher,
                    "what starts each shard, as \"srun -Q -n1\"; by default they run on this machine");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/cook/common_options.h"
+#include "pipelines/command/cook/missing_option.h"
 #include "pipelines/command/cook/setting_options.h"
 #include "pipelines/command/farm/farm_run.h"
 #include "pipelines/command/farm/plan_file_options.h"
@@ -14,6 +15,8 @@ namespace hearth::command
 
 namespace
 {
+
+constexpr const char* kMissingList = "list";
 
 /// Add the options of verbs that run cookers.
 void addRunLimitOptions(cli::CommandLine& verb, SettingOptions& settings)
@@ -148,16 +151,17 @@ void addMerge(cli::CommandLine& app, VerbAction& run)
     struct Options : MergeOptions
     {
         SettingOptions settings;
-        std::string missing = "cook";
+        std::string missing;
     };
     auto options = std::make_shared<Options>();
     addPlanFile(verb, *options, options->settings);
     verb.addOption("-o,--output", options->output, "pack to write").required();
-    verb.addOption("--missing", options->missing,
-                   "what becomes of results that are not there: cook them here, or list them and end with "
-                   "code 75: shards that are run again may make them")
-        .choices({"cook", "list"})
-        .showDefault();
+    addMissingOption(
+        verb, options->missing,
+        "results that are not there are cooked here, and sources that cannot be cooked are treated "
+        "as hearth cook does (error, skip); or they are listed, with code 75: shards that are run "
+        "again may make them (list)",
+        {kMissingList});
     verb.addOption("--report", options->report_files, "write a report, as hearth cook does; may be repeated")
         .oneValueEach();
     addRunLimitOptions(verb, options->settings);
@@ -166,7 +170,8 @@ void addMerge(cli::CommandLine& app, VerbAction& run)
     verb.setAction(
         [options, &run]
         {
-            options->cooks_missing = options->missing == "cook";
+            options->lists_missing = options->missing == kMissingList;
+            options->skips_missing = options->missing == kMissingSkip;
             run = withConfiguration(options->settings,
                                     [options](const profiles::Configuration& configuration)
                                     {

@@ -161,6 +161,15 @@ std::vector<Json> readObjects(const Json& object, const char* key)
     return objects;
 }
 
+std::vector<MessageSummary> readMessages(const Json& object, const char* key)
+{
+    std::vector<MessageSummary> messages;
+    for (const Json& message : readObjects(object, key))
+        messages.push_back({readString(message, "source"), readString(message, "code"),
+                            readString(message, "pointer"), readString(message, "text")});
+    return messages;
+}
+
 } // namespace
 
 MetaSummary readMeta(std::string_view json)
@@ -182,9 +191,8 @@ MetaSummary readMeta(std::string_view json)
         meta.clips.push_back({readCount(clip, "keys_before"), readCount(clip, "keys"),
                               readCount(clip, "bytes_before"), readCount(clip, "bytes"),
                               readNumber(clip, "stated_error"), readNumber(clip, "proven_error")});
-    for (const Json& message : readObjects(root, "messages"))
-        meta.messages.push_back({readString(message, "source"), readString(message, "code"),
-                                 readString(message, "pointer"), readString(message, "text")});
+    meta.messages = readMessages(root, "messages");
+    meta.skipped = readMessages(root, "skipped");
     if (const Json* dropped = root.find("dropped"); dropped != nullptr && dropped->is_array())
         for (const Json& item : *dropped)
             if (item.is_string())

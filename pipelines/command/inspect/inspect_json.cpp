@@ -272,6 +272,17 @@ Json totalsJson(const PackView& pack, const PackSummary& summary)
               {"images_stored", image_bytes}}}};
 }
 
+Json messagesJson(const std::vector<MessageSummary>& messages)
+{
+    Json list = Json::array();
+    for (const MessageSummary& message : messages)
+        list.push_back({{"source", message.source},
+                        {"code", message.code},
+                        {"pointer", message.where},
+                        {"text", message.text}});
+    return list;
+}
+
 } // namespace
 
 std::string inspectJson(const PackView& pack, const PackSummary& summary)
@@ -294,12 +305,8 @@ std::string inspectJson(const PackView& pack, const PackSummary& summary)
     if (!pack.brickGrid().empty())
         json["bricks"] = bricksJson(pack);
     json["chunks"] = chunksJson(pack);
-    json["messages"] = Json::array();
-    for (const MessageSummary& message : summary.meta.messages)
-        json["messages"].push_back({{"source", message.source},
-                                    {"code", message.code},
-                                    {"pointer", message.where},
-                                    {"text", message.text}});
+    json["messages"] = messagesJson(summary.meta.messages);
+    json["skipped"] = messagesJson(summary.meta.skipped);
     json["dropped"] = summary.meta.dropped;
     return json.dump(2) + "\n";
 }

@@ -25,6 +25,13 @@ std::string printable(std::string_view name)
     return text;
 }
 
+/// Return "E1103 rock.glb|/meshes/0: text".
+std::string messageText(const MessageSummary& message)
+{
+    return fmt::format("{} {}{}{}: {}\n", printable(message.code), printable(message.source),
+                       message.where.empty() ? "" : "|", printable(message.where), printable(message.text));
+}
+
 std::string headText(const PackView& pack, const PackSummary& summary)
 {
     const FileHeader& header = pack.container().header();
@@ -34,6 +41,8 @@ std::string headText(const PackView& pack, const PackSummary& summary)
                                    pack.meshes().size(), pack.instances().size());
     for (const SourceSummary& source : summary.meta.sources)
         text += fmt::format("source     {} ({})\n", printable(source.name), readableSize(source.bytes));
+    for (const MessageSummary& failure : summary.meta.skipped)
+        text += "skipped    " + messageText(failure);
     text += "counts    ";
     for (const auto& [name, count] : summary.meta.counts)
         text += fmt::format(" {} {}", count, printable(name));
@@ -155,9 +164,7 @@ std::string messagesText(const MetaSummary& meta)
 {
     std::string text;
     for (const MessageSummary& message : meta.messages)
-        text +=
-            fmt::format("{} {}{}{}: {}\n", printable(message.code), printable(message.source),
-                        message.where.empty() ? "" : "|", printable(message.where), printable(message.text));
+        text += messageText(message);
     return text.empty() ? text : "\n" + text;
 }
 

@@ -352,6 +352,9 @@ void addMetaEntries(std::vector<PackEntry>& entries, const MetaSummary& meta)
             {"message", message.source + message.where, {{"code", message.code}, {"text", message.text}}});
     for (const std::string& dropped : meta.dropped)
         entries.push_back({"dropped", dropped, {}});
+    for (const MessageSummary& failure : meta.skipped)
+        entries.push_back(
+            {"skipped", failure.source + failure.where, {{"code", failure.code}, {"text", failure.text}}});
 }
 
 /// Add a property for each leaf value, named by its JSON pointer.
@@ -403,7 +406,7 @@ std::vector<Property> readMetaSettings(const PackView& pack)
     if (!meta.is_object())
         return {};
     // these are entries of their own
-    for (const char* list : {"sources", "messages", "dropped"})
+    for (const char* list : {"sources", "messages", "dropped", "skipped"})
         meta.erase(list);
     std::vector<Property> settings;
     addSettings(settings, meta, "");

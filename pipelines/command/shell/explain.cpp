@@ -55,7 +55,8 @@ std::string exitCodeTable()
 {
     return "Exit codes:\n"
            "    0  all went well\n"
-           "    1  some sources failed for different reasons, a check found damage, or packs differ\n"
+           "    1  some sources failed for different reasons, the pack lacks some, a check found damage, or "
+           "packs differ\n"
            "    2  the command line is wrong\n"
            "   65  an input's content is wrong\n"
            "   66  an input is missing or cannot be read\n"

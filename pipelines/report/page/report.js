@@ -77,7 +77,7 @@ function showPage() {
   const when = data.started ? new Date(data.started).toLocaleString() : '';
   document.title = `${ok ? '' : '✗ '}${nameOf(data.output)} – hearth cook`;
   $('top').append(el('h1', {title: data.output}, nameOf(data.output)),
-    el('span.badge.' + (ok ? 'good' : 'bad'), {}, ok ? (data.up_to_date ? 'up to date' : 'cooked') : `failed, exit code ${data.exit}`),
+    el('span.badge.' + (ok ? 'good' : 'bad'), {}, ok ? (data.up_to_date ? 'up to date' : 'cooked') : data.status === 'incomplete' ? `without ${plural(data.skipped.length, 'source')}` : `failed, exit code ${data.exit}`),
     el('span.faint', {}, [when, `hearth ${data.tool.version}`].filter(Boolean).join(' · ')),
     el('nav', {'aria-label': 'Sections'}, parts.filter(part => part.id !== 'totals').map(part =>
        el('a', {href: '#' + part.id}, part.querySelector('h2').textContent.split(' and ')[0])), themeButton(timeline.draw)));

@@ -21,7 +21,7 @@ function totalsSection(data) {
             .filter(Boolean).join(', ')),
     total(seconds(totals.wall_s), 'wall time', seconds(totals.cpu_s) + ' of processors'),
     total(all ? percent(kept / all) : '–', 'cache hits', `${count(kept)} of ${plural(all, 'action')}`),
-    total(bytes(totals.bytes_out), 'pack', data.status === 'ok' ? 'of ' + bytes(totals.bytes_in) + ' of sources' : 'not made'),
+    total(bytes(totals.bytes_out), 'pack', data.status !== 'failed' ? 'of ' + bytes(totals.bytes_in) + ' of sources' : 'not made'),
     total(count(triangles), 'source triangles', plural(data.meshes.length, 'mesh').replace('meshs', 'meshes')),
     total(count(data.textures.length), data.textures.length === 1 ? 'texture' : 'textures', bytes(texels) + ' decoded, with mips'),
     total(totals.peak_rss ? bytes(totals.peak_rss) : '–', 'most memory', 'of one cooker'),

@@ -103,6 +103,35 @@ TEST_F(Farm, cooksWhatShardsHaveNotLeft)
     EXPECT_EQ(hearth({"merge", "plan.json", "-o", "farm.hearth", "--missing", "list"}).exit_code, 0);
 }
 
+TEST_F(Farm, skipsWhatALocalCookSkips)
+{
+    folder.write("tree.bin", "short");
+    EXPECT_EQ(over("cook", {"-o", "local.hearth", "-q", "--missing", "skip"}).exit_code, 1);
+    const std::string pack = folder.read("local.hearth");
+    forget();
+    plan(2);
+    run(0, 2);
+    run(1, 2);
+    EXPECT_EQ(hearth({"merge", "plan.json", "-o", "farm.hearth"}).exit_code, 65);
+    EXPECT_FALSE(folder.has("farm.hearth"));
+    const ProgramEnd end =
+        hearth({"merge", "plan.json", "-o", "farm.hearth", "--missing", "skip", "--report", "r.json"});
+    EXPECT_EQ(end.exit_code, 1) << end.err;
+    EXPECT_NE(end.err.find("made without 1 of 4 sources: tree.gltf"), std::string::npos) << end.err;
+    EXPECT_TRUE(folder.read("farm.hearth") == pack);
+    EXPECT_EQ(Json::parse(folder.read("r.json")).value()["status"], "incomplete");
+    for (const std::vector<std::string>& farm :
+         {std::vector<std::string>{"farm", "slurm", "plan.json", "--print", "--missing", "skip"},
+          {"farm", "ninja", "plan.json", "-o", "build.ninja", "--missing", "skip"}})
+    {
+        const ProgramEnd script = hearth(farm);
+        EXPECT_EQ(script.exit_code, 0) << script.err;
+        const std::string text = script.out.empty() ? folder.read("build.ninja") : script.out;
+        EXPECT_EQ(countOccurrences(text, " --missing skip"), 1u) << text;
+        EXPECT_NE(text.find("merge"), std::string::npos) << text;
+    }
+}
+
 TEST_F(Farm, tellsOfLostShardsOnOneLine)
 {
     plan(4);

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace hearth::report
+namespace hearth::graph
 {
 
 /// Message of the form "FILE|POINTER: error: TEXT [E1203] hint: HINT", as formatMessage writes it.
@@ -22,4 +22,4 @@ struct Message
 /// Parse a message. Missing members are empty; a line that is not a message becomes `text`.
 Message parseMessage(std::string_view line);
 
-} // namespace hearth::report
+} // namespace hearth::graph

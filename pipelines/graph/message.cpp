@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/report/message.h"
+#include "pipelines/graph/message.h"
 
 #include <algorithm>
 
-namespace hearth::report
+namespace hearth::graph
 {
 
 namespace
@@ -50,4 +50,4 @@ Message parseMessage(std::string_view line)
     return message;
 }
 
-} // namespace hearth::report
+} // namespace hearth::graph
