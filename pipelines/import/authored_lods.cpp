@@ -108,6 +108,9 @@ Status addLevel(const PackView& from, const tools::LodFile& file, const BaseMesh
         drop("cannot be moved to the place of its source");
         return success();
     }
+    if (!from.extras().empty())
+        part.warn(Issue::dropped, "",
+                  fmt::format("extras of level of detail {} are not kept: those of its source are", name));
     const auto first_material = static_cast<uint32_t>(part.materials.size());
     for (uint32_t& material : mesh.triangle_materials)
         material += material == kInvalidIndex ? 0 : first_material;

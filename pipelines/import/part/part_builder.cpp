@@ -246,6 +246,8 @@ Status PartBuilder::finish()
     HEARTH_TRY(writer_.addRecords<float>(kChunkMorphWeights, morph_weights));
     if (!lods_.empty())
         HEARTH_TRY(writer_.addRecords<AuthoredLodRecord>(kChunkAuthoredLods, lods_));
+    if (!extras.empty())
+        HEARTH_TRY(writer_.addRecords<ExtrasRecord>(kChunkExtras, extras));
     return writer_.finish();
 }
 

@@ -6,6 +6,7 @@
 #include "cook/mesh/source_mesh.h"
 #include "cook/tools/lod_files.h"
 #include "formats/container/container_writer.h"
+#include "formats/records/extras.h"
 #include "formats/records/scene.h"
 #include "pipelines/import/part/vertex_bounds.h"
 
@@ -88,6 +89,7 @@ public:
     std::vector<formats::LightRecord> lights;
     std::vector<formats::ShadowSphereRecord> shadow_spheres;
     std::vector<formats::MaterialRecord> materials;
+    std::vector<formats::ExtrasRecord> extras; ///< sorted; of asset, scene and file with index 0
     std::vector<formats::SkinRecord> skins;
     std::vector<formats::JointRecord> joints;
     std::vector<formats::AnimationRecord> animations;
