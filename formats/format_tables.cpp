@@ -52,6 +52,17 @@ Value value(std::string_view name, T number, std::string_view meaning = "")
     return {name, static_cast<uint32_t>(number), meaning};
 }
 
+std::vector<Value> listExtrasOwners()
+{
+    std::vector<Value> values;
+    for (uint32_t owner = 0; owner < kExtrasOwnerNames.size(); ++owner)
+        values.push_back({kExtrasOwnerNames[owner], owner, ""});
+    values[static_cast<size_t>(ExtrasOwner::asset)].meaning = "of the source's asset object";
+    values[static_cast<size_t>(ExtrasOwner::scene)].meaning = "of the source's scene that is drawn";
+    values[static_cast<size_t>(ExtrasOwner::file)].meaning = "of the source's document";
+    return values;
+}
+
 std::vector<ValueTable> valueTables()
 {
     return {
@@ -70,13 +81,17 @@ std::vector<ValueTable> valueTables()
         {"AlphaMode",
          {value("opaque", AlphaMode::opaque), value("mask", AlphaMode::mask, "cut at alpha_cutoff"),
           value("blend", AlphaMode::blend)}},
+        {"ExtrasOwner", listExtrasOwners()},
         {"MaterialFlags",
          {value("double-sided", kMaterialDoubleSided),
           value("unlit", kMaterialUnlit, "KHR_materials_unlit")}},
         {"TexelFormat",
          {value("rgba8_srgb", TexelFormat::rgba8_srgb, "4 bytes; colour, alpha linear"),
           value("rgba8_unorm", TexelFormat::rgba8_unorm, "4 bytes; data"),
-          value("rgba16_float", TexelFormat::rgba16_float, "8 bytes; linear")}},
+          value("rgba16_float", TexelFormat::rgba16_float, "8 bytes; linear"),
+          value("rgba16_unorm", TexelFormat::rgba16_unorm, "8 bytes; data of a source with 16 bits"),
+          value("rgba16_srgb", TexelFormat::rgba16_srgb,
+                "8 bytes; parts only: colour of a source with 16 bits, alpha linear")}},
         {"ImageFlags",
          {value("placeholder", kImagePlaceholder, "stands for an image that could not be read"),
           value("normal map", kImageNormalMap, "mips are averaged as directions"),

@@ -21,14 +21,15 @@ namespace
 
 using formats::ImageRecord;
 
-void encodeMip(Content content, const FloatImage& mip, float alpha_scale, std::span<std::byte> out)
+void encodeMip(Content content, uint32_t format, const FloatImage& mip, float alpha_scale,
+               std::span<std::byte> out)
 {
     const size_t row_bytes = out.size() / mip.height;
     tbb::parallel_for(tbb::blocked_range<uint32_t>(0, mip.height),
                       [&](const tbb::blocked_range<uint32_t>& rows)
                       {
                           for (uint32_t y = rows.begin(); y < rows.end(); ++y)
-                              encodeRow(content, mip.row(y), alpha_scale,
+                              encodeRow(content, format, mip.row(y), alpha_scale,
                                         out.subspan(y * row_bytes, row_bytes));
                       });
 }
@@ -36,8 +37,7 @@ void encodeMip(Content content, const FloatImage& mip, float alpha_scale, std::s
 /// True if mips must keep the share of texels that pass the alpha test.
 bool keepsCoverage(const ImageRecord& image)
 {
-    return (image.flags & formats::kImageAlphaTested) != 0 &&
-           static_cast<formats::TexelFormat>(image.format) != formats::TexelFormat::rgba16_float;
+    return (image.flags & formats::kImageAlphaTested) != 0 && formats::texelBytes(image.format) == 4;
 }
 
 } // namespace
@@ -50,12 +50,16 @@ uint32_t fullMipCount(uint32_t width, uint32_t height)
 std::vector<std::byte> buildMipChain(const ImageRecord& image, std::vector<std::byte> texels)
 {
     ImageRecord chain = image;
+    chain.format = mipFormat(image.format);
     chain.mip_count = fullMipCount(image.width, image.height);
-    HEARTH_ASSERT(texels.size() == formats::mipOffset(chain, 1));
+    HEARTH_ASSERT(texels.size() == formats::mipOffset(image, 1));
     const Content content = classifyContent(image);
     const size_t row_bytes = texels.size() / image.height;
-    const double coverage = keepsCoverage(image) ? alphaCoverage(texels, image.alpha_cutoff) : 0;
-    texels.resize(static_cast<size_t>(formats::mipOffset(chain, chain.mip_count)));
+    const bool is_narrowed = chain.format != image.format;
+    std::vector<std::byte> mips = is_narrowed ? formats::narrowTexels(texels) : std::move(texels);
+    const double coverage = keepsCoverage(chain) ? alphaCoverage(mips, image.alpha_cutoff) : 0;
+    mips.resize(static_cast<size_t>(formats::mipOffset(chain, chain.mip_count)));
+    const std::span<const std::byte> source = is_narrowed ? texels : mips;
 
     FloatImage mip;
     for (uint32_t level = 1; level < chain.mip_count; ++level)
@@ -63,19 +67,19 @@ std::vector<std::byte> buildMipChain(const ImageRecord& image, std::vector<std::
         // the first mip is made from stored texels row by row: as floats, the finest mip would be four times
         // as large
         const auto readStored = [&](uint32_t y, std::span<Float4> out)
-        { decodeRow(content, std::span(texels).subspan(y * row_bytes, row_bytes), out); };
+        { decodeRow(content, image.format, source.subspan(y * row_bytes, row_bytes), out); };
         const auto readMip = [&](uint32_t y, std::span<Float4> out)
         { std::copy(mip.row(y).begin(), mip.row(y).end(), out.begin()); };
         mip =
             level == 1 ? halve(image.width, image.height, readStored) : halve(mip.width, mip.height, readMip);
 
         const float alpha_scale =
-            keepsCoverage(image) ? scaleForCoverage(mip, image.alpha_cutoff, coverage) : 1;
+            keepsCoverage(chain) ? scaleForCoverage(mip, image.alpha_cutoff, coverage) : 1;
         const auto begin = static_cast<size_t>(formats::mipOffset(chain, level));
         const auto end = static_cast<size_t>(formats::mipOffset(chain, level + 1));
-        encodeMip(content, mip, alpha_scale, std::span(texels).subspan(begin, end - begin));
+        encodeMip(content, chain.format, mip, alpha_scale, std::span(mips).subspan(begin, end - begin));
     }
-    return texels;
+    return mips;
 }
 
 } // namespace hearth::textures

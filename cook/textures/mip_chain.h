@@ -14,8 +14,9 @@ namespace hearth::textures
 /// Return the number of mips of an image down to one texel.
 uint32_t fullMipCount(uint32_t width, uint32_t height);
 
-/// Build all mips, finest first, tightly packed; the finest is `texels` unchanged. Every mip represents the
-/// finest one: nothing is rounded in between. Same bytes for any number of threads.
+/// Build all mips in mipFormat(), finest first, tightly packed. The finest is `texels`, unchanged or with its
+/// channels rounded to 8 bits. Every other mip represents `texels`: nothing is rounded in between. Same bytes
+/// for any number of threads.
 ///
 /// image    width, height, format, flags and alpha_cutoff are read; mip_count is not
 /// texels   width * height texels of that format (asserted)

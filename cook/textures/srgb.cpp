@@ -41,4 +41,16 @@ const SrgbTables& SrgbTables::get()
     return tables;
 }
 
+WideSrgbTable::WideSrgbTable()
+{
+    for (size_t i = 0; i < linear_.size(); ++i)
+        linear_[i] = static_cast<float>(linearFromSrgb(static_cast<double>(i) / 65535));
+}
+
+const WideSrgbTable& WideSrgbTable::get()
+{
+    static const WideSrgbTable table;
+    return table;
+}
+
 } // namespace hearth::textures

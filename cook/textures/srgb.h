@@ -40,4 +40,18 @@ private:
     std::array<uint8_t, kBuckets> first_of_bucket_;
 };
 
+/// Table of the transfer function for 16 bits, made when it is first needed.
+class WideSrgbTable
+{
+public:
+    static const WideSrgbTable& get();
+
+    float linear(uint16_t stored) const { return linear_[stored]; }
+
+private:
+    WideSrgbTable();
+
+    std::array<float, 65536> linear_;
+};
+
 } // namespace hearth::textures

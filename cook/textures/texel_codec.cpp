@@ -3,9 +3,11 @@
 
 #include "cook/textures/srgb.h"
 #include "formats/base/half.h"
+#include "formats/pack/pack_view.h"
 
 #include <array>
 #include <cstring>
+#include <limits>
 
 namespace hearth::textures
 {
@@ -17,25 +19,50 @@ namespace
 // the faintest alpha that 8 bits store, cut-away texels add less than 1/4000.
 constexpr float kMinWeight = 0x1p-20f;
 
-// Minimum length of a mean direction. Stored directions are accurate to half a step of 8 bits: a mean shorter
+// Minimum length of a mean direction. Directions stored in 8 bits are accurate to half a step: a mean shorter
 // than one step has no direction.
 constexpr float kMinDirectionLength = 1.0f / 128;
 
-uint8_t unorm8(float value)
+/// Return a stored channel as a share of its range.
+template <typename T>
+float fromUnorm(T channel)
 {
-    return static_cast<uint8_t>(std::clamp(value, 0.0f, 1.0f) * 255 + 0.5f);
+    return static_cast<float>(channel) / static_cast<float>(std::numeric_limits<T>::max());
 }
 
-/// Decode a normal: 0..255 means -1..1, as in glTF.
-Float3 decodeNormal(const uint8_t* texel)
+template <typename T>
+T toUnorm(float value)
 {
-    const auto component = [](uint8_t value) { return static_cast<float>(value) / 127.5f - 1; };
+    constexpr auto kMax = static_cast<float>(std::numeric_limits<T>::max());
+    return static_cast<T>(std::clamp(value, 0.0f, 1.0f) * kMax + 0.5f);
+}
+
+/// Four channels as stored.
+template <typename T>
+using Texel = std::array<T, 4>;
+
+template <typename T>
+Texel<T> readTexel(std::span<const std::byte> row, size_t i)
+{
+    Texel<T> texel;
+    std::memcpy(texel.data(), row.data() + i * sizeof(texel), sizeof(texel));
+    return texel;
+}
+
+/// Decode a normal: 0 to the largest number means -1 to 1, as in glTF.
+template <typename T>
+Float3 decodeNormal(const Texel<T>& texel)
+{
+    constexpr float kHalf = static_cast<float>(std::numeric_limits<T>::max()) / 2;
+    const auto component = [](T value) { return static_cast<float>(value) / kHalf - 1; };
     return normalizeOr({component(texel[0]), component(texel[1]), component(texel[2])}, {0, 0, 1});
 }
 
-Float4 decode(Content content, const uint8_t* texel, const SrgbTables& srgb)
+/// srgb  SrgbTables for 8 bits, WideSrgbTable for 16
+template <typename T, typename Srgb>
+Float4 decode(Content content, const Texel<T>& texel, const Srgb& srgb)
 {
-    const float alpha = static_cast<float>(texel[3]) / 255;
+    const float alpha = fromUnorm(texel[3]);
     switch (content)
     {
     case Content::color:
@@ -50,31 +77,49 @@ Float4 decode(Content content, const uint8_t* texel, const SrgbTables& srgb)
         return {direction.x, direction.y, direction.z, alpha};
     }
     default:
-        return {static_cast<float>(texel[0]) / 255, static_cast<float>(texel[1]) / 255,
-                static_cast<float>(texel[2]) / 255, alpha};
+        return {fromUnorm(texel[0]), fromUnorm(texel[1]), fromUnorm(texel[2]), alpha};
     }
 }
 
-std::array<uint8_t, 4> encode(Content content, Float4 texel, float alpha_scale, const SrgbTables& srgb)
+Texel<uint8_t> encodeColor(Float4 texel, float alpha_scale, const SrgbTables& srgb)
 {
-    const uint8_t alpha = unorm8(texel.w * alpha_scale);
-    switch (content)
+    const float weight = texel.w + kMinWeight;
+    return {srgb.stored(texel.x / weight), srgb.stored(texel.y / weight), srgb.stored(texel.z / weight),
+            toUnorm<uint8_t>(texel.w * alpha_scale)};
+}
+
+/// Encode data or a normal.
+template <typename T>
+Texel<T> encode(Content content, Float4 texel, float alpha_scale)
+{
+    const T alpha = toUnorm<T>(texel.w * alpha_scale);
+    if (content != Content::normals)
+        return {toUnorm<T>(texel.x), toUnorm<T>(texel.y), toUnorm<T>(texel.z), alpha};
+    const Float3 mean{texel.x, texel.y, texel.z};
+    const Float3 direction = length(mean) < kMinDirectionLength ? Float3{0, 0, 1} : mean / length(mean);
+    return {toUnorm<T>(direction.x * 0.5f + 0.5f), toUnorm<T>(direction.y * 0.5f + 0.5f),
+            toUnorm<T>(direction.z * 0.5f + 0.5f), alpha};
+}
+
+Float4 decodeLight(const Texel<uint16_t>& half)
+{
+    return {floatFromHalf(half[0]), floatFromHalf(half[1]), floatFromHalf(half[2]), floatFromHalf(half[3])};
+}
+
+Texel<uint16_t> encodeLight(Float4 texel, float alpha_scale)
+{
+    return {halfFromFloat(texel.x), halfFromFloat(texel.y), halfFromFloat(texel.z),
+            halfFromFloat(texel.w * alpha_scale)};
+}
+
+/// Write the texels of a row, each encoded by `encodeTexel`.
+template <typename Encode>
+void writeRow(std::span<const Float4> texels, std::span<std::byte> out, const Encode& encodeTexel)
+{
+    for (size_t i = 0; i < texels.size(); ++i)
     {
-    case Content::color:
-    {
-        const float weight = texel.w + kMinWeight;
-        return {srgb.stored(texel.x / weight), srgb.stored(texel.y / weight), srgb.stored(texel.z / weight),
-                alpha};
-    }
-    case Content::normals:
-    {
-        const Float3 mean{texel.x, texel.y, texel.z};
-        const Float3 direction = length(mean) < kMinDirectionLength ? Float3{0, 0, 1} : mean / length(mean);
-        return {unorm8(direction.x * 0.5f + 0.5f), unorm8(direction.y * 0.5f + 0.5f),
-                unorm8(direction.z * 0.5f + 0.5f), alpha};
-    }
-    default:
-        return {unorm8(texel.x), unorm8(texel.y), unorm8(texel.z), alpha};
+        const auto stored = encodeTexel(texels[i]);
+        std::memcpy(out.data() + i * sizeof(stored), stored.data(), sizeof(stored));
     }
 }
 
@@ -82,49 +127,48 @@ std::array<uint8_t, 4> encode(Content content, Float4 texel, float alpha_scale, 
 
 Content classifyContent(const formats::ImageRecord& image)
 {
-    const auto format = static_cast<formats::TexelFormat>(image.format);
-    if (format == formats::TexelFormat::rgba16_float)
+    if (static_cast<formats::TexelFormat>(image.format) == formats::TexelFormat::rgba16_float)
         return Content::light;
     if ((image.flags & formats::kImageNormalMap) != 0)
         return Content::normals;
-    return format == formats::TexelFormat::rgba8_srgb ? Content::color : Content::data;
+    return formats::isSrgb(image.format) ? Content::color : Content::data;
 }
 
-void decodeRow(Content content, std::span<const std::byte> stored, std::span<Float4> out)
+uint32_t mipFormat(uint32_t imported_format)
 {
-    const SrgbTables& srgb = SrgbTables::get();
-    if (content != Content::light)
+    return formats::isSrgb(imported_format) ? static_cast<uint32_t>(formats::TexelFormat::rgba8_srgb)
+                                            : imported_format;
+}
+
+void decodeRow(Content content, uint32_t format, std::span<const std::byte> stored, std::span<Float4> out)
+{
+    const auto decodeAll = [&](const auto& decodeTexel)
     {
-        const auto* texels = reinterpret_cast<const uint8_t*>(stored.data());
         for (size_t i = 0; i < out.size(); ++i)
-            out[i] = decode(content, texels + i * 4, srgb);
-        return;
-    }
-    for (size_t i = 0; i < out.size(); ++i)
-    {
-        std::array<uint16_t, 4> half;
-        std::memcpy(half.data(), stored.data() + i * sizeof(half), sizeof(half));
-        out[i] = {floatFromHalf(half[0]), floatFromHalf(half[1]), floatFromHalf(half[2]),
-                  floatFromHalf(half[3])};
-    }
+            out[i] = decodeTexel(i);
+    };
+    if (content == Content::light)
+        decodeAll([&](size_t i) { return decodeLight(readTexel<uint16_t>(stored, i)); });
+    else if (formats::isUnorm16(format))
+        decodeAll([&, &srgb = WideSrgbTable::get()](size_t i)
+                  { return decode(content, readTexel<uint16_t>(stored, i), srgb); });
+    else
+        decodeAll([&, &srgb = SrgbTables::get()](size_t i)
+                  { return decode(content, readTexel<uint8_t>(stored, i), srgb); });
 }
 
-void encodeRow(Content content, std::span<const Float4> texels, float alpha_scale, std::span<std::byte> out)
+void encodeRow(Content content, uint32_t format, std::span<const Float4> texels, float alpha_scale,
+               std::span<std::byte> out)
 {
     const SrgbTables& srgb = SrgbTables::get();
-    for (size_t i = 0; i < texels.size(); ++i)
-    {
-        const Float4& t = texels[i];
-        if (content == Content::light)
-        {
-            const std::array<uint16_t, 4> half = {halfFromFloat(t.x), halfFromFloat(t.y), halfFromFloat(t.z),
-                                                  halfFromFloat(t.w * alpha_scale)};
-            std::memcpy(out.data() + i * sizeof(half), half.data(), sizeof(half));
-            continue;
-        }
-        const std::array<uint8_t, 4> stored = encode(content, t, alpha_scale, srgb);
-        std::memcpy(out.data() + i * stored.size(), stored.data(), stored.size());
-    }
+    if (content == Content::light)
+        writeRow(texels, out, [&](Float4 texel) { return encodeLight(texel, alpha_scale); });
+    else if (content == Content::color)
+        writeRow(texels, out, [&](Float4 texel) { return encodeColor(texel, alpha_scale, srgb); });
+    else if (formats::isUnorm16(format))
+        writeRow(texels, out, [&](Float4 texel) { return encode<uint16_t>(content, texel, alpha_scale); });
+    else
+        writeRow(texels, out, [&](Float4 texel) { return encode<uint8_t>(content, texel, alpha_scale); });
 }
 
 } // namespace hearth::textures

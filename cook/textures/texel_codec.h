@@ -24,10 +24,14 @@ enum class Content : uint8_t
 
 Content classifyContent(const formats::ImageRecord& image);
 
-/// Decode one row of stored texels to working texels. `stored` has out.size() texels.
-void decodeRow(Content content, std::span<const std::byte> stored, std::span<Float4> out);
+/// Return the format of the mips of an imported image: colours with 16 bits a channel get 8.
+uint32_t mipFormat(uint32_t imported_format);
 
-/// Encode one row, rounded to nearest. `alpha_scale` multiplies alpha.
-void encodeRow(Content content, std::span<const Float4> texels, float alpha_scale, std::span<std::byte> out);
+/// Decode one row of stored texels to working texels. `stored` has out.size() texels of the format.
+void decodeRow(Content content, uint32_t format, std::span<const std::byte> stored, std::span<Float4> out);
+
+/// Encode one row in a format of mips, rounded to nearest. `alpha_scale` multiplies alpha.
+void encodeRow(Content content, uint32_t format, std::span<const Float4> texels, float alpha_scale,
+               std::span<std::byte> out);
 
 } // namespace hearth::textures

@@ -2,6 +2,7 @@
 #include "cook/textures/texture_part.h"
 
 #include "cook/textures/mip_chain.h"
+#include "cook/textures/texel_codec.h"
 #include "formats/container/container_reader.h"
 #include "formats/container/container_writer.h"
 #include "formats/pack/image_uses.h"
@@ -67,21 +68,23 @@ std::string readName(std::string_view strings, const StringRef& name)
 }
 
 /// image, chain  with all mips
+/// imported      the texels of the import part, where `image` has another format than they; else empty
 ImageStatistics computeStatistics(std::string_view strings, const ImageRecord& image,
-                                  std::span<const std::byte> chain, uint32_t skipped_mips)
+                                  std::span<const std::byte> chain, uint32_t skipped_mips,
+                                  std::span<const std::byte> imported)
 {
     ImageStatistics statistics;
     statistics.name = readName(strings, image.name);
     statistics.image = withoutMips(image, skipped_mips);
     statistics.bytes = chain.size() - mipOffset(image, skipped_mips);
     // the finest mip is the imported image, texel by texel: see buildMipChain
-    if (skipped_mips == 0)
+    if (skipped_mips == 0 && imported.empty())
         statistics.error = 0;
-    if (texelBytes(image.format) != 4)
+    if (classifyContent(image) == Content::light)
         return statistics;
-    statistics.error = mipError(image, chain, skipped_mips);
+    statistics.error = mipError(image, chain, skipped_mips, imported);
     if (skipped_mips + 1 < image.mip_count)
-        statistics.half_error = mipError(image, chain, skipped_mips + 1);
+        statistics.half_error = mipError(image, chain, skipped_mips + 1, imported);
     return statistics;
 }
 
@@ -128,13 +131,17 @@ Status cookTextures(const std::string& import_path, const std::string& output_pa
     {
         HEARTH_ASSIGN_OR_RETURN(std::vector<std::byte> texels, readTexels(part, images[i], i));
         images[i].mip_count = fullMipCount(images[i].width, images[i].height);
+        const bool is_narrowed = mipFormat(images[i].format) != images[i].format;
+        const std::vector<std::byte> imported =
+            is_narrowed && statistics != nullptr ? texels : std::vector<std::byte>();
         const std::vector<std::byte> chain = buildMipChain(images[i], std::move(texels));
+        images[i].format = mipFormat(images[i].format);
         const uint32_t skipped_mips = countTooLargeMips(images[i], max_size);
         HEARTH_TRY(writer.addChunk({.type = kChunkImageData, .index = i},
                                    std::span(chain).subspan(mipOffset(images[i], skipped_mips)), 1,
                                    Codec::zstd));
         if (statistics != nullptr)
-            statistics->push_back(computeStatistics(names, images[i], chain, skipped_mips));
+            statistics->push_back(computeStatistics(names, images[i], chain, skipped_mips, imported));
         images[i] = withoutMips(images[i], skipped_mips);
     }
     HEARTH_TRY(writer.addRecords<ImageRecord>(kChunkImages, images));

@@ -8,7 +8,11 @@
 #include "formats/records/texel_format_name.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
+#include <limits>
+#include <type_traits>
 
 namespace hearth::textures
 {
@@ -18,19 +22,49 @@ using namespace formats;
 namespace
 {
 
-/// Sum the squared differences of one texel's channels, from 0 to 255 * 255: colours times alpha, others
-/// times 255.
-uint64_t squaredDifference(Content content, const uint8_t* a, const uint8_t* b)
+/// Return four channels of a texel, scaled so that their maximum is `kMax`.
+template <typename T, int64_t kMax>
+std::array<int64_t, 4> readTexel(const std::byte* texels, size_t i)
 {
-    uint64_t sum = 0;
-    for (int channel = 0; channel < 4; ++channel)
-    {
-        const bool by_alpha = content == Content::color && channel < 3;
-        const int64_t difference =
-            int64_t{a[channel]} * (by_alpha ? a[3] : 255) - int64_t{b[channel]} * (by_alpha ? b[3] : 255);
-        sum += static_cast<uint64_t>(difference * difference);
-    }
-    return sum;
+    std::array<T, 4> stored;
+    std::memcpy(stored.data(), texels + i * sizeof(stored), sizeof(stored));
+    constexpr int64_t kScale = kMax / std::numeric_limits<T>::max();
+    return {stored[0] * kScale, stored[1] * kScale, stored[2] * kScale, stored[3] * kScale};
+}
+
+/// Return the mean of the squared differences of all channels of the finest mip and a smaller one: colours
+/// times alpha. Channels of 8 bits are summed in integers, which is faster.
+/// Finest, Smaller  types of their channels
+template <typename Finest, typename Smaller>
+double meanSquare(const ImageRecord& image, const std::byte* finest, const std::byte* smaller,
+                  MipExtent smaller_size)
+{
+    constexpr bool kIsNarrow = sizeof(Finest) == 1 && sizeof(Smaller) == 1;
+    constexpr int64_t kMax = kIsNarrow ? 255 : 65535;
+    const bool is_color = classifyContent(image) == Content::color;
+    // 2^28 texels of 4 channels of 2^32 fit 64 bits
+    std::conditional_t<kIsNarrow, uint64_t, double> sum = 0;
+    for (uint32_t y = 0; y < image.height; ++y)
+        for (uint32_t x = 0; x < image.width; ++x)
+        {
+            // odd sizes are stretched, too, so that all of the smaller mip is used
+            const size_t smaller_x = size_t{x} * smaller_size.width / image.width;
+            const size_t smaller_y = size_t{y} * smaller_size.height / image.height;
+            const auto a = readTexel<Finest, kMax>(finest, size_t{y} * image.width + x);
+            const auto b = readTexel<Smaller, kMax>(smaller, smaller_y * smaller_size.width + smaller_x);
+            for (size_t channel = 0; channel < 4; ++channel)
+            {
+                const bool by_alpha = is_color && channel < 3;
+                const int64_t difference =
+                    a[channel] * (by_alpha ? a[3] : kMax) - b[channel] * (by_alpha ? b[3] : kMax);
+                if constexpr (kIsNarrow)
+                    sum += static_cast<uint64_t>(difference * difference);
+                else
+                    sum += static_cast<double>(difference) * static_cast<double>(difference);
+            }
+        }
+    constexpr auto kRange = static_cast<double>(kMax * kMax);
+    return static_cast<double>(sum) / (4.0 * image.width * image.height) / (kRange * kRange);
 }
 
 const char* contentName(Content content)
@@ -83,25 +117,16 @@ Json imageJson(const ImageStatistics& image, size_t index)
 
 } // namespace
 
-double mipError(const ImageRecord& image, std::span<const std::byte> mips, uint32_t mip)
+double mipError(const ImageRecord& image, std::span<const std::byte> mips, uint32_t mip,
+                std::span<const std::byte> imported)
 {
-    HEARTH_ASSERT(texelBytes(image.format) == 4 && mip < image.mip_count);
-    const Content content = classifyContent(image);
-    const auto* finest = reinterpret_cast<const uint8_t*>(mips.data());
-    const auto* smaller = reinterpret_cast<const uint8_t*>(mips.data() + mipOffset(image, mip));
+    HEARTH_ASSERT(classifyContent(image) != Content::light && mip < image.mip_count);
+    const std::byte* smaller = mips.data() + mipOffset(image, mip);
     const MipExtent size = mipExtent(image, mip);
-    uint64_t sum = 0; // 2^28 texels of 4 channels of 2^32 fit
-    for (uint32_t y = 0; y < image.height; ++y)
-        for (uint32_t x = 0; x < image.width; ++x)
-        {
-            // odd sizes are stretched, too, so that all of the smaller mip is used
-            const size_t smaller_x = size_t{x} * size.width / image.width;
-            const size_t smaller_y = size_t{y} * size.height / image.height;
-            sum += squaredDifference(content, finest + (size_t{y} * image.width + x) * 4,
-                                     smaller + (smaller_y * size.width + smaller_x) * 4);
-        }
-    const double channels = 4.0 * image.width * image.height;
-    return std::sqrt(static_cast<double>(sum) / channels) / (255.0 * 255.0);
+    if (isUnorm16(image.format))
+        return std::sqrt(meanSquare<uint16_t, uint16_t>(image, mips.data(), smaller, size));
+    return std::sqrt(imported.empty() ? meanSquare<uint8_t, uint8_t>(image, mips.data(), smaller, size)
+                                      : meanSquare<uint16_t, uint8_t>(image, imported.data(), smaller, size));
 }
 
 std::string statisticsJson(const std::string& source, std::span<const ImageStatistics> images)

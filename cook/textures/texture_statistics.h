@@ -28,8 +28,8 @@ struct ImageStatistics
     formats::ImageRecord image{};
     uint64_t bytes = 0;        ///< of all mips
     uint64_t stored_bytes = 0; ///< size in the file
-    /// RMS difference between the finest stored mip and the imported image, over four channels, as a share of
-    /// a channel's whole range. Empty for light (RGBA16F) that was made smaller: its range has no end.
+    /// RMS difference between the finest stored mip and the source's image, with all bits that it has, over
+    /// four channels, as a share of a channel's whole range. Empty for light (RGBA16F) that was made smaller: its range has no end.
     std::optional<double> error;
     /// The same for the next mip: the loss of an image of half the size. Empty for light, and if there is no
     /// such mip.
@@ -37,12 +37,13 @@ struct ImageStatistics
 };
 
 /// Compute the RMS difference between mip `mip`, stretched over the finest, and the finest; see
-/// ImageStatistics. Colours are weighted by their alpha: cut-away texels are not visible. Exact sums, so the
-/// same for any order of texels.
+/// ImageStatistics. Colours are weighted by their alpha: cut-away texels are not visible.
 ///
-/// image    with its mips; RGBA8
-/// mips     all of them, finest first, as buildMipChain gives them
-double mipError(const formats::ImageRecord& image, std::span<const std::byte> mips, uint32_t mip);
+/// image     with its mips; not light (asserted)
+/// mips      all of them, finest first, as buildMipChain gives them
+/// imported  the finest with 16 bits a channel, where the mips have 8; empty: the finest mip
+double mipError(const formats::ImageRecord& image, std::span<const std::byte> mips, uint32_t mip,
+                std::span<const std::byte> imported = {});
 
 /// Return JSON text with the schema "hearth.textures/1". `source` is the name of the input.
 std::string statisticsJson(const std::string& source, std::span<const ImageStatistics> images);

@@ -81,6 +81,10 @@ enum class IssueClass : uint8_t
       "save the image again as PNG, JPEG or WebP")                                                           \
     X(image_alpha, 1304, warning, "an image's alpha is not opacity, as its file says; it is not kept",       \
       "if it is opacity, save the image as PNG, or as TGA with attributes type 3")                           \
+    X(image_layers, 1305, warning, "an image has layers beside the one that is read; they are not kept",     \
+      "save the layer that is meant as an image of its own")                                                 \
+    X(image_depth, 1306, warning, "an image has more bits than are kept of it",                              \
+      "colours need 8 bits; save light as EXR or HDR")                                                       \
     X(dropped, 1400, warning, "a part of the source is not kept", "")                                        \
     X(degraded, 1401, warning, "a part of the source is drawn in a simpler way", "")                         \
     X(repaired, 1402, warning, "a part of the source was repaired", "")                                      \
@@ -88,6 +92,8 @@ enum class IssueClass : uint8_t
       "export the file again")                                                                               \
     X(nothing_drawn, 1404, warning, "a source has no triangle; nothing of it is drawn",                      \
       "export meshes of triangles: points and lines are not drawn")                                          \
+    X(lod_coverage, 1405, warning, "screen coverages of levels of detail are not used",                      \
+      "none needed: a level is drawn while its error is too small to see; extras keep the numbers")          \
     X(size_outlier, 1410, warning, "a source is much larger or smaller than the others of its cook",         \
       "if its unit is wrong, set import.scale in a rule")                                                    \
     X(profile_syntax, 1500, config, "a file of settings is not valid TOML",                                  \

@@ -149,6 +149,7 @@ Status checkPageGeometry(const PackView& view, const PageLoop& loop);
 Status checkAuthoredLevels(const PackView& view);
 Status checkDeformedMeshes(const PackView& view);
 Status checkAssets(const PackView& view);
+Status checkExtras(const PackView& view);
 Status checkSpecularTable(const PackView& view);
 Status checkBrickTables(const PackView& view);
 

@@ -58,7 +58,7 @@ Status checkImage(const PackView& view, uint32_t i, BulkData bulk)
     const auto full_chain = static_cast<uint32_t>(std::bit_width(std::max(image.width, image.height)));
     if (image.mip_count < 1 || image.mip_count > full_chain)
         return makeError(view, Issue::meaning_value, "image", i, std::to_string(image.mip_count) + " mips");
-    if (texelBytes(image.format) == 0)
+    if (texelBytes(image.format) == 0 || image.format == static_cast<uint32_t>(TexelFormat::rgba16_srgb))
         return makeError(view, Issue::meaning_value, "image", i, "format " + std::to_string(image.format));
     if ((image.flags & ~uint32_t{kImagePlaceholder | kImageNormalMap | kImageAlphaTested}) != 0)
         return makeError(view, Issue::meaning_value, "image", i, "flags " + std::to_string(image.flags));

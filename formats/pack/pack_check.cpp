@@ -44,21 +44,22 @@ Status checkUtf8(const PackView& view, uint32_t chunk, std::string_view text)
     return success();
 }
 
-/// Check that names lie inside the string table and split no character.
+/// Check that names, or other texts of records, lie inside the string table and split no character.
 template <typename Record>
-Status checkNames(const PackView& view, const char* kind, std::span<const Record> records)
+Status checkNames(const PackView& view, const char* kind, std::span<const Record> records,
+                  StringRef Record::*text = &Record::name)
 {
     const std::string_view all = view.strings();
     const auto cuts = [&](size_t at)
     { return at < all.size() && (static_cast<unsigned char>(all[at]) & 0xC0) == 0x80; };
     for (size_t i = 0; i < records.size(); ++i)
     {
-        const StringRef name = records[i].name;
+        const StringRef name = records[i].*text;
         if (!isInsideTable({name.offset, name.length}, all.size()))
-            return makeError(view, Issue::meaning_range, kind, i, "its name lies outside chunk STRS");
+            return makeError(view, Issue::meaning_range, kind, i, "its text lies outside chunk STRS");
         if (cuts(name.offset) || cuts(size_t{name.offset} + name.length))
             return makeError(view, Issue::meaning_text, kind, i,
-                             "its name cuts a character of chunk STRS in two");
+                             "its text cuts a character of chunk STRS in two");
     }
     return success();
 }
@@ -88,6 +89,7 @@ Status checkTexts(const PackView& view)
     HEARTH_TRY(checkNames(view, "camera", view.cameras()));
     HEARTH_TRY(checkNames(view, "light", view.lights()));
     HEARTH_TRY(checkNames(view, "mesh", view.meshes()));
+    HEARTH_TRY(checkNames(view, "extras", view.extras(), &ExtrasRecord::json));
     return checkNames(view, "authored level", view.authoredLevels());
 }
 
@@ -147,6 +149,7 @@ Status checkPackWith(const PackView& view, check::BulkData bulk, const CheckHier
     HEARTH_TRY(check::checkAuthoredLevels(view));
     HEARTH_TRY(check::checkDeformedMeshes(view));
     HEARTH_TRY(check::checkAssets(view));
+    HEARTH_TRY(check::checkExtras(view));
     HEARTH_TRY(checkSpecular(view));
     return checkBricks(view);
 }

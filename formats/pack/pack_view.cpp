@@ -11,6 +11,18 @@
 namespace hearth::formats
 {
 
+std::vector<std::byte> narrowTexels(std::span<const std::byte> texels)
+{
+    std::vector<std::byte> narrow(texels.size() / 2);
+    for (size_t i = 0; i < narrow.size(); ++i)
+    {
+        uint16_t channel;
+        std::memcpy(&channel, texels.data() + i * sizeof(channel), sizeof(channel));
+        narrow[i] = std::byte{narrowUnorm(channel)};
+    }
+    return narrow;
+}
+
 std::optional<ClusterGeometry> ClusterGeometry::at(std::span<const std::byte> page,
                                                    const ClusterRecord& cluster, const MeshRecord& mesh)
 {
@@ -114,6 +126,16 @@ std::string_view PackView::text(StringRef ref) const
     return isInsideTable({ref.offset, ref.length}, strings().size())
                ? strings().substr(ref.offset, ref.length)
                : std::string_view();
+}
+
+std::string_view PackView::findExtras(ExtrasOwner owner, uint32_t index) const
+{
+    const uint64_t key = makeExtrasKey(static_cast<uint32_t>(owner), index);
+    const auto makeKey = [](const ExtrasRecord& record) { return makeExtrasKey(record.owner, record.index); };
+    const auto found = std::lower_bound(extras().begin(), extras().end(), key,
+                                        [&](const ExtrasRecord& record, uint64_t wanted)
+                                        { return makeKey(record) < wanted; });
+    return found != extras().end() && makeKey(*found) == key ? text(found->json) : std::string_view();
 }
 
 Result<ChunkData> PackView::imageData(uint32_t image) const

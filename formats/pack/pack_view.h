@@ -9,6 +9,7 @@
 #include "formats/container/container_reader.h"
 #include "formats/records/bricks.h"
 #include "formats/records/deformation.h"
+#include "formats/records/extras.h"
 #include "formats/records/mesh.h"
 #include "formats/records/provenance.h"
 #include "formats/records/scene.h"
@@ -37,7 +38,7 @@ constexpr bool isInsideTable(Range range, size_t size)
     return range.first <= size && range.count <= size - range.first;
 }
 
-/// Return the bytes of a texel; 0 for a format that does not exist.
+/// Return the bytes of a texel; 0 for a format that does not exist. All formats have four channels.
 constexpr uint32_t texelBytes(uint32_t format)
 {
     switch (static_cast<TexelFormat>(format))
@@ -46,9 +47,34 @@ constexpr uint32_t texelBytes(uint32_t format)
     case TexelFormat::rgba8_unorm:
         return 4;
     case TexelFormat::rgba16_float:
+    case TexelFormat::rgba16_unorm:
+    case TexelFormat::rgba16_srgb:
         return 8;
     }
     return 0;
+}
+
+/// Reduce a channel of 16 bits to 8, to the nearest.
+constexpr uint8_t narrowUnorm(uint16_t channel)
+{
+    return static_cast<uint8_t>((channel * 255u + 32767u) / 65535u);
+}
+
+/// Return texels with their channels reduced from 16 bits to 8.
+std::vector<std::byte> narrowTexels(std::span<const std::byte> texels);
+
+/// True if red, green and blue are coded as sRGB.
+constexpr bool isSrgb(uint32_t format)
+{
+    return format == static_cast<uint32_t>(TexelFormat::rgba8_srgb) ||
+           format == static_cast<uint32_t>(TexelFormat::rgba16_srgb);
+}
+
+/// True if the channels are 16-bit numbers from 0 to 1.
+constexpr bool isUnorm16(uint32_t format)
+{
+    return format == static_cast<uint32_t>(TexelFormat::rgba16_unorm) ||
+           format == static_cast<uint32_t>(TexelFormat::rgba16_srgb);
 }
 
 struct MipExtent
@@ -300,6 +326,9 @@ public:
 
     /// Return the assets; none in parts.
     std::span<const AssetRecord> assets() const { return assets_.records.span(); }
+    std::span<const ExtrasRecord> extras() const { return extras_.records.span(); }
+    /// Return the extras of an object as JSON text; empty if it has none. Time: logarithmic.
+    std::string_view findExtras(ExtrasOwner owner, uint32_t index) const;
     std::span<const NodeRecord> nodes() const { return nodes_.records.span(); }
     std::span<const InstanceRecord> instances() const { return instances_.records.span(); }
     std::span<const CameraRecord> cameras() const { return cameras_.records.span(); }
@@ -374,9 +403,9 @@ private:
     /// Return all tables, as readTables() reads them.
     auto tables()
     {
-        return std::tie(assets_, nodes_, instances_, cameras_, lights_, shadow_spheres_, materials_, images_,
-                        skins_, joints_, animations_, channels_, keys_, key_bits_, morph_weights_, meshes_,
-                        levels_, groups_, clusters_, pages_, page_parents_, authored_levels_,
+        return std::tie(assets_, extras_, nodes_, instances_, cameras_, lights_, shadow_spheres_, materials_,
+                        images_, skins_, joints_, animations_, channels_, keys_, key_bits_, morph_weights_,
+                        meshes_, levels_, groups_, clusters_, pages_, page_parents_, authored_levels_,
                         deformed_meshes_, deformed_clusters_, cluster_joints_, specular_tables_, brick_grid_,
                         brick_groups_, bricks_, brick_opacity_, brick_albedo_, brick_normals_,
                         brick_emission_, brick_lighting_);
@@ -390,6 +419,7 @@ private:
     ChunkData meta_;
     ChunkData strings_;
     Table<AssetRecord> assets_{kChunkAssets};
+    Table<ExtrasRecord> extras_{kChunkExtras};
     Table<NodeRecord> nodes_{kChunkNodes};
     Table<InstanceRecord> instances_{kChunkInstances};
     Table<CameraRecord> cameras_{kChunkCameras};

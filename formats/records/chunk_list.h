@@ -4,6 +4,7 @@
 
 #include "formats/records/bricks.h"
 #include "formats/records/deformation.h"
+#include "formats/records/extras.h"
 #include "formats/records/mesh.h"
 #include "formats/records/provenance.h"
 #include "formats/records/scene.h"
@@ -72,6 +73,8 @@ inline constexpr std::array kChunkList{
               "rest weights of nodes with morph targets"},
     makeTableInfo<AssetRecord>(kChunkAssets, 1, ChunkPurpose::scene,
                                "the sources, and what of the pack each is"),
+    makeTableInfo<ExtrasRecord>(kChunkExtras, 1, ChunkPurpose::scene,
+                                "custom properties of the source's objects"),
     makeTableInfo<MeshRecord>(kChunkMeshes, 2, ChunkPurpose::geometry,
                               "one for each mesh of the source, same index"),
     makeTableInfo<LevelRecord>(kChunkLevels, 1, ChunkPurpose::geometry, "levels of detail of all meshes"),

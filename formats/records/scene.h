@@ -173,6 +173,8 @@ enum class TexelFormat : uint32_t
     rgba8_srgb = 0,  ///< colour; alpha linear
     rgba8_unorm = 1, ///< data
     rgba16_float = 2,
+    rgba16_unorm = 3, ///< data of a source with 16 bits
+    rgba16_srgb = 4,  ///< parts only: colour of a source with 16 bits; packs have rgba8_srgb
 };
 
 enum ImageFlags : uint32_t
@@ -342,7 +344,7 @@ HEARTH_RECORD(hearth::formats::ImageRecord, 32,
               HEARTH_FIELD(hearth::formats::ImageRecord, height, "texels"),
               HEARTH_FIELD(hearth::formats::ImageRecord, mip_count, ""),
               HEARTH_FIELD(hearth::formats::ImageRecord, format,
-                           "0 RGBA8 sRGB, 1 RGBA8 unorm, 2 RGBA16 float"),
+                           "0 RGBA8 sRGB, 1 RGBA8 unorm, 2 RGBA16 float, 3 RGBA16 unorm, 4 RGBA16 sRGB"),
               HEARTH_FIELD(hearth::formats::ImageRecord, flags,
                            "1 placeholder, 2 normal map, 4 alpha-tested"),
               HEARTH_FIELD(hearth::formats::ImageRecord, alpha_cutoff, "that the mips keep the coverage of"));

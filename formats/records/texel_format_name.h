@@ -21,6 +21,10 @@ inline const char* texelFormatName(uint32_t format)
         return "rgba8-unorm";
     case TexelFormat::rgba16_float:
         return "rgba16-float";
+    case TexelFormat::rgba16_unorm:
+        return "rgba16-unorm";
+    case TexelFormat::rgba16_srgb:
+        return "rgba16-srgb";
     }
     return "unknown";
 }

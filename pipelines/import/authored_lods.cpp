@@ -56,7 +56,9 @@ Status copyImages(const PackView& from, PartBuilder& part)
         DecodedImage image;
         image.width = record.width;
         image.height = record.height;
-        image.is_float = record.format == static_cast<uint32_t>(TexelFormat::rgba16_float);
+        image.type = isUnorm16(record.format)         ? ChannelType::unorm16
+                     : texelBytes(record.format) == 8 ? ChannelType::float16
+                                                      : ChannelType::unorm8;
         image.texels.assign(data.bytes().begin(), data.bytes().end());
         HEARTH_ASSIGN_OR_RETURN(const uint32_t added, part.addImage(record, image));
         static_cast<void>(added);
@@ -108,6 +110,9 @@ Status addLevel(const PackView& from, const tools::LodFile& file, const BaseMesh
         drop("cannot be moved to the place of its source");
         return success();
     }
+    if (!from.extras().empty())
+        part.warn(Issue::dropped, "",
+                  fmt::format("extras of level of detail {} are not kept: those of its source are", name));
     const auto first_material = static_cast<uint32_t>(part.materials.size());
     for (uint32_t& material : mesh.triangle_materials)
         material += material == kInvalidIndex ? 0 : first_material;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/image_card.h"
 
+#include "pipelines/import/images/channels.h"
 #include "pipelines/import/images/decode.h"
 #include "pipelines/import/part/import_options.h"
 #include "pipelines/import/part/part_builder.h"
@@ -29,14 +30,11 @@ mesh::SourceMesh cardMesh(float aspect, const std::string& name)
     return mesh;
 }
 
-bool hasAlpha(const DecodedImage& image)
+/// True if the card shows what is behind it. Floats are an environment map: alpha outside of an EXR's window
+/// does not mean transparency.
+bool isTransparent(const DecodedImage& image)
 {
-    if (image.is_float)
-        return false; // an environment map: alpha outside of an EXR's window does not mean transparency
-    for (size_t at = 3; at < image.texels.size(); at += 4)
-        if (image.texels[at] != std::byte{0xFF})
-            return true;
-    return false;
+    return !image.isFloat() && hasAlpha(image);
 }
 
 } // namespace
@@ -45,20 +43,20 @@ Status importImage(const std::string& path, std::span<const std::byte> bytes, co
                    PartBuilder& part)
 {
     HEARTH_ASSIGN_OR_RETURN(const DecodedImage image, decodeImage(bytes, path, options.limits));
-    if (!image.alpha_note.empty())
-        part.warn(Issue::image_alpha, "", image.alpha_note);
+    for (const ImageNote& note : image.notes)
+        part.warn(note.issue, "", note.text);
+    part.warnOfColorDepth(image, "", "the image");
     const std::string name = path.substr(path.rfind('/') + 1);
     formats::ImageRecord record{};
     record.name = part.intern(name);
-    record.format = static_cast<uint32_t>(image.is_float ? formats::TexelFormat::rgba16_float
-                                                         : formats::TexelFormat::rgba8_srgb);
+    record.format = static_cast<uint32_t>(formats::TexelFormat::rgba8_srgb);
     HEARTH_ASSIGN_OR_RETURN(const uint32_t index, part.addImage(record, image));
 
     formats::MaterialRecord material = defaultScanMaterial();
     material.name = record.name;
     material.flags = formats::kMaterialUnlit;
     material.alpha_mode =
-        static_cast<uint32_t>(hasAlpha(image) ? formats::AlphaMode::blend : formats::AlphaMode::opaque);
+        static_cast<uint32_t>(isTransparent(image) ? formats::AlphaMode::blend : formats::AlphaMode::opaque);
     material.base_color_texture.image = index;
     material.base_color_texture.wrap_u = static_cast<uint8_t>(formats::Wrap::clamp_to_edge);
     material.base_color_texture.wrap_v = static_cast<uint8_t>(formats::Wrap::clamp_to_edge);

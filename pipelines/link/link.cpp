@@ -119,13 +119,15 @@ bool advanceOffsets(const Source& source, TableOffsets& next)
     next = source.offsets;
     next.strings = source.offsets.mesh_strings;
     next.page_bytes += alignedPageBytes(meshes);
-    return advanceOffset(next.strings, meshes.strings().size()) &&
+    return advanceOffset(next.strings, meshes.strings().size()) && advanceOffset(next.assets, 1) &&
            advanceOffset(next.nodes, scene.nodes().size()) &&
+           advanceOffset(next.cameras, scene.cameras().size()) &&
            advanceOffset(next.lights, scene.lights().size()) &&
            advanceOffset(next.materials, scene.materials().size()) &&
            advanceOffset(next.images, scene.images().size()) &&
            advanceOffset(next.skins, scene.skins().size()) &&
            advanceOffset(next.joints, scene.joints().size()) &&
+           advanceOffset(next.animations, scene.animations().size()) &&
            advanceOffset(next.channels, scene.channels().size()) &&
            advanceOffset(next.keys, scene.keys().size()) &&
            advanceOffset(next.key_words, scene.keyBits().size()) &&
@@ -269,6 +271,22 @@ Status writeScene(ContainerWriter& writer, std::span<const Source> sources)
     return writeJoined(writer, sources, kChunkMorphWeights, &Source::import_part, &PackView::morphWeights);
 }
 
+/// Write the extras of all sources, sorted by object; no chunk if there are none.
+Status writeExtras(ContainerWriter& writer, std::span<const Source> sources)
+{
+    std::vector<ExtrasRecord> merged;
+    for (const Source& source : sources)
+        for (ExtrasRecord record : source.import_part.extras())
+        {
+            rebase(record, source.offsets);
+            merged.push_back(record);
+        }
+    std::stable_sort(merged.begin(), merged.end(),
+                     [](const ExtrasRecord& a, const ExtrasRecord& b)
+                     { return makeExtrasKey(a.owner, a.index) < makeExtrasKey(b.owner, b.index); });
+    return merged.empty() ? success() : writer.addRecords<ExtrasRecord>(kChunkExtras, merged);
+}
+
 /// Write the groups of all sources; groups of deformed meshes get the spheres that hold in all poses.
 Status writeGroups(ContainerWriter& writer, std::span<const Source> sources)
 {
@@ -404,6 +422,7 @@ Status writePack(const std::string& path, std::span<const Source> sources,
     HEARTH_TRY(writeStrings(writer, sources));
     HEARTH_TRY(writeScene(writer, sources));
     HEARTH_TRY(writeAssets(writer, sources));
+    HEARTH_TRY(writeExtras(writer, sources));
     HEARTH_TRY(writeMeshes(writer, sources));
     HEARTH_TRY(writeAuthoredLevels(writer, sources));
     HEARTH_TRY(writeDeformedMeshes(writer, sources));

@@ -35,6 +35,33 @@ void addOffset(TextureRef& texture, uint32_t by)
     addOffset(texture.image, by);
 }
 
+/// Return the start of the table that objects of the kind are in; 0 for an unknown kind.
+uint32_t findOffset(ExtrasOwner owner, const TableOffsets& offsets)
+{
+    switch (owner)
+    {
+    case ExtrasOwner::node:
+        return offsets.nodes;
+    case ExtrasOwner::mesh:
+        return offsets.meshes;
+    case ExtrasOwner::material:
+        return offsets.materials;
+    case ExtrasOwner::camera:
+        return offsets.cameras;
+    case ExtrasOwner::light:
+        return offsets.lights;
+    case ExtrasOwner::skin:
+        return offsets.skins;
+    case ExtrasOwner::animation:
+        return offsets.animations;
+    case ExtrasOwner::asset:
+    case ExtrasOwner::scene:
+    case ExtrasOwner::file:
+        return offsets.assets;
+    }
+    return 0;
+}
+
 } // namespace
 
 void rebase(NodeRecord& node, const TableOffsets& offsets)
@@ -68,6 +95,12 @@ void rebase(ShadowSphereRecord& sphere, const TableOffsets& offsets)
 {
     addOffset(sphere.node, offsets.nodes);
     addOffset(sphere.light, offsets.lights);
+}
+
+void rebase(ExtrasRecord& extras, const TableOffsets& offsets)
+{
+    addOffset(extras.index, findOffset(static_cast<ExtrasOwner>(extras.owner), offsets));
+    addOffset(extras.json, offsets.strings);
 }
 
 void rebase(MaterialRecord& material, const TableOffsets& offsets)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "formats/records/deformation.h"
+#include "formats/records/extras.h"
 #include "formats/records/mesh.h"
 #include "formats/records/provenance.h"
 #include "formats/records/scene.h"
@@ -15,12 +16,15 @@ struct TableOffsets
 {
     uint32_t strings = 0;      ///< bytes; of the import part, which the textures part refers to as well
     uint32_t mesh_strings = 0; ///< bytes; of the clusters part
+    uint32_t assets = 0;
     uint32_t nodes = 0;
+    uint32_t cameras = 0;
     uint32_t lights = 0;
     uint32_t materials = 0;
     uint32_t images = 0;
     uint32_t skins = 0;
     uint32_t joints = 0;
+    uint32_t animations = 0;
     uint32_t channels = 0;
     uint32_t keys = 0;
     uint32_t key_words = 0;
@@ -41,6 +45,7 @@ void rebase(formats::InstanceRecord& instance, const TableOffsets& offsets);
 void rebase(formats::CameraRecord& camera, const TableOffsets& offsets);
 void rebase(formats::LightRecord& light, const TableOffsets& offsets);
 void rebase(formats::ShadowSphereRecord& sphere, const TableOffsets& offsets);
+void rebase(formats::ExtrasRecord& extras, const TableOffsets& offsets);
 void rebase(formats::MaterialRecord& material, const TableOffsets& offsets);
 void rebase(formats::ImageRecord& image, const TableOffsets& offsets);
 void rebase(formats::SkinRecord& skin, const TableOffsets& offsets);

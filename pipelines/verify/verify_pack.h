@@ -1,4 +1,4 @@
-// Runs the pack checks of formats/, which start no threads, on all cores.
+// Runs the pack checks of formats/, which start no threads, on all cores, and checks what only tools need.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -7,7 +7,8 @@
 namespace hearth::verify
 {
 
-/// Check a pack as formats::checkPack does, with the same result.
+/// Check a pack as formats::checkPack does, with the same result, and then that its extras are JSON.
+/// errors: those of checkPack; meaning_value and meaning_range at "extras 3".
 Status verifyPack(const formats::PackView& view);
 
 } // namespace hearth::verify

@@ -32,7 +32,7 @@
 
 /* Major version << 16 | minor version. A library accepts callers of its major version, up to its minor
  * version. */
-#define HEARTH_API_VERSION 0x00010006u
+#define HEARTH_API_VERSION 0x00010007u
 
 typedef int32_t hearth_result;
 enum
@@ -601,7 +601,8 @@ enum
     HEARTH_TABLE_CAMERAS = 5,
     HEARTH_TABLE_LIGHTS = 6,
     HEARTH_TABLE_SKINS = 7,
-    HEARTH_TABLE_ANIMATIONS = 8
+    HEARTH_TABLE_ANIMATIONS = 8,
+    HEARTH_TABLE_ASSETS = 9 /* 1.7: the sources of the pack, by file name */
 };
 
 /* Count the records of a table (HEARTH_TABLE_*). errors: USAGE. */
@@ -619,6 +620,38 @@ typedef struct hearth_name
  * errors: USAGE, also if there is no such record. */
 HEARTH_API hearth_result hearth_pack_get_name(const hearth_pack* pack, uint32_t table, uint32_t index,
                                               hearth_name* name, char* message, size_t message_size);
+
+/* ---- Extras (1.7), on any thread ----
+ *
+ * Custom properties that artists give to objects: "extras" of glTF. Hearth hands them on unread. */
+
+/* Kind of object. The last three are of a source as a whole: their index is that of HEARTH_TABLE_ASSETS. */
+enum
+{
+    HEARTH_EXTRAS_NODE = 0,
+    HEARTH_EXTRAS_MESH = 1,
+    HEARTH_EXTRAS_MATERIAL = 2,
+    HEARTH_EXTRAS_CAMERA = 3,
+    HEARTH_EXTRAS_LIGHT = 4,
+    HEARTH_EXTRAS_SKIN = 5,
+    HEARTH_EXTRAS_ANIMATION = 6,
+    HEARTH_EXTRAS_ASSET = 7, /* glTF's object "asset", with the author and the licence */
+    HEARTH_EXTRAS_SCENE = 8, /* the source's scene that is drawn */
+    HEARTH_EXTRAS_FILE = 9   /* the source's whole document */
+};
+
+/* JSON text in UTF-8 without white space between tokens, otherwise as the source has it: digits of numbers,
+ * escapes of strings, the order of members. Not zero-terminated. Valid while the pack is open. Opening a pack
+ * does not parse it: a game does, with a parser that bears broken text. */
+typedef struct hearth_extras
+{
+    const char* json; /* NULL: the object has no extras */
+    size_t length;    /* bytes, at most 16 MiB; 0: none */
+} hearth_extras;
+
+/* Read the extras of an object. errors: USAGE, also if there is no such object. */
+HEARTH_API hearth_result hearth_pack_get_extras(const hearth_pack* pack, uint32_t owner, uint32_t index,
+                                                hearth_extras* extras, char* message, size_t message_size);
 
 /* Placed mesh. */
 typedef struct hearth_pack_instance

@@ -120,6 +120,20 @@ public:
         return result;
     }
 
+    /// The JSON text is valid while the pack is open; empty if the object has no extras.
+    /// owner  HEARTH_EXTRAS_*
+    [[nodiscard]] hearth_result getExtras(uint32_t owner, uint32_t index, std::string_view& json,
+                                          std::string* message = nullptr) const
+    {
+        hearth_extras read{};
+        const hearth_result result =
+            callWithMessage(message, [&](char* text, size_t size)
+                            { return hearth_pack_get_extras(get(), owner, index, &read, text, size); });
+        if (result == HEARTH_OK)
+            json = read.json == nullptr ? std::string_view() : std::string_view(read.json, read.length);
+        return result;
+    }
+
     [[nodiscard]] hearth_result getInstance(uint32_t index, hearth_pack_instance& instance,
                                             std::string* message = nullptr) const
     {

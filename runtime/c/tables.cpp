@@ -1,4 +1,4 @@
-// Tables of a pack: counts, names, instances and cameras.
+// Tables of a pack: counts, names, extras, instances and cameras.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/c/handles.h"
 
@@ -12,9 +12,19 @@ namespace
 {
 
 /// A record of each table, in the order of HEARTH_TABLE_*.
-constexpr std::array kRecordNames{"node",   "instance", "mesh", "material", "image",
-                                  "camera", "light",    "skin", "animation"};
-static_assert(kRecordNames.size() == HEARTH_TABLE_ANIMATIONS + 1);
+constexpr std::array kRecordNames{"node",   "instance", "mesh", "material",  "image",
+                                  "camera", "light",    "skin", "animation", "asset"};
+static_assert(kRecordNames.size() == HEARTH_TABLE_ASSETS + 1);
+
+/// Table of the objects of each kind of extras, in the order of HEARTH_EXTRAS_*.
+constexpr std::array kExtrasTables{HEARTH_TABLE_NODES,      HEARTH_TABLE_MESHES, HEARTH_TABLE_MATERIALS,
+                                   HEARTH_TABLE_CAMERAS,    HEARTH_TABLE_LIGHTS, HEARTH_TABLE_SKINS,
+                                   HEARTH_TABLE_ANIMATIONS, HEARTH_TABLE_ASSETS, HEARTH_TABLE_ASSETS,
+                                   HEARTH_TABLE_ASSETS};
+static_assert(kExtrasTables.size() == formats::kExtrasOwnerNames.size());
+static_assert(HEARTH_EXTRAS_CAMERA == static_cast<int>(formats::ExtrasOwner::camera));
+static_assert(HEARTH_EXTRAS_ANIMATION == static_cast<int>(formats::ExtrasOwner::animation));
+static_assert(HEARTH_EXTRAS_FILE == static_cast<int>(formats::ExtrasOwner::file));
 
 static_assert(HEARTH_CAMERA_PERSPECTIVE == static_cast<int>(formats::CameraType::perspective));
 static_assert(HEARTH_CAMERA_ORTHOGRAPHIC == static_cast<int>(formats::CameraType::orthographic));
@@ -41,8 +51,10 @@ auto withRecords(const formats::PackView& view, uint32_t table, const Use& use)
         return use(view.lights());
     case HEARTH_TABLE_SKINS:
         return use(view.skins());
-    default:
+    case HEARTH_TABLE_ANIMATIONS:
         return use(view.animations());
+    default:
+        return use(view.assets());
     }
 }
 
@@ -152,6 +164,25 @@ hearth_result hearth_pack_get_name(const hearth_pack* pack, uint32_t table, uint
                     const std::string_view text = withRecords(
                         view, table, [&](const auto& records) { return readName(view, records[index]); });
                     *name = {text.empty() ? "" : text.data(), text.size()};
+                    return success();
+                });
+}
+
+hearth_result hearth_pack_get_extras(const hearth_pack* pack, uint32_t owner, uint32_t index,
+                                     hearth_extras* extras, char* message, size_t message_size)
+{
+    return call({message, message_size}, __func__,
+                [&]() -> Status
+                {
+                    if (owner >= kExtrasTables.size())
+                        return usage("owner " + std::to_string(owner) +
+                                     " is not one that this version knows");
+                    HEARTH_TRY(checkRecord(pack, kExtrasTables[owner], index));
+                    if (extras == nullptr)
+                        return usage("extras is NULL");
+                    const std::string_view json =
+                        pack->pack.view().findExtras(static_cast<formats::ExtrasOwner>(owner), index);
+                    *extras = {json.empty() ? nullptr : json.data(), json.size()};
                     return success();
                 });
 }

@@ -2,6 +2,7 @@
 #include "tests/formats/malformed_packs.h"
 
 #include <limits>
+#include <utility>
 
 namespace hearth::test
 {
@@ -69,6 +70,26 @@ const std::vector<MalformedPack>& malformedProvenance()
          [](PackModel& p) {
              p.authored_levels[0].name = {static_cast<uint32_t>(p.strings.size()), 1};
          }},
+        {"extrasOfAnUnknownKind", Issue::meaning_value, "extras 9",
+         [](PackModel& p) { p.extras[9].owner = 10; }},
+        {"extrasOfNoNode", Issue::meaning_reference, "extras 0", [](PackModel& p) { p.extras[0].index = 4; }},
+        {"extrasOfNoAsset", Issue::meaning_reference, "extras 8",
+         [](PackModel& p) { p.extras[8].index = 1; }},
+        {"extrasEmpty", Issue::meaning_value, "extras 2", [](PackModel& p) { p.extras[2].json.length = 0; }},
+        {"extrasTooLong", Issue::meaning_value, "extras 1",
+         [](PackModel& p)
+         {
+             p.extras[1].json = {static_cast<uint32_t>(p.strings.size()), kMaxExtrasBytes + 1};
+             p.strings.append(kMaxExtrasBytes + 1, ' ');
+         }},
+        {"extrasTwice", Issue::meaning_order, "extras 1",
+         [](PackModel& p) { p.extras.insert(p.extras.begin(), p.extras[0]); }},
+        {"extrasNotSorted", Issue::meaning_order, "extras 5",
+         [](PackModel& p) { std::swap(p.extras[4], p.extras[5]); }},
+        {"extrasOutside", Issue::meaning_range, "extras 3",
+         [](PackModel& p) { p.extras[3].json.offset = 0xFFFFFFF0u; }},
+        {"extrasCutACharacter", Issue::meaning_text, "extras 7",
+         [](PackModel& p) { p.extras[7].json.length -= 3; }},
     };
     return list;
 }

@@ -207,6 +207,60 @@ TEST(CheckPack, reportsTheFirstWrongVertexAndWhatIsFirstWrongWithIt)
     EXPECT_THAT(getRefusal(2, 2), testing::HasSubstr("vertex 2: its tangent"));
 }
 
+/// Return the message of a pack with other extras of its first object.
+std::string refusalOfExtras(const std::string& json)
+{
+    PackModel model = smallPack();
+    model.extras[0].json = {static_cast<uint32_t>(model.strings.size()), static_cast<uint32_t>(json.size())};
+    model.strings += json;
+    const AlignedBytes bytes = model.bytes();
+    const auto view =
+        PackView::read(ContainerReader::fromBytes(bytes.span(), "small.hearth").value()).value();
+    EXPECT_EQ(getMessage(checkPack(view)), "") << "the game's library does not parse extras";
+    return getMessage(verify::verifyPack(view));
+}
+
+TEST(VerifyPack, refusesExtrasThatAreNotJson)
+{
+    EXPECT_EQ(refusalOfExtras(R"({"a":[1,2.50,"x"]})"), "");
+    for (const char* text : {"{", R"({"a":1)", R"({"a" 1})", "[1,]", "01", "nul", "1 2", R"("\x")"})
+        EXPECT_THAT(refusalOfExtras(text),
+                    testing::HasSubstr("extras 0: error: the text is not JSON [E3002]"))
+            << text;
+}
+
+TEST(VerifyPack, refusesExtrasThatAreNestedTooDeeply)
+{
+    const auto nested = [](size_t depth) { return std::string(depth, '[') + std::string(depth, ']'); };
+    EXPECT_EQ(refusalOfExtras(nested(128)), "");
+    EXPECT_THAT(refusalOfExtras(nested(129)), testing::HasSubstr("extras 0: error: the JSON text is nested"));
+    EXPECT_THAT(refusalOfExtras(nested(1'000'000)), testing::HasSubstr("extras 0: error: the JSON text is"));
+}
+
+TEST(VerifyPack, refusesExtrasThatOverlap)
+{
+    // blanks before a value are JSON: each node has the end of one long text
+    PackModel model;
+    model.strings = std::string(1000, ' ') + "1";
+    for (uint32_t i = 0; i < 3; ++i)
+    {
+        model.nodes.push_back(smallPack().nodes[0]);
+        model.nodes.back().name = {};
+        model.extras.push_back({0, i, {i, 1001 - i}});
+    }
+    model.assets = {{{}, {}, {}, {0, 3}, {}, {}}};
+    const auto verified = [&]
+    {
+        const AlignedBytes bytes = model.bytes();
+        return getMessage(verify::verifyPack(
+            PackView::read(ContainerReader::fromBytes(bytes.span(), "small.hearth").value()).value()));
+    };
+    EXPECT_THAT(verified(), testing::HasSubstr("extras 1: error: the texts of extras overlap"));
+    for (ExtrasRecord& record : model.extras)
+        record.json = {0, 1001};
+    EXPECT_EQ(verified(), "") << "objects may share a text";
+}
+
 class MalformedPackTest : public testing::TestWithParam<MalformedPack>
 {
 };

@@ -72,6 +72,18 @@ TEST(PackView, givesNamesAndNothingForThoseOutside)
     EXPECT_EQ(view->text({0, static_cast<uint32_t>(view->strings().size()) + 1}), "");
 }
 
+TEST(PackView, findsTheExtrasOfAnObject)
+{
+    const Opened view(smallPack());
+    EXPECT_EQ(view->findExtras(ExtrasOwner::node, 1), R"({"speed":1.50,"tag":"T\u00fcr"})");
+    EXPECT_EQ(view->findExtras(ExtrasOwner::mesh, 2), "[1,2]");
+    EXPECT_EQ(view->findExtras(ExtrasOwner::file, 0), "12345678901234567890");
+    EXPECT_EQ(view->findExtras(ExtrasOwner::node, 0), "");
+    EXPECT_EQ(view->findExtras(ExtrasOwner::node, 2), "");
+    EXPECT_EQ(view->findExtras(ExtrasOwner::file, 1), "");
+    EXPECT_EQ(Opened(PackModel())->findExtras(ExtrasOwner::node, 0), "");
+}
+
 TEST(PackView, givesTexels)
 {
     const Opened view(smallPack());

@@ -101,7 +101,7 @@ const std::vector<Layer>& layers()
           "pipelines/import/scans"}},
 
         // from parts to a pack, and the build graph
-        {"pipelines/verify", {"formats"}},
+        {"pipelines/verify", {"formats", "cook/json"}},
         {"pipelines/link", {"formats", "cook/command_line", "cook/json", "pipelines/verify"}},
         {"pipelines/schemas", {}},
         {"pipelines/cache", {"formats", "cook/tools"}},

@@ -1,5 +1,6 @@
 // Tests the import of materials, textures and images.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/pack/pack_view.h"
 #include "pipelines/import/gltf/specular_glossiness.h"
 #include "tests/pipelines/gltf_fixture.h"
 
@@ -159,6 +160,66 @@ TEST(GltfImages, sayOnceThatAlphaIsNotOpacity)
                             [&](const Error& warning) { return formatMessage(warning) == expected; }),
               1)
         << formatMessage(result.warnings.at(0));
+}
+
+/// Return a PNG of 2 x 1 texels with 16 bits a channel: (0x8123, 0x7F45, 0xFF67), (0x0102, 0x0304, 0x0506).
+std::string png16()
+{
+    constexpr char kBytes[] =
+        "\x89\x50\x4E\x47\x0D\x0A\x1A\x0A\x00\x00\x00\x0D\x49\x48\x44\x52\x00\x00\x00\x02\x00\x00"
+        "\x00\x01\x10\x02\x00\x00\x00\x2B\xD0\x34\x9E\x00\x00\x00\x15\x49\x44\x41\x54\x78\xDA\x63"
+        "\x68\x54\xAE\x77\xFD\x9F\xCE\xC8\xC4\xCC\xC2\xCA\x06\x00\x19\xFE\x02\xE4\xC7\xB0\xF4\xC8"
+        "\x00\x00\x00\x00\x49\x45\x4E\x44\xAE\x42\x60\x82";
+    return {kBytes, sizeof(kBytes) - 1};
+}
+
+TEST(GltfImages, keepSixteenBits)
+{
+    const TemporaryFolder folder;
+    folder.write("a.png", png16());
+    const Imported result = importBytes(R"({"asset":{"version":"2.0"},"images":[{"uri":"a.png"}],
+        "textures":[{"source":0}],"materials":[{"name":"oak","normalTexture":{"index":0},
+        "pbrMetallicRoughness":{"baseColorTexture":{"index":0},"metallicRoughnessTexture":{"index":0}}}]})",
+                                        &folder);
+    const auto materials = getMaterials(result);
+    const auto images = result.records<ImageRecord>(kChunkImages);
+    ASSERT_EQ(images.size(), 3u);
+    const uint32_t color = materials.at(0).base_color_texture.image;
+    const uint32_t data = materials[0].metallic_roughness_texture.image;
+    const uint32_t normal = materials[0].normal_texture.image;
+    EXPECT_EQ(images[color].format, static_cast<uint32_t>(TexelFormat::rgba16_srgb));
+    EXPECT_EQ(images[data].format, static_cast<uint32_t>(TexelFormat::rgba16_unorm));
+    EXPECT_EQ(images[normal].format, static_cast<uint32_t>(TexelFormat::rgba16_unorm));
+    const std::vector<uint8_t> expected{0x23, 0x81, 0x45, 0x7F, 0x67, 0xFF, 0xFF, 0xFF,
+                                        0x02, 0x01, 0x04, 0x03, 0x06, 0x05, 0xFF, 0xFF};
+    EXPECT_EQ(result.texels(color), expected);
+    EXPECT_EQ(result.texels(data), expected);
+    EXPECT_EQ(result.texels(normal), expected);
+    const std::string warning =
+        "test.gltf|/images/0: warning: image \"a.png\" of material \"oak\": its colours have 16 bits a "
+        "channel, "
+        "8 are kept; mips are made from all 16 [W1306] hint: colours need 8 bits; save light as EXR or HDR";
+    EXPECT_EQ(std::count_if(result.warnings.begin(), result.warnings.end(),
+                            [](const Error& w) { return w.issue == Issue::image_depth; }),
+              1)
+        << "data and normals lose nothing";
+    EXPECT_TRUE(std::any_of(result.warnings.begin(), result.warnings.end(),
+                            [&](const Error& w) { return formatMessage(w) == warning; }));
+}
+
+TEST(GltfImages, sayThatSpecularGlossinessTakesEightBits)
+{
+    const TemporaryFolder folder;
+    folder.write("a.png", png16());
+    const Imported result = importBytes(R"({"asset":{"version":"2.0"},"images":[{"uri":"a.png"}],
+        "textures":[{"source":0}],"materials":[{"name":"oak","extensions":{"KHR_materials_pbrSpecularGlossiness":
+        {"specularGlossinessTexture":{"index":0}}}}]})",
+                                        &folder);
+    ASSERT_TRUE(result.ok()) << result.message();
+    EXPECT_TRUE(result.hasWarning(
+        Issue::image_depth, "specular-glossiness of material \"oak\" was converted in 8 bits a channel"));
+    for (const ImageRecord& image : result.records<ImageRecord>(kChunkImages))
+        EXPECT_EQ(texelBytes(image.format), 4u);
 }
 
 TEST(GltfImages, keepTheCutoffOfAlphaTests)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/base/half.h"
+#include "pipelines/import/images/channels.h"
 #include "pipelines/import/images/decode.h"
 #include "pipelines/import/part/import_options.h"
 #include "pipelines/import/part/part_builder.h"
@@ -8,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <cstring>
 
 namespace hearth::import
@@ -103,6 +105,63 @@ TEST(DecodePng, readsEveryKindAsRgba8)
     EXPECT_EQ(getTexel(palette, 1, 0), (Rgba8{40, 50, 60, 128}));
     EXPECT_EQ(getTexel(palette, 3, 2), (Rgba8{100, 110, 120, 255}));
     EXPECT_EQ(getTexel(palette, 4, 1), (Rgba8{40, 50, 60, 128}));
+}
+
+std::array<uint16_t, 4> getWideTexel(const DecodedImage& image, size_t x, size_t y)
+{
+    std::array<uint16_t, 4> texel{};
+    std::memcpy(texel.data(), &image.texels.at((y * image.width + x) * 8), 8);
+    return texel;
+}
+
+TEST(DecodePng, keepsSixteenBitsThatSayMoreThanEight)
+{
+    const DecodedImage rgba = decodeGood(kPngRgba16);
+    ASSERT_EQ(rgba.type, ChannelType::unorm16);
+    const auto number = [](size_t value) { return static_cast<uint16_t>(value); };
+    forEachTexel(rgba,
+                 [&](size_t x, size_t y)
+                 {
+                     const std::array<uint16_t, 4> expected{number(1000 * x + 1), number(2000 * y + 2),
+                                                            number(30000 + x + 3 * y), number(65535 - 7 * x)};
+                     EXPECT_EQ(getWideTexel(rgba, x, y), expected);
+                 });
+    const DecodedImage grey = decodeGood(kPngGrey16);
+    ASSERT_EQ(grey.type, ChannelType::unorm16);
+    forEachTexel(
+        grey,
+        [&](size_t x, size_t y)
+        {
+            const uint16_t value = number(4000 * x + y);
+            EXPECT_EQ(getWideTexel(grey, x, y), (std::array<uint16_t, 4>{value, value, value, 65535}));
+        });
+    EXPECT_EQ(decodeGood(kPngRgb16Interlaced).type, ChannelType::unorm8)
+        << "its second bytes say nothing new";
+    expectRefusedWhenCut(kPngRgba16, kPngRgba16.size() - 1);
+}
+
+TEST(Channels, areConvertedToTheNearestAndBack)
+{
+    DecodedImage wide{1, 4, ChannelType::unorm16, {}};
+    const std::array<uint16_t, 16> channels{0,   128,   129,   257,   385,   386,   32767, 32768,
+                                            514, 65535, 65406, 65407, 65278, 25700, 1,     65534};
+    wide.texels.resize(sizeof(channels));
+    std::memcpy(wide.texels.data(), channels.data(), sizeof(channels));
+    const DecodedImage narrowed = narrow(wide);
+    ASSERT_EQ(narrowed.texels.size(), channels.size());
+    for (size_t i = 0; i < channels.size(); ++i)
+        EXPECT_EQ(std::to_integer<long>(narrowed.texels[i]), std::lround(channels[i] * 255.0 / 65535.0))
+            << channels[i];
+    const DecodedImage widened = widen(narrowed);
+    EXPECT_EQ(widened.type, ChannelType::unorm16);
+    EXPECT_EQ(narrow(widened).texels, narrowed.texels);
+    EXPECT_EQ(dropEmptyBits(widened).texels, narrowed.texels);
+    EXPECT_EQ(dropEmptyBits(wide).texels, wide.texels);
+    EXPECT_TRUE(hasAlpha(wide));
+    EXPECT_FALSE(isGrey(wide));
+    EXPECT_TRUE(isGrey(decodeGood(kPngGrey16)));
+    EXPECT_FALSE(hasAlpha(decodeGood(kPngGrey16)));
+    EXPECT_TRUE(isGrey(decodeGood(kPngGrey8)));
 }
 
 TEST(DecodePng, refusesCutAndDamagedFiles)
@@ -238,11 +297,13 @@ TEST(DecodeTga, ignoresAlphaThatTheExtensionAreaCallsUndefined)
         const DecodedImage image = decodeGood(tgaWithAttributes(type));
         EXPECT_EQ(getTexel(image, 0, 0), (Rgba8{1, 2, 3, 255}));
         EXPECT_EQ(getTexel(image, 1, 1), (Rgba8{10, 11, 12, 255}));
-        EXPECT_EQ(image.alpha_note, "alpha is not opacity, as attributes type " + std::to_string(type) +
-                                        " of the TGA's extension area says: it is not kept");
+        ASSERT_EQ(image.notes.size(), 1u);
+        EXPECT_EQ(image.notes[0].issue, Issue::image_alpha);
+        EXPECT_EQ(image.notes[0].text, "alpha is not opacity, as attributes type " + std::to_string(type) +
+                                           " of the TGA's extension area says: it is not kept");
     }
     const Bytes opaque = {3, 2, 1, 255, 6, 5, 4, 255, 9, 8, 7, 255, 12, 11, 10, 255};
-    EXPECT_EQ(decodeGood(tgaWithAttributes(0, opaque)).alpha_note, "") << "nothing is lost";
+    EXPECT_TRUE(decodeGood(tgaWithAttributes(0, opaque)).notes.empty()) << "nothing is lost";
 }
 
 TEST(DecodeTga, keepsAlphaOtherwise)
@@ -251,7 +312,7 @@ TEST(DecodeTga, keepsAlphaOtherwise)
     {
         const DecodedImage image = decodeGood(tgaWithAttributes(type));
         EXPECT_EQ(getTexel(image, 0, 0), (Rgba8{1, 2, 3, 0}));
-        EXPECT_EQ(image.alpha_note, "");
+        EXPECT_TRUE(image.notes.empty());
     }
     Bytes outside = tgaWithAttributes(0); // an area that does not lie in the file
     outside[outside.size() - 26 + 3] = 0xFF;

@@ -47,11 +47,53 @@ TEST(DecodeKtx2, readsFloatsAsHalves)
     std::memcpy(ktx.levels[0].data(), texel.data(), 16);
     const auto image = decode(ktx.file());
     ASSERT_TRUE(image.ok());
-    ASSERT_TRUE(image->is_float);
+    ASSERT_TRUE(image->isFloat());
     std::array<uint16_t, 4> half{};
     std::memcpy(half.data(), image->texels.data(), 8);
     EXPECT_EQ(half, (std::array<uint16_t, 4>{halfFromFloat(1.5f), halfFromFloat(-2), 0x7BFF,
                                              halfFromFloat(0.25f)}));
+}
+
+TEST(DecodeKtx2, saysThatFloatsBecomeHalves)
+{
+    Ktx2 ktx;
+    ktx.vk_format = 100; // R32_SFLOAT
+    ktx.width = ktx.height = 1;
+    ktx.levels = {Bytes(4)};
+    ktx.uncompressed = {4};
+    const auto notes = [&](float value)
+    {
+        std::memcpy(ktx.levels[0].data(), &value, sizeof(value));
+        return decode(ktx.file())->notes;
+    };
+    EXPECT_TRUE(notes(0.25f).empty()) << "a half is as good";
+    ASSERT_EQ(notes(0.1f).size(), 1u);
+    EXPECT_EQ(notes(0.1f)[0].issue, Issue::image_depth);
+    EXPECT_EQ(notes(0.1f)[0].text, "its channels are floats of 32 bits, 16 are kept");
+}
+
+TEST(DecodeKtx2, keepsSixteenBits)
+{
+    const auto decodeWords = [](uint32_t vk_format, const std::vector<uint16_t>& words)
+    {
+        Ktx2 ktx;
+        ktx.vk_format = vk_format;
+        ktx.width = ktx.height = 1;
+        ktx.levels = {Bytes(words.size() * 2)};
+        ktx.uncompressed = {words.size() * 2};
+        std::memcpy(ktx.levels[0].data(), words.data(), words.size() * 2);
+        const auto image = decode(ktx.file());
+        EXPECT_TRUE(image.ok()) << vk_format;
+        std::vector<uint16_t> texel(image->texels.size() / 2);
+        std::memcpy(texel.data(), image->texels.data(), image->texels.size());
+        return texel;
+    };
+    using Words = std::vector<uint16_t>;
+    EXPECT_EQ(decodeWords(91, {1, 20000, 30000, 40000}), (Words{1, 20000, 30000, 40000}));
+    EXPECT_EQ(decodeWords(84, {1, 20000, 30000}), (Words{1, 20000, 30000, 65535}));
+    EXPECT_EQ(decodeWords(77, {1, 20000}), (Words{1, 20000, 0, 65535}));
+    EXPECT_EQ(decodeWords(70, {20000}), (Words{20000, 20000, 20000, 65535}));
+    EXPECT_EQ(decodeWords(91, {257, 514, 0, 65535}).size(), 2u) << "8 bits say as much";
 }
 
 TEST(DecodeKtx2, unpacksZstandard)

@@ -172,7 +172,7 @@ TEST(DecodeUastc, readsEveryMode)
                         layout.weight_bits - (isAnchor(texel) ? 1 : 0));
         EXPECT_EQ(out.used(), layout.bits);
 
-        DecodedImage image{4, 4, false, std::vector<std::byte>(64)};
+        DecodedImage image{4, 4, ChannelType::unorm8, std::vector<std::byte>(64)};
         ASSERT_TRUE(decodeUastc(std::as_bytes(std::span(out.block())), false, image));
         for (uint32_t texel = 0; texel < 16; ++texel)
             for (uint32_t c = 0; c < 4; ++c)
@@ -199,7 +199,7 @@ Bytes solidBlock(const Rgba8& texel)
 
 TEST(DecodeUastc, readsSolidBlocksAndInterpolates)
 {
-    DecodedImage image{4, 4, false, std::vector<std::byte>(64)};
+    DecodedImage image{4, 4, ChannelType::unorm8, std::vector<std::byte>(64)};
     const Bytes solid = solidBlock({1, 2, 3, 4});
     ASSERT_TRUE(decodeUastc(std::as_bytes(std::span(solid)), true, image));
     EXPECT_EQ(getTexel(image, 3, 3), (Rgba8{1, 2, 3, 4}));

@@ -293,6 +293,26 @@ void addAsset(PackModel& pack)
     pack.assets.push_back(asset);
 }
 
+/// Extras of one object of each kind, and of the asset, the scene and the file.
+void addExtras(PackModel& pack)
+{
+    const auto add = [&](ExtrasOwner owner, uint32_t index, const char* json) {
+        pack.extras.push_back({static_cast<uint32_t>(owner), index, intern(pack, json)});
+    };
+    add(ExtrasOwner::node, 1, R"({"speed":1.50,"tag":"T\u00fcr"})");
+    add(ExtrasOwner::mesh, 2, "[1,2]");
+    add(ExtrasOwner::material, 0, R"({"sound":"wood"})");
+    add(ExtrasOwner::camera, 1, "true");
+    add(ExtrasOwner::light, 2, "-0.0");
+    add(ExtrasOwner::skin, 0, "null");
+    add(ExtrasOwner::animation, 1, R"({"steps":[0.25,0.75]})");
+    add(ExtrasOwner::asset, 0,
+        R"({"author":"Lager\u00f6 )"
+        "\xC3\xB6\"}");
+    add(ExtrasOwner::scene, 0, R"({"fog":{"density":1e-3}})");
+    add(ExtrasOwner::file, 0, "12345678901234567890");
+}
+
 void addNodes(PackModel& pack)
 {
     NodeRecord node{};
@@ -501,6 +521,7 @@ std::vector<ChunkImage> PackModel::chunks(bool compressed) const
     table(kChunkKeyBits, key_bits);
     table(kChunkMorphWeights, morph_weights);
     table(kChunkAssets, assets);
+    table(kChunkExtras, extras);
     table(kChunkMeshes, meshes);
     table(kChunkLevels, levels);
     table(kChunkGroups, groups);
@@ -542,6 +563,7 @@ PackModel smallPack()
     addSpecularTable(pack);
     addBricks(pack);
     addAsset(pack);
+    addExtras(pack);
     pack.sealPages();
     return pack;
 }

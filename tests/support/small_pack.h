@@ -3,6 +3,7 @@
 #pragma once
 
 #include "formats/records/deformation.h"
+#include "formats/records/extras.h"
 #include "formats/records/mesh.h"
 #include "formats/records/provenance.h"
 #include "formats/records/scene.h"
@@ -22,6 +23,7 @@ struct PackModel
     std::string meta;
     std::string strings;
     std::vector<formats::AssetRecord> assets;
+    std::vector<formats::ExtrasRecord> extras;
     std::vector<formats::NodeRecord> nodes;
     std::vector<formats::InstanceRecord> instances;
     std::vector<formats::CameraRecord> cameras;

@@ -25,7 +25,8 @@ class TestScene
 {
 public:
     uint32_t addMaterial(const formats::MaterialRecord& material);
-    /// Add an image. Four bytes a texel; the mips one after the other, as many as there are texels for.
+    /// Add an image. A word a texel, or two where the format has 16 bits a channel; the mips one after the
+    /// other, as many as there are texels for.
     uint32_t addImage(formats::TexelFormat format, uint32_t width, uint32_t height,
                       const std::vector<uint32_t>& texels);
     /// Cook the mesh; return its index.

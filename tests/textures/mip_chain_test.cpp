@@ -8,8 +8,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
+#include <random>
+#include <span>
 
 #include <tbb/global_control.h>
 
@@ -89,6 +93,107 @@ TEST(MipChain, blackAndWhiteAverageInLinearLight)
     EXPECT_EQ(decodeMip(color, buildMipChain(color, texels), 1)[0], (Rgba8{188, 188, 188, 255}));
     const ImageRecord data = makeRecord(2, 1, TexelFormat::rgba8_unorm);
     EXPECT_EQ(decodeMip(data, buildMipChain(data, texels), 1)[0], (Rgba8{128, 128, 128, 255}));
+}
+
+/// Return texels of random channels of 16 bits; alpha from `min_alpha` up.
+std::vector<std::byte> randomWide(size_t texels, uint32_t seed, uint32_t min_alpha = 0)
+{
+    std::mt19937 random(seed);
+    std::vector<uint16_t> channels(texels * 4);
+    for (size_t i = 0; i < channels.size(); ++i)
+        channels[i] =
+            static_cast<uint16_t>(i % 4 == 3 ? min_alpha + random() % (65536 - min_alpha) : random());
+    const auto bytes = std::as_bytes(std::span(channels));
+    return {bytes.begin(), bytes.end()};
+}
+
+uint16_t wideChannel(std::span<const std::byte> bytes, size_t at)
+{
+    uint16_t value;
+    std::memcpy(&value, bytes.data() + at * 2, sizeof(value));
+    return value;
+}
+
+TEST(MipChain, dataKeepSixteenBits)
+{
+    ImageRecord image = makeRecord(4, 4, TexelFormat::rgba16_unorm);
+    image.mip_count = 3;
+    const std::vector<std::byte> texels = randomWide(16, 1);
+    const std::vector<std::byte> chain = buildMipChain(image, texels);
+    ASSERT_EQ(chain.size(), (16u + 4u + 1u) * 8u);
+    EXPECT_TRUE(std::equal(texels.begin(), texels.end(), chain.begin())) << "nothing is lost";
+    for (size_t channel = 0; channel < 4; ++channel)
+    {
+        double sum = 0;
+        for (size_t texel = 0; texel < 16; ++texel)
+            sum += wideChannel(texels, texel * 4 + channel);
+        EXPECT_NEAR(wideChannel(chain, 20 * 4 + channel), sum / 16, 0.51) << channel;
+    }
+}
+
+TEST(MipChain, normalsKeepSixteenBits)
+{
+    // directions that differ by less than a step of 8 bits: their mean lies between
+    ImageRecord image = makeRecord(2, 1, TexelFormat::rgba16_unorm, formats::kImageNormalMap);
+    image.mip_count = 2;
+    const std::array<uint16_t, 8> channels{32968, 32768, 65535, 65535, 33068, 32768, 65535, 65535};
+    std::vector<std::byte> texels(16);
+    std::memcpy(texels.data(), channels.data(), 16);
+    const std::vector<std::byte> chain = buildMipChain(image, texels);
+    EXPECT_TRUE(std::equal(texels.begin(), texels.end(), chain.begin()));
+    EXPECT_NEAR(wideChannel(chain, 8), 33018, 1);
+    EXPECT_NEAR(wideChannel(chain, 9), 32768, 1);
+    EXPECT_NEAR(wideChannel(chain, 10), 65534, 1);
+}
+
+TEST(MipChain, mipsOfColoursAreMadeFromAllSixteenBits)
+{
+    const auto linear = [](double code)
+    { return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4); };
+    const auto coded = [](double light)
+    { return light <= 0.0031308 ? light * 12.92 : 1.055 * std::pow(light, 1 / 2.4) - 0.055; };
+    const ImageRecord image = makeRecord(4, 4, TexelFormat::rgba16_srgb);
+    ImageRecord cooked = makeRecord(4, 4);
+    cooked.mip_count = 3;
+    int differences = 0; // of the same from texels that were rounded to 8 bits first
+    for (uint32_t seed = 0; seed < 40; ++seed)
+    {
+        const std::vector<std::byte> texels = randomWide(16, seed, 65535);
+        const std::vector<std::byte> chain = buildMipChain(image, texels);
+        ASSERT_EQ(chain.size(), (16u + 4u + 1u) * 4u);
+        for (size_t i = 0; i < 64; ++i)
+            ASSERT_EQ(std::to_integer<long>(chain[i]), std::lround(wideChannel(texels, i) / 257.0));
+        const std::vector<std::byte> rounded(chain.begin(), chain.begin() + 64);
+        const Rgba8 early = decodeMip(cooked, buildMipChain(cooked, rounded), 2)[0];
+        const Rgba8 last = decodeMip(cooked, chain, 2)[0];
+        for (size_t channel = 0; channel < 3; ++channel)
+        {
+            double sum = 0;
+            for (size_t texel = 0; texel < 16; ++texel)
+                sum += linear(wideChannel(texels, texel * 4 + channel) / 65535.0);
+            EXPECT_EQ(last[channel], std::lround(coded(sum / 16) * 255));
+            differences += last[channel] != early[channel] ? 1 : 0;
+        }
+        EXPECT_EQ(last[3], 255);
+    }
+    EXPECT_GT(differences, 0) << "else rounding first would do";
+}
+
+TEST(MipChain, cutOutsOfSixteenBitsKeepTheirArea)
+{
+    const ImageRecord image = makeRecord(64, 64, TexelFormat::rgba16_srgb, formats::kImageAlphaTested);
+    ImageRecord cooked = makeRecord(64, 64);
+    cooked.mip_count = fullMipCount(64, 64);
+    const std::vector<std::byte> texels = randomWide(64 * 64, 3);
+    const std::vector<std::byte> chain = buildMipChain(image, texels);
+    for (uint32_t mip = 0; mip < 4; ++mip)
+    {
+        const std::vector<Rgba8> cooked_texels = decodeMip(cooked, chain, mip);
+        const auto passing = std::count_if(cooked_texels.begin(), cooked_texels.end(),
+                                           [](const Rgba8& texel) { return texel[3] >= 128; });
+        EXPECT_NEAR(static_cast<double>(passing) / static_cast<double>(cooked_texels.size()), 0.5, 0.03)
+            << mip;
+    }
 }
 
 TEST(MipChain, oddSizesWeightByArea)

@@ -7,6 +7,7 @@
 #include "tests/textures/texture_test_images.h"
 
 #include <array>
+#include <cmath>
 #include <gtest/gtest.h>
 
 namespace hearth::textures
@@ -55,6 +56,30 @@ TEST(CookTextures, writesEveryImageWithItsMips)
         EXPECT_TRUE(std::equal(expected.begin(), expected.end(), data->bytes().begin(), data->bytes().end()));
     }
     EXPECT_EQ((*records)[0].name.offset, 3u);
+}
+
+TEST(CookTextures, sayTheErrorOfColoursThatHadSixteenBits)
+{
+    const TemporaryFolder folder;
+    const std::vector<ImageRecord> images = {makeRecord(8, 8, TexelFormat::rgba16_srgb),
+                                             makeRecord(8, 8, TexelFormat::rgba16_unorm)};
+    std::vector<std::byte> opaque = randomBytes(8 * 8 * 8, 1);
+    for (size_t texel = 0; texel < 64; ++texel)
+        opaque[texel * 8 + 6] = opaque[texel * 8 + 7] = std::byte{0xFF};
+    const std::vector<std::vector<std::byte>> texels = {opaque, opaque};
+    writeImport(folder.file("in.part"), images, texels);
+    std::vector<ImageStatistics> statistics;
+    ASSERT_TRUE(cookTextures(folder.file("in.part"), folder.file("out.part"), 0, &statistics).ok());
+    ASSERT_EQ(statistics.size(), 2u);
+    EXPECT_EQ(statistics[0].image.format, static_cast<uint32_t>(TexelFormat::rgba8_srgb));
+    EXPECT_EQ(statistics[1].image.format, static_cast<uint32_t>(TexelFormat::rgba16_unorm));
+    // rounding to a step of 1 / 255 is off by 1 / sqrt(12) of a step, in three of four channels
+    EXPECT_NEAR(*statistics[0].error, std::sqrt(3.0 / 4 / 12) / 255, 1e-4);
+    EXPECT_EQ(statistics[1].error, 0);
+    const auto part = ContainerReader::open(folder.file("out.part"));
+    ASSERT_TRUE(part.ok());
+    EXPECT_EQ(part->find(kChunkImageData, 0)->size, (64u + 16 + 4 + 1) * 4);
+    EXPECT_EQ(part->find(kChunkImageData, 1)->size, (64u + 16 + 4 + 1) * 8);
 }
 
 TEST(CookTextures, leavesOutMipsThatAreTooLarge)

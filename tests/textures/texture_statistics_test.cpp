@@ -5,7 +5,9 @@
 #include "cook/textures/mip_chain.h"
 #include "tests/textures/texture_test_images.h"
 
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <gtest/gtest.h>
 
 namespace hearth::textures
@@ -78,6 +80,33 @@ TEST(MipError, stretchesSizesThatAreNotEven)
                 sum += std::pow(value(y * 5 + x) - value(half), 2) / (15 * 4);
             }
     EXPECT_NEAR(mipError(image, chain, 1), std::sqrt(sum), 1e-12);
+}
+
+TEST(MipError, isMeasuredAgainstAllBitsOfTheSource)
+{
+    // grey of 100.25 steps of 8 bits, stored as 100; and without a loss
+    ImageRecord image = withMips(makeRecord(1, 1, TexelFormat::rgba8_srgb));
+    const auto error = [&](uint16_t grey)
+    {
+        const std::array<uint16_t, 4> texel{grey, grey, grey, 65535};
+        Bytes imported(sizeof(texel));
+        std::memcpy(imported.data(), texel.data(), sizeof(texel));
+        ImageRecord wide = makeRecord(1, 1, TexelFormat::rgba16_srgb);
+        return mipError(image, buildMipChain(wide, imported), 0, imported);
+    };
+    EXPECT_EQ(error(100 * 257), 0);
+    EXPECT_NEAR(error(100 * 257 + 64), 64.0 / 65535 * std::sqrt(3.0 / 4), 1e-12);
+}
+
+TEST(MipError, ofSixteenBitsIsTheDifferenceFromTheMean)
+{
+    const ImageRecord image = withMips(makeRecord(2, 1, TexelFormat::rgba16_unorm));
+    const std::array<uint16_t, 8> channels{1000, 1000, 1000, 65535, 1040, 1040, 1040, 65535};
+    Bytes texels(sizeof(channels));
+    std::memcpy(texels.data(), channels.data(), sizeof(channels));
+    const Bytes chain = buildMipChain(image, texels);
+    EXPECT_EQ(mipError(image, chain, 0), 0);
+    EXPECT_NEAR(mipError(image, chain, 1), 20.0 / 65535 * std::sqrt(3.0 / 4), 1e-12);
 }
 
 TEST(TextureStatistics, sayWhatBecameOfAnImage)

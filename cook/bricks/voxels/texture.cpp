@@ -32,6 +32,11 @@ const std::array<float, 256>& linearFromSrgb()
     return table;
 }
 
+float unorm16(uint16_t channel)
+{
+    return static_cast<float>(channel) / 65535.0f;
+}
+
 Float4 mixed(Float4 a, Float4 b, float t)
 {
     return {a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, a.z + (b.z - a.z) * t, a.w + (b.w - a.w) * t};
@@ -125,12 +130,14 @@ Float4 Texture::texel(const Texels& texels, uint64_t index) const
     case TexelFormat::rgba8_unorm:
         return {unorm(0), unorm(1), unorm(2), unorm(3)};
     case TexelFormat::rgba16_float:
+    case TexelFormat::rgba16_unorm:
+    case TexelFormat::rgba16_srgb: // in import parts, which have no mips to look up
         break;
     }
-    uint16_t halves[4];
-    std::memcpy(halves, texels.data() + index * sizeof(halves), sizeof(halves));
-    return {floatFromHalf(halves[0]), floatFromHalf(halves[1]), floatFromHalf(halves[2]),
-            floatFromHalf(halves[3])};
+    uint16_t words[4];
+    std::memcpy(words, texels.data() + index * sizeof(words), sizeof(words));
+    const auto decode = isUnorm16(record_.format) ? unorm16 : floatFromHalf;
+    return {decode(words[0]), decode(words[1]), decode(words[2]), decode(words[3])};
 }
 
 } // namespace hearth::bricks

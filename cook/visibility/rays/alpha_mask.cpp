@@ -27,14 +27,16 @@ Result<AlphaImage> readAlpha(const PackView& part, uint32_t image)
     for (size_t i = 0; i < count; ++i)
     {
         const std::byte* texel = data.bytes().data() + i * size;
-        if (record.format == static_cast<uint32_t>(TexelFormat::rgba16_float))
+        if (size == 4)
         {
-            uint16_t half;
-            std::memcpy(&half, texel + 6, sizeof(half));
-            alpha.texels[i] = static_cast<uint8_t>(quantizeUnorm(floatFromHalf(half), 255));
-        }
-        else
             alpha.texels[i] = std::to_integer<uint8_t>(texel[3]);
+            continue;
+        }
+        uint16_t word;
+        std::memcpy(&word, texel + 6, sizeof(word));
+        alpha.texels[i] = isUnorm16(record.format)
+                              ? narrowUnorm(word)
+                              : static_cast<uint8_t>(quantizeUnorm(floatFromHalf(word), 255));
     }
     return alpha;
 }

@@ -256,6 +256,39 @@ const char* alphaModeName(uint32_t mode)
     return "unknown";
 }
 
+std::string_view extrasOwnerName(uint32_t owner)
+{
+    return owner < kExtrasOwnerNames.size() ? kExtrasOwnerNames[owner] : "unknown";
+}
+
+std::string_view readOwnerName(const PackView& pack, const ExtrasRecord& extras)
+{
+    const auto name = [&](const auto& records)
+    { return extras.index < records.size() ? pack.text(records[extras.index].name) : std::string_view(); };
+    switch (static_cast<ExtrasOwner>(extras.owner))
+    {
+    case ExtrasOwner::node:
+        return name(pack.nodes());
+    case ExtrasOwner::mesh:
+        return name(pack.meshes());
+    case ExtrasOwner::material:
+        return name(pack.materials());
+    case ExtrasOwner::camera:
+        return name(pack.cameras());
+    case ExtrasOwner::light:
+        return name(pack.lights());
+    case ExtrasOwner::skin:
+        return name(pack.skins());
+    case ExtrasOwner::animation:
+        return name(pack.animations());
+    case ExtrasOwner::asset:
+    case ExtrasOwner::scene:
+    case ExtrasOwner::file:
+        break;
+    }
+    return name(pack.assets());
+}
+
 const char* lightTypeName(uint32_t type)
 {
     switch (static_cast<LightType>(type))

@@ -127,5 +127,9 @@ std::string attributeNames(uint32_t attributes);
 const char* alphaModeName(uint32_t mode);
 const char* lightTypeName(uint32_t type);
 const char* codecName(uint32_t codec);
+std::string_view extrasOwnerName(uint32_t owner);
+
+/// Return the name of the object that has the extras; empty if it has none, or is not there.
+std::string_view readOwnerName(const formats::PackView& pack, const formats::ExtrasRecord& extras);
 
 } // namespace hearth::command

@@ -99,6 +99,15 @@ Json assetJson(const PackView& pack, uint32_t index)
             {"nodes", range(asset.nodes)}};
 }
 
+Json extrasJson(const PackView& pack, uint32_t i)
+{
+    const ExtrasRecord& record = pack.extras()[i];
+    return {{"owner", extrasOwnerName(record.owner)},
+            {"index", record.index},
+            {"name", readOwnerName(pack, record)},
+            {"json", pack.text(record.json)}};
+}
+
 /// Return an array with an object for each record of a table.
 template <typename MakeJson>
 Json listJson(size_t count, MakeJson makeJson)
@@ -180,6 +189,7 @@ Json sceneJson(const PackView& pack, const PackSummary& summary)
         {"materials", listJson(pack.materials().size(), [&](uint32_t i) { return materialJson(pack, i); })},
         {"images", listJson(pack.images().size(), [&](uint32_t i) { return imageJson(pack, i); })},
         {"skins", listJson(pack.skins().size(), skin)},
+        {"extras", listJson(pack.extras().size(), [&](uint32_t i) { return extrasJson(pack, i); })},
         {"animations", listJson(pack.animations().size(), animation)},
         {"specular_tables", listJson(pack.specularTables().size(), specular)}};
 }

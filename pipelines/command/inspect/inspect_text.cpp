@@ -144,6 +144,27 @@ std::string meshText(const MeshSummary& mesh, size_t index)
                               readableSize(mesh.record_bytes));
 }
 
+/// Shorten a text that a line cannot hold, between two characters of UTF-8.
+std::string shortened(std::string_view text)
+{
+    constexpr size_t kMaxBytes = 160;
+    if (text.size() <= kMaxBytes)
+        return printable(text);
+    size_t end = kMaxBytes;
+    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80)
+        --end;
+    return printable(text.substr(0, end)) + fmt::format("... ({} bytes)", text.size());
+}
+
+std::string extrasText(const PackView& pack)
+{
+    std::string text;
+    for (const ExtrasRecord& record : pack.extras())
+        text += fmt::format("extras of {} {} \"{}\": {}\n", extrasOwnerName(record.owner), record.index,
+                            printable(readOwnerName(pack, record)), shortened(pack.text(record.json)));
+    return text.empty() ? text : "\n" + text;
+}
+
 std::string imagesText(const PackView& pack)
 {
     std::string text;
@@ -200,7 +221,7 @@ std::string inspectText(const PackView& pack, const PackSummary& summary)
                        specularText(pack) + bricksText(pack);
     for (size_t i = 0; i < summary.meshes.size(); ++i)
         text += meshText(summary.meshes[i], i);
-    return text + imagesText(pack) + messagesText(summary.meta) + chunksText(pack);
+    return text + imagesText(pack) + extrasText(pack) + messagesText(summary.meta) + chunksText(pack);
 }
 
 } // namespace hearth::command

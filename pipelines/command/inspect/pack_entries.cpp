@@ -318,6 +318,18 @@ void addNodeEntries(std::vector<PackEntry>& entries, const PackView& pack, const
     }
 }
 
+void addExtrasEntries(std::vector<PackEntry>& entries, const PackView& pack)
+{
+    for (const ExtrasRecord& record : pack.extras())
+    {
+        const std::string_view json = pack.text(record.json);
+        const bool is_long = json.size() > kMaxFieldText_bytes;
+        entries.push_back({"extras",
+                           fmt::format("{} {}", extrasOwnerName(record.owner), readOwnerName(pack, record)),
+                           {{"json", is_long ? contentHash(json) : std::string(json), is_long}}});
+    }
+}
+
 void addLightEntries(std::vector<PackEntry>& entries, const PackView& pack)
 {
     for (const SpecularTableRecord& table : pack.specularTables())
@@ -395,6 +407,7 @@ Result<std::vector<PackEntry>> listEntries(const PackView& pack)
     addTableEntries(entries, pack, "light", pack.lights());
     addTableEntries(entries, pack, "camera", pack.cameras());
     addNodeEntries(entries, pack, "shadow sphere", pack.shadowSpheres());
+    addExtrasEntries(entries, pack);
     addLightEntries(entries, pack);
     addMetaEntries(entries, summary.meta);
     return entries;

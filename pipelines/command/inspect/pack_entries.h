@@ -32,8 +32,8 @@ struct PackEntry
 };
 
 /// Return the entries of a checked pack. Sorted by kind: meshes, materials, textures, animations, skins,
-/// instances, lights, cameras, shadow spheres, specular tables and bricks, then the sources, messages and
-/// dropped data of chunk META.
+/// instances, lights, cameras, shadow spheres, extras, specular tables and bricks, then the sources, messages
+/// and dropped data of chunk META.
 /// errors: those of PackView::decodePage and PackView::imageData
 Result<std::vector<PackEntry>> listEntries(const formats::PackView& pack);
 

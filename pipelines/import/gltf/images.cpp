@@ -79,10 +79,10 @@ std::optional<DecodedImage> GltfImages::decode(uint32_t image, const std::string
     Result<DecodedImage> read_image = read(image, where);
     if (read_image.ok())
     {
-        if (first_time && !read_image->alpha_note.empty())
-            context_.part.warn(
-                Issue::image_alpha, where,
-                fmt::format("image \"{}\" of {}: {}", imageName(image), user, read_image->alpha_note));
+        for (const ImageNote& note : read_image->notes)
+            if (first_time)
+                context_.part.warn(note.issue, where,
+                                   fmt::format("image \"{}\" of {}: {}", imageName(image), user, note.text));
         return std::move(read_image).value();
     }
     const Error& error = read_image.error();
@@ -108,6 +108,9 @@ Result<uint32_t> GltfImages::write(uint32_t image, ImagePurpose purpose, const s
     record.name = context_.part.intern(imageName(image));
     if (!decoded)
         record.flags |= kImagePlaceholder;
+    else if (purpose == ImagePurpose::color)
+        context_.part.warnOfColorDepth(*decoded, image_where,
+                                       fmt::format("image \"{}\" of {}", imageName(image), user));
     const auto cutoff = alpha_cutoff_of_image_.find(image);
     if (purpose == ImagePurpose::color && cutoff != alpha_cutoff_of_image_.end())
     {

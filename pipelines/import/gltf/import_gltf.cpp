@@ -3,6 +3,7 @@
 #include "pipelines/import/gltf/import_gltf.h"
 
 #include "pipelines/import/gltf/animations.h"
+#include "pipelines/import/gltf/extras.h"
 #include "pipelines/import/gltf/lods.h"
 #include "pipelines/import/gltf/materials.h"
 #include "pipelines/import/gltf/mesh_writer.h"
@@ -57,6 +58,7 @@ Status importGltf(const std::string& path, const FileBytes& file, const ImportOp
     HEARTH_TRY(writeMaterials(model, buffers, context));
     HEARTH_TRY(writeAnimations(model, accessors, context, tally));
     HEARTH_TRY(writeScene(model, uses, summaries, lods.hidden, accessors, context, tally));
+    HEARTH_TRY(writeExtras(document, container.json, model, uses, context));
     tally.report(part);
     if (part.counts.triangles == 0)
         part.warn(Issue::nothing_drawn, "/meshes", "no mesh has a triangle");

@@ -3,6 +3,7 @@
 
 #include "pipelines/import/gltf/images.h"
 #include "pipelines/import/gltf/specular_glossiness.h"
+#include "pipelines/import/images/channels.h"
 
 #include <fmt/format.h>
 
@@ -115,11 +116,18 @@ Status MaterialWriter::convertSpecularGlossinessMaterial(const GltfMaterial& mat
     {
         const auto decoded = [&](const GltfTextureUse& use)
         {
-            const auto texels = use.texture == kInvalidIndex
-                                    ? std::nullopt
-                                    : images_.decode(sourceImage(use),
-                                                     fmt::format("/textures/{}", use.texture), display_name_);
-            return texels && !texels->is_float ? *texels : DecodedImage{};
+            if (use.texture == kInvalidIndex)
+                return DecodedImage{};
+            const std::string where = fmt::format("/textures/{}", use.texture);
+            auto texels = images_.decode(sourceImage(use), where, display_name_);
+            if (!texels || texels->isFloat())
+                return DecodedImage{};
+            if (texels->type == ChannelType::unorm16)
+                context_.part.warn(Issue::image_depth, where,
+                                   fmt::format("specular-glossiness of {} was converted in 8 bits a channel, "
+                                               "the source has 16",
+                                               display_name_));
+            return narrow(std::move(*texels));
         };
         const DecodedImage specular_image = decoded(specular);
         const MetallicRoughnessImages images =

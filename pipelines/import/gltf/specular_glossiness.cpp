@@ -61,7 +61,7 @@ public:
     ResizedImage(const DecodedImage& image, uint32_t width, uint32_t height)
         : image_(image), width_(width), height_(height)
     {
-        HEARTH_ASSERT(!image.is_float);
+        HEARTH_ASSERT(image.type == ChannelType::unorm8);
     }
 
     std::array<uint8_t, 4> texel(uint32_t x, uint32_t y) const

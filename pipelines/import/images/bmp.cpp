@@ -147,7 +147,7 @@ Result<DecodedImage> decodeBmp(const EncodedImage& source)
     if (!rows)
         return source.malformed("BMP: the file ends too early");
 
-    HEARTH_ASSIGN_OR_RETURN(DecodedImage image, allocateImage(source, width, height, false));
+    HEARTH_ASSIGN_OR_RETURN(DecodedImage image, allocateImage(source, width, height, ChannelType::unorm8));
     uint8_t* texel = imageBytes(image);
     for (uint64_t y = 0; y < height; ++y)
     {

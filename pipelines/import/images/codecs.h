@@ -29,7 +29,7 @@ struct EncodedImage
 /// Return an image of this size with zero texels; the size is checked before anything is allocated.
 /// errors: image_malformed (no texels), input_too_large.
 Result<DecodedImage> allocateImage(const EncodedImage& source, uint64_t width, uint64_t height,
-                                   bool is_float);
+                                   ChannelType type);
 
 /// Check the size as allocateImage does, without allocating an image.
 Status checkImageSize(const EncodedImage& source, uint64_t width, uint64_t height);

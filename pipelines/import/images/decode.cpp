@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/images/decode.h"
 
+#include "pipelines/import/images/channels.h"
 #include "pipelines/import/images/codecs.h"
 #include "pipelines/import/part/import_options.h"
 #include "pipelines/import/part/part_builder.h"
@@ -105,14 +106,15 @@ Status checkFileSize(const EncodedImage& source, const std::string& format, uint
     return source.malformed(format + ": the file ends too early");
 }
 
-Result<DecodedImage> allocateImage(const EncodedImage& source, uint64_t width, uint64_t height, bool is_float)
+Result<DecodedImage> allocateImage(const EncodedImage& source, uint64_t width, uint64_t height,
+                                   ChannelType type)
 {
     HEARTH_TRY(checkImageSize(source, width, height));
     DecodedImage image;
     image.width = static_cast<uint32_t>(width);
     image.height = static_cast<uint32_t>(height);
-    image.is_float = is_float;
-    image.texels.resize(static_cast<size_t>(width * height * (is_float ? 8 : 4)));
+    image.type = type;
+    image.texels.resize(static_cast<size_t>(width * height) * image.texelBytes());
     return image;
 }
 
@@ -124,7 +126,8 @@ Result<DecodedImage> decodeImage(std::span<const std::byte> bytes, const std::st
     {
         if (signature->decode == nullptr)
             return source.unsupported(std::string(signature->format) + " images are not read");
-        return signature->decode(source);
+        HEARTH_ASSIGN_OR_RETURN(DecodedImage image, signature->decode(source));
+        return dropEmptyBits(std::move(image));
     }
     if (looksLikeTga(bytes))
         return decodeTga(source);

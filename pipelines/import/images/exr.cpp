@@ -17,6 +17,7 @@
 #include <cstring>
 #include <exception>
 #include <optional>
+#include <set>
 #include <string_view>
 
 namespace hearth::import
@@ -199,6 +200,75 @@ Status checkHeader(const EncodedImage& source)
     return success();
 }
 
+/// True if OpenEXR's reader of RGBA takes the channel.
+bool isImageChannel(std::string_view name)
+{
+    constexpr std::string_view kNames[] = {"R", "G", "B", "A", "Y", "RY", "BY"};
+    return std::find(std::begin(kNames), std::end(kNames), name) != std::end(kNames);
+}
+
+/// Add the layers of a part to `layers`: "diffuse" for a channel "diffuse.R", "Z" for a channel "Z".
+void addLayers(const Imf::Header& header, std::set<std::string>& layers)
+{
+    for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel)
+    {
+        const std::string name = channel.name();
+        if (!isImageChannel(name))
+            layers.insert(name.substr(0, name.rfind('.')));
+    }
+}
+
+/// Return what the file holds beside the image: layers of its first part, and other parts.
+std::vector<std::string> listOtherLayers(const EncodedImage& source)
+{
+    // more are not named, and no file needs them
+    constexpr size_t kMaxParts = 256;
+    MemoryStream stream(source.bytes);
+    stream.seekg(kHeaderOffset);
+    int version = 0;
+    std::memcpy(&version, source.bytes.data() + kVersionOffset, sizeof(version));
+    Imf::Header header;
+    header.readFrom(stream, version);
+    std::set<std::string> layers;
+    addLayers(header, layers);
+    std::vector<std::string> names(layers.begin(), layers.end());
+    for (size_t part = 1; part < kMaxParts && (static_cast<uint32_t>(version) & kMultiPartFlag) != 0; ++part)
+    {
+        Imf::Header other;
+        other.readFrom(stream, version);
+        if (other.readsNothing())
+            break;
+        names.push_back(other.hasName() ? "part " + other.name() : "part " + std::to_string(part));
+    }
+    return names;
+}
+
+/// Return "diffuse, specular, Z and 4 more".
+std::string joinNames(const std::vector<std::string>& names)
+{
+    constexpr size_t kMaxNames = 4;
+    std::string text;
+    for (size_t i = 0; i < std::min(names.size(), kMaxNames); ++i)
+        text += (i == 0 ? "" : ", ") + names[i].substr(0, 40);
+    return names.size() <= kMaxNames ? text
+                                     : text + " and " + std::to_string(names.size() - kMaxNames) + " more";
+}
+
+/// Add notes of what of the file is not in the image.
+void noteLosses(const EncodedImage& source, const Imf::ChannelList& channels, DecodedImage& image)
+{
+    const std::vector<std::string> layers = listOtherLayers(source);
+    if (!layers.empty())
+        image.notes.push_back(
+            {Issue::image_layers, "layers beside the image are not kept: " + joinNames(layers)});
+    for (auto channel = channels.begin(); channel != channels.end(); ++channel)
+        if (isImageChannel(channel.name()) && channel.channel().type != Imf::HALF)
+        {
+            image.notes.push_back({Issue::image_depth, "its channels have 32 bits, 16 are kept, as floats"});
+            break;
+        }
+}
+
 /// Set the limits that OpenEXR checks before it allocates anything by the header.
 void setLibraryLimits(const ImportLimits& limits)
 {
@@ -219,7 +289,8 @@ Result<DecodedImage> decode(const EncodedImage& source)
         return source.malformed("EXR: parts of the image are missing");
     if ((file.channels() & (Imf::WRITE_RGB | Imf::WRITE_YC)) == 0)
         return source.unsupported("EXR images without a channel R, G, B or Y are not read");
-    HEARTH_ASSIGN_OR_RETURN(DecodedImage image, allocateImage(source, data.width(), data.height(), true));
+    HEARTH_ASSIGN_OR_RETURN(DecodedImage image,
+                            allocateImage(source, data.width(), data.height(), ChannelType::float16));
 
     // one row at a time: OpenEXR addresses the frame buffer by absolute coordinates; its row stride is 0 here
     std::vector<Imf::Rgba> row(static_cast<size_t>(data.width()));
@@ -229,6 +300,7 @@ Result<DecodedImage> decode(const EncodedImage& source)
         file.readPixels(static_cast<int>(y));
         storeRow(row, static_cast<size_t>(y - data.top), image);
     }
+    noteLosses(source, file.header().channels(), image);
     return image;
 }
 

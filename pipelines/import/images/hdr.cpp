@@ -189,7 +189,8 @@ Result<DecodedImage> decodeHdr(const EncodedImage& source)
         return source.unsupported("HDR images in XYZ are not read");
     HEARTH_TRY(checkImageSize(source, header->width, header->height));
     HEARTH_TRY(checkFileSize(source, "HDR", reader.position() + minTexelBytes(*header)));
-    HEARTH_ASSIGN_OR_RETURN(DecodedImage image, allocateImage(source, header->width, header->height, true));
+    HEARTH_ASSIGN_OR_RETURN(DecodedImage image,
+                            allocateImage(source, header->width, header->height, ChannelType::float16));
     const bool columns = header->rows_are_columns;
     std::vector<Rgbe> scanline(columns ? image.height : image.width);
     const size_t scanline_count = columns ? image.width : image.height;

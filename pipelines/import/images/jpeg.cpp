@@ -138,8 +138,9 @@ Result<DecodedImage> decodeJpeg(const EncodedImage& source)
         return failed();
     HEARTH_TRY(checkImageSize(source, state.decoder.image_width, state.decoder.image_height));
     HEARTH_TRY(checkFileSize(source, "JPEG", minFileBytes(state.decoder)));
-    HEARTH_ASSIGN_OR_RETURN(DecodedImage image, allocateImage(source, state.decoder.image_width,
-                                                              state.decoder.image_height, false));
+    HEARTH_ASSIGN_OR_RETURN(
+        DecodedImage image,
+        allocateImage(source, state.decoder.image_width, state.decoder.image_height, ChannelType::unorm8));
     if (!readTexels(state, imageBytes(image)))
         return failed();
     if (state.decoder.out_color_space == JCS_CMYK)

@@ -58,12 +58,22 @@ uint32_t componentBytes(Component component)
     return component == Component::unorm8 ? 1 : component == Component::float32 ? 4 : 2;
 }
 
-bool isFloat(Component component)
+ChannelType channelType(Component component)
 {
-    return component == Component::float16 || component == Component::float32;
+    switch (component)
+    {
+    case Component::unorm8:
+        return ChannelType::unorm8;
+    case Component::unorm16:
+        return ChannelType::unorm16;
+    case Component::float16:
+    case Component::float32:
+        break;
+    }
+    return ChannelType::float16;
 }
 
-/// Convert one stored component to the image's form: 8 bits, or the bits of a half.
+/// Convert one stored component to the image's form: 8 or 16 bits, or the bits of a half.
 uint16_t convert(const uint8_t* bytes, Component component)
 {
     uint16_t word = 0;
@@ -74,7 +84,7 @@ uint16_t convert(const uint8_t* bytes, Component component)
         return bytes[0];
     case Component::unorm16:
         std::memcpy(&word, bytes, sizeof(word));
-        return static_cast<uint16_t>((word * 255u + 32767u) / 65535u);
+        return word;
     case Component::float16:
         std::memcpy(&word, bytes, sizeof(word));
         return halfFromFloat(floatFromHalf(word));
@@ -85,11 +95,26 @@ uint16_t convert(const uint8_t* bytes, Component component)
     return 0;
 }
 
+/// True if all floats are halves, too.
+bool fitHalves(std::span<const std::byte> floats)
+{
+    for (size_t at = 0; at + sizeof(float) <= floats.size(); at += sizeof(float))
+    {
+        float value = 0;
+        std::memcpy(&value, floats.data() + at, sizeof(value));
+        if (floatFromHalf(halfFromFloat(value)) != value)
+            return false;
+    }
+    return true;
+}
+
 void copyTexels(std::span<const std::byte> bytes, const TexelLayout& layout, DecodedImage& image)
 {
     const auto* in = reinterpret_cast<const uint8_t*>(bytes.data());
     const uint32_t step = componentBytes(layout.component);
-    const uint16_t one = isFloat(layout.component) ? halfFromFloat(1) : uint16_t{255};
+    const uint16_t one = image.type == ChannelType::unorm8    ? uint16_t{255}
+                         : image.type == ChannelType::unorm16 ? uint16_t{65535}
+                                                              : halfFromFloat(1);
     const size_t count = size_t{image.width} * image.height;
     for (size_t i = 0; i < count; ++i)
     {
@@ -101,7 +126,7 @@ void copyTexels(std::span<const std::byte> bytes, const TexelLayout& layout, Dec
         // one channel is grey; two channels are red and green: KTX2 cannot name formats of grey with alpha
         if (layout.channels == 1)
             texel[1] = texel[2] = texel[0];
-        if (isFloat(layout.component))
+        if (image.type != ChannelType::unorm8)
             std::memcpy(image.texels.data() + i * sizeof(texel), texel.data(), sizeof(texel));
         else
             std::transform(texel.begin(), texel.end(), imageBytes(image) + i * 4,
@@ -166,8 +191,10 @@ Result<DecodedImage> decodeUncompressed(const EncodedImage& source, const Ktx2Fi
     const BlockSize texel{1, uint64_t{layout.channels} * componentBytes(layout.component)};
     HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> texels, readFinestLevel(source, file, texel));
     HEARTH_ASSIGN_OR_RETURN(DecodedImage image,
-                            allocateImage(source, file.width, file.height, isFloat(layout.component)));
+                            allocateImage(source, file.width, file.height, channelType(layout.component)));
     copyTexels(texels, layout, image);
+    if (layout.component == Component::float32 && !fitHalves(texels))
+        image.notes.push_back({Issue::image_depth, "its channels are floats of 32 bits, 16 are kept"});
     return image;
 }
 
@@ -185,7 +212,8 @@ Result<DecodedImage> decodeUastcImage(const EncodedImage& source, const Ktx2File
     HEARTH_TRY(checkBasisSize(source, file));
     HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> blocks,
                             readFinestLevel(source, file, {4, kUastcBlockBytes}));
-    HEARTH_ASSIGN_OR_RETURN(DecodedImage image, allocateImage(source, file.width, file.height, false));
+    HEARTH_ASSIGN_OR_RETURN(DecodedImage image,
+                            allocateImage(source, file.width, file.height, ChannelType::unorm8));
     if (!decodeUastc(blocks, file.is_srgb, image))
         return source.malformed("KTX2: UASTC: a block is damaged");
     return image;
@@ -198,7 +226,8 @@ Result<DecodedImage> decodeEtc1s(const EncodedImage& source, const Ktx2File& fil
                                         [](const Ktx2Level& level) { return level.uncompressed_size == 0; });
     if (!sizes_zero || file.color_model != kModelEtc1s || file.sample_channels.size() > 2)
         return source.malformed("KTX2: BasisLZ needs one or two ETC1S samples and no uncompressed sizes");
-    HEARTH_ASSIGN_OR_RETURN(DecodedImage image, allocateImage(source, file.width, file.height, false));
+    HEARTH_ASSIGN_OR_RETURN(DecodedImage image,
+                            allocateImage(source, file.width, file.height, ChannelType::unorm8));
     const std::string_view problem =
         decodeBasisEtc1s(file.global_data, file.levels[0].bytes,
                          {static_cast<uint32_t>(file.levels.size()), file.sample_channels}, image);

@@ -6,6 +6,7 @@
 #include <png.h>
 
 #include <array>
+#include <bit>
 #include <cstdio>
 #include <cstring>
 
@@ -92,18 +93,20 @@ uint64_t minFileBytes(const PngState& state)
     return row_bytes * png_get_image_height(state.png, state.info) / kMaxDeflateRatio;
 }
 
-/// Read the image, with every kind of PNG converted to RGBA8 by libpng.
-bool readTexels(PngState& state, png_bytepp rows)
+/// Read the image, with every kind of PNG converted by libpng to RGBA with channels of 8 bits, or of 16 where
+/// the file has 16.
+bool readTexels(PngState& state, png_bytepp rows, size_t texel_bytes)
 {
+    static_assert(std::endian::native == std::endian::little); // PNG is big-endian
     if (setjmp(png_jmpbuf(state.png)) != 0)
         return false;
-    png_set_scale_16(state.png);
+    png_set_swap(state.png);
     png_set_expand(state.png);
     png_set_gray_to_rgb(state.png);
-    png_set_add_alpha(state.png, 0xFF, PNG_FILLER_AFTER);
+    png_set_add_alpha(state.png, 0xFFFF, PNG_FILLER_AFTER);
     png_set_interlace_handling(state.png);
     png_read_update_info(state.png, state.info);
-    if (png_get_rowbytes(state.png, state.info) != size_t{4} * png_get_image_width(state.png, state.info))
+    if (png_get_rowbytes(state.png, state.info) != texel_bytes * png_get_image_width(state.png, state.info))
         png_error(state.png, "unexpected size of a row");
     png_read_image(state.png, rows);
     png_read_end(state.png, nullptr);
@@ -129,13 +132,15 @@ Result<DecodedImage> decodePng(const EncodedImage& source)
     HEARTH_TRY(checkImageSize(source, png_get_image_width(state.png, state.info),
                               png_get_image_height(state.png, state.info)));
     HEARTH_TRY(checkFileSize(source, "PNG", minFileBytes(state)));
+    const ChannelType type =
+        png_get_bit_depth(state.png, state.info) == 16 ? ChannelType::unorm16 : ChannelType::unorm8;
     HEARTH_ASSIGN_OR_RETURN(DecodedImage image,
                             allocateImage(source, png_get_image_width(state.png, state.info),
-                                          png_get_image_height(state.png, state.info), false));
+                                          png_get_image_height(state.png, state.info), type));
     std::vector<png_bytep> rows(image.height);
     for (size_t y = 0; y < rows.size(); ++y)
-        rows[y] = imageBytes(image) + y * image.width * 4;
-    if (!readTexels(state, rows.data()))
+        rows[y] = imageBytes(image) + y * image.width * image.texelBytes();
+    if (!readTexels(state, rows.data(), image.texelBytes()))
         return failed();
     return image;
 }

@@ -199,13 +199,17 @@ void dropUndefinedAlpha(std::span<const std::byte> bytes, DecodedImage& image)
     const std::optional<uint8_t> type = readAttributesType(bytes);
     if (!type || *type > kMaxUndefinedType)
         return;
+    bool was_seen = false;
     for (size_t at = 3; at < image.texels.size(); at += 4)
         if (image.texels[at] != std::byte{255})
         {
             image.texels[at] = std::byte{255};
-            image.alpha_note = "alpha is not opacity, as attributes type " + std::to_string(*type) +
-                               " of the TGA's extension area says: it is not kept";
+            was_seen = true;
         }
+    if (was_seen)
+        image.notes.push_back({Issue::image_alpha, "alpha is not opacity, as attributes type " +
+                                                       std::to_string(*type) +
+                                                       " of the TGA's extension area says: it is not kept"});
 }
 
 } // namespace
@@ -225,8 +229,8 @@ Result<DecodedImage> decodeTga(const EncodedImage& source)
         return source.malformed("TGA: the file ends too early");
 
     HEARTH_TRY(checkFileSize(source, "TGA", reader.position() + minTexelBytes(*header)));
-    HEARTH_ASSIGN_OR_RETURN(DecodedImage image,
-                            allocateImage(source, number(header->width), number(header->height), false));
+    HEARTH_ASSIGN_OR_RETURN(DecodedImage image, allocateImage(source, number(header->width),
+                                                              number(header->height), ChannelType::unorm8));
     const TexelReader texels{*header, has_alpha, std::move(*map), number(header->map_first)};
     const bool from_right = (header->descriptor & 0x10u) != 0;
     const bool from_top = (header->descriptor & 0x20u) != 0;

@@ -34,8 +34,9 @@ Result<DecodedImage> decodeWebp(const EncodedImage& source)
     if (features.has_animation != 0)
         return source.unsupported("animated WebP images are not read");
     HEARTH_TRY(checkFileSize(source, "WebP", minFileBytes(features)));
-    HEARTH_ASSIGN_OR_RETURN(DecodedImage image, allocateImage(source, static_cast<uint64_t>(features.width),
-                                                              static_cast<uint64_t>(features.height), false));
+    HEARTH_ASSIGN_OR_RETURN(DecodedImage image,
+                            allocateImage(source, static_cast<uint64_t>(features.width),
+                                          static_cast<uint64_t>(features.height), ChannelType::unorm8));
     if (WebPDecodeRGBAInto(source.data(), source.bytes.size(), imageBytes(image), image.texels.size(),
                            features.width * 4) == nullptr)
         return source.malformed("WebP: the data is damaged or ends too early");

@@ -3,6 +3,7 @@
 
 #include "cook/json/json.h"
 #include "formats/container/container_reader.h"
+#include "formats/pack/pack_view.h"
 
 #include <fmt/format.h>
 
@@ -78,6 +79,21 @@ std::string clipJson(const animation_compression::ClipStatistics& clip)
                        clip.stated_error, clip.proven_error);
 }
 
+/// Return the format of an image in the part.
+TexelFormat chooseFormat(ChannelType type, bool is_srgb)
+{
+    switch (type)
+    {
+    case ChannelType::unorm8:
+        return is_srgb ? TexelFormat::rgba8_srgb : TexelFormat::rgba8_unorm;
+    case ChannelType::unorm16:
+        return is_srgb ? TexelFormat::rgba16_srgb : TexelFormat::rgba16_unorm;
+    case ChannelType::float16:
+        break;
+    }
+    return TexelFormat::rgba16_float;
+}
+
 void truncateText(std::string& text)
 {
     constexpr size_t kMaxLength = 300;
@@ -136,17 +152,15 @@ Status PartBuilder::addLod(uint32_t of, const mesh::SourceMesh& mesh, const tool
 
 Result<uint32_t> PartBuilder::addImage(ImageRecord record, const DecodedImage& image)
 {
-    const size_t texel_bytes = image.is_float ? 8 : 4;
-    HEARTH_ASSERT(image.texels.size() == size_t{image.width} * image.height * texel_bytes);
+    HEARTH_ASSERT(image.texels.size() == size_t{image.width} * image.height * image.texelBytes());
     const auto index = static_cast<uint32_t>(images_.size());
     record.width = image.width;
     record.height = image.height;
     record.mip_count = 1;
-    if (image.is_float)
-        record.format = static_cast<uint32_t>(TexelFormat::rgba16_float);
+    record.format = static_cast<uint32_t>(chooseFormat(image.type, isSrgb(record.format)));
     images_.push_back(record);
     HEARTH_TRY(writer_.addChunk({.type = kChunkImageData, .index = index}, image.texels,
-                                static_cast<uint32_t>(texel_bytes), Codec::none));
+                                static_cast<uint32_t>(image.texelBytes()), Codec::none));
     return index;
 }
 
@@ -166,6 +180,14 @@ void PartBuilder::warn(Issue issue, std::string where, std::string detail, std::
     Error error = truncateTexts({issue, source_name_, std::move(where), std::move(detail)});
     warnings_.push_back({std::move(error), std::string(remark)});
     truncateText(warnings_.back().remark);
+}
+
+void PartBuilder::warnOfColorDepth(const DecodedImage& image, const std::string& where,
+                                   const std::string& name)
+{
+    if (image.type == ChannelType::unorm16)
+        warn(Issue::image_depth, where,
+             name + ": its colours have 16 bits a channel, 8 are kept; mips are made from all 16");
 }
 
 std::vector<Error> PartBuilder::warnings() const
@@ -246,6 +268,8 @@ Status PartBuilder::finish()
     HEARTH_TRY(writer_.addRecords<float>(kChunkMorphWeights, morph_weights));
     if (!lods_.empty())
         HEARTH_TRY(writer_.addRecords<AuthoredLodRecord>(kChunkAuthoredLods, lods_));
+    if (!extras.empty())
+        HEARTH_TRY(writer_.addRecords<ExtrasRecord>(kChunkExtras, extras));
     return writer_.finish();
 }
 

@@ -6,6 +6,7 @@
 #include "cook/mesh/source_mesh.h"
 #include "cook/tools/lod_files.h"
 #include "formats/container/container_writer.h"
+#include "formats/records/extras.h"
 #include "formats/records/scene.h"
 #include "pipelines/import/part/vertex_bounds.h"
 
@@ -17,14 +18,33 @@
 namespace hearth::import
 {
 
-/// Decoded image: rows top to bottom, tightly packed.
+/// Number type of an image's channels.
+enum class ChannelType : uint8_t
+{
+    unorm8,  ///< as stored in the file
+    unorm16, ///< as stored in the file
+    float16, ///< linear
+};
+
+/// Loss in an image's decoding, for a warning by the image's user.
+struct ImageNote
+{
+    Issue issue;
+    std::string text;
+};
+
+/// Decoded image: rows top to bottom, four channels, tightly packed.
 struct DecodedImage
 {
     uint32_t width = 0;
     uint32_t height = 0;
-    bool is_float = false;         ///< texels are RGBA16 float (linear), else RGBA8 as stored in the file
-    std::vector<std::byte> texels; ///< width * height * (is_float ? 8 : 4)
-    std::string alpha_note{};      ///< says why alpha was not kept, for a warning image_alpha; else empty
+    ChannelType type = ChannelType::unorm8;
+    std::vector<std::byte> texels; ///< width * height * texelBytes()
+    std::vector<ImageNote> notes{};
+
+    bool isFloat() const { return type == ChannelType::float16; }
+    size_t channelBytes() const { return type == ChannelType::unorm8 ? 1 : 2; }
+    size_t texelBytes() const { return 4 * channelBytes(); }
 };
 
 /// Counts of the source in its own terms, for the report.
@@ -66,7 +86,8 @@ public:
     /// name in the source.
     Status addLod(uint32_t of, const mesh::SourceMesh& mesh, const tools::LodLabel& label);
 
-    /// Write the next image (finest mip only) and return its index. `record` provides name, format and flags.
+    /// Write the next image (finest mip only) and return its index. `record` provides name and flags; of its
+    /// format only counts if it is one of colours (sRGB).
     Result<uint32_t> addImage(formats::ImageRecord record, const DecodedImage& image);
 
     /// Add a warning for the user; the program prints it to stderr and META stores it.
@@ -74,6 +95,10 @@ public:
     /// Add a warning with a remark, which follows the detail on stderr only. A remark may depend on more than
     /// the files that are read, such as names of neighbouring files, but the part must not.
     void warn(Issue issue, std::string where, std::string detail, std::string_view remark);
+
+    /// Warn of an image of colours that has 16 bits a channel: its mips have 8.
+    /// name  of the image in the message: "image \"bark.png\" of material \"oak\""
+    void warnOfColorDepth(const DecodedImage& image, const std::string& where, const std::string& name);
 
     /// Register a source file that was read: name relative to the asset's folder, and content for the hash.
     void addSource(std::string name, std::span<const std::byte> content);
@@ -88,6 +113,7 @@ public:
     std::vector<formats::LightRecord> lights;
     std::vector<formats::ShadowSphereRecord> shadow_spheres;
     std::vector<formats::MaterialRecord> materials;
+    std::vector<formats::ExtrasRecord> extras; ///< sorted; of asset, scene and file with index 0
     std::vector<formats::SkinRecord> skins;
     std::vector<formats::JointRecord> joints;
     std::vector<formats::AnimationRecord> animations;

@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/scans/obj_materials.h"
 
+#include "pipelines/import/images/channels.h"
 #include "pipelines/import/images/decode.h"
 #include "pipelines/import/part/import_options.h"
 #include "pipelines/import/part/part_builder.h"
@@ -193,7 +194,8 @@ private:
             return known->second;
         bool placeholder = false;
         const DecodedImage image = load(texture.file, placeholder);
-        const bool height_map = may_be_height_map && !placeholder && isGrey(image);
+        // the flat normal is (128, 128, 255)
+        const bool height_map = may_be_height_map && !placeholder && !image.isFloat() && isGrey(image);
         if (height_map)
             part_.warn(Issue::dropped, "", "height map '" + texture.file + "' is not kept (normal maps are)");
         // a placeholder holds no normals
@@ -212,9 +214,10 @@ private:
     {
         formats::ImageRecord record{};
         record.name = part_.intern(name);
-        const auto format = image.is_float              ? formats::TexelFormat::rgba16_float
-                            : purpose == Purpose::color ? formats::TexelFormat::rgba8_srgb
-                                                        : formats::TexelFormat::rgba8_unorm;
+        const auto format =
+            purpose == Purpose::color ? formats::TexelFormat::rgba8_srgb : formats::TexelFormat::rgba8_unorm;
+        if (purpose == Purpose::color)
+            part_.warnOfColorDepth(image, "", "image '" + name + "'" + describeUser());
         record.format = static_cast<uint32_t>(format);
         record.flags = flags | (purpose == Purpose::normals ? formats::kImageNormalMap : 0u);
         record.alpha_cutoff = (flags & formats::kImageAlphaTested) != 0 ? kAlphaCutoff : 0;
@@ -238,9 +241,9 @@ private:
         HEARTH_ASSIGN_OR_RETURN(const FileBytes file, folder_.read(name, options_.limits.max_file_bytes));
         part_.addSource(name, file.bytes());
         Result<DecodedImage> image = decodeImage(file.bytes(), name, options_.limits);
-        if (image.ok() && !image->alpha_note.empty())
-            part_.warn(Issue::image_alpha, "",
-                       "image '" + name + "'" + describeUser() + ": " + image->alpha_note);
+        if (image.ok())
+            for (const ImageNote& note : image->notes)
+                part_.warn(note.issue, "", "image '" + name + "'" + describeUser() + ": " + note.text);
         return image;
     }
 
@@ -267,21 +270,12 @@ private:
                    folder_.suggestNearest(file, error.issue));
     }
 
-    /// True if the image may be a height map, which is grey; the flat normal is (128, 128, 255).
-    static bool isGrey(const DecodedImage& image)
-    {
-        for (size_t at = 0; at < image.texels.size() && !image.is_float; at += 4)
-            if (image.texels[at] != image.texels[at + 1] || image.texels[at] != image.texels[at + 2])
-                return false;
-        return !image.is_float;
-    }
-
     /// Put the opacity map into the alpha of `image` (a white image if there is none): the map's alpha if it
     /// has transparent texels, else its brightness.
     void mergeOpacity(const MtlMaterial& mtl, DecodedImage& image)
     {
-        const auto opacity = read(mtl.opacity_map.file);
-        if (!opacity.ok() || opacity->is_float || image.is_float)
+        auto opacity = read(mtl.opacity_map.file);
+        if (!opacity.ok() || opacity->isFloat() || image.isFloat())
         {
             warnOfImage(mtl.opacity_map.file, opacity.ok()
                                                   ? Error{Issue::image_replaced, "", "", "floating point"}
@@ -292,18 +286,23 @@ private:
         }
         if (image.texels.empty())
         {
-            image = {opacity->width, opacity->height, false, {}};
+            image = {opacity->width, opacity->height, opacity->type, {}};
             image.texels.assign(opacity->texels.size(), std::byte{0xFF});
         }
-        bool has_alpha = false;
-        for (size_t at = 3; at < opacity->texels.size(); at += 4)
-            has_alpha = has_alpha || opacity->texels[at] != std::byte{0xFF};
+        if (image.type != opacity->type)
+        {
+            image = widen(std::move(image));
+            opacity = widen(std::move(opacity).value());
+        }
+        const size_t bytes = image.channelBytes();
+        const size_t channel = hasAlpha(*opacity) ? 3 : 0;
         for (size_t y = 0; y < image.height; ++y)
             for (size_t x = 0; x < image.width; ++x)
             {
                 const size_t from =
                     (y * opacity->height / image.height) * opacity->width + x * opacity->width / image.width;
-                image.texels[(y * image.width + x) * 4 + 3] = opacity->texels[from * 4 + (has_alpha ? 3 : 0)];
+                std::memcpy(image.texels.data() + ((y * image.width + x) * 4 + 3) * bytes,
+                            opacity->texels.data() + (from * 4 + channel) * bytes, bytes);
             }
     }
 

@@ -24,6 +24,10 @@ VkFormat imageFormat(uint32_t format)
         return VK_FORMAT_R8G8B8A8_UNORM;
     case formats::TexelFormat::rgba16_float:
         return VK_FORMAT_R16G16B16A16_SFLOAT;
+    case formats::TexelFormat::rgba16_unorm:
+        return VK_FORMAT_R16G16B16A16_UNORM;
+    case formats::TexelFormat::rgba16_srgb:
+        break; // in parts only
     }
     return VK_FORMAT_UNDEFINED;
 }
@@ -39,12 +43,20 @@ Status uploadImage(const Device& device, const formats::PackView& pack, uint32_t
                      std::to_string(record.width) + "x" + std::to_string(record.height) +
                          " texels, the device takes " + std::to_string(device.limits.maxImageDimension2D)};
     HEARTH_ASSIGN_OR_RETURN(const formats::ChunkData data, pack.imageData(index));
+    const bool is_narrowed = formats::isUnorm16(record.format) && !device.samples_unorm16;
+    const auto format =
+        is_narrowed ? static_cast<uint32_t>(formats::TexelFormat::rgba8_unorm) : record.format;
     HEARTH_ASSIGN_OR_RETURN(scene.images[index],
-                            scene.arena.createImage({.format = imageFormat(record.format),
+                            scene.arena.createImage({.format = imageFormat(format),
                                                      .extent = {record.width, record.height},
                                                      .mip_count = record.mip_count,
                                                      .usage = kTextureUsage}));
-    return uploader.upload(scene.images[index], data.bytes(), formats::texelBytes(record.format));
+    if (!is_narrowed)
+        return uploader.upload(scene.images[index], data.bytes(), formats::texelBytes(format));
+    warn(device, pack.name(), "image " + std::to_string(index),
+         "its 16 bits a channel are reduced to 8: the device cannot filter R16G16B16A16_UNORM");
+    return uploader.upload(scene.images[index], formats::narrowTexels(data.bytes()),
+                           formats::texelBytes(format));
 }
 
 Status uploadWhite(Uploader& uploader, Scene& scene)

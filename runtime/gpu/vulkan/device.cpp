@@ -25,6 +25,16 @@ constexpr RequiredFormat kRequiredFormats[] = {
     {VK_FORMAT_D16_UNORM, VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT, "D16_UNORM"},
 };
 
+/// True if textures of the format can be uploaded and filtered.
+bool canSample(const DeviceTable& vk, VkPhysicalDevice physical_device, VkFormat format)
+{
+    constexpr VkFormatFeatureFlags kFeatures =
+        VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT | VK_FORMAT_FEATURE_TRANSFER_DST_BIT;
+    VkFormatProperties properties;
+    vk.vkGetPhysicalDeviceFormatProperties(physical_device, format, &properties);
+    return (properties.optimalTilingFeatures & kFeatures) == kFeatures;
+}
+
 } // namespace
 
 Result<Device> makeDevice(const DeviceDescription& description)
@@ -57,6 +67,7 @@ Result<Device> makeDevice(const DeviceDescription& description)
     device.memory_hooks = description.memory_hooks;
     device.message_hook = description.message_hook;
     device.sampler_anisotropy = description.sampler_anisotropy;
+    device.samples_unorm16 = canSample(device.vk, description.physical_device, VK_FORMAT_R16G16B16A16_UNORM);
     return device;
 }
 

@@ -47,6 +47,8 @@ struct Device
     MemoryHooks memory_hooks{};
     MessageHook message_hook{};
     bool sampler_anisotropy = false;
+    /// Textures may have R16G16B16A16_UNORM, which Vulkan does not require.
+    bool samples_unorm16 = false;
     VkPhysicalDeviceLimits limits{};
     VkPhysicalDeviceMemoryProperties memory{};
 };

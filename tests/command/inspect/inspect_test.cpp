@@ -8,6 +8,7 @@
 #include "tests/support/sandbox.h"
 #include "tests/support/small_parts.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace hearth::test
@@ -168,6 +169,30 @@ TEST_F(Inspect, countsTheScene)
     EXPECT_EQ(scene["images"][1]["format"], "rgba16-float");
     EXPECT_EQ(scene["skins"][0]["joints"], 2);
     EXPECT_EQ(scene["animations"][0]["channels"], 2);
+}
+
+TEST_F(Inspect, listsExtras)
+{
+    PackModel model = smallPack();
+    const Json extras = inspected(model)["scene"]["extras"];
+    ASSERT_EQ(extras.size(), model.extras.size());
+    EXPECT_EQ(extras[0], Json({{"owner", "node"},
+                               {"index", 1},
+                               {"name", "strip node"},
+                               {"json", R"({"speed":1.50,"tag":"T\u00fcr"})"}}));
+    EXPECT_EQ(extras[9]["owner"], "file");
+    EXPECT_EQ(extras[9]["name"], "Lager\xC3\xB6");
+    EXPECT_EQ(extras[9]["json"], "12345678901234567890");
+
+    // a character of two bytes does not fit the line
+    const std::string json = "\"" + std::string(158, 'x') + "\xC3\xB6\"";
+    model.extras[1].json = {static_cast<uint32_t>(model.strings.size()), static_cast<uint32_t>(json.size())};
+    model.strings += json;
+    inspected(model);
+    EXPECT_THAT(text, testing::HasSubstr(
+                          "\nextras of node 1 \"strip node\": {\"speed\":1.50,\"tag\":\"T\\u00fcr\"}\n"));
+    EXPECT_THAT(text, testing::HasSubstr("\nextras of mesh 2 \"triangle\": \"" + std::string(158, 'x') +
+                                         "... (162 bytes)\n"));
 }
 
 TEST_F(Inspect, aJointOfTwoSkinsIsOneJoint)

@@ -250,6 +250,8 @@ TEST_F(LinkPack, secondSourceStandsBehindTheFirst)
     move(first.skins);
     move(first.animations);
     move(first.meshes);
+    for (ExtrasRecord& record : first.extras)
+        record.json.offset += 10;
     addParts(first, "a");
     addParts(named("b.gltf"), "b");
     const PackView pack =
@@ -303,6 +305,43 @@ TEST_F(LinkPack, secondSourceStandsBehindTheFirst)
         EXPECT_EQ(pack.decodePage(static_cast<uint32_t>(model.pages.size()) + i).value(),
                   model.decoded_pages[i]);
     EXPECT_TRUE(sameBytes(pack.imageData(3).value().bytes(), model.image_data[1]));
+}
+
+TEST_F(LinkPack, extrasOfEachSourceStayWithTheirObjects)
+{
+    const PackModel model = named("a.gltf");
+    addParts(model, "a");
+    PackModel second = named("b.gltf");
+    const auto at = static_cast<uint32_t>(second.strings.size());
+    second.strings += "{}";
+    for (ExtrasRecord& record : second.extras)
+        record.json = {at, 2};
+    second.extras.erase(second.extras.begin()); // that of node 1
+    addParts(second, "b");
+    const PackView pack = linked();
+    ASSERT_EQ(pack.extras().size(), 19u);
+    for (const ExtrasRecord& record : model.extras)
+        EXPECT_EQ(pack.findExtras(static_cast<ExtrasOwner>(record.owner), record.index),
+                  model.strings.substr(record.json.offset, record.json.length));
+    const auto count = [](const auto& table) { return static_cast<uint32_t>(table.size()); };
+    EXPECT_EQ(pack.findExtras(ExtrasOwner::node, count(model.nodes) + 1), "");
+    EXPECT_EQ(pack.findExtras(ExtrasOwner::mesh, count(model.meshes) + 2), "{}");
+    EXPECT_EQ(pack.findExtras(ExtrasOwner::material, count(model.materials)), "{}");
+    EXPECT_EQ(pack.findExtras(ExtrasOwner::camera, count(model.cameras) + 1), "{}");
+    EXPECT_EQ(pack.findExtras(ExtrasOwner::light, count(model.lights) + 2), "{}");
+    EXPECT_EQ(pack.findExtras(ExtrasOwner::skin, count(model.skins)), "{}");
+    EXPECT_EQ(pack.findExtras(ExtrasOwner::animation, count(model.animations) + 1), "{}");
+    EXPECT_EQ(pack.findExtras(ExtrasOwner::asset, 1), "{}");
+    EXPECT_EQ(pack.findExtras(ExtrasOwner::scene, 1), "{}");
+    EXPECT_EQ(pack.findExtras(ExtrasOwner::file, 1), "{}");
+}
+
+TEST_F(LinkPack, withoutExtrasThereIsNoChunk)
+{
+    PackModel model = named("a.gltf");
+    model.extras.clear();
+    addParts(model, "a");
+    EXPECT_EQ(linked().container().find(kChunkExtras), nullptr);
 }
 
 TEST_F(LinkPack, anAssetForEachSource)

@@ -68,15 +68,18 @@ Rgba TextureSet::texel(uint32_t image, uint32_t mip, int64_t x, int64_t y) const
     const std::byte* const at =
         images_[image].bytes().data() + mipOffset(record, mip) + index * texelBytes(record.format);
     double c[4];
-    if (static_cast<TexelFormat>(record.format) == TexelFormat::rgba16_float)
+    const auto format = static_cast<TexelFormat>(record.format);
+    if (format == TexelFormat::rgba16_float || format == TexelFormat::rgba16_unorm)
     {
-        uint16_t halves[4];
-        std::memcpy(halves, at, sizeof(halves));
-        std::transform(halves, halves + 4, c, decodeHalf);
+        uint16_t words[4];
+        std::memcpy(words, at, sizeof(words));
+        std::transform(words, words + 4, c,
+                       [&](uint16_t w)
+                       { return format == TexelFormat::rgba16_float ? decodeHalf(w) : w / 65535.0; });
     }
     else
         std::transform(at, at + 4, c, [](std::byte b) { return std::to_integer<int>(b) / 255.0; });
-    if (static_cast<TexelFormat>(record.format) == TexelFormat::rgba8_srgb)
+    if (format == TexelFormat::rgba8_srgb)
         std::transform(c, c + 3, c, linearFromSrgb);
     return {{c[0], c[1], c[2]}, c[3]};
 }

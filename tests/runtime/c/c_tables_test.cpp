@@ -70,6 +70,7 @@ TEST_F(CTablesTest, namesAreThoseOfTheSource)
     expectNames(HEARTH_TABLE_LIGHTS, model_.lights);
     expectNames(HEARTH_TABLE_SKINS, model_.skins);
     expectNames(HEARTH_TABLE_ANIMATIONS, model_.animations);
+    expectNames(HEARTH_TABLE_ASSETS, model_.assets);
     EXPECT_EQ(name(HEARTH_TABLE_NODES, 0), "Wurzel \xC3\xA4\xE2\x82\xAC");
     EXPECT_EQ(name(HEARTH_TABLE_CAMERAS, 1), "camera");
     ASSERT_EQ(count(HEARTH_TABLE_INSTANCES), model_.instances.size());
@@ -87,6 +88,39 @@ TEST_F(CTablesTest, aRecordWithoutANameHasAnEmptyOne)
     EXPECT_EQ(hearth_pack_get_name(pack.get(), HEARTH_TABLE_MATERIALS, 0, &name, nullptr, 0), HEARTH_OK);
     EXPECT_NE(name.text, nullptr);
     EXPECT_EQ(name.length, 0u);
+}
+
+TEST_F(CTablesTest, extrasAreTheTextOfTheSource)
+{
+    std::string_view json = "none";
+    for (const formats::ExtrasRecord& record : model_.extras)
+    {
+        EXPECT_EQ(pack_.getExtras(record.owner, record.index, json, &message_), HEARTH_OK) << message_;
+        EXPECT_EQ(json, model_.strings.substr(record.json.offset, record.json.length)) << record.owner;
+    }
+    EXPECT_EQ(pack_.getExtras(HEARTH_EXTRAS_NODE, 1, json), HEARTH_OK);
+    EXPECT_EQ(json, R"({"speed":1.50,"tag":"T\u00fcr"})");
+    EXPECT_EQ(pack_.getExtras(HEARTH_EXTRAS_FILE, 0, json), HEARTH_OK);
+    EXPECT_EQ(json, "12345678901234567890");
+}
+
+TEST_F(CTablesTest, anObjectWithoutExtrasHasNone)
+{
+    hearth_extras extras{"?", 7};
+    EXPECT_EQ(hearth_pack_get_extras(pack_.get(), HEARTH_EXTRAS_NODE, 0, &extras, nullptr, 0), HEARTH_OK);
+    EXPECT_EQ(extras.json, nullptr);
+    EXPECT_EQ(extras.length, 0u);
+    std::string_view json = "?";
+    EXPECT_EQ(pack_.getExtras(HEARTH_EXTRAS_NODE, 0, json), HEARTH_OK);
+    EXPECT_EQ(json, "");
+    EXPECT_EQ(pack_.getExtras(HEARTH_EXTRAS_NODE, 4, json, &message_), HEARTH_ERROR_USAGE);
+    EXPECT_THAT(message_, HasSubstr("there is no node 4: the pack has 4"));
+    EXPECT_EQ(pack_.getExtras(HEARTH_EXTRAS_SCENE, 1, json, &message_), HEARTH_ERROR_USAGE);
+    EXPECT_THAT(message_, HasSubstr("there is no asset 1: the pack has 1"));
+    EXPECT_EQ(pack_.getExtras(HEARTH_EXTRAS_FILE + 1, 0, json, &message_), HEARTH_ERROR_USAGE);
+    EXPECT_THAT(message_, HasSubstr("owner 10 is not one that this version knows"));
+    EXPECT_EQ(hearth_pack_get_extras(pack_.get(), 0, 0, nullptr, nullptr, 0), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_pack_get_extras(nullptr, 0, 0, &extras, nullptr, 0), HEARTH_ERROR_USAGE);
 }
 
 TEST_F(CTablesTest, instancesSayWhatTheyDraw)
@@ -139,9 +173,9 @@ TEST_F(CTablesTest, whatIsNotThereIsRefused)
     std::string_view name;
     EXPECT_EQ(pack_.getName(HEARTH_TABLE_ANIMATIONS, 1000, name, &message_), HEARTH_ERROR_USAGE);
     EXPECT_THAT(message_, HasSubstr("there is no animation 1000"));
-    EXPECT_EQ(pack_.getName(HEARTH_TABLE_ANIMATIONS + 1, 0, name, &message_), HEARTH_ERROR_USAGE);
-    EXPECT_THAT(message_, HasSubstr("table 9 is not one that this version knows"));
-    EXPECT_EQ(hearth_pack_get_count(pack_.get(), 9, &count, nullptr, 0), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(pack_.getName(HEARTH_TABLE_ASSETS + 1, 0, name, &message_), HEARTH_ERROR_USAGE);
+    EXPECT_THAT(message_, HasSubstr("table 10 is not one that this version knows"));
+    EXPECT_EQ(hearth_pack_get_count(pack_.get(), 10, &count, nullptr, 0), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_pack_get_count(pack_.get(), 0, nullptr, nullptr, 0), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_pack_get_count(nullptr, 0, &count, message, sizeof(message)), HEARTH_ERROR_USAGE);
     EXPECT_THAT(message, HasSubstr("pack is NULL"));

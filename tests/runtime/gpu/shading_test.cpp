@@ -106,6 +106,19 @@ TEST_F(ShadingTest, texturesStandUprightAndKeepTheirBytes)
     EXPECT_EQ(image.at(50, 50), 0xFF808080u);
 }
 
+TEST_F(ShadingTest, sixteenBitsAreSampled)
+{
+    // shares of 65535 that 8 bits of a linear texture cannot tell from black, and those of the screen can
+    TestScene test;
+    MaterialRecord material = unlitMaterial();
+    material.base_color_texture = makeTextureRef(
+        test.addImage(TexelFormat::rgba16_unorm, 1, 1, {80u << 16 | 40u, 65535u << 16 | 160u}));
+    const Image image = drawMaterial(test, material);
+    EXPECT_EQ(channel(image.at(32, 32), 0), 2);
+    EXPECT_EQ(channel(image.at(32, 32), 1), 4);
+    EXPECT_EQ(channel(image.at(32, 32), 2), 8);
+}
+
 TEST_F(ShadingTest, theMipLevelFollowsTheSizeOnTheScreen)
 {
     // mips of 0, 100 and 200: the colour shows the sampled level, in hundredths

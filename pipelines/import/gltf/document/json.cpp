@@ -53,7 +53,12 @@ void GltfProblems::fail(Issue issue, const Json& at, std::string detail)
 
 void GltfProblems::warn(Issue issue, const Json& at, std::string detail)
 {
-    part_->warn(issue, at.pointer(), std::move(detail));
+    warn(issue, at.pointer(), std::move(detail));
+}
+
+void GltfProblems::warn(Issue issue, std::string pointer, std::string detail)
+{
+    part_->warn(issue, std::move(pointer), std::move(detail));
 }
 
 GltfObject::GltfObject(const Json& json, GltfProblems& problems) : json_(json), problems_(&problems)

@@ -28,6 +28,7 @@ public:
 
     void fail(Issue issue, const Json& at, std::string detail);
     void warn(Issue issue, const Json& at, std::string detail);
+    void warn(Issue issue, std::string pointer, std::string detail);
 
     bool ok() const { return !error_.has_value(); }
     Status status() const { return ok() ? success() : Status(*error_); }

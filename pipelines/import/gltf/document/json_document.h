@@ -52,6 +52,9 @@ public:
     /// Return the JSON pointer (RFC 6901): "/meshes/0/primitives/1"; empty for the whole document.
     std::string pointer() const;
 
+    /// Return the number of this value in the order of the text; the root is 0.
+    uint32_t position() const { return value_; }
+
 private:
     const JsonDocument* document_;
     uint32_t value_;

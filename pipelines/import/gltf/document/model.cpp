@@ -2,11 +2,12 @@
 #include "pipelines/import/gltf/document/model.h"
 
 #include "pipelines/import/gltf/document/model_parts.h"
+#include "pipelines/import/gltf/document/places.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
+#include <map>
 
 namespace hearth::import
 {
@@ -102,18 +103,24 @@ std::vector<std::string> readNames(const GltfObject& root, std::string_view list
     return names;
 }
 
-/// Add the names of all extension objects in `json` and below. The JSON parser limits the depth.
-void collectExtensions(const Json& json, std::set<std::string, std::less<>>& names)
+/// Places of each extension, by its name.
+using ExtensionPlaces = std::map<std::string, PlaceList, std::less<>>;
+
+/// Add the objects that have extensions that are not read, at `path` and below. The JSON parser limits the
+/// depth.
+void findUnsupportedExtensions(const JsonPath& path, ExtensionPlaces& places)
 {
+    const Json& json = path.value;
     for (size_t i = 0; i < json.size(); ++i)
     {
-        const Json child = json[i];
-        if (json.isObject() && child.key() == "extras")
+        const JsonPath child{&path, json[i], i};
+        if (json.isObject() && child.value.key() == "extras")
             continue;
-        if (json.isObject() && child.key() == "extensions" && child.isObject())
-            for (size_t k = 0; k < child.size(); ++k)
-                names.emplace(child[k].key());
-        collectExtensions(child, names);
+        if (json.isObject() && child.value.key() == "extensions" && child.value.isObject())
+            for (size_t k = 0; k < child.value.size(); ++k)
+                if (const std::string_view name = child.value[k].key(); !isSupported(name))
+                    places[std::string(name)].add(path);
+        findUnsupportedExtensions(child, places);
     }
 }
 
@@ -123,13 +130,16 @@ void checkExtensions(const GltfObject& root)
         if (!isSupported(name))
             root.problems().fail(Issue::gltf_extension, *root.json().find("extensionsRequired"),
                                  fmt::format("the file requires {}, which is not supported", name));
-    std::set<std::string, std::less<>> names;
+    ExtensionPlaces places;
     for (const std::string& name : readNames(root, "extensionsUsed"))
-        names.insert(name);
-    collectExtensions(root.json(), names);
-    for (const std::string& name : names)
         if (!isSupported(name))
-            root.problems().warn(Issue::dropped, root.json(), fmt::format("extension {} is not kept", name));
+            places.try_emplace(name);
+    findUnsupportedExtensions({nullptr, root.json(), 0}, places);
+    for (const auto& [name, objects] : places)
+        root.problems().warn(Issue::dropped, objects.first(),
+                             fmt::format("extension {} is not kept{}", name,
+                                         objects.empty() ? ": extensionsUsed names it, but no object has it"
+                                                         : objects.list()));
 }
 
 } // namespace

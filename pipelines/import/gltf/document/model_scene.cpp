@@ -1,6 +1,7 @@
 // Reads nodes, scenes, cameras and punctual lights.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/gltf/document/model_parts.h"
+#include "pipelines/import/gltf/document/places.h"
 
 #include <fmt/format.h>
 
@@ -139,6 +140,24 @@ void readShadowSphere(const GltfObject& object, GltfNode& node)
     node.shadow_sphere = std::move(sphere);
 }
 
+/// Warn of the coverages at which levels by MSFT_lod switch: Hearth chooses levels by their error.
+void reportScreenCoverages(const GltfObject& root, const std::vector<GltfObject>& objects)
+{
+    PlaceList places;
+    const JsonPath document{nullptr, root.json(), 0};
+    for (size_t i = 0; i < objects.size(); ++i)
+    {
+        const std::optional<Json> extras = objects[i].json().find("extras");
+        if (!objects[i].extension("MSFT_lod") || !extras || !extras->find("MSFT_screencoverage"))
+            continue;
+        const JsonPath nodes{&document, *root.json().find("nodes"), 0};
+        places.add({&nodes, objects[i].json(), i});
+    }
+    if (!places.empty())
+        root.problems().warn(Issue::lod_coverage, places.first(),
+                             "MSFT_screencoverage is not used: levels switch by their error" + places.list());
+}
+
 /// Give every node its parent. errors: gltf_hierarchy if a node would have two.
 void linkParents(const std::vector<GltfObject>& objects, GltfModel& model)
 {
@@ -248,6 +267,7 @@ void readNodes(const GltfObject& root, size_t skin_count, GltfModel& model)
     // an invalid child index has been reported, and would lead outside the array
     if (!root.problems().ok())
         return;
+    reportScreenCoverages(root, objects);
     linkParents(objects, model);
     if (root.problems().ok())
         checkForCycles(objects, model);

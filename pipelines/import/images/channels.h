@@ -1,0 +1,25 @@
+// Reads and converts the channels of decoded images, whatever their number type.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "pipelines/import/part/part_builder.h"
+
+namespace hearth::import
+{
+
+/// Return an image with 8 bits a channel where 16 say no more: many programs save 8 bits as 16.
+DecodedImage dropEmptyBits(DecodedImage image);
+
+/// Return an image with 8 bits a channel, each rounded to the nearest. The image has no floats (asserted).
+DecodedImage narrow(DecodedImage image);
+
+/// Return an image with 16 bits a channel, without loss. The image has no floats (asserted).
+DecodedImage widen(DecodedImage image);
+
+/// True if no texel has a colour. The image has no floats (asserted).
+bool isGrey(const DecodedImage& image);
+
+/// True if a texel is not opaque. The image has no floats (asserted).
+bool hasAlpha(const DecodedImage& image);
+
+} // namespace hearth::import
