@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/support/cuts.h"
 
-#include "cook/clusters/core/islands.h"
-#include "cook/clusters/simplify/thinning.h"
-#include "cook/mesh/triangles.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -70,89 +66,10 @@ std::vector<uint32_t> trianglesOfCut(const Hierarchy& hierarchy, const DecodedHi
     return triangles;
 }
 
-namespace
-{
-
-/// Edges that an odd number of triangles use, in either direction.
-std::vector<uint64_t> oddEdges(std::span<const uint32_t> triangles)
-{
-    std::vector<uint64_t> edges;
-    for (size_t t = 0; t < triangles.size(); t += 3)
-        for (size_t k = 0; k < 3; ++k)
-        {
-            const auto [low, high] = std::minmax(triangles[t + k], triangles[t + (k + 1) % 3]);
-            edges.push_back(uint64_t{low} << 32 | high);
-        }
-    std::sort(edges.begin(), edges.end());
-    std::vector<uint64_t> odd;
-    for (size_t i = 0; i < edges.size();)
-    {
-        size_t end = i;
-        while (end < edges.size() && edges[end] == edges[i])
-            ++end;
-        if ((end - i) % 2 != 0)
-            odd.push_back(edges[i]);
-        i = end;
-    }
-    return odd;
-}
-
-} // namespace
-
-Border buildBorder(const Hierarchy& hierarchy, const DecodedHierarchy& decoded)
+Boundary findSourceBoundary(const Hierarchy& hierarchy, const DecodedHierarchy& decoded)
 {
     const std::vector<uint8_t> nothing(hierarchy.groups.size(), 0);
-    const auto triangles = trianglesOfCut(hierarchy, decoded, nothing);
-    Border border;
-    border.is_border.assign(decoded.positions.size(), 0);
-    const auto open = mesh::openEdges(triangles);
-    for (const auto& edge : open)
-        border.is_border[edge.from] = border.is_border[edge.to] = 1;
-    border.closed = open.empty();
-    for (const uint64_t edge : oddEdges(triangles))
-    {
-        border.is_border[edge >> 32] = border.is_border[edge & 0xFFFFFFFFu] = 1;
-        border.closed = false;
-    }
-    return border;
-}
-
-namespace
-{
-
-/// For each position that the triangles use, 1 if its island is as small as the islands that grow.
-std::vector<uint8_t> grownIslands(const Border& border, std::span<const uint32_t> triangles)
-{
-    clusters::DisjointSets islands(border.is_border.size());
-    for (size_t corner = 0; corner < triangles.size(); corner += 3)
-    {
-        islands.unite(triangles[corner], triangles[corner + 1]);
-        islands.unite(triangles[corner], triangles[corner + 2]);
-    }
-    std::vector<uint32_t> triangle_count(border.is_border.size(), 0);
-    for (size_t corner = 0; corner < triangles.size(); corner += 3)
-        ++triangle_count[islands.find(triangles[corner])];
-    std::vector<uint8_t> grown(border.is_border.size(), 0);
-    for (const uint32_t position : triangles)
-        grown[position] =
-            border.closed || triangle_count[islands.find(position)] > clusters::kMaxGrownTriangles ? 0 : 1;
-    return grown;
-}
-
-} // namespace
-
-std::string findCrack(const Border& border, std::span<const uint32_t> triangles)
-{
-    const std::vector<uint8_t> grown = grownIslands(border, triangles);
-    const auto outside = [&](uint32_t from, uint32_t to)
-    { return (border.is_border[from] == 0 || border.is_border[to] == 0) && (grown[from] & grown[to]) == 0; };
-    for (const auto& edge : mesh::openEdges(triangles))
-        if (outside(edge.from, edge.to))
-            return "open edge " + std::to_string(edge.from) + " -> " + std::to_string(edge.to);
-    for (const uint64_t edge : oddEdges(triangles))
-        if (outside(static_cast<uint32_t>(edge >> 32), static_cast<uint32_t>(edge)))
-            return "edge with an odd number of triangles";
-    return "";
+    return findBoundary(trianglesOfCut(hierarchy, decoded, nothing));
 }
 
 } // namespace hearth::cuts

@@ -3,11 +3,11 @@
 #pragma once
 
 #include "cook/clusters/levels/validate.h"
+#include "tests/support/boundary.h"
 
 #include <cstdint>
 #include <random>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace hearth::cuts
@@ -28,16 +28,7 @@ std::vector<uint32_t> trianglesOfCut(const clusters::Hierarchy& hierarchy,
                                      const clusters::DecodedHierarchy& decoded,
                                      std::span<const uint8_t> replaced);
 
-/// The surface's border: the open edges of the finest level.
-struct Border
-{
-    bool closed = false;
-    std::vector<uint8_t> is_border; ///< for each position
-};
-Border buildBorder(const clusters::Hierarchy& hierarchy, const clusters::DecodedHierarchy& decoded);
-
-/// Empty if the cut has no open edge except along the source's border or around small islands of an open
-/// surface, which grow when others are removed. Otherwise a message.
-std::string findCrack(const Border& border, std::span<const uint32_t> triangles);
+/// Return the boundary of the finest level.
+Boundary findSourceBoundary(const clusters::Hierarchy& hierarchy, const clusters::DecodedHierarchy& decoded);
 
 } // namespace hearth::cuts

@@ -17,9 +17,9 @@ std::string unsoundness(const mesh::SourceMesh& mesh, const clusters::Hierarchy&
     const auto decoded = clusters::decodeHierarchy(hierarchy);
     if (!decoded.ok())
         return formatMessage(decoded.error());
-    const Border border = buildBorder(hierarchy, *decoded);
+    const Boundary source = findSourceBoundary(hierarchy, *decoded);
     const auto crack = [&](const std::vector<uint8_t>& replaced)
-    { return findCrack(border, trianglesOfCut(hierarchy, *decoded, replaced)); };
+    { return findCrack(source, findBoundary(trianglesOfCut(hierarchy, *decoded, replaced))); };
 
     for (size_t l = 0; l < hierarchy.levels.size(); ++l)
         if (const std::string found = crack(cutAtError(hierarchy, hierarchy.levels[l].max_error));

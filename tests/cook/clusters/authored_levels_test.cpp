@@ -121,8 +121,8 @@ TEST(AuthoredLevels, coverTheSurfaceOnceAtEveryThreshold)
     const Hierarchy hierarchy = build(rock.source, rock.levels);
     const auto decoded = clusters::decodeHierarchy(hierarchy);
     ASSERT_TRUE(decoded.ok());
-    const cuts::Border border = cuts::buildBorder(hierarchy, *decoded);
-    ASSERT_TRUE(border.closed);
+    const Boundary boundary = cuts::findSourceBoundary(hierarchy, *decoded);
+    ASSERT_TRUE(boundary.loops.empty());
     std::set<double> thresholds;
     for (const auto& group : hierarchy.groups)
         if (std::isfinite(group.error))
@@ -133,7 +133,7 @@ TEST(AuthoredLevels, coverTheSurfaceOnceAtEveryThreshold)
     {
         const auto triangles =
             cuts::trianglesOfCut(hierarchy, *decoded, cuts::cutAtError(hierarchy, threshold));
-        EXPECT_EQ(cuts::findCrack(border, triangles), "") << threshold;
+        EXPECT_EQ(findCrack(boundary, findBoundary(triangles)), "") << threshold;
         // the ratio would be 2 if the volume were covered twice, and below 1 if a part were missing
         EXPECT_NEAR(computeVolume(*decoded, triangles) / source_volume, 1, 0.45) << threshold;
     }

@@ -8,8 +8,6 @@
 #include "tests/support/surface_distance.h"
 #include "tests/support/temporary_folder.h"
 
-#include "cook/mesh/triangles.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -102,15 +100,12 @@ void expectNoCracks(const Hierarchy& hierarchy, const DeformedClusters& decoded)
     for (uint32_t c = 0; c < hierarchy.clusters.size(); ++c)
         if (hierarchy.clusters[c].level == 0)
             finest.push_back(c);
-    cuts::Border border;
-    border.is_border.assign(decoded.vertexCount(), 0);
-    for (const auto& edge : mesh::openEdges(decoded.getTriangles(finest)))
-        border.is_border[edge.from] = border.is_border[edge.to] = 1;
+    const Boundary source = findBoundary(decoded.getTriangles(finest));
     std::mt19937 random(5);
     for (int i = 0; i < 20; ++i)
     {
         const auto cut = clusters::findCutClusters(hierarchy, cuts::randomCut(hierarchy, 0.7, random));
-        EXPECT_EQ(cuts::findCrack(border, decoded.getTriangles(cut)), "") << "cut " << i;
+        EXPECT_EQ(findCrack(source, findBoundary(decoded.getTriangles(cut))), "") << "cut " << i;
     }
 }
 

@@ -18,7 +18,7 @@ CookedMesh::CookedMesh(const mesh::SourceMesh& source, std::span<const mesh::Sou
     auto decoded = clusters::decodeHierarchy(hierarchy_);
     HEARTH_ASSERT(decoded.ok());
     decoded_ = std::move(*decoded);
-    border_ = cuts::buildBorder(hierarchy_, decoded_);
+    boundary_ = cuts::findSourceBoundary(hierarchy_, decoded_);
 }
 
 void CookedMesh::expectWhole(const std::vector<uint32_t>& cut, bool watertight) const
@@ -32,7 +32,7 @@ void CookedMesh::expectWhole(const std::vector<uint32_t>& cut, bool watertight) 
                          decoded_.clusters[cluster].positions.end());
     if (watertight)
     {
-        EXPECT_EQ(cuts::findCrack(border_, triangles), "");
+        EXPECT_EQ(findCrack(boundary_, findBoundary(triangles)), "");
     }
 }
 

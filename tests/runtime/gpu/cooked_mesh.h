@@ -30,7 +30,7 @@ private:
     TestScene scene_;
     std::optional<formats::PackView> view_;
     clusters::DecodedHierarchy decoded_;
-    cuts::Border border_;
+    Boundary boundary_;
 };
 
 /// True if a cut has more than one level and so seams: between refined and unrefined parts, or their
