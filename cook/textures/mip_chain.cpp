@@ -47,10 +47,11 @@ uint32_t fullMipCount(uint32_t width, uint32_t height)
     return static_cast<uint32_t>(std::bit_width(std::max(width, height)));
 }
 
-std::vector<std::byte> buildMipChain(const ImageRecord& image, std::vector<std::byte> texels)
+std::vector<std::byte> buildMipChain(const ImageRecord& image, std::vector<std::byte> texels,
+                                     uint32_t max_bits)
 {
     ImageRecord chain = image;
-    chain.format = mipFormat(image.format);
+    chain.format = mipFormat(image.format, max_bits);
     chain.mip_count = fullMipCount(image.width, image.height);
     HEARTH_ASSERT(texels.size() == formats::mipOffset(image, 1));
     const Content content = classifyContent(image);

@@ -18,9 +18,11 @@ uint32_t fullMipCount(uint32_t width, uint32_t height);
 /// channels rounded to 8 bits. Every other mip represents `texels`: nothing is rounded in between. Same bytes
 /// for any number of threads.
 ///
-/// image    width, height, format, flags and alpha_cutoff are read; mip_count is not
-/// texels   width * height texels of that format (asserted)
-/// limits   scratch 16 bytes for each texel of the second and third mip
-std::vector<std::byte> buildMipChain(const formats::ImageRecord& image, std::vector<std::byte> texels);
+/// image     width, height, format, flags and alpha_cutoff are read; mip_count is not
+/// texels    width * height texels of that format (asserted)
+/// max_bits  of a channel: see mipFormat()
+/// limits    scratch 16 bytes for each texel of the second and third mip
+std::vector<std::byte> buildMipChain(const formats::ImageRecord& image, std::vector<std::byte> texels,
+                                     uint32_t max_bits = 16);
 
 } // namespace hearth::textures

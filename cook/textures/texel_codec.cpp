@@ -134,10 +134,13 @@ Content classifyContent(const formats::ImageRecord& image)
     return formats::isSrgb(image.format) ? Content::color : Content::data;
 }
 
-uint32_t mipFormat(uint32_t imported_format)
+uint32_t mipFormat(uint32_t imported_format, uint32_t max_bits)
 {
-    return formats::isSrgb(imported_format) ? static_cast<uint32_t>(formats::TexelFormat::rgba8_srgb)
-                                            : imported_format;
+    if (formats::isSrgb(imported_format))
+        return static_cast<uint32_t>(formats::TexelFormat::rgba8_srgb);
+    return formats::isUnorm16(imported_format) && max_bits < 16
+               ? static_cast<uint32_t>(formats::TexelFormat::rgba8_unorm)
+               : imported_format;
 }
 
 void decodeRow(Content content, uint32_t format, std::span<const std::byte> stored, std::span<Float4> out)

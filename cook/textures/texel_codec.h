@@ -24,8 +24,9 @@ enum class Content : uint8_t
 
 Content classifyContent(const formats::ImageRecord& image);
 
-/// Return the format of the mips of an imported image: colours with 16 bits a channel get 8.
-uint32_t mipFormat(uint32_t imported_format);
+/// Return the format of the mips of an imported image. Of 16 bits a channel colours keep 8, data and normals
+/// `max_bits`: 8 or 16.
+uint32_t mipFormat(uint32_t imported_format, uint32_t max_bits);
 
 /// Decode one row of stored texels to working texels. `stored` has out.size() texels of the format.
 void decodeRow(Content content, uint32_t format, std::span<const std::byte> stored, std::span<Float4> out);

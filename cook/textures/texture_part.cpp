@@ -114,8 +114,8 @@ Status addStoredBytes(const std::string& path, std::span<ImageStatistics> statis
 
 } // namespace
 
-Status cookTextures(const std::string& import_path, const std::string& output_path, uint32_t max_size,
-                    std::vector<ImageStatistics>* statistics)
+Status cookTextures(const std::string& import_path, const std::string& output_path,
+                    const TextureLimits& limits, std::vector<ImageStatistics>* statistics)
 {
     HEARTH_ASSIGN_OR_RETURN(const ContainerReader part, ContainerReader::open(import_path, Check::structure));
     HEARTH_ASSIGN_OR_RETURN(const Records<ImageRecord> sources, part.records<ImageRecord>(kChunkImages));
@@ -131,12 +131,13 @@ Status cookTextures(const std::string& import_path, const std::string& output_pa
     {
         HEARTH_ASSIGN_OR_RETURN(std::vector<std::byte> texels, readTexels(part, images[i], i));
         images[i].mip_count = fullMipCount(images[i].width, images[i].height);
-        const bool is_narrowed = mipFormat(images[i].format) != images[i].format;
+        const uint32_t format = mipFormat(images[i].format, limits.max_bits);
+        const bool is_narrowed = format != images[i].format;
         const std::vector<std::byte> imported =
             is_narrowed && statistics != nullptr ? texels : std::vector<std::byte>();
-        const std::vector<std::byte> chain = buildMipChain(images[i], std::move(texels));
-        images[i].format = mipFormat(images[i].format);
-        const uint32_t skipped_mips = countTooLargeMips(images[i], max_size);
+        const std::vector<std::byte> chain = buildMipChain(images[i], std::move(texels), limits.max_bits);
+        images[i].format = format;
+        const uint32_t skipped_mips = countTooLargeMips(images[i], limits.max_size);
         HEARTH_TRY(writer.addChunk({.type = kChunkImageData, .index = i},
                                    std::span(chain).subspan(mipOffset(images[i], skipped_mips)), 1,
                                    Codec::zstd));

@@ -29,7 +29,8 @@ struct ImageStatistics
     uint64_t bytes = 0;        ///< of all mips
     uint64_t stored_bytes = 0; ///< size in the file
     /// RMS difference between the finest stored mip and the source's image, with all bits that it has, over
-    /// four channels, as a share of a channel's whole range. Empty for light (RGBA16F) that was made smaller: its range has no end.
+    /// four channels, as a share of a channel's whole range. Empty for light (RGBA16F) that was made smaller:
+    /// its range has no end.
     std::optional<double> error;
     /// The same for the next mip: the loss of an image of half the size. Empty for light, and if there is no
     /// such mip.

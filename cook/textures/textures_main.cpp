@@ -14,21 +14,23 @@ namespace
 
 using namespace hearth;
 
+constexpr uint32_t kChannelBits[] = {8, 16};
+
 struct Arguments
 {
     std::string input;
     std::string output;
     size_t jobs = 0;
-    uint32_t max_size = 0;
+    textures::TextureLimits limits;
     std::string statistics;
 };
 
 Status cook(const Arguments& arguments)
 {
     if (arguments.statistics.empty())
-        return textures::cookTextures(arguments.input, arguments.output, arguments.max_size);
+        return textures::cookTextures(arguments.input, arguments.output, arguments.limits);
     std::vector<textures::ImageStatistics> images;
-    HEARTH_TRY(textures::cookTextures(arguments.input, arguments.output, arguments.max_size, &images));
+    HEARTH_TRY(textures::cookTextures(arguments.input, arguments.output, arguments.limits, &images));
     const std::string source = arguments.input.substr(arguments.input.rfind('/') + 1); // npos + 1 is 0
     return writeText(arguments.statistics, textures::statisticsJson(source, images));
 }
@@ -47,9 +49,12 @@ int program(int argc, char** argv)
     app.addOption("part", arguments.input, "import part").required();
     app.addOption("-o,--output", arguments.output, "textures part to write").required();
     app.addOption("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
-    app.addOption("--max-size", arguments.max_size,
+    app.addOption("--max-size", arguments.limits.max_size,
                   "texels: the longer side of what is kept; finer mips are left out")
         .range(1u, textures::kMaxTextureSize, "UINT");
+    app.addOption("--max-bits", arguments.limits.max_bits,
+                  "bits of a channel of data and normals that have 16 in the source")
+        .choices(kChannelBits, "N");
     app.addOption("--stats", arguments.statistics,
                   "write statistics of each image as JSON, with its measured error; - is standard output");
     app.setFooter(

@@ -14,19 +14,23 @@ using namespace settings;
 
 std::vector<Setting> makeTextureSettings()
 {
-    return {withSaving(
-        "smaller textures are less to compress",
-        withOption(wholeNumberSetting(
-                       "textures.max_size",
-                       "texels: the longer side of the textures that are kept; finer mips are left out",
-                       "as in the source", 1, textures::kMaxTextureSize),
-                   "--max-texture-size", "TEXELS"))};
+    return {
+        withSaving(
+            "smaller textures are less to compress",
+            withOption(wholeNumberSetting(
+                           "textures.max_size",
+                           "texels: the longer side of the textures that are kept; finer mips are left out",
+                           "as in the source", 1, textures::kMaxTextureSize),
+                       "--max-texture-size", "TEXELS")),
+        choiceSetting("textures.max_bits", "bits of a channel of data and normals that have 16 in the source",
+                      "16", {"8", "16"}, Kind::whole)};
 }
 
 Result<Arguments> makeTextureArguments(const Values& values)
 {
     Arguments arguments;
     addOption(values, "textures.max_size", "--max-size", arguments);
+    addOption(values, "textures.max_bits", "--max-bits", arguments);
     return arguments;
 }
 

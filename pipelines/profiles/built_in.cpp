@@ -22,6 +22,7 @@ inherits = "mobile-high"
 clusters.levels = [{ keep = 0.4 }]
 clusters.influences = 4
 textures.max_size = 1024
+textures.max_bits = 8
 bricks.memory = "10M"
 
 # Memory to spare: textures as they are up to 4096, and more rays.

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -239,6 +240,26 @@ TEST(ImportScan, opacityMapsBecomeAlphaAndAMask)
     // texel (2, 1): colour of one image, brightness of the other
     EXPECT_EQ(scan.first_image[7 * 4 + 0], std::byte{100});
     EXPECT_EQ(scan.first_image[7 * 4 + 3], std::byte{100});
+}
+
+TEST(ImportScan, anOpacityMapOfEightBitsJoinsAColourOfSixteen)
+{
+    const TemporaryFolder folder;
+    write(folder, "a.mtl", "newmtl m\nmap_Kd t.png\nmap_d g.png\n");
+    write(folder, "t.png", toText(test::kPngRgba16));
+    write(folder, "g.png", toText(test::kPngGrey8));
+    const Imported scan =
+        import(importScan, folder, "a.obj", "mtllib a.mtl\n" + kQuad + "usemtl m\nf 1 2 3\n");
+    ASSERT_EQ(scan.images.size(), 1u);
+    EXPECT_EQ(scan.images[0].format, static_cast<uint32_t>(TexelFormat::rgba16_srgb));
+    EXPECT_TRUE(scan.warned(Issue::image_depth, "image 't.png' of material 'm': its colours have 16 bits"));
+    ASSERT_EQ(scan.first_image.size(), 120u);
+    // texel (2, 1): colour of one image, brightness of the other, which is 100 of 255
+    uint16_t texel[4];
+    std::memcpy(texel, scan.first_image.data() + 7 * sizeof(texel), sizeof(texel));
+    EXPECT_EQ(texel[0], 2001);
+    EXPECT_EQ(texel[2], 30005);
+    EXPECT_EQ(texel[3], 100 * 257);
 }
 
 TEST(ImportScan, heightMapsAreNamedAndNormalMapsKept)

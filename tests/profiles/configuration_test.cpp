@@ -208,22 +208,23 @@ Words wordsFor(std::string_view cooker, const settings::Values& values)
 
 TEST(Arguments, giveEachCookerItsOwnSettings)
 {
-    const auto profile = parseProfileFile("import.crease_angle = 30\nimport.scale = 0.01\nimport.up = 'z'\n"
-                                          "animation.error = 0.25\n"
-                                          "clusters.influences = 4\nclusters.levels = [{ keep = 0.6 }]\n"
-                                          "textures.max_size = 64\nvisibility.enabled = true\n"
-                                          "visibility.quality = 'draft'\nvisibility.distance = 2\n"
-                                          "visibility.power = 1\nvisibility.poses = ['Run', 'Walk']\n"
-                                          "visibility.refine = true\nvisibility.occluders = 'asset'\n"
-                                          "bricks.enabled = true\nbricks.voxel_size = 0.5\n"
-                                          "bricks.memory = '1M'\nbricks.bake = 3\n",
-                                          "house.toml");
+    const auto profile =
+        parseProfileFile("import.crease_angle = 30\nimport.scale = 0.01\nimport.up = 'z'\n"
+                         "animation.error = 0.25\n"
+                         "clusters.influences = 4\nclusters.levels = [{ keep = 0.6 }]\n"
+                         "textures.max_size = 64\ntextures.max_bits = 8\nvisibility.enabled = true\n"
+                         "visibility.quality = 'draft'\nvisibility.distance = 2\n"
+                         "visibility.power = 1\nvisibility.poses = ['Run', 'Walk']\n"
+                         "visibility.refine = true\nvisibility.occluders = 'asset'\n"
+                         "bricks.enabled = true\nbricks.voxel_size = 0.5\n"
+                         "bricks.memory = '1M'\nbricks.bake = 3\n",
+                         "house.toml");
     ASSERT_TRUE(profile.ok()) << formatMessage(profile.error());
     const settings::Values& values = profile->values;
     EXPECT_TRUE(cookers::checkSourceSettings(values).ok());
     EXPECT_EQ(wordsFor("import", values), (Words{"--crease-angle", "30", "--scale", "0.01", "--up", "z",
                                                  "--set", "animation.error=0.25"}));
-    EXPECT_EQ(wordsFor("textures", values), (Words{"--max-size", "64"}));
+    EXPECT_EQ(wordsFor("textures", values), (Words{"--max-size", "64", "--max-bits", "8"}));
     EXPECT_EQ(wordsFor("clusters", values),
               (Words{"--set", "clusters.influences=4", "--set", "clusters.levels=[{keep=0.6}]",
                      "--no-discrete-lods", "--visibility"}));

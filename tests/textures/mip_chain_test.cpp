@@ -131,6 +131,29 @@ TEST(MipChain, dataKeepSixteenBits)
     }
 }
 
+TEST(MipChain, dataMayKeepEightBitsOfSixteen)
+{
+    const ImageRecord image = makeRecord(4, 4, TexelFormat::rgba16_unorm);
+    ImageRecord cooked = makeRecord(4, 4, TexelFormat::rgba8_unorm);
+    cooked.mip_count = 3;
+    for (uint32_t seed = 0; seed < 20; ++seed)
+    {
+        const std::vector<std::byte> texels = randomWide(16, seed);
+        const std::vector<std::byte> chain = buildMipChain(image, texels, 8);
+        ASSERT_EQ(chain.size(), (16u + 4u + 1u) * 4u);
+        for (size_t i = 0; i < 64; ++i)
+            ASSERT_EQ(std::to_integer<long>(chain[i]), std::lround(wideChannel(texels, i) / 257.0));
+        const Rgba8 last = decodeMip(cooked, chain, 2)[0];
+        for (size_t channel = 0; channel < 4; ++channel)
+        {
+            double sum = 0;
+            for (size_t texel = 0; texel < 16; ++texel)
+                sum += wideChannel(texels, texel * 4 + channel);
+            EXPECT_EQ(last[channel], std::lround(sum / 16 / 257));
+        }
+    }
+}
+
 TEST(MipChain, normalsKeepSixteenBits)
 {
     // directions that differ by less than a step of 8 bits: their mean lies between

@@ -69,7 +69,7 @@ TEST(CookTextures, sayTheErrorOfColoursThatHadSixteenBits)
     const std::vector<std::vector<std::byte>> texels = {opaque, opaque};
     writeImport(folder.file("in.part"), images, texels);
     std::vector<ImageStatistics> statistics;
-    ASSERT_TRUE(cookTextures(folder.file("in.part"), folder.file("out.part"), 0, &statistics).ok());
+    ASSERT_TRUE(cookTextures(folder.file("in.part"), folder.file("out.part"), {}, &statistics).ok());
     ASSERT_EQ(statistics.size(), 2u);
     EXPECT_EQ(statistics[0].image.format, static_cast<uint32_t>(TexelFormat::rgba8_srgb));
     EXPECT_EQ(statistics[1].image.format, static_cast<uint32_t>(TexelFormat::rgba16_unorm));
@@ -80,6 +80,16 @@ TEST(CookTextures, sayTheErrorOfColoursThatHadSixteenBits)
     ASSERT_TRUE(part.ok());
     EXPECT_EQ(part->find(kChunkImageData, 0)->size, (64u + 16 + 4 + 1) * 4);
     EXPECT_EQ(part->find(kChunkImageData, 1)->size, (64u + 16 + 4 + 1) * 8);
+
+    std::vector<ImageStatistics> narrow;
+    ASSERT_TRUE(
+        cookTextures(folder.file("in.part"), folder.file("narrow.part"), {.max_bits = 8}, &narrow).ok());
+    EXPECT_EQ(narrow[0].error, statistics[0].error);
+    EXPECT_EQ(narrow[1].image.format, static_cast<uint32_t>(TexelFormat::rgba8_unorm));
+    EXPECT_NEAR(*narrow[1].error, std::sqrt(3.0 / 4 / 12) / 255, 1e-4) << "its alpha is 65535";
+    const auto narrow_part = ContainerReader::open(folder.file("narrow.part"));
+    ASSERT_TRUE(narrow_part.ok());
+    EXPECT_EQ(narrow_part->find(kChunkImageData, 1)->size, (64u + 16 + 4 + 1) * 4);
 }
 
 TEST(CookTextures, leavesOutMipsThatAreTooLarge)
@@ -94,7 +104,8 @@ TEST(CookTextures, leavesOutMipsThatAreTooLarge)
         {16, {0, 0, 0}}, {12, {0, 1, 0}}, {11, {1, 1, 0}}, {6, {1, 2, 0}}, {1, {3, 4, 0}}};
     for (const auto& [max_size, left_out] : rows)
     {
-        ASSERT_TRUE(cookTextures(folder.file("in.part"), folder.file("out.part"), max_size).ok());
+        ASSERT_TRUE(
+            cookTextures(folder.file("in.part"), folder.file("out.part"), {.max_size = max_size}).ok());
         const auto part = ContainerReader::open(folder.file("out.part"));
         ASSERT_TRUE(part.ok());
         const auto records = part->records<ImageRecord>(kChunkImages);
@@ -124,7 +135,7 @@ TEST(CookTextures, saysWhatBecameOfEachImage)
                                                         std::vector<std::byte>(4 * 4 * 8)};
     writeImport(folder.file("in.part"), images, texels);
     std::vector<ImageStatistics> statistics;
-    ASSERT_TRUE(cookTextures(folder.file("in.part"), folder.file("out.part"), 0, &statistics).ok());
+    ASSERT_TRUE(cookTextures(folder.file("in.part"), folder.file("out.part"), {}, &statistics).ok());
     const auto part = ContainerReader::open(folder.file("out.part"));
     ASSERT_EQ(statistics.size(), 2u);
     for (uint32_t i = 0; i < 2; ++i)
@@ -139,7 +150,8 @@ TEST(CookTextures, saysWhatBecameOfEachImage)
     EXPECT_EQ(statistics[0].error, 0);
 
     std::vector<ImageStatistics> smaller;
-    ASSERT_TRUE(cookTextures(folder.file("in.part"), folder.file("small.part"), 6, &smaller).ok());
+    ASSERT_TRUE(
+        cookTextures(folder.file("in.part"), folder.file("small.part"), {.max_size = 6}, &smaller).ok());
     EXPECT_EQ(smaller[0].image.width, 6u);
     EXPECT_EQ(smaller[0].error, statistics[0].half_error) << "it has half of its size now";
     EXPECT_GE(smaller[0].half_error, smaller[0].error);
@@ -174,7 +186,7 @@ TEST(CookTextures, saysWhichMaterialsShowAnImage)
         ASSERT_TRUE(writer->finish().ok());
     }
     std::vector<ImageStatistics> statistics;
-    ASSERT_TRUE(cookTextures(folder.file("in.part"), folder.file("out.part"), 0, &statistics).ok());
+    ASSERT_TRUE(cookTextures(folder.file("in.part"), folder.file("out.part"), {}, &statistics).ok());
     ASSERT_EQ(statistics.size(), 2u);
     EXPECT_TRUE(statistics[0].uses.empty());
     ASSERT_EQ(statistics[1].uses.size(), 2u);

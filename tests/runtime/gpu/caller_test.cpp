@@ -27,7 +27,9 @@ struct Spy
     PFN_vkCreateGraphicsPipelines create_graphics_pipelines = nullptr;
     PFN_vkCmdBeginDebugUtilsLabelEXT begin_label = nullptr;
     PFN_vkCmdEndDebugUtilsLabelEXT end_label = nullptr;
+    PFN_vkGetPhysicalDeviceFormatProperties get_format_properties = nullptr;
 
+    VkFormat missing_format = VK_FORMAT_UNDEFINED; ///< the device is said to have no use for it
     uint32_t allocations = 0;
     std::vector<VkPipelineCache> caches; ///< one for each pipeline
     std::vector<std::string> labels;
@@ -86,12 +88,22 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, cons
     return function;
 }
 
+VKAPI_ATTR void VKAPI_CALL getFormatProperties(VkPhysicalDevice device, VkFormat format,
+                                               VkFormatProperties* properties)
+{
+    spy.get_format_properties(device, format, properties);
+    if (format == spy.missing_format)
+        *properties = {};
+}
+
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getInstanceProcAddr(VkInstance instance, const char* name)
 {
     const PFN_vkVoidFunction function = spy.get_instance_proc_addr(instance, name);
     const std::string_view which = name;
     if (which == "vkGetDeviceProcAddr")
         return replaceFunction(function, spy.get_device_proc_addr, getDeviceProcAddr);
+    if (which == "vkGetPhysicalDeviceFormatProperties")
+        return replaceFunction(function, spy.get_format_properties, getFormatProperties);
     if (which == "vkCmdBeginDebugUtilsLabelEXT")
         return replaceFunction(function, spy.begin_label, beginLabel);
     if (which == "vkCmdEndDebugUtilsLabelEXT")
@@ -369,6 +381,33 @@ TEST_F(CallerTest, itsDebuggerSeesThePassesInOrder)
     (void)drawOnce(labelled, {}, {.flags = shared::kCullFrustum, .area = gpu::ShadedArea::wholeFrame});
     spy.labels.resize(4);
     EXPECT_EQ(spy.labels, (std::vector<std::string>{"cull", "visibility", "material depth", "shading"}));
+}
+
+TEST_F(CallerTest, itIsToldThatItsDeviceHasNoTexturesOfSixteenBits)
+{
+    // mips of 4 and 1 texels; the alpha of 65535 and the rest are 8 bits, too, so that nothing is lost
+    std::vector<uint32_t> wide;
+    for (uint32_t texel = 0; texel < 5; ++texel)
+        wide.insert(wide.end(), {(40u * 257) << 16 | (20 * texel) * 257, 65535u << 16 | 200 * 257});
+    formats::MaterialRecord material = plainMaterial();
+    material.emissive = {1, 1, 1};
+    material.emissive_texture =
+        makeTextureRef(test_.addImage(formats::TexelFormat::rgba16_unorm, 2, 2, wide));
+    material.emissive_texture.nearest = 1; // drivers filter 8 bits more coarsely
+    test_.addInstance(test_.addMesh(withMaterial(makeQuad(4, 4), test_.addMaterial(material))), Affine3{});
+    std::vector<std::string> messages;
+    gpu::DeviceDescription device = description();
+    device.message_hook = {&messages, [](void* user, const char* message)
+                           { static_cast<std::vector<std::string>*>(user)->emplace_back(message); }};
+    const std::vector<std::byte> expected = drawOnce(device);
+    EXPECT_TRUE(messages.empty());
+
+    spy.missing_format = VK_FORMAT_R16G16B16A16_UNORM;
+    EXPECT_EQ(drawOnce(device), expected);
+    ASSERT_EQ(messages.size(), 1u);
+    EXPECT_THAT(messages[0],
+                testing::HasSubstr("image 0: warning: its 16 bits a channel are reduced to 8: the "
+                                   "device cannot filter R16G16B16A16_UNORM [W1401]"));
 }
 
 TEST_F(CallerTest, itIsToldWhatIsDegraded)
