@@ -45,7 +45,8 @@ struct CookOptions : graph::CookSettings, RunLimits
 /// cache (incremental build). The output appears whole or not at all. After a failure or an interruption an
 /// old output is unchanged, and nothing else is left behind.
 /// dependencies  receives the files that were read or probed; null: not needed
-/// returns     the exit code, 1 for a pack without some of its sources; every problem has been printed on stderr
+/// returns     the exit code, 1 for a pack without some of its sources; every problem has been printed on
+///             stderr
 int cook(const CookOptions& options, std::vector<std::string>* dependencies = nullptr);
 
 } // namespace hearth::command
