@@ -77,7 +77,7 @@ const std::vector<Layer>& layers()
         {"cook/visibility/mesh", {"formats", "cook/mesh"}},
         {"cook/visibility/rays", {"formats", "cook/sampling", "cook/visibility/mesh"}},
         {"cook/visibility/fit", {"formats", "cook/visibility/mesh", "cook/visibility/rays"}},
-        {"cook/visibility/scene", {"formats", "cook/visibility/rays", "cook/visibility/fit"}},
+        {"cook/visibility/scene", {"formats", "cook/mesh", "cook/visibility/rays", "cook/visibility/fit"}},
         {"cook/visibility/program",
          {"formats", "cook/command_line", "cook/json", "cook/tools", "cook/mesh", "cook/pages",
           "cook/visibility/rays", "cook/visibility/fit", "cook/visibility/scene"}},

@@ -6,6 +6,7 @@
 #include "cook/pages/rewrite.h"
 #include "cook/visibility/rays/sampled_moments.h"
 #include "cook/visibility/scene/scene_occluders.h"
+#include "cook/visibility/scene/source_normals.h"
 #include "formats/base/affine3d.h"
 #include "formats/pack/pack_check.h"
 
@@ -14,6 +15,8 @@
 #include <chrono>
 #include <deque>
 #include <numbers>
+
+#include <tbb/parallel_for.h>
 
 namespace hearth::visibility
 {
@@ -130,6 +133,8 @@ private:
         HEARTH_ASSIGN_OR_RETURN(const MeshPages pages, MeshPages::read(part_, mesh));
         std::vector<LevelArrays> levels = extractLevels(pages);
         const LevelArrays& finest = levels.front();
+        HEARTH_ASSIGN_OR_RETURN(const SourceNormals normals,
+                                SourceNormals::read(scene_, mesh, pages.record()));
         const bool deformed = isDeformed(pages.record());
         const bool alone = settings_.alone || deformed || transforms_[mesh].empty();
         MeshStatistics statistics;
@@ -157,7 +162,7 @@ private:
                 ++statistics.interior_samples;
             }
         statistics.ray_seconds = secondsSince(start);
-        fit(levels, samples, *seen, statistics);
+        fit(levels, samples, *seen, normals, statistics);
         return std::optional(std::move(statistics));
     }
 
@@ -251,7 +256,7 @@ private:
     }
 
     void fit(const std::vector<LevelArrays>& levels, const std::vector<SurfaceSample>& samples,
-             const SampledMoments& seen, MeshStatistics& statistics)
+             const SampledMoments& seen, const SourceNormals& normals, MeshStatistics& statistics)
     {
         const auto start = std::chrono::steady_clock::now();
         std::vector<LevelMesh> meshes;
@@ -271,7 +276,7 @@ private:
             statistics.vertices += of_level.vertices;
             statistics.clamped += of_level.clamped;
             statistics.unseen += of_level.unseen;
-            encode(levels[l], fits[l].moments);
+            encode(levels[l], fits[l].moments, normals);
         }
         statistics.fit_seconds = secondsSince(start);
         if (settings_.estimate_error)
@@ -279,9 +284,9 @@ private:
     }
 
     /// Encode the moments of a level. Clusters that several cuts draw have equal codes in all of them.
-    void encode(const LevelArrays& level, std::span<const Moments> moments)
+    void encode(const LevelArrays& level, std::span<const Moments> moments, const SourceNormals& normals)
     {
-        for (size_t i = 0; i < level.parts.size(); ++i)
+        const auto encodeCluster = [&](size_t i)
         {
             const LevelArrays::Part& part = level.parts[i];
             const size_t end =
@@ -289,8 +294,13 @@ private:
             std::vector<uint32_t>& codes = codes_[part.cluster];
             codes.clear();
             for (size_t v = part.first_vertex; v < end; ++v)
-                codes.push_back(encodeVisibility(moments[v].m0, moments[v].m1, level.normals[v]));
-        }
+            {
+                const Float3 exact = normals.find(level.positions[v], level.normals[v]);
+                codes.push_back(encodeVisibility(
+                    moments[v].m0, turnWithNormal(moments[v].m1, exact, level.normals[v]), level.normals[v]));
+            }
+        };
+        tbb::parallel_for(size_t{0}, level.parts.size(), encodeCluster);
     }
 
     /// Estimate the noise of ambient occlusion. Two fits, each to every other sample, differ by twice the

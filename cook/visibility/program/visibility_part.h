@@ -67,12 +67,12 @@ using BakeObserver = std::function<bool(const BakeProgress& progress)>;
 /// Write the clusters part again, with visibility at the vertices of each mesh whose vertices have room for
 /// it. Writes nothing if `observe` returned false. The same bytes for any number of threads.
 ///
-/// import_part    instances, materials and images
+/// import_part    instances, materials, images and the source's normals
 /// clusters_part  of the same source
 /// observe        may be empty
 /// returns  nothing if `observe` returned false
-/// errors: those of checkHierarchy, rewriteVisibility and addMesh; meaning_reference if the parts are of
-/// different sources
+/// errors: those of checkHierarchy, rewriteVisibility, addMesh and mesh::readSourceMesh; meaning_reference if
+/// the parts are of different sources
 Result<std::optional<std::vector<MeshStatistics>>> writeVisibilityPart(const formats::PackView& import_part,
                                                                        const formats::PackView& clusters_part,
                                                                        const std::string& output_path,
