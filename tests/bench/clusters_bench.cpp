@@ -84,5 +84,3 @@ BENCHMARK(foliage400k)->Unit(benchmark::kMillisecond);
 BENCHMARK(seams500k)->Unit(benchmark::kMillisecond);
 
 } // namespace
-
-BENCHMARK_MAIN();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/bench/light_plot.h"
 
+#include "tests/bench/aims.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -15,9 +17,6 @@ constexpr double kWidth = 340, kHeight = 240, kLeft = 52, kTop = 30, kGap = 30, 
 
 // Axes: voxel size from 2 cm to 2 m, error from 0.5 % to 200 %.
 constexpr double kMinSize = 0.02, kMaxSize = 2, kMinError = 0.005, kMaxError = 2;
-
-/// Error limit that the project sets itself.
-constexpr double kLimit = 0.15;
 
 double getX(double size)
 {
@@ -43,7 +42,7 @@ std::string axes()
                            kWidth, getY(error), getY(error) + 4, 100 * error);
     return svg + fmt::format("<line x2='{0}' y1='{1:.1f}' y2='{1:.1f}' stroke='#27ae60' "
                              "stroke-dasharray='5 3'/>\n",
-                             kWidth, getY(kLimit));
+                             kWidth, getY(findAim("light", "rms error of light at voxels of 0.1 m").limit));
 }
 
 template <typename Value>

@@ -189,5 +189,3 @@ void marchLanesFromAnywhere(benchmark::State& state)
 BENCHMARK(marchLanesFromAnywhere)->Unit(benchmark::kMillisecond);
 
 } // namespace
-
-BENCHMARK_MAIN();

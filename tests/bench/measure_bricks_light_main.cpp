@@ -1,5 +1,5 @@
 // hearth_measure_bricks_light: compares the global illumination gathered from bricks with path tracing of the
-// real geometry.
+// real geometry, and holds the error against the aim of "light".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/voxels/grid_part.h"
 #include "cook/command_line/command_line.h"
@@ -7,6 +7,7 @@
 #include "formats/base/atomic_file.h"
 #include "formats/base/program.h"
 #include "runtime/frame/frame.h"
+#include "tests/bench/aims.h"
 #include "tests/bench/light_plot.h"
 #include "tests/reference/png_image.h"
 
@@ -25,6 +26,7 @@ using namespace hearth::reference;
 using reference::Double3;
 
 constexpr uint32_t kFaceRays = 16;
+constexpr double kAimVoxel = 0.1; ///< metres; voxels of this size have an aim
 
 struct Arguments
 {
@@ -194,15 +196,24 @@ Result<LightCurve> measureScene(const std::string& prefix, const Arguments& argu
     return curve;
 }
 
-Status run(const Arguments& arguments)
+/// returns  exit code: 1 if an aim is missed
+Result<int> run(const Arguments& arguments)
 {
     std::vector<LightCurve> curves;
+    Judgement judgement("light");
     for (const std::string& prefix : arguments.scenes)
     {
         HEARTH_ASSIGN_OR_RETURN(LightCurve curve, measureScene(prefix, arguments));
+        for (const LightCurve::Size& size : curve.sizes)
+            if (size.voxel_size == kAimVoxel)
+                judgement.record("rms error of light at voxels of 0.1 m", size.all.whole);
         curves.push_back(std::move(curve));
     }
-    return arguments.plot.empty() ? success() : writeText(arguments.plot, lightPlot(curves));
+    if (std::find(arguments.sizes.begin(), arguments.sizes.end(), kAimVoxel) == arguments.sizes.end())
+        judgement.leaveOut("rms error of light at voxels of 0.1 m");
+    if (!arguments.plot.empty())
+        HEARTH_TRY(writeText(arguments.plot, lightPlot(curves)));
+    return judgement.finish();
 }
 
 int program(int argc, char** argv)
@@ -227,8 +238,8 @@ int program(int argc, char** argv)
                   "of each pixel, and rays of each through the bricks");
     if (const std::optional<int> exit_code = app.parse(argc, argv))
         return *exit_code;
-    const Status end = run(arguments);
-    return end.ok() ? 0 : reportFailure(end.error());
+    const Result<int> end = run(arguments);
+    return end.ok() ? *end : reportFailure(end.error());
 }
 
 } // namespace

@@ -7,6 +7,7 @@
 #include "cook/command_line/command_line.h"
 #include "formats/base/program.h"
 #include "formats/pack/pack_view.h"
+#include "tests/bench/aims.h"
 #include "tests/bench/cut_quality.h"
 #include "tests/bench/error_plot.h"
 #include "tests/bench/page_figures.h"
@@ -209,7 +210,7 @@ void printMedians(std::span<const bench::MeshCurve> curves)
     }
 }
 
-void printQuality(const bench::MeshCurve& curve)
+void printQuality(const bench::MeshCurve& curve, bench::Judgement& judgement)
 {
     const std::span<const bench::CutQuality> cuts = curve.cuts;
     const double diagonal = curve.diagonal;
@@ -229,6 +230,7 @@ void printQuality(const bench::MeshCurve& curve)
     }
     if (tightness.empty())
         return;
+    judgement.record("cuts beyond their stored error", static_cast<double>(broken));
     std::sort(tightness.begin(), tightness.end());
     std::printf("  honesty: %zu of %zu cuts beyond their error; stored / measured %.2f in the median\n",
                 broken, cuts.size(), 1 / tightness[tightness.size() / 2]);
@@ -243,6 +245,10 @@ void printQuality(const bench::MeshCurve& curve)
         printRatio("equal rms", ratios.rms);
         printRatio("equal normals", ratios.normals);
         std::printf("\n");
+        if (ratios.rms)
+            judgement.record("triangles / clod's for equal rms", *ratios.rms);
+        if (ratios.normals)
+            judgement.record("triangles / clod's for equal normals", *ratios.normals);
     }
 }
 
@@ -280,7 +286,8 @@ void buildLevelsAlone(const mesh::SourceMesh& mesh)
     clusters::buildLevels(build);
 }
 
-bench::MeshCurve measureMesh(const std::string& name, const mesh::SourceMesh& mesh, size_t samples)
+bench::MeshCurve measureMesh(const std::string& name, const mesh::SourceMesh& mesh, size_t samples,
+                             bench::Judgement& judgement)
 {
     const auto* peer = std::find_if(bench::kPeerFigures.begin(), bench::kPeerFigures.end(),
                                     [&](const auto& p) { return p.mesh == name; });
@@ -318,7 +325,7 @@ bench::MeshCurve measureMesh(const std::string& name, const mesh::SourceMesh& me
     const double diagonal = double{length(hierarchy.mesh.box_max - hierarchy.mesh.box_min)};
     bench::MeshCurve curve{name, static_cast<double>(mesh.triangleCount()), diagonal,
                            measureCuts(mesh, hierarchy, samples), peer};
-    printQuality(curve);
+    printQuality(curve, judgement);
     std::fflush(stdout);
     return curve;
 }
@@ -336,6 +343,7 @@ int program(int argc, char** argv)
     if (const std::optional<int> exit_code = app.parse(argc, argv))
         return *exit_code;
     std::vector<bench::MeshCurve> curves;
+    bench::Judgement judgement("clusters");
     for (const std::string& path : parts)
     {
         const auto reader = formats::ContainerReader::open(path);
@@ -346,12 +354,19 @@ int program(int argc, char** argv)
             return reportFailure(mesh.error());
         }
         const std::string file = path.substr(path.find_last_of('/') + 1);
-        curves.push_back(measureMesh(file.substr(0, file.find('.')), *mesh, samples));
+        curves.push_back(measureMesh(file.substr(0, file.find('.')), *mesh, samples, judgement));
     }
     printMedians(curves);
     if (!plot.empty())
         std::ofstream(plot) << bench::errorPlot(curves);
-    return 0;
+    if (samples == 0)
+        judgement.leaveOut("cuts beyond their stored error");
+    if (std::none_of(curves.begin(), curves.end(), [](const auto& curve) { return curve.peer != nullptr; }))
+    {
+        judgement.leaveOut("triangles / clod's for equal rms");
+        judgement.leaveOut("triangles / clod's for equal normals");
+    }
+    return judgement.finish();
 }
 
 } // namespace

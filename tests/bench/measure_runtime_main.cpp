@@ -1,10 +1,11 @@
-// Prints the statistics that hearth-render wrote for the scene of the talk, beside the talk's figures. `./dev
-// bench runtime` makes the scene, draws it and runs this.
+// Prints the statistics that hearth-render wrote for the scene of the talk, beside the talk's figures, and
+// holds them against the aims of "runtime". `./dev bench runtime` makes the scene, draws it and runs this.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
 #include "cook/json/json.h"
 #include "formats/base/program.h"
 #include "formats/gpu_shared/records.h"
+#include "tests/bench/aims.h"
 #include "tests/bench/visible_figures.h"
 #include "tests/reference/flip.h"
 
@@ -14,6 +15,7 @@
 #include <fstream>
 #include <initializer_list>
 #include <iterator>
+#include <limits>
 
 namespace
 {
@@ -105,7 +107,8 @@ void printVisible(const char* name, const bench::VisibleFigures& figures, double
 }
 
 /// Print means over the frames of the camera path.
-Status printCounts(const Arguments& arguments, const formats::PackView& pack, const Json& statistics)
+Status printCounts(const Arguments& arguments, const formats::PackView& pack, const Json& statistics,
+                   bench::Judgement& judgement)
 {
     bench::FiguresOfKind kinds;
     for (const std::string& file : arguments.visibility)
@@ -125,7 +128,8 @@ Status printCounts(const Arguments& arguments, const formats::PackView& pack, co
     kinds.erase("sky"); // a backdrop: many pixels for almost no triangles
     const bench::VisibleFigures all = bench::sumUp(kinds);
     printVisible("scene", all, frames);
-    std::printf("  aims: clusters drawn / seen <= 1.6, triangles a covered pixel <= 0.35\n");
+    judgement.record("clusters drawn / seen", all.drawnOverOwning());
+    judgement.record("triangles a covered pixel", all.trianglesPerPixel());
     const double slot_bytes =
         static_cast<double>(all.drawn_clusters) / frames * sizeof(shared::VisibleCluster);
     std::printf("  shaded area / image %.2f; visible list %.0f KiB; attachments and pyramid %.1f MiB\n\n",
@@ -147,28 +151,26 @@ void printBytes(const formats::PackView& pack, const Json& statistics)
         bytes / kMebi, bytes / drawn, drawn * 1e-6, bytes / unique, unique * 1e-6);
 }
 
-/// First frame from which on all frames are converged; 0: the last one is not.
-size_t framesToConverge(const Json& frames)
+/// First frame, from 1, from which on all frames are converged; infinity if the last one is not.
+double findConvergence(const Json& frames)
 {
-    size_t converged = 0;
+    size_t first = 0;
     for (size_t i = 0; i < frames.size(); ++i)
         if (!frames[i].at("converged").get<bool>())
-            converged = 0;
-        else if (converged == 0)
-            converged = i + 1;
-    return converged;
+            first = 0;
+        else if (first == 0)
+            first = i + 1;
+    return first == 0 ? std::numeric_limits<double>::infinity() : static_cast<double>(first);
 }
 
-Status printStreaming(const Arguments& arguments, const Json& statistics)
+Status printStreaming(const Arguments& arguments, const Json& statistics, bench::Judgement& judgement)
 {
     const Json& stream = statistics.at("streaming");
     std::printf("From a cold start within %.0f MiB of geometry, the eye at rest\n",
                 number(stream, "budget_bytes") / kMebi);
-    const size_t converged = framesToConverge(stream.at("frames"));
-    if (converged == 0)
-        std::printf("  NOT CONVERGED after %zu frames\n", stream.at("frames").size());
-    else
-        std::printf("  converged in frame %zu of %zu\n", converged, stream.at("frames").size());
+    const double converged = findConvergence(stream.at("frames"));
+    judgement.record("frame of convergence from a cold start", converged);
+    std::printf("  converged in frame %.0f of %zu\n", converged, stream.at("frames").size());
     std::printf(
         "  streamed %.1f MiB; resident %.1f MiB in %.0f pages, %.1f MiB of the budget in use; error scale "
         "%.3f\n",
@@ -182,21 +184,23 @@ Status printStreaming(const Arguments& arguments, const Json& statistics)
     HEARTH_ASSIGN_OR_RETURN(const reference::Image image, reference::readPng(arguments.converged));
     if (image.width != resident.width || image.height != resident.height)
         return Error{Issue::usage, arguments.converged, "", "the image has another size"};
-    std::printf("  FLIP to the image with everything resident: %.4f in the mean (limit 0.01)\n",
-                reference::flip(resident, image).mean());
+    judgement.record("mean FLIP within the budget", reference::flip(resident, image).mean());
     return success();
 }
 
-Status measure(const Arguments& arguments)
+/// returns  exit code: 1 if an aim is missed
+Result<int> measure(const Arguments& arguments)
 {
     HEARTH_ASSIGN_OR_RETURN(formats::ContainerReader reader, formats::ContainerReader::open(arguments.pack));
     HEARTH_ASSIGN_OR_RETURN(const formats::PackView pack, formats::PackView::read(std::move(reader)));
     HEARTH_ASSIGN_OR_RETURN(const Json path, readStatistics(arguments.path_stats));
     HEARTH_ASSIGN_OR_RETURN(const Json cold, readStatistics(arguments.cold_stats));
+    bench::Judgement judgement("runtime");
     printTimes(path);
-    HEARTH_TRY(printCounts(arguments, pack, path));
+    HEARTH_TRY(printCounts(arguments, pack, path, judgement));
     printBytes(pack, path);
-    return printStreaming(arguments, cold);
+    HEARTH_TRY(printStreaming(arguments, cold, judgement));
+    return judgement.finish();
 }
 
 int program(int argc, char** argv)
@@ -214,8 +218,8 @@ int program(int argc, char** argv)
     app.addOption("--converged", arguments.converged, "the last image within the budget").required();
     if (const std::optional<int> exit_code = app.parse(argc, argv))
         return *exit_code;
-    const Status measured = measure(arguments);
-    return measured.ok() ? 0 : reportFailure(measured.error());
+    const Result<int> measured = measure(arguments);
+    return measured.ok() ? *measured : reportFailure(measured.error());
 }
 
 } // namespace

@@ -170,5 +170,3 @@ void characterBounds(benchmark::State& state)
 BENCHMARK(characterBounds)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 } // namespace
-
-BENCHMARK_MAIN();

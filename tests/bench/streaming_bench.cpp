@@ -77,5 +77,3 @@ BENCHMARK(wander)
     ->Unit(benchmark::kMicrosecond);
 
 } // namespace
-
-BENCHMARK_MAIN();

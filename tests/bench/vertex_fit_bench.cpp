@@ -98,5 +98,3 @@ void levels(benchmark::State& state)
 BENCHMARK(levels)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 } // namespace
-
-BENCHMARK_MAIN();

@@ -1,0 +1,80 @@
+// Registry of the limits that benches hold, and the judgement of what they measured: a bench whose figure
+// misses its aim, or was not measured, ends with exit code 1 and names it.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include <array>
+#include <map>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace hearth::bench
+{
+
+enum class Bound
+{
+    at_most,
+    at_least,
+};
+
+struct Aim
+{
+    std::string_view bench;  ///< argument of `./dev bench`, or name of a Google benchmark
+    std::string_view figure; ///< with its unit
+    Bound bound;
+    double limit;
+};
+
+/// All limits that any bench holds. `./dev bench cook` and `./dev bench runtime`'s opening print figures
+/// without one.
+inline constexpr std::array kAims = {
+    Aim{"runtime", "clusters drawn / seen", Bound::at_most, 1.6},
+    Aim{"runtime", "triangles a covered pixel", Bound::at_most, 0.35},
+    Aim{"runtime", "frame of convergence from a cold start", Bound::at_most, 40},
+    Aim{"runtime", "mean FLIP within the budget", Bound::at_most, 0.01},
+    Aim{"clusters", "cuts beyond their stored error", Bound::at_most, 0},
+    Aim{"clusters", "triangles / clod's for equal rms", Bound::at_most, 1},
+    Aim{"clusters", "triangles / clod's for equal normals", Bound::at_most, 1},
+    Aim{"bricks", "seconds for voxels of 1 m", Bound::at_most, 10},
+    Aim{"bricks", "finest voxels within 28 MiB, m", Bound::at_most, 1},
+    Aim{"light", "rms error of light at voxels of 0.1 m", Bound::at_most, 0.15},
+    Aim{"visibility", "any hit, share of the fastest bare loop", Bound::at_least, 0.8},
+    Aim{"visibility", "nearest hit, share of the fastest bare loop", Bound::at_least, 0.8},
+    Aim{"occlusion", "rms difference of ambient occlusion", Bound::at_most, 0.006},
+    Aim{"kills", "packs, caches or folders that a kill broke", Bound::at_most, 0},
+    Aim{"kills", "kills that caught a cook at work", Bound::at_least, 50},
+    Aim{"marchLanesFromFaces", "items_per_second", Bound::at_least, 5e6},
+    Aim{"solution/real_time", "seconds", Bound::at_most, 0.5},
+};
+
+/// Return the aim of a bench's figure, which must be among `aims`.
+const Aim& findAim(std::string_view bench, std::string_view figure, std::span<const Aim> aims = kAims);
+
+/// Collects the figures of one bench and compares them with its aims.
+class Judgement
+{
+public:
+    /// aims  the registry, or in tests another one; must outlive the judgement
+    explicit Judgement(std::string_view bench, std::span<const Aim> aims = kAims);
+
+    /// Record a figure, which must have an aim. Of several values the worst counts; NaN is worse than all.
+    void record(std::string_view figure, double value);
+    /// Excuse a figure that this run was asked not to measure.
+    void leaveOut(std::string_view figure);
+    /// Return a line for each aim, with "MISSED" or "NOT MEASURED" where it is not met.
+    std::string describe() const;
+    bool isMet() const;
+    /// Print the lines.
+    /// returns  exit code: 0, or 1 if an aim is missed or was not measured
+    int finish() const;
+
+private:
+    std::string_view bench_;
+    std::span<const Aim> aims_;
+    std::map<std::string_view, double> values_; ///< by figure
+    std::set<std::string_view> left_out_;       ///< figures that this run does not measure
+};
+
+} // namespace hearth::bench
