@@ -127,7 +127,19 @@ TEST_F(Diff, eachChangeIsToldUnderItsName)
          [](PackModel& pack) { pack.specular_tables[0].values[5] ^= 1; }},
         {{"added light sun"}, [](PackModel& pack) { addNamed(pack, pack.lights, "sun"); }},
         {{"added camera far"}, [](PackModel& pack) { addNamed(pack, pack.cameras, "far"); }},
-        {{"removed camera camera"}, [](PackModel& pack) { pack.cameras.clear(); }},
+        {{"removed camera camera", "removed extras camera camera"},
+         [](PackModel& pack)
+         {
+             pack.cameras.clear();
+             std::erase_if(pack.extras, [](const ExtrasRecord& record)
+                           { return record.owner == static_cast<uint32_t>(ExtrasOwner::camera); });
+         }},
+        {{"changed extras node strip node: json"},
+         [](PackModel& pack)
+         {
+             pack.extras[0].json = {static_cast<uint32_t>(pack.strings.size()), 2};
+             pack.strings += "{}";
+         }},
     };
     for (const Row& row : rows)
     {
@@ -187,6 +199,8 @@ TEST_F(Diff, placesInTablesMeanNothing)
     std::rotate(shifted.materials.begin(), shifted.materials.end() - 1, shifted.materials.end());
     for (ClusterRecord& cluster : shifted.clusters)
         cluster.material += cluster.material == kInvalidIndex ? 0 : 1;
+    for (ExtrasRecord& record : shifted.extras)
+        record.index += record.owner == static_cast<uint32_t>(ExtrasOwner::material) ? 1 : 0;
     EXPECT_EQ(formatLines(diffed(smallPack(), shifted)), std::set<std::string>{"added material varnish"});
     EXPECT_EQ(formatLines(diffed(shifted, smallPack())), std::set<std::string>{"removed material varnish"});
 }

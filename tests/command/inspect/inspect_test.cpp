@@ -113,6 +113,7 @@ TEST_F(Inspect, listsTheAssetsWithTheirSizes)
         << text;
 
     model.assets.clear();
+    model.extras.clear();
     json = inspected(model);
     EXPECT_TRUE(json["assets"].empty()) << "a pack that is older";
     EXPECT_EQ(text.find("asset "), std::string::npos);
