@@ -12,7 +12,8 @@ namespace
 
 using namespace hearth::bench;
 
-/// Prints as usual, and judges each run. An aim's figure is "seconds" of an iteration or the name of a counter.
+/// Prints as usual, and judges each run. An aim's figure is "seconds" of an iteration or the name of a
+/// counter.
 class AimReporter : public benchmark::ConsoleReporter
 {
 public:

@@ -28,16 +28,21 @@ using Seconds = std::chrono::duration<double>;
 
 const Words kNoEnvironment{"TMPDIR="}; ///< temporary folders are made beside the pack
 
-/// Numbers of kills after which a check failed.
-struct Damage
+struct Counts
 {
+    int at_work = 0;   ///< kills of a cook that had not ended
+    int new_packs = 0; ///< kills after which the new pack was in its place
+    // failed checks
     int torn_packs = 0;
     int failed_cooks = 0;
     int different_packs = 0;
     int leftovers = 0;
     int damaged_caches = 0;
 
-    int sum() const { return torn_packs + failed_cooks + different_packs + leftovers + damaged_caches; }
+    int countDamage() const
+    {
+        return torn_packs + failed_cooks + different_packs + leftovers + damaged_caches;
+    }
 };
 
 /// A folder with sources, the pack that their cook makes, and another, older one.
@@ -65,8 +70,7 @@ public:
     /// Kill one cook and check what follows.
     /// over_old_pack  the cook replaces another pack
     /// with_cookers   kill all processes of the cook, else `hearth` alone
-    /// returns  true if the cook had not ended before
-    bool kill(double after_seconds, bool over_old_pack, bool with_cookers, Damage& damage)
+    void kill(double after_seconds, bool over_old_pack, bool with_cookers, Counts& counts)
     {
         fs::remove_all(folder_.cachePath());
         if (over_old_pack)
@@ -78,13 +82,14 @@ public:
         if (with_cookers)
             ::kill(-process, SIGKILL);
         ::kill(process, SIGKILL);
-        const bool was_at_work = folder_.finish(process).exit_code == -1;
+        counts.at_work += folder_.finish(process).exit_code == -1 ? 1 : 0;
         const std::string left = folder_.has("a.hearth") ? folder_.read("a.hearth") : "";
-        if (left != whole_pack_ && left != (over_old_pack ? old_pack_ : ""))
-            ++damage.torn_packs;
-        checkNextCook(damage);
+        if (left == whole_pack_)
+            ++counts.new_packs;
+        else if (left != (over_old_pack ? old_pack_ : ""))
+            ++counts.torn_packs;
+        checkNextCook(counts);
         fs::remove(folder_ / "a.hearth");
-        return was_at_work;
     }
 
 private:
@@ -108,12 +113,12 @@ private:
         fs::remove_all(folder_.cachePath());
         const auto start = std::chrono::steady_clock::now();
         mustRun(makeCook("a.hearth"));
-        cook_seconds_ = std::min(cook_seconds_, Seconds(std::chrono::steady_clock::now() - start).count());
+        cook_seconds_ = std::max(cook_seconds_, Seconds(std::chrono::steady_clock::now() - start).count());
         whole_pack_ = folder_.read("a.hearth");
         fs::remove(folder_ / "a.hearth");
     }
 
-    void checkNextCook(Damage& damage)
+    void checkNextCook(Counts& counts)
     {
         Words command = makeCook("a.hearth");
         command.insert(command.begin(), {"/usr/bin/timeout", "--signal=KILL", "60"}); // for a stale lock
@@ -121,17 +126,17 @@ private:
         if (end.exit_code != 0)
         {
             std::printf("the next cook ends with %d: %s\n", end.exit_code, end.err.c_str());
-            ++damage.failed_cooks;
+            ++counts.failed_cooks;
         }
         else if (folder_.read("a.hearth") != whole_pack_)
-            ++damage.different_packs;
+            ++counts.different_packs;
         if (!removesLeftovers())
-            ++damage.leftovers;
+            ++counts.leftovers;
         const test::ProgramEnd verified = run({programs_ + "/hearth", "cache", "verify"});
         if (verified.exit_code != 0)
         {
             std::printf("the cache: %s%s\n", verified.out.c_str(), verified.err.c_str());
-            ++damage.damaged_caches;
+            ++counts.damaged_caches;
         }
     }
 
@@ -162,7 +167,7 @@ private:
     std::string programs_ = tools::programFolder();
     std::string old_pack_, whole_pack_;
     std::vector<std::string> files_; ///< names that are in the folder between cooks
-    double cook_seconds_ = 1e9;
+    double cook_seconds_ = 0;        ///< of the slowest undisturbed cook
 };
 
 int program(int argc, char** argv)
@@ -177,25 +182,25 @@ int program(int argc, char** argv)
 
     CookFolder folder;
     std::mt19937 random(seed);
-    Damage damage;
-    int at_work = 0;
+    Counts counts;
     for (int i = 0; i < kills; ++i)
     {
-        // each second one in the last fifth, where the pack is written
+        // each second one in the last fifth and a little later, where the pack is written
         const double from = i % 2 == 0 ? 0 : 0.8;
-        const double moment = std::uniform_real_distribution<double>(from, 1)(random) * folder.cookSeconds();
-        const int before = damage.sum();
-        at_work += folder.kill(moment, i / 2 % 2 != 0, i / 4 % 2 != 0, damage) ? 1 : 0;
-        if (damage.sum() != before)
+        const double moment =
+            std::uniform_real_distribution<double>(from, 1.05)(random) * folder.cookSeconds();
+        const int before = counts.countDamage();
+        folder.kill(moment, i / 2 % 2 != 0, i / 4 % 2 != 0, counts);
+        if (counts.countDamage() != before)
             std::printf("kill %d, after %.3f s, broke something\n", i, moment);
     }
-    std::printf("%d cooks of %.2f s killed, %d of them at work: %d torn packs, %d next cooks failed, %d with "
-                "other bytes, %d with folders left, %d damaged caches\n",
-                kills, folder.cookSeconds(), at_work, damage.torn_packs, damage.failed_cooks,
-                damage.different_packs, damage.leftovers, damage.damaged_caches);
+    std::printf("%d cooks of %.2f s killed, %d of them at work, %d with the new pack in its place: %d torn "
+                "packs, %d next cooks failed, %d with other bytes, %d with folders left, %d damaged caches\n",
+                kills, folder.cookSeconds(), counts.at_work, counts.new_packs, counts.torn_packs,
+                counts.failed_cooks, counts.different_packs, counts.leftovers, counts.damaged_caches);
     bench::Judgement judgement("kills");
-    judgement.record("packs, caches or folders that a kill broke", damage.sum());
-    judgement.record("kills that caught a cook at work", at_work);
+    judgement.record("packs, caches or folders that a kill broke", counts.countDamage());
+    judgement.record("kills that caught a cook at work", counts.at_work);
     return judgement.finish();
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/images/basis_uastc.h"
 #include "tests/pipelines_scans/ktx2_builder.h"
+#include "tests/pipelines_scans/uastc_modes.h"
 
 #include <gtest/gtest.h>
 
@@ -59,76 +60,14 @@ TEST(UastcPatterns, areDistinctAndHaveAllTheirParts)
     }
 }
 
-class BitWriter
-{
-public:
-    void put(uint64_t value, uint32_t count)
-    {
-        for (uint32_t i = 0; i < count; ++i, ++at_)
-            block_[at_ / 8] = static_cast<uint8_t>(block_[at_ / 8] | ((value >> i) & 1u) << (at_ % 8));
-    }
-    const Bytes& block() const { return block_; }
-    uint32_t used() const { return at_; }
-
-private:
-    Bytes block_ = Bytes(16);
-    uint32_t at_ = 0;
-};
-
-/// Layout of each mode from the specification, independent of the decoder's table.
-struct ModeLayout
-{
-    uint32_t mode;
-    std::string_view code; ///< first bit first
-    uint32_t hints;
-    uint32_t pattern_bits;
-    uint32_t channel_bits; ///< bits of the channel with separate weights
-    uint32_t planes;
-    uint32_t components;
-    uint32_t subsets;
-    uint32_t levels; ///< number of endpoint values
-    uint32_t weight_bits;
-    uint32_t bits; ///< total bits
-};
-constexpr std::array kLayouts = {
-    ModeLayout{0, "1000", 15, 0, 0, 1, 3, 1, 192, 4, 128},
-    ModeLayout{1, "101011", 15, 0, 0, 1, 3, 1, 256, 2, 100},
-    ModeLayout{2, "10111", 15, 5, 0, 1, 3, 2, 16, 3, 119},
-    ModeLayout{3, "11000", 15, 4, 0, 1, 3, 3, 12, 2, 118},
-    ModeLayout{4, "11001", 15, 5, 0, 1, 3, 2, 40, 2, 119},
-    ModeLayout{5, "11010", 15, 0, 0, 1, 3, 1, 256, 3, 115},
-    ModeLayout{6, "11011", 15, 0, 2, 2, 3, 1, 160, 2, 128},
-    ModeLayout{7, "11100", 15, 5, 0, 1, 3, 2, 40, 2, 119},
-    ModeLayout{9, "11110", 23, 5, 0, 1, 4, 2, 16, 2, 127},
-    ModeLayout{10, "010", 17, 0, 0, 1, 4, 1, 48, 4, 128},
-    ModeLayout{11, "00", 17, 0, 2, 2, 4, 1, 48, 2, 128},
-    ModeLayout{12, "011", 17, 0, 0, 1, 4, 1, 192, 3, 128},
-    ModeLayout{13, "11111", 23, 0, 2, 2, 4, 1, 256, 1, 124},
-    ModeLayout{14, "10110", 23, 0, 0, 1, 4, 1, 256, 2, 123},
-    ModeLayout{15, "1010000", 23, 0, 0, 1, 2, 1, 256, 4, 125},
-    ModeLayout{16, "101010", 23, 5, 0, 1, 2, 2, 256, 2, 128},
-    ModeLayout{17, "101001", 23, 0, 0, 2, 2, 1, 256, 2, 123},
-    ModeLayout{18, "1001", 15, 0, 0, 1, 3, 1, 32, 5, 128},
-};
-
 /// Return endpoints of only 0 and 255, selected by `highs`, as the stored values that represent them in each
-/// range.
-void putEndpoints(BitWriter& out, const ModeLayout& layout, const std::vector<bool>& highs)
+/// range: with trits and quints the lowest bit mirrors the range, so 1 is its top.
+std::vector<uint32_t> makeExtremeEndpoints(uint32_t levels, const std::vector<bool>& highs)
 {
-    const uint32_t base = layout.levels % 3 == 0 ? 3 : layout.levels % 5 == 0 ? 5 : 1;
-    const uint32_t per_pack = base == 3 ? 5 : 3;
-    constexpr std::array<uint32_t, 6> kTritBits = {0, 2, 4, 5, 7, 8};
-    constexpr std::array<uint32_t, 4> kQuintBits = {0, 3, 5, 7};
-    for (size_t at = 0; base > 1 && at < highs.size(); at += per_pack)
-    {
-        const size_t count = std::min<size_t>(per_pack, highs.size() - at);
-        out.put(0, base == 3 ? kTritBits[count] : kQuintBits[count]);
-    }
-    const auto bits = static_cast<uint32_t>(std::bit_width(layout.levels / base) - 1);
-    // with trits and quints the lowest bit mirrors the range: 1 is its top
-    const uint64_t top = base == 1 ? layout.levels - 1 : 1;
+    std::vector<uint32_t> values;
     for (const bool high : highs)
-        out.put(high ? top : 0, bits);
+        values.push_back(!high ? 0 : getDigitBase(levels) == 1 ? levels - 1 : 1);
+    return values;
 }
 
 bool highWeight(uint32_t texel, bool anchor, uint32_t plane)
@@ -138,12 +77,11 @@ bool highWeight(uint32_t texel, bool anchor, uint32_t plane)
 
 TEST(DecodeUastc, readsEveryMode)
 {
-    for (const ModeLayout& layout : kLayouts)
+    for (const UastcLayout& layout : kUastcLayouts)
     {
         SCOPED_TRACE("mode " + std::to_string(layout.mode));
-        BitWriter out;
-        for (const char bit : layout.code)
-            out.put(bit == '1', 1);
+        UastcBits out;
+        out.putCode(layout.code);
         out.put(0x2A5A5A, layout.hints); // hints for other formats are ignored here
         const uint32_t pattern = layout.subsets > 1 ? 9 : 0;
         out.put(pattern, layout.pattern_bits);
@@ -160,7 +98,7 @@ TEST(DecodeUastc, readsEveryMode)
                 highs.push_back(firstIsHigh(subset, component));
                 highs.push_back(!firstIsHigh(subset, component));
             }
-        putEndpoints(out, layout, highs);
+        putEndpoints(out, layout.levels, makeExtremeEndpoints(layout.levels, highs));
 
         const Patterns parts =
             layout.subsets == 1 ? Patterns{} : makePatterns(uastcSeeds(layout.mode)[pattern], layout.subsets);
@@ -190,8 +128,8 @@ TEST(DecodeUastc, readsEveryMode)
 
 Bytes solidBlock(const Rgba8& texel)
 {
-    BitWriter out;
-    out.put(0x17, 5);
+    UastcBits out;
+    out.putCode(kUastcSolidCode);
     for (const uint8_t channel : texel)
         out.put(channel, 8);
     return out.block();
@@ -205,7 +143,7 @@ TEST(DecodeUastc, readsSolidBlocksAndInterpolates)
     EXPECT_EQ(getTexel(image, 3, 3), (Rgba8{1, 2, 3, 4}));
 
     // mode 18: endpoints of 5 bits, weights of 5 bits
-    BitWriter out;
+    UastcBits out;
     out.put(9, 4);
     out.put(0, 15);
     for (const uint32_t value : {0u, 31u, 10u, 10u, 31u, 0u})

@@ -15,6 +15,11 @@ namespace
 
 using reference::DrawnCluster;
 
+/// Covered pixels for each one that may differ from the reference, and only where it is excused: 0.002 %. The
+/// reference rounds vertices to sub-pixels and interpolates depths by other operations than the device, which
+/// shows at samples beside an edge.
+constexpr uint64_t kPixelsPerDifference = 50000;
+
 struct Sums
 {
     reference::CullingComparison culling;
@@ -119,8 +124,7 @@ TEST_F(VisibilityTest, equalsTheReferenceRasteriserPixelForPixel)
     }
     sums.print("visibility buffer");
     EXPECT_GT(sums.raster.covered, 500000u);
-    // 1 of 10,000 pixels
-    EXPECT_LE(sums.raster.different * 10000, sums.raster.pixels);
+    EXPECT_LE(sums.raster.different * kPixelsPerDifference, sums.raster.covered);
 }
 
 TEST_F(VisibilityTest, showsTheSourceTrianglesAtErrorZero)
@@ -156,7 +160,8 @@ TEST_F(VisibilityTest, showsTheSourceTrianglesAtErrorZero)
         }
     }
     sums.print("source triangles");
-    EXPECT_LE(sums.raster.different * 10000, sums.raster.pixels);
+    EXPECT_GT(sums.raster.covered, 500000u);
+    EXPECT_LE(sums.raster.different * kPixelsPerDifference, sums.raster.covered);
 }
 
 TEST_F(VisibilityTest, isTheSameImageWithAndWithoutCulling)
