@@ -51,7 +51,7 @@ TEST(BasisVectors, blocksOfUastcAreTheTranscodersTexels)
 {
     for (const auto& frozen : kUastcBlocks)
     {
-        DecodedImage image{4, 4, false, std::vector<std::byte>(64)};
+        DecodedImage image{4, 4, ChannelType::unorm8, std::vector<std::byte>(64)};
         const Bytes block = readHexadecimal(frozen.block);
         ASSERT_TRUE(decodeUastc(std::as_bytes(std::span(block)), false, image)) << frozen.mode;
         EXPECT_EQ(computeCrc(image.texels), frozen.texels) << "mode " << frozen.mode << ": " << frozen.block;

@@ -405,7 +405,8 @@ BlockPair drawBlocks(const AstcDecoder& decoder, const UastcLayout& layout)
 
 std::vector<std::byte> decodeUastcTexels(const Bytes& blocks, bool srgb)
 {
-    DecodedImage image{4 * kColumns, 4 * kRows, false, std::vector<std::byte>(size_t{kColumns} * kRows * 64)};
+    DecodedImage image{4 * kColumns, 4 * kRows, ChannelType::unorm8,
+                       std::vector<std::byte>(size_t{kColumns} * kRows * 64)};
     EXPECT_TRUE(decodeUastc(std::as_bytes(std::span(blocks)), srgb, image));
     return image.texels;
 }
