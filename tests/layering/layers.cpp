@@ -209,8 +209,9 @@ const std::vector<Library>& libraries()
         {"gtest/", {}, true},
         {"gmock/", {}, true},
         {"benchmark/", {}, true},
-        {"OpenMesh/", {}},    // counts boundary loops, in tests
-        {"spirv_cross/", {}}, // reflects shaders, in tests
+        {"OpenMesh/", {}},         // counts boundary loops, in tests
+        {"spirv_cross/", {}},      // reflects shaders, in tests
+        {"tiny_gltf.h", {}, true}, // reads glTF as an oracle, in tests
     };
     return list;
 }
