@@ -28,6 +28,15 @@ std::vector<uint32_t> trianglesOfCut(const clusters::Hierarchy& hierarchy,
                                      const clusters::DecodedHierarchy& decoded,
                                      std::span<const uint8_t> replaced);
 
+/// Level that leaves the box of the finest level the farthest.
+struct Overshoot
+{
+    uint32_t level = 0;
+    double part = 0;     ///< how far beyond the box, in parts of its diagonal
+    double diagonal = 0; ///< of the box of the finest level, object space
+};
+Overshoot measureOvershoot(const clusters::Hierarchy& hierarchy);
+
 /// Return the boundary of the finest level.
 Boundary findSourceBoundary(const clusters::Hierarchy& hierarchy, const clusters::DecodedHierarchy& decoded);
 
