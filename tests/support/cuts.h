@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cook/clusters/levels/validate.h"
-#include "tests/support/boundary.h"
+#include "tests/support/surfaces/boundary.h"
 
 #include <cstdint>
 #include <random>
