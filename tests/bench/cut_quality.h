@@ -4,7 +4,7 @@
 #pragma once
 
 #include "cook/clusters/levels/validate.h"
-#include "tests/support/surface_distance.h"
+#include "tests/support/surfaces/surface_distance.h"
 
 namespace hearth::bench
 {

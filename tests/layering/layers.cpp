@@ -209,6 +209,7 @@ const std::vector<Library>& libraries()
         {"gtest/", {}, true},
         {"gmock/", {}, true},
         {"benchmark/", {}, true},
+        {"CGAL/", {}},             // checks distances, in tests
         {"OpenMesh/", {}},         // counts boundary loops, in tests
         {"spirv_cross/", {}},      // reflects shaders, in tests
         {"tiny_gltf.h", {}, true}, // reads glTF as an oracle, in tests
@@ -229,7 +230,8 @@ const std::vector<SlowLibrary>& slowLibraries()
         {"CLI/", {"cook/command_line/command_line.cpp"}},
         {"nlohmann/", {"cook/json/json.cpp", "tests/cook/json_test.cpp"}},
         {"toml++/", {"cook/tools/toml.cpp"}},
-        {"OpenMesh/", {"tests/support/boundary.cpp"}},
+        {"CGAL/", {"tests/support/surfaces/cgal_distance.cpp"}},
+        {"OpenMesh/", {"tests/support/surfaces/boundary.cpp"}},
     };
     return list;
 }

@@ -6,10 +6,13 @@
 #include "tests/reference/culling/cut_checker.h"
 #include "tests/reference/source_triangles.h"
 #include "tests/roundtrip/draw_fixture.h"
+#include "tests/support/surfaces/boundary.h"
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <random>
+#include <tuple>
 
 namespace hearth::roundtrip
 {
@@ -50,15 +53,52 @@ double clusterError(const formats::PackView& pack, std::span<const uint32_t> cut
     return error;
 }
 
+/// Finest level of a mesh, with its boundary.
+class FinestLevel
+{
+public:
+    FinestLevel(const CookedSample& sample, uint32_t mesh)
+        : triangles_(trianglesOfClusters(sample.geometry(), finestClusters(sample.pack(), mesh))),
+          boundary_(weldAndFind(triangles_))
+    {
+    }
+
+    const reference::Triangles& triangles() const { return triangles_; }
+
+    /// Return what is wrong with the boundary of a cut; empty if nothing is.
+    std::string findCrack(const reference::Triangles& cut)
+    {
+        return hearth::findCrack(boundary_, weldAndFind(cut));
+    }
+
+private:
+    /// Weld corners by their places: an id for each place, in all cuts.
+    Boundary weldAndFind(const reference::Triangles& triangles)
+    {
+        std::vector<uint32_t> ids;
+        for (const auto& triangle : triangles)
+            for (const Float3 p : triangle)
+                ids.push_back(
+                    id_of_place_.try_emplace({p.x + 0.0f, p.y + 0.0f, p.z + 0.0f}, nextId()).first->second);
+        return findBoundary(ids);
+    }
+    uint32_t nextId() const { return static_cast<uint32_t>(id_of_place_.size()); }
+
+    std::map<std::tuple<float, float, float>, uint32_t> id_of_place_;
+    reference::Triangles triangles_;
+    Boundary boundary_;
+};
+
 void checkCut(const CookedSample& sample, uint32_t mesh, const std::vector<uint32_t>& cut,
-              const reference::Triangles& source, uint64_t& open_edges)
+              FinestLevel& source, uint64_t& open_edges)
 {
     const reference::CoverageReport coverage = reference::checkCoverage(sample.pack(), mesh, cut);
     EXPECT_EQ(coverage.missing, 0u);
     EXPECT_EQ(coverage.overlapping, 0u);
     const double error = clusterError(sample.pack(), cut);
-    const reference::EdgeReport edges =
-        reference::checkEdges(trianglesOfClusters(sample.geometry(), cut), source, error * 1.0001);
+    const reference::Triangles triangles = trianglesOfClusters(sample.geometry(), cut);
+    EXPECT_EQ(source.findCrack(triangles), "");
+    const reference::EdgeReport edges = reference::checkEdges(triangles, source.triangles(), error * 1.0001);
     EXPECT_EQ(edges.cracks, 0u) << "open edges " << edges.open_edges << ", up to " << edges.worst_distance
                                 << " m from the source's, error " << error;
     open_edges += edges.open_edges;
@@ -72,7 +112,7 @@ TEST(Cut, hasNoCrackAtAnyThreshold)
         const CookedSample& sample = cookedSample(spec);
         for (uint32_t mesh = 0; mesh < sample.pack().meshes().size(); ++mesh)
         {
-            const auto source = trianglesOfClusters(sample.geometry(), finestClusters(sample.pack(), mesh));
+            FinestLevel source(sample, mesh);
             for (const float threshold : chooseThresholds(sample.pack(), mesh, 9))
             {
                 SCOPED_TRACE(spec.kind + ", mesh " + std::to_string(mesh) + ", error " +
@@ -95,7 +135,7 @@ TEST(Cut, hasNoCrackFromAnyCamera)
     for (const SampleSpec& spec : {SampleSpec{"rock", 40000}, {"terrain", 30000}, {"character", 20000}})
     {
         const CookedSample& sample = cookedSample(spec);
-        const auto source = trianglesOfClusters(sample.geometry(), finestClusters(sample.pack(), 0));
+        FinestLevel source(sample, 0);
         const float size = length(sample.pack().meshes()[0].box_max - sample.pack().meshes()[0].box_min);
         for (int i = 0; i < 12; ++i)
         {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/support/cuts.h"
 
+#include "formats/codecs/cluster_bounds.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -64,6 +66,28 @@ std::vector<uint32_t> trianglesOfCut(const Hierarchy& hierarchy, const DecodedHi
         triangles.insert(triangles.end(), decoded.clusters[c].positions.begin(),
                          decoded.clusters[c].positions.end());
     return triangles;
+}
+
+Overshoot measureOvershoot(const Hierarchy& hierarchy)
+{
+    std::vector<Box3> boxes(hierarchy.levels.size());
+    for (const formats::ClusterRecord& cluster : hierarchy.clusters)
+        boxes[cluster.level].add(formats::clusterBox(cluster, hierarchy.mesh.grid_step));
+    Overshoot worst;
+    for (int axis = 0; axis < 3; ++axis)
+        worst.diagonal = std::hypot(worst.diagonal, double{boxes[0].max[axis]} - boxes[0].min[axis]);
+    for (uint32_t level = 1; level < boxes.size(); ++level)
+        for (int axis = 0; axis < 3; ++axis)
+        {
+            const double beyond = std::max(double{boxes[0].min[axis]} - boxes[level].min[axis],
+                                           double{boxes[level].max[axis]} - boxes[0].max[axis]);
+            if (beyond > worst.part * worst.diagonal)
+            {
+                worst.level = level;
+                worst.part = beyond / worst.diagonal;
+            }
+        }
+    return worst;
 }
 
 Boundary findSourceBoundary(const Hierarchy& hierarchy, const DecodedHierarchy& decoded)

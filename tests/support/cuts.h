@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cook/clusters/levels/validate.h"
-#include "tests/support/boundary.h"
+#include "tests/support/surfaces/boundary.h"
 
 #include <cstdint>
 #include <random>
@@ -27,6 +27,15 @@ std::vector<uint8_t> randomCut(const clusters::Hierarchy& hierarchy, double chan
 std::vector<uint32_t> trianglesOfCut(const clusters::Hierarchy& hierarchy,
                                      const clusters::DecodedHierarchy& decoded,
                                      std::span<const uint8_t> replaced);
+
+/// Level that leaves the box of the finest level the farthest.
+struct Overshoot
+{
+    uint32_t level = 0;
+    double part = 0;     ///< how far beyond the box, in parts of its diagonal
+    double diagonal = 0; ///< of the box of the finest level, object space
+};
+Overshoot measureOvershoot(const clusters::Hierarchy& hierarchy);
 
 /// Return the boundary of the finest level.
 Boundary findSourceBoundary(const clusters::Hierarchy& hierarchy, const clusters::DecodedHierarchy& decoded);

@@ -9,11 +9,22 @@
 namespace hearth::cuts
 {
 
+namespace
+{
+
+/// Part of the diagonal of the source's box that no level may be beyond it.
+constexpr double kMaxOvershoot = 0.1;
+
+} // namespace
+
 std::string unsoundness(const mesh::SourceMesh& mesh, const clusters::Hierarchy& hierarchy,
                         std::span<const mesh::SourceMesh> authored)
 {
     if (const Status valid = clusters::validateHierarchy(mesh, hierarchy, authored); !valid.ok())
         return formatMessage(valid.error());
+    if (authored.empty() && !hierarchy.clusters.empty())
+        if (const Overshoot overshoot = measureOvershoot(hierarchy); overshoot.part > kMaxOvershoot)
+            return "level " + std::to_string(overshoot.level) + " leaves the box of the source";
     const auto decoded = clusters::decodeHierarchy(hierarchy);
     if (!decoded.ok())
         return formatMessage(decoded.error());

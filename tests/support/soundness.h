@@ -10,7 +10,9 @@
 namespace hearth::cuts
 {
 
-/// Empty if the hierarchy is valid and no cut of several kinds has a crack, otherwise the first problem.
+/// Empty if the hierarchy is valid, no cut of several kinds has a crack, and no level leaves the box of the
+/// source by more than a tenth of its diagonal; otherwise the first problem. The last is not promised for
+/// authored LODs, which may be larger.
 /// Cuts: at every level's error, random closed cuts, and cuts for eyes in and around the mesh.
 std::string unsoundness(const mesh::SourceMesh& mesh, const clusters::Hierarchy& hierarchy,
                         std::span<const mesh::SourceMesh> authored = {});

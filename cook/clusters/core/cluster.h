@@ -29,6 +29,7 @@ struct PreparedMesh
     uint32_t attributes = 0;
     uint32_t degenerate_count = 0;
     uint32_t position_count = 0;
+    Box3 box;                   ///< of the triangles, those of authored LODs included
     bool gently_curved = false; ///< normals need more than 8 bits
     CornerVector<VertexId> corners;
     IdVector<TriangleId, uint32_t> materials;

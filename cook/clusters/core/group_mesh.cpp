@@ -250,6 +250,7 @@ GroupMesh gatherGroup(const PreparedMesh& mesh, const ClusterStore& store, std::
     GroupMesh group;
     const auto material_of_wedge = gatherTriangles(group, mesh, store, members, locked);
     group.grid_step = mesh.grid.step;
+    group.mesh_box = mesh.box;
     assignCharts(group, mesh.vertices, material_of_wedge);
     setLocalPositions(group, mesh.positions());
     gatherAttributes(group, mesh, config);

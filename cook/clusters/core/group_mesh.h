@@ -32,6 +32,7 @@ struct GroupMesh
     CornerVector<WedgeId> corners;
     IdVector<TriangleId, uint32_t> materials;
     double grid_step = 0; ///< object space
+    Box3 mesh_box;        ///< of the whole source, object space
     float uv_length = 0;  ///< local length of one unit of UV; 0 where that is no useful number
     AttributeWeights weights;
     /// Remaining positions must not move: morph deltas of other positions are unknown.

@@ -257,7 +257,9 @@ private:
         const Tolerance tolerance{worst_ - carried, carried * kPosedCarriedSlack};
         const float distance =
             nearest_.bound(from.triangleCorners(triangle), to.index, likely_, tolerance, &metric);
-        used_.assign(nearest_.used().begin(), nearest_.used().end());
+        used_.clear();
+        for (const NearestBound::UsedTriangle& used : nearest_.used())
+            used_.push_back(used.triangle);
         return distance;
     }
 

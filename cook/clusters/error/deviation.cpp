@@ -112,6 +112,8 @@ public:
           index_after_(after.position_ids, after.position_of_id),
           likely_before_(changed_.size()),
           likely_after_(after.triangleCount()),
+          unsearched_errors_(group.errors),
+          searched_after_(after.triangleCount(), 0),
           errors_(after.triangleCount(), 0)
     {
     }
@@ -123,10 +125,12 @@ public:
                 errors_[t] = group_.errors[source];
         sums_ = map_.maxSums(group_.errors);
         resolveLargest();
+        // triangles that were searched on both sides have raised errors by less than the map's sums
+        const IdVector<TriangleId, float> unsearched_sums = map_.maxSums(unsearched_errors_);
         for (const TriangleId t : errors_.ids())
         {
-            // larger sums come from triangles that were searched
-            raiseError(t, std::min(sums_[t], worst_));
+            const float sum = searched_after_[t] != 0 ? unsearched_sums[t] : sums_[t];
+            raiseError(t, std::min(sum, worst_));
             errors_[t] += kRounding;
         }
         return {std::move(errors_), nearest_.loosePieces()};
@@ -251,11 +255,12 @@ private:
                 likely_after_.addAround(after_, target);
         if (likely_after_.triangles().empty())
             addNeighboursInOrder(t);
-        const float total = carried + nearest_.bound(cornersBefore(t), index_after_,
-                                                     likely_after_.triangles(), tolerance(carried));
-        for (const TriangleId triangle : nearest_.used())
-            raiseError(triangle, total);
-        worst_ = std::max(worst_, total);
+        const float distance =
+            nearest_.bound(cornersBefore(t), index_after_, likely_after_.triangles(), tolerance(carried));
+        for (const NearestBound::UsedTriangle& used : nearest_.used())
+            raiseError(used.triangle, carried + used.distance);
+        unsearched_errors_[t] = -kInfinity;
+        worst_ = std::max(worst_, carried + distance);
     }
 
     void searchAfter(TriangleId t)
@@ -267,13 +272,14 @@ private:
                 likely_before_.addAround(map_.oppositesBefore(), corner);
         for (const TriangleId triangle : likely_before_.triangles())
             carried = std::max(carried, group_.errors[triangle]);
-        const float distance = nearest_.bound(after_.triangleCorners(t), index_before_,
-                                              likely_before_.triangles(), tolerance(carried));
-        carried = 0;
-        for (const TriangleId triangle : nearest_.used())
-            carried = std::max(carried, group_.errors[triangle]);
-        raiseError(t, carried + distance);
-        worst_ = std::max(worst_, carried + distance);
+        nearest_.bound(after_.triangleCorners(t), index_before_, likely_before_.triangles(),
+                       tolerance(carried));
+        float total = 0;
+        for (const NearestBound::UsedTriangle& used : nearest_.used())
+            total = std::max(total, group_.errors[used.triangle] + used.distance);
+        raiseError(t, total);
+        searched_after_[t] = 1;
+        worst_ = std::max(worst_, total);
     }
 
     /// Return the tolerance of a search: nothing is gained below the largest total so far.
@@ -305,8 +311,11 @@ private:
     LikelyTriangles likely_before_;
     LikelyTriangles likely_after_;
     NearestBound nearest_;
-    float worst_ = 0;                    ///< largest total so far, among those that were searched
-    IdVector<TriangleId, float> errors_; ///< for each triangle after
+    /// Errors of the group's triangles; -infinity for those that were searched.
+    IdVector<TriangleId, float> unsearched_errors_;
+    IdVector<TriangleId, uint8_t> searched_after_; ///< 1 for triangles after that were searched
+    float worst_ = 0;                              ///< largest total so far, among those that were searched
+    IdVector<TriangleId, float> errors_;           ///< for each triangle after
 };
 
 } // namespace

@@ -197,7 +197,10 @@ PreparedMesh prepareMesh(mesh::SourceMesh source, uint32_t influences, const Mes
             continue;
         }
         for (const uint32_t vertex : {a, b, c})
+        {
             prepared.corners.push_back(VertexId{vertex});
+            prepared.box.add(source.positions[vertex]);
+        }
         materials[kept++] = materials[t];
     }
     mesh::freeMemory(source.indices);

@@ -7,6 +7,7 @@
 #include "cook/mesh/grid.h"
 #include "formats/base/assert.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -20,6 +21,10 @@ namespace
 constexpr float kMaxMove = 1.0f;
 
 constexpr int kMaxHalvings = 2;
+
+// Positions leave the source's box by at most this part of its longest side. Corners of a coarse ball lie
+// outside it by a few hundredths, so that its volume stays.
+constexpr double kMaxOvershoot = 0.05;
 
 /// Solve A x = -b for a symmetric positive definite A.
 std::optional<Float3> solve(const PositionQuadric& q)
@@ -172,9 +177,18 @@ private:
 Float3 toObjectSpace(const GroupMesh& group, Float3 local)
 {
     HEARTH_RUNTIME_ASSERT(group.grid_step > 0);
+    const Box3& box = group.mesh_box;
+    double longest = 0;
+    for (int axis = 0; axis < 3; ++axis)
+        longest = std::max(longest, double{box.max[axis]} - box.min[axis]);
     Float3 place;
     for (int axis = 0; axis < 3; ++axis)
-        place[axis] = mesh::snap(group.center[axis] + group.scale * local[axis], group.grid_step);
+    {
+        const double coordinate =
+            std::clamp(group.center[axis] + group.scale * local[axis],
+                       box.min[axis] - kMaxOvershoot * longest, box.max[axis] + kMaxOvershoot * longest);
+        place[axis] = mesh::snap(coordinate, group.grid_step);
+    }
     return place;
 }
 
@@ -195,17 +209,55 @@ Placement optimizePlacement(const GroupMesh& group, StarMesh& mesh, const Quadri
     return Placer(group, mesh, quadrics).run(movable);
 }
 
+namespace
+{
+
+/// Growth of an island: p becomes to + (p - from) * factor.
+struct IslandGrowth
+{
+    Float3 from, to;
+    float factor = 1;
+};
+
+/// Return the growth of an island by `factor` that ends inside the source's box: islands with less room grow
+/// less, and those at its sides move.
+IslandGrowth fitGrowth(const GroupMesh& group, const Box3& island, float factor)
+{
+    const Float3 low = toLocalSpace(group, group.mesh_box.min),
+                 high = toLocalSpace(group, group.mesh_box.max);
+    const Float3 size = island.max - island.min;
+    for (int axis = 0; axis < 3; ++axis)
+        if (size[axis] * factor > high[axis] - low[axis])
+            factor = std::max((high[axis] - low[axis]) / size[axis], 1.0f);
+    IslandGrowth growth{island.center(), island.center(), factor};
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        const float half = size[axis] * 0.5f * factor;
+        growth.to[axis] = std::max(std::min(growth.to[axis], high[axis] - half), low[axis] + half);
+    }
+    return growth;
+}
+
+} // namespace
+
 void growIslands(const GroupMesh& group, const Growth& growth, Placement& placement)
 {
-    HEARTH_ASSERT(growth.factor >= 1 && growth.centers.size() == growth.positions.size());
-    for (size_t i = 0; i < growth.positions.size(); ++i)
+    HEARTH_ASSERT(growth.factor >= 1);
+    for (const std::vector<PositionId>& island : growth.islands)
     {
-        const PositionId position = growth.positions[i];
-        const Float3 center = growth.centers[i];
-        placement.object_positions[position] =
-            toObjectSpace(group, center + (placement.positions[position] - center) * growth.factor);
-        placement.positions[position] = toLocalSpace(group, placement.object_positions[position]);
-        placement.modified[position] = 1;
+        Box3 box;
+        for (const PositionId position : island)
+            box.add(placement.positions[position]);
+        const IslandGrowth fitted = fitGrowth(group, box, growth.factor);
+        if (!(fitted.factor > 1))
+            continue;
+        for (const PositionId position : island)
+        {
+            placement.object_positions[position] = toObjectSpace(
+                group, fitted.to + (placement.positions[position] - fitted.from) * fitted.factor);
+            placement.positions[position] = toLocalSpace(group, placement.object_positions[position]);
+            placement.modified[position] = 1;
+        }
     }
 }
 

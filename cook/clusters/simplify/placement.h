@@ -27,7 +27,8 @@ struct Placement
     std::vector<Lanes> attributes;          ///< rows of each wedge, weighted like the group's
 };
 
-/// Convert a local position to object space, on the grid.
+/// Convert a local position to object space, on the grid. Positions leave the source's box by at most a
+/// twentieth of its longest side: they stop there.
 Float3 toObjectSpace(const GroupMesh& group, Float3 local);
 
 Float3 toLocalSpace(const GroupMesh& group, Float3 object);
@@ -37,7 +38,7 @@ Float3 toLocalSpace(const GroupMesh& group, Float3 object);
 Placement optimizePlacement(const GroupMesh& group, StarMesh& mesh, const Quadrics& quadrics,
                             IdSpan<PositionId, const uint8_t> movable);
 
-/// Move the positions of islands away from the islands' centers.
+/// Grow islands about their centers. An island grows no larger than the source's box, and moves inside it.
 void growIslands(const GroupMesh& group, const Growth& growth, Placement& placement);
 
 } // namespace hearth::clusters

@@ -92,19 +92,15 @@ double growableArea(const GroupMesh& group, const StarMesh& mesh, const Island& 
     return area;
 }
 
-void addGrowth(const StarMesh& mesh, const Island& island, IdVector<PositionId, uint8_t>& added,
-               Growth& growth)
+std::vector<PositionId> collectPositions(const StarMesh& mesh, const Island& island)
 {
+    std::vector<PositionId> positions;
     for (const TriangleId triangle : island.triangles)
         for (const StarCorner corner : StarMesh::triangleCorners(triangle))
-        {
-            const PositionId position = mesh.positionIdAt(corner);
-            if (added[position] != 0)
-                continue;
-            added[position] = 1;
-            growth.positions.push_back(position);
-            growth.centers.push_back((island.box.min + island.box.max) * 0.5f);
-        }
+            positions.push_back(mesh.positionIdAt(corner));
+    std::sort(positions.begin(), positions.end());
+    positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
+    return positions;
 }
 
 } // namespace
@@ -138,10 +134,9 @@ Thinning thinIslands(const GroupMesh& group, StarMesh& mesh, size_t target_trian
     if (!thinning.pruned || !(area_left > 0))
         return thinning;
     thinning.growth.factor = std::min(static_cast<float>(std::sqrt(area / area_left)), kMaxGrowth);
-    IdVector<PositionId, uint8_t> added(group.positions.size(), 0);
     for (size_t i = removed; i < islands.size() && thinning.growth.factor > kMinGrowth; ++i)
         if (islands[i].triangles.size() <= kMaxGrownTriangles)
-            addGrowth(mesh, islands[i], added, thinning.growth);
+            thinning.growth.islands.push_back(collectPositions(mesh, islands[i]));
     return thinning;
 }
 

@@ -20,9 +20,8 @@ inline constexpr size_t kMaxGrownTriangles = 16;
 /// constant: a tree keeps its density when half of its leaves are removed.
 struct Growth
 {
-    float factor = 1; ///< factor on lengths
-    std::vector<PositionId> positions;
-    std::vector<Float3> centers; ///< center of the island, for each of the positions
+    float factor = 1;                             ///< factor on lengths
+    std::vector<std::vector<PositionId>> islands; ///< positions of each island that grows
 };
 
 /// Result of thinIslands.

@@ -148,13 +148,12 @@ bool NearestBound::load(const TriangleBoxes& index, std::span<const TriangleId> 
     return metric_ == nullptr || metric_->load(triangles);
 }
 
-/// Record the loaded triangles that the last bound was taken from: all of them without a metric, which does
-/// not track them.
+/// Record the loaded triangles that the last bound was taken from.
 void NearestBound::addUsed(std::span<const TriangleId> triangles)
 {
     for (size_t i = 0; i < triangles.size(); ++i)
-        if (metric_ == nullptr || bounder_.wasUsed(i))
-            used_.push_back(triangles[i]);
+        if (bounder_.wasUsed(i))
+            used_.push_back({triangles[i], std::sqrt(bounder_.usedDistance2(i))});
 }
 
 float NearestBound::allowed2() const

@@ -47,8 +47,16 @@ public:
     float bound(const Corners& triangle, TriangleBoxes& index, std::span<const TriangleId> likely,
                 Tolerance tolerance, SurfaceMetric* metric = nullptr);
 
-    /// Return the triangles that the last bound was taken from; may contain duplicates.
-    std::span<const TriangleId> used() const { return used_; }
+    /// Triangle of the surface that bounds some points of the last triangle, and their distance to it.
+    struct UsedTriangle
+    {
+        TriangleId triangle;
+        float distance;
+    };
+
+    /// Return the triangles that the last bound was taken from; may contain duplicates. Each point of the
+    /// bounded triangle is within the distance of one of them.
+    std::span<const UsedTriangle> used() const { return used_; }
 
     /// Return the number of pieces whose search ended early, so that their bounds are not tight.
     uint64_t loosePieces() const { return loose_pieces_; }
@@ -77,7 +85,7 @@ private:
     SurfaceMetric* metric_ = nullptr;
     std::vector<Piece> stack_;
     std::vector<TriangleId> found_;
-    std::vector<TriangleId> used_;
+    std::vector<UsedTriangle> used_;
     std::vector<DistanceTriangle> triangles_;
     Candidates candidates_;
     PieceBounder bounder_;

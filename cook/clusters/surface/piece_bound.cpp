@@ -52,8 +52,7 @@ Bound PieceBounder::bound(const Corners& piece, std::span<const TriangleBlock> b
         if (best2 <= std::max(tolerance2(), upper2) || point_count_ >= max_points)
         {
             upper2 = std::max(upper2, best2);
-            if (metric_ != nullptr)
-                used_ |= uint64_t{1} << best(part);
+            use(best(part), best2);
             continue;
         }
         if (!corners_found_)
@@ -73,6 +72,14 @@ Bound PieceBounder::bound(const Corners& piece, std::span<const TriangleBlock> b
         stack_[stack_size++] = {middle, q, apex};
     }
     return {upper2, lower2_, std::min(lower2_, radius2_), upper2 <= tolerance2()};
+}
+
+/// Record that a part's bound was taken from a candidate.
+void PieceBounder::use(size_t candidate, float distance2)
+{
+    used_distance2_[candidate] =
+        wasUsed(candidate) ? std::max(used_distance2_[candidate], distance2) : distance2;
+    used_ |= uint64_t{1} << candidate;
 }
 
 /// Return the squared distance below which bounds need not be improved.

@@ -87,8 +87,11 @@ public:
     Bound bound(const Corners& piece, std::span<const TriangleBlock> blocks, float allowed2, float radius,
                 size_t max_points = kMaxPoints, const PointMetric* metric = nullptr);
 
-    /// True if the last bound by a metric was taken from the candidate.
+    /// True if the last bound of some part was taken from the candidate.
     bool wasUsed(size_t candidate) const { return (used_ >> candidate & 1) != 0; }
+
+    /// Return the squared distance of the parts whose bounds were taken from a used candidate.
+    float usedDistance2(size_t candidate) const { return used_distance2_[candidate]; }
 
 private:
     using Part = std::array<uint8_t, 3>;
@@ -109,6 +112,7 @@ private:
         std::array<Lanes, kMaxBlocks> distance2;
     };
 
+    void use(size_t candidate, float distance2);
     float tolerance2() const;
     uint8_t addPoint(Float3 place, Float2 plane);
     template <size_t N>
@@ -123,7 +127,8 @@ private:
 
     std::span<const TriangleBlock> blocks_;
     const PointMetric* metric_ = nullptr;
-    uint64_t used_ = 0; ///< a bit for each candidate
+    uint64_t used_ = 0;                                  ///< a bit for each candidate
+    std::array<float, kMaxCandidates> used_distance2_{}; ///< set for those with a bit
     float allowed2_ = 0;
     float radius2_ = 0;
     float lower2_ = 0; ///< largest distance of a point to the candidates; valid up to radius2_

@@ -8,7 +8,7 @@
 #include "tests/support/sanitized.h"
 #include "tests/support/shapes.h"
 #include "tests/support/soundness.h"
-#include "tests/support/surface_distance.h"
+#include "tests/support/surfaces/surface_distance.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include "tests/support/deformed_model.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/shapes.h"
-#include "tests/support/surface_distance.h"
+#include "tests/support/surfaces/surface_distance.h"
 #include "tests/support/temporary_folder.h"
 
 #include <gtest/gtest.h>

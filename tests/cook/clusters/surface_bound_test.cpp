@@ -4,7 +4,7 @@
 
 #include "cook/clusters/surface/surface_tree.h"
 #include "tests/support/shapes.h"
-#include "tests/support/surface_distance.h"
+#include "tests/support/surfaces/surface_distance.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include "cook/clusters/core/cluster.h"
 #include "cook/clusters/partition/split.h"
 #include "tests/support/shapes.h"
-#include "tests/support/surface_distance.h"
+#include "tests/support/surfaces/surface_distance.h"
 
 #include <gtest/gtest.h>
 

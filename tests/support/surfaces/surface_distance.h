@@ -41,6 +41,9 @@ public:
     Nearest nearest(Float3 point) const;
     double to(Float3 point) const { return nearest(point).distance; }
 
+    /// Return the distance to one triangle.
+    double toTriangle(Float3 point, uint32_t triangle) const;
+
 private:
     struct State;
     std::unique_ptr<State> state_;

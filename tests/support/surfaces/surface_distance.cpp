@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "tests/support/surface_distance.h"
+#include "tests/support/surfaces/surface_distance.h"
 
 #include <embree3/rtcore.h>
 
@@ -169,6 +169,13 @@ SurfaceDistance::Nearest SurfaceDistance::nearest(Float3 point) const
     rtcInitPointQueryContext(&context);
     rtcPointQuery(state_->scene, &ball, &context, visitTriangle, &query);
     return {std::sqrt(query.nearest.distance2), {query.triangle, query.nearest.v, query.nearest.w}};
+}
+
+double SurfaceDistance::toTriangle(Float3 point, uint32_t triangle) const
+{
+    const Float3* corner = &state_->corners[size_t{triangle} * 3];
+    return std::sqrt(
+        onTriangle(widen(point), widen(corner[0]), widen(corner[1]), widen(corner[2])).distance2);
 }
 
 Float3 valueAt(const SurfacePoint& point, std::span<const Float3> of_vertices,

@@ -32,7 +32,9 @@ struct Boundary
     /// Edges of the loops that are left out, and complex edges, at which the surface ends: an odd number of
     /// triangles, or more that run one way than the other.
     std::vector<PositionEdge> other_open_edges;
-    uint64_t complex_edges = 0;
+    std::vector<PositionEdge> complex_edges;
+    /// All positions that triangles use, ascending; empty without complex edges.
+    std::vector<uint32_t> positions;
     uint64_t refused_triangles = 0; ///< triangles that OpenMesh refuses all the same: none are expected
 };
 
@@ -42,11 +44,13 @@ Boundary findBoundary(std::span<const uint32_t> triangles);
 
 /// Compare the boundary of a simplified surface with its source's. Empty if each loop of it
 /// - passes positions of one loop of the source, in their order, and no other loop passes the same one; or
-/// - passes none of the source's boundary: an island that moved. There are at most as many of these as loops
-///   of the source that no other loop stands for.
+/// - passes hardly any of the source's boundary: an island that moved, of whose positions at most two or half
+///   lie there by chance, as on a chess board. There are at most as many of these as loops of the source that
+///   no other loop stands for.
 /// So a closed surface stays closed, and so does a closed island of an open surface while all loops of the
-/// source are left. Where the boundary touches complex edges, its ends must be on the source's boundary.
-/// Otherwise a message.
+/// source are left. Where the boundary touches complex edges, its ends must be on the source's boundary. A
+/// source that has complex edges itself promises less: its loops may also join and part along them, and
+/// islands that moved are not counted. Otherwise a message.
 std::string findCrack(const Boundary& source, const Boundary& simplified);
 
 } // namespace hearth
