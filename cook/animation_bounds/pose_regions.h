@@ -65,6 +65,16 @@ public:
     std::optional<std::array<PoseRegion, 2>> split(const PoseRegion& region,
                                                    std::span<const uint32_t> nodes) const;
 
+    /// True if another region of the same clip contains all poses of this one: times and weights exchanged.
+    bool isMirrored(const PoseRegion& region) const
+    {
+        if (region.from_clip != region.to_clip)
+            return false;
+        const TimeSpan& from = clips_[region.from_clip].times[region.from_span];
+        const TimeSpan& to = clips_[region.to_clip].times[region.to_span];
+        return from.from >= to.to && from.from > to.from;
+    }
+
     /// Return the local transform of a node over a region.
     NodeModel nodeModel(const PoseRegion& region, uint32_t node) const;
 

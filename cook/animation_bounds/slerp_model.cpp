@@ -3,6 +3,7 @@
 
 #include "cook/animation_bounds/quaternion.h"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -37,48 +38,82 @@ struct Series
     Derivatives cosines;
     Derivatives sines;
 };
-/// Evaluate the series.
+
+constexpr size_t kMaxSeriesTerms = 150;
+
+/// Numbers of the term k that depend on k alone.
+struct TermFactors
+{
+    double share;   ///< of the term in the sines
+    double square;  ///< (k + 1/2)^2
+    double inverse; ///< 1 / ((k + 1/2) (k + 1))
+};
+constexpr std::array<TermFactors, kMaxSeriesTerms> termFactors()
+{
+    std::array<TermFactors, kMaxSeriesTerms> factors{};
+    for (size_t k = 0; k < kMaxSeriesTerms; ++k)
+    {
+        const auto number = static_cast<double>(k);
+        factors[k] = {1.0 / (2 * number + 1), (number + 0.5) * (number + 0.5),
+                      1 / ((number + 0.5) * (number + 1))};
+    }
+    return factors;
+}
+constexpr std::array<TermFactors, kMaxSeriesTerms> kTermFactors = termFactors();
+
+/// Evaluate the series, with derivatives up to an order of 2 or 3.
 /// last_term  the omitted rest is at most three times as large
+template <size_t kOrder>
 Series seriesAt(double v, double z, double last_term)
 {
-    Series sum;
+    // derivatives by z, then by v: the inner loops run over vectors
+    double cosines[kOrder + 1][4] = {}, sines[kOrder + 1][4] = {};
     double c[4] = {1, 0, 0, 0};      // derivatives by v
     double powers[4] = {1, 0, 0, 0}; // z^(k - j)
-    constexpr int kMaxSeriesTerms = 150;
-    for (int k = 0; k < kMaxSeriesTerms; ++k)
+    for (size_t k = 0; k < kMaxSeriesTerms; ++k)
     {
-        const double share = 1.0 / (2 * k + 1);
-        double falling = 1; // k (k - 1) .. of the derivatives by z
-        for (int j = 0; j < 4; ++j)
+        const TermFactors& factors = kTermFactors[k];
+        const auto number = static_cast<double>(k);
+        // k (k - 1) .. of the derivatives by z
+        const double falling[4] = {1, number, number * (number - 1), number * (number - 1) * (number - 2)};
+        for (size_t j = 0; j <= kOrder; ++j)
         {
-            const double power = falling * powers[j];
-            for (int i = 0; i + j < 4; ++i)
+            const double power = falling[j] * powers[j];
+            for (size_t i = 0; i < 4; ++i)
             {
                 const double term = c[i] * power;
-                sum.cosines.at[i][j] += term;
-                sum.sines.at[i][j] += share * term;
+                cosines[j][i] += term;
+                sines[j][i] += factors.share * term;
             }
-            falling *= k - j;
         }
         const double largest = std::max({c[0], -c[1], c[2], -c[3]});
         // from here on each term is less than three quarters of the previous one
-        if (k > 3 && z * (k + 1) < 0.75 * (k - 2) && largest * falling * powers[3] < last_term)
+        if (k > 3 && z * (number + 1) < 0.75 * (number - 2) &&
+            largest * (falling[3] * (number - 3)) * powers[3] < last_term)
             break;
-        const double a = (k + 0.5) * (k + 0.5) - v, inverse = 1 / ((k + 0.5) * (k + 1));
-        for (int i = 3; i > 0; --i)
-            c[i] = (c[i] * a - i * c[i - 1]) * inverse;
-        c[0] *= a * inverse;
-        for (int j = 3; j > 0; --j)
+        const double a = factors.square - v;
+        c[3] = (c[3] * a - 3 * c[2]) * factors.inverse;
+        c[2] = (c[2] * a - 2 * c[1]) * factors.inverse;
+        c[1] = (c[1] * a - c[0]) * factors.inverse;
+        c[0] *= a * factors.inverse;
+        for (size_t j = 3; j > 0; --j)
             powers[j] = powers[j - 1];
         powers[0] *= z;
     }
+    Series sum;
+    for (size_t j = 0; j <= kOrder; ++j)
+        for (size_t i = 0; i + j <= kOrder; ++i)
+        {
+            sum.cosines.at[i][j] = cosines[j][i];
+            sum.sines.at[i][j] = sines[j][i];
+        }
     return sum;
 }
 
 /// Return upper bounds for the absolute values.
 Series boundsAt(double v, double z)
 {
-    Series series = seriesAt(v, z, kBoundTerm);
+    Series series = seriesAt<3>(v, z, kBoundTerm);
     for (Derivatives* const derivatives : {&series.cosines, &series.sines})
         for (auto& row : derivatives->at)
             for (double& number : row)
@@ -222,7 +257,7 @@ TaylorModel<4> slerpModel(const TimeCurve& from, const TimeCurve& to, Interval w
     const double max_u = std::abs(u) + half_u, min_u = std::max(0.0, std::abs(u) - half_u);
     // derivatives by v are largest where v is small
     const double z = square.middle, min_v = min_u * min_u;
-    const Series here = seriesAt(u * u, z, kValueTerm), most = boundsAt(min_v, max_square);
+    const Series here = seriesAt<2>(u * u, z, kValueTerm), most = boundsAt(min_v, max_square);
     const TaylorModel<1> s = composeExpansion(cosines(u, here.cosines, max_u, most.cosines), half_u, square);
     const TaylorModel<1> d = composeExpansion(sines(u, here.sines, max_u, most.sines), half_u, square);
     TaylorModel<4> sum, difference;

@@ -35,19 +35,31 @@ RigidModel makeRigid(const TaylorModel<4>& rotation, double stretch)
     return {rotation, degreeNorms(rotation), stretch};
 }
 
+/// Quaternion q as the matrix of the product p q, by columns: those of p's w, x, y and z.
+using FactorColumns = std::array<std::array<double, 4>, 4>;
+
+FactorColumns factorColumns(const std::array<double, 4>& q)
+{
+    return {{{q[0], q[1], q[2], q[3]},
+             {q[3], -q[2], q[1], -q[0]},
+             {q[2], q[3], -q[0], -q[1]},
+             {-q[1], q[0], q[3], -q[2]}}};
+}
+
 /// Return the product: b, then a.
 RigidModel composeRigid(const RigidModel& a, const RigidModel& b)
 {
+    std::array<FactorColumns, kTerms> columns;
+    for (size_t term = 0; term < kTerms; ++term)
+        columns[term] = factorColumns(b.rotation.terms[term]);
     TaylorModel<4> rotation;
     for (const TermProduct& product : kProducts)
     {
         const auto& p = a.rotation.terms[product.one];
-        const auto& q = b.rotation.terms[product.other];
+        const FactorColumns& q = columns[product.other];
         std::array<double, 4>& sum = rotation.terms[product.product];
-        sum[0] += p[3] * q[0] + p[0] * q[3] + p[1] * q[2] - p[2] * q[1];
-        sum[1] += p[3] * q[1] - p[0] * q[2] + p[1] * q[3] + p[2] * q[0];
-        sum[2] += p[3] * q[2] + p[0] * q[1] - p[1] * q[0] + p[2] * q[3];
-        sum[3] += p[3] * q[3] - p[0] * q[0] - p[1] * q[1] - p[2] * q[2];
+        for (size_t i = 0; i < 4; ++i)
+            sum[i] += p[3] * q[0][i] + p[0] * q[1][i] + p[1] * q[2][i] + p[2] * q[3][i];
     }
     // for quaternions of length 1: (a + e) (b + f) = a b + a f + e (b + f)
     rotation.remainder = a.norms.all() * b.rotation.remainder + a.rotation.remainder +
@@ -107,10 +119,16 @@ Interval axisRange(const VectorModel& model, size_t axis)
     return range;
 }
 
-double largest(const VectorModel& model)
+using AxisRanges = std::array<Interval, 3>;
+
+AxisRanges axisRanges(const VectorModel& model)
 {
-    return std::max(
-        {axisRange(model, 0).magnitude(), axisRange(model, 1).magnitude(), axisRange(model, 2).magnitude()});
+    return {axisRange(model, 0), axisRange(model, 1), axisRange(model, 2)};
+}
+
+double largest(const AxisRanges& ranges)
+{
+    return std::max({ranges[0].magnitude(), ranges[1].magnitude(), ranges[2].magnitude()});
 }
 
 /// Return 1 / s axis by axis; nothing where s can be 0.
@@ -148,14 +166,11 @@ std::optional<VectorModel> reciprocal(const VectorModel& s)
 }
 
 /// Return the maximum distance of a scale from 1.
-double maxDistanceFromOne(const VectorModel& scale)
+double maxDistanceFromOne(const AxisRanges& scale)
 {
     double away = 0;
-    for (size_t axis = 0; axis < 3; ++axis)
-    {
-        const Interval range = axisRange(scale, axis);
+    for (const Interval& range : scale)
         away = std::max({away, range.high - 1, 1 - range.low});
-    }
     return away;
 }
 
@@ -179,8 +194,9 @@ TransformModel rotationModel(const TaylorModel<4>& rotation)
 template <typename AxisOf>
 void scaleElements(TransformModel& model, const VectorModel& scale, const AxisOf& axis_of)
 {
-    model.norm = largest(scale);
-    if (const double away = maxDistanceFromOne(scale); away < kNearRigid)
+    const AxisRanges ranges = axisRanges(scale);
+    model.norm = largest(ranges);
+    if (const double away = maxDistanceFromOne(ranges); away < kNearRigid)
     {
         model.rigid->stretch = away;
         return;

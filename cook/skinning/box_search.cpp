@@ -5,7 +5,7 @@
 #include "cook/animation_bounds/symmetric.h"
 
 #include <algorithm>
-#include <numeric>
+#include <bit>
 
 namespace hearth::skinning
 {
@@ -35,10 +35,19 @@ constexpr size_t kRegionsBetweenChecks = 200;
 // Number of poses that are sampled before the search.
 constexpr size_t kSamples = 24;
 
-// Cost of a node's time span, in influences of vertices.
-constexpr size_t kNodeWork = 25;
+// Cost of a node's time span, in influences of vertices along one axis.
+constexpr size_t kNodeWork = 75;
 
-using ActiveVertices = std::vector<uint16_t>;
+/// Vertex with the axes along which it may leave the box of the sampled poses, a bit each.
+struct ActiveVertex
+{
+    uint16_t vertex;
+    uint8_t axes;
+
+    bool isActive(size_t axis) const { return (axes >> axis & 1) != 0; }
+};
+using ActiveVertices = std::vector<ActiveVertex>;
+constexpr uint8_t kAllAxes = 7;
 
 /// Bounds of the positions of a cluster's vertices while poses stay in a region.
 class RegionPositions
@@ -58,7 +67,7 @@ public:
     }
 
     /// Return the nodes that move some of the vertices.
-    std::vector<uint32_t> movingNodes(std::span<const uint16_t> vertices) const
+    std::vector<uint32_t> movingNodes(std::span<const ActiveVertex> vertices) const
     {
         std::vector<uint32_t> nodes = chain_.linksTo(otherJoints(vertices));
         for (uint32_t& link : nodes)
@@ -67,12 +76,13 @@ public:
     }
 
     /// Return the work of bounding all vertices.
-    size_t fullWork() const { return kNodeWork * movingNodes(all()).size() + influences_.size(); }
+    size_t fullWork() const { return kNodeWork * movingNodes(all()).size() + 3 * influences_.size(); }
 
     ActiveVertices all() const
     {
-        ActiveVertices vertices(main_bone_terms_.size());
-        std::iota(vertices.begin(), vertices.end(), uint16_t{0});
+        ActiveVertices vertices;
+        for (size_t v = 0; v < main_bone_terms_.size(); ++v)
+            vertices.push_back({static_cast<uint16_t>(v), kAllAxes});
         return vertices;
     }
 
@@ -93,43 +103,25 @@ public:
         }
     }
 
-    /// Compute one box for each vertex over a region; false if there are no bounds.
+    /// Compute one box for each vertex over a region, empty along axes that are not active; false if there
+    /// are no bounds.
     /// sampled  grows by positions that vertices certainly have in some pose
-    bool place(const PoseRegion& region, std::span<const uint16_t> vertices, Box3d& sampled,
+    bool place(const PoseRegion& region, std::span<const ActiveVertex> vertices, Box3d& sampled,
                std::vector<Box3d>& boxes, size_t& work)
     {
         const std::vector<uint32_t> joints = otherJoints(vertices), links = chain_.linksTo(joints);
         work += kNodeWork * links.size();
         if (!chain_.place(regions_, region, links, models_))
             return false;
-        affine_.resize(joints_.size());
+        motions_.resize(joints_.size());
         for (const uint32_t joint : joints)
-            affine_[joint] = inMain(models_[chain_.linkIndex(joint)]);
+            motions_[joint] = inMain(models_[chain_.linkIndex(joint)]);
         boxes.clear();
-        for (const uint16_t v : vertices)
+        for (const ActiveVertex& active : vertices)
         {
-            const MainBoneTerm& own = main_bone_terms_[v];
-            std::array<std::array<double, animation_bounds::kTerms>, 3> terms{};
-            terms[0][0] = own.place.x;
-            terms[1][0] = own.place.y;
-            terms[2][0] = own.place.z;
-            double slack = own.slack;
-            for (size_t i = own.first; i < own.end; ++i)
-            {
-                const Influence& influence = influences_[i];
-                addPosition(affine_[influence.joint], influence.place, influence.weight, terms);
-                slack += bind_norm_ * influence.weight *
-                         models_[chain_.linkIndex(influence.joint)].slackAt(influence.place);
-            }
-            work += own.end - own.first;
-            Box3d box;
-            for (size_t axis = 0; axis < 3; ++axis)
-            {
-                box[axis] = animation_bounds::polynomialRange(terms[axis]);
-                box[axis].grow(slack);
-                addCorners(terms[axis], slack, sampled[axis]);
-            }
-            boxes.push_back(box);
+            boxes.push_back(boxAround(active, sampled));
+            const MainBoneTerm& own = main_bone_terms_[active.vertex];
+            work += (own.end - own.first) * static_cast<size_t>(std::popcount(active.axes));
         }
         return true;
     }
@@ -151,54 +143,88 @@ private:
         size_t end;
     };
 
-    /// Polynomials for the elements of an affine transform.
-    using AffineTerms = std::array<std::array<std::array<double, animation_bounds::kTerms>, 4>, 3>;
+    using Polynomial = std::array<double, animation_bounds::kTerms>;
 
-    AffineTerms inMain(const TransformModel& model) const
+    /// Transform from a joint to the main bone's bind space.
+    struct Motion
+    {
+        std::array<std::array<Polynomial, 4>, 3> elements; ///< of the affine transform
+        Double3 pivot;
+        double linear_slack; ///< distance from the polynomials, by distance from the pivot
+        double point_slack;
+    };
+
+    Motion inMain(const TransformModel& model) const
     {
         const Affine3d& bind_from_main = *skin_.bindFromJoint(main_);
-        AffineTerms affine;
+        std::array<std::array<Polynomial, 4>, 3> elements; // in the main bone's node
         for (size_t term = 0; term < animation_bounds::kTerms; ++term)
-        {
-            const std::array<double, 9>& m = model.linear.terms[term];
-            const std::array<double, 3>& place = model.place.terms[term];
-            Affine3d transform;
             for (size_t row = 0; row < 3; ++row)
             {
-                std::copy_n(&m[row * 3], 3, transform.m[row]);
-                transform.m[row][3] = 0;
+                const double* const m = &model.linear.terms[term][row * 3];
+                for (size_t column = 0; column < 3; ++column)
+                    elements[row][column][term] = m[column];
+                elements[row][3][term] = model.place.terms[term][row] -
+                                         (m[0] * model.pivot.x + m[1] * model.pivot.y + m[2] * model.pivot.z);
             }
-            const Double3 shift =
-                Double3{place[0], place[1], place[2]} - transformVector(transform, model.pivot);
-            transform.m[0][3] = shift.x;
-            transform.m[1][3] = shift.y;
-            transform.m[2][3] = shift.z;
-            for (size_t row = 0; row < 3; ++row)
-                for (size_t column = 0; column < 4; ++column)
-                {
-                    double sum = term == 0 && column == 3 ? bind_from_main.m[row][3] : 0;
-                    for (size_t k = 0; k < 3; ++k)
-                        sum += bind_from_main.m[row][k] * transform.m[k][column];
-                    affine[row][column][term] = sum;
-                }
-        }
-        return affine;
+        Motion motion{
+            {}, model.pivot, bind_norm_ * model.linear.remainder, bind_norm_ * model.place.remainder};
+        for (size_t row = 0; row < 3; ++row)
+            for (size_t column = 0; column < 4; ++column)
+            {
+                const double(&m)[4] = bind_from_main.m[row];
+                for (size_t term = 0; term < animation_bounds::kTerms; ++term)
+                    motion.elements[row][column][term] = m[0] * elements[0][column][term] +
+                                                         m[1] * elements[1][column][term] +
+                                                         m[2] * elements[2][column][term];
+            }
+        for (size_t row = 0; row < 3; ++row)
+            motion.elements[row][3][0] += bind_from_main.m[row][3];
+        return motion;
     }
 
-    static void addPosition(const AffineTerms& affine, Double3 point, double weight,
-                            std::array<std::array<double, animation_bounds::kTerms>, 3>& terms)
+    Box3d boxAround(const ActiveVertex& active, Box3d& sampled) const
     {
-        const double x = point.x * weight, y = point.y * weight, z = point.z * weight;
+        const MainBoneTerm& own = main_bone_terms_[active.vertex];
+        const std::span<const Influence> influences =
+            std::span(influences_).subspan(own.first, own.end - own.first);
+        double slack = own.slack;
+        for (const Influence& influence : influences)
+        {
+            const Motion& motion = motions_[influence.joint];
+            slack += influence.weight *
+                     (motion.linear_slack * length(influence.place - motion.pivot) + motion.point_slack);
+        }
+        const double places[3] = {own.place.x, own.place.y, own.place.z};
+        Box3d box;
         for (size_t axis = 0; axis < 3; ++axis)
-            for (size_t term = 0; term < animation_bounds::kTerms; ++term)
-                terms[axis][term] += affine[axis][0][term] * x + affine[axis][1][term] * y +
-                                     affine[axis][2][term] * z + affine[axis][3][term] * weight;
+        {
+            if (!active.isActive(axis))
+                continue;
+            Polynomial terms{places[axis]};
+            for (const Influence& influence : influences)
+                addPosition(motions_[influence.joint].elements[axis], influence, terms);
+            box[axis] = animation_bounds::polynomialRange(terms);
+            box[axis].grow(slack);
+            addCorners(terms, slack, sampled[axis]);
+        }
+        return box;
+    }
+
+    /// Add the coordinate of a vertex along one axis, times its weight.
+    static void addPosition(const std::array<Polynomial, 4>& row, const Influence& influence,
+                            Polynomial& terms)
+    {
+        const double weight = influence.weight;
+        const Double3 point = influence.place * weight;
+        for (size_t term = 0; term < animation_bounds::kTerms; ++term)
+            terms[term] += row[0][term] * point.x + row[1][term] * point.y + row[2][term] * point.z +
+                           row[3][term] * weight;
     }
 
     /// Add the values of a polynomial, minus the slack, at the two corners where its linear part is largest
     /// and smallest.
-    static void addCorners(const std::array<double, animation_bounds::kTerms>& terms, double slack,
-                           Interval& sampled)
+    static void addCorners(const Polynomial& terms, double slack, Interval& sampled)
     {
         const auto side = [&](size_t a)
         { return terms[animation_bounds::kFirstLinear + a] < 0 ? -1.0 : 1.0; };
@@ -212,11 +238,12 @@ private:
     }
 
     /// Return the indices of the joints_ that move some of the vertices.
-    std::vector<uint32_t> otherJoints(std::span<const uint16_t> vertices) const
+    std::vector<uint32_t> otherJoints(std::span<const ActiveVertex> vertices) const
     {
         std::vector<bool> moves(joints_.size());
-        for (const uint16_t v : vertices)
-            for (size_t i = main_bone_terms_[v].first; i < main_bone_terms_[v].end; ++i)
+        for (const ActiveVertex& active : vertices)
+            for (size_t i = main_bone_terms_[active.vertex].first; i < main_bone_terms_[active.vertex].end;
+                 ++i)
                 moves[influences_[i].joint] = true;
         std::vector<uint32_t> joints;
         for (uint32_t joint = 0; joint < joints_.size(); ++joint)
@@ -264,17 +291,21 @@ private:
     std::vector<Influence> influences_;
     std::vector<MainBoneTerm> main_bone_terms_;
     std::vector<TransformModel> models_;
-    std::vector<AffineTerms> affine_;
+    std::vector<Motion> motions_; ///< by index into joints_
     std::vector<Affine3d> middles_;
 };
+
+/// Extend an interval by another one; either may be empty.
+void join(Interval& interval, const Interval& other)
+{
+    interval.low = std::min(interval.low, other.low);
+    interval.high = std::max(interval.high, other.high);
+}
 
 void join(Box3d& box, const Box3d& other)
 {
     for (size_t axis = 0; axis < 3; ++axis)
-    {
-        box[axis].add(other[axis].low);
-        box[axis].add(other[axis].high);
-    }
+        join(box[axis], other[axis]);
 }
 
 Box3d intersection(const Box3d& a, const Box3d& b)
@@ -283,6 +314,11 @@ Box3d intersection(const Box3d& a, const Box3d& b)
     for (size_t axis = 0; axis < 3; ++axis)
         box[axis] = {std::max(a[axis].low, b[axis].low), std::min(a[axis].high, b[axis].high)};
     return box;
+}
+
+bool isInside(const Interval& inner, const Interval& outer)
+{
+    return inner.low >= outer.low && inner.high <= outer.high;
 }
 
 /// Return the largest excess of `box` over `sampled`, as a share of the side.
@@ -315,7 +351,8 @@ double volume(const Box3d& box)
     return std::max(h.x, least) * std::max(h.y, least) * std::max(h.z, least);
 }
 
-/// Unresolved region, with the vertices that may leave the box of the sampled poses there.
+/// Unresolved region, with the vertices that may leave the box of the sampled poses there. The box contains
+/// their positions along their active axes; other axes may be empty.
 struct OpenRegion
 {
     PoseRegion region;
@@ -356,15 +393,11 @@ public:
                 tight_ = volume(box()) < kTightVolume * volume(sampled_);
             }
             std::pop_heap(open_.begin(), open_.end());
-            const OpenRegion worst = std::move(open_.back());
+            OpenRegion worst = std::move(open_.back());
             open_.pop_back();
-            if (excess(worst.box, withTolerance(sampled_)) <= 0)
-                continue;
-            if (const auto split = regions_.split(worst.region, places_.movingNodes(worst.vertices)))
-                for (const PoseRegion& half : *split)
-                    examine({half, worst.vertices, worst.box, 0}, work);
-            else
-                join(sampled_, worst.box); // treat it as sampled: the region cannot be split further
+            resolveAxes(worst);
+            if (!worst.vertices.empty())
+                examineHalves(worst, work);
         }
         return work;
     }
@@ -373,7 +406,7 @@ public:
     {
         if (!started_)
             return box_;
-        Box3d result = withTolerance(sampled_);
+        Box3d result = resolved_;
         for (const OpenRegion& open : open_)
             join(result, open.box);
         return intersection(result, box_);
@@ -385,7 +418,7 @@ private:
     bool start(size_t max_work, size_t& work)
     {
         const std::vector<PoseRegion> all = regions_.all();
-        if (all.size() * places_.fullWork() > max_work / 2)
+        if (all.size() * places_.fullWork() > max_work)
             return false;
         started_ = true;
         for (const PoseRegion& region : all)
@@ -393,23 +426,57 @@ private:
         return true;
     }
 
+    /// Resolve the axes along which a region's vertices stay in the box of the sampled poses.
+    void resolveAxes(OpenRegion& region)
+    {
+        const Box3d enough = withTolerance(sampled_);
+        uint8_t axes = 0;
+        for (size_t axis = 0; axis < 3; ++axis)
+            if (isInside(region.box[axis], enough[axis]))
+                join(resolved_[axis], region.box[axis]);
+            else
+                axes = static_cast<uint8_t>(axes | 1u << axis);
+        for (ActiveVertex& active : region.vertices)
+            active.axes &= axes;
+        std::erase_if(region.vertices, [](const ActiveVertex& active) { return active.axes == 0; });
+    }
+
+    /// Split a region and examine its halves.
+    void examineHalves(const OpenRegion& whole, size_t& work)
+    {
+        const std::vector<uint32_t> nodes = places_.movingNodes(whole.vertices);
+        const auto halves = regions_.split(whole.region, nodes);
+        if (!halves)
+        {
+            // treat it as sampled: the region cannot be split further
+            join(sampled_, whole.box);
+            join(resolved_, whole.box);
+            return;
+        }
+        for (const PoseRegion& half : *halves)
+            examine({half, whole.vertices, whole.box, 0}, work);
+    }
+
     /// Queue a region, unless all of its vertices stay in the box of the sampled poses.
     void examine(OpenRegion region, size_t& work)
     {
+        if (regions_.isMirrored(region.region))
+            return;
         if (places_.place(region.region, region.vertices, sampled_, boxes_, work))
         {
             const Box3d enough = withTolerance(sampled_);
-            ActiveVertices remaining;
             Box3d box;
             for (size_t i = 0; i < boxes_.size(); ++i)
-                if (excess(boxes_[i], enough) > 0)
+                for (size_t axis = 0; axis < 3; ++axis)
                 {
-                    remaining.push_back(region.vertices[i]);
-                    join(box, boxes_[i]);
+                    const bool is_resolved = isInside(boxes_[i][axis], enough[axis]);
+                    join(is_resolved ? resolved_[axis] : box[axis], boxes_[i][axis]);
+                    if (is_resolved)
+                        region.vertices[i].axes &= static_cast<uint8_t>(~(1u << axis));
                 }
-            if (remaining.empty())
+            std::erase_if(region.vertices, [](const ActiveVertex& active) { return active.axes == 0; });
+            if (region.vertices.empty())
                 return;
-            region.vertices = std::move(remaining);
             region.box = intersection(region.box, box);
         }
         region.excess = excess(region.box, sampled_);
@@ -421,6 +488,7 @@ private:
     const animation_bounds::PoseRegions& regions_;
     Box3d box_;
     Box3d sampled_;
+    Box3d resolved_; ///< contains all positions outside of the open regions
     bool started_ = false;
     bool tight_ = false;
     size_t regions_since_check_ = 0;

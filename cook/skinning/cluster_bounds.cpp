@@ -25,14 +25,14 @@ namespace
 // of the sample character and the skinned assets).
 constexpr size_t kMaxCandidates = 3;
 
-// Work for tightening the boxes of all loose clusters of a mesh, in influences of vertices of about 50 ns
-// each. With half of it, boxes of the tube of 300 joints are 4 times the tightest, with this 2.3.
-constexpr size_t kMeshWork = 160'000'000;
-constexpr size_t kMaxClusterWork = 6'000'000; ///< of one cluster in the last round
+// Work for tightening the boxes of all loose clusters of a mesh, in influences of vertices along one axis, of
+// about 17 ns each. A quarter of it makes boxes of characters of 60 joints a fifth larger.
+constexpr size_t kMeshWork = 400'000'000;
+constexpr size_t kMaxClusterWork = 10'500'000; ///< of one cluster in the last round
 
 // Minimum share of a cluster. A smaller share has no effect, so meshes with very many loose clusters keep
 // their boxes.
-constexpr size_t kMinClusterWork = 1'000'000;
+constexpr size_t kMinClusterWork = 2'500'000;
 
 // Number of rounds in which work is distributed; later rounds distribute the unused work.
 constexpr size_t kRounds = 3;

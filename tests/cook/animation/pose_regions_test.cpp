@@ -227,6 +227,60 @@ TEST(PoseRegions, holdPosesOfSpins)
         checkNodes({.spins = true, .opposite = true}, seed);
 }
 
+TEST(PoseRegions, mirroredRegionsRepeatOthers)
+{
+    Regions scene({.clips = 1}, 5);
+    const PoseRegion root{1, 1, 1, 1, 0, 1};
+    const TimeSpan whole = scene.regions.timeSpan(1, 1);
+    const auto contains = [&](uint32_t span, double time)
+    {
+        const TimeSpan span_time = scene.regions.timeSpan(1, span);
+        return span_time.from <= time && (span_time.last ? time <= span_time.to : time < span_time.to);
+    };
+    size_t mirrored = 0, kept = 0;
+    for (int i = 0; i < 3000; ++i)
+    {
+        // ends of spans, where keys are, as often as other times
+        const auto anyTime = [&]
+        {
+            return scene.random() % 2 == 0 ? std::lerp(whole.from, whole.to, scene.uniform())
+                                           : scene.regions.timeSpan(1, 1 + scene.random() % 15).from;
+        };
+        const double from = anyTime(), to = anyTime(), weight = scene.uniform();
+        // follow the pose, or the same pose with times and weights exchanged, through the subdivision
+        const auto follow = [&](double first, double second, double of_second)
+        {
+            PoseRegion region = root;
+            while (!scene.regions.isMirrored(region))
+            {
+                const auto split = scene.regions.split(region, scene.all);
+                if (!split)
+                    return true;
+                const PoseRegion& half = (*split)[0];
+                const bool is_in_first = contains(half.from_span, first) && contains(half.to_span, second) &&
+                                         of_second <= half.high_weight;
+                region = (*split)[is_in_first ? 0 : 1];
+            }
+            return false;
+        };
+        const bool is_kept = follow(from, to, weight);
+        ASSERT_TRUE(is_kept || follow(to, from, 1 - weight)) << from << " " << to << " " << weight;
+        ++(is_kept ? kept : mirrored);
+    }
+    EXPECT_GT(mirrored, 1000u) << "nearly half of the regions";
+    EXPECT_GT(kept, 1000u);
+}
+
+TEST(PoseRegions, differentClipsAreNotMirrored)
+{
+    Regions scene({.clips = 2}, 5);
+    EXPECT_FALSE(scene.regions.isMirrored({1, 3, 2, 2, 0, 1}));
+    EXPECT_TRUE(scene.regions.isMirrored({1, 3, 1, 2, 0, 1}));
+    EXPECT_FALSE(scene.regions.isMirrored({1, 2, 1, 3, 0, 1}));
+    EXPECT_FALSE(scene.regions.isMirrored({1, 2, 1, 2, 0, 1}));
+    EXPECT_FALSE(scene.regions.isMirrored({0, 1, 0, 1, 0, 1})) << "the rest pose is a single time";
+}
+
 TEST(RegionChain, holdsWhatJointsDo)
 {
     // the bound is useful: points come near to its border
