@@ -37,18 +37,6 @@ void setBit(uint32_t& low, uint32_t& high, uint32_t lane)
     (lane < 32 ? low : high) |= 1u << (lane % 32);
 }
 
-bool isHidden(const Pyramid& pyramid, const Instance& instance, Float3 box_min, Float3 box_max)
-{
-    const PyramidBox box = pyramidBox(pyramid.view, instance, box_min, box_max);
-    if (box.known == 0)
-        return false;
-    for (uint32_t y = box.y0; y <= box.y1; ++y)
-        for (uint32_t x = box.x0; x <= box.x1; ++x)
-            if (box.depth >= pyramid.texels.at(box.offset + y * box.stride + x))
-                return false;
-    return true;
-}
-
 /// Poses of a layout, read like in the shaders.
 class PoseTable
 {
@@ -346,22 +334,6 @@ private:
 };
 
 } // namespace
-
-std::vector<float> makePyramid(const std::vector<float>& depth, uint32_t width, uint32_t height)
-{
-    std::vector<float> texels;
-    for (uint32_t level = 1; level <= pyramidLevels(width, height); ++level)
-        for (uint32_t y = 0; y < pyramidSize(height, level); ++y)
-            for (uint32_t x = 0; x < pyramidSize(width, level); ++x)
-            {
-                float farthest = 1;
-                for (uint32_t py = y << level; py < std::min((y + 1) << level, height); ++py)
-                    for (uint32_t px = x << level; px < std::min((x + 1) << level, width); ++px)
-                        farthest = std::min(farthest, depth[size_t{py} * width + px]);
-                texels.push_back(farthest);
-            }
-    return texels;
-}
 
 Twin makeTwin(const formats::PackView& pack, const gpu::SceneLayout& layout, const FrameView& view,
               const Pyramid& last, const Pyramid& current, std::span<const uint8_t> resident_groups)

@@ -3,23 +3,18 @@
 #pragma once
 
 #include "formats/gpu_shared/cull_statistics.h"
-#include "formats/gpu_shared/occlusion.h"
 #include "formats/pack/pack_view.h"
 #include "runtime/gpu/scene/scene_layout.h"
+#include "tests/reference/culling/depth_pyramid.h"
 
 #include <vector>
 
 namespace hearth::test
 {
 
-struct Pyramid
-{
-    shared::OcclusionView view{};
-    std::vector<float> texels;
-};
-
-/// Depth pyramid of a depth buffer, by slow and simple code.
-std::vector<float> makePyramid(const std::vector<float>& depth, uint32_t width, uint32_t height);
+using reference::isHidden;
+using reference::makePyramid;
+using reference::Pyramid;
 
 /// Content of the passes' buffers.
 struct Twin
