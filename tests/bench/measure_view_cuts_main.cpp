@@ -5,6 +5,7 @@
 #include "cook/command_line/command_line.h"
 #include "formats/base/program.h"
 #include "sample_assets/rock.h"
+#include "tests/bench/aims.h"
 #include "tests/bench/cut_figures.h"
 #include "tests/support/test_scene.h"
 
@@ -31,10 +32,6 @@ using bench::ViewMeter;
 constexpr uint32_t kWidth = 640;
 constexpr uint32_t kHeight = 360;
 constexpr uint32_t kRockCount = 12;
-
-// Limit of the triangles a pixel that the product's cut needs for a mean FLIP of 0.1. Measured: 4.2.
-constexpr double kAimFlip = 0.1;
-constexpr double kAimTrianglesPerPixel = 4.6;
 
 struct Arguments
 {
@@ -203,8 +200,8 @@ void printUnseen(const CutFigures& product, double share_alone)
                 1 / share_alone);
 }
 
-/// Return false if the aim is missed.
-Result<bool> measure(const Arguments& arguments)
+/// returns  exit code: 1 if the aim is missed
+Result<int> measure(const Arguments& arguments)
 {
     test::TestScene test;
     std::vector<mesh::SourceMesh> sources;
@@ -230,10 +227,11 @@ Result<bool> measure(const Arguments& arguments)
     HEARTH_ASSIGN_OR_RETURN(const std::vector<CurvePoint> curve, printThresholds(meters));
     printUnseen(product, share_alone);
     HEARTH_TRY(printCauses(meters, curve, product));
-    const double needed = trianglesForFlip(curve, kAimFlip).value_or(HUGE_VAL);
-    std::printf("\nTriangles a pixel for a FLIP of %.2f: %.2f, aim <= %.2f%s\n", kAimFlip, needed,
-                kAimTrianglesPerPixel, needed <= kAimTrianglesPerPixel ? "" : ": MISSED");
-    return needed <= kAimTrianglesPerPixel;
+    std::printf("\n");
+    bench::Judgement judgement("cuts");
+    judgement.record("triangles a pixel for a mean FLIP of 0.1",
+                     trianglesForFlip(curve, 0.1).value_or(HUGE_VAL));
+    return judgement.finish();
 }
 
 int program(int argc, char** argv)
@@ -246,10 +244,8 @@ int program(int argc, char** argv)
     app.addOption("--images", arguments.images, "beginning of the names of images to write");
     if (const std::optional<int> exit_code = app.parse(argc, argv))
         return *exit_code;
-    const Result<bool> met = measure(arguments);
-    if (!met.ok())
-        return reportFailure(met.error());
-    return *met ? 0 : 1;
+    const Result<int> measured = measure(arguments);
+    return measured.ok() ? *measured : reportFailure(measured.error());
 }
 
 } // namespace
