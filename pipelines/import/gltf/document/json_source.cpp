@@ -19,7 +19,7 @@ size_t findTokenEnd(std::string_view text, size_t at)
         return std::min(text.find_first_of(" \t\r\n{}[],:", at), text.size());
     size_t end = at + 1;
     while (end < text.size() && text[end] != '"')
-        end += text[end] == '\\' ? 2 : 1;
+        end += text[end] == '\\' ? size_t{2} : size_t{1};
     return std::min(end + 1, text.size());
 }
 
@@ -56,8 +56,8 @@ std::vector<std::string> cutValues(std::string_view text, std::span<const uint32
         if (cutting)
         {
             values.back() += text.substr(at, end - at);
-            depth += text[at] == '{' || text[at] == '[' ? 1 : 0;
-            depth -= text[at] == '}' || text[at] == ']' ? 1 : 0;
+            depth += text[at] == '{' || text[at] == '[' ? size_t{1} : size_t{0};
+            depth -= text[at] == '}' || text[at] == ']' ? size_t{1} : size_t{0};
             cutting = depth > 0;
         }
         if (!cutting && values.size() == positions.size())
