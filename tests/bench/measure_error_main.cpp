@@ -26,6 +26,9 @@ using namespace hearth;
 // Part of the diagonal beyond the box from which meshes that are only measured for it are named.
 constexpr double kNamedOvershoot = 0.05;
 
+/// Part by which the upper bound of a certified distance may exceed the lower one.
+constexpr double kRelative = 0.005;
+
 /// Part of the diagonal that CGAL's distance may be off by.
 constexpr double kCgalError = 1e-3;
 
@@ -71,7 +74,8 @@ void measureMesh(const std::string& name, const mesh::SourceMesh& mesh, bool box
     if (boxes_only || !decoded.ok() || hierarchy.levels.size() < 2)
         return;
     const double rounding = 1e-6 * diagonal;
-    const auto errors = cuts::certifyLevels(mesh, hierarchy, *decoded, {.absolute = rounding});
+    const auto errors =
+        cuts::certifyLevels(mesh, hierarchy, *decoded, {.relative = kRelative, .absolute = rounding});
     for (const cuts::CutError& cut : errors)
     {
         const bool broken = cut.distance.lower > cut.stored + rounding;
