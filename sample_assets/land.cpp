@@ -4,6 +4,7 @@
 #include "sample_assets/rock.h"
 #include "sample_assets/shapes/noise.h"
 #include "sample_assets/shapes/sample_math.h"
+#include "sample_assets/shapes/scene_parts.h"
 #include "sample_assets/shapes/shapes.h"
 #include "sample_assets/terrain.h"
 
@@ -95,14 +96,6 @@ void addRocks(Document& document, const HeightGrid& grid)
         addInstances(document, "rock_" + std::to_string(shape),
                      {{makeRock(kRockTriangles, shape + 1, 3.0f), material}}, std::move(instances));
     }
-}
-
-int addPlainMaterial(Document& document, const char* name, Float3 color)
-{
-    Material material;
-    material.name = name;
-    material.base_color = {color.x, color.y, color.z, 1};
-    return add(document.materials, material);
 }
 
 /// Make a house of one room around the origin, its floor at height 0: the front has a door, each side a

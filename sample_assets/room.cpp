@@ -3,6 +3,7 @@
 
 #include "sample_assets/shapes/noise.h"
 #include "sample_assets/shapes/sample_math.h"
+#include "sample_assets/shapes/scene_parts.h"
 #include "sample_assets/shapes/shapes.h"
 #include "sample_assets/shapes/textures.h"
 
@@ -68,24 +69,6 @@ float plasterHeight(Float2 uv)
     return 0.5f + 0.5f * TileNoise{10, 530}.fbm(uv, 6);
 }
 
-int addPlainMaterial(Document& document, const char* name, Float3 color, float roughness, float metallic = 0)
-{
-    Material material;
-    material.name = name;
-    material.base_color = {color.x, color.y, color.z, 1};
-    material.roughness = roughness;
-    material.metallic = metallic;
-    return add(document.materials, material);
-}
-
-int addEmissiveMaterial(Document& document, const char* name, Float3 color, float strength)
-{
-    const int index = addPlainMaterial(document, name, {0.8f, 0.8f, 0.8f}, 0.6f);
-    document.materials[static_cast<size_t>(index)].emissive = color;
-    document.materials[static_cast<size_t>(index)].emissive_strength = strength;
-    return index;
-}
-
 int addFloorMaterial(Document& document)
 {
     Material material;
@@ -124,14 +107,6 @@ int addCarpetMaterial(Document& document)
         add(document.images, paintColor("carpet_color", kTextureSize, kTextureSize, carpetColor));
     material.roughness = 0.95f;
     return add(document.materials, material);
-}
-
-void addObject(Document& document, const char* name, std::vector<Primitive> primitives)
-{
-    Node node;
-    node.name = name;
-    node.mesh = add(document.meshes, Mesh{name, std::move(primitives)});
-    addRoot(document, node);
 }
 
 void addShell(Document& document, int floor, int plaster)
@@ -225,15 +200,6 @@ void addLamp(Document& document, const char* name, Float3 at, int metal, int glo
     addObject(document, name, {{rod, metal}, {globe, glowing}});
 }
 
-void addLight(Document& document, Light light, Float3 at, Float4 rotation)
-{
-    Node node;
-    node.name = light.name;
-    node.light = add(document.lights, std::move(light));
-    node.placement = {at, rotation, {1, 1, 1}};
-    addRoot(document, node);
-}
-
 } // namespace
 
 Document makeRoom()
@@ -281,12 +247,8 @@ Document makeRoom()
              spot_at, rotationLookingAt(spot_at, {2.8f, 1.2f, -0.6f}));
 
     const Float3 eye{-2.3f, 1.65f, 2.1f};
-    Node camera;
-    camera.name = "room";
-    camera.camera =
-        add(document.cameras, Camera{.name = "room", .y_fov_rad = 1.0f, .z_near = 0.05f, .z_far = 50});
-    camera.placement = {eye, rotationLookingAt(eye, {0.5f, 0.9f, -0.6f}), {1, 1, 1}};
-    addRoot(document, camera);
+    addCamera(document, {.name = "room", .y_fov_rad = 1.0f, .z_near = 0.05f, .z_far = 50}, eye,
+              {0.5f, 0.9f, -0.6f});
     return document;
 }
 

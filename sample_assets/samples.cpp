@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "sample_assets/samples.h"
 
+#include "sample_assets/attic.h"
 #include "sample_assets/character.h"
 #include "sample_assets/field.h"
 #include "sample_assets/grass.h"
@@ -10,6 +11,7 @@
 #include "sample_assets/room.h"
 #include "sample_assets/shapes/noise.h"
 #include "sample_assets/shapes/sample_math.h"
+#include "sample_assets/shapes/scene_parts.h"
 #include "sample_assets/terrain.h"
 
 #include <array>
@@ -31,19 +33,11 @@ uint32_t textureSizeOr(const SampleOptions& options, uint32_t otherwise)
     return options.texture_size ? options.texture_size : otherwise;
 }
 
-void addObject(Document& document, const char* name, TriangleMesh mesh, int material)
-{
-    Node node;
-    node.name = name;
-    node.mesh = add(document.meshes, Mesh{name, {{std::move(mesh), material}}});
-    addRoot(document, node);
-}
-
 Document generateRock(const SampleOptions& options)
 {
     Document document;
     const int material = addRockMaterial(document, textureSizeOr(options, 1024));
-    addObject(document, "rock", makeRock(trianglesOr(options, 50000), 1, 2.0f), material);
+    addObject(document, "rock", {{makeRock(trianglesOr(options, 50000), 1, 2.0f), material}});
     return document;
 }
 
@@ -58,7 +52,7 @@ Document generateTerrain(const SampleOptions& options)
     Document document;
     const HeightGrid grid = sampleHeights(trianglesOr(options, 131072));
     const int material = addTerrainMaterial(document, grid, textureSizeOr(options, 1024));
-    addObject(document, "terrain", makeTerrain(grid), material);
+    addObject(document, "terrain", {{makeTerrain(grid), material}});
     return document;
 }
 
@@ -67,7 +61,7 @@ Document generateGrass(const SampleOptions& options)
     Document document;
     const HeightGrid grid = makeHeights({.size = 8, .cells = 32, .seed = 5});
     const int ground = addTerrainMaterial(document, grid, textureSizeOr(options, 512));
-    addObject(document, "ground", makeTerrain(grid), ground);
+    addObject(document, "ground", {{makeTerrain(grid), ground}});
     const TriangleMesh tuft = makeGrassTuft();
     const uint64_t tufts = trianglesOr(options, 100000) / (tuft.indices.size() / 3);
     Node node;
@@ -81,6 +75,11 @@ Document generateGrass(const SampleOptions& options)
 Document generateRoom(const SampleOptions&)
 {
     return makeRoom();
+}
+
+Document generateAttic(const SampleOptions&)
+{
+    return makeAttic();
 }
 
 Document generateCharacter(const SampleOptions& options)
@@ -149,6 +148,8 @@ constexpr std::array kKinds{
                generateGrass},
     SampleKind{"room", "a furnished room: many materials, three lights, emissive surfaces, a camera",
                generateRoom},
+    SampleKind{"attic", "an L-shaped room below slanted roofs, lit through a window and by a lantern",
+               generateAttic},
     SampleKind{"character", "a skinned mannequin of seventeen joints with a walk and a wave",
                generateCharacter},
     SampleKind{"transforms", "a small rock, mirrored, stretched and sheared", generateTransforms},

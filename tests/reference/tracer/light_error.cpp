@@ -12,8 +12,12 @@ namespace
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// Number of sweeps until convergence: samples have albedos below 0.7, and 0.7^20 is below a thousandth.
-constexpr uint32_t kSweeps = 20;
+/// Share of all light by which the last sweep may change it. Where a sweep leaves nine tenths of the
+/// difference, a thousandth is missing.
+constexpr double kSettledChange = 1e-4;
+
+/// Limit for furnaces, whose light grows with every sweep.
+constexpr uint32_t kMaxSweeps = 100;
 
 Float3 narrowed(Double3 v)
 {
@@ -30,6 +34,14 @@ Double3 pointOfCube(uint32_t i)
 double mean(Double3 v)
 {
     return (v.x + v.y + v.z) / 3;
+}
+
+double sumLight(const bricks::FaceLighting& faces)
+{
+    double sum = 0;
+    for (const shared::BrickLight& face : faces.faces())
+        sum += mean(Double3(shared::decodeBrickLight(face)));
+    return sum;
 }
 
 bool isNearLamp(const ShadedScene& scene, const ShadedPoint& point)
@@ -128,7 +140,13 @@ shared::Lighting sharedLighting(const SceneLighting& lighting)
 BrickGather::BrickGather(const bricks::BrickView& bricks, const shared::Lighting& lighting, uint32_t rays)
     : faces_(bricks), sky_{lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground}
 {
-    faces_.sweep(lighting, rays, kSweeps);
+    double before = -1, light = 0;
+    for (uint32_t i = 0; i < kMaxSweeps && std::abs(light - before) > kSettledChange * light; ++i)
+    {
+        before = light;
+        faces_.sweep(lighting, rays, 1);
+        light = sumLight(faces_);
+    }
 }
 
 Double3 BrickGather::at(const SeenPoint& seen, uint32_t rays, uint32_t seed) const
@@ -141,10 +159,23 @@ Double3 BrickGather::at(const SeenPoint& seen, uint32_t rays, uint32_t seed) con
     return Double3(shared::brickGather(scene, sky_, start, rays, shared::brickHash(seed)));
 }
 
+double pathNoise(const std::vector<LitPoint>& points)
+{
+    double square = 0, whole = 0;
+    for (const LitPoint& point : points)
+    {
+        const Double3 off = (point.halves[0] - point.halves[1]) * 0.5;
+        square += dot(off, off) / 3;
+        whole += mean(point.truth.direct + point.truth.indirect);
+    }
+    const auto n = static_cast<double>(std::max<size_t>(points.size(), 1));
+    return std::sqrt(square / n) / (whole / n);
+}
+
 LightError lightError(const std::vector<LitPoint>& points, const std::vector<Double3>& gathered,
                       bool with_near_lamps)
 {
-    double whole = 0, indirect = 0, square = 0, difference = 0;
+    double whole = 0, indirect = 0, square = 0, fourth = 0, difference = 0;
     LightError error;
     for (size_t i = 0; i < points.size(); ++i)
     {
@@ -152,7 +183,9 @@ LightError lightError(const std::vector<LitPoint>& points, const std::vector<Dou
             continue;
         const SurfaceLight& truth = points[i].truth;
         const Double3 off = gathered[i] - truth.indirect;
-        square += dot(gathered[i] - points[i].halves[0], gathered[i] - points[i].halves[1]) / 3;
+        const double product = dot(gathered[i] - points[i].halves[0], gathered[i] - points[i].halves[1]) / 3;
+        square += product;
+        fourth += product * product;
         difference += mean(off);
         indirect += mean(truth.indirect);
         whole += mean(truth.direct + truth.indirect);
@@ -163,6 +196,8 @@ LightError lightError(const std::vector<LitPoint>& points, const std::vector<Dou
     error.whole = rms / (whole / n);
     error.indirect = rms / (indirect / n);
     error.bias = difference / indirect;
+    const double variance = std::max(fourth / n - square / n * (square / n), 0.0);
+    error.uncertainty = rms > 0 ? std::sqrt(variance / n) / (2 * rms) / (whole / n) : 0;
     return error;
 }
 

@@ -41,7 +41,7 @@ std::vector<LitPoint> litPoints(const ShadedScene& scene, const std::vector<Seen
 /// Lights and sky of the reference in the form that shaders take.
 shared::Lighting sharedLighting(const SceneLighting& lighting);
 
-/// Converged light of the bricks, and the gather from it.
+/// Light of the bricks, swept until it hardly changes, and the gather from it.
 class BrickGather
 {
 public:
@@ -61,11 +61,15 @@ private:
 /// differences from either half of the paths, whose noise is independent: its mean has no noise term.
 struct LightError
 {
-    double whole = 0;    ///< over the mean of all light: its direct part has no error
-    double indirect = 0; ///< over the mean of the indirect part
-    double bias = 0;     ///< mean difference over the mean of the indirect part
+    double whole = 0;       ///< over the mean of all light: its direct part has no error
+    double indirect = 0;    ///< over the mean of the indirect part
+    double bias = 0;        ///< mean difference over the mean of the indirect part
+    double uncertainty = 0; ///< standard error of `whole`, from the choice of points and the noise of paths
     size_t points = 0;
 };
+
+/// Root mean square of the paths' noise over the mean of all light.
+double pathNoise(const std::vector<LitPoint>& points);
 
 /// gathered  one for each point
 LightError lightError(const std::vector<LitPoint>& points, const std::vector<Double3>& gathered,
