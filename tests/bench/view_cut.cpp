@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/bench/view_cut.h"
 
-#include "tests/support/surface_distance.h"
+#include "tests/support/surfaces/surface_distance.h"
 
 #include <algorithm>
 #include <bit>
