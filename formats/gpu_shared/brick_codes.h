@@ -80,7 +80,7 @@ HEARTH_FUNCTION uint encodeUnorm10(float value)
 }
 
 /// Encode albedo as three unorms of 10 bits: r in bits 0 to 9, g in 10 to 19, b in 20 to 29. Values are
-/// clamped to [0, 1].
+/// clamped to [0, 1]. Bits 30 and 31 are 0: encodeFaceDepth.
 HEARTH_FUNCTION uint encodeAlbedo(Float3 albedo)
 {
     return encodeUnorm10(albedo.x) | encodeUnorm10(albedo.y) << 10 | encodeUnorm10(albedo.z) << 20;
@@ -90,6 +90,19 @@ HEARTH_FUNCTION Float3 decodeAlbedo(uint code)
 {
     return Float3(float(code & 1023u) / 1023.0f, float(code >> 10 & 1023u) / 1023.0f,
                   float(code >> 20 & 1023u) / 1023.0f);
+}
+
+/// Encode the depth of a surface behind its face, [0, 1] voxels, in bits 30 and 31 of the albedo's code: to a
+/// quarter of a voxel, at most three quarters.
+HEARTH_FUNCTION uint encodeFaceDepth(float depth)
+{
+    return uint(min(max(depth, 0.0f) * 4.0f + 0.5f, 3.0f)) << 30;
+}
+
+/// Return the depth that an albedo's code holds, in voxels.
+HEARTH_FUNCTION float decodeFaceDepth(uint code)
+{
+    return float(code >> 30) * 0.25f;
 }
 
 /// Decode the unit normal of a face from 2 x 8 bits, coded as vertex normals: octahedral, x in the low byte.

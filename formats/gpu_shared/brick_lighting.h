@@ -31,8 +31,8 @@ HEARTH_CONSTANT float kBrickSlantSine = 0.01f;
 /// Voxels along the normal within which a ray from a surface point must reach the air.
 HEARTH_CONSTANT float kMaxBrickDepth = 3.0f;
 
-/// Radius of a lamp in metres. A point light has no size, so irradiance grows without bound near it. Faces
-/// nearer than this plus half a voxel count as part of the lamp and get no light from it.
+/// Radius of a lamp in metres. A point light has no size, so irradiance grows without bound near it. Surfaces
+/// nearer than this, or nearer than a voxel, count as part of the lamp and get no light from it.
 HEARTH_CONSTANT float kBrickLampRadius = 0.1f;
 
 HEARTH_CONSTANT float kBrickPi = 3.14159265f;
@@ -86,13 +86,11 @@ HEARTH_FUNCTION float brickSlantedness(Float3 normal)
     return min(sqrt(max(1.0f - along * along, 0.0f)) / kBrickSlantSine, 1.0f);
 }
 
-/// Return the assumed surface point of a face, in voxels. An axis-aligned surface lies in the middle of its
-/// face, because the grid is aligned so that walls end with their voxels. A slanted surface lies in the
-/// middle of its voxel.
-/// normal  normal that the face is lit by
-HEARTH_FUNCTION Float3 brickFaceSurface(uint x, uint y, uint z, uint face, Float3 normal)
+/// Return the surface point of a face, in voxels: below the middle of the face.
+/// depth  of the surface behind the face, in voxels: decodeFaceDepth
+HEARTH_FUNCTION Float3 brickFaceSurface(uint x, uint y, uint z, uint face, float depth)
 {
-    return brickFaceMiddle(x, y, z, face) - brickFaceAxis(face) * (0.5f * brickSlantedness(normal));
+    return brickFaceMiddle(x, y, z, face) - brickFaceAxis(face) * depth;
 }
 
 /// Lift a position in the air along the normal: by kBrickLift for a slanted surface, but at most half the
@@ -289,7 +287,7 @@ HEARTH_FUNCTION BrickUnshadowedLight brickUnshadowedLight(HEARTH_IN(BrickGrid) g
     Float3 to_light = (light.position - grid.origin) * (1.0f / grid.voxel_size) - surface;
     float distance = sqrt(dot(to_light, to_light));
     float metres = distance * grid.voxel_size;
-    if (metres < kBrickLampRadius + 0.5f * grid.voxel_size)
+    if (metres < max(kBrickLampRadius, grid.voxel_size))
         return incident;
     to_light = to_light * (1.0f / distance);
     float share = max(dot(start.normal, to_light), 0.0f) / (kBrickPi * metres * metres);

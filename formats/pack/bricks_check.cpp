@@ -175,11 +175,8 @@ Status checkCodes(const PackView& view)
     for (size_t i = 0; i < view.brickOpacity().size(); ++i)
         if (view.brickOpacity()[i] == 0)
             return makeError(view, Issue::meaning_value, kVoxel, i, "its opacity is 0");
-    for (size_t i = 0; i < view.brickAlbedo().size(); ++i)
+    for (size_t i = 0; i < view.brickNormals().size(); ++i)
     {
-        if (view.brickAlbedo()[i] >> 30 != 0)
-            return makeError(view, Issue::meaning_padding, kFace, i,
-                             "the upper bits of its albedo are not 0");
         if (!NormalCode<8>::legal(view.brickNormals()[i]))
             return makeError(view, Issue::meaning_value, kFace, i, "its normal is not a code");
         if (!shared::isLegalRadiance(view.brickEmission()[i]))

@@ -169,6 +169,15 @@ TEST(Albedo, isThreeUnormsOfTenBits)
         ASSERT_EQ(encodeAlbedo({0, 0, value}), code << 20);
         ASSERT_EQ(decodeAlbedo(code | code << 10 | code << 20), (Float3{value, value, value}));
     }
+    for (const uint32_t quarters : {0u, 1u, 2u, 3u})
+    {
+        const uint32_t code =
+            encodeAlbedo({0.25f, 0.5f, 1}) | encodeFaceDepth(0.25f * static_cast<float>(quarters));
+        EXPECT_EQ(decodeFaceDepth(code), 0.25f * static_cast<float>(quarters));
+        EXPECT_EQ(encodeAlbedo(decodeAlbedo(code)), encodeAlbedo({0.25f, 0.5f, 1}));
+    }
+    EXPECT_EQ(encodeFaceDepth(-1), 0u);
+    EXPECT_EQ(encodeFaceDepth(2), 3u << 30);
     EXPECT_EQ(encodeAlbedo({-1, 2, std::numeric_limits<float>::quiet_NaN()}), 1023u << 10);
     // ties round up
     EXPECT_EQ(encodeAlbedo({0.4999f / 1023, 1.5001f / 1023, 0}), 2u << 10);

@@ -86,8 +86,6 @@ const std::vector<MalformedPack>& malformedBricks()
          [](PackModel& p) { p.bricks.bricks[2].face_masks[11] = 0; }},
         {"brickOpacityZero", Issue::meaning_value, "solid voxel 1",
          [](PackModel& p) { p.bricks.opacity[1] = 0; }},
-        {"brickAlbedoPadding", Issue::meaning_padding, "brick face 2",
-         [](PackModel& p) { p.bricks.albedo[2] |= 1u << 30; }},
         {"brickNormalNoCode", Issue::meaning_value, "brick face 5",
          [](PackModel& p) { p.bricks.normals[5] = 0x80; }},
         {"brickEmissionInfinite", Issue::meaning_value, "brick face 4",

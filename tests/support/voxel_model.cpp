@@ -102,7 +102,7 @@ BrickTables VoxelModel::build() const
                 setBit(brick.face_masks[2 * face], brick.face_masks[2 * face + 1], bit);
                 const VoxelSide& side = voxels_.at(place).sides[face];
                 const bool has_normal = dot(side.normal, side.normal) > 0;
-                tables.albedo.push_back(encodeAlbedo(side.albedo));
+                tables.albedo.push_back(encodeAlbedo(side.albedo) | encodeFaceDepth(side.depth));
                 tables.normals.push_back(
                     static_cast<uint16_t>(formats::NormalCode<8>::encode(has_normal ? side.normal : axis)));
                 tables.emission.push_back(encodeRadiance(side.emission));

@@ -15,7 +15,8 @@ struct VoxelSide
 {
     Float3 albedo{0.5f, 0.5f, 0.5f};
     Float3 emission;
-    Float3 normal; ///< zero: the face's own normal
+    Float3 normal;   ///< zero: the face's own normal
+    float depth = 0; ///< of the surface behind the face, voxels
 };
 
 struct Voxel

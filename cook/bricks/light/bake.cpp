@@ -61,7 +61,7 @@ private:
         const auto [x, y, z, side] = places_[face];
         const BrickStart start =
             brickFaceStart(scene(), x, y, z, side, decodeFaceNormal(bricks_.normals[face]));
-        const Float3 surface = brickFaceSurface(x, y, z, side, start.normal);
+        const Float3 surface = brickFaceSurface(x, y, z, side, decodeFaceDepth(bricks_.albedo[face]));
         const uint32_t seed = brickFaceSeed(x, y, z, side);
         Float3 irradiance;
         for (uint32_t i = 0; i < rays; ++i)

@@ -92,7 +92,7 @@ void FaceLighting::light(const Lighting& lighting, uint32_t rays, size_t first, 
             sum += traceBrickLight(scene, sky, marched[(face - first) * rays + i]).radiance;
         Float3 irradiance = start.is_interior != 0 ? Float3{} : sum * (1.0f / static_cast<float>(rays));
         const auto [x, y, z, side] = places_[face];
-        const Float3 surface = brickFaceSurface(x, y, z, side, start.normal);
+        const Float3 surface = brickFaceSurface(x, y, z, side, decodeFaceDepth(bricks_.albedo[face]));
         for (uint32_t i = 0; i < lighting.light_count; ++i)
             irradiance += brickDirect(scene, start, surface, lighting.lights[i]);
         next_[face] = encodeBrickLight(brickOutgoingRadiance(decodeRadiance(bricks_.emission[face]),

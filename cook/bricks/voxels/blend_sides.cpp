@@ -82,7 +82,8 @@ SolidVoxel blendVoxel(const SolidGrid& grid, const Cell& cell, const SolidVoxel&
             albedo += shared::decodeAlbedo(next.albedo[face]) * (shares.behind / sum);
             emission += shared::decodeRadiance(next.emission[face]) * shares.behind;
         }
-        result.albedo[face] = shared::encodeAlbedo(albedo);
+        const float depth = shared::decodeFaceDepth(voxel.albedo[face]);
+        result.albedo[face] = shared::encodeAlbedo(albedo) | shared::encodeFaceDepth(depth);
         result.emission[face] = shared::encodeRadiance(emission);
     }
     return result;

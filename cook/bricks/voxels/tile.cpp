@@ -46,6 +46,14 @@ Double3 pointAt(const Polygon& piece, const Double3& normal, const Cell& cell, i
     return at;
 }
 
+Double3 meanPoint(const Polygon& piece)
+{
+    Double3 sum;
+    for (uint32_t i = 0; i < piece.count; ++i)
+        sum = sum + piece.points[i];
+    return sum * (1.0 / piece.count);
+}
+
 /// Return the mean over the piece: fan triangles around the first corner, sampled at their centroids,
 /// weighted by area.
 SurfaceSample meanSample(const Polygon& piece, const TriangleSurface& surface)
@@ -226,7 +234,8 @@ bool Tile::addPiece(VoxelSum& sum, const Cell& cell, const Polygon& piece, const
     const SurfaceSample look = meanSample(piece, surface);
     if (look.coverage == 0)
         return false;
-    sum.add(double_area, look, material.doubleSided());
+    sum.add(meanPoint(piece) - Double3{double(cell[0]), double(cell[1]), double(cell[2])}, double_area, look,
+            material.doubleSided());
     for (int axis = 0; axis < 3; ++axis)
     {
         uint64_t coverage = coveredSamples(piece, cell, axis);

@@ -26,7 +26,8 @@ uint16_t normalCode(const Double3& normal, uint32_t face)
 
 } // namespace
 
-void VoxelSum::add(const Double3& double_area, const SurfaceSample& look, bool double_sided)
+void VoxelSum::add(const Double3& middle, const Double3& double_area, const SurfaceSample& look,
+                   bool double_sided)
 {
     const double size = length(double_area);
     const Double3 unit = double_area * (1 / size);
@@ -47,6 +48,8 @@ void VoxelSum::add(const Double3& double_area, const SurfaceSample& look, bool d
         side.albedo = side.albedo + piece_albedo * weight;
         side.emission = side.emission + piece_emission * weight;
         side.normal = side.normal + unit * (along < 0 ? -weight : weight);
+        const double place = coordinate(middle, faceAxis(face));
+        side.depth += weight * (isPositiveFace(face) ? 1 - place : place);
     }
 }
 
@@ -60,7 +63,8 @@ SolidVoxel encodeVoxel(const VoxelSum& sum)
         if (side.weight > 0)
         {
             voxel.front_visible |= static_cast<uint8_t>(1u << face);
-            voxel.albedo[face] = shared::encodeAlbedo(narrow(side.albedo * (1 / side.weight)));
+            voxel.albedo[face] = shared::encodeAlbedo(narrow(side.albedo * (1 / side.weight))) |
+                                 shared::encodeFaceDepth(static_cast<float>(side.depth / side.weight));
             voxel.emission[face] = shared::encodeRadiance(narrow(side.emission * (1 / side.weight)));
             voxel.normal[face] = normalCode(side.normal, face);
         }
@@ -68,7 +72,8 @@ SolidVoxel encodeVoxel(const VoxelSum& sum)
         {
             const Double3 back = sum.normal * -1;
             const bool is_behind = dot(back, sideNormal(face)) > 0;
-            voxel.albedo[face] = shared::encodeAlbedo(narrow(sum.albedo * (1 / sum.area)));
+            voxel.albedo[face] =
+                shared::encodeAlbedo(narrow(sum.albedo * (1 / sum.area))) | shared::encodeFaceDepth(0.5f);
             voxel.normal[face] = normalCode(is_behind ? back : sideNormal(face), face);
         }
     }

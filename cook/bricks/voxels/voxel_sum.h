@@ -15,6 +15,7 @@ struct SideSum
     Double3 albedo;
     Double3 emission;
     Double3 normal;
+    double depth = 0; ///< behind the side, voxels
 };
 
 struct VoxelSum
@@ -26,9 +27,10 @@ struct VoxelSum
     CoverageMasks coverage{};
 
     /// Add a piece.
+    /// middle       a point of the piece, voxels from the voxel's lower corner
     /// double_area  vector along the front's normal, twice the area long
     /// look         mean over the piece; look.coverage is its opacity
-    void add(const Double3& double_area, const SurfaceSample& look, bool double_sided);
+    void add(const Double3& middle, const Double3& double_area, const SurfaceSample& look, bool double_sided);
 };
 
 /// Encode a voxel. A side without a visible front face gets the mean albedo of all surfaces, no emission, and

@@ -76,7 +76,7 @@ void main()
 
     BrickGrid grid = brick_view.grid;
     BrickStart start = brickFaceStart(grid, x, y, z, side, brickNormalAt(face));
-    vec3 surface = brickFaceSurface(x, y, z, side, start.normal);
+    vec3 surface = brickFaceSurface(x, y, z, side, brickDepthAt(face));
     vec3 arrived = brickGather(grid, brickSky(), start, brick_view.light_rays, brickFaceSeed(x, y, z, side));
     for (uint i = 0u; i < lighting.light_count; ++i)
         arrived += brickDirect(grid, start, surface, lighting.lights[i]);

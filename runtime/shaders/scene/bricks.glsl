@@ -30,6 +30,9 @@ vec3 brickRadianceAt(BrickGrid grid, uint face) { return decodeBrickLight(brick_
 
 vec3 brickAlbedoAt(uint face) { return decodeAlbedo(brick_surfaces[face]); }
 
+// Depth of the surface behind a face, in voxels.
+float brickDepthAt(uint face) { return decodeFaceDepth(brick_surfaces[face]); }
+
 // Emission of a face as stored in the pack.
 vec3 brickEmissionAt(uint face) { return decodeRadiance(brick_surfaces[brick_view.face_count + face]); }
 

@@ -270,7 +270,10 @@ TEST(FaceLighting, aLampBesideASlopeLightsThePlaneNotItsSteps)
     const Float3 normal = normalizeOr({-1, 1, 0}, {0, 1, 0});
     Voxel slope = makeVoxel({0.5f, 0.5f, 0.5f});
     for (VoxelSide& side : slope.sides)
+    {
         side.normal = normal;
+        side.depth = 0.5f;
+    }
     VoxelModel model({kSide, kSide, kSide});
     for (uint32_t x = 0; x < kSide; ++x)
         model.fill({x, x, 0}, {x + 1, x + 1, kSide}, slope);
@@ -287,6 +290,31 @@ TEST(FaceLighting, aLampBesideASlopeLightsThePlaneNotItsSteps)
         const float light = computeRadiance(lighting, faceAt(tables, 12, 12, 12, side)).x;
         const float expected = 0.5f * 5 / kPi / (kAway * kAway);
         EXPECT_NEAR(light, expected, 0.01f * expected) << side;
+    }
+}
+
+/// A shade just beyond a lamp's radius is lit at its own distance, wherever it lies in its voxels.
+TEST(FaceLighting, aShadeNearALampIsLitAtItsDepth)
+{
+    constexpr float kVoxelSize = 0.1f;
+    for (const float depth : {0.0f, 0.25f, 0.75f})
+    {
+        Voxel shade = makeVoxel({0.5f, 0.5f, 0.5f});
+        for (VoxelSide& side : shade.sides)
+            side.depth = depth;
+        VoxelModel model({7, 7, 7}, kVoxelSize);
+        model.fill({0, 0, 0}, {7, 1, 7}, shade);
+        const BrickTables tables = model.build();
+        const BrickView view = makeBrickView(tables);
+        FaceLighting lighting(view);
+        Lighting lit = darkness();
+        // 0.15 m above the upper side of the voxels
+        addLamp(lit, Float3{3.5f, 2.5f, 3.5f} * kVoxelSize, {5, 5, 5});
+        lighting.sweep(lit, 4, 1);
+        const float away = (1.5f + depth) * kVoxelSize;
+        const float expected = 0.5f * 5 / kPi / (away * away);
+        EXPECT_NEAR(computeRadiance(lighting, faceAt(tables, 3, 0, 3, kUp)).x, expected, 0.02f * expected)
+            << depth;
     }
 }
 

@@ -122,6 +122,7 @@ TEST(VoxelLook, isWeighedByTheAreaThatASideSees)
     expectNear(shared::decodeAlbedo(level.albedo[kUp]), red * 0.25f + blue * 0.75f, kAlbedoStep);
     expectNear(decodeNormal(level, kUp), {0, 1, 0}, 0);
     EXPECT_EQ(level.front_visible, 1u << kUp);
+    EXPECT_EQ(shared::decodeFaceDepth(level.albedo[kUp]), 0.5f);
 
     // a step: upward surface is red, surface facing x is blue, and each face of the voxel takes its own
     const Double3 a{1.5, 1.5, 1}, b{1.5, 1.9, 1}, c{1.5, 1.9, 2}, d{1.5, 1.5, 2};
@@ -255,6 +256,23 @@ TEST(SideMix, keepsAnAlbedoThatAllSurfacesHaveAndAddsNoLight)
             }
     }
     EXPECT_GT(dimmed, 1000u) << "rims do not fill their sides";
+}
+
+/// To the nearest quarter of a voxel, from either side, and through the blending of sides.
+TEST(FaceDepth, isThatOfTheSurfaceBehindTheFace)
+{
+    const struct
+    {
+        double height;
+        float below_up;
+    } sheets[] = {{1.9, 0}, {1.75, 0.25f}, {1.4, 0.5f}, {1.25, 0.75f}, {1.05, 0.75f}};
+    for (const auto& sheet : sheets)
+    {
+        SolidGrid grid = makeSolidGrid(rectangle(sheet.height, {1, 0, 1}, {2, 0, 2}), frameOfSize(4, 4, 4));
+        blendSides(grid);
+        ASSERT_EQ(grid.voxels.size(), 1u);
+        EXPECT_EQ(shared::decodeFaceDepth(grid.voxels[0].albedo[kUp]), sheet.below_up) << sheet.height;
+    }
 }
 
 TEST(WithinBudget, keepsTheNearestBricksThatFit)
