@@ -171,17 +171,25 @@ double texelBytes(const Imf::Header& header)
     return bytes;
 }
 
+/// Read the header of the first part; the stream is behind it then.
+/// version  set to the file's version and flags
+Imf::Header readFirstHeader(const EncodedImage& source, MemoryStream& stream, int& version)
+{
+    stream.seekg(kHeaderOffset);
+    std::memcpy(&version, source.bytes.data() + kVersionOffset, sizeof(version));
+    Imf::Header header;
+    header.readFrom(stream, version);
+    return header;
+}
+
 /// Check that the file can hold what the header of its first part claims, before OpenEXR allocates it.
 Status checkHeader(const EncodedImage& source)
 {
     if (!attributesFit(source.bytes))
         return source.malformed("EXR: the file ends too early");
     MemoryStream stream(source.bytes);
-    stream.seekg(kHeaderOffset);
     int version = 0;
-    std::memcpy(&version, source.bytes.data() + kVersionOffset, sizeof(version));
-    Imf::Header header;
-    header.readFrom(stream, version);
+    const Imf::Header header = readFirstHeader(source, stream, version);
     const Window data(header.dataWindow());
     HEARTH_TRY(checkImageSize(source, data.width(), data.height()));
     const double texel_bytes = texelBytes(header);
@@ -224,11 +232,8 @@ std::vector<std::string> listOtherLayers(const EncodedImage& source)
     // more are not named, and no file needs them
     constexpr size_t kMaxParts = 256;
     MemoryStream stream(source.bytes);
-    stream.seekg(kHeaderOffset);
     int version = 0;
-    std::memcpy(&version, source.bytes.data() + kVersionOffset, sizeof(version));
-    Imf::Header header;
-    header.readFrom(stream, version);
+    const Imf::Header header = readFirstHeader(source, stream, version);
     std::set<std::string> layers;
     addLayers(header, layers);
     std::vector<std::string> names(layers.begin(), layers.end());

@@ -227,7 +227,7 @@ TEST_F(CApiTest, otherVersionsAreRefused)
         description.api_version = version;
         EXPECT_EQ(hearth_renderer_create(&description, &renderer, message_, sizeof(message_)),
                   HEARTH_ERROR_USAGE);
-        EXPECT_THAT(message_, HasSubstr("the library is 1.6"));
+        EXPECT_THAT(message_, HasSubstr("the library is 1.7"));
     }
     description = c_caller_description(caller_);
     description.features = 1u << 31;

@@ -30,7 +30,7 @@ TEST_F(CWrapperTest, messagesAreStrings)
     hearth_renderer_description description = c_caller_description(caller_);
     description.api_version = 0;
     EXPECT_EQ(Renderer::create(description, renderer, &message), HEARTH_ERROR_USAGE);
-    EXPECT_THAT(message, testing::HasSubstr("the library is 1.6"));
+    EXPECT_THAT(message, testing::HasSubstr("the library is 1.7"));
 }
 
 TEST_F(CWrapperTest, handlesMove)
