@@ -29,6 +29,15 @@ constexpr double kToleranceGrowth = 1.4;
 JointMotion::JointMotion(MatrixSet set) : set_(std::move(set)), ball_(boundingBall(set_))
 {
     const std::vector<Affine3d>& hull = set_.hull;
+    for (size_t row = 0; row < 3; ++row)
+        for (size_t column = 0; column < 3; ++column)
+        {
+            double& largest = deviation_[row][column];
+            for (const Affine3d& matrix : hull)
+                largest = std::max(largest, std::abs(matrix.m[row][column] - (row == column ? 1 : 0)));
+            // no element exceeds the norm
+            largest = std::min(largest + set_.linear_slack, set_.norm + (row == column ? 1 : 0));
+        }
     for (size_t axis = 0; axis < 3; ++axis)
         for (size_t i = 0; i < hull.size(); i += 2)
         {

@@ -24,6 +24,9 @@ public:
     const MatrixSet& set() const { return set_; }
     const MatrixBall& ball() const { return ball_; }
 
+    /// Return upper bounds for the absolute values of the elements of the linear part minus the unit matrix.
+    const Matrix3& deviation() const { return deviation_; }
+
     /// Add `weight` times the box of all positions that a point can have.
     /// half  half size of the box around the point, axis by axis; 0 for a point alone
     void addPositionBox(Double3 point, Double3 half, double weight, Box3d& box) const;
@@ -38,6 +41,7 @@ private:
 
     MatrixSet set_;
     MatrixBall ball_;
+    Matrix3 deviation_{};
     std::array<std::vector<RowPair>, 3> rows_; ///< by axis
 };
 

@@ -2,6 +2,7 @@
 #include "cook/skinning/cluster_bounds.h"
 
 #include "cook/skinning/box_search.h"
+#include "cook/skinning/cluster_frame.h"
 #include "cook/skinning/deformed_cone.h"
 #include "cook/skinning/rounding.h"
 
@@ -26,13 +27,11 @@ namespace
 constexpr size_t kMaxCandidates = 3;
 
 // Work for tightening the boxes of all loose clusters of a mesh, in influences of vertices along one axis, of
-// about 17 ns each. A quarter of it makes boxes of characters of 60 joints a fifth larger.
+// about 17 ns each: the larger of a minimum and a share for each cluster. A quarter of the minimum makes boxes
+// of characters of 60 joints a fifth larger.
 constexpr size_t kMeshWork = 400'000'000;
+constexpr size_t kClusterWork = 300'000;
 constexpr size_t kMaxClusterWork = 10'500'000; ///< of one cluster in the last round
-
-// Minimum share of a cluster. A smaller share has no effect, so meshes with very many loose clusters keep
-// their boxes.
-constexpr size_t kMinClusterWork = 2'500'000;
 
 // Number of rounds in which work is distributed; later rounds distribute the unused work.
 constexpr size_t kRounds = 3;
@@ -68,26 +67,101 @@ double area(const Box3d& box)
     return h.x * h.y + h.y * h.z + h.z * h.x;
 }
 
-struct MainBone
+/// Compute the boxes of a cluster's vertices with this joint as the main bone; nothing if it has no bounds.
+std::optional<std::vector<Box3d>> computeVertexBoxes(uint32_t main, const DeformedCluster& cluster,
+                                                     const Deformation& deformation,
+                                                     std::span<const MorphedVertex> vertices)
 {
-    uint32_t joint = 0;
-    std::optional<Box3d> box;
-};
-
-void tryJoint(uint32_t joint, const DeformedCluster& cluster, const Deformation& deformation,
-              std::span<const MorphedVertex> vertices, MainBone& best)
-{
-    const std::optional<Box3d> box = computeClusterBox(joint, cluster, deformation, vertices);
-    if (box && (!best.box || area(*box) < area(*best.box)))
-        best = {joint, box};
+    std::vector<Box3d> boxes;
+    for (size_t v = 0; v < vertices.size(); ++v)
+    {
+        const MorphedVertex& vertex = vertices[v];
+        Box3d& places = boxes.emplace_back();
+        const double own = deformation.skin == nullptr ? 1.0 : jointWeight(cluster, v, main);
+        const double middle[3] = {vertex.middle.x, vertex.middle.y, vertex.middle.z};
+        const double half[3] = {vertex.half.x, vertex.half.y, vertex.half.z};
+        for (size_t axis = 0; axis < 3; ++axis)
+            places[axis] = {own * (middle[axis] - half[axis]), own * (middle[axis] + half[axis])};
+        for (size_t i = v * cluster.influences; i < (v + 1) * cluster.influences; ++i)
+            if (cluster.weights[i] > 0 && cluster.joints[i] != main)
+            {
+                const animation_bounds::JointMotion* motion =
+                    deformation.skin->relative(main, cluster.joints[i]);
+                if (motion == nullptr)
+                    return std::nullopt;
+                motion->addPositionBox(vertex.middle, vertex.half, cluster.weights[i], places);
+            }
+    }
+    return boxes;
 }
 
-MainBone mainBone(std::span<const uint32_t> heaviest_first, const DeformedCluster& cluster,
-                  const Deformation& deformation, std::span<const MorphedVertex> vertices)
+Box3d unite(std::span<const Box3d> boxes)
+{
+    Box3d all;
+    for (const Box3d& box : boxes)
+        for (size_t axis = 0; axis < 3; ++axis)
+        {
+            all[axis].add(box[axis].low);
+            all[axis].add(box[axis].high);
+        }
+    return all;
+}
+
+/// Frame of a cluster's box, and the box of the motion that remains.
+struct FramedBox
+{
+    ClusterFrame frame;
+    DeformedCluster remainder;
+    std::optional<Box3d> box; ///< in the main bone; nothing without bounds
+    Double3 distance;         ///< of vertices in the frame from their places in the box, by axis
+
+    Box3d inFrame(Box3d of_main) const
+    {
+        of_main[0].grow(distance.x);
+        of_main[1].grow(distance.y);
+        of_main[2].grow(distance.z);
+        return of_main;
+    }
+};
+
+FramedBox frameBox(ClusterFrame frame, const DeformedCluster& cluster, const Deformation& deformation,
+                   std::span<const MorphedVertex> vertices)
+{
+    FramedBox framed{std::move(frame), {}, std::nullopt, {}};
+    framed.remainder = framed.frame.remainder(cluster);
+    const auto boxes = computeVertexBoxes(framed.frame.main(), framed.remainder, deformation, vertices);
+    if (!boxes)
+        return framed;
+    framed.box = unite(*boxes);
+    for (size_t v = 0; v < boxes->size(); ++v)
+    {
+        const Double3 distance = framed.frame.distance(vertices[v].middle, (*boxes)[v]);
+        framed.distance = {std::max(framed.distance.x, distance.x), std::max(framed.distance.y, distance.y),
+                           std::max(framed.distance.z, distance.z)};
+    }
+    return framed;
+}
+
+void tryJoint(uint32_t joint, const DeformedCluster& cluster, const Deformation& deformation,
+              std::span<const MorphedVertex> vertices, FramedBox& best)
+{
+    const auto propose = [&](ClusterFrame frame)
+    {
+        FramedBox framed = frameBox(std::move(frame), cluster, deformation, vertices);
+        if (framed.box && (!best.box || area(framed.inFrame(*framed.box)) < area(best.inFrame(*best.box))))
+            best = std::move(framed);
+    };
+    propose(ClusterFrame(joint));
+    if (ClusterFrame frame(joint, cluster, deformation); !frame.shares().empty())
+        propose(std::move(frame));
+}
+
+FramedBox chooseFrame(std::span<const uint32_t> heaviest_first, const DeformedCluster& cluster,
+                      const Deformation& deformation, std::span<const MorphedVertex> vertices)
 {
     if (deformation.skin == nullptr)
-        return {0, computeClusterBox(0, cluster, deformation, vertices)};
-    MainBone best{heaviest_first.front(), std::nullopt};
+        return frameBox(ClusterFrame(0), cluster, deformation, vertices);
+    FramedBox best{ClusterFrame(heaviest_first.front()), {}, std::nullopt, {}};
     for (const uint32_t joint : heaviest_first.first(std::min(kMaxCandidates, heaviest_first.size())))
         tryJoint(joint, cluster, deformation, vertices, best);
     for (uint32_t joint = 0; joint < deformation.skin->jointCount() && !best.box; ++joint)
@@ -113,11 +187,11 @@ float morphReach(const DeformedCluster& cluster)
                       : std::nextafter(static_cast<float>(reach), std::numeric_limits<float>::infinity());
 }
 
-/// Main bone and box of a cluster, before loose boxes are tightened.
+/// Frame and box of a cluster, before loose boxes are tightened.
 struct Draft
 {
     std::vector<uint32_t> joints; ///< joints that move it, heaviest first
-    MainBone main;
+    FramedBox framed{ClusterFrame(0), {}, std::nullopt, {}};
     std::optional<BoxSearch> search; ///< set for a loose box
 };
 
@@ -126,10 +200,11 @@ Draft makeDraft(const DeformedCluster& cluster, const Deformation& deformation)
     const std::vector<MorphedVertex> vertices = morphedVertices(cluster, deformation.morph_weights);
     Draft draft;
     draft.joints = influencingJoints(cluster);
-    draft.main = mainBone(draft.joints, cluster, deformation, vertices);
-    if (draft.main.box && draft.joints.size() > 1 && deformation.regions != nullptr)
+    draft.framed = chooseFrame(draft.joints, cluster, deformation, vertices);
+    const FramedBox& framed = draft.framed;
+    if (framed.box && draft.joints.size() > 1 && deformation.regions != nullptr)
     {
-        BoxSearch search(*draft.main.box, draft.main.joint, cluster, deformation, vertices);
+        BoxSearch search(*framed.box, framed.frame.main(), framed.remainder, deformation, vertices);
         if (search.isLoose())
             draft.search = std::move(search);
     }
@@ -139,14 +214,16 @@ Draft makeDraft(const DeformedCluster& cluster, const Deformation& deformation)
 /// Tighten loose boxes. All get the same share of the work; unused work goes to the others.
 void tighten(std::vector<Draft>& drafts)
 {
-    size_t remaining_work = kMeshWork;
+    const auto loose = std::count_if(drafts.begin(), drafts.end(),
+                                     [](const Draft& draft) { return draft.search.has_value(); });
+    size_t remaining_work = std::max(kMeshWork, kClusterWork * static_cast<size_t>(loose));
     for (size_t round = 0; round < kRounds; ++round)
     {
         std::vector<BoxSearch*> searches;
         for (Draft& draft : drafts)
             if (draft.search && !draft.search->done())
                 searches.push_back(&*draft.search);
-        if (searches.empty() || remaining_work / searches.size() < kMinClusterWork)
+        if (searches.empty())
             return;
         const size_t share = std::min(kMaxClusterWork, remaining_work / searches.size()) / (kRounds - round);
         std::vector<size_t> work(searches.size());
@@ -155,23 +232,33 @@ void tighten(std::vector<Draft>& drafts)
     }
 }
 
+/// Return the entries of chunk DJNT: the main bone, the other joints of the frame, all others.
+std::vector<uint32_t> listJoints(const ClusterFrame& frame, std::span<const uint32_t> joints)
+{
+    std::vector<uint32_t> list{formats::clusterJoint(frame.main(), 0)};
+    for (const FrameShare& share : frame.shares())
+        list.push_back(formats::clusterJoint(share.joint, share.share));
+    for (const uint32_t joint : joints)
+        if (std::none_of(list.begin(), list.end(),
+                         [&](uint32_t entry) { return formats::jointIndex(entry) == joint; }))
+            list.push_back(formats::clusterJoint(joint, 0));
+    return list;
+}
+
 DeformedBounds finishBounds(const Draft& draft, const DeformedCluster& cluster,
                             const Deformation& deformation)
 {
     const std::vector<MorphedVertex> vertices = morphedVertices(cluster, deformation.morph_weights);
-    const uint32_t main = draft.main.joint;
+    const FramedBox& framed = draft.framed;
+    const uint32_t main = framed.frame.main();
     DeformedBounds bounds{};
-    bounds.joints = draft.joints;
     if (deformation.skin != nullptr)
-    {
-        std::erase(bounds.joints, main);
-        bounds.joints.insert(bounds.joints.begin(), main);
-    }
+        bounds.joints = listJoints(framed.frame, draft.joints);
     Box3 box{{-kUnbounded, -kUnbounded, -kUnbounded}, {kUnbounded, kUnbounded, kUnbounded}};
     StoredCone cone;
-    if (draft.main.box)
+    if (framed.box)
     {
-        box = roundOutwards(draft.search ? draft.search->box() : *draft.main.box);
+        box = roundOutwards(framed.inFrame(draft.search ? draft.search->box() : *framed.box));
         cone = computeCone(main, cluster, deformation, vertices, box.center());
     }
     bounds.record.joint = static_cast<uint16_t>(main);
@@ -185,38 +272,6 @@ DeformedBounds finishBounds(const Draft& draft, const DeformedCluster& cluster,
 }
 
 } // namespace
-
-std::optional<Box3d> computeClusterBox(uint32_t main, const DeformedCluster& cluster,
-                                       const Deformation& deformation,
-                                       std::span<const MorphedVertex> vertices)
-{
-    Box3d box;
-    for (size_t v = 0; v < vertices.size(); ++v)
-    {
-        const MorphedVertex& vertex = vertices[v];
-        Box3d places;
-        const double own = deformation.skin == nullptr ? 1.0 : jointWeight(cluster, v, main);
-        const double middle[3] = {vertex.middle.x, vertex.middle.y, vertex.middle.z};
-        const double half[3] = {vertex.half.x, vertex.half.y, vertex.half.z};
-        for (size_t axis = 0; axis < 3; ++axis)
-            places[axis] = {own * (middle[axis] - half[axis]), own * (middle[axis] + half[axis])};
-        for (size_t i = v * cluster.influences; i < (v + 1) * cluster.influences; ++i)
-            if (cluster.weights[i] > 0 && cluster.joints[i] != main)
-            {
-                const animation_bounds::JointMotion* motion =
-                    deformation.skin->relative(main, cluster.joints[i]);
-                if (motion == nullptr)
-                    return std::nullopt;
-                motion->addPositionBox(vertex.middle, vertex.half, cluster.weights[i], places);
-            }
-        for (size_t axis = 0; axis < 3; ++axis)
-        {
-            box[axis].add(places[axis].low);
-            box[axis].add(places[axis].high);
-        }
-    }
-    return box;
-}
 
 std::vector<DeformedBounds> computeClusterBounds(std::span<const DeformedCluster> clusters,
                                                  const Deformation& deformation)

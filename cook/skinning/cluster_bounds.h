@@ -19,7 +19,7 @@ inline constexpr float kUnbounded = 1e30f;
 struct DeformedBounds
 {
     formats::DeformedClusterRecord record; ///< without `joints`
-    std::vector<uint32_t> joints; ///< joints that move a vertex, the main bone first; none without a skin
+    std::vector<uint32_t> joints;          ///< entries of chunk DJNT
 };
 
 /// Compute bounds of the clusters of one mesh. The main bone is the joint with the largest sum of weights,
@@ -27,10 +27,5 @@ struct DeformedBounds
 /// box.
 std::vector<DeformedBounds> computeClusterBounds(std::span<const DeformedCluster> clusters,
                                                  const Deformation& deformation);
-
-/// Compute the box with this joint as the main bone, before rounding; nothing if it has no bounds.
-std::optional<animation_bounds::Box3d> computeClusterBox(uint32_t main, const DeformedCluster& cluster,
-                                                         const Deformation& deformation,
-                                                         std::span<const MorphedVertex> vertices);
 
 } // namespace hearth::skinning

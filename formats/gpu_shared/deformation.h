@@ -79,7 +79,7 @@ struct PaletteRow
 /// Culling data of a deformed cluster, from the chunks CLUS and DCLU.
 struct DeformedCluster
 {
-    Float3 box_min; ///< bounding box over all poses of the clips, in the space of `joint`
+    Float3 box_min; ///< bounding box over all poses of the clips, in the cluster's frame
     uint joint;
     Float3 box_max;
     uint cone;       ///< as Cluster::cone
@@ -139,7 +139,8 @@ HEARTH_FUNCTION Instance instanceOfJoint(HEARTH_IN(Instance) instance, HEARTH_IN
     return joint_instance;
 }
 
-/// Return the box of a cluster in a pose of the clips.
+/// Return the box of a cluster in a pose of the clips, in the space of its main bone alone. Call shareFrame for
+/// the other joints of its frame.
 /// joint  palette row of the cluster's joint
 HEARTH_FUNCTION TransformedBox boxInClips(HEARTH_IN(Instance) instance, HEARTH_IN(PaletteRow) joint,
                                           HEARTH_IN(DeformedCluster) cluster)
@@ -149,6 +150,45 @@ HEARTH_FUNCTION TransformedBox boxInClips(HEARTH_IN(Instance) instance, HEARTH_I
     box.box_min = cluster.box_min;
     box.box_max = cluster.box_max;
     return box;
+}
+
+/// Return the joint of a word of a cluster's list.
+HEARTH_FUNCTION uint listedJoint(uint word)
+{
+    return word & 0xffffu;
+}
+
+/// Return the share of a joint in the cluster's frame, from 0 to 1. Joints with a share come first in the
+/// list, behind the main bone, whose word has none.
+HEARTH_FUNCTION float frameShare(uint word)
+{
+    return float(word >> 16u) * (1.0f / 65536.0f);
+}
+
+/// Return a row of a matrix, moved by a share of the way from one matrix to another.
+HEARTH_FUNCTION Float4 movedRow(HEARTH_IN(Float4) row, HEARTH_IN(Float4) from, HEARTH_IN(Float4) to,
+                                float share)
+{
+    HEARTH_PRECISE float x = row.x + (to.x - from.x) * share;
+    HEARTH_PRECISE float y = row.y + (to.y - from.y) * share;
+    HEARTH_PRECISE float z = row.z + (to.z - from.z) * share;
+    HEARTH_PRECISE float w = row.w + (to.w - from.w) * share;
+    return Float4(x, y, z, w);
+}
+
+/// Give a joint its share of the frame that a box is in: the main bone's gets smaller. Call it for all joints
+/// with a share, in the order of the list.
+HEARTH_FUNCTION TransformedBox shareFrame(HEARTH_IN(TransformedBox) box, HEARTH_IN(PaletteRow) main_joint,
+                                          HEARTH_IN(PaletteRow) joint, float share)
+{
+    TransformedBox shared_box = box;
+    shared_box.joint_instance.world_from_object_x = movedRow(
+        box.joint_instance.world_from_object_x, main_joint.world_from_bind_x, joint.world_from_bind_x, share);
+    shared_box.joint_instance.world_from_object_y = movedRow(
+        box.joint_instance.world_from_object_y, main_joint.world_from_bind_y, joint.world_from_bind_y, share);
+    shared_box.joint_instance.world_from_object_z = movedRow(
+        box.joint_instance.world_from_object_z, main_joint.world_from_bind_z, joint.world_from_bind_z, share);
+    return shared_box;
 }
 
 /// Return an empty box for a free pose. Call growByJoint for each joint that moves the cluster.

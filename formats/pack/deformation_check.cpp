@@ -68,10 +68,23 @@ Status checkCluster(const PackView& view, size_t i, uint32_t joints)
     const auto moved = view.clusterJoints().subspan(record.joints.first, record.joints.count);
     if (moved.empty() != (joints == 0) || (!moved.empty() && moved.front() != record.joint))
         return makeError(view, Issue::meaning_value, kKind, i,
-                         "its main bone is not the first of its joints");
-    for (const uint32_t joint : moved)
-        if (joint >= joints)
-            return makeError(view, Issue::meaning_reference, kKind, i, "joint " + std::to_string(joint));
+                         "its main bone, without a share, is not the first of its joints");
+    uint32_t shares = 0, last_share = kWholeShare;
+    for (const uint32_t entry : moved)
+    {
+        if (jointIndex(entry) >= joints)
+            return makeError(view, Issue::meaning_reference, kKind, i,
+                             "joint " + std::to_string(jointIndex(entry)));
+        if (last_share == 0 && jointShare(entry) > 0)
+            return makeError(view, Issue::meaning_order, kKind, i,
+                             "a joint with a share in its frame follows one without");
+        shares += jointShare(entry);
+        // the main bone has the rest
+        last_share = entry == moved.front() ? kWholeShare : jointShare(entry);
+    }
+    if (shares >= kWholeShare)
+        return makeError(view, Issue::meaning_value, kKind, i,
+                         "the shares of its joints leave none for the main bone");
     return success();
 }
 

@@ -12,8 +12,9 @@ namespace hearth::formats
 
 inline constexpr uint32_t kChunkDeformedMeshes = fourCC("DMSH");   ///< DeformedMeshRecord[]
 inline constexpr uint32_t kChunkDeformedClusters = fourCC("DCLU"); ///< DeformedClusterRecord[]
-inline constexpr uint32_t kChunkClusterJoints = fourCC("DJNT");    ///< u32[]: joints that move a cluster
-inline constexpr uint32_t kChunkDeformedGroups = fourCC("DGRP");   ///< DeformedGroupRecord[]
+/// u32[]: joints that move a cluster, each with its share in the cluster's frame
+inline constexpr uint32_t kChunkClusterJoints = fourCC("DJNT");
+inline constexpr uint32_t kChunkDeformedGroups = fourCC("DGRP"); ///< DeformedGroupRecord[]
 
 /// Mesh with joints and weights or with morph targets; records ascend by mesh. Bounds hold for all clips of
 /// its scene at all times, for blends of any two clips and for the rest pose, with morph weights from 0 to 1.
@@ -30,8 +31,9 @@ struct DeformedMeshRecord
     Float3 box_max;
 };
 
-/// Bounds of a cluster over all poses. The apex of the normal cone is cone_back behind the middle of the box,
-/// against the axis.
+/// Bounds of a cluster over all poses. The frame of a cluster in a pose is the sum of the palette's matrices
+/// by the shares of its joints: a point p in the frame is at sum_j share_j palette[j] * p. The apex of the
+/// normal cone is cone_back behind the middle of the box, against the axis, if the box is placed in the joint.
 struct DeformedClusterRecord
 {
     Float3 box_min;
@@ -44,6 +46,25 @@ struct DeformedClusterRecord
     Range joints;
     float morph_reach;
 };
+
+/// Sum of the shares of a cluster's joints in its frame, the main bone's among them.
+inline constexpr uint32_t kWholeShare = 65536;
+
+/// Return an entry of chunk DJNT.
+/// joint  of the skin, below 65536
+/// share  in the cluster's frame, in 1/65536; 0 for the main bone, which has the rest
+constexpr uint32_t clusterJoint(uint32_t joint, uint32_t share)
+{
+    return joint | share << 16;
+}
+constexpr uint32_t jointIndex(uint32_t entry)
+{
+    return entry & 0xffff;
+}
+constexpr uint32_t jointShare(uint32_t entry)
+{
+    return entry >> 16;
+}
 
 /// Parts only: bounding sphere of group `group` of a deformed mesh, for chunk GRUP of the pack.
 struct DeformedGroupRecord
@@ -67,19 +88,21 @@ HEARTH_RECORD(hearth::formats::DeformedMeshRecord, 48,
               HEARTH_FIELD(hearth::formats::DeformedMeshRecord, box_max, "in the anchor, all poses"));
 HEARTH_RECORD(
     hearth::formats::DeformedClusterRecord, 48,
-    HEARTH_FIELD(hearth::formats::DeformedClusterRecord, box_min, "in the joint, all poses"),
+    HEARTH_FIELD(hearth::formats::DeformedClusterRecord, box_min, "in the cluster's frame, all poses"),
     HEARTH_FIELD(hearth::formats::DeformedClusterRecord, joint,
                  "main bone: joint of the skin; 0 without a skin"),
     HEARTH_FIELD(hearth::formats::DeformedClusterRecord, cone_axis,
                  "normal cone in the joint, all poses: octahedral, 2 x snorm8"),
-    HEARTH_FIELD(hearth::formats::DeformedClusterRecord, box_max, "in the joint, all poses"),
+    HEARTH_FIELD(hearth::formats::DeformedClusterRecord, box_max, "in the cluster's frame, all poses"),
     HEARTH_FIELD(hearth::formats::DeformedClusterRecord, cone_cutoff,
                  "sine of the half-angle in 1/65536, rounded up; 65535: the cone never culls"),
     HEARTH_FIELD(hearth::formats::DeformedClusterRecord, reserved, "0"),
     HEARTH_FIELD(hearth::formats::DeformedClusterRecord, cone_back,
                  "metres in the joint: every triangle's plane has the apex on or behind its front"),
-    HEARTH_FIELD(hearth::formats::DeformedClusterRecord, joints,
-                 "chunk DJNT: all joints that move a vertex, the main bone first; none without a skin"),
+    HEARTH_FIELD(
+        hearth::formats::DeformedClusterRecord, joints,
+        "chunk DJNT: all joints that move a vertex, the main bone first, those with a share in the frame "
+        "next; none without a skin"),
     HEARTH_FIELD(
         hearth::formats::DeformedClusterRecord, morph_reach,
         "metres: how far on any axis of the bind pose morph targets take a vertex at most, with weights "

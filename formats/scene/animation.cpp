@@ -229,6 +229,22 @@ void poseNodes(const AnimationTables& tables, const ScenePose& pose, std::span<c
     }
 }
 
+Affine3d clusterFrame(std::span<const Affine3d> palette, const DeformedClusterRecord& cluster,
+                      std::span<const uint32_t> joints)
+{
+    const Affine3d& main = palette[cluster.joint];
+    Affine3d frame = main;
+    for (const uint32_t entry : joints)
+    {
+        const double share = jointShare(entry) / static_cast<double>(kWholeShare);
+        const Affine3d& joint = palette[jointIndex(entry)];
+        for (size_t row = 0; row < 3; ++row)
+            for (size_t column = 0; column < 4; ++column)
+                frame.m[row][column] += share * (joint.m[row][column] - main.m[row][column]);
+    }
+    return frame;
+}
+
 void skinPalette(const AnimationTables& tables, const SkinRecord& skin,
                  std::span<const Affine3d> world_from_node, std::span<Affine3d> world_from_bind)
 {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "formats/base/affine3d.h"
+#include "formats/records/deformation.h"
 #include "formats/records/scene.h"
 
 #include <array>
@@ -72,6 +73,11 @@ std::vector<uint32_t> nodesParentsFirst(std::span<const NodeRecord> nodes);
 /// world_from_node  one for each node
 void poseNodes(const AnimationTables& tables, const ScenePose& pose, std::span<const uint32_t> parents_first,
                std::span<Affine3d> world_from_node);
+
+/// Return the frame of a deformed cluster in a pose: the transform from the space of its box to the world.
+/// joints  the cluster's entries in chunk DJNT
+Affine3d clusterFrame(std::span<const Affine3d> palette, const DeformedClusterRecord& cluster,
+                      std::span<const uint32_t> joints);
 
 /// Compute the matrix palette of a skin. Allocates nothing.
 /// world_from_bind  one for each joint of the skin

@@ -88,9 +88,9 @@ Box3 computeDeformedBounds(const PackView& clusters_part, const PackView& skinni
         };
         if (deformed.skin == kInvalidIndex)
             add(0);
-        for (const uint32_t joint :
+        for (const uint32_t entry :
              recordsInRange(skinning_part.clusterJoints(), deformed_clusters[i].joints))
-            add(joint);
+            add(jointIndex(entry));
     }
     return bounds;
 }

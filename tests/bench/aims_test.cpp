@@ -142,7 +142,7 @@ TEST(MeasureRuntime, failsWithTheNameOfEachAimThatItMisses)
     };
     expectMissed({.converged = {false, true, true, false}}, "cold start <= 40: inf, MISSED\n");
     expectMissed({.converged = {}}, "cold start <= 40: inf, MISSED\n");
-    expectMissed({.pixels_of_each_cluster = 5}, "triangles a covered pixel <= 0.35: 0.4, MISSED\n");
+    expectMissed({.pixels_of_each_cluster = 1}, "triangles a covered pixel <= 1.35: 2, MISSED\n");
     expectMissed({.hidden_clusters = 4}, "clusters drawn / seen <= 1.6: 2, MISSED\n");
     expectMissed({.converged_grey = 200}, "mean FLIP within the budget <= 0.01: ");
 }

@@ -65,6 +65,20 @@ const std::vector<MalformedPack>& malformedDeformations()
          }},
         {"deformedClusterJoints", Issue::meaning_reference, "deformed cluster 0",
          [](PackModel& p) { p.cluster_joints[1] = 2; }},
+        {"deformedClusterMainBoneWithAShare", Issue::meaning_value, "deformed cluster 0",
+         [](PackModel& p) { p.cluster_joints[0] |= 1u << 16; }},
+        {"deformedClusterSharesWithoutARest", Issue::meaning_value, "deformed cluster 0",
+         [](PackModel& p)
+         {
+             p.deformed_clusters[0].joints.count = 3;
+             p.cluster_joints = {1, 0x80000000u, 0x80000000u};
+         }},
+        {"deformedClusterShareBehindNone", Issue::meaning_order, "deformed cluster 0",
+         [](PackModel& p)
+         {
+             p.deformed_clusters[0].joints.count = 3;
+             p.cluster_joints = {1, 0, 0x10000u};
+         }},
         {"deformedClusterJointsOutside", Issue::meaning_range, "deformed cluster 0",
          [](PackModel& p) { p.deformed_clusters[0].joints.count = 3; }},
         {"deformedClusterJointsLeftOver", Issue::meaning_range, "joint of a cluster 2",

@@ -59,15 +59,17 @@ Result<Json> meshJson(const PackView& pack, uint32_t mesh_number, const std::opt
         const uint32_t number = mesh.clusters.first + i;
         const ClusterRecord& cluster = pack.clusters()[number];
         Box3 box = clusterBox(cluster, mesh.grid_step);
-        size_t joint = 0;
+        DeformedClusterRecord bounds{};
         if (deformed != nullptr)
         {
-            const DeformedClusterRecord& bounds = pack.deformedClusters()[deformed->clusters.first + i];
+            bounds = pack.deformedClusters()[deformed->clusters.first + i];
             box = {bounds.box_min, bounds.box_max};
-            joint = bounds.joint;
         }
         if (pose)
-            box = transformBox(pose->palette()[joint], box);
+        {
+            const auto joints = recordsInRange(pack.clusterJoints(), bounds.joints);
+            box = transformBox(clusterFrame(pose->palette(), bounds, joints), box);
+        }
         Json json{{"level", cluster.level},
                   {"box", {{"min", boundsPoint(box.min)}, {"max", boundsPoint(box.max)}}},
                   {"triangles", nullptr}};

@@ -163,8 +163,9 @@ std::vector<TransformedBox> clusterBoxes(const formats::PackView& pack, const pa
                 if (pack.clusters()[mesh.clusters.first + c].level == 0)
                 {
                     const auto& cluster = pack.deformedClusters()[deformed.clusters.first + c];
-                    addTransformed({cluster.box_min, cluster.box_max}, pose.world_from_bind[cluster.joint],
-                                   boxes);
+                    const auto joints = recordsInRange(pack.clusterJoints(), cluster.joints);
+                    addTransformed({cluster.box_min, cluster.box_max},
+                                   formats::clusterFrame(pose.world_from_bind, cluster, joints), boxes);
                 }
         });
     return boxes;

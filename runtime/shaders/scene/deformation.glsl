@@ -63,13 +63,23 @@ TransformedBox boxInPose(Instance instance, Pose pose, DeformedCluster cluster)
 {
     PaletteRow main_joint = loadJoint(pose, cluster.joint);
     if ((pose.flags & kPoseFree) == 0u)
-        return boxInClips(instance, main_joint, cluster);
+    {
+        TransformedBox framed = boxInClips(instance, main_joint, cluster);
+        for (uint i = 1u; i < cluster.joint_count; ++i)
+        {
+            uint word = deformationWord(cluster.first_joint + i);
+            if (frameShare(word) == 0.0f)
+                break;
+            framed = shareFrame(framed, main_joint, loadJoint(pose, listedJoint(word)), frameShare(word));
+        }
+        return framed;
+    }
     TransformedBox box = growByJoint(makeEmptyFreeBox(instance), main_joint, cluster.bind_min, cluster.bind_max,
                              pose.free_box_scale);
     // joint 0 of the list is the main one; without a skin there are none
     for (uint i = 1u; i < cluster.joint_count; ++i)
-        box = growByJoint(box, loadJoint(pose, deformationWord(cluster.first_joint + i)), cluster.bind_min, cluster.bind_max,
-                      pose.free_box_scale);
+        box = growByJoint(box, loadJoint(pose, listedJoint(deformationWord(cluster.first_joint + i))), cluster.bind_min,
+                          cluster.bind_max, pose.free_box_scale);
     return box;
 }
 

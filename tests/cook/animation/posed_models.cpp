@@ -26,8 +26,9 @@ struct Watched
 {
     const DeformedCluster* cluster;
     const DeformedClusterRecord* bounds;
+    std::span<const uint32_t> joints; ///< entries of chunk DJNT
     Sphere sphere;
-    Box3d tight; ///< in the space of the main bone
+    Box3d tight; ///< in the cluster's frame
     size_t violations = 0;
     double worst = 0;
     size_t facing_wrong = 0;
@@ -94,17 +95,20 @@ double outside(const Box3& box, Double3 place)
     return std::max({below.x, below.y, below.z, above.x, above.y, above.z});
 }
 
+/// frame_from_main   to the space of the cluster's box
 /// anchor_from_main  empty if the anchor's matrix is singular in this pose
 void watch(Watched& watched, const Box3& mesh_box, std::span<const Affine3d> main_from_bind,
-           const std::optional<Affine3d>& anchor_from_main, const std::vector<double>& weights, double angle)
+           const Affine3d& frame_from_main, const std::optional<Affine3d>& anchor_from_main,
+           const std::vector<double>& weights, double angle)
 {
     const Box3 box{watched.bounds->box_min, watched.bounds->box_max};
     std::vector<Double3> places;
     for (size_t v = 0; v < watched.cluster->positions.size(); ++v)
     {
         const Double3 place = computePlace(*watched.cluster, v, main_from_bind, weights);
-        add(watched.tight, place);
-        note(watched, outside(box, place));
+        const Double3 framed = transformPoint(frame_from_main, place);
+        add(watched.tight, framed);
+        note(watched, outside(box, framed));
         places.push_back(place);
         if (!anchor_from_main)
             continue;
@@ -113,6 +117,22 @@ void watch(Watched& watched, const Box3& mesh_box, std::span<const Affine3d> mai
         note(watched, outside(mesh_box, anchored));
     }
     lookAtCone(watched, places, angle);
+}
+
+/// Return the transform from the main bone to the cluster's frame. Not the function of formats/scene, which is
+/// part of what is tested.
+/// main_from_bind  transforms of all joints relative to the main bone
+std::optional<Affine3d> frameFromMain(std::span<const Affine3d> main_from_bind,
+                                      std::span<const uint32_t> joints)
+{
+    Affine3d main_from_frame;
+    for (const uint32_t entry : joints)
+        for (size_t row = 0; row < 3; ++row)
+            for (size_t column = 0; column < 4; ++column)
+                main_from_frame.m[row][column] +=
+                    (entry >> 16) / 65536.0 *
+                    (main_from_bind[entry & 0xffff].m[row][column] - (row == column ? 1 : 0));
+    return inverted(main_from_frame);
 }
 
 /// Transforms of all joints relative to one joint; empty if its matrix is singular in this pose.
@@ -127,14 +147,21 @@ std::optional<std::vector<Affine3d>> seenFrom(std::span<const Affine3d> palette,
     return seen;
 }
 
-double volumeRatio(const Watched& watched)
+/// Volumes of a cluster's box and of the smallest box around the vertices in all poses.
+struct Volumes
+{
+    double box;
+    double tightest;
+};
+
+Volumes volumesFrom(const Watched& watched)
 {
     // flat clusters: count a thousandth of their size as their thickness
     const Double3 loose = widen(watched.bounds->box_max) - widen(watched.bounds->box_min);
     const double least = 1e-3 * std::max({loose.x, loose.y, loose.z});
     const auto side = [&](const Interval& axis) { return std::max(2 * axis.half(), least); };
-    return std::max(loose.x, least) * std::max(loose.y, least) * std::max(loose.z, least) /
-           (side(watched.tight[0]) * side(watched.tight[1]) * side(watched.tight[2]));
+    return {std::max(loose.x, least) * std::max(loose.y, least) * std::max(loose.z, least),
+            side(watched.tight[0]) * side(watched.tight[1]) * side(watched.tight[2])};
 }
 
 /// For each joint, the bounding box of the positions that it moves.
@@ -173,6 +200,11 @@ Result<std::vector<PosedMesh>> posedMeshes(const PackView& pack)
         const std::span<const DeformedClusterRecord> bounds =
             pack.deformedClusters().subspan(record.clusters.first, record.clusters.count);
         mesh.bounds.assign(bounds.begin(), bounds.end());
+        for (const DeformedClusterRecord& cluster : bounds)
+        {
+            const auto entries = recordsInRange(pack.clusterJoints(), cluster.joints);
+            mesh.joints.emplace_back(entries.begin(), entries.end());
+        }
         const Range clusters = pack.meshes()[record.mesh].clusters;
         for (const ClusterRecord& cluster : pack.clusters().subspan(clusters.first, clusters.count))
         {
@@ -203,7 +235,10 @@ void computeBounds(const AnimationTables& tables, PosedMesh& mesh)
     const animation_bounds::PoseRegions regions(tables, nodes);
     const skinning::Deformation deformation{skin ? &*skin : nullptr, morph_weights, &regions};
     for (const skinning::DeformedBounds& bounds : computeClusterBounds(mesh.clusters, deformation))
+    {
         mesh.bounds.push_back(bounds.record);
+        mesh.joints.push_back(bounds.joints);
+    }
     std::vector<GroupRecord> groups;
     std::vector<ClusterRecord> clusters;
     for (uint32_t i = 0; i < mesh.clusters.size(); ++i)
@@ -295,6 +330,8 @@ BoundsFigures& operator+=(BoundsFigures& a, const BoundsFigures& b)
     a.violations += b.violations;
     a.worst = std::max(a.worst, b.worst);
     a.volume_ratio += b.volume_ratio;
+    a.volume += b.volume;
+    a.tightest_volume += b.tightest_volume;
     a.finest_clusters += b.finest_clusters;
     a.finest_volume_ratio += b.finest_volume_ratio;
     a.cones += b.cones;
@@ -306,7 +343,7 @@ BoundsFigures checkBounds(const AnimationTables& tables, const PosedMesh& mesh, 
 {
     std::vector<Watched> watched;
     for (size_t i = 0; i < mesh.clusters.size(); ++i)
-        watched.push_back({&mesh.clusters[i], &mesh.bounds[i], mesh.spheres[i], {}});
+        watched.push_back({&mesh.clusters[i], &mesh.bounds[i], mesh.joints[i], mesh.spheres[i], {}});
     PoseSource source(tables, seed);
     std::mt19937 random(seed + 1);
     const size_t targets = countTargets(mesh.clusters);
@@ -328,17 +365,21 @@ BoundsFigures checkBounds(const AnimationTables& tables, const PosedMesh& mesh, 
                                     pose.morph_weights.begin() + range.first + range.count);
         weights.resize(std::max(weights.size(), targets));
         const double angle = std::uniform_real_distribution<double>(0, 6.283)(random);
-        tbb::parallel_for(size_t{0}, watched.size(),
-                          [&](size_t i)
-                          {
-                              const uint32_t main = watched[i].bounds->joint;
-                              if (!seen[main])
-                                  return;
-                              std::optional<Affine3d> anchor_from_main;
-                              if (anchor_from_world)
-                                  anchor_from_main = *anchor_from_world * palette[main];
-                              watch(watched[i], mesh.box, *seen[main], anchor_from_main, weights, angle);
-                          });
+        tbb::parallel_for(
+            size_t{0}, watched.size(),
+            [&](size_t i)
+            {
+                const uint32_t main = watched[i].bounds->joint;
+                if (!seen[main])
+                    return;
+                std::optional<Affine3d> anchor_from_main;
+                if (anchor_from_world)
+                    anchor_from_main = *anchor_from_world * palette[main];
+                const std::optional<Affine3d> frame = frameFromMain(*seen[main], watched[i].joints);
+                if (!frame)
+                    return note(watched[i], std::numeric_limits<double>::infinity());
+                watch(watched[i], mesh.box, *seen[main], *frame, anchor_from_main, weights, angle);
+            });
     }
     BoundsFigures figures;
     figures.clusters = watched.size();
@@ -346,14 +387,17 @@ BoundsFigures checkBounds(const AnimationTables& tables, const PosedMesh& mesh, 
     for (size_t i = 0; i < watched.size(); ++i)
     {
         const Watched& w = watched[i];
+        const Volumes volumes = volumesFrom(w);
+        figures.volume += volumes.box;
+        figures.tightest_volume += volumes.tightest;
         if (mesh.levels[i] == 0)
         {
             ++figures.finest_clusters;
-            figures.finest_volume_ratio += volumeRatio(w);
+            figures.finest_volume_ratio += volumes.box / volumes.tightest;
         }
         figures.violations += w.violations;
         figures.worst = std::max(figures.worst, w.worst);
-        figures.volume_ratio += volumeRatio(w);
+        figures.volume_ratio += volumes.box / volumes.tightest;
         figures.facing_wrong += w.facing_wrong;
         figures.cones += w.bounds->cone_cutoff != kNoCone ? 1 : 0;
     }

@@ -23,6 +23,7 @@ struct PosedMesh
     uint32_t skin = kInvalidIndex;
     std::vector<skinning::DeformedCluster> clusters;
     std::vector<formats::DeformedClusterRecord> bounds; ///< one for each cluster
+    std::vector<std::vector<uint32_t>> joints;          ///< entries of chunk DJNT of each cluster
     std::vector<uint32_t> levels;                       ///< level of each cluster
     uint32_t anchor = 0;
     std::vector<Sphere> spheres; ///< sphere of each cluster's group, in the anchor's space
@@ -69,6 +70,8 @@ struct BoundsFigures
     /// Sum over the clusters of the box's volume, relative to the smallest box around the vertices in all
     /// poses.
     double volume_ratio = 0;
+    double volume = 0;          ///< sum over the clusters of the boxes' volumes, cubic metres
+    double tightest_volume = 0; ///< the same of the smallest boxes
     size_t finest_clusters = 0; ///< clusters of the finest level
     double finest_volume_ratio = 0;
     size_t cones = 0;        ///< cones that can cull

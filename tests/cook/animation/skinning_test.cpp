@@ -1,7 +1,8 @@
 // Tests the bounds of deformed clusters with clips made to break them.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/skinning/cluster_frame.h"
 #include "cook/skinning/group_spheres.h"
-#include "tests/cook/animation/random_characters.h"
+#include "tests/cook/animation/limb_character.h"
 #include "tests/support/sanitized.h"
 
 #include <cmath>
@@ -264,6 +265,109 @@ TEST(DeformedBounds, jointsThatMoveTogetherGiveTightBoxes)
         test::checkBounds(character.tables(), character.mesh, test::trials(3000), 1);
     expectSound(figures);
     EXPECT_LE(figures.volume_ratio / static_cast<double>(figures.clusters), 1.6);
+}
+
+TEST(DeformedBounds, ofLargeCharactersAreTight)
+{
+    Character character = test::limbCharacter({test::kSanitized ? 8'000u : 100'000u, 4, 20});
+    test::computeBounds(character.tables(), character.mesh);
+    const BoundsFigures figures =
+        test::checkBounds(character.tables(), character.mesh, test::kSanitized ? 200 : 2000, 1);
+    expectSound(figures);
+    std::printf("volume of all boxes %.3f x that of the tightest ones\n",
+                figures.volume / figures.tightest_volume);
+    EXPECT_LE(figures.volume / figures.tightest_volume, test::kSanitized ? 3 : 1.6);
+}
+
+TEST(ClusterFrame, takesWhatAllVerticesHaveInCommon)
+{
+    // a far joint moves all vertices by a tenth, a near one some of them
+    Character character = test::limbCharacter({1'000, 4, 2});
+    DeformedCluster& cluster = character.mesh.clusters.front();
+    character.mesh.clusters.resize(1);
+    for (size_t v = 0; v < cluster.positions.size(); ++v)
+    {
+        const double near = v % 2 == 0 ? 0.3 : 0.0;
+        const uint16_t joints[] = {0, 1, 9, 0};
+        const double weights[] = {0.9 - near, near, 0.1, 0};
+        for (size_t i = 0; i < 4; ++i)
+        {
+            cluster.joints[4 * v + i] = joints[i];
+            cluster.weights[4 * v + i] = weights[i];
+        }
+    }
+    test::computeBounds(character.tables(), character.mesh);
+    const std::vector<uint32_t>& joints = character.mesh.joints.front();
+    ASSERT_EQ(joints.size(), 3u);
+    EXPECT_EQ(joints[0], 0u) << "the main bone, which has the rest";
+    EXPECT_EQ(jointIndex(joints[1]), 9u);
+    EXPECT_EQ(jointShare(joints[1]), 6553u) << "a tenth, rounded down";
+    EXPECT_EQ(joints[2], 1u) << "not all vertices follow this one";
+    expectSound(test::checkBounds(character.tables(), character.mesh, test::trials(2000), 1));
+}
+
+TEST(ClusterFrame, boundsTheDistanceToWhatRemains)
+{
+    const Character character = test::limbCharacter({2'000, 8, 4});
+    const AnimationTables tables = character.tables();
+    const std::vector<animation_bounds::NodeMotion> nodes = animation_bounds::nodeMotions(tables);
+    const std::vector<animation_bounds::Box3d> reach(60,
+                                                     {animation_bounds::Interval{-1, 1}, {-1, 1}, {-1, 1}});
+    const animation_bounds::SkinMotion skin(tables, nodes, 0, reach);
+    const Deformation deformation{&skin, {}};
+    test::PoseSource source(tables, 5);
+    double largest_share = 0;
+    for (const DeformedCluster& cluster : character.mesh.clusters)
+    {
+        const uint32_t main = cluster.joints[0];
+        const ClusterFrame frame(main, cluster, deformation);
+        ASSERT_FALSE(frame.shares().empty());
+        const DeformedCluster rest = frame.remainder(cluster);
+        std::vector<animation_bounds::Box3d> places(cluster.positions.size());
+        std::vector<Double3> farthest(cluster.positions.size());
+        for (size_t pose = 0; pose < test::trials(300); ++pose)
+        {
+            source.next();
+            const std::vector<Affine3d> palette = source.palette(0, 0);
+            Affine3d world_from_frame = palette[main];
+            for (const FrameShare& share : frame.shares())
+                for (size_t row = 0; row < 3; ++row)
+                    for (size_t column = 0; column < 4; ++column)
+                        world_from_frame.m[row][column] +=
+                            share.share / 65536.0 *
+                            (palette[share.joint].m[row][column] - palette[main].m[row][column]);
+            const auto skinned = [&](const DeformedCluster& by, size_t v)
+            {
+                Double3 place;
+                for (size_t i = v * by.influences; i < (v + 1) * by.influences; ++i)
+                    place =
+                        place + transformPoint(palette[by.joints[i]], widen(by.positions[v])) * by.weights[i];
+                return place;
+            };
+            const Affine3d frame_from_world = *inverted(world_from_frame),
+                           main_from_world = *inverted(palette[main]);
+            for (size_t v = 0; v < places.size(); ++v)
+            {
+                const Double3 remaining = transformPoint(main_from_world, skinned(rest, v));
+                const Double3 off = transformPoint(frame_from_world, skinned(cluster, v)) - remaining;
+                add(places[v], remaining);
+                farthest[v] = {std::max(farthest[v].x, std::abs(off.x)),
+                               std::max(farthest[v].y, std::abs(off.y)),
+                               std::max(farthest[v].z, std::abs(off.z))};
+            }
+        }
+        for (size_t v = 0; v < places.size(); ++v)
+        {
+            const Double3 bound = frame.distance(widen(cluster.positions[v]), places[v]);
+            constexpr double kRounding = 1e-9;
+            EXPECT_LE(farthest[v].x, bound.x + kRounding);
+            EXPECT_LE(farthest[v].y, bound.y + kRounding);
+            EXPECT_LE(farthest[v].z, bound.z + kRounding);
+            largest_share = std::max(
+                {largest_share, farthest[v].x / bound.x, farthest[v].y / bound.y, farthest[v].z / bound.z});
+        }
+    }
+    EXPECT_GT(largest_share, 0.2) << "a bound that nothing comes near to holds nothing";
 }
 
 TEST(AnchoredBounds, spheresHoldThoseOfRefinedGroups)

@@ -59,12 +59,19 @@ public:
     TransformedBox box(const Instance& instance, const Pose& pose, const DeformedCluster& cluster) const
     {
         if ((pose.flags & kPoseFree) == 0)
-            return boxInClips(instance, joint(pose, cluster.joint), cluster);
+        {
+            TransformedBox framed = boxInClips(instance, joint(pose, cluster.joint), cluster);
+            for (uint32_t i = 1; i < cluster.joint_count; ++i)
+                if (const uint32_t word = words_[cluster.first_joint + i]; frameShare(word) > 0)
+                    framed = shareFrame(framed, joint(pose, cluster.joint), joint(pose, listedJoint(word)),
+                                        frameShare(word));
+            return framed;
+        }
         TransformedBox box = growByJoint(makeEmptyFreeBox(instance), joint(pose, cluster.joint),
                                          cluster.bind_min, cluster.bind_max, pose.free_box_scale);
         for (uint32_t i = 1; i < cluster.joint_count; ++i)
-            box = growByJoint(box, joint(pose, words_[cluster.first_joint + i]), cluster.bind_min,
-                              cluster.bind_max, pose.free_box_scale);
+            box = growByJoint(box, joint(pose, listedJoint(words_[cluster.first_joint + i])),
+                              cluster.bind_min, cluster.bind_max, pose.free_box_scale);
         return box;
     }
 

@@ -157,15 +157,44 @@ std::vector<float> randomWeights(uint32_t count, std::mt19937& random)
     return weights;
 }
 
-/// Add the corners of a cluster's triangles in a pose, in the space of a joint.
-void addCarried(const ClusterGeometry& geometry, const TestPose& pose, uint32_t joint,
+/// Add the corners of a cluster's triangles in a pose, in the space of a joint or a frame.
+void addCarried(const ClusterGeometry& geometry, const TestPose& pose, const Affine3d& world_from_space,
                 std::vector<Double3>& corners)
 {
-    const auto bind_from_world = inverted(pose.world_from_bind[joint]);
-    HEARTH_ASSERT(bind_from_world);
+    const auto space_from_world = inverted(world_from_space);
+    HEARTH_ASSERT(space_from_world);
     for (uint32_t t = 0; t < geometry.triangleCount(); ++t)
         for (const uint32_t vertex : geometry.triangle(t))
-            corners.push_back(transformPoint(*bind_from_world, posedVertex(geometry, vertex, pose).position));
+            corners.push_back(
+                transformPoint(*space_from_world, posedVertex(geometry, vertex, pose).position));
+}
+
+/// Give shares of the cluster's frame to the two joints after the main bone.
+void shareFrame(std::span<uint32_t> joints)
+{
+    constexpr uint32_t kShares[] = {20'000, 6'000}; // of 65536
+    for (size_t i = 1; i < std::min(joints.size(), std::size(kShares) + 1); ++i)
+        joints[i] |= kShares[i - 1] << 16;
+}
+
+/// Return the sum of the joints' transforms by their shares.
+Affine3d computeFrame(const TestPose& pose, uint32_t main, std::span<const uint32_t> joints)
+{
+    Affine3d sum{{{0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}}};
+    const auto add = [&](uint32_t joint, double share)
+    {
+        for (size_t row = 0; row < 3; ++row)
+            for (size_t column = 0; column < 4; ++column)
+                sum.m[row][column] += share * pose.world_from_bind[joint].m[row][column];
+    };
+    double rest = 1;
+    for (const uint32_t entry : joints)
+    {
+        add(entry & 0xffff, (entry >> 16) / 65536.0);
+        rest -= (entry >> 16) / 65536.0;
+    }
+    add(main, rest);
+    return sum;
 }
 
 /// Extend the box by the point and a rounding error, so that it contains the point in floats.
@@ -410,14 +439,17 @@ void DeformedScene::boundMesh(const Mesh& mesh)
         cluster.joints.first = static_cast<uint32_t>(model.cluster_joints.size());
         cluster.joint = static_cast<uint16_t>(mainJoint(geometry, model.cluster_joints));
         cluster.joints.count = static_cast<uint32_t>(model.cluster_joints.size()) - cluster.joints.first;
-        std::vector<Double3> corners, in_anchor;
+        const auto joints = std::span(model.cluster_joints).subspan(cluster.joints.first);
+        shareFrame(joints);
+        std::vector<Double3> corners, in_anchor, in_frame;
         for (const TestPose& pose : mesh.poses)
         {
-            addCarried(geometry, pose, cluster.joint, corners);
-            addCarried(geometry, pose, deformed.anchor, in_anchor);
+            addCarried(geometry, pose, pose.world_from_bind[cluster.joint], corners);
+            addCarried(geometry, pose, pose.world_from_bind[deformed.anchor], in_anchor);
+            addCarried(geometry, pose, computeFrame(pose, cluster.joint, joints), in_frame);
         }
         Box3 box;
-        for (const Double3& corner : corners)
+        for (const Double3& corner : in_frame)
             addSurely(box, corner);
         for (const Double3& corner : in_anchor)
             addSurely(anchored[i], corner);
