@@ -28,8 +28,18 @@ HEARTH_CONSTANT float kBrickLift = 1.0f;
 /// that stand on it. 0.6 degrees, the precision of stored normals.
 HEARTH_CONSTANT float kBrickSlantSine = 0.01f;
 
+/// Voxels by which the origin of a ray lies at most beside the start of its surface point.
+HEARTH_CONSTANT float kMaxBrickShift = 3.0f;
+
 /// Voxels along the normal within which a ray from a surface point must reach the air.
 HEARTH_CONSTANT float kMaxBrickDepth = 3.0f;
+
+/// Voxels towards the eye within which a ray from a visible surface point must reach the air. The way to the
+/// eye is free, up to the eye, whatever voxels say: in the wedge below a roof it leads along the surface.
+HEARTH_CONSTANT float kMaxBrickViewDepth = 16.0f;
+
+/// Albedo of surfaces right behind a solid voxel, which a gather does not know: about that of a wall.
+HEARTH_CONSTANT float kBrickCloseAlbedo = 0.5f;
 
 /// Radius of a lamp in metres. A point light has no size, so irradiance grows without bound near it. Surfaces
 /// nearer than this, or nearer than a voxel, count as part of the lamp and get no light from it.
@@ -59,6 +69,7 @@ HEARTH_FUNCTION uint brickSliceEnd(uint brick_count, uint frame, uint period)
 struct BrickStart
 {
     Float3 position; ///< position in the air, in voxels
+    Float3 surface;  ///< point of the surface, in voxels
     Float3 normal;
     uint is_interior; ///< 1: no air within kMaxBrickDepth; the point gets no light
     /// Mean radiance of the solid voxel right in front of the surface, if rays start beyond that voxel.
@@ -67,10 +78,11 @@ struct BrickStart
 };
 
 /// Return a start with no voxel close to it.
-HEARTH_FUNCTION BrickStart brickStartAt(Float3 position, Float3 normal)
+HEARTH_FUNCTION BrickStart brickStartAt(Float3 position, Float3 surface, Float3 normal)
 {
     BrickStart start;
     start.position = position;
+    start.surface = surface;
     start.normal = normal;
     start.is_interior = 0u;
     start.close = Float3(0.0f, 0.0f, 0.0f);
@@ -105,11 +117,33 @@ HEARTH_FUNCTION Float3 liftBrickPosition(HEARTH_IN(BrickScene) scene, Float3 pos
 
 /// Return the start of rays of a face.
 /// surface_normal  normal that the face stores
+/// surface         point of brickFaceSurface
 HEARTH_FUNCTION BrickStart brickFaceStart(HEARTH_IN(BrickScene) scene, uint x, uint y, uint z, uint face,
-                                          Float3 surface_normal)
+                                          Float3 surface_normal, Float3 surface)
 {
     Float3 normal = brickFaceNormal(surface_normal, face);
-    return brickStartAt(liftBrickPosition(scene, brickFaceMiddle(x, y, z, face), normal), normal);
+    return brickStartAt(liftBrickPosition(scene, brickFaceMiddle(x, y, z, face), normal), surface, normal);
+}
+
+/// Return the origin of a ray: the point at the start's height over the surface on the line through the
+/// surface point. Rays from the start's position alone would see all that is near as if the surface were
+/// nearer to it. Where solid voxels are on the way from the start's position, the origin is in front of them.
+HEARTH_FUNCTION Float3 brickRayOrigin(HEARTH_IN(BrickScene) scene, HEARTH_IN(BrickStart) start,
+                                      Float3 direction)
+{
+    float height = dot(start.position - start.surface, start.normal);
+    float along = dot(direction, start.normal);
+    if (height <= 2.0f * kBrickFaceMargin || along <= 0.0f)
+        return start.position;
+    Float3 offset = start.surface - start.position + direction * (height / max(along, 0.0625f));
+    float distance = sqrt(dot(offset, offset));
+    if (distance <= kBrickFaceMargin)
+        return start.position;
+    float shift = min(distance, kMaxBrickShift);
+    offset = offset * (1.0f / distance);
+    BrickRay ray = brickMarch(brickSceneMasks(scene), brickRayInVoxels(brickMasksGrid(brickSceneMasks(scene)),
+                                                                       start.position, offset, shift));
+    return start.position + offset * (ray.inside != 0u ? 0.0f : shift);
 }
 
 /// True if the ray's voxel is solid: a march without a step began in a solid voxel.
@@ -119,26 +153,37 @@ HEARTH_FUNCTION bool brickIsInSolid(HEARTH_IN(BrickScene) scene, HEARTH_IN(Brick
     return met.inside != 0u && met.steps == ray.steps;
 }
 
-/// Return the start for a point of a surface, which mostly lies in a solid voxel: march along the normal into
-/// the air.
+/// Return the start for a point of a surface, which mostly lies in a solid voxel: march along a direction
+/// into the air.
 /// position   in voxels
-/// normal  unit, on the lit side
-HEARTH_FUNCTION BrickStart brickSurfaceStart(HEARTH_IN(BrickScene) scene, Float3 position, Float3 normal)
+/// direction  unit, to the lit side; it is the start's normal
+/// max_depth  voxels within which the ray must reach the air
+HEARTH_FUNCTION BrickStart brickStartAlong(HEARTH_IN(BrickScene) scene, Float3 position, Float3 direction,
+                                           float max_depth)
 {
-    BrickRay ray = brickRayInVoxels(brickMasksGrid(brickSceneMasks(scene)), position, normal, kMaxBrickDepth);
+    BrickRay ray = brickRayInVoxels(brickMasksGrid(brickSceneMasks(scene)), position, direction, max_depth);
     while (brickIsInSolid(scene, ray))
         ray = brickSkipVoxel(brickSceneMasks(scene), ray);
     // without a step, the point is already in the air
     float out_t = ray.steps > 0u ? ray.start_t + ray.t : 0.0f;
-    BrickStart start = brickStartAt(position, normal);
-    start.is_interior = out_t >= kMaxBrickDepth ? 1u : 0u;
+    BrickStart start = brickStartAt(position, position, direction);
+    start.is_interior = out_t >= max_depth ? 1u : 0u;
     out_t += ray.steps > 0u ? kBrickFaceMargin : 0.0f;
     if (start.is_interior == 0u)
-        start.position = liftBrickPosition(scene, position + normal * out_t, normal);
+        start.position = liftBrickPosition(scene, position + direction * out_t, direction);
     return start;
 }
 
-/// Return the start with the ray's solid voxel as the close voxel in front of it.
+/// Return the start along the normal.
+/// normal  unit, on the lit side
+HEARTH_FUNCTION BrickStart brickSurfaceStart(HEARTH_IN(BrickScene) scene, Float3 position, Float3 normal)
+{
+    return brickStartAlong(scene, position, normal, kMaxBrickDepth);
+}
+
+/// Return the start with the ray's solid voxel as the close voxel in front of it. Its faces have its light
+/// towards the air, and what the surface reflects of its light towards the surface. So of the sides, which
+/// have equal parts, all faces are there, and a part of the one towards the surface.
 HEARTH_FUNCTION BrickStart withCloseVoxel(HEARTH_IN(BrickScene) scene, BrickStart start,
                                           HEARTH_IN(BrickRay) ray)
 {
@@ -154,7 +199,7 @@ HEARTH_FUNCTION BrickStart withCloseVoxel(HEARTH_IN(BrickScene) scene, BrickStar
             count += 1.0f;
         }
     }
-    start.close = start.close * (1.0f / max(count, 1.0f));
+    start.close = start.close * (1.0f / (count + kBrickCloseAlbedo));
     start.close_opacity = count > 0.0f ? brickOpacityAt(scene, brickVoxel(brick, met.bit)) : 0.0f;
     return start;
 }
@@ -170,7 +215,7 @@ HEARTH_FUNCTION float brickCloseFraction(HEARTH_IN(BrickStart) start, Float3 mea
 
 /// Return the start for a visible surface point: in the air in front of it. Where other bricks stand there,
 /// as in the corners of rooms, the start lies in the air between the point and the eye.
-/// to_eye  unit
+/// to_eye  vector from the position to the eye, in voxels
 HEARTH_FUNCTION BrickStart brickVisibleStart(HEARTH_IN(BrickScene) scene, Float3 position, Float3 normal,
                                              Float3 to_eye)
 {
@@ -186,7 +231,9 @@ HEARTH_FUNCTION BrickStart brickVisibleStart(HEARTH_IN(BrickScene) scene, Float3
     float most = own_way + (1.0f - own_way + kBrickLift) * slant + 0.25f;
     if (start.is_interior == 0u && dot(direction, direction) <= most * most)
         return start;
-    start = brickSurfaceStart(scene, position, to_eye);
+    float eye_distance = sqrt(dot(to_eye, to_eye));
+    start = brickStartAlong(scene, position, to_eye * (1.0f / max(eye_distance, kBrickFaceMargin)),
+                            max(min(eye_distance, kMaxBrickViewDepth), kBrickFaceMargin));
     start.normal = normal;
     if (brickIsInSolid(scene, next))
         start = withCloseVoxel(scene, start, next);
@@ -200,8 +247,10 @@ HEARTH_FUNCTION Float3 brickGather(HEARTH_IN(BrickScene) scene, HEARTH_IN(BrickS
 {
     Float3 sum = Float3(0.0f, 0.0f, 0.0f);
     for (uint i = 0u; i < count; ++i)
-        sum = sum + brickRayLight(scene, sky, start.position, brickRayDirection(start.normal, i, count, seed))
-                        .radiance;
+    {
+        Float3 direction = brickRayDirection(start.normal, i, count, seed);
+        sum = sum + brickRayLight(scene, sky, brickRayOrigin(scene, start, direction), direction).radiance;
+    }
     if (start.is_interior != 0u)
         return Float3(0.0f, 0.0f, 0.0f);
     Float3 mean = sum * (1.0f / float(count));
@@ -267,13 +316,12 @@ struct BrickUnshadowedLight
     float distance_to_light; ///< distance to the light, in voxels
 };
 
-/// Compute the unoccluded light of a face.
-/// surface  point of brickFaceSurface: distance and angle are measured there
+/// Compute the unoccluded light of a face. Distance and angle are measured at the surface point.
 /// lamp     position from which the light shines, in voxels: brickLampPosition, or its own position. Ignored
 ///          for suns
 HEARTH_FUNCTION BrickUnshadowedLight brickUnshadowedLight(HEARTH_IN(BrickGrid) grid,
-                                                          HEARTH_IN(BrickStart) start, Float3 surface,
-                                                          HEARTH_IN(Light) light, Float3 lamp)
+                                                          HEARTH_IN(BrickStart) start, HEARTH_IN(Light) light,
+                                                          Float3 lamp)
 {
     BrickUnshadowedLight incident;
     incident.irradiance = Float3(0.0f, 0.0f, 0.0f);
@@ -284,7 +332,7 @@ HEARTH_FUNCTION BrickUnshadowedLight brickUnshadowedLight(HEARTH_IN(BrickGrid) g
         incident.irradiance = light.intensity * (max(dot(start.normal, incident.direction), 0.0f) / kBrickPi);
         return incident;
     }
-    Float3 to_light = (light.position - grid.origin) * (1.0f / grid.voxel_size) - surface;
+    Float3 to_light = (light.position - grid.origin) * (1.0f / grid.voxel_size) - start.surface;
     float distance = sqrt(dot(to_light, to_light));
     float metres = distance * grid.voxel_size;
     if (metres < max(kBrickLampRadius, grid.voxel_size))
@@ -311,15 +359,14 @@ HEARTH_FUNCTION BrickUnshadowedLight brickUnshadowedLight(HEARTH_IN(BrickGrid) g
 }
 
 /// Return the irradiance over pi that a light gives a face through the bricks.
-/// surface  point of brickFaceSurface
-HEARTH_FUNCTION Float3 brickDirect(HEARTH_IN(BrickScene) scene, HEARTH_IN(BrickStart) start, Float3 surface,
+HEARTH_FUNCTION Float3 brickDirect(HEARTH_IN(BrickScene) scene, HEARTH_IN(BrickStart) start,
                                    HEARTH_IN(Light) light)
 {
     BrickGrid grid = brickMasksGrid(brickSceneMasks(scene));
     Float3 lamp = Float3(0.0f, 0.0f, 0.0f);
     if (light.type != kLightDirectional)
         lamp = brickLampPosition(scene, (light.position - grid.origin) * (1.0f / grid.voxel_size));
-    BrickUnshadowedLight incident = brickUnshadowedLight(grid, start, surface, light, lamp);
+    BrickUnshadowedLight incident = brickUnshadowedLight(grid, start, light, lamp);
     if (incident.irradiance.x + incident.irradiance.y + incident.irradiance.z <= 0.0f ||
         incident.distance_to_light <= 0.0f)
         return incident.irradiance;

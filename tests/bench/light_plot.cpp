@@ -42,7 +42,7 @@ std::string axes()
                            kWidth, getY(error), getY(error) + 4, 100 * error);
     return svg + fmt::format("<line x2='{0}' y1='{1:.1f}' y2='{1:.1f}' stroke='#27ae60' "
                              "stroke-dasharray='5 3'/>\n",
-                             kWidth, getY(findAim("light", "rms error of light at voxels of 0.1 m").limit));
+                             kWidth, getY(findAim("light", "rms error at voxels of 0.1 m: room").limit));
 }
 
 template <typename Value>

@@ -1,7 +1,7 @@
 // hearth_measure_bricks_light: compares the global illumination gathered from bricks with path tracing of the
 // real geometry, and holds the error against the aim of "light".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/bricks/voxels/grid_part.h"
+#include "cook/bricks/light/emission.h"
 #include "cook/command_line/command_line.h"
 #include "cook/tools/open_part.h"
 #include "formats/base/atomic_file.h"
@@ -55,6 +55,7 @@ Result<bricks::BrickTables> cookBricks(const bricks::StaticScene& scene, double 
     settings.voxel_size = voxel_size;
     settings.memory = uint64_t{4} << 30;
     HEARTH_ASSIGN_OR_RETURN(bricks::CookedGrid grid, bricks::cookGrid(scene, settings));
+    HEARTH_TRY(bricks::traceEmission(scene, grid));
     return std::move(grid.tables);
 }
 

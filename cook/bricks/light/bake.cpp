@@ -60,24 +60,27 @@ private:
     {
         const auto [x, y, z, side] = places_[face];
         const BrickStart start =
-            brickFaceStart(scene(), x, y, z, side, decodeFaceNormal(bricks_.normals[face]));
-        const Float3 surface = brickFaceSurface(x, y, z, side, decodeFaceDepth(bricks_.albedo[face]));
+            brickFaceStart(scene(), x, y, z, side, decodeFaceNormal(bricks_.normals[face]),
+                           brickFaceSurface(x, y, z, side, decodeFaceDepth(bricks_.albedo[face])));
         const uint32_t seed = brickFaceSeed(x, y, z, side);
         Float3 irradiance;
         for (uint32_t i = 0; i < rays; ++i)
-            irradiance += radianceAlong(start.position, brickRayDirection(start.normal, i, rays, seed)) *
+        {
+            const Float3 direction = brickRayDirection(start.normal, i, rays, seed);
+            irradiance += radianceAlong(brickRayOrigin(scene(), start, direction), direction) *
                           (1.0f / static_cast<float>(rays));
+        }
         for (uint32_t i = 0; i < lighting_.light_count; ++i)
-            irradiance += direct(start, surface, lighting_.lights[i]);
+            irradiance += direct(start, lighting_.lights[i]);
         return brickOutgoingRadiance(decodeRadiance(bricks_.emission[face]),
                                      decodeAlbedo(bricks_.albedo[face]), irradiance);
     }
 
-    Float3 direct(const BrickStart& start, Float3 surface, const Light& light) const
+    Float3 direct(const BrickStart& start, const Light& light) const
     {
         const BrickGrid& grid = bricks_.masks.grid;
         const Float3 lamp = (light.position - grid.origin) / grid.voxel_size;
-        const BrickUnshadowedLight incident = brickUnshadowedLight(grid, start, surface, light, lamp);
+        const BrickUnshadowedLight incident = brickUnshadowedLight(grid, start, light, lamp);
         if (incident.irradiance == Float3{} ||
             rays_.occluded(start.position, incident.direction, incident.distance_to_light))
             return {};

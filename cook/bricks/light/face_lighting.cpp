@@ -74,12 +74,17 @@ void FaceLighting::light(const Lighting& lighting, uint32_t rays, size_t first, 
     for (size_t face = first; face < end; ++face)
     {
         const auto [x, y, z, side] = places_[face];
-        starts.push_back(brickFaceStart(scene, x, y, z, side, decodeFaceNormal(bricks_.normals[face])));
+        starts.push_back(
+            brickFaceStart(scene, x, y, z, side, decodeFaceNormal(bricks_.normals[face]),
+                           brickFaceSurface(x, y, z, side, decodeFaceDepth(bricks_.albedo[face]))));
         const uint32_t seed = brickFaceSeed(x, y, z, side);
         for (uint32_t i = 0; i < rays; ++i)
-            marched.push_back(brickRayInVoxels(bricks_.masks.grid, starts.back().position,
-                                               brickRayDirection(starts.back().normal, i, rays, seed),
+        {
+            const Float3 direction = brickRayDirection(starts.back().normal, i, rays, seed);
+            marched.push_back(brickRayInVoxels(bricks_.masks.grid,
+                                               brickRayOrigin(scene, starts.back(), direction), direction,
                                                kBrickInfinity));
+        }
     }
     marchRays(table_, marched);
     const BrickSky sky{lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground};
@@ -91,10 +96,8 @@ void FaceLighting::light(const Lighting& lighting, uint32_t rays, size_t first, 
         for (size_t i = 0; i < rays; ++i)
             sum += traceBrickLight(scene, sky, marched[(face - first) * rays + i]).radiance;
         Float3 irradiance = start.is_interior != 0 ? Float3{} : sum * (1.0f / static_cast<float>(rays));
-        const auto [x, y, z, side] = places_[face];
-        const Float3 surface = brickFaceSurface(x, y, z, side, decodeFaceDepth(bricks_.albedo[face]));
         for (uint32_t i = 0; i < lighting.light_count; ++i)
-            irradiance += brickDirect(scene, start, surface, lighting.lights[i]);
+            irradiance += brickDirect(scene, start, lighting.lights[i]);
         next_[face] = encodeBrickLight(brickOutgoingRadiance(decodeRadiance(bricks_.emission[face]),
                                                              decodeAlbedo(bricks_.albedo[face]), irradiance));
     }

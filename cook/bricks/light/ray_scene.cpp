@@ -3,6 +3,7 @@
 
 #include "formats/base/assert.h"
 
+#include <algorithm>
 #include <cstring>
 #include <embree3/rtcore.h>
 
@@ -11,11 +12,19 @@ namespace hearth::bricks
 
 using namespace formats;
 
+/// Triangles of one material, up to those of the next range.
+struct MaterialRange
+{
+    uint32_t first_triangle;
+    Float3 albedo;
+};
+
 struct RayScene::State
 {
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
     bool has_holes = false;
+    std::vector<MaterialRange> materials; ///< in the order of their triangles
 
     State() = default;
     State(const State&) = delete;
@@ -55,7 +64,8 @@ void addTriangles(const ClusterGeometry& geometry, const Affine3d& voxels_from_o
 
 Result<std::vector<Float3>> readTriangleCorners(const StaticScene& scene,
                                                 std::span<const InstancedCluster> placed,
-                                                const GridFrame& frame, bool& has_holes)
+                                                const GridFrame& frame, bool& has_holes,
+                                                std::vector<MaterialRange>& materials)
 {
     std::vector<Float3> corners;
     std::vector<std::byte> page;
@@ -64,7 +74,8 @@ Result<std::vector<Float3>> readTriangleCorners(const StaticScene& scene,
     {
         const PackView& part = scene.sources[at.source].clusters;
         const ClusterRecord& record = part.clusters()[at.cluster];
-        if (scene.material(at.source, record.material).hasHoles())
+        const SurfaceMaterial& material = scene.material(at.source, record.material);
+        if (material.hasHoles())
         {
             has_holes = true;
             continue;
@@ -80,6 +91,7 @@ Result<std::vector<Float3>> readTriangleCorners(const StaticScene& scene,
         if (!geometry)
             return Error{Issue::meaning_geometry, part.name(), "cluster " + std::to_string(at.cluster),
                          "lies outside its page"};
+        materials.push_back({static_cast<uint32_t>(corners.size() / 3), meanAlbedo(material)});
         addTriangles(*geometry, voxelsFromObject(frame, instance.world_from_object), corners);
     }
     return corners;
@@ -97,7 +109,7 @@ Result<RayScene> RayScene::build(const StaticScene& scene, std::span<const Insta
 {
     auto state = std::make_unique<State>();
     HEARTH_ASSIGN_OR_RETURN(const std::vector<Float3> corners,
-                            readTriangleCorners(scene, placed, frame, state->has_holes));
+                            readTriangleCorners(scene, placed, frame, state->has_holes, state->materials));
     state->device = rtcNewDevice(nullptr);
     HEARTH_ASSERT(state->device != nullptr);
     state->scene = rtcNewScene(state->device);
@@ -132,7 +144,15 @@ std::optional<RayScene::Hit> RayScene::nearest(Float3 position, Float3 direction
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return std::nullopt;
     const Float3 normal = normalizeOr({ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z}, -direction);
-    return Hit{position + direction * ray.ray.tfar, dot(normal, direction) > 0 ? -normal : normal};
+    return Hit{position + direction * ray.ray.tfar, dot(normal, direction) > 0 ? -normal : normal,
+               ray.hit.primID};
+}
+
+Float3 RayScene::albedo(const Hit& hit) const
+{
+    const auto next =
+        std::ranges::upper_bound(state_->materials, hit.triangle, {}, &MaterialRange::first_triangle);
+    return std::prev(next)->albedo;
 }
 
 bool RayScene::occluded(Float3 position, Float3 direction, float far) const

@@ -20,6 +20,7 @@ public:
     {
         Float3 position;
         Float3 normal; ///< unit, of the triangle, on the side of the ray's origin
+        uint32_t triangle;
     };
 
     /// Build from the clusters whose materials have no holes. Triangles block rays from both sides.
@@ -33,6 +34,9 @@ public:
 
     std::optional<Hit> nearest(Float3 position, Float3 direction) const;
     bool occluded(Float3 position, Float3 direction, float far) const;
+
+    /// Return the mean base colour of the material of a hit.
+    Float3 albedo(const Hit& hit) const;
 
     /// True if clusters were excluded because their materials have holes.
     bool hasHoles() const;

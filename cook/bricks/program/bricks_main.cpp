@@ -1,6 +1,7 @@
 // hearth-bricks: cooks the bricks of one or more sources, or marches rays through the bricks of a file.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/light/bake.h"
+#include "cook/bricks/light/emission.h"
 #include "cook/bricks/light/march_csv.h"
 #include "cook/command_line/command_line.h"
 #include "cook/command_line/thread_limit.h"
@@ -70,6 +71,7 @@ Status cook(const Arguments& arguments)
     HEARTH_ASSIGN_OR_RETURN(const std::vector<SourceParts> sources, openSources(arguments.inputs));
     HEARTH_ASSIGN_OR_RETURN(const StaticScene scene, collectStaticScene(sources));
     HEARTH_ASSIGN_OR_RETURN(CookedGrid grid, cookGrid(scene, arguments.settings));
+    HEARTH_TRY(traceEmission(scene, grid));
     if (arguments.bounces)
         HEARTH_TRY(bakeLight(scene, {.bounces = *arguments.bounces}, grid));
     HEARTH_TRY(writeGridPart(arguments.output, grid));

@@ -57,6 +57,18 @@ SurfaceMaterial defaultMaterial()
     return use;
 }
 
+Float3 meanAlbedo(const SurfaceMaterial& material)
+{
+    Float3 albedo = rgb(material.record.base_color);
+    if (material.base_color)
+    {
+        const Texture& texture = *material.base_color;
+        const uint32_t whole = texture.mipFor(std::max(texture.width(), texture.height()), 1);
+        albedo = albedo * rgb(texture.at(material.record.base_color_texture, {0.5f, 0.5f}, whole));
+    }
+    return clampToUnit(albedo);
+}
+
 Result<std::vector<SurfaceMaterial>> readMaterials(const PackView& scene, const PackView& textures)
 {
     std::map<uint32_t, std::shared_ptr<const Texture>> images;
@@ -86,6 +98,27 @@ Result<std::vector<SurfaceMaterial>> readMaterials(const PackView& scene, const 
         uses.push_back(std::move(use));
     }
     return uses;
+}
+
+TriangleAttributes readTriangleAttributes(const ClusterGeometry& geometry,
+                                          const std::array<uint32_t, 3>& corners,
+                                          const SurfaceMaterial& material)
+{
+    TriangleAttributes look;
+    const auto uvs = [&](const TextureRef& reference, std::array<Float2, 3>& out)
+    {
+        if (reference.uv_set < 4 && geometry.has(kVertexUv0 << reference.uv_set))
+            for (size_t i = 0; i < 3; ++i)
+                out[i] = geometry.uv(corners[i], reference.uv_set);
+    };
+    if (material.base_color)
+        uvs(material.record.base_color_texture, look.base_color_uv);
+    if (material.emissive)
+        uvs(material.record.emissive_texture, look.emissive_uv);
+    if (geometry.has(kVertexColor))
+        for (size_t i = 0; i < 3; ++i)
+            look.color[i] = geometry.color(corners[i]);
+    return look;
 }
 
 TriangleSurface::TriangleSurface(const SurfaceMaterial& material, const Polygon& corners,

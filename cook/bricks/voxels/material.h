@@ -36,6 +36,9 @@ struct SurfaceMaterial
 /// Return glTF's default material, for triangles without a material index.
 SurfaceMaterial defaultMaterial();
 
+/// Return the base colour averaged over its texture, without vertex colours.
+Float3 meanAlbedo(const SurfaceMaterial& material);
+
 /// Read the materials of a source, with the images of its textures part.
 /// errors: meaning_reference for a missing image
 Result<std::vector<SurfaceMaterial>> readMaterials(const formats::PackView& scene,
@@ -48,6 +51,12 @@ struct TriangleAttributes
     std::array<Float2, 3> emissive_uv;
     std::array<Float4, 3> color{Float4{1, 1, 1, 1}, Float4{1, 1, 1, 1}, Float4{1, 1, 1, 1}};
 };
+
+/// Read the attributes of a triangle that its material needs.
+/// corners  vertices of the triangle
+TriangleAttributes readTriangleAttributes(const formats::ClusterGeometry& geometry,
+                                          const std::array<uint32_t, 3>& corners,
+                                          const SurfaceMaterial& material);
 
 /// Triangle in voxel coordinates with its material. Evaluates the material at any point of the triangle.
 class TriangleSurface

@@ -30,7 +30,6 @@ constexpr bool isPositiveFace(uint32_t face)
 struct SolidVoxel
 {
     std::array<uint32_t, kFaces> albedo;
-    std::array<uint32_t, kFaces> emission;
     std::array<uint16_t, kFaces> normal;
     uint8_t front_visible; ///< bit f: a front face of a surface is visible through side f
     uint8_t opacity;       ///< > 0; set by computeOpacities, then by separateSpaces

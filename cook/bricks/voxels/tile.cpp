@@ -61,7 +61,7 @@ SurfaceSample meanSample(const Polygon& piece, const TriangleSurface& surface)
     if (surface.plain())
         return surface.at(piece.points[0]);
     double area = 0, coverage = 0;
-    Double3 albedo, emission;
+    Double3 albedo;
     for (uint32_t i = 2; i < piece.count; ++i)
     {
         const Double3& a = piece.points[0];
@@ -72,37 +72,12 @@ SurfaceSample meanSample(const Polygon& piece, const TriangleSurface& surface)
         area += weight;
         coverage += weight * look.coverage;
         albedo = albedo + widen(look.albedo) * (weight * look.coverage);
-        emission = emission + widen(look.emission) * (weight * look.coverage);
     }
     SurfaceSample mean;
     mean.coverage = static_cast<float>(coverage / area);
     if (coverage > 0)
-    {
         mean.albedo = narrow(albedo * (1 / coverage));
-        mean.emission = narrow(emission * (1 / coverage));
-    }
     return mean;
-}
-
-TriangleAttributes readTriangleAttributes(const ClusterGeometry& geometry,
-                                          const std::array<uint32_t, 3>& corners,
-                                          const SurfaceMaterial& material)
-{
-    TriangleAttributes look;
-    const auto uvs = [&](const TextureRef& reference, std::array<Float2, 3>& out)
-    {
-        if (reference.uv_set < 4 && geometry.has(kVertexUv0 << reference.uv_set))
-            for (size_t i = 0; i < 3; ++i)
-                out[i] = geometry.uv(corners[i], reference.uv_set);
-    };
-    if (material.base_color)
-        uvs(material.record.base_color_texture, look.base_color_uv);
-    if (material.emissive)
-        uvs(material.record.emissive_texture, look.emissive_uv);
-    if (geometry.has(kVertexColor))
-        for (size_t i = 0; i < 3; ++i)
-            look.color[i] = geometry.color(corners[i]);
-    return look;
 }
 
 } // namespace

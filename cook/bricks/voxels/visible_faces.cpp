@@ -54,13 +54,13 @@ BrickTables makeBrickTables(const SolidGrid& grid, std::span<const uint8_t> face
                 const SolidVoxel& look = grid.voxels[voxel];
                 tables.albedo.push_back(look.albedo[face]);
                 tables.normals.push_back(look.normal[face]);
-                tables.emission.push_back(look.emission[face]);
             }
         }
         tables.bricks.push_back(brick);
     }
     for (const SolidVoxel& voxel : grid.voxels)
         tables.opacity.push_back(voxel.opacity);
+    tables.emission.assign(tables.albedo.size(), 0);
     tables.lighting = tables.emission;
     tables.grid = {grid.frame.origin,
                    grid.frame.voxel_size,

@@ -16,7 +16,7 @@ namespace hearth::bricks
 std::vector<uint8_t> visibleFaces(const SolidGrid& grid, const EmptySpaces& spaces, const VisibleSpaces& seen,
                                   std::span<const uint32_t> space_of_voxel);
 
-/// Build the tables. The initial lighting of faces is their emission.
+/// Build the tables. No face emits light yet, nor is it lit: traceEmission.
 /// faces  result of visibleFaces
 BrickTables makeBrickTables(const SolidGrid& grid, std::span<const uint8_t> faces);
 

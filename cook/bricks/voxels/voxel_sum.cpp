@@ -34,7 +34,6 @@ void VoxelSum::add(const Double3& middle, const Double3& double_area, const Surf
     const double piece = size / 2 * look.coverage;
     area += piece;
     const Double3 piece_albedo = widen(look.albedo);
-    const Double3 piece_emission = widen(look.emission);
     albedo = albedo + piece_albedo * piece;
     normal = normal + unit * piece;
     for (uint32_t face = 0; face < kFaces; ++face)
@@ -46,7 +45,6 @@ void VoxelSum::add(const Double3& middle, const Double3& double_area, const Surf
         SideSum& side = sides[face];
         side.weight += weight;
         side.albedo = side.albedo + piece_albedo * weight;
-        side.emission = side.emission + piece_emission * weight;
         side.normal = side.normal + unit * (along < 0 ? -weight : weight);
         const double place = coordinate(middle, faceAxis(face));
         side.depth += weight * (isPositiveFace(face) ? 1 - place : place);
@@ -65,7 +63,6 @@ SolidVoxel encodeVoxel(const VoxelSum& sum)
             voxel.front_visible |= static_cast<uint8_t>(1u << face);
             voxel.albedo[face] = shared::encodeAlbedo(narrow(side.albedo * (1 / side.weight))) |
                                  shared::encodeFaceDepth(static_cast<float>(side.depth / side.weight));
-            voxel.emission[face] = shared::encodeRadiance(narrow(side.emission * (1 / side.weight)));
             voxel.normal[face] = normalCode(side.normal, face);
         }
         else

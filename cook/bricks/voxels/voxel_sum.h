@@ -13,7 +13,6 @@ struct SideSum
 {
     double weight = 0; ///< voxels squared
     Double3 albedo;
-    Double3 emission;
     Double3 normal;
     double depth = 0; ///< behind the side, voxels
 };
@@ -33,7 +32,7 @@ struct VoxelSum
     void add(const Double3& middle, const Double3& double_area, const SurfaceSample& look, bool double_sided);
 };
 
-/// Encode a voxel. A side without a visible front face gets the mean albedo of all surfaces, no emission, and
+/// Encode a voxel. A side without a visible front face gets the mean albedo of all surfaces, and
 /// the normal of the surfaces whose back faces it shows, or else its own normal. Back faces of single-sided
 /// surfaces are not drawn, but they block light. `opacity` stays 0.
 SolidVoxel encodeVoxel(const VoxelSum& sum);

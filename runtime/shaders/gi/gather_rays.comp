@@ -22,14 +22,15 @@ shared vec4 lobe_light[kGatherGroupPoints][2u * kGatherLobeRays];
 shared BrickStart starts[kGatherGroupPoints];
 
 // Trace ray `index` of the two lobes. Returns its weighted radiance.
-vec4 traceLobeRay(GatherPoint point, vec3 position, uint index, uint seed)
+vec4 traceLobeRay(GatherPoint point, BrickStart start, uint index, uint seed)
 {
     GatherLobeRay ray = gatherLobeRay(-normalize(point.position), point.normal, index < kGatherLobeRays ? kGatherSharpRoughness : kGatherWideRoughness,
                                       index % kGatherLobeRays * kGatherFrames + gather.frame % kGatherFrames,
                                       kGatherLobeRays * kGatherFrames, seed);
     if (ray.weight == 0.0)
         return vec4(0.0);
-    return vec4(brickRayLight(brick_view.grid, brickSky(), position, ray.direction).radiance * ray.weight, ray.weight);
+    vec3 origin = brickRayOrigin(brick_view.grid, start, ray.direction);
+    return vec4(brickRayLight(brick_view.grid, brickSky(), origin, ray.direction).radiance * ray.weight, ray.weight);
 }
 
 vec3 averageLobe(uint row, uint first)
@@ -183,7 +184,7 @@ void main()
     bool seen = point.has_surface > 0.0;
     if (seen && index == 0u)
         starts[row] = brickVisibleStart(brick_view.grid, (gather.eye + point.position) / brick_view.grid.voxel_size, point.normal,
-                                     -normalize(point.position));
+                                        -point.position / brick_view.grid.voxel_size);
     barrier();
     bool open = seen && starts[row].is_interior == 0u;
     if (open)
@@ -196,9 +197,9 @@ void main()
         vec3 direction = brickRayDirection(start.normal, index * kGatherFrames + gather.frame % kGatherFrames,
                                            kGatherRays * kGatherFrames, seed);
         ray_direction[row][index] = direction;
-        BrickRayLight light = brickRayLight(brick_view.grid, brickSky(), start.position, direction);
+        BrickRayLight light = brickRayLight(brick_view.grid, brickSky(), brickRayOrigin(brick_view.grid, start, direction), direction);
         ray_light[row][index] = vec4(light.radiance, light.sky);
-        lobe_light[row][index] = traceLobeRay(point, start.position, index, seed);
+        lobe_light[row][index] = traceLobeRay(point, start, index, seed);
     }
     barrier();
     if (open && index == 0u)

@@ -75,11 +75,10 @@ void main()
     uint z = place.z + (bit >> 4);
 
     BrickGrid grid = brick_view.grid;
-    BrickStart start = brickFaceStart(grid, x, y, z, side, brickNormalAt(face));
-    vec3 surface = brickFaceSurface(x, y, z, side, brickDepthAt(face));
+    BrickStart start = brickFaceStart(grid, x, y, z, side, brickNormalAt(face), brickFaceSurface(x, y, z, side, brickDepthAt(face)));
     vec3 arrived = brickGather(grid, brickSky(), start, brick_view.light_rays, brickFaceSeed(x, y, z, side));
     for (uint i = 0u; i < lighting.light_count; ++i)
-        arrived += brickDirect(grid, start, surface, lighting.lights[i]);
+        arrived += brickDirect(grid, start, lighting.lights[i]);
     vec3 emission = brickEmissionAt(face) * emissionFactor(vec3(x, y, z) + 0.5);
     fresh_lights[in_share] = encodeBrickLight(brickOutgoingRadiance(emission, brickAlbedoAt(face), arrived));
 }

@@ -122,7 +122,7 @@ TEST(BrickSeenStart, takesTheAirThatAPointIsSeenThrough)
     const BrickTables tables = model.build();
     const BrickView view = makeBrickView(tables);
     const FaceLighting lighting(view);
-    const Float3 to_eye = normalizeOr({0, -0.6f, 0.8f}, {0, 0, 1});
+    const Float3 to_eye{0, -6, 8};
     const BrickStart start = brickVisibleStart(lighting.scene(), {6.5f, 8.3f, 1}, {0, 0, 1}, to_eye);
     EXPECT_EQ(start.is_interior, 0u);
     EXPECT_EQ(start.normal, (Float3{0, 0, 1}));
@@ -131,6 +131,40 @@ TEST(BrickSeenStart, takesTheAirThatAPointIsSeenThrough)
     const BrickStart open = brickVisibleStart(lighting.scene(), {6.5f, 4.5f, 0.9f}, {0, 0, 1}, to_eye);
     EXPECT_NEAR(open.position.y, 4.5f, 1e-5f) << "before it, where nothing is in the way";
     EXPECT_NEAR(open.position.z, 1, 0.01f);
+}
+
+/// In a narrow wedge there is air only far along the way to the eye; beyond the eye it does not count.
+TEST(BrickSeenStart, goesAsFarAsTheEye)
+{
+    VoxelModel model({12, 12, 12});
+    model.fill({0, 0, 0}, {9, 12, 12}, makeVoxel({0.5f, 0.5f, 0.5f}));
+    const BrickTables tables = model.build();
+    const BrickView view = makeBrickView(tables);
+    const FaceLighting lighting(view);
+    const BrickStart start = brickVisibleStart(lighting.scene(), {1.5f, 6.5f, 6.5f}, {0, 1, 0}, {10, 0, 0});
+    EXPECT_EQ(start.is_interior, 0u);
+    EXPECT_NEAR(start.position.x, 9, 0.1f);
+    EXPECT_EQ(start.normal, (Float3{0, 1, 0}));
+    EXPECT_EQ(brickVisibleStart(lighting.scene(), {1.5f, 6.5f, 6.5f}, {0, 1, 0}, {5, 0, 0}).is_interior, 1u);
+}
+
+/// A ray seems to come from the surface point itself, whatever the height of its start; it passes no wall.
+TEST(BrickRayOrigin, liesOnTheLineThroughTheSurface)
+{
+    VoxelModel model({12, 12, 12});
+    model.fill({0, 0, 0}, {12, 1, 12}, makeVoxel({0.5f, 0.5f, 0.5f}));
+    model.fill({7, 1, 0}, {8, 12, 12}, makeVoxel({0.5f, 0.5f, 0.5f}));
+    const BrickTables tables = model.build();
+    const BrickView view = makeBrickView(tables);
+    const FaceLighting lighting(view);
+    const Float3 surface{5.5f, 0.25f, 6.5f};
+    const BrickStart start = brickSurfaceStart(lighting.scene(), surface, {0, 1, 0});
+    const Float3 left{-0.6f, 0.8f, 0};
+    const Float3 origin = brickRayOrigin(lighting.scene(), start, left);
+    EXPECT_NEAR(origin.y, start.position.y, 1e-5f);
+    EXPECT_NEAR(length(cross(origin - surface, left)), 0, 1e-4f);
+    const Float3 flat = normalizeOr({0.9f, 0.1f, 0}, {});
+    EXPECT_EQ(brickRayOrigin(lighting.scene(), start, flat), start.position) << "the wall is in the way";
 }
 
 /// An emissive strip of one voxel on a wall: rays that started off the wall would pass it.
@@ -145,7 +179,8 @@ TEST(BrickFaceStart, seesWhatStandsBesideItOnAWall)
     lighting.sweep(darkness(), 1, 1);
     for (uint32_t below = 1; below <= 4; ++below)
     {
-        const BrickStart start = brickFaceStart(lighting.scene(), 32, 8 - below, 0, 5, {0, 0, 1});
+        const BrickStart start = brickFaceStart(lighting.scene(), 32, 8 - below, 0, 5, {0, 0, 1},
+                                                brickFaceSurface(32, 8 - below, 0, 5, 0));
         const float light = brickGather(lighting.scene(), {}, start, 4096, below).x;
         // an endless strip of height 1 occludes this share of the plane that it stands on
         const double distance = below - 0.5;

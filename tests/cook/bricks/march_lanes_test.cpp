@@ -151,7 +151,8 @@ TEST(FaceLighting, gathersAsRaysDoOneByOne)
         {
             const auto [x, y, z, side] = places[face];
             const BrickStart start =
-                brickFaceStart(before.scene(), x, y, z, side, decodeFaceNormal(model.normals[face]));
+                brickFaceStart(before.scene(), x, y, z, side, decodeFaceNormal(model.normals[face]),
+                               brickFaceSurface(x, y, z, side, decodeFaceDepth(model.albedo[face])));
             const Float3 arrived =
                 brickGather(before.scene(), sky, start, rays, brickFaceSeed(x, y, z, side));
             const BrickLight truth = encodeBrickLight(brickOutgoingRadiance(

@@ -154,8 +154,9 @@ Double3 BrickGather::at(const SeenPoint& seen, uint32_t rays, uint32_t seed) con
     const shared::BrickScene scene = faces_.scene();
     const shared::BrickGrid& grid = scene.masks.grid;
     const Float3 place = (narrowed(seen.point.surface.position) - grid.origin) / grid.voxel_size;
-    const shared::BrickStart start =
-        shared::brickVisibleStart(scene, place, narrowed(litNormal(seen.point)), narrowed(seen.to_eye));
+    const shared::BrickStart start = shared::brickVisibleStart(
+        scene, place, narrowed(litNormal(seen.point)),
+        narrowed(seen.to_eye * (seen.point.hit.distance / double{grid.voxel_size})));
     return Double3(shared::brickGather(scene, sky_, start, rays, shared::brickHash(seed)));
 }
 
