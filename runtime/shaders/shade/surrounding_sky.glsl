@@ -4,11 +4,9 @@
 
 vec3 surroundingLight(SurfacePoint point, Shading shading, float occlusion)
 {
-    vec2 scale_bias = specularScaleBias(shading.roughness, shading.n_dot_v);
-    vec3 specular = shading.f0 * scale_bias.x + scale_bias.y;
     vec3 mirror = reflect(-shading.to_eye, shading.normal);
-    vec3 diffuse_sky = (1.0 - specular) * shading.diffuse * skyIrradiance(shading.normal);
-    vec3 specular_sky = specular * skyRadiance(mirror, shading.roughness);
+    vec3 diffuse_sky = shading.albedo.diffuse * skyIrradiance(shading.normal);
+    vec3 specular_sky = shading.albedo.specular * skyRadiance(mirror, shading.roughness);
     if (!kSkyVisibility)
         return occlusion * (diffuse_sky + specular_sky);
     // The smaller one counts. An occlusion texture is usually baked from the same shape and would occlude the

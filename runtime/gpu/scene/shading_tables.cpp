@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/scene/reflectance.h"
 #include "runtime/gpu/scene/scene.h"
 
 namespace hearth::gpu
@@ -8,6 +9,8 @@ namespace
 {
 
 constexpr uint32_t kNodes = shared::kSpecularNodes;
+
+constexpr VkImageUsageFlags kTableUsage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
 
 /// Create a linear sampler that clamps to the last node of an axis.
 Result<VkSampler> createSampler(const Device& device, Scene& scene)
@@ -23,10 +26,9 @@ Result<VkSampler> createSampler(const Device& device, Scene& scene)
     return sampler;
 }
 
-} // namespace
-
-Status uploadSpecularTable(const Device& device, const formats::PackView& pack, Uploader& uploader,
-                           Scene& scene)
+/// Upload the pack's table of specular occlusion, if it has one.
+Status uploadSpecularTable(const Device& device, const formats::PackView& pack, VkSampler sampler,
+                           Uploader& uploader, Scene& scene)
 {
     if (pack.specularTables().empty())
         return success();
@@ -34,16 +36,33 @@ Status uploadSpecularTable(const Device& device, const formats::PackView& pack, 
     // same layout as in the file: the squares of the nodes of beta, one below the other
     HEARTH_ASSIGN_OR_RETURN(
         scene.specular_table,
-        scene.arena.createImage({.format = VK_FORMAT_R8_UNORM,
-                                 .extent = {kNodes, kNodes * kNodes},
-                                 .usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT}));
+        scene.arena.createImage(
+            {.format = VK_FORMAT_R8_UNORM, .extent = {kNodes, kNodes * kNodes}, .usage = kTableUsage}));
     HEARTH_TRY(uploader.upload(scene.specular_table, std::as_bytes(std::span(table.values)), 1));
-    HEARTH_ASSIGN_OR_RETURN(const VkSampler sampler, createSampler(device, scene));
     scene.specular_spacing = table.spacing;
     DescriptorWriter(scene.draw_set)
         .texture(shared::kSceneSpecularTable, scene.specular_table.view.get(), sampler)
         .write(device);
     return success();
+}
+
+} // namespace
+
+Status uploadShadingTables(const Device& device, const formats::PackView& pack, Uploader& uploader,
+                           Scene& scene)
+{
+    HEARTH_ASSIGN_OR_RETURN(const VkSampler sampler, createSampler(device, scene));
+    HEARTH_ASSIGN_OR_RETURN(
+        scene.reflectance_table,
+        scene.arena.createImage({.format = VK_FORMAT_R16G16B16A16_SFLOAT,
+                                 .extent = {shared::kReflectanceColumns, shared::kReflectanceRows},
+                                 .usage = kTableUsage}));
+    HEARTH_TRY(uploader.upload(scene.reflectance_table, std::as_bytes(std::span(shared::kReflectanceTable)),
+                               sizeof(uint64_t)));
+    DescriptorWriter(scene.draw_set)
+        .texture(shared::kSceneReflectance, scene.reflectance_table.view.get(), sampler)
+        .write(device);
+    return uploadSpecularTable(device, pack, sampler, uploader, scene);
 }
 
 } // namespace hearth::gpu
