@@ -88,7 +88,7 @@ private:
     Float3 radianceAlong(Float3 position, Float3 direction) const
     {
         const std::optional<RayScene::Hit> hit = rays_.nearest(position, direction);
-        const Float3 radiance = hit ? hitRadiance(*hit) : brickSkyRadiance(sky_, direction);
+        const Float3 radiance = hit ? hitRadiance(*hit) : skyRadiance(sky_, direction);
         if (!rays_.hasHoles())
             return radiance;
         const float far = hit ? length(hit->position - position) : kBrickInfinity;
@@ -187,7 +187,7 @@ private:
     const RayScene& rays_;
     BrickView bricks_;
     const Lighting& lighting_;
-    BrickSky sky_;
+    Sky sky_;
     std::vector<FaceLocation> places_;
     std::vector<BrickLight> faces_;
 };

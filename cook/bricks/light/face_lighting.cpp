@@ -82,7 +82,7 @@ void FaceLighting::light(const Lighting& lighting, uint32_t rays, size_t first, 
                                                kBrickInfinity));
     }
     marchRays(table_, marched);
-    const BrickSky sky{lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground};
+    const Sky sky{lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground};
     for (size_t face = first; face < end; ++face)
     {
         const BrickStart& start = starts[face - first];

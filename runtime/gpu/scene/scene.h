@@ -123,6 +123,7 @@ struct Scene
     uint32_t slot_capacity = 0;
     uint32_t used_slices = shared::kPoolSlices; ///< 1 if the first slice holds all geometry
     Image reflectance_table;                    ///< of formats/gpu_shared/reflectance.h
+    Image sky_table;                            ///< of formats/gpu_shared/sky.h
     Image specular_table;                       ///< empty if the pack has none
     uint32_t specular_spacing = 0;              ///< shared::kSpecularSpacing* of the table
     std::vector<shared::Light> lights;          ///< lights that are drawn, as loaded
@@ -163,7 +164,7 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
 Status uploadMaterials(const Device& device, const DrawLayouts& layouts, const formats::PackView& pack,
                        Uploader& uploader, Scene& scene);
 
-/// Upload the tables that shading samples: specular reflectance, and specular occlusion of packs that have it.
+/// Upload the tables that shading samples: specular reflectance, the sky, and specular occlusion of packs that have it.
 /// Needs scene.draw_set.
 Status uploadShadingTables(const Device& device, const formats::PackView& pack, Uploader& uploader,
                            Scene& scene);

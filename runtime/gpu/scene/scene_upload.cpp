@@ -186,7 +186,7 @@ Status createSets(const Device& device, const DrawLayouts& layouts, Scene& scene
     // and page requests; three more with deformed meshes, two with bricks
     const DescriptorPoolSizes sizes{.uniforms = 20 + material_rows,
                                     .storages = 104,
-                                    .textures = material_rows * shared::kTextureCount + 3};
+                                    .textures = material_rows * shared::kTextureCount + 4};
     HEARTH_ASSIGN_OR_RETURN(scene.pool, createDescriptorPool(device, 16 + material_rows, sizes));
     HEARTH_ASSIGN_OR_RETURN(scene.draw_set, allocateSet(device, scene.pool.get(), layouts.scene.get()));
     const SceneBuffers& b = scene.buffers;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/scene/reflectance.h"
+#include "formats/scene/sky_table.h"
 #include "runtime/gpu/scene/scene.h"
 
 namespace hearth::gpu
@@ -59,8 +60,15 @@ Status uploadShadingTables(const Device& device, const formats::PackView& pack, 
                                  .usage = kTableUsage}));
     HEARTH_TRY(uploader.upload(scene.reflectance_table, std::as_bytes(std::span(shared::kReflectanceTable)),
                                sizeof(uint64_t)));
+    HEARTH_ASSIGN_OR_RETURN(scene.sky_table, scene.arena.createImage({.format = VK_FORMAT_R16G16_SFLOAT,
+                                                                      .extent = {shared::kSkyTableHeights,
+                                                                                 shared::kSkyTableAngles},
+                                                                      .usage = kTableUsage}));
+    HEARTH_TRY(
+        uploader.upload(scene.sky_table, std::as_bytes(std::span(shared::skyTable())), sizeof(uint32_t)));
     DescriptorWriter(scene.draw_set)
         .texture(shared::kSceneReflectance, scene.reflectance_table.view.get(), sampler)
+        .texture(shared::kSceneSkyTable, scene.sky_table.view.get(), sampler)
         .write(device);
     return uploadSpecularTable(device, pack, sampler, uploader, scene);
 }

@@ -22,10 +22,10 @@ BrickTables wallWithStrip(const Voxel& strip)
     return model.build();
 }
 
-constexpr BrickSky kDusk{{0.25f, 0.25f, 0.25f}, {0.25f, 0.25f, 0.25f}, {0.25f, 0.25f, 0.25f}};
+constexpr Sky kDusk{{0.25f, 0.25f, 0.25f}, {0.25f, 0.25f, 0.25f}, {0.25f, 0.25f, 0.25f}};
 
 /// Return the light on a point of the wall that is seen from the front, without other light.
-float lightAt(const BrickTables& tables, Float3 position, BrickSky sky = {})
+float lightAt(const BrickTables& tables, Float3 position, Sky sky = {})
 {
     const BrickView view = makeBrickView(tables);
     FaceLighting lighting(view);

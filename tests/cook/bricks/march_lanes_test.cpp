@@ -140,7 +140,7 @@ TEST(FaceLighting, gathersAsRaysDoOneByOne)
     Lighting lighting{};
     lighting.sky_zenith = {1, 2, 3};
     lighting.sky_horizon = {3, 2, 1};
-    const BrickSky sky{lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground};
+    const Sky sky{lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground};
     for (const uint32_t rays : {1u, 16u, 300u})
     {
         FaceLighting lit(view);

@@ -79,6 +79,71 @@ SplitSum integrateLobe(double roughness, double nv)
     return sum;
 }
 
+/// Mean radiance of the sky over a lobe.
+Double3 reflectedSky(const Coating& c, const SceneLighting& lighting, Double3 view)
+{
+    const double nv = normalCosine(c, view);
+    const Double3 across = view - c.normal * dot(c.normal, view);
+    const Double3 x =
+        length(across) > 1e-6
+            ? normalize(across)
+            : normalize(cross(c.normal, std::abs(c.normal.x) < 0.5 ? Double3{1, 0, 0} : Double3{0, 1, 0}));
+    const Double3 y = cross(c.normal, x);
+    Double3 sum;
+    double weights = 0;
+    visitLobe(c.roughness, nv, 12, 16, 2 * kPi,
+              [&](Double3 light, Double3, double weight)
+              {
+                  sum += lighting.radiance(x * light.x + y * light.y + c.normal * light.z) * weight;
+                  weights += weight;
+              });
+    return weights > 0 ? sum / weights : lighting.radiance(c.normal * (2 * nv) - view);
+}
+
+/// Integrals at nodes, denser where they change most, and linear between.
+class SplitSums
+{
+public:
+    SplitSums()
+    {
+        for (int r = 0; r < kNodes; ++r)
+            for (int v = 0; v < kNodes; ++v)
+                nodes_.push_back(
+                    integrateLobe(0.04 + 0.96 * square(place(r)), std::max(square(square(place(v))), 1e-5)));
+    }
+
+    SplitSum at(double roughness, double nv) const
+    {
+        const double x = std::sqrt(std::max(roughness - 0.04, 0.0) / 0.96) * (kNodes - 1);
+        const double y = std::sqrt(std::sqrt(nv)) * (kNodes - 1);
+        const int r = std::min(static_cast<int>(x), kNodes - 2),
+                  v = std::min(static_cast<int>(y), kNodes - 2);
+        SplitSum sum{};
+        for (int corner = 0; corner < 4; ++corner)
+        {
+            const int i = corner & 1, j = corner >> 1;
+            const double weight = (i == 1 ? x - r : 1 - (x - r)) * (j == 1 ? y - v : 1 - (y - v));
+            const SplitSum& node = nodes_[static_cast<size_t>((r + i) * kNodes + v + j)];
+            sum.scale += weight * node.scale;
+            sum.bias += weight * node.bias;
+        }
+        return sum;
+    }
+
+private:
+    static constexpr int kNodes = 64;
+    static double square(double x) { return x * x; }
+    static double place(int node) { return double{1} * node / (kNodes - 1); }
+
+    std::vector<SplitSum> nodes_;
+};
+
+SplitSum splitSum(double roughness, double nv)
+{
+    static const SplitSums sums;
+    return sums.at(roughness, nv);
+}
+
 constexpr double kDielectric = 0.04;
 
 /// Reflectance at normal incidence of a channel.
@@ -139,10 +204,8 @@ Double3 reflected(const Coating& c, Double3 view, Double3 light)
 
 SkyResponse underSky(const Coating& c, const SceneLighting& lighting, Double3 view)
 {
-    const Double3 mirror = c.normal * (2 * dot(c.normal, view)) - view;
     const Albedo part = albedo(c, view);
-    return {part.diffuse * lighting.irradiance(c.normal),
-            part.specular * lighting.radiance(mirror, c.roughness)};
+    return {part.diffuse * lighting.irradiance(c.normal), part.specular * reflectedSky(c, lighting, view)};
 }
 
 double filmic(double radiance)

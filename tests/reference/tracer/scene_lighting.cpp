@@ -14,6 +14,8 @@ using namespace formats;
 namespace
 {
 
+constexpr double kPi = 3.14159265358979323846;
+
 double smooth(double from, double to, double x)
 {
     const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
@@ -85,6 +87,28 @@ void expose(const PackView& view, std::vector<SceneLight>& lights)
             light.intensity = light.intensity * (kKey / illuminance);
 }
 
+/// Mean radiance within an angle of an axis of this height, weighted by the cosine to the axis.
+template <typename Weight>
+Double3 integrateSky(const SceneLighting& lighting, double height, double cos_half_angle,
+                     const Weight& weight)
+{
+    constexpr int kRings = 32, kTurns = 24;
+    const double level = std::sqrt(std::max(0.0, 1 - height * height));
+    Double3 sum;
+    double weights = 0;
+    for (int ring = 0; ring < kRings; ++ring)
+    {
+        const double along = 1 - (1 - cos_half_angle) * (ring + 0.5) / kRings;
+        for (int turn = 0; turn < kTurns; ++turn)
+        {
+            const double across = std::sqrt(1 - along * along) * std::cos(kPi * (turn + 0.5) / kTurns);
+            sum += lighting.radiance({0, along * height + across * level, 0}) * weight(along);
+            weights += weight(along);
+        }
+    }
+    return sum / weights;
+}
+
 } // namespace
 
 Incident SceneLight::at(Double3 point) const
@@ -106,16 +130,20 @@ Incident SceneLight::at(Double3 point) const
     return {to_light, distance, intensity * attenuation};
 }
 
-Double3 SceneLighting::radiance(Double3 direction, double roughness) const
+Double3 SceneLighting::radiance(Double3 direction) const
 {
-    const double width = 0.12 + 0.88 * roughness;
-    const Double3 above = mixed(horizon, zenith, smooth(-roughness, 1, direction.y));
-    return mixed(ground, above, smooth(-width, width, direction.y));
+    const Double3 above = mixed(horizon, zenith, smooth(-0.2, 1, direction.y));
+    return mixed(ground, above, smooth(-0.296, 0.296, direction.y));
 }
 
 Double3 SceneLighting::irradiance(Double3 normal) const
 {
-    return mixed(ground, mixed(horizon, zenith, 0.5 + 0.3 * normal.y), 0.5 + 0.5 * normal.y);
+    return integrateSky(*this, normal.y, 0, [](double cosine) { return cosine; });
+}
+
+Double3 SceneLighting::coneRadiance(Double3 axis, double cos_half_angle) const
+{
+    return integrateSky(*this, axis.y, cos_half_angle, [](double) { return 1.0; });
 }
 
 SceneLighting readLighting(const PackView& view)
