@@ -182,8 +182,8 @@ private:
         for (uint32_t i = 0; i < kRays; ++i)
             open += scene_.occluded({start, reference::cosineDirection(normal, (i + 0.5) / kRays,
                                                                        std::fmod(i * 0.6180339887, 1.0))})
-                        ? 0
-                        : 1;
+                        ? 0u
+                        : 1u;
         return double{1} * open / kRays;
     }
 

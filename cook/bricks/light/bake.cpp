@@ -34,7 +34,7 @@ public:
           faces_(places_.size())
     {
         for (size_t face = 0; face < faces_.size(); ++face)
-            faces_[face] = encodeBrickLight(decodeRadiance(bricks_.emission[face]));
+            faces_[face] = encodeBrickLight(emission(face));
     }
 
     void sweep(uint32_t rays)
@@ -69,9 +69,11 @@ private:
                           (1.0f / static_cast<float>(rays));
         for (uint32_t i = 0; i < lighting_.light_count; ++i)
             irradiance += direct(start, surface, lighting_.lights[i]);
-        return brickOutgoingRadiance(decodeRadiance(bricks_.emission[face]),
-                                     decodeAlbedo(bricks_.albedo[face]), irradiance);
+        return brickOutgoingRadiance(emission(face), decodeAlbedo(bricks_.albedo[face]), irradiance);
     }
+
+    /// Return the emission of a face, after exposure.
+    Float3 emission(size_t face) const { return decodeRadiance(bricks_.emission[face]) * lighting_.exposure; }
 
     Float3 direct(const BrickStart& start, Float3 surface, const Light& light) const
     {

@@ -95,8 +95,9 @@ void FaceLighting::light(const Lighting& lighting, uint32_t rays, size_t first, 
         const Float3 surface = brickFaceSurface(x, y, z, side, decodeFaceDepth(bricks_.albedo[face]));
         for (uint32_t i = 0; i < lighting.light_count; ++i)
             irradiance += brickDirect(scene, start, surface, lighting.lights[i]);
-        next_[face] = encodeBrickLight(brickOutgoingRadiance(decodeRadiance(bricks_.emission[face]),
-                                                             decodeAlbedo(bricks_.albedo[face]), irradiance));
+        next_[face] =
+            encodeBrickLight(brickOutgoingRadiance(decodeRadiance(bricks_.emission[face]) * lighting.exposure,
+                                                   decodeAlbedo(bricks_.albedo[face]), irradiance));
     }
 }
 

@@ -127,7 +127,7 @@ struct Scene
     Image specular_table;                       ///< empty if the pack has none
     uint32_t specular_spacing = 0;              ///< shared::kSpecularSpacing* of the table
     std::vector<shared::Light> lights;          ///< lights that are drawn, as loaded
-    float exposure = 1;                         ///< of all lights
+    float exposure = 1;                         ///< of all lights and emission
     uint32_t dropped_lights = 0;                ///< lights of the pack beyond shared::kMaxLights
     Box3 bounds;                                ///< world space, empty if there is nothing to draw
 };

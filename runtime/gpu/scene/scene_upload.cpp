@@ -150,7 +150,7 @@ Status uploadTables(const formats::PackView& pack, const SceneLayout& layout, Up
 
     const shared::Lighting lighting = makeLighting(pack);
     scene.lights.assign(lighting.lights, lighting.lights + lighting.light_count);
-    scene.exposure = lightExposure(pack);
+    scene.exposure = lighting.exposure;
     scene.dropped_lights = static_cast<uint32_t>(pack.lights().size() -
                                                  std::min<size_t>(pack.lights().size(), shared::kMaxLights));
     return uploader.upload(b.lighting, std::as_bytes(std::span(&lighting, 1)));

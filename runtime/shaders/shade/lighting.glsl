@@ -68,7 +68,8 @@ vec3 lit(SurfacePoint point, SurfaceUvs uvs, vec3 base)
     float occlusion =
         mix(1.0, sampleSurface(uvs, kTextureOcclusion, occlusion_texture).r, material.occlusion_strength);
     radiance += surroundingLight(point, shading, occlusion);
-    return radiance + material.emissive * sampleSurface(uvs, kTextureEmissive, emissive_texture).rgb;
+    vec3 emission = material.emissive * sampleSurface(uvs, kTextureEmissive, emissive_texture).rgb;
+    return radiance + lighting.exposure * emission;
 }
 
 // Display-linear colour. Unlit colours are display colours: no light, no tone mapping.

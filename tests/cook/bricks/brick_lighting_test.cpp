@@ -75,6 +75,18 @@ TEST(BrickLight, doesNotDriftInHue)
     }
 }
 
+TEST(BrickLight, emissionFollowsTheExposure)
+{
+    const Room room({3, 3, 3}, makeVoxel({0, 0, 0}, {4, 8, 16}));
+    const BrickView view = makeBrickView(room.tables);
+    FaceLighting lighting(view);
+    Lighting dimmed = darkness();
+    dimmed.exposure = 0.25f;
+    lighting.sweep(dimmed, 4, 1);
+    for (const LitFace& position : room.inner)
+        EXPECT_NEAR(computeRadiance(lighting, position.face).y, 2, 0.01f);
+}
+
 // ---- leaks
 
 /// Rounding leaks no light either, for any position of sun and lamps, and for any normals of the surfaces.

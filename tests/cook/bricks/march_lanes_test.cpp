@@ -138,6 +138,7 @@ TEST(FaceLighting, gathersAsRaysDoOneByOne)
     const BrickView view{model.masks(), model.opacity,  model.albedo,
                          model.normals, model.emission, model.lighting};
     Lighting lighting{};
+    lighting.exposure = 1;
     lighting.sky_zenith = {1, 2, 3};
     lighting.sky_horizon = {3, 2, 1};
     const Sky sky{lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground};

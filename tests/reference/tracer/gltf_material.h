@@ -14,7 +14,7 @@ struct Coating
     Double3 base;
     double metallic, roughness;
     double occlusion;
-    Double3 emitted;
+    Double3 emitted; ///< after exposure
     Double3 normal;
 };
 

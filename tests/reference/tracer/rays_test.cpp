@@ -1,5 +1,6 @@
 // Tests the parts of the ray-traced reference against values that can be computed by hand.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/gpu_shared/shading.h"
 #include "tests/reference/tracer/embree_scene.h"
 #include "tests/reference/tracer/gltf_material.h"
 #include "tests/reference/tracer/reference_renderer.h"
@@ -292,6 +293,17 @@ TEST(RenderReference, showsTheRadianceOfAnEmissiveSurfaceInTheDark)
     EXPECT_NEAR(mean[0], srgbFromLinear(filmic(0.2)), 0.03);
     EXPECT_NEAR(mean[1], srgbFromLinear(filmic(0.5)), 0.02);
     EXPECT_NEAR(mean[2], srgbFromLinear(filmic(3)), 0.01);
+
+    // a sun from below, which lights nothing that is seen, of 100 times the key
+    LightRecord sun{};
+    sun.type = static_cast<uint32_t>(LightType::directional);
+    sun.color = {1, 1, 1};
+    sun.intensity = 100 * shared::kKeyIlluminance;
+    sun.world_from_light.m[1][1] = sun.world_from_light.m[2][2] = 0;
+    sun.world_from_light.m[1][2] = -1;
+    sun.world_from_light.m[2][1] = 1;
+    model.lights = {sun};
+    EXPECT_NEAR(meanFromAbove(model)[2], srgbFromLinear(filmic(0.03)), 0.03);
 }
 
 } // namespace

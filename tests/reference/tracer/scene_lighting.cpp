@@ -67,8 +67,8 @@ void sceneBox(const PackView& view, Double3& low, Double3& high)
 }
 
 /// Apply the exposure rule: if the lights give the middle of the scene more than the key, all are dimmed by
-/// one factor to the key.
-void expose(const PackView& view, std::vector<SceneLight>& lights)
+/// one factor to the key. Returns the factor.
+double expose(const PackView& view, std::vector<SceneLight>& lights)
 {
     Double3 low, high;
     sceneBox(view, low, high);
@@ -82,9 +82,10 @@ void expose(const PackView& view, std::vector<SceneLight>& lights)
         illuminance += light.type == LightType::directional ? luminance : luminance / (distance * distance);
     }
     constexpr double kKey = shared::kKeyIlluminance;
-    if (illuminance > kKey)
-        for (SceneLight& light : lights)
-            light.intensity = light.intensity * (kKey / illuminance);
+    const double exposure = illuminance > kKey ? kKey / illuminance : 1;
+    for (SceneLight& light : lights)
+        light.intensity = light.intensity * exposure;
+    return exposure;
 }
 
 /// Mean radiance within an angle of an axis of this height, weighted by the cosine to the axis.
@@ -149,7 +150,7 @@ Double3 SceneLighting::coneRadiance(Double3 axis, double cos_half_angle) const
 SceneLighting readLighting(const PackView& view)
 {
     SceneLighting lighting{
-        Double3(shared::kSkyZenith), Double3(shared::kSkyHorizon), Double3(shared::kSkyGround), {}};
+        Double3(shared::kSkyZenith), Double3(shared::kSkyHorizon), Double3(shared::kSkyGround), {}, 1};
     for (const LightRecord& record : view.lights())
         lighting.lights.push_back(makeLight(record));
     if (lighting.lights.empty())
@@ -161,7 +162,7 @@ SceneLighting readLighting(const PackView& view)
                                    1,
                                    0});
     else
-        expose(view, lighting.lights);
+        lighting.exposure = expose(view, lighting.lights);
     return lighting;
 }
 

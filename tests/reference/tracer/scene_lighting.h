@@ -33,6 +33,7 @@ struct SceneLighting
 {
     Double3 zenith, horizon, ground;
     std::vector<SceneLight> lights;
+    double exposure = 1; ///< of emission; the intensities of lights have it already
 
     /// Radiance of the sky from a direction.
     Double3 radiance(Double3 direction) const;
