@@ -84,8 +84,8 @@ public:
         const double twice = 2 * (view_x_ * x + view_z_) / (x * x + y * y + 1);
         return {twice * x - view_x_, twice * y, twice - view_z_};
     }
-    /// Return what turns an integral of weight() into a share of the light: pi cos(V) (1 + Lambda(V)), in a form
-    /// that stays finite at grazing views.
+    /// Return what turns an integral of weight() into a share of the light: pi cos(V) (1 + Lambda(V)), in a
+    /// form that stays finite at grazing views.
     double norm() const
     {
         const double stretched = std::sqrt(view_z_ * view_z_ + alpha_ * alpha_ * view_x_ * view_x_);

@@ -51,10 +51,11 @@ void computeOcclusions(const Lobe& lobe, const Double3& axis, std::span<const do
 /// A lobe as a whole.
 struct LobeMoments
 {
-    /// Share of constant light that is reflected after one scattering: f0 * scale + bias, with Schlick's Fresnel
-    /// term of a reflectance f0 at normal incidence.
+    /// Share of constant light that is reflected after one scattering: f0 * scale + bias, with Schlick's
+    /// Fresnel term of a reflectance f0 at normal incidence.
     double scale = 0, bias = 0;
-    /// Mean of the directions of light, without the Fresnel term: between N and R, shorter the wider the lobe.
+    /// Mean of the directions of light, without the Fresnel term: between N and R, shorter the wider the
+    /// lobe.
     Double3 mean{};
 };
 

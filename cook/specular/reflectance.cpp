@@ -15,7 +15,8 @@ namespace hearth::specular
 namespace
 {
 
-// Radians. The mean direction of a lobe seen along the normal is the normal, and its turn the limit of nearby views.
+// Radians. The mean direction of a lobe seen along the normal is the normal, and its turn the limit of nearby
+// views.
 constexpr double kMinTilt = 0.02;
 
 /// Return the share by which the mean direction is turned from R to N: it is (1 - turn) R + turn N.
@@ -26,9 +27,9 @@ double computeTurn(const Lobe& lobe, const Double3& mean)
     return std::clamp(from_normal / (from_normal + slope), 0.0, 1.0);
 }
 
-/// Return the cosine of the half-angle of the cone that represents a lobe. A cone with the lobe's mean direction has
-/// 2 |mean| - 1. Smooth lobes of GGX have a narrow core and long tails, so that they need a narrower one: the share
-/// has the least error under a sky with a horizon, over random views.
+/// Return the cosine of the half-angle of the cone that represents a lobe. A cone with the lobe's mean
+/// direction has 2 |mean| - 1. Smooth lobes of GGX have a narrow core and long tails, so that they need a
+/// narrower one: the share has the least error under a sky with a horizon, over random views.
 double computeCosHalfAngle(const Lobe& lobe, const Double3& mean)
 {
     const double share = 0.55 + 0.45 * lobe.roughness;

@@ -1,5 +1,5 @@
-// Cones from which a surface gets the light of the sky: open or through a visibility cone, for the diffuse part and
-// for a specular lobe. One source for C++ and GLSL.
+// Cones from which a surface gets the light of the sky: open or through a visibility cone, for the diffuse
+// part and for a specular lobe. One source for C++ and GLSL.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #ifndef HEARTH_SHARED_LIGHT_CONE_H
 #define HEARTH_SHARED_LIGHT_CONE_H
@@ -7,16 +7,17 @@
 #include "formats/gpu_shared/reflectance.h"
 #include "formats/gpu_shared/visibility_cone.h"
 
-// The diffuse part weighs visible directions by the cosine to the normal. A cone stands for them that has the same
-// mean of directions, and the same variance of heights. Occlusion (ambient_occlusion.h) says how much light arrives,
-// the cone from where: a wall on real ground sees the sky above the horizon, and half of the hemisphere about its
-// normal is ground.
+// The diffuse part weighs visible directions by the cosine to the normal. A cone stands for them that has the
+// same mean of directions, and the same variance of heights. Occlusion (ambient_occlusion.h) says how much
+// light arrives, the cone from where: a wall on real ground sees the sky above the horizon, and half of the
+// hemisphere about its normal is ground.
 //
-// Moments of visibility (visibility_cone.h) stand for directions within an angle of an axis that are also above the
-// surface's own horizon. Let c be the cosine of the half-angle that they give, k the cosine between axis and normal,
-// s its sine. Where s <= c the cone is clear of the horizon: mean and variances are closed forms. Where s > c the
-// horizon cuts it, and corrections with the factor s - c apply, fitted to cones of all angles and widths: means
-// within .017, variances within .008; for two planes that meet, a floor and a wall, within .004.
+// Moments of visibility (visibility_cone.h) stand for directions within an angle of an axis that are also
+// above the surface's own horizon. Let c be the cosine of the half-angle that they give, k the cosine between
+// axis and normal, s its sine. Where s <= c the cone is clear of the horizon: mean and variances are closed
+// forms. Where s > c the horizon cuts it, and corrections with the factor s - c apply, fitted to cones of all
+// angles and widths: means within .017, variances within .008; for two planes that meet, a floor and a wall,
+// within .004.
 
 HEARTH_SHARED_BEGIN
 
@@ -25,7 +26,8 @@ using std::cos;
 using std::sin;
 #endif
 
-/// Cone with uniform weight. The axis is as long as the mean of the directions it stands for demands, about 1.
+/// Cone with uniform weight. The axis is as long as the mean of the directions it stands for demands, about
+/// 1.
 struct LightCone
 {
     Float3 axis;
@@ -66,7 +68,8 @@ HEARTH_FUNCTION LightCone visibleCosineCone(HEARTH_IN(VisibilityCone) visible, F
     float across = 0.25f * (1.0f - c * c);
     float up = spread + c * k + cut * (-0.0523f - 0.2714f * cut + 0.6874f * k + 0.2863f * c);
     float aside = c * s + cut * (0.0451f + 0.836f * cut - 0.0504f * k + 0.4513f * c);
-    // variances across the mean: in the plane of normal and axis, and along the edge, perpendicular to the plane
+    // variances across the mean: in the plane of normal and axis, and along the edge, perpendicular to the
+    // plane
     float in_plane =
         across - spread * spread * s * s + cut * (0.0498f - 0.3916f * cut - 0.023f * k - 0.4807f * c);
     float along_edge = across + cut * (0.0143f + 0.1971f * cut + 0.0069f * k + 0.1606f * c);
@@ -79,7 +82,8 @@ HEARTH_FUNCTION LightCone visibleCosineCone(HEARTH_IN(VisibilityCone) visible, F
     float plane_share = max(1.0f - edge_share - mean.y * mean.y / max(dot(mean, mean), 1e-6f), 0.0f);
     float variance = (max(in_plane, 0.0f) * plane_share + along_edge * edge_share + 1e-4f * across) /
                      (plane_share + edge_share + 1e-4f);
-    // heights of a cut cone end abruptly at its cut, where those of a cone thin out: a narrower cone is nearer
+    // heights of a cut cone end abruptly at its cut, where those of a cone thin out: a narrower cone is
+    // nearer
     return coneOfMoments(mean, variance * (1.0f - 0.5f * cut));
 }
 
@@ -93,8 +97,8 @@ HEARTH_FUNCTION LightCone lobeCone(HEARTH_IN(LobeTotal) lobe, Float3 mirror, Flo
     return cone;
 }
 
-/// Return the part of a lobe's cone inside of a visibility cone: from the nearer ends of both to the farther ends,
-/// along the arc between their axes. Apart from each other, a direction between both.
+/// Return the part of a lobe's cone inside of a visibility cone: from the nearer ends of both to the farther
+/// ends, along the arc between their axes. Apart from each other, a direction between both.
 HEARTH_FUNCTION LightCone visibleLobeCone(HEARTH_IN(LightCone) lobe, HEARTH_IN(VisibilityCone) visible)
 {
     float cosine = min(max(dot(lobe.axis, visible.axis), -1.0f), 1.0f);

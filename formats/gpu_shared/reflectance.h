@@ -1,5 +1,5 @@
-// Reflection of constant light by a GGX surface (directional albedo), with the light that microfacets scatter several
-// times, and the cone that a lobe sees. One source for C++ and GLSL.
+// Reflection of constant light by a GGX surface (directional albedo), with the light that microfacets scatter
+// several times, and the cone that a lobe sees. One source for C++ and GLSL.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #ifndef HEARTH_SHARED_REFLECTANCE_H
 #define HEARTH_SHARED_REFLECTANCE_H
@@ -7,17 +7,17 @@
 #include "formats/gpu_shared/language.h"
 
 // A lobe of height-correlated masking reflects f0 * scale + bias after one scattering, with Schlick's Fresnel
-// term (B. Karis, "Real shading in Unreal Engine 4", 2013). A table has both for 64 cosines and 32 roughnesses.
-// They change most where cosine and GGX alpha are near 0; roots put the nodes there. Between nodes both are within
-// .005 of the integral (tests/formats/reflectance_test.cpp).
+// term (B. Karis, "Real shading in Unreal Engine 4", 2013). A table has both for 64 cosines and 32
+// roughnesses. They change most where cosine and GGX alpha are near 0; roots put the nodes there. Between
+// nodes both are within .005 of the integral (tests/formats/reflectance_test.cpp).
 //
-// One scattering loses light: 69 % at roughness 1 and normal incidence. E. Turquin, "Practical multiple scattering
-// compensation for microfacet models", 2019, scales a lobe by 1 + f0 (1 / E - 1), with E the reflectance of
-// f0 = 1: a white metal reflects all light. The diffuse part gets what the specular part of the dielectric leaves, so
-// that a white dielectric, and each mixture of both, reflects all light, too.
+// One scattering loses light: 69 % at roughness 1 and normal incidence. E. Turquin, "Practical multiple
+// scattering compensation for microfacet models", 2019, scales a lobe by 1 + f0 (1 / E - 1), with E the
+// reflectance of f0 = 1: a white metal reflects all light. The diffuse part gets what the specular part of
+// the dielectric leaves, so that a white dielectric, and each mixture of both, reflects all light, too.
 //
-// The table also has the cone from which a lobe gets its light: how far its mean direction is turned from the mirror
-// direction to the normal, and the cosine of the half-angle.
+// The table also has the cone from which a lobe gets its light: how far its mean direction is turned from the
+// mirror direction to the normal, and the cosine of the half-angle.
 
 HEARTH_SHARED_BEGIN
 
@@ -40,8 +40,8 @@ struct LobeTotal
     float cos_half_angle; ///< [0, 1]
 };
 
-/// Return the coordinates of a lookup, each in [0, 1], the first node at 0, the last at 1: x is the cosine, y the
-/// roughness.
+/// Return the coordinates of a lookup, each in [0, 1], the first node at 0, the last at 1: x is the cosine, y
+/// the roughness.
 /// roughness  perceptual
 /// n_dot_v    cosine between normal and view, [0, 1]
 HEARTH_FUNCTION Float2 reflectanceCoordinates(float roughness, float n_dot_v)

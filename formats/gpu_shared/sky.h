@@ -8,9 +8,9 @@
 
 // The radiance depends on the height of the direction alone, the sine of its elevation. It is
 //     ground + (horizon - ground) above + (zenith - horizon) above high,
-// and the table has the means of both products over cones (formats/scene/sky_table.h). Everything that the sky
-// lights reads one of two functions, skyRadiance here or skyConeRadiance of sky.glsl: a sky from an image would
-// replace these two, with prefiltered images in place of the table.
+// and the table has the means of both products over cones (formats/scene/sky_table.h). Everything that the
+// sky lights reads one of two functions, skyRadiance here or skyConeRadiance of sky.glsl: a sky from an image
+// would replace these two, with prefiltered images in place of the table.
 
 HEARTH_SHARED_BEGIN
 

@@ -42,8 +42,8 @@ std::vector<Step> denseAbout(double peak, double end, int steps)
     return found;
 }
 
-/// Integrate GGX with height-correlated Smith masking and Schlick's Fresnel term over light above the horizon, by
-/// the angles to the normal and about it.
+/// Integrate GGX with height-correlated Smith masking and Schlick's Fresnel term over light above the
+/// horizon, by the angles to the normal and about it.
 Sums integrate(double roughness, double cosine)
 {
     const double pi = std::numbers::pi, alpha2 = std::pow(roughness, 4);

@@ -77,8 +77,8 @@ Float3 randomDirection(std::mt19937& random)
     return normalize(Float3{number(random), number(random), number(random)});
 }
 
-/// Visibility cone of what a surface sees, as a cooker bakes it: from the moments of the visible directions above the
-/// horizon of the surface.
+/// Visibility cone of what a surface sees, as a cooker bakes it: from the moments of the visible directions
+/// above the horizon of the surface.
 VisibilityCone bake(Float3 normal, const std::function<bool(Float3)>& sees)
 {
     Double3 m1{0, 0, 0};

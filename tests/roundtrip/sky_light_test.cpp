@@ -1,5 +1,5 @@
-// Tests the sky's light that `hearth cook --visibility` lets arrive against rays of tests/reference: on walls that
-// stand on real ground, and below unlit domes, which let it through.
+// Tests the sky's light that `hearth cook --visibility` lets arrive against rays of tests/reference: on walls
+// that stand on real ground, and below unlit domes, which let it through.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/ambient_occlusion.h"
 #include "formats/scene/scene_lighting.h"

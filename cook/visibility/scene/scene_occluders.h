@@ -23,8 +23,8 @@ public:
     /// errors: those of readAlpha; meaning_reference for a missing image
     Result<std::shared_ptr<const AlphaMask>> find(uint32_t material);
 
-    /// Return whether a material blocks rays, outside of its mask. Blended surfaces dim light, but let it through;
-    /// unlit ones are skies (formats/scene/lit_material.h).
+    /// Return whether a material blocks rays, outside of its mask. Blended surfaces dim light, but let it
+    /// through; unlit ones are skies (formats/scene/lit_material.h).
     bool occludes(uint32_t material) const;
 
 private:

@@ -164,8 +164,8 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
 Status uploadMaterials(const Device& device, const DrawLayouts& layouts, const formats::PackView& pack,
                        Uploader& uploader, Scene& scene);
 
-/// Upload the tables that shading samples: specular reflectance, the sky, and specular occlusion of packs that have it.
-/// Needs scene.draw_set.
+/// Upload the tables that shading samples: specular reflectance, the sky, and specular occlusion of packs
+/// that have it. Needs scene.draw_set.
 Status uploadShadingTables(const Device& device, const formats::PackView& pack, Uploader& uploader,
                            Scene& scene);
 

@@ -1,6 +1,7 @@
-// The metallic-roughness BRDF of glTF 2.0, appendix B, with energy compensation: the lobe of several scatterings,
-// and a diffuse part that gets the light the specular part leaves (formats/gpu_shared/reflectance.h).
-// GGX: B. Walter et al., 2007; height-correlated Smith: E. Heitz, 2014; Fresnel: C. Schlick, 1994.
+// The metallic-roughness BRDF of glTF 2.0, appendix B, with energy compensation: the lobe of several
+// scatterings, and a diffuse part that gets the light the specular part leaves
+// (formats/gpu_shared/reflectance.h). GGX: B. Walter et al., 2007; height-correlated Smith: E. Heitz, 2014;
+// Fresnel: C. Schlick, 1994.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/bindings.h"
 #include "formats/gpu_shared/reflectance.h"

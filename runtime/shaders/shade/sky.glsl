@@ -1,5 +1,5 @@
-// The sky that lights every scene (formats/gpu_shared/sky.h). Needs the lighting block, which holds the radiances;
-// the including file includes it before.
+// The sky that lights every scene (formats/gpu_shared/sky.h). Needs the lighting block, which holds the
+// radiances; the including file includes it before.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/bindings.h"
 #include "formats/gpu_shared/light_cone.h"

@@ -11,8 +11,8 @@ vec3 surroundingLight(SurfacePoint point, Shading shading, float occlusion)
     float specular_share = occlusion;
     if (kSkyVisibility)
     {
-        // The smaller share counts. An occlusion texture is usually baked from the same shape and would occlude the
-        // sky twice. The texture is smaller only where it has detail that the mesh lacks.
+        // The smaller share counts. An occlusion texture is usually baked from the same shape and would
+        // occlude the sky twice. The texture is smaller only where it has detail that the mesh lacks.
         SkyView sky = skyView(point, shading.normal);
         diffuse_share = min(occlusion, diffuseSky(sky));
         specular_share = min(occlusion, specularSky(sky, shading.roughness, shading.n_dot_v, mirror));

@@ -35,9 +35,9 @@ struct SplitSum
     double scale, bias;
 };
 
-/// Call visit(light, half, weight) for directions that a lobe reflects to a view, by visible normals (E. Heitz,
-/// "Sampling the GGX distribution of visible normals", 2018). The weights add up to the reflectance of one
-/// scattering without Fresnel. Frame of the surface's normal, which is z; the view has y = 0.
+/// Call visit(light, half, weight) for directions that a lobe reflects to a view, by visible normals (E.
+/// Heitz, "Sampling the GGX distribution of visible normals", 2018). The weights add up to the reflectance of
+/// one scattering without Fresnel. Frame of the surface's normal, which is z; the view has y = 0.
 /// turns  of a whole circle, or of the half at y > 0, which has the same weights
 template <typename Visit>
 void visitLobe(double roughness, double nv, int radii, int turns, double circle, const Visit& visit)

@@ -1,5 +1,5 @@
-// Evaluates the metallic-roughness material of glTF 2.0, appendix B, with energy compensation, its sky light, and
-// the tone curve.
+// Evaluates the metallic-roughness material of glTF 2.0, appendix B, with energy compensation, its sky light,
+// and the tone curve.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -23,8 +23,8 @@ struct Albedo
 {
     Double3 diffuse, specular;
 };
-/// Integrate the lobe of appendix B.3 numerically, scaled for several scatterings (E. Turquin, "Practical multiple
-/// scattering compensation for microfacet models", 2019); the diffuse lobe gets what is left.
+/// Integrate the lobe of appendix B.3 numerically, scaled for several scatterings (E. Turquin, "Practical
+/// multiple scattering compensation for microfacet models", 2019); the diffuse lobe gets what is left.
 Albedo albedo(const Coating& coating, Double3 view);
 
 /// BRDF: the lobe of appendix B.3 (GGX, height-correlated Smith, Schlick) scaled for several scatterings, and
@@ -32,8 +32,8 @@ Albedo albedo(const Coating& coating, Double3 view);
 /// `view` and `light` are unit and point away from the surface.
 Double3 reflected(const Coating& coating, Double3 view, Double3 light);
 
-/// Light that a surface under the open sky reflects, by lobe: both albedos times the means of the sky's radiance over
-/// the lobes. Without the coating's occlusion.
+/// Light that a surface under the open sky reflects, by lobe: both albedos times the means of the sky's
+/// radiance over the lobes. Without the coating's occlusion.
 struct SkyResponse
 {
     Double3 diffuse, specular;

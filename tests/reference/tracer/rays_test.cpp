@@ -58,8 +58,8 @@ std::vector<std::array<double, 2>> denseAbout(double peak, double end)
     return found;
 }
 
-/// Integrate the light that arrives from everywhere alike and is reflected to `view`, by the angles to the normal
-/// (0, 1, 0) and about it, in steps that are narrow about the mirror direction.
+/// Integrate the light that arrives from everywhere alike and is reflected to `view`, by the angles to the
+/// normal (0, 1, 0) and about it, in steps that are narrow about the mirror direction.
 Double3 integrateReflected(const Coating& c, double elevation, double azimuth)
 {
     Double3 sum;
@@ -102,8 +102,8 @@ TEST(Reflected, isWhatItsAlbedosSay)
 TEST(Reflected, isLambertsLawForARoughDielectricSeenFromAbove)
 {
     const Coating c = makeCoating(1, 0);
-    // Straight up and down the Fresnel term is 0.04 and the lobe 0.04 / (4 pi). Under constant light the lobe of
-    // one scattering reflects 1 - log(2) times the Fresnel term, which is 0.04 near the normal.
+    // Straight up and down the Fresnel term is 0.04 and the lobe 0.04 / (4 pi). Under constant light the lobe
+    // of one scattering reflects 1 - log(2) times the Fresnel term, which is 0.04 near the normal.
     const double once = 1 - std::log(2.0), several = 1 + 0.04 * (1 / once - 1);
     EXPECT_NEAR(reflected(c, {0, 1, 0}, {0, 1, 0}).x,
                 (1 - 0.04 * once * several) * 0.8 / kPi + several * 0.04 / (4 * kPi), 1e-4);

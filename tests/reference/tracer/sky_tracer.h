@@ -5,11 +5,12 @@
 
 #include "tests/reference/tracer/shaded_scene.h"
 
-// Rays measure the part of the sky's light that arrives, for each channel and for both lobes by the material's own
-// distribution,
+// Rays measure the part of the sky's light that arrives, for each channel and for both lobes by the
+// material's own distribution,
 //     diffuse    irradiance(n) * int V L cos / int L cos
 //     specular   mean(lobe)    * int V L D G2 / int L D G2,
-// with L the sky's radiance. The first factors are integrals without rays, so that an open surface has no noise.
+// with L the sky's radiance. The first factors are integrals without rays, so that an open surface has no
+// noise.
 
 namespace hearth::reference
 {

@@ -174,8 +174,8 @@ protected:
                     wrong_ += difference > 1 ? 1 : 0;
                 }
             }
-        // At grazing views the reflectance of smooth surfaces rises so steeply with the cosine that the rounding of
-        // interpolated normals shows in a few of a hundred thousand pixels.
+        // At grazing views the reflectance of smooth surfaces rises so steeply with the cosine that the
+        // rounding of interpolated normals shows in a few of a hundred thousand pixels.
         EXPECT_LE(wrong_, compared_ / 50000) << "of " << compared_ << " pixels";
         EXPECT_LE(largest_, 2);
     }
