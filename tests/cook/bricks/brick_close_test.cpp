@@ -29,7 +29,9 @@ float lightAt(const BrickTables& tables, Float3 position, Sky sky = {})
 {
     const BrickView view = makeBrickView(tables);
     FaceLighting lighting(view);
-    lighting.sweep({}, 1, 1);
+    Lighting dark{};
+    dark.exposure = 1;
+    lighting.sweep(dark, 1, 1);
     const BrickStart start =
         brickVisibleStart(lighting.scene(), position, {0, 0, 1}, normalizeOr({0, -0.2f, 1}, {0, 0, 1}));
     EXPECT_EQ(start.is_interior, 0u);

@@ -106,8 +106,8 @@ protected:
 };
 
 /// Mean light of all rays of a lobe at the point of a tile.
-Float3 gatherLobe(const BrickScene& scene, const Sky& sky, const BrickStart& start,
-                  const GatherPoint& point, float roughness)
+Float3 gatherLobe(const BrickScene& scene, const Sky& sky, const BrickStart& start, const GatherPoint& point,
+                  float roughness)
 {
     constexpr uint32_t kRays = kGatherLobeRays * kGatherFrames;
     const Float3 to_eye = point.position * (-1 / length(point.position));
