@@ -73,6 +73,24 @@ public:
     }
 
     double alpha() const { return alpha_; }
+    /// Return Schlick's Fresnel term without f0 at a slope: (1 - V.h)^5.
+    double schlick(double x, double y) const
+    {
+        return std::pow(std::max(1 - (view_x_ * x + view_z_) / std::sqrt(x * x + y * y + 1), 0.0), 5);
+    }
+    /// Return the direction of light that a slope reflects to the view.
+    Double3 light(double x, double y) const
+    {
+        const double twice = 2 * (view_x_ * x + view_z_) / (x * x + y * y + 1);
+        return {twice * x - view_x_, twice * y, twice - view_z_};
+    }
+    /// Return what turns an integral of weight() into a share of the light: pi cos(V) (1 + Lambda(V)), in a
+    /// form that stays finite at grazing views.
+    double norm() const
+    {
+        const double stretched = std::sqrt(view_z_ * view_z_ + alpha_ * alpha_ * view_x_ * view_x_);
+        return std::numbers::pi * 0.5 * (view_z_ + stretched);
+    }
     double viewX() const { return view_x_; }
     double viewZ() const { return view_z_; }
 
@@ -168,8 +186,19 @@ public:
 
     double total() const
     {
+        return total([&](double x, double y) { return lobe_.weight(x, y); });
+    }
+
+    template <typename Weight>
+    double total(const Weight& weight) const
+    {
         const double end = slopeAngle(1 / lobe_.viewZ());
-        return 2 * piece(0, end, [&](double y) { return Intervals{lobe_.aboveHorizon(y), Interval{0, 0}}; });
+        return 2 * piece(
+                       0, end,
+                       [&](double y) {
+                           return Intervals{lobe_.aboveHorizon(y), Interval{0, 0}};
+                       },
+                       weight);
     }
 
     double inside(const SlopeCone& cone, bool symmetric) const
@@ -191,7 +220,8 @@ public:
         };
         double sum = 0;
         for (size_t i = 0; i + 1 < ends.size(); ++i)
-            sum += piece(ends[i], ends[i + 1], intervalsAt);
+            sum += piece(ends[i], ends[i + 1], intervalsAt,
+                         [&](double x, double y) { return lobe_.weight(x, y); });
         return symmetric ? 2 * sum : sum;
     }
 
@@ -200,8 +230,8 @@ private:
 
     /// Integrate over tau in [low, high]. Intervals that appear or vanish at its ends do so as square roots:
     /// substituting a sine, with its flat ends, makes them smooth.
-    template <typename IntervalsAt>
-    double piece(double low, double high, const IntervalsAt& intervalsAt) const
+    template <typename IntervalsAt, typename Weight>
+    double piece(double low, double high, const IntervalsAt& intervalsAt, const Weight& weight) const
     {
         const double middle = (low + high) / 2;
         const double half = (high - low) / 2;
@@ -215,13 +245,15 @@ private:
             double row = 0;
             for (const Interval& interval : intervalsAt(y))
                 if (interval.low < interval.high)
-                    row += along(std::atan(interval.low / scale), std::atan(interval.high / scale), scale, y);
+                    row += along(std::atan(interval.low / scale), std::atan(interval.high / scale),
+                                 [&](double tangent) { return weight(scale * tangent, y); });
             sum += point.weight * std::numbers::pi / 2 * std::cos(angle) * std::cos(tau) * row;
         }
         return half * sum;
     }
 
-    double along(double low, double high, double scale, double y) const
+    template <typename Weight>
+    double along(double low, double high, const Weight& weight) const
     {
         const double middle = (low + high) / 2;
         const double half = (high - low) / 2;
@@ -229,7 +261,7 @@ private:
         for (const QuadraturePoint& point : inner_)
         {
             const double tangent = std::tan(middle + half * point.at);
-            sum += point.weight * lobe_.weight(scale * tangent, y) / (1 + tangent * tangent);
+            sum += point.weight * weight(tangent) / (1 + tangent * tangent);
         }
         return half * sum;
     }
@@ -260,6 +292,19 @@ double computeOcclusion(const Lobe& lobe, const Cone& cone, QuadratureOrder orde
     double share = 0;
     computeOcclusions(lobe, cone.axis, {&cone.half_angle, 1}, {&share, 1}, order);
     return share;
+}
+
+LobeMoments computeMoments(const Lobe& lobe, QuadratureOrder order)
+{
+    const SlopeLobe slopes(lobe);
+    const Quadrature quadrature(slopes, order);
+    const auto integrate = [&](auto&& factor)
+    { return quadrature.total([&](double x, double y) { return slopes.weight(x, y) * factor(x, y); }); };
+    const double all = quadrature.total();
+    const double bias = integrate([&](double x, double y) { return slopes.schlick(x, y); });
+    const double along = integrate([&](double x, double y) { return slopes.light(x, y).x; });
+    const double up = integrate([&](double x, double y) { return slopes.light(x, y).z; });
+    return {(all - bias) / slopes.norm(), bias / slopes.norm(), {along / all, 0, up / all}};
 }
 
 } // namespace hearth::specular

@@ -48,4 +48,18 @@ double computeOcclusion(const Lobe& lobe, const Cone& cone, QuadratureOrder orde
 void computeOcclusions(const Lobe& lobe, const Double3& axis, std::span<const double> half_angles,
                        std::span<double> out, QuadratureOrder order = {});
 
+/// A lobe as a whole.
+struct LobeMoments
+{
+    /// Share of constant light that is reflected after one scattering: f0 * scale + bias, with Schlick's
+    /// Fresnel term of a reflectance f0 at normal incidence.
+    double scale = 0, bias = 0;
+    /// Mean of the directions of light, without the Fresnel term: between N and R, shorter the wider the
+    /// lobe.
+    Double3 mean{};
+};
+
+/// Integrate over all directions above the horizon.
+LobeMoments computeMoments(const Lobe& lobe, QuadratureOrder order = {});
+
 } // namespace hearth::specular

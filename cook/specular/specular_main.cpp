@@ -4,6 +4,7 @@
 #include "cook/command_line/thread_limit.h"
 #include "cook/specular/astc.h"
 #include "cook/specular/fit.h"
+#include "cook/specular/reflectance.h"
 #include "cook/specular/report.h"
 #include "cook/specular/rows.h"
 #include "formats/base/atomic_file.h"
@@ -26,6 +27,7 @@ struct Arguments
     std::string rows;
     std::string report;
     std::string astc;
+    std::string reflectance;
     uint32_t astc_block = 6;
     bool fit = false;
     TableSettings settings;
@@ -92,7 +94,9 @@ int run(const Arguments& arguments)
     const cli::ThreadLimit limit(arguments.jobs);
     const Status done = !arguments.rows.empty() ? evaluate(arguments)
                         : arguments.fit         ? printFit(arguments)
-                                                : cook(arguments);
+                        : !arguments.reflectance.empty()
+                            ? writeText(arguments.reflectance, formatReflectance(cookReflectance()))
+                            : cook(arguments);
     return done.ok() ? 0 : reportFailure(done.error());
 }
 
@@ -108,8 +112,8 @@ std::string findOptionError(const Arguments& arguments)
     if (!arguments.astc.empty() && (!arguments.rows.empty() || arguments.fit))
         return "--astc goes with neither --evaluate nor --fit";
     if (arguments.rows.empty() && !arguments.fit && arguments.output.empty() && arguments.report.empty() &&
-        arguments.astc.empty())
-        return "-o, --astc, --report or --fit is needed";
+        arguments.astc.empty() && arguments.reflectance.empty())
+        return "-o, --astc, --report, --fit or --reflectance is needed";
     return {};
 }
 
@@ -139,6 +143,9 @@ void addOptions(cli::CommandLine& app, Arguments& arguments)
     app.addOption(
         "--evaluate", arguments.rows,
         "CSV file of aperture_rad,roughness,theta_o_rad,axis_x,axis_y,axis_z: write table,fit for each row");
+    app.addOption(
+        "--reflectance", arguments.reflectance,
+        "write the table of specular reflectance as the header of formats/scene; - is standard output");
     app.addFlag("--fit", arguments.fit, "find the constants of the fit again and print them");
     app.addOption("--configurations", arguments.configurations,
                   "random ones, for --report and --fit; 1000 by default")

@@ -27,6 +27,8 @@ HEARTH_CONSTANT uint kSceneLighting = 8;
 HEARTH_CONSTANT uint kSceneShadows = 9; ///< scenes with shadows only; so is the next one
 HEARTH_CONSTANT uint kSceneShadowMaps = 10;
 HEARTH_CONSTANT uint kSceneSpecularTable = 11; ///< one white texel in scenes without a table
+HEARTH_CONSTANT uint kSceneReflectance = 12;   ///< table of reflectance.h
+HEARTH_CONSTANT uint kSceneSkyTable = 13;      ///< table of sky.h
 
 /// Bindings of a material.
 HEARTH_CONSTANT uint kMaterialBlock = 0;

@@ -242,7 +242,7 @@ HEARTH_FUNCTION BrickStart brickVisibleStart(HEARTH_IN(BrickScene) scene, Float3
 
 /// Return the mean radiance along cosine-distributed rays from a start: irradiance over pi of all light
 /// except lamps and suns.
-HEARTH_FUNCTION Float3 brickGather(HEARTH_IN(BrickScene) scene, HEARTH_IN(BrickSky) sky,
+HEARTH_FUNCTION Float3 brickGather(HEARTH_IN(BrickScene) scene, HEARTH_IN(Sky) sky,
                                    HEARTH_IN(BrickStart) start, uint count, uint seed)
 {
     Float3 sum = Float3(0.0f, 0.0f, 0.0f);

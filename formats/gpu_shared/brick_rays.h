@@ -10,6 +10,7 @@
 
 #include "formats/gpu_shared/brick_codes.h"
 #include "formats/gpu_shared/brick_march.h"
+#include "formats/gpu_shared/sky.h"
 
 HEARTH_SHARED_BEGIN
 
@@ -192,28 +193,6 @@ BrickGrid brickSceneMasks(BrickGrid grid)
 }
 #endif
 
-/// Radiance of the sky, as in shared::Lighting.
-struct BrickSky
-{
-    Float3 zenith;
-    Float3 horizon;
-    Float3 ground;
-};
-
-HEARTH_FUNCTION float brickSmoothstep(float from, float to, float x)
-{
-    float t = min(max((x - from) / (to - from), 0.0f), 1.0f);
-    return t * t * (3.0f - 2.0f * t);
-}
-
-/// Return the sky gradient whose cosine-weighted mean is skyIrradiance of sky.glsl: skyRadiance at roughness
-/// 0.2.
-HEARTH_FUNCTION Float3 brickSkyRadiance(HEARTH_IN(BrickSky) sky, Float3 direction)
-{
-    Float3 above = sky.horizon + (sky.zenith - sky.horizon) * brickSmoothstep(-0.2f, 1.0f, direction.y);
-    return sky.ground + (above - sky.ground) * brickSmoothstep(-0.296f, 0.296f, direction.y);
-}
-
 struct BrickRayLight
 {
     Float3 radiance;
@@ -223,8 +202,7 @@ struct BrickRayLight
 /// Return the light along a ray: the radiance of the faces that it meets, weighted by the opacity of their
 /// voxels, and behind them the sky's.
 /// ray  in its first solid voxel, as brickMarch finds it
-HEARTH_FUNCTION BrickRayLight traceBrickLight(HEARTH_IN(BrickScene) scene, HEARTH_IN(BrickSky) sky,
-                                              BrickRay ray)
+HEARTH_FUNCTION BrickRayLight traceBrickLight(HEARTH_IN(BrickScene) scene, HEARTH_IN(Sky) sky, BrickRay ray)
 {
     BrickRayLight light;
     light.radiance = Float3(0.0f, 0.0f, 0.0f);
@@ -242,7 +220,7 @@ HEARTH_FUNCTION BrickRayLight traceBrickLight(HEARTH_IN(BrickScene) scene, HEART
             return light;
         ray = brickMarch(brickSceneMasks(scene), brickSkipVoxel(brickSceneMasks(scene), ray));
     }
-    light.radiance = light.radiance + brickSkyRadiance(sky, ray.direction) * through;
+    light.radiance = light.radiance + skyRadiance(sky, ray.direction) * through;
     light.sky = through;
     return light;
 }
@@ -250,8 +228,8 @@ HEARTH_FUNCTION BrickRayLight traceBrickLight(HEARTH_IN(BrickScene) scene, HEART
 /// Return the light along a ray from a position.
 /// position      in voxels
 /// direction  unit
-HEARTH_FUNCTION BrickRayLight brickRayLight(HEARTH_IN(BrickScene) scene, HEARTH_IN(BrickSky) sky,
-                                            Float3 position, Float3 direction)
+HEARTH_FUNCTION BrickRayLight brickRayLight(HEARTH_IN(BrickScene) scene, HEARTH_IN(Sky) sky, Float3 position,
+                                            Float3 direction)
 {
     return traceBrickLight(
         scene, sky,

@@ -55,7 +55,7 @@ struct Lighting
     Float3 sky_zenith; ///< radiance
     uint light_count;
     Float3 sky_horizon;
-    float reserved0;
+    float exposure; ///< of emission; the intensities of lights have it already
     Float3 sky_ground;
     float reserved1;
     Light lights[kMaxLights];
@@ -70,8 +70,8 @@ HEARTH_CONSTANT Float3 kSkyGround = Float3(0.14f, 0.132f, 0.125f);
 HEARTH_CONSTANT Float3 kSunIlluminance = Float3(2.3f, 2.16f, 1.98f); ///< lux after exposure
 HEARTH_CONSTANT Float3 kSunDirection = Float3(0.5f, -0.8f, -0.6f);   ///< direction of its rays; any length
 
-/// Exposure rule: if the lights give the middle of the scene more than this, in lux, all are dimmed by one
-/// factor to reach it.
+/// Exposure rule: if the lights give the middle of the scene more than this, in lux, lights and emission are
+/// dimmed by one factor to reach it (formats/scene/scene_lighting.h).
 HEARTH_CONSTANT float kKeyIlluminance = 2.2f;
 
 /// Method of specular occlusion of the sky. The numbers are the values of the setting.

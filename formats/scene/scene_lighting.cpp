@@ -77,9 +77,9 @@ Lighting sceneLighting(std::span<const formats::LightRecord> lights, const Box3&
         lighting.lights[lighting.light_count++] = lightFromRecord(record);
     if (lighting.light_count == 0)
         lighting.lights[lighting.light_count++] = defaultSun();
-    const float exposure = lightExposure(lights, bounds);
+    lighting.exposure = lightExposure(lights, bounds);
     for (uint32_t i = 0; i < lighting.light_count; ++i)
-        lighting.lights[i].intensity = lighting.lights[i].intensity * exposure;
+        lighting.lights[i].intensity = lighting.lights[i].intensity * lighting.exposure;
     return lighting;
 }
 

@@ -34,7 +34,7 @@ public:
           faces_(places_.size())
     {
         for (size_t face = 0; face < faces_.size(); ++face)
-            faces_[face] = encodeBrickLight(decodeRadiance(bricks_.emission[face]));
+            faces_[face] = encodeBrickLight(emission(face));
     }
 
     void sweep(uint32_t rays)
@@ -72,9 +72,11 @@ private:
         }
         for (uint32_t i = 0; i < lighting_.light_count; ++i)
             irradiance += direct(start, lighting_.lights[i]);
-        return brickOutgoingRadiance(decodeRadiance(bricks_.emission[face]),
-                                     decodeAlbedo(bricks_.albedo[face]), irradiance);
+        return brickOutgoingRadiance(emission(face), decodeAlbedo(bricks_.albedo[face]), irradiance);
     }
+
+    /// Return the emission of a face, after exposure.
+    Float3 emission(size_t face) const { return decodeRadiance(bricks_.emission[face]) * lighting_.exposure; }
 
     Float3 direct(const BrickStart& start, const Light& light) const
     {
@@ -91,7 +93,7 @@ private:
     Float3 radianceAlong(Float3 position, Float3 direction) const
     {
         const std::optional<RayScene::Hit> hit = rays_.nearest(position, direction);
-        const Float3 radiance = hit ? hitRadiance(*hit) : brickSkyRadiance(sky_, direction);
+        const Float3 radiance = hit ? hitRadiance(*hit) : skyRadiance(sky_, direction);
         if (!rays_.hasHoles())
             return radiance;
         const float far = hit ? length(hit->position - position) : kBrickInfinity;
@@ -190,7 +192,7 @@ private:
     const RayScene& rays_;
     BrickView bricks_;
     const Lighting& lighting_;
-    BrickSky sky_;
+    Sky sky_;
     std::vector<FaceLocation> places_;
     std::vector<BrickLight> faces_;
 };

@@ -87,7 +87,7 @@ void FaceLighting::light(const Lighting& lighting, uint32_t rays, size_t first, 
         }
     }
     marchRays(table_, marched);
-    const BrickSky sky{lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground};
+    const Sky sky{lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground};
     for (size_t face = first; face < end; ++face)
     {
         const BrickStart& start = starts[face - first];
@@ -98,8 +98,9 @@ void FaceLighting::light(const Lighting& lighting, uint32_t rays, size_t first, 
         Float3 irradiance = start.is_interior != 0 ? Float3{} : sum * (1.0f / static_cast<float>(rays));
         for (uint32_t i = 0; i < lighting.light_count; ++i)
             irradiance += brickDirect(scene, start, lighting.lights[i]);
-        next_[face] = encodeBrickLight(brickOutgoingRadiance(decodeRadiance(bricks_.emission[face]),
-                                                             decodeAlbedo(bricks_.albedo[face]), irradiance));
+        next_[face] =
+            encodeBrickLight(brickOutgoingRadiance(decodeRadiance(bricks_.emission[face]) * lighting.exposure,
+                                                   decodeAlbedo(bricks_.albedo[face]), irradiance));
     }
 }
 

@@ -28,7 +28,6 @@ struct SurfaceMaterial
     std::shared_ptr<const Texture> emissive;
 
     bool doubleSided() const { return (record.flags & formats::kMaterialDoubleSided) != 0; }
-    bool unlit() const { return (record.flags & formats::kMaterialUnlit) != 0; }
     formats::AlphaMode alphaMode() const { return static_cast<formats::AlphaMode>(record.alpha_mode); }
     bool hasHoles() const { return alphaMode() != formats::AlphaMode::opaque; }
 };

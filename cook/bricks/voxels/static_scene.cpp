@@ -2,6 +2,7 @@
 #include "cook/bricks/voxels/static_scene.h"
 
 #include "formats/pack/pack_check.h"
+#include "formats/scene/lit_material.h"
 
 #include <algorithm>
 
@@ -65,7 +66,7 @@ bool isUnlit(const StaticScene& scene, uint32_t source, const MeshRecord& mesh)
 {
     const auto clusters = recordsInRange(scene.sources[source].clusters.clusters(), mesh.clusters);
     return std::ranges::all_of(clusters, [&](const ClusterRecord& cluster)
-                               { return scene.material(source, cluster.material).unlit(); });
+                               { return !isLit(scene.material(source, cluster.material).record); });
 }
 
 Status addInstances(StaticScene& scene, uint32_t source)
@@ -153,7 +154,7 @@ std::vector<InstancedCluster> findCutClusters(const StaticScene& scene, float er
         forEachCutCluster(part, part.meshes()[instance.mesh], error / instance.scale_max,
                           [&](uint32_t number, const ClusterRecord& cluster)
                           {
-                              if (!scene.material(instance.source, cluster.material).unlit())
+                              if (isLit(scene.material(instance.source, cluster.material).record))
                                   placed.push_back({instance.source, cluster.page, number, i});
                           });
     }

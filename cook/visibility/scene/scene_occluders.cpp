@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/visibility/scene/scene_occluders.h"
 
+#include "formats/scene/lit_material.h"
+
 #include <map>
 
 namespace hearth::visibility
@@ -49,10 +51,11 @@ const MaterialRecord* SceneMasks::record(uint32_t material) const
     return material < scene_->materials().size() ? &scene_->materials()[material] : nullptr;
 }
 
-bool SceneMasks::isTransparent(uint32_t material) const
+bool SceneMasks::occludes(uint32_t material) const
 {
     const MaterialRecord* found = record(material);
-    return found != nullptr && found->alpha_mode == static_cast<uint32_t>(AlphaMode::blend);
+    return found == nullptr ||
+           (isLit(*found) && found->alpha_mode != static_cast<uint32_t>(AlphaMode::blend));
 }
 
 Result<std::shared_ptr<const AlphaMask>> SceneMasks::find(uint32_t material)
@@ -80,7 +83,7 @@ Status addMesh(Occluders& occluders, SceneMasks& masks, const MeshPages& pages, 
     for (size_t t = 0; t < finest.triangle_materials.size(); ++t)
     {
         const uint32_t material = finest.triangle_materials[t];
-        if (masks.isTransparent(material))
+        if (!masks.occludes(material))
             continue;
         if (!mask_of_material.contains(material))
         {

@@ -23,8 +23,9 @@ public:
     /// errors: those of readAlpha; meaning_reference for a missing image
     Result<std::shared_ptr<const AlphaMask>> find(uint32_t material);
 
-    /// True if a material lets all rays through: blended surfaces dim light, but do not occlude.
-    bool isTransparent(uint32_t material) const;
+    /// Return whether a material blocks rays, outside of its mask. Blended surfaces dim light, but let it
+    /// through; unlit ones are skies (formats/scene/lit_material.h).
+    bool occludes(uint32_t material) const;
 
 private:
     const formats::MaterialRecord* record(uint32_t material) const;

@@ -33,6 +33,8 @@ Status DrawLayouts::createSceneSets(const Device& device)
         uniformBinding(shared::kSceneShadows, kVertexStage | kFragmentStage),
         textureBinding(shared::kSceneShadowMaps, kFragmentStage),
         textureBinding(shared::kSceneSpecularTable, kFragmentStage),
+        textureBinding(shared::kSceneReflectance, kFragmentStage),
+        textureBinding(shared::kSceneSkyTable, kFragmentStage),
     };
     for (uint32_t slice = 0; slice < shared::kPoolSlices; ++slice)
         scene_bindings.push_back(storageBinding(shared::kScenePool + slice, kAll));

@@ -122,10 +122,12 @@ struct Scene
     uint32_t group_item_count = 0; ///< streamed scenes only
     uint32_t slot_capacity = 0;
     uint32_t used_slices = shared::kPoolSlices; ///< 1 if the first slice holds all geometry
+    Image reflectance_table;                    ///< of formats/gpu_shared/reflectance.h
+    Image sky_table;                            ///< of formats/gpu_shared/sky.h
     Image specular_table;                       ///< empty if the pack has none
     uint32_t specular_spacing = 0;              ///< shared::kSpecularSpacing* of the table
     std::vector<shared::Light> lights;          ///< lights that are drawn, as loaded
-    float exposure = 1;                         ///< of all lights
+    float exposure = 1;                         ///< of all lights and emission
     uint32_t dropped_lights = 0;                ///< lights of the pack beyond shared::kMaxLights
     Box3 bounds;                                ///< world space, empty if there is nothing to draw
 };
@@ -162,8 +164,9 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
 Status uploadMaterials(const Device& device, const DrawLayouts& layouts, const formats::PackView& pack,
                        Uploader& uploader, Scene& scene);
 
-/// Upload the specular occlusion table of packs that have one; needs scene.draw_set.
-Status uploadSpecularTable(const Device& device, const formats::PackView& pack, Uploader& uploader,
+/// Upload the tables that shading samples: specular reflectance, the sky, and specular occlusion of packs
+/// that have it. Needs scene.draw_set.
+Status uploadShadingTables(const Device& device, const formats::PackView& pack, Uploader& uploader,
                            Scene& scene);
 
 } // namespace hearth::gpu

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/scene/scene_layout.h"
 
+#include "formats/scene/lit_material.h"
+
 #include <algorithm>
 #include <cstring>
 #include <map>
@@ -48,7 +50,7 @@ BinKey makeBinKey(const formats::PackView& pack, bool deformed, uint32_t materia
     const bool tested = record.alpha_mode != static_cast<uint32_t>(formats::AlphaMode::opaque);
     const bool two_sided = (record.flags & formats::kMaterialDoubleSided) != 0;
     return {deformed, tested, tested ? materialRow(pack, material) : 0,
-            two_sided ? Facing::doubleSided : Facing::culled, (record.flags & formats::kMaterialUnlit) != 0};
+            two_sided ? Facing::doubleSided : Facing::culled, !formats::isLit(record)};
 }
 
 /// Per mesh: 1 if the chunk DMSH describes it.

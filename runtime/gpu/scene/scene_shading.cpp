@@ -58,11 +58,6 @@ shared::Material makeMaterial(const formats::MaterialRecord& record)
     return material;
 }
 
-float lightExposure(const formats::PackView& pack)
-{
-    return shared::lightExposure(pack.lights(), sceneBounds(pack));
-}
-
 shared::Lighting makeLighting(const formats::PackView& pack)
 {
     shared::Lighting lighting = shared::sceneLighting(pack.lights(), sceneBounds(pack));

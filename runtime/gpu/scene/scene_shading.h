@@ -24,7 +24,4 @@ shared::Material makeMaterial(const formats::MaterialRecord& record);
 /// Compute lights and sky by shared::sceneLighting, with the shadow rows of the lights.
 shared::Lighting makeLighting(const formats::PackView& pack);
 
-/// Compute shared::lightExposure of a pack.
-float lightExposure(const formats::PackView& pack);
-
 } // namespace hearth::gpu

@@ -150,7 +150,7 @@ Status uploadTables(const formats::PackView& pack, const SceneLayout& layout, Up
 
     const shared::Lighting lighting = makeLighting(pack);
     scene.lights.assign(lighting.lights, lighting.lights + lighting.light_count);
-    scene.exposure = lightExposure(pack);
+    scene.exposure = lighting.exposure;
     scene.dropped_lights = static_cast<uint32_t>(pack.lights().size() -
                                                  std::min<size_t>(pack.lights().size(), shared::kMaxLights));
     return uploader.upload(b.lighting, std::as_bytes(std::span(&lighting, 1)));
@@ -186,7 +186,7 @@ Status createSets(const Device& device, const DrawLayouts& layouts, Scene& scene
     // and page requests; three more with deformed meshes, two with bricks
     const DescriptorPoolSizes sizes{.uniforms = 20 + material_rows,
                                     .storages = 104,
-                                    .textures = material_rows * shared::kTextureCount + 2};
+                                    .textures = material_rows * shared::kTextureCount + 4};
     HEARTH_ASSIGN_OR_RETURN(scene.pool, createDescriptorPool(device, 16 + material_rows, sizes));
     HEARTH_ASSIGN_OR_RETURN(scene.draw_set, allocateSet(device, scene.pool.get(), layouts.scene.get()));
     const SceneBuffers& b = scene.buffers;
@@ -305,7 +305,7 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
     HEARTH_TRY(uploadMaterials(device, layouts, pack, *scene->staging, *scene));
     findSkyVisibility(pack, *scene);
     fillSpareBindings(device, *scene);
-    HEARTH_TRY(uploadSpecularTable(device, pack, *scene->staging, *scene));
+    HEARTH_TRY(uploadShadingTables(device, pack, *scene->staging, *scene));
     HEARTH_TRY(uploadBricks(device, layouts, pack, options.bricks, *scene->staging, *scene));
     scene->staging->finish();
     scene->bins = std::move(layout.bins);

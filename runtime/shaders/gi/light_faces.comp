@@ -79,6 +79,6 @@ void main()
     vec3 arrived = brickGather(grid, brickSky(), start, brick_view.light_rays, brickFaceSeed(x, y, z, side));
     for (uint i = 0u; i < lighting.light_count; ++i)
         arrived += brickDirect(grid, start, lighting.lights[i]);
-    vec3 emission = brickEmissionAt(face) * emissionFactor(vec3(x, y, z) + 0.5);
+    vec3 emission = brickEmissionAt(face) * (lighting.exposure * emissionFactor(vec3(x, y, z) + 0.5));
     fresh_lights[in_share] = encodeBrickLight(brickOutgoingRadiance(emission, brickAlbedoAt(face), arrived));
 }

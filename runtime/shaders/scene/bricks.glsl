@@ -42,4 +42,4 @@ vec3 brickNormalAt(uint face)
     return decodeFaceNormal(word >> (face & 1u) * 16u & 0xFFFFu);
 }
 
-BrickSky brickSky() { return BrickSky(lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground); }
+Sky brickSky() { return Sky(lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground); }

@@ -1,18 +1,33 @@
-// The metallic-roughness BRDF of glTF 2.0, appendix B.
-// GGX: B. Walter et al., 2007; height-correlated Smith: E. Heitz, 2014; Fresnel: C. Schlick, 1994.
+// The metallic-roughness BRDF of glTF 2.0, appendix B, with energy compensation: the lobe of several
+// scatterings, and a diffuse part that gets the light the specular part leaves
+// (formats/gpu_shared/reflectance.h). GGX: B. Walter et al., 2007; height-correlated Smith: E. Heitz, 2014;
+// Fresnel: C. Schlick, 1994.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/gpu_shared/bindings.h"
+#include "formats/gpu_shared/reflectance.h"
 
 const float kPi = 3.14159265358979;
 
 struct Shading
 {
-    vec3 diffuse; // albedo of the diffuse part
-    vec3 f0;
+    SurfaceAlbedo albedo;
+    LobeTotal lobe;
     float roughness; // perceptual
     vec3 normal;
     vec3 to_eye;
     float n_dot_v;
 };
+
+// texels (cosine, roughness): the values of LobeTotal
+layout(set = kSetScene, binding = kSceneReflectance) uniform sampler2D reflectance_table;
+
+LobeTotal lobeTotal(float roughness, float n_dot_v)
+{
+    const vec2 nodes = vec2(kReflectanceColumns, kReflectanceRows);
+    vec2 at = (reflectanceCoordinates(roughness, n_dot_v) * (nodes - 1.0) + 0.5) / nodes;
+    vec4 texel = textureLod(reflectance_table, at, 0.0); // one mip
+    return LobeTotal(texel.r, texel.g, texel.b, texel.a);
+}
 
 vec3 fresnelSchlick(vec3 f0, float v_dot_h)
 {
@@ -37,15 +52,6 @@ vec3 reflected(Shading s, vec3 to_light)
     float distribution = alpha2 / (kPi * d * d);
     float visibility = 0.5 / (n_dot_l * sqrt(s.n_dot_v * s.n_dot_v * (1.0 - alpha2) + alpha2) +
                               s.n_dot_v * sqrt(n_dot_l * n_dot_l * (1.0 - alpha2) + alpha2));
-    vec3 fresnel = fresnelSchlick(s.f0, v_dot_h);
-    return ((1.0 - fresnel) * s.diffuse / kPi + fresnel * distribution * visibility) * n_dot_l;
-}
-
-// Specular albedo under constant light, as scale and bias on f0. B. Karis, "Physically based shading on
-// mobile", 2014: his fit to the split-sum table.
-vec2 specularScaleBias(float roughness, float n_dot_v)
-{
-    vec4 r = roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
-    float a = min(r.x * r.x, exp2(-9.28 * n_dot_v)) * r.x + r.y;
-    return vec2(-1.04, 1.04) * a + r.zw;
+    vec3 fresnel = fresnelSchlick(s.albedo.f0, v_dot_h);
+    return (s.albedo.diffuse / kPi + s.albedo.scattering * fresnel * distribution * visibility) * n_dot_l;
 }

@@ -50,11 +50,11 @@ vec3 lit(SurfacePoint point, SurfaceUvs uvs, vec3 base)
     float metallic = clamp(material.metallic * metallic_roughness.b, 0.0, 1.0);
     Shading shading;
     shading.roughness = surfaceRoughness(metallic_roughness);
-    shading.diffuse = base * (1.0 - metallic);
-    shading.f0 = mix(vec3(0.04), base, metallic);
     shading.normal = normal;
     shading.to_eye = normalizeOr(-point.position, normal);
     shading.n_dot_v = clampedCosine(normal, shading.to_eye);
+    shading.lobe = lobeTotal(shading.roughness, shading.n_dot_v);
+    shading.albedo = surfaceAlbedo(base, metallic, shading.lobe);
 
     vec3 radiance = vec3(0.0);
     for (uint i = 0u; i < lighting.light_count; ++i)
@@ -68,7 +68,8 @@ vec3 lit(SurfacePoint point, SurfaceUvs uvs, vec3 base)
     float occlusion =
         mix(1.0, sampleSurface(uvs, kTextureOcclusion, occlusion_texture).r, material.occlusion_strength);
     radiance += surroundingLight(point, shading, occlusion);
-    return radiance + material.emissive * sampleSurface(uvs, kTextureEmissive, emissive_texture).rgb;
+    vec3 emission = material.emissive * sampleSurface(uvs, kTextureEmissive, emissive_texture).rgb;
+    return radiance + lighting.exposure * emission;
 }
 
 // Display-linear colour. Unlit colours are display colours: no light, no tone mapping.

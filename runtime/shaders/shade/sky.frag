@@ -23,6 +23,6 @@ void main()
     vec3 x = view.clip_x.xyz;
     vec3 y = view.clip_y.xyz;
     vec3 direction = normalize(view.clip_w.xyz + x * (ndc.x / dot(x, x)) + y * (ndc.y / dot(y, y)));
-    vec3 color = push.debug_view == kViewFinal ? toneMap(skyRadiance(direction, 0.4)) : linearFromSrgb(vec3(0.08));
+    vec3 color = push.debug_view == kViewFinal ? toneMap(skyRadiance(sceneSky(), direction)) : linearFromSrgb(vec3(0.08));
     out_color = vec4(color, 1.0);
 }

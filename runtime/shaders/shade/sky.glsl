@@ -1,18 +1,19 @@
-// Procedural sky that lights every scene: a smooth gradient from ground over horizon to zenith. Needs the
-// lighting block, which holds the radiances; the including file includes it before.
+// The sky that lights every scene (formats/gpu_shared/sky.h). Needs the lighting block, which holds the
+// radiances; the including file includes it before.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/gpu_shared/bindings.h"
+#include "formats/gpu_shared/light_cone.h"
+#include "formats/gpu_shared/sky.h"
 
-// Radiance from a direction, prefiltered for a surface of this roughness (0..1).
-vec3 skyRadiance(vec3 direction, float roughness)
-{
-    float width = mix(0.12, 1.0, roughness);
-    vec3 above = mix(lighting.sky_horizon, lighting.sky_zenith, smoothstep(-roughness, 1.0, direction.y));
-    return mix(lighting.sky_ground, above, smoothstep(-width, width, direction.y));
-}
+// texels (height, half-angle): means over cones
+layout(set = kSetScene, binding = kSceneSkyTable) uniform sampler2D sky_table;
 
-// Irradiance / pi on a surface with this normal.
-vec3 skyIrradiance(vec3 normal)
+Sky sceneSky() { return Sky(lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground); }
+
+// Mean radiance over a cone.
+vec3 skyConeRadiance(LightCone cone)
 {
-    vec3 above = mix(lighting.sky_horizon, lighting.sky_zenith, 0.5 + 0.3 * normal.y);
-    return mix(lighting.sky_ground, above, 0.5 + 0.5 * normal.y);
+    const vec2 nodes = vec2(kSkyTableHeights, kSkyTableAngles);
+    vec2 at = (skyTableCoordinates(cone.axis.y, cone.cos_half_angle) * (nodes - 1.0) + 0.5) / nodes;
+    return skyMeanRadiance(sceneSky(), textureLod(sky_table, at, 0.0).rg); // one mip
 }

@@ -4,6 +4,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/ambient_occlusion.h"
 #include "formats/gpu_shared/bindings.h"
+#include "formats/gpu_shared/light_cone.h"
 #include "formats/gpu_shared/push_constants.h"
 #include "formats/gpu_shared/specular_occlusion.h"
 
@@ -62,4 +63,22 @@ float specularSky(SkyView sky, float roughness, float n_dot_v, vec3 mirror)
                                                               push.sky_occlusion >> 16))
                       : specularOcclusionFit(sky.cone.cos_aperture, roughness, n_dot_v, sky.shading, r_dot_axis);
     return share * sky.cone.scale;
+}
+
+// Directions from which the visible light of the diffuse part comes.
+// open  cone without occlusion
+LightCone visibleDiffuseCone(SkyView sky, vec3 normal, LightCone open)
+{
+    if ((push.sky_occlusion & 255u) == kAmbientOcclusionOff)
+        return open;
+    return visibleCosineCone(sky.cone, normal);
+}
+
+// Directions from which the visible light of the reflection comes.
+// open  cone without occlusion
+LightCone visibleSpecularCone(SkyView sky, LightCone open)
+{
+    if ((push.sky_occlusion >> 8 & 255u) == kSpecularOcclusionOff)
+        return open;
+    return visibleLobeCone(open, sky.cone);
 }

@@ -18,9 +18,7 @@ float fineOcclusion(SurfacePoint point, vec3 normal, float sky_share)
 
 vec3 surroundingLight(SurfacePoint point, Shading shading, float occlusion)
 {
-    vec2 scale_bias = specularScaleBias(shading.roughness, shading.n_dot_v);
-    vec3 specular = shading.f0 * scale_bias.x + scale_bias.y;
     GiSample light = sampleGi(gl_FragCoord.xy, point.position, shading.normal, shading.roughness);
     float fine = min(occlusion, fineOcclusion(point, shading.normal, light.sky));
-    return fine * (1.0 - specular) * shading.diffuse * light.diffuse + occlusion * specular * light.mirror;
+    return fine * shading.albedo.diffuse * light.diffuse + occlusion * shading.albedo.specular * light.mirror;
 }

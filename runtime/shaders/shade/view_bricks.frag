@@ -7,7 +7,6 @@
 #include "formats/gpu_shared/push_constants.h"
 #include "runtime/shaders/scene/bricks.glsl"
 #include "runtime/shaders/shade/tonemap.glsl"
-#include "runtime/shaders/shade/sky.glsl"
 
 layout(push_constant) uniform Push { ShadingPush push; };
 
@@ -35,7 +34,7 @@ void main()
     BrickGrid grid = brick_view.grid;
     BrickRay ray = brickMarch(grid, brickRay(grid, view.eye, direction, kBrickInfinity));
     bool lit = push.debug_view == kViewBrickLighting;
-    vec3 color = lit ? toneMap(skyRadiance(direction, 0.4)) : linearFromSrgb(vec3(0.08));
+    vec3 color = lit ? toneMap(skyRadiance(brickSky(), direction)) : linearFromSrgb(vec3(0.08));
     if (ray.inside != 0u)
     {
         uint face = brickFace(bricks[ray.brick], ray.bit, ray.face);

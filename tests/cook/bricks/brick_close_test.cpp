@@ -22,14 +22,16 @@ BrickTables wallWithStrip(const Voxel& strip)
     return model.build();
 }
 
-constexpr BrickSky kDusk{{0.25f, 0.25f, 0.25f}, {0.25f, 0.25f, 0.25f}, {0.25f, 0.25f, 0.25f}};
+constexpr Sky kDusk{{0.25f, 0.25f, 0.25f}, {0.25f, 0.25f, 0.25f}, {0.25f, 0.25f, 0.25f}};
 
 /// Return the light on a point of the wall that is seen from the front, without other light.
-float lightAt(const BrickTables& tables, Float3 position, BrickSky sky = {})
+float lightAt(const BrickTables& tables, Float3 position, Sky sky = {})
 {
     const BrickView view = makeBrickView(tables);
     FaceLighting lighting(view);
-    lighting.sweep({}, 1, 1);
+    Lighting dark{};
+    dark.exposure = 1;
+    lighting.sweep(dark, 1, 1);
     const BrickStart start = brickVisibleStart(lighting.scene(), position, {0, 0, 1}, {0, -2, 10});
     EXPECT_EQ(start.is_interior, 0u);
     return brickGather(lighting.scene(), sky, start, 1024, 1).x;

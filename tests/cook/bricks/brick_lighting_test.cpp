@@ -75,6 +75,18 @@ TEST(BrickLight, doesNotDriftInHue)
     }
 }
 
+TEST(BrickLight, emissionFollowsTheExposure)
+{
+    const Room room({3, 3, 3}, makeVoxel({0, 0, 0}, {4, 8, 16}));
+    const BrickView view = makeBrickView(room.tables);
+    FaceLighting lighting(view);
+    Lighting dimmed = darkness();
+    dimmed.exposure = 0.25f;
+    lighting.sweep(dimmed, 4, 1);
+    for (const LitFace& position : room.inner)
+        EXPECT_NEAR(computeRadiance(lighting, position.face).y, 2, 0.01f);
+}
+
 // ---- leaks
 
 /// Rounding leaks no light either, for any position of sun and lamps, and for any normals of the surfaces.
@@ -110,7 +122,7 @@ TEST(FaceLighting, aSealedRoomIsExactlyDark)
             EXPECT_EQ(lighting.faces()[position.face].rest, 0u);
         }
         // and a surface in the room receives no light: its point lies in the wall
-        const BrickSky sky{{3, 4, 5}, {3, 4, 5}, {3, 4, 5}};
+        const Sky sky{{3, 4, 5}, {3, 4, 5}, {3, 4, 5}};
         const BrickStart start = brickSurfaceStart(lighting.scene(), {3.3f, 1.6f, 3.1f}, {0, 1, 0});
         EXPECT_EQ(start.is_interior, 0u);
         EXPECT_EQ(largest(brickGather(lighting.scene(), sky, start, 256, 5)), 0);
@@ -377,7 +389,7 @@ TEST(FaceLighting, aConstantSkyLightsAnOpenPlaneByItsRadiance)
     lighting.sweep(constantSky({2, 2, 2}), 16, 1);
     const uint32_t face = faceAt(tables, 6, 0, 6, kUp);
     expectRelative(computeRadiance(lighting, face), decodeAlbedo(tables.albedo[face]) * 2, 1e-3f);
-    const BrickSky sky{{2, 2, 2}, {2, 2, 2}, {2, 2, 2}};
+    const Sky sky{{2, 2, 2}, {2, 2, 2}, {2, 2, 2}};
     const BrickStart start = brickSurfaceStart(lighting.scene(), {6.5f, 0.8f, 6.5f}, {0, 1, 0});
     expectRelative(brickGather(lighting.scene(), sky, start, 16, 1), {2, 2, 2}, 1e-5f);
 }

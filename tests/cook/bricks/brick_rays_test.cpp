@@ -52,22 +52,6 @@ TEST(BrickLight, keepsValuesToSixteenBits)
         << "what is too bright is the brightest";
 }
 
-/// The irradiance of the gradient equals the closed form with which the runtime shades.
-TEST(BrickSky, hasTheIrradianceOfTheRuntimesSky)
-{
-    const BrickSky sky{kSkyZenith, kSkyHorizon, kSkyGround};
-    for (const Float3 normal : {Float3{0, 1, 0}, Float3{1, 0, 0}, Float3{0.6f, 0.8f, 0}})
-    {
-        Float3 sum;
-        constexpr uint32_t kCount = 4096;
-        for (uint32_t i = 0; i < kCount; ++i)
-            sum += brickSkyRadiance(sky, brickRayDirection(normal, i, kCount, 9)) * (1.0f / kCount);
-        const float above = 0.5f + 0.3f * normal.y, up = 0.5f + 0.5f * normal.y;
-        expectRelative(sum, kSkyGround * (1 - up) + (kSkyHorizon * (1 - above) + kSkyZenith * above) * up,
-                       0.01f);
-    }
-}
-
 TEST(BrickRayDirection, areUnitAndByTheCosine)
 {
     std::mt19937 random(11);

@@ -12,12 +12,14 @@ using namespace shared;
 
 Lighting darkness()
 {
-    return {};
+    Lighting lighting{};
+    lighting.exposure = 1;
+    return lighting;
 }
 
 Lighting constantSky(Float3 radiance)
 {
-    Lighting lighting{};
+    Lighting lighting = darkness();
     lighting.sky_zenith = lighting.sky_horizon = lighting.sky_ground = radiance;
     return lighting;
 }

@@ -138,9 +138,10 @@ TEST(FaceLighting, gathersAsRaysDoOneByOne)
     const BrickView view{model.masks(), model.opacity,  model.albedo,
                          model.normals, model.emission, model.lighting};
     Lighting lighting{};
+    lighting.exposure = 1;
     lighting.sky_zenith = {1, 2, 3};
     lighting.sky_horizon = {3, 2, 1};
-    const BrickSky sky{lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground};
+    const Sky sky{lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground};
     for (const uint32_t rays : {1u, 16u, 300u})
     {
         FaceLighting lit(view);

@@ -3,6 +3,7 @@
 #include "cook/json/json.h"
 #include "cook/specular/rows.h"
 #include "formats/pack/pack_check.h"
+#include "formats/scene/reflectance_table.h"
 #include "tests/support/sandbox.h"
 
 #include <gtest/gtest.h>
@@ -93,6 +94,25 @@ TEST_F(SpecularProgram, writesTheTableAsATexture)
     EXPECT_EQ(specular({"--astc", "a.astc", "--astc-block", "5"}).exit_code, 2);
     EXPECT_EQ(specular({"--astc", "a.astc", "--fit"}).exit_code, 2);
     EXPECT_EQ(specular({"--astc", "no/such/a.astc"}).exit_code, 73);
+}
+
+/// Nodes may differ in the last bit of a half: libraries differ in their transcendental functions.
+TEST_F(SpecularProgram, writesTheReflectanceThatShadingReads)
+{
+    ASSERT_EQ(specular({"--reflectance", "table.h"}).exit_code, 0);
+    const std::string text = folder.read("table.h");
+    size_t at = text.find("kReflectanceTable{");
+    for (const uint64_t node : shared::kReflectanceTable)
+    {
+        at = text.find("0x", at + 1);
+        ASSERT_NE(at, std::string::npos);
+        const uint64_t written = std::stoull(text.substr(at, 18), nullptr, 16);
+        for (int value = 0; value < 4; ++value)
+            EXPECT_LE(std::abs(static_cast<int>(written >> (16 * value) & 0xFFFFu) -
+                               static_cast<int>(node >> (16 * value) & 0xFFFFu)),
+                      1);
+    }
+    EXPECT_EQ(text.find("0x", at + 1), std::string::npos);
 }
 
 TEST_F(SpecularProgram, evaluatesRowsInTheirOrder)

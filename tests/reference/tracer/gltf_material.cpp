@@ -2,6 +2,7 @@
 #include "tests/reference/tracer/gltf_material.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace hearth::reference
 {
@@ -16,7 +17,170 @@ double schlick(double f0, double cosine)
     return f0 + (1 - f0) * std::pow(1 - cosine, 5);
 }
 
+double normalCosine(const Coating& c, Double3 view)
+{
+    return std::clamp(std::abs(dot(c.normal, view)), 1e-4, 1.0);
+}
+
+/// Height-correlated visibility term G2 / (4 nl nv).
+double smith(double nl, double nv, double alpha2)
+{
+    return 0.5 / (nl * std::sqrt(nv * nv * (1 - alpha2) + alpha2) +
+                  nv * std::sqrt(nl * nl * (1 - alpha2) + alpha2));
+}
+
+/// Reflectance of one scattering: f0 * scale + bias.
+struct SplitSum
+{
+    double scale, bias;
+};
+
+/// Call visit(light, half, weight) for directions that a lobe reflects to a view, by visible normals (E.
+/// Heitz, "Sampling the GGX distribution of visible normals", 2018). The weights add up to the reflectance of
+/// one scattering without Fresnel. Frame of the surface's normal, which is z; the view has y = 0.
+/// turns  of a whole circle, or of the half at y > 0, which has the same weights
+template <typename Visit>
+void visitLobe(double roughness, double nv, int radii, int turns, double circle, const Visit& visit)
+{
+    const double alpha = roughness * roughness, alpha2 = alpha * alpha;
+    const Double3 view{std::sqrt(1 - nv * nv), 0, nv};
+    const Double3 stretched = normalize({alpha * view.x, 0, view.z});
+    const double lift = 0.5 * (1 + stretched.z);
+    for (int i = 0; i < radii; ++i)
+        for (int j = 0; j < turns; ++j)
+        {
+            const double radius = std::sqrt((i + 0.5) / radii), turn = circle * (j + 0.5) / turns;
+            const double side = radius * std::sin(turn), flat = std::sqrt(1 - side * side);
+            const double along = (1 - lift) * flat + lift * radius * std::cos(turn);
+            const double out = std::sqrt(std::max(0.0, 1 - side * side - along * along));
+            // axes: (0, 1, 0), and its cross product with the stretched view
+            const Double3 half = normalize({alpha * (stretched.x * out - stretched.z * along), alpha * side,
+                                            stretched.z * out + stretched.x * along});
+            const Double3 light = half * (2 * dot(view, half)) - view;
+            if (light.z <= 0)
+                continue;
+            // G2 / G1(view)
+            const double view_root = std::sqrt(nv * nv * (1 - alpha2) + alpha2);
+            visit(light, half,
+                  4 * smith(light.z, nv, alpha2) * light.z * 0.5 * (nv + view_root) / (radii * turns));
+        }
+}
+
+SplitSum integrateLobe(double roughness, double nv)
+{
+    const Double3 view{std::sqrt(1 - nv * nv), 0, nv};
+    SplitSum sum{};
+    visitLobe(roughness, nv, 96, 24, kPi,
+              [&](Double3, Double3 half, double weight)
+              {
+                  sum.scale += weight * (1 - schlick(0, dot(view, half)));
+                  sum.bias += weight * schlick(0, dot(view, half));
+              });
+    return sum;
+}
+
+/// Mean radiance of the sky over a lobe.
+Double3 reflectedSky(const Coating& c, const SceneLighting& lighting, Double3 view)
+{
+    const double nv = normalCosine(c, view);
+    const Double3 across = view - c.normal * dot(c.normal, view);
+    const Double3 x =
+        length(across) > 1e-6
+            ? normalize(across)
+            : normalize(cross(c.normal, std::abs(c.normal.x) < 0.5 ? Double3{1, 0, 0} : Double3{0, 1, 0}));
+    const Double3 y = cross(c.normal, x);
+    Double3 sum;
+    double weights = 0;
+    visitLobe(c.roughness, nv, 12, 16, 2 * kPi,
+              [&](Double3 light, Double3, double weight)
+              {
+                  sum += lighting.radiance(x * light.x + y * light.y + c.normal * light.z) * weight;
+                  weights += weight;
+              });
+    return weights > 0 ? sum / weights : lighting.radiance(c.normal * (2 * nv) - view);
+}
+
+/// Integrals at nodes, denser where they change most, and linear between.
+class SplitSums
+{
+public:
+    SplitSums()
+    {
+        for (int r = 0; r < kNodes; ++r)
+            for (int v = 0; v < kNodes; ++v)
+                nodes_.push_back(
+                    integrateLobe(0.04 + 0.96 * square(place(r)), std::max(square(square(place(v))), 1e-5)));
+    }
+
+    SplitSum at(double roughness, double nv) const
+    {
+        const double x = std::sqrt(std::max(roughness - 0.04, 0.0) / 0.96) * (kNodes - 1);
+        const double y = std::sqrt(std::sqrt(nv)) * (kNodes - 1);
+        const int r = std::min(static_cast<int>(x), kNodes - 2),
+                  v = std::min(static_cast<int>(y), kNodes - 2);
+        SplitSum sum{};
+        for (int corner = 0; corner < 4; ++corner)
+        {
+            const int i = corner & 1, j = corner >> 1;
+            const double weight = (i == 1 ? x - r : 1 - (x - r)) * (j == 1 ? y - v : 1 - (y - v));
+            const SplitSum& node = nodes_[static_cast<size_t>((r + i) * kNodes + v + j)];
+            sum.scale += weight * node.scale;
+            sum.bias += weight * node.bias;
+        }
+        return sum;
+    }
+
+private:
+    static constexpr int kNodes = 64;
+    static double square(double x) { return x * x; }
+    static double place(int node) { return double{1} * node / (kNodes - 1); }
+
+    std::vector<SplitSum> nodes_;
+};
+
+SplitSum splitSum(double roughness, double nv)
+{
+    static const SplitSums sums;
+    return sums.at(roughness, nv);
+}
+
+constexpr double kDielectric = 0.04;
+
+/// Reflectance at normal incidence of a channel.
+double f0(const Coating& c, double base)
+{
+    return kDielectric + (base - kDielectric) * c.metallic;
+}
+
+/// Share of constant light that a lobe reflects with several scatterings.
+double lobeAlbedo(double f0, const SplitSum& sum)
+{
+    return (f0 * sum.scale + sum.bias) * (1 + f0 * (1 / (sum.scale + sum.bias) - 1));
+}
+
+double specularAlbedo(const Coating& c, double base, const SplitSum& sum)
+{
+    return lobeAlbedo(base, sum) * c.metallic + lobeAlbedo(kDielectric, sum) * (1 - c.metallic);
+}
+
+double diffuseAlbedo(const Coating& c, double base, const SplitSum& sum)
+{
+    return (1 - lobeAlbedo(kDielectric, sum)) * base * (1 - c.metallic);
+}
+
+Double3 perChannel(Double3 base, auto&& channel)
+{
+    return {channel(base.x), channel(base.y), channel(base.z)};
+}
+
 } // namespace
+
+Albedo albedo(const Coating& c, Double3 view)
+{
+    const SplitSum sum = splitSum(c.roughness, normalCosine(c, view));
+    return {perChannel(c.base, [&](double base) { return diffuseAlbedo(c, base, sum); }),
+            perChannel(c.base, [&](double base) { return specularAlbedo(c, base, sum); })};
+}
 
 Double3 reflected(const Coating& c, Double3 view, Double3 light)
 {
@@ -24,39 +188,24 @@ Double3 reflected(const Coating& c, Double3 view, Double3 light)
     if (nl <= 0)
         return {};
     const Double3 half = normalize(light + view);
-    const double nv = std::clamp(std::abs(dot(c.normal, view)), 1e-4, 1.0);
+    const double nv = normalCosine(c, view);
     const double nh = std::clamp(dot(c.normal, half), 0.0, 1.0), vh = std::clamp(dot(view, half), 0.0, 1.0);
     const double alpha2 = std::pow(c.roughness, 4);
     const double distribution = alpha2 / (kPi * std::pow(nh * nh * (alpha2 - 1) + 1, 2));
-    const double smith =
-        nl * std::sqrt(nv * nv * (1 - alpha2) + alpha2) + nv * std::sqrt(nl * nl * (1 - alpha2) + alpha2);
-    const double specular = distribution * 0.5 / smith;
+    const double lobe = distribution * smith(nl, nv, alpha2);
+    const SplitSum sum = splitSum(c.roughness, nv);
     const auto channel = [&](double base)
     {
-        const double fresnel = schlick(0.04 + (base - 0.04) * c.metallic, vh);
-        return ((1 - fresnel) * base * (1 - c.metallic) / kPi + fresnel * specular) * nl;
+        const double several = specularAlbedo(c, base, sum) / (f0(c, base) * sum.scale + sum.bias);
+        return diffuseAlbedo(c, base, sum) / kPi + several * schlick(f0(c, base), vh) * lobe;
     };
-    return {channel(c.base.x), channel(c.base.y), channel(c.base.z)};
-}
-
-SkyAlbedo skyAlbedo(const Coating& c, Double3 view)
-{
-    const double nv = std::clamp(std::abs(dot(c.normal, view)), 1e-4, 1.0);
-    const double r = c.roughness;
-    const double a = std::min((1 - r) * (1 - r), std::exp2(-9.28 * nv)) * (1 - r) + 0.0425 - 0.0275 * r;
-    const double scale = -1.04 * a + 1.04 - 0.572 * r, bias = 1.04 * a - 0.04 + 0.022 * r;
-    const auto specular = [&](double base) { return (0.04 + (base - 0.04) * c.metallic) * scale + bias; };
-    const auto diffuse = [&](double base) { return (1 - specular(base)) * base * (1 - c.metallic); };
-    return {{diffuse(c.base.x), diffuse(c.base.y), diffuse(c.base.z)},
-            {specular(c.base.x), specular(c.base.y), specular(c.base.z)}};
+    return perChannel(c.base, channel) * nl;
 }
 
 SkyResponse underSky(const Coating& c, const SceneLighting& lighting, Double3 view)
 {
-    const Double3 mirror = c.normal * (2 * dot(c.normal, view)) - view;
-    const SkyAlbedo albedo = skyAlbedo(c, view);
-    return {albedo.diffuse * lighting.irradiance(c.normal),
-            albedo.specular * lighting.radiance(mirror, c.roughness)};
+    const Albedo part = albedo(c, view);
+    return {part.diffuse * lighting.irradiance(c.normal), part.specular * reflectedSky(c, lighting, view)};
 }
 
 double filmic(double radiance)

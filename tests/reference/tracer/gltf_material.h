@@ -1,4 +1,5 @@
-// Evaluates the metallic-roughness material of glTF 2.0, appendix B, its sky light, and the tone curve.
+// Evaluates the metallic-roughness material of glTF 2.0, appendix B, with energy compensation, its sky light,
+// and the tone curve.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -13,24 +14,26 @@ struct Coating
     Double3 base;
     double metallic, roughness;
     double occlusion;
-    Double3 emitted;
+    Double3 emitted; ///< after exposure
     Double3 normal;
 };
 
-/// BRDF of appendix B.3: GGX, height-correlated Smith, Schlick. Radiance per irradiance, cosine included.
-/// `view` and `light` are unit and point away from the surface.
-Double3 reflected(const Coating& coating, Double3 view, Double3 light);
-
-/// Reflectance under constant light, by lobe: B. Karis' fit of the specular albedo, "Physically based shading
-/// on mobile", 2014.
-struct SkyAlbedo
+/// Directional albedos of both lobes, which add up to 1 for a white surface.
+struct Albedo
 {
     Double3 diffuse, specular;
 };
-SkyAlbedo skyAlbedo(const Coating& coating, Double3 view);
+/// Integrate the lobe of appendix B.3 numerically, scaled for several scatterings (E. Turquin, "Practical
+/// multiple scattering compensation for microfacet models", 2019); the diffuse lobe gets what is left.
+Albedo albedo(const Coating& coating, Double3 view);
 
-/// Light that a surface under the open sky reflects, by lobe, from the sky's irradiance and its reflection.
-/// Without the coating's occlusion.
+/// BRDF: the lobe of appendix B.3 (GGX, height-correlated Smith, Schlick) scaled for several scatterings, and
+/// Lambert's law with the diffuse albedo. Radiance per irradiance, cosine included.
+/// `view` and `light` are unit and point away from the surface.
+Double3 reflected(const Coating& coating, Double3 view, Double3 light);
+
+/// Light that a surface under the open sky reflects, by lobe: both albedos times the means of the sky's
+/// radiance over the lobes. Without the coating's occlusion.
 struct SkyResponse
 {
     Double3 diffuse, specular;

@@ -136,8 +136,6 @@ int main(int argc, char** argv)
                   "rays to the sky for each sample and lobe: what hides it counts (default 0: nothing does)");
     app.addOption("--bounces", arguments.options.sky.bounces,
                   "diffuse bounces of what hides the sky (default 0: it is black)");
-    app.addFlag("--integrate-sky", arguments.options.sky.integrate,
-                "the sky as one radiance, in place of the runtime's forms of it");
     app.addOption("--compare", arguments.compare, "print how far this PNG is from that, by FLIP and RMSE");
     app.addOption("--flip-map", arguments.flip_map, "write that difference as an image");
     if (const std::optional<int> exit_code = app.parse(argc, argv))

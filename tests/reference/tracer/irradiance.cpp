@@ -128,7 +128,7 @@ Double3 pathLight(const ShadedScene& scene, Double3 start, Double3 direction, Ra
     {
         const auto met = scene.nearest({start, direction, 0, kFar}, 0);
         if (!met)
-            return light + through * scene.lighting().radiance(direction, kSkyRoughness);
+            return light + through * scene.lighting().radiance(direction);
         if (met->unlit)
             return light;
         light += through * met->coating.emitted;

@@ -54,7 +54,7 @@ public:
 
 private:
     bricks::FaceLighting faces_;
-    shared::BrickSky sky_;
+    shared::Sky sky_;
 };
 
 /// Root mean square of differences over the mean of the truth. A squared difference is the product of the

@@ -1,5 +1,6 @@
 // Tests the parts of the ray-traced reference against values that can be computed by hand.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/gpu_shared/shading.h"
 #include "tests/reference/tracer/embree_scene.h"
 #include "tests/reference/tracer/gltf_material.h"
 #include "tests/reference/tracer/reference_renderer.h"
@@ -43,46 +44,69 @@ Double3 direction(double elevation, double azimuth)
             std::cos(elevation) * std::sin(azimuth)};
 }
 
-TEST(Reflected, isTheSameBothWaysUpToTheCosine)
+/// Midpoint and width of each part of [0, end], dense about `peak` by the fourth power.
+std::vector<std::array<double, 2>> denseAbout(double peak, double end)
 {
-    for (const double roughness : {0.1, 0.5, 1.0})
-        for (const double metallic : {0.0, 1.0})
+    constexpr int kSteps = 250;
+    std::vector<std::array<double, 2>> found;
+    for (const double to : {0.0, end})
+        for (int i = 0; i < kSteps && to != peak; ++i)
         {
-            const Coating c = makeCoating(roughness, metallic);
-            const Double3 a = direction(0.4, 0.3), b = direction(1.1, 2.5);
-            EXPECT_NEAR(reflected(c, a, b).x / b.y, reflected(c, b, a).x / a.y, 1e-9);
+            const double low = std::pow(double{1} * i / kSteps, 4), high = std::pow((i + 1.0) / kSteps, 4);
+            found.push_back({peak + (to - peak) * (low + high) / 2, std::abs(to - peak) * (high - low)});
         }
+    return found;
 }
 
-TEST(Reflected, neverSendsBackMoreThanArrivesAtAWhiteMetal)
+/// Integrate the light that arrives from everywhere alike and is reflected to `view`, by the angles to the
+/// normal (0, 1, 0) and about it, in steps that are narrow about the mirror direction.
+Double3 integrateReflected(const Coating& c, double elevation, double azimuth)
 {
-    // Integral over all directions of light, by elevation with equal solid angles. Single scattering loses up
-    // to 70 % at full roughness. Dielectrics are left out: the specification's sum of both lobes may exceed 1
-    // at grazing angles.
-    for (const double roughness : {0.1, 0.3, 0.6, 1.0})
-        for (const double elevation : {0.1, 0.7, 1.5})
-        {
-            Coating c = makeCoating(roughness, 1);
-            c.base = {1, 1, 1};
-            const Double3 view = direction(elevation, 0);
-            constexpr int kUp = 400, kAround = 400;
-            double sum = 0;
-            for (int i = 0; i < kUp; ++i)
-                for (int j = 0; j < kAround; ++j)
-                    sum += reflected(c, view,
-                                     direction(std::asin((i + 0.5) / kUp), 2 * kPi * (j + 0.5) / kAround))
-                               .x;
-            const double albedo = sum * 2 * kPi / (kUp * kAround);
-            EXPECT_LE(albedo, 1.001) << roughness << " " << elevation;
-            EXPECT_GT(albedo, 0.1) << roughness << " " << elevation;
-        }
+    Double3 sum;
+    for (const auto& [turn, turn_width] : denseAbout(0, kPi))
+        for (const auto& [height, height_width] : denseAbout(elevation, kPi / 2))
+            sum += reflected(c, direction(elevation, azimuth), direction(height, azimuth + kPi + turn)) *
+                   (2 * turn_width * height_width * std::cos(height));
+    return sum;
+}
+
+TEST(Reflected, keepsAWhiteFurnaceWhite)
+{
+    for (const double roughness : {0.05, 0.1, 0.3, 0.6, 1.0})
+        for (const double metallic : {0.0, 0.5, 1.0})
+            for (const double elevation : {0.03, 0.1, 0.4, 1.1, kPi / 2})
+            {
+                Coating c = makeCoating(roughness, metallic);
+                c.base = {1, 1, 1};
+                EXPECT_NEAR(integrateReflected(c, elevation, 0).x, 1, 0.01)
+                    << "roughness " << roughness << ", metallic " << metallic << ", elevation " << elevation;
+            }
+}
+
+TEST(Reflected, isWhatItsAlbedosSay)
+{
+    for (const double roughness : {0.1, 0.4, 1.0})
+        for (const double metallic : {0.0, 1.0})
+            for (const double elevation : {0.05, 0.4, 1.2})
+            {
+                const Coating c = makeCoating(roughness, metallic);
+                const Double3 view = direction(elevation, 2);
+                const Double3 found = integrateReflected(c, elevation, 2);
+                const Albedo parts = albedo(c, view);
+                EXPECT_NEAR(found.x, parts.diffuse.x + parts.specular.x, 0.006);
+                EXPECT_NEAR(found.y, parts.diffuse.y + parts.specular.y, 0.006);
+                EXPECT_NEAR(found.z, parts.diffuse.z + parts.specular.z, 0.006);
+            }
 }
 
 TEST(Reflected, isLambertsLawForARoughDielectricSeenFromAbove)
 {
     const Coating c = makeCoating(1, 0);
-    // Straight up and down the Fresnel term is 0.04 and the specular lobe 0.04 / (4 pi).
-    EXPECT_NEAR(reflected(c, {0, 1, 0}, {0, 1, 0}).x, 0.96 * 0.8 / kPi + 0.04 / (4 * kPi), 1e-9);
+    // Straight up and down the Fresnel term is 0.04 and the lobe 0.04 / (4 pi). Under constant light the lobe
+    // of one scattering reflects 1 - log(2) times the Fresnel term, which is 0.04 near the normal.
+    const double once = 1 - std::log(2.0), several = 1 + 0.04 * (1 / once - 1);
+    EXPECT_NEAR(reflected(c, {0, 1, 0}, {0, 1, 0}).x,
+                (1 - 0.04 * once * several) * 0.8 / kPi + several * 0.04 / (4 * kPi), 1e-4);
     EXPECT_EQ(reflected(c, {0, 1, 0}, {0, -1, 0}).x, 0);
 }
 
@@ -269,6 +293,17 @@ TEST(RenderReference, showsTheRadianceOfAnEmissiveSurfaceInTheDark)
     EXPECT_NEAR(mean[0], srgbFromLinear(filmic(0.2)), 0.03);
     EXPECT_NEAR(mean[1], srgbFromLinear(filmic(0.5)), 0.02);
     EXPECT_NEAR(mean[2], srgbFromLinear(filmic(3)), 0.01);
+
+    // a sun from below, which lights nothing that is seen, of 100 times the key
+    LightRecord sun{};
+    sun.type = static_cast<uint32_t>(LightType::directional);
+    sun.color = {1, 1, 1};
+    sun.intensity = 100 * shared::kKeyIlluminance;
+    sun.world_from_light.m[1][1] = sun.world_from_light.m[2][2] = 0;
+    sun.world_from_light.m[1][2] = -1;
+    sun.world_from_light.m[2][1] = 1;
+    model.lights = {sun};
+    EXPECT_NEAR(meanFromAbove(model)[2], srgbFromLinear(filmic(0.03)), 0.03);
 }
 
 } // namespace

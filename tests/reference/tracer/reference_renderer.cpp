@@ -54,7 +54,7 @@ private:
             scene_.nearest({Double3(options_.camera.position), direction, near, 1e30}, sample_angle_);
         if (point && point->unlit)
             return point->coating.base;
-        const Double3 radiance = !point ? scene_.lighting().radiance(direction, 0.4)
+        const Double3 radiance = !point ? scene_.lighting().radiance(direction)
                                         : point->coating.emitted +
                                               underLights(scene_, *point, -direction, options_.shadows) +
                                               tracedSky(scene_, *point, -direction, options_.sky, seed);

@@ -14,6 +14,8 @@ using namespace formats;
 namespace
 {
 
+constexpr double kPi = 3.14159265358979323846;
+
 double smooth(double from, double to, double x)
 {
     const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
@@ -65,8 +67,8 @@ void sceneBox(const PackView& view, Double3& low, Double3& high)
 }
 
 /// Apply the exposure rule: if the lights give the middle of the scene more than the key, all are dimmed by
-/// one factor to the key.
-void expose(const PackView& view, std::vector<SceneLight>& lights)
+/// one factor to the key. Returns the factor.
+double expose(const PackView& view, std::vector<SceneLight>& lights)
 {
     Double3 low, high;
     sceneBox(view, low, high);
@@ -80,9 +82,32 @@ void expose(const PackView& view, std::vector<SceneLight>& lights)
         illuminance += light.type == LightType::directional ? luminance : luminance / (distance * distance);
     }
     constexpr double kKey = shared::kKeyIlluminance;
-    if (illuminance > kKey)
-        for (SceneLight& light : lights)
-            light.intensity = light.intensity * (kKey / illuminance);
+    const double exposure = illuminance > kKey ? kKey / illuminance : 1;
+    for (SceneLight& light : lights)
+        light.intensity = light.intensity * exposure;
+    return exposure;
+}
+
+/// Mean radiance within an angle of an axis of this height, weighted by the cosine to the axis.
+template <typename Weight>
+Double3 integrateSky(const SceneLighting& lighting, double height, double cos_half_angle,
+                     const Weight& weight)
+{
+    constexpr int kRings = 32, kTurns = 24;
+    const double level = std::sqrt(std::max(0.0, 1 - height * height));
+    Double3 sum;
+    double weights = 0;
+    for (int ring = 0; ring < kRings; ++ring)
+    {
+        const double along = 1 - (1 - cos_half_angle) * (ring + 0.5) / kRings;
+        for (int turn = 0; turn < kTurns; ++turn)
+        {
+            const double across = std::sqrt(1 - along * along) * std::cos(kPi * (turn + 0.5) / kTurns);
+            sum += lighting.radiance({0, along * height + across * level, 0}) * weight(along);
+            weights += weight(along);
+        }
+    }
+    return sum / weights;
 }
 
 } // namespace
@@ -106,22 +131,26 @@ Incident SceneLight::at(Double3 point) const
     return {to_light, distance, intensity * attenuation};
 }
 
-Double3 SceneLighting::radiance(Double3 direction, double roughness) const
+Double3 SceneLighting::radiance(Double3 direction) const
 {
-    const double width = 0.12 + 0.88 * roughness;
-    const Double3 above = mixed(horizon, zenith, smooth(-roughness, 1, direction.y));
-    return mixed(ground, above, smooth(-width, width, direction.y));
+    const Double3 above = mixed(horizon, zenith, smooth(-0.2, 1, direction.y));
+    return mixed(ground, above, smooth(-0.296, 0.296, direction.y));
 }
 
 Double3 SceneLighting::irradiance(Double3 normal) const
 {
-    return mixed(ground, mixed(horizon, zenith, 0.5 + 0.3 * normal.y), 0.5 + 0.5 * normal.y);
+    return integrateSky(*this, normal.y, 0, [](double cosine) { return cosine; });
+}
+
+Double3 SceneLighting::coneRadiance(Double3 axis, double cos_half_angle) const
+{
+    return integrateSky(*this, axis.y, cos_half_angle, [](double) { return 1.0; });
 }
 
 SceneLighting readLighting(const PackView& view)
 {
     SceneLighting lighting{
-        Double3(shared::kSkyZenith), Double3(shared::kSkyHorizon), Double3(shared::kSkyGround), {}};
+        Double3(shared::kSkyZenith), Double3(shared::kSkyHorizon), Double3(shared::kSkyGround), {}, 1};
     for (const LightRecord& record : view.lights())
         lighting.lights.push_back(makeLight(record));
     if (lighting.lights.empty())
@@ -133,7 +162,7 @@ SceneLighting readLighting(const PackView& view)
                                    1,
                                    0});
     else
-        expose(view, lighting.lights);
+        lighting.exposure = expose(view, lighting.lights);
     return lighting;
 }
 

@@ -33,11 +33,14 @@ struct SceneLighting
 {
     Double3 zenith, horizon, ground;
     std::vector<SceneLight> lights;
+    double exposure = 1; ///< of emission; the intensities of lights have it already
 
-    /// Radiance of the sky as reflected by a surface of this roughness; 0.4 is the background.
-    Double3 radiance(Double3 direction, double roughness) const;
-    /// Irradiance over pi of a surface with this normal.
+    /// Radiance of the sky from a direction.
+    Double3 radiance(Double3 direction) const;
+    /// Irradiance over pi of a surface with this normal, under the open sky.
     Double3 irradiance(Double3 normal) const;
+    /// Mean radiance over the directions within an angle of an axis.
+    Double3 coneRadiance(Double3 axis, double cos_half_angle) const;
 };
 
 SceneLighting readLighting(const formats::PackView& view);

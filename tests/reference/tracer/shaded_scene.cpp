@@ -102,7 +102,8 @@ Coating ShadedScene::coatingAt(const SurfaceHit& hit, const SurfacePoint& point,
     c.roughness = std::clamp(double{material.roughness} * metallic_roughness.y, 0.045, 1.0);
     const double occlusion = look(material.occlusion_texture, point, sample_size).rgb.x;
     c.occlusion = 1 + double{material.occlusion_strength} * (occlusion - 1);
-    c.emitted = Double3(material.emissive) * look(material.emissive_texture, point, sample_size).rgb;
+    c.emitted = Double3(material.emissive) * look(material.emissive_texture, point, sample_size).rgb *
+                lighting_.exposure;
     c.normal = point.normal;
     if (material.normal_texture.image != kInvalidIndex)
     {

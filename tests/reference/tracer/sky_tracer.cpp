@@ -111,7 +111,7 @@ Double3 bounced(const ShadedScene& scene, Double3 start, Double3 direction, cons
         direction = cosineDirection(c.normal, points.u(0), points.v(0));
         if (!scene.occluded({start, direction, 0, kFar}))
         {
-            radiance += through * scene.lighting().radiance(direction, kSkyRoughness);
+            radiance += through * scene.lighting().radiance(direction);
             break;
         }
     }
@@ -127,7 +127,7 @@ struct LobeSums
     void add(const ShadedScene& scene, Double3 start, Double3 direction, double w, const SkyTracing& tracing,
              uint64_t seed)
     {
-        const Double3 sky = scene.lighting().radiance(direction, kSkyRoughness) * w;
+        const Double3 sky = scene.lighting().radiance(direction) * w;
         all += sky;
         weight += w;
         if (!scene.occluded({start, direction, 0, kFar}))
@@ -182,7 +182,7 @@ Double3 tracedSky(const ShadedScene& scene, const ShadedPoint& point, Double3 vi
         return (open.diffuse + open.specular) * c.occlusion;
     }
     const SkyAccess access = traceSky(scene, point, view, tracing, seed);
-    const SkyAlbedo albedo = skyAlbedo(c, view);
+    const Albedo part = albedo(c, view);
     const auto limited = [&](Double3 share)
     {
         return Double3{std::min(share.x, c.occlusion), std::min(share.y, c.occlusion),
@@ -190,11 +190,7 @@ Double3 tracedSky(const ShadedScene& scene, const ShadedPoint& point, Double3 vi
     };
     const Double3 diffuse_share = limited(access.diffuse), specular_share = limited(access.specular);
     Double3 radiance =
-        (albedo.diffuse * access.bounced_irradiance + albedo.specular * access.bounced_reflection) *
-        c.occlusion;
-    if (tracing.integrate)
-        return radiance + albedo.diffuse * access.irradiance * ratio(diffuse_share, access.diffuse) +
-               albedo.specular * access.reflection * ratio(specular_share, access.specular);
+        (part.diffuse * access.bounced_irradiance + part.specular * access.bounced_reflection) * c.occlusion;
     const SkyResponse open = underSky(c, scene.lighting(), view);
     return radiance + open.diffuse * diffuse_share + open.specular * specular_share;
 }

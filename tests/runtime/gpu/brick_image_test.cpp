@@ -106,8 +106,8 @@ protected:
 };
 
 /// Mean light of all rays of a lobe at the point of a tile.
-Float3 gatherLobe(const BrickScene& scene, const BrickSky& sky, const BrickStart& start,
-                  const GatherPoint& point, float roughness)
+Float3 gatherLobe(const BrickScene& scene, const Sky& sky, const BrickStart& start, const GatherPoint& point,
+                  float roughness)
 {
     constexpr uint32_t kRays = kGatherLobeRays * kGatherFrames;
     const Float3 to_eye = point.position * (-1 / length(point.position));
@@ -141,7 +141,7 @@ TEST_F(BrickImageTest, gathersWhatTheCpuGathers)
     const Lighting lighting = gpu::makeLighting(*pack_);
     bricks::FaceLighting solver(makeBrickView(model_));
     solver.sweep(lighting, scene_->bricks->rays, 24);
-    const BrickSky sky{lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground};
+    const Sky sky{lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground};
     const BrickScene scene = solver.scene();
     const Float3 eye{2, 3, 7};
     const std::vector<GatherPoint> gathered = points();

@@ -4,6 +4,7 @@
 #include "tests/support/test_scene.h"
 
 #include <cmath>
+#include <optional>
 
 namespace hearth::test
 {
@@ -252,6 +253,39 @@ TEST_F(ShadingTest, occlusionDarkensTheSkyAndEmissionAdds)
     EXPECT_GT(brightness(128, 0), 50);
     EXPECT_GT(brightness(255, 0), brightness(128, 0) + 30);
     EXPECT_GT(brightness(0, 1), 200);
+}
+
+/// Beside lights emission is in nits: the camera that dims the lights dims it, too.
+TEST_F(ShadingTest, emissionFollowsTheExposure)
+{
+    // a black metal reflects nothing at normal incidence
+    MaterialRecord material = plainMaterial();
+    material.base_color = {0, 0, 0, 1};
+    material.metallic = 1;
+    const auto drawNits = [&](float nits, std::optional<float> lux)
+    {
+        TestScene test;
+        if (lux)
+            test.addLight(light(LightType::directional, *lux));
+        material.emissive = {nits, nits, nits};
+        return channel(drawMaterial(test, material).at(32, 32), 0);
+    };
+    const auto shown = [](double radiance)
+    {
+        // J. Hejl, R. Burgess-Dawson, 2010; the result is for a display of gamma 2.2
+        const double x = std::max(0.0, radiance - 0.004);
+        const double display = x * (6.2 * x + 0.5) / (x * (6.2 * x + 1.7) + 0.06);
+        return srgbByte(static_cast<float>(std::pow(display, 2.2)));
+    };
+    const double key = double{shared::kKeyIlluminance};
+    // white paper under 100,000 lux reflects 31,831 nits, which the exposure makes the key over pi
+    EXPECT_NEAR(drawNits(31831, 100000.0f), shown(key / 3.14159265), 1);
+    EXPECT_NEAR(drawNits(1000, 100000.0f), shown(1000 * key / 100000), 1);
+    EXPECT_LT(drawNits(1000, 100000.0f), drawNits(31831, 100000.0f) / 3);
+    EXPECT_NEAR(drawNits(0.3f, 10 * shared::kKeyIlluminance), shown(0.03), 1);
+    // dim lights are not made brighter, and without lights there is nothing to follow
+    EXPECT_NEAR(drawNits(0.3f, 0.5f), shown(0.3), 1);
+    EXPECT_NEAR(drawNits(0.3f, std::nullopt), shown(0.3), 1);
 }
 
 TEST_F(ShadingTest, pointAndSpotLightsEndWhereTheySay)

@@ -125,7 +125,7 @@ std::vector<SharedStruct> frameStructs()
                       occlusion_strength, flags, alpha_mode, textures, uv_sets, uv_rows),
         HEARTH_STRUCT(Light, position, type, direction, range, intensity, shadow_row, cone_scale, cone_offset,
                       reserved1, reserved2),
-        HEARTH_STRUCT(Lighting, sky_zenith, light_count, sky_horizon, reserved0, sky_ground, reserved1,
+        HEARTH_STRUCT(Lighting, sky_zenith, light_count, sky_horizon, exposure, sky_ground, reserved1,
                       lights),
         HEARTH_STRUCT(ShadowLight, right, depth_scale, down, depth_offset, direction, perspective, origin,
                       depth_step, rounding, first_map, map_count, eye_shift),

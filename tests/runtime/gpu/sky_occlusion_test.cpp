@@ -1,7 +1,9 @@
 // Tests visibility in images: its debug views, and occlusion of the sky's light, against twins of the shaders
 // that share only formulas with them (formats/gpu_shared).
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/gpu_shared/light_cone.h"
 #include "formats/gpu_shared/specular_occlusion.h"
+#include "formats/scene/reflectance.h"
 #include "tests/reference/pack_geometry.h"
 #include "tests/reference/tracer/gltf_material.h"
 #include "tests/runtime/gpu/deformed_scene.h"
@@ -24,6 +26,11 @@ using reference::Double3;
 Double3 wide(Float3 v)
 {
     return Double3(v);
+}
+
+Float3 narrow(Double3 v)
+{
+    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
 /// Narrow and wide cones that lean in various directions, some of them nearly closed: smooth in the position.
@@ -147,9 +154,6 @@ protected:
         point.position = hit + eye;
         point.to_eye = -normalize(ray);
         point.geometric = point.normal = normal;
-        const auto narrow = [](Double3 v) {
-            return Float3{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-        };
         point.cone = visibilityCone(static_cast<float>(m0), narrow(m1), narrow(normal));
         return point;
     }
@@ -326,23 +330,43 @@ TEST_F(SkyViewTest, specularOcclusionIsLookedUpInTheTable)
     }
 }
 
-/// Image computed by the material model of the reference.
+/// Image computed by the material model of the reference, which sees the sky through the cones of the shader.
 TEST_F(SkyViewTest, theImageIsOccludedByLobe)
 {
     const reference::SceneLighting lighting = reference::readLighting(*pack_);
+    const auto mean = [&](const LightCone& cone)
+    {
+        const double height = std::clamp(double{cone.axis.y}, -1.0, 1.0);
+        return lighting.coneRadiance({std::sqrt(1 - height * height), height, 0},
+                                     double{cone.cos_half_angle});
+    };
     for (const auto& [ambient, specular] : {std::pair{kAmbientOcclusionExact, kSpecularOcclusionFit},
                                             std::pair{kAmbientOcclusionSmoothstep, kSpecularOcclusionOff},
                                             std::pair{kAmbientOcclusionOff, kSpecularOcclusionFit}})
         expectPixels(show(kViewFinal, ambient, specular), 2,
                      [&](const TwinPoint& p)
                      {
-                         reference::Coating coating{{1, 1, 1}, 0, double{0.4f}, 1, {}, p.normal};
-                         const reference::SkyResponse open = underSky(coating, lighting, p.to_eye);
-                         const double diffuse = p.says ? double{twinAmbient(p, ambient)} : 1;
-                         const double mirrored =
-                             p.says && specular != kSpecularOcclusionOff ? double{twinSpecular(p, 0.4f)} : 1;
+                         const reference::Coating coating{{1, 1, 1}, 0, double{0.4f}, 1, {}, p.normal};
+                         const reference::Albedo albedo = reference::albedo(coating, p.to_eye);
+                         const Float3 normal = narrow(p.normal);
+                         const float facing = std::abs(static_cast<float>(dot(p.normal, p.to_eye)));
+                         const Float3 mirror = narrow(p.normal * (2 * dot(p.normal, p.to_eye)) - p.to_eye);
+                         LightCone diffuse = cosineCone(normal);
+                         LightCone reflection = lobeCone(lobeTotal(0.4f, facing), mirror, normal);
+                         double diffuse_share = 1, mirrored_share = 1;
+                         if (p.says && ambient != kAmbientOcclusionOff)
+                         {
+                             diffuse = visibleCosineCone(p.cone, normal);
+                             diffuse_share = double{twinAmbient(p, ambient)};
+                         }
+                         if (p.says && specular != kSpecularOcclusionOff)
+                         {
+                             reflection = visibleLobeCone(reflection, p.cone);
+                             mirrored_share = double{twinSpecular(p, 0.4f)};
+                         }
                          const reference::Incident sun = lighting.lights[0].at(p.position);
-                         const Double3 radiance = open.diffuse * diffuse + open.specular * mirrored +
+                         const Double3 radiance = albedo.diffuse * mean(diffuse) * diffuse_share +
+                                                  albedo.specular * mean(reflection) * mirrored_share +
                                                   sun.irradiance * reflected(coating, p.to_eye, sun.to_light);
                          const auto shown = [](double value)
                          {

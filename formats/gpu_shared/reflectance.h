@@ -1,0 +1,100 @@
+// Reflection of constant light by a GGX surface (directional albedo), with the light that microfacets scatter
+// several times, and the cone that a lobe sees. One source for C++ and GLSL.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#ifndef HEARTH_SHARED_REFLECTANCE_H
+#define HEARTH_SHARED_REFLECTANCE_H
+
+#include "formats/gpu_shared/language.h"
+
+// A lobe of height-correlated masking reflects f0 * scale + bias after one scattering, with Schlick's Fresnel
+// term (B. Karis, "Real shading in Unreal Engine 4", 2013). A table has both for 64 cosines and 32
+// roughnesses. They change most where cosine and GGX alpha are near 0; roots put the nodes there. Between
+// nodes both are within .005 of the integral (tests/formats/reflectance_test.cpp).
+//
+// One scattering loses light: 69 % at roughness 1 and normal incidence. E. Turquin, "Practical multiple
+// scattering compensation for microfacet models", 2019, scales a lobe by 1 + f0 (1 / E - 1), with E the
+// reflectance of f0 = 1: a white metal reflects all light. The diffuse part gets what the specular part of
+// the dielectric leaves, so that a white dielectric, and each mixture of both, reflects all light, too.
+//
+// The table also has the cone from which a lobe gets its light: how far its mean direction is turned from the
+// mirror direction to the normal, and the cosine of the half-angle.
+
+HEARTH_SHARED_BEGIN
+
+/// Nodes of the table: cosines are columns, roughnesses rows.
+HEARTH_CONSTANT uint kReflectanceColumns = 64;
+HEARTH_CONSTANT uint kReflectanceRows = 32;
+
+/// Roughness of the first row; a smaller roughness is clamped to it, as in shading.
+HEARTH_CONSTANT float kMinReflectanceRoughness = 0.045f;
+
+/// Reflectance at normal incidence of all dielectrics.
+HEARTH_CONSTANT float kDielectricF0 = 0.04f;
+
+/// Values of the table.
+struct LobeTotal
+{
+    float scale;
+    float bias;
+    float turn;           ///< mean direction of the lobe: (1 - turn) mirror direction + turn normal
+    float cos_half_angle; ///< [0, 1]
+};
+
+/// Return the coordinates of a lookup, each in [0, 1], the first node at 0, the last at 1: x is the cosine, y
+/// the roughness.
+/// roughness  perceptual
+/// n_dot_v    cosine between normal and view, [0, 1]
+HEARTH_FUNCTION Float2 reflectanceCoordinates(float roughness, float n_dot_v)
+{
+    float rough = (roughness - kMinReflectanceRoughness) / (1.0f - kMinReflectanceRoughness);
+    return Float2(sqrt(sqrt(min(max(n_dot_v, 0.0f), 1.0f))), sqrt(min(max(rough, 0.0f), 1.0f)));
+}
+
+/// Return cosine (x) and roughness (y) of a node.
+HEARTH_FUNCTION Float2 reflectanceNode(uint column, uint row)
+{
+    float x = float(column) / float(kReflectanceColumns - 1u);
+    float y = float(row) / float(kReflectanceRows - 1u);
+    return Float2(x * x * x * x, kMinReflectanceRoughness + (1.0f - kMinReflectanceRoughness) * y * y);
+}
+
+/// Return the share of constant light that a lobe reflects after one scattering.
+HEARTH_FUNCTION Float3 onceScattered(Float3 f0, HEARTH_IN(LobeTotal) lobe)
+{
+    return f0 * lobe.scale + Float3(lobe.bias, lobe.bias, lobe.bias);
+}
+
+/// Return the share of constant light that a lobe reflects, with several scatterings.
+HEARTH_FUNCTION Float3 lobeAlbedo(Float3 f0, HEARTH_IN(LobeTotal) lobe)
+{
+    return onceScattered(f0, lobe) *
+           (Float3(1.0f, 1.0f, 1.0f) + f0 * (1.0f / (lobe.scale + lobe.bias) - 1.0f));
+}
+
+/// Directional albedos of a surface.
+struct SurfaceAlbedo
+{
+    Float3 diffuse;
+    Float3 specular;
+    Float3 scattering; ///< factor of the lobe that adds the light of several scatterings
+    Float3 f0;
+};
+
+/// Return the albedos of a mixture of dielectric and metal.
+/// base  base colour
+HEARTH_FUNCTION SurfaceAlbedo surfaceAlbedo(Float3 base, float metallic, HEARTH_IN(LobeTotal) lobe)
+{
+    Float3 dielectric = lobeAlbedo(Float3(kDielectricF0, kDielectricF0, kDielectricF0), lobe);
+    SurfaceAlbedo albedo;
+    albedo.f0 = base * metallic + Float3(kDielectricF0, kDielectricF0, kDielectricF0) * (1.0f - metallic);
+    albedo.specular = lobeAlbedo(base, lobe) * metallic + dielectric * (1.0f - metallic);
+    albedo.diffuse = base * ((1.0f - metallic) * (1.0f - dielectric.x));
+    Float3 once = onceScattered(albedo.f0, lobe);
+    albedo.scattering =
+        Float3(albedo.specular.x / once.x, albedo.specular.y / once.y, albedo.specular.z / once.z);
+    return albedo;
+}
+
+HEARTH_SHARED_END
+
+#endif
