@@ -12,7 +12,8 @@
 
 HEARTH_SHARED_BEGIN
 
-/// Projection of a sun or a spot light. Points are relative to `origin`, in world axes.
+/// Projection of a sun, of a spot, or of one of the faces of a point light. Points are relative to `origin`,
+/// in world axes.
 struct ShadowLight
 {
     Float3 right; ///< right, down and direction are unit and orthogonal
@@ -20,9 +21,9 @@ struct ShadowLight
     Float3 down;
     float depth_offset; ///< depth before the division = z * depth_scale + depth_offset, z along `direction`
     Float3 direction;   ///< direction of the light's rays
-    float perspective;  ///< 1 spot: coordinates are tangents; 0 sun: metres
-    Float3 origin;      ///< world: position of the spot; for a sun a fixed position near the scene
-    float depth_step;   ///< sun: depth that one metre along the light makes; spot: nearest distance
+    float perspective;  ///< 1 spot, face: coordinates are tangents; 0 sun: metres
+    Float3 origin;      ///< world: position of the light; for a sun a fixed position near the scene
+    float depth_step;   ///< sun: depth that one metre along the light makes; else: nearest distance
     float rounding;     ///< depth by which casters are moved back, because depths are rounded
     uint first_map;
     uint map_count; ///< sorted by descending density
@@ -43,10 +44,13 @@ struct ShadowMap
     uint layer;
 };
 
-/// Maximum number of lights that cast shadows, and of their maps: bounds of the uniform block, whose 3.3 KiB
-/// every device can bind.
-HEARTH_CONSTANT uint kMaxShadowLights = 16;
+/// Maximum number of projections, and of their maps: bounds of the uniform block, whose 7.1 KiB every device
+/// can bind. Suns and spots take one projection each, point lights kPointFaces.
+HEARTH_CONSTANT uint kMaxShadowProjections = 64;
 HEARTH_CONSTANT uint kMaxShadowMaps = 64;
+
+/// Faces of the cube around a point light. Face 2 i looks along axis i, face 2 i + 1 against it.
+HEARTH_CONSTANT uint kPointFaces = 6;
 
 /// `Light::shadow_row` of a light without shadows.
 HEARTH_CONSTANT uint kNoShadow = 0xFFFFFFFFu;
@@ -54,7 +58,8 @@ HEARTH_CONSTANT uint kNoShadow = 0xFFFFFFFFu;
 /// Shadow data of a frame (std140).
 struct ShadowBlock
 {
-    ShadowLight lights[kMaxShadowLights]; ///< index: Light::shadow_row
+    /// index: Light::shadow_row; for a point light plus the face
+    ShadowLight lights[kMaxShadowProjections];
     ShadowMap maps[kMaxShadowMaps];
     float error_bias; ///< as for makeCasterView
     float layer_size; ///< texels of a layer each way; a map fills the first ones
@@ -66,7 +71,7 @@ struct ShadowBlock
 /// dark to see.
 HEARTH_CONSTANT float kGrazingCosine = 0.0087f;
 
-/// Lower bound in metres of the distance from a spot to a plane: a surface seen edge-on covers no texel.
+/// Lower bound in metres of the distance from a light to a plane: a surface seen edge-on covers no texel.
 HEARTH_CONSTANT float kMinPlaneDistance = 1e-6f;
 
 /// Texels by which a rasteriser may move a vertex: 1/16 at the coarsest that Vulkan allows, after
@@ -79,8 +84,19 @@ struct ShadowPoint
     float x; ///< the light's coordinates
     float y;
     float depth;
-    uint known; ///< 0: behind a spot light
+    uint known; ///< 0: behind the light, which is no sun
 };
+
+/// Return the face of a point light that covers a point: the axis of its largest coordinate. Both other
+/// coordinates divided by that one lie in [-1, 1], so the map of the face covers the point.
+HEARTH_FUNCTION uint pointFace(Float3 from_light)
+{
+    Float3 reach = abs3(from_light);
+    uint axis = reach.y > reach.x ? 1u : 0u;
+    axis = reach.z > max(reach.x, reach.y) ? 2u : axis;
+    float along = axis == 0u ? from_light.x : (axis == 1u ? from_light.y : from_light.z);
+    return axis * 2u + (along < 0.0f ? 1u : 0u);
+}
 
 /// Return the divisor of the light's coordinates.
 HEARTH_FUNCTION float shadowDivisor(HEARTH_IN(ShadowLight) light, float z)
@@ -133,10 +149,10 @@ HEARTH_FUNCTION bool isInShadowMap(HEARTH_IN(ShadowMap) map, HEARTH_IN(ShadowPoi
 
 /// Return the change of a surface's depth from texel to texel, both axes together: |du| + |dv|. Computed by
 /// ray differentials: the rays through neighbouring texels meet the tangent plane, where depth is a linear
-/// function also for a spot. H. Igehy, "Tracing ray differentials", 1999.
+/// function also in perspective. H. Igehy, "Tracing ray differentials", 1999.
 ///
 /// normal   unit, either side
-/// nearest  metres from a spot to the nearest part of the surface, or less. At grazing angles the slope is
+/// nearest  metres from the light to the nearest part of the surface, or less. At grazing angles the slope is
 ///          the one of 89.5 degrees at this distance, the same for all of the surface, since a difference
 ///          between the vertices of a triangle would tilt it
 HEARTH_FUNCTION float shadowSlope(HEARTH_IN(ShadowLight) light, HEARTH_IN(ShadowMap) map, Float3 point,
@@ -221,7 +237,7 @@ HEARTH_SHARED_END
 // sizes in std430 and std140 layout
 static_assert(sizeof(hearth::shared::ShadowLight) == 80);
 static_assert(sizeof(hearth::shared::ShadowMap) == 32);
-static_assert(sizeof(hearth::shared::ShadowBlock) == 16 * 80 + 64 * 32 + 16);
+static_assert(sizeof(hearth::shared::ShadowBlock) == 64 * 80 + 64 * 32 + 16);
 #endif
 
 #endif

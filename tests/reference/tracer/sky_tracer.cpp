@@ -101,7 +101,7 @@ Double3 bounced(const ShadedScene& scene, Double3 start, Double3 direction, cons
             const Incident incident = light.at(met->surface.position);
             const double nl = dot(c.normal, incident.to_light);
             const bool shadowed =
-                nl > 0 && tracing.shadows && light.type != formats::LightType::point &&
+                nl > 0 && tracing.shadows &&
                 scene.occluded({start, incident.to_light, 0, std::min(incident.distance, kFar)});
             if (nl > 0 && !shadowed)
                 irradiance += incident.irradiance * (nl / kPi);
@@ -206,8 +206,7 @@ Double3 underLights(const ShadedScene& scene, const ShadedPoint& point, Double3 
     for (const SceneLight& light : scene.lighting().lights)
     {
         const Incident incident = light.at(point.surface.position);
-        if (shadows && light.type != formats::LightType::point &&
-            scene.occluded({start, incident.to_light, 0, std::min(incident.distance, kFar)}))
+        if (shadows && scene.occluded({start, incident.to_light, 0, std::min(incident.distance, kFar)}))
             continue;
         radiance += incident.irradiance * reflected(point.coating, view, incident.to_light);
     }

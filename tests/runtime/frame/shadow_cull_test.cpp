@@ -118,6 +118,39 @@ TEST(CasterView, leavesOutPointsBesideTheMap)
     EXPECT_GT(count, 5000u);
 }
 
+/// Casters within the range of a light are drawn, and boxes beyond the face's square at that distance are not.
+TEST(CasterView, ofALightWithARangeEndsThere)
+{
+    std::mt19937 random(8);
+    size_t near = 0;
+    size_t far = 0;
+    for (int run = 0; run < 300; ++run)
+    {
+        const Float3 position = randomUnit(random) * between(random, 0, 1000);
+        const uint32_t face = random() % kPointFaces;
+        const ShadowLight light = makePointShadow(position, face, 0.05f);
+        const float range = between(random, 0.5f, 20);
+        const FrameView casters =
+            makeCasterView(randomView(random), light, makeConeMap(kFaceTangent, kSize), 2, range);
+        for (int i = 0; i < 100; ++i)
+        {
+            const Float3 from_light = randomUnit(random) * between(random, 0.02f, 2) * range;
+            if (pointFace(from_light) != face)
+                continue;
+            const Float3 half = Float3{1, 1, 1} * (range * between(random, 0.001f, 0.01f));
+            const Float3 middle = position + from_light;
+            const bool outside = boxOutsideFrustum(casters, unmoved(), middle - half, middle + half);
+            near += length(from_light) < range;
+            EXPECT_FALSE(length(from_light) < range && outside);
+            const bool beyond = dot(from_light, light.direction) > range * 1.02f;
+            far += beyond;
+            EXPECT_TRUE(!beyond || outside);
+        }
+    }
+    EXPECT_GT(near, 1000u);
+    EXPECT_GT(far, 500u);
+}
+
 TEST(CasterView, drawsWhatTheImageWouldWithErrorsDividedByTheBias)
 {
     std::mt19937 random(3);

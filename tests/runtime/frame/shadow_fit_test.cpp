@@ -253,6 +253,61 @@ TEST(SpotMap, ofATinySphereStaysAddressable)
     }
 }
 
+/// Directions on the twelve edges and eight corners of a cube, exactly and beside them by up to 1e-3.
+std::vector<Float3> makeSeams(std::mt19937& random)
+{
+    std::vector<Float3> seams;
+    for (int corner = 0; corner < 8; ++corner)
+        for (int axis = 0; axis < 3; ++axis)
+            for (int i = 0; i < 200; ++i)
+            {
+                float p[3] = {corner & 1 ? 1.0f : -1.0f, corner & 2 ? 1.0f : -1.0f,
+                              corner & 4 ? 1.0f : -1.0f};
+                p[axis] = i == 0 ? p[axis] : between(random, -1, 1);
+                const Float3 exact = Float3{p[0], p[1], p[2]} * std::exp2(between(random, -6, 6));
+                seams.push_back(exact);
+                seams.push_back(exact + randomUnit(random) * (length(exact) * between(random, 0, 1e-3f)));
+            }
+    return seams;
+}
+
+TEST(PointFaces, coverAllDirectionsWithAllTapsOfTheFilter)
+{
+    std::mt19937 random(9);
+    std::vector<Float3> points = makeSeams(random);
+    for (int i = 0; i < 5000; ++i)
+        points.push_back(randomUnit(random) * std::exp2(between(random, -6, 6)));
+    for (const uint32_t kernel : {0u, 1u, 3u})
+        for (const uint32_t texels : {16u, 512u, 8192u})
+        {
+            const ShadowMap map = makeConeMap(kFaceTangent, {.texels = texels, .kernel = kernel});
+            for (const Float3& point : points)
+            {
+                const ShadowLight face = makePointShadow({3, 1, 2}, pointFace(point), 0.01f);
+                const ShadowPoint at = shadowPoint(face, point);
+                ASSERT_TRUE(isInShadowMap(map, at)) << point.x << " " << point.y << " " << point.z;
+                // the face that is nearest in angle
+                for (uint32_t other = 0; other < kPointFaces; ++other)
+                    ASSERT_LE(dot(makePointShadow({}, other, 1).direction, point),
+                              dot(face.direction, point));
+            }
+        }
+}
+
+/// The half-width of a map of n texels is n / (n - 2 (kernel + 1)): of these texels the face itself has
+/// n - 2 (kernel + 1), less an eighth for rounding.
+TEST(PointFaces, areWiderThanNinetyDegreesByTheFilterAlone)
+{
+    for (const uint32_t kernel : {0u, 1u, 3u})
+    {
+        const ShadowMap map = makeConeMap(kFaceTangent, {.texels = 256, .kernel = kernel});
+        const float tangent = (map.size - map.offset_x) / map.scale_x;
+        EXPECT_GE(tangent, 256.0f / (256 - 2 * static_cast<float>(kernel + 1)));
+        EXPECT_LE(tangent, 256.0f / (255.8f - 2 * static_cast<float>(kernel + 1)));
+        EXPECT_EQ(-map.offset_x / map.scale_x, -tangent);
+    }
+}
+
 TEST(ShadowMaps, areSortedByDensityAndKeepTheOrderOfEquals)
 {
     std::mt19937 random(7);
