@@ -27,8 +27,7 @@ struct ShadowLight
     float rounding;     ///< depth by which casters are moved back, because depths are rounded
     uint first_map;
     uint map_count; ///< sorted by descending density
-    /// Bound in metres of the distance between the view's eye and the eye of the casters' cuts (findEyeCell).
-    float eye_shift;
+    float reserved;
 };
 
 /// One map of a light: texel = coordinate * scale + offset.
@@ -147,21 +146,30 @@ HEARTH_FUNCTION bool isInShadowMap(HEARTH_IN(ShadowMap) map, HEARTH_IN(ShadowPoi
     return point.known != 0u && texel.x >= low && texel.y >= low && texel.x < high && texel.y < high;
 }
 
+/// Return the distance in metres from a light to the plane of a surface, for a sun the cosine between its rays
+/// and the normal.
+///
+/// normal   unit, either side
+/// nearest  metres from the light to the nearest part of the surface, or less. At grazing angles the result is
+///          that of 89.5 degrees at this distance, the same for all of the surface, since a difference between
+///          the vertices of a triangle would tilt it
+HEARTH_FUNCTION float shadowFacing(HEARTH_IN(ShadowLight) light, Float3 point, Float3 normal, float nearest)
+{
+    HEARTH_PRECISE Float3 ray = light.direction * (1.0f - light.perspective) + point * light.perspective;
+    HEARTH_PRECISE float ray_length = (1.0f - light.perspective) + nearest * light.perspective;
+    HEARTH_PRECISE float least = max(kGrazingCosine * ray_length, kMinPlaneDistance);
+    return max(abs(dot3(normal, ray)), least);
+}
+
 /// Return the change of a surface's depth from texel to texel, both axes together: |du| + |dv|. Computed by
 /// ray differentials: the rays through neighbouring texels meet the tangent plane, where depth is a linear
 /// function also in perspective. H. Igehy, "Tracing ray differentials", 1999.
 ///
 /// normal   unit, either side
-/// nearest  metres from the light to the nearest part of the surface, or less. At grazing angles the slope is
-///          the one of 89.5 degrees at this distance, the same for all of the surface, since a difference
-///          between the vertices of a triangle would tilt it
-HEARTH_FUNCTION float shadowSlope(HEARTH_IN(ShadowLight) light, HEARTH_IN(ShadowMap) map, Float3 point,
-                                  Float3 normal, float nearest)
+/// facing   shadowFacing
+HEARTH_FUNCTION float shadowSlope(HEARTH_IN(ShadowLight) light, HEARTH_IN(ShadowMap) map, Float3 normal,
+                                  float facing)
 {
-    HEARTH_PRECISE Float3 ray = light.direction * (1.0f - light.perspective) + point * light.perspective;
-    HEARTH_PRECISE float ray_length = (1.0f - light.perspective) + nearest * light.perspective;
-    HEARTH_PRECISE float least = max(kGrazingCosine * ray_length, kMinPlaneDistance);
-    HEARTH_PRECISE float facing = max(abs(dot3(normal, ray)), least);
     HEARTH_PRECISE float across =
         abs(dot3(normal, light.right)) / map.scale_x + abs(dot3(normal, light.down)) / map.scale_y;
     HEARTH_PRECISE float slope = light.depth_step * across / facing;
@@ -177,20 +185,28 @@ HEARTH_FUNCTION float snapToRaster(float texel)
 }
 
 /// Return the clip-space position of a vertex of a caster. It is deeper than the vertex by the rise of its
-/// surface within the filter (a tap lies at most kernel + 1/2 texels beside the point that is looked up) and
-/// by the rounding of rasterisers.
+/// surface within the filter (a tap lies at most kernel + 1/2 texels beside the point that is looked up), by
+/// its error and by the rounding of rasterisers. Moving it by the error along the normal instead would open
+/// cracks.
 ///
-/// nearest  as for shadowSlope, of the triangle
+/// nearest  as for shadowFacing, of the triangle
+/// error    metres, bounds the distance of the triangle to the source
 HEARTH_FUNCTION Float4 shadowCasterClip(HEARTH_IN(ShadowLight) light, HEARTH_IN(ShadowMap) map, Float3 point,
-                                        Float3 normal, float nearest)
+                                        Float3 normal, float nearest, float error)
 {
     HEARTH_PRECISE float z = dot3(light.direction, point);
     float w = shadowDivisor(light, z);
     HEARTH_PRECISE float x = dot3(light.right, point) * map.scale_x;
     HEARTH_PRECISE float y = dot3(light.down, point) * map.scale_y;
+    float facing = shadowFacing(light, point, normal, nearest);
     HEARTH_PRECISE float offset =
-        shadowSlope(light, map, point, normal, nearest) * (map.kernel + 0.5f + kRasterMargin);
-    HEARTH_PRECISE float depth = ((z * light.depth_scale + light.depth_offset) - offset * w) - light.rounding;
+        shadowSlope(light, map, normal, facing) * (map.kernel + 0.5f + kRasterMargin);
+    // depth on the plane that is farther by the error: in perspective all depths shrink by one factor
+    HEARTH_PRECISE float farther = facing / (facing + error);
+    HEARTH_PRECISE float moved =
+        z * light.depth_scale - light.depth_step * error / facing + light.depth_offset;
+    HEARTH_PRECISE float surface = light.perspective != 0.0f ? light.depth_offset * farther : moved;
+    HEARTH_PRECISE float depth = (surface - offset * w) - light.rounding;
     if (light.perspective == 0.0f)
     {
         // before the offset, which is whole: the map of a sun that has moved is the same, shifted, bit for
@@ -206,29 +222,6 @@ HEARTH_FUNCTION Float4 shadowCasterClip(HEARTH_IN(ShadowLight) light, HEARTH_IN(
     // a vertex that the offset moves behind the end of the scene is clipped, and has nothing behind it;
     // clamping its depth would lift its whole triangle
     return Float4(clip_x, clip_y, depth, w);
-}
-
-/// Return the allowed error in metres of a surface at a distance from the eye, where errors count
-/// `error_bias` times less.
-HEARTH_FUNCTION float allowedCutError(HEARTH_IN(FrameView) view, float distance, float error_bias)
-{
-    HEARTH_PRECISE float pixels = max(view.threshold, 0.0f) * error_bias;
-    HEARTH_PRECISE float error =
-        pixels * max(distance, view.z_near) / (view.lod_scale * lodFactor(view, distance));
-    return error;
-}
-
-/// Return the distance in metres by which a visible point is moved along its normal before the shadow lookup.
-/// The visible surface may be off the true one by the error that the threshold allows there, the casters'
-/// surface by `error_bias` times as much (makeCasterView), for an eye up to `eye_shift` metres farther away.
-/// Without the offset the coarser surface would shadow the finer one.
-/// distance   from the eye to the point
-HEARTH_FUNCTION float shadowNormalOffset(HEARTH_IN(FrameView) view, float distance, float error_bias,
-                                         float eye_shift)
-{
-    HEARTH_PRECISE float offset =
-        allowedCutError(view, distance, 1.0f) + allowedCutError(view, distance + eye_shift, error_bias);
-    return offset;
 }
 
 HEARTH_SHARED_END

@@ -87,7 +87,6 @@ bool mayExceed(const shared::FrameView& casters, const Box3& box, float error_wo
 shared::ShadowLight projectionKey(shared::ShadowLight light)
 {
     light.first_map = light.map_count = 0;
-    light.eye_shift = 0;
     return light;
 }
 

@@ -150,9 +150,6 @@ void planLight(uint32_t row, std::span<const ShadowCaster> casters, const Shadow
     const std::span finest = std::span(plan.finest_m).subspan(row, count);
     // one eye for all faces: on both sides of a seam the casters are the same
     std::fill(finest.begin(), finest.end(), *std::min_element(finest.begin(), finest.end()));
-    for (shared::ShadowLight& projection : std::span(plan.block.lights).subspan(row, count))
-        if (projection.map_count > 0)
-            projection.eye_shift = shared::findEyeCell(view, finest.front(), options.error_bias).shift;
 }
 
 } // namespace

@@ -17,7 +17,9 @@ struct ShadowLookup
 
 // position     relative to the eye
 // flat_normal  unit, of the triangle, towards the visible side
-ShadowLookup findShadowMap(Light light, vec3 position, vec3 flat_normal)
+// error        metres, bounds the distance of the triangle to the source. The point is moved by it along the
+//              normal, so that another level of its surface, which is drawn into the map, does not shadow it
+ShadowLookup findShadowMap(Light light, vec3 position, vec3 flat_normal, float error)
 {
     ShadowLookup found;
     found.map = kNoShadow;
@@ -25,8 +27,7 @@ ShadowLookup findShadowMap(Light light, vec3 position, vec3 flat_normal)
     if (row == kNoShadow)
         return found;
     ShadowLight projection = shadows.lights[row];
-    float offset = shadowNormalOffset(view, length(position), shadows.error_bias, projection.eye_shift);
-    vec3 from_light = position + (view.eye - projection.origin) + flat_normal * offset;
+    vec3 from_light = position + (view.eye - projection.origin) + flat_normal * error;
     if (light.type == kLightPoint)
         projection = shadows.lights[row + pointFace(from_light)];
     found.point = shadowPoint(projection, from_light);
@@ -53,8 +54,8 @@ float filterShadow(ShadowLookup at)
 }
 
 // Share of the light that reaches the point: 0 in shadow, 1 fully lit.
-float lightVisibility(Light light, vec3 position, vec3 flat_normal)
+float lightVisibility(Light light, vec3 position, vec3 flat_normal, float error)
 {
-    ShadowLookup at = findShadowMap(light, position, flat_normal);
+    ShadowLookup at = findShadowMap(light, position, flat_normal, error);
     return at.map == kNoShadow ? 1.0 : filterShadow(at);
 }

@@ -308,6 +308,29 @@ TEST_F(ShadowImageTest, coarserCastersShadowNothingThatIsLit)
     }
 }
 
+/// Surfaces that no level has simplified have no error, whatever the threshold allows: their shadows are the
+/// same, those of things as low as a pixel too.
+TEST_F(ShadowImageTest, theThresholdMovesNoShadowOfASourceTriangle)
+{
+    TestScene test;
+    const uint32_t white = test.addMaterial(plainMaterial());
+    test.addInstance(test.addMesh(withMaterial(makeQuad(8, 8), white)), lying({0, 0, 0}));
+    const uint32_t tile = test.addMesh(withMaterial(makeQuad(0.5f, 0.5f), white));
+    for (int i = 0; i < 5; ++i)
+        test.addInstance(tile, lying({static_cast<float>(i) - 2, 0.02f * static_cast<float>(i + 1), 0}));
+    test.addInstance(tile, translated({0, 0.25f, 1}));
+    test.addLight(sun({0.5f, -0.6f, -0.4f}));
+    test.addLight(light(LightType::point, {1, 1.5f, 1.2f}, {0, -1, 0}, 10));
+    const PackView pack = test.build();
+    gpu::ShadowOptions options = kFour;
+    options.max_maps = 10;
+    DrawOptions coarse = kSource;
+    coarse.error_pixels = 4;
+    const Image image = drawShadowed(pack, options, kSource);
+    EXPECT_EQ(drawShadowed(pack, options, coarse).color, image.color);
+    EXPECT_GT(countDifferent(draw(*upload(pack), roomCamera(), kSource), image), 500u);
+}
+
 /// If a sphere moves while the cut stays the same, its map moves by whole texels and shows the same: shadows
 /// do not shimmer.
 TEST_F(ShadowImageTest, aMapThatMovesShowsTheSame)
