@@ -164,6 +164,7 @@ struct ClusterDraw
     int base_y;
     int base_z;
     float grid_step;
+    float position_error; ///< bounds the distance of its surface to the source; object space
 };
 
 /// Bit of ClusterDraw::counts: morph targets are stored after the triangles.

@@ -12,7 +12,8 @@
 
 HEARTH_SHARED_BEGIN
 
-/// Projection of a sun or a spot light. Points are relative to `origin`, in world axes.
+/// Projection of a sun, of a spot, or of one of the faces of a point light. Points are relative to `origin`,
+/// in world axes.
 struct ShadowLight
 {
     Float3 right; ///< right, down and direction are unit and orthogonal
@@ -20,14 +21,13 @@ struct ShadowLight
     Float3 down;
     float depth_offset; ///< depth before the division = z * depth_scale + depth_offset, z along `direction`
     Float3 direction;   ///< direction of the light's rays
-    float perspective;  ///< 1 spot: coordinates are tangents; 0 sun: metres
-    Float3 origin;      ///< world: position of the spot; for a sun a fixed position near the scene
-    float depth_step;   ///< sun: depth that one metre along the light makes; spot: nearest distance
+    float perspective;  ///< 1 spot, face: coordinates are tangents; 0 sun: metres
+    Float3 origin;      ///< world: position of the light; for a sun a fixed position near the scene
+    float depth_step;   ///< sun: depth that one metre along the light makes; else: nearest distance
     float rounding;     ///< depth by which casters are moved back, because depths are rounded
     uint first_map;
     uint map_count; ///< sorted by descending density
-    /// Bound in metres of the distance between the view's eye and the eye of the casters' cuts (findEyeCell).
-    float eye_shift;
+    float reserved;
 };
 
 /// One map of a light: texel = coordinate * scale + offset.
@@ -43,10 +43,13 @@ struct ShadowMap
     uint layer;
 };
 
-/// Maximum number of lights that cast shadows, and of their maps: bounds of the uniform block, whose 3.3 KiB
-/// every device can bind.
-HEARTH_CONSTANT uint kMaxShadowLights = 16;
+/// Maximum number of projections, and of their maps: bounds of the uniform block, whose 7.1 KiB every device
+/// can bind. Suns and spots take one projection each, point lights kPointFaces.
+HEARTH_CONSTANT uint kMaxShadowProjections = 64;
 HEARTH_CONSTANT uint kMaxShadowMaps = 64;
+
+/// Faces of the cube around a point light. Face 2 i looks along axis i, face 2 i + 1 against it.
+HEARTH_CONSTANT uint kPointFaces = 6;
 
 /// `Light::shadow_row` of a light without shadows.
 HEARTH_CONSTANT uint kNoShadow = 0xFFFFFFFFu;
@@ -54,7 +57,8 @@ HEARTH_CONSTANT uint kNoShadow = 0xFFFFFFFFu;
 /// Shadow data of a frame (std140).
 struct ShadowBlock
 {
-    ShadowLight lights[kMaxShadowLights]; ///< index: Light::shadow_row
+    /// index: Light::shadow_row; for a point light plus the face
+    ShadowLight lights[kMaxShadowProjections];
     ShadowMap maps[kMaxShadowMaps];
     float error_bias; ///< as for makeCasterView
     float layer_size; ///< texels of a layer each way; a map fills the first ones
@@ -66,7 +70,7 @@ struct ShadowBlock
 /// dark to see.
 HEARTH_CONSTANT float kGrazingCosine = 0.0087f;
 
-/// Lower bound in metres of the distance from a spot to a plane: a surface seen edge-on covers no texel.
+/// Lower bound in metres of the distance from a light to a plane: a surface seen edge-on covers no texel.
 HEARTH_CONSTANT float kMinPlaneDistance = 1e-6f;
 
 /// Texels by which a rasteriser may move a vertex: 1/16 at the coarsest that Vulkan allows, after
@@ -79,8 +83,19 @@ struct ShadowPoint
     float x; ///< the light's coordinates
     float y;
     float depth;
-    uint known; ///< 0: behind a spot light
+    uint known; ///< 0: behind the light, which is no sun
 };
+
+/// Return the face of a point light that covers a point: the axis of its largest coordinate. Both other
+/// coordinates divided by that one lie in [-1, 1], so the map of the face covers the point.
+HEARTH_FUNCTION uint pointFace(Float3 from_light)
+{
+    Float3 reach = abs3(from_light);
+    uint axis = reach.y > reach.x ? 1u : 0u;
+    axis = reach.z > max(reach.x, reach.y) ? 2u : axis;
+    float along = axis == 0u ? from_light.x : (axis == 1u ? from_light.y : from_light.z);
+    return axis * 2u + (along < 0.0f ? 1u : 0u);
+}
 
 /// Return the divisor of the light's coordinates.
 HEARTH_FUNCTION float shadowDivisor(HEARTH_IN(ShadowLight) light, float z)
@@ -131,21 +146,30 @@ HEARTH_FUNCTION bool isInShadowMap(HEARTH_IN(ShadowMap) map, HEARTH_IN(ShadowPoi
     return point.known != 0u && texel.x >= low && texel.y >= low && texel.x < high && texel.y < high;
 }
 
-/// Return the change of a surface's depth from texel to texel, both axes together: |du| + |dv|. Computed by
-/// ray differentials: the rays through neighbouring texels meet the tangent plane, where depth is a linear
-/// function also for a spot. H. Igehy, "Tracing ray differentials", 1999.
+/// Return the distance in metres from a light to the plane of a surface, for a sun the cosine between its rays
+/// and the normal.
 ///
 /// normal   unit, either side
-/// nearest  metres from a spot to the nearest part of the surface, or less. At grazing angles the slope is
-///          the one of 89.5 degrees at this distance, the same for all of the surface, since a difference
-///          between the vertices of a triangle would tilt it
-HEARTH_FUNCTION float shadowSlope(HEARTH_IN(ShadowLight) light, HEARTH_IN(ShadowMap) map, Float3 point,
-                                  Float3 normal, float nearest)
+/// nearest  metres from the light to the nearest part of the surface, or less. At grazing angles the result is
+///          that of 89.5 degrees at this distance, the same for all of the surface, since a difference between
+///          the vertices of a triangle would tilt it
+HEARTH_FUNCTION float shadowFacing(HEARTH_IN(ShadowLight) light, Float3 point, Float3 normal, float nearest)
 {
     HEARTH_PRECISE Float3 ray = light.direction * (1.0f - light.perspective) + point * light.perspective;
     HEARTH_PRECISE float ray_length = (1.0f - light.perspective) + nearest * light.perspective;
     HEARTH_PRECISE float least = max(kGrazingCosine * ray_length, kMinPlaneDistance);
-    HEARTH_PRECISE float facing = max(abs(dot3(normal, ray)), least);
+    return max(abs(dot3(normal, ray)), least);
+}
+
+/// Return the change of a surface's depth from texel to texel, both axes together: |du| + |dv|. Computed by
+/// ray differentials: the rays through neighbouring texels meet the tangent plane, where depth is a linear
+/// function also in perspective. H. Igehy, "Tracing ray differentials", 1999.
+///
+/// normal   unit, either side
+/// facing   shadowFacing
+HEARTH_FUNCTION float shadowSlope(HEARTH_IN(ShadowLight) light, HEARTH_IN(ShadowMap) map, Float3 normal,
+                                  float facing)
+{
     HEARTH_PRECISE float across =
         abs(dot3(normal, light.right)) / map.scale_x + abs(dot3(normal, light.down)) / map.scale_y;
     HEARTH_PRECISE float slope = light.depth_step * across / facing;
@@ -161,20 +185,28 @@ HEARTH_FUNCTION float snapToRaster(float texel)
 }
 
 /// Return the clip-space position of a vertex of a caster. It is deeper than the vertex by the rise of its
-/// surface within the filter (a tap lies at most kernel + 1/2 texels beside the point that is looked up) and
-/// by the rounding of rasterisers.
+/// surface within the filter (a tap lies at most kernel + 1/2 texels beside the point that is looked up), by
+/// its error and by the rounding of rasterisers. Moving it by the error along the normal instead would open
+/// cracks.
 ///
-/// nearest  as for shadowSlope, of the triangle
+/// nearest  as for shadowFacing, of the triangle
+/// error    metres, bounds the distance of the triangle to the source
 HEARTH_FUNCTION Float4 shadowCasterClip(HEARTH_IN(ShadowLight) light, HEARTH_IN(ShadowMap) map, Float3 point,
-                                        Float3 normal, float nearest)
+                                        Float3 normal, float nearest, float error)
 {
     HEARTH_PRECISE float z = dot3(light.direction, point);
     float w = shadowDivisor(light, z);
     HEARTH_PRECISE float x = dot3(light.right, point) * map.scale_x;
     HEARTH_PRECISE float y = dot3(light.down, point) * map.scale_y;
+    float facing = shadowFacing(light, point, normal, nearest);
     HEARTH_PRECISE float offset =
-        shadowSlope(light, map, point, normal, nearest) * (map.kernel + 0.5f + kRasterMargin);
-    HEARTH_PRECISE float depth = ((z * light.depth_scale + light.depth_offset) - offset * w) - light.rounding;
+        shadowSlope(light, map, normal, facing) * (map.kernel + 0.5f + kRasterMargin);
+    // depth on the plane that is farther by the error: in perspective all depths shrink by one factor
+    HEARTH_PRECISE float farther = facing / (facing + error);
+    HEARTH_PRECISE float moved =
+        z * light.depth_scale - light.depth_step * error / facing + light.depth_offset;
+    HEARTH_PRECISE float surface = light.perspective != 0.0f ? light.depth_offset * farther : moved;
+    HEARTH_PRECISE float depth = (surface - offset * w) - light.rounding;
     if (light.perspective == 0.0f)
     {
         // before the offset, which is whole: the map of a sun that has moved is the same, shifted, bit for
@@ -192,36 +224,13 @@ HEARTH_FUNCTION Float4 shadowCasterClip(HEARTH_IN(ShadowLight) light, HEARTH_IN(
     return Float4(clip_x, clip_y, depth, w);
 }
 
-/// Return the allowed error in metres of a surface at a distance from the eye, where errors count
-/// `error_bias` times less.
-HEARTH_FUNCTION float allowedCutError(HEARTH_IN(FrameView) view, float distance, float error_bias)
-{
-    HEARTH_PRECISE float pixels = max(view.threshold, 0.0f) * error_bias;
-    HEARTH_PRECISE float error =
-        pixels * max(distance, view.z_near) / (view.lod_scale * lodFactor(view, distance));
-    return error;
-}
-
-/// Return the distance in metres by which a visible point is moved along its normal before the shadow lookup.
-/// The visible surface may be off the true one by the error that the threshold allows there, the casters'
-/// surface by `error_bias` times as much (makeCasterView), for an eye up to `eye_shift` metres farther away.
-/// Without the offset the coarser surface would shadow the finer one.
-/// distance   from the eye to the point
-HEARTH_FUNCTION float shadowNormalOffset(HEARTH_IN(FrameView) view, float distance, float error_bias,
-                                         float eye_shift)
-{
-    HEARTH_PRECISE float offset =
-        allowedCutError(view, distance, 1.0f) + allowedCutError(view, distance + eye_shift, error_bias);
-    return offset;
-}
-
 HEARTH_SHARED_END
 
 #ifdef __cplusplus
 // sizes in std430 and std140 layout
 static_assert(sizeof(hearth::shared::ShadowLight) == 80);
 static_assert(sizeof(hearth::shared::ShadowMap) == 32);
-static_assert(sizeof(hearth::shared::ShadowBlock) == 16 * 80 + 64 * 32 + 16);
+static_assert(sizeof(hearth::shared::ShadowBlock) == 64 * 80 + 64 * 32 + 16);
 #endif
 
 #endif

@@ -232,11 +232,9 @@ Status checkShadowSpheres(const PackView& view)
         const ShadowSphereRecord& sphere = view.shadowSpheres()[i];
         if (sphere.node >= view.nodes().size())
             return makeError(view, Issue::meaning_reference, kKind, i, "node " + std::to_string(sphere.node));
-        if (!isNoneOrBelow(sphere.light, view.lights().size()) ||
-            (sphere.light != kInvalidIndex &&
-             view.lights()[sphere.light].type == static_cast<uint32_t>(LightType::point)))
+        if (!isNoneOrBelow(sphere.light, view.lights().size()))
             return makeError(view, Issue::meaning_reference, kKind, i,
-                             "light " + std::to_string(sphere.light) + " is no sun and no spot light");
+                             "light " + std::to_string(sphere.light));
         const float values[] = {sphere.center.x, sphere.center.y, sphere.center.z, sphere.radius};
         if (!finite(values) || !(sphere.radius > 0))
             return makeError(view, Issue::meaning_value, kKind, i, "its centre or radius is not possible");

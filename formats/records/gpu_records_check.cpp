@@ -56,5 +56,5 @@ static_assert(sizeof(hearth::shared::WorkItem) == 16);
 static_assert(sizeof(hearth::shared::GroupItem) == 12);
 static_assert(sizeof(hearth::shared::WorkResult) == 20);
 static_assert(sizeof(hearth::shared::OcclusionView) == 80);
-static_assert(sizeof(hearth::shared::ClusterDraw) == 32);
+static_assert(sizeof(hearth::shared::ClusterDraw) == 36);
 static_assert(hearth::shared::kClusterVertices == 3 * hearth::formats::kMaxClusterTriangles);

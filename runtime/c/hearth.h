@@ -201,7 +201,8 @@ typedef void (*hearth_read_page_callback)(void* user, uint32_t page, void* desti
 /* End a read; `ok` is 0 if it failed. Do not write to the destination afterwards. On any thread. */
 HEARTH_API void hearth_read_done(hearth_page_read read, int ok);
 
-/* Shadow maps of suns and spots. See runtime/gpu/README.md, "Shadows". */
+/* Shadow maps of the lights: `splits` for a sun, one for a spot, six for a point light.
+ * See runtime/gpu/README.md, "Shadows". */
 typedef struct hearth_shadow_options
 {
     uint32_t max_maps; /* per frame, up to 64. 0: no shadows, the other options are ignored */
@@ -214,7 +215,8 @@ typedef struct hearth_shadow_options
     float error_bias;            /* casters' error may be this many times the frame's error, 1 or more */
     float split_near, split_far; /* range of the splits in metres from the eye; 0 < near < far */
     float split_blend;           /* 0: splits of equal length, 1: each longer by the same factor */
-    float spot_near;             /* near plane of spots in metres, above 0: nearer surfaces cast no shadow */
+    /* near plane of spots and point lights in metres, above 0: nearer surfaces cast no shadow */
+    float spot_near;
 } hearth_shadow_options;
 
 #define HEARTH_SHADOW_OPTIONS_INIT                                                                           \
@@ -327,7 +329,7 @@ typedef struct hearth_shadow_counters
     uint32_t drawn_maps;        /* drawn by the frame; the others were cached */
     uint32_t moved_maps;        /* maps in which the frame drew moving casters */
     uint32_t dropped_maps;      /* beyond max_maps */
-    uint32_t unshadowed_lights; /* suns and spots without a map */
+    uint32_t unshadowed_lights; /* lights without a map */
 } hearth_shadow_counters;
 
 #define HEARTH_SHADOW_COUNTERS_INIT                                                                          \

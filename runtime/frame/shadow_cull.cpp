@@ -25,12 +25,23 @@ Float4 edgePlane(const ShadowLight& light, Double3 eye, Float3 axis, double min_
     return {n.x, n.y, n.z, static_cast<float>(offset)};
 }
 
+/// Return the far plane of a light with a range, or else the near plane; a sun has neither, and all points
+/// are inside. The sides of a map meet at the light, so they leave little in front of its near plane.
+Float4 rangePlane(const ShadowLight& light, Double3 eye, double range)
+{
+    const double side = range > 0 ? -1 : 1;
+    const double bound = range > 0 ? range : double{light.depth_offset};
+    const Double3 normal = widen(light.direction) * (side * double{light.perspective});
+    const Float3 n = narrow(normal);
+    return {n.x, n.y, n.z, static_cast<float>(dot(normal, eye) - side * bound * double{light.perspective})};
+}
+
 } // namespace
 
 FrameView makeCasterView(const FrameView& view, const ShadowLight& light, const ShadowMap& map,
-                         float error_bias)
+                         float error_bias, float range)
 {
-    HEARTH_ASSERT(error_bias >= 1);
+    HEARTH_ASSERT(error_bias >= 1 && range >= 0);
     const Double3 eye = widen(view.eye) - widen(light.origin);
     const auto coordinate = [](float texel, float scale, float offset)
     { return (double{texel} - double{offset}) / double{scale}; };
@@ -41,12 +52,7 @@ FrameView makeCasterView(const FrameView& view, const ShadowLight& light, const 
     casters.planes[2] = edgePlane(light, eye, light.down, coordinate(0, map.scale_y, map.offset_y), 1);
     casters.planes[3] =
         edgePlane(light, eye, light.down, coordinate(map.size, map.scale_y, map.offset_y), -1);
-    // a sun has no near plane: use a plane with all points inside
-    const Double3 near_normal = widen(light.direction) * double{light.perspective};
-    const Float3 n = narrow(near_normal);
-    casters.planes[4] = {
-        n.x, n.y, n.z,
-        static_cast<float>(dot(near_normal, eye) - double{light.perspective * light.depth_offset})};
+    casters.planes[4] = rangePlane(light, eye, double{range});
     casters.threshold = view.threshold * error_bias;
     casters.flags = view.flags & (kCullInstances | kCullFrustum);
     return casters;

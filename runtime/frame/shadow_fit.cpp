@@ -149,6 +149,15 @@ ShadowLight makeSpotShadow(Float3 position, Float3 direction, float near)
     return light;
 }
 
+ShadowLight makePointShadow(Float3 position, uint32_t face, float near)
+{
+    HEARTH_ASSERT(face < kPointFaces);
+    const float along = face % 2 == 0 ? 1.0f : -1.0f;
+    const uint32_t axis = face / 2;
+    return makeSpotShadow(position, {axis == 0 ? along : 0, axis == 1 ? along : 0, axis == 2 ? along : 0},
+                          near);
+}
+
 ShadowMap fitSunMap(const ShadowLight& light, const Sphere& sphere, ShadowMapSize size)
 {
     HEARTH_ASSERT(light.perspective == 0 && sphere.radius > 0);

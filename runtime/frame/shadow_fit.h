@@ -1,5 +1,5 @@
-// Fits shadow maps to spheres, which artists place or which split the view. Spheres of both kinds, of suns
-// and spots, form one list sorted by texel density: cascades without a fixed order. C++ only.
+// Fits shadow maps to spheres, which artists place or which split the view. Spheres of both kinds form one
+// list for each light, sorted by texel density: cascades without a fixed order. C++ only.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -31,6 +31,16 @@ ShadowLight makeSunShadow(Float3 direction, const Box3& scene);
 /// near       metres, above 0: nearer geometry casts no shadow
 ShadowLight makeSpotShadow(Float3 position, Float3 direction, float near);
 
+/// Half-width of a face of a point light, as a tangent: the faces meet at 45 degrees.
+inline constexpr float kFaceTangent = 1;
+
+/// Return the projection of one face of a point light, in world axes. With half-width kFaceTangent its maps
+/// are those of a spot: the texels that a filter reads beyond a seam lie within the map of the face.
+///
+/// face       below kPointFaces
+/// near       metres, above 0: nearer geometry casts no shadow
+ShadowLight makePointShadow(Float3 position, uint32_t face, float near);
+
 /// Return the map of a sun that covers a sphere. It moves in whole texels: vertices of casters keep their
 /// position within their texel, bit for bit, wherever the centre goes while the radius stays. Spheres so
 /// small that floats could not resolve a sixteenth of their texels get a coarser map.
@@ -42,10 +52,11 @@ ShadowMap fitSunMap(const ShadowLight& light, const Sphere& sphere, ShadowMapSiz
 /// have no shadow beyond that.
 float coneTangent(float outer_cone_rad);
 
-/// Return the map of the whole cone, which every spot has for points outside of all spheres.
+/// Return the map of the whole cone or face, which every spot and every face of a point light has for points
+/// outside of all spheres. It is wider than the cone by the texels that the filter reads.
 ShadowMap makeConeMap(float cone_tangent, ShadowMapSize size);
 
-/// Return the map of the part of the cone that covers a sphere: nullopt where the sphere is behind the light
+/// Return the map of the part of a cone or face that covers a sphere: nullopt where the sphere is behind the light
 /// or beside the cone, and the map of the whole cone where the light is inside the sphere. The bounds of the
 /// projected sphere are exact. As for suns, tiny spheres get a coarser map.
 ///
@@ -54,7 +65,7 @@ std::optional<ShadowMap> fitSpotMap(const ShadowLight& light, float cone_tangent
                                     ShadowMapSize size);
 
 /// Sort maps by texel density, densest first; maps of equal density keep their order. The densities of the
-/// maps of one light have this order at every point, also for a spot, whose texels grow alike in all its
+/// maps of one projection have this order at every point, also in perspective, where texels grow alike in all
 /// maps.
 void sortByDensity(std::span<ShadowMap> maps);
 

@@ -34,12 +34,13 @@ constexpr std::string_view kDrawHelp =
     "                          off\n"
     "      --gi off|on         global illumination, in packs with bricks (default: on); off: a constant "
     "sky\n"
-    "      --shadows SETTINGS  off (default), on, or some of maps=N (16 at most), texels=N (1024), kernel=N "
-    "(1:\n"
-    "                          3x3), bias=B (2: how much coarser than the image), splits=N (4), near=M, "
-    "far=M\n"
-    "                          (metres, where the splits begin and end; as the scene does). Example: "
-    "texels=2048,bias=4\n"
+    "      --shadows SETTINGS  on (default), off, or some of maps=N (as many as the lights take, 64 at "
+    "most),\n"
+    "                          texels=N (1024), kernel=N (1: 3x3), bias=B (2: how much coarser than the "
+    "image),\n"
+    "                          splits=N (4), near=M, far=M (metres, where the splits begin and end; as the "
+    "scene\n"
+    "                          does). Example: texels=2048,bias=4\n"
     "      --shadow-sphere X,Y,Z,RADIUS[,LIGHT]\n"
     "                          finer shadows there, of all lights or of one; may be given several times\n"
     "      --shaded-area AREA  where each material is shaded: frame, tiles (64x64 pixels where it is "
@@ -274,7 +275,7 @@ void addDrawOptions(CommandLine& command_line, DrawOptions& options)
 Status checkDrawOptions(const DrawOptions& options)
 {
     if (options.settings.view == shared::kViewShadowMaps && options.shadows.options.max_maps == 0)
-        return usageError("--view shadow-maps needs --shadows");
+        return usageError("--view shadow-maps needs --shadows on");
     return success();
 }
 

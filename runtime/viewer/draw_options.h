@@ -23,7 +23,7 @@ struct DrawOptions
     std::optional<shared::Camera> camera; ///< none: the scene's camera, or fit the scene
     std::optional<uint32_t> scene_camera; ///< index of a camera of the pack
     FrameSettings settings;               ///< checked
-    ShadowSettings shadows;               ///< off by default
+    ShadowSettings shadows;               ///< on by default
     uint64_t geometry_budget = 0;         ///< bytes; 0: all geometry is resident
     std::string device;
     bool validate = false;

@@ -3,6 +3,7 @@
 
 #include "formats/base/text.h"
 #include "runtime/gpu/scene/scene_boxes.h"
+#include "runtime/gpu/scene/scene_shading.h"
 #include "runtime/viewer/text.h"
 
 #include <algorithm>
@@ -14,8 +15,6 @@ namespace hearth::viewer
 
 namespace
 {
-
-constexpr uint32_t kDefaultMaps = 16;
 
 Error usage(std::string_view option, std::string_view text, std::string_view expected)
 {
@@ -62,7 +61,10 @@ bool setByName(std::string_view setting, ShadowSettings& settings)
     const std::string_view name = setting.substr(0, equals);
     const std::string_view value = setting.substr(equals + 1);
     if (name == "maps")
+    {
+        settings.fit_maps = false;
         return setCount(value, 1, shared::kMaxShadowMaps, options.max_maps);
+    }
     if (name == "texels")
         return setCount(value, 16, 8192, options.texels) && std::has_single_bit(options.texels);
     if (name == "kernel")
@@ -95,7 +97,8 @@ std::pair<float, float> boxDistances(const Box3& box, Float3 point)
 
 Status parseShadows(std::string_view text, ShadowSettings& settings)
 {
-    settings.options.max_maps = text == "off" ? 0 : kDefaultMaps;
+    settings.options.max_maps = text == "off" ? 0 : shared::kMaxShadowMaps;
+    settings.fit_maps = true;
     if (text == "off" || text == "on")
         return success();
     for (const std::string_view setting : splitText(text, ','))
@@ -130,6 +133,9 @@ gpu::ShadowOptions fitShadows(const ShadowSettings& settings, const formats::Pac
 {
     gpu::ShadowOptions options = settings.options;
     options.moving_layers = false;
+    if (settings.fit_maps && options.max_maps > 0)
+        options.max_maps = gpu::countShadowMaps(gpu::makeLighting(pack), options.splits,
+                                                pack.shadowSpheres().size() + settings.spheres.size());
     const Box3 bounds = gpu::sceneBounds(pack);
     if (bounds.empty())
         return options;

@@ -13,13 +13,14 @@ namespace hearth::viewer
 
 struct ShadowSettings
 {
-    gpu::ShadowOptions options;
+    gpu::ShadowOptions options{.max_maps = shared::kMaxShadowMaps};
+    bool fit_maps = true; ///< as many maps as the lights take, and no more than max_maps
     bool fit_near = true; ///< the splits begin and end where the scene does
     bool fit_far = true;
     std::vector<gpu::ShadowSphere> spheres;
 };
 
-/// Parse "off", "on", or settings of shadows that are on: "texels=2048,bias=4". errors: usage.
+/// Parse "off", "on" (the default), or settings of shadows that are on: "texels=2048,bias=4". errors: usage.
 Status parseShadows(std::string_view text, ShadowSettings& settings);
 
 /// Parse one more sphere beside those of the pack: "X,Y,Z,RADIUS", and for a single light ",LIGHT". errors:

@@ -235,8 +235,6 @@ const std::vector<MalformedPack>& malformedScenes()
          [](PackModel& p) { p.shadow_spheres[1].node = 4; }},
         {"shadowSphereLight", Issue::meaning_reference, "shadow sphere 1",
          [](PackModel& p) { p.shadow_spheres[1].light = 3; }},
-        {"shadowSphereOfPointLight", Issue::meaning_reference, "shadow sphere 1",
-         [](PackModel& p) { p.shadow_spheres[1].light = 1; }},
         {"shadowSphereRadius", Issue::meaning_value, "shadow sphere 0",
          [](PackModel& p) { p.shadow_spheres[0].radius = 0; }},
         {"shadowSphereCenter", Issue::meaning_value, "shadow sphere 0",

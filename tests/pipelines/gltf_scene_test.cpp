@@ -261,7 +261,7 @@ TEST(GltfScene, takesShadowSpheresFromExtras)
     EXPECT_EQ(makeLights("lamp"), (std::vector<uint32_t>{1, 2}));
     EXPECT_EQ(makeLights("right"), (std::vector<uint32_t>{2}));
     EXPECT_EQ(makeLights("noon"), (std::vector<uint32_t>{0}));
-    EXPECT_EQ(makeLights("bulb"), std::vector<uint32_t>{});
+    EXPECT_EQ(makeLights("bulb"), (std::vector<uint32_t>{3}));
     EXPECT_EQ(makeLights("moon"), std::vector<uint32_t>{});
 }
 

@@ -51,7 +51,7 @@ TEST(ViewOptions, mistakesAreNamed)
     expectUsage({}, "no pack");
     expectUsage({"a.hearth", "-o", "a.png"}, "-o");
     expectUsage({"a.hearth", "--frames", "0"}, "--frames");
-    expectUsage({"a.hearth", "--view", "shadow-maps"}, "--shadows");
+    expectUsage({"a.hearth", "--view", "shadow-maps", "--shadows", "off"}, "--shadows");
     expectUsage({"a.hearth", "--screenshot", "a.png"}, "--frames");
     expectUsage({"a.hearth", "--animation"}, "--animation");
     for (const char* time : {"", "soon", "1s", "nan", "inf"})

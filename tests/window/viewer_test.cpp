@@ -28,6 +28,7 @@ protected:
         options.height = 240;
         options.validate = true;
         options.shadows.options.max_maps = 4;
+        options.shadows.fit_maps = false;
         options.animation = animation;
         Result<std::unique_ptr<viewer::Viewer>> viewer = viewer::Viewer::create(options, sample.pack());
         ASSERT_TRUE(viewer.ok()) << formatMessage(viewer.error());

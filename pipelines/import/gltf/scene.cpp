@@ -259,7 +259,7 @@ Status SceneWriter::writeLight(uint32_t node)
     return success();
 }
 
-/// Return the lights that a sphere names, by their own name or their node's. Point lights cast no shadow.
+/// Return the lights that a sphere names, by their own name or their node's.
 std::vector<uint32_t> SceneWriter::findLightsByName(const std::string& name) const
 {
     const auto& lights = context_.part.lights;
@@ -267,8 +267,7 @@ std::vector<uint32_t> SceneWriter::findLightsByName(const std::string& name) con
     for (uint32_t i = 0; i < lights.size(); ++i)
     {
         const GltfNode& node = model_.nodes[lights[i].node];
-        if (lights[i].type != static_cast<uint32_t>(LightType::point) &&
-            (node.name == name || model_.lights[node.light].name == name))
+        if (node.name == name || model_.lights[node.light].name == name)
             found.push_back(i);
     }
     return found;
@@ -294,8 +293,7 @@ Status SceneWriter::writeShadowSphere(uint32_t node)
     if (lights.empty())
         context_.part.warn(
             Issue::dropped, nodePointer(node),
-            fmt::format("no sun and no spot light is called \"{}\": the shadow sphere is not kept",
-                        sphere->light));
+            fmt::format("no light is called \"{}\": the shadow sphere is not kept", sphere->light));
     for (const uint32_t light : lights)
     {
         record.light = light;

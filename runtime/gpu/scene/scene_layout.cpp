@@ -159,7 +159,10 @@ shared::ClusterDraw makeClusterDraw(const formats::PackView& pack, uint32_t clus
             .base_x = record.base[0],
             .base_y = record.base[1],
             .base_z = record.base[2],
-            .grid_step = mesh.grid_step};
+            .grid_step = mesh.grid_step,
+            .position_error = record.refined_group == kInvalidIndex
+                                  ? 0
+                                  : pack.groups()[record.refined_group].position_error};
 }
 
 GroupItems makeGroupItems(const formats::PackView& pack)

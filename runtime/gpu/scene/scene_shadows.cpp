@@ -37,14 +37,6 @@ Status checkLimits(const Device& device, const ShadowOptions& options)
     return success();
 }
 
-uint32_t countLights(const shared::Lighting& lighting, formats::LightType type)
-{
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < lighting.light_count; ++i)
-        count += lighting.lights[i].type == static_cast<uint32_t>(type) ? 1 : 0;
-    return count;
-}
-
 } // namespace
 
 Result<std::unique_ptr<SceneShadows>> SceneShadows::create(const Device& device, VkRenderPass render_pass,
@@ -58,10 +50,8 @@ Result<std::unique_ptr<SceneShadows>> SceneShadows::create(const Device& device,
     SceneShadows& s = *shadows;
     s.bounds_ = bounds;
     const shared::Lighting lighting = makeLighting(pack);
-    s.lights_ = makeShadowCasters(lighting, bounds, options.spot_near);
-    s.unshadowed_light_count_ = countLights(lighting, formats::LightType::directional) +
-                                countLights(lighting, formats::LightType::spot) -
-                                static_cast<uint32_t>(s.lights_.size());
+    s.projections_ = makeShadowCasters(lighting, bounds, options.spot_near);
+    s.light_count_ = lighting.light_count;
     s.spheres_ = readShadowSpheres(pack);
     s.pack_sphere_count_ = s.spheres_.size();
     HEARTH_TRY(s.createImage());
@@ -131,8 +121,8 @@ void SceneShadows::track(std::span<const InstanceMove> moves,
 
 void SceneShadows::change(uint32_t light, const shared::Light& record)
 {
-    if (record.shadow_row < lights_.size())
-        lights_[record.shadow_row] = makeShadowCaster(record, light, bounds_, options_.spot_near);
+    if (record.shadow_row < projections_.size())
+        setShadowCasters(record, light, bounds_, options_.spot_near, projections_);
 }
 
 std::span<const ShadowCache::LayerUpdate> SceneShadows::planFrame(const shared::FrameView& view,
@@ -140,15 +130,15 @@ std::span<const ShadowCache::LayerUpdate> SceneShadows::planFrame(const shared::
 {
     spheres_.resize(pack_sphere_count_);
     spheres_.insert(spheres_.end(), spheres.begin(), spheres.end());
-    plan_ = planShadows(lights_, options_, view, spheres_);
+    plan_ = planShadows(projections_, options_, view, spheres_);
     const std::span<const ShadowCache::LayerUpdate> stale = cache_.plan(plan_, view);
-    statistics_ = {.maps = plan_.map_count,
-                   .dropped_maps = plan_.dropped_maps,
-                   .unshadowed_lights = unshadowed_light_count_};
+    statistics_ = {
+        .maps = plan_.map_count, .dropped_maps = plan_.dropped_maps, .unshadowed_lights = light_count_};
     for (const ShadowCache::LayerUpdate& map : stale)
         ++(map.copy_from ? statistics_.moved_maps : statistics_.drawn_maps);
-    for (uint32_t row = 0; row < lights_.size(); ++row)
-        statistics_.unshadowed_lights += plan_.block.lights[row].map_count == 0 ? 1 : 0;
+    // a point light has maps of all its faces or none
+    for (uint32_t row = 0; row < projections_.size(); ++row)
+        statistics_.unshadowed_lights -= projections_[row].face == 0 && plan_.block.lights[row].map_count > 0;
     return stale;
 }
 

@@ -19,7 +19,7 @@ struct ShadowStatistics
     uint32_t drawn_maps = 0;        ///< drawn by the frame; the others were cached
     uint32_t moved_maps = 0;        ///< maps in which the frame drew moving casters
     uint32_t dropped_maps = 0;      ///< maps for which there was no layer
-    uint32_t unshadowed_lights = 0; ///< suns and spots without a map: beyond the capacity
+    uint32_t unshadowed_lights = 0; ///< lights without a map: beyond the capacity
 };
 
 /// Shadow maps of one scene on one queue. A recorded frame counts as drawn: it must be submitted.
@@ -80,10 +80,10 @@ private:
 
     ShadowOptions options_;
     Box3 bounds_; ///< of the scene
-    std::vector<ShadowCaster> lights_;
+    std::vector<ShadowCaster> projections_;
     size_t pack_sphere_count_ = 0;
     std::vector<ShadowSphere> spheres_; ///< of the pack, then of the frame
-    uint32_t unshadowed_light_count_ = 0;
+    uint32_t light_count_ = 0;          ///< with and without shadows
     ShadowCache cache_;
     ShadowPlan plan_;
     ShadowStatistics statistics_;

@@ -87,7 +87,6 @@ bool mayExceed(const shared::FrameView& casters, const Box3& box, float error_wo
 shared::ShadowLight projectionKey(shared::ShadowLight light)
 {
     light.first_map = light.map_count = 0;
-    light.eye_shift = 0;
     return light;
 }
 
@@ -211,7 +210,8 @@ std::span<const ShadowCache::LayerUpdate> ShadowCache::plan(ShadowPlan& plan, co
         const shared::ShadowLight light = projectionKey(plan.block.lights[row]);
         shared::FrameView seen = view;
         seen.eye = shared::findEyeCell(view, plan.finest_m[row], plan.block.error_bias).eye;
-        shared::FrameView casters = shared::makeCasterView(seen, light, map, plan.block.error_bias);
+        shared::FrameView casters =
+            shared::makeCasterView(seen, light, map, plan.block.error_bias, plan.range_m[row]);
         if (moving_layers_)
             casters.flags |= shared::kCullMoving;
         Layer& layer = layers_[map.layer];

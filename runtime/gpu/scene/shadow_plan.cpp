@@ -20,24 +20,29 @@ bool hasType(const shared::Light& light, formats::LightType type)
     return light.type == static_cast<uint32_t>(type);
 }
 
-/// Assigns the layers of a frame, light by light.
+/// Assigns the layers of a frame, row by row.
 class ShadowPlanner
 {
 public:
     ShadowPlanner(const ShadowOptions& options, ShadowPlan& plan) : options_(options), plan_(plan) {}
 
-    void begin(uint32_t row, const ShadowCaster& light)
+    /// reserved  layers that are left for the rows that follow
+    void begin(uint32_t row, const ShadowCaster& caster, uint32_t reserved)
     {
         row_ = row;
+        reserved_ = reserved;
         shared::ShadowLight& projection = plan_.block.lights[row];
-        projection = light.projection;
+        projection = caster.projection;
         projection.first_map = plan_.map_count;
+        plan_.range_m[row] = caster.range;
     }
+
+    bool hasLayers(uint32_t count) const { return plan_.map_count + count <= options_.max_maps; }
 
     /// texel_m  metres per texel of the map
     void add(shared::ShadowMap map, float texel_m)
     {
-        if (plan_.map_count == options_.max_maps)
+        if (!hasLayers(reserved_ + 1))
         {
             ++plan_.dropped_maps;
             return;
@@ -68,6 +73,7 @@ private:
     const ShadowOptions& options_;
     ShadowPlan& plan_;
     uint32_t row_ = 0;
+    uint32_t reserved_ = 0;
 };
 
 bool affects(const ShadowSphere& sphere, const ShadowCaster& light)
@@ -94,17 +100,56 @@ void planSun(const ShadowCaster& light, const ShadowOptions& options, const shar
         add(split, {.texels = options.texels, .kernel = options.kernel});
 }
 
-void planSpot(const ShadowCaster& light, const ShadowOptions& options, std::span<const ShadowSphere> spheres,
-              ShadowPlanner& planner)
+/// Plan the maps of a spot or of a face of a point light.
+void planPerspective(const ShadowCaster& light, const ShadowOptions& options,
+                     std::span<const ShadowSphere> spheres, ShadowPlanner& planner)
 {
     const shared::ShadowMap whole =
-        shared::makeConeMap(light.cone_tangent, {.texels = options.texels, .kernel = options.kernel});
+        shared::makeConeMap(light.tangent, {.texels = options.texels, .kernel = options.kernel});
     planner.add(whole, 1 / whole.density); // at a distance of one metre from the light
     for (const ShadowSphere& sphere : spheres)
         if (affects(sphere, light))
-            if (const auto map = shared::fitSpotMap(light.projection, light.cone_tangent,
+            if (const auto map = shared::fitSpotMap(light.projection, light.tangent,
                                                     {sphere.center, sphere.radius}, planner.mapSize(sphere)))
-                planner.add(*map, length(sphere.center - light.projection.origin) / map->density);
+            {
+                const float distance = length(sphere.center - light.projection.origin);
+                planner.add(*map, std::max(distance, sphere.radius) / map->density);
+            }
+}
+
+/// Return the number of rows of the light that the first caster belongs to.
+size_t countRowsOfLight(std::span<const ShadowCaster> casters)
+{
+    const auto end =
+        std::find_if(casters.begin(), casters.end(),
+                     [&](const ShadowCaster& caster) { return caster.light != casters.front().light; });
+    return static_cast<size_t>(end - casters.begin());
+}
+
+/// Plan the maps of one light.
+///
+/// casters  rows of the light, from `row` on
+void planLight(uint32_t row, std::span<const ShadowCaster> casters, const ShadowOptions& options,
+               const shared::FrameView& view, std::span<const ShadowSphere> spheres, ShadowPlan& plan)
+{
+    ShadowPlanner planner(options, plan);
+    const auto count = static_cast<uint32_t>(casters.size());
+    // a point light with shadows in some directions only would show the seams
+    const bool fits = count == 1 || planner.hasLayers(count);
+    if (!fits)
+        plan.dropped_maps += count;
+    for (uint32_t i = 0; i < count; ++i)
+    {
+        planner.begin(row + i, casters[i], count - 1 - i);
+        if (fits && casters[i].tangent == 0)
+            planSun(casters[i], options, view, spheres, planner);
+        else if (fits)
+            planPerspective(casters[i], options, spheres, planner);
+        planner.end();
+    }
+    const std::span finest = std::span(plan.finest_m).subspan(row, count);
+    // one eye for all faces: on both sides of a seam the casters are the same
+    std::fill(finest.begin(), finest.end(), *std::min_element(finest.begin(), finest.end()));
 }
 
 } // namespace
@@ -121,65 +166,91 @@ std::vector<ShadowSphere> readShadowSpheres(const formats::PackView& pack)
     return spheres;
 }
 
+uint32_t countShadowRows(const shared::Light& light)
+{
+    return hasType(light, formats::LightType::point) ? shared::kPointFaces : 1;
+}
+
 void assignShadowRows(shared::Lighting& lighting)
 {
     uint32_t row = 0;
     const std::span lights(lighting.lights, lighting.light_count);
     for (shared::Light& light : lights)
         light.shadow_row = shared::kNoShadow;
-    for (const formats::LightType type : {formats::LightType::directional, formats::LightType::spot})
+    for (const formats::LightType type :
+         {formats::LightType::directional, formats::LightType::spot, formats::LightType::point})
         for (shared::Light& light : lights)
-            if (hasType(light, type) && row < shared::kMaxShadowLights)
-                light.shadow_row = row++;
+            if (hasType(light, type) && row + countShadowRows(light) <= shared::kMaxShadowProjections)
+            {
+                light.shadow_row = row;
+                row += countShadowRows(light);
+            }
 }
 
-ShadowCaster makeShadowCaster(const shared::Light& light, uint32_t number, const Box3& scene, float spot_near)
+void setShadowCasters(const shared::Light& light, uint32_t number, const Box3& scene, float near,
+                      std::span<ShadowCaster> casters)
 {
+    const std::span rows = casters.subspan(light.shadow_row, countShadowRows(light));
     if (hasType(light, formats::LightType::directional))
-        return {.light = number, .projection = shared::makeSunShadow(light.direction, scene)};
-    const float cos_outer = std::clamp(-light.cone_offset / light.cone_scale, 0.0f, 1.0f);
-    return {.light = number,
-            .projection = shared::makeSpotShadow(light.position, light.direction, spot_near),
-            // a spot with an empty cone has a map all the same
-            .cone_tangent = std::max(shared::coneTangent(std::acos(cos_outer)), 1e-3f)};
+    {
+        rows[0] = {.light = number, .projection = shared::makeSunShadow(light.direction, scene)};
+        return;
+    }
+    if (hasType(light, formats::LightType::spot))
+    {
+        const float cos_outer = std::clamp(-light.cone_offset / light.cone_scale, 0.0f, 1.0f);
+        rows[0] = {.light = number,
+                   .projection = shared::makeSpotShadow(light.position, light.direction, near),
+                   // a spot with an empty cone has a map all the same
+                   .tangent = std::max(shared::coneTangent(std::acos(cos_outer)), 1e-3f),
+                   .range = light.range};
+        return;
+    }
+    for (uint32_t face = 0; face < shared::kPointFaces; ++face)
+        rows[face] = {.light = number,
+                      .face = face,
+                      .projection = shared::makePointShadow(light.position, face, near),
+                      .tangent = shared::kFaceTangent,
+                      .range = light.range};
 }
 
-std::vector<ShadowCaster> makeShadowCasters(const shared::Lighting& lighting, const Box3& scene,
-                                            float spot_near)
+std::vector<ShadowCaster> makeShadowCasters(const shared::Lighting& lighting, const Box3& scene, float near)
 {
-    std::vector<ShadowCaster> casting;
+    std::vector<ShadowCaster> casters;
     if (scene.empty())
-        return casting;
+        return casters;
     for (uint32_t i = 0; i < lighting.light_count; ++i)
     {
         const shared::Light& light = lighting.lights[i];
         if (light.shadow_row == shared::kNoShadow)
             continue;
-        casting.resize(std::max<size_t>(casting.size(), light.shadow_row + 1));
-        casting[light.shadow_row] = makeShadowCaster(light, i, scene, spot_near);
+        casters.resize(std::max<size_t>(casters.size(), light.shadow_row + countShadowRows(light)));
+        setShadowCasters(light, i, scene, near, casters);
     }
-    return casting;
+    return casters;
 }
 
-ShadowPlan planShadows(std::span<const ShadowCaster> lights, const ShadowOptions& options,
+uint32_t countShadowMaps(const shared::Lighting& lighting, uint32_t splits, size_t spheres)
+{
+    size_t count = 0;
+    for (const shared::Light& light : std::span(lighting.lights, lighting.light_count))
+        if (light.shadow_row != shared::kNoShadow)
+            count += hasType(light, formats::LightType::directional) ? splits + spheres
+                                                                     : countShadowRows(light) * (1 + spheres);
+    return static_cast<uint32_t>(std::min<size_t>(count, shared::kMaxShadowMaps));
+}
+
+ShadowPlan planShadows(std::span<const ShadowCaster> casters, const ShadowOptions& options,
                        const shared::FrameView& view, std::span<const ShadowSphere> spheres)
 {
     ShadowPlan plan;
     plan.block.error_bias = options.error_bias;
     plan.block.layer_size = static_cast<float>(options.texels);
-    ShadowPlanner planner(options, plan);
-    for (uint32_t row = 0; row < lights.size(); ++row)
+    for (size_t row = 0; row < casters.size();)
     {
-        const ShadowCaster& light = lights[row];
-        planner.begin(row, light);
-        if (light.cone_tangent == 0)
-            planSun(light, options, view, spheres, planner);
-        else
-            planSpot(light, options, spheres, planner);
-        planner.end();
-        shared::ShadowLight& projection = plan.block.lights[row];
-        if (projection.map_count > 0)
-            projection.eye_shift = shared::findEyeCell(view, plan.finest_m[row], options.error_bias).shift;
+        const size_t count = countRowsOfLight(casters.subspan(row));
+        planLight(static_cast<uint32_t>(row), casters.subspan(row, count), options, view, spheres, plan);
+        row += count;
     }
     return plan;
 }

@@ -12,7 +12,7 @@
 namespace hearth::gpu
 {
 
-/// Shadow settings of a scene. Suns and spots cast shadows, point lights do not.
+/// Shadow settings of a scene.
 struct ShadowOptions
 {
     /// Largest number of maps of a frame, up to shared::kMaxShadowMaps: layers of their image. 0: no shadows,
@@ -32,7 +32,7 @@ struct ShadowOptions
     /// Otherwise a moving caster redraws its maps as a whole.
     bool moving_layers = true;
 
-    /// Near plane of spots in metres, above 0: nearer surfaces cast no shadow.
+    /// Near plane of spots and of the faces of point lights in metres, above 0: nearer surfaces cast no shadow.
     float spot_near = 0.05f;
 };
 
@@ -50,31 +50,44 @@ struct ShadowSphere
     uint32_t texels = 0;
 };
 
-/// Light that casts shadows; its index in a list of them is its row of the ShadowBlock.
+/// Projection of a light that casts shadows; its index in a list of them is its row of the ShadowBlock. The
+/// faces of a point light follow each other.
 struct ShadowCaster
 {
     uint32_t light = 0; ///< index in the pack
+    uint32_t face = 0;  ///< of a point light
     shared::ShadowLight projection{};
-    float cone_tangent = 0; ///< of a spot; 0: a sun
+    float tangent = 0; ///< half-width of a spot or of a face; 0: a sun
+    float range = 0;   ///< metres; 0: unlimited
 };
 
 /// Return the spheres that artists placed in the scene.
 std::vector<ShadowSphere> readShadowSpheres(const formats::PackView& pack);
 
-/// Assign shadow rows to the lights that cast shadows: the suns, then the spots, as many as fit.
+/// Return the number of rows of a light that casts shadows.
+uint32_t countShadowRows(const shared::Light& light);
+
+/// Assign shadow rows to the lights that cast shadows: the suns, then the spots, then the point lights, as
+/// many as fit.
 void assignShadowRows(shared::Lighting& lighting);
 
-/// Return the caster record of a light.
+/// Set the rows of a light that has some.
 ///
 /// number  index of the light
-ShadowCaster makeShadowCaster(const shared::Light& light, uint32_t number, const Box3& scene,
-                              float spot_near);
+/// near    ShadowOptions::spot_near
+/// casters [rows in use]
+void setShadowCasters(const shared::Light& light, uint32_t number, const Box3& scene, float near,
+                      std::span<ShadowCaster> casters);
 
-/// Return the lights that have rows, in the order of the rows.
+/// Return the projections of the lights that have rows, in the order of the rows.
 ///
 /// scene      world bounds of all casters and receivers; if empty nothing casts
-std::vector<ShadowCaster> makeShadowCasters(const shared::Lighting& lighting, const Box3& scene,
-                                            float spot_near);
+std::vector<ShadowCaster> makeShadowCasters(const shared::Lighting& lighting, const Box3& scene, float near);
+
+/// Return the number of maps of a frame that has them all, up to shared::kMaxShadowMaps.
+///
+/// spheres    number of spheres, each of all lights
+uint32_t countShadowMaps(const shared::Lighting& lighting, uint32_t splits, size_t spheres);
 
 /// Shadow maps of a frame. Layers are assigned in the order light, sphere, so unchanged maps keep their
 /// layers.
@@ -83,17 +96,19 @@ struct ShadowPlan
     shared::ShadowBlock block{};                           ///< the maps of each light are sorted by density
     uint32_t map_count = 0;                                ///< maps, and layers in use
     std::array<uint32_t, shared::kMaxShadowMaps> row_of{}; ///< light row of each map
-    /// Metres of the finest texel of each light that has maps.
-    std::array<float, shared::kMaxShadowLights> finest_m{};
-    uint32_t dropped_maps = 0; ///< maps for which there was no layer
+    /// Metres of the finest texel of each row that has maps: all faces of a light have the finest of them.
+    std::array<float, shared::kMaxShadowProjections> finest_m{};
+    std::array<float, shared::kMaxShadowProjections> range_m{}; ///< of each row; 0: unlimited
+    uint32_t dropped_maps = 0;                                  ///< maps for which there was no layer
 };
 
-/// Plan the maps of a frame. Spots get their whole cone and the spheres that intersect it, suns the spheres
-/// and the splits.
+/// Plan the maps of a frame. Suns get the spheres and the splits, spots their whole cone and the spheres that
+/// intersect it, point lights all their faces, or none if there are too few layers, and the parts of spheres
+/// in each face.
 ///
 /// view       of the frame
 /// spheres    spheres of lights that cast no shadow are ignored
-ShadowPlan planShadows(std::span<const ShadowCaster> lights, const ShadowOptions& options,
+ShadowPlan planShadows(std::span<const ShadowCaster> casters, const ShadowOptions& options,
                        const shared::FrameView& view, std::span<const ShadowSphere> spheres);
 
 } // namespace hearth::gpu

@@ -47,6 +47,8 @@ CasterCorner casterCorner()
     float nearest = min(length(points[0]), min(length(points[1]), length(points[2])));
     float longest = max(length(points[1] - points[0]),
                         max(length(points[2] - points[1]), length(points[0] - points[2])));
-    corner.position = shadowCasterClip(light, shadows.maps[push.map_index], points[0], normal, max(nearest - longest, 0.0));
+    float error = corner.draw.position_error * instance.scale_max;
+    corner.position = shadowCasterClip(light, shadows.maps[push.map_index], points[0], normal,
+                                       max(nearest - longest, 0.0), error);
     return corner;
 }

@@ -228,6 +228,9 @@ VisibilityMoments surfaceSky(Surface s, vec3 normal)
     return sky;
 }
 
+// Bound in metres of the distance of the drawn triangle to the source.
+float surfaceError(Surface s) { return s.draw.position_error * s.instance.scale_max; }
+
 SurfacePoint surfacePoint(Surface s)
 {
     SurfacePoint point;
@@ -235,6 +238,7 @@ SurfacePoint surfacePoint(Surface s)
     point.normal = smoothNormal(s);
     vec3 flat_normal = geometricNormal(s);
     point.flat_normal = s.front ? flat_normal : -flat_normal;
+    point.error = surfaceError(s);
     point.tangent = point.bitangent = vec3(0.0);
     if (hasTexture(kTextureNormal))
         tangentFrame(s, point.normal, textureUvSet(kTextureNormal), point.tangent, point.bitangent);

@@ -13,6 +13,7 @@ struct SurfacePoint
     vec3 position;  // relative to the eye
     vec3 normal;    // unit, world axes, on the front side; before normal mapping
     vec3 flat_normal; // unit, world axes, of the triangle, towards the visible side
+    float error;    // metres, bounds the distance of the triangle to the source
     vec3 tangent;   // unit, world axes; only where the material has a normal map
     vec3 bitangent;
     vec3 color;     // vertex colour

@@ -2,11 +2,10 @@
 // exposure. Needs `lightVisibility` (shadowing of a light) from shadow.glsl or unshadowed.glsl, and
 // `surroundingLight` (light of the environment) from surrounding_sky.glsl or surrounding_bricks.glsl.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/gpu_shared/bindings.h"
 #include "formats/gpu_shared/record_values.h"
 #include "formats/gpu_shared/specialization.h"
 
-layout(set = kSetScene, binding = kSceneLighting, std140) readonly buffer LightingBlock { Lighting lighting; };
+#include "runtime/shaders/scene/light_block.glsl"
 #include "runtime/shaders/shade/brdf.glsl"
 #include "runtime/shaders/shade/sky.glsl"
 #include "runtime/shaders/shade/tonemap.glsl"
@@ -61,7 +60,7 @@ vec3 lit(SurfacePoint point, SurfaceUvs uvs, vec3 base)
     {
         vec3 to_light;
         vec3 irradiance = lightIrradiance(lighting.lights[i], point.position, to_light);
-        float share = lightVisibility(lighting.lights[i].shadow_row, point.position, point.flat_normal);
+        float share = lightVisibility(lighting.lights[i], point.position, point.flat_normal, point.error);
         radiance += irradiance * reflected(shading, to_light) * share;
     }
 

@@ -1,7 +1,8 @@
-// Looks up shadow maps: the share of a light that reaches a point. Needs formats/gpu_shared/shadow.h and
-// `view`.
+// Looks up shadow maps: the share of a light that reaches a point. Needs formats/gpu_shared/shading.h,
+// formats/gpu_shared/shadow.h and `view`.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/bindings.h"
+#include "formats/gpu_shared/record_values.h"
 #include "runtime/shaders/scene/shadow_block.glsl"
 
 // compares: 1 where the point is no deeper than the texel; one mip, so derivatives do not matter
@@ -16,16 +17,23 @@ struct ShadowLookup
 
 // position     relative to the eye
 // flat_normal  unit, of the triangle, towards the visible side
-ShadowLookup findShadowMap(uint light_row, vec3 position, vec3 flat_normal)
+// error        metres, bounds the distance of the triangle to the source. The point is moved by it along the
+//              normal, so that another level of its surface, which is drawn into the map, does not shadow it
+ShadowLookup findShadowMap(Light light, vec3 position, vec3 flat_normal, float error)
 {
-    ShadowLight light = shadows.lights[light_row];
-    float offset = shadowNormalOffset(view, length(position), shadows.error_bias, light.eye_shift);
     ShadowLookup found;
-    found.point = shadowPoint(light, position + (view.eye - light.origin) + flat_normal * offset);
     found.map = kNoShadow;
-    for (uint i = 0u; i < light.map_count && found.map == kNoShadow; ++i)
-        if (isInShadowMap(shadows.maps[light.first_map + i], found.point))
-            found.map = light.first_map + i;
+    uint row = light.shadow_row;
+    if (row == kNoShadow)
+        return found;
+    ShadowLight projection = shadows.lights[row];
+    vec3 from_light = position + (view.eye - projection.origin) + flat_normal * error;
+    if (light.type == kLightPoint)
+        projection = shadows.lights[row + pointFace(from_light)];
+    found.point = shadowPoint(projection, from_light);
+    for (uint i = 0u; i < projection.map_count && found.map == kNoShadow; ++i)
+        if (isInShadowMap(shadows.maps[projection.first_map + i], found.point))
+            found.map = projection.first_map + i;
     return found;
 }
 
@@ -46,10 +54,8 @@ float filterShadow(ShadowLookup at)
 }
 
 // Share of the light that reaches the point: 0 in shadow, 1 fully lit.
-float lightVisibility(uint light_row, vec3 position, vec3 flat_normal)
+float lightVisibility(Light light, vec3 position, vec3 flat_normal, float error)
 {
-    if (light_row == kNoShadow)
-        return 1.0;
-    ShadowLookup at = findShadowMap(light_row, position, flat_normal);
+    ShadowLookup at = findShadowMap(light, position, flat_normal, error);
     return at.map == kNoShadow ? 1.0 : filterShadow(at);
 }

@@ -10,6 +10,7 @@
 #include "runtime/shaders/scene/surface_point.glsl"
 #include "runtime/shaders/scene/resolve.glsl"
 #include "runtime/shaders/scene/visibility_input.glsl"
+#include "runtime/shaders/scene/light_block.glsl"
 #include "runtime/shaders/shade/shadow.glsl"
 
 layout(early_fragment_tests) in;
@@ -29,9 +30,9 @@ void main()
     vec3 normal = geometricNormal(s);
     normal = s.front ? normal : -normal;
     vec3 color = vec3(0.3);
-    for (uint row = kMaxShadowLights; row-- > 0u;)
+    for (uint i = lighting.light_count; i-- > 0u;)
     {
-        ShadowLookup at = findShadowMap(row, s.position, normal);
+        ShadowLookup at = findShadowMap(lighting.lights[i], s.position, normal, surfaceError(s));
         if (at.map != kNoShadow)
             color = mapColor(at.map) * (0.2 + 0.8 * filterShadow(at));
     }

@@ -131,7 +131,7 @@ int main(int argc, char** argv)
     app.addOption("--time", arguments.seconds, "of the clip, seconds");
     app.addOption("--samples-per-side", arguments.options.samples_per_side, "rays per pixel: its square")
         .range(1u, 64u);
-    app.addFlag("--shadows", arguments.options.shadows, "shadows of suns and spots");
+    app.addFlag("--shadows", arguments.options.shadows, "shadows of the lights");
     app.addOption("--sky-rays", arguments.options.sky.rays,
                   "rays to the sky for each sample and lobe: what hides it counts (default 0: nothing does)");
     app.addOption("--bounces", arguments.options.sky.bounces,

@@ -52,8 +52,7 @@ Double3 lightsAt(const ShadedScene& scene, Double3 position, Double3 start, Doub
     {
         const Incident incident = light.at(position);
         const double facing = dot(normal, incident.to_light);
-        if (facing > 0 && incident.distance >= nearest &&
-            !scene.occluded({start, incident.to_light, 0, std::min(incident.distance, kFar)}))
+        if (facing > 0 && incident.distance >= nearest && !scene.shadowed(start, incident))
             sum += incident.irradiance * (facing / kPi);
     }
     return sum;

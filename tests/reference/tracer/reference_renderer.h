@@ -19,7 +19,7 @@ struct ReferenceOptions
     uint32_t width = 512;
     uint32_t height = 512;
     uint32_t samples_per_side = 4; ///< the number of rays per pixel is its square
-    bool shadows = false;          ///< of suns and spots, as with hearth-render --shadows
+    bool shadows = false;          ///< of the lights, as with hearth-render --shadows
     SkyTracing sky = {};           ///< sky occlusion; its `shadows` is replaced by the one above
 };
 

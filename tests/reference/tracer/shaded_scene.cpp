@@ -58,6 +58,14 @@ const MaterialRecord& ShadedScene::getMaterial(const SurfaceHit& hit) const
     return material == kInvalidIndex ? otherwise : geometry_.view().materials()[material];
 }
 
+bool ShadedScene::shadowed(Double3 start, const Incident& light) const
+{
+    constexpr double kLampRadius = 0.05;
+    constexpr double kFar = 1e30;
+    return light.distance > kLampRadius &&
+           occluded({start, light.to_light, 0, std::min(light.distance - kLampRadius, kFar)});
+}
+
 Rgba ShadedScene::look(const TextureRef& texture, const SurfacePoint& point, double sample_size) const
 {
     return textures_.sample(texture, point.uv[texture.uv_set],

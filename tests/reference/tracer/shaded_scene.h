@@ -33,6 +33,10 @@ public:
     /// True if light is blocked along the ray. Both faces block; unlit surfaces (skies and signs) do not.
     bool occluded(const Ray& ray) const { return rays_.occluded(ray); }
 
+    /// True if something shadows a light. Surfaces within 5 cm of a lamp count as a part of it, as in the
+    /// renderer's maps: flames and bulbs hold their lamp.
+    bool shadowed(Double3 start, const Incident& light) const;
+
 private:
     const formats::MaterialRecord& getMaterial(const SurfaceHit& hit) const;
     Rgba look(const formats::TextureRef& texture, const SurfacePoint& point, double sample_size) const;

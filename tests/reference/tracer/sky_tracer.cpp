@@ -100,9 +100,7 @@ Double3 bounced(const ShadedScene& scene, Double3 start, Double3 direction, cons
         {
             const Incident incident = light.at(met->surface.position);
             const double nl = dot(c.normal, incident.to_light);
-            const bool shadowed =
-                nl > 0 && tracing.shadows && light.type != formats::LightType::point &&
-                scene.occluded({start, incident.to_light, 0, std::min(incident.distance, kFar)});
+            const bool shadowed = nl > 0 && tracing.shadows && scene.shadowed(start, incident);
             if (nl > 0 && !shadowed)
                 irradiance += incident.irradiance * (nl / kPi);
         }
@@ -202,8 +200,7 @@ Double3 underLights(const ShadedScene& scene, const ShadedPoint& point, Double3 
     for (const SceneLight& light : scene.lighting().lights)
     {
         const Incident incident = light.at(point.surface.position);
-        if (shadows && light.type != formats::LightType::point &&
-            scene.occluded({start, incident.to_light, 0, std::min(incident.distance, kFar)}))
+        if (shadows && scene.shadowed(start, incident))
             continue;
         radiance += incident.irradiance * reflected(point.coating, view, incident.to_light);
     }

@@ -19,7 +19,7 @@ struct SkyTracing
 {
     uint32_t rays = 0;    ///< sky rays of each sample for each of both lobes; 0: no occlusion
     uint32_t bounces = 0; ///< diffuse bounces after the hit; 0: hit surfaces are black, as in the runtime
-    bool shadows = false; ///< of suns and spots, on surfaces that bounced rays hit
+    bool shadows = false; ///< of the lights, on surfaces that bounced rays hit
 };
 
 /// Part of the sky's light that reaches a point.
@@ -40,7 +40,7 @@ SkyAccess traceSky(const ShadedScene& scene, const ShadedPoint& point, Double3 v
 Double3 tracedSky(const ShadedScene& scene, const ShadedPoint& point, Double3 view, const SkyTracing& tracing,
                   uint64_t seed);
 
-/// Light of the light sources that the surface reflects to the eye. shadows: of suns and spots.
+/// Light of the light sources that the surface reflects to the eye.
 Double3 underLights(const ShadedScene& scene, const ShadedPoint& point, Double3 view, bool shadows);
 
 } // namespace hearth::reference

@@ -58,7 +58,7 @@ Instance unmoved()
 
 bool landsInMap(const Case& c, Float3 point)
 {
-    const Float4 clip = shadowCasterClip(c.light, c.map, point - c.light.origin, c.light.direction, 1);
+    const Float4 clip = shadowCasterClip(c.light, c.map, point - c.light.origin, c.light.direction, 1, 0);
     return clip.w > 0 && clip.z <= clip.w && std::abs(clip.x) <= clip.w && std::abs(clip.y) <= clip.w;
 }
 
@@ -118,6 +118,39 @@ TEST(CasterView, leavesOutPointsBesideTheMap)
     EXPECT_GT(count, 5000u);
 }
 
+/// Casters within the range of a light are drawn, and boxes beyond the face's square at that distance are not.
+TEST(CasterView, ofALightWithARangeEndsThere)
+{
+    std::mt19937 random(8);
+    size_t near = 0;
+    size_t far = 0;
+    for (int run = 0; run < 300; ++run)
+    {
+        const Float3 position = randomUnit(random) * between(random, 0, 1000);
+        const uint32_t face = random() % kPointFaces;
+        const ShadowLight light = makePointShadow(position, face, 0.05f);
+        const float range = between(random, 0.5f, 20);
+        const FrameView casters =
+            makeCasterView(randomView(random), light, makeConeMap(kFaceTangent, kSize), 2, range);
+        for (int i = 0; i < 100; ++i)
+        {
+            const Float3 from_light = randomUnit(random) * between(random, 0.02f, 2) * range;
+            if (pointFace(from_light) != face)
+                continue;
+            const Float3 half = Float3{1, 1, 1} * (range * between(random, 0.001f, 0.01f));
+            const Float3 middle = position + from_light;
+            const bool outside = boxOutsideFrustum(casters, unmoved(), middle - half, middle + half);
+            near += length(from_light) < range;
+            EXPECT_FALSE(length(from_light) < range && outside);
+            const bool beyond = dot(from_light, light.direction) > range * 1.02f;
+            far += beyond;
+            EXPECT_TRUE(!beyond || outside);
+        }
+    }
+    EXPECT_GT(near, 1000u);
+    EXPECT_GT(far, 500u);
+}
+
 TEST(CasterView, drawsWhatTheImageWouldWithErrorsDividedByTheBias)
 {
     std::mt19937 random(3);
@@ -163,7 +196,8 @@ TEST(EyeCell, isAsLargeAsTheTexelsOfTheMapAllow)
     for (const float texel_m : {0.001f, 0.02f, 0.3f})
     {
         const EyeCell cell = findEyeCell(view, texel_m, 2);
-        const float grown = allowedCutError(view, 100 + cell.shift, 2) - allowedCutError(view, 100, 2);
+        // the threshold of 2 pixels, in metres, at a distance that grows by the shift
+        const float grown = 2 * cell.shift / view.lod_scale;
         EXPECT_LE(grown, 0.5f * texel_m * 1.001f);
         EXPECT_GE(grown, 0.25f * texel_m * 0.99f);
     }
@@ -171,74 +205,65 @@ TEST(EyeCell, isAsLargeAsTheTexelsOfTheMapAllow)
     EXPECT_GT(findEyeCell(makeFrameView({}, 64, 64, 0, 1), 0.01f, 1).shift, 500);
 }
 
-/// Each surface, in the frame or in a map, is off by no more than its part of the offset.
-TEST(CutOffset, boundsTheErrorsOfBothSurfaces)
-{
-    std::mt19937 random(6);
-    const Case c = randomCase(random, true);
-    constexpr float kBias = 4;
-    size_t seen = 0;
-    size_t cast = 0;
-    for (int run = 0; run < 20000; ++run)
-    {
-        FrameView view = randomView(random);
-        const LodKnot curve[] = {{5, between(random, 0.5f, 2)}, {80, between(random, 0.3f, 2)}};
-        ASSERT_TRUE(setLodCurve(view, curve).ok());
-        const EyeCell cell = findEyeCell(view, std::exp2(between(random, -10, 2)), kBias);
-        ASSERT_LE(length(cell.eye - view.eye), cell.shift * 1.001f + 1e-4f);
-        FrameView from_cell = view;
-        from_cell.eye = cell.eye;
-        const FrameView casters = makeCasterView(from_cell, c.light, c.map, kBias);
-        const float radius = between(random, 0.1f, 5);
-        const Float3 center = randomUnit(random) * between(random, 1, 60);
-        const float error = std::exp2(between(random, -12, 2));
-        const float distance =
-            length(center + randomUnit(random) * (radius * between(random, 0, 1)) - view.eye);
-        const float slack = 1.0001f;
-        if (!errorExceeds(view, unmoved(), center, radius, error))
-        {
-            ++seen;
-            EXPECT_LE(error, allowedCutError(view, distance, 1) * slack);
-        }
-        if (!errorExceeds(casters, unmoved(), center, radius, error))
-        {
-            ++cast;
-            EXPECT_LE(error, allowedCutError(view, distance + cell.shift, kBias) * slack);
-        }
-    }
-    EXPECT_GT(seen, 2000u);
-    EXPECT_GT(cast, seen + 1000u);
-    EXPECT_EQ(shadowNormalOffset(makeFrameView({}, 64, 64, 0, 1), 10, kBias, 5), 0);
-}
-
-/// A plane casts from the position of its coarser level, above the visible surface.
-TEST(CutOffset, keepsACoarserSurfaceFromShadowingTheOneThatIsSeen)
+/// A level of the seen surface that lies above it by the errors of both casts no shadow on it.
+TEST(CutErrors, keepACoarserSurfaceFromShadowingTheOneThatIsSeen)
 {
     std::mt19937 random(7);
-    size_t without_offset = 0;
+    size_t without_errors = 0;
     for (int degrees = 1; degrees <= 89; ++degrees)
         for (int run = 0; run < 10; ++run)
         {
             const Case c = randomCase(random, run % 2 == 0);
-            const float off = 0.02f;
+            const float seen_error = between(random, 0, 0.03f);
+            const float cast_error = between(random, 0, 0.03f);
             const Double3 centre = rayThrough(c.light, c.map, 128, 128).along * 5.0;
             const Float3 towards_light = narrow(unit(centre)) * -1.0f;
             const Float3 normal = tilted(towards_light, degrees * kDegree, random);
             const Double3 seen = rayThrough(c.light, c.map, 128, 128).begin + centre;
-            const Plane casting{seen + widen(normal) * double{off}, widen(normal)};
-            const auto isLit = [&](Float3 point)
+            const Plane casting{seen + widen(normal) * double{seen_error + cast_error}, widen(normal)};
+            const auto isLit = [&](float lift, float error)
             {
-                const ShadowPoint looked_up = shadowPoint(c.light, point);
+                const ShadowPoint looked_up = shadowPoint(c.light, narrow(seen) + normal * lift);
                 const Float2 texel = shadowTexel(c.map, looked_up);
                 const LightRay ray = rayThrough(c.light, c.map, double{std::floor(texel.x)} + 0.5,
                                                 double{std::floor(texel.y)} + 0.5);
-                const Float4 clip = shadowCasterClip(c.light, c.map, narrow(casting.meet(ray)), normal, 0);
+                const Float4 clip =
+                    shadowCasterClip(c.light, c.map, narrow(casting.meet(ray)), normal, 0, error);
                 return looked_up.depth >= clip.z / clip.w;
             };
-            EXPECT_TRUE(isLit(narrow(seen) + normal * off)) << degrees;
-            without_offset += !isLit(narrow(seen));
+            EXPECT_TRUE(isLit(seen_error, cast_error)) << degrees;
+            without_errors += !isLit(0, cast_error) + !isLit(seen_error, 0);
         }
-    EXPECT_GT(without_offset, 100u);
+    EXPECT_GT(without_errors, 200u);
+}
+
+/// The depth of a caster is that of its plane moved along the normal by the error.
+TEST(CutErrors, moveThePlaneOfACasterAlongItsNormal)
+{
+    std::mt19937 random(9);
+    for (int degrees = 1; degrees <= 85; ++degrees)
+        for (int run = 0; run < 10; ++run)
+        {
+            const Case c = randomCase(random, run % 2 == 0);
+            const float error = between(random, 0.001f, 0.03f);
+            const LightRay ray = rayThrough(c.light, c.map, 128.5, 128.5);
+            const Double3 point = ray.begin + ray.along * 5.0;
+            const Float3 normal = tilted(narrow(unit(ray.along)) * -1.0f, degrees * kDegree, random);
+            const Plane farther{point - widen(normal) * double{error}, widen(normal)};
+            const auto depthAt = [&](Double3 at)
+            {
+                const double z = dot(widen(c.light.direction), at);
+                return (z * double{c.light.depth_scale} + double{c.light.depth_offset}) /
+                       (c.light.perspective == 0 ? 1 : z);
+            };
+            const auto drawnDepth = [&](float moved)
+            {
+                const Float4 clip = shadowCasterClip(c.light, c.map, narrow(point), normal, 0, moved);
+                return double{clip.z / clip.w};
+            };
+            const double expected = depthAt(point) - depthAt(farther.meet(ray));
+            EXPECT_NEAR(drawnDepth(0) - drawnDepth(error), expected, 1e-3 * expected + 1e-7);
+        }
 }
 
 } // namespace

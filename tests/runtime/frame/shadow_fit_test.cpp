@@ -28,7 +28,7 @@ Box3 makeScene(float half)
 /// Texel at which the rasteriser puts a point, from the clip position of a caster.
 Float2 rasterTexel(const ShadowLight& light, const ShadowMap& map, Float3 point)
 {
-    const Float4 clip = shadowCasterClip(light, map, point, light.direction, 1);
+    const Float4 clip = shadowCasterClip(light, map, point, light.direction, 1, 0);
     return {(clip.x / clip.w + 1) * 0.5f * map.size, (clip.y / clip.w + 1) * 0.5f * map.size};
 }
 
@@ -98,8 +98,8 @@ TEST(SunMap, movesInWholeTexelsAndKeepsVerticesInTheirPlaceToTheBit)
             // floats near 0 have more bits of the fraction than elsewhere
             EXPECT_NEAR(at_a.x + step_x, at_b.x, 0x1p-12f);
             EXPECT_NEAR(at_a.y + step_y, at_b.y, 0x1p-12f);
-            const Float4 drawn_a = shadowCasterClip(light, a, point, light.right, 1);
-            const Float4 drawn_b = shadowCasterClip(light, b, point, light.right, 1);
+            const Float4 drawn_a = shadowCasterClip(light, a, point, light.right, 1, 0);
+            const Float4 drawn_b = shadowCasterClip(light, b, point, light.right, 1, 0);
             EXPECT_EQ((drawn_a.x + 1) * 256 + step_x, (drawn_b.x + 1) * 256);
             EXPECT_EQ((drawn_a.y + 1) * 256 + step_y, (drawn_b.y + 1) * 256);
             EXPECT_EQ(drawn_a.z, drawn_b.z);
@@ -250,6 +250,61 @@ TEST(SpotMap, ofATinySphereStaysAddressable)
         ASSERT_TRUE(map.has_value());
         EXPECT_LE(map->scale_x, 0x1p20f);
         EXPECT_TRUE(isInShadowMap(*map, shadowPoint(light, {2, 1, -5})));
+    }
+}
+
+/// Directions on the twelve edges and eight corners of a cube, exactly and beside them by up to 1e-3.
+std::vector<Float3> makeSeams(std::mt19937& random)
+{
+    std::vector<Float3> seams;
+    for (int corner = 0; corner < 8; ++corner)
+        for (int axis = 0; axis < 3; ++axis)
+            for (int i = 0; i < 200; ++i)
+            {
+                float p[3] = {corner & 1 ? 1.0f : -1.0f, corner & 2 ? 1.0f : -1.0f,
+                              corner & 4 ? 1.0f : -1.0f};
+                p[axis] = i == 0 ? p[axis] : between(random, -1, 1);
+                const Float3 exact = Float3{p[0], p[1], p[2]} * std::exp2(between(random, -6, 6));
+                seams.push_back(exact);
+                seams.push_back(exact + randomUnit(random) * (length(exact) * between(random, 0, 1e-3f)));
+            }
+    return seams;
+}
+
+TEST(PointFaces, coverAllDirectionsWithAllTapsOfTheFilter)
+{
+    std::mt19937 random(9);
+    std::vector<Float3> points = makeSeams(random);
+    for (int i = 0; i < 5000; ++i)
+        points.push_back(randomUnit(random) * std::exp2(between(random, -6, 6)));
+    for (const uint32_t kernel : {0u, 1u, 3u})
+        for (const uint32_t texels : {16u, 512u, 8192u})
+        {
+            const ShadowMap map = makeConeMap(kFaceTangent, {.texels = texels, .kernel = kernel});
+            for (const Float3& point : points)
+            {
+                const ShadowLight face = makePointShadow({3, 1, 2}, pointFace(point), 0.01f);
+                const ShadowPoint at = shadowPoint(face, point);
+                ASSERT_TRUE(isInShadowMap(map, at)) << point.x << " " << point.y << " " << point.z;
+                // the face that is nearest in angle
+                for (uint32_t other = 0; other < kPointFaces; ++other)
+                    ASSERT_LE(dot(makePointShadow({}, other, 1).direction, point),
+                              dot(face.direction, point));
+            }
+        }
+}
+
+/// The half-width of a map of n texels is n / (n - 2 (kernel + 1)): of these texels the face itself has
+/// n - 2 (kernel + 1), less an eighth for rounding.
+TEST(PointFaces, areWiderThanNinetyDegreesByTheFilterAlone)
+{
+    for (const uint32_t kernel : {0u, 1u, 3u})
+    {
+        const ShadowMap map = makeConeMap(kFaceTangent, {.texels = 256, .kernel = kernel});
+        const float tangent = (map.size - map.offset_x) / map.scale_x;
+        EXPECT_GE(tangent, 256.0f / (256 - 2 * static_cast<float>(kernel + 1)));
+        EXPECT_LE(tangent, 256.0f / (255.8f - 2 * static_cast<float>(kernel + 1)));
+        EXPECT_EQ(-map.offset_x / map.scale_x, -tangent);
     }
 }
 

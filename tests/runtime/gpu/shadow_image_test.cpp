@@ -115,6 +115,52 @@ Comparison compare(const PackView& pack, const Image& drawn, int reach)
     return result;
 }
 
+constexpr Float3 kSeamLamp{0.3f, -0.2f, 0.1f};
+
+/// Build a lamp in a closed room whose walls are not parallel to the faces of the lamp, with or without a shell around
+/// it that lets no light out.
+PackView buildSeamRoom(TestScene& test, float intensity, bool shell)
+{
+    const uint32_t white = test.addMaterial(plainMaterial());
+    const uint32_t wall = test.addMesh(withMaterial(makeQuad(20, 20), white));
+    const Affine3 turned = shining({}, {0.48f, -0.36f, 0.8f});
+    for (int side = 0; side < 6; ++side)
+    {
+        Float3 out{};
+        (side / 2 == 0 ? out.x : side / 2 == 1 ? out.y : out.z) = side % 2 == 0 ? 1.0f : -1.0f;
+        const Float3 normal{dot({turned.m[0][0], turned.m[0][1], turned.m[0][2]}, out),
+                            dot({turned.m[1][0], turned.m[1][1], turned.m[1][2]}, out),
+                            dot({turned.m[2][0], turned.m[2][1], turned.m[2][2]}, out)};
+        test.addInstance(wall, shining(normal * 4, normal));
+    }
+    if (shell)
+        test.addInstance(test.addMesh(withMaterial(shapes::rock(6, 0.0f), white)), scaled(0.5f, kSeamLamp));
+    test.addLight(light(LightType::point, kSeamLamp, {0, -1, 0}, intensity));
+    return test.build();
+}
+
+/// Return the middles of the edges of a cube, and its corners.
+std::vector<Float3> seamDirections()
+{
+    std::vector<Float3> directions;
+    for (int i = 0; i < 27; ++i)
+    {
+        const Float3 direction{static_cast<float>(i % 3 - 1), static_cast<float>(i / 3 % 3 - 1),
+                               static_cast<float>(i / 9 - 1)};
+        if (dot(direction, direction) > 1)
+            directions.push_back(direction);
+    }
+    return directions;
+}
+
+size_t countDifferent(const Image& a, const Image& b)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < a.color.size(); ++i)
+        count += std::abs(channel(a.color[i], 0) - channel(b.color[i], 0)) > 1;
+    return count;
+}
+
 void expectTraced(const Comparison& comparison)
 {
     EXPECT_GT(comparison.shadowed, 1000u);
@@ -149,6 +195,53 @@ TEST_F(ShadowImageTest, thoseOfASpotAreThoseOfRays)
     const Image image = drawShadowed(pack, {.max_maps = 1, .texels = 512}, kSource);
     keep(image, "spot");
     expectTraced(compare(pack, image, 3));
+}
+
+/// The lamp hangs between the rocks, so that shadows of one rock cross seams of its faces.
+TEST_F(ShadowImageTest, thoseOfAPointLightAreThoseOfRays)
+{
+    for (const Float3 place : {Float3{0.1f, 1.6f, 0.4f}, Float3{-0.3f, 0.7f, -0.4f}, Float3{-2, 4, 1}})
+    {
+        TestScene test;
+        const PackView pack = buildRocks(test, 12, light(LightType::point, place, {0, -1, 0}, 30));
+        const Image image = drawShadowed(pack, {.max_maps = 6, .texels = 512}, kSource);
+        keep(image, "point");
+        expectTraced(compare(pack, image, 3));
+        EXPECT_EQ(statistics_.maps, 6u);
+        EXPECT_EQ(statistics_.unshadowed_lights, 0u);
+    }
+}
+
+TEST_F(ShadowImageTest, aPointLightHasNoSeams)
+{
+    for (const uint32_t kernel : {0u, 1u, 3u})
+    {
+        const gpu::ShadowOptions shadows{.max_maps = 6, .texels = 64, .kernel = kernel};
+        TestScene open, closed, unlit;
+        const PackView open_pack = buildSeamRoom(open, 30, false);
+        const PackView closed_pack = buildSeamRoom(closed, 30, true);
+        const PackView unlit_pack = buildSeamRoom(unlit, 0, false);
+        const auto unshadowed = upload(open_pack);
+        const auto shadowed = upload(open_pack, {.shadows = shadows});
+        const auto enclosed = upload(closed_pack, {.shadows = shadows});
+        const auto without_light = upload(unlit_pack);
+        for (const Float3& direction : seamDirections())
+        {
+            // from the lamp itself, past the shell around it
+            const shared::Camera camera{.position = kSeamLamp,
+                                        .target = kSeamLamp + direction,
+                                        .up =
+                                            std::abs(direction.y) < 0.9f ? Float3{0, 1, 0} : Float3{1, 0, 0},
+                                        .y_fov_rad = 0.6f,
+                                        .z_near = 0.8f};
+            const DrawOptions options{.width = 96, .height = 96, .error_pixels = 0};
+            const Image lit = draw(*unshadowed, camera, options);
+            EXPECT_EQ(countDifferent(draw(*shadowed, camera, options), lit), 0u) << "dark, kernel " << kernel;
+            const Image dark = draw(*without_light, camera, options);
+            EXPECT_EQ(countDifferent(draw(*enclosed, camera, options), dark), 0u) << "lit, kernel " << kernel;
+            EXPECT_GT(countDifferent(lit, dark), lit.color.size() * 9 / 10);
+        }
+    }
 }
 
 TEST_F(ShadowImageTest, spheresMakeThemFinerWhereTheyAre)
@@ -213,6 +306,29 @@ TEST_F(ShadowImageTest, coarserCastersShadowNothingThatIsLit)
         EXPECT_GT(comparison.shadowed, 1000u);
         EXPECT_LE(comparison.wrong, 150u) << bias;
     }
+}
+
+/// Surfaces that no level has simplified have no error, whatever the threshold allows: their shadows are the
+/// same, those of things as low as a pixel too.
+TEST_F(ShadowImageTest, theThresholdMovesNoShadowOfASourceTriangle)
+{
+    TestScene test;
+    const uint32_t white = test.addMaterial(plainMaterial());
+    test.addInstance(test.addMesh(withMaterial(makeQuad(8, 8), white)), lying({0, 0, 0}));
+    const uint32_t tile = test.addMesh(withMaterial(makeQuad(0.5f, 0.5f), white));
+    for (int i = 0; i < 5; ++i)
+        test.addInstance(tile, lying({static_cast<float>(i) - 2, 0.02f * static_cast<float>(i + 1), 0}));
+    test.addInstance(tile, translated({0, 0.25f, 1}));
+    test.addLight(sun({0.5f, -0.6f, -0.4f}));
+    test.addLight(light(LightType::point, {1, 1.5f, 1.2f}, {0, -1, 0}, 10));
+    const PackView pack = test.build();
+    gpu::ShadowOptions options = kFour;
+    options.max_maps = 10;
+    DrawOptions coarse = kSource;
+    coarse.error_pixels = 4;
+    const Image image = drawShadowed(pack, options, kSource);
+    EXPECT_EQ(drawShadowed(pack, options, coarse).color, image.color);
+    EXPECT_GT(countDifferent(draw(*upload(pack), roomCamera(), kSource), image), 500u);
 }
 
 /// If a sphere moves while the cut stays the same, its map moves by whole texels and shows the same: shadows
@@ -333,12 +449,11 @@ TEST_F(ShadowImageTest, whatIsBeyondTheCapacityIsCounted)
     const DrawOptions small{.width = 16, .height = 16};
     gpu::ShadowOptions options{.max_maps = 6, .texels = 32, .splits = 3};
     drawShadowed(pack, options, small);
-    // 16 of 21 lights have a row, the sun the first. The sun takes three layers, the next three lights one
-    // each.
+    // The sun takes three layers, the first three spots one each. The lamp is the last.
     EXPECT_EQ(statistics_.maps, 6u);
     EXPECT_EQ(statistics_.drawn_maps, 6u);
-    EXPECT_EQ(statistics_.dropped_maps, 12u);
-    EXPECT_EQ(statistics_.unshadowed_lights, 5u + 12u);
+    EXPECT_EQ(statistics_.dropped_maps, 17u + 6u);
+    EXPECT_EQ(statistics_.unshadowed_lights, 17u + 1u);
 }
 
 } // namespace hearth::test

@@ -54,7 +54,8 @@ TEST(RenderOptions, defaultsFitTheScene)
     EXPECT_EQ(options->settings.error_pixels, 1);
     EXPECT_EQ(options->settings.cull_flags, shared::kCullEverything);
     EXPECT_EQ(options->geometry_budget, 0u) << "all is resident";
-    EXPECT_EQ(options->shadows.options.max_maps, 0u) << "no shadows";
+    EXPECT_GT(options->shadows.options.max_maps, 0u) << "shadows";
+    EXPECT_TRUE(options->shadows.fit_maps);
 }
 
 TEST(RenderOptions, everyOptionIsRead)
@@ -187,7 +188,7 @@ TEST(RenderOptions, mistakesAreNamed)
         expectUsage({"a.hearth", "-o", "a.png", "--shadows", shadows}, "--shadows");
     for (const char* sphere : {"", "1,2,3", "1,2,3,0", "1,2,3,4,x", "1,2,3,4,5,6"})
         expectUsage({"a.hearth", "-o", "a.png", "--shadow-sphere", sphere}, "--shadow-sphere");
-    expectUsage({"a.hearth", "-o", "a.png", "--view", "shadow-maps"}, "--shadows");
+    expectUsage({"a.hearth", "-o", "a.png", "--view", "shadow-maps", "--shadows", "off"}, "--shadows");
     for (const char* budget : {"", "0", "M", "-1", "1.5M", "1T", "1025G", "99999999999999999999"})
         expectUsage({"a.hearth", "-o", "a.png", "--budget", budget}, "--budget");
     for (const char* tests : {"", "some", "cone,", "all,cone"})
