@@ -3,8 +3,13 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
 
 // Inlines a function, or a lambda if written after its parameters, wherever it is called.
 #define HEARTH_INLINE __attribute__((always_inline))
@@ -21,6 +26,32 @@ using FourMasks = int64_t __attribute__((vector_size(4 * sizeof(int64_t))));
 HEARTH_INLINE inline void setAbsolute(const Four& x, Four& result)
 {
     result = (Four)((FourMasks)x & INT64_MAX);
+}
+
+HEARTH_INLINE inline void load(const std::array<double, 4>& numbers, Four& result)
+{
+    std::memcpy(&result, numbers.data(), sizeof result);
+}
+
+HEARTH_INLINE inline void store(const Four& numbers, std::array<double, 4>& result)
+{
+    std::memcpy(result.data(), &numbers, sizeof numbers);
+}
+
+/// Compute the square roots of numbers of at least 0.
+HEARTH_INLINE inline void setSquareRoot(Four& x)
+{
+#if defined(__SSE2__)
+    // std::sqrt sets errno, so compilers do not vectorise it
+    alignas(Four) std::array<double, 4> numbers;
+    store(x, numbers);
+    _mm_store_pd(&numbers[0], _mm_sqrt_pd(_mm_load_pd(&numbers[0])));
+    _mm_store_pd(&numbers[2], _mm_sqrt_pd(_mm_load_pd(&numbers[2])));
+    load(numbers, x);
+#else
+    for (size_t i = 0; i < 4; ++i)
+        x[i] = std::sqrt(x[i]);
+#endif
 }
 
 /// Transpose the 4 x 4 matrix of the rows r0 to r3 into four columns.
