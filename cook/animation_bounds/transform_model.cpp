@@ -89,6 +89,27 @@ struct PairedQuaternion
     Four repeat; ///< w w w
 };
 
+HEARTH_INLINE inline void makePaired(const Four& q, PairedQuaternion& paired)
+{
+    paired = {q, __builtin_shufflevector(q, q, 0, 0, 1, 3), __builtin_shufflevector(q, q, 1, 2, 2, 3),
+              __builtin_shufflevector(q, q, 2, 1, 0, 3), __builtin_shufflevector(q, q, 3, 3, 3, 3)};
+}
+
+/// Sums of products of two quaternions' numbers: what a rotation matrix consists of.
+struct PairSums
+{
+    Four squares{}; ///< xx yy zz ww
+    Four mixed{};   ///< xy xz yz
+    Four turn{};    ///< zw yw xw
+};
+
+HEARTH_INLINE inline void addPairs(const PairedQuaternion& a, const PairedQuaternion& b, PairSums& sums)
+{
+    sums.squares += a.all * b.all;
+    sums.mixed += a.xxy * b.yzz + a.yzz * b.xxy;
+    sums.turn += a.zyx * b.repeat + a.repeat * b.zyx;
+}
+
 /// Elements of a 3 x 3 matrix: three each, m[row][column].
 struct MatrixParts
 {
@@ -96,21 +117,6 @@ struct MatrixParts
     Four plus;     ///< 10 02 21
     Four minus;    ///< 01 20 12
 };
-
-/// Add the matrix of a quaternion a, with its second factor replaced by b's, times a number.
-HEARTH_INLINE inline void addSquare(const PairedQuaternion& a, const PairedQuaternion& b, double times,
-                                    MatrixParts& sum)
-{
-    const Four squares = a.all * b.all;
-    const Four off = a.xxy * b.yzz + a.yzz * b.xxy;        // xy xz yz
-    const Four turn = a.zyx * b.repeat + a.repeat * b.zyx; // zw yw xw
-    sum.diagonal += times * (__builtin_shufflevector(squares, squares, 3, 3, 3, 3) +
-                             __builtin_shufflevector(squares, squares, 0, 0, 0, 0) * Four{1, -1, -1, 1} +
-                             __builtin_shufflevector(squares, squares, 1, 1, 1, 1) * Four{-1, 1, -1, 1} +
-                             __builtin_shufflevector(squares, squares, 2, 2, 2, 2) * Four{-1, -1, 1, 1});
-    sum.plus += times * (off + turn);
-    sum.minus += times * (off - turn);
-}
 
 HEARTH_INLINE inline void storeMatrix(const MatrixParts& parts, std::array<double, 9>& matrix)
 {
@@ -128,25 +134,32 @@ HEARTH_INLINE inline void setLinear(TransformModel& transform)
 {
     const TaylorModel<4>& rotation = transform.rigid->rotation;
     MatrixModel& matrix = transform.linear;
-    PairedQuaternion terms[kTerms];
+    // pairs of different terms occur twice
+    PairedQuaternion terms[kTerms], doubled[3];
     for (size_t term = 0; term < kTerms; ++term)
     {
         Four q;
         load(rotation.terms[term], q);
-        terms[term] = {q, __builtin_shufflevector(q, q, 0, 0, 1, 3),
-                       __builtin_shufflevector(q, q, 1, 2, 2, 3), __builtin_shufflevector(q, q, 2, 1, 0, 3),
-                       __builtin_shufflevector(q, q, 3, 3, 3, 3)};
+        makePaired(q, terms[term]);
+        if (term < 3)
+            makePaired(2.0 * q, doubled[term]);
     }
     for (size_t term = 0; term < kTerms; ++term)
     {
-        MatrixParts sum{};
-        addSquare(terms[0], terms[term], term == 0 ? 1 : 2, sum);
+        PairSums sums;
+        addPairs(term == 0 ? terms[0] : doubled[0], terms[term], sums);
         if (term >= kFirstQuadratic)
         {
             const auto [a, b] = kQuadraticParameters[term - kFirstQuadratic];
-            addSquare(terms[kFirstLinear + a], terms[kFirstLinear + b], a == b ? 1 : 2, sum);
+            addPairs(a == b ? terms[kFirstLinear + a] : doubled[kFirstLinear + a], terms[kFirstLinear + b],
+                     sums);
         }
-        storeMatrix(sum, matrix.terms[term]);
+        const Four& squares = sums.squares;
+        storeMatrix({__builtin_shufflevector(squares, squares, 3, 3, 3, 3) + squares -
+                         __builtin_shufflevector(squares, squares, 1, 2, 0, 3) -
+                         __builtin_shufflevector(squares, squares, 2, 0, 1, 3),
+                     sums.mixed + sums.turn, sums.mixed - sums.turn},
+                    matrix.terms[term]);
     }
     // q x q* with q = p + e: e x q* + p x e*
     const DegreeNorms& p = transform.rigid->norms;
@@ -282,29 +295,40 @@ HEARTH_INLINE inline void scaleAfter(TransformModel& model, const VectorModel& s
     scaleElements(model, scale, [](size_t element) { return element / 3; });
 }
 
-HEARTH_INLINE inline VectorModel constantProduct(const MatrixModel& matrix,
-                                                 const std::array<double, 3>& vector)
+bool isConstant(const VectorModel& vector)
 {
-    VectorModel result;
-    for (size_t term = 0; term < kTerms; ++term)
-        for (size_t row = 0; row < 3; ++row)
-            for (size_t k = 0; k < 3; ++k)
-                result.terms[term][row] += matrix.terms[term][row * 3 + k] * vector[k];
-    return result;
+    bool is_constant = true;
+    for (size_t term = 1; term < kTerms; ++term)
+        for (size_t i = 0; i < 3; ++i)
+            is_constant &= vector.terms[term][i] == 0;
+    return is_constant;
 }
 
 /// Apply the linear part to a vector.
-HEARTH_INLINE inline VectorModel applyLinear(const TransformModel& transform, const VectorModel& vector)
+HEARTH_INLINE inline void applyLinear(const TransformModel& transform, const VectorModel& vector,
+                                      VectorModel& result)
 {
-    const DegreeNorms norms = degreeNorms(vector);
+    DegreeNorms norms;
     // special case for speed: most joints rotate, with a constant translation
-    VectorModel result = norms.linear == 0 && norms.quadratic == 0
-                             ? constantProduct(transform.linear, vector.terms[0])
-                             : productTerms(transform.linear, vector);
+    if (isConstant(vector))
+    {
+        const auto& [x, y, z] = vector.terms[0];
+        norms.constant = length(Double3{x, y, z});
+        for (size_t term = 0; term < kTerms; ++term)
+        {
+            const std::array<double, 9>& m = transform.linear.terms[term];
+            for (size_t row = 0; row < 3; ++row)
+                result.terms[term][row] = m[row * 3] * x + m[row * 3 + 1] * y + m[row * 3 + 2] * z;
+        }
+    }
+    else
+    {
+        norms = degreeNorms(vector);
+        result = productTerms(transform.linear, vector);
+    }
     result.remainder = transform.norm * vector.remainder +
                        (transform.linear.remainder + kTransformRounding * transform.norm) * norms.all() +
                        omittedTerms(transform.norms, norms);
-    return result;
 }
 
 /// Set the transform from the parent to the node; false if a scale can be 0.
@@ -324,7 +348,7 @@ HEARTH_INLINE inline bool setInverse(const NodeModel& node, TransformModel& mode
     away.remainder = node.translation.remainder;
     if (model.rigid)
         setLinear(model);
-    model.place = applyLinear(model, away);
+    applyLinear(model, away, model.place);
     model.place.remainder += kTransformRounding * model.norm * length(model.pivot);
     return true;
 }
@@ -356,7 +380,7 @@ HEARTH_INLINE inline void setComposition(const TransformModel& second, Transform
     away.terms[0][0] -= second.pivot.x;
     away.terms[0][1] -= second.pivot.y;
     away.terms[0][2] -= second.pivot.z;
-    result.place = applyLinear(second, away);
+    applyLinear(second, away, result.place);
     for (size_t term = 0; term < kTerms; ++term)
         for (size_t i = 0; i < 3; ++i)
             result.place.terms[term][i] += second.place.terms[term][i];

@@ -37,34 +37,50 @@ struct FourRanges
     Four certain_low, certain_high;
 };
 
-/// Compute the same as polynomialRange. The certain values are those at the two corners where the linear part
-/// is largest and smallest, minus the slack.
+/// Return the largest value of c + l x + m01 x0 x1 + m02 x0 x2 + m12 x1 x2, which is at a corner.
+HEARTH_INLINE inline void addCornerRange(const Four (&l)[3], const Four (&m)[3], double sign, Four& result)
+{
+    Four best{};
+    for (size_t corner = 0; corner < 4; ++corner)
+    {
+        const double s0 = corner == 3 ? -1 : 1, s1 = corner == 2 ? -1 : 1, s2 = corner == 1 ? -1 : 1;
+        const Four odd = s0 * l[0] + s1 * l[1] + s2 * l[2];
+        Four size;
+        setAbsolute(odd, size);
+        const Four value = sign * (s0 * s1 * m[0] + s0 * s2 * m[1] + s1 * s2 * m[2]) + size;
+        best = corner == 0 || value > best ? value : best;
+    }
+    result += sign * best;
+}
+
 HEARTH_INLINE inline void computeRanges(const Four* terms, const Four& slack, FourRanges& ranges)
 {
     const Four zero{}, one = zero + 1;
-    Four low = terms[0], high = terms[0], sides[3], sizes[3];
+    Four low = terms[0], high = terms[0], sides[3], sizes[3], low_slopes[3], high_slopes[3];
     for (size_t i = 0; i < 3; ++i)
     {
         const Four linear = terms[kFirstLinear + i], square = terms[kFirstQuadratic + i];
-        Four steepness, along_low, along_high;
+        Four steepness;
         setAbsolute(linear, sizes[i]);
         setAbsolute(square, steepness);
         sides[i] = linear < zero ? -one : one;
-        along_low = square - sizes[i];
-        along_high = square + sizes[i];
+        // tangent at the peak in [-1, 1], on the side where the square bends inwards
         const auto has_peak = 2.0 * steepness > sizes[i];
-        const Four peak = -0.25 * linear * linear / (has_peak ? square : one);
-        along_low = has_peak && peak < along_low ? peak : along_low;
-        along_high = has_peak && peak > along_high ? peak : along_high;
-        low += along_low;
-        high += along_high;
+        const Four peak =
+            has_peak ? -0.5 * linear / (has_peak ? square : one) : (square < zero ? sides[i] : -sides[i]);
+        const Four tangent_slope = has_peak ? zero : linear + 2.0 * square * peak;
+        const Four tangent_constant = -square * peak * peak;
+        const auto is_concave = square < zero;
+        high += is_concave ? tangent_constant : square;
+        high_slopes[i] = is_concave ? tangent_slope : linear;
+        low += is_concave ? square : tangent_constant;
+        low_slopes[i] = is_concave ? linear : tangent_slope;
     }
-    Four mixed[3];
-    for (size_t i = 0; i < 3; ++i)
-        setAbsolute(terms[7 + i], mixed[i]);
-    const Four mixed_sum = mixed[0] + mixed[1] + mixed[2];
-    ranges.low = low - mixed_sum - slack;
-    ranges.high = high + mixed_sum + slack;
+    const Four mixed[3] = {terms[7], terms[8], terms[9]};
+    addCornerRange(high_slopes, mixed, 1, high);
+    addCornerRange(low_slopes, mixed, -1, low);
+    ranges.low = low - slack;
+    ranges.high = high + slack;
     Four even = terms[0] + terms[4] + terms[5] + terms[6];
     for (size_t a = 0; a < 3; ++a)
         for (size_t b = a + 1; b < 3; ++b)
