@@ -18,9 +18,14 @@ namespace
 // Maximum squared sine of half the arc; 1/2 is for quaternions at a right angle, which are half a turn apart.
 constexpr double kMaxSquaredSine = 0.495;
 
-// Terms below which series end: for values, and for bounds of third derivatives, which are of order 1.
-constexpr double kValueTerm = 1e-14;
-constexpr double kBoundTerm = 1e-4;
+// Terms below which series end: for values, and for bounds of third derivatives, which are of order 1. The omitted
+// rest counts as an error.
+constexpr double kValueTerm = 1e-8;
+constexpr double kBoundTerm = 1e-3;
+
+// Upper bound for the error of an expansion, by that of its series: the coefficients of the latter sum to less
+// for weights in [0, 1] and squared sines in [0, 1/2].
+constexpr double kErrorGain = 8;
 
 // Upper bound for rounding errors.
 constexpr double kSlerpRounding = 1e-12;
@@ -36,6 +41,7 @@ struct Series
 {
     Derivatives cosines;
     Derivatives sines;
+    double error; ///< maximum error of all of them
 };
 
 constexpr size_t kMaxTerms = SeriesCoefficients::kMaxTerms;
@@ -66,7 +72,7 @@ constexpr std::array<TermFactors, kMaxTerms> termFactors()
 constexpr std::array<TermFactors, kMaxTerms> kTermFactors = termFactors();
 
 /// Evaluate the series, with derivatives up to an order of 2 or 3.
-/// last_term  the omitted rest is at most three times as large
+/// last_term  maximum of the last term; the omitted rest is at most three times as large
 template <size_t kOrder>
 HEARTH_INLINE void sumSeries(SeriesCoefficients& coefficients, double z, double last_term, Series& sum)
 {
@@ -85,8 +91,9 @@ HEARTH_INLINE void sumSeries(SeriesCoefficients& coefficients, double z, double 
         }
         // from here on each term is less than three quarters of the previous one
         const auto number = static_cast<double>(k);
-        if (k > 3 && z * (number + 1) < 0.75 * (number - 2) &&
-            c.largest * factors.falling[4] * powers[3] < last_term)
+        const double largest = c.largest * factors.falling[4] * powers[3];
+        sum.error = 3 * largest;
+        if (k > 3 && z * (number + 1) < 0.75 * (number - 2) && largest < last_term)
             break;
         for (size_t j = 3; j > 0; --j)
             powers[j] = powers[j - 1];
@@ -107,7 +114,7 @@ HEARTH_INLINE inline void boundSeries(SeriesCoefficients& coefficients, double z
     for (Derivatives* const derivatives : {&series.cosines, &series.sines})
         for (auto& row : derivatives->at)
             for (double& number : row)
-                number = std::abs(number) + 3 * kBoundTerm;
+                number = std::abs(number) + series.error;
 }
 
 /// Function of u, with v = u^2, and z: derivatives up to second order, and bounds of third order derivatives.
@@ -240,8 +247,10 @@ HEARTH_INLINE inline void setSlerp(const TimeCurve& from, const TimeCurve& to, d
     Series here, most;
     sumSeries<2>(weights.middle_series, square.middle, kValueTerm, here);
     boundSeries(weights.bound_series, square.middle + square.away(), most);
-    const TaylorModel<1> s = composeExpansion(cosines(u, here.cosines, max_u, most.cosines), half_u, square);
-    const TaylorModel<1> d = composeExpansion(sines(u, here.sines, max_u, most.sines), half_u, square);
+    TaylorModel<1> s = composeExpansion(cosines(u, here.cosines, max_u, most.cosines), half_u, square);
+    TaylorModel<1> d = composeExpansion(sines(u, here.sines, max_u, most.sines), half_u, square);
+    s.remainder += kErrorGain * here.error;
+    d.remainder += kErrorGain * here.error;
     Four sum[kTerms] = {}, difference[kTerms] = {}, product[kTerms] = {};
     for (size_t degree = 0; degree < 3; ++degree)
     {

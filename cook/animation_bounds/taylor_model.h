@@ -122,23 +122,37 @@ inline DegreeNorms degreeNorms(const TaylorModel<1>& model)
     return sumByDegree(lengths);
 }
 
-/// Return the norms of terms of four numbers.
+/// Dot products of three vectors a, b, c of four numbers: ab, ac, bc, and aa + bb + cc.
+HEARTH_INLINE inline void computeDots(const Four& a, const Four& b, const Four& c, Four& dots)
+{
+    Four columns[4];
+    transpose(a * b, a * c, b * c, a * a + b * b + c * c, columns);
+    dots = (columns[0] + columns[1]) + (columns[2] + columns[3]);
+}
+
+/// Return the norms of terms of four numbers: the largest lengths over all parameters, which are at corners.
 HEARTH_INLINE inline DegreeNorms degreeNorms(const Four (&terms)[kTerms])
 {
-    std::array<double, kTerms> lengths;
-    const Four none{};
-    for (size_t first = 0; first < kTerms; first += 4)
+    // |a +- b +- c|^2 for linear terms and for products of two parameters
+    const auto largest = [](const Four& dots) HEARTH_INLINE
     {
-        Four columns[4];
-        transpose(terms[first], terms[first + 1], first + 2 < kTerms ? terms[first + 2] : none,
-                  first + 3 < kTerms ? terms[first + 3] : none, columns);
-        Four four_lengths = columns[0] * columns[0] + columns[1] * columns[1] + columns[2] * columns[2] +
-                            columns[3] * columns[3];
-        setSquareRoot(four_lengths);
-        for (size_t i = 0; i < 4 && first + i < kTerms; ++i)
-            lengths[first + i] = four_lengths[i];
-    }
-    return sumByDegree(lengths);
+        const double same = dots[0] + dots[1] + dots[2];
+        return dots[3] +
+               2 * std::max(std::max(same, same - 2 * (dots[1] + dots[2])),
+                            std::max(same - 2 * (dots[0] + dots[2]), same - 2 * (dots[0] + dots[1])));
+    };
+    Four linear, squares, mixed;
+    computeDots(terms[1], terms[2], terms[3], linear);
+    computeDots(terms[7], terms[8], terms[9], mixed);
+    computeDots(terms[4], terms[5], terms[6], squares);
+    const Four constant = terms[0] * terms[0];
+    // squares of parameters are at least 0: negative products do not count
+    const double of_squares =
+        squares[3] + 2 * (std::max(squares[0], 0.0) + std::max(squares[1], 0.0) + std::max(squares[2], 0.0));
+    Four lengths{constant[0] + constant[1] + constant[2] + constant[3], largest(linear), of_squares,
+                 largest(mixed)};
+    setSquareRoot(lengths);
+    return {lengths[0], lengths[1], lengths[2] + lengths[3]};
 }
 
 /// Return an upper bound for the omitted terms of third and fourth degree of a product.
