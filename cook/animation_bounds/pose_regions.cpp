@@ -2,7 +2,6 @@
 #include "cook/animation_bounds/pose_regions.h"
 
 #include "cook/animation_bounds/quaternion.h"
-#include "cook/animation_bounds/slerp_model.h"
 #include "formats/codecs/channel_keys.h"
 
 #include <algorithm>
@@ -97,11 +96,10 @@ void addMotion(const NodeSpan& span, SpanMotion& motion)
     add(span.translation, 1 / (size + 1e-30));
 }
 
-/// Return (1 - w) from + w to.
-VectorModel blended(const TimeCurve& from, const TimeCurve& to, Interval weights)
+/// Compute (1 - w) from + w to.
+void setBlend(const TimeCurve& from, const TimeCurve& to, Interval weights, VectorModel& model)
 {
     const double weight = weights.middle(), half = weights.half();
-    VectorModel model;
     for (size_t i = 0; i < 3; ++i)
     {
         const double a[3] = {from.terms[0][i], from.terms[1][i], from.terms[2][i]};
@@ -113,13 +111,14 @@ VectorModel blended(const TimeCurve& from, const TimeCurve& to, Interval weights
         term(kFirstLinear + 2) = half * (b[0] - a[0]);
         term(termIndex(0, 0)) = (1 - weight) * a[2];
         term(termIndex(1, 1)) = weight * b[2];
+        term(termIndex(2, 2)) = 0;
+        term(termIndex(0, 1)) = 0;
         term(termIndex(0, 2)) = -half * a[1];
         term(termIndex(1, 2)) = half * b[1];
     }
     model.remainder = half * (length(from.terms[2]) + length(to.terms[2])) +
                       std::max(std::lerp(from.remainder, to.remainder, weights.low),
                                std::lerp(from.remainder, to.remainder, weights.high));
-    return model;
 }
 
 ChannelValue vectorValue(Double3 v)
@@ -266,14 +265,16 @@ std::optional<std::array<PoseRegion, 2>> PoseRegions::split(const PoseRegion& re
     return split;
 }
 
-NodeModel PoseRegions::nodeModel(const PoseRegion& region, uint32_t node) const
+void PoseRegions::setNodeModel(const PoseRegion& region, uint32_t node, BlendWeights& weights,
+                               NodeModel& model) const
 {
     const NodeSpan& from = span(region.from_clip, region.from_span, node);
     const NodeSpan& to = span(region.to_clip, region.to_span, node);
-    const Interval weights{region.low_weight, region.high_weight};
-    const TaylorModel<4> rotation = slerpModel(from.rotation, to.rotation, weights);
-    return {blended(from.translation, to.translation, weights),
-            rotation.remainder < 1 ? rotation : anyRotation(), blended(from.scale, to.scale, weights)};
+    setBlend(from.translation, to.translation, weights.range, model.translation);
+    slerpModel(from.rotation, to.rotation, weights, model.rotation);
+    if (!(model.rotation.remainder < 1))
+        model.rotation = anyRotation();
+    setBlend(from.scale, to.scale, weights.range, model.scale);
 }
 
 NodePose PoseRegions::middlePose(const PoseRegion& region, uint32_t node) const

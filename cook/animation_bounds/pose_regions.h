@@ -5,6 +5,7 @@
 #pragma once
 
 #include "cook/animation_bounds/node_motion.h"
+#include "cook/animation_bounds/slerp_model.h"
 #include "cook/animation_bounds/taylor_model.h"
 #include "cook/animation_bounds/time_curve.h"
 
@@ -41,6 +42,8 @@ struct PoseRegion
     uint32_t to_span = 1;
     double low_weight = 0;
     double high_weight = 1;
+
+    Interval weights() const { return {low_weight, high_weight}; }
 };
 
 /// Binary subdivision of the space of all poses. Thread-safe.
@@ -75,8 +78,9 @@ public:
         return from.from >= to.to && from.from > to.from;
     }
 
-    /// Return the local transform of a node over a region.
-    NodeModel nodeModel(const PoseRegion& region, uint32_t node) const;
+    /// Compute the local transform of a node over a region.
+    /// weights  of the region
+    void setNodeModel(const PoseRegion& region, uint32_t node, BlendWeights& weights, NodeModel& model) const;
 
     /// Return a pose of the node in the region, or near it: all nodes at the middle of the times and weights.
     formats::NodePose middlePose(const PoseRegion& region, uint32_t node) const;

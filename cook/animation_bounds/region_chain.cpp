@@ -64,22 +64,28 @@ bool RegionChain::place(const PoseRegions& regions, const PoseRegion& region, st
 {
     models.resize(links_.size());
     models[0] = identityModel();
+    BlendWeights weights(region.weights());
+    NodeModel node;
+    TransformModel step;
     for (const uint32_t i : links)
     {
         const Link& link = links_[i];
-        const std::optional<Affine3d>& fixed = regions.fixed(link.node);
-        std::optional<TransformModel> step;
-        if (fixed)
+        if (const std::optional<Affine3d>& fixed = regions.fixed(link.node))
         {
             const std::optional<Affine3d> transform = link.up ? inverted(*fixed) : fixed;
-            step = transform ? std::optional(constantModel(*transform)) : std::nullopt;
+            if (!transform)
+                return false;
+            step = constantModel(*transform);
         }
         else
-            step = link.up ? nodeFromParent(regions.nodeModel(region, link.node))
-                           : parentFromNode(regions.nodeModel(region, link.node));
-        if (!step)
-            return false;
-        compose(models[link.after], *step, models[i]);
+        {
+            regions.setNodeModel(region, link.node, weights, node);
+            if (!link.up)
+                setParentFromNode(node, step);
+            else if (!setNodeFromParent(node, step))
+                return false;
+        }
+        compose(models[link.after], step, models[i]);
     }
     return true;
 }

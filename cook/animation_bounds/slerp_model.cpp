@@ -18,9 +18,14 @@ namespace
 // Maximum squared sine of half the arc; 1/2 is for quaternions at a right angle, which are half a turn apart.
 constexpr double kMaxSquaredSine = 0.495;
 
-// Terms below which series end: for values, and for bounds of third derivatives, which are of order 1.
-constexpr double kValueTerm = 1e-14;
-constexpr double kBoundTerm = 1e-4;
+// Terms below which series end: for values, and for bounds of third derivatives, which are of order 1. The omitted
+// rest counts as an error.
+constexpr double kValueTerm = 1e-8;
+constexpr double kBoundTerm = 1e-3;
+
+// Upper bound for the error of an expansion, by that of its series: the coefficients of the latter sum to less
+// for weights in [0, 1] and squared sines in [0, 1/2].
+constexpr double kErrorGain = 8;
 
 // Upper bound for rounding errors.
 constexpr double kSlerpRounding = 1e-12;
@@ -31,94 +36,85 @@ struct Derivatives
     double at[4][4] = {};
 };
 
-/// Sums over k of c_k(v) z^k, and the same divided by 2 k + 1, with c_0 = 1 and
-/// c_(k+1) = c_k ((k + 1/2)^2 - v) / ((k + 1/2) (k + 1)), for v in [0, 1/4] and z in [0, 1/2].
+/// Sums over k of c_k(v) z^k, and the same divided by 2 k + 1, for z in [0, 1/2].
 struct Series
 {
     Derivatives cosines;
     Derivatives sines;
+    double error; ///< maximum error of all of them
 };
 
-constexpr size_t kMaxSeriesTerms = 150;
+constexpr size_t kMaxTerms = SeriesCoefficients::kMaxTerms;
 
 /// Numbers of the term k that depend on k alone.
 struct TermFactors
 {
-    double share;   ///< of the term in the sines
-    double square;  ///< (k + 1/2)^2
-    double inverse; ///< 1 / ((k + 1/2) (k + 1))
+    double share;      ///< of the term in the sines
+    double square;     ///< (k + 1/2)^2
+    double inverse;    ///< 1 / ((k + 1/2) (k + 1))
+    double falling[5]; ///< 1, k, k (k - 1), ..
 };
-constexpr std::array<TermFactors, kMaxSeriesTerms> termFactors()
+constexpr std::array<TermFactors, kMaxTerms> termFactors()
 {
-    std::array<TermFactors, kMaxSeriesTerms> factors{};
-    for (size_t k = 0; k < kMaxSeriesTerms; ++k)
+    std::array<TermFactors, kMaxTerms> factors{};
+    for (size_t k = 0; k < kMaxTerms; ++k)
     {
         const auto number = static_cast<double>(k);
-        factors[k] = {1.0 / (2 * number + 1), (number + 0.5) * (number + 0.5),
-                      1 / ((number + 0.5) * (number + 1))};
+        factors[k] = {1.0 / (2 * number + 1),
+                      (number + 0.5) * (number + 0.5),
+                      1 / ((number + 0.5) * (number + 1)),
+                      {1}};
+        for (size_t j = 0; j < 4; ++j)
+            factors[k].falling[j + 1] = factors[k].falling[j] * (number - static_cast<double>(j));
     }
     return factors;
 }
-constexpr std::array<TermFactors, kMaxSeriesTerms> kTermFactors = termFactors();
+constexpr std::array<TermFactors, kMaxTerms> kTermFactors = termFactors();
 
 /// Evaluate the series, with derivatives up to an order of 2 or 3.
-/// last_term  the omitted rest is at most three times as large
+/// last_term  maximum of the last term; the omitted rest is at most three times as large
 template <size_t kOrder>
-Series seriesAt(double v, double z, double last_term)
+HEARTH_INLINE void sumSeries(SeriesCoefficients& coefficients, double z, double last_term, Series& sum)
 {
-    // derivatives by z, then by v: the inner loops run over vectors
-    double cosines[kOrder + 1][4] = {}, sines[kOrder + 1][4] = {};
-    double c[4] = {1, 0, 0, 0};      // derivatives by v
+    // derivatives by z; those by v are side by side
+    Four cosines[kOrder + 1] = {}, sines[kOrder + 1] = {};
     double powers[4] = {1, 0, 0, 0}; // z^(k - j)
-    for (size_t k = 0; k < kMaxSeriesTerms; ++k)
+    for (size_t k = 0; k < kMaxTerms; ++k)
     {
         const TermFactors& factors = kTermFactors[k];
-        const auto number = static_cast<double>(k);
-        // k (k - 1) .. of the derivatives by z
-        const double falling[4] = {1, number, number * (number - 1), number * (number - 1) * (number - 2)};
+        const SeriesCoefficients::Term& c = coefficients.term(k);
         for (size_t j = 0; j <= kOrder; ++j)
         {
-            const double power = falling[j] * powers[j];
-            for (size_t i = 0; i < 4; ++i)
-            {
-                const double term = c[i] * power;
-                cosines[j][i] += term;
-                sines[j][i] += factors.share * term;
-            }
+            const Four term = c.derivatives * (factors.falling[j] * powers[j]);
+            cosines[j] += term;
+            sines[j] += factors.share * term;
         }
-        const double largest = std::max({c[0], -c[1], c[2], -c[3]});
         // from here on each term is less than three quarters of the previous one
-        if (k > 3 && z * (number + 1) < 0.75 * (number - 2) &&
-            largest * (falling[3] * (number - 3)) * powers[3] < last_term)
+        const auto number = static_cast<double>(k);
+        const double largest = c.largest * factors.falling[4] * powers[3];
+        sum.error = 3 * largest;
+        if (k > 3 && z * (number + 1) < 0.75 * (number - 2) && largest < last_term)
             break;
-        const double a = factors.square - v;
-        c[3] = (c[3] * a - 3 * c[2]) * factors.inverse;
-        c[2] = (c[2] * a - 2 * c[1]) * factors.inverse;
-        c[1] = (c[1] * a - c[0]) * factors.inverse;
-        c[0] *= a * factors.inverse;
         for (size_t j = 3; j > 0; --j)
             powers[j] = powers[j - 1];
         powers[0] *= z;
     }
-    Series sum;
     for (size_t j = 0; j <= kOrder; ++j)
         for (size_t i = 0; i + j <= kOrder; ++i)
         {
             sum.cosines.at[i][j] = cosines[j][i];
             sum.sines.at[i][j] = sines[j][i];
         }
-    return sum;
 }
 
-/// Return upper bounds for the absolute values.
-Series boundsAt(double v, double z)
+/// Compute upper bounds for the absolute values.
+HEARTH_INLINE inline void boundSeries(SeriesCoefficients& coefficients, double z, Series& series)
 {
-    Series series = seriesAt<3>(v, z, kBoundTerm);
+    sumSeries<3>(coefficients, z, kBoundTerm, series);
     for (Derivatives* const derivatives : {&series.cosines, &series.sines})
         for (auto& row : derivatives->at)
             for (double& number : row)
-                number = std::abs(number) + 3 * kBoundTerm;
-    return series;
+                number = std::abs(number) + series.error;
 }
 
 /// Function of u, with v = u^2, and z: derivatives up to second order, and bounds of third order derivatives.
@@ -217,66 +213,110 @@ TaylorModel<1> composeExpansion(const Expansion& f, double half_u, const Squared
 }
 
 /// Add the polynomial of the product, and its remainder.
-void addProduct(const TaylorModel<1>& factor, const TaylorModel<4>& of, TaylorModel<4>& sum)
+HEARTH_INLINE inline void addProduct(const TaylorModel<1>& factor, const Four (&of)[kTerms],
+                                     Four (&sum)[kTerms], double& remainder)
 {
-    for (const TermProduct& product : kProducts)
-        for (size_t i = 0; i < 4; ++i)
-            sum.terms[product.product][i] += factor.terms[product.one][0] * of.terms[product.other][i];
+    const auto multiply = [&](size_t one, size_t other, Four& product) HEARTH_INLINE
+    { product += factor.terms[one][0] * of[other]; };
+    addProducts(multiply, sum);
     const DegreeNorms norms = degreeNorms(of);
-    sum.remainder += omittedTerms(degreeNorms(factor), norms) + factor.remainder * norms.all();
+    remainder += omittedTerms(degreeNorms(factor), norms) + factor.remainder * norms.all();
 }
 
 constexpr size_t kFromTerms[3] = {0, kFirstLinear, termIndex(0, 0)};
 constexpr size_t kToTerms[3] = {0, kFirstLinear + 1, termIndex(1, 1)};
 
-/// Return the nearer end. The arc is never longer than a right angle.
-TaylorModel<4> nearEnd(const TimeCurve& from, const TimeCurve& to, Interval weights)
+/// Set the model to the nearer end. The arc is never longer than a right angle.
+void setNearEnd(const TimeCurve& from, const TimeCurve& to, Interval weights, TaylorModel<4>& model)
 {
     const bool is_from = weights.high < 1 - weights.low;
     const TimeCurve& end = is_from ? from : to;
-    TaylorModel<4> model;
+    model.terms = {};
     for (size_t degree = 0; degree < 3; ++degree)
         model.terms[is_from ? kFromTerms[degree] : kToTerms[degree]] = end.terms[degree];
     const double share = is_from ? weights.high : 1 - weights.low;
     model.remainder = end.remainder + 2 * std::sin(share * std::numbers::pi / 4) + kSlerpRounding;
-    return model;
+}
+
+/// Set the model to S (from + to) / 2 + D (to - from) / 2, at u = weight - 1/2: where the two are near each
+/// other, D has a small factor.
+HEARTH_INLINE inline void setSlerp(const TimeCurve& from, const TimeCurve& to, double side,
+                                   const SquaredSine& square, BlendWeights& weights, TaylorModel<4>& model)
+{
+    const double u = weights.center, half_u = weights.range.half(), max_u = std::abs(u) + half_u;
+    Series here, most;
+    sumSeries<2>(weights.middle_series, square.middle, kValueTerm, here);
+    boundSeries(weights.bound_series, square.middle + square.away(), most);
+    TaylorModel<1> s = composeExpansion(cosines(u, here.cosines, max_u, most.cosines), half_u, square);
+    TaylorModel<1> d = composeExpansion(sines(u, here.sines, max_u, most.sines), half_u, square);
+    s.remainder += kErrorGain * here.error;
+    d.remainder += kErrorGain * here.error;
+    Four sum[kTerms] = {}, difference[kTerms] = {}, product[kTerms] = {};
+    for (size_t degree = 0; degree < 3; ++degree)
+    {
+        Four a, b;
+        load(from.terms[degree], a);
+        load(to.terms[degree], b);
+        a *= 0.5;
+        b *= 0.5 * side;
+        sum[kFromTerms[degree]] += a;
+        sum[kToTerms[degree]] += b;
+        difference[kFromTerms[degree]] -= a;
+        difference[kToTerms[degree]] += b;
+    }
+    model.remainder = 0;
+    addProduct(s, sum, product, model.remainder);
+    addProduct(d, difference, product, model.remainder);
+    for (size_t term = 0; term < kTerms; ++term)
+        store(product[term], model.terms[term]);
+    model.remainder += weights.max_from * from.remainder + weights.max_to * to.remainder;
+}
+
+/// Return the least squared distance of a weight from 1/2.
+double minSquare(Interval weights)
+{
+    const double least = std::max(0.0, std::abs(weights.middle() - 0.5) - weights.half());
+    return least * least;
 }
 
 } // namespace
 
-TaylorModel<4> slerpModel(const TimeCurve& from, const TimeCurve& to, Interval weights)
+SeriesCoefficients::SeriesCoefficients(double v) : v_(v)
+{
+    terms_[0] = {Four{1, 0, 0, 0}, 1};
+}
+
+void SeriesCoefficients::addTerm()
+{
+    const Four& c = terms_[count_ - 1].derivatives;
+    const TermFactors& factors = kTermFactors[count_ - 1];
+    const double a = factors.square - v_;
+    const double next[4] = {c[0] * (a * factors.inverse), (c[1] * a - c[0]) * factors.inverse,
+                            (c[2] * a - 2 * c[1]) * factors.inverse, (c[3] * a - 3 * c[2]) * factors.inverse};
+    terms_[count_++] = {Four{next[0], next[1], next[2], next[3]},
+                        std::max({next[0], -next[1], next[2], -next[3]})};
+}
+
+// the factor of either end, sin(t arc) / sin(arc), is largest where the arc is a right angle; derivatives by v
+// are largest where v is small
+BlendWeights::BlendWeights(Interval range_of_weights)
+    : range(range_of_weights),
+      center(range.middle() - 0.5),
+      max_from(std::sin((1 - range.low) * std::numbers::pi / 2)),
+      max_to(std::sin(range.high * std::numbers::pi / 2)),
+      middle_series(center * center),
+      bound_series(minSquare(range))
+{
+}
+
+void slerpModel(const TimeCurve& from, const TimeCurve& to, BlendWeights& weights, TaylorModel<4>& model)
 {
     const double side = dot(from.terms[0], to.terms[0]) < 0 ? -1 : 1;
     const SquaredSine square = computeSquaredSine(from, to, side);
-    const double max_square = square.middle + square.away();
-    if (!(max_square < kMaxSquaredSine))
-        return nearEnd(from, to, weights);
-    // slerp = S (from + to) / 2 + D (to - from) / 2, at u = weight - 1/2: where the two are near each other,
-    // D has a small factor
-    const double u = weights.middle() - 0.5, half_u = weights.half();
-    const double max_u = std::abs(u) + half_u, min_u = std::max(0.0, std::abs(u) - half_u);
-    // derivatives by v are largest where v is small
-    const double z = square.middle, min_v = min_u * min_u;
-    const Series here = seriesAt<2>(u * u, z, kValueTerm), most = boundsAt(min_v, max_square);
-    const TaylorModel<1> s = composeExpansion(cosines(u, here.cosines, max_u, most.cosines), half_u, square);
-    const TaylorModel<1> d = composeExpansion(sines(u, here.sines, max_u, most.sines), half_u, square);
-    TaylorModel<4> sum, difference;
-    for (size_t degree = 0; degree < 3; ++degree)
-        for (size_t i = 0; i < 4; ++i)
-        {
-            const double a = 0.5 * from.terms[degree][i], b = 0.5 * side * to.terms[degree][i];
-            sum.terms[kFromTerms[degree]][i] += a;
-            sum.terms[kToTerms[degree]][i] += b;
-            difference.terms[kFromTerms[degree]][i] -= a;
-            difference.terms[kToTerms[degree]][i] += b;
-        }
-    TaylorModel<4> model;
-    addProduct(s, sum, model);
-    addProduct(d, difference, model);
-    // the factor of either end, sin(t arc) / sin(arc), is largest where the arc is a right angle
-    model.remainder += std::sin((1 - weights.low) * std::numbers::pi / 2) * from.remainder +
-                       std::sin(weights.high * std::numbers::pi / 2) * to.remainder;
-    return model;
+    if (!(square.middle + square.away() < kMaxSquaredSine))
+        setNearEnd(from, to, weights.range, model);
+    else
+        callWithWideVectors([&]() HEARTH_INLINE { setSlerp(from, to, side, square, weights, model); });
 }
 
 } // namespace hearth::animation_bounds

@@ -16,13 +16,56 @@ inline TaylorModel<4> anyRotation()
     return any;
 }
 
-/// Return slerp(from, to, w) as a quaternion of length 1, with either sign. x0 is the time of `from`, x1 the
+/// Coefficients c_k(v) of a series in z, with derivatives by v: c_0 = 1 and
+/// c_(k+1) = c_k ((k + 1/2)^2 - v) / ((k + 1/2) (k + 1)), for v in [0, 1/4]. Computed on first use.
+class SeriesCoefficients
+{
+public:
+    struct Term
+    {
+        Four derivatives; ///< by v, of order 0 to 3; they alternate in sign
+        double largest;   ///< maximum absolute value
+    };
+    static constexpr size_t kMaxTerms = 150;
+
+    explicit SeriesCoefficients(double v);
+
+    /// Return the term k, below kMaxTerms; all before must have been asked for.
+    const Term& term(size_t k)
+    {
+        if (k == count_)
+            addTerm();
+        return terms_[k];
+    }
+
+private:
+    void addTerm();
+
+    double v_;
+    size_t count_ = 1;
+    std::array<Term, kMaxTerms> terms_;
+};
+
+/// Range of weights with the numbers of slerpModel that depend on it alone: they serve all nodes of a region.
+struct BlendWeights
+{
+    explicit BlendWeights(Interval range);
+
+    Interval range;
+    double center;   ///< of the range, minus 1/2
+    double max_from; ///< maximum change of the blend, by the change of either end
+    double max_to;
+    SeriesCoefficients middle_series; ///< at the center
+    SeriesCoefficients bound_series;  ///< where derivatives are largest
+};
+
+/// Compute slerp(from, to, w) as a quaternion of length 1, with either sign. x0 is the time of `from`, x1 the
 /// time of `to`, x2 goes from the low weight to the high one. Where the two may be half a turn apart, the
 /// shorter arc is ambiguous; the result is then the nearer end, with a remainder as large as the weights
 /// allow.
 /// source  sines of fractions of the arc as hypergeometric series in the squared sine of half the arc. They
 ///         have no pole where the two rotations are equal; all coefficients have one sign, so derivatives are
 ///         largest at the far corner.
-TaylorModel<4> slerpModel(const TimeCurve& from, const TimeCurve& to, Interval weights);
+void slerpModel(const TimeCurve& from, const TimeCurve& to, BlendWeights& weights, TaylorModel<4>& model);
 
 } // namespace hearth::animation_bounds

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "cook/animation_bounds/box.h"
+#include "cook/animation_bounds/four.h"
 
 #include <array>
 #include <cmath>
@@ -47,26 +48,31 @@ constexpr std::array<TermProduct, kTermProducts> termProducts()
 }
 inline constexpr std::array<TermProduct, kTermProducts> kProducts = termProducts();
 
-/// Product of two terms in the square of a polynomial. Each pair occurs once, with the factor `times`.
-struct TermSquare
+/// Parameters of the quadratic terms: term kFirstQuadratic + i is their product.
+inline constexpr std::array<std::array<size_t, 2>, 6> kQuadraticParameters{
+    {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
+
+/// Add the product of two polynomials of four numbers, in the order of kProducts.
+/// multiply  (one, other, sum): adds the product of a term of either factor to a sum
+template <typename Multiply>
+HEARTH_INLINE inline void addProducts(const Multiply& multiply, Four (&sums)[kTerms])
 {
-    size_t one;
-    size_t other;
-    size_t product;
-    double times;
-};
-inline constexpr size_t kTermSquares = 16;
-constexpr std::array<TermSquare, kTermSquares> termSquares()
-{
-    std::array<TermSquare, kTermSquares> squares{};
-    size_t count = 0;
-    for (const TermProduct& product : kProducts)
-        if (product.one <= product.other)
-            squares[count++] = {product.one, product.other, product.product,
-                                product.one == product.other ? 1.0 : 2.0};
-    return squares;
+    for (size_t term = 0; term < kTerms; ++term)
+    {
+        Four sum = sums[term];
+        multiply(0, term, sum);
+        if (term > 0)
+            multiply(term, 0, sum);
+        if (term >= kFirstQuadratic)
+        {
+            const auto [a, b] = kQuadraticParameters[term - kFirstQuadratic];
+            multiply(kFirstLinear + a, kFirstLinear + b, sum);
+            if (a != b)
+                multiply(kFirstLinear + b, kFirstLinear + a, sum);
+        }
+        sums[term] = sum;
+    }
 }
-inline constexpr std::array<TermSquare, kTermSquares> kSquares = termSquares();
 
 /// Taylor model of N numbers: a vector, or a 3 x 3 matrix row by row.
 template <size_t N>
@@ -88,8 +94,14 @@ struct DegreeNorms
     double all() const { return constant + linear + quadratic; }
 };
 
+inline DegreeNorms sumByDegree(const std::array<double, kTerms>& lengths)
+{
+    return {lengths[0], lengths[1] + lengths[2] + lengths[3],
+            lengths[4] + lengths[5] + lengths[6] + lengths[7] + lengths[8] + lengths[9]};
+}
+
 template <size_t N>
-DegreeNorms degreeNorms(const TaylorModel<N>& model)
+HEARTH_INLINE inline DegreeNorms degreeNorms(const TaylorModel<N>& model)
 {
     std::array<double, kTerms> lengths;
     for (size_t term = 0; term < kTerms; ++term)
@@ -99,8 +111,48 @@ DegreeNorms degreeNorms(const TaylorModel<N>& model)
             square += number * number;
         lengths[term] = std::sqrt(square);
     }
-    return {lengths[0], lengths[1] + lengths[2] + lengths[3],
-            lengths[4] + lengths[5] + lengths[6] + lengths[7] + lengths[8] + lengths[9]};
+    return sumByDegree(lengths);
+}
+
+inline DegreeNorms degreeNorms(const TaylorModel<1>& model)
+{
+    std::array<double, kTerms> lengths;
+    for (size_t term = 0; term < kTerms; ++term)
+        lengths[term] = std::abs(model.terms[term][0]);
+    return sumByDegree(lengths);
+}
+
+/// Dot products of three vectors a, b, c of four numbers: ab, ac, bc, and aa + bb + cc.
+HEARTH_INLINE inline void computeDots(const Four& a, const Four& b, const Four& c, Four& dots)
+{
+    Four columns[4];
+    transpose(a * b, a * c, b * c, a * a + b * b + c * c, columns);
+    dots = (columns[0] + columns[1]) + (columns[2] + columns[3]);
+}
+
+/// Return the norms of terms of four numbers: the largest lengths over all parameters, which are at corners.
+HEARTH_INLINE inline DegreeNorms degreeNorms(const Four (&terms)[kTerms])
+{
+    // |a +- b +- c|^2 for linear terms and for products of two parameters
+    const auto largest = [](const Four& dots) HEARTH_INLINE
+    {
+        const double same = dots[0] + dots[1] + dots[2];
+        return dots[3] +
+               2 * std::max(std::max(same, same - 2 * (dots[1] + dots[2])),
+                            std::max(same - 2 * (dots[0] + dots[2]), same - 2 * (dots[0] + dots[1])));
+    };
+    Four linear, squares, mixed;
+    computeDots(terms[1], terms[2], terms[3], linear);
+    computeDots(terms[7], terms[8], terms[9], mixed);
+    computeDots(terms[4], terms[5], terms[6], squares);
+    const Four constant = terms[0] * terms[0];
+    // squares of parameters are at least 0: negative products do not count
+    const double of_squares =
+        squares[3] + 2 * (std::max(squares[0], 0.0) + std::max(squares[1], 0.0) + std::max(squares[2], 0.0));
+    Four lengths{constant[0] + constant[1] + constant[2] + constant[3], largest(linear), of_squares,
+                 largest(mixed)};
+    setSquareRoot(lengths);
+    return {lengths[0], lengths[1], lengths[2] + lengths[3]};
 }
 
 /// Return an upper bound for the omitted terms of third and fourth degree of a product.
@@ -112,7 +164,7 @@ inline double omittedTerms(const DegreeNorms& a, const DegreeNorms& b)
 /// Return the polynomial of the product of two models, without a remainder: matrix times matrix, or matrix
 /// times vector.
 template <size_t N>
-TaylorModel<N> productTerms(const MatrixModel& a, const TaylorModel<N>& b)
+HEARTH_INLINE inline TaylorModel<N> productTerms(const MatrixModel& a, const TaylorModel<N>& b)
 {
     constexpr size_t kColumns = N / 3;
     TaylorModel<N> result;

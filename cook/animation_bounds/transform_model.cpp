@@ -30,70 +30,136 @@ void limitRemainder(TransformModel& transform)
     transform.norms = {};
 }
 
-RigidModel makeRigid(const TaylorModel<4>& rotation, double stretch)
+HEARTH_INLINE inline void loadTerms(const TaylorModel<4>& model, Four (&terms)[kTerms])
 {
-    return {rotation, degreeNorms(rotation), stretch};
-}
-
-/// Quaternion q as the matrix of the product p q, by columns: those of p's w, x, y and z.
-using FactorColumns = std::array<std::array<double, 4>, 4>;
-
-FactorColumns factorColumns(const std::array<double, 4>& q)
-{
-    return {{{q[0], q[1], q[2], q[3]},
-             {q[3], -q[2], q[1], -q[0]},
-             {q[2], q[3], -q[0], -q[1]},
-             {-q[1], q[0], q[3], -q[2]}}};
-}
-
-/// Return the product: b, then a.
-RigidModel composeRigid(const RigidModel& a, const RigidModel& b)
-{
-    std::array<FactorColumns, kTerms> columns;
     for (size_t term = 0; term < kTerms; ++term)
-        columns[term] = factorColumns(b.rotation.terms[term]);
-    TaylorModel<4> rotation;
-    for (const TermProduct& product : kProducts)
+        load(model.terms[term], terms[term]);
+}
+
+HEARTH_INLINE inline void storeTerms(const Four (&terms)[kTerms], TaylorModel<4>& model)
+{
+    for (size_t term = 0; term < kTerms; ++term)
+        store(terms[term], model.terms[term]);
+}
+
+/// Set the rotation: b, then a.
+HEARTH_INLINE inline void composeRigid(const RigidModel& a, const RigidModel& b, RigidModel& result)
+{
+    // b's quaternions q as the matrices of the products p q, by columns: those of p's w, x, y and z
+    Four w[kTerms], x[kTerms], y[kTerms], z[kTerms];
+    loadTerms(b.rotation, w);
+    for (size_t term = 0; term < kTerms; ++term)
     {
-        const auto& p = a.rotation.terms[product.one];
-        const FactorColumns& q = columns[product.other];
-        std::array<double, 4>& sum = rotation.terms[product.product];
-        for (size_t i = 0; i < 4; ++i)
-            sum[i] += p[3] * q[0][i] + p[0] * q[1][i] + p[1] * q[2][i] + p[2] * q[3][i];
+        const Four& q = w[term];
+        x[term] = __builtin_shufflevector(q, q, 3, 2, 1, 0) * Four{1, -1, 1, -1};
+        y[term] = __builtin_shufflevector(q, q, 2, 3, 0, 1) * Four{1, 1, -1, -1};
+        z[term] = __builtin_shufflevector(q, q, 1, 0, 3, 2) * Four{-1, 1, 1, -1};
     }
+    const auto multiply = [&](size_t one, size_t other, Four& sum) HEARTH_INLINE
+    {
+        const std::array<double, 4>& p = a.rotation.terms[one];
+        sum += w[other] * p[3] + x[other] * p[0] + y[other] * p[1] + z[other] * p[2];
+    };
+    Four product[kTerms] = {};
+    addProducts(multiply, product);
     // for quaternions of length 1: (a + e) (b + f) = a b + a f + e (b + f)
-    rotation.remainder = a.norms.all() * b.rotation.remainder + a.rotation.remainder +
-                         omittedTerms(a.norms, b.norms) + kTransformRounding;
+    result.rotation.remainder = a.norms.all() * b.rotation.remainder + a.rotation.remainder +
+                                omittedTerms(a.norms, b.norms) + kTransformRounding;
     // for rotations with a stretch: (A + E) (B + F) = A B + E B + (A + E) F
-    return makeRigid(rotation.remainder < 1 ? rotation : anyRotation(),
-                     a.stretch + (1 + a.stretch) * b.stretch);
+    result.stretch = a.stretch + (1 + a.stretch) * b.stretch;
+    if (result.rotation.remainder < 1)
+    {
+        storeTerms(product, result.rotation);
+        result.norms = degreeNorms(product);
+    }
+    else
+    {
+        result.rotation = anyRotation();
+        result.norms = {};
+    }
+}
+
+/// Quaternion for products of pairs of its numbers.
+struct PairedQuaternion
+{
+    Four all;    ///< x y z w
+    Four xxy;    ///< x x y
+    Four yzz;    ///< y z z
+    Four zyx;    ///< z y x
+    Four repeat; ///< w w w
+};
+
+HEARTH_INLINE inline void makePaired(const Four& q, PairedQuaternion& paired)
+{
+    paired = {q, __builtin_shufflevector(q, q, 0, 0, 1, 3), __builtin_shufflevector(q, q, 1, 2, 2, 3),
+              __builtin_shufflevector(q, q, 2, 1, 0, 3), __builtin_shufflevector(q, q, 3, 3, 3, 3)};
+}
+
+/// Sums of products of two quaternions' numbers: what a rotation matrix consists of.
+struct PairSums
+{
+    Four squares{}; ///< xx yy zz ww
+    Four mixed{};   ///< xy xz yz
+    Four turn{};    ///< zw yw xw
+};
+
+HEARTH_INLINE inline void addPairs(const PairedQuaternion& a, const PairedQuaternion& b, PairSums& sums)
+{
+    sums.squares += a.all * b.all;
+    sums.mixed += a.xxy * b.yzz + a.yzz * b.xxy;
+    sums.turn += a.zyx * b.repeat + a.repeat * b.zyx;
+}
+
+/// Elements of a 3 x 3 matrix: three each, m[row][column].
+struct MatrixParts
+{
+    Four diagonal; ///< 00 11 22
+    Four plus;     ///< 10 02 21
+    Four minus;    ///< 01 20 12
+};
+
+HEARTH_INLINE inline void storeMatrix(const MatrixParts& parts, std::array<double, 9>& matrix)
+{
+    const Four corner = __builtin_shufflevector(parts.diagonal, parts.minus, 0, 4, 1, 5); // 00 01 11 20
+    const Four sides = __builtin_shufflevector(parts.minus, parts.plus, 2, 6, 1, 5);      // 12 21 20 02
+    const Four first = __builtin_shufflevector(corner, parts.plus, 0, 1, 5, 4);           // 00 01 02 10
+    const Four second = __builtin_shufflevector(corner, sides, 2, 4, 6, 5);               // 11 12 20 21
+    std::memcpy(&matrix[0], &first, sizeof first);
+    std::memcpy(&matrix[4], &second, sizeof second);
+    matrix[8] = parts.diagonal[2];
 }
 
 /// Set the linear part from its rotation: |q|^2 times the matrix of q, which is of second degree in q.
-void setLinear(TransformModel& transform)
+HEARTH_INLINE inline void setLinear(TransformModel& transform)
 {
     const TaylorModel<4>& rotation = transform.rigid->rotation;
     MatrixModel& matrix = transform.linear;
-    matrix.terms = {};
-    for (const TermSquare& square : kSquares)
+    // pairs of different terms occur twice
+    PairedQuaternion terms[kTerms], doubled[3];
+    for (size_t term = 0; term < kTerms; ++term)
     {
-        const auto [ax, ay, az, aw] = rotation.terms[square.one];
-        const auto& q = rotation.terms[square.other];
-        const double bx = square.times * q[0], by = square.times * q[1], bz = square.times * q[2],
-                     bw = square.times * q[3];
-        const double xx = ax * bx, yy = ay * by, zz = az * bz, ww = aw * bw;
-        const double xy = ax * by + ay * bx, xz = ax * bz + az * bx, yz = ay * bz + az * by;
-        const double xw = ax * bw + aw * bx, yw = ay * bw + aw * by, zw = az * bw + aw * bz;
-        std::array<double, 9>& m = matrix.terms[square.product];
-        m[0] += ww + xx - yy - zz;
-        m[1] += xy - zw;
-        m[2] += xz + yw;
-        m[3] += xy + zw;
-        m[4] += ww - xx + yy - zz;
-        m[5] += yz - xw;
-        m[6] += xz - yw;
-        m[7] += yz + xw;
-        m[8] += ww - xx - yy + zz;
+        Four q;
+        load(rotation.terms[term], q);
+        makePaired(q, terms[term]);
+        if (term < 3)
+            makePaired(2.0 * q, doubled[term]);
+    }
+    for (size_t term = 0; term < kTerms; ++term)
+    {
+        PairSums sums;
+        addPairs(term == 0 ? terms[0] : doubled[0], terms[term], sums);
+        if (term >= kFirstQuadratic)
+        {
+            const auto [a, b] = kQuadraticParameters[term - kFirstQuadratic];
+            addPairs(a == b ? terms[kFirstLinear + a] : doubled[kFirstLinear + a], terms[kFirstLinear + b],
+                     sums);
+        }
+        const Four& squares = sums.squares;
+        storeMatrix({__builtin_shufflevector(squares, squares, 3, 3, 3, 3) + squares -
+                         __builtin_shufflevector(squares, squares, 1, 2, 0, 3) -
+                         __builtin_shufflevector(squares, squares, 2, 0, 1, 3),
+                     sums.mixed + sums.turn, sums.mixed - sums.turn},
+                    matrix.terms[term]);
     }
     // q x q* with q = p + e: e x q* + p x e*
     const DegreeNorms& p = transform.rigid->norms;
@@ -182,17 +248,20 @@ TaylorModel<4> conjugate(TaylorModel<4> rotation)
     return rotation;
 }
 
-TransformModel rotationModel(const TaylorModel<4>& rotation)
+/// Set the linear part only.
+HEARTH_INLINE inline void setRotation(const TaylorModel<4>& rotation, TransformModel& model)
 {
-    TransformModel model;
-    model.rigid = makeRigid(rotation, 0);
-    return model;
+    Four terms[kTerms];
+    loadTerms(rotation, terms);
+    model.rigid = {rotation, degreeNorms(terms), 0};
+    model.norm = 1;
 }
 
 /// Multiply a rotation by a diagonal matrix. `axis_of` returns the diagonal index for an element of the
 /// product.
 template <typename AxisOf>
-void scaleElements(TransformModel& model, const VectorModel& scale, const AxisOf& axis_of)
+HEARTH_INLINE inline void scaleElements(TransformModel& model, const VectorModel& scale,
+                                        const AxisOf& axis_of)
 {
     const AxisRanges ranges = axisRanges(scale);
     model.norm = largest(ranges);
@@ -216,79 +285,59 @@ void scaleElements(TransformModel& model, const VectorModel& scale, const AxisOf
     limitRemainder(model);
 }
 
-void scaleBefore(TransformModel& model, const VectorModel& scale)
+HEARTH_INLINE inline void scaleBefore(TransformModel& model, const VectorModel& scale)
 {
     scaleElements(model, scale, [](size_t element) { return element % 3; });
 }
 
-void scaleAfter(TransformModel& model, const VectorModel& scale)
+HEARTH_INLINE inline void scaleAfter(TransformModel& model, const VectorModel& scale)
 {
     scaleElements(model, scale, [](size_t element) { return element / 3; });
 }
 
-VectorModel constantProduct(const MatrixModel& matrix, const std::array<double, 3>& vector)
+bool isConstant(const VectorModel& vector)
 {
-    VectorModel result;
-    for (size_t term = 0; term < kTerms; ++term)
-        for (size_t row = 0; row < 3; ++row)
-            for (size_t k = 0; k < 3; ++k)
-                result.terms[term][row] += matrix.terms[term][row * 3 + k] * vector[k];
-    return result;
+    bool is_constant = true;
+    for (size_t term = 1; term < kTerms; ++term)
+        for (size_t i = 0; i < 3; ++i)
+            is_constant &= vector.terms[term][i] == 0;
+    return is_constant;
 }
 
 /// Apply the linear part to a vector.
-VectorModel applyLinear(const TransformModel& transform, const VectorModel& vector)
+HEARTH_INLINE inline void applyLinear(const TransformModel& transform, const VectorModel& vector,
+                                      VectorModel& result)
 {
-    const DegreeNorms norms = degreeNorms(vector);
+    DegreeNorms norms;
     // special case for speed: most joints rotate, with a constant translation
-    VectorModel result = norms.linear == 0 && norms.quadratic == 0
-                             ? constantProduct(transform.linear, vector.terms[0])
-                             : productTerms(transform.linear, vector);
+    if (isConstant(vector))
+    {
+        const auto& [x, y, z] = vector.terms[0];
+        norms.constant = length(Double3{x, y, z});
+        for (size_t term = 0; term < kTerms; ++term)
+        {
+            const std::array<double, 9>& m = transform.linear.terms[term];
+            for (size_t row = 0; row < 3; ++row)
+                result.terms[term][row] = m[row * 3] * x + m[row * 3 + 1] * y + m[row * 3 + 2] * z;
+        }
+    }
+    else
+    {
+        norms = degreeNorms(vector);
+        result = productTerms(transform.linear, vector);
+    }
     result.remainder = transform.norm * vector.remainder +
                        (transform.linear.remainder + kTransformRounding * transform.norm) * norms.all() +
                        omittedTerms(transform.norms, norms);
-    return result;
 }
 
-} // namespace
-
-TransformModel identityModel()
-{
-    TaylorModel<4> rotation;
-    rotation.terms[0][3] = 1;
-    TransformModel model = rotationModel(rotation);
-    setLinear(model);
-    return model;
-}
-
-TransformModel constantModel(const Affine3d& transform)
-{
-    TransformModel model;
-    model.norm = operatorNorm(transform);
-    for (size_t row = 0; row < 3; ++row)
-    {
-        for (size_t column = 0; column < 3; ++column)
-            model.linear.terms[0][row * 3 + column] = transform.m[row][column];
-        model.place.terms[0][row] = transform.m[row][3];
-    }
-    model.norms.constant = model.norm;
-    return model;
-}
-
-TransformModel parentFromNode(const NodeModel& node)
-{
-    TransformModel model = rotationModel(node.rotation);
-    model.place = node.translation;
-    scaleBefore(model, node.scale);
-    return model;
-}
-
-std::optional<TransformModel> nodeFromParent(const NodeModel& node)
+/// Set the transform from the parent to the node; false if a scale can be 0.
+HEARTH_INLINE inline bool setInverse(const NodeModel& node, TransformModel& model)
 {
     const std::optional<VectorModel> inverse = reciprocal(node.scale);
     if (!inverse)
-        return std::nullopt;
-    TransformModel model = rotationModel(conjugate(node.rotation));
+        return false;
+    setRotation(conjugate(node.rotation), model);
     scaleAfter(model, *inverse);
     const auto& translation = node.translation.terms;
     model.pivot = {translation[0][0], translation[0][1], translation[0][2]};
@@ -299,19 +348,20 @@ std::optional<TransformModel> nodeFromParent(const NodeModel& node)
     away.remainder = node.translation.remainder;
     if (model.rigid)
         setLinear(model);
-    model.place = applyLinear(model, away);
+    applyLinear(model, away, model.place);
     model.place.remainder += kTransformRounding * model.norm * length(model.pivot);
-    return model;
+    return true;
 }
 
-void compose(const TransformModel& second, TransformModel& first, TransformModel& result)
+HEARTH_INLINE inline void setComposition(const TransformModel& second, TransformModel& first,
+                                         TransformModel& result)
 {
     result.rigid.reset();
     result.pivot = first.pivot;
     result.norm = second.norm * first.norm;
     if (second.rigid && first.rigid)
     {
-        result.rigid = composeRigid(*second.rigid, *first.rigid);
+        composeRigid(*second.rigid, *first.rigid, result.rigid.emplace());
         setLinear(result);
     }
     else
@@ -330,12 +380,62 @@ void compose(const TransformModel& second, TransformModel& first, TransformModel
     away.terms[0][0] -= second.pivot.x;
     away.terms[0][1] -= second.pivot.y;
     away.terms[0][2] -= second.pivot.z;
-    result.place = applyLinear(second, away);
+    applyLinear(second, away, result.place);
     for (size_t term = 0; term < kTerms; ++term)
         for (size_t i = 0; i < 3; ++i)
             result.place.terms[term][i] += second.place.terms[term][i];
     result.place.remainder +=
         second.place.remainder + kTransformRounding * second.norm * length(second.pivot);
+}
+
+} // namespace
+
+TransformModel identityModel()
+{
+    TaylorModel<4> rotation;
+    rotation.terms[0][3] = 1;
+    TransformModel model;
+    setRotation(rotation, model);
+    setLinear(model);
+    return model;
+}
+
+TransformModel constantModel(const Affine3d& transform)
+{
+    TransformModel model;
+    model.norm = operatorNorm(transform);
+    for (size_t row = 0; row < 3; ++row)
+    {
+        for (size_t column = 0; column < 3; ++column)
+            model.linear.terms[0][row * 3 + column] = transform.m[row][column];
+        model.place.terms[0][row] = transform.m[row][3];
+    }
+    model.norms.constant = model.norm;
+    return model;
+}
+
+void setParentFromNode(const NodeModel& node, TransformModel& transform)
+{
+    transform.pivot = {};
+    transform.place = node.translation;
+    callWithWideVectors(
+        [&]() HEARTH_INLINE
+        {
+            setRotation(node.rotation, transform);
+            scaleBefore(transform, node.scale);
+        });
+}
+
+bool setNodeFromParent(const NodeModel& node, TransformModel& transform)
+{
+    bool has_inverse = false;
+    callWithWideVectors([&]() HEARTH_INLINE { has_inverse = setInverse(node, transform); });
+    return has_inverse;
+}
+
+void compose(const TransformModel& second, TransformModel& first, TransformModel& result)
+{
+    callWithWideVectors([&]() HEARTH_INLINE { setComposition(second, first, result); });
 }
 
 } // namespace hearth::animation_bounds

@@ -40,12 +40,12 @@ TransformModel identityModel();
 /// Return a constant transform.
 TransformModel constantModel(const Affine3d& transform);
 
-/// Return the transform from a node to its parent. If it is rigid, `linear` is not filled in; `compose` does
+/// Compute the transform from a node to its parent. If it is rigid, `linear` is not filled in; `compose` does
 /// not need it.
-TransformModel parentFromNode(const NodeModel& node);
+void setParentFromNode(const NodeModel& node, TransformModel& transform);
 
-/// Return the transform from the parent to the node, filled in likewise; nothing if a scale can be 0.
-std::optional<TransformModel> nodeFromParent(const NodeModel& node);
+/// Compute the transform from the parent to the node, filled in likewise; false if a scale can be 0.
+bool setNodeFromParent(const NodeModel& node, TransformModel& transform);
 
 /// Compute result = `first`, then `second`. `second` must be filled in completely; `result` is. Fills in the
 /// linear part of `first` where it is needed. The pivot is the pivot of `first`.
