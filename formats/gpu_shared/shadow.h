@@ -1,6 +1,6 @@
-// Shadow maps: texel and depth of a point in the maps of a light, and the comparison of a surface with the
-// texels around it. One source for C++ and GLSL, as decisions.h. Depth is reversed as everywhere: 1 is
-// nearest to the light.
+// Shadow maps: texel and depth of a point in the maps of a light, and the depth bias of casters against
+// self-shadowing. One source for C++ and GLSL, as decisions.h. Depth is reversed as everywhere: 1 is nearest
+// to the light.
 //
 // All maps of a light share its projection and its depths; a map is a scale and an offset of the projection.
 // So a point is projected once for each light, and each map costs two more multiplications.
@@ -43,7 +43,7 @@ struct ShadowMap
     uint layer;
 };
 
-/// Maximum number of projections, and of their maps: bounds of the uniform block, whose 7 KiB every device
+/// Maximum number of projections, and of their maps: bounds of the uniform block, whose 7.1 KiB every device
 /// can bind. Suns and spots take one projection each, point lights kPointFaces.
 HEARTH_CONSTANT uint kMaxShadowProjections = 64;
 HEARTH_CONSTANT uint kMaxShadowMaps = 64;
@@ -60,6 +60,10 @@ struct ShadowBlock
     /// index: Light::shadow_row; for a point light plus the face
     ShadowLight lights[kMaxShadowProjections];
     ShadowMap maps[kMaxShadowMaps];
+    float error_bias; ///< as for makeCasterView
+    float layer_size; ///< texels of a layer each way; a map fills the first ones
+    uint reserved0;
+    uint reserved1;
 };
 
 /// Cosine of 89.5 degrees, the angle above which offsets stop growing: a surface lit at such an angle is too
@@ -69,9 +73,9 @@ HEARTH_CONSTANT float kGrazingCosine = 0.0087f;
 /// Lower bound in metres of the distance from a light to a plane: a surface seen edge-on covers no texel.
 HEARTH_CONSTANT float kMinPlaneDistance = 1e-6f;
 
-/// Texels by which a rasteriser may move a surface: vertices snap to 1/256, as on all devices so far, and a
-/// surface is hit at up to this distance beyond the pixel's centre.
-HEARTH_CONSTANT float kRasterMargin = 0.0078125f;
+/// Texels by which a rasteriser may move a vertex: 1/16 at the coarsest that Vulkan allows, after
+/// snapToRaster. A surface is hit at up to this distance beyond the pixel's centre.
+HEARTH_CONSTANT float kRasterMargin = 0.0625f;
 
 /// Point in the coordinates of a light.
 struct ShadowPoint
@@ -142,13 +146,13 @@ HEARTH_FUNCTION bool isInShadowMap(HEARTH_IN(ShadowMap) map, HEARTH_IN(ShadowPoi
     return point.known != 0u && texel.x >= low && texel.y >= low && texel.x < high && texel.y < high;
 }
 
-/// Return the distance in metres from a light to the plane of a surface, for a sun the cosine between its
-/// rays and the normal.
+/// Return the distance in metres from a light to the plane of a surface, for a sun the cosine between its rays
+/// and the normal.
 ///
 /// normal   unit, either side
-/// nearest  metres from the light to the nearest part of the surface, or less. At grazing angles the result
-///          is that of 89.5 degrees at this distance, the same for all of the surface, since a difference
-///          between the vertices of a triangle would tilt it
+/// nearest  metres from the light to the nearest part of the surface, or less. At grazing angles the result is
+///          that of 89.5 degrees at this distance, the same for all of the surface, since a difference between
+///          the vertices of a triangle would tilt it
 HEARTH_FUNCTION float shadowFacing(HEARTH_IN(ShadowLight) light, Float3 point, Float3 normal, float nearest)
 {
     HEARTH_PRECISE Float3 ray = light.direction * (1.0f - light.perspective) + point * light.perspective;
@@ -180,8 +184,10 @@ HEARTH_FUNCTION float snapToRaster(float texel)
     return rounded;
 }
 
-/// Return the clip-space position of a vertex of a caster. It is deeper than the vertex by its error and by
-/// the rounding of rasterisers. Moving it by the error along the normal instead would open cracks.
+/// Return the clip-space position of a vertex of a caster. It is deeper than the vertex by the rise of its
+/// surface within the filter (a tap lies at most kernel + 1/2 texels beside the point that is looked up), by
+/// its error and by the rounding of rasterisers. Moving it by the error along the normal instead would open
+/// cracks.
 ///
 /// nearest  as for shadowFacing, of the triangle
 /// error    metres, bounds the distance of the triangle to the source
@@ -193,7 +199,8 @@ HEARTH_FUNCTION Float4 shadowCasterClip(HEARTH_IN(ShadowLight) light, HEARTH_IN(
     HEARTH_PRECISE float x = dot3(light.right, point) * map.scale_x;
     HEARTH_PRECISE float y = dot3(light.down, point) * map.scale_y;
     float facing = shadowFacing(light, point, normal, nearest);
-    HEARTH_PRECISE float offset = shadowSlope(light, map, normal, facing) * kRasterMargin;
+    HEARTH_PRECISE float offset =
+        shadowSlope(light, map, normal, facing) * (map.kernel + 0.5f + kRasterMargin);
     // depth on the plane that is farther by the error: in perspective all depths shrink by one factor
     HEARTH_PRECISE float farther = facing / (facing + error);
     HEARTH_PRECISE float moved =
@@ -217,128 +224,13 @@ HEARTH_FUNCTION Float4 shadowCasterClip(HEARTH_IN(ShadowLight) light, HEARTH_IN(
     return Float4(clip_x, clip_y, depth, w);
 }
 
-/// Tangent plane of a receiver in the texels of a map: depth + slope_x * x + slope_y * y at (x, y) texels
-/// from the point.
-struct ShadowPlane
-{
-    float depth;
-    float slope_x;
-    float slope_y;
-    float texel_depth; ///< depth that a rise of one texel's width towards the light makes at the point
-    float touch;       ///< texels within which a caster's plane counts as touching the receiver
-};
-
-/// Compute the plane of a receiver.
-///
-/// at      the point, projected
-/// point   relative to the light's origin
-/// normal  unit, either side
-HEARTH_FUNCTION ShadowPlane shadowReceiver(HEARTH_IN(ShadowLight) light, HEARTH_IN(ShadowMap) map,
-                                           HEARTH_IN(ShadowPoint) at, Float3 point, Float3 normal)
-{
-    HEARTH_PRECISE Float3 ray = light.direction * (1.0f - light.perspective) + point * light.perspective;
-    HEARTH_PRECISE float along = dot3(normal, ray);
-    HEARTH_PRECISE float least = max(kGrazingCosine * sqrt(dot3(ray, ray)), kMinPlaneDistance);
-    HEARTH_PRECISE float facing = along < 0.0f ? min(along, -least) : max(along, least);
-    HEARTH_PRECISE float slope_x = light.depth_step * dot3(normal, light.right) / (map.scale_x * facing);
-    HEARTH_PRECISE float slope_y = light.depth_step * dot3(normal, light.down) / (map.scale_y * facing);
-    ShadowPlane plane;
-    plane.depth = at.depth;
-    plane.slope_x = slope_x;
-    plane.slope_y = slope_y;
-    HEARTH_PRECISE float texel_depth =
-        (light.perspective != 0.0f ? at.depth : light.depth_step) / map.density;
-    plane.texel_depth = texel_depth;
-    plane.touch = shadowMargin(map);
-    return plane;
-}
-
-/// Slope of a caster above which its plane is not continued to the receiver, in texels of depth for each
-/// texel: 83 degrees. Larger steps between texels are two surfaces.
-HEARTH_CONSTANT float kMaxContinuedSlope = 8.0f;
-
-/// Slope up to which a caster that meets the receiver counts as touching it: 89.1 degrees.
-HEARTH_CONSTANT float kMaxTouchingSlope = 64.0f;
-
-/// Texels of depth, and texels of the receiver's slope, by which a tap may lie behind the receiver's plane
-/// and still count as the receiver: it is curved, and its other levels are off by their errors.
-HEARTH_CONSTANT float kReceiverDepth = 4.0f;
-HEARTH_CONSTANT float kReceiverSlope = 0.25f;
-
-HEARTH_CONSTANT uint kTapLit = 0;    ///< the receiver's own surface
-HEARTH_CONSTANT uint kTapBeyond = 1; ///< a surface far behind the receiver: the receiver does not reach here
-HEARTH_CONSTANT uint kTapShadowed = 2; ///< a surface in front of the receiver
-HEARTH_CONSTANT uint kTapTouching = 3; ///< the same, which meets the receiver's plane nearby
-
-/// Compare a texel with the plane of the receiver.
-///
-/// x, y    texels from the point to the centre of the texel
-/// stored  depth of the texel
-HEARTH_FUNCTION uint compareTap(HEARTH_IN(ShadowPlane) plane, float x, float y, float stored)
-{
-    if (stored <= 0.0f)
-        return kTapBeyond; // nothing is there
-    HEARTH_PRECISE float depth = plane.depth + (plane.slope_x * x + plane.slope_y * y);
-    HEARTH_PRECISE float slope = abs(plane.slope_x) + abs(plane.slope_y);
-    if (stored > depth + slope * kRasterMargin)
-        return kTapShadowed;
-    HEARTH_PRECISE float reach = slope * kReceiverSlope + plane.texel_depth * kReceiverDepth;
-    return stored < depth - reach ? kTapBeyond : kTapLit;
-}
-
-/// Decide about a texel in front of the receiver's plane by continuing its surface to the receiver. In a
-/// corner of two lit walls each is in front of the other's plane; continued to the receiver by its own slope,
-/// a lit wall lies behind it, as does a hollow surface.
-///
-/// x, y            as for compareTap
-/// next_x, next_y  depths of the neighbouring texels on the side away from the receiver
-/// returns         kTapLit, kTapShadowed, or kTapTouching
-HEARTH_FUNCTION uint continueTap(HEARTH_IN(ShadowPlane) plane, float x, float y, float stored, float next_x,
-                                 float next_y)
-{
-    HEARTH_PRECISE float most = plane.texel_depth * kMaxContinuedSlope;
-    HEARTH_PRECISE float steepest = plane.texel_depth * kMaxTouchingSlope;
-    HEARTH_PRECISE float rise_x = next_x - stored;
-    HEARTH_PRECISE float rise_y = next_y - stored;
-    HEARTH_PRECISE float rise =
-        max(min(rise_x, most), -most) * abs(x) + max(min(rise_y, most), -most) * abs(y);
-    HEARTH_PRECISE float gap = (stored - rise) - plane.depth;
-    HEARTH_PRECISE float slopes =
-        (abs(plane.slope_x) + abs(plane.slope_y)) + (min(abs(rise_x), steepest) + min(abs(rise_y), steepest));
-    if (gap < -slopes * (2.0f * kRasterMargin))
-        return kTapLit;
-    return gap < slopes * plane.touch ? kTapTouching : kTapShadowed;
-}
-
-/// Cosine between the interpolated normal and the triangle's, above which a receiver counts as a part of a
-/// wall: 0.8 degrees.
-HEARTH_CONSTANT float kPlanarCosine = 0.9999f;
-
-/// Return the share of the light that reaches a receiver. Taps beyond the receiver say nothing about it: at
-/// the closed edge of a thin box half of the filter lies outside. There, and where a caster touches a wall,
-/// light needs more than two thirds of the taps: a texel on the edge itself may be either wall's, and no
-/// light may shine in under a wall. On curved and rough surfaces casters touch everywhere.
-///
-/// lit, shadowed, beyond, touching   numbers of taps; shadowed without touching
-/// planar                            the receiver is a wall: kPlanarCosine
-HEARTH_FUNCTION float litShare(float lit, float shadowed, float beyond, float touching, bool planar)
-{
-    HEARTH_PRECISE float dark = shadowed + touching;
-    if (dark == 0.0f)
-        return 1.0f;
-    HEARTH_PRECISE float share = lit / (lit + dark);
-    HEARTH_PRECISE float doubtful = beyond + (planar ? touching : 0.0f);
-    HEARTH_PRECISE float most = max(3.0f * share - 2.0f, 0.0f);
-    return doubtful > 0.0f ? most : share;
-}
-
 HEARTH_SHARED_END
 
 #ifdef __cplusplus
 // sizes in std430 and std140 layout
 static_assert(sizeof(hearth::shared::ShadowLight) == 80);
 static_assert(sizeof(hearth::shared::ShadowMap) == 32);
-static_assert(sizeof(hearth::shared::ShadowBlock) == 64 * 80 + 64 * 32);
+static_assert(sizeof(hearth::shared::ShadowBlock) == 64 * 80 + 64 * 32 + 16);
 #endif
 
 #endif

@@ -11,12 +11,14 @@ namespace hearth::gpu
 namespace
 {
 
-/// Create a sampler for single texels.
-Result<UniqueSampler> createTexelSampler(const Device& device)
+/// Create a compare sampler: 1 where the reference is no deeper than the texel.
+Result<UniqueSampler> createCompareSampler(const Device& device)
 {
     VkSamplerCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
     info.addressModeU = info.addressModeV = info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    info.compareEnable = VK_TRUE;
+    info.compareOp = VK_COMPARE_OP_GREATER_OR_EQUAL; // reversed depth
     VkSampler sampler;
     HEARTH_TRY_VK(device.vk.vkCreateSampler(device.handle, &info, device.allocator, &sampler),
                   "create a sampler");
@@ -56,7 +58,7 @@ Result<std::unique_ptr<SceneShadows>> SceneShadows::create(const Device& device,
     s.layers_.resize(s.layerCount());
     for (uint32_t layer = 0; layer < s.layerCount(); ++layer)
         HEARTH_TRY(s.createLayer(device, render_pass, s.layers_[layer], layer));
-    HEARTH_ASSIGN_OR_RETURN(s.sampler_, createTexelSampler(device));
+    HEARTH_ASSIGN_OR_RETURN(s.sampler_, createCompareSampler(device));
     HEARTH_ASSIGN_OR_RETURN(
         s.block_, s.arena_.createBuffer(sizeof(shared::ShadowBlock),
                                         VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,

@@ -209,9 +209,9 @@ std::span<const ShadowCache::LayerUpdate> ShadowCache::plan(ShadowPlan& plan, co
         const uint32_t row = plan.row_of[i];
         const shared::ShadowLight light = projectionKey(plan.block.lights[row]);
         shared::FrameView seen = view;
-        seen.eye = shared::findEyeCell(view, plan.finest_m[row], plan.error_bias).eye;
+        seen.eye = shared::findEyeCell(view, plan.finest_m[row], plan.block.error_bias).eye;
         shared::FrameView casters =
-            shared::makeCasterView(seen, light, map, plan.error_bias, plan.range_m[row]);
+            shared::makeCasterView(seen, light, map, plan.block.error_bias, plan.range_m[row]);
         if (moving_layers_)
             casters.flags |= shared::kCullMoving;
         Layer& layer = layers_[map.layer];

@@ -244,7 +244,8 @@ ShadowPlan planShadows(std::span<const ShadowCaster> casters, const ShadowOption
                        const shared::FrameView& view, std::span<const ShadowSphere> spheres)
 {
     ShadowPlan plan;
-    plan.error_bias = options.error_bias;
+    plan.block.error_bias = options.error_bias;
+    plan.block.layer_size = static_cast<float>(options.texels);
     for (size_t row = 0; row < casters.size();)
     {
         const size_t count = countRowsOfLight(casters.subspan(row));

@@ -32,8 +32,7 @@ struct ShadowOptions
     /// Otherwise a moving caster redraws its maps as a whole.
     bool moving_layers = true;
 
-    /// Near plane of spots and of the faces of point lights in metres, above 0: nearer surfaces cast no
-    /// shadow.
+    /// Near plane of spots and of the faces of point lights in metres, above 0: nearer surfaces cast no shadow.
     float spot_near = 0.05f;
 };
 
@@ -101,7 +100,6 @@ struct ShadowPlan
     std::array<float, shared::kMaxShadowProjections> finest_m{};
     std::array<float, shared::kMaxShadowProjections> range_m{}; ///< of each row; 0: unlimited
     uint32_t dropped_maps = 0;                                  ///< maps for which there was no layer
-    float error_bias = 1;                                       ///< ShadowOptions::error_bias
 };
 
 /// Plan the maps of a frame. Suns get the spheres and the splits, spots their whole cone and the spheres that

@@ -60,7 +60,7 @@ vec3 lit(SurfacePoint point, SurfaceUvs uvs, vec3 base)
     {
         vec3 to_light;
         vec3 irradiance = lightIrradiance(lighting.lights[i], point.position, to_light);
-        float share = lightVisibility(lighting.lights[i], point);
+        float share = lightVisibility(lighting.lights[i], point.position, point.flat_normal, point.error);
         radiance += irradiance * reflected(shading, to_light) * share;
     }
 

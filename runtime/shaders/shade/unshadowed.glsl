@@ -1,4 +1,4 @@
 // Light without shadows, in place of shadow.glsl: every light reaches every point.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 
-float lightVisibility(Light light, SurfacePoint surface) { return 1.0; }
+float lightVisibility(Light light, vec3 position, vec3 flat_normal, float error) { return 1.0; }

@@ -27,15 +27,16 @@ vec3 mapColor(uint map)
 void main()
 {
     Surface s = resolveSurface(subpassLoad(visibility).x, gl_FragCoord.xy);
-    SurfacePoint point = surfacePoint(s);
+    vec3 normal = geometricNormal(s);
+    normal = s.front ? normal : -normal;
     vec3 color = vec3(0.3);
     for (uint i = lighting.light_count; i-- > 0u;)
     {
-        ShadowLookup at = findShadowMap(lighting.lights[i], point);
+        ShadowLookup at = findShadowMap(lighting.lights[i], s.position, normal, surfaceError(s));
         if (at.map != kNoShadow)
             color = mapColor(at.map) * (0.2 + 0.8 * filterShadow(at));
     }
     // dimmed by the angle to the eye, so that the shape is visible
-    float facing = 0.35 + 0.65 * abs(dot(point.flat_normal, normalizeOr(s.position, vec3(0.0))));
+    float facing = 0.35 + 0.65 * abs(dot(normal, normalizeOr(s.position, vec3(0.0))));
     out_color = vec4(color * facing, 1.0);
 }

@@ -11,7 +11,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
-#include <optional>
 
 namespace hearth::test
 {
@@ -116,54 +115,10 @@ Comparison compare(const PackView& pack, const Image& drawn, int reach)
     return result;
 }
 
-constexpr Float3 kBoxHalf{1.1f, 0.9f, 1.3f};
-constexpr DrawOptions kBoxDrawn{.width = 128, .height = 128};
-
-/// Build a closed box of six walls without thickness around the origin, with a block in it.
-PackView buildClosedBox(TestScene& test, float intensity)
-{
-    const uint32_t white = test.addMaterial(plainMaterial());
-    const Float3 h = kBoxHalf;
-    const uint32_t x_wall = test.addMesh(withMaterial(makeQuad(2 * h.z, 2 * h.y), white));
-    const uint32_t y_wall = test.addMesh(withMaterial(makeQuad(2 * h.z, 2 * h.x), white));
-    const uint32_t z_wall = test.addMesh(withMaterial(makeQuad(2 * h.x, 2 * h.y), white));
-    for (const float side : {-1.0f, 1.0f})
-    {
-        test.addInstance(x_wall, shining({side * h.x, 0, 0}, {side, 0, 0}));
-        test.addInstance(y_wall, shining({0, side * h.y, 0}, {0, side, 0}));
-        test.addInstance(z_wall, shining({0, 0, side * h.z}, {0, 0, side}));
-    }
-    // a block on the floor, turned
-    const uint32_t side = test.addMesh(withMaterial(makeQuad(0.6f, 0.6f), white));
-    for (const Float3 normal :
-         {Float3{0.8f, 0, 0.6f}, Float3{-0.8f, 0, -0.6f}, Float3{0.6f, 0, -0.8f}, Float3{-0.6f, 0, 0.8f}})
-        test.addInstance(side, shining(Float3{0.2f, 0.3f - h.y, 0.1f} + normal * 0.3f, -normal));
-    Affine3 top = lying({0.2f, 0.6f - h.y, 0.1f});
-    const Float3 across{0.8f, 0, 0.6f};
-    const Float3 along{0.6f, 0, -0.8f};
-    top.m[0][0] = across.x;
-    top.m[2][0] = across.z;
-    top.m[0][1] = along.x;
-    top.m[2][1] = along.z;
-    test.addInstance(side, top);
-    LightRecord record = sun({0.4f, -1, 0.3f});
-    record.intensity = intensity;
-    test.addLight(record);
-    return test.build();
-}
-
-/// Camera in the box that looks at a corner.
-shared::Camera boxCamera(int corner)
-{
-    const Float3 target{corner & 1 ? kBoxHalf.x : -kBoxHalf.x, corner & 2 ? kBoxHalf.y : -kBoxHalf.y,
-                        corner & 4 ? kBoxHalf.z : -kBoxHalf.z};
-    return {.position = target * -0.7f, .target = target, .y_fov_rad = 1.1f, .z_near = 0.02f};
-}
-
 constexpr Float3 kSeamLamp{0.3f, -0.2f, 0.1f};
 
-/// Build a lamp in a closed room whose walls are not parallel to the faces of the lamp, with or without a
-/// shell around it that lets no light out.
+/// Build a lamp in a closed room whose walls are not parallel to the faces of the lamp, with or without a shell around
+/// it that lets no light out.
 PackView buildSeamRoom(TestScene& test, float intensity, bool shell)
 {
     const uint32_t white = test.addMaterial(plainMaterial());
@@ -281,9 +236,7 @@ TEST_F(ShadowImageTest, aPointLightHasNoSeams)
                                         .z_near = 0.8f};
             const DrawOptions options{.width = 96, .height = 96, .error_pixels = 0};
             const Image lit = draw(*unshadowed, camera, options);
-            // a seam would be a line of a hundred pixels; corners of the room lose some
-            EXPECT_LT(countDifferent(draw(*shadowed, camera, options), lit), 48u)
-                << "dark, kernel " << kernel;
+            EXPECT_EQ(countDifferent(draw(*shadowed, camera, options), lit), 0u) << "dark, kernel " << kernel;
             const Image dark = draw(*without_light, camera, options);
             EXPECT_EQ(countDifferent(draw(*enclosed, camera, options), dark), 0u) << "lit, kernel " << kernel;
             EXPECT_GT(countDifferent(lit, dark), lit.color.size() * 9 / 10);
@@ -353,114 +306,6 @@ TEST_F(ShadowImageTest, coarserCastersShadowNothingThatIsLit)
         EXPECT_GT(comparison.shadowed, 1000u);
         EXPECT_LE(comparison.wrong, 150u) << bias;
     }
-}
-
-/// Return the point of the floor that a pixel of the room camera shows; nullopt above the horizon.
-std::optional<Float3> floorPoint(uint32_t x, uint32_t y)
-{
-    const shared::Camera camera = roomCamera();
-    const Float3 forward = normalizeOr(camera.target - camera.position, {});
-    const Float3 right = normalizeOr(cross(forward, {0, 1, 0}), {});
-    const Float3 up = cross(right, forward);
-    const float slope = std::tan(camera.y_fov_rad / 2);
-    const auto across = [&](uint32_t pixel)
-    { return (2 * (static_cast<float>(pixel) + 0.5f) / kSize - 1) * slope; };
-    const Float3 ray = forward + right * across(x) - up * across(y);
-    if (ray.y >= 0)
-        return std::nullopt;
-    return camera.position - ray * (camera.position.y / ray.y);
-}
-
-/// A thin wall across the sun's light shadows the floor from its foot on, within a texel, at an error of one
-/// pixel.
-TEST_F(ShadowImageTest, shadowsBeginAtTheFootOfTheirCaster)
-{
-    TestScene test;
-    const uint32_t white = test.addMaterial(plainMaterial());
-    test.addInstance(test.addMesh(withMaterial(makeQuad(8, 8), white)), lying({0, 0, 0}));
-    test.addInstance(test.addMesh(withMaterial(makeQuad(3, 0.1f), white)), translated({0, 0.05f, 0}));
-    const double elevation = 50 * kDegree;
-    test.addLight(
-        sun({0, static_cast<float>(-std::sin(elevation)), static_cast<float>(std::cos(elevation))}));
-    const PackView pack = test.build();
-    const gpu::ShadowSphere sphere{.center = {0, 0, 0}, .radius = 2};
-    DrawOptions options = kSource;
-    options.error_pixels = 1;
-    options.shadow_spheres = {&sphere, 1};
-    const Image image = drawShadowed(pack, {.max_maps = 1, .texels = 256, .splits = 0}, options);
-    const Image lit = draw(*upload(pack), roomCamera(), kSource);
-    const double texel = 4.0 / (256 - 5);
-    size_t behind = 0, before = 0;
-    for (uint32_t y = 0; y < kSize; ++y)
-        for (uint32_t x = 0; x < kSize; ++x)
-        {
-            const auto point = floorPoint(x, y);
-            if (!point || std::abs(point->x) > 1.2f)
-                continue;
-            const double texels = double{point->z} * std::sin(elevation) / texel;
-            const int lost = channel(lit.at(x, y), 0) - channel(image.at(x, y), 0);
-            // the shadow of a decimetre is 84 mm long; the wall hides the floor before it from this camera
-            if (texels > 1 && texels < 2.2)
-            {
-                ++behind;
-                EXPECT_GT(lost, 40) << texels << " texels behind";
-            }
-            if (texels < -9 && texels > -20)
-            {
-                ++before;
-                EXPECT_EQ(lost, 0) << texels << " texels before";
-            }
-        }
-    EXPECT_GT(behind, 50u);
-    EXPECT_GT(before, 50u);
-}
-
-/// Directions that cover the sphere evenly: R. Swinbank, R. Purser, "Fibonacci grids", 2006.
-Float3 fibonacciDirection(int i, int count)
-{
-    const double y = 1 - (2 * i + 1.0) / count;
-    const double angle = i * 2.399963229728653;
-    const double radius = std::sqrt(1 - y * y);
-    return {static_cast<float>(radius * std::cos(angle)), static_cast<float>(y),
-            static_cast<float>(radius * std::sin(angle))};
-}
-
-/// No sun shines into a closed box of walls without thickness: not along its edges, not in its corners.
-TEST_F(ShadowImageTest, aClosedBoxIsDarkUnderAThousandSuns)
-{
-    TestScene lit, unlit;
-    const PackView pack = buildClosedBox(lit, 2);
-    const PackView dark_pack = buildClosedBox(unlit, 0);
-    const gpu::ShadowOptions shadows{
-        .max_maps = 2, .texels = 256, .splits = 2, .split_range = {.near = 0.5f, .far = 8, .blend = 0.5f}};
-    const auto scene = upload(pack, {.shadows = shadows});
-    const auto dark_scene = upload(dark_pack);
-    const auto open_scene = upload(pack);
-    std::vector<Image> dark, open;
-    for (int corner = 0; corner < 8; ++corner)
-    {
-        dark.push_back(draw(*dark_scene, boxCamera(corner), kBoxDrawn));
-        open.push_back(draw(*open_scene, boxCamera(corner), kBoxDrawn));
-    }
-    gpu::FrameTargets targets = makeTargets(kBoxDrawn.width, kBoxDrawn.height);
-    size_t leaks = 0, suns = 0, brightest = 0;
-    for (int i = 0; i < 1000; ++i)
-    {
-        const gpu::LightChange change = *gpu::changeLight(*scene, 0, sun(fibonacciDirection(i, 1000)));
-        DrawOptions options = kBoxDrawn;
-        options.lights = {&change, 1};
-        const Image image = draw(*scene, targets, boxCamera(i % 8), options);
-        const size_t found = countDifferent(image, dark[static_cast<size_t>(i % 8)]);
-        leaks += found;
-        suns += found > 0;
-        if (found > brightest)
-        {
-            brightest = found;
-            keep(image, "box");
-        }
-    }
-    EXPECT_EQ(leaks, 0u) << suns << " suns, at most " << brightest << " pixels";
-    EXPECT_GT(countDifferent(open[0], dark[0]), 1000u) << "without shadows the sun shines in";
 }
 
 /// Surfaces that no level has simplified have no error, whatever the threshold allows: their shadows are the
