@@ -96,10 +96,23 @@ void addMotion(const NodeSpan& span, SpanMotion& motion)
     add(span.translation, 1 / (size + 1e-30));
 }
 
+bool isConstant(const TimeCurve& curve)
+{
+    constexpr ChannelValue kNone{};
+    return curve.terms[1] == kNone && curve.terms[2] == kNone && curve.remainder == 0;
+}
+
 /// Compute (1 - w) from + w to.
 void setBlend(const TimeCurve& from, const TimeCurve& to, Interval weights, VectorModel& model)
 {
     const double weight = weights.middle(), half = weights.half();
+    if (isConstant(from) && isConstant(to) && from.terms[0] == to.terms[0])
+    {
+        const auto& value = from.terms[0];
+        model = {};
+        model.terms[0] = {value[0], value[1], value[2]};
+        return;
+    }
     for (size_t i = 0; i < 3; ++i)
     {
         const double a[3] = {from.terms[0][i], from.terms[1][i], from.terms[2][i]};

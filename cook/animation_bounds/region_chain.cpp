@@ -64,7 +64,7 @@ bool RegionChain::place(const PoseRegions& regions, const PoseRegion& region, st
 {
     models.resize(links_.size());
     models[0] = identityModel();
-    BlendWeights weights(region.weights());
+    BlendWeights& weights = blendWeights(region.weights());
     NodeModel node;
     TransformModel step;
     for (const uint32_t i : links)

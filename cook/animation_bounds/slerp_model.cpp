@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 namespace hearth::animation_bounds
@@ -18,31 +19,17 @@ namespace
 // Maximum squared sine of half the arc; 1/2 is for quaternions at a right angle, which are half a turn apart.
 constexpr double kMaxSquaredSine = 0.495;
 
-// Terms below which series end: for values, and for bounds of third derivatives, which are of order 1. The omitted
-// rest counts as an error.
+// Terms below which series end: for values, and for bounds of third derivatives, which are of order 1. The
+// omitted rest counts as an error.
 constexpr double kValueTerm = 1e-8;
 constexpr double kBoundTerm = 1e-3;
 
-// Upper bound for the error of an expansion, by that of its series: the coefficients of the latter sum to less
-// for weights in [0, 1] and squared sines in [0, 1/2].
+// Upper bound for the error of an expansion, by that of its series: the factors of the latter sum to less for
+// weights in [0, 1] and squared sines in [0, 1/2].
 constexpr double kErrorGain = 8;
 
 // Upper bound for rounding errors.
 constexpr double kSlerpRounding = 1e-12;
-
-/// Derivatives by v and z up to third order in total: at[i][j] is d^(i+j) / dv^i dz^j.
-struct Derivatives
-{
-    double at[4][4] = {};
-};
-
-/// Sums over k of c_k(v) z^k, and the same divided by 2 k + 1, for z in [0, 1/2].
-struct Series
-{
-    Derivatives cosines;
-    Derivatives sines;
-    double error; ///< maximum error of all of them
-};
 
 constexpr size_t kMaxTerms = SeriesCoefficients::kMaxTerms;
 
@@ -74,7 +61,7 @@ constexpr std::array<TermFactors, kMaxTerms> kTermFactors = termFactors();
 /// Evaluate the series, with derivatives up to an order of 2 or 3.
 /// last_term  maximum of the last term; the omitted rest is at most three times as large
 template <size_t kOrder>
-HEARTH_INLINE void sumSeries(SeriesCoefficients& coefficients, double z, double last_term, Series& sum)
+HEARTH_INLINE inline void sumSeries(SeriesCoefficients& coefficients, double z, double last_term, Series& sum)
 {
     // derivatives by z; those by v are side by side
     Four cosines[kOrder + 1] = {}, sines[kOrder + 1] = {};
@@ -107,14 +94,41 @@ HEARTH_INLINE void sumSeries(SeriesCoefficients& coefficients, double z, double 
         }
 }
 
-/// Compute upper bounds for the absolute values.
-HEARTH_INLINE inline void boundSeries(SeriesCoefficients& coefficients, double z, Series& series)
+/// Return upper bounds for the absolute values at a step of z.
+const Series& boundsAt(BlendWeights& weights, size_t step)
 {
-    sumSeries<3>(coefficients, z, kBoundTerm, series);
-    for (Derivatives* const derivatives : {&series.cosines, &series.sines})
-        for (auto& row : derivatives->at)
-            for (double& number : row)
-                number = std::abs(number) + series.error;
+    Series& series = weights.bounds[step];
+    if (!weights.has_bounds[step])
+    {
+        weights.has_bounds[step] = true;
+        const double z = 0.5 * static_cast<double>(step) / BlendWeights::kBoundSteps;
+        sumSeries<3>(weights.bound_series, z, kBoundTerm, series);
+        for (Derivatives* const derivatives : {&series.cosines, &series.sines})
+            for (auto& row : derivatives->at)
+                for (double& number : row)
+                    number = std::abs(number) + series.error;
+    }
+    return series;
+}
+
+HEARTH_INLINE inline void interpolate(const Derivatives& a, const Derivatives& b, double share,
+                                      Derivatives& result)
+{
+    for (size_t i = 0; i < 4; ++i)
+        for (size_t j = 0; j < 4; ++j)
+            result.at[i][j] = a.at[i][j] + share * (b.at[i][j] - a.at[i][j]);
+}
+
+/// Compute upper bounds for the absolute values. They are convex functions of z, because all coefficients
+/// have one sign, so the chord between two steps is above them.
+HEARTH_INLINE inline void interpolateBounds(BlendWeights& weights, double z, Series& series)
+{
+    const double at = 2 * BlendWeights::kBoundSteps * z;
+    const size_t step = std::min(static_cast<size_t>(at), BlendWeights::kBoundSteps - 1);
+    const double share = at - static_cast<double>(step);
+    const Series &a = boundsAt(weights, step), &b = boundsAt(weights, step + 1);
+    interpolate(a.cosines, b.cosines, share, series.cosines);
+    interpolate(a.sines, b.sines, share, series.sines);
 }
 
 /// Function of u, with v = u^2, and z: derivatives up to second order, and bounds of third order derivatives.
@@ -246,7 +260,7 @@ HEARTH_INLINE inline void setSlerp(const TimeCurve& from, const TimeCurve& to, d
     const double u = weights.center, half_u = weights.range.half(), max_u = std::abs(u) + half_u;
     Series here, most;
     sumSeries<2>(weights.middle_series, square.middle, kValueTerm, here);
-    boundSeries(weights.bound_series, square.middle + square.away(), most);
+    interpolateBounds(weights, square.middle + square.away(), most);
     TaylorModel<1> s = composeExpansion(cosines(u, here.cosines, max_u, most.cosines), half_u, square);
     TaylorModel<1> d = composeExpansion(sines(u, here.sines, max_u, most.sines), half_u, square);
     s.remainder += kErrorGain * here.error;
@@ -297,8 +311,8 @@ void SeriesCoefficients::addTerm()
                         std::max({next[0], -next[1], next[2], -next[3]})};
 }
 
-// the factor of either end, sin(t arc) / sin(arc), is largest where the arc is a right angle; derivatives by v
-// are largest where v is small
+// the factor of either end, sin(t arc) / sin(arc), is largest where the arc is a right angle; derivatives by
+// v are largest where v is small
 BlendWeights::BlendWeights(Interval range_of_weights)
     : range(range_of_weights),
       center(range.middle() - 0.5),
@@ -307,6 +321,13 @@ BlendWeights::BlendWeights(Interval range_of_weights)
       middle_series(center * center),
       bound_series(minSquare(range))
 {
+}
+
+BlendWeights& blendWeights(Interval range)
+{
+    // regions halve the weights a few times, so few ranges exist
+    thread_local std::map<std::pair<double, double>, BlendWeights> known;
+    return known.try_emplace({range.low, range.high}, range).first->second;
 }
 
 void slerpModel(const TimeCurve& from, const TimeCurve& to, BlendWeights& weights, TaylorModel<4>& model)

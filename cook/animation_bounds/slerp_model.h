@@ -46,18 +46,40 @@ private:
     std::array<Term, kMaxTerms> terms_;
 };
 
-/// Range of weights with the numbers of slerpModel that depend on it alone: they serve all nodes of a region.
+/// Derivatives by v and z up to third order in total: at[i][j] is d^(i+j) / dv^i dz^j.
+struct Derivatives
+{
+    double at[4][4] = {};
+};
+
+/// Sums over k of c_k(v) z^k, and the same divided by 2 k + 1, for z in [0, 1/2].
+struct Series
+{
+    Derivatives cosines;
+    Derivatives sines;
+    double error; ///< maximum error of all of them
+};
+
+/// Range of weights with the numbers of slerpModel that depend on it alone.
 struct BlendWeights
 {
+    /// Number of steps from z = 0 to 1/2 between which bounds are interpolated.
+    static constexpr size_t kBoundSteps = 32;
+
     explicit BlendWeights(Interval range);
 
     Interval range;
     double center;   ///< of the range, minus 1/2
     double max_from; ///< maximum change of the blend, by the change of either end
     double max_to;
-    SeriesCoefficients middle_series; ///< at the center
-    SeriesCoefficients bound_series;  ///< where derivatives are largest
+    SeriesCoefficients middle_series;           ///< at the center
+    SeriesCoefficients bound_series;            ///< where derivatives are largest
+    std::array<Series, kBoundSteps + 1> bounds; ///< of bound_series; valid where has_bounds is set
+    std::array<bool, kBoundSteps + 1> has_bounds{};
 };
+
+/// Return the weights of a range. They are kept for the thread's later calls.
+BlendWeights& blendWeights(Interval range);
 
 /// Compute slerp(from, to, w) as a quaternion of length 1, with either sign. x0 is the time of `from`, x1 the
 /// time of `to`, x2 goes from the low weight to the high one. Where the two may be half a turn apart, the

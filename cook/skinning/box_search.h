@@ -29,7 +29,7 @@ public:
     bool isLoose() const;
 
     /// Examine regions. May be called again, with more work.
-    /// max_work  limit: one unit for each influence of a vertex along one axis, about 17 ns
+    /// max_work  limit: one unit for each influence of a vertex along one axis, about 10 ns
     /// returns    the work done
     size_t run(size_t max_work);
 

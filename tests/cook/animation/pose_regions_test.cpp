@@ -132,7 +132,8 @@ void checkNodes(const test::CharacterSpec& spec, uint32_t seed)
         const std::array<double, 3> x = scene.anyPose(region);
         for (const uint32_t node : scene.all)
         {
-            const NodeModel model = scene.regions.nodeModel(region, node);
+            NodeModel model;
+            scene.regions.setNodeModel(region, node, blendWeights(region.weights()), model);
             const NodePose& local = scene.pose.nodes[node];
             ASSERT_LE(length(vectorAt(model.translation, x) - local.translation),
                       model.translation.remainder + kRounding);
@@ -366,7 +367,9 @@ TEST(SlerpModel, holdsAllOfItsArcs)
             tables.keys = numbers;
             return fitRotationCurve({0, 1, true}, tables, channel);
         };
-        const TaylorModel<4> model = slerpModel(curve(keys[0]), curve(keys[1]), weights);
+        TaylorModel<4> model;
+        BlendWeights blend(weights);
+        slerpModel(curve(keys[0]), curve(keys[1]), blend, model);
         known += model.remainder < 0.5 ? 1 : 0;
         for (int p = 0; p < 20; ++p)
         {
