@@ -7,9 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
 
 // Inlines a function, or a lambda if written after its parameters, wherever it is called.
 #define HEARTH_INLINE __attribute__((always_inline))
@@ -43,11 +40,10 @@ HEARTH_INLINE inline void setSquareRoot(Four& x)
 {
 #if defined(__SSE2__)
     // std::sqrt sets errno, so compilers do not vectorise it
-    alignas(Four) std::array<double, 4> numbers;
-    store(x, numbers);
-    _mm_store_pd(&numbers[0], _mm_sqrt_pd(_mm_load_pd(&numbers[0])));
-    _mm_store_pd(&numbers[2], _mm_sqrt_pd(_mm_load_pd(&numbers[2])));
-    load(numbers, x);
+    using Two = double __attribute__((vector_size(2 * sizeof(double))));
+    const Two first = __builtin_ia32_sqrtpd(__builtin_shufflevector(x, x, 0, 1));
+    const Two second = __builtin_ia32_sqrtpd(__builtin_shufflevector(x, x, 2, 3));
+    x = __builtin_shufflevector(first, second, 0, 1, 2, 3);
 #else
     for (size_t i = 0; i < 4; ++i)
         x[i] = std::sqrt(x[i]);
