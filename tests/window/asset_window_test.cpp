@@ -25,6 +25,8 @@ protected:
         options.width = 160;
         options.height = 120;
         options.validate = true;
+        // maps fit the whole pack, so their texels are not those of one asset's pack
+        options.shadows.options.max_maps = 0;
         Result<std::unique_ptr<viewer::Viewer>> viewer = viewer::Viewer::create(options, *pack_);
         ASSERT_TRUE(viewer.ok()) << formatMessage(viewer.error());
         viewer_ = std::move(viewer).value();
