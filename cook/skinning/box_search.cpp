@@ -115,7 +115,11 @@ public:
 
     bool isLoose() const { return sampled_[0].empty() || volume(box_) > kLooseVolume * volume(sampled_); }
 
-    bool done() const { return started_ && (open_.empty() || tight_); }
+    bool done() const { return started_ && (open_.empty() || tight_ || given_up_); }
+
+    void giveUp() { given_up_ = true; }
+
+    double relativeVolume() const { return volume(box()) / volume(sampled_); }
 
     size_t run(size_t max_work)
     {
@@ -230,6 +234,7 @@ private:
     Box3d resolved_; ///< contains all positions outside of the open regions
     bool started_ = false;
     bool tight_ = false;
+    bool given_up_ = false;
     size_t regions_since_check_ = 0;
     Movers movers_;
     std::vector<Box3d> boxes_;
@@ -253,6 +258,16 @@ bool BoxSearch::isLoose() const
 bool BoxSearch::done() const
 {
     return regions_->done();
+}
+
+void BoxSearch::giveUp()
+{
+    regions_->giveUp();
+}
+
+double BoxSearch::relativeVolume() const
+{
+    return regions_->relativeVolume();
 }
 
 size_t BoxSearch::run(size_t max_work)

@@ -33,8 +33,14 @@ public:
     /// returns    the work done
     size_t run(size_t max_work);
 
-    /// True if more work makes no difference.
+    /// True if more work makes no difference, or after giveUp.
     bool done() const;
+
+    /// End the search. The box stays.
+    void giveUp();
+
+    /// Return the volume of the box relative to that of the sampled poses' box.
+    double relativeVolume() const;
 
     /// Return the current box, inside the initial one.
     animation_bounds::Box3d box() const;

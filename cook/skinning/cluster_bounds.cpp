@@ -26,12 +26,17 @@ namespace
 // of the sample character and the skinned assets).
 constexpr size_t kMaxCandidates = 3;
 
-// Work for tightening the boxes of all loose clusters of a mesh, in influences of vertices along one axis, of
-// about 10 ns each: the larger of a minimum and a share for each cluster. With twice the minimum, boxes of
-// characters of 53 to 60 joints are 2 to 9 % smaller.
-constexpr size_t kMeshWork = 180'000'000;
-constexpr size_t kClusterWork = 300'000;
+// Work for tightening the boxes of a mesh, in influences of vertices along one axis, of about 10 ns each: it
+// grows with the number of clusters, in large meshes with that of the loose ones.
+constexpr size_t kSmallestMeshWork = 100'000'000;
+constexpr size_t kClusterWork = 1'500'000;
+constexpr size_t kLargeMeshWork = 400'000'000;
+constexpr size_t kLooseClusterWork = 300'000;
 constexpr size_t kMaxClusterWork = 10'500'000; ///< of one cluster in the last round
+
+// Volume after a round relative to the volume before it, from which a cluster gets no more work: its joints
+// are too far apart for the work that a mesh may spend.
+constexpr double kStuckVolume = 0.95;
 
 // Number of rounds in which work is distributed; later rounds distribute the unused work.
 constexpr size_t kRounds = 3;
@@ -211,12 +216,18 @@ Draft makeDraft(const DeformedCluster& cluster, const Deformation& deformation)
     return draft;
 }
 
-/// Tighten loose boxes. All get the same share of the work; unused work goes to the others.
-void tighten(std::vector<Draft>& drafts)
+size_t meshWork(std::span<const Draft> drafts)
 {
     const auto loose = std::count_if(drafts.begin(), drafts.end(),
                                      [](const Draft& draft) { return draft.search.has_value(); });
-    size_t remaining_work = std::max(kMeshWork, kClusterWork * static_cast<size_t>(loose));
+    return std::max(std::min(kSmallestMeshWork + kClusterWork * drafts.size(), kLargeMeshWork),
+                    kLooseClusterWork * static_cast<size_t>(loose));
+}
+
+/// Tighten loose boxes. All get the same share of the work; unused work goes to the others.
+void tighten(std::vector<Draft>& drafts)
+{
+    size_t remaining_work = meshWork(drafts);
     for (size_t round = 0; round < kRounds; ++round)
     {
         std::vector<BoxSearch*> searches;
@@ -227,7 +238,14 @@ void tighten(std::vector<Draft>& drafts)
             return;
         const size_t share = std::min(kMaxClusterWork, remaining_work / searches.size()) / (kRounds - round);
         std::vector<size_t> work(searches.size());
-        tbb::parallel_for(size_t{0}, searches.size(), [&](size_t i) { work[i] = searches[i]->run(share); });
+        tbb::parallel_for(size_t{0}, searches.size(),
+                          [&](size_t i)
+                          {
+                              const double before = searches[i]->relativeVolume();
+                              work[i] = searches[i]->run(share);
+                              if (work[i] > 0 && searches[i]->relativeVolume() > kStuckVolume * before)
+                                  searches[i]->giveUp();
+                          });
         remaining_work -= std::min(remaining_work, std::accumulate(work.begin(), work.end(), size_t{0}));
     }
 }

@@ -123,6 +123,7 @@ shared::Lighting sharedLighting(const SceneLighting& lighting)
     result.sky_zenith = narrowed(lighting.zenith);
     result.sky_horizon = narrowed(lighting.horizon);
     result.sky_ground = narrowed(lighting.ground);
+    result.exposure = static_cast<float>(lighting.exposure);
     for (const SceneLight& light : lighting.lights)
     {
         shared::Light& l = result.lights[result.light_count++];
