@@ -28,7 +28,7 @@ constexpr size_t kMaxCandidates = 3;
 
 // Work for tightening the boxes of a mesh, in influences of vertices along one axis, of about 10 ns each: it
 // grows with the number of clusters, in large meshes with that of the loose ones.
-constexpr size_t kSmallestMeshWork = 100'000'000;
+constexpr size_t kMinMeshWork = 100'000'000;
 constexpr size_t kClusterWork = 1'500'000;
 constexpr size_t kLargeMeshWork = 400'000'000;
 constexpr size_t kLooseClusterWork = 300'000;
@@ -220,7 +220,7 @@ size_t meshWork(std::span<const Draft> drafts)
 {
     const auto loose = std::count_if(drafts.begin(), drafts.end(),
                                      [](const Draft& draft) { return draft.search.has_value(); });
-    return std::max(std::min(kSmallestMeshWork + kClusterWork * drafts.size(), kLargeMeshWork),
+    return std::max(std::min(kMinMeshWork + kClusterWork * drafts.size(), kLargeMeshWork),
                     kLooseClusterWork * static_cast<size_t>(loose));
 }
 

@@ -139,8 +139,8 @@ HEARTH_FUNCTION Instance instanceOfJoint(HEARTH_IN(Instance) instance, HEARTH_IN
     return joint_instance;
 }
 
-/// Return the box of a cluster in a pose of the clips, in the space of its main bone alone. Call shareFrame for
-/// the other joints of its frame.
+/// Return the box of a cluster in a pose of the clips, in the space of its main bone alone. Call shareFrame
+/// for the other joints of its frame.
 /// joint  palette row of the cluster's joint
 HEARTH_FUNCTION TransformedBox boxInClips(HEARTH_IN(Instance) instance, HEARTH_IN(PaletteRow) joint,
                                           HEARTH_IN(DeformedCluster) cluster)

@@ -146,13 +146,13 @@ HEARTH_FUNCTION bool isInShadowMap(HEARTH_IN(ShadowMap) map, HEARTH_IN(ShadowPoi
     return point.known != 0u && texel.x >= low && texel.y >= low && texel.x < high && texel.y < high;
 }
 
-/// Return the distance in metres from a light to the plane of a surface, for a sun the cosine between its rays
-/// and the normal.
+/// Return the distance in metres from a light to the plane of a surface, for a sun the cosine between its
+/// rays and the normal.
 ///
 /// normal   unit, either side
-/// nearest  metres from the light to the nearest part of the surface, or less. At grazing angles the result is
-///          that of 89.5 degrees at this distance, the same for all of the surface, since a difference between
-///          the vertices of a triangle would tilt it
+/// nearest  metres from the light to the nearest part of the surface, or less. At grazing angles the result
+///          is that of 89.5 degrees at this distance, the same for all of the surface, since a difference
+///          between the vertices of a triangle would tilt it
 HEARTH_FUNCTION float shadowFacing(HEARTH_IN(ShadowLight) light, Float3 point, Float3 normal, float nearest)
 {
     HEARTH_PRECISE Float3 ray = light.direction * (1.0f - light.perspective) + point * light.perspective;

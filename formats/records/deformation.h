@@ -33,7 +33,7 @@ struct DeformedMeshRecord
 
 /// Bounds of a cluster over all poses. The frame of a cluster in a pose is the sum of the palette's matrices
 /// by the shares of its joints: a point p in the frame is at sum_j share_j palette[j] * p. The apex of the
-/// normal cone is cone_back behind the middle of the box, against the axis, if the box is placed in the joint.
+/// normal cone is cone_back behind the middle of the box, against the axis, with the box put in the joint.
 struct DeformedClusterRecord
 {
     Float3 box_min;

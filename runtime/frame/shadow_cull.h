@@ -9,10 +9,10 @@ namespace hearth::shared
 {
 
 /// Return the view that selects the shadow casters of a map: clusters between its sides, and in front of
-/// the light or within its range. The cut is that of the camera's image with less weight for errors, seen from the camera and
-/// not from the light. Otherwise a surface would be cast by a level far from the displayed one, and shadow
-/// itself. Normal cones and occlusion are not tested: a cluster that faces away from the camera casts shadows
-/// as well.
+/// the light or within its range. The cut is that of the camera's image with less weight for errors, seen
+/// from the camera and not from the light. Otherwise a surface would be cast by a level far from the
+/// displayed one, and shadow itself. Normal cones and occlusion are not tested: a cluster that faces away
+/// from the camera casts shadows as well.
 ///
 /// view            of the camera's image; its clip rows are kept and have no meaning for a map
 /// range           of the light in metres: farther casters shadow nothing. 0: unlimited

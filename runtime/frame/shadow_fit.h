@@ -56,9 +56,9 @@ float coneTangent(float outer_cone_rad);
 /// outside of all spheres. It is wider than the cone by the texels that the filter reads.
 ShadowMap makeConeMap(float cone_tangent, ShadowMapSize size);
 
-/// Return the map of the part of a cone or face that covers a sphere: nullopt where the sphere is behind the light
-/// or beside the cone, and the map of the whole cone where the light is inside the sphere. The bounds of the
-/// projected sphere are exact. As for suns, tiny spheres get a coarser map.
+/// Return the map of the part of a cone or face that covers a sphere: nullopt where the sphere is behind the
+/// light or beside the cone, and the map of the whole cone where the light is inside the sphere. The bounds
+/// of the projected sphere are exact. As for suns, tiny spheres get a coarser map.
 ///
 /// sphere     world; radius above 0
 std::optional<ShadowMap> fitSpotMap(const ShadowLight& light, float cone_tangent, const Sphere& sphere,

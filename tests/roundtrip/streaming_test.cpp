@@ -81,7 +81,7 @@ TEST_F(StreamedRender, namesTheBudgetThatIsNeeded)
 TEST_F(StreamedRender, aCameraPathTakesOneRoundOfLoadsAFrame)
 {
     std::ofstream(file("path.txt")) << "3,1,3,0,0,0,45\n3,1,3,0,0,0,45\n3,1,3,0,0,0,45\n";
-    const ProgramEnd end = render("path", {"--budget", "1G", "--camera-path", file("path.txt")});
+    const ProgramEnd end = render("path", {"--budget", "1G", "--shadows", "off", "--camera-path", file("path.txt")});
     ASSERT_EQ(end.exit_code, 0) << end.errors;
     const std::string statistics = readContent(file("path.json"));
     const size_t frames = statistics.rfind("\"frames\":[");

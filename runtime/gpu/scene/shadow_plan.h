@@ -32,7 +32,8 @@ struct ShadowOptions
     /// Otherwise a moving caster redraws its maps as a whole.
     bool moving_layers = true;
 
-    /// Near plane of spots and of the faces of point lights in metres, above 0: nearer surfaces cast no shadow.
+    /// Near plane of spots and of the faces of point lights in metres, above 0: nearer surfaces cast no
+    /// shadow.
     float spot_near = 0.05f;
 };
 

@@ -119,8 +119,8 @@ void watch(Watched& watched, const Box3& mesh_box, std::span<const Affine3d> mai
     lookAtCone(watched, places, angle);
 }
 
-/// Return the transform from the main bone to the cluster's frame. Not the function of formats/scene, which is
-/// part of what is tested.
+/// Return the transform from the main bone to the cluster's frame. Not the function of formats/scene, which
+/// is part of what is tested.
 /// main_from_bind  transforms of all joints relative to the main bone
 std::optional<Affine3d> frameFromMain(std::span<const Affine3d> main_from_bind,
                                       std::span<const uint32_t> joints)

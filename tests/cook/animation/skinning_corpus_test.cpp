@@ -21,7 +21,8 @@ namespace
 constexpr size_t kPoses = 10'000;
 constexpr double kMaxVolume = 1.5;
 
-// Assets whose clusters have many joints, on coarse levels all of them, and the largest volume of their boxes.
+// Assets whose clusters have many joints, on coarse levels all of them, and the largest volume of their
+// boxes.
 constexpr std::array<std::string_view, 3> kManyJoints{"Fox", "Mage", "tube_300joints"};
 constexpr double kMaxVolumeOfManyJoints = 2.0;
 

@@ -118,7 +118,8 @@ TEST(CasterView, leavesOutPointsBesideTheMap)
     EXPECT_GT(count, 5000u);
 }
 
-/// Casters within the range of a light are drawn, and boxes beyond the face's square at that distance are not.
+/// Casters within the range of a light are drawn, and boxes beyond the face's square at that distance are
+/// not.
 TEST(CasterView, ofALightWithARangeEndsThere)
 {
     std::mt19937 random(8);

@@ -117,8 +117,8 @@ Comparison compare(const PackView& pack, const Image& drawn, int reach)
 
 constexpr Float3 kSeamLamp{0.3f, -0.2f, 0.1f};
 
-/// Build a lamp in a closed room whose walls are not parallel to the faces of the lamp, with or without a shell around
-/// it that lets no light out.
+/// Build a lamp in a closed room whose walls are not parallel to the faces of the lamp, with or without a
+/// shell around it that lets no light out.
 PackView buildSeamRoom(TestScene& test, float intensity, bool shell)
 {
     const uint32_t white = test.addMaterial(plainMaterial());
