@@ -28,7 +28,7 @@ constexpr size_t kMaxCandidates = 3;
 
 // Work for tightening the boxes of a mesh, in influences of vertices along one axis, of about 10 ns each: it
 // grows with the number of clusters, in large meshes with that of the loose ones.
-constexpr size_t kMinMeshWork = 100'000'000;
+constexpr size_t kMinMeshWork = 50'000'000;
 constexpr size_t kClusterWork = 1'500'000;
 constexpr size_t kLargeMeshWork = 400'000'000;
 constexpr size_t kLooseClusterWork = 300'000;
@@ -216,6 +216,7 @@ Draft makeDraft(const DeformedCluster& cluster, const Deformation& deformation)
     return draft;
 }
 
+/// Return the work that all loose clusters of a mesh may spend.
 size_t meshWork(std::span<const Draft> drafts)
 {
     const auto loose = std::count_if(drafts.begin(), drafts.end(),
