@@ -284,18 +284,46 @@ Pose sittingPose()
     return pose;
 }
 
-CharacterNodes addCharacter(Document& document, const Pose& pose, float cell)
+Pose blendPoses(const Pose& a, const Pose& b, float share)
+{
+    Pose blended;
+    blended.hips = lerp(a.hips, b.hips, share);
+    for (size_t joint = 0; joint < kJointCount; ++joint)
+        blended.rotations[joint] = blendRotations(a.rotations[joint], b.rotations[joint], share);
+    return blended;
+}
+
+Pose walkingPose(const Pose& standing, float cycle)
+{
+    Pose pose = standing;
+    const float a = cycle * 2 * kPi;
+    const auto swing = [&](Joint joint, Float4 rotation)
+    { pose.rotations[joint] = multiply(rotation, standing.rotations[joint]); };
+    for (const bool left : {true, false})
+    {
+        const float phase = left ? a : a + kPi;
+        swing(left ? kLeftThigh : kRightThigh, rotationAboutX(-26 * sine(phase) - 4));
+        swing(left ? kLeftShin : kRightShin, rotationAboutX(24 + 24 * sine(phase + 2.1f)));
+        swing(left ? kLeftFoot : kRightFoot, rotationAboutX(-6 + 12 * sine(phase + 2.6f)));
+        swing(left ? kLeftUpperArm : kRightUpperArm, rotationAboutX(20 * sine(phase)));
+    }
+    swing(kChest, rotationAboutY(5 * sine(a)));
+    pose.hips = standing.hips + Float3{0.015f * sine(a), -0.012f + 0.018f * cosine(2 * a), 0};
+    return pose;
+}
+
+CharacterNodes addCharacter(Document& document, const Pose& rest, const Pose& bind, float cell)
 {
     CharacterNodes nodes{};
-    const std::array<Frame, kJointCount> frames = jointFrames(pose);
+    const std::array<Frame, kJointCount> frames = jointFrames(bind);
     Skin skin;
     skin.name = "mannequin";
     for (size_t joint = 0; joint < kJointCount; ++joint)
     {
         Node node;
         node.name = kSkeleton[joint].name;
-        node.placement.translation = joint == kHips ? pose.hips : kSkeleton[joint].offset;
-        node.placement.rotation = pose.rotations[joint];
+        node.placement.translation = joint == kHips ? rest.hips : kSkeleton[joint].offset;
+        node.placement.rotation = rest.rotations[joint];
         nodes.joints[joint] = add(document.nodes, node);
         if (kSkeleton[joint].parent >= 0)
         {
@@ -313,7 +341,7 @@ CharacterNodes addCharacter(Document& document, const Pose& pose, float cell)
     Node body;
     body.name = "mannequin_skin";
     body.mesh = add(document.meshes,
-                    Mesh{"mannequin", {{generateSkin(pose, cell), add(document.materials, material)}}});
+                    Mesh{"mannequin", {{generateSkin(bind, cell), add(document.materials, material)}}});
     body.skin = add(document.skins, skin);
     Node root;
     root.name = "character";
@@ -327,34 +355,20 @@ void addWalkClip(Document& document, const CharacterNodes& nodes, const Pose& po
     Animation walk;
     walk.name = "walk";
     const std::vector<float> times = evenTimes(9, 1.0f);
-    const auto swing = [&](Joint joint, const auto& rotationAt)
+    std::vector<Pose> poses;
+    for (const float time : times)
+        poses.push_back(walkingPose(pose, time));
+    for (const Joint joint : {kLeftThigh, kLeftShin, kLeftFoot, kLeftUpperArm, kRightThigh, kRightShin,
+                              kRightFoot, kRightUpperArm, kChest})
     {
         std::vector<Float4> keys;
-        for (const float time : times)
-            keys.push_back(multiply(rotationAt(time * 2 * kPi), pose.rotations[joint]));
+        for (const Pose& key : poses)
+            keys.push_back(key.rotations[joint]);
         walk.tracks.push_back(rotationTrack(nodes.joints[joint], times, keys));
-    };
-    for (const bool left : {true, false})
-    {
-        const float phase = left ? 0.0f : kPi;
-        swing(left ? kLeftThigh : kRightThigh,
-              [&](float a) { return rotationAboutX(-26 * sine(a + phase) - 4); });
-        swing(left ? kLeftShin : kRightShin,
-              [&](float a) { return rotationAboutX(24 + 24 * sine(a + phase + 2.1f)); });
-        swing(left ? kLeftFoot : kRightFoot,
-              [&](float a) { return rotationAboutX(-6 + 12 * sine(a + phase + 2.6f)); });
-        swing(left ? kLeftUpperArm : kRightUpperArm,
-              [&](float a) { return rotationAboutX(20 * sine(a + phase)); });
     }
-    swing(kChest, [&](float a) { return rotationAboutY(5 * sine(a)); });
-
     std::vector<Float4> way;
-    for (const float time : times)
-    {
-        const float a = time * 2 * kPi;
-        way.push_back(
-            {pose.hips.x + 0.015f * sine(a), pose.hips.y - 0.012f + 0.018f * cosine(2 * a), pose.hips.z, 0});
-    }
+    for (const Pose& key : poses)
+        way.push_back({key.hips.x, key.hips.y, key.hips.z, 0});
     walk.tracks.push_back({nodes.joints[kHips], TrackPath::translation, TrackKind::cubic_spline, times,
                            withTangents(times, way)});
     document.animations.push_back(walk);

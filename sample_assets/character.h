@@ -49,9 +49,16 @@ struct CharacterNodes
     std::array<int, kJointCount> joints; ///< joint nodes
 };
 
-/// Add nodes, skin, mesh and material. The skin is generated in `pose`, which is also the rest pose. `cell`
-/// is the size in metres of the grid on which the skin is sampled: about 1.6 / cell^2 triangles.
-CharacterNodes addCharacter(Document& document, const Pose& pose, float cell);
+/// Return the pose between a and b.
+Pose blendPoses(const Pose& a, const Pose& b, float share);
+/// Return a pose of walking on the spot; share of the cycle: 0 to 1.
+Pose walkingPose(const Pose& standing, float cycle);
+
+/// Add nodes, skin, mesh and material.
+/// rest  pose of the nodes
+/// bind  pose that the skin is generated in: it deforms best near it
+/// cell  size in metres of the grid on which the skin is sampled: about 1.6 / cell^2 triangles
+CharacterNodes addCharacter(Document& document, const Pose& rest, const Pose& bind, float cell);
 
 /// Add one second of walking on the spot; linear rotations, the path of the hips is a cubic spline.
 void addWalkClip(Document& document, const CharacterNodes& nodes, const Pose& pose);

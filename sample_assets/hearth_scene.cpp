@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "sample_assets/hearth_scene.h"
 
+#include "sample_assets/arrival.h"
 #include "sample_assets/character.h"
 #include "sample_assets/dusk.h"
 #include "sample_assets/fire.h"
@@ -139,11 +140,15 @@ void addSeatAndCharacter(Document& document)
     const float half = 0.85f;
     addNode(document, "seat", log,
             {seat - along * half, rotationBetween({0, 1, 0}, along), {1.6f, 2 * half, 1.6f}});
-    const Pose pose = sittingPose();
-    const CharacterNodes guest = addCharacter(document, pose, 0.012f);
+    // the skin is halfway between standing and sitting, so that both look right
+    const Pose sitting = sittingPose();
+    const CharacterNodes guest =
+        addCharacter(document, sitting, blendPoses(standingPose(), sitting, 0.5f), 0.012f);
+    const Float3 place{seat.x, 0.01f, seat.z};
     document.nodes[static_cast<size_t>(guest.root)].placement = {
-        Float3{seat.x, 0.01f, seat.z}, rotationBetween({0, 0, 1}, to_fire), {1, 1, 1}};
-    addWaveClip(document, guest, pose);
+        place, rotationBetween({0, 0, 1}, to_fire), {1, 1, 1}};
+    const Float3 stop = place + to_fire * 0.4f;
+    addArriveClip(document, guest, {stop - along * 3.0f, stop, place, to_fire});
 }
 
 void addLight(Document& document, Light light, const Placement& placement)

@@ -24,7 +24,7 @@ constexpr uint32_t kRockShapes = 4;
 constexpr uint32_t kRocksOfShape = 30;
 constexpr uint64_t kRockTriangles = 100000;
 constexpr uint32_t kHouseCount = 12;
-constexpr float kHalfWidth = 6, kHalfDepth = 4.5f, kWallHeight = 4,
+constexpr float kHouseHalfWidth = 6, kHouseHalfDepth = 4.5f, kWallHeight = 4,
                 kWall = 0.25f; // metres; kWall is half a wall
 
 TriangleMesh makePlot(const HeightGrid& grid, uint32_t column, uint32_t row, uint32_t quads)
@@ -114,19 +114,21 @@ std::vector<Primitive> makeHouse(Document& document)
 
     constexpr float kMiddle = kWallHeight / 2;
     TriangleMesh walls, back, roof;
-    append(roof, makeBox({0, -0.75f, 0}, {kHalfWidth + kWall, 0.75f, kHalfDepth + kWall},
+    append(roof, makeBox({0, -0.75f, 0}, {kHouseHalfWidth + kWall, 0.75f, kHouseHalfDepth + kWall},
                          0.5f)); // its foot is below the slope
-    append(roof, makeBox({0, kWallHeight + kWall, 0}, {kHalfWidth + 0.75f, kWall, kHalfDepth + 0.75f}, 0.5f));
-    append(back, makeBox({0, kMiddle, -kHalfDepth}, {kHalfWidth + kWall, kMiddle, kWall}, 0.5f));
+    append(roof, makeBox({0, kWallHeight + kWall, 0},
+                         {kHouseHalfWidth + 0.75f, kWall, kHouseHalfDepth + 0.75f}, 0.5f));
+    append(back, makeBox({0, kMiddle, -kHouseHalfDepth}, {kHouseHalfWidth + kWall, kMiddle, kWall}, 0.5f));
     // front wall left and right of a door of 2 x 3 m, and above the door
     for (const float side : {-1.0f, 1.0f})
-        append(walls, makeBox({side * (kHalfWidth + kWall + 1) / 2, kMiddle, kHalfDepth},
-                              {(kHalfWidth + kWall - 1) / 2, kMiddle, kWall}, 0.5f));
-    append(walls, makeBox({0, (kWallHeight + 3) / 2, kHalfDepth}, {1, (kWallHeight - 3) / 2, kWall}, 0.5f));
+        append(walls, makeBox({side * (kHouseHalfWidth + kWall + 1) / 2, kMiddle, kHouseHalfDepth},
+                              {(kHouseHalfWidth + kWall - 1) / 2, kMiddle, kWall}, 0.5f));
+    append(walls,
+           makeBox({0, (kWallHeight + 3) / 2, kHouseHalfDepth}, {1, (kWallHeight - 3) / 2, kWall}, 0.5f));
     // side walls, with windows from 1 to 3 m, 3 m wide
-    for (const float side : {-kHalfWidth, kHalfWidth})
+    for (const float side : {-kHouseHalfWidth, kHouseHalfWidth})
     {
-        constexpr float kInner = kHalfDepth - kWall;
+        constexpr float kInner = kHouseHalfDepth - kWall;
         append(walls, makeBox({side, 0.5f, 0}, {kWall, 0.5f, kInner}, 0.5f));
         append(walls,
                makeBox({side, (kWallHeight + 3) / 2, 0}, {kWall, (kWallHeight - 3) / 2, kInner}, 0.5f));

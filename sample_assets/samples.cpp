@@ -7,11 +7,13 @@
 #include "sample_assets/grass.h"
 #include "sample_assets/hearth_scene.h"
 #include "sample_assets/land.h"
+#include "sample_assets/outdoor.h"
 #include "sample_assets/rock.h"
 #include "sample_assets/room.h"
 #include "sample_assets/shapes/noise.h"
 #include "sample_assets/shapes/sample_math.h"
 #include "sample_assets/shapes/scene_parts.h"
+#include "sample_assets/spheres.h"
 #include "sample_assets/terrain.h"
 
 #include <array>
@@ -82,12 +84,23 @@ Document generateAttic(const SampleOptions&)
     return makeAttic();
 }
 
+Document generateOutdoor(const SampleOptions&)
+{
+    return makeOutdoor();
+}
+
+Document generateSpheres(const SampleOptions&)
+{
+    return makeSpheres();
+}
+
 Document generateCharacter(const SampleOptions& options)
 {
     Document document;
     const auto wanted = static_cast<double>(trianglesOr(options, 30000));
     const Pose pose = standingPose();
-    const CharacterNodes nodes = addCharacter(document, pose, static_cast<float>(std::sqrt(4.4 / wanted)));
+    const CharacterNodes nodes =
+        addCharacter(document, pose, pose, static_cast<float>(std::sqrt(4.4 / wanted)));
     addWalkClip(document, nodes, pose);
     addWaveClip(document, nodes, pose);
     return document;
@@ -150,6 +163,10 @@ constexpr std::array kKinds{
                generateRoom},
     SampleKind{"attic", "an L-shaped room below slanted roofs, lit through a window and by a lantern",
                generateAttic},
+    SampleKind{"outdoor", "a yard: corners, an overhang, crates, tufts of grass, under sky and sun",
+               generateOutdoor},
+    SampleKind{"spheres", "spheres of five roughnesses, dielectric and metal, under sky and sun",
+               generateSpheres},
     SampleKind{"character", "a skinned mannequin of seventeen joints with a walk and a wave",
                generateCharacter},
     SampleKind{"transforms", "a small rock, mirrored, stretched and sheared", generateTransforms},

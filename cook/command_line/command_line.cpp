@@ -267,6 +267,33 @@ Option CommandLine::addFlag(const std::string& names, std::string& value, const 
     return Option(*app_->add_flag(names, value, description));
 }
 
+Option CommandLine::addOptionalChoice(const std::string& names, std::string& value,
+                                      const std::vector<std::string>& words, const std::string& bare,
+                                      const std::string& description)
+{
+    std::string type_name;
+    for (const std::string& word : words)
+        type_name += (type_name.empty() ? "" : "|") + word;
+    for (const std::string& name : splitText(names, ','))
+        optional_words_[name] = words;
+    CLI::Option* option = app_->add_flag(names + "{" + bare + "}", value, description);
+    return Option(*option->check(CLI::IsMember(words).description(""))).typeName(type_name);
+}
+
+/// Join the words of options with an optional word to their options: CLI11 knows only "--bricks=off".
+void CommandLine::joinOptionalWords(std::vector<std::string>& words) const
+{
+    for (size_t i = 0; i + 1 < words.size() && words[i] != "--"; ++i)
+        if (const auto found = optional_words_.find(words[i]);
+            found != optional_words_.end() && std::ranges::count(found->second, words[i + 1]) > 0)
+        {
+            words[i] += "=" + words[i + 1];
+            words.erase(words.begin() + static_cast<ptrdiff_t>(i) + 1);
+        }
+    for (const auto& subcommand : subcommands_)
+        subcommand->joinOptionalWords(words);
+}
+
 CommandLine& CommandLine::addSubcommand(const std::string& name, const std::string& description)
 {
     auto app = app_->get_subcommand_ptr(app_->add_subcommand(name, description));
@@ -312,9 +339,15 @@ void CommandLine::finish() const
 
 std::optional<int> CommandLine::parse(int argc, const char* const* argv)
 {
+    std::vector<std::string> words(argv + 1, argv + argc);
+    joinOptionalWords(words);
+    // the name of the program may come from here, and CLI11 parses the words from the back
+    std::reverse(words.begin(), words.end());
+    if (app_->get_name().empty())
+        app_->name(argv[0]);
     try
     {
-        app_->parse(argc, argv);
+        app_->parse(std::move(words));
     }
     catch (const CLI::ParseError& error)
     {
@@ -325,6 +358,7 @@ std::optional<int> CommandLine::parse(int argc, const char* const* argv)
 
 ParseResult CommandLine::parseWords(std::vector<std::string> words)
 {
+    joinOptionalWords(words);
     // CLI11 parses the words from the back
     std::reverse(words.begin(), words.end());
     try

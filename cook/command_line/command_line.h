@@ -115,6 +115,12 @@ public:
     /// "all" if none is given.
     Option addFlag(const std::string& names, std::string& value, const std::string& description);
 
+    /// Add an option with an optional word, as "--bricks", "--bricks off" or "--bricks=off".
+    /// bare  the value without a word
+    Option addOptionalChoice(const std::string& names, std::string& value,
+                             const std::vector<std::string>& words, const std::string& bare,
+                             const std::string& description);
+
     /// Add a subcommand, which lives as long as this object.
     CommandLine& addSubcommand(const std::string& name, const std::string& description);
     /// Make it an error to name no subcommand.
@@ -151,9 +157,11 @@ private:
     Option addNumberedChoice(const std::string& names, const std::map<std::string, int>& words,
                              std::function<void(int)> store, const std::string& description);
     void finish() const;
+    void joinOptionalWords(std::vector<std::string>& words) const;
 
     std::shared_ptr<CLI::App> app_;
     std::vector<std::unique_ptr<CommandLine>> subcommands_;
+    std::map<std::string, std::vector<std::string>> optional_words_; ///< by the name of their option
     std::function<std::string()> fault_;
     std::function<void()> action_;
 };

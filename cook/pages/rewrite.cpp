@@ -178,7 +178,7 @@ Status writePages(ContainerWriter& writer, const PackView& view, const Visibilit
 } // namespace
 
 Status rewriteVisibility(const ContainerReader& part, const std::string& output_path,
-                         const VisibilityEdit& edit)
+                         const VisibilityEdit& edit, const ReplacedChunks& replaced)
 {
     HEARTH_ASSIGN_OR_RETURN(const PackView view, PackView::read(part));
     HEARTH_TRY(checkHierarchy(view));
@@ -189,6 +189,8 @@ Status rewriteVisibility(const ContainerReader& part, const std::string& output_
     bool pages_written = false, table_awaited = false;
     for (const ChunkEntry& entry : part.chunks())
     {
+        if (std::ranges::find(replaced.types, entry.type) != replaced.types.end())
+            continue;
         const ChunkId id{entry.type, entry.index, entry.version};
         if (entry.type == kChunkPages)
         {
@@ -204,6 +206,8 @@ Status rewriteVisibility(const ContainerReader& part, const std::string& output_
         else if (entry.type != kChunkPages)
             HEARTH_TRY(writer.addStored(id, entry, part.stored(entry)));
     }
+    if (replaced.write)
+        HEARTH_TRY(replaced.write(writer));
     return writer.finish();
 }
 

@@ -5,6 +5,8 @@
 
 #include "formats/base/math.h"
 
+#include <cmath>
+
 namespace hearth::sampling
 {
 
@@ -33,6 +35,12 @@ inline Float3 hemisphereDirection(Float2 u)
     const float radius = std::sqrt((1 - u.x) * (1 + u.x));
     const SineCosine azimuth = sineCosine(u.y);
     return {radius * azimuth.cosine, radius * azimuth.sine, u.x};
+}
+
+/// Map to a unit direction of the hemisphere about +z, with densities by the cosine.
+inline Float3 cosineDirection(Float2 u)
+{
+    return hemisphereDirection({std::sqrt(u.x), u.y});
 }
 
 /// Map to weights of a triangle's corners 1 and 2: equal areas of the square are equal areas of the triangle.

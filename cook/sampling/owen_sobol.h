@@ -78,6 +78,23 @@ constexpr SquarePoint owenSobol(uint32_t index, uint64_t seed)
             reverseBits(detail::scrambledReversed(detail::secondReversed(index), high))};
 }
 
+/// Shuffle the indices of a sequence, under a shuffle for each seed. Blocks of 2^m indices from a multiple of
+/// 2^m on stay together, so that their points are as even as before.
+/// source  B. Burley, "Practical hash-based Owen scrambling", 2020
+constexpr uint32_t shuffleIndex(uint32_t index, uint64_t seed)
+{
+    return reverseBits(
+        detail::scrambledReversed(reverseBits(index), static_cast<uint32_t>(deriveSeed(seed, 0))));
+}
+
+/// Compute a point for one of several steps that points of the same index share, as the bounces of a path.
+/// Scrambles alone would leave the same bits of the index in all steps, which would depend on each other.
+/// seed  of the step
+constexpr SquarePoint shuffledOwenSobol(uint32_t index, uint64_t seed)
+{
+    return owenSobol(shuffleIndex(index, seed), seed);
+}
+
 /// Convert to a float in (0, 1): the upper 23 bits plus half a step, which a float holds exactly.
 constexpr float unitFloat(uint32_t fraction)
 {

@@ -57,19 +57,18 @@ std::vector<uint64_t> cookReflectance()
     return table;
 }
 
-std::string formatReflectance(const std::vector<uint64_t>& table)
+std::string formatTable(const std::vector<uint64_t>& table, std::string_view name, std::string_view comment)
 {
     constexpr size_t kInLine = 5;
-    std::string text =
-        "// Reflection of GGX lobes: four half floats for each cosine and roughness. Written by\n"
-        "// hearth-specular --reflectance; formats/gpu_shared/reflectance.h describes it.\n"
-        "// SPDX-License-Identifier: LicenseRef-Hearth-Undecided\n"
-        "#pragma once\n\n"
-        "#include <array>\n"
-        "#include <cstdint>\n\n"
-        "namespace hearth::shared\n{\n\n"
-        "// clang-format off\n";
-    text += fmt::format("inline constexpr std::array<uint64_t, {}> kReflectanceTable{{", table.size());
+    std::string text = fmt::format("{}"
+                                   "// SPDX-License-Identifier: LicenseRef-Hearth-Undecided\n"
+                                   "#pragma once\n\n"
+                                   "#include <array>\n"
+                                   "#include <cstdint>\n\n"
+                                   "namespace hearth::shared\n{{\n\n"
+                                   "// clang-format off\n",
+                                   comment);
+    text += fmt::format("inline constexpr std::array<uint64_t, {}> {}{{", table.size(), name);
     for (size_t i = 0; i < table.size(); ++i)
         text += fmt::format("{}0x{:016X},", i % kInLine == 0 ? "\n    " : " ", table[i]);
     return text + "};\n// clang-format on\n\n} // namespace hearth::shared\n";

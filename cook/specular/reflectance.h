@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace hearth::specular
@@ -13,7 +14,9 @@ namespace hearth::specular
 /// (formats/gpu_shared/reflectance.h) as half floats, the first in the lowest bits.
 std::vector<uint64_t> cookReflectance();
 
-/// Write the table as the C++ header of formats/scene.
-std::string formatReflectance(const std::vector<uint64_t>& table);
+/// Write a table as a C++ header of formats/scene.
+/// name     of its constant
+/// comment  the header's first lines
+std::string formatTable(const std::vector<uint64_t>& table, std::string_view name, std::string_view comment);
 
 } // namespace hearth::specular

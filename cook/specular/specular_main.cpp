@@ -7,6 +7,7 @@
 #include "cook/specular/reflectance.h"
 #include "cook/specular/report.h"
 #include "cook/specular/rows.h"
+#include "cook/specular/sheen.h"
 #include "formats/base/atomic_file.h"
 #include "formats/base/program.h"
 #include "formats/base/regular_file.h"
@@ -28,6 +29,7 @@ struct Arguments
     std::string report;
     std::string astc;
     std::string reflectance;
+    std::string sheen;
     uint32_t astc_block = 6;
     bool fit = false;
     TableSettings settings;
@@ -89,14 +91,33 @@ Status cook(const Arguments& arguments)
     return writeText(arguments.report, comparisonJson(comparison, seconds));
 }
 
+Status writeReflectance(const Arguments& arguments)
+{
+    return writeText(arguments.reflectance,
+                     formatTable(cookReflectance(), "kReflectanceTable",
+                                 "// Reflection of GGX lobes: four half floats for each cosine and "
+                                 "roughness. Written by\n"
+                                 "// hearth-specular --reflectance; formats/gpu_shared/reflectance.h "
+                                 "describes it.\n"));
+}
+
+Status writeSheen(const Arguments& arguments)
+{
+    return writeText(arguments.sheen,
+                     formatTable(cookSheen(), "kSheenTable",
+                                 "// Reflection of sheen lobes: three half floats for each cosine and "
+                                 "roughness. Written by\n"
+                                 "// hearth-specular --sheen; formats/gpu_shared/sheen.h describes it.\n"));
+}
+
 int run(const Arguments& arguments)
 {
     const cli::ThreadLimit limit(arguments.jobs);
-    const Status done = !arguments.rows.empty() ? evaluate(arguments)
-                        : arguments.fit         ? printFit(arguments)
-                        : !arguments.reflectance.empty()
-                            ? writeText(arguments.reflectance, formatReflectance(cookReflectance()))
-                            : cook(arguments);
+    const Status done = !arguments.rows.empty()          ? evaluate(arguments)
+                        : arguments.fit                  ? printFit(arguments)
+                        : !arguments.reflectance.empty() ? writeReflectance(arguments)
+                        : !arguments.sheen.empty()       ? writeSheen(arguments)
+                                                         : cook(arguments);
     return done.ok() ? 0 : reportFailure(done.error());
 }
 
@@ -112,8 +133,8 @@ std::string findOptionError(const Arguments& arguments)
     if (!arguments.astc.empty() && (!arguments.rows.empty() || arguments.fit))
         return "--astc goes with neither --evaluate nor --fit";
     if (arguments.rows.empty() && !arguments.fit && arguments.output.empty() && arguments.report.empty() &&
-        arguments.astc.empty() && arguments.reflectance.empty())
-        return "-o, --astc, --report, --fit or --reflectance is needed";
+        arguments.astc.empty() && arguments.reflectance.empty() && arguments.sheen.empty())
+        return "-o, --astc, --report, --fit, --reflectance or --sheen is needed";
     return {};
 }
 
@@ -146,6 +167,8 @@ void addOptions(cli::CommandLine& app, Arguments& arguments)
     app.addOption(
         "--reflectance", arguments.reflectance,
         "write the table of specular reflectance as the header of formats/scene; - is standard output");
+    app.addOption("--sheen", arguments.sheen,
+                  "write the table of sheen as the header of formats/scene; - is standard output");
     app.addFlag("--fit", arguments.fit, "find the constants of the fit again and print them");
     app.addOption("--configurations", arguments.configurations,
                   "random ones, for --report and --fit; 1000 by default")

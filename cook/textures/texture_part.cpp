@@ -93,8 +93,10 @@ Status addUses(const ContainerReader& part, std::string_view strings, std::span<
 {
     HEARTH_ASSIGN_OR_RETURN(const Records<MaterialRecord> materials,
                             part.records<MaterialRecord>(kChunkMaterials));
+    HEARTH_ASSIGN_OR_RETURN(const Records<MaterialLayersRecord> layers,
+                            part.records<MaterialLayersRecord>(kChunkMaterialLayers));
     const std::span<const MaterialRecord> records(materials.begin(), materials.end());
-    const auto uses = imageUses(records, statistics.size());
+    const auto uses = imageUses(records, layers.span(), statistics.size());
     for (size_t i = 0; i < statistics.size(); ++i)
         for (const ImageUse& use : uses[i])
             statistics[i].uses.push_back(

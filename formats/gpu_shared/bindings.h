@@ -27,12 +27,13 @@ HEARTH_CONSTANT uint kSceneLighting = 8;
 HEARTH_CONSTANT uint kSceneShadows = 9; ///< scenes with shadows only; so is the next one
 HEARTH_CONSTANT uint kSceneShadowMaps = 10;
 HEARTH_CONSTANT uint kSceneSpecularTable = 11; ///< one white texel in scenes without a table
-HEARTH_CONSTANT uint kSceneReflectance = 12;   ///< table of reflectance.h
+HEARTH_CONSTANT uint kSceneReflectance = 12;   ///< tables of reflectance.h and, below it, of sheen.h
 HEARTH_CONSTANT uint kSceneSkyTable = 13;      ///< table of sky.h
 
 /// Bindings of a material.
 HEARTH_CONSTANT uint kMaterialBlock = 0;
 HEARTH_CONSTANT uint kMaterialTextures = 1; ///< first of kTextureCount bindings, in the order of kTexture*
+HEARTH_CONSTANT uint kMaterialLayers = 10;  ///< uniform block; read by the pipelines of materials with layers
 
 /// Binding of the bins: draws of the bins, then draws of the late phase.
 HEARTH_CONSTANT uint kBinsDraws = 0;

@@ -12,6 +12,7 @@
 
 #include "formats/gpu_shared/brick_rays.h"
 #include "formats/gpu_shared/record_values.h"
+#include "formats/gpu_shared/reflector.h"
 #include "formats/gpu_shared/shading.h"
 
 HEARTH_SHARED_BEGIN
@@ -316,6 +317,13 @@ struct BrickUnshadowedLight
     float distance_to_light; ///< distance to the light, in voxels
 };
 
+/// Return the distance from a lamp up to which faces get none of its light, metres: voxels do not resolve
+/// what surrounds it. Up to the same distance a reflector holds the light that surfaces give back.
+HEARTH_FUNCTION float brickLampReach(uint reflector_gain, float voxel_size)
+{
+    return max(kBrickLampRadius, voxel_size * (reflector_gain == kNoReflector ? 1.0f : kReflectorReach));
+}
+
 /// Compute the unoccluded light of a face. Distance and angle are measured at the surface point.
 /// lamp     position from which the light shines, in voxels: brickLampPosition, or its own position. Ignored
 ///          for suns
@@ -335,7 +343,7 @@ HEARTH_FUNCTION BrickUnshadowedLight brickUnshadowedLight(HEARTH_IN(BrickGrid) g
     Float3 to_light = (light.position - grid.origin) * (1.0f / grid.voxel_size) - start.surface;
     float distance = sqrt(dot(to_light, to_light));
     float metres = distance * grid.voxel_size;
-    if (metres < max(kBrickLampRadius, grid.voxel_size))
+    if (metres < brickLampReach(light.reflector_gain, grid.voxel_size))
         return incident;
     to_light = to_light * (1.0f / distance);
     float share = max(dot(start.normal, to_light), 0.0f) / (kBrickPi * metres * metres);
@@ -344,17 +352,19 @@ HEARTH_FUNCTION BrickUnshadowedLight brickUnshadowedLight(HEARTH_IN(BrickGrid) g
         float ratio = metres / light.range;
         share *= min(max(1.0f - ratio * ratio * ratio * ratio, 0.0f), 1.0f);
     }
+    Float3 shone = Float3(1.0f, 1.0f, 1.0f);
     if (light.type == kLightSpot)
     {
         float cone =
             min(max(light.cone_offset - dot(light.direction, to_light) * light.cone_scale, 0.0f), 1.0f);
-        share *= cone * cone;
+        shone = shone * (cone * cone);
     }
+    shone = shone * reflectorPassed(light, -to_light) + reflectorShare(light, -to_light);
     Float3 direction = lamp - start.position;
     incident.distance_to_light = sqrt(dot(direction, direction));
     incident.direction =
         incident.distance_to_light > 0.0f ? direction * (1.0f / incident.distance_to_light) : start.normal;
-    incident.irradiance = light.intensity * share;
+    incident.irradiance = light.intensity * shone * share;
     return incident;
 }
 

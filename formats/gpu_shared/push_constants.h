@@ -90,7 +90,13 @@ struct BinPush
     uint bin;
     uint light_row; ///< casters: row of the ShadowBlock
     uint map_index; ///< casters
+    uint facing;    ///< casters: kCaster*, the winding of their front
 };
+
+/// Winding of the front of a bin's casters: counterclockwise, clockwise, or both sides are fronts.
+HEARTH_CONSTANT uint kCasterCounterclockwise = 0u;
+HEARTH_CONSTANT uint kCasterClockwise = 1u;
+HEARTH_CONSTANT uint kCasterDoubleSided = 2u;
 
 /// Material depth, shading and debug views.
 struct ShadingPush

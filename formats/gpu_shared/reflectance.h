@@ -28,8 +28,15 @@ HEARTH_CONSTANT uint kReflectanceRows = 32;
 /// Roughness of the first row; a smaller roughness is clamped to it, as in shading.
 HEARTH_CONSTANT float kMinReflectanceRoughness = 0.045f;
 
-/// Reflectance at normal incidence of all dielectrics.
+/// Reflectance at normal incidence of dielectrics with an index of refraction of 1.5, and of clear coats.
 HEARTH_CONSTANT float kDielectricF0 = 0.04f;
+
+/// Reflectance of a dielectric: at normal incidence, and at grazing angles.
+struct DielectricReflectance
+{
+    Float3 f0;
+    float f90;
+};
 
 /// Values of the table.
 struct LobeTotal
@@ -58,17 +65,46 @@ HEARTH_FUNCTION Float2 reflectanceNode(uint column, uint row)
     return Float2(x * x * x * x, kMinReflectanceRoughness + (1.0f - kMinReflectanceRoughness) * y * y);
 }
 
-/// Return the share of constant light that a lobe reflects after one scattering.
-HEARTH_FUNCTION Float3 onceScattered(Float3 f0, HEARTH_IN(LobeTotal) lobe)
+/// Return the reflectance of dielectrics without KHR_materials_ior and KHR_materials_specular.
+HEARTH_FUNCTION DielectricReflectance defaultDielectric()
 {
-    return f0 * lobe.scale + Float3(lobe.bias, lobe.bias, lobe.bias);
+    DielectricReflectance found;
+    found.f0 = Float3(kDielectricF0, kDielectricF0, kDielectricF0);
+    found.f90 = 1.0f;
+    return found;
+}
+
+/// Return the reflectance of a dielectric by KHR_materials_specular.
+/// f0        reflectance of the index of refraction times the specular colour
+/// specular  strength, [0, 1]
+HEARTH_FUNCTION DielectricReflectance specularDielectric(Float3 f0, float specular)
+{
+    DielectricReflectance found;
+    found.f0 = Float3(min(f0.x, 1.0f), min(f0.y, 1.0f), min(f0.z, 1.0f)) * specular;
+    found.f90 = specular;
+    return found;
+}
+
+/// Return the share of constant light that a lobe reflects after one scattering.
+/// f90  reflectance at grazing angles
+HEARTH_FUNCTION Float3 onceScattered(Float3 f0, float f90, HEARTH_IN(LobeTotal) lobe)
+{
+    float bias = lobe.bias * f90;
+    return f0 * lobe.scale + Float3(bias, bias, bias);
 }
 
 /// Return the share of constant light that a lobe reflects, with several scatterings.
-HEARTH_FUNCTION Float3 lobeAlbedo(Float3 f0, HEARTH_IN(LobeTotal) lobe)
+HEARTH_FUNCTION Float3 lobeAlbedo(Float3 f0, float f90, HEARTH_IN(LobeTotal) lobe)
 {
-    return onceScattered(f0, lobe) *
+    return onceScattered(f0, f90, lobe) *
            (Float3(1.0f, 1.0f, 1.0f) + f0 * (1.0f / (lobe.scale + lobe.bias) - 1.0f));
+}
+
+/// Return what a lobe of one scattering is multiplied by to reflect its albedo.
+/// once  what it reflects after one scattering; 0 where a smooth black surface is seen along its normal
+HEARTH_FUNCTION float scatteringFactor(float albedo, float once)
+{
+    return albedo / max(once, 1e-7f);
 }
 
 /// Directional albedos of a surface.
@@ -78,20 +114,26 @@ struct SurfaceAlbedo
     Float3 specular;
     Float3 scattering; ///< factor of the lobe that adds the light of several scatterings
     Float3 f0;
+    float f90;
 };
 
 /// Return the albedos of a mixture of dielectric and metal.
 /// base  base colour
-HEARTH_FUNCTION SurfaceAlbedo surfaceAlbedo(Float3 base, float metallic, HEARTH_IN(LobeTotal) lobe)
+HEARTH_FUNCTION SurfaceAlbedo surfaceAlbedo(Float3 base, float metallic,
+                                            HEARTH_IN(DielectricReflectance) dielectric,
+                                            HEARTH_IN(LobeTotal) lobe)
 {
-    Float3 dielectric = lobeAlbedo(Float3(kDielectricF0, kDielectricF0, kDielectricF0), lobe);
+    Float3 reflected = lobeAlbedo(dielectric.f0, dielectric.f90, lobe);
     SurfaceAlbedo albedo;
-    albedo.f0 = base * metallic + Float3(kDielectricF0, kDielectricF0, kDielectricF0) * (1.0f - metallic);
-    albedo.specular = lobeAlbedo(base, lobe) * metallic + dielectric * (1.0f - metallic);
-    albedo.diffuse = base * ((1.0f - metallic) * (1.0f - dielectric.x));
-    Float3 once = onceScattered(albedo.f0, lobe);
+    albedo.f0 = base * metallic + dielectric.f0 * (1.0f - metallic);
+    // a constant of most pipelines: they leave the mixture out
+    albedo.f90 = dielectric.f90 == 1.0f ? 1.0f : metallic + dielectric.f90 * (1.0f - metallic);
+    albedo.specular = lobeAlbedo(base, 1.0f, lobe) * metallic + reflected * (1.0f - metallic);
+    albedo.diffuse = base * ((1.0f - metallic) * (1.0f - max(max(reflected.x, reflected.y), reflected.z)));
+    Float3 once = onceScattered(albedo.f0, albedo.f90, lobe);
     albedo.scattering =
-        Float3(albedo.specular.x / once.x, albedo.specular.y / once.y, albedo.specular.z / once.z);
+        Float3(scatteringFactor(albedo.specular.x, once.x), scatteringFactor(albedo.specular.y, once.y),
+               scatteringFactor(albedo.specular.z, once.z));
     return albedo;
 }
 

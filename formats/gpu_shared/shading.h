@@ -13,7 +13,21 @@ HEARTH_CONSTANT uint kTextureMetallicRoughness = 1;
 HEARTH_CONSTANT uint kTextureNormal = 2;
 HEARTH_CONSTANT uint kTextureOcclusion = 3;
 HEARTH_CONSTANT uint kTextureEmissive = 4;
-HEARTH_CONSTANT uint kTextureCount = 5;
+/// Textures of layers follow.
+HEARTH_CONSTANT uint kTextureSpecular = 5;  ///< RGB colour, A strength
+HEARTH_CONSTANT uint kTextureClearcoat = 6; ///< R strength, G roughness
+HEARTH_CONSTANT uint kTextureClearcoatNormal = 7;
+HEARTH_CONSTANT uint kTextureSheen = 8; ///< RGB colour, A roughness
+HEARTH_CONSTANT uint kTextureCount = 9;
+HEARTH_CONSTANT uint kFirstLayerTexture = 5;
+HEARTH_CONSTANT uint kLayerTextureCount = 4;
+
+/// Return the UV set of a texture.
+/// sets  Material::uv_sets
+HEARTH_FUNCTION uint uvSet(uint sets, uint slot)
+{
+    return sets >> (2u * slot) & 3u;
+}
 
 /// formats::MaterialRecord in the layout of a uniform block.
 struct Material
@@ -25,11 +39,31 @@ struct Material
     float roughness;
     float normal_scale;
     float occlusion_strength;
-    uint flags;         ///< bits kMaterial* (record_values.h)
-    uint alpha_mode;    ///< kAlpha*
-    uint textures;      ///< bit i: texture i is present
-    uint uv_sets;       ///< four bits each
-    Float4 uv_rows[10]; ///< two rows for each texture; uv = (row0 . (u, v, 1), row1 . (u, v, 1))
+    uint flags;      ///< bits kMaterial* (record_values.h)
+    uint alpha_mode; ///< kAlpha*
+    uint textures;   ///< bit i: texture i is present
+    uint uv_sets;    ///< two bits each: uvSet()
+    /// Two rows for each texture but those of layers; uv = (row0 . (u, v, 1), row1 . (u, v, 1)).
+    Float4 uv_rows[10];
+};
+
+/// Bits of the layers that a material has: formats::hasSpecular(), hasClearcoat() and hasSheen().
+HEARTH_CONSTANT uint kLayerSpecular = 1;
+HEARTH_CONSTANT uint kLayerClearcoat = 2;
+HEARTH_CONSTANT uint kLayerSheen = 4;
+
+/// formats::MaterialLayersRecord in the layout of a uniform block.
+struct MaterialLayers
+{
+    Float3 dielectric_f0; ///< reflectance of the index of refraction times the specular colour
+    float specular;
+    Float3 sheen_color;
+    float sheen_roughness;
+    float clearcoat;
+    float clearcoat_roughness;
+    float clearcoat_normal_scale;
+    float reserved;
+    Float4 uv_rows[8]; ///< as Material::uv_rows, of the textures from kFirstLayerTexture
 };
 
 /// formats::LightRecord with direction and cone prepared for the falloff.
@@ -43,11 +77,19 @@ struct Light
     uint shadow_row;  ///< row of its projection in the ShadowBlock, or kNoShadow (shadow.h)
     float cone_scale; ///< spot: saturate(dot(direction, from light) * cone_scale + cone_offset)^2
     float cone_offset;
-    float reserved1;
-    float reserved2;
+    uint reflector_gain; ///< reflector.h: the brightest sample, encodeRadiance; kNoReflector: none
+    uint reflector_axis; ///< coded as normals of faces
+    uint reflected0;     ///< 4 samples of 8 bits, the first in the low byte, like the next ones
+    uint reflected1;
+    uint reflected2;
+    uint reflected3;
+    uint passed0;
+    uint passed1;
+    uint passed2;
+    uint passed3;
 };
 
-/// Maximum number of drawn lights; the renderer reports lights beyond. 8 KiB: they stay in the cache.
+/// Maximum number of drawn lights; the renderer reports lights beyond. 12 KiB: they stay in the cache.
 HEARTH_CONSTANT uint kMaxLights = 128;
 
 struct Lighting
@@ -57,7 +99,7 @@ struct Lighting
     Float3 sky_horizon;
     float exposure; ///< of emission; the intensities of lights have it already
     Float3 sky_ground;
-    float reserved1;
+    uint surroundings_row; ///< row of the first instance (occluder_light.h), or kNoSurroundings
     Light lights[kMaxLights];
 };
 
@@ -97,8 +139,9 @@ HEARTH_SHARED_END
 #ifdef __cplusplus
 // sizes in std140 layout
 static_assert(sizeof(hearth::shared::Material) == 224);
-static_assert(sizeof(hearth::shared::Light) == 64);
-static_assert(sizeof(hearth::shared::Lighting) == 48 + 64 * hearth::shared::kMaxLights);
+static_assert(sizeof(hearth::shared::MaterialLayers) == 176);
+static_assert(sizeof(hearth::shared::Light) == 96);
+static_assert(sizeof(hearth::shared::Lighting) == 48 + 96 * hearth::shared::kMaxLights);
 #endif
 
 #endif

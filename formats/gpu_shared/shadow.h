@@ -176,6 +176,38 @@ HEARTH_FUNCTION float shadowSlope(HEARTH_IN(ShadowLight) light, HEARTH_IN(Shadow
     return slope;
 }
 
+/// Return the change of the depth of a surface from texel to texel, along both axes of the map. On the
+/// tangent plane depth is linear, also in perspective.
+///
+/// normal  unit, either side
+HEARTH_FUNCTION Float2 shadowDepthGradient(HEARTH_IN(ShadowLight) light, HEARTH_IN(ShadowMap) map,
+                                           Float3 point, Float3 normal)
+{
+    Float3 ray = light.direction * (1.0f - light.perspective) + point * light.perspective;
+    float facing = dot3(normal, ray);
+    float least = max(kGrazingCosine * sqrt(dot3(ray, ray)), kMinPlaneDistance);
+    facing = facing < 0.0f ? min(facing, -least) : max(facing, least);
+    return Float2(light.depth_step * dot3(normal, light.right) / (map.scale_x * facing),
+                  light.depth_step * dot3(normal, light.down) / (map.scale_y * facing));
+}
+
+/// Return a depth beyond the surface of a point in all texels of the filter, as casters are drawn there: by
+/// the offset of a caster (shadowCasterClip), by the rise of its surface within the filter, and by as much
+/// again for curvature and for other levels of the surface. A deeper texel shows what lies beyond its edge.
+///
+/// depth   of the point
+/// normal  unit, either side
+/// error   metres, bounds the distance of the point's triangle to the source
+HEARTH_FUNCTION float shadowDepthBeyond(HEARTH_IN(ShadowLight) light, HEARTH_IN(ShadowMap) map, Float3 point,
+                                        float depth, Float3 normal, float error)
+{
+    float facing = shadowFacing(light, point, normal, sqrt(dot3(point, point)));
+    float rise = shadowSlope(light, map, normal, facing) * (map.kernel + 0.5f + kRasterMargin);
+    float by_error =
+        light.perspective != 0.0f ? depth * error / (facing + error) : light.depth_step * error / facing;
+    return max(depth - 3.0f * rise - 2.0f * by_error - light.rounding, 0.0f);
+}
+
 /// Round a texel coordinate to the 1/256 that rasterisers work with.
 HEARTH_FUNCTION float snapToRaster(float texel)
 {
@@ -184,15 +216,29 @@ HEARTH_FUNCTION float snapToRaster(float texel)
     return rounded;
 }
 
+/// Return the share [0, 1] of the offset within the filter that a caster needs. The offset keeps lit surfaces
+/// from shadowing themselves, and opens a gap where others touch them. Surfaces that face away are not lit:
+/// without an offset, walls are tight where they meet the floor of a room. The share grows from triangles
+/// seen edge-on to those at 89.5 degrees, where light is too weak to see.
+///
+/// front  normal of the front, unit
+HEARTH_FUNCTION float shadowOffsetShare(HEARTH_IN(ShadowLight) light, Float3 point, Float3 front)
+{
+    HEARTH_PRECISE Float3 ray = light.direction * (1.0f - light.perspective) + point * light.perspective;
+    HEARTH_PRECISE float away = dot3(front, ray) / sqrt(max(dot3(ray, ray), kMinPlaneDistance));
+    return min(max(-away / kGrazingCosine, 0.0f), 1.0f);
+}
+
 /// Return the clip-space position of a vertex of a caster. It is deeper than the vertex by the rise of its
 /// surface within the filter (a tap lies at most kernel + 1/2 texels beside the point that is looked up), by
 /// its error and by the rounding of rasterisers. Moving it by the error along the normal instead would open
 /// cracks.
 ///
-/// nearest  as for shadowFacing, of the triangle
-/// error    metres, bounds the distance of the triangle to the source
+/// nearest       as for shadowFacing, of the triangle
+/// error         metres, bounds the distance of the triangle to the source
+/// offset_share  shadowOffsetShare; 1 for a surface with two fronts
 HEARTH_FUNCTION Float4 shadowCasterClip(HEARTH_IN(ShadowLight) light, HEARTH_IN(ShadowMap) map, Float3 point,
-                                        Float3 normal, float nearest, float error)
+                                        Float3 normal, float nearest, float error, float offset_share)
 {
     HEARTH_PRECISE float z = dot3(light.direction, point);
     float w = shadowDivisor(light, z);
@@ -200,7 +246,7 @@ HEARTH_FUNCTION Float4 shadowCasterClip(HEARTH_IN(ShadowLight) light, HEARTH_IN(
     HEARTH_PRECISE float y = dot3(light.down, point) * map.scale_y;
     float facing = shadowFacing(light, point, normal, nearest);
     HEARTH_PRECISE float offset =
-        shadowSlope(light, map, normal, facing) * (map.kernel + 0.5f + kRasterMargin);
+        shadowSlope(light, map, normal, facing) * (map.kernel + 0.5f + kRasterMargin) * offset_share;
     // depth on the plane that is farther by the error: in perspective all depths shrink by one factor
     HEARTH_PRECISE float farther = facing / (facing + error);
     HEARTH_PRECISE float moved =

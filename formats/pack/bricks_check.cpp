@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/codecs/vertex_codec.h"
 #include "formats/gpu_shared/brick_codes.h"
+#include "formats/gpu_shared/shading.h"
 #include "formats/pack/check_tools.h"
 #include "formats/pack/for_each_brick.h"
 
@@ -21,7 +22,7 @@ Status checkNoGrid(const PackView& view)
     const bool none = view.brickGroupsAlongAxis().empty() && view.bricks().empty() &&
                       view.brickOpacity().empty() && view.brickAlbedo().empty() &&
                       view.brickNormals().empty() && view.brickEmission().empty() &&
-                      view.brickLighting().empty();
+                      view.brickLighting().empty() && view.reflectors().empty();
     return none ? success()
                 : makeError(view, Issue::meaning_range, kGrid, 0, "there are bricks without a grid");
 }
@@ -170,6 +171,25 @@ Status checkBrickTable(const PackView& view)
     return check.finish();
 }
 
+/// Check the reflectors. Parts with bricks do not have the lights.
+Status checkReflectors(const PackView& view)
+{
+    const size_t lights = std::min<size_t>(view.lights().size(), shared::kMaxLights);
+    const std::span<const ReflectorRecord> reflectors = view.reflectors();
+    if (reflectors.size() > shared::kMaxLights ||
+        (!reflectors.empty() && lights != 0 && reflectors.size() != lights))
+        return makeError(view, Issue::meaning_range, "reflector", reflectors.size(),
+                         "there are " + std::to_string(view.lights().size()) + " lights");
+    for (size_t i = 0; i < reflectors.size(); ++i)
+    {
+        if (!shared::isLegalRadiance(reflectors[i].gain))
+            return makeError(view, Issue::meaning_value, "reflector", i, "its gain is not finite");
+        if (!NormalCode<8>::legal(reflectors[i].axis))
+            return makeError(view, Issue::meaning_value, "reflector", i, "its axis is not a code");
+    }
+    return success();
+}
+
 Status checkCodes(const PackView& view)
 {
     for (size_t i = 0; i < view.brickOpacity().size(); ++i)
@@ -197,6 +217,7 @@ Status checkBrickTables(const PackView& view)
         return makeError(view, Issue::meaning_value, kGrid, 1, "a pack has one at most");
     HEARTH_TRY(checkGrid(view, view.brickGrid()[0]));
     HEARTH_TRY(checkGroups(view));
+    HEARTH_TRY(checkReflectors(view));
     HEARTH_TRY(checkBrickTable(view));
     return checkCodes(view);
 }

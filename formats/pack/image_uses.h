@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/records/scene.h"
+#include "formats/records/material_layers.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -16,11 +16,14 @@ namespace hearth::formats
 struct ImageUse
 {
     uint32_t material = 0; ///< index in the table
-    /// Role as named by glTF: "baseColor", "metallicRoughness", "normal", "occlusion" or "emissive".
+    /// Role as named by glTF: "baseColor", "metallicRoughness", "normal", "occlusion" or "emissive";
+    /// "specular", "clearcoat", "clearcoatNormal" or "sheen" of layers.
     std::string_view role;
 };
 
 /// Return the uses of each image, in the order of the materials. References to missing images are skipped.
-std::vector<std::vector<ImageUse>> imageUses(std::span<const MaterialRecord> materials, size_t image_count);
+std::vector<std::vector<ImageUse>> imageUses(std::span<const MaterialRecord> materials,
+                                             std::span<const MaterialLayersRecord> layers,
+                                             size_t image_count);
 
 } // namespace hearth::formats

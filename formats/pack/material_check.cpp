@@ -12,19 +12,19 @@ namespace hearth::formats::check
 namespace
 {
 
-Status checkTexture(const PackView& view, size_t material, const char* name, const TextureRef& texture)
+/// table, i  record that has the texture: "material 3"
+Status checkTexture(const PackView& view, const char* table, size_t i, const char* name,
+                    const TextureRef& texture)
 {
     const std::string field = std::string(name) + ": ";
     if (!isNoneOrBelow(texture.image, view.images().size()))
-        return makeError(view, Issue::meaning_reference, "material", material,
+        return makeError(view, Issue::meaning_reference, table, i,
                          field + "image " + std::to_string(texture.image));
     const auto last_wrap = static_cast<uint8_t>(Wrap::clamp_to_edge);
     if (texture.uv_set > 3 || texture.wrap_u > last_wrap || texture.wrap_v > last_wrap || texture.nearest > 1)
-        return makeError(view, Issue::meaning_value, "material", material,
-                         field + "its sampler is not possible");
+        return makeError(view, Issue::meaning_value, table, i, field + "its sampler is not possible");
     if (!finite(texture.uv_transform))
-        return makeError(view, Issue::meaning_value, "material", material,
-                         field + "its UV transform is not finite");
+        return makeError(view, Issue::meaning_value, table, i, field + "its UV transform is not finite");
     return success();
 }
 
@@ -42,11 +42,35 @@ Status checkMaterial(const PackView& view, size_t i)
         return makeError(view, Issue::meaning_value, "material", i, "a factor is negative or not finite");
     if (!inside(m.metallic, 0, 1) || !inside(m.roughness, 0, 1) || !inside(m.occlusion_strength, 0, 1))
         return makeError(view, Issue::meaning_value, "material", i, "a factor is not in 0..1");
-    HEARTH_TRY(checkTexture(view, i, "base_color_texture", m.base_color_texture));
-    HEARTH_TRY(checkTexture(view, i, "metallic_roughness_texture", m.metallic_roughness_texture));
-    HEARTH_TRY(checkTexture(view, i, "normal_texture", m.normal_texture));
-    HEARTH_TRY(checkTexture(view, i, "occlusion_texture", m.occlusion_texture));
-    return checkTexture(view, i, "emissive_texture", m.emissive_texture);
+    HEARTH_TRY(checkTexture(view, "material", i, "base_color_texture", m.base_color_texture));
+    HEARTH_TRY(checkTexture(view, "material", i, "metallic_roughness_texture", m.metallic_roughness_texture));
+    HEARTH_TRY(checkTexture(view, "material", i, "normal_texture", m.normal_texture));
+    HEARTH_TRY(checkTexture(view, "material", i, "occlusion_texture", m.occlusion_texture));
+    return checkTexture(view, "material", i, "emissive_texture", m.emissive_texture);
+}
+
+Status checkLayers(const PackView& view, size_t i)
+{
+    const char* const table = "material layers";
+    const MaterialLayersRecord& m = view.materialLayers()[i];
+    if (m.material >= view.materials().size())
+        return makeError(view, Issue::meaning_reference, table, i, "material " + std::to_string(m.material));
+    if (i > 0 && view.materialLayers()[i - 1].material >= m.material)
+        return makeError(view, Issue::meaning_order, table, i, "the records are not sorted by material");
+    if (m.ior != 0 && (!isNonNegative(m.ior) || m.ior < 1))
+        return makeError(view, Issue::meaning_value, table, i, "its index of refraction is not possible");
+    const float colors[] = {m.specular_color.x, m.specular_color.y, m.specular_color.z};
+    if (!std::all_of(std::begin(colors), std::end(colors), isNonNegative) ||
+        !finite(m.clearcoat_normal_scale))
+        return makeError(view, Issue::meaning_value, table, i, "a factor is negative or not finite");
+    for (const float factor : {m.specular, m.clearcoat, m.clearcoat_roughness, m.sheen_color.x,
+                               m.sheen_color.y, m.sheen_color.z, m.sheen_roughness})
+        if (!inside(factor, 0, 1))
+            return makeError(view, Issue::meaning_value, table, i, "a factor is not in 0..1");
+    HEARTH_TRY(checkTexture(view, table, i, "specular_texture", m.specular_texture));
+    HEARTH_TRY(checkTexture(view, table, i, "clearcoat_texture", m.clearcoat_texture));
+    HEARTH_TRY(checkTexture(view, table, i, "clearcoat_normal_texture", m.clearcoat_normal_texture));
+    return checkTexture(view, table, i, "sheen_texture", m.sheen_texture);
 }
 
 Status checkImage(const PackView& view, uint32_t i, BulkData bulk)
@@ -227,6 +251,8 @@ Status checkMaterials(const PackView& view)
 {
     for (size_t i = 0; i < view.materials().size(); ++i)
         HEARTH_TRY(checkMaterial(view, i));
+    for (size_t i = 0; i < view.materialLayers().size(); ++i)
+        HEARTH_TRY(checkLayers(view, i));
     return success();
 }
 

@@ -151,6 +151,7 @@ Status checkPackWith(const PackView& view, check::BulkData bulk, const CheckHier
     HEARTH_TRY(check::checkAssets(view));
     HEARTH_TRY(check::checkExtras(view));
     HEARTH_TRY(checkSpecular(view));
+    HEARTH_TRY(check::checkSurroundings(view));
     return checkBricks(view);
 }
 

@@ -10,10 +10,12 @@
 #include "formats/records/bricks.h"
 #include "formats/records/deformation.h"
 #include "formats/records/extras.h"
+#include "formats/records/material_layers.h"
 #include "formats/records/mesh.h"
 #include "formats/records/provenance.h"
 #include "formats/records/scene.h"
 #include "formats/records/specular.h"
+#include "formats/records/surroundings.h"
 
 #include <array>
 #include <cstring>
@@ -335,6 +337,8 @@ public:
     std::span<const LightRecord> lights() const { return lights_.records.span(); }
     std::span<const ShadowSphereRecord> shadowSpheres() const { return shadow_spheres_.records.span(); }
     std::span<const MaterialRecord> materials() const { return materials_.records.span(); }
+    /// Return the layers of the materials that have some, sorted by material.
+    std::span<const MaterialLayersRecord> materialLayers() const { return material_layers_.records.span(); }
     std::span<const ImageRecord> images() const { return images_.records.span(); }
     std::span<const SkinRecord> skins() const { return skins_.records.span(); }
     std::span<const JointRecord> joints() const { return joints_.records.span(); }
@@ -358,6 +362,12 @@ public:
     std::span<const uint32_t> clusterJoints() const { return cluster_joints_.records.span(); }
     /// Return one table or none.
     std::span<const SpecularTableRecord> specularTables() const { return specular_tables_.records.span(); }
+    /// Return the surroundings of each instance; empty if nothing is baked.
+    std::span<const SurroundingsRecord> surroundings() const { return surroundings_.records.span(); }
+    std::span<const RadianceTransferRecord> radianceTransfers() const
+    {
+        return radiance_transfers_.records.span();
+    }
     /// Return one grid or none.
     std::span<const BrickGridRecord> brickGrid() const { return brick_grid_.records.span(); }
     std::span<const BrickGroupRecord> brickGroupsAlongAxis() const { return brick_groups_.records.span(); }
@@ -367,6 +377,8 @@ public:
     std::span<const uint16_t> brickNormals() const { return brick_normals_.records.span(); }
     std::span<const uint32_t> brickEmission() const { return brick_emission_.records.span(); }
     std::span<const uint32_t> brickLighting() const { return brick_lighting_.records.span(); }
+    /// Return the reflectors of the first lights, or none.
+    std::span<const ReflectorRecord> reflectors() const { return reflectors_.records.span(); }
 
     /// Return chunk PAGE, as stored in the file.
     std::span<const std::byte> pageBytes() const { return page_bytes_.bytes(); }
@@ -404,11 +416,12 @@ private:
     auto tables()
     {
         return std::tie(assets_, extras_, nodes_, instances_, cameras_, lights_, shadow_spheres_, materials_,
-                        images_, skins_, joints_, animations_, channels_, keys_, key_bits_, morph_weights_,
-                        meshes_, levels_, groups_, clusters_, pages_, page_parents_, authored_levels_,
-                        deformed_meshes_, deformed_clusters_, cluster_joints_, specular_tables_, brick_grid_,
-                        brick_groups_, bricks_, brick_opacity_, brick_albedo_, brick_normals_,
-                        brick_emission_, brick_lighting_);
+                        material_layers_, images_, skins_, joints_, animations_, channels_, keys_, key_bits_,
+                        morph_weights_, meshes_, levels_, groups_, clusters_, pages_, page_parents_,
+                        authored_levels_, deformed_meshes_, deformed_clusters_, cluster_joints_,
+                        specular_tables_, surroundings_, radiance_transfers_, brick_grid_, brick_groups_,
+                        bricks_, brick_opacity_, brick_albedo_, brick_normals_, brick_emission_,
+                        brick_lighting_, reflectors_);
     }
     static std::string_view asText(const ChunkData& data)
     {
@@ -426,6 +439,7 @@ private:
     Table<LightRecord> lights_{kChunkLights};
     Table<ShadowSphereRecord> shadow_spheres_{kChunkShadowSpheres};
     Table<MaterialRecord> materials_{kChunkMaterials};
+    Table<MaterialLayersRecord> material_layers_{kChunkMaterialLayers};
     Table<ImageRecord> images_{kChunkImages};
     Table<SkinRecord> skins_{kChunkSkins};
     Table<JointRecord> joints_{kChunkJoints};
@@ -445,6 +459,8 @@ private:
     Table<DeformedClusterRecord> deformed_clusters_{kChunkDeformedClusters};
     Table<uint32_t> cluster_joints_{kChunkClusterJoints};
     Table<SpecularTableRecord> specular_tables_{kChunkSpecular};
+    Table<SurroundingsRecord> surroundings_{kChunkSurroundings};
+    Table<RadianceTransferRecord> radiance_transfers_{kChunkRadianceTransfers};
     Table<BrickGridRecord> brick_grid_{kChunkBrickGrid};
     Table<BrickGroupRecord> brick_groups_{kChunkBrickGroups};
     Table<BrickRecord> bricks_{kChunkBricks};
@@ -453,6 +469,7 @@ private:
     Table<uint16_t> brick_normals_{kChunkBrickNormals};
     Table<uint32_t> brick_emission_{kChunkBrickEmission};
     Table<uint32_t> brick_lighting_{kChunkBrickLighting};
+    Table<ReflectorRecord> reflectors_{kChunkReflectors};
     ChunkData page_bytes_;
     /// For each mesh, the number of joints of its skin, for page checks; nullopt if decoding checks no
     /// meaning.

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "formats/gpu_shared/bricks.h"
+#include "formats/gpu_shared/reflector.h"
 #include "formats/records/container.h"
 
 #include <algorithm>
@@ -21,11 +22,13 @@ inline constexpr uint32_t kChunkBrickAlbedo = fourCC("BRKA");   ///< u32[], one 
 inline constexpr uint32_t kChunkBrickNormals = fourCC("BRKN");  ///< u16[], one for each face
 inline constexpr uint32_t kChunkBrickEmission = fourCC("BRKE"); ///< u32[], one for each face, R11G11B10F
 inline constexpr uint32_t kChunkBrickLighting = fourCC("BRKL"); ///< u32[], one for each face, R11G11B10F
+/// ReflectorRecord[], one for each light of the pack, up to shared::kMaxLights; or none
+inline constexpr uint32_t kChunkReflectors = fourCC("BRKR");
 
 /// All chunk types of the brick grid, in file order.
-inline constexpr std::array kBrickChunks{kChunkBrickGrid,     kChunkBrickGroups,  kChunkBricks,
-                                         kChunkBrickOpacity,  kChunkBrickAlbedo,  kChunkBrickNormals,
-                                         kChunkBrickEmission, kChunkBrickLighting};
+inline constexpr std::array kBrickChunks{kChunkBrickGrid,     kChunkBrickGroups,   kChunkBricks,
+                                         kChunkBrickOpacity,  kChunkBrickAlbedo,   kChunkBrickNormals,
+                                         kChunkBrickEmission, kChunkBrickLighting, kChunkReflectors};
 constexpr bool isBrickChunk(uint32_t type)
 {
     return std::find(kBrickChunks.begin(), kBrickChunks.end(), type) != kBrickChunks.end();
@@ -51,6 +54,15 @@ struct BrickGridRecord
     uint32_t solid_count;
     uint32_t face_count;
     uint32_t reserved;
+};
+
+/// Surfaces right around a lamp, as its shade: shared::reflectorShare, shared::reflectorPassed. All 0: none.
+struct ReflectorRecord
+{
+    uint32_t gain;                                     ///< R11G11B10F
+    uint32_t axis;                                     ///< world space
+    uint32_t reflected[shared::kReflectorSamples / 4]; ///< 4 of 8 bits, the first in the low byte
+    uint32_t passed[shared::kReflectorSamples / 4];    ///< of the lamp's own light
 };
 
 using BrickGroupRecord = shared::BrickGroup;
@@ -109,3 +121,14 @@ HEARTH_RECORD(hearth::formats::BrickRecord, 64,
               HEARTH_FIELD(hearth::formats::BrickRecord, first_voxel, "of its solid voxels"),
               HEARTH_FIELD(hearth::formats::BrickRecord, first_face,
                            "of its faces: those of x- in the order of their bits, then those of x+, ..."));
+
+HEARTH_RECORD(hearth::formats::ReflectorRecord, 40,
+              HEARTH_FIELD(hearth::formats::ReflectorRecord, gain,
+                           "brightest intensity over the lamp's without its cone, R11G11B10F; 0: none"),
+              HEARTH_FIELD(hearth::formats::ReflectorRecord, axis,
+                           "in world space, 2 x 8 bits, coded as normals of faces"),
+              HEARTH_FIELD(hearth::formats::ReflectorRecord, reflected,
+                           "16 of 8 bits, 255: the gain; number i at the angle t to the axis where "
+                           "sin(t / 2) = i / 15"),
+              HEARTH_FIELD(hearth::formats::ReflectorRecord, passed,
+                           "16 of 8 bits at the same angles: share of the lamp's own light that passes"));

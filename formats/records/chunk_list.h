@@ -5,10 +5,12 @@
 #include "formats/records/bricks.h"
 #include "formats/records/deformation.h"
 #include "formats/records/extras.h"
+#include "formats/records/material_layers.h"
 #include "formats/records/mesh.h"
 #include "formats/records/provenance.h"
 #include "formats/records/scene.h"
 #include "formats/records/specular.h"
+#include "formats/records/surroundings.h"
 
 #include <algorithm>
 #include <array>
@@ -59,6 +61,8 @@ inline constexpr std::array kChunkList{
     makeTableInfo<ShadowSphereRecord>(kChunkShadowSpheres, 1, ChunkPurpose::scene,
                                       "spheres that get shadow maps of their own"),
     makeTableInfo<MaterialRecord>(kChunkMaterials, 1, ChunkPurpose::scene, "metallic-roughness materials"),
+    makeTableInfo<MaterialLayersRecord>(kChunkMaterialLayers, 1, ChunkPurpose::scene,
+                                        "reflectance, clear coat and sheen of materials that have them"),
     makeTableInfo<ImageRecord>(kChunkImages, 1, ChunkPurpose::textures, "images"),
     ChunkInfo{kChunkImageData, 1, ChunkPurpose::textures, "texels", true,
               "one for each image: all mips, finest first"},
@@ -101,6 +105,10 @@ inline constexpr std::array kChunkList{
                                        "parts only: where their groups can be"),
     makeTableInfo<SpecularTableRecord>(kChunkSpecular, 1, ChunkPurpose::light,
                                        "the table of specular occlusion, one at most"),
+    makeTableInfo<SurroundingsRecord>(kChunkSurroundings, 1, ChunkPurpose::light,
+                                      "surroundings of each instance"),
+    makeTableInfo<RadianceTransferRecord>(kChunkRadianceTransfers, 1, ChunkPurpose::light,
+                                          "light that occluders give back"),
     makeTableInfo<BrickGridRecord>(kChunkBrickGrid, 1, ChunkPurpose::light,
                                    "the grid of bricks, one at most"),
     makeTableInfo<BrickGroupRecord>(kChunkBrickGroups, 1, ChunkPurpose::light, "all groups of the grid"),
@@ -110,6 +118,8 @@ inline constexpr std::array kChunkList{
     ChunkInfo{kChunkBrickNormals, 1, ChunkPurpose::light, "u16[]", false, "of each face"},
     ChunkInfo{kChunkBrickEmission, 1, ChunkPurpose::light, "u32[]", false, "of each face"},
     ChunkInfo{kChunkBrickLighting, 1, ChunkPurpose::light, "u32[]", false, "of each face"},
+    makeTableInfo<ReflectorRecord>(kChunkReflectors, 1, ChunkPurpose::light,
+                                   "what surrounds each lamp, as its shade"),
 };
 
 /// Return the list entry of a type, or nullptr: readers skip unknown types.

@@ -17,6 +17,8 @@ inline constexpr float kMaxUvMagnitude = 1e6f;
 /// wrap  as in TextureRef: a value of Wrap
 constexpr int64_t wrapTexel(int64_t texel, int64_t size, uint8_t wrap)
 {
+    if (texel >= 0 && texel < size) // mostly, and divisions are slow
+        return texel;
     if (wrap == static_cast<uint8_t>(Wrap::clamp_to_edge))
         return std::clamp<int64_t>(texel, 0, size - 1);
     if (wrap == static_cast<uint8_t>(Wrap::mirrored_repeat))

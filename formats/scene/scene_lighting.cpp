@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/scene/scene_lighting.h"
 
+#include "formats/base/affine3d.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -59,6 +61,18 @@ Light lightFromRecord(const formats::LightRecord& record)
     return light;
 }
 
+Box3 lightingBounds(std::span<const formats::InstanceRecord> instances,
+                    std::span<const formats::MeshRecord> meshes)
+{
+    Box3 bounds;
+    for (const formats::InstanceRecord& instance : instances)
+    {
+        const formats::MeshRecord& mesh = meshes[instance.mesh];
+        bounds.add(transformBox(widened(instance.world_from_object), {mesh.box_min, mesh.box_max}));
+    }
+    return bounds;
+}
+
 float lightExposure(std::span<const formats::LightRecord> lights, const Box3& bounds)
 {
     float illuminance = 0;
@@ -81,6 +95,39 @@ Lighting sceneLighting(std::span<const formats::LightRecord> lights, const Box3&
     for (uint32_t i = 0; i < lighting.light_count; ++i)
         lighting.lights[i].intensity = lighting.lights[i].intensity * lighting.exposure;
     return lighting;
+}
+
+void copyReflector(Light& light, const Light& other)
+{
+    light.reflector_gain = other.reflector_gain;
+    light.reflector_axis = other.reflector_axis;
+    light.reflected0 = other.reflected0;
+    light.reflected1 = other.reflected1;
+    light.reflected2 = other.reflected2;
+    light.reflected3 = other.reflected3;
+    light.passed0 = other.passed0;
+    light.passed1 = other.passed1;
+    light.passed2 = other.passed2;
+    light.passed3 = other.passed3;
+}
+
+void addReflectors(Lighting& lighting, std::span<const formats::ReflectorRecord> reflectors)
+{
+    for (size_t i = 0; i < std::min<size_t>(reflectors.size(), lighting.light_count); ++i)
+    {
+        Light& light = lighting.lights[i];
+        const formats::ReflectorRecord& reflector = reflectors[i];
+        light.reflector_gain = reflector.gain;
+        light.reflector_axis = reflector.axis;
+        light.reflected0 = reflector.reflected[0];
+        light.reflected1 = reflector.reflected[1];
+        light.reflected2 = reflector.reflected[2];
+        light.reflected3 = reflector.reflected[3];
+        light.passed0 = reflector.passed[0];
+        light.passed1 = reflector.passed[1];
+        light.passed2 = reflector.passed[2];
+        light.passed3 = reflector.passed[3];
+    }
 }
 
 } // namespace hearth::shared

@@ -3,6 +3,8 @@
 #pragma once
 
 #include "formats/gpu_shared/shading.h"
+#include "formats/records/bricks.h"
+#include "formats/records/mesh.h"
 #include "formats/records/scene.h"
 
 #include <span>
@@ -13,6 +15,11 @@ namespace hearth::shared
 /// Convert a light, before exposure, and without a shadow.
 Light lightFromRecord(const formats::LightRecord& record);
 
+/// Return the box of all instances by the boxes of their meshes, in world space, for the exposure rule. It
+/// reads records that every part of a cook has, so that baked and drawn light have one exposure.
+Box3 lightingBounds(std::span<const formats::InstanceRecord> instances,
+                    std::span<const formats::MeshRecord> meshes);
+
 /// Return the factor of the exposure rule for lights and emission, at most 1. The illuminance of all lights
 /// together at a point in the middle of the scene is estimated. If it is more than kKeyIlluminance, all light
 /// is scaled down to it, so that one camera shows lamps in candela and suns in lux. Light is never scaled up:
@@ -20,11 +27,18 @@ Light lightFromRecord(const formats::LightRecord& record);
 /// radiance; without lights the factor is 1, and an emissive factor is radiance, of which white paper in the
 /// default sun has about 1. Lights beyond kMaxLights do not count.
 ///
-/// bounds  bounds of the scene, world space, metres
+/// bounds  lightingBounds of the scene, metres
 float lightExposure(std::span<const formats::LightRecord> lights, const Box3& bounds);
 
 /// Return the exposed lights, the exposure, and the sky. A scene without lights gets one sun; lights beyond
 /// kMaxLights are left out.
 Lighting sceneLighting(std::span<const formats::LightRecord> lights, const Box3& bounds);
+
+/// Give a light the reflector of another one.
+void copyReflector(Light& light, const Light& other);
+
+/// Give lights the light of what surrounds them.
+/// reflectors  of the first lights, or none
+void addReflectors(Lighting& lighting, std::span<const formats::ReflectorRecord> reflectors);
 
 } // namespace hearth::shared

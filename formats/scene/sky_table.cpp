@@ -2,6 +2,7 @@
 #include "formats/scene/sky_table.h"
 
 #include "formats/base/half.h"
+#include "formats/scene/table_corners.h"
 
 #include <algorithm>
 #include <array>
@@ -63,19 +64,13 @@ const std::vector<uint32_t>& skyTable()
 Float3 skyConeRadiance(const Sky& sky, const LightCone& cone)
 {
     const std::vector<uint32_t>& table = skyTable();
-    const Float2 place = skyTableCoordinates(cone.axis.y, cone.cos_half_angle);
-    const float across = place.x * float{kSkyTableHeights - 1}, down = place.y * float{kSkyTableAngles - 1};
-    const auto column = std::min(static_cast<uint32_t>(across), kSkyTableHeights - 2);
-    const auto row = std::min(static_cast<uint32_t>(down), kSkyTableAngles - 2);
-    const float x = across - static_cast<float>(column), y = down - static_cast<float>(row);
     Float2 means{};
-    for (uint32_t corner = 0; corner < 4; ++corner)
+    for (const TableCorner& corner : tableCorners(skyTableCoordinates(cone.axis.y, cone.cos_half_angle),
+                                                  kSkyTableHeights, kSkyTableAngles))
     {
-        const uint32_t right = corner & 1, below = corner >> 1;
-        const uint32_t node = table[(row + below) * kSkyTableHeights + column + right];
-        const float weight = (right != 0 ? x : 1 - x) * (below != 0 ? y : 1 - y);
-        means.x += weight * floatFromHalf(static_cast<uint16_t>(node & 0xFFFFu));
-        means.y += weight * floatFromHalf(static_cast<uint16_t>(node >> 16));
+        const uint32_t node = table[corner.node];
+        means.x += corner.weight * floatFromHalf(static_cast<uint16_t>(node & 0xFFFFu));
+        means.y += corner.weight * floatFromHalf(static_cast<uint16_t>(node >> 16));
     }
     return skyMeanRadiance(sky, means);
 }

@@ -13,14 +13,13 @@ namespace
 
 using namespace settings;
 
-// the limit of the cooker; a test compares it with the values that it accepts
-constexpr double kMaxBounces = 64;
-
 std::vector<Setting> makeBrickSettings()
 {
     return {
-        flagSetting("bricks.enabled", "make the grid of bricks that global illumination is marched through",
-                    "--bricks"),
+        switchSetting("bricks.mode",
+                      "make the grid of bricks that global illumination is marched through; auto: for scenes "
+                      "that see little of the sky",
+                      "--bricks"),
         withSaving("larger voxels are fewer",
                    withOption(excludingLow(numberSetting("bricks.voxel_size", "metres, of the bricks' voxels",
                                                          "as their memory allows", 0,
@@ -28,22 +27,18 @@ std::vector<Setting> makeBrickSettings()
                               "--voxel-size", "METRES")),
         withOption({"bricks.memory", Kind::size, "bytes that the bricks may take on the GPU", "20M"},
                    "--brick-memory", "SIZE"),
-        withSaving("fewer bounces, or none",
-                   withOption(wholeNumberSetting("bricks.bake",
-                                                 "bake the light that bricks start with, of so many bounces",
-                                                 "none is baked", 0, kMaxBounces),
-                              "--brick-bake", "BOUNCES")),
     };
 }
 
 Result<Arguments> makeBrickArguments(const Values& values)
 {
     Arguments arguments;
-    // rays through the scene, summed in the order of the processor's vectors
-    arguments.depends_on_processor = findValue(values, "bricks.bake") != nullptr;
+    // rays of emissive surfaces through the scene, summed in the order of the processor's vectors
+    arguments.depends_on_processor = true;
+    if (settings::choiceOr(values, "bricks.mode", "auto") == "auto")
+        arguments.words.emplace_back("--if-needed");
     addOption(values, "bricks.voxel_size", "--voxel-size", arguments);
     addOption(values, "bricks.memory", "--memory", arguments);
-    addOption(values, "bricks.bake", "--bake", arguments);
     return arguments;
 }
 
@@ -53,7 +48,7 @@ Cooker describeBricks()
 {
     return {.name = "bricks",
             .scope = settings::Scope::pack,
-            .enabled_by = "bricks.enabled",
+            .switched_by = "bricks.mode",
             .reads = {"import", "clusters", "textures"},
             .link_option = "--bricks",
             .has_statistics = true,

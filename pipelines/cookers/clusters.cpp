@@ -90,7 +90,8 @@ Result<Arguments> makeClusterArguments(const Values& values)
     addAssignments(values, "clusters", arguments);
     // the comparison with discrete LODs would take a third as long as the work itself
     arguments.words.emplace_back("--no-discrete-lods");
-    addFlag(values, "visibility.enabled", "--visibility", arguments);
+    if (settings::choiceOr(values, "visibility.mode", "auto") != "off")
+        arguments.words.emplace_back("--visibility");
     return arguments;
 }
 

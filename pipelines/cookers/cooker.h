@@ -34,11 +34,19 @@ struct Cooker
     std::string_view name; ///< "clusters": the program is hearth-clusters
     /// source: runs once for each source; pack: runs once for all sources
     settings::Scope scope = settings::Scope::source;
-    /// key of the flag that enables the cooker; empty: it always runs
-    std::string_view enabled_by{};
+    /// key of the setting that switches the cooker (settings::switchSetting): it runs unless this is off;
+    /// empty: it always runs
+    std::string_view switched_by{};
     /// Cookers whose parts it reads, in the order of its command line. A cooker of the pack reads the parts
     /// of each source.
     std::vector<std::string_view> reads{};
+    /// true: it reads the statistics of these cookers instead of their parts
+    bool reads_statistics = false;
+    /// True if a cooker of a source reads also the parts of the source's neighbours, of the cookers that it
+    /// reads of its own source. null: never
+    bool (*readsNeighbours)(const settings::Values& values) = nullptr;
+    /// true: its part is the list of all sources' neighbours; it runs only where a cooker reads neighbours
+    bool lists_neighbours = false;
     /// true: it reads the source's files, its authored LODs, and files that these name
     bool reads_files = false;
     /// true: hearth-link reads its part; false: the part is for other cookers, or only for reports
@@ -47,7 +55,8 @@ struct Cooker
     std::string_view replaces{};
     /// option of hearth-link before the part of a cooker of the pack
     std::string_view link_option{};
-    bool has_statistics = false; ///< true: with --stats it writes JSON about its work, for reports
+    std::string_view extension = ".part"; ///< of its output's name
+    bool has_statistics = false;          ///< true: with --stats it writes JSON about its work, for reports
     /// option for an image of its result, for reports; empty: none
     std::string_view image_option{};
     std::vector<settings::Setting> settings{};

@@ -11,6 +11,7 @@ Cooker describeImport();
 Cooker describeClusters();
 Cooker describeTextures();
 Cooker describeSkinning();
+Cooker describeNeighbours();
 Cooker describeVisibility();
 Cooker describeSpecular();
 Cooker describeBricks();
@@ -26,8 +27,8 @@ using settings::Values;
 std::vector<Cooker> makeCookers()
 {
     std::vector<Cooker> cookers{describeImport(),   describeClusters(),   describeTextures(),
-                                describeSkinning(), describeVisibility(), describeSpecular(),
-                                describeBricks(),   describeLink()};
+                                describeSkinning(), describeNeighbours(), describeVisibility(),
+                                describeSpecular(), describeBricks(),     describeLink()};
     for (Cooker& cooker : cookers)
         for (Setting& setting : cooker.settings)
             setting.scope = cooker.scope;
@@ -68,14 +69,13 @@ std::span<const Setting> profileSettings()
 
 bool isEnabled(const Cooker& cooker, const Values& of_pack, std::span<const Values> of_sources)
 {
-    if (cooker.enabled_by.empty())
+    if (cooker.switched_by.empty())
         return true;
-    const Setting* flag = settings::findSetting(profileSettings(), cooker.enabled_by);
-    HEARTH_ASSERT(flag != nullptr);
-    if (flag->scope == Scope::pack)
-        return settings::isOn(of_pack, flag->key);
-    return std::any_of(of_sources.begin(), of_sources.end(),
-                       [&](const Values& values) { return settings::isOn(values, flag->key); });
+    const Setting* setting = settings::findSetting(profileSettings(), cooker.switched_by);
+    HEARTH_ASSERT(setting != nullptr);
+    const auto isNotOff = [&](const Values& values)
+    { return settings::choiceOr(values, setting->key, setting->default_text) != "off"; };
+    return setting->scope == Scope::pack ? isNotOff(of_pack) : std::ranges::any_of(of_sources, isNotOff);
 }
 
 Status checkSourceSettings(const Values& values)

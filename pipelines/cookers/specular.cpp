@@ -9,7 +9,7 @@ Cooker describeSpecular()
 {
     return {.name = "specular",
             .scope = settings::Scope::pack,
-            .enabled_by = "visibility.enabled",
+            .switched_by = "visibility.mode",
             .link_option = "--specular",
             .cost = {16 * kMiB, 0, 0}};
 }

@@ -13,21 +13,25 @@ namespace
 
 using namespace settings;
 
+constexpr std::string_view kOccluders = "visibility.occluders";
+constexpr std::string_view kPackOccludes = "pack";
+
 std::vector<Setting> makeVisibilitySettings()
 {
     return {
-        flagSetting("visibility.enabled",
-                    "bake what each vertex sees of its surroundings: ambient and specular occlusion",
-                    "--visibility"),
+        switchSetting("visibility.mode",
+                      "bake what each vertex sees of its surroundings: ambient and specular occlusion",
+                      "--visibility"),
         withSaving("draft takes fewer rays",
                    withOption(choiceSetting("visibility.quality", "rays that baking takes", "default",
                                             {"draft", "default", "high"}),
                               "--visibility-quality", "NAME")),
         withSaving(
-            "asset traces each mesh alone, not in its scene",
-            withOption(choiceSetting("visibility.occluders",
-                                     "what is in the way: all of the source's scene, or each asset alone",
-                                     "scene", {"scene", "asset"}),
+            "source leaves the other sources out, mesh the other meshes, too",
+            withOption(choiceSetting(std::string(kOccluders),
+                                     "what is in the way: pack, all sources that are near; source, its own "
+                                     "scene; mesh, each mesh alone",
+                                     kPackOccludes, {kPackOccludes, "source", "mesh"}),
                        "--visibility-occluders", "NAME")),
         withSaving("a limit makes rays shorter",
                    withOption(excludingLow(numberSetting(
@@ -61,7 +65,7 @@ Result<Arguments> makeVisibilityArguments(const Values& values)
     Arguments arguments;
     arguments.depends_on_processor = true;
     addOption(values, "visibility.quality", "--quality", arguments);
-    addOption(values, "visibility.occluders", "--occluders", arguments);
+    addOption(values, kOccluders, "--occluders", arguments);
     addOption(values, "visibility.distance", "--distance", arguments);
     addOption(values, "visibility.power", "--power", arguments);
     addOption(values, "visibility.poses", "--poses", arguments);
@@ -71,13 +75,19 @@ Result<Arguments> makeVisibilityArguments(const Values& values)
     return arguments;
 }
 
+bool isOccludedByPack(const Values& values)
+{
+    return choiceOr(values, kOccluders, kPackOccludes) == kPackOccludes;
+}
+
 } // namespace
 
 Cooker describeVisibility()
 {
     return {.name = "visibility",
-            .enabled_by = "visibility.enabled",
+            .switched_by = "visibility.mode",
             .reads = {"import", "clusters"},
+            .readsNeighbours = isOccludedByPack,
             .replaces = "clusters",
             .has_statistics = true,
             .image_option = "--image",

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <string_view>
+#include <utility>
 
 namespace hearth::farm
 {
@@ -34,10 +35,17 @@ std::string commonWords(const FarmJob& job)
     return text;
 }
 
-/// Return the start of the command line of a shard, up to "--shard ".
-std::string shardCommandStart(const FarmJob& job)
+/// Return the steps of the job's shards, in order.
+std::vector<Step> listSteps(const FarmJob& job)
 {
-    return joinQuoted({job.hearth, "run", job.plan_file}) + commonWords(job) + " --shard ";
+    return job.has_two_steps ? std::vector{Step::prepare, Step::complete} : std::vector{Step::complete};
+}
+
+/// Return the start of the command line of a shard, up to "--shard ".
+std::string shardCommandStart(const FarmJob& job, Step step)
+{
+    return joinQuoted({job.hearth, "run", job.plan_file}) + (step == Step::prepare ? " --prepare" : "") +
+           commonWords(job) + " --shard ";
 }
 
 /// Escape text for the value of a Ninja variable.
@@ -58,6 +66,12 @@ std::string escapeNinjaPath(const std::string& path)
     return escaped;
 }
 
+/// Return the name of the Ninja rule of a step.
+const char* ninjaRule(Step step)
+{
+    return step == Step::prepare ? "prepare" : "shard";
+}
+
 std::string megabytes(uint64_t bytes)
 {
     return fmt::format("{}M", (bytes + kMiB - 1) / kMiB);
@@ -73,12 +87,13 @@ std::string slurmHead(const char* name, uint64_t memory_bytes, const SlurmOption
     return text;
 }
 
-std::string slurmShard(const FarmJob& job, const SlurmOptions& options)
+std::string slurmShard(const FarmJob& job, Step step, const SlurmOptions& options)
 {
-    return slurmHead("hearth-shards", options.memory_bytes, options) +
+    return slurmHead(step == Step::prepare ? "hearth-prepare" : "hearth-shards", options.memory_bytes,
+                     options) +
            fmt::format("#SBATCH --array=0-{}\n#SBATCH --requeue\n", job.shard_count - 1) +
            fmt::format("code=0\n{}\"$SLURM_ARRAY_TASK_ID/{}\" --memory {} || code=$?\n",
-                       shardCommandStart(job), job.shard_count, megabytes(options.memory_bytes)) +
+                       shardCommandStart(job, step), job.shard_count, megabytes(options.memory_bytes)) +
            fmt::format("# 75: another try may go better, perhaps on another machine\n"
                        "if [ \"$code\" -eq 75 ] && [ \"${{SLURM_RESTART_COUNT:-0}}\" -lt {} ]; then\n"
                        "  scontrol requeue \"${{SLURM_ARRAY_JOB_ID}}_$SLURM_ARRAY_TASK_ID\" && exit 0\n"
@@ -121,8 +136,9 @@ std::string quoteForShell(const std::string& word)
 std::string shardCommands(const FarmJob& job)
 {
     std::string text;
-    for (size_t shard = 0; shard < job.shard_count; ++shard)
-        text += fmt::format("{}{}/{}\n", shardCommandStart(job), shard, job.shard_count);
+    for (const Step step : listSteps(job))
+        for (size_t shard = 0; shard < job.shard_count; ++shard)
+            text += fmt::format("{}{}/{}\n", shardCommandStart(job, step), shard, job.shard_count);
     return text;
 }
 
@@ -137,32 +153,47 @@ std::string ninjaFile(const FarmJob& job, const std::string& launcher)
     const std::string plan = escapeNinjaPath(job.plan_file);
     const std::string launched =
         launcher.empty() ? "" : " --launcher " + escapeNinjaValue(quoteForShell(launcher));
-    std::string text = fmt::format(
+    std::string text =
         "ninja_required_version = 1.5\n\n"
-        "# what the launcher says is not believed: hearth run looks at what the shard has left\n"
-        "rule shard\n  command = {}$shard/{}{} --record $out\n  description = shard $shard of {}\n\n"
-        "rule merge\n  command = {}\n  description = merge\n  restat = 1\n\n",
-        escapeNinjaValue(shardCommandStart(job)), job.shard_count, launched, job.shard_count,
-        escapeNinjaValue(mergeCommand(job)));
-    std::string records;
-    for (size_t shard = 0; shard < job.shard_count; ++shard)
+        "# what the launcher says is not believed: hearth run looks at what the shard has left\n";
+    for (const Step step : listSteps(job))
+        text += fmt::format(
+            "rule {0}\n  command = {1}$shard/{2}{3} --record $out\n  description = {0} $shard of {2}\n\n",
+            ninjaRule(step), escapeNinjaValue(shardCommandStart(job, step)), job.shard_count, launched);
+    text += fmt::format("rule merge\n  command = {}\n  description = merge\n  restat = 1\n\n",
+                        escapeNinjaValue(mergeCommand(job)));
+    std::string records, records_before;
+    for (const Step step : listSteps(job))
     {
-        const std::string record = fmt::format("{}.shards/{}.json", plan, shard);
-        text += fmt::format("build {}: shard | {}\n  shard = {}\n", record, plan, shard);
-        records += " " + record;
+        records_before = std::exchange(records, "");
+        for (size_t shard = 0; shard < job.shard_count; ++shard)
+        {
+            const std::string record =
+                fmt::format("{}.shards/{}.{}json", plan, shard, step == Step::prepare ? "prepared." : "");
+            text += fmt::format("build {}: {} | {}{}\n  shard = {}\n", record, ninjaRule(step), plan,
+                                records_before.empty() ? "" : " ||" + records_before, shard);
+            records += " " + record;
+        }
     }
     return text + fmt::format("build {}: merge | {}{}\n", escapeNinjaPath(job.pack), plan, records);
 }
 
 std::string slurmScript(const FarmJob& job, const SlurmOptions& options)
 {
-    return "#!/bin/sh\nset -eu\nshards=$(sbatch --parsable <<'END_OF_SHARDS'\n" + slurmShard(job, options) +
-           "END_OF_SHARDS\n)\n"
-           "# after them however they end: the merge looks at results, not at exit codes\n"
-           "merge=$(sbatch --parsable --dependency=\"afterany:${shards%%;*}\" <<'END_OF_MERGE'\n" +
-           slurmMerge(job, options) +
-           "END_OF_MERGE\n)\n"
-           "echo \"shards: job ${shards%%;*}\"\necho \"merge: job ${merge%%;*}\"\n";
+    std::string text = "#!/bin/sh\nset -eu\n";
+    if (job.has_two_steps)
+        text += "prepare=$(sbatch --parsable <<'END_OF_PREPARE'\n" + slurmShard(job, Step::prepare, options) +
+                "END_OF_PREPARE\n)\n";
+    text += fmt::format("shards=$(sbatch --parsable{} <<'END_OF_SHARDS'\n",
+                        job.has_two_steps ? " --dependency=\"afterany:${prepare%%;*}\"" : "") +
+            slurmShard(job, Step::complete, options) +
+            "END_OF_SHARDS\n)\n"
+            "# after them however they end: the merge looks at results, not at exit codes\n"
+            "merge=$(sbatch --parsable --dependency=\"afterany:${shards%%;*}\" <<'END_OF_MERGE'\n" +
+            slurmMerge(job, options) + "END_OF_MERGE\n)\n";
+    if (job.has_two_steps)
+        text += "echo \"prepare: job ${prepare%%;*}\"\n";
+    return text + "echo \"shards: job ${shards%%;*}\"\necho \"merge: job ${merge%%;*}\"\n";
 }
 
 uint64_t shardMemory(const graph::Graph& graph)

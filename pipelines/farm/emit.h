@@ -21,20 +21,22 @@ struct FarmJob
     std::string directory;           ///< folder of the sources; empty: as the plan says
     std::vector<std::string> caches; ///< values of --cache
     size_t shard_count = 1;
+    bool has_two_steps = false; ///< all shards are prepared first: Step::prepare
     bool skips_missing = false; ///< the merge leaves out sources that cannot be cooked
 };
 
 /// Quote a word of a command line for a POSIX shell.
 std::string quoteForShell(const std::string& word);
 
-/// Return a command line for each shard, for GNU parallel, xargs, OpenCue's cuecmd and other programs that
-/// take lists of them.
+/// Return a command line for each step of each shard, for GNU parallel, xargs, OpenCue's cuecmd and other
+/// programs that take lists of them. Lines that prepare come first. A line that is run before them makes what
+/// it lacks itself, so their order is no matter for the results.
 std::string shardCommands(const FarmJob& job);
 /// Return the command line to run after all shards, without a line break.
 std::string mergeCommand(const FarmJob& job);
 
-/// Return a build file for Ninja that runs each shard through `launcher` ("srun -Q -n1"; empty: none), checks
-/// its results, and merges. Records of shards are written to the folder PLAN.shards.
+/// Return a build file for Ninja that runs each step of each shard through `launcher` ("srun -Q -n1"; empty:
+/// none), checks its results, and merges. Records of shards are written to the folder PLAN.shards.
 std::string ninjaFile(const FarmJob& job, const std::string& launcher);
 
 struct SlurmOptions
@@ -45,7 +47,8 @@ struct SlurmOptions
     unsigned retries = 2; ///< retries of a shard that ends with code 75
 };
 
-/// Return a shell script that submits the shards as a job array, and after them the merge, however they end.
+/// Return a shell script that submits each step of the shards as a job array, one after the other, and after
+/// them the merge, however they end.
 std::string slurmScript(const FarmJob& job, const SlurmOptions& options);
 
 /// Return the estimated peak memory of hearth and of one cooker, over the actions of sources (shardMemory) or

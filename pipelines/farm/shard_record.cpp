@@ -3,11 +3,14 @@
 
 #include "cook/json/json.h"
 #include "cook/tools/sha256.h"
+#include "pipelines/graph/neighbour_inputs.h"
+#include "pipelines/graph/skip_source.h"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <fmt/format.h>
+#include <set>
 #include <unistd.h>
 
 namespace hearth::farm
@@ -77,17 +80,32 @@ bool areIntact(const graph::CachedResult& result, cache::Cache& cache, const std
                        { return isIntact(output.hash, cache, scratch); });
 }
 
-/// True if the record has all actions of the shard, each with all its outputs.
-bool isComplete(const ShardRecord& record, const Plan& plan, size_t shard)
+/// True if the record of an action has all its outputs.
+bool hasAllOutputs(const ShardAction& recorded, const Plan& plan)
 {
-    std::vector<size_t> action_ids;
-    const graph::Graph graph = selectActions(plan.graph, plan.shards[shard], action_ids);
-    return std::equal(record.actions.begin(), record.actions.end(), action_ids.begin(), action_ids.end(),
+    return recorded.action < plan.graph.actions.size() &&
+           recorded.result.outputs.size() == plan.graph.actions[recorded.action].outputs.size();
+}
+
+/// True if the record has all actions of the shard's step, each with all its outputs.
+bool isComplete(const ShardRecord& record, const Plan& plan, size_t shard, Step step)
+{
+    const std::vector<size_t> actions = listActions(plan.graph, plan.shards[shard], step);
+    return std::equal(record.actions.begin(), record.actions.end(), actions.begin(), actions.end(),
                       [&](const ShardAction& recorded, size_t action)
-                      {
-                          return recorded.action == action &&
-                                 recorded.result.outputs.size() == plan.graph.actions[action].outputs.size();
-                      });
+                      { return recorded.action == action && hasAllOutputs(recorded, plan); });
+}
+
+/// Remove sources whose inputs are missing from an action that lists neighbours.
+/// hashes  of the outputs that are there
+void skipMissingInputs(graph::Graph& graph, size_t lister, const graph::OutputHashes& hashes)
+{
+    std::set<size_t> sources;
+    for (const graph::Input& input : graph.actions[lister].inputs)
+        if (hashes[input.action].empty())
+            sources.insert(graph.actions[input.action].source);
+    for (const size_t source : sources)
+        graph::skipSource(graph, source, {});
 }
 
 } // namespace
@@ -99,9 +117,36 @@ size_t countActions(const ShardRecord& record, graph::Outcome ending)
                                              { return action.ending == ending; }));
 }
 
-std::string recordKey(const std::string& plan_hash, size_t shard)
+std::string recordKey(const std::string& plan_hash, size_t shard, Step step)
 {
-    return tools::computeSha256(fmt::format("shard\n{}\n{}\n", plan_hash, shard));
+    return tools::computeSha256(
+        fmt::format("{}\n{}\n{}\n", step == Step::prepare ? "prepared shard" : "shard", plan_hash, shard));
+}
+
+std::optional<ShardRecord> readRecord(const std::string& plan_hash, size_t shard, Step step,
+                                      cache::Cache& cache)
+{
+    const std::optional<cache::Fields> fields = cache.entry(recordKey(plan_hash, shard, step));
+    return fields ? parseRecord(*fields) : std::nullopt;
+}
+
+std::map<size_t, graph::CachedResult> readOtherResults(const Plan& plan, const std::string& plan_hash,
+                                                       size_t shard, cache::Cache& cache)
+{
+    std::map<size_t, graph::CachedResult> results;
+    for (size_t other = 0; other < plan.shards.size(); ++other)
+    {
+        if (other == shard || plan.shards[other].empty())
+            continue;
+        const std::optional<ShardRecord> record = readRecord(plan_hash, other, Step::prepare, cache);
+        if (!record)
+            continue;
+        const std::vector<size_t> actions = listActions(plan.graph, plan.shards[other], Step::prepare);
+        for (const ShardAction& recorded : record->actions)
+            if (std::ranges::binary_search(actions, recorded.action) && hasAllOutputs(recorded, plan))
+                results[recorded.action] = recorded.result;
+    }
+    return results;
 }
 
 cache::Fields recordFields(const ShardRecord& record)
@@ -180,46 +225,46 @@ std::string recordJson(const ShardRecord& record, const Plan& plan, size_t shard
     return json.dump(1) + "\n";
 }
 
-ShardState verifyShard(const Plan& plan, const std::string& plan_hash, size_t shard, cache::Cache& cache,
-                       const std::string& scratch)
+ShardState verifyShard(const Plan& plan, const std::string& plan_hash, size_t shard, Step step,
+                       cache::Cache& cache, const std::string& scratch)
 {
-    const std::optional<cache::Fields> fields = cache.entry(recordKey(plan_hash, shard));
-    const std::optional<ShardRecord> record = fields ? parseRecord(*fields) : std::nullopt;
+    const std::optional<ShardRecord> record = readRecord(plan_hash, shard, step, cache);
     if (!record)
         return {};
     ShardState state{ShardState::Kind::failed, *record};
     if (record->exit_code != 0)
         return state;
     const bool is_whole =
-        isComplete(*record, plan, shard) &&
+        isComplete(*record, plan, shard, step) &&
         std::all_of(record->actions.begin(), record->actions.end(),
                     [&](const ShardAction& action) { return areIntact(action.result, cache, scratch); });
     state.kind = is_whole ? ShardState::Kind::intact : ShardState::Kind::lost;
     return state;
 }
 
-std::vector<size_t> missingResults(const graph::Graph& graph, cache::Cache& cache,
-                                   graph::ActionCache& actions, const std::string& scratch)
+std::vector<size_t> missingResults(graph::Graph graph, cache::Cache& cache, graph::ActionCache& actions,
+                                   const std::string& scratch)
 {
     std::vector<size_t> missing;
-    std::vector<std::string> hash_of_action(graph.actions.size());
+    graph::OutputHashes hashes(graph.actions.size());
     for (size_t i = 0; i < graph.actions.size(); ++i)
     {
-        const graph::Action& action = graph.actions[i];
-        if (action.source == graph.source_count)
+        const bool lists_neighbours = graph.actions[i].lists_neighbours;
+        if (graph.actions[i].source == graph.source_count && !lists_neighbours)
             continue;
-        std::vector<std::string> part_hashes;
-        bool is_known = true;
-        for (const graph::Input& input : action.inputs)
-        {
-            part_hashes.push_back(input.action == graph::kNoAction ? "" : hash_of_action[input.action]);
-            is_known = is_known && (input.action == graph::kNoAction || !part_hashes.back().empty());
-        }
-        const auto record = is_known ? actions.makeRecord(action, part_hashes) : std::nullopt;
+        if (lists_neighbours)
+            skipMissingInputs(graph, i, hashes);
+        const graph::Action& action = graph.actions[i];
+        const size_t lister = action.neighbours_from;
+        const bool waits = lister != graph::kNoAction && hashes[lister].empty();
+        const auto part_hashes = waits ? std::nullopt : graph::findPartHashes(action, hashes);
+        const auto record = part_hashes ? actions.makeRecord(action, *part_hashes) : std::nullopt;
         const auto result = record ? actions.find(action, *record).result : std::nullopt;
-        if (result && areIntact(*result, cache, scratch))
-            hash_of_action[i] = result->outputs.front().hash;
-        else
+        const bool is_there = result && areIntact(*result, cache, scratch) &&
+                              (!lists_neighbours || graph::setNeighbourInputs(graph, i, result->neighbours));
+        if (is_there)
+            hashes[i] = graph::listHashes(*result);
+        else if (!lists_neighbours)
             missing.push_back(i);
     }
     return missing;

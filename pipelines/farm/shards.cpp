@@ -56,29 +56,23 @@ Shards distribute(std::span<const double> seconds_of_source, size_t count)
     return shards;
 }
 
-graph::Graph selectActions(const graph::Graph& graph, std::span<const size_t> sources,
-                           std::vector<size_t>& action_ids)
+std::vector<size_t> listActions(const graph::Graph& graph, std::span<const size_t> sources, Step step)
 {
-    graph::Graph selection;
-    selection.source_count = graph.source_count;
-    action_ids.clear();
-    std::vector<size_t> new_from_old(graph.actions.size(), graph::kNoAction);
+    std::vector<size_t> actions;
     for (size_t i = 0; i < graph.actions.size(); ++i)
     {
-        if (!std::binary_search(sources.begin(), sources.end(), graph.actions[i].source))
-            continue;
-        graph::Action action = graph.actions[i];
-        for (graph::Input& input : action.inputs)
-            if (input.action != graph::kNoAction)
-            {
-                input.action = new_from_old[input.action];
-                HEARTH_ASSERT(input.action != graph::kNoAction);
-            }
-        new_from_old[i] = selection.actions.size();
-        selection.actions.push_back(std::move(action));
-        action_ids.push_back(i);
+        const graph::Action& action = graph.actions[i];
+        if (std::binary_search(sources.begin(), sources.end(), action.source) &&
+            (step == Step::complete || action.neighbours_from == graph::kNoAction))
+            actions.push_back(i);
     }
-    return selection;
+    return actions;
+}
+
+bool hasTwoSteps(const graph::Graph& graph)
+{
+    return std::ranges::any_of(graph.actions, [](const graph::Action& action)
+                               { return action.neighbours_from != graph::kNoAction; });
 }
 
 } // namespace hearth::farm

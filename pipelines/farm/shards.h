@@ -4,6 +4,7 @@
 
 #include "pipelines/graph/action.h"
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -31,11 +32,20 @@ size_t chooseShardCount(std::span<const double> seconds_of_source);
 /// source             R. L. Graham, "Bounds on multiprocessing timing anomalies", 1969 (LPT)
 Shards distribute(std::span<const double> seconds_of_source, size_t count);
 
-/// Return the actions of these sources alone; none of them reads from another source. Sources keep their
-/// indices.
-/// sources    ascending
-/// action_ids  [actions of the result] index of each in `graph`
-graph::Graph selectActions(const graph::Graph& graph, std::span<const size_t> sources,
-                           std::vector<size_t>& action_ids);
+/// Part of a shard's work. Visibility reads the parts of neighbouring sources, which are in any shard: so all
+/// shards are prepared before the first one is completed. A shard that is completed earlier makes what it
+/// lacks itself.
+enum class Step : uint8_t
+{
+    prepare,  ///< the actions that read no other source
+    complete, ///< all actions
+};
+
+/// Return the actions of these sources that belong to a step, ascending.
+/// sources  ascending
+std::vector<size_t> listActions(const graph::Graph& graph, std::span<const size_t> sources, Step step);
+
+/// True if actions of a source read parts of other sources, so that shards have two steps.
+bool hasTwoSteps(const graph::Graph& graph);
 
 } // namespace hearth::farm

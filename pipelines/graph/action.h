@@ -26,12 +26,13 @@ struct Word
     size_t index = 0; ///< index of the input or output
 };
 
-/// Input of an action: the first output of an earlier action, or a user file.
+/// Input of an action: an output of an earlier action, or a user file.
 struct Input
 {
     std::string role;          ///< role for the cooker: "source", "lod 1", "part of clusters"
-    size_t action = kNoAction; ///< index of the action whose first output it is
+    size_t action = kNoAction; ///< index of the action whose output it is
     std::string path;          ///< as the user typed it, for user files
+    size_t output = 0;         ///< index of that output
 };
 
 /// Estimated resource use of an action. It affects the order of work only.
@@ -48,8 +49,12 @@ struct Action
     std::string subject; ///< name of the output in messages: the source, or the pack
     std::vector<Word> words;
     std::vector<Input> inputs;
-    /// File names, unique among the actions of one source. At least one; other actions read the first.
+    /// File names, unique among the actions of one source. At least one; the first is the part.
     std::vector<std::string> outputs;
+    bool lists_neighbours = false; ///< its first output lists the neighbours of all sources
+    /// Index of the action that lists which sources' parts this one reads, too: dynamic inputs, which
+    /// setNeighbourInputs adds once the list is known. kNoAction: it has none.
+    size_t neighbours_from = kNoAction;
     bool finds_files = false; ///< reads files that are not declared inputs, and lists them with --depfile
     bool depends_on_processor = false; ///< output bytes are equal only on processors of one class
     Estimate estimate;

@@ -29,7 +29,19 @@ struct CachedResult
     double seconds = 0;
     double cpu_seconds = 0;
     uint64_t peak_rss_bytes = 0;
+    /// Text of the first output of an action that lists neighbours. It is stored with the result, so that a
+    /// cook that runs nothing need not fetch it.
+    std::string neighbours{};
 };
+
+/// SHA-256 of the outputs of each action; empty for an action whose outputs are not known yet.
+using OutputHashes = std::vector<std::vector<std::string>>;
+
+std::vector<std::string> listHashes(const CachedResult& result);
+
+/// Return for each input SHA-256 of the output that it is, "" for user files; nullopt where one is not known
+/// yet.
+std::optional<std::vector<std::string>> findPartHashes(const Action& action, const OutputHashes& hashes);
 
 class ActionCache
 {
@@ -41,8 +53,7 @@ public:
 
     /// Return the record of an action without found files; nullopt where a user file or the cooker cannot be
     /// read, so that no result can be cached.
-    /// part_hashes  for each input, SHA-256 of the first output of the action that makes it; empty for user
-    ///              files
+    /// part_hashes  for each input, SHA-256 of the output that it is; empty for user files
     std::optional<Record> makeRecord(const Action& action, const std::vector<std::string>& part_hashes);
 
     struct LookupResult

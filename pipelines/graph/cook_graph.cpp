@@ -30,6 +30,8 @@ struct Draft
     Graph graph{};
     std::vector<ActionIndices> actions_of_source; ///< [sources]
     ActionIndices actions_of_pack{};
+    /// Action that lists the neighbours of all sources; kNoAction: none has neighbours.
+    size_t neighbours = kNoAction;
 };
 
 Action makeAction(const Cooker& cooker, size_t source, const std::string& subject)
@@ -63,7 +65,15 @@ void addOutput(Action& action, std::string_view option, const std::string& name)
 /// Return an input that is the first output of an earlier action.
 Input partInput(const Graph& graph, size_t action)
 {
-    return {"part of " + graph.actions[action].cooker, action, ""};
+    return {"part of " + graph.actions[action].cooker, action, "", 0};
+}
+
+/// Return an input that is the statistics of an earlier action, with the source's index in its role.
+Input sourceStatisticsInput(const Graph& graph, size_t action)
+{
+    // finishAction adds them after the part
+    return {fmt::format("statistics of {} {}", graph.actions[action].cooker, graph.actions[action].source),
+            action, "", 1};
 }
 
 /// Return partInput with the source's index in its role, for actions that read parts of several sources.
@@ -77,7 +87,7 @@ Input sourcePartInput(const Graph& graph, size_t action)
 /// Add the source and its authored LODs. errors: those of parseLodFiles
 Status addSourceFiles(const CookSettings& settings, size_t source, Action& action)
 {
-    addInput(action, {"source", kNoAction, settings.sources[source]});
+    addInput(action, {"source", kNoAction, settings.sources[source], 0});
     if (settings.lods_of_source.empty())
         return success();
     HEARTH_ASSIGN_OR_RETURN(const std::vector<tools::LodFile> lods,
@@ -85,7 +95,7 @@ Status addSourceFiles(const CookSettings& settings, size_t source, Action& actio
     for (const tools::LodFile& lod : lods)
     {
         addWord(action, "--lod");
-        addInput(action, {fmt::format("lod {}", lod.level), kNoAction, lod.path},
+        addInput(action, {fmt::format("lod {}", lod.level), kNoAction, lod.path, 0},
                  fmt::format("{}=", lod.level));
     }
     return success();
@@ -96,7 +106,7 @@ Status addSourceFiles(const CookSettings& settings, size_t source, Action& actio
 Result<size_t> finishAction(const Cooker& cooker, const Values& values, Action action, Graph& graph)
 {
     const std::string name(cooker.name);
-    addOutput(action, "-o", name + ".part");
+    addOutput(action, "-o", name + std::string(cooker.extension));
     if (cooker.makeArguments != nullptr)
     {
         HEARTH_ASSIGN_OR_RETURN(const cookers::Arguments arguments, cooker.makeArguments(values));
@@ -113,16 +123,26 @@ Result<size_t> finishAction(const Cooker& cooker, const Values& values, Action a
     return graph.actions.size() - 1;
 }
 
-/// Add the actions of one source. errors: those of addSourceFiles and finishAction
-Status addSource(size_t source, Draft& draft)
+/// True if a cooker reads also the parts of a source's neighbours: where the pack has other sources.
+bool readsNeighbours(const Cooker& cooker, const CookSettings& settings, const Values& values)
+{
+    return settings.sources.size() > 1 && cooker.readsNeighbours != nullptr && cooker.readsNeighbours(values);
+}
+
+/// Add the actions of one source, in two steps: first those that read its own files and parts only, then
+/// those that also read the parts of its neighbours. errors: those of addSourceFiles and finishAction
+Status addSource(size_t source, bool reads_neighbours, Draft& draft)
 {
     const Values& values = draft.values_of_source[source];
     ActionIndices& actions = draft.actions_of_source[source];
     for (const Cooker& cooker : cookers::allCookers())
     {
-        if (cooker.scope != Scope::source || !cookers::isEnabled(cooker, {}, {&values, 1}))
+        if (cooker.scope != Scope::source || !cookers::isEnabled(cooker, {}, {&values, 1}) ||
+            readsNeighbours(cooker, draft.settings, values) != reads_neighbours)
             continue;
         Action action = makeAction(cooker, source, draft.settings.sources[source]);
+        if (reads_neighbours)
+            action.neighbours_from = draft.neighbours;
         if (cooker.reads_files)
             HEARTH_TRY(addSourceFiles(draft.settings, source, action));
         for (const std::string_view read : cooker.reads)
@@ -133,23 +153,53 @@ Status addSource(size_t source, Draft& draft)
     return success();
 }
 
-/// Add the actions that run once for all sources, except the link. errors: those of finishAction
+/// Add an action that runs once for all sources. errors: those of finishAction
+Status addCookerOfPack(const Cooker& cooker, Draft& draft)
+{
+    Action action = makeAction(cooker, draft.settings.sources.size(), draft.settings.output);
+    action.lists_neighbours = cooker.lists_neighbours;
+    for (const ActionIndices& actions : draft.actions_of_source)
+        for (const std::string_view read : cooker.reads)
+            addInput(action, cooker.reads_statistics ? sourceStatisticsInput(draft.graph, actions.at(read))
+                                                     : sourcePartInput(draft.graph, actions.at(read)));
+    HEARTH_ASSIGN_OR_RETURN(
+        draft.actions_of_pack[cooker.name],
+        finishAction(cooker, draft.settings.values_of_pack, std::move(action), draft.graph));
+    return success();
+}
+
+/// Add the action that lists neighbours, if a cooker of a source reads them. errors: those of finishAction
+Status addNeighbours(Draft& draft)
+{
+    const auto isRead = [&](const Cooker& cooker)
+    {
+        return std::ranges::any_of(draft.values_of_source,
+                                   [&](const Values& values) {
+                                       return cookers::isEnabled(cooker, {}, {&values, 1}) &&
+                                              readsNeighbours(cooker, draft.settings, values);
+                                   });
+    };
+    if (std::ranges::none_of(cookers::allCookers(), isRead))
+        return success();
+    for (const Cooker& cooker : cookers::allCookers())
+        if (cooker.lists_neighbours)
+        {
+            HEARTH_TRY(addCookerOfPack(cooker, draft));
+            draft.neighbours = draft.actions_of_pack.at(cooker.name);
+        }
+    return success();
+}
+
+/// Add the actions that run once for all sources, except the link and the one that lists neighbours.
+/// errors: those of finishAction
 Status addCookersOfPack(Draft& draft)
 {
-    const CookSettings& settings = draft.settings;
     for (const Cooker& cooker : cookers::allCookers())
     {
         const bool is_link = &cooker == &cookers::allCookers().back();
-        if (cooker.scope != Scope::pack || is_link ||
-            !cookers::isEnabled(cooker, settings.values_of_pack, draft.values_of_source))
-            continue;
-        Action action = makeAction(cooker, settings.sources.size(), settings.output);
-        for (const ActionIndices& actions : draft.actions_of_source)
-            for (const std::string_view read : cooker.reads)
-                addInput(action, sourcePartInput(draft.graph, actions.at(read)));
-        HEARTH_ASSIGN_OR_RETURN(
-            draft.actions_of_pack[cooker.name],
-            finishAction(cooker, settings.values_of_pack, std::move(action), draft.graph));
+        if (cooker.scope == Scope::pack && !is_link && !cooker.lists_neighbours &&
+            cookers::isEnabled(cooker, draft.settings.values_of_pack, draft.values_of_source))
+            HEARTH_TRY(addCookerOfPack(cooker, draft));
     }
     return success();
 }
@@ -195,7 +245,10 @@ Result<Graph> makeCookGraph(const CookSettings& settings)
     draft.values_of_source.resize(sources);
     draft.graph.source_count = sources;
     for (size_t source = 0; source < sources; ++source)
-        HEARTH_TRY(addSource(source, draft));
+        HEARTH_TRY(addSource(source, false, draft));
+    HEARTH_TRY(addNeighbours(draft));
+    for (size_t source = 0; source < sources; ++source)
+        HEARTH_TRY(addSource(source, true, draft));
     HEARTH_TRY(addCookersOfPack(draft));
     addLink(draft);
     addEstimates(draft.graph);

@@ -4,6 +4,7 @@
 #include "cook/tools/dependency_list.h"
 #include "cook/tools/sha256.h"
 #include "formats/base/regular_file.h"
+#include "pipelines/graph/neighbour_inputs.h"
 #include "pipelines/graph/skip_source.h"
 
 #include <algorithm>
@@ -58,8 +59,37 @@ Executor::Executor(Graph& graph, Resolver& resolver, cache::Cache* cache, Action
       states_(graph.actions.size(), State::waiting),
       outcomes_(graph.actions.size()),
       has_begun_(graph.actions.size()),
+      is_needed_(graph.actions.size(), options_.wanted.empty()),
       is_skipped_(graph.source_count)
 {
+    for (const size_t action : options_.wanted)
+        need(action);
+}
+
+/// Mark an action as needed, and those that it reads from.
+void Executor::need(size_t index)
+{
+    if (is_needed_[index])
+        return;
+    is_needed_[index] = true;
+    const Action& action = graph_.actions[index];
+    for (const Input& input : action.inputs)
+        if (input.action != kNoAction)
+            need(input.action);
+    if (action.neighbours_from != kNoAction)
+        need(action.neighbours_from);
+}
+
+/// Set the inputs that an action has listed. False where its list is malformed.
+bool Executor::setNeighbours(size_t lister)
+{
+    if (!setNeighbourInputs(graph_, lister, outcomes_[lister].result.neighbours))
+        return false;
+    for (size_t i = 0; i < graph_.actions.size(); ++i)
+        if (is_needed_[i] && graph_.actions[i].neighbours_from == lister)
+            for (const Input& input : graph_.actions[i].inputs)
+                need(input.action);
+    return true;
 }
 
 std::optional<Failure> Executor::makeFolders()
@@ -118,28 +148,40 @@ bool Executor::materialize(size_t action)
     return !outcomes_[action].paths.empty();
 }
 
-/// Fetch all missing outputs in one call: a cache on a server answers many requests in the time of one.
+/// Fetch the outputs that are not there as files in one call: a cache on a server answers many requests in
+/// the time of one.
+void Executor::fetchOutputs(std::span<const OutputId> outputs)
+{
+    if (outputs.empty() || cache_ == nullptr || makeFolders())
+        return;
+    std::vector<cache::ContentRequest> wanted;
+    std::set<std::string> paths_wanted; // equal contents share one file
+    for (const OutputId id : outputs)
+    {
+        const CachedOutput& output = outcomes_[id.action].result.outputs[id.output];
+        const std::string path = contentPath(id.action, id.output);
+        // the pack becomes a user file, which may be written to
+        const cache::FileAccess use =
+            isPack(id.action) ? cache::FileAccess::read_write : cache::FileAccess::read_only;
+        if (!fileSize(path) && paths_wanted.insert(path).second)
+            wanted.push_back({output.hash, path, use, output.bytes});
+    }
+    cache_->fetch(wanted);
+}
+
+/// Fetch all outputs of these actions.
 void Executor::materialize(std::span<const size_t> actions)
 {
     std::vector<size_t> missing;
     std::copy_if(actions.begin(), actions.end(), std::back_inserter(missing),
                  [&](size_t action) { return outcomes_[action].paths.empty(); });
-    if (missing.empty() || cache_ == nullptr || makeFolders())
-        return;
-    std::vector<cache::ContentRequest> wanted;
-    std::set<std::string> paths_wanted; // equal contents share one file
+    std::vector<OutputId> outputs;
     for (const size_t action : missing)
         for (size_t i = 0; i < outcomes_[action].result.outputs.size(); ++i)
-        {
-            const CachedOutput& output = outcomes_[action].result.outputs[i];
-            const std::string path = contentPath(action, i);
-            // the pack becomes a user file, which may be written to
-            const cache::FileAccess use =
-                isPack(action) ? cache::FileAccess::read_write : cache::FileAccess::read_only;
-            if (!fileSize(path) && paths_wanted.insert(path).second)
-                wanted.push_back({output.hash, path, use, output.bytes});
-        }
-    cache_->fetch(wanted);
+            outputs.push_back({action, i});
+    if (outputs.empty() || cache_ == nullptr || makeFolders())
+        return;
+    fetchOutputs(outputs);
     for (const size_t action : missing)
     {
         std::vector<std::string> paths;
@@ -148,6 +190,21 @@ void Executor::materialize(std::span<const size_t> actions)
         if (std::all_of(paths.begin(), paths.end(), fileSize))
             outcomes_[action].paths = paths;
     }
+}
+
+/// Return the path of an input's file; the file exists after ensureInputs().
+std::string Executor::inputPath(const Input& input) const
+{
+    if (input.action == kNoAction)
+        return input.path;
+    const std::vector<std::string>& paths = outcomes_[input.action].paths;
+    return paths.empty() ? contentPath(input.action, input.output) : paths[input.output];
+}
+
+/// True if the file of an input that an action makes exists.
+bool Executor::hasFile(const Input& input) const
+{
+    return !outcomes_[input.action].paths.empty() || (input.output != 0 && fileSize(inputPath(input)));
 }
 
 std::vector<std::string> Executor::probedFiles(size_t index) const
@@ -180,18 +237,23 @@ std::optional<std::string> Executor::readOutput(size_t action, size_t output)
     return readIfThere(path);
 }
 
-/// Make sure that the action's input files exist; an input that the cache has lost is made again first.
+/// Make sure that the action's input files exist; an input that the cache has lost is made again first. Of an
+/// action whose part is not read, only the output that is read is fetched.
 bool Executor::ensureInputs(size_t action)
 {
     std::vector<size_t> producers;
+    std::vector<OutputId> others;
     for (const Input& input : graph_.actions[action].inputs)
-        if (input.action != kNoAction)
+        if (input.action != kNoAction && input.output == 0)
             producers.push_back(input.action);
+        else if (input.action != kNoAction && outcomes_[input.action].paths.empty())
+            others.push_back({input.action, input.output});
     materialize(producers);
+    fetchOutputs(others);
     bool have = true;
-    for (const size_t producer : producers)
+    for (const Input& input : graph_.actions[action].inputs)
     {
-        if (!outcomes_[producer].paths.empty() || ensureResult(producer))
+        if (input.action == kNoAction || hasFile(input) || ensureResult(input.action))
             continue;
         have = false;
         // the remade input may differ
@@ -206,7 +268,7 @@ uint64_t Executor::partBytes(size_t action) const
     uint64_t bytes = 0;
     for (const Input& input : graph_.actions[action].inputs)
         if (input.action != kNoAction)
-            bytes += outcomes_[input.action].result.outputs.front().bytes;
+            bytes += outcomes_[input.action].result.outputs[input.output].bytes;
     return bytes;
 }
 
@@ -217,8 +279,7 @@ std::optional<Failure> Executor::start(size_t index)
         return failure;
     ActionPaths paths{{}, cookerOutputPaths(index)};
     for (const Input& input : action.inputs)
-        paths.inputs.push_back(input.action == kNoAction ? input.path
-                                                         : outcomes_[input.action].paths.front());
+        paths.inputs.push_back(inputPath(input));
     std::vector<std::string> command = commandLine(action, options_.programs, paths);
     if (action.finds_files && (cache_ != nullptr || options_.lists_files))
         command.insert(command.end(), {"--depfile", readListPath(index)});
@@ -231,29 +292,47 @@ std::optional<Failure> Executor::start(size_t index)
     return std::nullopt;
 }
 
-/// Remove failed sources from the actions of the pack, unless all have failed. False where it is not yet
-/// known which will fail. A source can fail late, when a lost result is made again: what was made with it is
-/// then made again without it.
+/// True if it is known which sources fail before an action of the pack reads them.
+bool Executor::areSourcesSettled(size_t reader) const
+{
+    for (size_t i = 0; i < states_.size(); ++i)
+    {
+        const Action& action = graph_.actions[i];
+        const bool is_settled = states_[i] == State::done || states_[i] == State::failed;
+        if (action.source == graph_.source_count
+                ? states_[i] == State::running
+                : is_needed_[i] && action.neighbours_from != reader && !is_settled)
+            return false;
+    }
+    return true;
+}
+
+/// Remove sources that have failed since the last call from the actions of the pack, unless all have failed.
+/// A source can fail late, when a lost result is made again: what was made with it is then made again without
+/// it. False where nothing has changed.
 bool Executor::skipFailedSources()
 {
     std::vector<bool> has_failed(graph_.source_count, false);
+    for (const Failure& failure : failures_)
+        if (failure.source < graph_.source_count)
+            has_failed[failure.source] = true;
+    if (has_failed == is_skipped_ || std::count(has_failed.begin(), has_failed.end(), false) == 0)
+        return false;
     for (size_t i = 0; i < states_.size(); ++i)
     {
-        const size_t source = graph_.actions[i].source;
-        const bool is_settled = states_[i] == State::done || states_[i] == State::failed;
-        if (source < graph_.source_count ? !is_settled : states_[i] == State::running)
-            return false;
-        if (source < graph_.source_count && states_[i] == State::failed)
-            has_failed[source] = true;
+        const Action& action = graph_.actions[i];
+        // failed because a neighbour has failed, not by itself
+        const bool was_left_out = outcomes_[i].ending == Outcome::skipped;
+        const bool reads_neighbours = action.neighbours_from != kNoAction && !has_failed[action.source];
+        if (states_[i] == State::failed ? !(reads_neighbours && was_left_out)
+                                        : !reads_neighbours && !readsSources(graph_, action))
+            continue;
+        states_[i] = State::waiting;
+        outcomes_[i].paths.clear();
     }
-    if (has_failed == is_skipped_ || std::count(has_failed.begin(), has_failed.end(), false) == 0)
-        return true;
-    for (size_t i = 0; i < states_.size(); ++i)
-        if (readsSources(graph_, graph_.actions[i]) && states_[i] != State::failed)
-        {
-            states_[i] = State::waiting;
-            outcomes_[i].paths.clear();
-        }
+    for (size_t i = 0; i < graph_.actions.size(); ++i)
+        if (graph_.actions[i].lists_neighbours)
+            removeNeighbourInputs(graph_, i);
     for (size_t source = 0; source < graph_.source_count; ++source)
         if (has_failed[source] && !is_skipped_[source])
             skipSource(graph_, source, failures_);
@@ -280,23 +359,36 @@ bool Executor::advance(size_t index)
         { return input.action != kNoAction && states_[input.action] == state; };
     };
     ActionOutcome& outcome = outcomes_[index];
-    if (options_.skips_failed_sources && readsSources(graph_, action) && !skipFailedSources())
-        return false;
-    if (std::any_of(action.inputs.begin(), action.inputs.end(), isIn(State::failed)))
+    if (options_.skips_failed_sources && readsSources(graph_, action))
+    {
+        if (!areSourcesSettled(index))
+            return false;
+        if (skipFailedSources())
+            return true;
+    }
+    const size_t lister = action.neighbours_from;
+    if (std::any_of(action.inputs.begin(), action.inputs.end(), isIn(State::failed)) ||
+        (lister != kNoAction && states_[lister] == State::failed))
     {
         states_[index] = State::failed;
         outcome.ending = Outcome::skipped;
         return true;
     }
-    const auto isReady = [&](const Input& input)
-    { return input.action == kNoAction || states_[input.action] == State::done; };
-    if (states_[index] != State::waiting || !std::all_of(action.inputs.begin(), action.inputs.end(), isReady))
+    if (states_[index] != State::waiting || !areInputsDone(index))
         return false;
+    if (const auto known = options_.known.find(index); known != options_.known.end())
+    {
+        states_[index] = State::done;
+        outcome.ending = Outcome::cached;
+        outcome.is_cached = true;
+        outcome.result = known->second;
+        return true;
+    }
 
     std::vector<std::string> part_hashes;
     for (const Input& input : action.inputs)
         part_hashes.push_back(
-            input.action == kNoAction ? "" : outcomes_[input.action].result.outputs.front().hash);
+            input.action == kNoAction ? "" : outcomes_[input.action].result.outputs[input.output].hash);
     Resolution resolved = resolver_.resolve(index, part_hashes);
     outcome.record = resolved.record.value_or(Record());
     outcome.causes = std::move(resolved.causes);
@@ -309,9 +401,25 @@ bool Executor::advance(size_t index)
     outcome.ending = Outcome::cached;
     outcome.is_cached = true;
     outcome.result = std::move(*resolved.result);
+    if (action.lists_neighbours && !setNeighbours(index))
+    {
+        states_[index] = State::must_run;
+        outcome.causes = {kLost};
+        return true;
+    }
     if (events_.ended)
         events_.ended(action, outcome, outcome.result.warnings);
     return true;
+}
+
+/// True if all that the action reads has been made.
+bool Executor::areInputsDone(size_t index) const
+{
+    const Action& action = graph_.actions[index];
+    const auto isDone = [&](size_t before) { return before == kNoAction || states_[before] == State::done; };
+    return isDone(action.neighbours_from) &&
+           std::all_of(action.inputs.begin(), action.inputs.end(),
+                       [&](const Input& input) { return isDone(input.action); });
 }
 
 std::optional<Failure> Executor::startReady()
@@ -321,13 +429,11 @@ std::optional<Failure> Executor::startReady()
         has_changed = false;
         for (size_t i = 0; i < graph_.actions.size(); ++i)
         {
+            if (!is_needed_[i])
+                continue;
             if (states_[i] == State::waiting || states_[i] == State::must_run)
                 has_changed |= advance(i);
-            const auto isReady = [&](const Input& input)
-            { return input.action == kNoAction || states_[input.action] == State::done; };
-            const std::vector<Input>& inputs = graph_.actions[i].inputs;
-            if (states_[i] != State::must_run || !std::all_of(inputs.begin(), inputs.end(), isReady) ||
-                !pool_.canStart(i, partBytes(i)))
+            if (states_[i] != State::must_run || !areInputsDone(i) || !pool_.canStart(i, partBytes(i)))
                 continue;
             has_changed = true;
             if (!ensureInputs(i))
@@ -370,6 +476,19 @@ std::optional<Failure> Executor::checkOutputs(size_t index)
     return std::nullopt;
 }
 
+/// Read the list of neighbours that an action has made; else report a defect of its cooker.
+std::optional<Failure> Executor::takeNeighbours(size_t index)
+{
+    ActionOutcome& outcome = outcomes_[index];
+    outcome.result.neighbours = readIfThere(outcome.paths.front()).value_or("");
+    if (setNeighbours(index))
+        return std::nullopt;
+    const Action& action = graph_.actions[index];
+    return makeFailure({Issue::child_failed, action.subject, "",
+                        "hearth-" + action.cooker + " ended well, but its list is malformed"},
+                       action.source);
+}
+
 void Executor::cacheResult(size_t index)
 {
     const Action& action = graph_.actions[index];
@@ -408,7 +527,7 @@ void Executor::handleEnd(const ActionEnd& action_end)
     std::vector<std::string> private_paths = cookerOutputPaths(index);
     for (const Input& input : action.inputs)
         if (input.action != kNoAction)
-            private_paths.push_back(outcomes_[input.action].paths.front());
+            private_paths.push_back(inputPath(input));
     const std::vector<std::string> lines =
         splitLines(replacePaths(end.messages, private_paths, action.subject));
     outcome.result.warnings.clear();
@@ -419,6 +538,8 @@ void Executor::handleEnd(const ActionEnd& action_end)
     std::optional<Failure> failure = makeFailure(action, end, lines);
     if (!failure)
         failure = checkOutputs(index);
+    if (!failure && action.lists_neighbours)
+        failure = takeNeighbours(index);
     if (failure)
         fail(index, *failure);
     else
@@ -458,18 +579,21 @@ bool Executor::ensureResult(size_t action)
 {
     if (materialize(action))
         return true;
-    states_[action] = State::must_run;
+    // a result that was only known from elsewhere has no record yet: look for it first
+    states_[action] = options_.known.erase(action) > 0 ? State::waiting : State::must_run;
     outcomes_[action].is_cached = false;
     outcomes_[action].causes = {kLost};
     return false;
 }
 
-/// Make sure that every result exists as files and is intact. False where some must be made again first.
+/// Make sure that every wanted result exists as files and is intact. False where some must be made again
+/// first.
 bool Executor::finishParts()
 {
     bool have = true;
     for (size_t i = 0; i < states_.size(); ++i)
-        if (states_[i] == State::done)
+        if (states_[i] == State::done &&
+            (options_.wanted.empty() || std::ranges::count(options_.wanted, i) > 0))
             have = ensureResult(i) && have;
     return have;
 }
@@ -488,6 +612,8 @@ bool Executor::run(const std::optional<std::string>& existing_hash)
         }
         if (pool_.isIdle())
         {
+            if (options_.skips_failed_sources && skipFailedSources())
+                continue;
             if (options_.makes_pack ? finishPack(existing_hash) : finishParts())
                 return true;
             continue;

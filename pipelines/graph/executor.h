@@ -9,6 +9,7 @@
 #include "pipelines/graph/resolver.h"
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -30,6 +31,11 @@ struct ExecutorOptions
     /// True if a source with a failed action is left out of the pack, as skipSource does; else there is no
     /// pack. If all sources fail there is none either.
     bool skips_failed_sources = false;
+    /// Actions whose results are wanted; the others run only as far as these need them. Empty: all.
+    std::vector<size_t> wanted{};
+    /// Results in the cache, by action, that count although nobody has looked what they were made from: what
+    /// other machines say of sources that are theirs to check.
+    std::map<size_t, CachedResult> known{};
 };
 
 struct ActionOutcome
@@ -107,16 +113,30 @@ private:
         failed,
     };
 
+    struct OutputId
+    {
+        size_t action = kNoAction;
+        size_t output = 0;
+    };
+
     std::optional<Failure> startReady();
     bool advance(size_t action);
+    bool areInputsDone(size_t action) const;
+    void need(size_t action);
+    bool setNeighbours(size_t lister);
+    bool areSourcesSettled(size_t reader) const;
     bool skipFailedSources();
     uint64_t partBytes(size_t action) const;
     std::optional<Failure> start(size_t action);
     std::optional<Failure> makeFolders();
+    void fetchOutputs(std::span<const OutputId> outputs);
     void materialize(std::span<const size_t> actions);
+    bool hasFile(const Input& input) const;
+    std::string inputPath(const Input& input) const;
     bool ensureInputs(size_t action);
     void handleEnd(const ActionEnd& end);
     std::optional<Failure> checkOutputs(size_t action);
+    std::optional<Failure> takeNeighbours(size_t action);
     void cacheResult(size_t action);
     bool finishPack(const std::optional<std::string>& existing_hash);
     bool finishParts();
@@ -144,6 +164,7 @@ private:
     std::vector<ActionOutcome> outcomes_;
     std::vector<bool> has_begun_; ///< for each action: events_.starting was called
     std::vector<Failure> failures_;
+    std::vector<bool> is_needed_;  ///< for each action: wanted, or read by one that is needed
     std::vector<bool> is_skipped_; ///< for each source: removed from the actions of the pack
     bool has_pack_ = false;
     std::string pack_path_;

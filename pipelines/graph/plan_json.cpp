@@ -25,7 +25,10 @@ Json inputJson(const Input& input)
 {
     if (input.action == kNoAction)
         return {{"role", input.role}, {"path", input.path}};
-    return {{"role", input.role}, {"action", input.action}};
+    Json json{{"role", input.role}, {"action", input.action}};
+    if (input.output != 0)
+        json["output"] = input.output;
+    return json;
 }
 
 Json actionJson(const Action& action)
@@ -36,6 +39,10 @@ Json actionJson(const Action& action)
         json["words"].push_back(wordJson(word));
     for (const Input& input : action.inputs)
         json["inputs"].push_back(inputJson(input));
+    if (action.lists_neighbours)
+        json["lists_neighbours"] = true;
+    if (action.neighbours_from != kNoAction)
+        json["neighbours_from"] = action.neighbours_from;
     if (action.finds_files)
         json["finds_files"] = true;
     if (action.depends_on_processor)
@@ -63,8 +70,10 @@ Action parseAction(const Json& json)
     for (const Json& word : json.at("words"))
         action.words.push_back(parseWord(word));
     for (const Json& input : json.at("inputs"))
-        action.inputs.push_back(
-            {input.at("role").get<std::string>(), input.value("action", kNoAction), input.value("path", "")});
+        action.inputs.push_back({input.at("role").get<std::string>(), input.value("action", kNoAction),
+                                 input.value("path", ""), input.value("output", size_t{0})});
+    action.lists_neighbours = json.value("lists_neighbours", false);
+    action.neighbours_from = json.value("neighbours_from", kNoAction);
     action.finds_files = json.value("finds_files", false);
     action.depends_on_processor = json.value("depends_on_processor", false);
     json.at("estimate").at("memory_bytes").get_to(action.estimate.memory_bytes);
@@ -83,8 +92,11 @@ bool isConsistent(const Graph& graph)
                 (word.kind == Word::Kind::output && word.index >= action.outputs.size()))
                 return false;
         for (const Input& input : action.inputs)
-            if (input.action != kNoAction && input.action >= i)
+            if (input.action != kNoAction &&
+                (input.action >= i || input.output >= graph.actions[input.action].outputs.size()))
                 return false;
+        if (action.neighbours_from != kNoAction && action.neighbours_from >= i)
+            return false;
         if (action.outputs.empty() || action.source > graph.source_count)
             return false;
     }

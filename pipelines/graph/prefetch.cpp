@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/graph/prefetch.h"
 
+#include "pipelines/graph/neighbour_inputs.h"
+
 namespace hearth::graph
 {
 
@@ -13,33 +15,23 @@ struct PendingLookup
     Record record;
 };
 
-/// Hash of the first output of each action; nullopt where it is not known.
-using PartHashes = std::vector<std::optional<std::string>>;
-
-/// Return the hashes of the action's inputs; nullopt where one is not known.
-std::optional<std::vector<std::string>> inputHashes(const Action& action, const PartHashes& hash_of_action)
+/// True if the action's neighbours are not known yet.
+bool waitsForNeighbours(const Action& action, const OutputHashes& hashes)
 {
-    std::vector<std::string> hashes;
-    for (const Input& input : action.inputs)
-    {
-        if (input.action != kNoAction && !hash_of_action[input.action])
-            return std::nullopt;
-        hashes.push_back(input.action == kNoAction ? "" : *hash_of_action[input.action]);
-    }
-    return hashes;
+    return action.neighbours_from != kNoAction && hashes[action.neighbours_from].empty();
 }
 
 /// Return the actions that can be looked up now, and remove them from `remaining`.
-std::vector<PendingLookup> nextWave(const Graph& graph, ActionCache& actions,
-                                    const PartHashes& hash_of_action, std::vector<size_t>& remaining)
+std::vector<PendingLookup> nextWave(const Graph& graph, ActionCache& actions, const OutputHashes& hashes,
+                                    std::vector<size_t>& remaining)
 {
     std::vector<PendingLookup> wave;
     std::vector<size_t> later;
     for (const size_t index : remaining)
     {
         const Action& action = graph.actions[index];
-        const auto part_hashes = inputHashes(action, hash_of_action);
-        if (!part_hashes)
+        const auto part_hashes = findPartHashes(action, hashes);
+        if (!part_hashes || waitsForNeighbours(action, hashes))
             later.push_back(index);
         else if (std::optional<Record> record = actions.makeRecord(action, *part_hashes))
             wave.push_back({index, std::move(*record)});
@@ -50,15 +42,16 @@ std::vector<PendingLookup> nextWave(const Graph& graph, ActionCache& actions,
 
 } // namespace
 
-void prefetch(const Graph& graph, cache::Cache& cache, ActionCache& actions)
+void prefetch(const Graph& planned, cache::Cache& cache, ActionCache& actions)
 {
-    PartHashes hash_of_action(graph.actions.size());
+    Graph graph = planned; // gets the inputs that are only known from results
+    OutputHashes hashes(graph.actions.size());
     std::vector<size_t> remaining;
     for (size_t i = 0; i < graph.actions.size(); ++i)
         remaining.push_back(i);
     for (;;)
     {
-        const std::vector<PendingLookup> wave = nextWave(graph, actions, hash_of_action, remaining);
+        const std::vector<PendingLookup> wave = nextWave(graph, actions, hashes, remaining);
         if (wave.empty())
             return;
         std::vector<std::string> keys;
@@ -75,7 +68,9 @@ void prefetch(const Graph& graph, cache::Cache& cache, ActionCache& actions)
         cache.prefetch(keys);
         for (const PendingLookup& lookup : wave)
             if (const auto result = actions.find(graph.actions[lookup.action], lookup.record).result)
-                hash_of_action[lookup.action] = result->outputs.front().hash;
+                if (!graph.actions[lookup.action].lists_neighbours ||
+                    setNeighbourInputs(graph, lookup.action, result->neighbours))
+                    hashes[lookup.action] = listHashes(*result);
     }
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/graph/resolver.h"
 
+#include "formats/base/assert.h"
 #include "pipelines/graph/causes.h"
+#include "pipelines/graph/neighbour_inputs.h"
 
 #include <algorithm>
 
@@ -59,31 +61,51 @@ std::vector<std::string> Resolver::causesAfter(size_t index, const std::vector<s
     return findCauses(graph_.actions[index], graph_, state, journal_());
 }
 
-Forecast forecast(const Graph& graph, Resolver& resolver)
+namespace
+{
+
+/// Return the cookers of the actions that an action waits for, of those that run.
+std::vector<std::string> listPendingCookers(const Graph& graph, const Action& action,
+                                            const Forecast& forecast)
+{
+    std::vector<std::string> cookers;
+    const auto add = [&](size_t before)
+    {
+        if (before == kNoAction || !forecast.actions[before].runs)
+            return;
+        const std::string& cooker = graph.actions[before].cooker;
+        if (std::find(cookers.begin(), cookers.end(), cooker) == cookers.end())
+            cookers.push_back(cooker);
+    };
+    for (const Input& input : action.inputs)
+        add(input.action);
+    add(action.neighbours_from);
+    return cookers;
+}
+
+} // namespace
+
+Forecast forecast(Graph& graph, Resolver& resolver)
 {
     Forecast forecast;
-    std::vector<std::string> hash_of_action(graph.actions.size());
+    OutputHashes hashes(graph.actions.size());
     for (size_t i = 0; i < graph.actions.size(); ++i)
     {
-        std::vector<std::string> part_hashes;
-        std::vector<std::string> runs_before;
-        for (const Input& input : graph.actions[i].inputs)
+        const std::vector<std::string> pending = listPendingCookers(graph, graph.actions[i], forecast);
+        if (!pending.empty())
         {
-            part_hashes.push_back(input.action == kNoAction ? "" : hash_of_action[input.action]);
-            const std::string cooker = input.action == kNoAction ? "" : graph.actions[input.action].cooker;
-            if (input.action != kNoAction && forecast.actions[input.action].runs &&
-                std::find(runs_before.begin(), runs_before.end(), cooker) == runs_before.end())
-                runs_before.push_back(cooker);
-        }
-        if (!runs_before.empty())
-        {
-            forecast.actions.push_back({true, resolver.causesAfter(i, runs_before)});
+            forecast.actions.push_back({true, resolver.causesAfter(i, pending)});
             continue;
         }
-        const Resolution resolved = resolver.resolve(i, part_hashes);
+        const auto part_hashes = findPartHashes(graph.actions[i], hashes);
+        HEARTH_ASSERT(part_hashes.has_value()); // nothing before it runs
+        Resolution resolved = resolver.resolve(i, *part_hashes);
+        if (resolved.result && graph.actions[i].lists_neighbours &&
+            !setNeighbourInputs(graph, i, resolved.result->neighbours))
+            resolved.result.reset();
         forecast.actions.push_back({!resolved.result, resolved.causes});
         if (resolved.result)
-            hash_of_action[i] = resolved.result->outputs.front().hash;
+            hashes[i] = listHashes(*resolved.result);
         if (resolved.result && i + 1 == graph.actions.size())
             forecast.result = resolved.result->outputs.front();
     }

@@ -61,6 +61,7 @@ struct Forecast
     std::vector<Entry> actions;         ///< [graph.actions.size()]
     std::optional<CachedOutput> result; ///< the pack, if nothing has to run
 };
-Forecast forecast(const Graph& graph, Resolver& resolver);
+/// graph  gets the inputs that results name: setNeighbourInputs
+Forecast forecast(Graph& graph, Resolver& resolver);
 
 } // namespace hearth::graph

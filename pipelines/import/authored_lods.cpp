@@ -68,6 +68,7 @@ Status copyImages(const PackView& from, PartBuilder& part)
 
 void copyMaterials(const PackView& from, uint32_t first_image, PartBuilder& part)
 {
+    const auto first_material = static_cast<uint32_t>(part.materials.size());
     for (MaterialRecord material : from.materials())
     {
         material.name = part.intern(from.text(material.name));
@@ -77,6 +78,14 @@ void copyMaterials(const PackView& from, uint32_t first_image, PartBuilder& part
             if (texture->image != kInvalidIndex)
                 texture->image += first_image;
         part.materials.push_back(material);
+    }
+    for (MaterialLayersRecord layers : from.materialLayers())
+    {
+        layers.material += first_material;
+        for (TextureRef MaterialLayersRecord::*const texture : kLayerTextures)
+            if ((layers.*texture).image != kInvalidIndex)
+                (layers.*texture).image += first_image;
+        part.material_layers.push_back(layers);
     }
 }
 

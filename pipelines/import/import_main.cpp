@@ -76,7 +76,8 @@ Status finish(const Arguments& arguments, const animation_compression::StatedErr
         {arguments.scale, arguments.up == "z" ? import::UpAxis::z : import::UpAxis::y}, part));
     import::compressClips(part, stated_error);
     HEARTH_TRY(part.finish());
-    return arguments.statistics.empty() ? success() : writeText(arguments.statistics, part.report() + "\n");
+    return arguments.statistics.empty() ? success()
+                                        : writeText(arguments.statistics, part.statistics() + "\n");
 }
 
 Status run(const Arguments& arguments)
@@ -124,9 +125,10 @@ int program(int argc, char** argv)
         .excludes(profile);
     app.addOption("--depfile", arguments.depfile,
                   "write which files were read, and which were not found, as sha256sum would");
-    app.addOption("--stats", arguments.statistics,
-                  "write what was read, what was left out and what was counted, as the part's META has it; - "
-                  "is standard output");
+    app.addOption(
+        "--stats", arguments.statistics,
+        "write what was read, what was left out and what was counted, as the part's META has it, and "
+        "the box of what can occlude; - is standard output");
     app.setFooter("Examples:\n"
                   "  hearth-import scene.glb -o scene.import.part\n"
                   "  hearth-import rock.glb --lod 1=rock_mid.glb --lod 2=rock_low.glb -o rock.import.part\n"

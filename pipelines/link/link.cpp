@@ -72,6 +72,10 @@ Status checkSameSource(const Source& source)
     const uint64_t images = source.import_part.images().size();
     if (source.textures_part.images().size() != images)
         return differ(source.textures_part, "images", source.textures_part.images().size(), images);
+    const uint64_t instances = source.import_part.instances().size();
+    const uint64_t surroundings = source.clusters_part.surroundings().size();
+    if (surroundings != 0 && surroundings != instances)
+        return differ(source.clusters_part, "surroundings of instances", surroundings, instances);
     for (const DeformedGroupRecord& group : source.deformed_groups.span())
         if (group.group >= source.clusters_part.groups().size())
             return Error{Issue::meaning_reference, source.skinning_part.name(), "",
@@ -138,6 +142,7 @@ bool advanceOffsets(const Source& source, TableOffsets& next)
            advanceOffset(next.clusters, meshes.clusters().size()) &&
            advanceOffset(next.pages, meshes.pages().size()) &&
            advanceOffset(next.page_parents, meshes.pageParents().size()) &&
+           advanceOffset(next.radiance_transfers, meshes.radianceTransfers().size()) &&
            advanceOffset(next.deformed_clusters, deformed.deformedClusters().size()) &&
            advanceOffset(next.cluster_joints, deformed.clusterJoints().size());
 }
@@ -167,13 +172,15 @@ Status assignOffsets(std::vector<Source>& sources, const std::string& output)
 }
 
 Status writeMeta(ContainerWriter& writer, std::span<const Source> sources,
-                 std::span<const std::string> skipped, const std::string& output)
+                 const std::optional<PackView>& bricks, std::span<const std::string> skipped,
+                 const std::string& output)
 {
     std::vector<PartMetas> metas;
     for (const Source& source : sources)
         metas.push_back(
             {source.import_part.meta(), source.clusters_part.meta(), source.textures_part.meta()});
-    HEARTH_ASSIGN_OR_RETURN(const std::string text, mergeMeta(metas, skipped, output));
+    HEARTH_ASSIGN_OR_RETURN(const std::string text,
+                            mergeMeta(metas, bricks ? bricks->meta() : "", skipped, output));
     return writer.addText(kChunkMeta, text);
 }
 
@@ -251,6 +258,16 @@ Status writeKeyBits(ContainerWriter& writer, std::span<const Source> sources)
                : success();
 }
 
+/// Write the layers of the materials of all sources; no chunk if there are none.
+Status writeMaterialLayers(ContainerWriter& writer, std::span<const Source> sources)
+{
+    const auto hasLayers = [](const Source& source) { return !source.import_part.materialLayers().empty(); };
+    return std::any_of(sources.begin(), sources.end(), hasLayers)
+               ? writeTable(writer, sources, kChunkMaterialLayers, &Source::import_part,
+                            &PackView::materialLayers)
+               : success();
+}
+
 Status writeScene(ContainerWriter& writer, std::span<const Source> sources)
 {
     const auto write = [&]<typename T>(uint32_t type, std::span<const T> (PackView::*table)() const)
@@ -261,6 +278,7 @@ Status writeScene(ContainerWriter& writer, std::span<const Source> sources)
     HEARTH_TRY(write(kChunkLights, &PackView::lights));
     HEARTH_TRY(write(kChunkShadowSpheres, &PackView::shadowSpheres));
     HEARTH_TRY(write(kChunkMaterials, &PackView::materials));
+    HEARTH_TRY(writeMaterialLayers(writer, sources));
     HEARTH_TRY(writeTable(writer, sources, kChunkImages, &Source::textures_part, &PackView::images));
     HEARTH_TRY(write(kChunkSkins, &PackView::skins));
     HEARTH_TRY(write(kChunkJoints, &PackView::joints));
@@ -330,6 +348,28 @@ Status writeAuthoredLevels(ContainerWriter& writer, std::span<const Source> sour
                       &PackView::authoredLevels);
 }
 
+/// Write the surroundings of instances; no chunks if no source has any.
+Status writeSurroundings(ContainerWriter& writer, std::span<const Source> sources)
+{
+    const auto isBaked = [](const Source& source) { return !source.clusters_part.surroundings().empty(); };
+    if (std::none_of(sources.begin(), sources.end(), isBaked))
+        return success();
+    std::vector<SurroundingsRecord> merged;
+    for (const Source& source : sources)
+    {
+        for (SurroundingsRecord record : source.clusters_part.surroundings())
+        {
+            rebase(record, source.offsets);
+            merged.push_back(record);
+        }
+        if (!isBaked(source))
+            merged.resize(merged.size() + source.import_part.instances().size(), kPlainSurroundings);
+    }
+    HEARTH_TRY(writer.addRecords<SurroundingsRecord>(kChunkSurroundings, merged));
+    return writeJoined(writer, sources, kChunkRadianceTransfers, &Source::clusters_part,
+                       &PackView::radianceTransfers);
+}
+
 /// Write the bounds of deformed meshes; no chunks if no source has any.
 Status writeDeformedMeshes(ContainerWriter& writer, std::span<const Source> sources)
 {
@@ -393,16 +433,17 @@ Result<std::vector<SpecularTableRecord>> readSpecular(std::span<const std::strin
     return tables;
 }
 
-/// Open the part with the pack's bricks; nullopt if `path` is empty.
+/// Open the part with the pack's bricks, or with the reason why it has none; nullopt if `path` is empty.
 Result<std::optional<PackView>> openBricks(const std::string& path)
 {
     if (path.empty())
         return std::optional<PackView>();
     HEARTH_ASSIGN_OR_RETURN(PackView part, openPart(path));
-    if (part.brickGrid().empty())
+    if (!part.brickGrid().empty())
+        HEARTH_TRY(checkBricks(part)); // a failure here names the part
+    else if (!isBricksMeta(part.meta()))
         return Error{Issue::chunk_missing, path, chunkName(kChunkBrickGrid, 0),
                      "this is not a bricks part: it has no grid"};
-    HEARTH_TRY(checkBricks(part)); // a failure here names the part
     return std::optional<PackView>(std::move(part));
 }
 
@@ -418,7 +459,7 @@ Status writePack(const std::string& path, std::span<const Source> sources,
                  std::span<const std::string> skipped)
 {
     HEARTH_ASSIGN_OR_RETURN(ContainerWriter writer, ContainerWriter::create(path, ContainerKind::pack));
-    HEARTH_TRY(writeMeta(writer, sources, skipped, path));
+    HEARTH_TRY(writeMeta(writer, sources, bricks, skipped, path));
     HEARTH_TRY(writeStrings(writer, sources));
     HEARTH_TRY(writeScene(writer, sources));
     HEARTH_TRY(writeAssets(writer, sources));
@@ -428,7 +469,8 @@ Status writePack(const std::string& path, std::span<const Source> sources,
     HEARTH_TRY(writeDeformedMeshes(writer, sources));
     if (!specular.empty())
         HEARTH_TRY(writer.addRecords<SpecularTableRecord>(kChunkSpecular, specular));
-    if (bricks)
+    HEARTH_TRY(writeSurroundings(writer, sources));
+    if (bricks && !bricks->brickGrid().empty())
         HEARTH_TRY(writeBricks(writer, *bricks));
     HEARTH_TRY(writePages(writer, sources));
     for (const Source& source : sources)

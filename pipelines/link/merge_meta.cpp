@@ -77,8 +77,8 @@ void mergePart(Json& merged, const Json& meta, const Json& asset)
 
 } // namespace
 
-Result<std::string> mergeMeta(std::span<const PartMetas> sources, std::span<const std::string> skipped,
-                              const std::string& name)
+Result<std::string> mergeMeta(std::span<const PartMetas> sources, std::string_view bricks,
+                              std::span<const std::string> skipped, const std::string& name)
 {
     Json merged{{"schema", "hearth.meta/1"}, {"tool", {{"name", "hearth"}, {"version", HEARTH_VERSION}}},
                 {"sources", Json::array()},  {"settings", Json::object()},
@@ -105,6 +105,8 @@ Result<std::string> mergeMeta(std::span<const PartMetas> sources, std::span<cons
             mergePart(merged, meta, asset);
         }
     }
+    if (!bricks.empty())
+        mergePart(merged, Json::parse(bricks).value_or(Json()), "");
     for (const std::string& text : skipped)
     {
         Json failure = Json::parse(text).value_or(Json());
@@ -113,6 +115,12 @@ Result<std::string> mergeMeta(std::span<const PartMetas> sources, std::span<cons
         merged["skipped"].push_back(std::move(failure));
     }
     return merged.dump(1, '\t');
+}
+
+bool isBricksMeta(std::string_view meta)
+{
+    const Json parsed = Json::parse(meta).value_or(Json());
+    return memberOrNull(memberOrNull(parsed, "settings"), "bricks").is_object();
 }
 
 std::string readAssetName(std::string_view import_meta)

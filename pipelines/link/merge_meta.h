@@ -21,11 +21,15 @@ struct PartMetas
 
 /// Return schema "hearth.meta/1". Sources, messages and dropped features follow each other in the order of
 /// the sources, counts are summed. The same parts give the same text: no dates, no paths of the machine.
+/// bricks   META text of the part with the pack's bricks; empty if there is none
 /// skipped  JSON objects for the list of what the pack lacks; META has that list only if there are some
 /// errors: meaning_value if a part's META or a text of `skipped` is not a JSON object; `name` is used in the
 /// message.
-Result<std::string> mergeMeta(std::span<const PartMetas> sources, std::span<const std::string> skipped,
-                              const std::string& name);
+Result<std::string> mergeMeta(std::span<const PartMetas> sources, std::string_view bricks,
+                              std::span<const std::string> skipped, const std::string& name);
+
+/// True if the META text is that of a bricks part, with or without a grid.
+bool isBricksMeta(std::string_view meta);
 
 /// Return the name of the asset of an import part: the file name of its source without the extension; empty
 /// if META has none.

@@ -113,6 +113,13 @@ void rebase(MaterialRecord& material, const TableOffsets& offsets)
     addOffset(material.emissive_texture, offsets.images);
 }
 
+void rebase(MaterialLayersRecord& layers, const TableOffsets& offsets)
+{
+    addOffset(layers.material, offsets.materials);
+    for (TextureRef MaterialLayersRecord::*const texture : kLayerTextures)
+        addOffset(layers.*texture, offsets.images);
+}
+
 void rebase(ImageRecord& image, const TableOffsets& offsets)
 {
     addOffset(image.name, offsets.strings);
@@ -197,6 +204,11 @@ void rebase(DeformedMeshRecord& mesh, const TableOffsets& offsets)
 void rebase(DeformedClusterRecord& cluster, const TableOffsets& offsets)
 {
     addOffset(cluster.joints, offsets.cluster_joints);
+}
+
+void rebase(SurroundingsRecord& surroundings, const TableOffsets& offsets)
+{
+    addOffset(surroundings.transfer, offsets.radiance_transfers);
 }
 
 void rebase(uint32_t& page_parent, const TableOffsets& offsets)

@@ -4,9 +4,11 @@
 
 #include "formats/records/deformation.h"
 #include "formats/records/extras.h"
+#include "formats/records/material_layers.h"
 #include "formats/records/mesh.h"
 #include "formats/records/provenance.h"
 #include "formats/records/scene.h"
+#include "formats/records/surroundings.h"
 
 namespace hearth::link
 {
@@ -37,6 +39,7 @@ struct TableOffsets
     uint32_t page_parents = 0;
     uint32_t deformed_clusters = 0;
     uint32_t cluster_joints = 0;
+    uint32_t radiance_transfers = 0;
     uint64_t page_bytes = 0; ///< in chunk PAGE
 };
 
@@ -47,6 +50,7 @@ void rebase(formats::LightRecord& light, const TableOffsets& offsets);
 void rebase(formats::ShadowSphereRecord& sphere, const TableOffsets& offsets);
 void rebase(formats::ExtrasRecord& extras, const TableOffsets& offsets);
 void rebase(formats::MaterialRecord& material, const TableOffsets& offsets);
+void rebase(formats::MaterialLayersRecord& layers, const TableOffsets& offsets);
 void rebase(formats::ImageRecord& image, const TableOffsets& offsets);
 void rebase(formats::SkinRecord& skin, const TableOffsets& offsets);
 void rebase(formats::JointRecord& joint, const TableOffsets& offsets);
@@ -60,6 +64,7 @@ void rebase(formats::PageRecord& page, const TableOffsets& offsets);
 void rebase(formats::AuthoredLevelRecord& level, const TableOffsets& offsets);
 void rebase(formats::DeformedMeshRecord& mesh, const TableOffsets& offsets);
 void rebase(formats::DeformedClusterRecord& cluster, const TableOffsets& offsets);
+void rebase(formats::SurroundingsRecord& surroundings, const TableOffsets& offsets);
 void rebase(uint32_t& page_parent, const TableOffsets& offsets);
 
 } // namespace hearth::link

@@ -8,7 +8,7 @@ namespace
 {
 
 // Settings for what a class of devices can hold and draw. Whether visibility and bricks are baked depends on
-// the scene, so the project decides that.
+// the scene, or the project decides it.
 constexpr std::string_view kText =
     R"(# Phones of the upper half: 2048 texels are one to a pixel at arm's length.
 [profile.mobile-high]

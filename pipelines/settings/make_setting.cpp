@@ -11,6 +11,14 @@ Setting flagSetting(std::string key, std::string_view what, std::string_view opt
     return setting;
 }
 
+Setting switchSetting(std::string key, std::string_view what, std::string_view option)
+{
+    Setting setting = choiceSetting(std::move(key), what, "auto", {"auto", "on", "off"});
+    setting.bare_choice = "on";
+    setting.option = option;
+    return setting;
+}
+
 Setting numberSetting(std::string key, std::string_view what, std::string_view default_text, double low,
                       double high)
 {

@@ -15,6 +15,10 @@ namespace hearth::settings
 /// option  option of hearth cook that sets it
 Setting flagSetting(std::string key, std::string_view what, std::string_view option);
 
+/// Make a setting that switches a cooker: on, off, or auto, the default, which leaves it to the scene. Its
+/// option alone means on.
+Setting switchSetting(std::string key, std::string_view what, std::string_view option);
+
 /// Make a setting with a number from `low` to `high`.
 Setting numberSetting(std::string key, std::string_view what, std::string_view default_text, double low,
                       double high);

@@ -55,9 +55,10 @@ struct Setting
     bool is_above_low = false; ///< true if `low` itself is not allowed
     /// words of a choice, or the allowed numbers of a whole number
     std::vector<std::string_view> choices{};
-    std::string_view option{};     ///< option of hearth cook, as "--visibility-quality"; empty: --set only
-    std::string_view value_name{}; ///< placeholder of the option's value in help
-    std::string_view variable{};   ///< variable of the environment, for settings of the command; empty: none
+    std::string_view bare_choice{}; ///< choice that the option without a word means; empty: it needs a word
+    std::string_view option{};      ///< option of hearth cook, as "--visibility-quality"; empty: --set only
+    std::string_view value_name{};  ///< placeholder of the option's value in help
+    std::string_view variable{};    ///< variable of the environment, for settings of the command; empty: none
     std::vector<EnvironmentSwitch> switches{}; ///< alternatives to `variable`; the first that is set counts
     bool is_required = false;                  ///< true for a mandatory member of a table
     std::vector<Setting> members{};            ///< members of tables

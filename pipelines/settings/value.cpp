@@ -121,6 +121,12 @@ bool isOn(const Values& values, std::string_view key)
     return value != nullptr && value->text == "true";
 }
 
+std::string choiceOr(const Values& values, std::string_view key, std::string_view otherwise)
+{
+    const Value* value = findValue(values, key);
+    return value == nullptr ? std::string(otherwise) : valueTexts(*value).front();
+}
+
 std::vector<std::string> valueTexts(const Value& value)
 {
     std::vector<std::string> texts;

@@ -44,6 +44,9 @@ const Value* findValue(const Values& values, std::string_view key);
 /// True if a flag is set to true.
 bool isOn(const Values& values, std::string_view key);
 
+/// Return the word of a choice; `otherwise` where it is not set.
+std::string choiceOr(const Values& values, std::string_view key, std::string_view otherwise);
+
 /// Return the texts of a value of kind texts, or the one text of a choice or text.
 std::vector<std::string> valueTexts(const Value& value);
 

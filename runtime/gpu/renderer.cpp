@@ -184,7 +184,8 @@ void Renderer::recordMaterials(VkCommandBuffer commands, const Scene& scene, Fra
     if (usesGi(scene, input.shading))
     {
         const DebugLabel label(device_, commands, "gather light");
-        gather_->record(device_, commands, scene, targets, input.view, scene.bricks->quick_frames > 0);
+        for (uint32_t i = 0; i < input.gathers; ++i)
+            gather_->record(device_, commands, scene, targets, input.view, scene.bricks->quick_frames > 0);
     }
     writeTimestamp(device_, commands, input.timestamps, kTimestampMaterialTiles);
     beginPass(commands, targets, passes_.shading.get());

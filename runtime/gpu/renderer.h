@@ -57,6 +57,9 @@ struct FrameInput
     /// Emission scales of brick faces for a scene with bricks. All scales of this frame; read while
     /// recording.
     std::span<const EmissionScale> emission{};
+    /// Times that the frame gathers the indirect light of its pixels, at least 1; for a scene with bricks.
+    /// More of them take the noise out of an image that no frames before it prepare.
+    uint32_t gathers = 1;
     VkQueryPool timestamps = VK_NULL_HANDLE; ///< kTimestampCount queries, reset by the frame; or none
 };
 

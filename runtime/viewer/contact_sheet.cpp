@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/contact_sheet.h"
 
+#include "formats/scene/asset_placement.h"
 #include "runtime/viewer/pixel_font.h"
 
 #include <algorithm>
@@ -12,11 +13,6 @@ namespace hearth::viewer
 namespace
 {
 
-// Distance of the origin from an asset's box, as a share of its largest side, up to which the asset counts as
-// unplaced. Covers models that float above the floor, or whose pivot is a hinge; a neighbour that was placed
-// is a whole side away.
-constexpr float kOriginSlack = 0.25f;
-
 constexpr uint32_t kGap = 4;        // pixels between cells, and around them
 constexpr uint32_t kLetterRoom = 3; // rows of a label besides its letters, in pixels of letters
 constexpr uint32_t kMinCell = 8;    // pixels: nobody recognizes a smaller image
@@ -26,32 +22,6 @@ constexpr uint32_t kCellForLetter = 104;
 
 constexpr std::byte kBackgroundGrey{26};
 constexpr std::byte kTextGrey{214};
-
-// Overlap of two unplaced assets, as a share of the smaller one's side along each axis; tiles that meet share
-// nothing.
-constexpr float kOverlapShare = 0.5f;
-
-bool isNearOrigin(const formats::AssetRecord& asset)
-{
-    const float slack = kOriginSlack * formats::largestSide(asset);
-    for (int axis = 0; axis < 3; ++axis)
-        if (asset.box_min[axis] > slack || asset.box_max[axis] < -slack)
-            return false;
-    return true;
-}
-
-bool overlapHeavily(const formats::AssetRecord& a, const formats::AssetRecord& b)
-{
-    for (int axis = 0; axis < 3; ++axis)
-    {
-        const float smaller = std::min(a.box_max[axis] - a.box_min[axis], b.box_max[axis] - b.box_min[axis]);
-        const float shared =
-            std::min(a.box_max[axis], b.box_max[axis]) - std::max(a.box_min[axis], b.box_min[axis]);
-        if (shared < kOverlapShare * smaller)
-            return false;
-    }
-    return true;
-}
 
 uint32_t labelHeight(uint32_t letter_scale)
 {
@@ -107,20 +77,10 @@ std::vector<uint32_t> drawnAssets(const formats::PackView& pack)
 
 bool areUnplaced(const formats::PackView& pack)
 {
-    std::vector<formats::AssetRecord> around;
+    std::vector<Box3> boxes;
     for (const uint32_t asset : drawnAssets(pack))
-        if (isNearOrigin(pack.assets()[asset]))
-            around.push_back(pack.assets()[asset]);
-    size_t overlapping = 0;
-    for (const formats::AssetRecord& asset : around)
-    {
-        const auto overlaps = static_cast<size_t>(std::count_if(around.begin(), around.end(),
-                                                                [&](const formats::AssetRecord& other)
-                                                                { return overlapHeavily(asset, other); }));
-        // counts itself
-        overlapping += overlaps >= 2 && (overlaps - 1) * 2 >= around.size() - 1 ? size_t{1} : size_t{0};
-    }
-    return overlapping >= 2 && overlapping * 4 >= drawnAssets(pack).size() * 3;
+        boxes.push_back({pack.assets()[asset].box_min, pack.assets()[asset].box_max});
+    return formats::areUnplaced(boxes);
 }
 
 uint32_t SheetLayout::cellX(size_t cell) const

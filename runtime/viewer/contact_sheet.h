@@ -16,9 +16,7 @@ namespace hearth::viewer
 /// Return the indices of the assets that draw something, in order.
 std::vector<uint32_t> drawnAssets(const formats::PackView& pack);
 
-/// True if the assets were never placed, so they occlude each other: three quarters of the assets that draw
-/// something, and at least two, have boxes around the world's origin that overlap heavily with half of the
-/// others there. False for props side by side, props in a house, and tiles that meet.
+/// True if the assets that draw something were never placed (formats/scene/asset_placement.h).
 bool areUnplaced(const formats::PackView& pack);
 
 /// Layout of the cells of a sheet, in pixels from its top left corner: row by row, in the order of the

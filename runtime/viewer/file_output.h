@@ -23,8 +23,4 @@ Result<std::vector<std::byte>> encodePng(std::span<const std::byte> rgba, uint32
 /// internal.
 Result<std::vector<std::byte>> encodeJpeg(std::span<const std::byte> rgba, uint32_t width, uint32_t height);
 
-/// Halve the size in both directions, each pixel the mean of four in linear light. RGBA8 sRGB; width and
-/// height even.
-std::vector<std::byte> downsampleSrgb(std::span<const std::byte> rgba, uint32_t width, uint32_t height);
-
 } // namespace hearth::viewer

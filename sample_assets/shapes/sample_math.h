@@ -84,6 +84,16 @@ inline Float4 multiply(Float4 a, Float4 b)
             a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
 }
 
+/// Return the rotation on the shortest way from a to b, straight between the quaternions.
+inline Float4 blendRotations(Float4 a, Float4 b, float t)
+{
+    const float sign = a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w < 0 ? -1.0f : 1.0f;
+    const Float4 q{lerp(a.x, b.x * sign, t), lerp(a.y, b.y * sign, t), lerp(a.z, b.z * sign, t),
+                   lerp(a.w, b.w * sign, t)};
+    const float length = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
+    return {q.x / length, q.y / length, q.z / length, q.w / length};
+}
+
 inline Float3 rotate(Float4 q, Float3 v)
 {
     const Float3 u{q.x, q.y, q.z};

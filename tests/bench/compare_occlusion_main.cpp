@@ -22,7 +22,7 @@ using namespace hearth;
 std::vector<float> computeOcclusion(const visibility::MeshPages& pages)
 {
     std::vector<float> occlusion;
-    for (const auto& part : visibility::extractFinestLevel(pages).parts)
+    for (const auto& part : visibility::extractLevel(pages, 0).parts)
     {
         const formats::ClusterGeometry geometry = pages.cluster(part.cluster);
         for (uint32_t v = 0; v < geometry.vertexCount(); ++v)

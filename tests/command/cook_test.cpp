@@ -83,7 +83,7 @@ TEST_F(Cook, refusesAProfileThatIsWrong)
     expectFailure(cook({"a.gltf", "-o", "a.hearth"}, {"TMPDIR=", "HEARTH_JOBS=0"}), 78,
                   "HEARTH_JOBS: error:");
     expectFailure(cook({"a.gltf", "-o", "a.hearth", "--visibility-quality", "high"}), 2,
-                  "--visibility-quality: error: needs --visibility, or visibility.enabled in the profile");
+                  "--visibility-quality: error: has no effect: visibility.mode is off");
 }
 
 TEST_F(Cook, severalSourcesMakeOnePack)

@@ -51,7 +51,7 @@ protected:
     ProgramEnd cook(std::vector<std::string> arguments, const std::vector<std::string>& environment = {})
     {
         arguments.insert(arguments.begin(), "cook");
-        return hearth(arguments, environment);
+        return hearth(withoutLightCookers(std::move(arguments)), environment);
     }
 
     /// Return the cookers that ran, as "clusters house.obj", from the printed lines.
@@ -61,8 +61,8 @@ protected:
         std::multiset<std::string> cookers;
         std::istringstream lines(end.err);
         for (std::string line; std::getline(lines, line);)
-            for (const char* cooker :
-                 {"import", "textures", "clusters", "skinning", "visibility", "specular", "link"})
+            for (const char* cooker : {"import", "textures", "clusters", "skinning", "neighbours",
+                                       "visibility", "specular", "link"})
                 if (line.starts_with(std::string(cooker) + " ") && line.find(" s ") != std::string::npos)
                     cookers.insert(std::string(cooker) + " " + line.substr(line.rfind(' ') + 1));
         return cookers;
@@ -208,14 +208,15 @@ TEST_F(SecondCook, anotherFolderTakesWhatTheCacheHas)
     Sandbox checkout;
     writeObj(checkout, "house");
     writeGltf(checkout, "tree");
-    const ProgramEnd end =
-        checkout.run({programs + "/hearth", "cook", "house.obj", "tree.gltf", "-o", "a.hearth"},
-                     {"HEARTH_CACHE=dir:" + checkout / "own;" + folder.cacheSpec() + ",ro"});
+    const ProgramEnd end = checkout.run(
+        withoutLightCookers({programs + "/hearth", "cook", "house.obj", "tree.gltf", "-o", "a.hearth"}),
+        {"HEARTH_CACHE=dir:" + checkout / "own;" + folder.cacheSpec() + ",ro"});
     EXPECT_TRUE(ran(end).empty()) << end.err;
     EXPECT_EQ(checkout.read("a.hearth"), folder.read("a.hearth"));
     fs::remove(checkout / "a.hearth");
-    const ProgramEnd own = checkout.run({programs + "/hearth", "cook", "house.obj", "tree.gltf", "-o",
-                                         "a.hearth", "--cache", "dir:" + checkout / "own"});
+    const ProgramEnd own =
+        checkout.run(withoutLightCookers({programs + "/hearth", "cook", "house.obj", "tree.gltf", "-o",
+                                          "a.hearth", "--cache", "dir:" + checkout / "own"}));
     EXPECT_TRUE(ran(own).empty()) << "written through: " << own.err;
 }
 
@@ -449,8 +450,9 @@ TEST_F(SecondCook, aKilledCookIsTakenUpWhereItWas)
     for (int round = 0; round < 5; ++round)
     {
         fs::remove_all(folder.cachePath());
-        const pid_t process = folder.start(
-            {programs + "/hearth", "cook", "-j1", "house.obj", "tree.gltf", "-o", "a.hearth"}, {"TMPDIR="});
+        const pid_t process = folder.start(withoutLightCookers({programs + "/hearth", "cook", "-j1",
+                                                                "house.obj", "tree.gltf", "-o", "a.hearth"}),
+                                           {"TMPDIR="});
         std::this_thread::sleep_for(std::chrono::milliseconds(random() % 300));
         ::kill(process, SIGKILL);
         folder.finish(process);

@@ -109,6 +109,35 @@ TEST(CommandLine, listsOfNumbersAreSplitAndCounted)
     EXPECT_THAT(getFault(command_line, {"--camera", "1"}), HasSubstr("--camera"));
 }
 
+TEST(CommandLine, optionalWordsAreThoseOfTheOptionAlone)
+{
+    struct Row
+    {
+        Words words;
+        std::string mode, file;
+    };
+    for (const Row& row :
+         {Row{{"cook", "a.glb"}, "auto", "a.glb"}, Row{{"cook", "--light", "a.glb"}, "on", "a.glb"},
+          Row{{"cook", "a.glb", "--light"}, "on", "a.glb"},
+          Row{{"cook", "--light", "off", "a.glb"}, "off", "a.glb"},
+          Row{{"cook", "--light=off", "a.glb"}, "off", "a.glb"},
+          Row{{"cook", "--light", "--", "off"}, "on", "off"}})
+    {
+        CommandLine command_line("Test");
+        CommandLine& verb = command_line.addSubcommand("cook", "");
+        std::string mode = "auto", file;
+        verb.addOptionalChoice("--light", mode, {"auto", "on", "off"}, "on", "");
+        verb.addOption("FILE", file, "");
+        EXPECT_EQ(getFault(command_line, row.words), "");
+        EXPECT_EQ(mode, row.mode);
+        EXPECT_EQ(file, row.file);
+    }
+    CommandLine command_line("Test");
+    std::string mode;
+    command_line.addOptionalChoice("--light", mode, {"auto", "on", "off"}, "on", "");
+    EXPECT_THAT(getFault(command_line, {"--light=dim"}), HasSubstr("dim"));
+}
+
 TEST(CommandLine, flagsMayHaveAValueOrNoVariable)
 {
     CommandLine command_line("Test");

@@ -74,7 +74,7 @@ TEST_F(Example, drawsTheImageOfHearthRender)
     const uint8_t* right = drawn.at(320, 240);
     EXPECT_GT(left[0], 2 * left[1]);
     EXPECT_GT(right[1], 2 * right[0]);
-    run("prefix/bin/hearth-render sign.hearth --scene-camera 0 --size 640x480 -o rendered.png");
+    run("prefix/bin/hearth-render sign.hearth --scene-camera 0 --size 640x480 --samples 1 -o rendered.png");
     const Result<viewer::Image> rendered = viewer::readPng(folder() / "rendered.png");
     ASSERT_TRUE(rendered.ok()) << formatMessage(rendered.error());
     EXPECT_LE(largestStep(drawn, *rendered), 1);

@@ -134,6 +134,56 @@ TEST(OwenSobol, integratesSmoothFunctionsWithErrorOfPowerThreeHalves)
     EXPECT_LT(at1024, 1e-4);
 }
 
+TEST(ShuffleIndex, keepsBlocksTogether)
+{
+    for (uint64_t seed = 0; seed < 20; ++seed)
+        for (uint32_t log_count = 0; log_count <= 8; ++log_count)
+            for (const uint32_t block : {0u, 1u, 5u})
+            {
+                const uint32_t count = 1u << log_count;
+                std::vector<int> hits(count);
+                const uint32_t first = shuffleIndex(block * count, seed) / count;
+                for (uint32_t i = 0; i < count; ++i)
+                {
+                    const uint32_t shuffled = shuffleIndex(block * count + i, seed);
+                    ASSERT_EQ(shuffled / count, first);
+                    ++hits[shuffled % count];
+                }
+                for (const int hit : hits)
+                    ASSERT_EQ(hit, 1);
+            }
+}
+
+/// Steps of one path that share an index: pairs of their coordinates fill the square, too.
+TEST(ShuffleIndex, makesStepsIndependent)
+{
+    constexpr uint32_t kCount = 1 << 12, kCells = 8;
+    const auto deviation = [&](const auto& point)
+    {
+        double most = 0;
+        for (uint64_t seed = 0; seed < 10; ++seed)
+        {
+            std::vector<double> hits(kCells * kCells);
+            for (uint32_t i = 0; i < kCount; ++i)
+            {
+                const auto cell = [&](uint64_t step)
+                {
+                    const float x = unitFloat(point(i, deriveSeed(seed, step)).x);
+                    return static_cast<uint32_t>(x * kCells);
+                };
+                hits[cell(0) * kCells + cell(1)] += 1;
+            }
+            constexpr double kMean = double{kCount} / (kCells * kCells);
+            for (const double hit : hits)
+                most = std::max(most, std::abs(hit - kMean) / std::sqrt(kMean));
+        }
+        return most;
+    };
+    EXPECT_LT(deviation([](uint32_t i, uint64_t seed) { return shuffledOwenSobol(i, seed); }), 5);
+    // without the shuffle, whole cells are empty
+    EXPECT_GT(deviation([](uint32_t i, uint64_t seed) { return owenSobol(i, seed); }), 7.9);
+}
+
 TEST(UnitFloat, staysInsideTheUnit)
 {
     EXPECT_GT(unitFloat(0), 0);

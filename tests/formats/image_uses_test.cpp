@@ -37,12 +37,17 @@ TEST(ImageUses, nameMaterialAndRole)
     materials[2].occlusion_texture.image = 2;
     materials[2].base_color_texture.image = 1;
     materials[2].emissive_texture.image = 7; // does not exist
-    const auto uses = imageUses(materials, 4);
+    std::vector<MaterialLayersRecord> layers{neutralLayers(1), neutralLayers(2)};
+    layers[0].specular_texture.image = 3;
+    layers[0].clearcoat_texture.image = 3;
+    layers[1].clearcoat_normal_texture.image = 3;
+    layers[1].sheen_texture.image = 1;
+    const auto uses = imageUses(materials, layers, 4);
     ASSERT_EQ(uses.size(), 4u);
     EXPECT_EQ(formatUses(uses[0]), "0 normal;");
-    EXPECT_EQ(formatUses(uses[1]), "0 baseColor;2 baseColor;");
+    EXPECT_EQ(formatUses(uses[1]), "0 baseColor;2 baseColor;2 sheen;");
     EXPECT_EQ(formatUses(uses[2]), "2 metallicRoughness;2 occlusion;");
-    EXPECT_EQ(formatUses(uses[3]), "");
+    EXPECT_EQ(formatUses(uses[3]), "1 specular;1 clearcoat;2 clearcoatNormal;");
 }
 
 } // namespace hearth::formats

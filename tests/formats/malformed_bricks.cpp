@@ -92,6 +92,20 @@ const std::vector<MalformedPack>& malformedBricks()
          [](PackModel& p) { p.bricks.emission[4] = 31u << 6; }},
         {"brickLightingNaN", Issue::meaning_value, "brick face 21",
          [](PackModel& p) { p.bricks.lighting[21] = 31u << 27 | 1u << 22; }},
+        {"reflectorCount", Issue::meaning_range, "reflector 2",
+         [](PackModel& p) { p.bricks.reflectors.pop_back(); }},
+        {"reflectorInfinite", Issue::meaning_value, "reflector 1",
+         [](PackModel& p) { p.bricks.reflectors[1].gain = 31u << 6; }},
+        {"reflectorAxisNoCode", Issue::meaning_value, "reflector 1",
+         [](PackModel& p) { p.bricks.reflectors[1].axis = 0x80; }},
+        {"reflectorsWithoutGrid", Issue::meaning_range, "brick grid 0",
+         [](PackModel& p)
+         {
+             const auto reflectors = p.bricks.reflectors;
+             p.bricks = {};
+             p.brick_grids.clear();
+             p.bricks.reflectors = reflectors;
+         }},
     };
     return list;
 }

@@ -44,6 +44,9 @@ const std::vector<MalformedPack>& malformedProvenance();
 /// Invalid tables of specular occlusion.
 const std::vector<MalformedPack>& malformedSpecularTables();
 
+/// Invalid surroundings of instances.
+const std::vector<MalformedPack>& malformedSurroundings();
+
 /// Invalid grids of bricks.
 const std::vector<MalformedPack>& malformedBricks();
 

@@ -48,6 +48,7 @@ TEST(PackView, givesEveryTable)
     EXPECT_EQ(view->lights().size(), model.lights.size());
     EXPECT_EQ(view->shadowSpheres().size(), model.shadow_spheres.size());
     EXPECT_EQ(view->materials().size(), model.materials.size());
+    EXPECT_EQ(view->materialLayers().size(), model.material_layers.size());
     EXPECT_EQ(view->images().size(), model.images.size());
     EXPECT_EQ(view->skins().size(), model.skins.size());
     EXPECT_EQ(view->joints().size(), model.joints.size());

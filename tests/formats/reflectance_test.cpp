@@ -102,13 +102,87 @@ TEST(Reflectance, isTheClosedFormOfARoughMetalSeenFromAbove)
 
 TEST(Reflectance, leavesNothingOfAWhiteSurface)
 {
-    for (const float roughness : {0.1f, 0.4f, 0.7f, 1.0f})
-        for (const float cosine : {0.01f, 0.2f, 0.6f, 1.0f})
-            for (const float metallic : {0.0f, 0.3f, 1.0f})
-            {
-                const SurfaceAlbedo found = surfaceAlbedo({1, 1, 1}, metallic, lobeTotal(roughness, cosine));
-                EXPECT_NEAR(found.diffuse.y + found.specular.y, 1, 1e-6f);
-            }
+    const DielectricReflectance dielectrics[] = {defaultDielectric(),
+                                                 specularDielectric({0.3f, 0.3f, 0.3f}, 1),
+                                                 specularDielectric({2, 2, 2}, 1),
+                                                 specularDielectric({0.04f, 0.04f, 0.04f}, 0.4f),
+                                                 specularDielectric({0, 0, 0}, 1),
+                                                 specularDielectric({0.04f, 0.04f, 0.04f}, 0)};
+    for (const DielectricReflectance& dielectric : dielectrics)
+        for (const float roughness : {0.0f, 0.1f, 0.4f, 0.7f, 1.0f})
+            for (const float cosine : {0.01f, 0.2f, 0.6f, 1.0f})
+                for (const float metallic : {0.0f, 0.3f, 1.0f})
+                {
+                    const SurfaceAlbedo found =
+                        surfaceAlbedo({1, 1, 1}, metallic, dielectric, lobeTotal(roughness, cosine));
+                    EXPECT_NEAR(found.diffuse.y + found.specular.y, 1, 1e-6f);
+                }
+}
+
+/// The brightest channel of a coloured reflectance says what is left for the diffuse part.
+TEST(Reflectance, neverExceedsArrivingLight)
+{
+    const DielectricReflectance dielectric = specularDielectric({0.9f, 0.2f, 0.05f}, 1);
+    for (const float roughness : {0.1f, 0.5f, 1.0f})
+        for (const float cosine : {0.02f, 0.5f, 1.0f})
+        {
+            const SurfaceAlbedo found = surfaceAlbedo({1, 1, 1}, 0, dielectric, lobeTotal(roughness, cosine));
+            EXPECT_NEAR(found.diffuse.x + found.specular.x, 1, 1e-6f);
+            EXPECT_EQ(found.diffuse.x, found.diffuse.z);
+            EXPECT_LT(found.diffuse.z + found.specular.z, 1);
+        }
+}
+
+/// The bihemispherical reflectance is the mean of the directional one, weighted by the cosine. Here from
+/// integrals over light and views.
+TEST(Reflectance, reflectsToAllSidesTheMeanOverViews)
+{
+    for (const double roughness : {0.2, 0.5, 0.95})
+    {
+        // Gauss-Legendre nodes of the squared cosine
+        constexpr double kNodes[] = {0.0469100770, 0.2307653449, 0.5, 0.7692346551, 0.9530899230};
+        constexpr double kWeights[] = {0.1184634425, 0.2393143352, 0.2844444444, 0.2393143352, 0.1184634425};
+        double soil = 0, brass = 0;
+        for (size_t i = 0; i < std::size(kNodes); ++i)
+        {
+            const Sums lobe = integrate(roughness, std::sqrt(kNodes[i]));
+            const double white = lobe.scale + lobe.bias;
+            const auto reflected = [&](double f0)
+            { return (f0 * lobe.scale + lobe.bias) * (1 + f0 * (1 / white - 1)); };
+            soil += kWeights[i] * (reflected(0.04) + 0.2 * (1 - reflected(0.04)));
+            brass += kWeights[i] * reflected(0.35);
+        }
+        const auto rough = static_cast<float>(roughness);
+        EXPECT_NEAR(double{bihemisphericalReflectance({0.2f, 0, 0}, 0, defaultDielectric(), rough).x}, soil,
+                    0.004)
+            << roughness;
+        EXPECT_NEAR(double{bihemisphericalReflectance({0.35f, 0, 0}, 1, defaultDielectric(), rough).x}, brass,
+                    0.004)
+            << roughness;
+    }
+}
+
+/// F90 is the reflectance of grazing light: the whole term of Schlick scales with the strength.
+TEST(Reflectance, scalesWithTheStrengthOfADielectric)
+{
+    const LobeTotal lobe = lobeTotal(0.3f, 0.2f);
+    const DielectricReflectance half = specularDielectric({0.08f, 0.08f, 0.08f}, 0.5f);
+    const SurfaceAlbedo found = surfaceAlbedo({0, 0, 0}, 0, half, lobe);
+    const float once = 0.5f * (0.08f * lobe.scale + lobe.bias);
+    EXPECT_NEAR(found.specular.x, once * (1 + 0.04f * (1 / (lobe.scale + lobe.bias) - 1)), 1e-6f);
+    EXPECT_NEAR(found.f0.x, 0.04f, 1e-6f);
+    EXPECT_NEAR(found.f90, 0.5f, 1e-6f);
+}
+
+/// Along the normal a smooth surface reflects F0, which may be 0.
+TEST(Reflectance, isFiniteForBlackMirrors)
+{
+    const SurfaceAlbedo metal = surfaceAlbedo({0, 0, 0}, 1, defaultDielectric(), lobeTotal(0, 1));
+    EXPECT_EQ(metal.specular, (Float3{0, 0, 0}));
+    EXPECT_TRUE(std::isfinite(metal.scattering.x));
+    const SurfaceAlbedo vacuum =
+        surfaceAlbedo({0, 0, 0}, 0, specularDielectric({0, 0, 0}, 1), lobeTotal(0, 1));
+    EXPECT_TRUE(std::isfinite(vacuum.scattering.x));
 }
 
 } // namespace hearth::shared

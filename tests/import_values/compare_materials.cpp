@@ -1,4 +1,4 @@
-// Compares factors, flags and texture transforms of materials.
+// Compares factors, flags and texture transforms of materials and their layers.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/import_values/compare_part.h"
 
@@ -36,8 +36,13 @@ class MaterialComparison
 {
 public:
     MaterialComparison(const tinygltf::Model& model, size_t index, const formats::MaterialRecord& part,
-                       Comparison& comparison)
-        : model_(model), index_(index), source_(model.materials[index]), part_(part), comparison_(comparison)
+                       const formats::MaterialLayersRecord& layers, Comparison& comparison)
+        : model_(model),
+          index_(index),
+          source_(model.materials[index]),
+          part_(part),
+          layers_(layers),
+          comparison_(comparison)
     {
     }
 
@@ -65,6 +70,12 @@ public:
         compareTexture(source_.normalTexture, part_.normal_texture);
         compareTexture(source_.occlusionTexture, part_.occlusion_texture);
         compareTexture(source_.emissiveTexture, part_.emissive_texture);
+        if (!source_.extensions.contains(kConverted) && !source_.extensions.contains("KHR_materials_unlit"))
+        {
+            compareSpecular();
+            compareClearcoat();
+            compareSheen();
+        }
     }
 
 private:
@@ -85,6 +96,85 @@ private:
                 source_.emissiveFactor.empty() ? 0 : source_.emissiveFactor.at(i) * strength;
             check(emitted, part[i], "emission of material", 2.4e-7 * std::abs(emitted));
         }
+    }
+
+    const tinygltf::Value& extension(const char* name) const
+    {
+        static const tinygltf::Value kNone{tinygltf::Value::Object()};
+        const auto found = source_.extensions.find(name);
+        return found == source_.extensions.end() ? kNone : found->second;
+    }
+
+    /// Texture of an extension, with index -1 if there is none or `is_used` is false.
+    static tinygltf::TextureInfo texture(const tinygltf::Value& object, const char* key, bool is_used = true)
+    {
+        tinygltf::TextureInfo info;
+        if (!object.Has(key) || !is_used)
+            return info;
+        const tinygltf::Value& value = object.Get(key);
+        info.index = value.Get("index").GetNumberAsInt();
+        info.texCoord = value.Has("texCoord") ? value.Get("texCoord").GetNumberAsInt() : 0;
+        if (value.Has("extensions"))
+            for (const std::string& name : value.Get("extensions").Keys())
+                info.extensions[name] = value.Get("extensions").Get(name);
+        return info;
+    }
+
+    /// Two textures become one, at the place of the first.
+    void compareMerged(const tinygltf::TextureInfo& first, const tinygltf::TextureInfo& second,
+                       const formats::TextureRef& part)
+    {
+        compareTexture(first.index >= 0 ? first : second, part);
+    }
+
+    void compareColor(const tinygltf::Value& source, const char* key, double otherwise, double max,
+                      Float3 part, const char* what)
+    {
+        const float values[3] = {part.x, part.y, part.z};
+        for (int i = 0; i < 3; ++i)
+            check(std::clamp(elementOr(source, key, i, otherwise), 0.0, max), values[i], what);
+    }
+
+    void compareSpecular()
+    {
+        const tinygltf::Value& source = extension("KHR_materials_specular");
+        const double strength = std::clamp(numberOr(source, "specularFactor", 1), 0.0, 1.0);
+        check(numberOr(extension("KHR_materials_ior"), "ior", 1.5), layers_.ior, "ior of material");
+        check(strength, layers_.specular, "specular of material");
+        compareColor(source, "specularColorFactor", 1, 1e30, layers_.specular_color,
+                     "specular colour of material");
+        compareMerged(texture(source, "specularColorTexture", strength > 0),
+                      texture(source, "specularTexture", strength > 0), layers_.specular_texture);
+    }
+
+    void compareClearcoat()
+    {
+        const tinygltf::Value& source = extension("KHR_materials_clearcoat");
+        const double strength = std::clamp(numberOr(source, "clearcoatFactor", 0), 0.0, 1.0);
+        check(strength, layers_.clearcoat, "clear coat of material");
+        const bool is_coated = strength > 0;
+        const double roughness =
+            is_coated ? std::clamp(numberOr(source, "clearcoatRoughnessFactor", 0), 0.0, 1.0) : 0;
+        check(roughness, layers_.clearcoat_roughness, "roughness of the clear coat of material");
+        compareMerged(texture(source, "clearcoatTexture", is_coated),
+                      texture(source, "clearcoatRoughnessTexture", roughness > 0), layers_.clearcoat_texture);
+        compareTexture(texture(source, "clearcoatNormalTexture", is_coated),
+                       layers_.clearcoat_normal_texture);
+        if (is_coated && source.Has("clearcoatNormalTexture"))
+            check(numberOr(source.Get("clearcoatNormalTexture"), "scale", 1), layers_.clearcoat_normal_scale,
+                  "normal scale of the clear coat of material");
+    }
+
+    void compareSheen()
+    {
+        const tinygltf::Value& source = extension("KHR_materials_sheen");
+        compareColor(source, "sheenColorFactor", 0, 1, layers_.sheen_color, "sheen colour of material");
+        const bool has_sheen = layers_.sheen_color != Float3{};
+        const double roughness =
+            has_sheen ? std::clamp(numberOr(source, "sheenRoughnessFactor", 0), 0.0, 1.0) : 0;
+        check(roughness, layers_.sheen_roughness, "sheen roughness of material");
+        compareMerged(texture(source, "sheenColorTexture", has_sheen),
+                      texture(source, "sheenRoughnessTexture", roughness > 0), layers_.sheen_texture);
     }
 
     void compareFlags()
@@ -146,6 +236,7 @@ private:
     size_t index_;
     const tinygltf::Material& source_;
     const formats::MaterialRecord& part_;
+    const formats::MaterialLayersRecord& layers_;
     Comparison& comparison_;
 };
 
@@ -156,7 +247,14 @@ void compareMaterials(const SourceModel& source, const formats::PackView& part, 
     comparison.checkEqual(static_cast<long long>(source.model.materials.size()),
                           static_cast<long long>(part.materials().size()), "number of materials", 0);
     for (size_t i = 0; i < std::min(source.model.materials.size(), part.materials().size()); ++i)
-        MaterialComparison(source.model, i, part.materials()[i], comparison).compare();
+    {
+        const auto number = static_cast<uint32_t>(i);
+        const formats::MaterialLayersRecord* const layers =
+            formats::findLayers(part.materialLayers(), number);
+        MaterialComparison(source.model, i, part.materials()[i],
+                           layers != nullptr ? *layers : formats::neutralLayers(number), comparison)
+            .compare();
+    }
 }
 
 } // namespace hearth::test

@@ -200,6 +200,28 @@ void addMaterial(Document& document)
         {"extensions",
          {{"KHR_texture_transform",
            {{"offset", {0.125, 0.75}}, {"rotation", 0.7}, {"scale", {2, 0.3}}, {"texCoord", 1}}}}}};
+    // each pair is at one place
+    const auto layers = [](const Json& texture) -> Json
+    {
+        const Json plain{{"index", 0}};
+        return {{"KHR_materials_ior", {{"ior", 1.33}}},
+                {"KHR_materials_specular",
+                 {{"specularFactor", 0.81},
+                  {"specularColorFactor", {0.82, 1.83, 0.84}},
+                  {"specularColorTexture", texture},
+                  {"specularTexture", texture}}},
+                {"KHR_materials_clearcoat",
+                 {{"clearcoatFactor", 0.85},
+                  {"clearcoatRoughnessFactor", 0.86},
+                  {"clearcoatTexture", plain},
+                  {"clearcoatRoughnessTexture", plain},
+                  {"clearcoatNormalTexture", {{"index", 0}, {"scale", 0.87}}}}},
+                {"KHR_materials_sheen",
+                 {{"sheenColorFactor", {0.91, 0.92, 0.93}},
+                  {"sheenRoughnessFactor", 0.94},
+                  {"sheenColorTexture", plain},
+                  {"sheenRoughnessTexture", plain}}}};
+    };
     document.json["materials"].push_back({{"pbrMetallicRoughness",
                                            {{"baseColorFactor", {0.1, 0.2, 0.3, 0.4}},
                                             {"metallicFactor", 0.15},
@@ -210,7 +232,8 @@ void addMaterial(Document& document)
                                           {"emissiveFactor", {0.6, 0.7, 0.8}},
                                           {"alphaMode", "MASK"},
                                           {"alphaCutoff", 0.65},
-                                          {"doubleSided", true}});
+                                          {"doubleSided", true},
+                                          {"extensions", layers(turned)}});
 }
 
 Document wholeDocument()
@@ -271,9 +294,31 @@ TEST_F(ImportValues, ofTheTextAreAllLookedAt)
     wholeDocument().write(folder);
     ASSERT_EQ(compare().differences(), 0u);
     const std::string text = folder.read("source.gltf");
-    for (const char* number :
-         {"0.1,0.2,0.3,0.4", "0.15", "0.35", "0.45", "0.55", "0.6,0.7", "0.65", "0.125,0.75", "0.7,\"scale\"",
-          "2,0.3", "1.1", "9.5", "100.25", "33071", "33648", "9728", "0.25"})
+    for (const char* number : {"0.1,0.2,0.3,0.4",
+                               "0.15",
+                               "0.35",
+                               "0.45",
+                               "0.55",
+                               "0.6,0.7",
+                               "0.65",
+                               "0.125,0.75",
+                               "0.7,\"scale\"",
+                               "2,0.3",
+                               "1.1",
+                               "9.5",
+                               "100.25",
+                               "33071",
+                               "33648",
+                               "9728",
+                               "0.25",
+                               "1.33",
+                               "0.81",
+                               "0.82,1.83",
+                               "0.85",
+                               "0.86",
+                               "0.87",
+                               "0.91,0.92",
+                               "0.94"})
     {
         std::string changed = text;
         const size_t at = changed.find(number);

@@ -71,16 +71,19 @@ const std::vector<Layer>& layers()
 
         {"cook/bricks/grid", {"formats"}},
         {"cook/bricks/voxels", {"formats", "cook/json", "cook/bricks/grid"}},
-        {"cook/bricks/light", {"formats", "cook/bricks/grid", "cook/bricks/voxels"}},
+        {"cook/bricks/light", {"formats", "cook/bricks/grid", "cook/bricks/voxels", "cook/sampling"}},
         {"cook/bricks/program", {"formats", "cook/command_line", "cook/tools", "cook/bricks/light"}},
 
         {"cook/visibility/mesh", {"formats", "cook/mesh"}},
         {"cook/visibility/rays", {"formats", "cook/sampling", "cook/visibility/mesh"}},
+        {"cook/visibility/light",
+         {"formats", "cook/sampling", "cook/visibility/mesh", "cook/visibility/rays"}},
         {"cook/visibility/fit", {"formats", "cook/visibility/mesh", "cook/visibility/rays"}},
         {"cook/visibility/scene", {"formats", "cook/mesh", "cook/visibility/rays", "cook/visibility/fit"}},
         {"cook/visibility/program",
          {"formats", "cook/command_line", "cook/json", "cook/tools", "cook/mesh", "cook/pages",
-          "cook/visibility/rays", "cook/visibility/fit", "cook/visibility/scene"}},
+          "cook/sampling", "cook/visibility/mesh", "cook/visibility/rays", "cook/visibility/light",
+          "cook/visibility/fit", "cook/visibility/scene"}},
 
         // from sources to parts
         {"pipelines/import/part",

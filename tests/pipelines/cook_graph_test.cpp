@@ -4,9 +4,11 @@
 #include "pipelines/graph/causes.h"
 #include "pipelines/graph/cook_graph.h"
 #include "pipelines/graph/journal.h"
+#include "pipelines/graph/neighbour_inputs.h"
 #include "pipelines/graph/plan_json.h"
 #include "pipelines/graph/skip_source.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 
 namespace hearth::graph
@@ -26,17 +28,16 @@ CookSettings allSettings()
     settings.values_of_source = {{{"animation.error", {"0.5", ""}},
                                   {"textures.max_size", {"64", ""}},
                                   {"clusters.influences", {"4", ""}},
-                                  {"visibility.enabled", {"true", ""}},
+                                  {"visibility.mode", {"\"on\"", ""}},
                                   {"visibility.quality", {"\"draft\"", ""}},
-                                  {"visibility.occluders", {"\"asset\"", ""}},
+                                  {"visibility.occluders", {"\"mesh\"", ""}},
                                   {"visibility.distance", {"2.5", ""}},
                                   {"visibility.power", {"1", ""}},
                                   {"visibility.poses", {"[\"Run@0.5,1\",\"Walk\"]", ""}},
                                   {"visibility.refine", {"true", ""}}}};
-    settings.values_of_pack = {{"bricks.enabled", {"true", ""}},
+    settings.values_of_pack = {{"bricks.mode", {"\"on\"", ""}},
                                {"bricks.voxel_size", {"0.25", ""}},
-                               {"bricks.memory", {"1048576", ""}},
-                               {"bricks.bake", {"2", ""}}};
+                               {"bricks.memory", {"1048576", ""}}};
     return settings;
 }
 
@@ -65,7 +66,8 @@ TEST(SkipSource, leavesTheOthersAsTheyAre)
     CookSettings settings;
     settings.sources = {"a.obj", "props/b.obj", "c.obj"};
     settings.output = "out.hearth";
-    settings.values_of_pack = {{"bricks.enabled", {"true", ""}}};
+    settings.values_of_pack = {{"bricks.mode", {"\"on\"", ""}}};
+    settings.values_of_source.assign(3, {{"visibility.mode", {"\"off\"", ""}}});
     Graph graph = makeCookGraph(settings).value();
     const Graph whole = graph;
     const std::vector<Failure> failures{
@@ -111,7 +113,7 @@ TEST(CookGraph, passesSettingsToEveryCooker)
                                   "--quality",
                                   "draft",
                                   "--occluders",
-                                  "asset",
+                                  "mesh",
                                   "--distance",
                                   "2.5",
                                   "--power",
@@ -129,7 +131,7 @@ TEST(CookGraph, passesSettingsToEveryCooker)
     EXPECT_EQ(commands[5], (Words{"bin/hearth-specular", "-o", "{specular.part}"}));
     EXPECT_EQ(commands[6], (Words{"bin/hearth-bricks", "{import.part}", "{clusters.part}", "{textures.part}",
                                   "-o", "{bricks.part}", "--voxel-size", "0.25", "--memory", "1048576",
-                                  "--bake", "2", "--stats", "{bricks.json}"}));
+                                  "--stats", "{bricks.json}"}));
     EXPECT_EQ(commands[7], (Words{"bin/hearth-link", "{import.part}", "{visibility.part}", "{textures.part}",
                                   "{skinning.part}", "--specular", "{specular.part}", "--bricks",
                                   "{bricks.part}", "-o", "{pack.hearth}"}));
@@ -141,13 +143,122 @@ TEST(CookGraph, linksEverySourceInOrder)
     settings.sources = {"a.obj", "b.obj", "a.obj"};
     settings.output = "all.hearth";
     const Graph graph = makeCookGraph(settings).value();
-    ASSERT_EQ(graph.actions.size(), 13u);
+    ASSERT_EQ(graph.actions.size(), 19u) << "five of each source; neighbours, specular, bricks, link";
     const Action& link = graph.actions.back();
     EXPECT_EQ(link.cooker, "link");
     EXPECT_EQ(link.subject, "all.hearth");
-    ASSERT_EQ(link.inputs.size(), 12u);
-    for (size_t i = 0; i < link.inputs.size(); ++i)
+    ASSERT_EQ(link.inputs.size(), 14u);
+    for (size_t i = 0; i < 12; ++i)
         EXPECT_EQ(graph.actions[link.inputs[i].action].source, i / 4);
+}
+
+TEST(CookGraph, readsNeighboursWhereThePackHasOtherSources)
+{
+    const auto countNeighbours = [](const std::vector<std::string>& sources, const char* occluders)
+    {
+        CookSettings settings;
+        settings.sources = sources;
+        settings.values_of_source.assign(
+            sources.size(), {{"visibility.occluders", {"\"" + std::string(occluders) + "\"", ""}}});
+        const Graph graph = makeCookGraph(settings).value();
+        return std::ranges::count_if(graph.actions, [](const Action& action)
+                                     { return action.neighbours_from != kNoAction; });
+    };
+    EXPECT_EQ(countNeighbours({"a.obj"}, "pack"), 0);
+    EXPECT_EQ(countNeighbours({"a.obj", "b.obj"}, "pack"), 2);
+    EXPECT_EQ(countNeighbours({"a.obj", "b.obj"}, "source"), 0);
+    EXPECT_EQ(countNeighbours({"a.obj", "b.obj"}, "mesh"), 0);
+}
+
+namespace
+{
+
+/// Graph of three sources, of which the middle one bakes no visibility.
+Graph neighbourGraph()
+{
+    CookSettings settings;
+    settings.sources = {"a.obj", "b.obj", "c.obj"};
+    settings.output = "all.hearth";
+    settings.values_of_source.resize(3);
+    settings.values_of_source[1] = {{"visibility.mode", {"\"off\"", ""}}};
+    return makeCookGraph(settings).value();
+}
+
+size_t findAction(const Graph& graph, const std::string& cooker, size_t source)
+{
+    const auto found = std::ranges::find_if(graph.actions, [&](const Action& action)
+                                            { return action.cooker == cooker && action.source == source; });
+    return static_cast<size_t>(found - graph.actions.begin());
+}
+
+/// Return the inputs of an action as "cooker source", from the first dynamic one.
+Words listDynamicInputs(const Graph& graph, const Action& action)
+{
+    Words inputs;
+    for (size_t i = 2; i < action.inputs.size(); ++i)
+    {
+        const Action& producer = graph.actions[action.inputs[i].action];
+        inputs.push_back(producer.cooker + " " + std::to_string(producer.source));
+    }
+    return inputs;
+}
+
+} // namespace
+
+TEST(NeighbourInputs, areThePartsOfTheListedSources)
+{
+    Graph graph = neighbourGraph();
+    const Graph before = graph;
+    const size_t lister = findAction(graph, "neighbours", 3);
+    const size_t a = findAction(graph, "visibility", 0), c = findAction(graph, "visibility", 2);
+    ASSERT_LT(c, graph.actions.size());
+    ASSERT_EQ(findAction(graph, "visibility", 1), graph.actions.size());
+    for (const Input& input : graph.actions[lister].inputs)
+        EXPECT_EQ(graph.actions[input.action].outputs[input.output], "import.json");
+    ASSERT_TRUE(setNeighbourInputs(graph, lister, "1 2\n\n1\n"));
+    EXPECT_EQ(listDynamicInputs(graph, graph.actions[a]),
+              (Words{"import 1", "clusters 1", "import 2", "clusters 2"}));
+    EXPECT_EQ(listDynamicInputs(graph, graph.actions[c]), (Words{"import 1", "clusters 1"}));
+    const Words command = getCommands(graph)[c];
+    EXPECT_EQ(Words(command.end() - 3, command.end()),
+              (Words{"--neighbours", "{import.part}", "{clusters.part}"}));
+    for (const Action& action : graph.actions)
+        for (const Input& input : action.inputs)
+            EXPECT_TRUE(input.action == kNoAction ||
+                        input.action < static_cast<size_t>(&action - graph.actions.data()));
+    // another list replaces it
+    ASSERT_TRUE(setNeighbourInputs(graph, lister, "\n\n0\n"));
+    EXPECT_EQ(listDynamicInputs(graph, graph.actions[a]), Words());
+    EXPECT_EQ(listDynamicInputs(graph, graph.actions[c]), (Words{"import 0", "clusters 0"}));
+    removeNeighbourInputs(graph, lister);
+    EXPECT_EQ(planJson(graph), planJson(before));
+}
+
+TEST(NeighbourInputs, haveTheSameRecordWhateverElseThePackHas)
+{
+    Graph graph = neighbourGraph();
+    CookSettings more;
+    more.sources = {"z.obj", "a.obj", "b.obj", "c.obj"};
+    more.output = "more.hearth";
+    Graph larger = makeCookGraph(more).value();
+    ASSERT_TRUE(setNeighbourInputs(graph, findAction(graph, "neighbours", 3), "1\n\n\n"));
+    ASSERT_TRUE(setNeighbourInputs(larger, findAction(larger, "neighbours", 4), "\n2\n\n\n"));
+    const std::vector<std::string> hashes{"import", "clusters", "import b", "clusters b"};
+    EXPECT_EQ(makeRecord(graph.actions[findAction(graph, "visibility", 0)], "v", hashes),
+              makeRecord(larger.actions[findAction(larger, "visibility", 1)], "v", hashes));
+}
+
+TEST(NeighbourInputs, areRefusedWhereTheListIsMalformed)
+{
+    Graph graph = neighbourGraph();
+    const Graph before = graph;
+    const size_t lister = findAction(graph, "neighbours", 3);
+    for (const char* list : {"", "\n\n", "\n\n\n\n", "\n\n", "3\n\n\n", "-1\n\n\n", "1  2\n\n\n", "1 \n\n\n",
+                             "a\n\n\n", "99999999999999999999\n\n\n", "\n\n1"})
+    {
+        EXPECT_FALSE(setNeighbourInputs(graph, lister, list)) << list;
+        EXPECT_EQ(planJson(graph), planJson(before)) << list;
+    }
 }
 
 TEST(CookGraph, refusesLevelsOfDetailThatAreNone)
@@ -167,6 +278,12 @@ TEST(PlanJson, comesBack)
     ASSERT_TRUE(again.ok());
     EXPECT_EQ(planJson(*again), json);
     EXPECT_EQ(getCommands(*again), getCommands(graph));
+    // with inputs that are statistics, and dynamic ones
+    Graph neighbours = neighbourGraph();
+    ASSERT_TRUE(setNeighbourInputs(neighbours, findAction(neighbours, "neighbours", 3), "1 2\n\n1\n"));
+    const std::string expanded = planJson(neighbours);
+    ASSERT_TRUE(parsePlan(expanded, "plan.json").ok());
+    EXPECT_EQ(planJson(*parsePlan(expanded, "plan.json")), expanded);
 }
 
 TEST(PlanJson, refusesWhatDoesNotHoldTogether)

@@ -59,6 +59,8 @@ protected:
     {
         CookSettings settings;
         settings.output = folder / "a.hearth";
+        settings.values_of_source.assign(kSources, {{"visibility.mode", {"\"off\"", ""}}});
+        settings.values_of_pack = {{"bricks.mode", {"\"off\"", ""}}};
         for (size_t i = 0; i < kSources; ++i)
         {
             folder.write(std::to_string(i) + ".obj", std::to_string(i));

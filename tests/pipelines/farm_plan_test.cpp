@@ -63,8 +63,8 @@ protected:
     {
         for (const char* name : {"a.obj", "b.obj", "c.obj", "wood.png"})
             folder.write(name, name);
-        for (const char* cooker :
-             {"import", "textures", "clusters", "skinning", "visibility", "specular", "link"})
+        for (const char* cooker : {"import", "textures", "clusters", "skinning", "neighbours", "visibility",
+                                   "specular", "bricks", "link"})
             folder.write(std::string("hearth-") + cooker, cooker, true);
     }
 
@@ -77,11 +77,11 @@ protected:
 
     Request request()
     {
-        const Assignments settings{"clusters.influences=4", "visibility.enabled=true"};
+        const Assignments settings{"clusters.influences=4", "visibility.mode=on"};
         return {{folder / "a.obj", folder / "b.obj", folder / "c.obj"},
                 {{}, {"1=" + folder / "b.obj"}, {}},
                 {settings, settings, settings},
-                {"bricks.bake=2"}};
+                {"bricks.voxel_size=2"}};
     }
 
     Status check(const Plan& plan, const std::vector<size_t>& sources)
@@ -317,7 +317,7 @@ TEST_F(PlanFile, isRefusedWhereItIsNotWhatACookWouldBe)
         {"/cook", [](Json& p) { p["cook"]["settings"][0][0] = "visibility.poses=['-o']"; }},
         {"/cook", [](Json& p) { p["cook"]["pack"][0] = "--launcher=sh"; }},
         {"/cook", [](Json& p) { p["cook"]["lods"][0].push_back("1=-o"); }},
-        {"/cookers", [](Json& p) { p["cookers"]["sh"] = p["cookers"]["import"]; }},
+        {"/cookers", [](Json& p) { p["cookers"]["sh"] = Json(p["cookers"]["import"]); }},
         {"/cookers", [](Json& p) { p["cookers"].erase("link"); }},
         {"/cookers", [](Json& p) { p["cookers"]["import"] = "whatever"; }},
         // contents
@@ -419,7 +419,8 @@ TEST(ShardRecord, comesBack)
         damaged[i].first = "strange";
         EXPECT_FALSE(parseRecord(damaged).has_value()) << fields[i].first;
     }
-    EXPECT_NE(recordKey("h", 1), recordKey("h", 11));
+    EXPECT_NE(recordKey("h", 1, Step::complete), recordKey("h", 11, Step::complete));
+    EXPECT_NE(recordKey("h", 1, Step::complete), recordKey("h", 1, Step::prepare));
 }
 
 TEST(ShellQuoted, isOneWordToAShell)

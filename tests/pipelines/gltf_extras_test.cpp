@@ -162,16 +162,16 @@ TEST(GltfExtras, areLimited)
 
 TEST(GltfExtensions, thatAreNotKeptAreNamedWithTheirObjects)
 {
-    const std::string clearcoat = R"({"extensions":{"KHR_materials_clearcoat":{"clearcoatFactor":1}}})";
+    const std::string iridescent = R"({"extensions":{"KHR_materials_iridescence":{"iridescenceFactor":1}}})";
     const Imported result = makeSquare().import(
-        R"("extensionsUsed":["KHR_materials_clearcoat","EXT_nowhere"],"meshes":[)" + kMesh +
-        R"(],"materials":[{},)" + clearcoat + ",{}," + clearcoat + "," + clearcoat +
+        R"("extensionsUsed":["KHR_materials_iridescence","EXT_nowhere"],"meshes":[)" + kMesh +
+        R"(],"materials":[{},)" + iridescent + ",{}," + iridescent + "," + iridescent +
         R"(],"nodes":[{"mesh":0,"extensions":{"MY~a/b":{}},"extras":{"extensions":{"NOT_ONE":{}}}}])");
     ASSERT_TRUE(result.ok()) << result.message();
     EXPECT_THAT(
         listWarnings(result, Issue::dropped),
         ElementsAre(": extension EXT_nowhere is not kept: extensionsUsed names it, but no object has it",
-                    "/materials/1: extension KHR_materials_clearcoat is not kept (3 places: "
+                    "/materials/1: extension KHR_materials_iridescence is not kept (3 places: "
                     "/materials/1, /materials/3 and /materials/4)",
                     "/nodes/0: extension MY~a/b is not kept"));
 }

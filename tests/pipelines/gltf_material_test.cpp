@@ -1,6 +1,7 @@
 // Tests the import of materials, textures and images.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/pack/pack_view.h"
+#include "formats/records/material_layers.h"
 #include "pipelines/import/gltf/specular_glossiness.h"
 #include "tests/pipelines/gltf_fixture.h"
 
@@ -53,7 +54,7 @@ TEST(GltfMaterials, readFactorsFlagsAndExtensions)
         GltfData().import(R"("materials":[{"name":"lamp","doubleSided":true,"alphaMode":"BLEND",
         "pbrMetallicRoughness":{"baseColorFactor":[0.1,0.2,0.3,0.4],"metallicFactor":0.5,"roughnessFactor":2},
         "emissiveFactor":[1,0.5,0],"extensions":{"KHR_materials_unlit":{},
-        "KHR_materials_emissive_strength":{"emissiveStrength":8},"KHR_materials_clearcoat":{"clearcoatFactor":1}}}])");
+        "KHR_materials_emissive_strength":{"emissiveStrength":8},"KHR_materials_iridescence":{"iridescenceFactor":1}}}])");
     const auto materials = getMaterials(result);
     ASSERT_EQ(materials.size(), 1u);
     EXPECT_EQ(materials[0].base_color, (Float4{0.1f, 0.2f, 0.3f, 0.4f}));
@@ -63,9 +64,214 @@ TEST(GltfMaterials, readFactorsFlagsAndExtensions)
     EXPECT_EQ(materials[0].flags, uint32_t{kMaterialDoubleSided | kMaterialUnlit});
     EXPECT_EQ(materials[0].alpha_mode, static_cast<uint32_t>(AlphaMode::blend));
     EXPECT_TRUE(result.hasWarning(Issue::repaired, "outside 0 to 1"));
-    EXPECT_TRUE(result.hasWarning(Issue::dropped, "extension KHR_materials_clearcoat"))
+    EXPECT_TRUE(result.hasWarning(Issue::dropped, "extension KHR_materials_iridescence"))
         << "also when it is not declared";
     EXPECT_EQ(result.text(kChunkStrings).substr(materials[0].name.offset, materials[0].name.length), "lamp");
+}
+
+std::vector<MaterialLayersRecord> getLayers(const Imported& result)
+{
+    EXPECT_TRUE(result.ok()) << result.message();
+    return result.ok() && result.part->find(kChunkMaterialLayers) != nullptr
+               ? result.records<MaterialLayersRecord>(kChunkMaterialLayers)
+               : std::vector<MaterialLayersRecord>{};
+}
+
+TEST(GltfLayers, keepTheFactorsOfFourExtensions)
+{
+    const Imported result = GltfData().import(R"("materials":[{},{"extensions":{
+        "KHR_materials_ior":{"ior":1.33},
+        "KHR_materials_specular":{"specularFactor":0.5,"specularColorFactor":[0.25,2,1]},
+        "KHR_materials_clearcoat":{"clearcoatFactor":0.75,"clearcoatRoughnessFactor":0.125},
+        "KHR_materials_sheen":{"sheenColorFactor":[0.5,0.25,0],"sheenRoughnessFactor":0.375}}},
+        {"extensions":{"KHR_materials_ior":{"ior":0}}}])");
+    const auto layers = getLayers(result);
+    ASSERT_EQ(layers.size(), 2u) << "the first material has none";
+    EXPECT_EQ(layers[0].material, 1u);
+    EXPECT_EQ(layers[0].ior, 1.33f);
+    EXPECT_EQ(layers[0].specular, 0.5f);
+    EXPECT_EQ(layers[0].specular_color, (Float3{0.25f, 2, 1}));
+    EXPECT_EQ(layers[0].clearcoat, 0.75f);
+    EXPECT_EQ(layers[0].clearcoat_roughness, 0.125f);
+    EXPECT_EQ(layers[0].clearcoat_normal_scale, 1.0f);
+    EXPECT_EQ(layers[0].sheen_color, (Float3{0.5f, 0.25f, 0}));
+    EXPECT_EQ(layers[0].sheen_roughness, 0.375f);
+    for (TextureRef MaterialLayersRecord::*const texture : kLayerTextures)
+        EXPECT_EQ((layers[0].*texture).image, kInvalidIndex);
+    EXPECT_EQ(layers[1].material, 2u);
+    EXPECT_EQ(layers[1].ior, 0.0f) << "reflects all light";
+    EXPECT_FALSE(result.hasWarning(Issue::dropped, "KHR_materials"));
+}
+
+TEST(GltfLayers, thatChangeNothingAreNotWritten)
+{
+    const Imported result = GltfData().import(R"("materials":[{"extensions":{
+        "KHR_materials_ior":{"ior":1.5},"KHR_materials_specular":{},
+        "KHR_materials_clearcoat":{"clearcoatRoughnessFactor":0.5},
+        "KHR_materials_sheen":{"sheenRoughnessFactor":0.5}}}])");
+    EXPECT_TRUE(result.ok()) << result.message();
+    EXPECT_EQ(result.part->find(kChunkMaterialLayers), nullptr);
+}
+
+TEST(GltfLayers, areBroughtIntoTheirRanges)
+{
+    const Imported result = GltfData().import(R"("materials":[{"extensions":{
+        "KHR_materials_ior":{"ior":0.5},
+        "KHR_materials_specular":{"specularFactor":-1,"specularColorFactor":[-1,0,3]},
+        "KHR_materials_clearcoat":{"clearcoatFactor":2,"clearcoatRoughnessFactor":3},
+        "KHR_materials_sheen":{"sheenColorFactor":[1,2,0],"sheenRoughnessFactor":-1}}}])");
+    const auto layers = getLayers(result);
+    ASSERT_EQ(layers.size(), 1u);
+    EXPECT_EQ(layers[0].ior, 1.0f);
+    EXPECT_EQ(layers[0].specular, 0.0f);
+    EXPECT_EQ(layers[0].specular_color, (Float3{0, 0, 3}));
+    EXPECT_EQ(layers[0].clearcoat, 1.0f);
+    EXPECT_EQ(layers[0].clearcoat_roughness, 1.0f);
+    EXPECT_EQ(layers[0].sheen_color, (Float3{1, 1, 0}));
+    EXPECT_EQ(layers[0].sheen_roughness, 0.0f);
+    EXPECT_EQ(std::count_if(result.warnings.begin(), result.warnings.end(),
+                            [](const Error& w) { return w.issue == Issue::repaired; }),
+              7)
+        << "one for each";
+    for (const char* name : {"specularColorFactor is negative", "sheenColorFactor is not in 0 to 1"})
+        EXPECT_TRUE(result.hasWarning(Issue::repaired, name)) << name;
+    for (const char* wrong :
+         {R"("KHR_materials_ior":{"ior":"1.5"})", R"("KHR_materials_specular":{"specularColorFactor":[1,1]})",
+          R"("KHR_materials_clearcoat":{"clearcoatTexture":{"index":0}})",
+          R"("KHR_materials_sheen":{"sheenColorTexture":3})"})
+        EXPECT_FALSE(GltfData().import(std::string(R"("materials":[{"extensions":{)") + wrong + "}}]").ok())
+            << wrong;
+}
+
+TEST(GltfLayers, ofMaterialsThatExcludeThemAreNamed)
+{
+    for (const char* other : {R"("KHR_materials_unlit":{})", R"("KHR_materials_pbrSpecularGlossiness":{})"})
+        for (const char* layer :
+             {R"("KHR_materials_ior":{"ior":1.2})", R"("KHR_materials_clearcoat":{"clearcoatFactor":1})",
+              R"("KHR_materials_sheen":{"sheenColorFactor":[0,0.5,0]})"})
+        {
+            const Imported result = GltfData().import(
+                std::string(R"("materials":[{"name":"oak","extensions":{)") + other + "," + layer + "}}]");
+            EXPECT_TRUE(getLayers(result).empty());
+            EXPECT_TRUE(result.hasWarning(
+                Issue::dropped,
+                "specular reflectance, clear coat and sheen of material \"oak\" are not kept"));
+        }
+}
+
+/// Layers of a part with two textures, a.tga and b.tga.
+struct TexturedLayers
+{
+    explicit TexturedLayers(const std::string& extensions, const std::string& textures = "")
+    {
+        folder.write("a.tga", tga(2, 1, std::string("\x10\x20\x30\x40", 4)));
+        folder.write("b.tga", tga(1, 2, std::string("\x50\x60\x70\x80", 4)));
+        result = importBytes(R"({"asset":{"version":"2.0"},"images":[{"uri":"a.tga"},{"uri":"b.tga"}],
+            "textures":[{"source":0},{"source":1},{"source":0})" +
+                                 textures + R"(],"materials":[{"extensions":{)" + extensions + "}}]}",
+                             &folder);
+        const auto all = getLayers(result);
+        EXPECT_EQ(all.size(), 1u);
+        layers = all.empty() ? neutralLayers(0) : all[0];
+    }
+
+    ImageRecord image(const TextureRef& texture) const
+    {
+        return result.records<ImageRecord>(kChunkImages).at(texture.image);
+    }
+
+    /// First texel.
+    std::vector<uint8_t> texel(const TextureRef& texture) const
+    {
+        std::vector<uint8_t> texels = result.texels(texture.image);
+        texels.resize(4);
+        return texels;
+    }
+
+    TemporaryFolder folder;
+    Imported result;
+    MaterialLayersRecord layers;
+};
+
+using Texel = std::vector<uint8_t>;
+
+TEST(GltfLayers, useAnImageThatHasBothOfAPair)
+{
+    const TexturedLayers part(R"("KHR_materials_specular":{"specularTexture":{"index":0},
+        "specularColorTexture":{"index":2}},"KHR_materials_clearcoat":{"clearcoatFactor":1,
+        "clearcoatRoughnessFactor":1,"clearcoatTexture":{"index":0},"clearcoatRoughnessTexture":{"index":0},
+        "clearcoatNormalTexture":{"index":1,"scale":0.5}},"KHR_materials_sheen":{"sheenColorFactor":[1,1,1],
+        "sheenRoughnessFactor":1,"sheenColorTexture":{"index":0,"texCoord":1},
+        "sheenRoughnessTexture":{"index":0,"texCoord":1}})");
+    EXPECT_EQ(part.texel(part.layers.specular_texture), (Texel{0x30, 0x20, 0x10, 0x40}));
+    EXPECT_EQ(part.image(part.layers.specular_texture).format,
+              static_cast<uint32_t>(TexelFormat::rgba8_srgb));
+    EXPECT_EQ(part.layers.specular_texture.image, part.layers.sheen_texture.image) << "written once";
+    EXPECT_EQ(part.layers.sheen_texture.uv_set, 1);
+    EXPECT_EQ(part.image(part.layers.clearcoat_texture).format,
+              static_cast<uint32_t>(TexelFormat::rgba8_unorm));
+    EXPECT_EQ(part.image(part.layers.clearcoat_normal_texture).flags, uint32_t{kImageNormalMap});
+    EXPECT_EQ(part.layers.clearcoat_normal_scale, 0.5f);
+    EXPECT_EQ(part.result.records<ImageRecord>(kChunkImages).size(), 3u);
+}
+
+TEST(GltfLayers, mergeTheChannelsOfAPair)
+{
+    const TexturedLayers part(R"("KHR_materials_specular":{"specularTexture":{"index":0},
+        "specularColorTexture":{"index":1}},"KHR_materials_clearcoat":{"clearcoatFactor":1,
+        "clearcoatRoughnessFactor":1,"clearcoatTexture":{"index":0},"clearcoatRoughnessTexture":{"index":1}},
+        "KHR_materials_sheen":{"sheenColorFactor":[1,1,1],"sheenRoughnessFactor":1,
+        "sheenColorTexture":{"index":0},"sheenRoughnessTexture":{"index":1}})");
+    EXPECT_EQ(part.texel(part.layers.specular_texture), (Texel{0x70, 0x60, 0x50, 0x40}));
+    const Texel coat = part.texel(part.layers.clearcoat_texture);
+    EXPECT_EQ(coat[0], 0x30) << "R of the first";
+    EXPECT_EQ(coat[1], 0x60) << "G of the second";
+    EXPECT_EQ(part.texel(part.layers.sheen_texture), (Texel{0x30, 0x20, 0x10, 0x80}));
+    EXPECT_EQ(part.image(part.layers.sheen_texture).width, 2u);
+    EXPECT_EQ(part.image(part.layers.sheen_texture).height, 2u);
+}
+
+/// The channels that the missing texture would have are white.
+TEST(GltfLayers, fillUpASingleTextureOfAPair)
+{
+    const TexturedLayers strength(R"("KHR_materials_specular":{"specularTexture":{"index":0}},
+        "KHR_materials_clearcoat":{"clearcoatFactor":1,"clearcoatRoughnessFactor":1,
+        "clearcoatRoughnessTexture":{"index":0}}, "KHR_materials_sheen":{"sheenColorFactor":[1,1,1],
+        "sheenRoughnessFactor":1,"sheenRoughnessTexture":{"index":0}})");
+    EXPECT_EQ(strength.texel(strength.layers.specular_texture), (Texel{255, 255, 255, 0x40}));
+    EXPECT_EQ(strength.texel(strength.layers.clearcoat_texture)[0], 255);
+    EXPECT_EQ(strength.texel(strength.layers.clearcoat_texture)[1], 0x20);
+    EXPECT_EQ(strength.texel(strength.layers.sheen_texture), (Texel{255, 255, 255, 0x40}));
+    const TexturedLayers color(R"("KHR_materials_specular":{"specularColorTexture":{"index":0}},
+        "KHR_materials_clearcoat":{"clearcoatFactor":1,"clearcoatTexture":{"index":0}})");
+    EXPECT_EQ(color.texel(color.layers.specular_texture), (Texel{0x30, 0x20, 0x10, 255}));
+    EXPECT_EQ(color.texel(color.layers.clearcoat_texture), (Texel{0x30, 0x20, 0x10, 0x40}))
+        << "with a roughness of 0 the image itself serves";
+}
+
+TEST(GltfLayers, nameTheTextureThatLiesElsewhere)
+{
+    for (const char* second : {R"({"index":1,"texCoord":1})", R"({"index":3})",
+                               R"({"index":1,"extensions":{"KHR_texture_transform":{"scale":[2,2]}}})"})
+    {
+        const TexturedLayers part(std::string(R"("KHR_materials_sheen":{"sheenColorFactor":[1,1,1],
+            "sheenRoughnessFactor":1,"sheenColorTexture":{"index":0},"sheenRoughnessTexture":)") +
+                                      second + "}",
+                                  R"(,{"source":1,"sampler":0}],"samplers":[{"wrapS":33071})");
+        EXPECT_EQ(part.texel(part.layers.sheen_texture), (Texel{0x30, 0x20, 0x10, 255})) << second;
+        EXPECT_TRUE(part.result.hasWarning(Issue::dropped,
+                                           "sheenRoughnessTexture is not kept: it has another UV "
+                                           "mapping or sampler than sheenColorTexture"));
+    }
+}
+
+TEST(GltfLayers, keepWhatIsLeftOfABrokenPair)
+{
+    const TexturedLayers part(R"("KHR_materials_sheen":{"sheenColorFactor":[1,1,1],"sheenRoughnessFactor":1,
+        "sheenColorTexture":{"index":3},"sheenRoughnessTexture":{"index":0}})",
+                              ",{}");
+    EXPECT_EQ(part.texel(part.layers.sheen_texture), (Texel{255, 255, 255, 0x40}));
+    EXPECT_TRUE(part.result.hasWarning(Issue::image_missing, "material 0"));
 }
 
 TEST(GltfMaterials, transformUvsAsTheExtensionSays)

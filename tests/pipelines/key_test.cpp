@@ -160,7 +160,7 @@ TEST_F(Keys, everyParameterChangesThem)
              s.values_of_source.push_back(s.values_of_source[0]);
              s.lods_of_source.emplace_back();
          },
-         kOfSource},
+         {"import", "textures", "clusters", "skinning", "neighbours", "visibility", "bricks", "link"}},
         {"no lod", [](CookSettings& s) { s.lods_of_source.clear(); }, kOfSource},
         {"another level", [&](CookSettings& s) { s.lods_of_source = {{"2=" + low}}; }, kOfSource},
         {"another lod", [&](CookSettings& s) { s.lods_of_source = {{"1=" + s.sources[0]}}; }, kOfSource},
@@ -189,7 +189,7 @@ TEST_F(Keys, everySettingChangesThoseOfItsCookerAndItsReaders)
         for (const settings::Setting& setting : cooker.settings)
         {
             // the LODs are files, and the cookers that a flag enables are tested below
-            if (setting.key == cookers::kImportLods || setting.key == cooker.enabled_by)
+            if (setting.key == cookers::kImportLods || setting.key == cooker.switched_by)
                 continue;
             CookSettings other = settings;
             settings::Values& values =
@@ -209,11 +209,11 @@ TEST_F(Keys, flagsAddTheirCookers)
     const CookSettings settings = settingsIn(folder);
     const auto before = keys(settings);
     CookSettings other = settings;
-    other.values_of_source[0]["visibility.enabled"].text = "false";
+    other.values_of_source[0]["visibility.mode"].text = "\"off\"";
     EXPECT_EQ(changed(before, keys(other)),
               (std::set<std::string>{"clusters", "skinning", "visibility", "specular", "bricks", "link"}));
     other = settings;
-    other.values_of_pack.erase("bricks.enabled");
+    other.values_of_pack["bricks.mode"].text = "\"off\"";
     EXPECT_EQ(changed(before, keys(other)), (std::set<std::string>{"bricks", "link"}));
 }
 

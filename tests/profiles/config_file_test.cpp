@@ -129,7 +129,8 @@ TEST(ParseConfig, valuesAreTypedAndInRange)
              Row{"textures.max_size = 0", "textures.max_size", "a whole number from 1 to 16384"},
              Row{"textures.max_size = 16385", "textures.max_size", "a whole number from 1 to 16384"},
              Row{"textures.max_size = 3.0", "textures.max_size", "a whole number"},
-             Row{"visibility.enabled = 1", "visibility.enabled", "true or false"},
+             Row{"visibility.refine = 1", "visibility.refine", "true or false"},
+             Row{"visibility.mode = true", "visibility.mode", "one of auto, on, off"},
              Row{"visibility.quality = 'hihg'", "visibility.quality", "did you mean 'high'?"},
              Row{"visibility.distance = 0", "visibility.distance", "a number above 0"},
              Row{"visibility.distance = inf", "visibility.distance", "a number above 0"},
@@ -189,7 +190,7 @@ TEST(ValueOf, readsWordsAsFilesWouldSay)
     EXPECT_EQ(text("visibility.poses=Run"), "[\"Run\"]");
     EXPECT_EQ(text("visibility.poses=['Run', 'Walk@1']"), "[\"Run\",\"Walk@1\"]");
     EXPECT_EQ(text("bricks.memory=2K"), "2048");
-    EXPECT_EQ(text("visibility.enabled=true"), "true");
+    EXPECT_EQ(text("visibility.refine=true"), "true");
     EXPECT_EQ(text("clusters.levels=[{ keep = 0.7 }]"), "[{keep=0.7}]");
     EXPECT_NE(text("clusters.influence=4").find("did you mean 'clusters.influences'?"), std::string::npos);
     EXPECT_NE(text("clusters.influences=5").find("must be 4 or 8"), std::string::npos);

@@ -212,12 +212,12 @@ TEST(Arguments, giveEachCookerItsOwnSettings)
         parseProfileFile("import.crease_angle = 30\nimport.scale = 0.01\nimport.up = 'z'\n"
                          "animation.error = 0.25\n"
                          "clusters.influences = 4\nclusters.levels = [{ keep = 0.6 }]\n"
-                         "textures.max_size = 64\ntextures.max_bits = 8\nvisibility.enabled = true\n"
+                         "textures.max_size = 64\ntextures.max_bits = 8\nvisibility.mode = 'on'\n"
                          "visibility.quality = 'draft'\nvisibility.distance = 2\n"
                          "visibility.power = 1\nvisibility.poses = ['Run', 'Walk']\n"
-                         "visibility.refine = true\nvisibility.occluders = 'asset'\n"
-                         "bricks.enabled = true\nbricks.voxel_size = 0.5\n"
-                         "bricks.memory = '1M'\nbricks.bake = 3\n",
+                         "visibility.refine = true\nvisibility.occluders = 'mesh'\n"
+                         "bricks.mode = 'on'\nbricks.voxel_size = 0.5\n"
+                         "bricks.memory = '1M'\n",
                          "house.toml");
     ASSERT_TRUE(profile.ok()) << formatMessage(profile.error());
     const settings::Values& values = profile->values;
@@ -229,10 +229,9 @@ TEST(Arguments, giveEachCookerItsOwnSettings)
               (Words{"--set", "clusters.influences=4", "--set", "clusters.levels=[{keep=0.6}]",
                      "--no-discrete-lods", "--visibility"}));
     EXPECT_EQ(wordsFor("visibility", values),
-              (Words{"--quality", "draft", "--occluders", "asset", "--distance", "2", "--power", "1",
+              (Words{"--quality", "draft", "--occluders", "mesh", "--distance", "2", "--power", "1",
                      "--poses", "Run", "--poses", "Walk", "--refine-cones", "--no-noise-estimate"}));
-    EXPECT_EQ(wordsFor("bricks", values),
-              (Words{"--voxel-size", "0.5", "--memory", "1048576", "--bake", "3"}));
+    EXPECT_EQ(wordsFor("bricks", values), (Words{"--voxel-size", "0.5", "--memory", "1048576"}));
     const std::vector<settings::Values> sources{values};
     for (const cookers::Cooker& cooker : cookers::allCookers())
         EXPECT_TRUE(cookers::isEnabled(cooker, values, sources)) << cooker.name;
@@ -242,10 +241,17 @@ TEST(Arguments, omitUnsetSettings)
 {
     EXPECT_EQ(wordsFor("import", {}), Words());
     EXPECT_EQ(wordsFor("textures", {}), Words());
-    EXPECT_EQ(wordsFor("clusters", {}), Words{"--no-discrete-lods"});
+    EXPECT_EQ(wordsFor("clusters", {}), (Words{"--no-discrete-lods", "--visibility"}));
+    EXPECT_EQ(wordsFor("bricks", {}), Words{"--if-needed"});
+    const settings::Values off{{"visibility.mode", {"\"off\"", ""}}, {"bricks.mode", {"\"off\"", ""}}};
+    EXPECT_EQ(wordsFor("clusters", off), Words{"--no-discrete-lods"});
+    const std::vector<settings::Values> plain_sources(1), sources_off{off};
     for (const char* name : {"visibility", "specular", "bricks"})
-        EXPECT_FALSE(cookers::isEnabled(*cookers::findCooker(name), {}, {})) << name;
-    const auto power = parseProfileFile("visibility.enabled = true\nvisibility.power = 1\n", "house.toml");
+    {
+        EXPECT_TRUE(cookers::isEnabled(*cookers::findCooker(name), {}, plain_sources)) << name;
+        EXPECT_FALSE(cookers::isEnabled(*cookers::findCooker(name), off, sources_off)) << name;
+    }
+    const auto power = parseProfileFile("visibility.mode = 'on'\nvisibility.power = 1\n", "house.toml");
     EXPECT_EQ(cookers::checkSourceSettings(power->values).error().issue, Issue::profile_value);
 }
 

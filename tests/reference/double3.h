@@ -16,6 +16,7 @@ struct Double3
     Double3() = default;
     Double3(double a, double b, double c) : x(a), y(b), z(c) {}
     explicit Double3(Float3 v) : x(double{v.x}), y(double{v.y}), z(double{v.z}) {}
+    friend bool operator==(const Double3&, const Double3&) = default;
 };
 
 inline Double3 operator+(Double3 a, Double3 b)

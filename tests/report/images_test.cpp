@@ -90,8 +90,8 @@ TEST_F(ImagesOfMeshes, areInThePage)
     if (page.find("no usable graphics device") != std::string::npos)
         GTEST_SKIP() << "no device";
     EXPECT_NE(page.find("\"is_sheet\":true"), std::string::npos) << "both stand at the origin";
-    // three views each, of the scene and of both meshes
-    EXPECT_EQ(countOccurrences(page, "data:image/jpeg;base64,/9j/"), 9u);
+    // four views each, of the scene and of both meshes: one of ambient occlusion
+    EXPECT_EQ(countOccurrences(page, "data:image/jpeg;base64,/9j/"), 12u);
     const std::vector<std::string> files{"report", "report.json", "--html", "later.html"};
     ASSERT_EQ(hearth(files).exit_code, 0);
     EXPECT_EQ(countOccurrences(folder.read("later.html"), "data:image/jpeg"), 0u) << "the pack is not named";

@@ -129,9 +129,9 @@ void expectWhatRaysGive(const std::string& file, const formats::PackView& pack, 
     std::string camera;
     for (const float number : posed.camera)
         camera += (camera.empty() ? "" : ",") + std::to_string(number);
-    const auto end =
-        runProgram(Program::render, {file, "-o", image, "--size", "512x512", "--camera", camera,
-                                     "--animation", std::to_string(posed.clip), "--time", posed.seconds});
+    const auto end = runProgram(Program::render,
+                                {file, "-o", image, "--samples", "1", "--size", "512x512", "--camera", camera,
+                                 "--animation", std::to_string(posed.clip), "--time", posed.seconds});
     ASSERT_EQ(end.exit_code, 0) << end.errors;
     const auto drawn = reference::readPng(image);
     ASSERT_TRUE(drawn.ok());

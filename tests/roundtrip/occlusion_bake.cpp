@@ -58,10 +58,10 @@ std::string Shape::ply() const
     return text.str();
 }
 
-std::vector<SeenVertex> extractVertices(Sandbox& sandbox, const std::string& pack)
+std::vector<SeenVertex> extractVertices(Sandbox& sandbox, const std::string& pack, uint32_t mesh)
 {
-    const ProgramEnd extracted =
-        sandbox.run({kBin + "/hearth", "extract", pack, "--mesh", "0", "--error", "0", "-o", "seen.ply"});
+    const ProgramEnd extracted = sandbox.run({kBin + "/hearth", "extract", pack, "--mesh",
+                                              std::to_string(mesh), "--error", "0", "-o", "seen.ply"});
     EXPECT_EQ(extracted.exit_code, 0) << extracted.err;
     if (extracted.exit_code != 0)
         return {};

@@ -38,8 +38,8 @@ struct SeenVertex
 };
 static_assert(sizeof(SeenVertex) == 16 * sizeof(float));
 
-/// Return the vertices of the finest level of mesh 0. The mesh must have visibility and no UVs.
-std::vector<SeenVertex> extractVertices(Sandbox& sandbox, const std::string& pack);
+/// Return the vertices of the finest level of a mesh, which must have visibility and no UVs.
+std::vector<SeenVertex> extractVertices(Sandbox& sandbox, const std::string& pack, uint32_t mesh = 0);
 
 /// Cook the shape with `--visibility` and these flags, verify the pack, and return its vertices.
 /// sandbox  gets shape.ply and shape.hearth

@@ -125,6 +125,23 @@ TEST_F(Occlusion, hasNoSeamWhereVerticesMeet)
     EXPECT_GT(pairs, 50u);
 }
 
+TEST_F(Occlusion, ofALargeMeshIsInterpolatedFromACoarserLevel)
+{
+    // 400,000 triangles exceed what draft spends
+    bake(makeBowl(320), {"--visibility-quality", "draft", "--report", "report.json"});
+    const auto report = Json::parse(sandbox_.read("report.json")).value();
+    const auto& mesh = report["assets"][0]["visibility"]["meshes"][0];
+    EXPECT_GT(mesh["sampled_level"].get<double>(), 0);
+    EXPECT_LT(mesh["rays"].get<double>(), 1.02 * 0x1p22);
+    // a bowl occludes its area as a share of the whole sphere's
+    const double ao = 1 - (std::cos(std::numbers::pi * 0.01) - std::cos(std::numbers::pi * 0.51)) / 2;
+    double sum = 0;
+    for (const SeenVertex& vertex : seen_)
+        sum += std::pow(double{vertex.ao} - ao, 2);
+    EXPECT_GT(seen_.size(), 200'000u);
+    EXPECT_LT(std::sqrt(sum / static_cast<double>(seen_.size())), 0.03);
+}
+
 TEST_F(Occlusion, isWrittenAlikeByAnyNumberOfThreads)
 {
     sandbox_.write("bowl.ply", makeBowl(24).ply());

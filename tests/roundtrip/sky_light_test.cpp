@@ -32,8 +32,8 @@ using reference::Double3;
 pack::Pack cook(Sandbox& sandbox, const samples::Document& document)
 {
     EXPECT_TRUE(samples::writeFile(sandbox / "scene.glb", samples::encodeGlb(document)).ok());
-    const ProgramEnd end =
-        sandbox.run({HEARTH_BIN "/hearth", "cook", "scene.glb", "-o", "scene.hearth", "-q", "--visibility"});
+    const ProgramEnd end = sandbox.run(
+        {HEARTH_BIN "/hearth", "cook", "scene.glb", "-o", "scene.hearth", "-q", "--bricks", "off"});
     EXPECT_EQ(end.exit_code, 0) << end.err;
     return pack::Pack::open(sandbox / "scene.hearth").value();
 }

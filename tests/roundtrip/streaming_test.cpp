@@ -33,8 +33,9 @@ class StreamedRender : public testing::Test
 protected:
     ProgramEnd render(const std::string& name, std::vector<std::string> options)
     {
-        options.insert(options.begin(), {sample_.packPath(), "-o", file(name + ".png"), "--stats",
-                                         file(name + ".json"), "--size", "320x240", "--validate"});
+        options.insert(options.begin(),
+                       {sample_.packPath(), "-o", file(name + ".png"), "--stats", file(name + ".json"),
+                        "--size", "320x240", "--samples", "1", "--validate"});
         return runProgram(Program::render, options);
     }
 
@@ -81,7 +82,8 @@ TEST_F(StreamedRender, namesTheBudgetThatIsNeeded)
 TEST_F(StreamedRender, aCameraPathTakesOneRoundOfLoadsAFrame)
 {
     std::ofstream(file("path.txt")) << "3,1,3,0,0,0,45\n3,1,3,0,0,0,45\n3,1,3,0,0,0,45\n";
-    const ProgramEnd end = render("path", {"--budget", "1G", "--shadows", "off", "--camera-path", file("path.txt")});
+    const ProgramEnd end =
+        render("path", {"--budget", "1G", "--shadows", "off", "--camera-path", file("path.txt")});
     ASSERT_EQ(end.exit_code, 0) << end.errors;
     const std::string statistics = readContent(file("path.json"));
     const size_t frames = statistics.rfind("\"frames\":[");

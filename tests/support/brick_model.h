@@ -24,6 +24,7 @@ struct BrickModel
     std::vector<uint16_t> normals;
     std::vector<uint32_t> emission;
     std::vector<uint32_t> lighting;
+    std::vector<formats::ReflectorRecord> reflectors;
 
     shared::BrickMasks masks() const { return {formats::toBrickGrid(grid), groups, bricks}; }
 };

@@ -87,6 +87,7 @@ Cook::Cook()
     programs.write("hearth-clusters", withParts(kClusters, parts), true);
     programs.write("hearth-skinning", withParts(kSkinning, parts), true);
     programs.write("hearth-bricks", withParts(kBricks, parts), true);
+    model.bricks.reflectors.clear(); // the pack may have other lights than the model
     writeBricksPart(model, parts + ".bricks.part");
     std::filesystem::copy(HEARTH_BIN "/hearth", programs / "hearth");
     std::filesystem::copy(HEARTH_BIN "/hearth-link", programs / "hearth-link");

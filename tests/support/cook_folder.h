@@ -27,7 +27,7 @@ protected:
     std::vector<std::string> command(std::vector<std::string> arguments) const
     {
         arguments.insert(arguments.begin(), {programs / "hearth", "cook"});
-        return arguments;
+        return withoutLightCookers(std::move(arguments));
     }
 
     /// Check that the cook failed with one error line, and left neither outputs nor temporary files.

@@ -132,4 +132,12 @@ void replaceAll(std::string& text, const std::string& what, const std::string& b
         text.replace(at, what.size(), by);
 }
 
+std::vector<std::string> withoutLightCookers(std::vector<std::string> words)
+{
+    for (const char* option : {"--visibility", "--bricks"})
+        if (std::ranges::count(words, option) == 0)
+            words.insert(words.end(), {option, "off"});
+    return words;
+}
+
 } // namespace hearth::test

@@ -62,4 +62,8 @@ size_t countOccurrences(const std::string& text, const std::string& part);
 /// Replace every `what` in `text` by `by`.
 void replaceAll(std::string& text, const std::string& what, const std::string& by);
 
+/// Add options that switch off what a cook bakes for the light to the words of a command, unless it names
+/// them itself: for tests that count or replace cookers.
+std::vector<std::string> withoutLightCookers(std::vector<std::string> words);
+
 } // namespace hearth::test

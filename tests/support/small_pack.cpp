@@ -4,7 +4,7 @@
 #include "formats/codecs/cluster_bounds.h"
 #include "formats/codecs/visibility_code.h"
 #include "formats/container/container_reader.h"
-#include "formats/gpu_shared/brick_codes.h"
+#include "formats/gpu_shared/reflector.h"
 
 #include <bit>
 #include <cmath>
@@ -268,6 +268,17 @@ void addSpecularTable(PackModel& pack)
     pack.specular_tables.push_back(table);
 }
 
+/// Light of occluders at the last instance; the visibility of others is that of their mesh.
+void addSurroundings(PackModel& pack)
+{
+    pack.surroundings.assign(pack.instances.size(), kPlainSurroundings);
+    pack.surroundings.back() = {0, {0x3000, 0, 0xB000, 0x3A00}};
+    RadianceTransferRecord transfer{};
+    for (uint16_t i = 0; i < kTransferValues; ++i)
+        transfer.values[i] = static_cast<uint16_t>(0x3000 + i);
+    pack.radiance_transfers.push_back(transfer);
+}
+
 /// Two groups along x, three bricks: a row of two voxels in the first, a corner of the grid in the second.
 void addBricks(PackModel& pack)
 {
@@ -278,6 +289,8 @@ void addBricks(PackModel& pack)
     pack.bricks.opacity[1] = 51;
     pack.bricks.albedo[2] = shared::encodeAlbedo({1, 0.2f, 0});
     pack.bricks.emission[3] = pack.bricks.lighting[3] = shared::encodeRadiance({4, 2, 0.5f});
+    pack.bricks.reflectors = {
+        {}, {shared::encodeRadiance({2, 1, 0.5f}), 0x7F, {0xFF, 0x80, 0, 1}, {0xFFFFFFFF, 0xFF, 0, 0}}, {}};
     pack.brick_grids = {pack.bricks.grid};
 }
 
@@ -404,6 +417,10 @@ void addMaterials(PackModel& pack)
     material.occlusion_texture = texture(kInvalidIndex);
     material.emissive_texture = texture(1);
     pack.materials.push_back(material);
+    MaterialLayersRecord layers = neutralLayers(0);
+    layers.clearcoat = 0.5f;
+    layers.clearcoat_texture = texture(0);
+    pack.material_layers.push_back(layers);
 
     pack.images.push_back({intern(pack, "paint.png"), 4, 2, 3, static_cast<uint32_t>(TexelFormat::rgba8_srgb),
                            kImageAlphaTested, 0.5f});
@@ -512,6 +529,7 @@ std::vector<ChunkImage> PackModel::chunks(bool compressed) const
     table(kChunkLights, lights);
     table(kChunkShadowSpheres, shadow_spheres);
     table(kChunkMaterials, materials);
+    table(kChunkMaterialLayers, material_layers);
     table(kChunkImages, images);
     table(kChunkSkins, skins);
     table(kChunkJoints, joints);
@@ -533,6 +551,8 @@ std::vector<ChunkImage> PackModel::chunks(bool compressed) const
     table(kChunkDeformedClusters, deformed_clusters);
     table(kChunkClusterJoints, cluster_joints);
     table(kChunkSpecular, specular_tables);
+    table(kChunkSurroundings, surroundings);
+    table(kChunkRadianceTransfers, radiance_transfers);
     table(kChunkBrickGrid, brick_grids);
     table(kChunkBrickGroups, bricks.groups);
     table(kChunkBricks, bricks.bricks);
@@ -541,6 +561,7 @@ std::vector<ChunkImage> PackModel::chunks(bool compressed) const
     table(kChunkBrickNormals, bricks.normals);
     table(kChunkBrickEmission, bricks.emission);
     table(kChunkBrickLighting, bricks.lighting);
+    table(kChunkReflectors, bricks.reflectors);
     list.push_back(plainChunk(kChunkPages, 0, 1, page_bytes));
     for (uint32_t i = 0; i < image_data.size(); ++i)
         bytes(kChunkImageData, i, 1, image_data[i]);
@@ -561,6 +582,7 @@ PackModel smallPack()
     pack.authored_levels.push_back({0, 1, 2, intern(pack, "strip_LOD2.obj")});
     addBounds(pack);
     addSpecularTable(pack);
+    addSurroundings(pack);
     addBricks(pack);
     addAsset(pack);
     addExtras(pack);

@@ -4,10 +4,12 @@
 
 #include "formats/records/deformation.h"
 #include "formats/records/extras.h"
+#include "formats/records/material_layers.h"
 #include "formats/records/mesh.h"
 #include "formats/records/provenance.h"
 #include "formats/records/scene.h"
 #include "formats/records/specular.h"
+#include "formats/records/surroundings.h"
 #include "tests/support/brick_model.h"
 #include "tests/support/container_image.h"
 
@@ -30,6 +32,7 @@ struct PackModel
     std::vector<formats::LightRecord> lights;
     std::vector<formats::ShadowSphereRecord> shadow_spheres;
     std::vector<formats::MaterialRecord> materials;
+    std::vector<formats::MaterialLayersRecord> material_layers;
     std::vector<formats::ImageRecord> images;
     std::vector<std::vector<std::byte>> image_data;
     std::vector<formats::SkinRecord> skins;
@@ -53,6 +56,8 @@ struct PackModel
     std::vector<uint32_t> cluster_joints;
     std::vector<formats::DeformedGroupRecord> deformed_groups; ///< only in parts
     std::vector<formats::SpecularTableRecord> specular_tables;
+    std::vector<formats::SurroundingsRecord> surroundings;
+    std::vector<formats::RadianceTransferRecord> radiance_transfers;
     std::vector<formats::BrickGridRecord> brick_grids;
     BrickModel bricks; ///< without its grid, which is in brick_grids
 

@@ -14,8 +14,9 @@ using namespace formats;
 namespace
 {
 
-const uint32_t kClusterChunks[] = {kChunkMeshes,    kChunkLevels,      kChunkGroups, kChunkClusters,
-                                   kChunkPageTable, kChunkPageParents, kChunkPages};
+const uint32_t kClusterChunks[] = {kChunkMeshes,   kChunkLevels,       kChunkGroups,
+                                   kChunkClusters, kChunkPageTable,    kChunkPageParents,
+                                   kChunkPages,    kChunkSurroundings, kChunkRadianceTransfers};
 
 const uint32_t kSkinningChunks[] = {kChunkDeformedMeshes, kChunkDeformedClusters, kChunkClusterJoints};
 

@@ -31,7 +31,8 @@ protected:
         arguments.insert(arguments.end(), options.begin(), options.end());
         std::vector<std::string> view = arguments, render = arguments;
         view.insert(view.end(), {"--frames", "3", "--screenshot", folder_.path("view.png")});
-        render.insert(render.end(), {"-o", folder_.path("render.png")});
+        // a window has one sample of each pixel
+        render.insert(render.end(), {"--samples", "1", "-o", folder_.path("render.png")});
         const ProgramEnd viewed = runProgram(HEARTH_VIEW_PROGRAM, view);
         ASSERT_EQ(viewed.exit_code, 0) << viewed.errors;
         const ProgramEnd rendered = runProgram(Program::render, render);

@@ -22,7 +22,8 @@ Status writeTables(ContainerWriter& writer, const BrickTables& tables)
     HEARTH_TRY(writer.addRecords<uint32_t>(kChunkBrickAlbedo, tables.albedo));
     HEARTH_TRY(writer.addRecords<uint16_t>(kChunkBrickNormals, tables.normals));
     HEARTH_TRY(writer.addRecords<uint32_t>(kChunkBrickEmission, tables.emission));
-    return writer.addRecords<uint32_t>(kChunkBrickLighting, tables.lighting);
+    HEARTH_TRY(writer.addRecords<uint32_t>(kChunkBrickLighting, tables.lighting));
+    return writer.addRecords<ReflectorRecord>(kChunkReflectors, tables.reflectors);
 }
 
 } // namespace hearth::bricks

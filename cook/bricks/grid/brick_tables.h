@@ -26,7 +26,8 @@ struct BrickTables
     std::vector<uint32_t> albedo; ///< one per face, like the arrays below
     std::vector<uint16_t> normals;
     std::vector<uint32_t> emission;
-    std::vector<uint32_t> lighting; ///< outgoing radiance, emission included
+    std::vector<uint32_t> lighting;                   ///< outgoing radiance, emission included
+    std::vector<formats::ReflectorRecord> reflectors; ///< one for each light, or none
 
     /// Return the masks that ray marching reads.
     shared::BrickMasks masks() const { return {formats::toBrickGrid(grid), groups, bricks}; }

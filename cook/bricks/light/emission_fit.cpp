@@ -14,8 +14,9 @@ using namespace shared;
 namespace
 {
 
-/// Rays that measure how much of a face's light the source's own voxels take.
-constexpr uint32_t kOpennessRays = 64;
+/// Rays that measure how much of a face's light the source's own voxels take. Fewer for large sources, whose
+/// faces are seen many at a time: the voxels of all sources have kMaxVoxelRays together.
+constexpr size_t kMaxOpennessRays = 64, kMinOpennessRays = 8, kMaxVoxelRays = size_t{1} << 18;
 
 /// Voxels behind the side of a voxel within which its surface lies.
 constexpr float kSurfaceDepth = 2;
@@ -58,6 +59,17 @@ std::array<double, kFaces> splitAmongFaces(const LeavingLight& light, const Bric
     for (double& part : parts)
         part /= sum;
     return parts;
+}
+
+EmissionFit::EmissionFit(const RayScene& rays, const LeavingLights& lights, BrickTables& tables)
+    : rays_(rays),
+      lights_(lights),
+      tables_(tables),
+      masks_(tables.masks()),
+      places_(faceLocations(masks_)),
+      openness_rays_(static_cast<uint32_t>(std::clamp(
+          kMaxVoxelRays / std::max<size_t>(lights.lights().size(), 1), kMinOpennessRays, kMaxOpennessRays)))
+{
 }
 
 void EmissionFit::setEmission(const LeavingLight& light) const
@@ -107,16 +119,16 @@ float EmissionFit::computeOpenness(uint32_t face) const
     const Float3 normal = brickFaceNormal(decodeFaceNormal(tables_.normals[face]), side);
     const uint32_t seed = brickFaceSeed(x, y, z, side);
     float taken = 0;
-    for (uint32_t i = 0; i < kOpennessRays; ++i)
+    for (uint32_t i = 0; i < openness_rays_; ++i)
     {
         Float3 position = middle;
         position[(faceAxis(side) + 1) % 3] += brickRandomUnit(brickHash(seed + 2 * i)) - 0.5f;
         position[(faceAxis(side) + 2) % 3] += brickRandomUnit(brickHash(seed + 2 * i + 1)) - 0.5f;
-        const Float3 direction = brickRayDirection(axis, i, kOpennessRays, seed);
+        const Float3 direction = brickRayDirection(axis, i, openness_rays_, seed);
         const MetSource met = findSource(position, direction);
         taken += dot(direction, normal) <= 0 ? met.opacity : computeStepOpacity(position, direction, met);
     }
-    return 1 - taken / kOpennessRays;
+    return 1 - taken / static_cast<float>(openness_rays_);
 }
 
 /// Return the part of a face's own rays that end in the source's steps.
@@ -129,13 +141,13 @@ float EmissionFit::computeSelfLight(uint32_t face) const
                        brickFaceSurface(x, y, z, side, decodeFaceDepth(tables_.albedo[face])));
     const uint32_t seed = brickFaceSeed(x, y, z, side);
     float own = 0;
-    for (uint32_t i = 0; i < kOpennessRays; ++i)
+    for (uint32_t i = 0; i < openness_rays_; ++i)
     {
-        const Float3 direction = brickRayDirection(start.normal, i, kOpennessRays, seed);
+        const Float3 direction = brickRayDirection(start.normal, i, openness_rays_, seed);
         const Float3 origin = brickRayOrigin(scene, start, direction);
         own += computeStepOpacity(origin, direction, findSource(origin, direction));
     }
-    return own / kOpennessRays;
+    return own / static_cast<float>(openness_rays_);
 }
 
 } // namespace hearth::bricks

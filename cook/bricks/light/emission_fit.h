@@ -18,14 +18,7 @@ std::array<double, kFaces> splitAmongFaces(const LeavingLight& light, const shar
 class EmissionFit
 {
 public:
-    EmissionFit(const RayScene& rays, const LeavingLights& lights, BrickTables& tables)
-        : rays_(rays),
-          lights_(lights),
-          tables_(tables),
-          masks_(tables.masks()),
-          places_(faceLocations(masks_))
-    {
-    }
+    EmissionFit(const RayScene& rays, const LeavingLights& lights, BrickTables& tables);
 
     /// Set the emission of the faces of a voxel, such that the light reaches the air that leaves the voxel.
     void setEmission(const LeavingLight& light) const;
@@ -49,6 +42,7 @@ private:
     BrickTables& tables_;
     shared::BrickMasks masks_;
     std::vector<FaceLocation> places_;
+    uint32_t openness_rays_; ///< of each face
 };
 
 } // namespace hearth::bricks

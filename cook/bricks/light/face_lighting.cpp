@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/light/face_lighting.h"
 
+#include "cook/bricks/light/face_rays.h"
 #include "formats/base/assert.h"
 
 #include <algorithm>
@@ -73,18 +74,8 @@ void FaceLighting::light(const Lighting& lighting, uint32_t rays, size_t first, 
     marched.reserve((end - first) * rays);
     for (size_t face = first; face < end; ++face)
     {
-        const auto [x, y, z, side] = places_[face];
-        starts.push_back(
-            brickFaceStart(scene, x, y, z, side, decodeFaceNormal(bricks_.normals[face]),
-                           brickFaceSurface(x, y, z, side, decodeFaceDepth(bricks_.albedo[face]))));
-        const uint32_t seed = brickFaceSeed(x, y, z, side);
-        for (uint32_t i = 0; i < rays; ++i)
-        {
-            const Float3 direction = brickRayDirection(starts.back().normal, i, rays, seed);
-            marched.push_back(brickRayInVoxels(bricks_.masks.grid,
-                                               brickRayOrigin(scene, starts.back(), direction), direction,
-                                               kBrickInfinity));
-        }
+        starts.push_back(startFace(bricks_, scene, places_[face], face));
+        addFaceRays(scene, places_[face], starts.back(), rays, marched);
     }
     marchRays(table_, marched);
     const Sky sky{lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/light/ray_scene.h"
 
+#include "cook/sampling/maps.h"
+#include "cook/sampling/owen_sobol.h"
 #include "formats/base/assert.h"
 
 #include <algorithm>
@@ -16,6 +18,7 @@ using namespace formats;
 struct MaterialRange
 {
     uint32_t first_triangle;
+    const SurfaceMaterial* material;
     Float3 albedo;
 };
 
@@ -23,8 +26,15 @@ struct RayScene::State
 {
     RTCDevice device = nullptr;
     RTCScene scene = nullptr;
-    bool has_holes = false;
     std::vector<MaterialRange> materials; ///< in the order of their triangles
+    std::vector<Float3> corners;          ///< three of each triangle
+    std::vector<Float3> normals;          ///< of the corners, 0 without one; or empty
+
+    const MaterialRange& range(const Hit& hit) const
+    {
+        return *std::prev(
+            std::ranges::upper_bound(materials, hit.triangle, {}, &MaterialRange::first_triangle));
+    }
 
     State() = default;
     State(const State&) = delete;
@@ -53,21 +63,41 @@ RTCRay rayFrom(Float3 position, Float3 direction, float far)
     return ray;
 }
 
-/// Append the three corners of each triangle of a cluster, in voxels.
-void addTriangles(const ClusterGeometry& geometry, const Affine3d& voxels_from_object,
-                  std::vector<Float3>& corners)
+/// Transform a normal by the cofactors, up to its sign. Not unit.
+Double3 transformNormal(const Affine3d& transform, Double3 normal)
 {
-    for (uint32_t t = 0; t < geometry.triangleCount(); ++t)
-        for (const uint32_t vertex : geometry.triangle(t))
-            corners.push_back(narrow(transformPoint(voxels_from_object, widen(geometry.position(vertex)))));
+    const Double3 x = transformVector(transform, {1, 0, 0}), y = transformVector(transform, {0, 1, 0}),
+                  z = transformVector(transform, {0, 0, 1});
+    return cross(y, z) * normal.x + cross(z, x) * normal.y + cross(x, y) * normal.z;
 }
 
-Result<std::vector<Float3>> readTriangleCorners(const StaticScene& scene,
-                                                std::span<const InstancedCluster> placed,
-                                                const GridFrame& frame, bool& has_holes,
-                                                std::vector<MaterialRange>& materials)
+/// Append the three corners of each triangle of a cluster, in voxels, counterclockwise from the front.
+/// normals  of the corners; or nullptr
+void addTriangles(const ClusterGeometry& geometry, const Affine3d& voxels_from_object, bool mirrored,
+                  std::vector<Float3>& corners, std::vector<Float3>* normals)
 {
-    std::vector<Float3> corners;
+    for (uint32_t t = 0; t < geometry.triangleCount(); ++t)
+    {
+        std::array<uint32_t, 3> vertices = geometry.triangle(t);
+        if (mirrored)
+            std::swap(vertices[1], vertices[2]);
+        for (const uint32_t vertex : vertices)
+        {
+            corners.push_back(narrow(transformPoint(voxels_from_object, widen(geometry.position(vertex)))));
+            if (normals == nullptr)
+                continue;
+            const Double3 normal = geometry.has(kVertexNormal)
+                                       ? transformNormal(voxels_from_object, widen(geometry.normal(vertex)))
+                                       : Double3{};
+            normals->push_back(normalizeOr(narrow(normal), {}));
+        }
+    }
+}
+
+Status readTriangles(const StaticScene& scene, std::span<const InstancedCluster> placed,
+                     const GridFrame& frame, std::vector<MaterialRange>& materials,
+                     std::vector<Float3>& corners, std::vector<Float3>* normals)
+{
     std::vector<std::byte> page;
     uint32_t page_source = kInvalidIndex, page_number = kInvalidIndex;
     for (const InstancedCluster& at : placed)
@@ -76,10 +106,7 @@ Result<std::vector<Float3>> readTriangleCorners(const StaticScene& scene,
         const ClusterRecord& record = part.clusters()[at.cluster];
         const SurfaceMaterial& material = scene.material(at.source, record.material);
         if (material.hasHoles())
-        {
-            has_holes = true;
             continue;
-        }
         if (at.source != page_source || at.page != page_number)
         {
             HEARTH_ASSIGN_OR_RETURN(page, part.decodePage(at.page));
@@ -91,10 +118,11 @@ Result<std::vector<Float3>> readTriangleCorners(const StaticScene& scene,
         if (!geometry)
             return Error{Issue::meaning_geometry, part.name(), "cluster " + std::to_string(at.cluster),
                          "lies outside its page"};
-        materials.push_back({static_cast<uint32_t>(corners.size() / 3), meanAlbedo(material)});
-        addTriangles(*geometry, voxelsFromObject(frame, instance.world_from_object), corners);
+        materials.push_back({static_cast<uint32_t>(corners.size() / 3), &material, meanAlbedo(material)});
+        addTriangles(*geometry, voxelsFromObject(frame, instance.world_from_object), instance.mirrored,
+                     corners, normals);
     }
-    return corners;
+    return success();
 }
 
 } // namespace
@@ -105,11 +133,12 @@ RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 RayScene::~RayScene() = default;
 
 Result<RayScene> RayScene::build(const StaticScene& scene, std::span<const InstancedCluster> placed,
-                                 const GridFrame& frame)
+                                 const GridFrame& frame, Normals normals)
 {
     auto state = std::make_unique<State>();
-    HEARTH_ASSIGN_OR_RETURN(const std::vector<Float3> corners,
-                            readTriangleCorners(scene, placed, frame, state->has_holes, state->materials));
+    HEARTH_TRY(readTriangles(scene, placed, frame, state->materials, state->corners,
+                             normals == Normals::smooth ? &state->normals : nullptr));
+    const std::vector<Float3>& corners = state->corners;
     state->device = rtcNewDevice(nullptr);
     HEARTH_ASSERT(state->device != nullptr);
     state->scene = rtcNewScene(state->device);
@@ -143,16 +172,62 @@ std::optional<RayScene::Hit> RayScene::nearest(Float3 position, Float3 direction
     rtcIntersect1(state_->scene, &context, &ray);
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return std::nullopt;
-    const Float3 normal = normalizeOr({ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z}, -direction);
-    return Hit{position + direction * ray.ray.tfar, dot(normal, direction) > 0 ? -normal : normal,
-               ray.hit.primID};
+    const Float3* corner = &state_->corners[3 * size_t{ray.hit.primID}];
+    const Float3 front = normalizeOr(cross(corner[1] - corner[0], corner[2] - corner[0]), -direction);
+    const bool is_front = dot(front, direction) <= 0;
+    return Hit{position + direction * ray.ray.tfar, is_front ? front : -front, ray.hit.primID, is_front};
+}
+
+std::vector<RayScene::SurfacePoint> RayScene::sampleSurface(uint32_t count) const
+{
+    const std::vector<Float3>& corners = state_->corners;
+    const auto across = [&](size_t triangle)
+    {
+        const Float3* corner = &corners[3 * triangle];
+        return cross(corner[1] - corner[0], corner[2] - corner[0]);
+    };
+    std::vector<double> areas; // of all triangles up to each
+    double area = 0;
+    for (size_t triangle = 0; triangle < corners.size() / 3; ++triangle)
+        areas.push_back(area += double{length(across(triangle))});
+    std::vector<SurfacePoint> points;
+    for (uint32_t i = 0; i < count && area > 0; ++i)
+    {
+        const auto found = std::ranges::upper_bound(areas, area * (i + 0.5) / count);
+        const auto triangle = static_cast<size_t>(std::min(found, std::prev(areas.end())) - areas.begin());
+        const Float2 weights = sampling::trianglePoint(sampling::unitPoint(sampling::owenSobol(i, 0)));
+        const Float3* corner = &corners[3 * triangle];
+        points.push_back(
+            {corner[0] + (corner[1] - corner[0]) * weights.x + (corner[2] - corner[0]) * weights.y,
+             normalizeOr(across(triangle), {0, 1, 0})});
+    }
+    return points;
+}
+
+Float3 RayScene::smoothNormal(const Hit& hit) const
+{
+    const Float3* corner = &state_->corners[3 * size_t{hit.triangle}];
+    const Float3* normal = &state_->normals[3 * size_t{hit.triangle}];
+    const Float3 across = cross(corner[1] - corner[0], corner[2] - corner[0]);
+    Float3 sum;
+    for (size_t k = 0; k < 3; ++k) // the area of the triangle that the hit makes with the other two corners
+    {
+        const Float3 to_next = corner[(k + 1) % 3] - hit.position,
+                     to_last = corner[(k + 2) % 3] - hit.position;
+        sum += normal[k] * dot(cross(to_next, to_last), across);
+    }
+    const Float3 smooth = normalizeOr(sum, hit.normal);
+    return dot(smooth, hit.normal) < 0 ? -smooth : smooth;
 }
 
 Float3 RayScene::albedo(const Hit& hit) const
 {
-    const auto next =
-        std::ranges::upper_bound(state_->materials, hit.triangle, {}, &MaterialRange::first_triangle);
-    return std::prev(next)->albedo;
+    return state_->range(hit).albedo;
+}
+
+const SurfaceMaterial& RayScene::material(const Hit& hit) const
+{
+    return *state_->range(hit).material;
 }
 
 bool RayScene::occluded(Float3 position, Float3 direction, float far) const
@@ -162,11 +237,6 @@ bool RayScene::occluded(Float3 position, Float3 direction, float far) const
     RTCRay ray = rayFrom(position, direction, far);
     rtcOccluded1(state_->scene, &context, &ray);
     return ray.tfar < 0;
-}
-
-bool RayScene::hasHoles() const
-{
-    return state_->has_holes;
 }
 
 } // namespace hearth::bricks

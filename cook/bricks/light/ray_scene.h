@@ -21,12 +21,19 @@ public:
         Float3 position;
         Float3 normal; ///< unit, of the triangle, on the side of the ray's origin
         uint32_t triangle;
+        bool is_front;
+    };
+
+    enum class Normals
+    {
+        flat,
+        smooth, ///< those of the vertices, too: smoothNormal
     };
 
     /// Build from the clusters whose materials have no holes. Triangles block rays from both sides.
     /// errors: errors of decoding pages
     static Result<RayScene> build(const StaticScene& scene, std::span<const InstancedCluster> placed,
-                                  const GridFrame& frame);
+                                  const GridFrame& frame, Normals normals = Normals::flat);
 
     RayScene(RayScene&&) noexcept;
     RayScene& operator=(RayScene&&) noexcept;
@@ -35,11 +42,23 @@ public:
     std::optional<Hit> nearest(Float3 position, Float3 direction) const;
     bool occluded(Float3 position, Float3 direction, float far) const;
 
-    /// Return the mean base colour of the material of a hit.
-    Float3 albedo(const Hit& hit) const;
+    struct SurfacePoint
+    {
+        Float3 position;
+        Float3 normal; ///< unit, of the front
+    };
 
-    /// True if clusters were excluded because their materials have holes.
-    bool hasHoles() const;
+    /// Return points on the triangles, even in area: at most `count`, none without triangles.
+    std::vector<SurfacePoint> sampleSurface(uint32_t count) const;
+
+    /// Return the normal of a hit between those of the vertices, unit, on the side of the hit's normal. The
+    /// hit's normal where the vertices have none. Only with smooth normals.
+    Float3 smoothNormal(const Hit& hit) const;
+
+    /// Return the mean albedo of the material of a hit.
+    Float3 albedo(const Hit& hit) const;
+    /// Return the material of a hit, which is the scene's.
+    const SurfaceMaterial& material(const Hit& hit) const;
 
 private:
     struct State;

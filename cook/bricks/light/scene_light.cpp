@@ -11,9 +11,13 @@ namespace hearth::bricks
 shared::Lighting makeSceneLighting(const StaticScene& scene)
 {
     std::vector<formats::LightRecord> lights;
+    Box3 bounds;
     for (const SourceParts& source : scene.sources)
+    {
         lights.insert(lights.end(), source.scene.lights().begin(), source.scene.lights().end());
-    return shared::sceneLighting(lights, scene.box());
+        bounds.add(shared::lightingBounds(source.scene.instances(), source.clusters.meshes()));
+    }
+    return shared::sceneLighting(lights, bounds);
 }
 
 } // namespace hearth::bricks

@@ -9,9 +9,8 @@ namespace hearth::bricks
 {
 
 /// Return the lights of all sources, in order, as many as the runtime draws; one sun if there is none; the
-/// default sky; and the exposure by the runtime's rule (runtime/gpu/README.md). The scene's box has no
-/// animated or deformed instances here. If these reach beyond the static ones, the runtime's exposure
-/// differs, and its frames correct the lighting.
+/// default sky; and the exposure by the runtime's rule (runtime/gpu/README.md), which counts moving instances
+/// too.
 shared::Lighting makeSceneLighting(const StaticScene& scene);
 
 } // namespace hearth::bricks

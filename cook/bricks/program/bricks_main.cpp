@@ -1,14 +1,19 @@
 // hearth-bricks: cooks the bricks of one or more sources, or marches rays through the bricks of a file.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/bricks/light/bake.h"
+#include "cook/bricks/light/brick_need.h"
 #include "cook/bricks/light/emission.h"
 #include "cook/bricks/light/march_csv.h"
+#include "cook/bricks/light/reflectors.h"
+#include "cook/bricks/light/scene_light.h"
+#include "cook/bricks/light/settled_light.h"
 #include "cook/command_line/command_line.h"
 #include "cook/command_line/thread_limit.h"
 #include "cook/tools/open_part.h"
 #include "formats/base/atomic_file.h"
 #include "formats/base/program.h"
+#include "formats/scene/scene_lighting.h"
 
+#include <chrono>
 #include <cstdio>
 
 namespace
@@ -26,8 +31,8 @@ struct Arguments
     double voxel_size = 0;
     std::vector<double> min, max;
     std::vector<std::vector<double>> seeds;
+    bool only_if_needed = false;
     GridSettings settings;
-    std::optional<uint32_t> bounces; ///< none: no light is baked
     size_t jobs = 0;
 };
 
@@ -66,14 +71,48 @@ void warn(const GridStatistics& statistics, const std::string& output)
     }
 }
 
+double secondsSince(std::chrono::steady_clock::time_point start)
+{
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Set the emission of the faces, and the light that they have under the scene's own lights.
+Status lightGrid(const StaticScene& scene, CookedGrid& grid)
+{
+    auto start = std::chrono::steady_clock::now();
+    HEARTH_TRY(traceEmission(scene, grid));
+    grid.statistics.emission_seconds = secondsSince(start);
+    start = std::chrono::steady_clock::now();
+    HEARTH_ASSIGN_OR_RETURN(grid.tables.reflectors,
+                            findReflectors(scene, grid.statistics.frame, grid.statistics.error));
+    shared::Lighting lighting = makeSceneLighting(scene);
+    shared::addReflectors(lighting, grid.tables.reflectors);
+    SettledLight light = settleLight(makeBrickView(grid.tables), lighting);
+    grid.tables.lighting = std::move(light.codes);
+    grid.statistics.light_sweeps = light.sweeps;
+    grid.statistics.light_seconds = secondsSince(start);
+    return success();
+}
+
+Status cookNoGrid(const Arguments& arguments, const std::string& reason)
+{
+    HEARTH_TRY(writePartWithoutGrid(arguments.output, reason));
+    return arguments.statistics.empty() ? success()
+                                        : writeText(arguments.statistics, statisticsWithoutGrid(reason));
+}
+
 Status cook(const Arguments& arguments)
 {
     HEARTH_ASSIGN_OR_RETURN(const std::vector<SourceParts> sources, openSources(arguments.inputs));
     HEARTH_ASSIGN_OR_RETURN(const StaticScene scene, collectStaticScene(sources));
+    if (arguments.only_if_needed)
+    {
+        HEARTH_ASSIGN_OR_RETURN(const std::string reason, findReasonForNoBricks(scene, arguments.settings));
+        if (!reason.empty())
+            return cookNoGrid(arguments, reason);
+    }
     HEARTH_ASSIGN_OR_RETURN(CookedGrid grid, cookGrid(scene, arguments.settings));
-    HEARTH_TRY(traceEmission(scene, grid));
-    if (arguments.bounces)
-        HEARTH_TRY(bakeLight(scene, {.bounces = *arguments.bounces}, grid));
+    HEARTH_TRY(lightGrid(scene, grid));
     HEARTH_TRY(writeGridPart(arguments.output, grid));
     warn(grid.statistics, arguments.output);
     if (arguments.statistics.empty())
@@ -150,10 +189,10 @@ void addOptions(cli::CommandLine& app, Arguments& arguments)
         app.addOption("--error", arguments.settings.error_share,
                       "how far clusters may be off, in voxels; 0.25 by default, 0: the finest triangles")
             .range(0.0, 16.0, "FLOAT");
-    app.addOption("--bake", arguments.bounces,
-                  "light the faces by the scene's lights with so many bounces, as the start value; else they "
-                  "start dark, but for what shines")
-        .range(0, 64, "BOUNCES");
+    const cli::Option only_if_needed = app.addFlag("--if-needed", arguments.only_if_needed,
+                                                   "write a part without bricks unless more than a quarter "
+                                                   "of 4096 points on surfaces, or more than half of "
+                                                   "the cameras, see less than a tenth of the sky");
     const cli::Option statistics =
         app.addOption("--stats", arguments.statistics,
                       "write statistics of the scene as JSON, and print the memory; - is standard output");
@@ -164,7 +203,8 @@ void addOptions(cli::CommandLine& app, Arguments& arguments)
         "CSV file of origin_x,origin_y,origin_z,direction_x,direction_y,direction_z in metres: write "
         "hit,x,y,z,face,t for each ray: 1, the first solid voxel, the face by which it is entered (none "
         "where the ray starts inside) and the distance in metres; 0,,,,, where it meets none");
-    for (const cli::Option& option : {voxel_size, min, max, seed, memory, error, statistics, jobs})
+    for (const cli::Option& option :
+         {voxel_size, min, max, seed, memory, error, only_if_needed, statistics, jobs})
         march.excludes(option);
     app.setFooter(
         "Examples:\n"

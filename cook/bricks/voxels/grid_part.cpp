@@ -6,6 +6,7 @@
 #include "cook/json/json.h"
 
 #include <chrono>
+#include <cmath>
 
 namespace hearth::bricks
 {
@@ -19,6 +20,19 @@ double secondsSince(std::chrono::steady_clock::time_point start)
 {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
+
+// Voxels along an edge of those of a probe, by which the first size is chosen. A probe takes a sixteenth of
+// the time that the grid takes.
+constexpr double kProbedVoxels = 4;
+
+// Predicted bytes over those that fit, up to which a size is tried.
+constexpr double kDoubt = 1.1;
+
+// Pieces into which voxels cut triangles. Grids that fill their memory have two million; where triangles lie
+// upon each other in thousands, the voxels are larger.
+constexpr double kMaxPieces = 4e6;
+
+constexpr const char* kStatisticsSchema = "hearth.bricks/1";
 
 /// Return the focus points: cameras and seeds; without any, the middle of the static instances.
 std::vector<Float3> findFocusPoints(const StaticScene& scene, const GridSettings& settings)
@@ -83,6 +97,42 @@ Result<std::optional<CookedGrid>> cookAt(const StaticScene& scene, const GridSet
     return std::optional(std::move(grid));
 }
 
+/// Bytes and pieces that a grid takes, predicted from one of larger voxels.
+class SizePrediction
+{
+public:
+    explicit SizePrediction(const GridStatistics& probed) : probed_(probed) {}
+
+    /// Predict that a grid is too large, with some doubt about its bytes.
+    bool isTooLarge(double size, uint64_t memory) const
+    {
+        const double voxels = std::pow(probed_.frame.voxel_size / size, 2); // surfaces take, for each before
+        const auto bytes = static_cast<double>(probed_.bytes.total());
+        const auto triangles = static_cast<double>(probed_.counts.triangles);
+        const double cuts = static_cast<double>(probed_.counts.pieces) - triangles;
+        return bytes * voxels > kDoubt * static_cast<double>(memory) ||
+               triangles + cuts * voxels > kMaxPieces;
+    }
+
+private:
+    const GridStatistics& probed_;
+};
+
+/// Return the size of the first voxels to try: the finest ones whose grid may fit.
+Result<double> chooseFirstSize(const StaticScene& scene, const GridSettings& settings, double finest)
+{
+    HEARTH_TRY(makeGridFrame(settings, scene.box(), finest)); // refuses a memory that holds no grid of it
+    const double probe = finest * kProbedVoxels;
+    HEARTH_ASSIGN_OR_RETURN(const std::optional<CookedGrid> probed, cookAt(scene, settings, probe, true));
+    if (!probed)
+        return nextVoxelSize(probe);
+    const SizePrediction prediction(probed->statistics);
+    double size = finest;
+    while (size < probe && prediction.isTooLarge(size, settings.memory))
+        size = nextVoxelSize(size);
+    return size;
+}
+
 /// Row of the memory table: a table of the grid beside the table of the SIGGRAPH talk, with the talk's sizes.
 struct Row
 {
@@ -115,6 +165,17 @@ Json settingsJson(const GridStatistics& statistics)
             {"error", statistics.error}};
 }
 
+/// Begin a part whose META has these settings of the grid.
+Result<ContainerWriter> beginPart(const std::string& path, const Json& settings)
+{
+    HEARTH_ASSIGN_OR_RETURN(ContainerWriter writer, ContainerWriter::create(path, ContainerKind::part));
+    const Json meta{{"schema", "hearth.meta/1"},
+                    {"tool", {{"name", "hearth-bricks"}, {"version", HEARTH_VERSION}}},
+                    {"settings", {{"bricks", settings}}}};
+    HEARTH_TRY(writer.addText(kChunkMeta, meta.dump(1, '\t')));
+    return writer;
+}
+
 } // namespace
 
 Result<CookedGrid> cookGrid(const StaticScene& scene, const GridSettings& settings)
@@ -125,7 +186,7 @@ Result<CookedGrid> cookGrid(const StaticScene& scene, const GridSettings& settin
         Box3 box = scene.box();
         if (settings.min && settings.max)
             box = {narrow(*settings.min), narrow(*settings.max)};
-        size = firstVoxelSize(box);
+        HEARTH_ASSIGN_OR_RETURN(size, chooseFirstSize(scene, settings, firstVoxelSize(box)));
     }
     for (;; size = nextVoxelSize(size))
     {
@@ -138,18 +199,25 @@ Result<CookedGrid> cookGrid(const StaticScene& scene, const GridSettings& settin
 
 Status writeGridPart(const std::string& path, const CookedGrid& grid)
 {
-    HEARTH_ASSIGN_OR_RETURN(ContainerWriter writer, ContainerWriter::create(path, ContainerKind::part));
-    const Json meta{{"schema", "hearth.meta/1"},
-                    {"tool", {{"name", "hearth-bricks"}, {"version", HEARTH_VERSION}}},
-                    {"settings", {{"bricks", settingsJson(grid.statistics)}}}};
-    HEARTH_TRY(writer.addText(kChunkMeta, meta.dump(1, '\t')));
+    HEARTH_ASSIGN_OR_RETURN(ContainerWriter writer, beginPart(path, settingsJson(grid.statistics)));
     HEARTH_TRY(writeTables(writer, grid.tables));
     return writer.finish();
 }
 
+Status writePartWithoutGrid(const std::string& path, const std::string& reason)
+{
+    HEARTH_ASSIGN_OR_RETURN(ContainerWriter writer, beginPart(path, {{"none", reason}}));
+    return writer.finish();
+}
+
+std::string statisticsWithoutGrid(const std::string& reason)
+{
+    return Json{{"schema", kStatisticsSchema}, {"none", reason}}.dump(1) + "\n";
+}
+
 std::string statisticsJson(const GridStatistics& statistics)
 {
-    Json json{{"schema", "hearth.bricks/1"}};
+    Json json{{"schema", kStatisticsSchema}};
     json.update(settingsJson(statistics));
     json["instances"] = statistics.instances;
     json["left_out"] = {{"animated", statistics.left_out.animated},
@@ -171,7 +239,11 @@ std::string statisticsJson(const GridStatistics& statistics)
     for (const Row& row : memoryRows(statistics.bytes))
         json["memory"].push_back(
             {{"table", row.ours}, {"bytes", row.bytes}, {"talks", row.talks}, {"talks_kib", row.talks_kib}});
-    json["seconds"] = {{"voxelise", statistics.voxelise_seconds}, {"faces", statistics.faces_seconds}};
+    json["light_sweeps"] = statistics.light_sweeps;
+    json["seconds"] = {{"voxelise", statistics.voxelise_seconds},
+                       {"faces", statistics.faces_seconds},
+                       {"emission", statistics.emission_seconds},
+                       {"light", statistics.light_seconds}};
     return json.dump(1) + "\n";
 }
 

@@ -29,6 +29,9 @@ struct GridStatistics
     BrickBytes bytes;
     double voxelise_seconds = 0;
     double faces_seconds = 0;
+    double emission_seconds = 0;
+    uint64_t light_sweeps = 0; ///< until the light had settled
+    double light_seconds = 0;
 };
 
 struct CookedGrid
@@ -43,6 +46,12 @@ Result<CookedGrid> cookGrid(const StaticScene& scene, const GridSettings& settin
 
 /// Write a part with the grid.
 Status writeGridPart(const std::string& path, const CookedGrid& grid);
+
+/// Write a part without a grid: it says why the scene has none.
+Status writePartWithoutGrid(const std::string& path, const std::string& reason);
+
+/// Return the statistics of such a part as JSON text, of the same schema.
+std::string statisticsWithoutGrid(const std::string& reason);
 
 /// Return the statistics as JSON text: schema "hearth.bricks/1".
 std::string statisticsJson(const GridStatistics& statistics);

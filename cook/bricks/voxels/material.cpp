@@ -2,6 +2,7 @@
 #include "cook/bricks/voxels/material.h"
 
 #include "cook/bricks/voxels/coverage.h"
+#include "formats/scene/reflectance.h"
 
 #include <map>
 
@@ -26,6 +27,14 @@ Float3 rgb(Float4 color)
 Float3 clampToUnit(Float3 c)
 {
     return min(max(c, {0, 0, 0}), {1, 1, 1});
+}
+
+/// Return the albedo of a material. base, metallic_roughness: textures included.
+Float3 reflectedShare(const SurfaceMaterial& material, Float3 base, Float4 metallic_roughness)
+{
+    return clampToUnit(shared::bihemisphericalReflectance(
+        clampToUnit(base), std::clamp(metallic_roughness.z * material.record.metallic, 0.0f, 1.0f),
+        material.dielectric, std::clamp(metallic_roughness.y * material.record.roughness, 0.0f, 1.0f)));
 }
 
 Float2 mixed(const std::array<Float2, 3>& values, const std::array<float, 3>& weights)
@@ -53,20 +62,27 @@ SurfaceMaterial defaultMaterial()
     SurfaceMaterial use{};
     use.record.base_color = {1, 1, 1, 1};
     use.record.base_color_texture.image = kInvalidIndex;
+    use.record.metallic_roughness_texture.image = kInvalidIndex;
     use.record.emissive_texture.image = kInvalidIndex;
+    use.record.metallic = 1;
+    use.record.roughness = 1;
+    use.dielectric = shared::defaultDielectric();
     return use;
 }
 
 Float3 meanAlbedo(const SurfaceMaterial& material)
 {
-    Float3 albedo = rgb(material.record.base_color);
-    if (material.base_color)
+    const auto mean = [](const std::shared_ptr<const Texture>& texture, const TextureRef& reference)
     {
-        const Texture& texture = *material.base_color;
-        const uint32_t whole = texture.mipFor(std::max(texture.width(), texture.height()), 1);
-        albedo = albedo * rgb(texture.at(material.record.base_color_texture, {0.5f, 0.5f}, whole));
-    }
-    return clampToUnit(albedo);
+        if (!texture)
+            return Float4{1, 1, 1, 1};
+        const uint32_t whole = texture->mipFor(std::max(texture->width(), texture->height()), 1);
+        return texture->at(reference, {0.5f, 0.5f}, whole);
+    };
+    const MaterialRecord& record = material.record;
+    return reflectedShare(material,
+                          rgb(record.base_color) * rgb(mean(material.base_color, record.base_color_texture)),
+                          mean(material.metallic_roughness, record.metallic_roughness_texture));
 }
 
 Result<std::vector<SurfaceMaterial>> readMaterials(const PackView& scene, const PackView& textures)
@@ -88,8 +104,12 @@ Result<std::vector<SurfaceMaterial>> readMaterials(const PackView& scene, const 
     std::vector<SurfaceMaterial> uses;
     for (uint32_t i = 0; i < scene.materials().size(); ++i)
     {
-        SurfaceMaterial use{scene.materials()[i], nullptr, nullptr};
+        SurfaceMaterial use{.record = scene.materials()[i], .dielectric = shared::defaultDielectric()};
+        if (const MaterialLayersRecord* layers = findLayers(scene.materialLayers(), i))
+            use.dielectric = shared::specularDielectric(shared::dielectricF0(*layers), layers->specular);
         HEARTH_ASSIGN_OR_RETURN(use.base_color, findTexture(i, use.record.base_color_texture));
+        HEARTH_ASSIGN_OR_RETURN(use.metallic_roughness,
+                                findTexture(i, use.record.metallic_roughness_texture));
         const Float3 emissive = use.record.emissive;
         if (emissive.x > 0 || emissive.y > 0 || emissive.z > 0)
         {
@@ -113,6 +133,8 @@ TriangleAttributes readTriangleAttributes(const ClusterGeometry& geometry,
     };
     if (material.base_color)
         uvs(material.record.base_color_texture, look.base_color_uv);
+    if (material.metallic_roughness)
+        uvs(material.record.metallic_roughness_texture, look.metallic_roughness_uv);
     if (material.emissive)
         uvs(material.record.emissive_texture, look.emissive_uv);
     if (geometry.has(kVertexColor))
@@ -131,19 +153,20 @@ TriangleSurface::TriangleSurface(const SurfaceMaterial& material, const Polygon&
             axis_ = axis;
     area_ = coordinate(area, axis_);
     const double size = length(area);
-    if (material.base_color)
-    {
-        const double texels = texelsPerVoxel(*material.base_color, material.record.base_color_texture,
-                                             look.base_color_uv, size);
-        base_color_mip_ = material.base_color->mipFor(texels, kColorTexelsPerVoxel);
-        alpha_mip_ = material.base_color->mipFor(texels, kCoverageTexelsPerVoxel);
-    }
-    if (material.emissive)
-        emissive_mip_ = material.emissive->mipFor(
-            texelsPerVoxel(*material.emissive, material.record.emissive_texture, look.emissive_uv, size),
-            kColorTexelsPerVoxel);
-    plain_ = !material.base_color && !material.emissive && look.color[0] == look.color[1] &&
-             look.color[0] == look.color[2];
+    const auto findMip = [&](const std::shared_ptr<const Texture>& texture, const TextureRef& reference,
+                             const std::array<Float2, 3>& uvs, double texels)
+    { return texture ? texture->mipFor(texelsPerVoxel(*texture, reference, uvs, size), texels) : 0; };
+    const MaterialRecord& record = material.record;
+    base_color_mip_ =
+        findMip(material.base_color, record.base_color_texture, look.base_color_uv, kColorTexelsPerVoxel);
+    alpha_mip_ =
+        findMip(material.base_color, record.base_color_texture, look.base_color_uv, kCoverageTexelsPerVoxel);
+    metallic_roughness_mip_ = findMip(material.metallic_roughness, record.metallic_roughness_texture,
+                                      look.metallic_roughness_uv, kColorTexelsPerVoxel);
+    emissive_mip_ =
+        findMip(material.emissive, record.emissive_texture, look.emissive_uv, kColorTexelsPerVoxel);
+    plain_ = !material.base_color && !material.metallic_roughness && !material.emissive &&
+             look.color[0] == look.color[1] && look.color[0] == look.color[2];
 }
 
 std::array<float, 3> TriangleSurface::weightsAt(const Double3& p) const
@@ -191,21 +214,33 @@ float TriangleSurface::coverageFromAlpha(float alpha) const
     return std::clamp(alpha, 0.0f, 1.0f);
 }
 
+Float3 TriangleSurface::albedo(const std::array<float, 3>& weights) const
+{
+    const MaterialRecord& record = material_.record;
+    Float3 base = rgb(record.base_color) *
+                  (rgb(attributes_.color[0]) * weights[0] + rgb(attributes_.color[1]) * weights[1] +
+                   rgb(attributes_.color[2]) * weights[2]);
+    if (material_.base_color)
+    {
+        const TextureRef& reference = record.base_color_texture;
+        const Float2 uv = transformed(reference, mixed(attributes_.base_color_uv, weights));
+        base = base * rgb(material_.base_color->at(reference, uv, base_color_mip_));
+    }
+    Float4 metallic_roughness{1, 1, 1, 1};
+    if (material_.metallic_roughness)
+    {
+        const TextureRef& reference = record.metallic_roughness_texture;
+        const Float2 uv = transformed(reference, mixed(attributes_.metallic_roughness_uv, weights));
+        metallic_roughness = material_.metallic_roughness->at(reference, uv, metallic_roughness_mip_);
+    }
+    return reflectedShare(material_, base, metallic_roughness);
+}
+
 SurfaceSample TriangleSurface::at(const Double3& p) const
 {
     const std::array<float, 3> weights = weightsAt(p);
     SurfaceSample look;
-    look.albedo = rgb(material_.record.base_color);
-    look.albedo =
-        look.albedo * (rgb(attributes_.color[0]) * weights[0] + rgb(attributes_.color[1]) * weights[1] +
-                       rgb(attributes_.color[2]) * weights[2]);
-    if (material_.base_color)
-    {
-        const TextureRef& reference = material_.record.base_color_texture;
-        const Float2 uv = transformed(reference, mixed(attributes_.base_color_uv, weights));
-        look.albedo = look.albedo * rgb(material_.base_color->at(reference, uv, base_color_mip_));
-    }
-    look.albedo = clampToUnit(look.albedo);
+    look.albedo = albedo(weights);
     look.emission = material_.record.emissive;
     if (material_.emissive)
     {

@@ -4,6 +4,7 @@
 
 #include "cook/bricks/voxels/polygon_clip.h"
 #include "cook/bricks/voxels/texture.h"
+#include "formats/gpu_shared/reflectance.h"
 
 #include <memory>
 #include <span>
@@ -14,8 +15,8 @@ namespace hearth::bricks
 /// Material values at one point of a surface.
 struct SurfaceSample
 {
-    /// base colour, linear Rec.709, 0 to 1; also of metals, because their reflections count as diffuse light
-    /// here
+    /// Share of light that is reflected, linear Rec.709, 0 to 1: diffuse and specular reflection together, of
+    /// dielectrics and metals, because all reflections count as diffuse light here.
     Float3 albedo;
     Float3 emission;    ///< radiance, linear Rec.709
     float coverage = 1; ///< opacity: 0 in the holes of a mask, alpha of blended materials
@@ -24,8 +25,10 @@ struct SurfaceSample
 struct SurfaceMaterial
 {
     formats::MaterialRecord record;
-    std::shared_ptr<const Texture> base_color; ///< may be null, like `emissive`
-    std::shared_ptr<const Texture> emissive;
+    shared::DielectricReflectance dielectric;
+    std::shared_ptr<const Texture> base_color = nullptr; ///< may be null, like the others
+    std::shared_ptr<const Texture> metallic_roughness = nullptr;
+    std::shared_ptr<const Texture> emissive = nullptr;
 
     bool doubleSided() const { return (record.flags & formats::kMaterialDoubleSided) != 0; }
     formats::AlphaMode alphaMode() const { return static_cast<formats::AlphaMode>(record.alpha_mode); }
@@ -35,7 +38,7 @@ struct SurfaceMaterial
 /// Return glTF's default material, for triangles without a material index.
 SurfaceMaterial defaultMaterial();
 
-/// Return the base colour averaged over its texture, without vertex colours.
+/// Return the albedo of the means of the textures, without vertex colours.
 Float3 meanAlbedo(const SurfaceMaterial& material);
 
 /// Read the materials of a source, with the images of its textures part.
@@ -46,7 +49,8 @@ Result<std::vector<SurfaceMaterial>> readMaterials(const formats::PackView& scen
 /// Vertex attributes of one triangle's corners.
 struct TriangleAttributes
 {
-    std::array<Float2, 3> base_color_uv; ///< before the texture's transform, like `emissive_uv`
+    std::array<Float2, 3> base_color_uv; ///< before the texture's transform, like the others
+    std::array<Float2, 3> metallic_roughness_uv;
     std::array<Float2, 3> emissive_uv;
     std::array<Float4, 3> color{Float4{1, 1, 1, 1}, Float4{1, 1, 1, 1}, Float4{1, 1, 1, 1}};
 };
@@ -76,6 +80,7 @@ public:
 
 private:
     std::array<float, 3> weightsAt(const Double3& p) const;
+    Float3 albedo(const std::array<float, 3>& weights) const;
     float alpha(const std::array<float, 3>& weights, uint32_t mip) const;
     float coverageFromAlpha(float alpha) const;
 
@@ -87,6 +92,7 @@ private:
     double area_ = 0;
     uint32_t base_color_mip_ = 0;
     uint32_t alpha_mip_ = 0;
+    uint32_t metallic_roughness_mip_ = 0;
     uint32_t emissive_mip_ = 0;
 };
 

@@ -14,27 +14,6 @@ using namespace formats;
 namespace
 {
 
-/// Return for each node whether a clip moves it or one of its ancestors.
-std::vector<bool> findAnimatedNodes(const PackView& scene)
-{
-    std::vector<bool> moved(scene.nodes().size());
-    for (const AnimationChannelRecord& channel : scene.channels())
-        if (channel.node < moved.size())
-            moved[channel.node] = true;
-    // repeat, because parents may follow their children in the table
-    for (bool changed = true; changed;)
-    {
-        changed = false;
-        for (size_t node = 0; node < moved.size(); ++node)
-        {
-            const uint32_t parent = scene.nodes()[node].parent;
-            if (!moved[node] && parent < moved.size() && moved[parent])
-                moved[node] = changed = true;
-        }
-    }
-    return moved;
-}
-
 bool isDeformed(const MeshRecord& mesh)
 {
     return mesh.skinned != 0 || mesh.morph_target_count != 0;
@@ -112,6 +91,26 @@ void forEachCutCluster(const PackView& part, const MeshRecord& mesh, float error
 }
 
 } // namespace
+
+std::vector<bool> findAnimatedNodes(const PackView& scene)
+{
+    std::vector<bool> moved(scene.nodes().size());
+    for (const AnimationChannelRecord& channel : scene.channels())
+        if (channel.node < moved.size())
+            moved[channel.node] = true;
+    // repeat, because parents may follow their children in the table
+    for (bool changed = true; changed;)
+    {
+        changed = false;
+        for (size_t node = 0; node < moved.size(); ++node)
+        {
+            const uint32_t parent = scene.nodes()[node].parent;
+            if (!moved[node] && parent < moved.size() && moved[parent])
+                moved[node] = changed = true;
+        }
+    }
+    return moved;
+}
 
 Box3 StaticScene::box() const
 {

@@ -59,6 +59,9 @@ private:
 /// of range
 Result<StaticScene> collectStaticScene(std::span<const SourceParts> sources);
 
+/// Return for each node of a scene whether a clip animates it, directly or through an ancestor.
+std::vector<bool> findAnimatedNodes(const formats::PackView& scene);
+
 /// Cluster of an instance.
 struct InstancedCluster
 {

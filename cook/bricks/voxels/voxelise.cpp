@@ -192,7 +192,7 @@ Status textureStatus(const StaticScene& scene)
 {
     for (const std::vector<SurfaceMaterial>& materials : scene.materials)
         for (const SurfaceMaterial& material : materials)
-            for (const auto& texture : {material.base_color, material.emissive})
+            for (const auto& texture : {material.base_color, material.metallic_roughness, material.emissive})
                 if (texture)
                     HEARTH_TRY(texture->status());
     return success();

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/visibility/fit/level_fit.h"
 
+#include "cook/visibility/fit/block4.h"
 #include "cook/visibility/mesh/closest_point.h"
 #include "formats/base/assert.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include <tbb/parallel_for.h>
 
@@ -18,66 +18,46 @@ namespace
 // Samples that are looked up in sequence; each search starts at the triangle that the previous one found.
 constexpr size_t kSamplesPerTask = 256;
 
-// Default of LevelMesh::reach (stored as 0), as a share of the diagonal of the samples' box.
+// Default of LevelMesh::reach (stored as 0), as a share of the diagonal of the finest level's box.
 constexpr double kDefaultReach = 0.05;
 
-/// Positions of the samples, with the directions that their triangles face.
-struct SampleGeometry
-{
-    std::vector<Float3> positions;
-    std::vector<Float3> normals; ///< not of length 1
-    std::vector<float> weights;
-    double diagonal = 0;
-};
-
-SampleGeometry computeSampleGeometry(const MeshView& mesh, std::span<const SurfaceSample> samples)
-{
-    SampleGeometry points;
-    points.positions.resize(samples.size());
-    points.normals.resize(samples.size());
-    points.weights.resize(samples.size());
-    tbb::parallel_for(size_t{0}, samples.size(),
-                      [&](size_t i)
-                      {
-                          const SurfaceSample& sample = samples[i];
-                          const uint32_t* corners = mesh.indices.data() + size_t{sample.triangle} * 3;
-                          const Float3 a = mesh.positions[corners[0]];
-                          const Float3 ab = mesh.positions[corners[1]] - a,
-                                       ac = mesh.positions[corners[2]] - a;
-                          points.positions[i] = a + ab * sample.u + ac * sample.v;
-                          points.normals[i] = cross(ab, ac);
-                          points.weights[i] = sample.weight;
-                      });
-    Box3 box;
-    for (const Float3 p : points.positions)
-        box.add(p);
-    points.diagonal = box.empty() ? 0 : double{length(box.max - box.min)};
-    return points;
-}
-
-/// Map the chosen samples of the finest level to a level's proxy.
-std::vector<SurfaceSample> moveSamples(const SampleGeometry& points, const SampleSubset& choice,
+/// Move samples from a surface to a level's proxy.
+/// from  mesh that the samples lie on
+std::vector<SurfaceSample> moveSamples(const MeshView& from, std::span<const SurfaceSample> samples,
                                        const Proxy& proxy, double reach)
 {
     const ClosestPoint surface(proxy.view(), proxy.indices.size() / 3);
-    std::vector<SurfaceSample> result(choice.samples.size());
-    tbb::parallel_for(
-        size_t{0}, (result.size() + kSamplesPerTask - 1) / kSamplesPerTask,
-        [&](size_t block)
-        {
-            uint32_t hint = kInvalidIndex;
-            for (size_t i = block * kSamplesPerTask;
-                 i < std::min(result.size(), (block + 1) * kSamplesPerTask); ++i)
-            {
-                const uint32_t sample = choice.samples[i];
-                const ClosestPoint::Hit found =
-                    surface.find(points.positions[sample], points.normals[sample], reach * reach, hint);
-                result[i] = {found.triangle, found.u, found.v, choice.areas[i], points.weights[sample]};
-                if (found.triangle != kInvalidIndex)
-                    hint = found.triangle;
-            }
-        });
+    std::vector<SurfaceSample> result(samples.size());
+    const auto move = [&](const SurfaceSample& sample, uint32_t hint)
+    {
+        const uint32_t* corners = from.indices.data() + size_t{sample.triangle} * 3;
+        const Float3 a = from.positions[corners[0]];
+        const Float3 ab = from.positions[corners[1]] - a, ac = from.positions[corners[2]] - a;
+        const ClosestPoint::Hit found =
+            surface.find(a + ab * sample.u + ac * sample.v, cross(ab, ac), reach * reach, hint);
+        return SurfaceSample{found.triangle, found.u, found.v, sample.area, sample.weight};
+    };
+    tbb::parallel_for(size_t{0}, (result.size() + kSamplesPerTask - 1) / kSamplesPerTask,
+                      [&](size_t block)
+                      {
+                          uint32_t hint = kInvalidIndex;
+                          const size_t end = std::min(result.size(), (block + 1) * kSamplesPerTask);
+                          for (size_t i = block * kSamplesPerTask; i < end; ++i)
+                          {
+                              result[i] = move(samples[i], hint);
+                              if (result[i].triangle != kInvalidIndex)
+                                  hint = result[i].triangle;
+                          }
+                      });
     return result;
+}
+
+double computeDiagonal(const MeshView& mesh)
+{
+    Box3 box;
+    for (const Float3 p : mesh.positions)
+        box.add(p);
+    return box.empty() ? 0 : double{length(box.max - box.min)};
 }
 
 /// Fixed values of proxy vertices that keep shared vertices equal to those of the finer level.
@@ -121,35 +101,42 @@ LevelFit fitLevel(const LevelMesh& level, const Proxy& proxy, std::span<const Su
 
 } // namespace
 
-SampleSubset chooseSamples(std::span<const SurfaceSample> samples, size_t count)
+SampledValues averageByTriangle(std::span<const SurfaceSample> samples, std::span<const Moments> values,
+                                size_t triangle_count)
 {
-    SampleSubset choice;
-    if (samples.size() <= count)
+    struct Sum
     {
-        choice.samples.resize(samples.size());
-        std::iota(choice.samples.begin(), choice.samples.end(), 0u);
-        for (const SurfaceSample& sample : samples)
-            choice.areas.push_back(sample.area);
-        return choice;
-    }
-    double total = 0;
-    for (const SurfaceSample& sample : samples)
-        total += sample.area;
-    const double step = total / static_cast<double>(count);
-    double accumulated = 0;
-    size_t next = 0;
-    for (uint32_t i = 0; i < samples.size(); ++i)
+        double area = 0, weighted_area = 0, u = 0, v = 0;
+        Block4 moments;
+    };
+    std::vector<Sum> sums(triangle_count);
+    for (size_t s = 0; s < samples.size(); ++s)
     {
-        accumulated += samples[i].area;
-        const size_t before = next;
-        while (next < count && (static_cast<double>(next) + 0.5) * step < accumulated)
-            ++next;
-        if (next == before)
+        const SurfaceSample& sample = samples[s];
+        if (sample.triangle == kInvalidIndex)
             continue;
-        choice.samples.push_back(i);
-        choice.areas.push_back(static_cast<float>(static_cast<double>(next - before) * step));
+        const double weighted_area = double{sample.area} * double{sample.weight};
+        Sum& sum = sums[sample.triangle];
+        sum.area += double{sample.area};
+        sum.weighted_area += weighted_area;
+        sum.u += weighted_area * double{sample.u};
+        sum.v += weighted_area * double{sample.v};
+        sum.moments.addScaled(blockFromMoments(values[s]), weighted_area);
     }
-    return choice;
+    SampledValues means;
+    for (uint32_t triangle = 0; triangle < triangle_count; ++triangle)
+    {
+        const Sum& sum = sums[triangle];
+        if (!(sum.weighted_area > 0))
+            continue;
+        const auto mean = [&](double value) { return static_cast<float>(value / sum.weighted_area); };
+        means.samples.push_back({triangle, mean(sum.u), mean(sum.v), static_cast<float>(sum.area),
+                                 static_cast<float>(sum.weighted_area / sum.area)});
+        Block4 moments;
+        moments.addScaled(sum.moments, 1 / sum.weighted_area);
+        means.values.push_back(momentsFromBlock(moments));
+    }
+    return means;
 }
 
 std::vector<LevelFit> fitLevels(std::span<const LevelMesh> levels, std::span<const SurfaceSample> samples,
@@ -157,27 +144,23 @@ std::vector<LevelFit> fitLevels(std::span<const LevelMesh> levels, std::span<con
 {
     HEARTH_ASSERT(!levels.empty() && levels[0].finer_vertex.empty() && samples.size() == values.size());
     std::vector<LevelFit> fits;
-    const Proxy finest = makeProxy(levels[0].mesh, settings.proxy);
-    fits.push_back(fitLevel(levels[0], finest, mapSamplesToProxy(finest, levels[0].mesh, samples), values,
-                            settings.fit, {}));
-    const SampleGeometry points = computeSampleGeometry(levels[0].mesh, samples);
+    Proxy proxy = makeProxy(levels[0].mesh, settings.proxy);
+    SampledValues on_level{mapSamplesToProxy(proxy, levels[0].mesh, samples), {values.begin(), values.end()}};
+    fits.push_back(fitLevel(levels[0], proxy, on_level.samples, on_level.values, settings.fit, {}));
+    const auto finest_count = static_cast<double>(std::max<size_t>(1, proxy.positions.size()));
+    const double default_reach = computeDiagonal(levels[0].mesh) * kDefaultReach;
     for (const LevelMesh& level : levels.subspan(1))
     {
         HEARTH_ASSERT(level.finer_vertex.empty() || level.finer_vertex.size() == level.mesh.positions.size());
-        const Proxy proxy = makeProxy(level.mesh, settings.proxy);
-        const double vertex_ratio = static_cast<double>(proxy.positions.size()) /
-                                    static_cast<double>(std::max<size_t>(1, finest.positions.size()));
+        const Proxy finer = std::move(proxy);
+        on_level = averageByTriangle(on_level.samples, on_level.values, finer.indices.size() / 3);
+        proxy = makeProxy(level.mesh, settings.proxy);
+        const double reach = level.reach > 0 ? double{level.reach} : default_reach;
+        on_level.samples = moveSamples(finer.view(), on_level.samples, proxy, reach);
+        const double vertex_ratio = static_cast<double>(proxy.positions.size()) / finest_count;
         FitSettings fit = settings.fit;
         fit.alpha *= std::clamp(vertex_ratio * vertex_ratio, settings.min_alpha_factor, 1.0);
-        const SampleSubset choice =
-            chooseSamples(samples, proxy.positions.size() * settings.samples_per_vertex);
-        const double reach = level.reach > 0 ? double{level.reach} : points.diagonal * kDefaultReach;
-        std::vector<Moments> chosen;
-        chosen.reserve(choice.samples.size());
-        for (const uint32_t sample : choice.samples)
-            chosen.push_back(values[sample]);
-        fits.push_back(fitLevel(level, proxy, moveSamples(points, choice, proxy, reach), chosen, fit,
-                                fits.back().moments));
+        fits.push_back(fitLevel(level, proxy, on_level.samples, on_level.values, fit, fits.back().moments));
     }
     return fits;
 }

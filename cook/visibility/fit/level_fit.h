@@ -19,17 +19,16 @@ struct LevelMesh
     std::span<const uint32_t> finer_vertex;
     /// Maximum distance between a sample and this level's surface: larger than the level's error, smaller
     /// than the distance of another side of the object. Units of the positions; 0: a twentieth of the
-    /// diagonal of the samples' box.
+    /// diagonal of the finest level's box.
     float reach = 0;
+    /// For each vertex, the first one of this level with the same position and normal. Empty: not needed.
+    std::span<const uint32_t> first_copy = {};
 };
 
 struct LevelFitSettings
 {
     ProxySettings proxy;
     FitSettings fit;
-    /// Maximum on a coarser level, so that all levels together take little time: four times the finest
-    /// level's default.
-    uint32_t samples_per_vertex = 32;
     /// Minimum factor of alpha on a coarser level. The factor is the square of the level's number of vertices
     /// by the finest level's: the same penalty of curvature in metres on each level, so that levels approach
     /// one function. With one alpha for all levels, coarse ones would be so blurred that copies of vertices
@@ -47,23 +46,24 @@ struct LevelFit
 };
 
 /// Fit all levels, finest first. Held vertices have the bits of the next finer level, so that mixed cuts have
-/// no jumps. Coarser levels use an even choice of samples by area, in the order of the samples, which should
-/// keep neighbours together (Morton order). Each sample is moved to the nearest point that faces the same
-/// way.
+/// no jumps. The samples of a coarser level are the means of those of the next finer level's triangles. Each
+/// is moved to the nearest point that faces the same way.
 /// samples  on the triangles of levels[0]
 /// values   one for each sample
 std::vector<LevelFit> fitLevels(std::span<const LevelMesh> levels, std::span<const SurfaceSample> samples,
                                 std::span<const Moments> values, const LevelFitSettings& settings = {});
 
-/// Subset of samples: indices, ascending, and the area of each.
-struct SampleSubset
+/// Samples with their values.
+struct SampledValues
 {
-    std::vector<uint32_t> samples;
-    std::vector<float> areas;
+    std::vector<SurfaceSample> samples;
+    std::vector<Moments> values;
 };
-/// Choose samples evenly: `count` steps of equal area along the samples, and for each step the sample at its
-/// middle. The area of a chosen sample is the number of its steps times the area of a step. Returns all
-/// samples unchanged if there are no more than `count`.
-SampleSubset chooseSamples(std::span<const SurfaceSample> samples, size_t count);
+
+/// Replace the samples of each triangle by their mean, at their mean position, which has the same integral of
+/// any function that is linear on the triangle. By area and weight; without samples on no triangle.
+/// returns  in the order of the triangles
+SampledValues averageByTriangle(std::span<const SurfaceSample> samples, std::span<const Moments> values,
+                                size_t triangle_count);
 
 } // namespace hearth::visibility

@@ -68,18 +68,20 @@ ClosestPoint::ClosestPoint(const MeshView& mesh, size_t triangle_count)
     for (uint32_t i = 0; i < triangle_count; ++i)
     {
         const uint32_t triangle = tree_.order()[i];
-        triangles_[i] = {corners(triangle), triangle};
+        const std::array<Float3, 3> c = corners(triangle);
+        const Double3 face = cross(widen(c[1]) - widen(c[0]), widen(c[2]) - widen(c[0]));
+        const double size = length(face);
+        triangles_[i] = {c, triangle, size > 0 ? face * (1 / size) : Double3{}};
         slot_of_triangle_[triangle] = i;
     }
 }
 
-void ClosestPoint::visit(Double3 point, Double3 normal, const Triangle& item, Hit& best) const
+void ClosestPoint::visit(const Query& query, const Triangle& item, Hit& best) const
 {
-    const Double3 a = widen(item.corners[0]);
-    const Double3 ab = widen(item.corners[1]) - a, ac = widen(item.corners[2]) - a, ap = point - a;
-    const bool any_side = normal.x == 0 && normal.y == 0 && normal.z == 0;
-    if (!any_side && !(dot(cross(ab, ac), normal) > 0))
+    if (!query.any_side && !(dot(item.normal, query.normal) > query.min_cosine))
         return;
+    const Double3 a = widen(item.corners[0]);
+    const Double3 ab = widen(item.corners[1]) - a, ac = widen(item.corners[2]) - a, ap = query.point - a;
     const Weights weights = closestPointWeights(ab, ac, ap);
     const Double3 away = ap - (ab * weights.u + ac * weights.v);
     const double distance2 = dot(away, away);
@@ -87,22 +89,23 @@ void ClosestPoint::visit(Double3 point, Double3 normal, const Triangle& item, Hi
         best = {item.triangle, static_cast<float>(weights.u), static_cast<float>(weights.v), distance2};
 }
 
-ClosestPoint::Hit ClosestPoint::find(Float3 point, Float3 normal, double limit2, uint32_t hint) const
+ClosestPoint::Hit ClosestPoint::find(Float3 point, Float3 normal, double limit2, uint32_t hint,
+                                     double min_cosine) const
 {
     Hit best{kInvalidIndex, 0, 0, limit2};
     if (tree_.empty())
         return best;
-    const Double3 p = widen(point), n = widen(normal);
+    const Query query{widen(point), widen(normal), normal == Float3{}, min_cosine};
     if (hint != kInvalidIndex)
-        visit(p, n, triangles_[slot_of_triangle_[hint]], best);
+        visit(query, triangles_[slot_of_triangle_[hint]], best);
     tree_.visitNearest(
-        p,
+        query.point,
         [&](double box_distance2)
         {
             return box_distance2 < best.distance2 ||
                    (box_distance2 == best.distance2 && best.triangle == kInvalidIndex);
         },
-        [&](uint32_t i) { visit(p, n, triangles_[i], best); });
+        [&](uint32_t i) { visit(query, triangles_[i], best); });
     return best;
 }
 

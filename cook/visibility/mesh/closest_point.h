@@ -29,20 +29,31 @@ public:
         double distance2 = 0;
     };
 
-    /// Find the closest point, at most sqrt(`limit2`) away, on a triangle whose plane faces `normal`
-    /// (dot > 0). Triangles without area face nothing. The triangle is kInvalidIndex if there is none.
-    /// normal  need not have length 1; 0: accept all triangles
-    /// hint    triangle that is probably near, or kInvalidIndex; affects the result only for ties
-    Hit find(Float3 point, Float3 normal, double limit2, uint32_t hint) const;
+    /// Find the closest point, at most sqrt(`limit2`) away, on a triangle whose plane faces `normal`:
+    /// dot > min_cosine. Triangles without area face nothing. The triangle is kInvalidIndex if there is none.
+    /// normal      need not have length 1 where min_cosine is 0; 0: accept all triangles
+    /// hint        triangle that is probably near, or kInvalidIndex; affects the result only for ties
+    /// min_cosine  in [0, 1)
+    Hit find(Float3 point, Float3 normal, double limit2, uint32_t hint, double min_cosine = 0) const;
 
 private:
     struct Triangle
     {
         std::array<Float3, 3> corners;
         uint32_t triangle = 0;
+        Double3 normal; ///< unit; 0 without area
     };
 
-    void visit(Double3 point, Double3 normal, const Triangle& item, Hit& best) const;
+    /// Point and direction that is searched from.
+    struct Query
+    {
+        Double3 point;
+        Double3 normal;
+        bool any_side;
+        double min_cosine;
+    };
+
+    void visit(const Query& query, const Triangle& item, Hit& best) const;
 
     mesh::TriangleTree tree_;
     std::vector<Triangle> triangles_; ///< in the order of the leaves

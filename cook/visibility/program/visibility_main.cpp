@@ -31,15 +31,9 @@ constexpr uint32_t kWidth = 640, kHeight = 480;
 
 volatile std::sig_atomic_t interrupted = 0;
 
-struct Quality
-{
-    double samples_per_vertex;
-    uint32_t rays_per_sample;
-};
-
-const std::map<std::string, Quality> kQualities{
-    {"draft", {1, 32}},
-    {"default", {8, 64}},
+const std::map<std::string, visibility::SamplingSettings> kQualities{
+    {"draft", {1, 32, 0x1p22, 1}},
+    {"default", {8, 64, 0x1p23, 2}},
     {"high", {16, 256}},
 };
 
@@ -52,7 +46,8 @@ struct Arguments
     bool statistics_without_noise = false;
     std::string image;
     std::string quality = "default";
-    std::string occluders = "scene";
+    std::vector<std::string> neighbours; ///< import and clusters part in turn
+    visibility::OccluderScope occluders = visibility::OccluderScope::pack;
     double samples_per_vertex = 0; ///< here and below, 0: value of the quality preset
     uint32_t rays_per_sample = 0;
     float distance = 0;
@@ -64,13 +59,15 @@ struct Arguments
     BakeSettings settings() const
     {
         BakeSettings settings;
-        const Quality& preset = kQualities.at(quality);
-        settings.samples_per_vertex = samples_per_vertex > 0 ? samples_per_vertex : preset.samples_per_vertex;
-        settings.rays.rays_per_sample = rays_per_sample > 0 ? rays_per_sample : preset.rays_per_sample;
+        const visibility::SamplingSettings& preset = kQualities.at(quality);
+        settings.sampling = preset;
+        if (samples_per_vertex > 0 || rays_per_sample > 0) // numbers that are asked for have no budget
+            settings.sampling = {samples_per_vertex > 0 ? samples_per_vertex : preset.samples_per_vertex,
+                                 rays_per_sample > 0 ? rays_per_sample : preset.rays_per_sample};
         if (distance > 0)
             settings.rays.distance = distance;
         settings.rays.power = power;
-        settings.alone = occluders == "asset";
+        settings.occluders = occluders;
         for (const std::string& text : poses)
             settings.poses.push_back(visibility::parseClipTimes(text).value_or(visibility::ClipTimes{}));
         settings.refine_cones = refine_cones;
@@ -115,7 +112,9 @@ Status writeStatistics(const Arguments& arguments, const std::vector<visibility:
 {
     const std::string source =
         arguments.import_part.substr(arguments.import_part.rfind('/') + 1); // npos + 1 is 0
-    return writeText(arguments.statistics, visibility::statisticsJson(source, arguments.settings(), meshes));
+    return writeText(
+        arguments.statistics,
+        visibility::statisticsJson(source, arguments.settings(), arguments.neighbours.size() / 2, meshes));
 }
 
 /// Write the occlusion image of the written part.
@@ -140,9 +139,12 @@ Result<int> cook(const Arguments& arguments)
         line.show(progress);
         return interrupted == 0;
     };
+    std::vector<visibility::PartPaths> neighbours;
+    for (size_t i = 0; i + 1 < arguments.neighbours.size(); i += 2)
+        neighbours.push_back({arguments.neighbours[i], arguments.neighbours[i + 1]});
     HEARTH_ASSIGN_OR_RETURN(const auto meshes,
-                            visibility::writeVisibilityPart(import_part, clusters_part, arguments.output,
-                                                            arguments.settings(), observe));
+                            visibility::writeVisibilityPart(import_part, clusters_part, neighbours,
+                                                            arguments.output, arguments.settings(), observe));
     if (!meshes)
         return kInterrupted;
     if (!arguments.statistics.empty())
@@ -173,16 +175,24 @@ int program(int argc, char** argv)
     app.addOption("clusters", arguments.clusters_part, "clusters part of the same source").required();
     app.addOption("-o,--output", arguments.output, "clusters part to write, with visibility").required();
     app.addOption("--quality", arguments.quality,
-                  "samples a vertex x rays a sample: draft 1 x 32, default 8 x 64, high 16 x 256")
+                  "samples a vertex x rays a sample: draft 1 x 32, default 8 x 64, high 16 x 256; for large "
+                  "sources draft and default take fewer")
         .choices({"draft", "default", "high"}, "NAME");
     app.addOption("--samples-per-vertex", arguments.samples_per_vertex, "instead of the quality's")
         .range(0.01, 65536.0, "FLOAT");
     app.addOption("--rays-per-sample", arguments.rays_per_sample,
                   "instead of the quality's; a power of two is best")
         .range(1, 65536, "UINT");
-    app.addOption("--occluders", arguments.occluders,
-                  "what is in the way: scene (all instances, the default) or asset (each mesh alone)")
-        .choices({"scene", "asset"}, "NAME");
+    std::map<std::string, visibility::OccluderScope> scopes;
+    for (const auto scope : {visibility::OccluderScope::pack, visibility::OccluderScope::source,
+                             visibility::OccluderScope::mesh})
+        scopes.emplace(visibility::occluderScopeName(scope), scope);
+    app.addChoice("--occluders", arguments.occluders, scopes,
+                  "what is in the way: pack (all instances and the neighbours, the default), source (all "
+                  "instances) or mesh (each mesh alone)");
+    app.addOption("--neighbours", arguments.neighbours,
+                  "import and clusters part of each source that occludes this one")
+        .typeName("PART");
     const cli::Option distance =
         app.addOption("--distance", arguments.distance,
                       "metres: what is farther away hides nothing; no limit by default")
@@ -219,6 +229,12 @@ int program(int argc, char** argv)
         "Example: hearth-visibility room.import.part room.clusters.part -o room.visibility.part --stats -\n"
         "Exit codes: 0 done, 2 usage, 65 malformed input, 66 input missing, 70 internal, 73 cannot write, "
         "74 I/O, 130 interrupted");
+    app.setCheck(
+        [&arguments] {
+            return arguments.neighbours.size() % 2 == 0
+                       ? ""
+                       : "--neighbours: two parts are needed for each source";
+        });
     if (const std::optional<int> exit_code = app.parse(argc, argv))
         return *exit_code;
     return run(arguments);

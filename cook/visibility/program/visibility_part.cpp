@@ -4,10 +4,15 @@
 #include "cook/json/json.h"
 #include "cook/mesh/weld.h"
 #include "cook/pages/rewrite.h"
+#include "cook/tools/open_part.h"
+#include "cook/visibility/fit/finer_levels.h"
+#include "cook/visibility/program/instance_light.h"
 #include "cook/visibility/rays/sampled_moments.h"
+#include "cook/visibility/scene/neighbour_occluders.h"
 #include "cook/visibility/scene/scene_occluders.h"
 #include "cook/visibility/scene/source_normals.h"
 #include "formats/base/affine3d.h"
+#include "formats/container/container_writer.h"
 #include "formats/pack/pack_check.h"
 
 #include <algorithm>
@@ -34,6 +39,9 @@ constexpr size_t kMaxInstances = 8;
 // them are distributed by area. See cook/visibility/README.md, "Noise".
 constexpr double kMinVertexSamples = 2.25;
 
+// Rays that compare the instances of all meshes, a 64th of those of the default quality.
+constexpr double kInstanceRays = 0x1p18;
+
 // Not 0, so that surfaces with only interior samples have a fit.
 constexpr float kInteriorWeight = 1e-3f;
 
@@ -42,51 +50,81 @@ double secondsSince(std::chrono::steady_clock::time_point start)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-bool isDeformed(const MeshRecord& mesh)
-{
-    return mesh.skinned != 0 || mesh.morph_target_count != 0;
-}
-
 bool isBaked(const MeshRecord& mesh)
 {
     return mesh.clusters.count > 0 && (mesh.attributes & kVertexVisibility) != 0;
 }
 
-/// Collect the world transforms of each mesh's instances, and check that the two parts belong together.
-/// errors: meaning_reference for an instance of a mesh that is not there
-Result<std::vector<std::vector<Affine3>>> collectTransforms(const PackView& scene, const PackView& part)
+/// Plan the sampling of all meshes.
+std::vector<MeshSampling> planMeshes(const PackView& part, const SamplingSettings& settings)
 {
-    std::vector<std::vector<Affine3>> transforms(part.meshes().size());
-    for (size_t i = 0; i < scene.instances().size(); ++i)
+    std::vector<std::vector<uint64_t>> triangles(part.meshes().size());
+    for (uint32_t mesh = 0; mesh < triangles.size(); ++mesh)
+        if (isBaked(part.meshes()[mesh]))
+            triangles[mesh] = countLevelTriangles(part, mesh);
+    return planSampling(triangles, settings);
+}
+
+/// Return for each mesh of a neighbour the level that it is sampled on in its own bake.
+std::vector<uint32_t> planNeighbourLevels(const PackView& part, const SamplingSettings& settings)
+{
+    std::vector<uint32_t> levels;
+    for (const MeshSampling& sampling : planMeshes(part, settings))
+        levels.push_back(sampling.level);
+    return levels;
+}
+
+/// Collect the instances of each mesh, and check that the two parts belong together.
+/// errors: meaning_reference for an instance of a mesh that is not there
+Result<std::vector<std::vector<MeshInstance>>> collectInstances(const PackView& scene, const PackView& part)
+{
+    std::vector<std::vector<MeshInstance>> instances(part.meshes().size());
+    for (uint32_t i = 0; i < scene.instances().size(); ++i)
     {
         const InstanceRecord& instance = scene.instances()[i];
-        if (instance.mesh >= transforms.size())
+        if (instance.mesh >= instances.size())
             return Error{Issue::meaning_reference, scene.name(), "instance " + std::to_string(i),
                          "mesh " + std::to_string(instance.mesh)};
         // an instance that is flat in the world has no inverse, which rays need
-        if (inverted(widened(instance.world_from_object)))
-            transforms[instance.mesh].push_back(instance.world_from_object);
+        if (isInvertible(instance.world_from_object))
+            instances[instance.mesh].push_back({i, instance.world_from_object});
     }
+    return instances;
+}
+
+std::vector<Affine3> collectTransforms(std::span<const MeshInstance> instances)
+{
+    std::vector<Affine3> transforms;
+    for (const MeshInstance& instance : instances)
+        transforms.push_back(instance.world_from_mesh);
     return transforms;
 }
 
 class Bake
 {
 public:
-    Bake(const PackView& scene, const PackView& part, const BakeSettings& settings,
-         const BakeObserver& observe)
-        : scene_(scene), part_(part), settings_(settings), observe_(observe), masks_(scene)
+    Bake(const PackView& scene, const PackView& part, std::span<const PartPaths> neighbours,
+         const BakeSettings& settings, const BakeObserver& observe)
+        : scene_(scene),
+          part_(part),
+          neighbours_(neighbours),
+          settings_(settings),
+          observe_(observe),
+          surfaces_(scene),
+          plan_(planMeshes(part, settings.sampling)),
+          codes_(part.clusters().size())
     {
-        codes_.resize(part.clusters().size());
     }
 
     /// returns  nothing if the observer returned false
     Result<std::optional<std::vector<MeshStatistics>>> run()
     {
-        HEARTH_ASSIGN_OR_RETURN(transforms_, collectTransforms(scene_, part_));
+        HEARTH_ASSIGN_OR_RETURN(instances_, collectInstances(scene_, part_));
+        surroundings_.assign(scene_.instances().size(), kPlainSurroundings);
+        light_.emplace(makeLight());
         HEARTH_ASSIGN_OR_RETURN(poses_, samplePoses(scene_, settings_.poses));
         Occluders world;
-        if (!settings_.alone)
+        if (settings_.occluders != OccluderScope::mesh)
             HEARTH_TRY(collectOccluders(world));
         uint64_t triangles = 0;
         for (const MeshRecord& mesh : part_.meshes())
@@ -112,47 +150,92 @@ public:
     /// Visibility codes of the vertices of each cluster; empty for a cluster without visibility.
     const std::vector<std::vector<uint32_t>>& codes() const { return codes_; }
 
+    /// Write the surroundings of instances.
+    Status writeSurroundings(ContainerWriter& writer) const
+    {
+        HEARTH_TRY(writer.addRecords<SurroundingsRecord>(kChunkSurroundings, surroundings_));
+        return writer.addRecords<RadianceTransferRecord>(kChunkRadianceTransfers, light_->transfers());
+    }
+
 private:
-    /// Collect the occluders of the scene. Deformed meshes occlude only themselves.
+    /// Collect the occluders of the scene, at the levels that are sampled, so that no sample is inside its
+    /// own mesh, and those of the neighbours. Deformed meshes occlude only themselves.
     Status collectOccluders(Occluders& world)
     {
         for (uint32_t mesh = 0; mesh < part_.meshes().size(); ++mesh)
         {
             const MeshRecord& record = part_.meshes()[mesh];
-            if (record.clusters.count == 0 || transforms_[mesh].empty() || isDeformed(record))
+            if (record.clusters.count == 0 || instances_[mesh].empty() || isDeformed(record))
                 continue;
             HEARTH_ASSIGN_OR_RETURN(const MeshPages pages, MeshPages::read(part_, mesh));
-            HEARTH_TRY(addMesh(world, masks_, pages, extractFinestLevel(pages), transforms_[mesh]));
+            HEARTH_TRY(addMesh(world, surfaces_, pages, extractLevel(pages, plan_[mesh].level),
+                               collectTransforms(instances_[mesh])));
         }
+        if (settings_.occluders == OccluderScope::pack)
+            HEARTH_TRY(collectNeighbours(world));
         world.finish();
         return success();
+    }
+
+    Status collectNeighbours(Occluders& world) const
+    {
+        const Box3 receivers = computeReceiverBox();
+        if (receivers.empty())
+            return success();
+        for (const PartPaths& paths : neighbours_)
+        {
+            HEARTH_ASSIGN_OR_RETURN(const PackView scene, tools::openPart(paths.import_part));
+            HEARTH_ASSIGN_OR_RETURN(const PackView part, tools::openPart(paths.clusters_part));
+            HEARTH_TRY(checkHierarchy(part));
+            HEARTH_TRY(addNeighbour(world, scene, part, planNeighbourLevels(part, settings_.sampling),
+                                    receivers, settings_.rays.distance));
+        }
+        return success();
+    }
+
+    /// Return the box in world space of all that others can occlude.
+    Box3 computeReceiverBox() const
+    {
+        Box3 box;
+        for (uint32_t mesh = 0; mesh < part_.meshes().size(); ++mesh)
+        {
+            const MeshRecord& record = part_.meshes()[mesh];
+            if (isBaked(record) && !isDeformed(record))
+                for (const MeshInstance& instance : instances_[mesh])
+                    box.add(
+                        transformBox(widened(instance.world_from_mesh), {record.box_min, record.box_max}));
+        }
+        return box;
     }
 
     Result<std::optional<MeshStatistics>> bake(uint32_t mesh, const Occluders& world)
     {
         HEARTH_ASSIGN_OR_RETURN(const MeshPages pages, MeshPages::read(part_, mesh));
         std::vector<LevelArrays> levels = extractLevels(pages);
-        const LevelArrays& finest = levels.front();
+        const MeshSampling& plan = plan_[mesh];
+        const LevelArrays& sampled = levels[plan.level];
         HEARTH_ASSIGN_OR_RETURN(const SourceNormals normals,
                                 SourceNormals::read(scene_, mesh, pages.record()));
         const bool deformed = isDeformed(pages.record());
-        const bool alone = settings_.alone || deformed || transforms_[mesh].empty();
+        const bool alone = settings_.occluders == OccluderScope::mesh || deformed || instances_[mesh].empty();
         MeshStatistics statistics;
         statistics.mesh = mesh;
         statistics.name = part_.text(pages.record().name);
         statistics.levels = static_cast<uint32_t>(levels.size());
+        statistics.sampled_level = plan.level;
 
         std::deque<Occluders> itself;
         std::vector<Placement> places;
         if (alone)
         {
-            HEARTH_ASSIGN_OR_RETURN(places, placeAlone(pages, finest, statistics, itself));
+            HEARTH_ASSIGN_OR_RETURN(places, placeAlone(pages, sampled, statistics, itself));
         }
         else
-            places = chooseInstances(world, transforms_[mesh], statistics);
+            places = chooseInstances(world, instances_[mesh], plan, statistics);
         const auto start = std::chrono::steady_clock::now();
-        std::vector<SurfaceSample> samples = createSamples(finest);
-        const std::optional<SampledMoments> seen = trace(finest, samples, places, statistics);
+        std::vector<SurfaceSample> samples = createSamples(sampled, plan.samples_per_vertex);
+        const std::optional<SampledMoments> seen =
+            trace(sampled, plan.rays_per_sample, samples, places, statistics);
         if (!seen)
             return std::optional<MeshStatistics>();
         for (size_t s = 0; s < samples.size(); ++s)
@@ -162,28 +245,73 @@ private:
                 ++statistics.interior_samples;
             }
         statistics.ray_seconds = secondsSince(start);
+        bakeSurroundings(sampled, samples, *seen, alone, places, statistics);
         fit(levels, samples, *seen, normals, statistics);
         return std::optional(std::move(statistics));
     }
 
-    std::vector<SurfaceSample> createSamples(const LevelArrays& finest) const
+    InstanceLight makeLight() const
+    {
+        uint64_t groups = 0;
+        for (uint32_t mesh = 0; mesh < instances_.size(); ++mesh)
+            if (isBaked(part_.meshes()[mesh]))
+                groups += InstanceLight::countGroups(instances_[mesh].size());
+        return {groups, {.seed = settings_.rays.seed, .distance = settings_.rays.distance}};
+    }
+
+    /// Return the rays that compare the instances of a mesh: by the square root of their number, so that a
+    /// few among thousands get enough.
+    double instanceRays(uint32_t mesh) const
+    {
+        double roots = 0;
+        for (const std::vector<MeshInstance>& instances : instances_)
+            if (instances.size() > 1)
+                roots += std::sqrt(static_cast<double>(instances.size()));
+        return kInstanceRays * std::sqrt(static_cast<double>(instances_[mesh].size())) / roots;
+    }
+
+    /// Bake the surroundings of a mesh's instances, of deformed ones in their first pose.
+    void bakeSurroundings(const LevelArrays& level, std::span<const SurfaceSample> samples,
+                          const SampledMoments& seen, bool alone, std::span<const Placement> places,
+                          MeshStatistics& statistics)
+    {
+        const auto start = std::chrono::steady_clock::now();
+        const std::vector<Float3>& posed = places.front().posed_positions;
+        const SampledSurface surface{posed.empty() ? level.positions : posed, level.indices, samples,
+                                     seen.moments, seen.interior};
+        const std::vector<MeshInstance>& instances = instances_[statistics.mesh];
+        const Occluders& occluders = *places.front().occluders;
+        if (alone)
+            light_->bakeAlone(occluders, surface, instances, surroundings_);
+        else
+            light_->bakeInWorld(occluders, surface, instances, surroundings_);
+        statistics.light_seconds = secondsSince(start);
+        if (alone || instances.size() < 2)
+            return;
+        RaySettings rays = settings_.rays;
+        rays.seed += statistics.mesh;
+        statistics.instance_spread =
+            fitInstances(occluders, surface, instances, instanceRays(statistics.mesh), rays, surroundings_);
+    }
+
+    std::vector<SurfaceSample> createSamples(const LevelArrays& level, double samples_per_vertex) const
     {
         // vertices that clusters share are in the arrays once for each cluster
-        const std::vector<uint32_t> first = findMergedVertices(finest.mesh().mesh, settings_.fit.proxy);
+        const std::vector<uint32_t> first = findMergedVertices(level.mesh().mesh, settings_.fit.proxy);
         std::vector<uint32_t> corners;
-        corners.reserve(finest.indices.size());
-        for (const uint32_t corner : finest.indices)
+        corners.reserve(level.indices.size());
+        for (const uint32_t corner : level.indices)
             corners.push_back(first[corner]);
-        const auto positions = static_cast<double>(mesh::weldPositions(finest.positions).position_count);
+        const auto positions = static_cast<double>(mesh::weldPositions(level.positions).position_count);
         SurfaceSampleSettings settings;
         settings.samples_per_vertex =
-            settings_.samples_per_vertex * positions / static_cast<double>(finest.positions.size());
-        settings.min_per_vertex = kMinVertexSamples * settings_.samples_per_vertex;
-        return surfaceSamples(finest.positions, corners, settings);
+            samples_per_vertex * positions / static_cast<double>(level.positions.size());
+        settings.min_per_vertex = kMinVertexSamples * samples_per_vertex;
+        return surfaceSamples(level.positions, corners, settings);
     }
 
     /// Create the placements of a mesh alone: one without a pose, or one for each of its poses.
-    Result<std::vector<Placement>> placeAlone(const MeshPages& pages, const LevelArrays& finest,
+    Result<std::vector<Placement>> placeAlone(const MeshPages& pages, const LevelArrays& sampled,
                                               MeshStatistics& statistics, std::deque<Occluders>& itself)
     {
         std::vector<Placement> places;
@@ -191,7 +319,7 @@ private:
         const auto add = [&](std::string name, const LevelArrays& level, std::vector<Float3> posed) -> Status
         {
             Occluders& occluders = itself.emplace_back();
-            HEARTH_TRY(addMesh(occluders, masks_, pages, level, {&identity, 1}));
+            HEARTH_TRY(addMesh(occluders, surfaces_, pages, level, {&identity, 1}));
             occluders.finish();
             places.push_back({&occluders, identity, std::move(posed)});
             statistics.poses.push_back(std::move(name));
@@ -201,47 +329,50 @@ private:
         if (deformed)
             for (const NamedPose& pose : poses_)
             {
-                LevelArrays level = finest;
-                level.positions = posedPositions(scene_, pages, finest, statistics.mesh, pose.pose);
+                LevelArrays level = sampled;
+                level.positions = posedPositions(scene_, pages, sampled, statistics.mesh, pose.pose);
                 if (level.positions.empty())
                     continue;
                 std::vector<Float3> posed = level.positions;
                 HEARTH_TRY(add(pose.name, level, std::move(posed)));
             }
         if (places.empty())
-            HEARTH_TRY(add(deformed ? "bind" : "rest", finest, {}));
+            HEARTH_TRY(add(deformed ? "bind" : "rest", sampled, {}));
         return places;
     }
 
     /// Choose a power of two of the instances, so that they can share each sample's rays evenly.
-    std::vector<Placement> chooseInstances(const Occluders& world, const std::vector<Affine3>& transforms,
-                                           MeshStatistics& statistics) const
+    std::vector<Placement> chooseInstances(const Occluders& world, std::span<const MeshInstance> instances,
+                                           const MeshSampling& plan, MeshStatistics& statistics) const
     {
-        const size_t most = std::min(kMaxInstances, size_t{settings_.rays.rays_per_sample});
-        const size_t count = std::min(std::bit_ceil(transforms.size()), std::bit_floor(most));
+        const size_t most = std::min(kMaxInstances, size_t{plan.rays_per_sample});
+        const size_t count = std::min(std::bit_ceil(instances.size()), std::bit_floor(most));
         statistics.poses = {"rest"};
         std::vector<Placement> subset;
         for (size_t i = 0; i < count; ++i)
-            subset.push_back({&world, transforms[i * transforms.size() / count], {}});
-        statistics.instances = static_cast<uint32_t>(std::min(count, transforms.size()));
+            subset.push_back({&world, instances[i * instances.size() / count].world_from_mesh, {}});
+        statistics.instances = static_cast<uint32_t>(std::min(count, instances.size()));
         return subset;
     }
 
     /// Trace the rays. Instances share each sample's rays; poses have all of them each.
-    std::optional<SampledMoments> trace(const LevelArrays& finest, std::span<const SurfaceSample> samples,
+    std::optional<SampledMoments> trace(const LevelArrays& level, uint32_t rays_per_sample,
+                                        std::span<const SurfaceSample> samples,
                                         std::span<const Placement> places, MeshStatistics& statistics)
     {
         RaySettings rays = settings_.rays;
+        rays.rays_per_sample = rays_per_sample;
         if (statistics.instances > 0)
             rays.rays_per_sample /= static_cast<uint32_t>(places.size());
         rays.seed += statistics.mesh; // meshes at the same place have independent noise
-        auto seen = sampledMoments(finest.mesh().mesh, samples, places, rays, settings_.refine_cones,
+        auto seen = sampledMoments(level.mesh().mesh, samples, places, rays, settings_.refine_cones,
                                    [&](size_t place, uint64_t done, uint64_t total)
                                    { return report(place, places.size(), done, total); });
         if (!seen)
             return std::nullopt;
         statistics.samples = samples.size();
         statistics.rays = seen->rays;
+        statistics.spread = seen->spread;
         rays_before_ += seen->rays;
         return seen;
     }
@@ -259,16 +390,21 @@ private:
              const SampledMoments& seen, const SourceNormals& normals, MeshStatistics& statistics)
     {
         const auto start = std::chrono::steady_clock::now();
+        const size_t sampled = statistics.sampled_level;
         std::vector<LevelMesh> meshes;
         for (const LevelArrays& level : levels)
             meshes.push_back(level.mesh());
-        std::vector<LevelFit> fits = fitLevels(meshes, samples, seen.moments, settings_.fit);
+        std::vector<LevelMesh> fitted(meshes.begin() + statistics.sampled_level, meshes.end());
+        fitted.front().finer_vertex = {}; // nothing finer is fitted
+        std::vector<LevelFit> fits = fitLevels(fitted, samples, seen.moments, settings_.fit);
         if (settings_.refine_cones)
-            statistics.refined = refineLevels(meshes, samples, seen.second, settings_.fit, fits);
+            statistics.refined = refineLevels(fitted, samples, seen.second, settings_.fit, fits);
+        std::vector<std::vector<Moments>> moments =
+            interpolateFinerLevels(std::span(meshes).first(sampled + 1), fits.front().moments);
         statistics.proxy = fits.front().proxy;
-        for (size_t l = 0; l < levels.size(); ++l)
+        for (LevelFit& fit : fits)
         {
-            const FitStatistics& of_level = fits[l].statistics;
+            const FitStatistics& of_level = fit.statistics;
             statistics.max_iterations_used =
                 std::max(statistics.max_iterations_used, of_level.solve.iterations);
             statistics.condition = std::max(statistics.condition, of_level.solve.condition);
@@ -276,36 +412,62 @@ private:
             statistics.vertices += of_level.vertices;
             statistics.clamped += of_level.clamped;
             statistics.unseen += of_level.unseen;
-            encode(levels[l], fits[l].moments, normals);
+            moments.push_back(std::move(fit.moments));
         }
+        encode(levels, moments, normals);
         statistics.fit_seconds = secondsSince(start);
         if (settings_.estimate_error)
-            statistics.ao_error = estimateNoise(levels.front(), samples, seen.moments);
+            statistics.ao_error = estimateNoise(levels[sampled], samples, seen.moments);
     }
 
-    /// Encode the moments of a level. Clusters that several cuts draw have equal codes in all of them.
-    void encode(const LevelArrays& level, std::span<const Moments> moments, const SourceNormals& normals)
+    /// Encode the moments of all levels. Clusters that several cuts draw have equal codes in all of them.
+    void encode(std::span<const LevelArrays> levels, std::span<const std::vector<Moments>> moments,
+                const SourceNormals& normals)
     {
-        const auto encodeCluster = [&](size_t i)
+        std::vector<uint32_t> finer_codes;
+        for (size_t l = 0; l < levels.size(); ++l)
         {
-            const LevelArrays::Part& part = level.parts[i];
-            const size_t end =
-                i + 1 < level.parts.size() ? level.parts[i + 1].first_vertex : level.positions.size();
-            std::vector<uint32_t>& codes = codes_[part.cluster];
-            codes.clear();
-            for (size_t v = part.first_vertex; v < end; ++v)
+            std::vector<uint32_t> codes = encodeLevel(levels[l], moments[l], normals, finer_codes);
+            for (size_t i = 0; i < levels[l].parts.size(); ++i)
             {
-                const Float3 exact = normals.find(level.positions[v], level.normals[v]);
-                codes.push_back(encodeVisibility(
-                    moments[v].m0, turnWithNormal(moments[v].m1, exact, level.normals[v]), level.normals[v]));
+                const std::span<const LevelArrays::Part> parts = levels[l].parts;
+                const size_t end = i + 1 < parts.size() ? parts[i + 1].first_vertex : codes.size();
+                codes_[parts[i].cluster].assign(codes.begin() + parts[i].first_vertex,
+                                                codes.begin() + static_cast<ptrdiff_t>(end));
             }
+            finer_codes = std::move(codes);
+        }
+    }
+
+    /// Encode the moments of a level's vertices. Vertices with the moments of another one have its code.
+    /// finer_codes  of the next finer level
+    static std::vector<uint32_t> encodeLevel(const LevelArrays& level, std::span<const Moments> moments,
+                                             const SourceNormals& normals,
+                                             std::span<const uint32_t> finer_codes)
+    {
+        std::vector<uint32_t> codes(level.positions.size());
+        const auto encodeVertex = [&](size_t v)
+        {
+            if (level.first_copy[v] != v)
+                return;
+            if (!level.finer_vertex.empty() && level.finer_vertex[v] != kInvalidIndex)
+            {
+                codes[v] = finer_codes[level.finer_vertex[v]];
+                return;
+            }
+            const Float3 normal = level.normals[v];
+            const Float3 exact = normals.find(level.positions[v], normal);
+            codes[v] = encodeVisibility(moments[v].m0, turnWithNormal(moments[v].m1, exact, normal), normal);
         };
-        tbb::parallel_for(size_t{0}, level.parts.size(), encodeCluster);
+        tbb::parallel_for(size_t{0}, codes.size(), encodeVertex);
+        for (size_t v = 0; v < codes.size(); ++v)
+            codes[v] = codes[level.first_copy[v]];
+        return codes;
     }
 
     /// Estimate the noise of ambient occlusion. Two fits, each to every other sample, differ by twice the
     /// noise of the fit to both: the noise of their rays, and of the samples' positions.
-    double estimateNoise(const LevelArrays& finest, std::span<const SurfaceSample> samples,
+    double estimateNoise(const LevelArrays& level, std::span<const SurfaceSample> samples,
                          std::span<const Moments> moments) const
     {
         std::array<std::vector<Moments>, 2> fitted;
@@ -319,31 +481,46 @@ private:
                 subset.back().area *= 2; // each half represents the whole surface
                 values.push_back(moments[s]);
             }
-            const LevelMesh mesh = finest.mesh();
+            const LevelMesh mesh = level.mesh();
             fitted[half] = std::move(fitLevels({&mesh, 1}, subset, values, settings_.fit).front().moments);
         }
         double sum = 0;
-        for (size_t v = 0; v < finest.normals.size(); ++v)
+        for (size_t v = 0; v < level.normals.size(); ++v)
         {
             const double difference =
-                dot(finest.normals[v], fitted[0][v].m1 - fitted[1][v].m1) / (2 * std::numbers::pi);
+                dot(level.normals[v], fitted[0][v].m1 - fitted[1][v].m1) / (2 * std::numbers::pi);
             sum += difference * difference;
         }
-        return std::sqrt(sum / static_cast<double>(std::max<size_t>(finest.normals.size(), 1)));
+        return std::sqrt(sum / static_cast<double>(std::max<size_t>(level.normals.size(), 1)));
     }
 
     const PackView& scene_;
     const PackView& part_;
+    const std::span<const PartPaths> neighbours_;
     const BakeSettings& settings_;
     const BakeObserver& observe_;
-    SceneMasks masks_;
-    std::vector<std::vector<Affine3>> transforms_;
+    SceneSurfaces surfaces_;
+    const std::vector<MeshSampling> plan_;             ///< of each mesh
+    std::vector<std::vector<MeshInstance>> instances_; ///< of each mesh
+    std::vector<SurroundingsRecord> surroundings_;     ///< of each instance
+    std::optional<InstanceLight> light_;
     std::vector<NamedPose> poses_;
     std::vector<std::vector<uint32_t>> codes_;
     double share_before_ = 0;
     double share_of_mesh_ = 0;
     uint64_t rays_before_ = 0;
 };
+
+/// Return null for no spread.
+Json spreadJson(const std::optional<InstanceSpread>& spread)
+{
+    if (!spread)
+        return nullptr;
+    return {{"of_mean", spread->of_mean},
+            {"with_factors", spread->with_factors},
+            {"changed_instances", spread->changed_instances},
+            {"rays", spread->rays}};
+}
 
 Json meshJson(const MeshStatistics& mesh)
 {
@@ -352,10 +529,13 @@ Json meshJson(const MeshStatistics& mesh)
         {"name", mesh.name},
         {"poses", mesh.poses},
         {"instances", mesh.instances},
+        {"spread", mesh.spread},
+        {"instance_spread", spreadJson(mesh.instance_spread)},
         {"levels", mesh.levels},
+        {"sampled_level", mesh.sampled_level},
         {"samples", mesh.samples},
         {"rays", mesh.rays},
-        {"seconds", {{"rays", mesh.ray_seconds}, {"fit", mesh.fit_seconds}}},
+        {"seconds", {{"rays", mesh.ray_seconds}, {"fit", mesh.fit_seconds}, {"light", mesh.light_seconds}}},
         {"proxy",
          {{"source_vertices", mesh.proxy.source_vertices},
           {"welded", mesh.proxy.welded},
@@ -387,10 +567,11 @@ Json meshJson(const MeshStatistics& mesh)
 
 Result<std::optional<std::vector<MeshStatistics>>>
 writeVisibilityPart(const PackView& import_part, const PackView& clusters_part,
-                    const std::string& output_path, const BakeSettings& settings, const BakeObserver& observe)
+                    std::span<const PartPaths> neighbours, const std::string& output_path,
+                    const BakeSettings& settings, const BakeObserver& observe)
 {
     HEARTH_TRY(checkHierarchy(clusters_part));
-    Bake bake(import_part, clusters_part, settings, observe);
+    Bake bake(import_part, clusters_part, neighbours, settings, observe);
     HEARTH_ASSIGN_OR_RETURN(std::optional<std::vector<MeshStatistics>> statistics, bake.run());
     if (!statistics)
         return statistics;
@@ -401,17 +582,34 @@ writeVisibilityPart(const PackView& import_part, const PackView& clusters_part,
             auto out = codes.begin();
             for (uint32_t c = 0; c < page.clusters.count; ++c)
                 out = std::ranges::copy(bake.codes()[page.clusters.first + c], out).out;
-        }));
+        },
+        {.types = {kChunkSurroundings, kChunkRadianceTransfers},
+         .write = [&](ContainerWriter& writer) { return bake.writeSurroundings(writer); }}));
     return statistics;
 }
 
-std::string statisticsJson(const std::string& source, const BakeSettings& settings,
+std::string_view occluderScopeName(OccluderScope scope)
+{
+    switch (scope)
+    {
+    case OccluderScope::pack:
+        return "pack";
+    case OccluderScope::source:
+        return "source";
+    case OccluderScope::mesh:
+        break;
+    }
+    return "mesh";
+}
+
+std::string statisticsJson(const std::string& source, const BakeSettings& settings, size_t neighbours,
                            const std::vector<MeshStatistics>& meshes)
 {
     Json json{{"source", source},
-              {"rays_per_sample", settings.rays.rays_per_sample},
-              {"samples_per_vertex", settings.samples_per_vertex},
-              {"occluders", settings.alone ? "asset" : "scene"},
+              {"rays_per_sample", settings.sampling.rays_per_sample},
+              {"samples_per_vertex", settings.sampling.samples_per_vertex},
+              {"occluders", occluderScopeName(settings.occluders)},
+              {"neighbours", neighbours},
               {"meshes", Json::array()}};
     for (const MeshStatistics& mesh : meshes)
         json["meshes"].push_back(meshJson(mesh));

@@ -5,24 +5,45 @@
 
 #include "cook/visibility/fit/level_fit.h"
 #include "cook/visibility/fit/refined_levels.h"
+#include "cook/visibility/program/instance_visibility.h"
+#include "cook/visibility/program/sampling_plan.h"
 #include "cook/visibility/rays/rays.h"
 #include "cook/visibility/scene/poses.h"
 #include "formats/pack/pack_view.h"
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace hearth::visibility
 {
 
+/// Meshes that are in the way of rays.
+enum class OccluderScope
+{
+    pack,   ///< all instances of the source's scene, and those of its neighbours
+    source, ///< all instances of the source's scene
+    mesh,   ///< the mesh itself, in its own space
+};
+
+/// Return the word for a scope in command lines and statistics.
+std::string_view occluderScopeName(OccluderScope scope);
+
+/// Parts of a source, as files.
+struct PartPaths
+{
+    std::string import_part;
+    std::string clusters_part;
+};
+
 struct BakeSettings
 {
-    double samples_per_vertex = 8; ///< of the finest level
-    RaySettings rays;              ///< rays_per_sample a power of two
-    /// Rays hit only the mesh itself, in its own space, instead of all instances of the scene in the world.
-    bool alone = false;
+    SamplingSettings sampling;
+    RaySettings rays; ///< rays_per_sample is the plan's
+    OccluderScope occluders = OccluderScope::pack;
     LevelFitSettings fit;
     std::vector<ClipTimes> poses; ///< deformed meshes get the mean over these; empty: the bind pose
     bool refine_cones = false;    ///< fit cones to nine harmonics instead of four moments: refined_levels.h
@@ -37,21 +58,25 @@ struct MeshStatistics
     /// "rest"; for a deformed mesh, which is alone with any settings: "bind", or the names of its poses
     std::vector<std::string> poses;
     uint32_t instances = 0; ///< number of instances that are averaged; 0: alone
+    double spread = 0; ///< rms difference of ambient occlusion between instances, or poses, and their mean
+    std::optional<InstanceSpread> instance_spread; ///< of all instances, where there are several
     uint32_t levels = 0;
+    uint32_t sampled_level = 0; ///< that samples lie on; finer ones are interpolated
     uint64_t samples = 0;
     uint64_t rays = 0;
     uint64_t interior_samples = 0; ///< interior samples: covered so closely that they hardly count
     double ray_seconds = 0;
     double fit_seconds = 0;
-    ProxyStatistics proxy; ///< of the finest level
+    double light_seconds = 0; ///< of the light of its instances' occluders
+    ProxyStatistics proxy;    ///< of the sampled level
     uint32_t max_iterations_used = 0;
-    double condition = 0;              ///< largest of all levels
-    bool converged = true;             ///< on all levels
-    uint64_t vertices = 0;             ///< of the proxies of all levels
+    double condition = 0;              ///< largest of all fitted levels
+    bool converged = true;             ///< on all of them
+    uint64_t vertices = 0;             ///< of their proxies
     uint64_t clamped = 0;              ///< vertices whose fit was no valid visibility
     uint64_t unseen = 0;               ///< vertices of connected components without samples
     std::optional<RefineGain> refined; ///< if requested
-    /// Rms error of ambient occlusion at the finest level's vertices, by the choice of samples and rays.
+    /// Rms error of ambient occlusion at the sampled level's vertices, by the choice of samples and rays.
     std::optional<double> ao_error;
 };
 
@@ -65,22 +90,25 @@ struct BakeProgress
 using BakeObserver = std::function<bool(const BakeProgress& progress)>;
 
 /// Write the clusters part again, with visibility at the vertices of each mesh whose vertices have room for
-/// it. Writes nothing if `observe` returned false. The same bytes for any number of threads.
+/// it, and with the surroundings of its instances. Writes nothing if `observe` returned false. The same bytes
+/// for any number of threads.
 ///
 /// import_part    instances, materials, images and the source's normals
 /// clusters_part  of the same source
+/// neighbours     other sources in the same world that occlude, if settings.occluders is pack; opened one by
+///                one
 /// observe        may be empty
 /// returns  nothing if `observe` returned false
-/// errors: those of checkHierarchy, rewriteVisibility, addMesh and mesh::readSourceMesh; meaning_reference if
-/// the parts are of different sources
-Result<std::optional<std::vector<MeshStatistics>>> writeVisibilityPart(const formats::PackView& import_part,
-                                                                       const formats::PackView& clusters_part,
-                                                                       const std::string& output_path,
-                                                                       const BakeSettings& settings,
-                                                                       const BakeObserver& observe);
+/// errors: those of checkHierarchy, rewriteVisibility, addMesh, openPart and mesh::readSourceMesh;
+/// meaning_reference if the parts are of different sources
+Result<std::optional<std::vector<MeshStatistics>>>
+writeVisibilityPart(const formats::PackView& import_part, const formats::PackView& clusters_part,
+                    std::span<const PartPaths> neighbours, const std::string& output_path,
+                    const BakeSettings& settings, const BakeObserver& observe);
 
 /// Return the statistics of all meshes as JSON text.
-std::string statisticsJson(const std::string& source, const BakeSettings& settings,
+/// neighbours  number of other sources that occlude
+std::string statisticsJson(const std::string& source, const BakeSettings& settings, size_t neighbours,
                            const std::vector<MeshStatistics>& meshes);
 
 } // namespace hearth::visibility

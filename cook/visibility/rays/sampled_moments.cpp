@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 
 #include <tbb/parallel_for.h>
 
@@ -100,6 +102,42 @@ void add(SecondMoments& sum, const SecondMoments& seen, const DirectionMatrix& m
     sum.yz += factor * product(1, 2);
 }
 
+/// Measures how unlike the places are. With few rays a place, noise exceeds most differences: it leaves the
+/// product of the differences at neighbouring samples, whose rays are independent, but not their square.
+class PlaceSpread
+{
+public:
+    explicit PlaceSpread(size_t sample_count) : sums_(sample_count, 0), products_(sample_count, 0) {}
+
+    void add(std::span<const SamplePoint> points, std::span<const Moments> moments)
+    {
+        double before = 0;
+        for (size_t s = 0; s < points.size(); ++s)
+        {
+            const double occlusion = double{dot(points[s].normal, moments[s].m1)} / std::numbers::pi;
+            sums_[s] += occlusion;
+            products_[s] += occlusion * before; // with the sample before; not used for the first one
+            before = occlusion;
+        }
+        ++places_;
+    }
+
+    double rms(std::span<const SurfaceSample> samples) const
+    {
+        double sum = 0, area = 0;
+        for (size_t s = 1; s < samples.size(); ++s)
+        {
+            sum += double{samples[s].area} * (products_[s] - sums_[s] * sums_[s - 1] / places_) / places_;
+            area += double{samples[s].area};
+        }
+        return places_ > 1 && sum > 0 ? std::sqrt(sum / area) : 0;
+    }
+
+private:
+    std::vector<double> sums_, products_;
+    double places_ = 0;
+};
+
 } // namespace
 
 std::optional<SampledMoments> sampledMoments(const MeshView& mesh, std::span<const SurfaceSample> samples,
@@ -112,6 +150,7 @@ std::optional<SampledMoments> sampledMoments(const MeshView& mesh, std::span<con
     result.interior.assign(samples.size(), 1);
     const float share = 1 / static_cast<float>(places.size());
     const uint32_t first_ray = settings.first_ray;
+    PlaceSpread spread(samples.size());
     for (size_t i = 0; i < places.size(); ++i)
     {
         const Placement& place = places[i];
@@ -152,6 +191,7 @@ std::optional<SampledMoments> sampledMoments(const MeshView& mesh, std::span<con
             tbb::parallel_for(size_t{0}, samples.size(),
                               [&](size_t s) { add(result.moments[s], place_moments[s], matrix(s), share); });
         }
+        spread.add(points, place_moments);
         const std::vector<uint8_t> interior = findInteriorPoints(
             *place.occluders, points, place_moments,
             coverReach(positions, mesh.indices, samples, place.world_from_mesh), settings.seed);
@@ -159,6 +199,7 @@ std::optional<SampledMoments> sampledMoments(const MeshView& mesh, std::span<con
             result.interior[s] &= interior[s];
         result.rays += samples.size() * uint64_t{settings.rays_per_sample};
     }
+    result.spread = spread.rms(samples);
     return result;
 }
 

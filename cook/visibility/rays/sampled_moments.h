@@ -28,6 +28,9 @@ struct SampledMoments
     std::vector<SecondMoments> second; ///< empty unless requested
     std::vector<uint8_t> interior;     ///< 1: interior, closely covered in all places and never visible
     uint64_t rays = 0;
+    /// Rms difference of ambient occlusion between the places and their mean, over the surface: how unlike
+    /// the places are. 0 for one place.
+    double spread = 0;
 };
 
 /// Progress callback: finished rays of a place. Returns false to stop.

@@ -6,7 +6,6 @@
 #include <bit>
 #include <cmath>
 #include <tbb/parallel_for.h>
-#include <unordered_map>
 
 namespace hearth::visibility
 {
@@ -19,39 +18,54 @@ namespace
 // Default of LevelMesh::reach (stored as 0), in diagonals.
 constexpr float kDefaultReach = 0.05f;
 
-/// Vertex as position and normal: bit-identical vertices look alike in any cut.
-struct VertexKey
+/// Hash table of the vertices of a level by position and normal: bit-identical vertices look alike in any
+/// cut.
+class VertexTable
 {
-    Float3 position;
-    Float3 normal;
-    friend bool operator==(const VertexKey&, const VertexKey&) = default;
-};
+public:
+    VertexTable() = default;
 
-struct KeyHash
-{
-    size_t operator()(const VertexKey& key) const
+    /// Number the vertices, and fill `level.first_copy`. Refers to the arrays of the level, which must not be
+    /// changed.
+    explicit VertexTable(LevelArrays& level)
+        : positions_(level.positions),
+          normals_(level.normals),
+          slots_(std::bit_ceil(level.positions.size() * 2 + 1), kInvalidIndex)
+    {
+        level.first_copy.reserve(level.positions.size());
+        for (uint32_t v = 0; v < level.positions.size(); ++v)
+        {
+            uint32_t& slot = slots_[findSlot(positions_[v], normals_[v])];
+            if (slot == kInvalidIndex)
+                slot = v;
+            level.first_copy.push_back(slot);
+        }
+    }
+
+    /// Return the first vertex with this position and normal, or kInvalidIndex.
+    uint32_t find(Float3 position, Float3 normal) const { return slots_[findSlot(position, normal)]; }
+
+private:
+    /// Return the slot of a vertex, or the free one where it belongs.
+    size_t findSlot(Float3 position, Float3 normal) const
     {
         uint64_t hash = 0;
-        for (const Float3& v : {key.position, key.normal})
+        for (const Float3& v : {position, normal})
             for (int axis = 0; axis < 3; ++axis)
             {
                 hash = (hash ^ std::bit_cast<uint32_t>(v[axis])) * 0x9E3779B97F4A7C15u;
                 hash ^= hash >> 32;
             }
-        return hash;
+        size_t slot = hash & (slots_.size() - 1);
+        while (slots_[slot] != kInvalidIndex &&
+               !(positions_[slots_[slot]] == position && normals_[slots_[slot]] == normal))
+            slot = (slot + 1) & (slots_.size() - 1);
+        return slot;
     }
+
+    std::span<const Float3> positions_, normals_;
+    std::vector<uint32_t> slots_; ///< a power of two
 };
-
-using VertexIdMap = std::unordered_map<VertexKey, uint32_t, KeyHash>;
-
-VertexIdMap numberVertices(const LevelArrays& level)
-{
-    VertexIdMap numbers;
-    numbers.reserve(level.positions.size());
-    for (uint32_t v = 0; v < level.positions.size(); ++v)
-        numbers.emplace(VertexKey{level.positions[v], level.normals[v]}, v);
-    return numbers;
-}
 
 bool isDrawnAt(const PackView& part, const ClusterRecord& cluster, uint32_t level)
 {
@@ -59,7 +73,7 @@ bool isDrawnAt(const PackView& part, const ClusterRecord& cluster, uint32_t leve
            (cluster.level < level && std::isinf(part.groups()[cluster.group].error));
 }
 
-void addCluster(LevelArrays& arrays, const MeshPages& pages, uint32_t number, bool with_materials)
+void addCluster(LevelArrays& arrays, const MeshPages& pages, uint32_t number)
 {
     const ClusterGeometry geometry = pages.cluster(number);
     const auto first = static_cast<uint32_t>(arrays.positions.size());
@@ -73,34 +87,16 @@ void addCluster(LevelArrays& arrays, const MeshPages& pages, uint32_t number, bo
     for (uint32_t t = 0; t < geometry.triangleCount(); ++t)
         for (const uint32_t corner : geometry.triangle(t))
             arrays.indices.push_back(first + corner);
-    if (with_materials)
-        arrays.triangle_materials.insert(arrays.triangle_materials.end(), geometry.triangleCount(),
-                                         pages.part().clusters()[number].material);
-}
-
-LevelArrays extractLevel(const MeshPages& pages, uint32_t level)
-{
-    const MeshRecord& mesh = pages.record();
-    LevelArrays arrays;
-    for (uint32_t c = mesh.clusters.first; c < mesh.clusters.first + mesh.clusters.count; ++c)
-        if (isDrawnAt(pages.part(), pages.part().clusters()[c], level))
-            addCluster(arrays, pages, c, level == 0);
-    // far from the root, the default reach exceeds the deviation of the coarse surface
-    const float max_deviation = 2 * pages.part().levels()[mesh.levels.first + level].max_error;
-    if (max_deviation > kDefaultReach * length(mesh.box_max - mesh.box_min))
-        arrays.reach = max_deviation;
-    return arrays;
+    arrays.triangle_materials.insert(arrays.triangle_materials.end(), geometry.triangleCount(),
+                                     pages.part().clusters()[number].material);
 }
 
 /// Link vertices to equal ones of the finer level: cuts that mix levels meet in vertices of both.
-void linkToFiner(LevelArrays& level, const VertexIdMap& finer)
+void linkToFiner(LevelArrays& level, const VertexTable& finer)
 {
     level.finer_vertex.reserve(level.positions.size());
     for (size_t v = 0; v < level.positions.size(); ++v)
-    {
-        const auto found = finer.find({level.positions[v], level.normals[v]});
-        level.finer_vertex.push_back(found == finer.end() ? kInvalidIndex : found->second);
-    }
+        level.finer_vertex.push_back(finer.find(level.positions[v], level.normals[v]));
 }
 
 } // namespace
@@ -134,21 +130,44 @@ ClusterGeometry MeshPages::cluster(uint32_t number) const
     return *geometry;
 }
 
-LevelArrays extractFinestLevel(const MeshPages& pages)
+std::vector<uint64_t> countLevelTriangles(const PackView& part, uint32_t mesh)
 {
-    return extractLevel(pages, 0);
+    const MeshRecord& record = part.meshes()[mesh];
+    std::vector<uint64_t> counts(record.lod_count, 0);
+    for (uint32_t c = record.clusters.first; c < record.clusters.first + record.clusters.count; ++c)
+    {
+        const ClusterRecord& cluster = part.clusters()[c];
+        for (uint32_t level = cluster.level; level < record.lod_count && isDrawnAt(part, cluster, level);
+             ++level)
+            counts[level] += cluster.triangle_count;
+    }
+    return counts;
+}
+
+LevelArrays extractLevel(const MeshPages& pages, uint32_t level)
+{
+    const MeshRecord& mesh = pages.record();
+    LevelArrays arrays;
+    for (uint32_t c = mesh.clusters.first; c < mesh.clusters.first + mesh.clusters.count; ++c)
+        if (isDrawnAt(pages.part(), pages.part().clusters()[c], level))
+            addCluster(arrays, pages, c);
+    // far from the root, the default reach exceeds the deviation of the coarse surface
+    const float max_deviation = 2 * pages.part().levels()[mesh.levels.first + level].max_error;
+    if (max_deviation > kDefaultReach * length(mesh.box_max - mesh.box_min))
+        arrays.reach = max_deviation;
+    return arrays;
 }
 
 std::vector<LevelArrays> extractLevels(const MeshPages& pages)
 {
     std::vector<LevelArrays> levels;
-    VertexIdMap finer;
+    VertexTable finer;
     for (uint32_t level = 0; level < pages.record().lod_count; ++level)
     {
-        levels.push_back(extractLevel(pages, level));
+        LevelArrays& arrays = levels.emplace_back(extractLevel(pages, level));
         if (level > 0)
-            linkToFiner(levels.back(), finer);
-        finer = numberVertices(levels.back());
+            linkToFiner(arrays, finer);
+        finer = VertexTable(arrays);
     }
     return levels;
 }

@@ -40,16 +40,21 @@ struct LevelArrays
     std::vector<Float3> positions;
     std::vector<Float3> normals; ///< decoded from their codes
     std::vector<uint32_t> indices;
-    std::vector<uint32_t> triangle_materials; ///< level 0 only
-    std::vector<uint32_t> finer_vertex;       ///< as LevelMesh::finer_vertex
+    std::vector<uint32_t> triangle_materials;
+    std::vector<uint32_t> finer_vertex; ///< as LevelMesh::finer_vertex
+    std::vector<uint32_t> first_copy;   ///< as LevelMesh::first_copy
     std::vector<Part> parts;
     float reach = 0;
 
-    LevelMesh mesh() const { return {{positions, normals, indices}, finer_vertex, reach}; }
+    LevelMesh mesh() const { return {{positions, normals, indices}, finer_vertex, reach, first_copy}; }
 };
 
-/// Extract the finest level of a mesh. Fills normals only if its vertices have them.
-LevelArrays extractFinestLevel(const MeshPages& pages);
+/// Count the triangles that the uniform cut of each level draws, finest first.
+std::vector<uint64_t> countLevelTriangles(const formats::PackView& part, uint32_t mesh);
+
+/// Extract a level of a mesh, 0 the finest, without links between vertices. Fills normals only if its
+/// vertices have them.
+LevelArrays extractLevel(const MeshPages& pages, uint32_t level);
 
 /// Extract all levels of a mesh whose vertices have normals, finest first.
 std::vector<LevelArrays> extractLevels(const MeshPages& pages);

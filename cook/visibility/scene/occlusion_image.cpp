@@ -20,6 +20,9 @@ namespace
 
 constexpr uint32_t kSamplesPerAxis = 2; ///< samples per pixel along each axis
 
+/// Tests of each sample against triangles, in the mean, after which the rest of the scene is not drawn.
+constexpr uint64_t kMaxTests = 256;
+
 constexpr float kMargin = 1.04f; ///< size of the image, relative to the objects in it
 
 constexpr float kBackground = 0.1f;
@@ -70,6 +73,9 @@ public:
             return;
         const auto [left, right] = range(a.x, b.x, c.x, width_);
         const auto [top, bottom] = range(a.y, b.y, c.y, height_);
+        tests_ += uint64_t{right - left} * (bottom - top);
+        if (tests_ > kMaxTests * depths_.size())
+            return;
         for (uint32_t row = top; row < bottom; ++row)
             for (uint32_t column = left; column < right; ++column)
             {
@@ -127,6 +133,7 @@ private:
     uint32_t width_, height_; ///< in samples
     Float3 middle_;
     float samples_per_metre_ = 0;
+    uint64_t tests_ = 0; ///< of samples against triangles
     std::vector<float> depths_;
     std::vector<float> values_;
 };
@@ -176,7 +183,7 @@ Result<GreyImage> renderOcclusion(const PackView& scene, const PackView& baked, 
         if (!isDrawn(baked, mesh))
             continue;
         HEARTH_ASSIGN_OR_RETURN(const MeshPages pages, MeshPages::read(baked, mesh));
-        const LevelArrays finest = extractFinestLevel(pages);
+        const LevelArrays finest = extractLevel(pages, 0);
         const std::vector<float> occlusion = decodeOcclusion(pages, finest);
         std::vector<ProjectedVertex> seen(finest.positions.size());
         for (const InstanceRecord& instance : scene.instances())

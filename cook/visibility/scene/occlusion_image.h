@@ -22,6 +22,7 @@ struct GreyImage
 /// Render the finest level of all instances in their rest poses with an orthographic camera from the front,
 /// right and above, such that all of it is in the image. Vertices that see all of their hemisphere are white;
 /// the background is dark. Four samples a pixel. Time O(triangles of all instances + texels of their boxes).
+/// Scenes whose triangles cover the image hundreds of times over are not drawn to their end.
 ///
 /// scene  the import part, for the instances
 /// baked  a clusters part of the same source; meshes without visibility are left out

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/visibility/scene/scene_occluders.h"
 
+#include "formats/base/affine3d.h"
 #include "formats/scene/lit_material.h"
 
 #include <map>
@@ -13,9 +14,15 @@ using namespace formats;
 namespace
 {
 
-/// Corner indices of the triangles of each material with a mask; key kInvalidIndex: of all triangles without
-/// a mask.
-using TrianglesByMaterial = std::map<uint32_t, std::vector<uint32_t>>;
+/// Triangles that share a mask, or have none.
+struct OccluderTriangles
+{
+    std::vector<uint32_t> corners;
+    std::vector<uint32_t> colors;
+};
+
+/// Triangles of each material with a mask; key kInvalidIndex: all triangles without a mask.
+using TrianglesByMaterial = std::map<uint32_t, OccluderTriangles>;
 
 /// Collect the UVs of a set at all vertices of the level; vertices without the set get 0.
 std::vector<Float2> collectUvs(const MeshPages& pages, const LevelArrays& level, uint32_t set)
@@ -75,32 +82,47 @@ Result<std::shared_ptr<const AlphaMask>> SceneMasks::find(uint32_t material)
     return std::make_shared<const AlphaMask>(*found, image == kInvalidIndex ? nullptr : images_[image]);
 }
 
-Status addMesh(Occluders& occluders, SceneMasks& masks, const MeshPages& pages, const LevelArrays& finest,
-               std::span<const Affine3> world_from_mesh)
+bool isDeformed(const MeshRecord& mesh)
 {
+    return mesh.skinned != 0 || mesh.morph_target_count != 0;
+}
+
+bool isInvertible(const Affine3& world_from_object)
+{
+    return inverted(widened(world_from_object)).has_value();
+}
+
+Status addMesh(Occluders& occluders, SceneSurfaces& surfaces, const MeshPages& pages,
+               const LevelArrays& level, std::span<const Affine3> world_from_mesh)
+{
+    SceneMasks& masks = surfaces.masks;
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<uint32_t> colors, surfaces.colors.find(pages, level));
     std::map<uint32_t, std::shared_ptr<const AlphaMask>> mask_of_material;
     TrianglesByMaterial triangles;
-    for (size_t t = 0; t < finest.triangle_materials.size(); ++t)
+    for (size_t t = 0; t < level.triangle_materials.size(); ++t)
     {
-        const uint32_t material = finest.triangle_materials[t];
+        const uint32_t material = level.triangle_materials[t];
         if (!masks.occludes(material))
             continue;
         if (!mask_of_material.contains(material))
         {
             HEARTH_ASSIGN_OR_RETURN(mask_of_material[material], masks.find(material));
         }
-        std::vector<uint32_t>& corners = triangles[mask_of_material[material] ? material : kInvalidIndex];
-        corners.insert(corners.end(), &finest.indices[t * 3], &finest.indices[t * 3] + 3);
+        OccluderTriangles& of_material = triangles[mask_of_material[material] ? material : kInvalidIndex];
+        of_material.corners.insert(of_material.corners.end(), &level.indices[t * 3],
+                                   &level.indices[t * 3] + 3);
+        of_material.colors.push_back(colors[t]);
     }
-    for (const auto& [material, corners] : triangles)
+    for (const auto& [material, of_material] : triangles)
     {
-        OccluderMesh mesh{finest.positions, corners};
+        OccluderMesh mesh{
+            .positions = level.positions, .corners = of_material.corners, .colors = of_material.colors};
         if (material != kInvalidIndex)
         {
             const auto& mask = mask_of_material[material];
-            const std::vector<Float2> uvs = collectUvs(pages, finest, mask->uvSet());
+            const std::vector<Float2> uvs = collectUvs(pages, level, mask->uvSet());
             std::vector<Float2> at_corners;
-            for (const uint32_t corner : corners)
+            for (const uint32_t corner : of_material.corners)
                 at_corners.push_back(uvs[corner]);
             mesh.mask = createMask(mask, std::move(at_corners));
         }

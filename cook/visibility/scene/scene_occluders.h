@@ -1,10 +1,11 @@
-// Adds meshes of a scene to the occluders: the finest level, with the holes that alpha masks cut.
+// Adds meshes of a scene to the occluders: a level, with the holes that alpha masks cut, and its colours.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
 #include "cook/visibility/rays/alpha_mask.h"
 #include "cook/visibility/rays/occluders.h"
 #include "cook/visibility/scene/level_meshes.h"
+#include "cook/visibility/scene/surface_colors.h"
 
 #include <memory>
 #include <vector>
@@ -34,9 +35,25 @@ private:
     std::vector<std::shared_ptr<const AlphaImage>> images_;
 };
 
-/// Add the finest level of a mesh once for each of the transforms.
-/// errors: those of SceneMasks::find
-Status addMesh(Occluders& occluders, SceneMasks& masks, const MeshPages& pages, const LevelArrays& finest,
-               std::span<const Affine3> world_from_mesh);
+/// True if joints or morph targets move the mesh's vertices. Such a mesh occludes only itself.
+bool isDeformed(const formats::MeshRecord& mesh);
+
+/// True if rays can be transformed into an instance's space; false for one that is flat in the world.
+bool isInvertible(const Affine3& world_from_object);
+
+/// Properties of a scene's materials that rays ask for.
+struct SceneSurfaces
+{
+    /// scene  the import part; must outlive this
+    explicit SceneSurfaces(const formats::PackView& scene) : masks(scene), colors(scene) {}
+
+    SceneMasks masks;
+    SurfaceColors colors;
+};
+
+/// Add a level of a mesh once for each of the transforms.
+/// errors: those of SceneMasks::find and SurfaceColors::find
+Status addMesh(Occluders& occluders, SceneSurfaces& surfaces, const MeshPages& pages,
+               const LevelArrays& level, std::span<const Affine3> world_from_mesh);
 
 } // namespace hearth::visibility

@@ -41,7 +41,7 @@ struct DryRun
 
 Result<DryRun> forecastCook(const CookOptions& options)
 {
-    HEARTH_ASSIGN_OR_RETURN(const graph::Graph graph, graph::makeCookGraph(options));
+    HEARTH_ASSIGN_OR_RETURN(graph::Graph graph, graph::makeCookGraph(options));
     const bool is_json = options.dry_run_format == "json";
     if (is_json && !options.dry_run_checks)
         return DryRun{graph::planJson(graph)};

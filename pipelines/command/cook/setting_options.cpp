@@ -69,10 +69,10 @@ Status checkOptionsHaveEffect(const graph::CookSettings& settings)
         for (const Setting& setting : cooker.settings)
         {
             const Value* value = settings::findValue(settings.values_of_pack, setting.key);
-            if (value != nullptr && value->text != "false" && value->origin.starts_with("--"))
+            if (value != nullptr && setting.key != cooker.switched_by && value->text != "false" &&
+                value->origin.starts_with("--"))
                 return Error{Issue::usage, value->origin, "",
-                             "needs --" + std::string(cooker.name) + ", or " +
-                                 std::string(cooker.enabled_by) + " in the profile"};
+                             "has no effect: " + std::string(cooker.switched_by) + " is off"};
         }
     }
     return success();
@@ -98,14 +98,18 @@ void SettingOptions::add(cli::CommandLine& verb, const Setting& setting)
     const std::string names(setting.option);
     if (setting.kind == Kind::flag)
         entry.option = verb.addFlag(names, entry.flag, describe(setting));
+    else if (!setting.bare_choice.empty())
+        entry.option =
+            verb.addOptionalChoice(names, entry.word, {setting.choices.begin(), setting.choices.end()},
+                                   std::string(setting.bare_choice), describe(setting));
     else if (setting.kind == Kind::texts)
         entry.option = verb.addOption(names, entry.words, describe(setting)).oneValueEach();
     else
         entry.option = verb.addOption(names, entry.word, describe(setting))
                            .check([&setting](const std::string& text) { return valueFault(setting, text); });
-    if (setting.kind == Kind::choice)
+    if (setting.kind == Kind::choice && setting.bare_choice.empty())
         entry.option->typeName(joinWords({setting.choices.begin(), setting.choices.end()}, "|"));
-    else if (setting.kind != Kind::flag)
+    else if (setting.kind != Kind::flag && setting.kind != Kind::choice)
         entry.option->typeName(std::string(setting.value_name));
 }
 

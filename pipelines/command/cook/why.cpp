@@ -60,17 +60,18 @@ Result<std::string> nextCookText(const graph::Journal& journal, const std::vecto
     std::filesystem::current_path(journal.folder, error);
     if (error)
         return std::string("  the folder of the last cook is not there any more\n");
-    state->enablePrefetch(journal.graph);
+    graph::Graph graph = journal.graph;
+    state->enablePrefetch(graph);
     graph::Resolver resolver(
-        journal.graph, &state->cache(), &state->actions(),
+        graph, &state->cache(), &state->actions(),
         [&]() -> const std::optional<graph::Journal>& { return state->journal(); }, false);
-    const graph::Forecast forecast = graph::forecast(journal.graph, resolver);
+    const graph::Forecast forecast = graph::forecast(graph, resolver);
     const std::string cause = packCause(forecast, state->hashes().hashFile(journal.output));
     std::filesystem::current_path(here, error);
     ReasonGroups groups;
     for (size_t i = 0; i < forecast.actions.size(); ++i)
     {
-        const graph::Action& action = journal.graph.actions[i];
+        const graph::Action& action = graph.actions[i];
         if (forecast.actions[i].runs && (!only || action.source == *only))
             groups.add(action, "", forecast.actions[i].causes);
     }

@@ -51,9 +51,26 @@ farm::FarmJob makeMergingJob(const OpenedPlan& opened, const FarmVerbOptions& op
     return job;
 }
 
-const char* shardStateName(Kind kind)
+/// State of a shard in a list.
+struct ListedState : farm::ShardState
 {
-    switch (kind)
+    bool is_prepared = false; ///< only its first step has ended
+};
+
+/// Return the state of a shard: of its last step that has left a record.
+ListedState getShardState(const OpenedPlan& opened, size_t shard, cache::Cache& cache,
+                          const std::string& scratch)
+{
+    ListedState state{
+        farm::verifyShard(opened.plan, opened.hash, shard, farm::Step::complete, cache, scratch)};
+    if (state.kind != Kind::no_record || !farm::hasTwoSteps(opened.plan.graph))
+        return state;
+    return {farm::verifyShard(opened.plan, opened.hash, shard, farm::Step::prepare, cache, scratch), true};
+}
+
+const char* shardStateName(const ListedState& state)
+{
+    switch (state.kind)
     {
     case Kind::no_record:
         return "no record";
@@ -64,10 +81,15 @@ const char* shardStateName(Kind kind)
     case Kind::intact:
         break;
     }
-    return "done";
+    return state.is_prepared ? "prepared" : "done";
 }
 
-std::string statusText(const farm::Plan& plan, const std::vector<farm::ShardState>& states)
+bool isDone(const ListedState& state)
+{
+    return state.kind == Kind::intact && !state.is_prepared;
+}
+
+std::string statusText(const farm::Plan& plan, const std::vector<ListedState>& states)
 {
     std::string text = fmt::format("{:>5}  {:<9} {:>7} {:>7} {:>7} {:>9}  {}\n", "shard", "state", "sources",
                                    "cooked", "kept", "seconds", "machine");
@@ -75,7 +97,7 @@ std::string statusText(const farm::Plan& plan, const std::vector<farm::ShardStat
     {
         const farm::ShardRecord& record = states[shard].record;
         const std::string error = record.errors.empty() ? "" : ": " + record.errors.front();
-        text += fmt::format("{:>5}  {:<9} {:>7} ", shard, shardStateName(states[shard].kind),
+        text += fmt::format("{:>5}  {:<9} {:>7} ", shard, shardStateName(states[shard]),
                             plan.shards[shard].size());
         text += states[shard].kind == Kind::no_record
                     ? "\n"
@@ -84,13 +106,11 @@ std::string statusText(const farm::Plan& plan, const std::vector<farm::ShardStat
                                   farm::countActions(record, graph::Outcome::cached), record.seconds,
                                   record.machine, error);
     }
-    const auto whole =
-        std::count_if(states.begin(), states.end(),
-                      [](const farm::ShardState& state) { return state.kind == Kind::intact; });
-    return text + fmt::format("{} of {} shards are done\n", whole, states.size());
+    return text + fmt::format("{} of {} shards are done\n",
+                              std::count_if(states.begin(), states.end(), isDone), states.size());
 }
 
-std::string statusJson(const farm::Plan& plan, const std::vector<farm::ShardState>& states)
+std::string statusJson(const farm::Plan& plan, const std::vector<ListedState>& states)
 {
     Json json{{"schema", "hearth.farm/1"}, {"shards", Json::array()}};
     for (size_t shard = 0; shard < states.size(); ++shard)
@@ -98,7 +118,7 @@ std::string statusJson(const farm::Plan& plan, const std::vector<farm::ShardStat
         Json sources = Json::array();
         for (const size_t source : plan.shards[shard])
             sources.push_back(plan.request.sources[source]);
-        Json entry{{"shard", shard}, {"state", shardStateName(states[shard].kind)}, {"sources", sources}};
+        Json entry{{"shard", shard}, {"state", shardStateName(states[shard])}, {"sources", sources}};
         const farm::ShardRecord& record = states[shard].record;
         if (states[shard].kind != Kind::no_record)
             entry.update({{"exit", record.exit_code},
@@ -147,16 +167,13 @@ int printFarmStatus(const PlanOptions& options, const std::string& format)
     const auto scratch = TempDirectory::create(temporaryFolderOr("/tmp"), options.plan_file);
     if (!scratch.ok())
         return printError(scratch.error());
-    std::vector<farm::ShardState> states;
+    std::vector<ListedState> states;
     for (size_t shard = 0; shard < opened->plan.shards.size(); ++shard)
-        states.push_back(
-            farm::verifyShard(opened->plan, opened->hash, shard, (*cook_state)->cache(), scratch->path()));
+        states.push_back(getShardState(*opened, shard, (*cook_state)->cache(), scratch->path()));
     const int printed = printStatus(writeText("-", format == "json" ? statusJson(opened->plan, states)
                                                                     : statusText(opened->plan, states)));
-    const bool are_whole =
-        std::all_of(states.begin(), states.end(),
-                    [](const farm::ShardState& state) { return state.kind == Kind::intact; });
-    return printed != 0 ? printed : are_whole ? 0 : kIncomplete;
+    const bool are_done = std::all_of(states.begin(), states.end(), isDone);
+    return printed != 0 ? printed : are_done ? 0 : kIncomplete;
 }
 
 } // namespace hearth::command

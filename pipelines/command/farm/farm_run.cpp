@@ -84,16 +84,17 @@ int runLocally(const RunOptions& options, const OpenedPlan& opened, size_t shard
             {Issue::usage, "--cache", "", "a shard keeps its results in a cache that it may write to"});
     if (const Status entered = enterSourceFolder(opened); !entered.ok())
         return printError(entered.error());
-    std::vector<size_t> action_of;
     std::optional<ProgressLines> lines;
     if (options.verbosity != Verbosity::quiet && options.progress != "none")
-        lines.emplace(farm::selectActions(opened.plan.graph, opened.plan.shards[shard], action_of),
+        lines.emplace(opened.plan.graph,
+                      farm::listActions(opened.plan.graph, opened.plan.shards[shard], options.step),
                       printFaint);
-    const auto record = farm::runShard(
-        opened.plan, opened.hash, shard,
-        {(*cook_state)->cache(), (*cook_state)->actions(), (*cook_state)->hashes()},
-        {makePoolLimits(options.jobs, options.memory_bytes), tools::programFolder(), options.plan_file},
-        makeShardEvents(options, lines ? &*lines : nullptr));
+    const auto record =
+        farm::runShard(opened.plan, opened.hash, shard,
+                       {(*cook_state)->cache(), (*cook_state)->actions(), (*cook_state)->hashes()},
+                       {makePoolLimits(options.jobs, options.memory_bytes), tools::programFolder(),
+                        options.plan_file, options.step},
+                       makeShardEvents(options, lines ? &*lines : nullptr));
     (*cook_state)->finish();
     if (!record)
         return kInterrupted;
@@ -119,6 +120,8 @@ std::vector<std::string> launcherCommand(const RunOptions& options, const Opened
     const std::vector<std::string> run{tools::programFolder() + "/hearth", "run", opened.file, "--shard",
                                        fmt::format("{}/{}", shard, opened.plan.shards.size())};
     command.insert(command.end(), run.begin(), run.end());
+    if (options.step == farm::Step::prepare)
+        command.emplace_back("--prepare");
     // nothing from inside the plan: launchers such as ssh hand their words to a shell
     if (!opened.directory.empty())
         command.insert(command.end(), {"-C", opened.directory});
@@ -154,8 +157,8 @@ int runThroughLauncher(const RunOptions& options, const OpenedPlan& opened, size
     const auto scratch = TempDirectory::create(temporaryFolderOr("/tmp"), options.plan_file);
     if (!scratch.ok())
         return printError(scratch.error());
-    const farm::ShardState state =
-        farm::verifyShard(opened.plan, opened.hash, shard, (*cook_state)->cache(), scratch->path());
+    const farm::ShardState state = farm::verifyShard(opened.plan, opened.hash, shard, options.step,
+                                                     (*cook_state)->cache(), scratch->path());
     if (state.kind == farm::ShardState::Kind::intact)
         return writeRecord(options, state.record, opened.plan, shard);
     if (state.kind == farm::ShardState::Kind::failed)

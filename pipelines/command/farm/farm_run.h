@@ -27,7 +27,8 @@ struct MakePlanOptions
 
 struct RunOptions : PlanOptions, RunLimits
 {
-    std::string shard;       ///< "I/N"; empty: index that the batch system gives
+    std::string shard; ///< "I/N"; empty: index that the batch system gives
+    farm::Step step = farm::Step::complete;
     std::string launcher;    ///< words before the shard's command line; empty: run here
     std::string record_file; ///< empty: none
 };

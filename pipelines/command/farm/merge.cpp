@@ -39,8 +39,13 @@ std::vector<size_t> missingInShard(const farm::Plan& plan, size_t shard, const s
 
 std::string missingReason(const OpenedPlan& opened, size_t shard, cache::Cache& cache)
 {
-    const auto fields = cache.entry(farm::recordKey(opened.hash, shard));
-    const auto record = fields ? farm::parseRecord(*fields) : std::nullopt;
+    auto record = farm::readRecord(opened.hash, shard, farm::Step::complete, cache);
+    if (!record && farm::hasTwoSteps(opened.plan.graph))
+    {
+        record = farm::readRecord(opened.hash, shard, farm::Step::prepare, cache);
+        if (record && record->exit_code == 0)
+            return "it was prepared, but not completed";
+    }
     if (!record)
         return "no record was left";
     const std::string where = record->machine.empty() ? "" : " on " + record->machine;

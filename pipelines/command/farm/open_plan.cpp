@@ -86,6 +86,7 @@ farm::FarmJob makeFarmJob(const OpenedPlan& opened, const std::string& pack)
     job.directory = opened.directory;
     job.caches = opened.caches;
     job.shard_count = opened.plan.shards.size();
+    job.has_two_steps = farm::hasTwoSteps(opened.plan.graph);
     return job;
 }
 

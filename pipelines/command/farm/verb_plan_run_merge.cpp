@@ -119,17 +119,24 @@ void addRun(cli::CommandLine& app, VerbAction& run)
     struct Options : RunOptions
     {
         SettingOptions settings;
+        bool is_preparation = false;
     };
     auto options = std::make_shared<Options>();
     addPlanFile(verb, *options, options->settings);
     verb.addOption("--shard", options->shard,
                    "I/N, from 0/N; by default the index that Slurm, Kubernetes, AWS Batch, Grid Engine or "
                    "PBS gives to an array's job");
+    verb.addFlag(
+        "--prepare", options->is_preparation,
+        "cook only what reads no other source: done for all shards first, it spares the shards, which "
+        "read the parts of neighbouring sources, cooking these themselves");
     verb.addOption("--launcher", options->launcher,
                    "start it by this command, as \"srun -Q -n1\", and look at what it has left");
     verb.addOption("--record", options->record_file, "write what was done as JSON, when all of it was");
     addRunLimitOptions(verb, options->settings);
-    verb.setFooter("Example: hearth run village.plan.json --shard 3/7\n"
+    verb.setFooter("Examples:\n"
+                   "  hearth run village.plan.json --shard 3/7 --prepare\n"
+                   "  hearth run village.plan.json --shard 3/7\n"
                    "It may be run again, and by two machines at once. Code 75: another try may go better.");
     verb.setAction(
         [options, &run]
@@ -139,6 +146,8 @@ void addRun(cli::CommandLine& app, VerbAction& run)
                                     {
                                         static_cast<RunLimits&>(*options) = readRunLimits(configuration);
                                         options->caches = cacheSettings(configuration);
+                                        if (options->is_preparation)
+                                            options->step = farm::Step::prepare;
                                         return runShard(*options);
                                     });
         });

@@ -76,14 +76,28 @@ Json imageJson(const PackView& pack, uint32_t index)
             {"bytes_stored", data == nullptr ? 0 : data->stored_size}};
 }
 
+Json layersJson(const MaterialLayersRecord& layers)
+{
+    return {{"ior", layers.ior},
+            {"specular", layers.specular},
+            {"specular_color", pointJson(layers.specular_color)},
+            {"clearcoat", layers.clearcoat},
+            {"clearcoat_roughness", layers.clearcoat_roughness},
+            {"sheen_color", pointJson(layers.sheen_color)},
+            {"sheen_roughness", layers.sheen_roughness}};
+}
+
 Json materialJson(const PackView& pack, uint32_t index)
 {
     const MaterialRecord& material = pack.materials()[index];
-    return {{"index", index},
-            {"name", pack.text(material.name)},
-            {"alpha_mode", alphaModeName(material.alpha_mode)},
-            {"double_sided", (material.flags & kMaterialDoubleSided) != 0},
-            {"unlit", (material.flags & kMaterialUnlit) != 0}};
+    Json json = {{"index", index},
+                 {"name", pack.text(material.name)},
+                 {"alpha_mode", alphaModeName(material.alpha_mode)},
+                 {"double_sided", (material.flags & kMaterialDoubleSided) != 0},
+                 {"unlit", (material.flags & kMaterialUnlit) != 0}};
+    if (const MaterialLayersRecord* const layers = findLayers(pack.materialLayers(), index))
+        json["layers"] = layersJson(*layers);
+    return json;
 }
 
 Json assetJson(const PackView& pack, uint32_t index)

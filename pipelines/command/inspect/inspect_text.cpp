@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <numbers>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace hearth::command
 {
@@ -86,8 +89,22 @@ std::string specularText(const PackView& pack)
     return text;
 }
 
-std::string bricksText(const PackView& pack)
+/// Return how many meshes have baked visibility.
+std::string visibilityText(const PackView& pack)
 {
+    const auto baked = std::ranges::count_if(pack.meshes(), [](const MeshRecord& mesh)
+                                             { return (mesh.attributes & kVertexVisibility) != 0; });
+    if (baked == 0)
+        return "visibility none: switched off in the cook\n";
+    return fmt::format("visibility of {} of {} meshes, light of occluders in {} radiance transfers\n", baked,
+                       pack.meshes().size(), pack.radianceTransfers().size());
+}
+
+std::string bricksText(const PackView& pack, const MetaSummary& meta)
+{
+    if (pack.brickGrid().empty())
+        return "bricks     none: " +
+               (meta.no_bricks.empty() ? "switched off in the cook" : printable(meta.no_bricks)) + "\n";
     std::string text;
     const BricksSummary summary = summarizeBricks(pack);
     for (const BrickGridRecord& grid : pack.brickGrid())
@@ -156,6 +173,33 @@ std::string shortened(std::string_view text)
     return printable(text.substr(0, end)) + fmt::format("... ({} bytes)", text.size());
 }
 
+/// Describe the layers of each material that has some: clear coat 1 (roughness 0.1), sheen (1, 0, 0) (...).
+std::string layersText(const PackView& pack)
+{
+    const auto color = [](Float3 c) { return fmt::format("({:.3g}, {:.3g}, {:.3g})", c.x, c.y, c.z); };
+    std::string text;
+    for (const MaterialLayersRecord& layers : pack.materialLayers())
+    {
+        std::vector<std::string> found;
+        if (hasSpecular(layers))
+            found.push_back(fmt::format("ior {:.3g}, specular {:.3g} {}", layers.ior, layers.specular,
+                                        color(layers.specular_color)));
+        if (hasClearcoat(layers))
+            found.push_back(fmt::format("clear coat {:.3g} (roughness {:.3g})", layers.clearcoat,
+                                        layers.clearcoat_roughness));
+        if (hasSheen(layers))
+            found.push_back(fmt::format("sheen {} (roughness {:.3g})", color(layers.sheen_color),
+                                        layers.sheen_roughness));
+        // the material of a damaged part may be missing
+        const std::string_view name = layers.material < pack.materials().size()
+                                          ? pack.text(pack.materials()[layers.material].name)
+                                          : std::string_view();
+        text += fmt::format("layers of material {} \"{}\": {}\n", layers.material, printable(name),
+                            fmt::join(found, ", "));
+    }
+    return text.empty() ? text : "\n" + text;
+}
+
 std::string extrasText(const PackView& pack)
 {
     std::string text;
@@ -218,10 +262,11 @@ std::string chunksText(const PackView& pack)
 std::string inspectText(const PackView& pack, const PackSummary& summary)
 {
     std::string text = headText(pack, summary) + sceneText(pack, summary) + assetsText(pack) +
-                       specularText(pack) + bricksText(pack);
+                       visibilityText(pack) + specularText(pack) + bricksText(pack, summary.meta);
     for (size_t i = 0; i < summary.meshes.size(); ++i)
         text += meshText(summary.meshes[i], i);
-    return text + imagesText(pack) + extrasText(pack) + messagesText(summary.meta) + chunksText(pack);
+    return text + layersText(pack) + imagesText(pack) + extrasText(pack) + messagesText(summary.meta) +
+           chunksText(pack);
 }
 
 } // namespace hearth::command

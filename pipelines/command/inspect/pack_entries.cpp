@@ -71,6 +71,8 @@ std::optional<std::string> referenceText(const PackView& pack, const Field& fiel
         return recordName(pack, pack.nodes(), value);
     if (field.name == "light")
         return recordName(pack, pack.lights(), value);
+    if (field.name == "material")
+        return recordName(pack, pack.materials(), value);
     if (field.name == "format")
         return texelFormatName(value);
     if (field.name == "alpha_mode")
@@ -337,6 +339,11 @@ void addLightEntries(std::vector<PackEntry>& entries, const PackView& pack)
         entries.push_back({"specular table", "", {}});
         addFieldProperties(entries.back().properties, pack, table);
     }
+    if (!pack.surroundings().empty())
+        entries.push_back({"surroundings",
+                           "",
+                           {{"instances", contentHash(rawBytes(pack.surroundings())), true},
+                            {"radiance transfers", contentHash(rawBytes(pack.radianceTransfers())), true}}});
     for (const BrickGridRecord& grid : pack.brickGrid())
     {
         entries.push_back({"bricks", "", {}});
@@ -344,13 +351,14 @@ void addLightEntries(std::vector<PackEntry>& entries, const PackView& pack)
         const auto add = [&](const char* name, std::string_view bytes) {
             entries.back().properties.push_back({name, contentHash(bytes), true});
         };
-        add("voxels",
+        add("masks",
             std::string(rawBytes(pack.brickGroupsAlongAxis())) + std::string(rawBytes(pack.bricks())));
         add("opacity", rawBytes(pack.brickOpacity()));
         add("albedo", rawBytes(pack.brickAlbedo()));
         add("normals", rawBytes(pack.brickNormals()));
         add("emission", rawBytes(pack.brickEmission()));
         add("lighting", rawBytes(pack.brickLighting()));
+        add("reflectors", rawBytes(pack.reflectors()));
     }
 }
 
@@ -393,7 +401,12 @@ Result<std::vector<PackEntry>> listEntries(const PackView& pack)
         entries.push_back(std::move(mesh));
     }
     addTableEntries(entries, pack, "material", pack.materials());
-    const auto uses = imageUses(pack.materials(), pack.images().size());
+    for (const MaterialLayersRecord& layers : pack.materialLayers())
+    {
+        entries.push_back({"layers of material", recordName(pack, pack.materials(), layers.material), {}});
+        addFieldProperties(entries.back().properties, pack, layers);
+    }
+    const auto uses = imageUses(pack.materials(), pack.materialLayers(), pack.images().size());
     for (uint32_t i = 0; i < pack.images().size(); ++i)
     {
         HEARTH_ASSIGN_OR_RETURN(PackEntry texture, makeTextureEntry(pack, i, uses[i]));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <numeric>
 
 namespace hearth::command
 {
@@ -26,6 +27,13 @@ std::string actionList(const std::vector<std::string>& names)
     return names.size() <= kMaxNames ? text : text + fmt::format(" and {} more", names.size() - kMaxNames);
 }
 
+std::vector<size_t> allActions(const graph::Graph& graph)
+{
+    std::vector<size_t> actions(graph.actions.size());
+    std::iota(actions.begin(), actions.end(), size_t{0});
+    return actions;
+}
+
 } // namespace
 
 LineTimer::LineTimer(MonotonicClock clock) : clock_(std::move(clock)), start_(clock_()), last_(start_) {}
@@ -45,13 +53,19 @@ bool LineTimer::isDue()
 }
 
 ProgressLines::ProgressLines(const graph::Graph& graph, PrintLine print, MonotonicClock clock)
+    : ProgressLines(graph, allActions(graph), std::move(print), std::move(clock))
+{
+}
+
+ProgressLines::ProgressLines(const graph::Graph& graph, std::span<const size_t> actions, PrintLine print,
+                             MonotonicClock clock)
     : print_(std::move(print)),
       timer_(std::move(clock)),
-      action_count_(graph.actions.size()),
+      action_count_(actions.size()),
       pack_(graph.source_count)
 {
-    for (const graph::Action& action : graph.actions)
-        sources_[action.source].unfinished.insert(action.outputs.front());
+    for (const size_t action : actions)
+        sources_[graph.actions[action].source].unfinished.insert(graph.actions[action].outputs.front());
 }
 
 size_t ProgressLines::countEnded() const

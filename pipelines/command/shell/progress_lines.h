@@ -10,6 +10,7 @@
 #include <functional>
 #include <map>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,10 @@ public:
     /// graph  graph that is run; read by the constructor only
     /// print  receives each line, without its line break
     ProgressLines(const graph::Graph& graph, PrintLine print,
+                  MonotonicClock clock = std::chrono::steady_clock::now);
+
+    /// actions  of the graph that are run; others are no part of the progress
+    ProgressLines(const graph::Graph& graph, std::span<const size_t> actions, PrintLine print,
                   MonotonicClock clock = std::chrono::steady_clock::now);
 
     // Handlers of the events of graph::Executor.

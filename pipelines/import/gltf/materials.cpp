@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace hearth::import
 {
@@ -18,6 +19,26 @@ namespace
 {
 
 constexpr TextureRef kNoTexture{kInvalidIndex, 0, 0, 0, 0, {1, 0, 0, 0, 1, 0}};
+
+/// Two textures of a glTF material that become the channels of one.
+struct TexturePair
+{
+    const GltfTextureUse& first;
+    const GltfTextureUse& second;
+    std::string_view first_name;
+    std::string_view second_name;
+    ImagePurpose purpose;
+    uint32_t first_channels; ///< bits, as for mergeChannels; `second` has the others
+    bool uses_second;        ///< false: a factor of 0 hides the values of `second`
+};
+
+/// Return whether two uses of textures read the same texel of their images.
+bool isAlike(const GltfTextureUse& a, const GltfTextureUse& b, const GltfModel& model)
+{
+    const GltfTexture &first = model.textures[a.texture], &second = model.textures[b.texture];
+    return a.uv_set == b.uv_set && a.uv_transform == b.uv_transform && first.wrap_u == second.wrap_u &&
+           first.wrap_v == second.wrap_v && first.nearest == second.nearest;
+}
 
 class MaterialWriter
 {
@@ -34,6 +55,9 @@ private:
     Result<MaterialRecord> convert(const GltfMaterial& material);
     Status convertSpecularGlossinessMaterial(const GltfMaterial& material, MaterialRecord& record);
     Status convertTextures(const GltfMaterial& material, MaterialRecord& record);
+    Status writeLayers(const GltfMaterial& material, uint32_t index);
+    std::optional<DecodedImage> decodeBytes(const GltfTextureUse& use, std::string_view name);
+    Result<TextureRef> referencePair(TexturePair pair);
     Result<TextureRef> reference(const GltfTextureUse& use, ImagePurpose purpose, std::string_view name);
     TextureRef referenceTo(uint32_t part_image, const GltfTextureUse& use) const;
     uint32_t sourceImage(const GltfTextureUse& use) const
@@ -186,6 +210,122 @@ Status MaterialWriter::convertTextures(const GltfMaterial& material, MaterialRec
     return success();
 }
 
+/// Decode an image whose channels are copied: 8 bits each. Returns nullopt and a warning if that is not
+/// possible.
+std::optional<DecodedImage> MaterialWriter::decodeBytes(const GltfTextureUse& use, std::string_view name)
+{
+    const uint32_t source = sourceImage(use);
+    const std::string where = source == kInvalidIndex ? fmt::format("/textures/{}", use.texture)
+                                                      : fmt::format("/images/{}", source);
+    std::optional<DecodedImage> image = images_.decode(source, where, display_name_);
+    if (!image)
+        return std::nullopt;
+    if (image->isFloat())
+    {
+        context_.part.warn(Issue::dropped, where,
+                           fmt::format("{} of {} is not kept: it has floats", name, display_name_));
+        return std::nullopt;
+    }
+    if (image->type == ChannelType::unorm16)
+        context_.part.warn(Issue::image_depth, where,
+                           fmt::format("{} of {} was converted to 8 bits a channel, the source has 16", name,
+                                       display_name_));
+    return narrow(std::move(*image));
+}
+
+/// Return the texture of a pair. The source's image serves where its channels are those that are wanted, else
+/// an image is written that has them.
+Result<TextureRef> MaterialWriter::referencePair(TexturePair pair)
+{
+    GltfTextureUse first = pair.first, second = pair.uses_second ? pair.second : GltfTextureUse{};
+    const auto drop = [&](GltfTextureUse& use, std::string_view name, const std::string& why)
+    {
+        context_.part.warn(Issue::dropped, where_, fmt::format("{} is not kept: {}", name, why));
+        use = {};
+    };
+    for (const auto& [use, name] : {std::pair(&first, pair.first_name), std::pair(&second, pair.second_name)})
+        if (use->texture != kInvalidIndex && use->uv_set >= mesh::kUvSetCount)
+            drop(*use, name, fmt::format("there is no UV set {}", use->uv_set));
+    const bool has_first = first.texture != kInvalidIndex, has_second = second.texture != kInvalidIndex;
+    if (has_first && has_second && !isAlike(first, second, model_))
+        drop(second, pair.second_name,
+             fmt::format("it has another UV mapping or sampler than {}", pair.first_name));
+    const bool is_both = second.texture != kInvalidIndex && has_first;
+    if ((is_both && sourceImage(first) == sourceImage(second)) || (has_first && !pair.uses_second))
+        return reference(first, pair.purpose, pair.first_name);
+    if (!has_first && second.texture == kInvalidIndex)
+        return kNoTexture;
+
+    const auto texels = [&](const GltfTextureUse& use, std::string_view name)
+    { return use.texture == kInvalidIndex ? std::nullopt : decodeBytes(use, name); };
+    const std::optional<DecodedImage> a = texels(first, pair.first_name),
+                                      b = texels(second, pair.second_name);
+    if (!a && !b)
+        return kNoTexture;
+    const GltfTextureUse& use = a ? first : second;
+    HEARTH_ASSIGN_OR_RETURN(
+        const uint32_t image,
+        images_.writeComputed(
+            mergeChannels(a.value_or(DecodedImage{}), b.value_or(DecodedImage{}), pair.first_channels),
+            pair.purpose, fmt::format("{} of {}", a ? pair.first_name : pair.second_name, display_name_),
+            std::nullopt));
+    return referenceTo(image, use);
+}
+
+/// Write the layers that change what a material looks like.
+Status MaterialWriter::writeLayers(const GltfMaterial& material, uint32_t index)
+{
+    constexpr uint32_t kRgb = 7, kRed = 1;
+    const GltfLayers& source = material.layers;
+    MaterialLayersRecord record = neutralLayers(index);
+    record.ior = source.ior;
+    record.specular = source.specular;
+    record.specular_color = {source.specular_color[0], source.specular_color[1], source.specular_color[2]};
+    if (material.unlit || material.specular_glossiness)
+    {
+        record.sheen_color.x =
+            std::max({source.sheen_color[0], source.sheen_color[1], source.sheen_color[2]});
+        if (source.clearcoat > 0 || hasSpecular(record) || hasSheen(record))
+            context_.part.warn(Issue::dropped, where_,
+                               fmt::format("specular reflectance, clear coat and sheen of {} are not kept: "
+                                           "the extensions exclude {} materials",
+                                           display_name_, material.unlit ? "unlit" : "specular-glossiness"));
+        return success();
+    }
+    if (source.specular > 0)
+    {
+        HEARTH_ASSIGN_OR_RETURN(
+            record.specular_texture,
+            referencePair({source.specular_color_texture, source.specular_texture, "specularColorTexture",
+                           "specularTexture", ImagePurpose::color, kRgb, true}));
+    }
+    if (source.clearcoat > 0)
+    {
+        record.clearcoat = source.clearcoat;
+        record.clearcoat_roughness = source.clearcoat_roughness;
+        record.clearcoat_normal_scale = source.clearcoat_normal_scale;
+        HEARTH_ASSIGN_OR_RETURN(record.clearcoat_texture,
+                                referencePair({source.clearcoat_texture, source.clearcoat_roughness_texture,
+                                               "clearcoatTexture", "clearcoatRoughnessTexture",
+                                               ImagePurpose::data, kRed, source.clearcoat_roughness > 0}));
+        HEARTH_ASSIGN_OR_RETURN(
+            record.clearcoat_normal_texture,
+            reference(source.clearcoat_normal_texture, ImagePurpose::normal, "clearcoatNormalTexture"));
+    }
+    record.sheen_color = {source.sheen_color[0], source.sheen_color[1], source.sheen_color[2]};
+    if (hasSheen(record))
+    {
+        record.sheen_roughness = source.sheen_roughness;
+        HEARTH_ASSIGN_OR_RETURN(
+            record.sheen_texture,
+            referencePair({source.sheen_color_texture, source.sheen_roughness_texture, "sheenColorTexture",
+                           "sheenRoughnessTexture", ImagePurpose::color, kRgb, source.sheen_roughness > 0}));
+    }
+    if (hasSpecular(record) || hasClearcoat(record) || hasSheen(record))
+        context_.part.material_layers.push_back(record);
+    return success();
+}
+
 Result<MaterialRecord> MaterialWriter::convert(const GltfMaterial& material)
 {
     MaterialRecord record{};
@@ -224,6 +364,7 @@ Status MaterialWriter::writeAll()
                             : fmt::format("material \"{}\"", model_.materials[i].name);
         HEARTH_ASSIGN_OR_RETURN(const MaterialRecord record, convert(model_.materials[i]));
         context_.part.materials.push_back(record);
+        HEARTH_TRY(writeLayers(model_.materials[i], static_cast<uint32_t>(i)));
     }
     images_.reportUnused();
     context_.part.counts.materials = model_.materials.size();

@@ -40,6 +40,13 @@ void keepEmptyTargets(mesh::SourceMesh& mesh)
             target.positions.resize(mesh.vertexCount());
 }
 
+/// Return the texture that tells a material's tangents: of the surface, else of its clear coat.
+const GltfTextureUse& normalTexture(const GltfMaterial& material)
+{
+    return material.normal_texture.texture == kInvalidIndex ? material.layers.clearcoat_normal_texture
+                                                            : material.normal_texture;
+}
+
 } // namespace
 
 Result<mesh::SourceMesh> GltfMeshReader::read(uint32_t mesh_index)
@@ -184,7 +191,7 @@ void GltfMeshReader::finishTangents(Piece& piece)
     const auto material = std::find_if(mesh.triangle_materials.begin(), mesh.triangle_materials.end(),
                                        [&](uint32_t m) {
                                            return m != kInvalidIndex &&
-                                                  model_.materials[m].normal_texture.texture != kInvalidIndex;
+                                                  normalTexture(model_.materials[m]).texture != kInvalidIndex;
                                        });
     if (material == mesh.triangle_materials.end())
     {
@@ -193,7 +200,7 @@ void GltfMeshReader::finishTangents(Piece& piece)
         mesh.tangents.clear();
         return;
     }
-    const uint32_t uv_set = model_.materials[*material].normal_texture.uv_set;
+    const uint32_t uv_set = normalTexture(model_.materials[*material]).uv_set;
     if (mesh.tangents.empty() && uv_set < mesh::kUvSetCount && !mesh.uvs[uv_set].empty())
         generateTangents(mesh, uv_set);
 }
@@ -208,8 +215,11 @@ void GltfMeshReader::reportMissingUvs(const Piece& piece)
             continue;
         last = material;
         const GltfMaterial& m = model_.materials[material];
-        for (const GltfTextureUse* use : {&m.base_color_texture, &m.metallic_roughness_texture,
-                                          &m.normal_texture, &m.occlusion_texture, &m.emissive_texture})
+        std::vector<const GltfTextureUse*> uses{&m.base_color_texture, &m.metallic_roughness_texture,
+                                                &m.normal_texture, &m.occlusion_texture, &m.emissive_texture};
+        for (const GltfTextureUse* use : m.layers.textures())
+            uses.push_back(use);
+        for (const GltfTextureUse* use : uses)
             if (use->texture != kInvalidIndex && use->uv_set < mesh::kUvSetCount &&
                 mesh.uvs[use->uv_set].empty())
                 tally_.degraded(fmt::format("material {} needs TEXCOORD_{}, which the primitive lacks",

@@ -3,7 +3,9 @@
 
 #include "formats/base/assert.h"
 #include "formats/pack/pack_view.h"
+#include "pipelines/import/images/resized_image.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace hearth::import
@@ -53,6 +55,23 @@ DecodedImage narrow(DecodedImage image)
     image.texels.shrink_to_fit();
     image.type = ChannelType::unorm8;
     return image;
+}
+
+DecodedImage mergeChannels(const DecodedImage& first, const DecodedImage& second, uint32_t first_channels)
+{
+    DecodedImage merged =
+        blankImage(std::max(first.width, second.width), std::max(first.height, second.height));
+    const ResizedImage first_texels(first, merged.width, merged.height);
+    const ResizedImage second_texels(second, merged.width, merged.height);
+    std::byte* out = merged.texels.data();
+    for (uint32_t y = 0; y < merged.height; ++y)
+        for (uint32_t x = 0; x < merged.width; ++x, out += 4)
+        {
+            const std::array<uint8_t, 4> a = first_texels.texel(x, y), b = second_texels.texel(x, y);
+            for (uint32_t channel = 0; channel < 4; ++channel)
+                out[channel] = std::byte{(first_channels >> channel & 1) != 0 ? a[channel] : b[channel]};
+        }
+    return merged;
 }
 
 DecodedImage widen(DecodedImage image)

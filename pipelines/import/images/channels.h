@@ -16,6 +16,11 @@ DecodedImage narrow(DecodedImage image);
 /// Return an image with 16 bits a channel, without loss. The image has no floats (asserted).
 DecodedImage widen(DecodedImage image);
 
+/// Return an image whose channels are those of `first` where their bit is set, and else of `second`: bit 0 is
+/// R, bit 3 is A. It has the larger width and height of both; an empty image counts as white.
+/// Images of 8 bits a channel (asserted), not both empty.
+DecodedImage mergeChannels(const DecodedImage& first, const DecodedImage& second, uint32_t first_channels);
+
 /// True if no texel has a colour. The image has no floats (asserted).
 bool isGrey(const DecodedImage& image);
 

@@ -2,9 +2,13 @@
 #include "pipelines/import/part/part_builder.h"
 
 #include "cook/json/json.h"
+#include "formats/base/affine3d.h"
+#include "formats/base/assert.h"
 #include "formats/container/container_reader.h"
 #include "formats/pack/pack_view.h"
+#include "formats/scene/lit_material.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace hearth::import
@@ -94,6 +98,28 @@ TexelFormat chooseFormat(ChannelType type, bool is_srgb)
     return TexelFormat::rgba16_float;
 }
 
+/// Return the distinct materials of a mesh.
+std::vector<uint32_t> listMaterials(const mesh::SourceMesh& mesh)
+{
+    std::vector<uint32_t> materials;
+    for (const uint32_t material : mesh.triangle_materials)
+        if ((materials.empty() || materials.back() != material) &&
+            std::ranges::find(materials, material) == materials.end())
+            materials.push_back(material);
+    return materials;
+}
+
+std::string pointJson(Float3 point)
+{
+    return fmt::format("[{},{},{}]", point.x, point.y, point.z);
+}
+
+std::string boxJson(const Box3& box)
+{
+    return box.empty() ? "null"
+                       : fmt::format(R"({{"min":{},"max":{}}})", pointJson(box.min), pointJson(box.max));
+}
+
 void truncateText(std::string& text)
 {
     constexpr size_t kMaxLength = 300;
@@ -138,6 +164,7 @@ StringRef PartBuilder::intern(std::string_view text)
 Status PartBuilder::addMesh(const mesh::SourceMesh& mesh)
 {
     vertex_bounds_.push_back(computeVertexBounds(mesh));
+    materials_of_mesh_.push_back(listMaterials(mesh));
     return mesh::writeSourceMesh(writer_, mesh_count_++, mesh);
 }
 
@@ -247,6 +274,38 @@ std::string PartBuilder::report() const
         joinItems(clips), joinItems(messages), omitted_warning_count_, joinItems(dropped));
 }
 
+std::string PartBuilder::statistics() const
+{
+    std::string text = report();
+    HEARTH_ASSERT(text.ends_with('}'));
+    text.pop_back();
+    return text + R"(,"lit_box":)" + boxJson(litBox()) + "}";
+}
+
+Box3 PartBuilder::litBox() const
+{
+    const auto isLitMaterial = [&](uint32_t material)
+    { return material >= materials.size() || formats::isLit(materials[material]); };
+    Box3 box;
+    for (const InstanceRecord& instance : instances)
+    {
+        if (instance.mesh >= vertex_bounds_.size())
+            continue;
+        const VertexBounds& bounds = vertex_bounds_[instance.mesh];
+        const bool is_deformed = !bounds.joint_boxes.empty() || !bounds.morph_distances.empty();
+        if (is_deformed || bounds.box[0].empty() ||
+            std::ranges::none_of(materials_of_mesh_[instance.mesh], isLitMaterial))
+            continue;
+        const auto corner = [&](double animation_bounds::Interval::*end) {
+            return narrow({bounds.box[0].*end, bounds.box[1].*end, bounds.box[2].*end});
+        };
+        box.add(
+            transformBox(widened(instance.world_from_object), {corner(&animation_bounds::Interval::low),
+                                                               corner(&animation_bounds::Interval::high)}));
+    }
+    return box;
+}
+
 Status PartBuilder::finish()
 {
     HEARTH_TRY(writer_.addText(kChunkMeta, report()));
@@ -257,6 +316,8 @@ Status PartBuilder::finish()
     HEARTH_TRY(writer_.addRecords<LightRecord>(kChunkLights, lights));
     HEARTH_TRY(writer_.addRecords<ShadowSphereRecord>(kChunkShadowSpheres, shadow_spheres));
     HEARTH_TRY(writer_.addRecords<MaterialRecord>(kChunkMaterials, materials));
+    if (!material_layers.empty())
+        HEARTH_TRY(writer_.addRecords<MaterialLayersRecord>(kChunkMaterialLayers, material_layers));
     HEARTH_TRY(writer_.addRecords<ImageRecord>(kChunkImages, images_));
     HEARTH_TRY(writer_.addRecords<SkinRecord>(kChunkSkins, skins));
     HEARTH_TRY(writer_.addRecords<JointRecord>(kChunkJoints, joints));

@@ -7,6 +7,7 @@
 #include "cook/tools/lod_files.h"
 #include "formats/container/container_writer.h"
 #include "formats/records/extras.h"
+#include "formats/records/material_layers.h"
 #include "formats/records/scene.h"
 #include "pipelines/import/part/vertex_bounds.h"
 
@@ -113,6 +114,7 @@ public:
     std::vector<formats::LightRecord> lights;
     std::vector<formats::ShadowSphereRecord> shadow_spheres;
     std::vector<formats::MaterialRecord> materials;
+    std::vector<formats::MaterialLayersRecord> material_layers; ///< sorted by material
     std::vector<formats::ExtrasRecord> extras; ///< sorted; of asset, scene and file with index 0
     std::vector<formats::SkinRecord> skins;
     std::vector<formats::JointRecord> joints;
@@ -143,6 +145,13 @@ public:
     /// Return the text of chunk META, schema hearth.import/1.
     std::string report() const;
 
+    /// Return the statistics of the import for --stats: report(), and litBox() as "lit_box".
+    std::string statistics() const;
+
+    /// Return the box in world space of what may occlude and be occluded: all instances at rest, without
+    /// deformed meshes and meshes whose materials are all unlit. Empty if there are none.
+    Box3 litBox() const;
+
 private:
     PartBuilder(formats::ContainerWriter writer, std::string source_name);
 
@@ -166,7 +175,8 @@ private:
     std::vector<formats::ImageRecord> images_;
     uint32_t mesh_count_ = 0;
     std::vector<formats::AuthoredLodRecord> lods_;
-    std::vector<VertexBounds> vertex_bounds_; ///< for each mesh
+    std::vector<VertexBounds> vertex_bounds_;              ///< for each mesh
+    std::vector<std::vector<uint32_t>> materials_of_mesh_; ///< distinct; kInvalidIndex: the default
     std::vector<Warning> warnings_;
     uint64_t omitted_warning_count_ = 0;
     std::vector<SourceFile> sources_;

@@ -127,6 +127,9 @@ void BinPass::record(const Device& device, VkCommandBuffer commands, const DrawL
             device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout,
                                               shared::kSetMaterial, 1, &scene.materials[bin.material_row].set,
                                               0, nullptr);
+        push.facing = bin.facing == Facing::doubleSided ? shared::kCasterDoubleSided
+                      : bin.facing == Facing::mirrored  ? shared::kCasterClockwise
+                                                        : shared::kCasterCounterclockwise;
         push.bin = phase == shared::kPhaseLate ? bin_count + i : i;
         device.vk.vkCmdPushConstants(commands, layout, kBinPushStages, 0, sizeof(push), &push);
         device.vk.vkCmdDrawIndirect(commands, scene.buffers.bin_draws.handle.get(),

@@ -38,6 +38,7 @@ DrawConstants drawConstants(const ShadingVariant& variant, bool resolves_only)
     constants[shared::kConstantUvSets] = variant.uv_sets;
     constants[shared::kConstantUnlit] = variant.unlit;
     constants[shared::kConstantSkyVisibility] = variant.sky_visibility;
+    constants[shared::kConstantLayers] = variant.layers;
     return constants;
 }
 

@@ -41,7 +41,9 @@ Status DrawLayouts::createSceneSets(const Device& device)
     HEARTH_ASSIGN_OR_RETURN(scene, createSetLayout(device, scene_bindings));
 
     std::vector<SetBinding> material_bindings = {
-        uniformBinding(shared::kMaterialBlock, kVertexStage | kFragmentStage)};
+        uniformBinding(shared::kMaterialBlock, kVertexStage | kFragmentStage),
+        uniformBinding(shared::kMaterialLayers, kFragmentStage)};
+    static_assert(shared::kMaterialLayers == shared::kMaterialTextures + shared::kTextureCount);
     for (uint32_t slot = 0; slot < shared::kTextureCount; ++slot)
         material_bindings.push_back(textureBinding(shared::kMaterialTextures + slot, kFragmentStage));
     HEARTH_ASSIGN_OR_RETURN(material, createSetLayout(device, material_bindings));

@@ -29,7 +29,7 @@ using DrawConstants = std::array<uint32_t, shared::kConstantCount>;
 struct DrawLayouts
 {
     UniqueSetLayout scene;            ///< shared::kScene*
-    UniqueSetLayout material;         ///< shared::kMaterialBlock, kMaterialTextures
+    UniqueSetLayout material;         ///< shared::kMaterialBlock, kMaterialTextures, kMaterialLayers
     UniqueSetLayout bins;             ///< shared::kBinsDraws
     UniqueSetLayout attachments;      ///< shared::kAttachment*
     UniqueSetLayout occlusion;        ///< shared::kOcclusion*: culling and pyramid passes

@@ -3,6 +3,7 @@
 
 #include "formats/scene/scene_lighting.h"
 #include "runtime/gpu/scene/scene_shadows.h"
+#include "runtime/gpu/scene/scene_surroundings.h"
 
 #include <cmath>
 #include <cstddef>
@@ -41,6 +42,8 @@ Result<LightChange> changeLight(const Scene& scene, uint32_t light, const format
     LightChange change{.light = light, .record = shared::lightFromRecord(record)};
     change.record.intensity = change.record.intensity * scene.exposure;
     change.record.shadow_row = scene.lights[light].shadow_row;
+    if (change.record.position == scene.lights[light].position)
+        shared::copyReflector(change.record, scene.lights[light]);
     return change;
 }
 
@@ -54,7 +57,11 @@ void recordLights(const Device& device, VkCommandBuffer commands, const Scene& s
                                     &change.record);
         if (scene.shadows != nullptr)
             scene.shadows->change(change.light, change.record);
+        if (scene.surroundings != nullptr)
+            scene.surroundings->change(change.light, change.record);
     }
+    if (scene.surroundings != nullptr)
+        scene.surroundings->record(device, commands, scene.buffers.lighting);
 }
 
 } // namespace hearth::gpu

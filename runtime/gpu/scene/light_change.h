@@ -17,7 +17,8 @@ struct LightChange
 };
 
 /// Compute the table row of a light that is drawn: new position, direction, colour, intensity, range or cone,
-/// same type. The exposure of the scene stays. A light of intensity 0 is off. errors: usage.
+/// same type. The exposure of the scene stays. A light of intensity 0 is off. A lamp that moves loses the
+/// light that its shade gives back, until it is where it was. errors: usage.
 Result<LightChange> changeLight(const Scene& scene, uint32_t light, const formats::LightRecord& record);
 
 /// Record one small copy per change. The caller puts barriers around: after all reads of the table, and

@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 #include <tuple>
+#include <utility>
 
 namespace hearth::gpu
 {
@@ -121,15 +122,25 @@ private:
     std::map<std::tuple<uint8_t, uint8_t, uint8_t>, VkSampler> samplers_;
 };
 
+/// Offsets of a material's blocks in the buffer of materials.
+struct BlockOffsets
+{
+    VkDeviceSize material;
+    VkDeviceSize layers;
+};
+
 Result<VkDescriptorSet> createMaterialSet(const Device& device, const DrawLayouts& layouts,
-                                          const formats::MaterialRecord& material, VkDeviceSize offset,
+                                          const LayeredMaterial& material, BlockOffsets offsets,
                                           SamplerCache& samplers, Scene& scene)
 {
     HEARTH_ASSIGN_OR_RETURN(const VkDescriptorSet set,
                             allocateSet(device, scene.pool.get(), layouts.material.get()));
     DescriptorWriter writer(set);
-    writer.uniform(shared::kMaterialBlock, scene.buffers.materials, offset, sizeof(shared::Material));
-    const auto textures = materialTextures(material);
+    writer
+        .uniform(shared::kMaterialBlock, scene.buffers.materials, offsets.material, sizeof(shared::Material))
+        .uniform(shared::kMaterialLayers, scene.buffers.materials, offsets.layers,
+                 sizeof(shared::MaterialLayers));
+    const MaterialTextures textures = materialTextures(material);
     for (uint32_t slot = 0; slot < shared::kTextureCount; ++slot)
     {
         const bool used = textures[slot].image != kInvalidIndex;
@@ -147,12 +158,11 @@ Result<VkDescriptorSet> createMaterialSet(const Device& device, const DrawLayout
 Status uploadMaterials(const Device& device, const DrawLayouts& layouts, const formats::PackView& pack,
                        Uploader& uploader, Scene& scene)
 {
-    std::vector<formats::MaterialRecord> materials(pack.materials().begin(), pack.materials().end());
-    materials.push_back(defaultMaterial());
+    const std::vector<LayeredMaterial> materials = readMaterials(pack);
 
     scene.images.resize(pack.images().size());
     std::vector<bool> used(pack.images().size(), false);
-    for (const formats::MaterialRecord& material : materials)
+    for (const LayeredMaterial& material : materials)
         for (const formats::TextureRef& texture : materialTextures(material))
             if (texture.image != kInvalidIndex)
                 used[texture.image] = true;
@@ -162,14 +172,24 @@ Status uploadMaterials(const Device& device, const DrawLayouts& layouts, const f
     HEARTH_TRY(uploadWhite(uploader, scene));
 
     const VkDeviceSize alignment = std::max<VkDeviceSize>(device.limits.minUniformBufferOffsetAlignment, 1);
-    const VkDeviceSize stride = (sizeof(shared::Material) + alignment - 1) / alignment * alignment;
+    const auto aligned = [&](VkDeviceSize size) { return (size + alignment - 1) / alignment * alignment; };
+    const VkDeviceSize stride = aligned(sizeof(shared::Material));
+    const VkDeviceSize layer_stride = aligned(sizeof(shared::MaterialLayers));
+    // after the materials one neutral block for all without layers, then those of the others
+    const VkDeviceSize neutral = stride * materials.size();
+    const VkDeviceSize size = neutral + layer_stride * (1 + pack.materialLayers().size());
     HEARTH_ASSIGN_OR_RETURN(
         scene.buffers.materials,
-        scene.arena.createBuffer(stride * materials.size(),
-                                 VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+        scene.arena.createBuffer(size, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                  MemoryKind::device));
-    HEARTH_ASSIGN_OR_RETURN(const std::span<std::byte> mapped,
-                            uploader.stage(scene.buffers.materials, stride * materials.size()));
+    HEARTH_ASSIGN_OR_RETURN(const std::span<std::byte> mapped, uploader.stage(scene.buffers.materials, size));
+    const auto writeLayers = [&](VkDeviceSize offset, const formats::MaterialLayersRecord& record)
+    {
+        const shared::MaterialLayers layers = makeLayers(record);
+        std::memcpy(mapped.data() + offset, &layers, sizeof(layers));
+    };
+    writeLayers(neutral, formats::neutralLayers(kInvalidIndex));
+    VkDeviceSize end = neutral + layer_stride;
     SamplerCache samplers(device, scene.samplers);
     for (size_t row = 0; row < materials.size(); ++row)
     {
@@ -179,9 +199,16 @@ Status uploadMaterials(const Device& device, const DrawLayouts& layouts, const f
         entry.variant = {.used_slices = scene.used_slices,
                          .textures = material.textures,
                          .uv_sets = material.uv_sets,
-                         .unlit = (material.flags & formats::kMaterialUnlit) != 0 ? 1u : 0u};
-        HEARTH_ASSIGN_OR_RETURN(
-            entry.set, createMaterialSet(device, layouts, materials[row], row * stride, samplers, scene));
+                         .unlit = (material.flags & formats::kMaterialUnlit) != 0 ? 1u : 0u,
+                         .layers = layerBits(materials[row].layers)};
+        BlockOffsets offsets{row * stride, neutral};
+        if (entry.variant.layers != 0)
+        {
+            offsets.layers = std::exchange(end, end + layer_stride);
+            writeLayers(offsets.layers, materials[row].layers);
+        }
+        HEARTH_ASSIGN_OR_RETURN(entry.set,
+                                createMaterialSet(device, layouts, materials[row], offsets, samplers, scene));
         scene.materials.push_back(entry);
     }
     return success();

@@ -9,6 +9,7 @@
 #include "runtime/gpu/scene/scene_deformation.h"
 #include "runtime/gpu/scene/scene_layout.h"
 #include "runtime/gpu/scene/scene_stream.h"
+#include "runtime/gpu/scene/scene_surroundings.h"
 #include "runtime/gpu/scene/shadow_plan.h"
 #include "runtime/gpu/vulkan/uploader.h"
 
@@ -66,6 +67,7 @@ struct ShadingVariant
     uint32_t textures = 0;                      ///< as shared::Material
     uint32_t uv_sets = 0;                       ///< as shared::Material
     uint32_t unlit = 0;
+    uint32_t layers = 0;         ///< bits shared::kLayer*
     uint32_t deformed = 0;       ///< 1: used by deformed meshes
     uint32_t shadows = 0;        ///< 1: lights have shadow maps
     uint32_t sky_visibility = 0; ///< 1: used by meshes with sky visibility
@@ -111,10 +113,11 @@ struct Scene
     VkDescriptorSet tile_set = VK_NULL_HANDLE;         ///< material-tiles pass
     VkDescriptorSet page_request_set = VK_NULL_HANDLE; ///< streamed scenes only
 
-    std::unique_ptr<SceneStream> stream;           ///< streamed scenes only
-    std::unique_ptr<SceneDeformation> deformation; ///< scenes with deformed meshes only
-    std::unique_ptr<SceneShadows> shadows;         ///< scenes with shadows only
-    std::unique_ptr<SceneBricks> bricks;           ///< scenes with bricks only
+    std::unique_ptr<SceneStream> stream;             ///< streamed scenes only
+    std::unique_ptr<SceneDeformation> deformation;   ///< scenes with deformed meshes only
+    std::unique_ptr<SceneShadows> shadows;           ///< scenes with shadows only
+    std::unique_ptr<SceneBricks> bricks;             ///< scenes with bricks only
+    std::unique_ptr<SceneSurroundings> surroundings; ///< scenes with baked surroundings only
     std::vector<SceneBin> bins;
     std::vector<formats::InstanceRecord> instances; ///< as loaded
     uint32_t instance_count = 0;

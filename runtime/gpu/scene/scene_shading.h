@@ -12,14 +12,29 @@
 namespace hearth::gpu
 {
 
+/// Material and its layers, which are neutral if it has none.
+struct LayeredMaterial
+{
+    formats::MaterialRecord base;
+    formats::MaterialLayersRecord layers;
+};
+
 /// Textures of a material in the order of shared::kTexture*.
-std::array<formats::TextureRef, shared::kTextureCount>
-materialTextures(const formats::MaterialRecord& material);
+using MaterialTextures = std::array<formats::TextureRef, shared::kTextureCount>;
+MaterialTextures materialTextures(const LayeredMaterial& material);
 
 /// Return glTF's default material: white, fully metallic and rough, as in its specification.
 formats::MaterialRecord defaultMaterial();
 
-shared::Material makeMaterial(const formats::MaterialRecord& record);
+/// Return the materials of a pack, and then the default material.
+std::vector<LayeredMaterial> readMaterials(const formats::PackView& pack);
+
+shared::Material makeMaterial(const LayeredMaterial& material);
+
+/// Return the bits shared::kLayer* of the layers that a material has.
+uint32_t layerBits(const formats::MaterialLayersRecord& layers);
+
+shared::MaterialLayers makeLayers(const formats::MaterialLayersRecord& record);
 
 /// Compute lights and sky by shared::sceneLighting, with the shadow rows of the lights.
 shared::Lighting makeLighting(const formats::PackView& pack);

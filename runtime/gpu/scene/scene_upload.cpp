@@ -80,7 +80,9 @@ Status createBuffers(const Device& device, const formats::PackView& pack, const 
     SceneBuffers& b = scene.buffers;
     BufferFactory f(device, pack, scene);
     f.make(b.frame, "frame constants", 1, sizeof(shared::FrameView), kUniform);
-    f.make(b.lighting, "lights", 1, sizeof(shared::Lighting), kTable);
+    f.make(b.lighting, "lights",
+           sizeof(shared::Lighting) + SceneSurroundings::countRows(pack) * sizeof(SceneSurroundings::Row), 1,
+           kTable);
     f.make(b.instances, "instances", pack.instances().size(), sizeof(shared::Instance), kTable);
     f.make(b.inverses, "instances", pack.instances().size(), sizeof(shared::InstanceInverse), kTable);
     f.make(b.bounds, "mesh bounds", layout.bounds.size(), sizeof(shared::MeshBounds), kTable);
@@ -148,12 +150,24 @@ Status uploadTables(const formats::PackView& pack, const SceneLayout& layout, Up
     if (scene.deformation != nullptr)
         HEARTH_TRY(uploader.uploadRecords(scene.deformation->buffer, layout.deformation.words));
 
-    const shared::Lighting lighting = makeLighting(pack);
+    shared::Lighting lighting = makeLighting(pack);
+    lighting.surroundings_row = SceneSurroundings::firstInstanceRow(pack);
     scene.lights.assign(lighting.lights, lighting.lights + lighting.light_count);
     scene.exposure = lighting.exposure;
     scene.dropped_lights = static_cast<uint32_t>(pack.lights().size() -
                                                  std::min<size_t>(pack.lights().size(), shared::kMaxLights));
-    return uploader.upload(b.lighting, std::as_bytes(std::span(&lighting, 1)));
+    std::vector<SceneSurroundings::Row> rows;
+    if (!pack.surroundings().empty())
+    {
+        scene.surroundings = std::make_unique<SceneSurroundings>(pack, lighting);
+        rows = scene.surroundings->makeRows();
+    }
+    HEARTH_ASSIGN_OR_RETURN(const std::span<std::byte> staged,
+                            uploader.stage(b.lighting, sizeof(lighting) + rows.size() * sizeof(rows[0])));
+    std::memcpy(staged.data(), &lighting, sizeof(lighting));
+    if (!rows.empty())
+        std::memcpy(staged.data() + sizeof(lighting), rows.data(), rows.size() * sizeof(rows[0]));
+    return success();
 }
 
 /// Decode every page that has a place straight into staging memory.
@@ -184,7 +198,7 @@ Status createSets(const Device& device, const DrawLayouts& layouts, Scene& scene
 {
     // three sets for drawing (one with the shadow maps), six of the culling pass, one each for material tiles
     // and page requests; three more with deformed meshes, two with bricks
-    const DescriptorPoolSizes sizes{.uniforms = 20 + material_rows,
+    const DescriptorPoolSizes sizes{.uniforms = 20 + 2 * material_rows,
                                     .storages = 104,
                                     .textures = material_rows * shared::kTextureCount + 4};
     HEARTH_ASSIGN_OR_RETURN(scene.pool, createDescriptorPool(device, 16 + material_rows, sizes));

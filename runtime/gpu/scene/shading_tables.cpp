@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/scene/reflectance.h"
+#include "formats/scene/sheen.h"
 #include "formats/scene/sky_table.h"
 #include "runtime/gpu/scene/scene.h"
 
@@ -56,10 +57,12 @@ Status uploadShadingTables(const Device& device, const formats::PackView& pack, 
     HEARTH_ASSIGN_OR_RETURN(
         scene.reflectance_table,
         scene.arena.createImage({.format = VK_FORMAT_R16G16B16A16_SFLOAT,
-                                 .extent = {shared::kReflectanceColumns, shared::kReflectanceRows},
+                                 .extent = {shared::kReflectanceColumns, 2 * shared::kReflectanceRows},
                                  .usage = kTableUsage}));
-    HEARTH_TRY(uploader.upload(scene.reflectance_table, std::as_bytes(std::span(shared::kReflectanceTable)),
-                               sizeof(uint64_t)));
+    std::vector<uint64_t> reflectance(shared::kReflectanceTable.begin(), shared::kReflectanceTable.end());
+    reflectance.insert(reflectance.end(), shared::kSheenTable.begin(), shared::kSheenTable.end());
+    HEARTH_TRY(
+        uploader.upload(scene.reflectance_table, std::as_bytes(std::span(reflectance)), sizeof(uint64_t)));
     HEARTH_ASSIGN_OR_RETURN(scene.sky_table, scene.arena.createImage({.format = VK_FORMAT_R16G16_SFLOAT,
                                                                       .extent = {shared::kSkyTableHeights,
                                                                                  shared::kSkyTableAngles},

@@ -48,7 +48,12 @@ CasterCorner casterCorner()
     float longest = max(length(points[1] - points[0]),
                         max(length(points[2] - points[1]), length(points[0] - points[2])));
     float error = corner.draw.position_error * instance.scale_max;
+    bool is_clockwise = (push.facing == kCasterClockwise) != ((instance.flags & kInstanceHandednessChanged) != 0u);
+    // one value for the triangle, so that it stays flat
+    float share = push.facing == kCasterDoubleSided
+                      ? 1.0
+                      : shadowOffsetShare(light, (points[0] + points[1] + points[2]) / 3.0, is_clockwise ? -normal : normal);
     corner.position = shadowCasterClip(light, shadows.maps[push.map_index], points[0], normal,
-                                       max(nearest - longest, 0.0), error);
+                                       max(nearest - longest, 0.0), error, share);
     return corner;
 }

@@ -19,6 +19,6 @@ void main()
     out_alpha = 1.0;
     if (corner.vertex == kVisibilitySky)
         return;
-    out_uv = transformUv(kTextureBaseColor, vertexUv(corner.draw, corner.vertex, material.uv_sets & 15u));
+    out_uv = transformUv(kTextureBaseColor, vertexUv(corner.draw, corner.vertex, uvSet(material.uv_sets, kTextureBaseColor)));
     out_alpha = material.base_color.a * vertexColor(corner.draw, corner.vertex).a;
 }

@@ -5,6 +5,7 @@
 #include "formats/gpu_shared/brick_codes.h"
 #include "formats/gpu_shared/gather.h"
 #include "runtime/shaders/gi/gather_encoding.glsl"
+#include "runtime/shaders/gi/gather_similarity.glsl"
 
 layout(set = kSetAttachments, binding = kAttachmentGi) uniform usampler2D gathered;
 
@@ -39,12 +40,9 @@ GiSample sampleGi(vec2 pixel, vec3 position, vec3 normal, float roughness)
             continue;
         vec2 bilinear = mix(1.0 - (at - low), at - low, corner);
         vec3 point_normal = gatherNormal(code.z);
-        float off_plane = abs(dot(point_normal, position) - uintBitsToFloat(code.w)) / reach;
-        float facing = max(dot(point_normal, normal), 0.0);
-        float alike = facing * facing;
-        alike *= alike;
+        float alike = gatherSimilarity(point_normal, uintBitsToFloat(code.w), position, normal, reach);
         // where no tile is like the pixel the nearest ones count, rather than nothing
-        float weight = (bilinear.x * bilinear.y + 1e-3) * (alike / (1.0 + 16.0 * off_plane * off_plane) + 1e-3);
+        float weight = (bilinear.x * bilinear.y + 1e-3) * (alike + 1e-3);
 
         vec4 mean = vec4(unpackHalf2x16(code.x), unpackHalf2x16(code.y));
         uvec4 lobes = texelFetch(gathered, ivec2(tile.x * 2 + 1, tile.y), 0);

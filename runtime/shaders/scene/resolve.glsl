@@ -94,21 +94,11 @@ SurfaceUv surfaceUv(Surface s, uint set)
 SurfaceUvs surfaceUvs(Surface s)
 {
     SurfaceUvs uvs;
-    SurfaceUv none = SurfaceUv(vec2(0.0), vec2(0.0), vec2(0.0));
-    for (uint slot = 0u; slot < kTextureCount; ++slot)
+    for (uint set = 0u; set < kUvSetCount; ++set)
     {
-        uvs.slots[slot] = none;
-        if (!hasTexture(slot))
-            continue;
-        bool known = false;
-        for (uint before = 0u; before < slot; ++before)
-            if (hasTexture(before) && textureUvSet(before) == textureUvSet(slot) && !known)
-            {
-                uvs.slots[slot] = uvs.slots[before];
-                known = true;
-            }
-        if (!known)
-            uvs.slots[slot] = surfaceUv(s, textureUvSet(slot));
+        uvs.sets[set] = SurfaceUv(vec2(0.0), vec2(0.0), vec2(0.0));
+        if (usesUvSet(set))
+            uvs.sets[set] = surfaceUv(s, set);
     }
     return uvs;
 }
@@ -240,11 +230,13 @@ SurfacePoint surfacePoint(Surface s)
     point.flat_normal = s.front ? flat_normal : -flat_normal;
     point.error = surfaceError(s);
     point.tangent = point.bitangent = vec3(0.0);
-    if (hasTexture(kTextureNormal))
-        tangentFrame(s, point.normal, textureUvSet(kTextureNormal), point.tangent, point.bitangent);
+    uint normal_map = hasTexture(kTextureNormal) ? kTextureNormal : kTextureClearcoatNormal;
+    if (hasTexture(normal_map))
+        tangentFrame(s, point.normal, textureUvSet(normal_map), point.tangent, point.bitangent);
     point.color = surfaceColor(s);
     point.front = s.front;
     point.sky = surfaceSky(s, point.normal);
+    point.instance = s.slot.instance;
     // the back of a sheet sees the mirror image of the sky that its front sees
     if (!s.front)
         point.sky.m1 -= point.normal * (2.0 * dot(point.normal, point.sky.m1));

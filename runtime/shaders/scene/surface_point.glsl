@@ -14,11 +14,12 @@ struct SurfacePoint
     vec3 normal;    // unit, world axes, on the front side; before normal mapping
     vec3 flat_normal; // unit, world axes, of the triangle, towards the visible side
     float error;    // metres, bounds the distance of the triangle to the source
-    vec3 tangent;   // unit, world axes; only where the material has a normal map
+    vec3 tangent;   // unit, world axes; only where the material or its clear coat has a normal map
     vec3 bitangent;
     vec3 color;     // vertex colour
     bool front;     // the front side is visible
     VisibilityMoments sky; // sky visibility: world axes, towards the visible side
+    uint instance;
 };
 
 struct SurfaceUv
@@ -28,15 +29,27 @@ struct SurfaceUv
     vec2 dy;
 };
 
-// UV coordinates of each texture.
+// UV sets that a vertex may have.
+const uint kUvSetCount = 4u;
+
+// UV coordinates of each UV set that a texture uses.
 struct SurfaceUvs
 {
-    SurfaceUv slots[kTextureCount];
+    SurfaceUv sets[kUvSetCount];
 };
 
 bool hasTexture(uint slot) { return (kTextures >> slot & 1u) != 0u; }
 
-uint textureUvSet(uint slot) { return kUvSets >> (slot * 4u) & 15u; }
+uint textureUvSet(uint slot) { return uvSet(kUvSets, slot); }
+
+// True if a texture of the material uses a UV set: a constant of each pipeline.
+bool usesUvSet(uint set)
+{
+    bool uses = false;
+    for (uint slot = 0u; slot < kTextureCount; ++slot)
+        uses = uses || (hasTexture(slot) && textureUvSet(slot) == set);
+    return uses;
+}
 
 // Visibility of an unoccluded sky on the side of the normal.
 VisibilityMoments openSky(vec3 normal) { return VisibilityMoments(2.0 * kVisibilityPi, normal * kVisibilityPi); }
@@ -62,25 +75,32 @@ vec4 sampleSurface(SurfaceUvs uvs, uint slot, sampler2D image)
 {
     if (!hasTexture(slot))
         return vec4(1.0);
-    SurfaceUv at = uvs.slots[slot];
+    SurfaceUv at = uvs.sets[textureUvSet(slot)];
     return textureGrad(image, transformUv(slot, at.uv), transformUvVector(slot, at.dx), transformUvVector(slot, at.dy));
 }
 
 // Perceptual roughness. Below 0.045 the highlight of a punctual light is smaller than half floats resolve.
-float surfaceRoughness(vec4 metallic_roughness) { return clamp(material.roughness * metallic_roughness.g, 0.045, 1.0); }
+float clampRoughness(float roughness) { return clamp(roughness, 0.045, 1.0); }
+
+float surfaceRoughness(vec4 metallic_roughness) { return clampRoughness(material.roughness * metallic_roughness.g); }
 
 // Cosine between normal and eye, clamped as the BRDF needs it.
 float clampedCosine(vec3 normal, vec3 to_eye) { return clamp(abs(dot(normal, to_eye)), 1e-4, 1.0); }
+
+// Normal on the front side with a normal map applied: unit, world axes.
+// texel  of the map
+vec3 mappedNormal(SurfacePoint point, vec4 texel, float scale)
+{
+    vec3 mapped = texel.xyz * 2.0 - 1.0;
+    mapped.xy *= scale;
+    return normalizeOr(point.tangent * mapped.x + point.bitangent * mapped.y + point.normal * mapped.z, point.normal);
+}
 
 // Shading normal with the normal map applied: unit, world axes, towards the visible side.
 vec3 shadingNormal(SurfacePoint point, SurfaceUvs uvs)
 {
     vec3 normal = point.normal;
     if (hasTexture(kTextureNormal))
-    {
-        vec3 mapped = sampleSurface(uvs, kTextureNormal, normal_texture).xyz * 2.0 - 1.0;
-        mapped.xy *= material.normal_scale;
-        normal = normalizeOr(point.tangent * mapped.x + point.bitangent * mapped.y + normal * mapped.z, normal);
-    }
+        normal = mappedNormal(point, sampleSurface(uvs, kTextureNormal, normal_texture), material.normal_scale);
     return point.front ? normal : -normal;
 }

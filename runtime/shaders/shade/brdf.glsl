@@ -18,22 +18,40 @@ struct Shading
     float n_dot_v;
 };
 
-// texels (cosine, roughness): the values of LobeTotal
+// texels (cosine, roughness): the values of LobeTotal; below them those of SheenTotal
 layout(set = kSetScene, binding = kSceneReflectance) uniform sampler2D reflectance_table;
+
+// first  row of the first node of the table, plus one half
+vec4 reflectanceTexel(vec2 coordinates, float first)
+{
+    const vec2 nodes = vec2(kReflectanceColumns, kReflectanceRows);
+    vec2 at = (coordinates * (nodes - 1.0) + vec2(0.5, first)) / vec2(nodes.x, 2.0 * nodes.y);
+    return textureLod(reflectance_table, at, 0.0); // one mip
+}
 
 LobeTotal lobeTotal(float roughness, float n_dot_v)
 {
-    const vec2 nodes = vec2(kReflectanceColumns, kReflectanceRows);
-    vec2 at = (reflectanceCoordinates(roughness, n_dot_v) * (nodes - 1.0) + 0.5) / nodes;
-    vec4 texel = textureLod(reflectance_table, at, 0.0); // one mip
+    vec4 texel = reflectanceTexel(reflectanceCoordinates(roughness, n_dot_v), 0.5);
     return LobeTotal(texel.r, texel.g, texel.b, texel.a);
 }
 
-vec3 fresnelSchlick(vec3 f0, float v_dot_h)
+vec3 fresnelSchlick(vec3 f0, float f90, float v_dot_h)
 {
     float x = 1.0 - v_dot_h;
     float x2 = x * x;
-    return f0 + (1.0 - f0) * (x2 * x2 * x);
+    return f0 + (f90 - f0) * (x2 * x2 * x);
+}
+
+// GGX lobe without the Fresnel term: distribution times visibility.
+float ggxLobe(float roughness, float n_dot_h, float n_dot_l, float n_dot_v)
+{
+    float alpha = roughness * roughness;
+    float alpha2 = alpha * alpha;
+    float d = (n_dot_h * alpha2 - n_dot_h) * n_dot_h + 1.0;
+    float distribution = alpha2 / (kPi * d * d);
+    float visibility = 0.5 / (n_dot_l * sqrt(n_dot_v * n_dot_v * (1.0 - alpha2) + alpha2) +
+                              n_dot_v * sqrt(n_dot_l * n_dot_l * (1.0 - alpha2) + alpha2));
+    return distribution * visibility;
 }
 
 // Radiance towards the eye per irradiance from `to_light`, cosine included.
@@ -45,13 +63,7 @@ vec3 reflected(Shading s, vec3 to_light)
     vec3 half_vector = normalize(to_light + s.to_eye);
     float n_dot_h = clamp(dot(s.normal, half_vector), 0.0, 1.0);
     float v_dot_h = clamp(dot(s.to_eye, half_vector), 0.0, 1.0);
-
-    float alpha = s.roughness * s.roughness;
-    float alpha2 = alpha * alpha;
-    float d = (n_dot_h * alpha2 - n_dot_h) * n_dot_h + 1.0;
-    float distribution = alpha2 / (kPi * d * d);
-    float visibility = 0.5 / (n_dot_l * sqrt(s.n_dot_v * s.n_dot_v * (1.0 - alpha2) + alpha2) +
-                              s.n_dot_v * sqrt(n_dot_l * n_dot_l * (1.0 - alpha2) + alpha2));
-    vec3 fresnel = fresnelSchlick(s.albedo.f0, v_dot_h);
-    return (s.albedo.diffuse / kPi + s.albedo.scattering * fresnel * distribution * visibility) * n_dot_l;
+    vec3 fresnel = fresnelSchlick(s.albedo.f0, s.albedo.f90, v_dot_h);
+    float lobe = ggxLobe(s.roughness, n_dot_h, n_dot_l, s.n_dot_v);
+    return (s.albedo.diffuse / kPi + s.albedo.scattering * fresnel * lobe) * n_dot_l;
 }

@@ -12,6 +12,8 @@ layout(set = kSetScene, binding = kSceneShadowMaps) uniform sampler2DArrayShadow
 struct ShadowLookup
 {
     ShadowPoint point;
+    vec3 from_light;
+    uint row; // of the projection
     uint map; // kNoShadow: no map, the point counts as lit
 };
 
@@ -27,18 +29,64 @@ ShadowLookup findShadowMap(Light light, vec3 position, vec3 flat_normal, float e
     if (row == kNoShadow)
         return found;
     ShadowLight projection = shadows.lights[row];
-    vec3 from_light = position + (view.eye - projection.origin) + flat_normal * error;
-    if (light.type == kLightPoint)
-        projection = shadows.lights[row + pointFace(from_light)];
-    found.point = shadowPoint(projection, from_light);
+    found.from_light = position + (view.eye - projection.origin) + flat_normal * error;
+    found.row = light.type == kLightPoint ? row + pointFace(found.from_light) : row;
+    projection = shadows.lights[found.row];
+    found.point = shadowPoint(projection, found.from_light);
     for (uint i = 0u; i < projection.map_count && found.map == kNoShadow; ++i)
         if (isInShadowMap(shadows.maps[projection.first_map + i], found.point))
             found.map = projection.first_map + i;
     return found;
 }
 
-// Percentage-closer filtering: the lit share of (2 kernel + 1)^2 texels.
-float filterShadow(ShadowLookup at)
+// 1 where a depth is no deeper than a texel.
+float isLit(ShadowMap map, vec2 texel, float depth)
+{
+    return texture(shadow_maps, vec4(texel / shadows.layer_size, float(map.layer), depth));
+}
+
+// Texels by which rasterisers with the usual 1/256 of a texel move an edge, and some more.
+const float kSnapMargin = 1.0 / 64.0;
+
+// Depth of a point's surface at a texel, for a comparison in which the surface itself is lit.
+struct SurfaceDepth
+{
+    vec2 texel; // of the point
+    float depth;
+    vec2 gradient;
+    float rounding; // of the depth of a surface through the point, as it is drawn
+};
+
+// The wall of a room and the floor have one depth along their common line. The wall faces away from a light
+// outside, so that it casts without an offset: the depth returned here is deeper, whatever rounding did. The
+// surface itself casts with one and stays lit.
+float depthAt(SurfaceDepth surface, vec2 texel)
+{
+    float depth = surface.depth + dot(surface.gradient, texel - surface.texel);
+    return max(min(depth, surface.depth) - surface.rounding, 0.0);
+}
+
+// Filter along the edge of a surface or of a shadow. Each texel is compared with the depth that the surface
+// has there, so that a wall shadows the floor up to their common line. Texels that show what lies beyond the
+// surface, such as the world outside of a room's corner, do not count.
+float filterEdge(ShadowMap map, SurfaceDepth surface, vec2 middle, float beyond_depth)
+{
+    int reach = int(map.kernel);
+    float lit = 0.0;
+    float count = 0.0;
+    for (int y = -reach; y <= reach; ++y)
+        for (int x = -reach; x <= reach; ++x)
+        {
+            vec2 tap = middle + vec2(x, y);
+            float beyond = isLit(map, tap, beyond_depth);
+            lit += isLit(map, tap, depthAt(surface, tap)) * (1.0 - beyond);
+            count += 1.0 - beyond;
+        }
+    return count > 0.0 ? lit / count : 1.0;
+}
+
+// Percentage-closer filtering: the lit share of (2 kernel + 1)^2 texels, of fewer at the edges of surfaces.
+float filterShadow(ShadowLookup at, vec3 flat_normal, float error)
 {
     ShadowMap map = shadows.maps[at.map];
     vec2 middle = floor(shadowTexel(map, at.point)) + 0.5;
@@ -48,14 +96,25 @@ float filterShadow(ShadowLookup at)
     float lit = 0.0;
     for (int y = -reach; y <= reach; ++y)
         for (int x = -reach; x <= reach; ++x)
-            lit += texture(shadow_maps, vec4((middle + vec2(x, y)) / shadows.layer_size, float(map.layer), depth));
+            lit += isLit(map, middle + vec2(x, y), depth);
     float side = 2.0 * map.kernel + 1.0;
-    return lit / (side * side);
+    float share = lit / (side * side);
+    if (share == 0.0 || share == 1.0)
+        return share;
+    // does the point's own texel show the surface in the light?
+    ShadowLight light = shadows.lights[at.row];
+    vec2 gradient = shadowDepthGradient(light, map, at.from_light, flat_normal);
+    float rounding = kSnapMargin * (abs(gradient.x) + abs(gradient.y)) + light.rounding;
+    SurfaceDepth surface = SurfaceDepth(shadowTexel(map, at.point), depth, gradient, rounding);
+    float beyond_depth = shadowDepthBeyond(light, map, at.from_light, depth, flat_normal, error);
+    if (isLit(map, middle, depthAt(surface, middle)) > isLit(map, middle, beyond_depth))
+        return share;
+    return filterEdge(map, surface, middle, beyond_depth);
 }
 
 // Share of the light that reaches the point: 0 in shadow, 1 fully lit.
 float lightVisibility(Light light, vec3 position, vec3 flat_normal, float error)
 {
     ShadowLookup at = findShadowMap(light, position, flat_normal, error);
-    return at.map == kNoShadow ? 1.0 : filterShadow(at);
+    return at.map == kNoShadow ? 1.0 : filterShadow(at, flat_normal, error);
 }

@@ -1,10 +1,12 @@
 // Sky occlusion from the visibility of a point: ambient occlusion for the diffuse part, specular occlusion
-// for the reflection. Include after surface_point.glsl. formats/gpu_shared has the formulas,
-// runtime/gpu/README.md the cost.
+// for the reflection; and the light of occluders in place of the sky. Include after surface_point.glsl and
+// light_block.glsl. formats/gpu_shared has the formulas, runtime/gpu/README.md the cost.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/ambient_occlusion.h"
 #include "formats/gpu_shared/bindings.h"
+#include "formats/gpu_shared/instance_visibility.h"
 #include "formats/gpu_shared/light_cone.h"
+#include "formats/gpu_shared/occluder_light.h"
 #include "formats/gpu_shared/push_constants.h"
 #include "formats/gpu_shared/specular_occlusion.h"
 
@@ -20,17 +22,21 @@ struct SkyView
     VisibilityCone cone;
     float geometric; // cosine between the axis and the normal that the cone was baked for
     float shading;   // cosine between the axis and the shading normal
+    vec3 occluded;   // mean of the occluded directions
 };
 
-// normal: shading normal
-SkyView skyView(SurfacePoint point, vec3 normal)
+// normal  of the lobe that the sky lights
+// slot    texture of the normal map that changes it
+SkyView skyView(SurfacePoint point, vec3 normal, uint slot)
 {
     vec3 geometric = point.front ? point.normal : -point.normal;
     SkyView sky;
-    sky.cone = visibilityCone(point.sky.m0, point.sky.m1, geometric);
+    VisibilityMoments moments = changedVisibility(point.sky, geometric, instanceVisibility(point.instance));
+    sky.cone = visibilityCone(moments.m0, moments.m1, geometric);
+    sky.occluded = meanOccludedDirection(moments.m0, moments.m1, geometric);
     sky.geometric = dot(sky.cone.axis, geometric);
     // the same bits if no normal map changes the normal: the terms of both then cancel
-    sky.shading = hasTexture(kTextureNormal) ? dot(sky.cone.axis, normal) : sky.geometric;
+    sky.shading = hasTexture(slot) ? dot(sky.cone.axis, normal) : sky.geometric;
     return sky;
 }
 
@@ -63,6 +69,25 @@ float specularSky(SkyView sky, float roughness, float n_dot_v, vec3 mirror)
                                                               push.sky_occlusion >> 16))
                       : specularOcclusionFit(sky.cone.cos_aperture, roughness, n_dot_v, sky.shading, r_dot_axis);
     return share * sky.cone.scale;
+}
+
+// Radiance that the occluders of the diffuse part give back, by the part of its light that they hide.
+// share  of the sky that is visible
+vec3 diffuseOccluders(OccluderLight occluders, SkyView sky, float share)
+{
+    if ((push.sky_occlusion & 255u) == kAmbientOcclusionOff)
+        return vec3(0.0);
+    return (1.0 - share) * occluderRadiance(occluders, sky.occluded);
+}
+
+// The same of a reflection.
+// open  cone without occlusion
+vec3 specularOccluders(OccluderLight occluders, LightCone open, float share)
+{
+    if ((push.sky_occlusion >> 8 & 255u) == kSpecularOcclusionOff)
+        return vec3(0.0);
+    vec3 mean = open.axis * (0.5 + 0.5 * open.cos_half_angle);
+    return (1.0 - share) * occluderRadiance(occluders, mean);
 }
 
 // Directions from which the visible light of the diffuse part comes.

@@ -1,24 +1,39 @@
 // Environment light of scenes with bricks (GI): the gathered light, which includes the sky. In place of
 // surrounding_sky.glsl.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/gpu_shared/reflector.h"
 #include "runtime/shaders/gi/sample_gi.glsl"
 
 // Margin added to the openness of the cone and to the sky share of the bricks. Where both see next to no sky
 // the cone has no say.
 const float kOpenMargin = 0.1;
 
-// Occlusion by detail finer than the bricks. Bricks occlude at distances above a voxel or two; cones know
-// finer shape. Returns the sky share of the cone over the sky share that the bricks leave.
+// Occlusion by detail finer than the bricks: leaves and blades, several in a voxel. Returns the sky share of
+// the cone over the sky share that the bricks leave. Elsewhere the gather knows more than cones do: those of
+// vertices cannot follow a shadow across a wall, and would take light away that its bricks have not.
 float fineOcclusion(SurfacePoint point, vec3 normal, float sky_share)
 {
-    if (!kSkyVisibility)
+    if (!kSkyVisibility || material.alpha_mode == kAlphaOpaque)
         return 1.0;
-    return min((diffuseSky(skyView(point, normal)) + kOpenMargin) / (sky_share + kOpenMargin), 1.0);
+    return min((diffuseSky(skyView(point, normal, kTextureNormal)) + kOpenMargin) / (sky_share + kOpenMargin), 1.0);
 }
 
-vec3 surroundingLight(SurfacePoint point, Shading shading, float occlusion)
+vec3 reflectedShare(Light light, vec3 from_lamp)
+{
+    return reflectorShare(light, from_lamp);
+}
+
+vec3 surroundingLight(SurfacePoint point, Shading shading, Layers layers, float occlusion)
 {
     GiSample light = sampleGi(gl_FragCoord.xy, point.position, shading.normal, shading.roughness);
     float fine = min(occlusion, fineOcclusion(point, shading.normal, light.sky));
-    return fine * shading.albedo.diffuse * light.diffuse + occlusion * shading.albedo.specular * light.mirror;
+    vec3 radiance = fine * shading.albedo.diffuse * light.diffuse + occlusion * shading.albedo.specular * light.mirror;
+    if (hasLayer(kLayerSheen))
+        radiance = addSheen(layers, radiance, fine * light.diffuse);
+    if (hasLayer(kLayerClearcoat))
+    {
+        GiSample coat = sampleGi(gl_FragCoord.xy, point.position, layers.coat_normal, layers.coat_roughness);
+        radiance = addCoat(layers, radiance, occlusion * coat.mirror);
+    }
+    return radiance;
 }

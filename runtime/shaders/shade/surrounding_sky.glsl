@@ -1,24 +1,63 @@
-// Environment light without bricks: the sky, of which a point sees what its visibility leaves. Include after
-// lighting.glsl.
+// Environment light without bricks: the sky, of which a point sees what its visibility leaves, and what
+// occludes the rest. Include after lighting.glsl.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 
-vec3 surroundingLight(SurfacePoint point, Shading shading, float occlusion)
+// Without bricks nothing around a lamp gives light back.
+vec3 reflectedShare(Light light, vec3 from_lamp)
+{
+    return vec3(0.0);
+}
+
+// Light of the sky and of its occluders that a lobe reflects, per albedo.
+// mirror  reflection of the view direction at the normal of the lobe
+// open    cone of the lobe under an open sky
+vec3 mirroredSky(SkyView sky, OccluderLight occluders, LightCone open, vec3 mirror, float roughness, float n_dot_v,
+                 float occlusion)
+{
+    if (!kSkyVisibility)
+        return occlusion * skyConeRadiance(open);
+    float share = min(occlusion, specularSky(sky, roughness, n_dot_v, mirror));
+    return share * skyConeRadiance(visibleSpecularCone(sky, open)) + specularOccluders(occluders, open, share);
+}
+
+vec3 surroundingLight(SurfacePoint point, Shading shading, Layers layers, float occlusion)
 {
     vec3 mirror = reflect(-shading.to_eye, shading.normal);
     LightCone diffuse = cosineCone(shading.normal);
-    LightCone specular = lobeCone(shading.lobe, mirror, shading.normal);
+    SkyView sky = skyView(point, shading.normal, kTextureNormal);
+    OccluderLight occluders = kNoOccluderLight;
     float diffuse_share = occlusion;
-    float specular_share = occlusion;
+    vec3 occluded = vec3(0.0);
     if (kSkyVisibility)
     {
         // The smaller share counts. An occlusion texture is usually baked from the same shape and would
         // occlude the sky twice. The texture is smaller only where it has detail that the mesh lacks.
-        SkyView sky = skyView(point, shading.normal);
         diffuse_share = min(occlusion, diffuseSky(sky));
-        specular_share = min(occlusion, specularSky(sky, shading.roughness, shading.n_dot_v, mirror));
         diffuse = visibleDiffuseCone(sky, shading.normal, diffuse);
-        specular = visibleSpecularCone(sky, specular);
+        occluders = occluderLight(point.instance);
+        occluded = diffuseOccluders(occluders, sky, diffuse_share);
     }
-    return diffuse_share * shading.albedo.diffuse * skyConeRadiance(diffuse) +
-           specular_share * shading.albedo.specular * skyConeRadiance(specular);
+    LightCone specular = lobeCone(shading.lobe, mirror, shading.normal);
+    vec3 radiance = shading.albedo.diffuse * (diffuse_share * skyConeRadiance(diffuse) + occluded) +
+                    shading.albedo.specular * mirroredSky(sky, occluders, specular, mirror, shading.roughness,
+                                                          shading.n_dot_v, occlusion);
+    if (hasLayer(kLayerSheen))
+    {
+        // a lobe as wide as the hemisphere is occluded as much as the diffuse part
+        LightCone open = sheenCone(layers.sheen, shading.to_eye, shading.normal);
+        if (kSkyVisibility)
+            open = visibleSpecularCone(sky, open);
+        radiance = addSheen(layers, radiance, diffuse_share * skyConeRadiance(open) + occluded);
+    }
+    if (hasLayer(kLayerClearcoat))
+    {
+        vec3 normal = layers.coat_normal;
+        vec3 coat_mirror = reflect(-shading.to_eye, normal);
+        LightCone open = lobeCone(layers.coat_lobe, coat_mirror, normal);
+        SkyView coat_sky = skyView(point, normal, kTextureClearcoatNormal);
+        radiance = addCoat(layers, radiance,
+                           mirroredSky(coat_sky, occluders, open, coat_mirror, layers.coat_roughness,
+                                       layers.coat_n_dot_v, occlusion));
+    }
+    return radiance;
 }

@@ -34,7 +34,7 @@ void main()
     {
         ShadowLookup at = findShadowMap(lighting.lights[i], s.position, normal, surfaceError(s));
         if (at.map != kNoShadow)
-            color = mapColor(at.map) * (0.2 + 0.8 * filterShadow(at));
+            color = mapColor(at.map) * (0.2 + 0.8 * filterShadow(at, normal, surfaceError(s)));
     }
     // dimmed by the angle to the eye, so that the shape is visible
     float facing = 0.35 + 0.65 * abs(dot(normal, normalizeOr(s.position, vec3(0.0))));

@@ -9,6 +9,7 @@
 #include "runtime/shaders/scene/material.glsl"
 #include "runtime/shaders/scene/surface_point.glsl"
 #include "runtime/shaders/scene/resolve.glsl"
+#include "runtime/shaders/scene/light_block.glsl"
 #include "runtime/shaders/scene/visibility_input.glsl"
 #include "runtime/shaders/shade/tonemap.glsl"
 #include "runtime/shaders/shade/sky_occlusion.glsl"
@@ -54,7 +55,7 @@ vec3 skyVisibilityColor(Surface s)
     SurfacePoint point = surfacePoint(s);
     SurfaceUvs uvs = surfaceUvs(s);
     vec3 normal = shadingNormal(point, uvs);
-    SkyView sky = skyView(point, normal);
+    SkyView sky = skyView(point, normal, kTextureNormal);
     if (push.debug_view == kViewAmbientOcclusion)
         return vec3(diffuseSky(sky));
     if (push.debug_view == kViewBentNormal)

@@ -11,6 +11,7 @@
 #include "runtime/viewer/page_reading.h"
 #include "runtime/viewer/pyramid_start.h"
 #include "runtime/viewer/render/options.h"
+#include "runtime/viewer/sample_sum.h"
 #include "runtime/viewer/stage.h"
 
 #include <algorithm>
@@ -23,16 +24,6 @@ namespace hearth::viewer
 
 namespace
 {
-
-/// Read the texels of the finished frame, at the requested size.
-Result<std::vector<std::byte>> readImage(VulkanHost& host, const gpu::Renderer& renderer,
-                                         const gpu::FrameTargets& targets, uint32_t samples)
-{
-    HEARTH_ASSIGN_OR_RETURN(std::vector<std::byte> pixels, host.read(renderer.device(), targets.color(), 4));
-    if (samples == 1)
-        return pixels;
-    return downsampleSrgb(pixels, targets.extent().width, targets.extent().height);
-}
 
 Result<std::vector<std::byte>> encodeImage(const RenderOptions& options, std::span<const std::byte> pixels)
 {
@@ -50,18 +41,12 @@ Result<std::vector<shared::Camera>> chooseCameras(const RenderOptions& options, 
     return std::vector<shared::Camera>(options.frames, camera);
 }
 
-/// Samples of a pixel along one side.
-uint32_t sampleScale(const RenderOptions& options)
-{
-    return options.samples == 4 ? 2 : 1;
-}
-
 /// Return the settings of the frame. The error is in pixels of the output, not of its samples. On a sheet GI
 /// is off: the bricks belong to all assets at once.
 FrameSettings frameSettings(const RenderOptions& options, bool on_sheet)
 {
     FrameSettings settings = options.settings;
-    settings.error_pixels *= static_cast<float>(sampleScale(options));
+    settings.error_pixels *= static_cast<float>(makeSampleGrid(options.samples).scale);
     settings.gi = settings.gi && !on_sheet;
     return settings;
 }
@@ -101,6 +86,9 @@ void warnAboutShadows(const ShadowCounts& counts, const std::string& name)
     warn(counts.maps.unshadowed_lights, " lights cast no shadow: they are more than there are maps for");
     warn(counts.dropped_clusters, " clusters are more than the visible list holds and cast no shadow");
 }
+
+/// Times that the first frame gathers indirect light; later frames have its result as their history.
+constexpr uint32_t kStillGathers = 8;
 
 /// Draws the requested frames, and writes the requested files.
 class FrameRecorder
@@ -150,17 +138,6 @@ public:
         return success();
     }
 
-    /// Let the indirect light settle, if the frame shows it.
-    Status settle(const shared::Camera& camera)
-    {
-        if (scene_.bricks == nullptr || !(settings_.gi || shared::viewNeedsBricks(settings_.view)))
-            return success();
-        for (uint32_t i = 0; i < options_.gi_frames; ++i)
-            HEARTH_TRY(draw(camera, 0));
-        times_.clear();
-        return success();
-    }
-
     Status draw(const shared::Camera& camera, size_t number)
     {
         gpu::FrameInput frame = makeFrameInput(camera);
@@ -186,8 +163,21 @@ public:
         return success();
     }
 
-    /// Return the last frame, at the requested size.
-    Result<std::vector<std::byte>> image() { return readImage(host_, renderer_, targets_, options_.samples); }
+    /// Draw all samples of an image. Returns it at the requested size: RGBA8 sRGB.
+    Result<std::vector<std::byte>> drawImage(const shared::Camera& camera, size_t number)
+    {
+        const SampleGrid samples = makeSampleGrid(options_.samples);
+        const VkExtent2D extent = targets_.extent();
+        SampleSum sum(extent.width / samples.scale, extent.height / samples.scale, samples.scale);
+        for (uint32_t frame = 0; frame < samples.frames; ++frame)
+        {
+            HEARTH_TRY(draw(shiftCamera(camera, frame, samples.frames, extent.width, extent.height), number));
+            HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> pixels,
+                                    host_.read(renderer_.device(), targets_.color(), 4));
+            sum.add(pixels);
+        }
+        return sum.average();
+    }
 
     /// Warn about objects that the last frame left out, and count them for the statistics.
     Status checkDropped()
@@ -268,6 +258,7 @@ private:
     {
         gpu::FrameInput frame = makeFrame(settings_, camera, scene_.instance_count, targets_.extent());
         frame.shadow_spheres = options_.shadows.spheres;
+        frame.gathers = times_.empty() ? kStillGathers : 1;
         return frame;
     }
 
@@ -412,20 +403,21 @@ Status drawImages(const RenderOptions& options, const OutputCameras& images, Fra
     const bool is_sequence = !options.camera_path.empty() || images.stage;
     if (!is_sequence)
         HEARTH_TRY(run.prefetch(cameras.front(), 0));
-    HEARTH_TRY(run.settle(cameras.front()));
     for (size_t i = 0; i < cameras.size(); ++i)
         for (const Named<uint32_t>& view : chooseViews(options))
         {
             run.setView(view.value);
-            HEARTH_TRY(run.draw(cameras[i], i));
             if (!is_sequence && i + 1 < cameras.size())
+            {
+                HEARTH_TRY(run.draw(cameras[i], i));
                 continue;
+            }
             const auto file = [&](const std::string& name)
             {
                 const std::string of_view = viewFile(name, view.name);
                 return is_sequence ? numberedFile(of_view, i) : of_view;
             };
-            HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> image, run.image());
+            HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> image, run.drawImage(cameras[i], i));
             HEARTH_TRY(writeImage(options, file(options.output), image));
             HEARTH_TRY(run.checkDropped());
             if (!options.visibility.empty())
@@ -446,8 +438,8 @@ Status drawSheet(const RenderOptions& options, const OutputCameras& images, cons
         for (size_t view = 0; view < views.size(); ++view)
         {
             run.setView(views[view].value);
-            HEARTH_TRY(run.draw(images.cameras[cell], cell));
-            HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> image, run.image());
+            HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> image,
+                                    run.drawImage(images.cameras[cell], cell));
             sheets[view].place(cell, image);
             HEARTH_TRY(run.checkDropped());
         }
@@ -480,7 +472,7 @@ Status drawPack(const RenderOptions& options, const formats::PackView& pack, Vul
         }));
     scene->staging.reset();
 
-    const uint32_t scale = sampleScale(options);
+    const uint32_t scale = makeSampleGrid(options.samples).scale;
     HEARTH_ASSIGN_OR_RETURN(
         gpu::FrameTargets targets,
         renderer->createTargets({(sheet ? sheet->layout.cell_width : options.width) * scale,

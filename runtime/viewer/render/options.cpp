@@ -64,15 +64,6 @@ Status parseViews(std::string_view text, RenderOptions& options)
     return success();
 }
 
-Status parseGiFrames(std::string_view text, RenderOptions& options)
-{
-    const auto number = parseNumber<uint32_t>(text);
-    if (!number || *number > 10000)
-        return usageError("--gi-frames: " + quoted(text) + " is not a number from 0 to 10000");
-    options.gi_frames = *number;
-    return success();
-}
-
 Status parseSheet(std::string_view text, RenderOptions& options)
 {
     if (text != "on" && text != "off")
@@ -83,9 +74,10 @@ Status parseSheet(std::string_view text, RenderOptions& options)
 
 Status parseSamples(std::string_view text, RenderOptions& options)
 {
-    if (text != "1" && text != "4")
-        return usageError("--samples: " + quoted(text) + " is neither 1 nor 4");
-    options.samples = text == "4" ? 4 : 1;
+    const auto number = parseNumber<uint32_t>(text);
+    if (!number || (*number != 1 && *number != 4 && *number != 16 && *number != 64))
+        return usageError("--samples: " + quoted(text) + " is none of 1, 4, 16, 64");
+    options.samples = *number;
     return success();
 }
 
@@ -124,12 +116,10 @@ std::string renderHelp()
            "      --blend CLIP,SECONDS,WEIGHT\n"
            "                          a second clip, and how much of it, 0 to 1\n"
            "      --time-step SECONDS by which both go on from frame to frame of --camera-path or --frames\n"
-           "      --samples N         1, or 4 for a smoother image\n"
+           "      --samples N         of each pixel: 1, 4 (the default), 16 or 64: smoother leaves and "
+           "wires\n"
            "      --stats FILE        counts and times of the passes as JSON\n"
            "      --frames N          draw N times; the times are medians\n"
-           "      --gi-frames N       in packs with bricks, frames before the first image, in which their "
-           "light\n"
-           "                          settles; default 32\n"
            "      --dump-visibility FILE\n"
            "                          what each pixel shows: \"HVIS\", then 32-bit words: width, height, "
            "slot count;\n"
@@ -141,7 +131,7 @@ std::string renderHelp()
            "      --name-device       print which device would draw, and draw nothing; needs no pack\n"
            "\n"
            "With --budget an image waits for all that it wants, those of a camera path do not.\n"
-           "Example: hearth-render rock.hearth -o rock.png --size 1920x1080 --samples 4\n"
+           "Example: hearth-render rock.hearth -o rock.png --size 1920x1080 --samples 16\n"
            "Exit codes: 0, 2 usage, 65 malformed pack, 66 missing, 70 no device or a defect, 73 cannot "
            "write, 74 I/O\n";
 }
@@ -158,11 +148,16 @@ Result<RenderOptions> parseRenderOptions(std::span<const char* const> arguments)
     command_line.addValue("--views", [&](std::string_view text) { return parseViews(text, options); });
     command_line.addValue("--sheet", [&](std::string_view text) { return parseSheet(text, options); });
     addAnimationOptions(command_line, options.animation);
-    command_line.addValue("--samples", [&](std::string_view text) { return parseSamples(text, options); });
+    bool has_samples = false;
+    command_line.addValue("--samples",
+                          [&](std::string_view text)
+                          {
+                              has_samples = true;
+                              return parseSamples(text, options);
+                          });
     command_line.addText("--stats", options.stats);
     command_line.addValue("--frames",
                           [&](std::string_view text) { return parseFrames(text, options.frames); });
-    command_line.addValue("--gi-frames", [&](std::string_view text) { return parseGiFrames(text, options); });
     command_line.addText("--dump-visibility", options.visibility);
     command_line.addValue("--hzb", [&](std::string_view text) { return parsePyramid(text, options); });
     command_line.addSwitch("--name-device", options.print_device_name);
@@ -171,6 +166,10 @@ Result<RenderOptions> parseRenderOptions(std::span<const char* const> arguments)
         return options;
     if (options.pack.empty())
         return usageError("no pack is named");
+    if (!options.visibility.empty() && has_samples && options.samples != 1)
+        return usageError("--dump-visibility needs --samples 1: it shows one triangle in each pixel");
+    if (!options.visibility.empty())
+        options.samples = 1;
     HEARTH_TRY(checkDrawOptions(options));
     if (options.output.empty())
         return usageError("no output is named (-o IMAGE.png)");

@@ -33,9 +33,8 @@ struct RenderOptions : DrawOptions
     std::vector<Named<uint32_t>> views;
     SheetChoice sheet = SheetChoice::automatic;
     AnimationSettings animation;
-    uint32_t samples = 1;
+    uint32_t samples = 4; ///< of each pixel: 1, 4, 16 or 64
     uint32_t frames = 1;
-    uint32_t gi_frames = 32; ///< before the first image, for packs with bricks
     PyramidStart pyramid = PyramidStart::previous;
     uint32_t noise_seed = 0;
     std::string stats;

@@ -4,6 +4,7 @@
 #include "tests/support/small_sources.h"
 
 #include <filesystem>
+#include <utility>
 
 namespace hearth::test
 {
@@ -39,7 +40,7 @@ ProgramEnd Farm::over(const std::string& verb, const std::vector<std::string>& o
     arguments.insert(arguments.end(), sources.begin(), sources.end());
     arguments.insert(arguments.end(), options.begin(), options.end());
     arguments.insert(arguments.end(), more.begin(), more.end());
-    return hearth(arguments);
+    return hearth(withoutLightCookers(std::move(arguments)));
 }
 
 std::string Farm::plan(size_t shards, const std::vector<std::string>& options)
@@ -62,6 +63,30 @@ ProgramEnd Farm::run(size_t shard, size_t count, const std::vector<std::string>&
                                        std::to_string(shard) + "/" + std::to_string(count)};
     arguments.insert(arguments.end(), more.begin(), more.end());
     return hearth(arguments);
+}
+
+void Farm::prepareAll(size_t count)
+{
+    for (size_t shard = count; shard-- > 0;)
+    {
+        const ProgramEnd end = run(shard, count, {"--prepare"});
+        EXPECT_EQ(end.exit_code, 0) << end.err;
+    }
+}
+
+void Farm::placeSources()
+{
+    sources.clear();
+    for (const auto& [name, x] : std::vector<std::pair<std::string, std::string>>{
+             {"a", "0"}, {"b", "1.5"}, {"c", "3"}, {"far", "500"}})
+    {
+        writeGltf(folder, name);
+        std::string text = folder.read(name + ".gltf");
+        replaceAll(text, R"({"mesh":0})",
+                   R"({"mesh":0,"rotation":[0,0.7071068,0,0.7071068],"translation":[)" + x + ",0,0]}");
+        folder.write(name + ".gltf", text);
+        sources.push_back(name + ".gltf");
+    }
 }
 
 std::string Farm::merged()

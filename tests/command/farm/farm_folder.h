@@ -34,14 +34,23 @@ protected:
 
     ProgramEnd run(size_t shard, size_t count, const std::vector<std::string>& more = {});
 
+    /// Prepare all shards of the plan, last first.
+    void prepareAll(size_t count);
+
     /// Return the pack that the merge makes.
     std::string merged();
+
+    /// Make three sources that stand side by side, and one far away, the cook's sources.
+    void placeSources();
 
     /// Empty the cache.
     void forget();
 
     Sandbox folder;
     std::vector<std::string> sources{"house.obj", "tree.gltf", "barn.obj", "bush.gltf"};
+
+    /// Options of a cook in which sources occlude each other.
+    const std::vector<std::string> occlusion{"--visibility", "--visibility-quality", "draft"};
 };
 
 } // namespace hearth::test

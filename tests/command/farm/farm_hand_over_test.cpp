@@ -49,6 +49,58 @@ TEST_F(Farm, givesLinesToWhoeverTakesThem)
     EXPECT_TRUE(folder.read("it's a plan.hearth") == pack);
 }
 
+TEST_F(Farm, givesLinesThatPrepareBeforeThoseThatComplete)
+{
+    placeSources();
+    const std::string pack = localPack(occlusion);
+    const ProgramEnd plan =
+        over("plan", {"-o", "plan.json", "--shards", "3", "--emit", "commands"}, occlusion);
+    EXPECT_EQ(countOccurrences(plan.out, "\n"), 6u) << plan.out;
+    EXPECT_EQ(countOccurrences(plan.out.substr(0, plan.out.size() / 2), "--prepare"), 3u) << plan.out;
+    folder.write("lines", plan.out);
+    // also in the wrong order
+    for (const char* order : {"cat", "tac"})
+    {
+        forget();
+        const ProgramEnd end = folder.run({"/bin/sh", "-c", std::string(order) + " lines | sh -e"});
+        EXPECT_EQ(end.exit_code, 0) << end.err;
+        EXPECT_EQ(hearth({"farm", "status", "plan.json"}).exit_code, 0);
+        EXPECT_TRUE(merged() == pack);
+    }
+}
+
+TEST_F(Farm, isBuiltByNinjaInTwoSteps)
+{
+    placeSources();
+    const std::string pack = localPack(occlusion);
+    plan(3, occlusion);
+    const ProgramEnd written = hearth(
+        {"farm", "ninja", "plan.json", "-o", "build.ninja", "--launcher", "env", "--pack", "out.hearth"});
+    EXPECT_EQ(written.exit_code, 0) << written.err;
+    const ProgramEnd built = folder.run({"/usr/bin/env", "ninja", "-v"});
+    EXPECT_EQ(built.exit_code, 0) << built.out << built.err;
+    EXPECT_LT(built.out.rfind("--prepare"), built.out.find("[4/7]")) << built.out;
+    EXPECT_TRUE(folder.read("out.hearth") == pack);
+    EXPECT_NE(folder.run({"/usr/bin/env", "ninja"}).out.find("no work to do"), std::string::npos);
+}
+
+TEST_F(Farm, printsAScriptForSlurmWithTwoSteps)
+{
+    placeSources();
+    plan(3, occlusion);
+    const ProgramEnd end = hearth({"farm", "slurm", "plan.json", "--print"});
+    EXPECT_EQ(end.exit_code, 0) << end.err;
+    EXPECT_EQ(countOccurrences(end.out, "#SBATCH --array=0-2\n"), 2u) << end.out;
+    EXPECT_EQ(countOccurrences(end.out, " --prepare "), 1u) << end.out;
+    EXPECT_NE(end.out.find("--dependency=\"afterany:${prepare%%;*}\""), std::string::npos) << end.out;
+    folder.write("sbatch", "#!/bin/sh\necho \"$@\" >> order\ncat > job$$\necho $(wc -l < order)\n", true);
+    const ProgramEnd submitted =
+        hearth({"farm", "slurm", "plan.json"}, {"PATH=" + folder.path() + ":/usr/bin:/bin"});
+    EXPECT_EQ(submitted.out, "prepare: job 1\nshards: job 2\nmerge: job 3\n") << submitted.err;
+    EXPECT_EQ(folder.read("order"),
+              "--parsable\n--parsable --dependency=afterany:1\n--parsable --dependency=afterany:2\n");
+}
+
 TEST_F(Farm, isBuiltByNinja)
 {
     const std::string pack = localPack();

@@ -48,6 +48,92 @@ TEST_F(Farm, makesTheBytesOfALocalCook)
     }
 }
 
+TEST_F(Farm, readsNeighboursOfOtherShards)
+{
+    placeSources();
+    const std::string pack = localPack(occlusion);
+    std::vector<std::string> alone = occlusion;
+    alone.insert(alone.end(), {"--visibility-occluders", "source"});
+    ASSERT_NE(pack, localPack(alone)) << "sources occlude each other";
+    for (const bool is_prepared : {true, false})
+    {
+        forget();
+        plan(4, occlusion);
+        if (is_prepared)
+        {
+            prepareAll(4);
+            const ProgramEnd status = hearth({"farm", "status", "plan.json"});
+            EXPECT_EQ(status.exit_code, 1);
+            EXPECT_EQ(countOccurrences(status.out, " prepared "), 4u) << status.out;
+        }
+        for (size_t shard = 4; shard-- > 0;)
+        {
+            const ProgramEnd end = run(shard, 4);
+            EXPECT_EQ(end.exit_code, 0) << end.err;
+            EXPECT_NE(end.err.find(is_prepared ? " 1 cooked, 4 kept" : " cooked, "), std::string::npos)
+                << end.err;
+        }
+        EXPECT_EQ(hearth({"farm", "status", "plan.json"}).exit_code, 0);
+        EXPECT_EQ(hearth({"merge", "plan.json", "-o", "farm.hearth", "--missing", "list"}).exit_code, 0);
+        EXPECT_TRUE(merged() == pack) << is_prepared;
+        EXPECT_NE(run(1, 4).err.find(" 0 cooked, 5 kept"), std::string::npos);
+    }
+}
+
+TEST_F(Farm, makesNeighboursThatTheCacheHasLost)
+{
+    placeSources();
+    const std::string pack = localPack(occlusion);
+    plan(4, occlusion);
+    prepareAll(4);
+    for (const std::string& path : folder.cacheContents())
+        fs::remove(path);
+    for (size_t shard = 0; shard < 4; ++shard)
+        EXPECT_EQ(run(shard, 4).exit_code, 0);
+    EXPECT_TRUE(merged() == pack);
+}
+
+TEST_F(Farm, preparesWhatReadsNoOtherSource)
+{
+    placeSources();
+    plan(2, occlusion);
+    EXPECT_EQ(run(0, 2, {"--prepare"}).exit_code, 0);
+    const ProgramEnd list = hearth({"merge", "plan.json", "-o", "farm.hearth", "--missing", "list"});
+    EXPECT_EQ(list.exit_code, 75);
+    EXPECT_EQ(countOccurrences(list.out, "shard 0/2\n"), 2u) << list.out;
+    EXPECT_EQ(countOccurrences(list.out, "shard 1/2\n"), 10u) << list.out;
+    EXPECT_EQ(countOccurrences(list.out, "visibility "), 4u) << list.out;
+    EXPECT_NE(list.err.find("it was prepared, but not completed"), std::string::npos) << list.err;
+}
+
+TEST_F(Farm, aFailedNeighbourIsSkipped)
+{
+    placeSources();
+    folder.write("b.bin", "short");
+    EXPECT_EQ(
+        over("cook", {"-o", "local.hearth", "-q", "--no-cache", "--missing", "skip"}, occlusion).exit_code,
+        1);
+    const std::string pack = folder.read("local.hearth");
+    plan(4, occlusion);
+    int failed = 0;
+    for (const bool is_preparation : {true, false})
+        for (size_t shard = 0; shard < 4; ++shard)
+        {
+            const ProgramEnd end =
+                run(shard, 4,
+                    is_preparation ? std::vector<std::string>{"--prepare"} : std::vector<std::string>());
+            failed += end.exit_code == 0 ? 0 : 1;
+            EXPECT_TRUE(end.exit_code == 0 || end.exit_code == 65) << end.err;
+            EXPECT_EQ(countOccurrences(end.err, "b.gltf"), end.exit_code == 0 ? 0u : 1u) << end.err;
+        }
+    EXPECT_EQ(failed, 2) << "both steps of the shard that has the failed source, and no other";
+    const ProgramEnd list = hearth({"merge", "plan.json", "-o", "farm.hearth", "--missing", "list"});
+    EXPECT_EQ(countOccurrences(list.out, "b.gltf"), 5u) << list.out;
+    EXPECT_EQ(countOccurrences(list.out, "\n"), 5u) << list.out;
+    EXPECT_EQ(hearth({"merge", "plan.json", "-o", "farm.hearth", "--missing", "skip"}).exit_code, 1);
+    EXPECT_TRUE(folder.read("farm.hearth") == pack);
+}
+
 TEST_F(Farm, makesTheSameBytesElsewhere)
 {
     const std::string pack = localPack();
@@ -399,8 +485,8 @@ TEST_F(Farm, refusesWhatIsNoPlan)
     folder.write("shown.json", hearth({"cook", "house.obj", "-o", "a.hearth", "-n", "--format", "json"}).out);
     refused("shown.json", 65);
     // settings come from a command line, with its limits
-    for (const char* setting : {"bricks.bake=99", "visibility.quality=best", "visibility.qualty=high", "-o=x",
-                                "more.obj", "--help", ""})
+    for (const char* setting : {"bricks.voxel_size=0", "visibility.quality=best", "visibility.qualty=high",
+                                "-o=x", "more.obj", "--help", ""})
     {
         Json json = Json::parse(plan(1)).value();
         json["cook"]["settings"][0].push_back(setting);

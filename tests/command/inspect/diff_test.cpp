@@ -101,6 +101,8 @@ TEST_F(Diff, eachChangeIsToldUnderItsName)
     };
     const std::vector<Row> rows{
         {{"changed material paint: metallic"}, [](PackModel& pack) { pack.materials[0].metallic = 0.123F; }},
+        {{"changed layers of material paint: clearcoat"},
+         [](PackModel& pack) { pack.material_layers[0].clearcoat = 0.25F; }},
         {{"changed material paint: base_color_texture.wrap_u"},
          [](PackModel& pack) { pack.materials[0].base_color_texture.wrap_u = 2; }},
         {{"changed light light: intensity"}, [](PackModel& pack) { pack.lights[0].intensity *= 2; }},
@@ -125,7 +127,16 @@ TEST_F(Diff, eachChangeIsToldUnderItsName)
          }},
         {{"changed specular table : values"},
          [](PackModel& pack) { pack.specular_tables[0].values[5] ^= 1; }},
-        {{"added light sun"}, [](PackModel& pack) { addNamed(pack, pack.lights, "sun"); }},
+        {{"changed surroundings : instances"},
+         [](PackModel& pack) { pack.surroundings[0].visibility[3] = 0x3800; }},
+        {{"changed surroundings : radiance transfers"},
+         [](PackModel& pack) { pack.radiance_transfers[0].values[5] ^= 1; }},
+        {{"added light sun", "changed bricks : reflectors"},
+         [](PackModel& pack)
+         {
+             addNamed(pack, pack.lights, "sun");
+             pack.bricks.reflectors.emplace_back();
+         }},
         {{"added camera far"}, [](PackModel& pack) { addNamed(pack, pack.cameras, "far"); }},
         {{"removed camera camera", "removed extras camera camera"},
          [](PackModel& pack)
@@ -160,18 +171,20 @@ TEST_F(Diff, texelsAreCompared)
     EXPECT_EQ(diff.entries[0].kind, "texture");
     ASSERT_EQ(diff.entries[0].properties.size(), 1u);
     EXPECT_EQ(diff.entries[0].properties[0].name, "texels");
-    EXPECT_EQ(diff.entries[0].note, "baseColor of paint");
+    EXPECT_EQ(diff.entries[0].note, "baseColor of paint, clearcoat of paint");
     EXPECT_EQ(Json::parse(command::diffJson(diff, "a", "b")).value()["changes"][0]["note"],
               diff.entries[0].note);
 }
 
 TEST_F(Diff, textHasTotalsFirstAndHashesOnDemand)
 {
-    PackModel changed = smallPack();
+    PackModel pack = smallPack();
+    pack.bricks.reflectors.clear(); // of which each light would need one
+    PackModel changed = pack;
     changed.image_data[0][3] ^= std::byte{1};
     changed.materials[0].metallic = 0.123F;
     addNamed(changed, changed.lights, "sun");
-    const PackDiff diff = diffed(smallPack(), changed);
+    const PackDiff diff = diffed(pack, changed);
     const std::string text = command::diffText(diff);
     EXPECT_TRUE(text.starts_with("2 changed, 1 added, 0 removed\n"
                                  "    material: 1 changed, 0 added, 0 removed\n"
@@ -199,6 +212,8 @@ TEST_F(Diff, placesInTablesMeanNothing)
     std::rotate(shifted.materials.begin(), shifted.materials.end() - 1, shifted.materials.end());
     for (ClusterRecord& cluster : shifted.clusters)
         cluster.material += cluster.material == kInvalidIndex ? 0 : 1;
+    for (MaterialLayersRecord& layers : shifted.material_layers)
+        ++layers.material;
     for (ExtrasRecord& record : shifted.extras)
         record.index += record.owner == static_cast<uint32_t>(ExtrasOwner::material) ? 1 : 0;
     EXPECT_EQ(formatLines(diffed(smallPack(), shifted)), std::set<std::string>{"added material varnish"});

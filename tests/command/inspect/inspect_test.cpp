@@ -130,14 +130,14 @@ TEST_F(Inspect, describesTheBricks)
     EXPECT_EQ(json["bricks"]["bricks"], 3);
     EXPECT_EQ(json["bricks"]["solid_voxels"], 4);
     EXPECT_EQ(json["bricks"]["faces"], 22);
-    const uint64_t bytes = 48 + 2 * 12 + 3 * 64 + 4 + 22 * (4 + 2 + 4 + 4);
+    const uint64_t bytes = 48 + 2 * 12 + 3 * 64 + 4 + 22 * (4 + 2 + 4 + 4) + 3 * 40;
     EXPECT_EQ(json["bricks"]["bytes"], bytes);
     const auto row = std::find_if(json["chunks"].begin(), json["chunks"].end(),
                                   [](const Json& chunk) { return chunk["kind"] == "bricks"; });
     ASSERT_NE(row, json["chunks"].end());
     EXPECT_EQ((*row)["size"], bytes);
     EXPECT_EQ((*row)["stored"], bytes);
-    EXPECT_EQ((*row)["chunks"].size(), 8u);
+    EXPECT_EQ((*row)["chunks"].size(), 9u);
     EXPECT_NE(
         text.find("bricks     19 x 5 x 3 voxels of 0.5 m from (-4, 0, -1): 4 solid in 3 bricks, 22 faces"),
         std::string::npos)
@@ -162,6 +162,15 @@ TEST_F(Inspect, countsTheScene)
     ASSERT_EQ(scene["lights"].size(), 3u);
     EXPECT_EQ(scene["lights"][2]["type"], "spot");
     EXPECT_EQ(scene["materials"][0]["alpha_mode"], "mask");
+    EXPECT_EQ(scene["materials"][0]["layers"], (Json{{"ior", 1.5},
+                                                     {"specular", 1.0},
+                                                     {"specular_color", {1.0, 1.0, 1.0}},
+                                                     {"clearcoat", 0.5},
+                                                     {"clearcoat_roughness", 0.0},
+                                                     {"sheen_color", {0.0, 0.0, 0.0}},
+                                                     {"sheen_roughness", 0.0}}));
+    EXPECT_NE(text.find("layers of material 0 \"paint\": clear coat 0.5 (roughness 0)\n"), std::string::npos)
+        << text;
     ASSERT_EQ(scene["images"].size(), 2u);
     EXPECT_EQ(scene["images"][0]["name"], "paint.png");
     EXPECT_EQ(scene["images"][0]["width"], 4);

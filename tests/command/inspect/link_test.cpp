@@ -78,6 +78,7 @@ TEST_F(LinkPack, oneSourceKeepsEveryRecord)
     EXPECT_TRUE(sameBytes(pack.cameras(), model.cameras));
     EXPECT_TRUE(sameBytes(pack.lights(), model.lights));
     EXPECT_TRUE(sameBytes(pack.materials(), model.materials));
+    EXPECT_TRUE(sameBytes(pack.materialLayers(), model.material_layers));
     EXPECT_TRUE(sameBytes(pack.images(), model.images));
     EXPECT_TRUE(sameBytes(pack.skins(), model.skins));
     EXPECT_TRUE(sameBytes(pack.joints(), model.joints));
@@ -185,6 +186,37 @@ TEST_F(LinkPack, takesOneTableOfSpecularOcclusion)
     EXPECT_EQ(link().error().issue, Issue::chunk_missing);
 }
 
+TEST_F(LinkPack, surroundingsStayWithTheirInstances)
+{
+    const PackModel model = smallPack();
+    addParts(model, "a");
+    PackModel without = smallPack();
+    without.surroundings.clear();
+    without.radiance_transfers.clear();
+    addParts(without, "b");
+    addParts(model, "c");
+    const PackView pack = linked();
+    const size_t count = model.instances.size();
+    ASSERT_EQ(pack.surroundings().size(), 3 * count);
+    ASSERT_EQ(pack.radianceTransfers().size(), 2u);
+    EXPECT_EQ(pack.surroundings()[count - 1].transfer, 0u);
+    EXPECT_EQ(pack.surroundings()[3 * count - 1].transfer, 1u);
+    EXPECT_EQ(pack.surroundings()[3 * count - 1].visibility[3], model.surroundings.back().visibility[3]);
+    for (const size_t i : {size_t{0}, count, 2 * count - 1})
+    {
+        EXPECT_EQ(pack.surroundings()[i].transfer, kInvalidIndex) << i;
+        EXPECT_EQ(pack.surroundings()[i].visibility[3], kHalfOne) << i;
+    }
+}
+
+TEST_F(LinkPack, refusesSurroundingsOfOtherInstances)
+{
+    PackModel model = smallPack();
+    model.surroundings.pop_back();
+    addParts(model, "a");
+    EXPECT_EQ(link().error().issue, Issue::meaning_reference);
+}
+
 TEST_F(LinkPack, takesTheBricksOfAPart)
 {
     addParts(smallPack(), "a");
@@ -201,6 +233,7 @@ TEST_F(LinkPack, takesTheBricksOfAPart)
     EXPECT_TRUE(sameBytes(pack.brickNormals(), expected.normals));
     EXPECT_TRUE(sameBytes(pack.brickEmission(), expected.emission));
     EXPECT_TRUE(sameBytes(pack.brickLighting(), expected.lighting));
+    EXPECT_TRUE(sameBytes(pack.reflectors(), expected.reflectors));
 }
 
 TEST_F(LinkPack, refusesWrongBricksAndNone)
@@ -275,6 +308,10 @@ TEST_F(LinkPack, secondSourceStandsBehindTheFirst)
     EXPECT_EQ(pack.materials()[1].normal_texture.image, 2u);
     EXPECT_EQ(pack.materials()[1].occlusion_texture.image, 3u);
     EXPECT_EQ(pack.materials()[1].emissive_texture.image, kInvalidIndex);
+    ASSERT_EQ(pack.materialLayers().size(), 2u);
+    EXPECT_EQ(pack.materialLayers()[1].material, 1u);
+    EXPECT_EQ(pack.materialLayers()[1].clearcoat_texture.image, 2u);
+    EXPECT_EQ(pack.materialLayers()[1].sheen_texture.image, kInvalidIndex);
     EXPECT_EQ(pack.cameras()[2].node, nodes);
     EXPECT_EQ(pack.lights()[3].node, nodes);
     EXPECT_EQ(pack.skins()[1].joints.first, 2u);
@@ -344,6 +381,14 @@ TEST_F(LinkPack, withoutExtrasThereIsNoChunk)
     EXPECT_EQ(linked().container().find(kChunkExtras), nullptr);
 }
 
+TEST_F(LinkPack, withoutLayersThereIsNoChunk)
+{
+    PackModel model = named("a.gltf");
+    model.material_layers.clear();
+    addParts(model, "a");
+    EXPECT_EQ(linked().container().find(kChunkMaterialLayers), nullptr);
+}
+
 TEST_F(LinkPack, anAssetForEachSource)
 {
     addParts(named("Old.Rock.gltf"), "a");
@@ -356,6 +401,8 @@ TEST_F(LinkPack, anAssetForEachSource)
     addParts(second, "b");
     PackModel third = named(".hidden");
     third.instances.clear();
+    third.surroundings.clear();
+    third.radiance_transfers.clear();
     addParts(third, "c");
     const PackView pack = linked();
 

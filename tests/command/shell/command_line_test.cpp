@@ -73,7 +73,8 @@ TEST_F(CommandLine, saysWhatIsMissingOrOutOfRange)
     expectUsageError({"explain", "E9999"}, "E9999");
     expectUsageError({"plan", "a", "-o", "b", "--shards", "0"}, "--shards");
     expectUsageError({"plan", "a", "-o", "b", "--emit", "makefile"}, "--emit");
-    expectUsageError({"plan", "a", "-o", "b", "--visibility-quality", "high"}, "--visibility");
+    expectUsageError({"plan", "a", "-o", "b", "--visibility", "off", "--visibility-quality", "high"},
+                     "--visibility");
     expectUsageError({"merge", "a"}, "--output is required");
     expectUsageError({"farm"}, "");
     expectUsageError({"farm", "ninja", "a"}, "--output is required");

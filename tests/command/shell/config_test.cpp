@@ -126,12 +126,12 @@ TEST_F(Settings, reachTheCookersOfTheirSources)
     EXPECT_NE(clusters.find(R"("--set","clusters.influences=4")"), std::string::npos) << clusters;
     EXPECT_EQ(plan.dump().find("hearth.toml"), std::string::npos) << "settings are in it by value";
 
-    folder.write("hearth.toml", std::string(kProject) + "visibility.enabled = true\n");
+    folder.write("hearth.toml", std::string(kProject) + "visibility.mode = \"off\"\n");
     const std::vector<std::string> actions = wouldRun({"props/a.glb", "b.glb"});
     const auto has = [&](const char* action)
     { return std::find(actions.begin(), actions.end(), action) != actions.end(); };
-    EXPECT_TRUE(has("visibility props/a.glb"));
-    EXPECT_FALSE(has("visibility b.glb"));
+    EXPECT_FALSE(has("visibility props/a.glb"));
+    EXPECT_TRUE(has("visibility b.glb"));
     EXPECT_TRUE(has("specular a.hearth"));
 }
 

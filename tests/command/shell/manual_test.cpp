@@ -172,7 +172,7 @@ TEST_F(Manual, whatIsWrittenFitsItsSchema)
              R"({"defaults": {"log": "loud"}})",
              R"({"rule": [{"textures": {}}]})",
              R"({"profile": {"pc": {"clusters": {"influences": 5}}}})",
-             R"({"rule": [{"match": "a", "bricks": {"enabled": true}}]})",
+             R"({"rule": [{"match": "a", "bricks": {"mode": true}}]})",
              R"({"profile": {"pc": {"visibility": {"distance": 0}}}})",
          })
     {
@@ -197,8 +197,8 @@ TEST_F(Manual, doctorSaysWhatIsWrongAndWhatToDo)
     EXPECT_NE(alone.out.find("ok       cache"), std::string::npos) << alone.out;
 
     // a program of another version
-    for (const char* name :
-         {"import", "textures", "clusters", "skinning", "visibility", "specular", "bricks", "link", "render"})
+    for (const char* name : {"import", "textures", "clusters", "skinning", "neighbours", "visibility",
+                             "specular", "bricks", "link", "render"})
         folder.write(std::string("bin/hearth-") + name,
                      std::string("#!/bin/sh\necho a device\nexit 0\nhearth program version 0.0.1") + '\0',
                      true);

@@ -3,14 +3,13 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/light/emission.h"
 #include "cook/bricks/light/face_lighting.h"
-#include "cook/tools/open_part.h"
 #include "formats/gpu_shared/brick_lighting.h"
 #include "sample_assets/shapes/glb_writer.h"
 #include "sample_assets/shapes/sample_math.h"
 #include "sample_assets/shapes/scene_parts.h"
 #include "sample_assets/shapes/shapes.h"
 #include "tests/cook/bricks/bricks_scene.h"
-#include "tests/support/sandbox.h"
+#include "tests/cook/bricks/source_parts.h"
 
 #include <gtest/gtest.h>
 #include <numbers>
@@ -74,18 +73,8 @@ protected:
         if (!wall.indices.empty())
             samples::addObject(document, "wall", {{wall, addPlainMaterial(document, "black", {0, 0, 0})}});
         ASSERT_TRUE(writeFile(folder_ / "body.glb", encodeGlb(document)).ok());
-        const auto step = [&](const char* program, std::vector<std::string> arguments)
-        {
-            arguments.insert(arguments.begin(), std::string(HEARTH_BIN "/") + program);
-            const test::ProgramEnd end = folder_.run(arguments);
-            ASSERT_EQ(end.exit_code, 0) << program << ": " << end.err;
-        };
-        step("hearth-import", {"body.glb", "-o", "import.part"});
-        step("hearth-clusters", {"import.part", "-o", "clusters.part"});
-        step("hearth-textures", {"import.part", "-o", "textures.part"});
-        const auto open = [&](const char* part) { return tools::openPart(folder_ / part).value(); };
         sources_.clear();
-        sources_.push_back({open("import.part"), open("clusters.part"), open("textures.part")});
+        sources_.push_back(makeSourceParts(folder_, "body.glb"));
         const StaticScene scene = collectStaticScene(sources_).value();
         GridSettings settings;
         settings.voxel_size = double{kVoxel};

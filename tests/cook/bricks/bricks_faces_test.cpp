@@ -21,6 +21,8 @@ SurfaceMaterial colored(Float3 color, bool double_sided = false)
 {
     SurfaceMaterial material = defaultMaterial();
     material.record.base_color = {color.x, color.y, color.z, 1};
+    material.record.metallic = 0;
+    material.dielectric = shared::specularDielectric({}, 0); // reflects its colour alone
     material.record.flags = double_sided ? uint32_t{formats::kMaterialDoubleSided} : 0u;
     return material;
 }

@@ -184,6 +184,29 @@ TEST_F(Rewrite, leavesMeshesWithoutNormalsAlone)
     EXPECT_EQ(pages_of_mesh[5], 0u);
 }
 
+/// A part that is baked twice has the chunks of the second time.
+TEST_F(Rewrite, replacesChunks)
+{
+    const auto bake = [&](const std::string& from, const std::string& to, uint32_t transfer)
+    {
+        const SurroundingsRecord record{transfer, {0, 0, 0, kHalfOne}};
+        const auto keep = [](const PageVertices&, std::span<uint32_t>) {};
+        return pages::rewriteVisibility(
+            open(from), to, keep,
+            {.types = {kChunkSurroundings}, .write = [record](ContainerWriter& writer) {
+                 return writer.addRecords<SurroundingsRecord>(kChunkSurroundings, {&record, 1});
+             }});
+    };
+    const std::string once = folder.file("once.part"), twice = folder.file("twice.part");
+    ASSERT_EQ(getMessage(bake(path, once, 3)), "");
+    ASSERT_EQ(getMessage(bake(once, twice, 5)), "");
+    const auto view = PackView::read(open(twice));
+    ASSERT_TRUE(view.ok());
+    ASSERT_EQ(view->surroundings().size(), 1u);
+    EXPECT_EQ(view->surroundings()[0].transfer, 5u);
+    EXPECT_EQ(view->clusters().size(), PackView::read(open(path))->clusters().size());
+}
+
 TEST_F(Rewrite, refusesPagesOfAnotherCodec)
 {
     const test::AlignedBytes bytes = test::smallPack().bytes();

@@ -4,9 +4,11 @@
 #include "cook/specular/rows.h"
 #include "formats/pack/pack_check.h"
 #include "formats/scene/reflectance_table.h"
+#include "formats/scene/sheen_table.h"
 #include "tests/support/sandbox.h"
 
 #include <gtest/gtest.h>
+#include <span>
 #include <sstream>
 
 namespace hearth::test
@@ -96,13 +98,12 @@ TEST_F(SpecularProgram, writesTheTableAsATexture)
     EXPECT_EQ(specular({"--astc", "no/such/a.astc"}).exit_code, 73);
 }
 
-/// Nodes may differ in the last bit of a half: libraries differ in their transcendental functions.
-TEST_F(SpecularProgram, writesTheReflectanceThatShadingReads)
+/// Expect the nodes of a written table. They may differ in the last bit of a half: libraries differ in their
+/// transcendental functions.
+void expectNodes(const std::string& text, const std::string& name, std::span<const uint64_t> nodes)
 {
-    ASSERT_EQ(specular({"--reflectance", "table.h"}).exit_code, 0);
-    const std::string text = folder.read("table.h");
-    size_t at = text.find("kReflectanceTable{");
-    for (const uint64_t node : shared::kReflectanceTable)
+    size_t at = text.find(name + "{");
+    for (const uint64_t node : nodes)
     {
         at = text.find("0x", at + 1);
         ASSERT_NE(at, std::string::npos);
@@ -113,6 +114,14 @@ TEST_F(SpecularProgram, writesTheReflectanceThatShadingReads)
                       1);
     }
     EXPECT_EQ(text.find("0x", at + 1), std::string::npos);
+}
+
+TEST_F(SpecularProgram, writesTheReflectanceThatShadingReads)
+{
+    ASSERT_EQ(specular({"--reflectance", "table.h"}).exit_code, 0);
+    expectNodes(folder.read("table.h"), "kReflectanceTable", shared::kReflectanceTable);
+    ASSERT_EQ(specular({"--sheen", "sheen.h"}).exit_code, 0);
+    expectNodes(folder.read("sheen.h"), "kSheenTable", shared::kSheenTable);
 }
 
 TEST_F(SpecularProgram, evaluatesRowsInTheirOrder)

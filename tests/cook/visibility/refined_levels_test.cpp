@@ -135,6 +135,30 @@ TEST(SampledMoments, areMeansOverPlacesOfWhichEachHasItsRays)
     EXPECT_GE(calls, 2u);
 }
 
+TEST(SampledMoments, sayHowUnlikePlacesAre)
+{
+    Mesh floor, lid;
+    floor.addQuad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
+    lid.addQuad({-50, -50, 0.1f}, {-50, 50, 0.1f}, {50, 50, 0.1f}, {50, -50, 0.1f});
+    const auto samples = surfaceSamples(floor.positions, floor.corners, {.samples_per_vertex = 500});
+    Occluders nothing;
+    nothing.finish();
+    const Occluders closed = makeOccluders({lid.occluder()}), wall = makeOccluders({nook().occluder()});
+    const auto getSpread = [&](std::vector<Placement> places)
+    {
+        const auto go = [](size_t, uint64_t, uint64_t) { return true; };
+        return sampledMoments(makeMeshView(floor), samples, places, {.rays_per_sample = 4}, false, go)
+            ->spread;
+    };
+    const Placement open{&nothing, {}, {}}, shut{&closed, {}, {}}, beside{&wall, {}, {}};
+    EXPECT_EQ(getSpread({shut}), 0);
+    EXPECT_NEAR(getSpread({open, shut}), 0.5, 1e-3);
+    EXPECT_NEAR(getSpread({open, shut, open, shut}), 0.5, 1e-3);
+    EXPECT_NEAR(getSpread({open, open, open, shut}), std::sqrt(3.0) / 4, 1e-3);
+    // four rays leave noise of .2 where half of the hemisphere is hidden
+    EXPECT_LT(getSpread({beside, beside, beside, beside}), 0.03);
+}
+
 TEST(RefineLevels, givesEachVertexTheConeNearestToNineHarmonics)
 {
     const mesh::SourceMesh fine = shapes::rock(8, 0), coarse = shapes::rock(4, 0);

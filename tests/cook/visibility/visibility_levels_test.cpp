@@ -148,7 +148,7 @@ TEST(FitLevels, areNearerToTheTruthThanCopies)
                     frequency, noise, i, fitted, copy, fits[i].statistics.solve.iterations);
                 EXPECT_LT(fitted, 0.96 * copy);
                 EXPECT_EQ(fits[i].statistics.lost_samples, 0u);
-                EXPECT_LE(fits[i].samples, fits[i].statistics.vertices * 32);
+                EXPECT_LE(fits[i].samples, levels.views[i - 1].mesh.triangleCount());
             }
         }
 }
@@ -248,27 +248,31 @@ TEST(FitLevels, doNotTakeSamplesOfTheOtherSide)
     EXPECT_NEAR(nearer.statistics.lost_samples, nearer.samples / 2, 2);
 }
 
-TEST(ChooseSamples, takesEqualAreas)
+TEST(AverageByTriangle, keepsTheIntegralsOfLinearFunctions)
 {
-    std::vector<SurfaceSample> samples;
-    for (uint32_t i = 0; i < 1000; ++i)
-        samples.push_back({i, 0, 0, i < 500 ? 1.0f : 3.0f});
-    const SampleSubset choice = chooseSamples(samples, 100);
-    double area = 0, of_first = 0;
-    for (size_t i = 0; i < choice.samples.size(); ++i)
+    const std::vector<SurfaceSample> samples{{2, 0.1f, 0.2f, 1, 1},
+                                             {kInvalidIndex, 0, 0, 9, 1},
+                                             {2, 0.7f, 0.1f, 3, 1},
+                                             {0, 0.2f, 0.5f, 2, 1},
+                                             {2, 0.2f, 0.6f, 2, 0.5f}};
+    std::vector<Moments> values;
+    for (const SurfaceSample& sample : samples)
+        values.push_back({1 + 2 * sample.u - sample.v, {sample.u, sample.v, 3}});
+    const SampledValues means = averageByTriangle(samples, values, 4);
+    ASSERT_EQ(means.samples.size(), 2u);
+    EXPECT_EQ(means.samples[0], samples[3]);
+    EXPECT_EQ(means.samples[1].triangle, 2u);
+    EXPECT_FLOAT_EQ(means.samples[1].area, 6);
+    EXPECT_FLOAT_EQ(means.samples[1].weight, 5.0f / 6);
+    // by area and weight: 1, 3 and 1 of 5
+    EXPECT_FLOAT_EQ(means.samples[1].u, (0.1f + 3 * 0.7f + 0.2f) / 5);
+    for (size_t i = 0; i < 2; ++i)
     {
-        area += choice.areas[i];
-        of_first += choice.samples[i] < 500 ? choice.areas[i] : 0;
-        EXPECT_TRUE(i == 0 || choice.samples[i] > choice.samples[i - 1]);
+        const SurfaceSample& at = means.samples[i];
+        EXPECT_NEAR(means.values[i].m0, 1 + 2 * at.u - at.v, 1e-6f);
+        EXPECT_NEAR(means.values[i].m1.x, at.u, 1e-6f);
+        EXPECT_EQ(means.values[i].m1.z, 3.0f);
     }
-    EXPECT_EQ(choice.samples.size(), 100u);
-    EXPECT_NEAR(area, 2000, 1e-3);
-    EXPECT_NEAR(of_first, 500, 20);
-    EXPECT_EQ(chooseSamples(samples, 1000).samples.size(), 1000u);
-    // a single sample that represents most of the area is not lost
-    samples[10].area = 1e5f;
-    const SampleSubset heavy = chooseSamples(samples, 50);
-    EXPECT_NEAR(heavy.areas[0], 1e5f, 5e3f);
 }
 
 } // namespace hearth::visibility

@@ -159,6 +159,40 @@ TEST(VisibilityMoments, letRaysThroughMasks)
     }
 }
 
+TEST(VisibilityMoments, ofManyInstancesAreThoseOfTheirTriangles)
+{
+    // A field of masked triangles that are merged into one mesh, beside the triangles that remain.
+    Mesh pair;
+    pair.addQuad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0});
+    OccluderMesh masked = pair.occluder();
+    masked.mask = [](uint32_t triangle, float, float) { return triangle == 1; };
+    Occluders merged;
+    const Occluders::Mesh added = merged.add(masked);
+    Mesh remaining;
+    for (int i = 0; i < 100; ++i)
+    {
+        // every other one mirrored
+        const auto x = static_cast<float>(i % 10 - 5) * 0.7f, y = static_cast<float>(i / 10 - 5) * 0.7f;
+        const Affine3 place{{{i % 2 == 0 ? 0.2f : -0.2f, 0, 0, x}, {0, 0.3f, 0.1f, y}, {0, 0.1f, 1, 2}}};
+        merged.place(added, place);
+        for (size_t c = 3; c < 6; ++c)
+        {
+            remaining.corners.push_back(static_cast<uint32_t>(remaining.positions.size()));
+            remaining.positions.push_back(transformPoint(place, pair.positions[pair.corners[c]]));
+        }
+    }
+    merged.finish();
+    const std::vector<SamplePoint> points{{{0, 0, 0}, kUp, 1e-6f}, {{1.3f, 0.4f, 1}, kUp, 1e-6f}};
+    const auto moments = visibilityMoments(merged, points, {.rays_per_sample = 4096});
+    const auto expected =
+        visibilityMoments(makeOccluders({remaining.occluder()}), points, {.rays_per_sample = 4096});
+    for (size_t i = 0; i < points.size(); ++i)
+    {
+        EXPECT_NEAR((*moments)[i].m0, (*expected)[i].m0, 1e-5);
+        EXPECT_LT((*moments)[i].m0, 2 * kPi - 0.3);
+    }
+}
+
 TEST(VisibilityMoments, letRaysThroughBackFacesWhereTheMeshSaysSo)
 {
     Mesh ceiling = makeFloor(kFar); // facing up

@@ -48,11 +48,6 @@ struct EmbreeScene::State
         return placement->isDeformed(instance) ? deformed[instance]
                                                : meshes[view().instances()[instance].mesh];
     }
-    DoubleAffine worldFromScene(uint32_t instance) const
-    {
-        return DoubleAffine(placement->isDeformed(instance) ? Affine3d{}
-                                                            : placement->worldFromObject(instance));
-    }
     MeshScene makeScene(uint32_t mesh, std::optional<uint32_t> deformed_instance) const;
     void addInstance(uint32_t index);
     SurfaceHit toHit(uint32_t instance, uint32_t primitive, float u, float v, float distance) const;
@@ -150,10 +145,12 @@ void EmbreeScene::State::filter(const RTCFilterFunctionNArguments* arguments)
     const auto& ray = *reinterpret_cast<const RTCRay*>(arguments->ray);
     const auto& hit = *reinterpret_cast<const RTCHit*>(arguments->hit);
     SurfaceHit candidate = query.state->toHit(query.instID[0], hit.primID, hit.u, hit.v, ray.tfar);
-    // Embree passes rays to filters in the space of the instance.
+    // Embree passes rays to filters in the space of the instance, where mirrors change neither
+    // winding nor side.
     const Double3 direction{double{ray.dir_x}, double{ray.dir_y}, double{ray.dir_z}};
-    candidate.front =
-        query.state->isFront(candidate, query.state->worldFromScene(candidate.instance).vector(direction));
+    candidate.front = query.state->placement->isDeformed(candidate.instance)
+                          ? query.state->isFront(candidate, direction)
+                          : dot(Double3{double{hit.Ng_x}, double{hit.Ng_y}, double{hit.Ng_z}}, direction) < 0;
     if (!(*query.accept)(candidate))
         arguments->valid[0] = 0;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/reference/tracer/irradiance.h"
 
+#include "tests/reference/tracer/random_stream.h"
 #include "tests/reference/tracer/sky_tracer.h"
 
 #include <algorithm>
@@ -22,23 +23,6 @@ constexpr double kLampRadius = 0.1;
 
 /// Metres. Radius around a light that contains its shades and bulbs, which are much brighter than all else.
 constexpr double kFixtureRadius = 0.25;
-
-/// SplitMix64 (S. Vigna), as a random stream.
-class Random
-{
-public:
-    explicit Random(uint64_t seed) : state_(seed * 0xD1342543DE82EF95u + 1) {}
-    double next()
-    {
-        uint64_t x = state_ += 0x9E3779B97F4A7C15u;
-        x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
-        x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
-        return static_cast<double>((x ^ (x >> 31)) >> 11) * 0x1p-53;
-    }
-
-private:
-    uint64_t state_;
-};
 
 double largest(Double3 v)
 {
@@ -131,7 +115,9 @@ Double3 pathLight(const ShadedScene& scene, Double3 start, Double3 direction, Ra
         if (met->unlit)
             return light;
         light += through * met->coating.emitted;
-        through = through * met->coating.base; // metals too: their mirrored light arrives somewhere
+        // all reflection scatters as by Lambert's law, that of metals, too: mirrored light arrives somewhere
+        const Albedo reflects = albedo(met->coating, -direction);
+        through = through * (reflects.diffuse + reflects.specular + reflects.sheen);
         start = lifted(*met);
         light += through * lightsAt(scene, met->surface.position, start, met->coating.normal, kLampRadius);
         // Russian roulette from the third bounce on.

@@ -99,6 +99,60 @@ TEST(Reflected, isWhatItsAlbedosSay)
             }
 }
 
+/// White surfaces with all layers, of which each takes light from those below.
+TEST(Reflected, keepsAWhiteFurnaceWhiteUnderLayers)
+{
+    for (const double roughness : {0.1, 0.5, 1.0})
+        for (const double strength : {0.4, 1.0})
+            for (const double elevation : {0.1, 0.4, 1.1})
+            {
+                Coating c = makeCoating(0.4, 0.3);
+                c.base = {1, 1, 1};
+                c.dielectric_f0 = Double3{0.2, 0.2, 0.2} * strength;
+                c.dielectric_f90 = strength;
+                const auto expectWhite = [&](const char* layers)
+                {
+                    EXPECT_NEAR(integrateReflected(c, elevation, 0).x, 1, 0.01)
+                        << layers << ", roughness " << roughness << ", strength " << strength
+                        << ", elevation " << elevation;
+                };
+                expectWhite("specular");
+                c.clearcoat = strength;
+                c.clearcoat_roughness = roughness;
+                c.clearcoat_normal = c.normal;
+                expectWhite("clear coat");
+                c.sheen = Double3{1, 1, 1} * strength;
+                c.sheen_roughness = roughness;
+                expectWhite("all");
+                const Albedo parts = albedo(c, direction(elevation, 0));
+                EXPECT_NEAR(parts.diffuse.x + parts.specular.x + parts.sheen.x + parts.clearcoat, 1, 1e-9);
+                // coloured sheen takes as much from all channels as it gives to the brightest
+                c.sheen = {strength, 0, 0};
+                const Double3 red = integrateReflected(c, elevation, 0);
+                EXPECT_NEAR(red.x, 1, 0.01);
+                EXPECT_LT(red.y, red.x + 0.001);
+            }
+}
+
+/// A mirror of dielectric under a coat: at normal incidence the coat reflects 4 %, and leaves 96 % to it.
+TEST(Reflected, letsAClearCoatDimWhatIsBelow)
+{
+    Coating c = makeCoating(0.05, 0);
+    c.base = {};
+    c.emitted = {1, 2, 3};
+    c.clearcoat = 1;
+    c.clearcoat_roughness = 0.05;
+    c.clearcoat_normal = c.normal;
+    const Albedo parts = albedo(c, {0, 1, 0});
+    EXPECT_NEAR(parts.clearcoat, 0.04, 2e-4);
+    EXPECT_NEAR(parts.specular.x, 0.96 * 0.04, 2e-4);
+    EXPECT_NEAR(emitted(c, {0, 1, 0}).z, 3 * 0.96, 1e-3);
+    // its own normal turns its highlight, but not that of what is below
+    c.clearcoat_normal = normalize({0.3, 1, 0});
+    const Double3 light = c.clearcoat_normal * (2 * c.clearcoat_normal.y) - Double3{0, 1, 0};
+    EXPECT_GT(reflected(c, {0, 1, 0}, light).x, 100 * reflected(c, {0, 1, 0}, {-light.x, light.y, 0}).x);
+}
+
 TEST(Reflected, isLambertsLawForARoughDielectricSeenFromAbove)
 {
     const Coating c = makeCoating(1, 0);
@@ -190,6 +244,8 @@ test::PackModel strip(uint32_t instance)
     test::PackModel model = test::smallPack();
     model.instances[0].world_from_object = model.instances[instance].world_from_object;
     model.instances.resize(1);
+    model.surroundings.clear();
+    model.radiance_transfers.clear();
     return model;
 }
 
@@ -236,12 +292,17 @@ TEST(EmbreeScene, knowsTheFrontOfAMirroredInstance)
 
 TEST(EmbreeScene, looksThroughWhatIsNotAccepted)
 {
-    const HeldPack pack(strip(0));
-    const PackGeometry geometry = PackGeometry::decode(pack.view).value();
-    const Placement placement(geometry);
-    const EmbreeScene fronts(placement, [](const SurfaceHit& hit) { return hit.front; });
-    EXPECT_TRUE(fronts.nearest({{0.25, 2, 0.5}, {0, -1, 0}}).has_value());
-    EXPECT_FALSE(fronts.nearest({{0.25, -2, 0.5}, {0, 1, 0}}).has_value());
+    for (const bool is_mirrored : {false, true})
+    {
+        SCOPED_TRACE(is_mirrored);
+        const HeldPack pack(strip(is_mirrored ? 1 : 0));
+        const PackGeometry geometry = PackGeometry::decode(pack.view).value();
+        const Placement placement(geometry);
+        const EmbreeScene fronts(placement, [](const SurfaceHit& hit) { return hit.front; });
+        const Double3 above{is_mirrored ? 4.5 : 0.25, 2, is_mirrored ? 0.25 : 0.5};
+        EXPECT_TRUE(fronts.nearest({above, {0, -1, 0}}).has_value());
+        EXPECT_FALSE(fronts.nearest({above - Double3{0, 4, 0}, {0, 1, 0}}).has_value());
+    }
 }
 
 /// Mean colour of the reference for a camera straight above the strip.

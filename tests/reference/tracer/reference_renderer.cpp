@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/reference/tracer/reference_renderer.h"
 
+#include "tests/reference/tracer/camera_rays.h"
+
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -18,15 +20,11 @@ class ReferenceRenderer
 public:
     ReferenceRenderer(const PackGeometry& geometry, const TextureSet& textures,
                       const ReferenceOptions& options)
-        : options_(options), scene_(geometry, textures, options.pose)
+        : options_(options),
+          scene_(geometry, textures, options.pose),
+          rays_(options.camera, options.width, options.height)
     {
         options_.sky.shadows = options.shadows;
-        forward_ = normalize(Double3(options.camera.target) - Double3(options.camera.position));
-        right_ = normalize(cross(forward_, Double3(options.camera.up)));
-        up_ = cross(right_, forward_);
-        slope_ = std::tan(double{options.camera.y_fov_rad} / 2);
-        // footprint of a sample at a distance of one metre
-        sample_angle_ = 2 * slope_ / (options.height * options.samples_per_side);
     }
 
     /// Display-linear colour of a pixel. Samples are tone-mapped one by one, as in multisampled rendering.
@@ -44,18 +42,13 @@ public:
 private:
     Double3 sample(double x, double y, uint64_t seed) const
     {
-        const double aspect = double{1} * options_.width / options_.height;
-        const Double3 across = right_ * ((2 * x / options_.width - 1) * slope_ * aspect);
-        const Double3 upwards = up_ * ((1 - 2 * y / options_.height) * slope_);
-        const Double3 ray = forward_ + across + upwards; // depth 1
-        const Double3 direction = normalize(ray);
-        const double near = double{options_.camera.z_near} * length(ray);
-        const auto point =
-            scene_.nearest({Double3(options_.camera.position), direction, near, 1e30}, sample_angle_);
+        const Ray ray = rays_.through(x, y);
+        const Double3 direction = ray.direction;
+        const auto point = scene_.nearest(ray, rays_.pixelAngle() / options_.samples_per_side);
         if (point && point->unlit)
             return point->coating.base;
         const Double3 radiance = !point ? scene_.lighting().radiance(direction)
-                                        : point->coating.emitted +
+                                        : emitted(point->coating, -direction) +
                                               underLights(scene_, *point, -direction, options_.shadows) +
                                               tracedSky(scene_, *point, -direction, options_.sky, seed);
         return {filmic(radiance.x), filmic(radiance.y), filmic(radiance.z)};
@@ -63,8 +56,7 @@ private:
 
     ReferenceOptions options_;
     ShadedScene scene_;
-    Double3 forward_, right_, up_;
-    double slope_ = 1, sample_angle_ = 0;
+    CameraRays rays_;
 };
 
 } // namespace

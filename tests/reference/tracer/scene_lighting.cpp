@@ -4,6 +4,7 @@
 #include "formats/gpu_shared/shading.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace hearth::reference
@@ -94,6 +95,13 @@ Double3 integrateSky(const SceneLighting& lighting, double height, double cos_ha
                      const Weight& weight)
 {
     constexpr int kRings = 32, kTurns = 24;
+    static const std::array kCosines = []
+    {
+        std::array<double, kTurns> cosines;
+        for (int turn = 0; turn < kTurns; ++turn)
+            cosines[static_cast<size_t>(turn)] = std::cos(kPi * (turn + 0.5) / kTurns);
+        return cosines;
+    }();
     const double level = std::sqrt(std::max(0.0, 1 - height * height));
     Double3 sum;
     double weights = 0;
@@ -102,7 +110,7 @@ Double3 integrateSky(const SceneLighting& lighting, double height, double cos_ha
         const double along = 1 - (1 - cos_half_angle) * (ring + 0.5) / kRings;
         for (int turn = 0; turn < kTurns; ++turn)
         {
-            const double across = std::sqrt(1 - along * along) * std::cos(kPi * (turn + 0.5) / kTurns);
+            const double across = std::sqrt(1 - along * along) * kCosines[static_cast<size_t>(turn)];
             sum += lighting.radiance({0, along * height + across * level, 0}) * weight(along);
             weights += weight(along);
         }

@@ -45,7 +45,11 @@ std::optional<ShadedPoint> ShadedScene::nearest(const Ray& ray, double sample_an
     if (!hit)
         return std::nullopt;
     const MaterialRecord& material = getMaterial(*hit);
-    ShadedPoint point{*hit, surfaceAt(placement_, *hit, material.normal_texture.uv_set), {}, false};
+    const MaterialLayersRecord layers = getLayers(*hit);
+    const TextureRef& normals = material.normal_texture.image != kInvalidIndex
+                                    ? material.normal_texture
+                                    : layers.clearcoat_normal_texture;
+    ShadedPoint point{*hit, surfaceAt(placement_, *hit, normals.uv_set), {}, false};
     point.coating = coatingAt(*hit, point.surface, hit->distance * sample_angle);
     point.unlit = (material.flags & kMaterialUnlit) != 0;
     return point;
@@ -56,6 +60,15 @@ const MaterialRecord& ShadedScene::getMaterial(const SurfaceHit& hit) const
     static const MaterialRecord otherwise = defaultMaterial();
     const uint32_t material = geometry_.view().clusters()[hit.cluster].material;
     return material == kInvalidIndex ? otherwise : geometry_.view().materials()[material];
+}
+
+MaterialLayersRecord ShadedScene::getLayers(const SurfaceHit& hit) const
+{
+    const uint32_t material = geometry_.view().clusters()[hit.cluster].material;
+    for (const MaterialLayersRecord& layers : geometry_.view().materialLayers())
+        if (layers.material == material)
+            return layers;
+    return neutralLayers(material);
 }
 
 bool ShadedScene::shadowed(Double3 start, const Incident& light) const
@@ -112,17 +125,44 @@ Coating ShadedScene::coatingAt(const SurfaceHit& hit, const SurfacePoint& point,
     c.occlusion = 1 + double{material.occlusion_strength} * (occlusion - 1);
     c.emitted = Double3(material.emissive) * look(material.emissive_texture, point, sample_size).rgb *
                 lighting_.exposure;
-    c.normal = point.normal;
-    if (material.normal_texture.image != kInvalidIndex)
-    {
-        const Double3 n = look(material.normal_texture, point, sample_size).rgb * 2.0 - Double3{1, 1, 1};
-        const double scale = double{material.normal_scale};
-        c.normal =
-            normalize(point.tangent * (n.x * scale) + point.bitangent * (n.y * scale) + point.normal * n.z);
-    }
+    c.normal = mappedNormal(material.normal_texture, material.normal_scale, point, sample_size);
+    addLayers(hit, point, sample_size, c);
     if (!hit.front)
+    {
         c.normal = -c.normal;
+        c.clearcoat_normal = -c.clearcoat_normal;
+    }
     return c;
+}
+
+Double3 ShadedScene::mappedNormal(const TextureRef& map, float scale, const SurfacePoint& point,
+                                  double sample_size) const
+{
+    if (map.image == kInvalidIndex)
+        return point.normal;
+    const Double3 n = look(map, point, sample_size).rgb * 2.0 - Double3{1, 1, 1};
+    return normalize(point.tangent * (n.x * double{scale}) + point.bitangent * (n.y * double{scale}) +
+                     point.normal * n.z);
+}
+
+void ShadedScene::addLayers(const SurfaceHit& hit, const SurfacePoint& point, double sample_size,
+                            Coating& c) const
+{
+    const MaterialLayersRecord layers = getLayers(hit);
+    const Rgba specular = look(layers.specular_texture, point, sample_size);
+    const double ior = double{layers.ior};
+    const Double3 f0 = Double3(layers.specular_color) * specular.rgb * std::pow((ior - 1) / (ior + 1), 2);
+    c.dielectric_f90 = double{layers.specular} * specular.alpha;
+    c.dielectric_f0 =
+        Double3{std::min(f0.x, 1.0), std::min(f0.y, 1.0), std::min(f0.z, 1.0)} * c.dielectric_f90;
+    const Rgba sheen = look(layers.sheen_texture, point, sample_size);
+    c.sheen = Double3(layers.sheen_color) * sheen.rgb;
+    c.sheen_roughness = std::clamp(double{layers.sheen_roughness} * sheen.alpha, 0.07, 1.0);
+    const Double3 coat = look(layers.clearcoat_texture, point, sample_size).rgb;
+    c.clearcoat = double{layers.clearcoat} * coat.x;
+    c.clearcoat_roughness = std::clamp(double{layers.clearcoat_roughness} * coat.y, 0.045, 1.0);
+    c.clearcoat_normal =
+        mappedNormal(layers.clearcoat_normal_texture, layers.clearcoat_normal_scale, point, sample_size);
 }
 
 Double3 lifted(const ShadedPoint& point)

@@ -26,6 +26,8 @@ public:
     ShadedScene(const PackGeometry& geometry, const TextureSet& textures, const formats::ScenePose* pose);
 
     const SceneLighting& lighting() const { return lighting_; }
+    const Placement& placement() const { return placement_; }
+    const formats::MaterialRecord& getMaterial(const SurfaceHit& hit) const;
 
     /// sample_angle  side of the ray's footprint at a distance of one metre, for texture filtering
     std::optional<ShadedPoint> nearest(const Ray& ray, double sample_angle) const;
@@ -38,12 +40,15 @@ public:
     bool shadowed(Double3 start, const Incident& light) const;
 
 private:
-    const formats::MaterialRecord& getMaterial(const SurfaceHit& hit) const;
+    formats::MaterialLayersRecord getLayers(const SurfaceHit& hit) const;
     Rgba look(const formats::TextureRef& texture, const SurfacePoint& point, double sample_size) const;
     bool isThere(const SurfaceHit& hit) const;
     bool blocks(const SurfaceHit& hit) const;
     bool isHole(const SurfaceHit& hit) const;
     Coating coatingAt(const SurfaceHit& hit, const SurfacePoint& point, double sample_size) const;
+    Double3 mappedNormal(const formats::TextureRef& map, float scale, const SurfacePoint& point,
+                         double sample_size) const;
+    void addLayers(const SurfaceHit& hit, const SurfacePoint& point, double sample_size, Coating& c) const;
 
     const PackGeometry& geometry_;
     const TextureSet& textures_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/reference/tracer/sky_tracer.h"
 
+#include "tests/reference/tracer/microfacets.h"
+
 #include <algorithm>
 
 namespace hearth::reference
@@ -36,43 +38,6 @@ public:
 
 private:
     double u_, v_;
-};
-
-/// Sample the visible normals of GGX (E. Heitz, "Sampling the GGX distribution of visible normals", 2018).
-/// `view` is in the frame of the normal, which is z.
-Double3 visibleNormal(Double3 view, double alpha, double u, double v)
-{
-    const Double3 stretched = normalize({alpha * view.x, alpha * view.y, view.z});
-    const double across = stretched.x * stretched.x + stretched.y * stretched.y;
-    const Double3 t1 =
-        across > 0 ? Double3{-stretched.y, stretched.x, 0} / std::sqrt(across) : Double3{1, 0, 0};
-    const Double3 t2 = cross(stretched, t1);
-    const double r = std::sqrt(u), phi = 2 * kPi * v, s = 0.5 * (1 + stretched.z);
-    const double a = r * std::cos(phi);
-    const double b = (1 - s) * std::sqrt(std::max(0.0, 1 - a * a)) + s * r * std::sin(phi);
-    const Double3 n = t1 * a + t2 * b + stretched * std::sqrt(std::max(0.0, 1 - a * a - b * b));
-    return normalize({alpha * n.x, alpha * n.y, std::max(1e-9, n.z)});
-}
-
-/// G2 / G1(view), height-correlated: weight of a direction from visibleNormal.
-double maskingWeight(double nl, double nv, double alpha)
-{
-    const double a2 = alpha * alpha;
-    const auto lambda = [&](double c) { return 0.5 * (std::sqrt(1 + a2 * (1 / (c * c) - 1)) - 1); };
-    return (1 + lambda(nv)) / (1 + lambda(nv) + lambda(nl));
-}
-
-struct Frame
-{
-    Double3 x, y, z;
-    explicit Frame(Double3 n)
-        : x(normalize(cross(n, std::abs(n.x) < 0.5 ? Double3{1, 0, 0} : Double3{0, 1, 0}))),
-          y(cross(n, x)),
-          z(n)
-    {
-    }
-    Double3 local(Double3 v) const { return {dot(x, v), dot(y, v), dot(z, v)}; }
-    Double3 world(Double3 v) const { return x * v.x + y * v.y + z * v.z; }
 };
 
 Double3 ratio(Double3 part, Double3 whole)
@@ -137,36 +102,67 @@ struct LobeSums
 
 } // namespace
 
-SkyAccess traceSky(const ShadedScene& scene, const ShadedPoint& point, Double3 view,
+namespace
+{
+
+/// Trace a GGX lobe.
+LobeSums traceLobe(const ShadedScene& scene, Double3 start, Double3 normal, Double3 view, double roughness,
                    const SkyTracing& tracing, uint64_t seed)
 {
-    const Double3 start = lifted(point), normal = point.coating.normal;
     const Frame frame(normal);
     Double3 seen = frame.local(view);
     seen.z = std::clamp(std::abs(seen.z), 1e-4, 1.0); // as in the material model
     seen = normalize(seen);
-    const double alpha = point.coating.roughness * point.coating.roughness;
-    const Points diffuse_points(seed), specular_points(mixed(seed) + 1);
-    LobeSums diffuse, specular;
+    const double alpha = roughness * roughness;
+    const Points points(seed);
+    LobeSums sums;
     for (uint32_t i = 0; i < tracing.rays; ++i)
     {
-        const uint64_t ray_seed = mixed(seed) + 2 * uint64_t{i};
-        diffuse.add(scene, start, cosineDirection(normal, diffuse_points.u(i), diffuse_points.v(i)), 1,
-                    tracing, ray_seed);
-        const Double3 half = visibleNormal(seen, alpha, specular_points.u(i), specular_points.v(i));
+        const Double3 half = visibleNormal(seen, alpha, points.u(i), points.v(i));
         const Double3 mirrored = half * (2 * dot(seen, half)) - seen;
         if (mirrored.z > 0) // the lobe below the horizon is left out of the total, too
-            specular.add(scene, start, frame.world(mirrored), maskingWeight(mirrored.z, seen.z, alpha),
-                         tracing, ray_seed + 1);
+            sums.add(scene, start, frame.world(mirrored), maskingWeight(mirrored.z, seen.z, alpha), tracing,
+                     seed + i);
     }
+    return sums;
+}
+
+} // namespace
+
+SkyAccess traceSky(const ShadedScene& scene, const ShadedPoint& point, Double3 view,
+                   const SkyTracing& tracing, uint64_t seed)
+{
+    const Coating& c = point.coating;
+    const Double3 start = lifted(point);
+    const Points points(seed);
+    LobeSums diffuse, sheen;
+    for (uint32_t i = 0; i < tracing.rays; ++i)
+    {
+        const Double3 direction = cosineDirection(c.normal, points.u(i), points.v(i));
+        diffuse.add(scene, start, direction, 1, tracing, mixed(seed) + 2 * uint64_t{i});
+        if (c.sheen != Double3{})
+            sheen.add(scene, start, direction, sheenLobe(c.sheen_roughness, c.normal, view, direction),
+                      tracing, mixed(seed) + 2 * uint64_t{i});
+    }
+    const LobeSums specular = traceLobe(scene, start, c.normal, view, c.roughness, tracing, mixed(seed) + 1);
     SkyAccess access;
     access.diffuse = ratio(diffuse.visible, diffuse.all);
     access.specular = ratio(specular.visible, specular.all);
-    const double n = std::max(1u, tracing.rays), w = specular.weight > 0 ? specular.weight : 1;
+    access.sheen = ratio(sheen.visible, sheen.all);
+    const double n = std::max(1u, tracing.rays);
+    const auto mean = [](Double3 sum, double weight) { return sum / (weight > 0 ? weight : 1); };
     access.irradiance = diffuse.visible / n;
-    access.reflection = specular.visible / w;
+    access.reflection = mean(specular.visible, specular.weight);
     access.bounced_irradiance = diffuse.bounced / n;
-    access.bounced_reflection = specular.bounced / w;
+    access.bounced_reflection = mean(specular.bounced, specular.weight);
+    access.bounced_sheen = mean(sheen.bounced, sheen.weight);
+    if (c.clearcoat > 0)
+    {
+        const LobeSums coat = traceLobe(scene, start, c.clearcoat_normal, view, c.clearcoat_roughness,
+                                        tracing, mixed(seed) + 2);
+        access.clearcoat = ratio(coat.visible, coat.all);
+        access.bounced_clearcoat = mean(coat.bounced, coat.weight);
+    }
     return access;
 }
 
@@ -174,11 +170,9 @@ Double3 tracedSky(const ShadedScene& scene, const ShadedPoint& point, Double3 vi
                   uint64_t seed)
 {
     const Coating& c = point.coating;
+    const SkyResponse open = underSky(c, scene.lighting(), view);
     if (tracing.rays == 0)
-    {
-        const SkyResponse open = underSky(c, scene.lighting(), view);
-        return (open.diffuse + open.specular) * c.occlusion;
-    }
+        return (open.diffuse + open.specular + open.sheen + open.clearcoat) * c.occlusion;
     const SkyAccess access = traceSky(scene, point, view, tracing, seed);
     const Albedo part = albedo(c, view);
     const auto limited = [&](Double3 share)
@@ -186,11 +180,12 @@ Double3 tracedSky(const ShadedScene& scene, const ShadedPoint& point, Double3 vi
         return Double3{std::min(share.x, c.occlusion), std::min(share.y, c.occlusion),
                        std::min(share.z, c.occlusion)};
     };
-    const Double3 diffuse_share = limited(access.diffuse), specular_share = limited(access.specular);
-    Double3 radiance =
-        (part.diffuse * access.bounced_irradiance + part.specular * access.bounced_reflection) * c.occlusion;
-    const SkyResponse open = underSky(c, scene.lighting(), view);
-    return radiance + open.diffuse * diffuse_share + open.specular * specular_share;
+    const Double3 bounced = part.diffuse * access.bounced_irradiance +
+                            part.specular * access.bounced_reflection + part.sheen * access.bounced_sheen +
+                            access.bounced_clearcoat * part.clearcoat;
+    return bounced * c.occlusion + open.diffuse * limited(access.diffuse) +
+           open.specular * limited(access.specular) + open.sheen * limited(access.sheen) +
+           open.clearcoat * limited(access.clearcoat);
 }
 
 Double3 underLights(const ShadedScene& scene, const ShadedPoint& point, Double3 view, bool shadows)

@@ -5,10 +5,11 @@
 
 #include "tests/reference/tracer/shaded_scene.h"
 
-// Rays measure the part of the sky's light that arrives, for each channel and for both lobes by the
+// Rays measure the part of the sky's light that arrives, for each channel and for each lobe by the
 // material's own distribution,
 //     diffuse    irradiance(n) * int V L cos / int L cos
 //     specular   mean(lobe)    * int V L D G2 / int L D G2,
+// and for sheen and clear coat as for specular,
 // with L the sky's radiance. The first factors are integrals without rays, so that an open surface has no
 // noise.
 
@@ -17,7 +18,7 @@ namespace hearth::reference
 
 struct SkyTracing
 {
-    uint32_t rays = 0;    ///< sky rays of each sample for each of both lobes; 0: no occlusion
+    uint32_t rays = 0;    ///< sky rays of each sample for each lobe; 0: no occlusion
     uint32_t bounces = 0; ///< diffuse bounces after the hit; 0: hit surfaces are black, as in the runtime
     bool shadows = false; ///< of the lights, on surfaces that bounced rays hit
 };
@@ -26,8 +27,10 @@ struct SkyTracing
 struct SkyAccess
 {
     Double3 diffuse{1, 1, 1}, specular{1, 1, 1}; ///< visible light over all light, from 0
+    Double3 sheen{1, 1, 1}, clearcoat{1, 1, 1};
     Double3 irradiance, reflection; ///< visible light: over pi; reflected, with a Fresnel term of 1
     Double3 bounced_irradiance, bounced_reflection; ///< the same for light from surfaces that occlude the sky
+    Double3 bounced_sheen, bounced_clearcoat;
 };
 
 /// Trace the sky at a point. Deterministic: same arguments, same result. Another seed gives other random

@@ -58,7 +58,7 @@ Instance unmoved()
 
 bool landsInMap(const Case& c, Float3 point)
 {
-    const Float4 clip = shadowCasterClip(c.light, c.map, point - c.light.origin, c.light.direction, 1, 0);
+    const Float4 clip = shadowCasterClip(c.light, c.map, point - c.light.origin, c.light.direction, 1, 0, 1);
     return clip.w > 0 && clip.z <= clip.w && std::abs(clip.x) <= clip.w && std::abs(clip.y) <= clip.w;
 }
 
@@ -229,7 +229,7 @@ TEST(CutErrors, keepACoarserSurfaceFromShadowingTheOneThatIsSeen)
                 const LightRay ray = rayThrough(c.light, c.map, double{std::floor(texel.x)} + 0.5,
                                                 double{std::floor(texel.y)} + 0.5);
                 const Float4 clip =
-                    shadowCasterClip(c.light, c.map, narrow(casting.meet(ray)), normal, 0, error);
+                    shadowCasterClip(c.light, c.map, narrow(casting.meet(ray)), normal, 0, error, 1);
                 return looked_up.depth >= clip.z / clip.w;
             };
             EXPECT_TRUE(isLit(seen_error, cast_error)) << degrees;
@@ -259,7 +259,7 @@ TEST(CutErrors, moveThePlaneOfACasterAlongItsNormal)
             };
             const auto drawnDepth = [&](float moved)
             {
-                const Float4 clip = shadowCasterClip(c.light, c.map, narrow(point), normal, 0, moved);
+                const Float4 clip = shadowCasterClip(c.light, c.map, narrow(point), normal, 0, moved, 1);
                 return double{clip.z / clip.w};
             };
             const double expected = depthAt(point) - depthAt(farther.meet(ray));

@@ -152,7 +152,7 @@ float storedDepth(const Case& c, const Plane& plane, Float3 normal, double texel
     const Double3 point = plane.meet(ray);
     if (c.light.perspective != 0 && dot(point, widen(c.light.direction)) <= 0)
         return 0;
-    const Float4 clip = shadowCasterClip(c.light, c.map, narrow(point), normal, 0, 0);
+    const Float4 clip = shadowCasterClip(c.light, c.map, narrow(point), normal, 0, 0, 1);
     return clip.z / clip.w;
 }
 

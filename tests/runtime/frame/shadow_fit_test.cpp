@@ -28,7 +28,7 @@ Box3 makeScene(float half)
 /// Texel at which the rasteriser puts a point, from the clip position of a caster.
 Float2 rasterTexel(const ShadowLight& light, const ShadowMap& map, Float3 point)
 {
-    const Float4 clip = shadowCasterClip(light, map, point, light.direction, 1, 0);
+    const Float4 clip = shadowCasterClip(light, map, point, light.direction, 1, 0, 1);
     return {(clip.x / clip.w + 1) * 0.5f * map.size, (clip.y / clip.w + 1) * 0.5f * map.size};
 }
 
@@ -98,8 +98,8 @@ TEST(SunMap, movesInWholeTexelsAndKeepsVerticesInTheirPlaceToTheBit)
             // floats near 0 have more bits of the fraction than elsewhere
             EXPECT_NEAR(at_a.x + step_x, at_b.x, 0x1p-12f);
             EXPECT_NEAR(at_a.y + step_y, at_b.y, 0x1p-12f);
-            const Float4 drawn_a = shadowCasterClip(light, a, point, light.right, 1, 0);
-            const Float4 drawn_b = shadowCasterClip(light, b, point, light.right, 1, 0);
+            const Float4 drawn_a = shadowCasterClip(light, a, point, light.right, 1, 0, 1);
+            const Float4 drawn_b = shadowCasterClip(light, b, point, light.right, 1, 0, 1);
             EXPECT_EQ((drawn_a.x + 1) * 256 + step_x, (drawn_b.x + 1) * 256);
             EXPECT_EQ((drawn_a.y + 1) * 256 + step_y, (drawn_b.y + 1) * 256);
             EXPECT_EQ(drawn_a.z, drawn_b.z);

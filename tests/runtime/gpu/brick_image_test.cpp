@@ -47,21 +47,24 @@ protected:
         model_ = bricks;
         const uint32_t white = test_.addMaterial(plainMaterial());
         const uint32_t floor = test_.addMaterial(floor_);
+        layers_.material = floor;
+        test_.model().material_layers = {layers_};
         test_.addInstance(test_.addMesh(withMaterial(makeQuad(12, 12), floor)), lying({0, 0, 0}));
-        test_.addInstance(test_.addMesh(withMaterial(makeQuad(1.5f, 1.5f), white)), translated(kCardFar));
+        test_.addInstance(test_.addMesh(withMaterial(makeQuad(card_width_, 1.5f), white)),
+                          translated(kCardFar));
         test_.addLight(sun({0.2f, -1, -0.3f}));
         if (with_bricks)
             setBricks(test_, bricks);
         pack_.emplace(test_.build());
         scene_ = upload(*pack_);
-        targets_.emplace(makeTargets(kWidth, kHeight));
+        targets_.emplace(makeTargets(kWidth * scale_, kHeight * scale_));
     }
 
     Image frame(const DrawOptions& more = {}, Float3 eye = {2, 3, 7})
     {
         DrawOptions options = more;
-        options.width = kWidth;
-        options.height = kHeight;
+        options.width = kWidth * scale_;
+        options.height = kHeight * scale_;
         return draw(*scene_, *targets_, {.position = eye, .target = {0, 0.5f, 0}}, options);
     }
 
@@ -97,7 +100,10 @@ protected:
 
     static constexpr uint32_t kFloor = 0; ///< instance
 
+    uint32_t scale_ = 1;                              ///< pixels of the next load for one, in each direction
+    float card_width_ = 1.5f;                         ///< metres, of the next load
     formats::MaterialRecord floor_ = plainMaterial(); ///< material of the next load
+    formats::MaterialLayersRecord layers_ = formats::neutralLayers(0);
     BrickModel model_;
     TestScene test_;
     std::optional<formats::PackView> pack_;
@@ -226,6 +232,56 @@ TEST_F(BrickImageTest, mirrorImagesAreAsSharpAsTheSurfaceIsSmooth)
     EXPECT_GT(rough, 1.05 * matt);
 }
 
+/// Black that reflects as a dielectric, and black that reflects nothing below a coat of that dielectric.
+TEST_F(BrickImageTest, aClearCoatMirrorsBricksAsADielectricDoes)
+{
+    floor_.base_color = {0, 0, 0, 1};
+    for (const float roughness : {0.15f, 0.5f})
+    {
+        floor_.roughness = roughness;
+        layers_ = formats::neutralLayers(0);
+        test_ = TestScene();
+        load();
+        const Image dielectric = settled();
+        floor_.roughness = 1;
+        layers_.specular = 0;
+        layers_.clearcoat = 1;
+        layers_.clearcoat_roughness = roughness;
+        test_ = TestScene();
+        load();
+        const Image coated = settled();
+        EXPECT_LE(mostDifference(dielectric, coated), 1) << roughness;
+        layers_.clearcoat = 0.2f;
+        test_ = TestScene();
+        load();
+        EXPECT_GT(mostDifference(settled(), coated), 20) << roughness << ": its light is seen";
+    }
+}
+
+/// Beside a red wall sheen on black is as red as paper.
+TEST_F(BrickImageTest, sheenGetsTheLightOfBricks)
+{
+    load();
+    const Image paper = settled();
+    floor_.base_color = {0, 0, 0, 1};
+    layers_.specular = 0;
+    layers_.sheen_color = {1, 1, 1};
+    layers_.sheen_roughness = 1;
+    test_ = TestScene();
+    load();
+    const Image sheen = settled();
+    double of_paper = 0, of_sheen = 0;
+    for (size_t i = 0; i < paper.color.size(); ++i)
+        if (paper.visibility[i] != kVisibilitySky)
+        {
+            of_paper += channel(paper.color[i], 0) - channel(paper.color[i], 2);
+            of_sheen += channel(sheen.color[i], 0) - channel(sheen.color[i], 2);
+        }
+    std::printf("redness of paper %.0f, of sheen %.0f\n", of_paper, of_sheen);
+    EXPECT_GT(of_paper, 10000);
+    EXPECT_GT(of_sheen, 0.2 * of_paper);
+}
+
 TEST_F(BrickImageTest, whatMovesReceivesLight)
 {
     load();
@@ -250,6 +306,40 @@ TEST_F(BrickImageTest, whatMovesReceivesLight)
     frame({.debug_view = kViewGi, .moves = {&move, 1}});
     const double near = rednessOfCard(settled({.debug_view = kViewGi}, 8));
     EXPECT_GT(near, 1.15 * far);
+}
+
+/// A bar narrower than a tile has the light that it has in a picture whose tiles are narrower than the bar.
+TEST_F(BrickImageTest, smallFormsHaveTheirOwnLight)
+{
+    card_width_ = 0.2f;
+    const auto findLightOfCard = [&](uint32_t scale, Float3 eye)
+    {
+        scale_ = scale;
+        test_ = TestScene();
+        load();
+        for (uint32_t i = 0; i < 24; ++i)
+            frame({.debug_view = kViewGi}, eye);
+        const Image image = frame({.debug_view = kViewGi}, eye);
+        const std::vector<std::array<uint32_t, 3>> seen = image.seen();
+        double sum = 0, count = 0;
+        for (size_t i = 0; i < seen.size(); ++i)
+            if (seen[i][0] == kCard)
+            {
+                sum += channel(image.color[i], 0);
+                count += 1;
+            }
+        EXPECT_GT(count, 10);
+        return sum / count;
+    };
+    double worst = 0;
+    for (const float x : {1.4f, 1.8f, 2.2f, 2.6f})
+    {
+        const Float3 eye{x, 3, 7};
+        const double small = findLightOfCard(1, eye), large = findLightOfCard(4, eye);
+        std::printf("from %.1f: light of the bar %.1f, %.1f by small tiles\n", double{x}, small, large);
+        worst = std::max(worst, std::abs(small / large - 1));
+    }
+    EXPECT_LT(worst, 0.02);
 }
 
 TEST_F(BrickImageTest, withoutTheirLightTheImageIsThatOfAPackWithoutBricks)

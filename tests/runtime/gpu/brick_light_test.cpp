@@ -2,6 +2,7 @@
 // answers.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/light/face_lighting.h"
+#include "formats/codecs/vertex_codec.h"
 #include "formats/gpu_shared/brick_codes.h"
 #include "runtime/gpu/scene/scene_shading.h"
 #include "tests/runtime/gpu/brick_scene.h"
@@ -210,6 +211,9 @@ TEST_F(BrickLightTest, lightsFacesLikeTheSolver)
     test_.addLight(sun({0.3f, -1, 0.2f}));
     test_.addLight(light(formats::LightType::point, {0.5f, 4, 0.4f}, {0, -1, 0}, 3));
     test_.addLight(light(formats::LightType::spot, {2, 3, 2}, {-1, -1, -0.5f}, 9));
+    const uint32_t below = formats::NormalCode<8>::encode({0, -1, 0});
+    model.reflectors = {
+        {}, {encodeRadiance({3, 2, 1}), below, {0x40206080, 0xFFFF8060, 0x10, 0}, {~0u, ~0u, 0x80FF, 0}}, {}};
     load(model, {.faces_per_frame = model.grid.face_count / 3, .rays = 8});
     const uint32_t period = scene_->bricks->period;
     ASSERT_EQ(period, 3u);

@@ -178,6 +178,7 @@ gpu::UniquePipeline ForwardRenderer::createPipeline(const gpu::Scene& scene, uin
     constants[shared::kConstantUsedSlices] = variant.used_slices;
     constants[shared::kConstantTextures] = variant.textures;
     constants[shared::kConstantUvSets] = variant.uv_sets;
+    constants[shared::kConstantLayers] = variant.layers;
     constants[shared::kConstantUnlit] = variant.unlit;
     return take(gpu::createGraphicsPipeline(
         device_, {.vertex = shaders::forward_vert,

@@ -40,7 +40,8 @@ std::map<std::string, uint32_t> constantIds()
 {
     return {{"kUsedSlices", shared::kConstantUsedSlices}, {"kTextures", shared::kConstantTextures},
             {"kUvSets", shared::kConstantUvSets},         {"kUnlit", shared::kConstantUnlit},
-            {"kDeformed", shared::kConstantDeformed},     {"kSkyVisibility", shared::kConstantSkyVisibility}};
+            {"kDeformed", shared::kConstantDeformed},     {"kSkyVisibility", shared::kConstantSkyVisibility},
+            {"kLayers", shared::kConstantLayers}};
 }
 
 /// Not a GpuTest: that creates pipelines, and a driver may crash where a shader and a layout differ.

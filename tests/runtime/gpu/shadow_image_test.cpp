@@ -370,6 +370,106 @@ TEST_F(ShadowImageTest, aMapThatMovesShowsTheSame)
     EXPECT_GT(compared, 100000u);
 }
 
+/// Add five sides of a room of 4 x 3 x 4 m, whose fronts look inwards: all but the one at its largest z.
+void addBox(TestScene& test, uint32_t material)
+{
+    const uint32_t side = test.addMesh(withMaterial(makeQuad(4, 4), material));
+    const uint32_t wall = test.addMesh(withMaterial(makeQuad(4, 3), material));
+    test.addInstance(side, lying({0, 0, 0}));
+    test.addInstance(side, {{{1, 0, 0, 0}, {0, 0, -1, 3}, {0, 1, 0, 0}}});
+    test.addInstance(wall, {{{1, 0, 0, 0}, {0, 1, 0, 1.5f}, {0, 0, 1, -2}}});
+    test.addInstance(wall, {{{0, 0, 1, -2}, {0, 1, 0, 1.5f}, {-1, 0, 0, 0}}});
+    test.addInstance(wall, {{{0, 0, -1, 2}, {0, 1, 0, 1.5f}, {1, 0, 0, 0}}});
+}
+
+void addRoom(TestScene& test, uint32_t material)
+{
+    addBox(test, material);
+    const uint32_t wall = test.addMesh(withMaterial(makeQuad(4, 3), material));
+    test.addInstance(wall, {{{-1, 0, 0, 0}, {0, 1, 0, 1.5f}, {0, 0, -1, 2}}});
+}
+
+/// No sun shines into a room without windows, although its walls have no thickness and meet in lines.
+TEST_F(ShadowImageTest, aClosedRoomIsDarkUnderEverySun)
+{
+    constexpr int kSuns = 120;
+    const shared::Camera inside{
+        .position = {1.5f, 1.4f, 1.7f}, .target = {-0.6f, 0.9f, -0.8f}, .y_fov_rad = 1.5f, .z_near = 0.05f};
+    const DrawOptions drawn{.width = 160, .height = 120, .error_pixels = 0};
+    const auto drawUnder = [&](const LightRecord& record)
+    {
+        TestScene test;
+        addRoom(test, test.addMaterial(plainMaterial()));
+        test.addLight(record);
+        const PackView pack = test.build();
+        return drawShadowed(pack, kFour, drawn, inside);
+    };
+    LightRecord night = sun({0, -1, 0});
+    night.intensity = 0;
+    const Image dark = drawUnder(night);
+    size_t lit = 0;
+    for (int i = 0; i < kSuns; ++i)
+    {
+        // a spiral over the sphere
+        const double height = 1 - (2.0 * i + 1) / kSuns, turn = i * 2.39996322972865332;
+        const double across = std::sqrt(1 - height * height);
+        const Image image =
+            drawUnder(sun({static_cast<float>(across * std::cos(turn)), static_cast<float>(height),
+                           static_cast<float>(across * std::sin(turn))}));
+        for (size_t pixel = 0; pixel < image.color.size(); ++pixel)
+            lit += channel(image.color[pixel], 0) > channel(dark.color[pixel], 0) + 1;
+    }
+    std::printf("%zu of %d pixels are lit\n", lit, kSuns * 160 * 120);
+    // texels that rounding moves across a corner's line
+    EXPECT_LE(lit, 3u);
+}
+
+/// No sun shines through the corners of a box that is open to the front, beside rays. Its walls have no
+/// thickness; some of the suns are within half a degree of a wall's plane.
+TEST_F(ShadowImageTest, anOpenBoxIsDarkAlongItsClosedCorners)
+{
+    constexpr uint32_t kWidth = 160, kHeight = 120, kRim = 3; // the filter's, in pixels
+    const shared::Camera front{
+        .position = {0, 1.5f, 5.2f}, .target = {0, 1.5f, 0}, .y_fov_rad = 0.8f, .z_near = 0.05f};
+    std::vector<Float3> suns{{-0.961f, 0.007f, 0.278f},  {-0.805f, 0.001f, -0.593f},
+                             {0.994f, -0.001f, -0.107f}, {0.193f, 0.003f, 0.981f},
+                             {-0.556f, -0.831f, 0.004f}, {0.001f, -0.903f, 0.430f},
+                             {-0.070f, 0.105f, -0.992f}};
+    for (int i = 0; i < 30; ++i)
+    {
+        const double height = 1 - (2.0 * i + 1) / 30, turn = i * 2.39996322972865332;
+        const double across = std::sqrt(1 - height * height);
+        suns.push_back({static_cast<float>(across * std::cos(turn)), static_cast<float>(height),
+                        static_cast<float>(across * std::sin(turn))});
+    }
+    for (const Float3 direction : suns)
+    {
+        TestScene test;
+        addBox(test, test.addMaterial(plainMaterial()));
+        test.addLight(sun(direction));
+        const PackView pack = test.build();
+        const Image image =
+            drawShadowed(pack, kFour, {.width = kWidth, .height = kHeight, .error_pixels = 0}, front);
+        const auto expected = reference::renderReference(
+            pack,
+            {.camera = front, .width = kWidth, .height = kHeight, .samples_per_side = 1, .shadows = true});
+        ASSERT_TRUE(expected.ok());
+        const auto findBrightest = [&](uint32_t x, uint32_t y)
+        {
+            int brightest = 0;
+            for (uint32_t v = y - kRim; v <= y + kRim; ++v)
+                for (uint32_t u = x - kRim; u <= x + kRim; ++u)
+                    brightest = std::max(brightest, int{expected->at(u, v)[0]});
+            return brightest;
+        };
+        size_t lit = 0;
+        for (uint32_t y = kRim; y + kRim < kHeight; ++y)
+            for (uint32_t x = kRim; x + kRim < kWidth; ++x)
+                lit += channel(image.color[y * kWidth + x], 0) > findBrightest(x, y) + 2;
+        EXPECT_EQ(lit, 0u) << direction.x << ' ' << direction.y << ' ' << direction.z;
+    }
+}
+
 /// A plane without casters looks the same with and without shadows.
 TEST_F(ShadowImageTest, aPlaneIsFreeOfAcneAtAllAngles)
 {

@@ -81,7 +81,7 @@ std::vector<SharedStruct> pushStructs()
         HEARTH_STRUCT(SkinningPlanPush, bin_count, first_bin, phase),
         HEARTH_STRUCT(PyramidPush, width, height),
         HEARTH_STRUCT(TilesPush, width, height, draw_count),
-        HEARTH_STRUCT(BinPush, bin, light_row, map_index),
+        HEARTH_STRUCT(BinPush, bin, light_row, map_index, facing),
         HEARTH_STRUCT(ShadingPush, depth, debug_view, depth_scale, sky_occlusion),
     };
 }
@@ -123,9 +123,12 @@ std::vector<SharedStruct> frameStructs()
                       reserved),
         HEARTH_STRUCT(Material, base_color, emissive, alpha_cutoff, metallic, roughness, normal_scale,
                       occlusion_strength, flags, alpha_mode, textures, uv_sets, uv_rows),
+        HEARTH_STRUCT(MaterialLayers, dielectric_f0, specular, sheen_color, sheen_roughness, clearcoat,
+                      clearcoat_roughness, clearcoat_normal_scale, reserved, uv_rows),
         HEARTH_STRUCT(Light, position, type, direction, range, intensity, shadow_row, cone_scale, cone_offset,
-                      reserved1, reserved2),
-        HEARTH_STRUCT(Lighting, sky_zenith, light_count, sky_horizon, exposure, sky_ground, reserved1,
+                      reflector_gain, reflector_axis, reflected0, reflected1, reflected2, reflected3, passed0,
+                      passed1, passed2, passed3),
+        HEARTH_STRUCT(Lighting, sky_zenith, light_count, sky_horizon, exposure, sky_ground, surroundings_row,
                       lights),
         HEARTH_STRUCT(ShadowLight, right, depth_scale, down, depth_offset, direction, perspective, origin,
                       depth_step, rounding, first_map, map_count, reserved),

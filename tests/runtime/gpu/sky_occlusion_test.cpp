@@ -1,8 +1,11 @@
 // Tests visibility in images: its debug views, and occlusion of the sky's light, against twins of the shaders
 // that share only formulas with them (formats/gpu_shared).
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/base/half.h"
+#include "formats/gpu_shared/instance_visibility.h"
 #include "formats/gpu_shared/light_cone.h"
 #include "formats/gpu_shared/specular_occlusion.h"
+#include "formats/scene/radiance_transfer.h"
 #include "formats/scene/reflectance.h"
 #include "tests/reference/pack_geometry.h"
 #include "tests/reference/tracer/gltf_material.h"
@@ -65,6 +68,8 @@ struct TwinPoint
     Double3 geometric; ///< interpolated normal, towards the visible side
     Double3 normal;    ///< bent by the map
     VisibilityCone cone{};
+    uint32_t instance = 0;
+    VisibilityMoments moments{}; ///< of the visibility
 };
 
 class SkyOcclusionTest : public GpuTest
@@ -154,19 +159,77 @@ protected:
         point.position = hit + eye;
         point.to_eye = -normalize(ray);
         point.geometric = point.normal = normal;
-        point.cone = visibilityCone(static_cast<float>(m0), narrow(m1), narrow(normal));
+        point.instance = slot.instance;
+        point.moments = {static_cast<float>(m0), narrow(m1)};
+        if (!pack_->surroundings().empty())
+        {
+            const uint16_t* halves = pack_->surroundings()[slot.instance].visibility;
+            point.moments = changedVisibility(point.moments, narrow(normal),
+                                              {floatFromHalf(halves[0]), floatFromHalf(halves[1]),
+                                               floatFromHalf(halves[2]), floatFromHalf(halves[3])});
+        }
+        point.cone = visibilityCone(point.moments.m0, point.moments.m1, narrow(normal));
         return point;
     }
 
-    float twinAmbient(const TwinPoint& p, uint32_t mode) const
+    static float twinAmbient(const TwinPoint& p, uint32_t mode)
     {
         return ambientOcclusion(mode, p.cone.scale, p.cone.cos_aperture, p.cone.aperture,
                                 cosine(p.cone.axis, p.geometric), cosine(p.cone.axis, p.normal));
     }
 
+    /// Return the colour that the final view shows: white dielectrics of roughness .4 under the first light.
+    /// occluders  light of those of each instance; may be empty
+    static Float3 twinColor(const TwinPoint& p, const reference::SceneLighting& lighting,
+                            std::span<const OccluderLight> occluders, uint32_t ambient, uint32_t specular)
+    {
+        const auto mean = [&](const LightCone& cone)
+        {
+            const double height = std::clamp(double{cone.axis.y}, -1.0, 1.0);
+            return lighting.coneRadiance({std::sqrt(1 - height * height), height, 0},
+                                         double{cone.cos_half_angle});
+        };
+        const reference::Coating coating{{1, 1, 1}, 0, double{0.4f}, 1, {}, p.normal};
+        const reference::Albedo albedo = reference::albedo(coating, p.to_eye);
+        const Float3 normal = narrow(p.normal);
+        const float facing = std::abs(static_cast<float>(dot(p.normal, p.to_eye)));
+        const Float3 mirror = narrow(p.normal * (2 * dot(p.normal, p.to_eye)) - p.to_eye);
+        LightCone diffuse = cosineCone(normal);
+        const LightCone open = lobeCone(lobeTotal(0.4f, facing), mirror, normal);
+        LightCone reflection = open;
+        double diffuse_share = 1, mirrored_share = 1;
+        if (p.says && ambient != kAmbientOcclusionOff)
+        {
+            diffuse = visibleCosineCone(p.cone, normal);
+            diffuse_share = double{twinAmbient(p, ambient)};
+        }
+        if (p.says && specular != kSpecularOcclusionOff)
+        {
+            reflection = visibleLobeCone(reflection, p.cone);
+            mirrored_share = double{twinSpecular(p, 0.4f)};
+        }
+        const OccluderLight occluder = p.says && !occluders.empty() ? occluders[p.instance] : OccluderLight{};
+        const Double3 behind = wide(occluderRadiance(
+            occluder, meanOccludedDirection(p.moments.m0, p.moments.m1, narrow(p.geometric))));
+        const Double3 mirrored =
+            wide(occluderRadiance(occluder, open.axis * (0.5f + 0.5f * open.cos_half_angle)));
+        const reference::Incident sun = lighting.lights[0].at(p.position);
+        const Double3 radiance =
+            albedo.diffuse * (mean(diffuse) * diffuse_share + behind * (1 - diffuse_share)) +
+            albedo.specular * (mean(reflection) * mirrored_share + mirrored * (1 - mirrored_share)) +
+            sun.irradiance * reflected(coating, p.to_eye, sun.to_light);
+        const auto shown = [](double value)
+        {
+            const double linear = reference::filmic(value);
+            return static_cast<float>(linear <= 0.0031308 ? linear * 12.92
+                                                          : 1.055 * std::pow(linear, 1 / 2.4) - 0.055);
+        };
+        return {shown(radiance.x), shown(radiance.y), shown(radiance.z)};
+    }
+
     static float cosine(Float3 a, Double3 b) { return static_cast<float>(dot(wide(a), b)); }
 
-    float twinSpecular(const TwinPoint& p, float roughness) const
+    static float twinSpecular(const TwinPoint& p, float roughness)
     {
         const double facing = std::abs(dot(p.normal, p.to_eye));
         const Double3 mirror = p.normal * (2 * dot(p.normal, p.to_eye)) - p.to_eye;
@@ -334,49 +397,104 @@ TEST_F(SkyViewTest, specularOcclusionIsLookedUpInTheTable)
 TEST_F(SkyViewTest, theImageIsOccludedByLobe)
 {
     const reference::SceneLighting lighting = reference::readLighting(*pack_);
-    const auto mean = [&](const LightCone& cone)
-    {
-        const double height = std::clamp(double{cone.axis.y}, -1.0, 1.0);
-        return lighting.coneRadiance({std::sqrt(1 - height * height), height, 0},
-                                     double{cone.cos_half_angle});
-    };
     for (const auto& [ambient, specular] : {std::pair{kAmbientOcclusionExact, kSpecularOcclusionFit},
                                             std::pair{kAmbientOcclusionSmoothstep, kSpecularOcclusionOff},
                                             std::pair{kAmbientOcclusionOff, kSpecularOcclusionFit}})
         expectPixels(show(kViewFinal, ambient, specular), 2,
-                     [&](const TwinPoint& p)
+                     [&, mode = std::pair{ambient, specular}](const TwinPoint& p)
+                     { return twinColor(p, lighting, {}, mode.first, mode.second); });
+}
+
+/// Two radiance transfers, an instance without one, and one with a visibility of its own.
+class SurroundingsTest : public SkyViewTest
+{
+protected:
+    void SetUp() override
+    {
+        SkyViewTest::SetUp();
+        PackModel& model = test_.model();
+        std::mt19937 random(7);
+        for (int i = 0; i < 2; ++i)
+        {
+            formats::RadianceTransferRecord transfer{};
+            for (uint16_t& value : transfer.values)
+                value = halfFromFloat(uniform(random, -0.1f, 0.2f));
+            model.radiance_transfers.push_back(transfer);
+        }
+        model.surroundings.assign(model.instances.size(), formats::kPlainSurroundings);
+        model.surroundings[0].transfer = 1;
+        const float factor[] = {0.3f, -0.2f, 0.1f, 0.6f};
+        std::ranges::transform(factor, model.surroundings[1].visibility, halfFromFloat);
+        model.surroundings[1].transfer = 0;
+        const formats::LightRecord sun_record = sun({0.3f, -1, -0.5f});
+        test_.addLight(sun_record);
+        load();
+    }
+
+    /// Light of occluders of each instance under a sun.
+    std::vector<OccluderLight> makeOccluderLights(const Light& sun) const
+    {
+        const LightHarmonics harmonics =
+            projectDistantLight({kSkyZenith, kSkyHorizon, kSkyGround}, {&sun, 1});
+        std::vector<OccluderLight> lights(pack_->instances().size(), OccluderLight{});
+        for (size_t i = 0; i < lights.size(); ++i)
+            if (const uint32_t transfer = pack_->surroundings()[i].transfer; transfer != kInvalidIndex)
+                lights[i] = transferLight(pack_->radianceTransfers()[transfer], harmonics);
+        return lights;
+    }
+};
+
+TEST_F(SurroundingsTest, standsInForTheSkyThatIsOccluded)
+{
+    const reference::SceneLighting lighting = reference::readLighting(*pack_);
+    const std::vector<OccluderLight> occluders = makeOccluderLights(scene_->lights[0]);
+    for (const auto& [ambient, specular] : {std::pair{kAmbientOcclusionExact, kSpecularOcclusionFit},
+                                            std::pair{kAmbientOcclusionSmoothstep, kSpecularOcclusionOff},
+                                            std::pair{kAmbientOcclusionOff, kSpecularOcclusionFit},
+                                            std::pair{kAmbientOcclusionOff, kSpecularOcclusionOff}})
+    {
+        size_t lighter = 0;
+        expectPixels(show(kViewFinal, ambient, specular), 2,
+                     [&, mode = std::pair{ambient, specular}](const TwinPoint& p)
                      {
-                         const reference::Coating coating{{1, 1, 1}, 0, double{0.4f}, 1, {}, p.normal};
-                         const reference::Albedo albedo = reference::albedo(coating, p.to_eye);
-                         const Float3 normal = narrow(p.normal);
-                         const float facing = std::abs(static_cast<float>(dot(p.normal, p.to_eye)));
-                         const Float3 mirror = narrow(p.normal * (2 * dot(p.normal, p.to_eye)) - p.to_eye);
-                         LightCone diffuse = cosineCone(normal);
-                         LightCone reflection = lobeCone(lobeTotal(0.4f, facing), mirror, normal);
-                         double diffuse_share = 1, mirrored_share = 1;
-                         if (p.says && ambient != kAmbientOcclusionOff)
-                         {
-                             diffuse = visibleCosineCone(p.cone, normal);
-                             diffuse_share = double{twinAmbient(p, ambient)};
-                         }
-                         if (p.says && specular != kSpecularOcclusionOff)
-                         {
-                             reflection = visibleLobeCone(reflection, p.cone);
-                             mirrored_share = double{twinSpecular(p, 0.4f)};
-                         }
-                         const reference::Incident sun = lighting.lights[0].at(p.position);
-                         const Double3 radiance = albedo.diffuse * mean(diffuse) * diffuse_share +
-                                                  albedo.specular * mean(reflection) * mirrored_share +
-                                                  sun.irradiance * reflected(coating, p.to_eye, sun.to_light);
-                         const auto shown = [](double value)
-                         {
-                             const double linear = reference::filmic(value);
-                             return static_cast<float>(linear <= 0.0031308
-                                                           ? linear * 12.92
-                                                           : 1.055 * std::pow(linear, 1 / 2.4) - 0.055);
-                         };
-                         return Float3{shown(radiance.x), shown(radiance.y), shown(radiance.z)};
+                         const Float3 color = twinColor(p, lighting, occluders, mode.first, mode.second);
+                         lighter += color.x > twinColor(p, lighting, {}, mode.first, mode.second).x + 0.02f;
+                         return color;
                      });
+        if (ambient == kAmbientOcclusionExact)
+            EXPECT_GT(lighter, 500u);
+        if (ambient == kAmbientOcclusionOff && specular == kSpecularOcclusionOff)
+            EXPECT_EQ(lighter, 0u);
+    }
+}
+
+TEST_F(SurroundingsTest, occlusionIsThatOfTheInstance)
+{
+    size_t changed = 0;
+    expectPixels(show(kViewAmbientOcclusion), 1,
+                 [&](const TwinPoint& p)
+                 {
+                     changed += p.instance == 1 ? 1u : 0u;
+                     return p.says ? grey(twinAmbient(p, kAmbientOcclusionExact)) : kNoReflection;
+                 });
+    EXPECT_GT(changed, 500u);
+    const Image with = show(kViewAmbientOcclusion);
+    test_.model().surroundings[1] = formats::kPlainSurroundings;
+    load();
+    EXPECT_NE(with.color, show(kViewAmbientOcclusion).color);
+}
+
+/// A sun that has moved there lights occluders as one that was there from the beginning.
+TEST_F(SurroundingsTest, followsTheSun)
+{
+    const formats::LightRecord moved = sun({-0.7f, -0.5f, 0.2f});
+    gpu::LightChange change = gpu::changeLight(*scene_, 0, moved).value();
+    const Image before = show(kViewFinal);
+    const Image after = draw(*scene_, camera_, {.width = kWidth, .height = kHeight, .lights = {&change, 1}});
+    test_.model().lights[0].world_from_light = moved.world_from_light;
+    load();
+    EXPECT_NE(before.color, after.color);
+    EXPECT_EQ(after.color, show(kViewFinal).color);
 }
 
 /// Rotating all joints of a limb alike equals rotating the limb.

@@ -29,16 +29,17 @@ void main()
     point.flat_normal = point.normal; // not read without shadows
     completeFrame(point.normal, in_tangent, in_side, point.tangent, point.bitangent);
     point.sky = openSky(point.normal);
+    point.instance = 0u; // not read without occlusion
     point.color = in_color;
     // two-sided materials: mirrored instances are drawn without reversing the front face
     bool turned = (material.flags & kMaterialDoubleSided) != 0u && in_mirrored != 0u;
     point.front = gl_FrontFacing != turned;
 
     SurfaceUvs uvs;
-    for (uint slot = 0u; slot < kTextureCount; ++slot)
+    for (uint set = 0u; set < kUvSetCount; ++set)
     {
-        vec2 uv = textureUvSet(slot) == 0u ? in_uvs.xy : in_uvs.zw;
-        uvs.slots[slot] = SurfaceUv(uv, dFdx(uv), dFdy(uv));
+        vec2 uv = set == 0u ? in_uvs.xy : in_uvs.zw;
+        uvs.sets[set] = SurfaceUv(uv, dFdx(uv), dFdy(uv));
     }
     out_color = vec4(displayColor(point, uvs), 1.0);
 }

@@ -6,6 +6,7 @@
 #include "runtime/viewer/cull_report.h"
 #include "runtime/viewer/file_output.h"
 #include "runtime/viewer/render/options.h"
+#include "runtime/viewer/sample_sum.h"
 #include "tests/support/limits/time_limit.h"
 #include "tests/support/shapes.h"
 #include "tests/support/temporary_folder.h"
@@ -15,6 +16,7 @@
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <set>
 #include <sys/stat.h>
 
 namespace hearth::test
@@ -58,6 +60,13 @@ TEST(RenderOptions, defaultsFitTheScene)
     EXPECT_TRUE(options->shadows.fit_maps);
 }
 
+TEST(RenderOptions, takeFourSamplesUnlessToldOtherwise)
+{
+    EXPECT_EQ(parse({"a.hearth", "-o", "a.png"})->samples, 4u);
+    EXPECT_EQ(parse({"a.hearth", "-o", "a.png", "--samples", "64"})->samples, 64u);
+    EXPECT_EQ(parse({"a.hearth", "-o", "a.png", "--dump-visibility", "v"})->samples, 1u);
+}
+
 TEST(RenderOptions, everyOptionIsRead)
 {
     const auto options = parse({"--size=64x32",
@@ -68,7 +77,7 @@ TEST(RenderOptions, everyOptionIsRead)
                                 "--view",
                                 "lod",
                                 "--samples",
-                                "4",
+                                "1",
                                 "--device",
                                 "llvm",
                                 "--stats",
@@ -108,7 +117,7 @@ TEST(RenderOptions, everyOptionIsRead)
     EXPECT_NEAR(options->camera->y_fov_rad, 0.785398f, 1e-5f);
     EXPECT_EQ(options->settings.error_pixels, 0);
     EXPECT_EQ(options->settings.view, shared::kViewLod);
-    EXPECT_EQ(options->samples, 4u);
+    EXPECT_EQ(options->samples, 1u);
     EXPECT_EQ(options->device, "llvm");
     EXPECT_EQ(options->stats, "s.json");
     EXPECT_EQ(options->frames, 3u);
@@ -183,6 +192,7 @@ TEST(RenderOptions, mistakesAreNamed)
     expectUsage({"a.hearth", "-o", "a.png", "--specular-occlusion", "exact"}, "table");
     expectUsage({"a.hearth", "-o", "a.png", "--view", "pretty"}, "pretty");
     expectUsage({"a.hearth", "-o", "a.png", "--samples", "2"}, "2");
+    expectUsage({"a.hearth", "-o", "a.png", "--samples", "4", "--dump-visibility", "v"}, "--samples 1");
     for (const char* shadows : {"", "yes", "on,maps=4", "maps=0", "maps=65", "texels=1000", "kernel=4",
                                 "bias=0.5", "far=-1", "near=3,far=2", "size=5"})
         expectUsage({"a.hearth", "-o", "a.png", "--shadows", shadows}, "--shadows");
@@ -317,14 +327,54 @@ TEST(WriteFile, leavesNothingBehindWhereItCannotWrite)
     EXPECT_EQ(folder.files(), std::set<std::string>{"taken"});
 }
 
-TEST(Downsample, averagesInLinearLight)
+TEST(SampleSum, averagesInLinearLight)
 {
     std::vector<std::byte> pixels(2 * 2 * 4, std::byte{0});
     for (int i = 0; i < 8; ++i) // the upper two are white
         pixels[static_cast<size_t>(i)] = std::byte{255};
-    const auto result = viewer::downsampleSrgb(pixels, 2, 2);
-    ASSERT_EQ(result.size(), 4u);
-    EXPECT_EQ(std::to_integer<int>(result[0]), 188) << "half of the light, not half of the code";
+    viewer::SampleSum sum(1, 1, 2);
+    sum.add(pixels);
+    const auto half = sum.average();
+    ASSERT_EQ(half.size(), 4u);
+    EXPECT_EQ(std::to_integer<int>(half[0]), 188) << "half of the light, not half of the code";
+    sum.add(std::vector<std::byte>(2 * 2 * 4, std::byte{255}));
+    EXPECT_EQ(std::to_integer<int>(sum.average()[0]), 225) << "three quarters of the light";
+}
+
+TEST(SampleSum, keepsEveryCodeOfOneSample)
+{
+    std::vector<std::byte> pixels;
+    for (int code = 0; code < 256; ++code)
+        pixels.insert(pixels.end(),
+                      {std::byte(code), std::byte(255 - code), std::byte(code), std::byte{255}});
+    viewer::SampleSum sum(16, 16, 1);
+    sum.add(pixels);
+    EXPECT_EQ(sum.average(), pixels);
+}
+
+/// A point in front of the camera moves by the part of a sample that the frame's camera is turned by.
+TEST(ShiftCamera, spreadsSamplesEvenlyOverAPixel)
+{
+    constexpr uint32_t kWidth = 640, kHeight = 360;
+    const shared::Camera camera{.position = {1, 2, 3}, .target = {4, 1, -5}, .y_fov_rad = 0.9f};
+    std::set<std::pair<int, int>> places;
+    for (uint32_t frame = 0; frame < 16; ++frame)
+    {
+        const shared::FrameView view = shared::makeFrameView(
+            viewer::shiftCamera(camera, frame, 16, kWidth, kHeight), kWidth, kHeight, 1, 1);
+        const Float3 ahead = camera.target - camera.position;
+        const float w = dot(shared::row3(view.clip_w), ahead);
+        const float x = dot(shared::row3(view.clip_x), ahead) / w * kWidth / 2,
+                    y = dot(shared::row3(view.clip_y), ahead) / w * kHeight / 2;
+        // places are 1/4 apart, the first at -3/8
+        EXPECT_NEAR(std::remainder(x - 0.125f, 0.25f), 0, 0.01f);
+        EXPECT_NEAR(std::remainder(y - 0.125f, 0.25f), 0, 0.01f);
+        EXPECT_LT(std::max(std::abs(x), std::abs(y)), 0.4f);
+        places.emplace(std::lround(x * 8), std::lround(y * 8));
+    }
+    EXPECT_EQ(places.size(), 16u);
+    const shared::Camera still = viewer::shiftCamera(camera, 0, 1, kWidth, kHeight);
+    EXPECT_EQ(still.target, camera.target);
 }
 
 } // namespace hearth::test

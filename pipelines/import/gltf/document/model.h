@@ -3,7 +3,7 @@
 // index. SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/records/scene.h"
+#include "formats/records/material_layers.h"
 #include "pipelines/import/gltf/document/json.h"
 #include "pipelines/import/part/transform.h"
 
@@ -134,6 +134,34 @@ struct GltfSpecularGlossiness
     GltfTextureUse specular_glossiness_texture;
 };
 
+/// Factors and textures of KHR_materials_ior, _specular, _clearcoat and _sheen.
+struct GltfLayers
+{
+    float ior = formats::kDefaultIor;
+    float specular = 1;
+    std::array<float, 3> specular_color{1, 1, 1};
+    float clearcoat = 0;
+    float clearcoat_roughness = 0;
+    float clearcoat_normal_scale = 1;
+    std::array<float, 3> sheen_color{0, 0, 0};
+    float sheen_roughness = 0;
+    GltfTextureUse specular_texture;            ///< A
+    GltfTextureUse specular_color_texture;      ///< RGB
+    GltfTextureUse clearcoat_texture;           ///< R
+    GltfTextureUse clearcoat_roughness_texture; ///< G
+    GltfTextureUse clearcoat_normal_texture;
+    GltfTextureUse sheen_color_texture;     ///< RGB
+    GltfTextureUse sheen_roughness_texture; ///< A
+
+    std::array<const GltfTextureUse*, 7> textures() const
+    {
+        return {&specular_texture,         &specular_color_texture,
+                &clearcoat_texture,        &clearcoat_roughness_texture,
+                &clearcoat_normal_texture, &sheen_color_texture,
+                &sheen_roughness_texture};
+    }
+};
+
 struct GltfMaterial
 {
     std::string name;
@@ -153,6 +181,7 @@ struct GltfMaterial
     GltfTextureUse normal_texture;
     GltfTextureUse occlusion_texture;
     GltfTextureUse emissive_texture;
+    GltfLayers layers;
     std::optional<GltfSpecularGlossiness> specular_glossiness;
 };
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -157,6 +158,62 @@ void readSurfaceTextures(const GltfObject& object, const GltfModel& model, GltfM
     material.emissive_texture = readOptionalTexture(object, "emissiveTexture", model);
 }
 
+float readIor(const GltfObject& object)
+{
+    // 0 is the extension's value for a surface that reflects all light
+    if (object.number("ior", formats::kDefaultIor) == 0.0f)
+        return 0;
+    return object.factor("ior", formats::kDefaultIor, 1, kUnbounded);
+}
+
+/// Read factors that may exceed 1.
+std::array<float, 3> readUnboundedColor(const GltfObject& object, std::string_view name)
+{
+    std::array<float, 3> color = object.numbers<3>(name, {1, 1, 1});
+    if (std::all_of(color.begin(), color.end(), [](float value) { return value >= 0; }))
+        return color;
+    object.problems().warn(Issue::repaired, object.json(),
+                           fmt::format("{} is negative: it was clamped to 0", name));
+    for (float& value : color)
+        value = std::max(value, 0.0f);
+    return color;
+}
+
+GltfLayers readLayers(const GltfObject& object, const GltfModel& model)
+{
+    GltfLayers layers;
+    if (const auto ior = object.extension("KHR_materials_ior"))
+        layers.ior = readIor(*ior);
+    if (const auto specular = object.extension("KHR_materials_specular"))
+    {
+        layers.specular = specular->factor("specularFactor", 1, 0, 1);
+        layers.specular_color = readUnboundedColor(*specular, "specularColorFactor");
+        layers.specular_texture = readOptionalTexture(*specular, "specularTexture", model);
+        layers.specular_color_texture = readOptionalTexture(*specular, "specularColorTexture", model);
+    }
+    if (const auto clearcoat = object.extension("KHR_materials_clearcoat"))
+    {
+        layers.clearcoat = clearcoat->factor("clearcoatFactor", 0, 0, 1);
+        layers.clearcoat_roughness = clearcoat->factor("clearcoatRoughnessFactor", 0, 0, 1);
+        layers.clearcoat_texture = readOptionalTexture(*clearcoat, "clearcoatTexture", model);
+        layers.clearcoat_roughness_texture =
+            readOptionalTexture(*clearcoat, "clearcoatRoughnessTexture", model);
+        if (const auto normal = clearcoat->object("clearcoatNormalTexture"))
+        {
+            layers.clearcoat_normal_texture = readTextureUse(*normal, model);
+            layers.clearcoat_normal_scale = normal->number("scale", 1.0f);
+        }
+    }
+    if (const auto sheen = object.extension("KHR_materials_sheen"))
+    {
+        layers.sheen_color = readColor<3>(*sheen, "sheenColorFactor", {0, 0, 0});
+        layers.sheen_roughness = sheen->factor("sheenRoughnessFactor", 0, 0, 1);
+        layers.sheen_color_texture = readOptionalTexture(*sheen, "sheenColorTexture", model);
+        layers.sheen_roughness_texture = readOptionalTexture(*sheen, "sheenRoughnessTexture", model);
+    }
+    return layers;
+}
+
 GltfMaterial readMaterial(const GltfObject& object, const GltfModel& model)
 {
     GltfMaterial material;
@@ -172,6 +229,7 @@ GltfMaterial readMaterial(const GltfObject& object, const GltfModel& model)
     material.unlit = object.extension("KHR_materials_unlit").has_value();
     if (const auto strength = object.extension("KHR_materials_emissive_strength"))
         material.emissive_strength = strength->factor("emissiveStrength", 1, 0, kUnbounded);
+    material.layers = readLayers(object, model);
     if (const auto specular_glossiness = object.extension("KHR_materials_pbrSpecularGlossiness"))
         material.specular_glossiness = readSpecularGlossiness(*specular_glossiness, model);
     return material;

@@ -1,12 +1,13 @@
-// Tests the baked start value of light in scenes from the real importer and cookers: a furnace, and a dark
-// room.
+// Tests the light that faces settle at, in scenes from the real importer and cookers: a furnace, a dark room,
+// and beside the runtime's sweeps.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/grid/face_locations.h"
-#include "cook/bricks/light/bake.h"
 #include "cook/bricks/light/emission.h"
-#include "cook/tools/open_part.h"
+#include "cook/bricks/light/scene_light.h"
+#include "cook/bricks/light/settled_light.h"
 #include "formats/gpu_shared/brick_lighting.h"
-#include "tests/support/sandbox.h"
+#include "tests/cook/bricks/lit_bricks.h"
+#include "tests/cook/bricks/source_parts.h"
 
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
@@ -22,7 +23,7 @@ constexpr const char* kBox = "mtllib box.mtl\nusemtl wall\n"
                              "v -1 2 -1\nv 1 2 -1\nv 1 2 1\nv -1 2 1\n"
                              "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 3 4 8 7\nf 1 5 8 4\nf 2 3 7 6\n";
 
-class BricksBake : public ::testing::Test
+class SettledLightTest : public ::testing::Test
 {
 protected:
     /// Cook the box with a material at voxels of a quarter of a metre.
@@ -30,18 +31,8 @@ protected:
     {
         folder_.write("box.obj", kBox);
         folder_.write("box.mtl", "newmtl wall\n" + material);
-        const auto step = [&](const char* program, std::vector<std::string> arguments)
-        {
-            arguments.insert(arguments.begin(), std::string(HEARTH_BIN "/") + program);
-            const test::ProgramEnd end = folder_.run(arguments);
-            ASSERT_EQ(end.exit_code, 0) << program << ": " << end.err;
-        };
-        step("hearth-import", {"box.obj", "-o", "import.part"});
-        step("hearth-clusters", {"import.part", "-o", "clusters.part"});
-        step("hearth-textures", {"import.part", "-o", "textures.part"});
-        const auto open = [&](const char* part) { return tools::openPart(folder_ / part).value(); };
         sources_.clear();
-        sources_.push_back({open("import.part"), open("clusters.part"), open("textures.part")});
+        sources_.push_back(makeSourceParts(folder_, "box.obj"));
         scene_.emplace(collectStaticScene(sources_).value());
         GridSettings settings;
         settings.voxel_size = 0.25;
@@ -50,10 +41,9 @@ protected:
         EXPECT_TRUE(traceEmission(*scene_, *grid_).ok());
     }
 
-    std::vector<uint32_t> baked(uint32_t bounces)
+    std::vector<uint32_t> settled() const
     {
-        EXPECT_TRUE(bakeLight(*scene_, {.bounces = bounces, .rays = 16}, *grid_).ok());
-        return grid_->tables.lighting;
+        return settleLight(makeBrickView(grid_->tables), makeSceneLighting(*scene_)).codes;
     }
 
     /// Faces whose centres lie in the room.
@@ -81,41 +71,57 @@ protected:
     std::optional<CookedGrid> grid_;
 };
 
-TEST_F(BricksBake, addsUpInAFurnaceBounceByBounce)
+/// An enclosure that shines evenly has the radiance emission / (1 - albedo) everywhere.
+TEST_F(SettledLightTest, isThatOfAFurnace)
 {
     cook("Kd 0.5 0.5 0.5\nKe 0.3 0.3 0.3\n");
-    for (const uint32_t bounces : {0u, 1u, 3u, 24u})
+    const std::vector<uint32_t> codes = settled();
+    forEachInner(
+        [&](size_t face)
+        {
+            const float albedo = shared::decodeAlbedo(grid_->tables.albedo[face]).x;
+            const float emission = shared::decodeRadiance(grid_->tables.emission[face]).x;
+            ASSERT_NEAR(emission, 0.3f, 0.02f);
+            EXPECT_NEAR(shared::decodeRadiance(codes[face]).x, emission / (1 - albedo),
+                        0.02f * emission / (1 - albedo));
+        });
+}
+
+/// The runtime's sweeps start from the settled light and leave it as it is; from darkness they come to it.
+TEST_F(SettledLightTest, isWhatSweepsOfTheRuntimeComeTo)
+{
+    cook("Kd 0.8 0.6 0.4\nKe 0.1 0.2 0.3\n");
+    const shared::Lighting lighting = makeSceneLighting(*scene_);
+    const std::vector<uint32_t> codes = settled();
+    FaceLighting from_darkness(makeBrickView(grid_->tables));
+    from_darkness.sweep(lighting, 16, 60);
+    grid_->tables.lighting = codes;
+    FaceLighting from_settled(makeBrickView(grid_->tables));
+    from_settled.sweep(lighting, 16, 1);
+    for (size_t face = 0; face < codes.size(); ++face)
     {
-        const std::vector<uint32_t> codes = baked(bounces);
-        forEachInner(
-            [&](size_t face)
-            {
-                const float albedo = shared::decodeAlbedo(grid_->tables.albedo[face]).x;
-                const float emission = shared::decodeRadiance(grid_->tables.emission[face]).x;
-                ASSERT_NEAR(emission, 0.3f, 0.02f);
-                float expected = emission, power = 1;
-                for (uint32_t i = 0; i <= bounces; ++i)
-                    expected += emission * (power *= albedo);
-                EXPECT_NEAR(shared::decodeRadiance(codes[face]).x, expected, 0.02f * expected) << bounces;
-            });
+        const Float3 settled = shared::decodeRadiance(codes[face]);
+        // codes are a 64th apart, of blue a 32nd
+        expectRelative(shared::decodeBrickLight(from_darkness.faces()[face]), settled, 0.017f);
+        expectRelative(shared::decodeBrickLight(from_settled.faces()[face]), settled, 0.017f);
     }
 }
 
 /// Since the scene has no lights, there is a default sun outside, and a sky.
-TEST_F(BricksBake, leavesASealedRoomExactlyDark)
+TEST_F(SettledLightTest, leavesASealedRoomExactlyDark)
 {
     cook("Kd 0.8 0.8 0.8\n");
-    const std::vector<uint32_t> codes = baked(3);
+    const std::vector<uint32_t> codes = settled();
     forEachInner([&](size_t face) { EXPECT_EQ(codes[face], 0u); });
     EXPECT_GT(*std::ranges::max_element(codes), 0u) << "the sun is out";
 }
 
-TEST_F(BricksBake, isTheSameForAnyNumberOfThreads)
+TEST_F(SettledLightTest, isTheSameForAnyNumberOfThreads)
 {
     cook("Kd 0.8 0.6 0.4\nKe 0.1 0.2 0.3\n");
-    const std::vector<uint32_t> many = baked(2);
+    const std::vector<uint32_t> many = settled();
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, 1);
-    EXPECT_EQ(baked(2), many);
+    EXPECT_EQ(settled(), many);
 }
 
 } // namespace

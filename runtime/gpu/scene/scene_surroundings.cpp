@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/scene/scene_surroundings.h"
+
+#include "formats/gpu_shared/record_values.h"
+#include "runtime/gpu/vulkan/device.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace hearth::gpu
+{
+
+namespace
+{
+
+/// Most bytes that vkCmdUpdateBuffer takes.
+constexpr size_t kMaxUpdateBytes = 65536;
+
+SceneSurroundings::Row packRow(const formats::SurroundingsRecord& record)
+{
+    const auto pack = [&](uint32_t i)
+    { return uint32_t{record.visibility[i]} | uint32_t{record.visibility[i + 1]} << 16; };
+    return {record.transfer, pack(0), pack(2), 0};
+}
+
+} // namespace
+
+SceneSurroundings::SceneSurroundings(const formats::PackView& pack, const shared::Lighting& lighting)
+    : transfers_(pack.radianceTransfers().begin(), pack.radianceTransfers().end()),
+      sky_{lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground},
+      lights_(lighting.lights, lighting.lights + lighting.light_count)
+{
+    std::ranges::transform(pack.surroundings(), std::back_inserter(instances_), packRow);
+}
+
+uint64_t SceneSurroundings::countRows(const formats::PackView& pack)
+{
+    return pack.radianceTransfers().size() * shared::kOccluderLightRows + pack.surroundings().size();
+}
+
+uint32_t SceneSurroundings::firstInstanceRow(const formats::PackView& pack)
+{
+    return pack.surroundings().empty()
+               ? shared::kNoSurroundings
+               : static_cast<uint32_t>(pack.radianceTransfers().size()) * shared::kOccluderLightRows;
+}
+
+std::vector<shared::OccluderLight> SceneSurroundings::makeOccluderLights() const
+{
+    const shared::LightHarmonics harmonics = shared::projectDistantLight(sky_, lights_);
+    std::vector<shared::OccluderLight> lights;
+    lights.reserve(transfers_.size());
+    for (const formats::RadianceTransferRecord& transfer : transfers_)
+        lights.push_back(shared::transferLight(transfer, harmonics));
+    return lights;
+}
+
+std::vector<SceneSurroundings::Row> SceneSurroundings::makeRows() const
+{
+    const std::vector<shared::OccluderLight> lights = makeOccluderLights();
+    std::vector<Row> rows(lights.size() * shared::kOccluderLightRows);
+    if (!lights.empty())
+        std::memcpy(rows.data(), lights.data(), lights.size() * sizeof(lights[0]));
+    rows.insert(rows.end(), instances_.begin(), instances_.end());
+    return rows;
+}
+
+void SceneSurroundings::change(uint32_t light, const shared::Light& record)
+{
+    lights_[light] = record;
+    changed_ = changed_ || record.type == shared::kLightDirectional;
+}
+
+void SceneSurroundings::record(const Device& device, VkCommandBuffer commands, const Buffer& lighting)
+{
+    if (!changed_)
+        return;
+    changed_ = false;
+    const std::vector<shared::OccluderLight> lights = makeOccluderLights();
+    const std::span<const std::byte> bytes = std::as_bytes(std::span(lights));
+    for (size_t at = 0; at < bytes.size(); at += kMaxUpdateBytes)
+        device.vk.vkCmdUpdateBuffer(commands, lighting.handle.get(), sizeof(shared::Lighting) + at,
+                                    std::min(kMaxUpdateBytes, bytes.size() - at), bytes.data() + at);
+}
+
+} // namespace hearth::gpu

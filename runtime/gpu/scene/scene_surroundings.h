@@ -1,0 +1,49 @@
+// Surroundings of a scene's instances: rows behind the lights in their buffer, which follow the lights.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/pack/pack_view.h"
+#include "formats/scene/radiance_transfer.h"
+#include "runtime/gpu/vulkan/memory.h"
+
+#include <array>
+#include <vector>
+
+namespace hearth::gpu
+{
+
+class SceneSurroundings
+{
+public:
+    using Row = std::array<uint32_t, 4>;
+
+    /// pack      with surroundings
+    /// lighting  of the scene, as loaded
+    SceneSurroundings(const formats::PackView& pack, const shared::Lighting& lighting);
+
+    /// Return the number of rows of a pack; 0 if it has no surroundings.
+    static uint64_t countRows(const formats::PackView& pack);
+
+    /// Return the row of the first instance, or kNoSurroundings.
+    static uint32_t firstInstanceRow(const formats::PackView& pack);
+
+    /// Return all rows under the present lights.
+    std::vector<Row> makeRows() const;
+
+    /// Take the new state of a light; the next record() has it.
+    void change(uint32_t light, const shared::Light& record);
+
+    /// Record copies of the rows that depend on the lights, if a directional light has changed.
+    void record(const Device& device, VkCommandBuffer commands, const Buffer& lighting);
+
+private:
+    std::vector<shared::OccluderLight> makeOccluderLights() const;
+
+    std::vector<formats::RadianceTransferRecord> transfers_;
+    std::vector<Row> instances_;
+    shared::Sky sky_;
+    std::vector<shared::Light> lights_;
+    bool changed_ = false;
+};
+
+} // namespace hearth::gpu
