@@ -98,6 +98,8 @@ std::set<std::string> learnSystemFiles(const std::vector<Asset>& assets, const P
     return files;
 }
 
+/// Check files, `jobs` at once. A limit of seconds holds for a file that has the machine to itself: files that
+/// share it get as many times longer.
 std::vector<Checked> checkAll(const std::vector<const Asset*>& assets, const Programs& programs,
                               const WorkFolder& work, unsigned jobs)
 {
@@ -107,7 +109,11 @@ std::vector<Checked> checkAll(const std::vector<const Asset*>& assets, const Pro
     {
         const std::string folder = work.forWorker(number);
         for (size_t i = next++; i < assets.size(); i = next++)
-            all[i] = judge(*assets[i], checkAsset(*assets[i], programs, folder), kJudgements);
+        {
+            Asset asset = *assets[i];
+            asset.limits.seconds *= jobs;
+            all[i] = judge(*assets[i], checkAsset(asset, programs, folder), kJudgements);
+        }
     };
     std::vector<std::jthread> threads;
     for (unsigned i = 0; i < jobs; ++i)
