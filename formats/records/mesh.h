@@ -17,6 +17,7 @@ inline constexpr uint32_t kChunkPageTable = fourCC("PGTB");    ///< PageRecord[]
 inline constexpr uint32_t kChunkPageParents = fourCC("PGPA");  ///< u32[]: pages that a page refines
 inline constexpr uint32_t kChunkPages = fourCC("PAGE");        ///< pages, each aligned to 64 bytes
 inline constexpr uint32_t kChunkSourceMesh = fourCC("SMSH");   ///< mesh `index` as imported
+inline constexpr uint32_t kChunkInstanceMeshes = fourCC("IMSH"); ///< u32[]: mesh of each instance
 inline constexpr uint32_t kChunkAuthoredLods = fourCC("ALOD"); ///< AuthoredLodRecord[]
 
 inline constexpr uint32_t kMaxClusterTriangles = 128;

@@ -33,6 +33,13 @@ std::vector<Setting> makeVisibilitySettings()
                                      "scene; mesh, each mesh alone",
                                      kPackOccludes, {kPackOccludes, "source", "mesh"}),
                        "--visibility-occluders", "NAME")),
+        withSaving(
+            "0 copies no mesh",
+            withOption(numberSetting("visibility.copies",
+                                     "bytes that copies of meshes may take, for instances that see too "
+                                     "different a part of the sky, over those of the source's geometry",
+                                     "0.25", 0, 64),
+                       "--visibility-copies", "SHARE")),
         withSaving("a limit makes rays shorter",
                    withOption(excludingLow(numberSetting(
                                   "visibility.distance", "metres: what is farther away hides nothing",
@@ -66,6 +73,7 @@ Result<Arguments> makeVisibilityArguments(const Values& values)
     arguments.depends_on_processor = true;
     addOption(values, "visibility.quality", "--quality", arguments);
     addOption(values, kOccluders, "--occluders", arguments);
+    addOption(values, "visibility.copies", "--copies", arguments);
     addOption(values, "visibility.distance", "--distance", arguments);
     addOption(values, "visibility.power", "--power", arguments);
     addOption(values, "visibility.poses", "--poses", arguments);

@@ -2,6 +2,7 @@
 #include "pipelines/link/link.h"
 
 #include "formats/container/container_writer.h"
+#include "formats/pack/instance_meshes.h"
 #include "formats/pack/pack_check.h"
 #include "pipelines/link/asset_bounds.h"
 #include "pipelines/link/merge_meta.h"
@@ -35,6 +36,7 @@ struct Source
     PackView textures_part;
     PackView skinning_part;
     Records<DeformedGroupRecord> deformed_groups; ///< of the skinning part
+    std::vector<uint32_t> instance_meshes;        ///< of the clusters part
     std::string name;                             ///< of the asset
     StringRef name_ref{};                         ///< in the merged strings
     TableOffsets offsets{};
@@ -67,7 +69,9 @@ Status checkSameSource(const Source& source)
                          std::to_string(expected)};
     };
     const uint64_t meshes = countChunks(source.import_part.container(), kChunkSourceMesh);
-    if (source.clusters_part.meshes().size() != meshes)
+    const bool has_copies = countChunks(source.clusters_part.container(), kChunkInstanceMeshes) > 0;
+    if (source.clusters_part.meshes().size() < meshes ||
+        (source.clusters_part.meshes().size() > meshes && !has_copies))
         return differ(source.clusters_part, "meshes", source.clusters_part.meshes().size(), meshes);
     const uint64_t images = source.import_part.images().size();
     if (source.textures_part.images().size() != images)
@@ -93,9 +97,12 @@ Result<Source> openSource(const SourceParts& parts)
     HEARTH_ASSIGN_OR_RETURN(PackView skinning_part, openPart(parts.skinning_part));
     HEARTH_ASSIGN_OR_RETURN(Records<DeformedGroupRecord> deformed_groups,
                             skinning_part.container().records<DeformedGroupRecord>(kChunkDeformedGroups));
+    HEARTH_ASSIGN_OR_RETURN(std::vector<uint32_t> instance_meshes,
+                            readInstanceMeshes(import_part, clusters_part));
     std::string name = readAssetName(import_part.meta());
     Source source{std::move(import_part),   std::move(clusters_part),   std::move(textures_part),
-                  std::move(skinning_part), std::move(deformed_groups), std::move(name)};
+                  std::move(skinning_part), std::move(deformed_groups), std::move(instance_meshes),
+                  std::move(name)};
     HEARTH_TRY(checkSameSource(source));
     return source;
 }
@@ -268,12 +275,27 @@ Status writeMaterialLayers(ContainerWriter& writer, std::span<const Source> sour
                : success();
 }
 
+/// Write the instances of all sources with the meshes that they draw: those of the source, or copies.
+Status writeInstances(ContainerWriter& writer, std::span<const Source> sources)
+{
+    std::vector<InstanceRecord> merged;
+    for (const Source& source : sources)
+        for (size_t i = 0; i < source.instance_meshes.size(); ++i)
+        {
+            InstanceRecord record = source.import_part.instances()[i];
+            record.mesh = source.instance_meshes[i];
+            rebase(record, source.offsets);
+            merged.push_back(record);
+        }
+    return writer.addRecords<InstanceRecord>(kChunkInstances, merged);
+}
+
 Status writeScene(ContainerWriter& writer, std::span<const Source> sources)
 {
     const auto write = [&]<typename T>(uint32_t type, std::span<const T> (PackView::*table)() const)
     { return writeTable(writer, sources, type, &Source::import_part, table); };
     HEARTH_TRY(write(kChunkNodes, &PackView::nodes));
-    HEARTH_TRY(write(kChunkInstances, &PackView::instances));
+    HEARTH_TRY(writeInstances(writer, sources));
     HEARTH_TRY(write(kChunkCameras, &PackView::cameras));
     HEARTH_TRY(write(kChunkLights, &PackView::lights));
     HEARTH_TRY(write(kChunkShadowSpheres, &PackView::shadowSpheres));
@@ -289,12 +311,30 @@ Status writeScene(ContainerWriter& writer, std::span<const Source> sources)
     return writeJoined(writer, sources, kChunkMorphWeights, &Source::import_part, &PackView::morphWeights);
 }
 
+/// Return the extras of a source. Copies of a mesh have those of the mesh.
+std::vector<ExtrasRecord> collectExtras(const Source& source)
+{
+    const std::span<const ExtrasRecord> own = source.import_part.extras();
+    std::vector<ExtrasRecord> extras(own.begin(), own.end());
+    const std::vector<uint32_t> originals =
+        findOriginalMeshes(source.import_part, source.instance_meshes, source.clusters_part.meshes().size());
+    for (uint32_t mesh = 0; mesh < originals.size(); ++mesh)
+        for (ExtrasRecord record : own)
+            if (originals[mesh] != mesh && static_cast<ExtrasOwner>(record.owner) == ExtrasOwner::mesh &&
+                record.index == originals[mesh])
+            {
+                record.index = mesh;
+                extras.push_back(record);
+            }
+    return extras;
+}
+
 /// Write the extras of all sources, sorted by object; no chunk if there are none.
 Status writeExtras(ContainerWriter& writer, std::span<const Source> sources)
 {
     std::vector<ExtrasRecord> merged;
     for (const Source& source : sources)
-        for (ExtrasRecord record : source.import_part.extras())
+        for (ExtrasRecord record : collectExtras(source))
         {
             rebase(record, source.offsets);
             merged.push_back(record);

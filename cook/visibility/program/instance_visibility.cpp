@@ -46,8 +46,8 @@ double rms(double mean_square)
     return std::sqrt(std::max(mean_square, 0.0)); // noise may leave less than 0
 }
 
-/// Trace the rays of all points, and fit a factor to each run of points.
-/// groups  of instances, whose middle ones are traced
+} // namespace
+
 std::vector<VisibilityFactor> fitGroups(const Occluders& world, const SampledSurface& surface,
                                         std::span<const ChosenSample> chosen,
                                         std::span<const std::span<const MeshInstance>> groups,
@@ -82,8 +82,6 @@ std::vector<VisibilityFactor> fitGroups(const Occluders& world, const SampledSur
     }
     return factors;
 }
-
-} // namespace
 
 InstanceSpread fitInstances(const Occluders& world, const SampledSurface& surface,
                             std::span<const MeshInstance> instances, double max_rays, RaySettings settings,

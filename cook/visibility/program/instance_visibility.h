@@ -3,11 +3,13 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "cook/visibility/fit/visibility_factor.h"
 #include "cook/visibility/program/instance_samples.h"
 #include "cook/visibility/rays/rays.h"
 #include "formats/records/surroundings.h"
 
 #include <span>
+#include <vector>
 
 namespace hearth::visibility
 {
@@ -21,6 +23,15 @@ struct InstanceSpread
     uint32_t changed_instances = 0;
     uint64_t rays = 0;
 };
+
+/// Fit a factor to each group of instances, by what its middle one sees at the chosen samples with 32 rays each.
+/// world     finished
+/// groups    none empty
+/// settings  of the mesh's own rays, apart from their number
+std::vector<VisibilityFactor> fitGroups(const Occluders& world, const SampledSurface& surface,
+                                        std::span<const ChosenSample> chosen,
+                                        std::span<const std::span<const MeshInstance>> groups,
+                                        RaySettings settings);
 
 /// Fit a factor to each instance, or to groups of neighbours where there are too many for the rays. Instances
 /// whose error falls by next to nothing keep the mean of their mesh. The same for any number of threads.

@@ -48,6 +48,7 @@ struct Arguments
     std::string quality = "default";
     std::vector<std::string> neighbours; ///< import and clusters part in turn
     visibility::OccluderScope occluders = visibility::OccluderScope::pack;
+    double copies = BakeSettings{}.copies;
     double samples_per_vertex = 0; ///< here and below, 0: value of the quality preset
     uint32_t rays_per_sample = 0;
     float distance = 0;
@@ -68,6 +69,7 @@ struct Arguments
             settings.rays.distance = distance;
         settings.rays.power = power;
         settings.occluders = occluders;
+        settings.copies = copies;
         for (const std::string& text : poses)
             settings.poses.push_back(visibility::parseClipTimes(text).value_or(visibility::ClipTimes{}));
         settings.refine_cones = refine_cones;
@@ -193,6 +195,12 @@ int program(int argc, char** argv)
     app.addOption("--neighbours", arguments.neighbours,
                   "import and clusters part of each source that occludes this one")
         .typeName("PART");
+    app.addOption("--copies", arguments.copies,
+                  "bytes that copies of meshes may take, for instances that see too different a part of the "
+                  "sky, over "
+                  "those of the source's geometry; 0: no copies")
+        .range(0.0, 64.0, "FLOAT")
+        .showDefault();
     const cli::Option distance =
         app.addOption("--distance", arguments.distance,
                       "metres: what is farther away hides nothing; no limit by default")

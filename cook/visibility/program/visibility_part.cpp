@@ -2,26 +2,26 @@
 #include "cook/visibility/program/visibility_part.h"
 
 #include "cook/json/json.h"
-#include "cook/mesh/weld.h"
+#include "cook/pages/mesh_copies.h"
 #include "cook/pages/rewrite.h"
 #include "cook/tools/open_part.h"
 #include "cook/visibility/fit/finer_levels.h"
+#include "cook/visibility/program/instance_copies.h"
 #include "cook/visibility/program/instance_light.h"
 #include "cook/visibility/rays/sampled_moments.h"
-#include "cook/visibility/scene/neighbour_occluders.h"
 #include "cook/visibility/scene/scene_occluders.h"
 #include "cook/visibility/scene/source_normals.h"
-#include "formats/base/affine3d.h"
 #include "formats/container/container_writer.h"
+#include "formats/pack/instance_meshes.h"
 #include "formats/pack/pack_check.h"
 
 #include <algorithm>
-#include <bit>
 #include <chrono>
 #include <deque>
 #include <numbers>
 
 #include <tbb/parallel_for.h>
+#include <unistd.h>
 
 namespace hearth::visibility
 {
@@ -30,14 +30,6 @@ using namespace formats;
 
 namespace
 {
-
-// Maximum number of instances of a mesh whose surroundings are averaged.
-constexpr size_t kMaxInstances = 8;
-
-// Minimum number of samples around a vertex, relative to the average number per vertex. Each sample counts
-// for the three vertices of its triangle, so that three times the average lie around a vertex; a quarter of
-// them are distributed by area. See cook/visibility/README.md, "Noise".
-constexpr double kMinVertexSamples = 2.25;
 
 // Rays that compare the instances of all meshes, a 64th of those of the default quality.
 constexpr double kInstanceRays = 0x1p18;
@@ -50,82 +42,42 @@ double secondsSince(std::chrono::steady_clock::time_point start)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-bool isBaked(const MeshRecord& mesh)
+/// Collect all that occludes a source.
+Status collectOccluders(const BakedSource& source, std::span<const PartPaths> neighbours,
+                        const BakeSettings& settings, SceneSurfaces& surfaces, Occluders& world)
 {
-    return mesh.clusters.count > 0 && (mesh.attributes & kVertexVisibility) != 0;
-}
-
-/// Plan the sampling of all meshes.
-std::vector<MeshSampling> planMeshes(const PackView& part, const SamplingSettings& settings)
-{
-    std::vector<std::vector<uint64_t>> triangles(part.meshes().size());
-    for (uint32_t mesh = 0; mesh < triangles.size(); ++mesh)
-        if (isBaked(part.meshes()[mesh]))
-            triangles[mesh] = countLevelTriangles(part, mesh);
-    return planSampling(triangles, settings);
-}
-
-/// Return for each mesh of a neighbour the level that it is sampled on in its own bake.
-std::vector<uint32_t> planNeighbourLevels(const PackView& part, const SamplingSettings& settings)
-{
-    std::vector<uint32_t> levels;
-    for (const MeshSampling& sampling : planMeshes(part, settings))
-        levels.push_back(sampling.level);
-    return levels;
-}
-
-/// Collect the instances of each mesh, and check that the two parts belong together.
-/// errors: meaning_reference for an instance of a mesh that is not there
-Result<std::vector<std::vector<MeshInstance>>> collectInstances(const PackView& scene, const PackView& part)
-{
-    std::vector<std::vector<MeshInstance>> instances(part.meshes().size());
-    for (uint32_t i = 0; i < scene.instances().size(); ++i)
-    {
-        const InstanceRecord& instance = scene.instances()[i];
-        if (instance.mesh >= instances.size())
-            return Error{Issue::meaning_reference, scene.name(), "instance " + std::to_string(i),
-                         "mesh " + std::to_string(instance.mesh)};
-        // an instance that is flat in the world has no inverse, which rays need
-        if (isInvertible(instance.world_from_object))
-            instances[instance.mesh].push_back({i, instance.world_from_object});
-    }
-    return instances;
-}
-
-std::vector<Affine3> collectTransforms(std::span<const MeshInstance> instances)
-{
-    std::vector<Affine3> transforms;
-    for (const MeshInstance& instance : instances)
-        transforms.push_back(instance.world_from_mesh);
-    return transforms;
+    HEARTH_TRY(source.addOccluders(surfaces, world));
+    if (settings.occluders == OccluderScope::pack)
+        HEARTH_TRY(source.addNeighbours(neighbours, settings.sampling, settings.rays.distance, world));
+    world.finish();
+    return success();
 }
 
 class Bake
 {
 public:
-    Bake(const PackView& scene, const PackView& part, std::span<const PartPaths> neighbours,
-         const BakeSettings& settings, const BakeObserver& observe)
-        : scene_(scene),
-          part_(part),
+    Bake(const BakedSource& source, std::span<const PartPaths> neighbours, const BakeSettings& settings,
+         const BakeObserver& observe)
+        : source_(source),
+          scene_(source.scene),
+          part_(source.part),
           neighbours_(neighbours),
           settings_(settings),
           observe_(observe),
-          surfaces_(scene),
-          plan_(planMeshes(part, settings.sampling)),
-          codes_(part.clusters().size())
+          surfaces_(scene_),
+          codes_(part_.clusters().size())
     {
     }
 
     /// returns  nothing if the observer returned false
     Result<std::optional<std::vector<MeshStatistics>>> run()
     {
-        HEARTH_ASSIGN_OR_RETURN(instances_, collectInstances(scene_, part_));
         surroundings_.assign(scene_.instances().size(), kPlainSurroundings);
         light_.emplace(makeLight());
         HEARTH_ASSIGN_OR_RETURN(poses_, samplePoses(scene_, settings_.poses));
         Occluders world;
         if (settings_.occluders != OccluderScope::mesh)
-            HEARTH_TRY(collectOccluders(world));
+            HEARTH_TRY(collectOccluders(source_, neighbours_, settings_, surfaces_, world));
         uint64_t triangles = 0;
         for (const MeshRecord& mesh : part_.meshes())
             triangles += isBaked(mesh) ? mesh.source_triangles : 0;
@@ -158,71 +110,24 @@ public:
     }
 
 private:
-    /// Collect the occluders of the scene, at the levels that are sampled, so that no sample is inside its
-    /// own mesh, and those of the neighbours. Deformed meshes occlude only themselves.
-    Status collectOccluders(Occluders& world)
-    {
-        for (uint32_t mesh = 0; mesh < part_.meshes().size(); ++mesh)
-        {
-            const MeshRecord& record = part_.meshes()[mesh];
-            if (record.clusters.count == 0 || instances_[mesh].empty() || isDeformed(record))
-                continue;
-            HEARTH_ASSIGN_OR_RETURN(const MeshPages pages, MeshPages::read(part_, mesh));
-            HEARTH_TRY(addMesh(world, surfaces_, pages, extractLevel(pages, plan_[mesh].level),
-                               collectTransforms(instances_[mesh])));
-        }
-        if (settings_.occluders == OccluderScope::pack)
-            HEARTH_TRY(collectNeighbours(world));
-        world.finish();
-        return success();
-    }
-
-    Status collectNeighbours(Occluders& world) const
-    {
-        const Box3 receivers = computeReceiverBox();
-        if (receivers.empty())
-            return success();
-        for (const PartPaths& paths : neighbours_)
-        {
-            HEARTH_ASSIGN_OR_RETURN(const PackView scene, tools::openPart(paths.import_part));
-            HEARTH_ASSIGN_OR_RETURN(const PackView part, tools::openPart(paths.clusters_part));
-            HEARTH_TRY(checkHierarchy(part));
-            HEARTH_TRY(addNeighbour(world, scene, part, planNeighbourLevels(part, settings_.sampling),
-                                    receivers, settings_.rays.distance));
-        }
-        return success();
-    }
-
-    /// Return the box in world space of all that others can occlude.
-    Box3 computeReceiverBox() const
-    {
-        Box3 box;
-        for (uint32_t mesh = 0; mesh < part_.meshes().size(); ++mesh)
-        {
-            const MeshRecord& record = part_.meshes()[mesh];
-            if (isBaked(record) && !isDeformed(record))
-                for (const MeshInstance& instance : instances_[mesh])
-                    box.add(
-                        transformBox(widened(instance.world_from_mesh), {record.box_min, record.box_max}));
-        }
-        return box;
-    }
-
     Result<std::optional<MeshStatistics>> bake(uint32_t mesh, const Occluders& world)
     {
         HEARTH_ASSIGN_OR_RETURN(const MeshPages pages, MeshPages::read(part_, mesh));
         std::vector<LevelArrays> levels = extractLevels(pages);
-        const MeshSampling& plan = plan_[mesh];
+        const MeshSampling& plan = source_.plan[mesh];
         const LevelArrays& sampled = levels[plan.level];
         HEARTH_ASSIGN_OR_RETURN(const SourceNormals normals,
-                                SourceNormals::read(scene_, mesh, pages.record()));
+                                SourceNormals::read(scene_, source_.originals[mesh], pages.record()));
         const bool deformed = isDeformed(pages.record());
-        const bool alone = settings_.occluders == OccluderScope::mesh || deformed || instances_[mesh].empty();
+        const bool alone =
+            settings_.occluders == OccluderScope::mesh || deformed || source_.instances[mesh].empty();
         MeshStatistics statistics;
         statistics.mesh = mesh;
         statistics.name = part_.text(pages.record().name);
         statistics.levels = static_cast<uint32_t>(levels.size());
         statistics.sampled_level = plan.level;
+        if (source_.originals[mesh] != mesh)
+            statistics.copy_of = source_.originals[mesh];
 
         std::deque<Occluders> itself;
         std::vector<Placement> places;
@@ -231,9 +136,15 @@ private:
             HEARTH_ASSIGN_OR_RETURN(places, placeAlone(pages, sampled, statistics, itself));
         }
         else
-            places = chooseInstances(world, instances_[mesh], plan, statistics);
+        {
+            const std::vector<MeshInstance>& instances = source_.instances[mesh];
+            places = placeInstances(world, instances, plan.rays_per_sample);
+            statistics.poses = {"rest"};
+            statistics.instances = static_cast<uint32_t>(std::min(places.size(), instances.size()));
+        }
         const auto start = std::chrono::steady_clock::now();
-        std::vector<SurfaceSample> samples = createSamples(sampled, plan.samples_per_vertex);
+        std::vector<SurfaceSample> samples =
+            createSamples(sampled, plan.samples_per_vertex, settings_.fit.proxy);
         const std::optional<SampledMoments> seen =
             trace(sampled, plan.rays_per_sample, samples, places, statistics);
         if (!seen)
@@ -253,9 +164,9 @@ private:
     InstanceLight makeLight() const
     {
         uint64_t groups = 0;
-        for (uint32_t mesh = 0; mesh < instances_.size(); ++mesh)
+        for (uint32_t mesh = 0; mesh < source_.instances.size(); ++mesh)
             if (isBaked(part_.meshes()[mesh]))
-                groups += InstanceLight::countGroups(instances_[mesh].size());
+                groups += InstanceLight::countGroups(source_.instances[mesh].size());
         return {groups, {.seed = settings_.rays.seed, .distance = settings_.rays.distance}};
     }
 
@@ -264,10 +175,10 @@ private:
     double instanceRays(uint32_t mesh) const
     {
         double roots = 0;
-        for (const std::vector<MeshInstance>& instances : instances_)
+        for (const std::vector<MeshInstance>& instances : source_.instances)
             if (instances.size() > 1)
                 roots += std::sqrt(static_cast<double>(instances.size()));
-        return kInstanceRays * std::sqrt(static_cast<double>(instances_[mesh].size())) / roots;
+        return kInstanceRays * std::sqrt(static_cast<double>(source_.instances[mesh].size())) / roots;
     }
 
     /// Bake the surroundings of a mesh's instances, of deformed ones in their first pose.
@@ -279,7 +190,7 @@ private:
         const std::vector<Float3>& posed = places.front().posed_positions;
         const SampledSurface surface{posed.empty() ? level.positions : posed, level.indices, samples,
                                      seen.moments, seen.interior};
-        const std::vector<MeshInstance>& instances = instances_[statistics.mesh];
+        const std::vector<MeshInstance>& instances = source_.instances[statistics.mesh];
         const Occluders& occluders = *places.front().occluders;
         if (alone)
             light_->bakeAlone(occluders, surface, instances, surroundings_);
@@ -292,22 +203,6 @@ private:
         rays.seed += statistics.mesh;
         statistics.instance_spread =
             fitInstances(occluders, surface, instances, instanceRays(statistics.mesh), rays, surroundings_);
-    }
-
-    std::vector<SurfaceSample> createSamples(const LevelArrays& level, double samples_per_vertex) const
-    {
-        // vertices that clusters share are in the arrays once for each cluster
-        const std::vector<uint32_t> first = findMergedVertices(level.mesh().mesh, settings_.fit.proxy);
-        std::vector<uint32_t> corners;
-        corners.reserve(level.indices.size());
-        for (const uint32_t corner : level.indices)
-            corners.push_back(first[corner]);
-        const auto positions = static_cast<double>(mesh::weldPositions(level.positions).position_count);
-        SurfaceSampleSettings settings;
-        settings.samples_per_vertex =
-            samples_per_vertex * positions / static_cast<double>(level.positions.size());
-        settings.min_per_vertex = kMinVertexSamples * samples_per_vertex;
-        return surfaceSamples(level.positions, corners, settings);
     }
 
     /// Create the placements of a mesh alone: one without a pose, or one for each of its poses.
@@ -339,20 +234,6 @@ private:
         if (places.empty())
             HEARTH_TRY(add(deformed ? "bind" : "rest", sampled, {}));
         return places;
-    }
-
-    /// Choose a power of two of the instances, so that they can share each sample's rays evenly.
-    std::vector<Placement> chooseInstances(const Occluders& world, std::span<const MeshInstance> instances,
-                                           const MeshSampling& plan, MeshStatistics& statistics) const
-    {
-        const size_t most = std::min(kMaxInstances, size_t{plan.rays_per_sample});
-        const size_t count = std::min(std::bit_ceil(instances.size()), std::bit_floor(most));
-        statistics.poses = {"rest"};
-        std::vector<Placement> subset;
-        for (size_t i = 0; i < count; ++i)
-            subset.push_back({&world, instances[i * instances.size() / count].world_from_mesh, {}});
-        statistics.instances = static_cast<uint32_t>(std::min(count, instances.size()));
-        return subset;
     }
 
     /// Trace the rays. Instances share each sample's rays; poses have all of them each.
@@ -494,15 +375,14 @@ private:
         return std::sqrt(sum / static_cast<double>(std::max<size_t>(level.normals.size(), 1)));
     }
 
+    const BakedSource& source_;
     const PackView& scene_;
     const PackView& part_;
     const std::span<const PartPaths> neighbours_;
     const BakeSettings& settings_;
     const BakeObserver& observe_;
     SceneSurfaces surfaces_;
-    const std::vector<MeshSampling> plan_;             ///< of each mesh
-    std::vector<std::vector<MeshInstance>> instances_; ///< of each mesh
-    std::vector<SurroundingsRecord> surroundings_;     ///< of each instance
+    std::vector<SurroundingsRecord> surroundings_; ///< of each instance
     std::optional<InstanceLight> light_;
     std::vector<NamedPose> poses_;
     std::vector<std::vector<uint32_t>> codes_;
@@ -510,6 +390,54 @@ private:
     double share_of_mesh_ = 0;
     uint64_t rays_before_ = 0;
 };
+
+/// Choose the instances of a source that get a copy of their mesh.
+/// instance_meshes  mesh of each instance
+Result<MeshCopies> findCopies(const BakedSource& source, std::vector<uint32_t> instance_meshes,
+                              std::span<const PartPaths> neighbours, const BakeSettings& settings)
+{
+    const auto max_bytes =
+        static_cast<uint64_t>(settings.copies * static_cast<double>(source.part.pageBytes().size()));
+    if (settings.occluders == OccluderScope::mesh || !mayNeedCopies(source, max_bytes))
+        return MeshCopies{{}, std::move(instance_meshes)};
+    SceneSurfaces surfaces(source.scene);
+    Occluders world;
+    HEARTH_TRY(collectOccluders(source, neighbours, settings, surfaces, world));
+    return chooseCopies(source, world, std::move(instance_meshes), settings.rays, settings.fit.proxy,
+                        max_bytes);
+}
+
+/// Bake a source, and write its part.
+/// instance_meshes  mesh of each instance
+/// returns  nothing if `observe` returned false
+Result<std::optional<std::vector<MeshStatistics>>>
+bakePart(const BakedSource& source, std::span<const uint32_t> instance_meshes,
+         std::span<const PartPaths> neighbours, const std::string& output_path, const BakeSettings& settings,
+         const BakeObserver& observe)
+{
+    Bake bake(source, neighbours, settings, observe);
+    HEARTH_ASSIGN_OR_RETURN(std::optional<std::vector<MeshStatistics>> statistics, bake.run());
+    if (!statistics)
+        return statistics;
+    HEARTH_TRY(pages::rewriteVisibility(
+        source.part.container(), output_path,
+        [&](const pages::PageVertices& page, std::span<uint32_t> codes)
+        {
+            auto out = codes.begin();
+            for (uint32_t c = 0; c < page.clusters.count; ++c)
+                out = std::ranges::copy(bake.codes()[page.clusters.first + c], out).out;
+        },
+        {.types = {kChunkSurroundings, kChunkRadianceTransfers, kChunkInstanceMeshes},
+         .write = [&](ContainerWriter& writer) -> Status
+         {
+             HEARTH_TRY(bake.writeSurroundings(writer));
+             const bool has_copies = !std::ranges::equal(instance_meshes, source.scene.instances(), {}, {},
+                                                         &InstanceRecord::mesh);
+             return has_copies ? writer.addRecords<uint32_t>(kChunkInstanceMeshes, instance_meshes)
+                               : success();
+         }}));
+    return statistics;
+}
 
 /// Return null for no spread.
 Json spreadJson(const std::optional<InstanceSpread>& spread)
@@ -527,6 +455,7 @@ Json meshJson(const MeshStatistics& mesh)
     Json json{
         {"mesh", mesh.mesh},
         {"name", mesh.name},
+        {"copy_of", mesh.copy_of ? Json(*mesh.copy_of) : Json()},
         {"poses", mesh.poses},
         {"instances", mesh.instances},
         {"spread", mesh.spread},
@@ -571,21 +500,20 @@ writeVisibilityPart(const PackView& import_part, const PackView& clusters_part,
                     const BakeSettings& settings, const BakeObserver& observe)
 {
     HEARTH_TRY(checkHierarchy(clusters_part));
-    Bake bake(import_part, clusters_part, neighbours, settings, observe);
-    HEARTH_ASSIGN_OR_RETURN(std::optional<std::vector<MeshStatistics>> statistics, bake.run());
-    if (!statistics)
-        return statistics;
-    HEARTH_TRY(pages::rewriteVisibility(
-        clusters_part.container(), output_path,
-        [&](const pages::PageVertices& page, std::span<uint32_t> codes)
-        {
-            auto out = codes.begin();
-            for (uint32_t c = 0; c < page.clusters.count; ++c)
-                out = std::ranges::copy(bake.codes()[page.clusters.first + c], out).out;
-        },
-        {.types = {kChunkSurroundings, kChunkRadianceTransfers},
-         .write = [&](ContainerWriter& writer) { return bake.writeSurroundings(writer); }}));
-    return statistics;
+    HEARTH_ASSIGN_OR_RETURN(std::vector<uint32_t> own_meshes, readInstanceMeshes(import_part, clusters_part));
+    const BakedSource own = BakedSource::make(import_part, clusters_part, own_meshes, settings.sampling);
+    HEARTH_ASSIGN_OR_RETURN(const MeshCopies copies,
+                            findCopies(own, std::move(own_meshes), neighbours, settings));
+    if (copies.meshes.empty())
+        return bakePart(own, copies.instance_meshes, neighbours, output_path, settings, observe);
+    const std::string copied_path = output_path + ".copies-" + std::to_string(::getpid());
+    HEARTH_TRY(pages::copyMeshes(clusters_part, copies.meshes, copied_path));
+    Result<PackView> part = tools::openPart(copied_path);
+    ::unlink(copied_path.c_str()); // stays mapped
+    if (!part.ok())
+        return std::move(part).error();
+    return bakePart(BakedSource::make(import_part, *part, copies.instance_meshes, settings.sampling),
+                    copies.instance_meshes, neighbours, output_path, settings, observe);
 }
 
 std::string_view occluderScopeName(OccluderScope scope)

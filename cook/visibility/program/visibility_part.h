@@ -5,6 +5,7 @@
 
 #include "cook/visibility/fit/level_fit.h"
 #include "cook/visibility/fit/refined_levels.h"
+#include "cook/visibility/program/baked_source.h"
 #include "cook/visibility/program/instance_visibility.h"
 #include "cook/visibility/program/sampling_plan.h"
 #include "cook/visibility/rays/rays.h"
@@ -32,18 +33,13 @@ enum class OccluderScope
 /// Return the word for a scope in command lines and statistics.
 std::string_view occluderScopeName(OccluderScope scope);
 
-/// Parts of a source, as files.
-struct PartPaths
-{
-    std::string import_part;
-    std::string clusters_part;
-};
-
 struct BakeSettings
 {
     SamplingSettings sampling;
     RaySettings rays; ///< rays_per_sample is the plan's
     OccluderScope occluders = OccluderScope::pack;
+    /// Bytes that copies of meshes may take, over those of the source's pages; 0: no copies.
+    double copies = 0.25;
     LevelFitSettings fit;
     std::vector<ClipTimes> poses; ///< deformed meshes get the mean over these; empty: the bind pose
     bool refine_cones = false;    ///< fit cones to nine harmonics instead of four moments: refined_levels.h
@@ -55,6 +51,7 @@ struct MeshStatistics
 {
     uint32_t mesh = 0;
     std::string name;
+    std::optional<uint32_t> copy_of; ///< mesh of the source, if this is a copy for one instance
     /// "rest"; for a deformed mesh, which is alone with any settings: "bind", or the names of its poses
     std::vector<std::string> poses;
     uint32_t instances = 0; ///< number of instances that are averaged; 0: alone
@@ -90,7 +87,8 @@ struct BakeProgress
 using BakeObserver = std::function<bool(const BakeProgress& progress)>;
 
 /// Write the clusters part again, with visibility at the vertices of each mesh whose vertices have room for
-/// it, and with the surroundings of its instances. Writes nothing if `observe` returned false. The same bytes
+/// it, with copies of meshes for instances that are unlike the others, and with the surroundings of its
+/// instances. Writes nothing if `observe` returned false. The same bytes
 /// for any number of threads.
 ///
 /// import_part    instances, materials, images and the source's normals

@@ -3,6 +3,7 @@
 
 #include "cook/visibility/scene/level_meshes.h"
 #include "formats/base/assert.h"
+#include "formats/pack/instance_meshes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -163,12 +164,14 @@ std::vector<float> decodeOcclusion(const MeshPages& pages, const LevelArrays& le
 Result<GreyImage> renderOcclusion(const PackView& scene, const PackView& baked, uint32_t width,
                                   uint32_t height)
 {
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<uint32_t> meshes, readInstanceMeshes(scene, baked));
     Box3 box;
-    for (const InstanceRecord& instance : scene.instances())
+    for (uint32_t i = 0; i < meshes.size(); ++i)
     {
-        if (!isDrawn(baked, instance.mesh))
+        if (!isDrawn(baked, meshes[i]))
             continue;
-        const MeshRecord& mesh = baked.meshes()[instance.mesh];
+        const InstanceRecord& instance = scene.instances()[i];
+        const MeshRecord& mesh = baked.meshes()[meshes[i]];
         for (int corner = 0; corner < 8; ++corner)
             box.add(transformPoint(instance.world_from_object,
                                    {(corner & 1) != 0 ? mesh.box_max.x : mesh.box_min.x,
@@ -186,10 +189,11 @@ Result<GreyImage> renderOcclusion(const PackView& scene, const PackView& baked, 
         const LevelArrays finest = extractLevel(pages, 0);
         const std::vector<float> occlusion = decodeOcclusion(pages, finest);
         std::vector<ProjectedVertex> seen(finest.positions.size());
-        for (const InstanceRecord& instance : scene.instances())
+        for (uint32_t i = 0; i < meshes.size(); ++i)
         {
-            if (instance.mesh != mesh)
+            if (meshes[i] != mesh)
                 continue;
+            const InstanceRecord& instance = scene.instances()[i];
             for (size_t v = 0; v < seen.size(); ++v)
                 seen[v] = raster.project(transformPoint(instance.world_from_object, finest.positions[v]),
                                          occlusion[v]);

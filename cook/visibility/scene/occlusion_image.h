@@ -26,7 +26,7 @@ struct GreyImage
 ///
 /// scene  the import part, for the instances
 /// baked  a clusters part of the same source; meshes without visibility are left out
-/// errors: those of MeshPages::read
+/// errors: those of readInstanceMeshes and MeshPages::read
 Result<GreyImage> renderOcclusion(const formats::PackView& scene, const formats::PackView& baked,
                                   uint32_t width, uint32_t height);
 

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/visibility/program/baked_source.h"
+
+#include "cook/mesh/weld.h"
+#include "cook/tools/open_part.h"
+#include "cook/visibility/rays/surface_samples.h"
+#include "cook/visibility/scene/neighbour_occluders.h"
+#include "formats/base/affine3d.h"
+#include "formats/pack/instance_meshes.h"
+#include "formats/pack/pack_check.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace hearth::visibility
+{
+
+using namespace formats;
+
+namespace
+{
+
+// Maximum number of instances of a mesh whose surroundings are averaged.
+constexpr size_t kMaxInstances = 8;
+
+// Minimum number of samples around a vertex, relative to the average number per vertex. Each sample counts
+// for the three vertices of its triangle, so that three times the average lie around a vertex; a quarter of
+// them are distributed by area. See cook/visibility/README.md, "Noise".
+constexpr double kMinVertexSamples = 2.25;
+
+/// Plan the sampling of all meshes.
+std::vector<MeshSampling> planMeshes(const PackView& part, const SamplingSettings& settings)
+{
+    std::vector<std::vector<uint64_t>> triangles(part.meshes().size());
+    for (uint32_t mesh = 0; mesh < triangles.size(); ++mesh)
+        if (isBaked(part.meshes()[mesh]))
+            triangles[mesh] = countLevelTriangles(part, mesh);
+    return planSampling(triangles, settings);
+}
+
+/// Return for each mesh of a neighbour the level that it is sampled on in its own bake.
+std::vector<uint32_t> planNeighbourLevels(const PackView& part, const SamplingSettings& settings)
+{
+    std::vector<uint32_t> levels;
+    for (const MeshSampling& sampling : planMeshes(part, settings))
+        levels.push_back(sampling.level);
+    return levels;
+}
+
+std::vector<Affine3> collectTransforms(std::span<const MeshInstance> instances)
+{
+    std::vector<Affine3> transforms;
+    for (const MeshInstance& instance : instances)
+        transforms.push_back(instance.world_from_mesh);
+    return transforms;
+}
+
+/// Return the box in world space of all that others can occlude.
+Box3 computeReceiverBox(const BakedSource& source)
+{
+    Box3 box;
+    for (uint32_t mesh = 0; mesh < source.part.meshes().size(); ++mesh)
+    {
+        const MeshRecord& record = source.part.meshes()[mesh];
+        if (isBaked(record) && !isDeformed(record))
+            for (const MeshInstance& instance : source.instances[mesh])
+                box.add(transformBox(widened(instance.world_from_mesh), {record.box_min, record.box_max}));
+    }
+    return box;
+}
+
+} // namespace
+
+bool isBaked(const MeshRecord& mesh)
+{
+    return mesh.clusters.count > 0 && (mesh.attributes & kVertexVisibility) != 0;
+}
+
+BakedSource BakedSource::make(const PackView& scene, const PackView& part,
+                              std::span<const uint32_t> instance_meshes, const SamplingSettings& settings)
+{
+    BakedSource source{
+        scene,
+        part,
+        planMeshes(part, settings),
+        findOriginalMeshes(scene, instance_meshes, part.meshes().size()),
+        std::vector<std::vector<MeshInstance>>(part.meshes().size()),
+    };
+    for (uint32_t i = 0; i < instance_meshes.size(); ++i)
+    {
+        const Affine3& world_from_object = scene.instances()[i].world_from_object;
+        // an instance that is flat in the world has no inverse, which rays need
+        if (isInvertible(world_from_object))
+            source.instances[instance_meshes[i]].push_back({i, world_from_object});
+    }
+    return source;
+}
+
+Status BakedSource::addOccluders(SceneSurfaces& surfaces, Occluders& world) const
+{
+    for (uint32_t mesh = 0; mesh < part.meshes().size(); ++mesh)
+    {
+        const MeshRecord& record = part.meshes()[mesh];
+        if (record.clusters.count == 0 || instances[mesh].empty() || isDeformed(record))
+            continue;
+        HEARTH_ASSIGN_OR_RETURN(const MeshPages pages, MeshPages::read(part, mesh));
+        HEARTH_TRY(addMesh(world, surfaces, pages, extractLevel(pages, plan[mesh].level),
+                           collectTransforms(instances[mesh])));
+    }
+    return success();
+}
+
+Status BakedSource::addNeighbours(std::span<const PartPaths> neighbours, const SamplingSettings& settings,
+                                  float distance, Occluders& world) const
+{
+    const Box3 receivers = computeReceiverBox(*this);
+    if (receivers.empty())
+        return success();
+    for (const PartPaths& paths : neighbours)
+    {
+        HEARTH_ASSIGN_OR_RETURN(const PackView neighbour_scene, tools::openPart(paths.import_part));
+        HEARTH_ASSIGN_OR_RETURN(const PackView neighbour_part, tools::openPart(paths.clusters_part));
+        HEARTH_TRY(checkHierarchy(neighbour_part));
+        HEARTH_TRY(addNeighbour(world, neighbour_scene, neighbour_part,
+                                planNeighbourLevels(neighbour_part, settings), receivers, distance));
+    }
+    return success();
+}
+
+std::vector<Placement> placeInstances(const Occluders& world, std::span<const MeshInstance> instances,
+                                      uint32_t rays_per_sample)
+{
+    const size_t most = std::min(kMaxInstances, size_t{rays_per_sample});
+    const size_t count = std::min(std::bit_ceil(instances.size()), std::bit_floor(most));
+    std::vector<Placement> places;
+    for (size_t i = 0; i < count; ++i)
+        places.push_back({&world, instances[i * instances.size() / count].world_from_mesh, {}});
+    return places;
+}
+
+std::vector<SurfaceSample> createSamples(const LevelArrays& level, double samples_per_vertex,
+                                         const ProxySettings& proxy)
+{
+    // vertices that clusters share are in the arrays once for each cluster
+    const std::vector<uint32_t> first = findMergedVertices(level.mesh().mesh, proxy);
+    std::vector<uint32_t> corners;
+    corners.reserve(level.indices.size());
+    for (const uint32_t corner : level.indices)
+        corners.push_back(first[corner]);
+    const auto positions = static_cast<double>(mesh::weldPositions(level.positions).position_count);
+    SurfaceSampleSettings settings;
+    settings.samples_per_vertex =
+        samples_per_vertex * positions / static_cast<double>(level.positions.size());
+    settings.min_per_vertex = kMinVertexSamples * samples_per_vertex;
+    return surfaceSamples(level.positions, corners, settings);
+}
+
+} // namespace hearth::visibility

@@ -1,0 +1,64 @@
+// Source whose visibility is baked: its meshes, how each is sampled, its instances, and what occludes them.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/visibility/program/instance_samples.h"
+#include "cook/visibility/program/sampling_plan.h"
+#include "cook/visibility/rays/sampled_moments.h"
+#include "cook/visibility/scene/level_meshes.h"
+#include "cook/visibility/scene/scene_occluders.h"
+#include "formats/pack/pack_view.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hearth::visibility
+{
+
+/// Parts of a source, as files.
+struct PartPaths
+{
+    std::string import_part;
+    std::string clusters_part;
+};
+
+/// Return whether the vertices of a mesh get visibility.
+bool isBaked(const formats::MeshRecord& mesh);
+
+struct BakedSource
+{
+    const formats::PackView& scene; ///< import part
+    const formats::PackView& part;  ///< clusters part; may have copies of meshes
+    std::vector<MeshSampling> plan; ///< of each mesh of the part
+    std::vector<uint32_t>
+        originals; ///< of each mesh of the part, the mesh of the source that it is or copies
+    std::vector<std::vector<MeshInstance>>
+        instances; ///< of each mesh; without those that are flat in the world
+
+    /// scene, part      must outlive this
+    /// instance_meshes  mesh of the part that each instance draws
+    static BakedSource make(const formats::PackView& scene, const formats::PackView& part,
+                            std::span<const uint32_t> instance_meshes, const SamplingSettings& settings);
+
+    /// Collect the occluders of the scene, at the levels that are sampled, so that no sample is inside its own
+    /// mesh. Deformed meshes occlude only themselves.
+    /// errors: those of MeshPages::read and addMesh
+    Status addOccluders(SceneSurfaces& surfaces, Occluders& world) const;
+
+    /// Add the occluders of other sources.
+    /// distance  of the farthest occluder that counts
+    /// errors: those of openPart, checkHierarchy and addNeighbour
+    Status addNeighbours(std::span<const PartPaths> neighbours, const SamplingSettings& settings,
+                         float distance, Occluders& world) const;
+};
+
+/// Choose a power of two of a mesh's instances, so that they can share each sample's rays evenly.
+std::vector<Placement> placeInstances(const Occluders& world, std::span<const MeshInstance> instances,
+                                      uint32_t rays_per_sample);
+
+/// Create samples on a level of a mesh.
+std::vector<SurfaceSample> createSamples(const LevelArrays& level, double samples_per_vertex,
+                                         const ProxySettings& proxy);
+
+} // namespace hearth::visibility
