@@ -29,20 +29,22 @@ constexpr size_t kMaxInstances = 8;
 constexpr double kMinVertexSamples = 2.25;
 
 /// Plan the sampling of all meshes.
-std::vector<MeshSampling> planMeshes(const PackView& part, const SamplingSettings& settings)
+/// originals  of each mesh; empty: there are no copies
+std::vector<MeshSampling> planMeshes(const PackView& part, const SamplingSettings& settings,
+                                     std::span<const uint32_t> originals)
 {
     std::vector<std::vector<uint64_t>> triangles(part.meshes().size());
     for (uint32_t mesh = 0; mesh < triangles.size(); ++mesh)
         if (isBaked(part.meshes()[mesh]))
             triangles[mesh] = countLevelTriangles(part, mesh);
-    return planSampling(triangles, settings);
+    return planSampling(triangles, settings, originals);
 }
 
 /// Return for each mesh of a neighbour the level that it is sampled on in its own bake.
 std::vector<uint32_t> planNeighbourLevels(const PackView& part, const SamplingSettings& settings)
 {
     std::vector<uint32_t> levels;
-    for (const MeshSampling& sampling : planMeshes(part, settings))
+    for (const MeshSampling& sampling : planMeshes(part, settings, {}))
         levels.push_back(sampling.level);
     return levels;
 }
@@ -79,11 +81,12 @@ bool isBaked(const MeshRecord& mesh)
 BakedSource BakedSource::make(const PackView& scene, const PackView& part,
                               std::span<const uint32_t> instance_meshes, const SamplingSettings& settings)
 {
+    std::vector<uint32_t> originals = findOriginalMeshes(scene, instance_meshes, part.meshes().size());
     BakedSource source{
         scene,
         part,
-        planMeshes(part, settings),
-        findOriginalMeshes(scene, instance_meshes, part.meshes().size()),
+        planMeshes(part, settings, originals),
+        std::move(originals),
         std::vector<std::vector<MeshInstance>>(part.meshes().size()),
     };
     for (uint32_t i = 0; i < instance_meshes.size(); ++i)

@@ -65,14 +65,18 @@ MeshSampling chooseLevel(std::span<const uint64_t> triangles, double rays, const
 } // namespace
 
 std::vector<MeshSampling> planSampling(std::span<const std::vector<uint64_t>> triangles,
-                                       const SamplingSettings& settings)
+                                       const SamplingSettings& settings, std::span<const uint32_t> originals)
 {
-    std::vector<double> counts;
+    const auto findOriginal = [&](uint32_t mesh) { return originals.empty() ? mesh : originals[mesh]; };
+    std::vector<double> copies(triangles.size()); // of each original, itself included
+    for (uint32_t mesh = 0; mesh < triangles.size(); ++mesh)
+        ++copies[findOriginal(mesh)];
+    std::vector<double> counts; // of each mesh together with its copies
     double total = 0;
-    for (const std::vector<uint64_t>& levels : triangles)
-        if (!levels.empty() && levels[0] > 0)
+    for (uint32_t mesh = 0; mesh < triangles.size(); ++mesh)
+        if (findOriginal(mesh) == mesh && !triangles[mesh].empty() && triangles[mesh][0] > 0)
         {
-            counts.push_back(static_cast<double>(levels[0]));
+            counts.push_back(copies[mesh] * static_cast<double>(triangles[mesh][0]));
             total += counts.back();
         }
     const double all_per_triangle = std::max(settings.samples_per_vertex, kMinSamplesPerVertex) *
@@ -80,13 +84,16 @@ std::vector<MeshSampling> planSampling(std::span<const std::vector<uint64_t>> tr
     const double threshold = solveThreshold(
         counts, all_per_triangle, std::max(settings.max_rays, settings.max_rays_per_triangle * total));
     std::vector<MeshSampling> plan;
-    for (const std::vector<uint64_t>& levels : triangles)
+    for (uint32_t mesh = 0; mesh < triangles.size(); ++mesh)
     {
-        const double count = levels.empty() ? 0 : static_cast<double>(levels[0]);
+        const std::vector<uint64_t>& levels = triangles[mesh];
+        const double alike = copies[findOriginal(mesh)];
+        const double count = levels.empty() ? 0 : alike * static_cast<double>(levels[0]);
         if (count <= threshold)
             plan.push_back({0, settings.samples_per_vertex, settings.rays_per_sample});
         else
-            plan.push_back(chooseLevel(levels, all_per_triangle * std::sqrt(threshold * count), settings));
+            plan.push_back(
+                chooseLevel(levels, all_per_triangle * std::sqrt(threshold * count) / alike, settings));
     }
     return plan;
 }

@@ -31,9 +31,12 @@ struct MeshSampling
 /// Distribute the budget: all rays that `settings` ask for go to the meshes up to a size; those of larger
 /// meshes grow with the square root of their triangles. A mesh that gets fewer takes its rays on a level
 /// that has about enough of them.
+/// A mesh and its copies count as one mesh with the triangles of all.
 /// triangles  of the levels of each mesh, finest first; empty for a mesh that is not baked
+/// originals  of each mesh, the one that it is a copy of, or itself; empty: no copies
 /// returns    one for each mesh
 std::vector<MeshSampling> planSampling(std::span<const std::vector<uint64_t>> triangles,
-                                       const SamplingSettings& settings);
+                                       const SamplingSettings& settings,
+                                       std::span<const uint32_t> originals = {});
 
 } // namespace hearth::visibility
