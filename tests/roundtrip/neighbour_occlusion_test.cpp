@@ -5,7 +5,6 @@
 #include "sample_assets/shapes/glb_writer.h"
 #include "tests/roundtrip/occlusion_bake.h"
 
-#include <cmath>
 #include <gtest/gtest.h>
 #include <set>
 #include <sstream>
@@ -17,21 +16,6 @@ namespace
 {
 
 using Cookers = std::multiset<std::string>;
-
-/// A box of 8 x 8 quads a side, facing outwards.
-Shape makeBox(Float3 size)
-{
-    constexpr uint32_t kQuads = 8;
-    Shape shape;
-    const Float3 x{size.x, 0, 0}, y{0, size.y, 0}, z{0, 0, size.z}, none{0, 0, 0};
-    shape.addGrid(none, y, x, kQuads, kQuads);
-    shape.addGrid(z, x, y, kQuads, kQuads);
-    shape.addGrid(none, z, y, kQuads, kQuads);
-    shape.addGrid(x, y, z, kQuads, kQuads);
-    shape.addGrid(none, x, z, kQuads, kQuads);
-    shape.addGrid(y, z, x, kQuads, kQuads);
-    return shape;
-}
 
 /// A box that stands somewhere in the world.
 struct Model
@@ -51,19 +35,13 @@ void writeGlb(const Sandbox& folder, const std::string& name, const std::vector<
     for (const Model& model : models)
     {
         const auto index = static_cast<int>(document.meshes.size());
-        const Shape shape = makeBox(model.size);
-        samples::Primitive primitive;
-        primitive.material = index;
-        primitive.mesh.positions = shape.positions;
-        for (const auto& triangle : shape.triangles)
-            primitive.mesh.indices.insert(primitive.mesh.indices.end(), triangle.begin(), triangle.end());
         samples::Node node;
         node.placement.translation = model.place;
         node.mesh = index;
         samples::Material material;
         material.base_color = {model.grey, model.grey, model.grey, 1};
         document.materials.push_back(material);
-        document.meshes.push_back({"mesh", {primitive}});
+        document.meshes.push_back({"mesh", {makePrimitive(makeBox(model.size), index)}});
         samples::addRoot(document, node);
     }
     ASSERT_TRUE(samples::writeFile(folder / name, samples::encodeGlb(document)).ok());
@@ -109,20 +87,6 @@ Cookers selectSources(const std::string& cooker, const Cookers& ran)
         if (action.starts_with(cooker + " "))
             sources.insert(action.substr(cooker.size() + 1));
     return sources;
-}
-
-/// Return the rms difference of the ambient occlusion of equal meshes.
-double rmsDifference(const std::vector<SeenVertex>& a, const std::vector<SeenVertex>& b)
-{
-    EXPECT_EQ(a.size(), b.size());
-    EXPECT_FALSE(a.empty());
-    double sum = 0;
-    for (size_t v = 0; v < std::min(a.size(), b.size()); ++v)
-    {
-        EXPECT_EQ(a[v].position, b[v].position);
-        sum += std::pow(double{a[v].ao} - b[v].ao, 2);
-    }
-    return std::sqrt(sum / static_cast<double>(std::max<size_t>(a.size(), 1)));
 }
 
 // Noise of rays at quality default, rms, of two independent bakes.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/roundtrip/occlusion_bake.h"
 
+#include <cmath>
 #include <cstring>
 #include <gtest/gtest.h>
 #include <sstream>
@@ -86,6 +87,43 @@ std::vector<SeenVertex> bakeShape(Sandbox& sandbox, const Shape& shape, const st
     const ProgramEnd verified = sandbox.run({kBin + "/hearth", "verify", "shape.hearth"});
     EXPECT_EQ(verified.exit_code, 0) << verified.err;
     return extractVertices(sandbox, "shape.hearth");
+}
+
+Shape makeBox(Float3 size)
+{
+    constexpr uint32_t kQuads = 8;
+    Shape shape;
+    const Float3 x{size.x, 0, 0}, y{0, size.y, 0}, z{0, 0, size.z}, none{0, 0, 0};
+    shape.addGrid(none, y, x, kQuads, kQuads);
+    shape.addGrid(z, x, y, kQuads, kQuads);
+    shape.addGrid(none, z, y, kQuads, kQuads);
+    shape.addGrid(x, y, z, kQuads, kQuads);
+    shape.addGrid(none, x, z, kQuads, kQuads);
+    shape.addGrid(y, z, x, kQuads, kQuads);
+    return shape;
+}
+
+samples::Primitive makePrimitive(const Shape& shape, int material)
+{
+    samples::Primitive primitive;
+    primitive.material = material;
+    primitive.mesh.positions = shape.positions;
+    for (const auto& triangle : shape.triangles)
+        primitive.mesh.indices.insert(primitive.mesh.indices.end(), triangle.begin(), triangle.end());
+    return primitive;
+}
+
+double rmsDifference(const std::vector<SeenVertex>& a, const std::vector<SeenVertex>& b)
+{
+    EXPECT_EQ(a.size(), b.size());
+    EXPECT_FALSE(a.empty());
+    double sum = 0;
+    for (size_t v = 0; v < std::min(a.size(), b.size()); ++v)
+    {
+        EXPECT_EQ(a[v].position, b[v].position);
+        sum += std::pow(double{a[v].ao} - b[v].ao, 2);
+    }
+    return std::sqrt(sum / static_cast<double>(std::max<size_t>(a.size(), 1)));
 }
 
 } // namespace hearth::test

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "formats/base/math.h"
+#include "sample_assets/shapes/document.h"
 #include "tests/support/sandbox.h"
 
 #include <array>
@@ -29,6 +30,12 @@ struct Shape
     std::string ply() const;
 };
 
+/// Return a box of 8 x 8 quads a side between the origin and `size`, which faces outwards.
+Shape makeBox(Float3 size);
+
+/// Return the shape as a primitive of a sample scene.
+samples::Primitive makePrimitive(const Shape& shape, int material);
+
 /// Vertex with visibility, as hearth extract writes it.
 struct SeenVertex
 {
@@ -45,5 +52,8 @@ std::vector<SeenVertex> extractVertices(Sandbox& sandbox, const std::string& pac
 /// sandbox  gets shape.ply and shape.hearth
 std::vector<SeenVertex> bakeShape(Sandbox& sandbox, const Shape& shape,
                                   const std::vector<std::string>& flags);
+
+/// Return the rms difference of the ambient occlusion of equal meshes.
+double rmsDifference(const std::vector<SeenVertex>& a, const std::vector<SeenVertex>& b);
 
 } // namespace hearth::test

@@ -58,6 +58,7 @@ struct PackModel
     std::vector<formats::SpecularTableRecord> specular_tables;
     std::vector<formats::SurroundingsRecord> surroundings;
     std::vector<formats::RadianceTransferRecord> radiance_transfers;
+    std::vector<uint32_t> instance_meshes; ///< parts only
     std::vector<formats::BrickGridRecord> brick_grids;
     BrickModel bricks; ///< without its grid, which is in brick_grids
 

@@ -69,6 +69,9 @@ void writeParts(const PackModel& pack, const std::string& folder, const std::str
     for (uint32_t i = 0; i < pack.meshes.size(); ++i)
         import_chunks.push_back(plainChunk(kChunkSourceMesh, i, 1, std::span(&mesh, 1)));
 
+    if (!pack.instance_meshes.empty())
+        clusters_chunks.push_back(plainChunk(kChunkInstanceMeshes, 0, sizeof(uint32_t),
+                                             std::as_bytes(std::span(pack.instance_meshes))));
     skinning_chunks.push_back(plainChunk(kChunkDeformedGroups, 0, sizeof(DeformedGroupRecord),
                                          std::as_bytes(std::span(pack.deformed_groups))));
 

@@ -2,12 +2,14 @@
 #include "cook/visibility/program/instance_copies.h"
 
 #include "cook/pages/mesh_copies.h"
+#include "cook/visibility/fit/visibility_factor.h"
 #include "cook/visibility/program/instance_visibility.h"
 #include "formats/base/affine3d.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numeric>
+#include <numbers>
 
 namespace hearth::visibility
 {
@@ -21,10 +23,10 @@ namespace
 // many. Meshes with more instances are not compared.
 constexpr size_t kMaxPointsPerInstance = 64;
 constexpr size_t kMinPointsPerInstance = 16;
-constexpr size_t kMaxComparedPoints = size_t{1} << 13;
+constexpr size_t kMaxComparedPoints = size_t{1} << 12;
 
-// Rays that the mean of the instances takes at a point.
-constexpr uint32_t kMeanRays = 128;
+// Rays of each of the two sets at a point.
+constexpr uint32_t kComparedRays = 16;
 
 // Rms error of ambient occlusion from which on an instance should have a copy of its mesh.
 constexpr double kMinError = 0.04;
@@ -73,95 +75,174 @@ double computeAreaScale(const Affine3& world_from_mesh)
     return std::pow(std::abs(determinant), 2.0 / 3);
 }
 
-/// Compares the instances of meshes.
+/// Instance, and its surroundings as points of its mesh see them.
+struct SeenInstance
+{
+    uint32_t number; ///< in chunk INST
+    double area;     ///< of its surface
+    Affine3d mesh_from_world;
+    std::vector<SamplePoint> points;
+    std::array<std::vector<Moments>, 2> seen; ///< in the space of the mesh, by two independent sets of rays
+    std::vector<uint8_t> interior;
+};
+
+/// Compares the instances of a mesh.
 class InstanceComparison
 {
 public:
-    InstanceComparison(const BakedSource& source, const Occluders& world, const RaySettings& rays,
-                       const ProxySettings& proxy, size_t points)
-        : source_(source), world_(world), rays_(rays), proxy_(proxy), points_(points)
-    {
-    }
+    explicit InstanceComparison(std::vector<SeenInstance> instances) : instances_(std::move(instances)) {}
 
-    /// Return the instances of a mesh that should have a copy, the most valuable one first.
-    Result<std::vector<Candidate>> findUnlike(uint32_t mesh) const
+    /// Take the most unlike instance out, until those that are left can share a visibility.
+    /// returns  the instances that were taken out, each with its mean square error with the others' visibility
+    std::vector<std::pair<const SeenInstance*, double>> takeOutUnlike() const
     {
-        HEARTH_ASSIGN_OR_RETURN(const MeshPages pages, MeshPages::read(source_.part, mesh));
-        const LevelArrays level = extractLevel(pages, source_.plan[mesh].level);
-        const std::vector<SurfaceSample> samples = choosePoints(level);
-        const std::span<const MeshInstance> instances = source_.instances[mesh];
-        const SampledMoments mean = traceMean(level, samples, instances, mesh);
-        const SampledSurface surface{level.positions, level.indices, samples, mean.moments, mean.interior};
-        std::vector<ChosenSample> chosen;
-        double area = 0;
-        for (uint32_t s = 0; s < samples.size(); ++s)
+        std::vector<const SeenInstance*> alike, unlike;
+        for (const SeenInstance& instance : instances_)
+            alike.push_back(&instance);
+        while (alike.size() > 1)
         {
-            if (mean.interior[s] == 0)
-                chosen.push_back({s, samples[s].area});
-            area += samples[s].area;
+            const std::vector<Moments> mean = computeMean(alike);
+            std::vector<double> errors;
+            for (const SeenInstance* instance : alike)
+                errors.push_back(computeError(*instance, mean) +
+                                 computeNoise(*instance) / (2 * static_cast<double>(alike.size())));
+            const auto worst = std::ranges::max_element(errors);
+            if (*worst <= kMinError * kMinError)
+                break;
+            const auto place = alike.begin() + (worst - errors.begin());
+            unlike.push_back(*place);
+            alike.erase(place);
         }
-        if (chosen.empty())
-            return std::vector<Candidate>();
-        std::vector<std::span<const MeshInstance>> alone;
-        for (size_t i = 0; i < instances.size(); ++i)
-            alone.push_back(instances.subspan(i, 1));
-        const std::vector<VisibilityFactor> factors =
-            fitGroups(world_, surface, chosen, alone, seededRays(mesh));
-        const uint64_t bytes = pages::countCopyBytes(source_.part, mesh);
-        std::vector<Candidate> unlike;
-        for (size_t i = 0; i < instances.size(); ++i)
-            if (const double error = factors[i].error_with_factor; error > kMinError * kMinError)
-                unlike.push_back({mesh, instances[i].number,
-                                  error * area * computeAreaScale(instances[i].world_from_mesh) /
-                                      static_cast<double>(bytes),
-                                  bytes});
-        std::ranges::stable_sort(unlike, std::ranges::greater(), &Candidate::value);
-        // the mesh itself is left to one of them
-        if (unlike.size() == instances.size())
-            unlike.pop_back();
-        return unlike;
+        const std::vector<Moments> mean = computeMean(alike);
+        std::vector<std::pair<const SeenInstance*, double>> result;
+        for (const SeenInstance* instance : unlike)
+            result.emplace_back(instance, computeError(*instance, mean));
+        return result;
     }
 
 private:
-    /// Return about as many points as wanted, evenly over the area.
-    std::vector<SurfaceSample> choosePoints(const LevelArrays& level) const
+    /// Return the mean of what instances see, at each point.
+    static std::vector<Moments> computeMean(std::span<const SeenInstance* const> instances)
     {
-        const std::vector<SurfaceSample> all = createSamples(level, 1, proxy_);
-        const std::vector<double> rates(all.size(), 1.0);
-        std::vector<SurfaceSample> points;
-        for (const ChosenSample& chosen : chooseSamples({level.positions, level.indices, all, {}, {}}, rates,
-                                                        static_cast<uint32_t>(points_)))
+        std::vector<Moments> mean(instances.front()->points.size());
+        const float share = 0.5f / static_cast<float>(instances.size());
+        for (const SeenInstance* instance : instances)
+            for (const std::vector<Moments>& seen : instance->seen)
+                for (size_t p = 0; p < mean.size(); ++p)
+                {
+                    mean[p].m0 += seen[p].m0 * share;
+                    mean[p].m1 = mean[p].m1 + seen[p].m1 * share;
+                }
+        return mean;
+    }
+
+    /// Return the mean square error of ambient occlusion with a mean and a factor of it. Rays that are also in
+    /// the mean make it less, by their noise over twice the number of instances in the mean.
+    static double computeError(const SeenInstance& instance, std::span<const Moments> mean)
+    {
+        std::vector<FactorSample> samples;
+        for (size_t p = 0; p < mean.size(); ++p)
         {
-            points.push_back(all[chosen.sample]);
-            points.back().area = chosen.weight / static_cast<float>(points_);
+            if (instance.interior[p] != 0)
+                continue;
+            FactorSample sample{
+                instance.points[p].normal, placeMoments(mean[p], instance.mesh_from_world), {}};
+            for (size_t set = 0; set < 2; ++set)
+            {
+                const shared::VisibilityMoments placed =
+                    placeMoments(instance.seen[set][p], instance.mesh_from_world);
+                sample.seen[set] = {placed.m0, placed.m1};
+            }
+            samples.push_back(sample);
         }
-        return points;
+        return samples.empty() ? 0 : fitFactor(samples).error_with_factor;
     }
 
-    /// Trace the visibility that the mesh would have: the mean over its instances.
-    SampledMoments traceMean(const LevelArrays& level, std::span<const SurfaceSample> samples,
-                             std::span<const MeshInstance> instances, uint32_t mesh) const
+    /// Return the variance of ambient occlusion by one set of rays.
+    static double computeNoise(const SeenInstance& instance)
     {
-        const std::vector<Placement> places = placeInstances(world_, instances, kMeanRays);
-        RaySettings rays = seededRays(mesh);
-        rays.rays_per_sample = kMeanRays / static_cast<uint32_t>(places.size());
-        return *sampledMoments(level.mesh().mesh, samples, places, rays, false,
-                               [](size_t, uint64_t, uint64_t) { return true; });
+        double sum = 0, count = 0;
+        for (size_t p = 0; p < instance.points.size(); ++p)
+            if (instance.interior[p] == 0)
+            {
+                const shared::VisibilityMoments difference = placeMoments(
+                    {0, instance.seen[0][p].m1 - instance.seen[1][p].m1}, instance.mesh_from_world);
+                const double occlusion =
+                    double{dot(difference.m1, instance.points[p].normal)} / std::numbers::pi;
+                sum += occlusion * occlusion / 2;
+                ++count;
+            }
+        return count > 0 ? sum / count : 0;
     }
 
-    RaySettings seededRays(uint32_t mesh) const
-    {
-        RaySettings rays = rays_;
-        rays.seed += mesh;
-        return rays;
-    }
-
-    const BakedSource& source_;
-    const Occluders& world_;
-    const RaySettings& rays_;
-    const ProxySettings& proxy_;
-    size_t points_;
+    std::vector<SeenInstance> instances_;
 };
+
+double computeArea(const LevelArrays& level)
+{
+    double area = 0;
+    for (size_t c = 0; c + 2 < level.indices.size(); c += 3)
+    {
+        const Float3 corner = level.positions[level.indices[c]];
+        area += 0.5 * double{length(cross(level.positions[level.indices[c + 1]] - corner,
+                                          level.positions[level.indices[c + 2]] - corner))};
+    }
+    return area;
+}
+
+/// Return about as many points as wanted, evenly over the area of a level.
+std::vector<SurfaceSample> choosePoints(const LevelArrays& level, const ProxySettings& proxy, size_t count)
+{
+    const std::vector<SurfaceSample> all = createSamples(level, 1, proxy);
+    const std::vector<double> rates(all.size(), 1.0);
+    std::vector<SurfaceSample> points;
+    for (const ChosenSample& chosen :
+         chooseSamples({level.positions, level.indices, all, {}, {}}, rates, static_cast<uint32_t>(count)))
+        points.push_back(all[chosen.sample]);
+    return points;
+}
+
+/// Return the candidates of a mesh.
+/// points  about as many of each instance
+Result<std::vector<Candidate>> findCandidates(const BakedSource& source, const Occluders& world,
+                                              uint32_t mesh, RaySettings rays, const ProxySettings& proxy,
+                                              size_t points)
+{
+    HEARTH_ASSIGN_OR_RETURN(const MeshPages pages, MeshPages::read(source.part, mesh));
+    const LevelArrays level = extractLevel(pages, source.plan[mesh].level);
+    const std::vector<SurfaceSample> samples = choosePoints(level, proxy, points);
+    const double area = computeArea(level);
+    rays.seed += mesh;
+    rays.rays_per_sample = kComparedRays;
+    std::vector<SeenInstance> instances;
+    for (const MeshInstance& instance : source.instances[mesh])
+    {
+        const Placement place{&world, instance.world_from_mesh, {}};
+        SeenInstance seen{
+            .number = instance.number,
+            .area = area * computeAreaScale(instance.world_from_mesh),
+            .mesh_from_world = *inverted(widened(instance.world_from_mesh)), // rays need it, too
+            .points = samplePoints(level.positions, level.indices, samples, instance.world_from_mesh),
+            .seen = {},
+            .interior = {}};
+        for (std::vector<Moments>& set : seen.seen)
+        {
+            SampledMoments traced = *sampledMoments(level.mesh().mesh, samples, {&place, 1}, rays, false,
+                                                    [](size_t, uint64_t, uint64_t) { return true; });
+            set = std::move(traced.moments);
+            seen.interior = std::move(traced.interior);
+            rays.first_ray += kComparedRays; // instances have independent noise
+        }
+        instances.push_back(std::move(seen));
+    }
+    const uint64_t bytes = pages::countCopyBytes(source.part, mesh);
+    std::vector<Candidate> candidates;
+    const InstanceComparison comparison(std::move(instances));
+    for (const auto& [instance, error] : comparison.takeOutUnlike())
+        candidates.push_back(
+            {mesh, instance->number, error * instance->area / static_cast<double>(bytes), bytes});
+    return candidates;
+}
 
 } // namespace
 
@@ -180,12 +261,12 @@ Result<MeshCopies> chooseCopies(const BakedSource& source, const Occluders& worl
         count += source.instances[mesh].size();
     const size_t points = std::clamp(kMaxComparedPoints / std::max<size_t>(count, 1), kMinPointsPerInstance,
                                      kMaxPointsPerInstance);
-    const InstanceComparison comparison(source, world, rays, proxy, points);
     std::vector<Candidate> candidates;
     for (const uint32_t mesh : compared)
     {
-        HEARTH_ASSIGN_OR_RETURN(const std::vector<Candidate> unlike, comparison.findUnlike(mesh));
-        candidates.insert(candidates.end(), unlike.begin(), unlike.end());
+        HEARTH_ASSIGN_OR_RETURN(const std::vector<Candidate> of_mesh,
+                                findCandidates(source, world, mesh, rays, proxy, points));
+        candidates.insert(candidates.end(), of_mesh.begin(), of_mesh.end());
     }
     std::vector<Candidate> chosen;
     uint64_t left = max_bytes;

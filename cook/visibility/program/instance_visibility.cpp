@@ -30,24 +30,13 @@ constexpr double kMinGain = 0.01;
 
 constexpr double kPointRays = 2.0 * kSetRays;
 
-/// Return the moments that all instances have together, in the world of one.
-shared::VisibilityMoments placeMoments(const Moments& moments, const Affine3d& mesh_from_world)
-{
-    // as normals, with the length kept: runtime/shaders/scene/resolve.glsl
-    const auto& m = mesh_from_world.m;
-    const Float3 v = moments.m1;
-    const auto row = [&](size_t i)
-    { return static_cast<float>(m[0][i] * double{v.x} + m[1][i] * double{v.y} + m[2][i] * double{v.z}); };
-    return {moments.m0, normalizeOr({row(0), row(1), row(2)}, {}) * length(v)};
-}
-
 double rms(double mean_square)
 {
     return std::sqrt(std::max(mean_square, 0.0)); // noise may leave less than 0
 }
 
-} // namespace
-
+/// Trace the rays of all points, and fit a factor to each run of points.
+/// groups  of instances, whose middle ones are traced
 std::vector<VisibilityFactor> fitGroups(const Occluders& world, const SampledSurface& surface,
                                         std::span<const ChosenSample> chosen,
                                         std::span<const std::span<const MeshInstance>> groups,
@@ -81,6 +70,18 @@ std::vector<VisibilityFactor> fitGroups(const Occluders& world, const SampledSur
         factors.push_back(fitFactor(samples));
     }
     return factors;
+}
+
+} // namespace
+
+shared::VisibilityMoments placeMoments(const Moments& moments, const Affine3d& mesh_from_world)
+{
+    // as normals, with the length kept: runtime/shaders/scene/resolve.glsl
+    const auto& m = mesh_from_world.m;
+    const Float3 v = moments.m1;
+    const auto row = [&](size_t i)
+    { return static_cast<float>(m[0][i] * double{v.x} + m[1][i] * double{v.y} + m[2][i] * double{v.z}); };
+    return {moments.m0, normalizeOr({row(0), row(1), row(2)}, {}) * length(v)};
 }
 
 InstanceSpread fitInstances(const Occluders& world, const SampledSurface& surface,

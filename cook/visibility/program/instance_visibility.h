@@ -3,13 +3,13 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/visibility/fit/visibility_factor.h"
 #include "cook/visibility/program/instance_samples.h"
 #include "cook/visibility/rays/rays.h"
+#include "formats/base/affine3d.h"
+#include "formats/gpu_shared/visibility_cone.h"
 #include "formats/records/surroundings.h"
 
 #include <span>
-#include <vector>
 
 namespace hearth::visibility
 {
@@ -24,14 +24,9 @@ struct InstanceSpread
     uint64_t rays = 0;
 };
 
-/// Fit a factor to each group of instances, by what its middle one sees at the chosen samples with 32 rays each.
-/// world     finished
-/// groups    none empty
-/// settings  of the mesh's own rays, apart from their number
-std::vector<VisibilityFactor> fitGroups(const Occluders& world, const SampledSurface& surface,
-                                        std::span<const ChosenSample> chosen,
-                                        std::span<const std::span<const MeshInstance>> groups,
-                                        RaySettings settings);
+/// Transform moments from the space of a mesh into the world of an instance, as shading does: the length of m1
+/// stays.
+shared::VisibilityMoments placeMoments(const Moments& moments, const Affine3d& mesh_from_world);
 
 /// Fit a factor to each instance, or to groups of neighbours where there are too many for the rays. Instances
 /// whose error falls by next to nothing keep the mean of their mesh. The same for any number of threads.

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
+#include "cook/pages/mesh_copies.h"
 #include "pipelines/link/link.h"
 
 #include "formats/pack/pack_check.h"
 #include "tests/support/sandbox.h"
 #include "tests/support/small_parts.h"
 
+#include <algorithm>
 #include <cstring>
+#include <filesystem>
 #include <gtest/gtest.h>
 #include <stdexcept>
 
@@ -126,6 +129,45 @@ TEST_F(LinkPack, groupsOfDeformedMeshesGetTheirSpheres)
     EXPECT_EQ(pack.groups()[7].sphere_center, (Float3{4, 5, 6}));
     EXPECT_EQ(pack.groups()[7].sphere_radius, 6);
     EXPECT_EQ(pack.groups()[2].sphere_center, model.groups[2].sphere_center);
+}
+
+TEST_F(LinkPack, instancesDrawTheCopiesOfTheirMeshes)
+{
+    PackModel model = smallPack();
+    const uint32_t copied = model.instances[0].mesh;
+    const auto copy = static_cast<uint32_t>(model.meshes.size());
+    model.instance_meshes = {copy, model.instances[1].mesh};
+    for (ExtrasRecord& extras : model.extras)
+        if (static_cast<ExtrasOwner>(extras.owner) == ExtrasOwner::mesh)
+            extras.index = copied;
+    addParts(smallPack(), "a");
+    addParts(model, "b");
+    const std::string part = sandbox / "b.clusters.part", whole = sandbox / "copied.part";
+    {
+        const PackView view = PackView::read(ContainerReader::open(part).value()).value();
+        ASSERT_TRUE(pages::copyMeshes(view, std::span(&copied, 1), whole).ok());
+    }
+    std::filesystem::rename(whole, part);
+    const PackView pack = linked();
+    ASSERT_EQ(pack.instances().size(), 4u);
+    EXPECT_EQ(pack.instances()[2].mesh, copy + copy) << "behind the meshes of both sources";
+    EXPECT_EQ(pack.instances()[3].mesh, copy + model.instances[1].mesh);
+    EXPECT_EQ(pack.assets()[1].meshes.count, copy + 1);
+    EXPECT_EQ(pack.findExtras(ExtrasOwner::mesh, copy + copied), "[1,2]");
+    EXPECT_EQ(pack.findExtras(ExtrasOwner::mesh, copy + copy), "[1,2]");
+    EXPECT_EQ(pack.container().find(kChunkInstanceMeshes), nullptr);
+}
+
+TEST_F(LinkPack, refusesInstancesOfOtherMeshes)
+{
+    PackModel model = smallPack();
+    model.instance_meshes = {0};
+    addParts(model, "a");
+    EXPECT_EQ(link().error().issue, Issue::meaning_reference) << "it has two instances";
+    sources.clear();
+    model.instance_meshes = {0, static_cast<uint32_t>(model.meshes.size())};
+    addParts(model, "b");
+    EXPECT_EQ(link().error().issue, Issue::meaning_reference) << "there is no such mesh";
 }
 
 TEST_F(LinkPack, boundsOfASecondSourceStandBehindTheFirst)

@@ -1,17 +1,9 @@
 // Tests the rewriting of visibilities in a clusters part.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/clusters/program/cluster_part.h"
 #include "cook/pages/rewrite.h"
-#include "formats/pack/pack_check.h"
-#include "tests/support/shapes.h"
-#include "tests/support/small_pack.h"
-#include "tests/support/temporary_folder.h"
-
-#include <gtest/gtest.h>
+#include "tests/cook/pages/sample_part.h"
 
 #include <atomic>
-#include <fstream>
-#include <iterator>
 #include <set>
 
 #include <tbb/global_control.h>
@@ -21,66 +13,13 @@ namespace
 
 using namespace hearth;
 using namespace hearth::formats;
+using pages::getMessage;
+using pages::open;
 using pages::PageVertices;
+using pages::readFile;
 
-std::string getMessage(const Status& status)
+class Rewrite : public pages::SamplePart
 {
-    return status.ok() ? "" : formatMessage(status.error());
-}
-
-std::string readFile(const std::string& path)
-{
-    std::ifstream file(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(file), {}};
-}
-
-ContainerReader open(const std::string& path)
-{
-    auto reader = ContainerReader::open(path);
-    EXPECT_TRUE(reader.ok()) << path;
-    return std::move(*reader);
-}
-
-/// Meshes with connected and unconnected triangles, authored LODs, joints and morph targets. The last mesh
-/// has no normals.
-std::vector<mesh::SourceMesh> sampleMeshes()
-{
-    std::vector<mesh::SourceMesh> meshes{shapes::rock(24, 0.3f),  shapes::rock(12, 0), shapes::soup(300),
-                                         shapes::tangle(60, 400), shapes::blocks(8),   shapes::grid(30)};
-    for (size_t i = 0; i < 5; ++i)
-        meshes[i].normals.resize(meshes[i].vertexCount(), Float3{0, 0.6f, 0.8f});
-    meshes[5].normals.clear();
-    meshes[2].joint_sets.push_back(std::vector<mesh::Joints4>(meshes[2].vertexCount()));
-    meshes[2].weight_sets.push_back(std::vector<Float4>(meshes[2].vertexCount(), {1, 0, 0, 0}));
-    mesh::MorphTarget target;
-    for (uint32_t v = 0; v < meshes[4].vertexCount(); ++v)
-        target.positions.push_back({0, v % 3 == 0 ? 0.25f : 0, 0});
-    meshes[4].morph_targets.push_back(std::move(target));
-    return meshes;
-}
-
-class Rewrite : public ::testing::Test
-{
-protected:
-    Rewrite()
-    {
-        const std::string import_path = folder.file("import.part");
-        auto writer = ContainerWriter::create(import_path, ContainerKind::part);
-        const std::vector<mesh::SourceMesh> meshes = sampleMeshes();
-        for (uint32_t i = 0; i < meshes.size(); ++i)
-            EXPECT_TRUE(mesh::writeSourceMesh(*writer, i, meshes[i]).ok());
-        EXPECT_TRUE(writer->finish().ok());
-        const auto configure = [](const std::string&)
-        {
-            clusters::Config config;
-            config.visibility = true;
-            return config;
-        };
-        EXPECT_EQ(getMessage(clusters::writeClustersPart(open(import_path), path, configure, {})), "");
-    }
-
-    const test::TemporaryFolder folder;
-    const std::string path = folder.file("clusters.part");
 };
 
 /// Return a visibility code that depends on the position alone, so that clusters agree on shared vertices.

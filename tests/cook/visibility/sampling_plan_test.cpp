@@ -63,6 +63,20 @@ TEST(PlanSampling, givesLargeMeshesTheSquareRootOfTheirSize)
     }
 }
 
+TEST(PlanSampling, givesAMeshAndItsCopiesWhatOneMeshOfAllTheirTrianglesGets)
+{
+    const std::vector<std::vector<uint64_t>> copied{
+        halved(100'000, 9), halved(500'000, 9), halved(100'000, 9), halved(100'000, 9), halved(100'000, 9)};
+    const std::vector<std::vector<uint64_t>> joined{halved(400'000, 9), halved(500'000, 9)};
+    const std::vector<uint32_t> originals{0, 1, 0, 0, 0};
+    const SamplingSettings settings{8, 64, 0x1p23, 0};
+    const std::vector<MeshSampling> plan = planSampling(copied, settings, originals);
+    const std::vector<MeshSampling> expected = planSampling(joined, settings);
+    EXPECT_EQ(countRays(plan[1], copied[1]), countRays(expected[1], joined[1]));
+    for (const size_t mesh : {0u, 2u, 3u, 4u})
+        EXPECT_NEAR(countRays(plan[mesh], copied[mesh]), countRays(expected[0], joined[0]) / 4, 1) << mesh;
+}
+
 TEST(PlanSampling, takesFewerSamplesBeforeFewerRays)
 {
     const std::vector<std::vector<uint64_t>> meshes{halved(1'000'000, 9)};
