@@ -12,8 +12,8 @@ namespace hearth::formats
 {
 
 /// Return the mesh of the clusters part that each instance draws: that of chunk IMSH, or else its own.
-/// errors: those of ContainerReader::records; meaning_reference for an instance of a mesh that the clusters part
-/// does not have, and for a list of meshes that is not one of the scene's instances
+/// errors: those of ContainerReader::records; meaning_reference for an instance of a mesh that the clusters
+/// part does not have, and for a list of meshes that is not one of the scene's instances
 Result<std::vector<uint32_t>> readInstanceMeshes(const PackView& scene, const PackView& clusters_part);
 
 /// Return for each mesh of the clusters part the mesh of the source that it is, or is a copy of.

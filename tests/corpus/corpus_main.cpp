@@ -98,8 +98,8 @@ std::set<std::string> learnSystemFiles(const std::vector<Asset>& assets, const P
     return files;
 }
 
-/// Check files, `jobs` at once. A limit of seconds holds for a file that has the machine to itself: files that
-/// share it get as many times longer.
+/// Check files, `jobs` at once. A limit of seconds holds for a file that has the machine to itself: files
+/// that share it get as many times longer.
 std::vector<Checked> checkAll(const std::vector<const Asset*>& assets, const Programs& programs,
                               const WorkFolder& work, unsigned jobs)
 {

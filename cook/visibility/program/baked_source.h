@@ -41,8 +41,8 @@ struct BakedSource
     static BakedSource make(const formats::PackView& scene, const formats::PackView& part,
                             std::span<const uint32_t> instance_meshes, const SamplingSettings& settings);
 
-    /// Collect the occluders of the scene, at the levels that are sampled, so that no sample is inside its own
-    /// mesh. Deformed meshes occlude only themselves.
+    /// Collect the occluders of the scene, at the levels that are sampled, so that no sample is inside its
+    /// own mesh. Deformed meshes occlude only themselves.
     /// errors: those of MeshPages::read and addMesh
     Status addOccluders(SceneSurfaces& surfaces, Occluders& world) const;
 

@@ -93,7 +93,7 @@ public:
     explicit InstanceComparison(std::vector<SeenInstance> instances) : instances_(std::move(instances)) {}
 
     /// Take the most unlike instance out, until those that are left can share a visibility.
-    /// returns  the instances that were taken out, each with its mean square error with the others' visibility
+    /// returns  the instances that were taken out, each with its mean square error if it shared with the rest
     std::vector<std::pair<const SeenInstance*, double>> takeOutUnlike() const
     {
         std::vector<const SeenInstance*> alike, unlike;
@@ -136,8 +136,8 @@ private:
         return mean;
     }
 
-    /// Return the mean square error of ambient occlusion with a mean and a factor of it. Rays that are also in
-    /// the mean make it less, by their noise over twice the number of instances in the mean.
+    /// Return the mean square error of ambient occlusion with a mean and a factor of it. Rays that are in the
+    /// mean, too, make it less, by their noise over twice the number of instances in the mean.
     static double computeError(const SeenInstance& instance, std::span<const Moments> mean)
     {
         std::vector<FactorSample> samples;

@@ -24,8 +24,8 @@ struct MeshCopies
 bool mayNeedCopies(const BakedSource& source, uint64_t max_bytes);
 
 /// Choose the instances that gain the most for each byte that a copy takes: area by mean square error of the
-/// ambient occlusion that they would have with their mesh's visibility and a factor. The same for any number of
-/// threads.
+/// ambient occlusion that they would have with their mesh's visibility and a factor. The same for any number
+/// of threads.
 /// source           without copies
 /// world            finished
 /// instance_meshes  mesh of each instance of the scene

@@ -24,8 +24,8 @@ struct InstanceSpread
     uint64_t rays = 0;
 };
 
-/// Transform moments from the space of a mesh into the world of an instance, as shading does: the length of m1
-/// stays.
+/// Transform moments from the space of a mesh into the world of an instance, as shading does: m1 keeps its
+/// length.
 shared::VisibilityMoments placeMoments(const Moments& moments, const Affine3d& mesh_from_world);
 
 /// Fit a factor to each instance, or to groups of neighbours where there are too many for the rays. Instances
