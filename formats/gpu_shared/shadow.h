@@ -216,6 +216,15 @@ HEARTH_FUNCTION float snapToRaster(float texel)
     return rounded;
 }
 
+/// Return how much the depth of a caster changes that snapToRaster moves by half a step: of one seen at 89.5
+/// degrees, of which all others stay below.
+HEARTH_FUNCTION float shadowSnapDepth(HEARTH_IN(ShadowLight) light, HEARTH_IN(ShadowMap) map, Float3 point)
+{
+    float ray_length = light.perspective != 0.0f ? sqrt(dot3(point, point)) : 1.0f;
+    float facing = max(kGrazingCosine * ray_length, kMinPlaneDistance);
+    return light.depth_step / (min(abs(map.scale_x), abs(map.scale_y)) * facing * 512.0f);
+}
+
 /// Return the share [0, 1] of the offset within the filter that a caster needs. The offset keeps lit surfaces
 /// from shadowing themselves, and opens a gap where others touch them. Surfaces that face away are not lit:
 /// without an offset, walls are tight where they meet the floor of a room. The share grows from triangles

@@ -34,6 +34,9 @@ namespace
 // Rays that compare the instances of all meshes, a 64th of those of the default quality.
 constexpr double kInstanceRays = 0x1p18;
 
+// Share of the rays on whose levels instances are compared.
+constexpr double kComparedShare = 0.125;
+
 // Not 0, so that surfaces with only interior samples have a fit.
 constexpr float kInteriorWeight = 1e-3f;
 
@@ -391,16 +394,21 @@ private:
     uint64_t rays_before_ = 0;
 };
 
-/// Choose the instances of a source that get a copy of their mesh.
+/// Choose the instances of a source that get a copy of their mesh. They are compared on coarser levels than
+/// those that are baked.
 /// instance_meshes  mesh of each instance
-Result<MeshCopies> findCopies(const BakedSource& source, std::vector<uint32_t> instance_meshes,
-                              std::span<const PartPaths> neighbours, const BakeSettings& settings)
+Result<MeshCopies> findCopies(const PackView& scene, const PackView& part,
+                              std::vector<uint32_t> instance_meshes, std::span<const PartPaths> neighbours,
+                              BakeSettings settings)
 {
+    settings.sampling.max_rays *= kComparedShare;
+    settings.sampling.max_rays_per_triangle *= kComparedShare;
+    const BakedSource source = BakedSource::make(scene, part, instance_meshes, settings.sampling);
     const auto max_bytes =
-        static_cast<uint64_t>(settings.copies * static_cast<double>(source.part.pageBytes().size()));
+        static_cast<uint64_t>(settings.copies * static_cast<double>(part.pageBytes().size()));
     if (settings.occluders == OccluderScope::mesh || !mayNeedCopies(source, max_bytes))
         return MeshCopies{{}, std::move(instance_meshes)};
-    SceneSurfaces surfaces(source.scene);
+    SceneSurfaces surfaces(scene);
     Occluders world;
     HEARTH_TRY(collectOccluders(source, neighbours, settings, surfaces, world));
     return chooseCopies(source, world, std::move(instance_meshes), settings.rays, settings.fit.proxy,
@@ -501,11 +509,12 @@ writeVisibilityPart(const PackView& import_part, const PackView& clusters_part,
 {
     HEARTH_TRY(checkHierarchy(clusters_part));
     HEARTH_ASSIGN_OR_RETURN(std::vector<uint32_t> own_meshes, readInstanceMeshes(import_part, clusters_part));
-    const BakedSource own = BakedSource::make(import_part, clusters_part, own_meshes, settings.sampling);
-    HEARTH_ASSIGN_OR_RETURN(const MeshCopies copies,
-                            findCopies(own, std::move(own_meshes), neighbours, settings));
+    HEARTH_ASSIGN_OR_RETURN(const MeshCopies copies, findCopies(import_part, clusters_part,
+                                                                std::move(own_meshes), neighbours, settings));
     if (copies.meshes.empty())
-        return bakePart(own, copies.instance_meshes, neighbours, output_path, settings, observe);
+        return bakePart(
+            BakedSource::make(import_part, clusters_part, copies.instance_meshes, settings.sampling),
+            copies.instance_meshes, neighbours, output_path, settings, observe);
     const std::string copied_path = output_path + ".copies-" + std::to_string(::getpid());
     HEARTH_TRY(pages::copyMeshes(clusters_part, copies.meshes, copied_path));
     Result<PackView> part = tools::openPart(copied_path);

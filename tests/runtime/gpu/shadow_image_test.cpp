@@ -434,7 +434,7 @@ TEST_F(ShadowImageTest, anOpenBoxIsDarkAlongItsClosedCorners)
     std::vector<Float3> suns{{-0.961f, 0.007f, 0.278f},  {-0.805f, 0.001f, -0.593f},
                              {0.994f, -0.001f, -0.107f}, {0.193f, 0.003f, 0.981f},
                              {-0.556f, -0.831f, 0.004f}, {0.001f, -0.903f, 0.430f},
-                             {-0.070f, 0.105f, -0.992f}};
+                             {-0.070f, 0.105f, -0.992f}, {0.970390856f, -0.017f, 0.240940928f}};
     for (int i = 0; i < 30; ++i)
     {
         const double height = 1 - (2.0 * i + 1) / 30, turn = i * 2.39996322972865332;
