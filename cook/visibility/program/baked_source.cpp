@@ -29,22 +29,22 @@ constexpr size_t kMaxInstances = 8;
 constexpr double kMinVertexSamples = 2.25;
 
 /// Plan the sampling of all meshes.
-/// originals  of each mesh; empty: there are no copies
+/// originals, weights  of planSampling
 std::vector<MeshSampling> planMeshes(const PackView& part, const SamplingSettings& settings,
-                                     std::span<const uint32_t> originals)
+                                     std::span<const uint32_t> originals, std::span<const double> weights)
 {
     std::vector<std::vector<uint64_t>> triangles(part.meshes().size());
     for (uint32_t mesh = 0; mesh < triangles.size(); ++mesh)
         if (isBaked(part.meshes()[mesh]))
             triangles[mesh] = countLevelTriangles(part, mesh);
-    return planSampling(triangles, settings, originals);
+    return planSampling(triangles, settings, originals, weights);
 }
 
 /// Return for each mesh of a neighbour the level that it is sampled on in its own bake.
 std::vector<uint32_t> planNeighbourLevels(const PackView& part, const SamplingSettings& settings)
 {
     std::vector<uint32_t> levels;
-    for (const MeshSampling& sampling : planMeshes(part, settings, {}))
+    for (const MeshSampling& sampling : planMeshes(part, settings, {}, {}))
         levels.push_back(sampling.level);
     return levels;
 }
@@ -79,13 +79,14 @@ bool isBaked(const MeshRecord& mesh)
 }
 
 BakedSource BakedSource::make(const PackView& scene, const PackView& part,
-                              std::span<const uint32_t> instance_meshes, const SamplingSettings& settings)
+                              std::span<const uint32_t> instance_meshes, const SamplingSettings& settings,
+                              std::span<const double> weights)
 {
     std::vector<uint32_t> originals = findOriginalMeshes(scene, instance_meshes, part.meshes().size());
     BakedSource source{
         scene,
         part,
-        planMeshes(part, settings, originals),
+        planMeshes(part, settings, originals, weights),
         std::move(originals),
         std::vector<std::vector<MeshInstance>>(part.meshes().size()),
     };
@@ -156,6 +157,29 @@ std::vector<SurfaceSample> createSamples(const LevelArrays& level, double sample
         samples_per_vertex * positions / static_cast<double>(level.positions.size());
     settings.min_per_vertex = kMinVertexSamples * samples_per_vertex;
     return surfaceSamples(level.positions, corners, settings);
+}
+
+double computeArea(const LevelArrays& level)
+{
+    double area = 0;
+    for (size_t c = 0; c + 2 < level.indices.size(); c += 3)
+    {
+        const Float3 corner = level.positions[level.indices[c]];
+        area += 0.5 * double{length(cross(level.positions[level.indices[c + 1]] - corner,
+                                          level.positions[level.indices[c + 2]] - corner))};
+    }
+    return area;
+}
+
+std::vector<SurfaceSample> choosePoints(const LevelArrays& level, const ProxySettings& proxy, size_t count)
+{
+    const std::vector<SurfaceSample> all = createSamples(level, 1, proxy);
+    const std::vector<double> rates(all.size(), 1.0);
+    std::vector<SurfaceSample> points;
+    for (const ChosenSample& chosen :
+         chooseSamples({level.positions, level.indices, all, {}, {}}, rates, static_cast<uint32_t>(count)))
+        points.push_back(all[chosen.sample]);
+    return points;
 }
 
 } // namespace hearth::visibility

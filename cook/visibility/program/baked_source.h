@@ -38,8 +38,10 @@ struct BakedSource
 
     /// scene, part      must outlive this
     /// instance_meshes  mesh of the part that each instance draws
+    /// weights          of planSampling
     static BakedSource make(const formats::PackView& scene, const formats::PackView& part,
-                            std::span<const uint32_t> instance_meshes, const SamplingSettings& settings);
+                            std::span<const uint32_t> instance_meshes, const SamplingSettings& settings,
+                            std::span<const double> weights = {});
 
     /// Collect the occluders of the scene, at the levels that are sampled, so that no sample is inside its
     /// own mesh. Deformed meshes occlude only themselves.
@@ -60,5 +62,11 @@ std::vector<Placement> placeInstances(const Occluders& world, std::span<const Me
 /// Create samples on a level of a mesh.
 std::vector<SurfaceSample> createSamples(const LevelArrays& level, double samples_per_vertex,
                                          const ProxySettings& proxy);
+
+/// Return `count` points evenly over the area of a level, or fewer of a level without area.
+std::vector<SurfaceSample> choosePoints(const LevelArrays& level, const ProxySettings& proxy, size_t count);
+
+/// Return the area of a level's triangles.
+double computeArea(const LevelArrays& level);
 
 } // namespace hearth::visibility

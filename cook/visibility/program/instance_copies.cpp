@@ -178,30 +178,6 @@ private:
     std::vector<SeenInstance> instances_;
 };
 
-double computeArea(const LevelArrays& level)
-{
-    double area = 0;
-    for (size_t c = 0; c + 2 < level.indices.size(); c += 3)
-    {
-        const Float3 corner = level.positions[level.indices[c]];
-        area += 0.5 * double{length(cross(level.positions[level.indices[c + 1]] - corner,
-                                          level.positions[level.indices[c + 2]] - corner))};
-    }
-    return area;
-}
-
-/// Return about as many points as wanted, evenly over the area of a level.
-std::vector<SurfaceSample> choosePoints(const LevelArrays& level, const ProxySettings& proxy, size_t count)
-{
-    const std::vector<SurfaceSample> all = createSamples(level, 1, proxy);
-    const std::vector<double> rates(all.size(), 1.0);
-    std::vector<SurfaceSample> points;
-    for (const ChosenSample& chosen :
-         chooseSamples({level.positions, level.indices, all, {}, {}}, rates, static_cast<uint32_t>(count)))
-        points.push_back(all[chosen.sample]);
-    return points;
-}
-
 /// Return the candidates of a mesh.
 /// points  about as many of each instance
 Result<std::vector<Candidate>> findCandidates(const BakedSource& source, const Occluders& world,

@@ -20,24 +20,31 @@ constexpr double kMinSamplesPerVertex = kTrianglesPerVertex;
 // Rays a sample of a mesh whose budget is less than half: cook/visibility/README.md, "The budget".
 constexpr uint32_t kReducedRaysPerSample = 32;
 
-/// Return the number of triangles up to which meshes get all their rays.
-/// counts          triangles of the finest levels
-/// all_per_triangle  rays that a mesh asks for by its triangles
-double solveThreshold(std::vector<double> counts, double all_per_triangle, double budget)
+/// Mesh together with its copies.
+struct Asker
 {
-    std::sort(counts.begin(), counts.end());
-    double roots = 0; // of the larger meshes
-    for (const double count : counts)
-        roots += std::sqrt(count);
-    double rays = 0; // of the smaller meshes
-    for (const double count : counts)
+    double triangles; ///< of the finest levels
+    double share;     ///< of the rays where they do not suffice: square root of the triangles, times a weight
+};
+
+/// Return the factor of the shares: a mesh gets all_per_triangle times it times its share, or all rays that it
+/// asks for, if that is less.
+/// all_per_triangle  rays that a mesh asks for by its triangles
+double solveFactor(std::vector<Asker> askers, double all_per_triangle, double budget)
+{
+    // those that get all at the smallest factors first
+    std::ranges::sort(askers, {}, [](const Asker& asker) { return asker.triangles / asker.share; });
+    double shares = 0; // of the meshes that do not get all
+    for (const Asker& asker : askers)
+        shares += asker.share;
+    double rays = 0; // of the others
+    for (const Asker& asker : askers)
     {
-        // if this mesh and all larger ones get all_per_triangle * sqrt(threshold * count)
-        const double root = (budget - rays) / (all_per_triangle * roots);
-        if (root < std::sqrt(count))
-            return root * root;
-        rays += all_per_triangle * count;
-        roots -= std::sqrt(count);
+        const double factor = (budget - rays) / (all_per_triangle * shares);
+        if (factor * asker.share < asker.triangles)
+            return factor;
+        rays += all_per_triangle * asker.triangles;
+        shares -= asker.share;
     }
     return std::numeric_limits<double>::infinity();
 }
@@ -65,35 +72,42 @@ MeshSampling chooseLevel(std::span<const uint64_t> triangles, double rays, const
 } // namespace
 
 std::vector<MeshSampling> planSampling(std::span<const std::vector<uint64_t>> triangles,
-                                       const SamplingSettings& settings, std::span<const uint32_t> originals)
+                                       const SamplingSettings& settings, std::span<const uint32_t> originals,
+                                       std::span<const double> weights)
 {
     const auto findOriginal = [&](uint32_t mesh) { return originals.empty() ? mesh : originals[mesh]; };
     std::vector<double> copies(triangles.size()); // of each original, itself included
     for (uint32_t mesh = 0; mesh < triangles.size(); ++mesh)
         ++copies[findOriginal(mesh)];
-    std::vector<double> counts; // of each mesh together with its copies
+    const auto makeAsker = [&](uint32_t mesh)
+    {
+        const uint32_t original = findOriginal(mesh);
+        const double count =
+            triangles[mesh].empty() ? 0 : copies[original] * static_cast<double>(triangles[mesh][0]);
+        return Asker{count, std::sqrt(count) * (weights.empty() ? 1 : weights[original])};
+    };
+    std::vector<Asker> askers;
     double total = 0;
     for (uint32_t mesh = 0; mesh < triangles.size(); ++mesh)
-        if (findOriginal(mesh) == mesh && !triangles[mesh].empty() && triangles[mesh][0] > 0)
+        if (const Asker asker = makeAsker(mesh); findOriginal(mesh) == mesh && asker.triangles > 0)
         {
-            counts.push_back(copies[mesh] * static_cast<double>(triangles[mesh][0]));
-            total += counts.back();
+            askers.push_back(asker);
+            total += asker.triangles;
         }
     const double all_per_triangle = std::max(settings.samples_per_vertex, kMinSamplesPerVertex) *
                                     settings.rays_per_sample / kTrianglesPerVertex;
-    const double threshold = solveThreshold(
-        counts, all_per_triangle, std::max(settings.max_rays, settings.max_rays_per_triangle * total));
+    const double factor = solveFactor(askers, all_per_triangle,
+                                      std::max(settings.max_rays, settings.max_rays_per_triangle * total));
     std::vector<MeshSampling> plan;
     for (uint32_t mesh = 0; mesh < triangles.size(); ++mesh)
     {
-        const std::vector<uint64_t>& levels = triangles[mesh];
-        const double alike = copies[findOriginal(mesh)];
-        const double count = levels.empty() ? 0 : alike * static_cast<double>(levels[0]);
-        if (count <= threshold)
+        const Asker asker = makeAsker(mesh);
+        if (asker.triangles == 0 || asker.triangles <= factor * asker.share)
             plan.push_back({0, settings.samples_per_vertex, settings.rays_per_sample});
         else
-            plan.push_back(
-                chooseLevel(levels, all_per_triangle * std::sqrt(threshold * count) / alike, settings));
+            plan.push_back(chooseLevel(triangles[mesh],
+                                       all_per_triangle * factor * asker.share / copies[findOriginal(mesh)],
+                                       settings));
     }
     return plan;
 }

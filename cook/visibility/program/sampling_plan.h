@@ -33,10 +33,12 @@ struct MeshSampling
 /// that has about enough of them.
 /// A mesh and its copies count as one mesh with the triangles of all.
 /// triangles  of the levels of each mesh, finest first; empty for a mesh that is not baked
+/// weights    of each mesh, greater than 0; those of larger meshes are multiplied by it. Empty: all are 1
 /// originals  of each mesh, the one that it is a copy of, or itself; empty: no copies
 /// returns    one for each mesh
 std::vector<MeshSampling> planSampling(std::span<const std::vector<uint64_t>> triangles,
                                        const SamplingSettings& settings,
-                                       std::span<const uint32_t> originals = {});
+                                       std::span<const uint32_t> originals = {},
+                                       std::span<const double> weights = {});
 
 } // namespace hearth::visibility

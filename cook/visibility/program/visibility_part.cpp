@@ -8,6 +8,7 @@
 #include "cook/visibility/fit/finer_levels.h"
 #include "cook/visibility/program/instance_copies.h"
 #include "cook/visibility/program/instance_light.h"
+#include "cook/visibility/program/variation.h"
 #include "cook/visibility/rays/sampled_moments.h"
 #include "cook/visibility/scene/scene_occluders.h"
 #include "cook/visibility/scene/source_normals.h"
@@ -34,8 +35,8 @@ namespace
 // Rays that compare the instances of all meshes, a 64th of those of the default quality.
 constexpr double kInstanceRays = 0x1p18;
 
-// Share of the rays on whose levels instances are compared.
-constexpr double kComparedShare = 0.125;
+// Share of the rays on whose levels instances are compared and variation is measured.
+constexpr double kMeasuredShare = 0.125;
 
 // Not 0, so that surfaces with only interior samples have a fit.
 constexpr float kInteriorWeight = 1e-3f;
@@ -394,25 +395,56 @@ private:
     uint64_t rays_before_ = 0;
 };
 
-/// Choose the instances of a source that get a copy of their mesh. They are compared on coarser levels than
-/// those that are baked.
-/// instance_meshes  mesh of each instance
-Result<MeshCopies> findCopies(const PackView& scene, const PackView& part,
-                              std::vector<uint32_t> instance_meshes, std::span<const PartPaths> neighbours,
-                              BakeSettings settings)
+/// Decisions before a bake.
+struct Preparation
 {
-    settings.sampling.max_rays *= kComparedShare;
-    settings.sampling.max_rays_per_triangle *= kComparedShare;
-    const BakedSource source = BakedSource::make(scene, part, instance_meshes, settings.sampling);
+    MeshCopies copies;
+    std::vector<double>
+        weights; ///< of planSampling; empty: all rays that are asked for are within the budget
+};
+
+/// Return whether a mesh gets fewer rays than it asks for.
+bool isLimited(const BakedSource& source, const SamplingSettings& asked)
+{
+    return std::ranges::any_of(source.plan,
+                               [&](const MeshSampling& sampling)
+                               {
+                                   return sampling.level != 0 ||
+                                          sampling.rays_per_sample != asked.rays_per_sample ||
+                                          sampling.samples_per_vertex != asked.samples_per_vertex;
+                               });
+}
+
+/// Choose the instances of a source that get a copy of their mesh, and where rays are needed. Both are measured
+/// on coarser levels than those that are baked.
+/// instance_meshes  mesh of each instance
+Result<Preparation> prepare(const PackView& scene, const PackView& part,
+                            std::vector<uint32_t> instance_meshes, std::span<const PartPaths> neighbours,
+                            const BakeSettings& settings)
+{
+    const BakedSource even = BakedSource::make(scene, part, instance_meshes, settings.sampling);
+    SamplingSettings fewer = settings.sampling;
+    fewer.max_rays *= kMeasuredShare;
+    fewer.max_rays_per_triangle *= kMeasuredShare;
+    const BakedSource source = BakedSource::make(scene, part, instance_meshes, fewer);
     const auto max_bytes =
         static_cast<uint64_t>(settings.copies * static_cast<double>(part.pageBytes().size()));
-    if (settings.occluders == OccluderScope::mesh || !mayNeedCopies(source, max_bytes))
-        return MeshCopies{{}, std::move(instance_meshes)};
+    const bool is_limited = isLimited(even, settings.sampling);
+    Preparation preparation{{{}, std::move(instance_meshes)}, {}};
+    if (settings.occluders == OccluderScope::mesh || !(is_limited || mayNeedCopies(source, max_bytes)))
+        return preparation;
     SceneSurfaces surfaces(scene);
     Occluders world;
     HEARTH_TRY(collectOccluders(source, neighbours, settings, surfaces, world));
-    return chooseCopies(source, world, std::move(instance_meshes), settings.rays, settings.fit.proxy,
-                        max_bytes);
+    HEARTH_ASSIGN_OR_RETURN(preparation.copies,
+                            chooseCopies(source, world, std::move(preparation.copies.instance_meshes),
+                                         settings.rays, settings.fit.proxy, max_bytes));
+    if (!is_limited)
+        return preparation;
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<std::optional<double>> variation,
+                            measureVariation(source, world, even.plan, settings.rays, settings.fit.proxy));
+    preparation.weights = makeWeights(variation);
+    return preparation;
 }
 
 /// Bake a source, and write its part.
@@ -509,20 +541,24 @@ writeVisibilityPart(const PackView& import_part, const PackView& clusters_part,
 {
     HEARTH_TRY(checkHierarchy(clusters_part));
     HEARTH_ASSIGN_OR_RETURN(std::vector<uint32_t> own_meshes, readInstanceMeshes(import_part, clusters_part));
-    HEARTH_ASSIGN_OR_RETURN(const MeshCopies copies, findCopies(import_part, clusters_part,
-                                                                std::move(own_meshes), neighbours, settings));
+    HEARTH_ASSIGN_OR_RETURN(const Preparation preparation,
+                            prepare(import_part, clusters_part, std::move(own_meshes), neighbours, settings));
+    const MeshCopies& copies = preparation.copies;
+    const auto bake = [&](const PackView& part)
+    {
+        return bakePart(BakedSource::make(import_part, part, copies.instance_meshes, settings.sampling,
+                                          preparation.weights),
+                        copies.instance_meshes, neighbours, output_path, settings, observe);
+    };
     if (copies.meshes.empty())
-        return bakePart(
-            BakedSource::make(import_part, clusters_part, copies.instance_meshes, settings.sampling),
-            copies.instance_meshes, neighbours, output_path, settings, observe);
+        return bake(clusters_part);
     const std::string copied_path = output_path + ".copies-" + std::to_string(::getpid());
     HEARTH_TRY(pages::copyMeshes(clusters_part, copies.meshes, copied_path));
     Result<PackView> part = tools::openPart(copied_path);
     ::unlink(copied_path.c_str()); // stays mapped
     if (!part.ok())
         return std::move(part).error();
-    return bakePart(BakedSource::make(import_part, *part, copies.instance_meshes, settings.sampling),
-                    copies.instance_meshes, neighbours, output_path, settings, observe);
+    return bake(*part);
 }
 
 std::string_view occluderScopeName(OccluderScope scope)

@@ -77,6 +77,28 @@ TEST(PlanSampling, givesAMeshAndItsCopiesWhatOneMeshOfAllTheirTrianglesGets)
         EXPECT_NEAR(countRays(plan[mesh], copied[mesh]), countRays(expected[0], joined[0]) / 4, 1) << mesh;
 }
 
+TEST(PlanSampling, givesLargeMeshesMoreByTheirWeight)
+{
+    const std::vector<std::vector<uint64_t>> meshes{halved(400'000, 9), halved(100, 1), halved(400'000, 9)};
+    const std::vector<double> weights{0.5, 1, 1.5};
+    const SamplingSettings settings{8, 64, 0x1p23, 0};
+    const std::vector<MeshSampling> plan = planSampling(meshes, settings, {}, weights);
+    EXPECT_EQ(plan[1].samples_per_vertex, 8) << "small meshes get all";
+    EXPECT_EQ(plan[1].rays_per_sample, 64u);
+    // two samples a vertex are the least
+    EXPECT_NEAR(countRays(plan[2], meshes[2]) / countRays(plan[0], meshes[0]), 3, 0.1);
+    EXPECT_NEAR((countRays(plan[0], meshes[0]) + countRays(plan[2], meshes[2])) / 0x1p23, 1, 0.05);
+}
+
+TEST(PlanSampling, givesWholeMeshesNoMoreThanTheyAskFor)
+{
+    const std::vector<std::vector<uint64_t>> meshes{halved(20'000, 7), halved(400'000, 9)};
+    const std::vector<double> weights{4, 0.5};
+    const std::vector<MeshSampling> plan = planSampling(meshes, {8, 64, 0x1p23, 0}, {}, weights);
+    EXPECT_EQ(countRays(plan[0], meshes[0]), 20'000 * 256);
+    EXPECT_NEAR(countRays(plan[1], meshes[1]), 0x1p23 - 20'000 * 256, 1);
+}
+
 TEST(PlanSampling, takesFewerSamplesBeforeFewerRays)
 {
     const std::vector<std::vector<uint64_t>> meshes{halved(1'000'000, 9)};
