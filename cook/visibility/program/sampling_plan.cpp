@@ -27,8 +27,8 @@ struct Asker
     double share;     ///< of the rays where they do not suffice: square root of the triangles, times a weight
 };
 
-/// Return the factor of the shares: a mesh gets all_per_triangle times it times its share, or all rays that it
-/// asks for, if that is less.
+/// Return the factor of the shares: a mesh gets all_per_triangle times it times its share, or all rays that
+/// it asks for, if that is less.
 /// all_per_triangle  rays that a mesh asks for by its triangles
 double solveFactor(std::vector<Asker> askers, double all_per_triangle, double budget)
 {

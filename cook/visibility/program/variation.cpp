@@ -22,8 +22,8 @@ constexpr uint32_t kPairRays = 32;
 // Instances of a mesh that its pairs lie on.
 constexpr size_t kMeasuredInstances = 8;
 
-// What a level cannot hold falls about with the square root of its number of samples. The sum over all meshes is
-// least where rays grow with this power of it.
+// The error of a level falls about with the square root of its number of samples. The sum over all meshes
+// is least where rays grow with this power of it.
 constexpr double kWeightPower = 1 / 1.5;
 
 // Range of the weights: variation is measured by few rays, and at one distance.

@@ -1,5 +1,5 @@
-// Measures how much visibility varies over the surfaces of meshes, so that rays go where samples cannot be far
-// apart. See cook/visibility/README.md, "The budget".
+// Measures how much visibility varies over the surfaces of meshes, so that rays go where samples must not be
+// far apart. See cook/visibility/README.md, "The budget".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 

@@ -415,8 +415,8 @@ bool isLimited(const BakedSource& source, const SamplingSettings& asked)
                                });
 }
 
-/// Choose the instances of a source that get a copy of their mesh, and where rays are needed. Both are measured
-/// on coarser levels than those that are baked.
+/// Choose the instances of a source that get a copy of their mesh, and where rays are needed. Both are
+/// measured on coarser levels than those that are baked.
 /// instance_meshes  mesh of each instance
 Result<Preparation> prepare(const PackView& scene, const PackView& part,
                             std::vector<uint32_t> instance_meshes, std::span<const PartPaths> neighbours,
