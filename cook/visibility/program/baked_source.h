@@ -28,13 +28,12 @@ bool isBaked(const formats::MeshRecord& mesh);
 
 struct BakedSource
 {
-    const formats::PackView& scene; ///< import part
-    const formats::PackView& part;  ///< clusters part; may have copies of meshes
-    std::vector<MeshSampling> plan; ///< of each mesh of the part
-    std::vector<uint32_t>
-        originals; ///< of each mesh of the part, the mesh of the source that it is or copies
-    std::vector<std::vector<MeshInstance>>
-        instances; ///< of each mesh; without those that are flat in the world
+    const formats::PackView& scene;  ///< import part
+    const formats::PackView& part;   ///< clusters part; may have copies of meshes
+    std::vector<MeshSampling> plan;  ///< of each mesh of the part
+    std::vector<uint32_t> originals; ///< mesh of the source that each mesh of the part is, or copies
+    /// Instances of each mesh; without those that are flat in the world.
+    std::vector<std::vector<MeshInstance>> instances;
 
     /// scene, part      must outlive this
     /// instance_meshes  mesh of the part that each instance draws
