@@ -25,6 +25,16 @@ inline double boxDistance2(Double3 point, const Box3& box)
     return x * x + y * y + z * z;
 }
 
+/// Return no more than that, in floats, which are faster: of a point that floats hold.
+inline double boxDistance2(Float3 point, const Box3& box)
+{
+    const float x = std::max(std::max(box.min.x - point.x, point.x - box.max.x), 0.0f);
+    const float y = std::max(std::max(box.min.y - point.y, point.y - box.max.y), 0.0f);
+    const float z = std::max(std::max(box.min.z - point.z, point.z - box.max.z), 0.0f);
+    constexpr float kRounded = 1 - 0x1p-20f; // six operations, each off by 2^-24
+    return double{(x * x + y * y + z * z) * kRounded};
+}
+
 class TriangleTree
 {
 public:
@@ -50,8 +60,9 @@ public:
     /// Visit leaves, nearer ones first as far as boxes tell.
     /// isNeeded  returns whether triangles at a squared distance or beyond can still change the result
     /// visit     is called with an index of order()
-    template <typename IsNeeded, typename Visit>
-    void visitNearest(Double3 point, const IsNeeded& isNeeded, const Visit& visit) const
+    /// point     a Double3, or a Float3, for which boxes are faster
+    template <typename Point, typename IsNeeded, typename Visit>
+    void visitNearest(Point point, const IsNeeded& isNeeded, const Visit& visit) const
     {
         struct Entry
         {

@@ -99,7 +99,7 @@ ClosestPoint::Hit ClosestPoint::find(Float3 point, Float3 normal, double limit2,
     if (hint != kInvalidIndex)
         visit(query, triangles_[slot_of_triangle_[hint]], best);
     tree_.visitNearest(
-        query.point,
+        point,
         [&](double box_distance2)
         {
             return box_distance2 < best.distance2 ||

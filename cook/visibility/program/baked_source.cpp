@@ -107,7 +107,7 @@ Status BakedSource::addOccluders(SceneSurfaces& surfaces, Occluders& world) cons
         const MeshRecord& record = part.meshes()[mesh];
         if (record.clusters.count == 0 || instances[mesh].empty() || isDeformed(record))
             continue;
-        HEARTH_ASSIGN_OR_RETURN(const MeshPages pages, MeshPages::read(part, mesh));
+        HEARTH_ASSIGN_OR_RETURN(const MeshPages pages, MeshPages::readLevel(part, mesh, plan[mesh].level));
         HEARTH_TRY(addMesh(world, surfaces, pages, extractLevel(pages, plan[mesh].level),
                            collectTransforms(instances[mesh])));
     }

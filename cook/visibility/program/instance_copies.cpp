@@ -184,7 +184,8 @@ Result<std::vector<Candidate>> findCandidates(const BakedSource& source, const O
                                               uint32_t mesh, RaySettings rays, const ProxySettings& proxy,
                                               size_t points)
 {
-    HEARTH_ASSIGN_OR_RETURN(const MeshPages pages, MeshPages::read(source.part, mesh));
+    HEARTH_ASSIGN_OR_RETURN(const MeshPages pages,
+                            MeshPages::readLevel(source.part, mesh, source.plan[mesh].level));
     const LevelArrays level = extractLevel(pages, source.plan[mesh].level);
     const std::vector<SurfaceSample> samples = choosePoints(level, proxy, points);
     const double area = computeArea(level);

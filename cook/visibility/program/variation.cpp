@@ -102,7 +102,8 @@ Result<std::vector<std::optional<double>>> measureVariation(const BakedSource& s
         variation.emplace_back();
         if (!isBaked(record) || isDeformed(record) || instances.empty())
             continue;
-        HEARTH_ASSIGN_OR_RETURN(const MeshPages pages, MeshPages::read(source.part, mesh));
+        HEARTH_ASSIGN_OR_RETURN(const MeshPages pages,
+                                MeshPages::readLevel(source.part, mesh, source.plan[mesh].level));
         const LevelArrays level = extractLevel(pages, source.plan[mesh].level);
         const float edge =
             computeEdge(computeArea(level), countLevelTriangles(source.part, mesh)[plan[mesh].level]);

@@ -33,7 +33,7 @@ volatile std::sig_atomic_t interrupted = 0;
 
 const std::map<std::string, visibility::SamplingSettings> kQualities{
     {"draft", {1, 32, 0x1p22, 1}},
-    {"default", {8, 64, 0x1.cp22, 2}},
+    {"default", {8, 64, 0x1.ep22, 2}},
     {"high", {16, 256}},
 };
 

@@ -62,18 +62,18 @@ bool AlphaMask::isOpaque(Float2 uv) const
     };
     const float x = texelCoordinate(m, image_->width), y = texelCoordinate(m + 3, image_->height);
     const float x0 = std::floor(x), y0 = std::floor(y);
-    const auto column = static_cast<int64_t>(x0), row = static_cast<int64_t>(y0);
+    const auto wrapColumn = [&](float column)
+    { return wrapTexel(static_cast<int64_t>(column), image_->width, texture_.wrap_u); };
+    const auto wrapRow = [&](float row)
+    { return wrapTexel(static_cast<int64_t>(row), image_->height, texture_.wrap_v) * image_->width; };
+    const int64_t left = wrapColumn(x0), right = wrapColumn(x0 + 1), top = wrapRow(y0),
+                  bottom = wrapRow(y0 + 1);
+    const auto texel = [&](int64_t row, int64_t column)
+    { return static_cast<float>(image_->texels[static_cast<size_t>(row + column)]); };
     const float fx = x - x0, fy = y - y0;
-    const float upper = texel(column, row) * (1 - fx) + texel(column + 1, row) * fx;
-    const float lower = texel(column, row + 1) * (1 - fx) + texel(column + 1, row + 1) * fx;
-    return alpha_ * (upper * (1 - fy) + lower * fy) >= cutoff_;
-}
-
-float AlphaMask::texel(int64_t x, int64_t y) const
-{
-    const int64_t column = wrapTexel(x, image_->width, texture_.wrap_u);
-    const int64_t row = wrapTexel(y, image_->height, texture_.wrap_v);
-    return static_cast<float>(image_->texels[static_cast<size_t>(row * image_->width + column)]) / 255.0f;
+    const float upper = texel(top, left) * (1 - fx) + texel(top, right) * fx;
+    const float lower = texel(bottom, left) * (1 - fx) + texel(bottom, right) * fx;
+    return alpha_ * (upper * (1 - fy) + lower * fy) >= cutoff_ * 255;
 }
 
 } // namespace hearth::visibility

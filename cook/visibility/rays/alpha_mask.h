@@ -36,8 +36,6 @@ public:
     uint32_t uvSet() const { return texture_.uv_set; }
 
 private:
-    float texel(int64_t x, int64_t y) const;
-
     formats::TextureRef texture_;
     float alpha_;
     float cutoff_;

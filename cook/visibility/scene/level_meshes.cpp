@@ -103,6 +103,21 @@ void linkToFiner(LevelArrays& level, const VertexTable& finer)
 
 Result<MeshPages> MeshPages::read(const PackView& part, uint32_t mesh)
 {
+    return decode(part, mesh, std::vector<bool>(part.meshes()[mesh].pages.count, true));
+}
+
+Result<MeshPages> MeshPages::readLevel(const PackView& part, uint32_t mesh, uint32_t level)
+{
+    const MeshRecord& record = part.meshes()[mesh];
+    std::vector<bool> is_needed(record.pages.count, false);
+    for (const ClusterRecord& cluster : recordsInRange(part.clusters(), record.clusters))
+        if (isDrawnAt(part, cluster, level))
+            is_needed[cluster.page - record.pages.first] = true;
+    return decode(part, mesh, is_needed);
+}
+
+Result<MeshPages> MeshPages::decode(const PackView& part, uint32_t mesh, const std::vector<bool>& is_needed)
+{
     MeshPages pages;
     pages.part_ = &part;
     pages.record_ = &part.meshes()[mesh];
@@ -111,6 +126,8 @@ Result<MeshPages> MeshPages::read(const PackView& part, uint32_t mesh)
     tbb::parallel_for(size_t{0}, pages.pages_.size(),
                       [&](size_t i)
                       {
+                          if (!is_needed[i])
+                              return;
                           auto page = part.decodePage(pages.record_->pages.first + static_cast<uint32_t>(i));
                           if (page.ok())
                               pages.pages_[i] = std::move(*page);

@@ -18,11 +18,19 @@ public:
     /// errors: those of PackView::decodePage, those of formats::checkHierarchy for tables; meaning_geometry
     static Result<MeshPages> read(const formats::PackView& part, uint32_t mesh);
 
+    /// Decode the pages that one level of a mesh takes: others have no geometry.
+    /// errors: those of read
+    static Result<MeshPages> readLevel(const formats::PackView& part, uint32_t mesh, uint32_t level);
+
     const formats::PackView& part() const { return *part_; }
     const formats::MeshRecord& record() const { return *record_; }
     formats::ClusterGeometry cluster(uint32_t number) const;
 
 private:
+    /// is_needed  of each page of the mesh
+    static Result<MeshPages> decode(const formats::PackView& part, uint32_t mesh,
+                                    const std::vector<bool>& is_needed);
+
     const formats::PackView* part_ = nullptr;
     const formats::MeshRecord* record_ = nullptr;
     std::vector<std::vector<std::byte>> pages_;
