@@ -8,6 +8,7 @@
 #include "formats/base/affine3d.h"
 #include "formats/pack/instance_meshes.h"
 #include "formats/pack/pack_check.h"
+#include "formats/scene/lit_material.h"
 
 #include <algorithm>
 #include <bit>
@@ -30,21 +31,23 @@ constexpr double kMinVertexSamples = 2.25;
 
 /// Plan the sampling of all meshes.
 /// originals, weights  of planSampling
-std::vector<MeshSampling> planMeshes(const PackView& part, const SamplingSettings& settings,
-                                     std::span<const uint32_t> originals, std::span<const double> weights)
+std::vector<MeshSampling> planMeshes(const PackView& scene, const PackView& part,
+                                     const SamplingSettings& settings, std::span<const uint32_t> originals,
+                                     std::span<const double> weights)
 {
     std::vector<std::vector<uint64_t>> triangles(part.meshes().size());
     for (uint32_t mesh = 0; mesh < triangles.size(); ++mesh)
-        if (isBaked(part.meshes()[mesh]))
+        if (isBaked(scene, part, mesh))
             triangles[mesh] = countLevelTriangles(part, mesh);
     return planSampling(triangles, settings, originals, weights);
 }
 
 /// Return for each mesh of a neighbour the level that it is sampled on in its own bake.
-std::vector<uint32_t> planNeighbourLevels(const PackView& part, const SamplingSettings& settings)
+std::vector<uint32_t> planNeighbourLevels(const PackView& scene, const PackView& part,
+                                          const SamplingSettings& settings)
 {
     std::vector<uint32_t> levels;
-    for (const MeshSampling& sampling : planMeshes(part, settings, {}, {}))
+    for (const MeshSampling& sampling : planMeshes(scene, part, settings, {}, {}))
         levels.push_back(sampling.level);
     return levels;
 }
@@ -64,7 +67,7 @@ Box3 computeReceiverBox(const BakedSource& source)
     for (uint32_t mesh = 0; mesh < source.part.meshes().size(); ++mesh)
     {
         const MeshRecord& record = source.part.meshes()[mesh];
-        if (isBaked(record) && !isDeformed(record))
+        if (isBaked(source.scene, source.part, mesh) && !isDeformed(record))
             for (const MeshInstance& instance : source.instances[mesh])
                 box.add(transformBox(widened(instance.world_from_mesh), {record.box_min, record.box_max}));
     }
@@ -73,9 +76,13 @@ Box3 computeReceiverBox(const BakedSource& source)
 
 } // namespace
 
-bool isBaked(const MeshRecord& mesh)
+bool isBaked(const PackView& scene, const PackView& part, uint32_t mesh)
 {
-    return mesh.clusters.count > 0 && (mesh.attributes & kVertexVisibility) != 0;
+    const MeshRecord& record = part.meshes()[mesh];
+    const auto isLitCluster = [&](const ClusterRecord& cluster)
+    { return cluster.material >= scene.materials().size() || isLit(scene.materials()[cluster.material]); };
+    return (record.attributes & kVertexVisibility) != 0 &&
+           std::ranges::any_of(recordsInRange(part.clusters(), record.clusters), isLitCluster);
 }
 
 BakedSource BakedSource::make(const PackView& scene, const PackView& part,
@@ -86,7 +93,7 @@ BakedSource BakedSource::make(const PackView& scene, const PackView& part,
     BakedSource source{
         scene,
         part,
-        planMeshes(part, settings, originals, weights),
+        planMeshes(scene, part, settings, originals, weights),
         std::move(originals),
         std::vector<std::vector<MeshInstance>>(part.meshes().size()),
     };
@@ -126,7 +133,8 @@ Status BakedSource::addNeighbours(std::span<const PartPaths> neighbours, const S
         HEARTH_ASSIGN_OR_RETURN(const PackView neighbour_part, tools::openPart(paths.clusters_part));
         HEARTH_TRY(checkHierarchy(neighbour_part));
         HEARTH_TRY(addNeighbour(world, neighbour_scene, neighbour_part,
-                                planNeighbourLevels(neighbour_part, settings), receivers, distance));
+                                planNeighbourLevels(neighbour_scene, neighbour_part, settings), receivers,
+                                distance));
     }
     return success();
 }

@@ -23,8 +23,10 @@ struct PartPaths
     std::string clusters_part;
 };
 
-/// Return whether the vertices of a mesh get visibility.
-bool isBaked(const formats::MeshRecord& mesh);
+/// Return whether the vertices of a mesh get visibility: they have room for it, and some of its surface is
+/// lit.
+/// scene, part  of one source
+bool isBaked(const formats::PackView& scene, const formats::PackView& part, uint32_t mesh);
 
 struct BakedSource
 {

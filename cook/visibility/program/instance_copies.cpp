@@ -46,8 +46,8 @@ std::vector<uint32_t> findComparedMeshes(const BakedSource& source, uint64_t max
     for (uint32_t mesh = 0; mesh < source.instances.size(); ++mesh)
     {
         const MeshRecord& record = source.part.meshes()[mesh];
-        if (source.instances[mesh].size() > 1 && isBaked(record) && !isDeformed(record) &&
-            pages::countCopyBytes(source.part, mesh) <= max_bytes)
+        if (source.instances[mesh].size() > 1 && isBaked(source.scene, source.part, mesh) &&
+            !isDeformed(record) && pages::countCopyBytes(source.part, mesh) <= max_bytes)
             meshes.push_back(mesh);
     }
     std::ranges::stable_sort(meshes, {}, [&](uint32_t mesh) { return source.instances[mesh].size(); });

@@ -83,14 +83,14 @@ public:
         if (settings_.occluders != OccluderScope::mesh)
             HEARTH_TRY(collectOccluders(source_, neighbours_, settings_, surfaces_, world));
         uint64_t triangles = 0;
-        for (const MeshRecord& mesh : part_.meshes())
-            triangles += isBaked(mesh) ? mesh.source_triangles : 0;
+        for (uint32_t mesh = 0; mesh < part_.meshes().size(); ++mesh)
+            triangles += isBaked(scene_, part_, mesh) ? part_.meshes()[mesh].source_triangles : 0;
         std::vector<MeshStatistics> statistics;
         uint64_t done = 0;
         for (uint32_t mesh = 0; mesh < part_.meshes().size(); ++mesh)
         {
             const MeshRecord& record = part_.meshes()[mesh];
-            if (!isBaked(record))
+            if (!isBaked(scene_, part_, mesh))
                 continue;
             share_before_ = static_cast<double>(done) / static_cast<double>(triangles);
             done += record.source_triangles;
@@ -169,7 +169,7 @@ private:
     {
         uint64_t groups = 0;
         for (uint32_t mesh = 0; mesh < source_.instances.size(); ++mesh)
-            if (isBaked(part_.meshes()[mesh]))
+            if (isBaked(scene_, part_, mesh))
                 groups += InstanceLight::countGroups(source_.instances[mesh].size());
         return {groups, {.seed = settings_.rays.seed, .distance = settings_.rays.distance}};
     }
