@@ -31,10 +31,11 @@ constexpr uint32_t kComparedRays = 16;
 // Rms error of ambient occlusion from which on an instance should have a copy of its mesh.
 constexpr double kMinError = 0.04;
 
+/// Copy of a mesh that may be made.
 struct Candidate
 {
     uint32_t mesh;
-    uint32_t instance;
+    std::vector<uint32_t> instances; ///< that would draw it
     double value; ///< square metres by mean square error of ambient occlusion, for each byte
     uint64_t bytes;
 };
@@ -86,19 +87,46 @@ struct SeenInstance
     std::vector<uint8_t> interior;
 };
 
+/// Instances that could share a visibility.
+struct AlikeInstances
+{
+    std::vector<const SeenInstance*> members;
+    double error = 0; ///< square metres by mean square error, if they shared with the first group
+};
+
 /// Compares the instances of a mesh.
 class InstanceComparison
 {
 public:
     explicit InstanceComparison(std::vector<SeenInstance> instances) : instances_(std::move(instances)) {}
 
-    /// Take the most unlike instance out, until those that are left can share a visibility.
-    /// returns  the instances that were taken out, each with its mean square error if it shared with the rest
-    std::vector<std::pair<const SeenInstance*, double>> takeOutUnlike() const
+    /// Divide the instances into groups that can share a visibility. The first group is what is left when the
+    /// most unlike instances are taken out one by one; each of these joins a later group, or begins one.
+    std::vector<AlikeInstances> group() const
     {
-        std::vector<const SeenInstance*> alike, unlike;
+        std::vector<AlikeInstances> groups(1);
         for (const SeenInstance& instance : instances_)
-            alike.push_back(&instance);
+            groups[0].members.push_back(&instance);
+        const std::vector<const SeenInstance*> unlike = takeOutUnlike(groups[0].members);
+        const std::vector<Moments> mean = computeMean(groups[0].members);
+        for (const SeenInstance* instance : unlike)
+        {
+            const auto found =
+                std::find_if(groups.begin() + 1, groups.end(),
+                             [&](const AlikeInstances& group) { return isAlike(*instance, group.members); });
+            AlikeInstances& joined = found == groups.end() ? groups.emplace_back() : *found;
+            joined.members.push_back(instance);
+            joined.error += instance->area * computeError(*instance, mean);
+        }
+        return groups;
+    }
+
+private:
+    /// Take the most unlike instance out, until those that are left can share a visibility.
+    /// returns  the instances that were taken out
+    static std::vector<const SeenInstance*> takeOutUnlike(std::vector<const SeenInstance*>& alike)
+    {
+        std::vector<const SeenInstance*> unlike;
         while (alike.size() > 1)
         {
             const std::vector<Moments> mean = computeMean(alike);
@@ -113,14 +141,16 @@ public:
             unlike.push_back(*place);
             alike.erase(place);
         }
-        const std::vector<Moments> mean = computeMean(alike);
-        std::vector<std::pair<const SeenInstance*, double>> result;
-        for (const SeenInstance* instance : unlike)
-            result.emplace_back(instance, computeError(*instance, mean));
-        return result;
+        return unlike;
     }
 
-private:
+    /// Return whether an instance can share the visibility of others.
+    static bool isAlike(const SeenInstance& instance, std::span<const SeenInstance* const> others)
+    {
+        const double noise = computeNoise(instance) / (2 * static_cast<double>(others.size()));
+        return computeError(instance, computeMean(others)) - noise <= kMinError * kMinError;
+    }
+
     /// Return the mean of what instances see, at each point.
     static std::vector<Moments> computeMean(std::span<const SeenInstance* const> instances)
     {
@@ -136,8 +166,9 @@ private:
         return mean;
     }
 
-    /// Return the mean square error of ambient occlusion with a mean and a factor of it. Rays that are in the
-    /// mean, too, make it less, by their noise over twice the number of instances in the mean.
+    /// Return the mean square error of ambient occlusion with a mean and a factor of it. The noise of the
+    /// mean, that of a set of rays over twice the number of its instances, makes it more; or less, if the
+    /// instance's own rays are in the mean.
     static double computeError(const SeenInstance& instance, std::span<const Moments> mean)
     {
         std::vector<FactorSample> samples;
@@ -215,9 +246,14 @@ Result<std::vector<Candidate>> findCandidates(const BakedSource& source, const O
     const uint64_t bytes = pages::countCopyBytes(source.part, mesh);
     std::vector<Candidate> candidates;
     const InstanceComparison comparison(std::move(instances));
-    for (const auto& [instance, error] : comparison.takeOutUnlike())
-        candidates.push_back(
-            {mesh, instance->number, error * instance->area / static_cast<double>(bytes), bytes});
+    const std::vector<AlikeInstances> groups = comparison.group();
+    for (const AlikeInstances& group : std::span(groups).subspan(1))
+    {
+        Candidate& candidate =
+            candidates.emplace_back(Candidate{mesh, {}, group.error / static_cast<double>(bytes), bytes});
+        for (const SeenInstance* instance : group.members)
+            candidate.instances.push_back(instance->number);
+    }
     return candidates;
 }
 
@@ -245,21 +281,17 @@ Result<MeshCopies> chooseCopies(const BakedSource& source, const Occluders& worl
                                 findCandidates(source, world, mesh, rays, proxy, points));
         candidates.insert(candidates.end(), of_mesh.begin(), of_mesh.end());
     }
-    std::vector<Candidate> chosen;
+    MeshCopies copies{{}, std::move(instance_meshes)};
     uint64_t left = max_bytes;
     std::ranges::stable_sort(candidates, std::ranges::greater(), &Candidate::value);
     for (const Candidate& candidate : candidates)
-        if (candidate.bytes <= left)
-        {
-            chosen.push_back(candidate);
-            left -= candidate.bytes;
-        }
-    std::ranges::sort(chosen, {}, &Candidate::instance);
-    MeshCopies copies{{}, std::move(instance_meshes)};
-    for (const Candidate& candidate : chosen)
     {
-        copies.instance_meshes[candidate.instance] =
-            static_cast<uint32_t>(source.part.meshes().size() + copies.meshes.size());
+        if (candidate.bytes > left)
+            continue;
+        left -= candidate.bytes;
+        for (const uint32_t instance : candidate.instances)
+            copies.instance_meshes[instance] =
+                static_cast<uint32_t>(source.part.meshes().size() + copies.meshes.size());
         copies.meshes.push_back(candidate.mesh);
     }
     return copies;

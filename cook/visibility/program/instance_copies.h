@@ -12,7 +12,7 @@
 namespace hearth::visibility
 {
 
-/// Copies of meshes: instances with one have a visibility of their own.
+/// Copies of meshes: instances with one have another visibility than those of the mesh.
 struct MeshCopies
 {
     std::vector<uint32_t> meshes; ///< that are copied, one for each copy

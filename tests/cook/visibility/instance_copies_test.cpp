@@ -102,10 +102,10 @@ protected:
 
 TEST_F(InstanceCopies, areOfThoseThatSeeLittle)
 {
-    EXPECT_EQ(bake(16), (std::vector<uint32_t>{kPit, 2, kPit, 3, kRock, kRock, kRock}));
+    EXPECT_EQ(bake(16), (std::vector<uint32_t>{kPit, 2, kPit, 2, kRock, kRock, kRock}));
     const PackView part = PackView::read(open(baked_path)).value();
     EXPECT_EQ(getMessage(checkHierarchy(part)), "");
-    ASSERT_EQ(part.meshes().size(), 4u);
+    ASSERT_EQ(part.meshes().size(), 3u) << "rocks in pits are alike";
 }
 
 TEST_F(InstanceCopies, takeNoMoreThanTheirBytes)
