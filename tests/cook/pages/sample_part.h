@@ -53,6 +53,14 @@ inline std::vector<mesh::SourceMesh> sampleMeshes()
     return meshes;
 }
 
+/// Return the settings of a mesh whose vertices have room for visibility.
+inline clusters::Config configureVisibility(const std::string& /* mesh */)
+{
+    clusters::Config config;
+    config.visibility = true;
+    return config;
+}
+
 /// A clusters part of these meshes, in a folder of its own.
 class SamplePart : public ::testing::Test
 {
@@ -65,13 +73,8 @@ protected:
         for (uint32_t i = 0; i < meshes.size(); ++i)
             EXPECT_TRUE(mesh::writeSourceMesh(*writer, i, meshes[i]).ok());
         EXPECT_TRUE(writer->finish().ok());
-        const auto configure = [](const std::string&)
-        {
-            clusters::Config config;
-            config.visibility = true;
-            return config;
-        };
-        EXPECT_EQ(getMessage(clusters::writeClustersPart(open(import_path), path, configure, {})), "");
+        EXPECT_EQ(getMessage(clusters::writeClustersPart(open(import_path), path, configureVisibility, {})),
+                  "");
     }
 
     const test::TemporaryFolder folder;

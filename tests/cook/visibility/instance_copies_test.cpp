@@ -71,13 +71,8 @@ protected:
         for (uint32_t i = 0; i < meshes.size(); ++i)
             EXPECT_TRUE(mesh::writeSourceMesh(*writer, i, meshes[i]).ok());
         EXPECT_TRUE(writer->finish().ok());
-        const auto configure = [](const std::string&)
-        {
-            clusters::Config config;
-            config.visibility = true;
-            return config;
-        };
-        EXPECT_EQ(getMessage(clusters::writeClustersPart(open(import_path), clusters_path, configure, {})),
+        EXPECT_EQ(getMessage(clusters::writeClustersPart(open(import_path), clusters_path,
+                                                         pages::configureVisibility, {})),
                   "");
     }
 
