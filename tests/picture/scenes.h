@@ -41,7 +41,7 @@ inline constexpr std::array kScenes = {
     Scene{"outdoor", Source::sample, "outdoor", View::first, 4},
     Scene{"terrain", Source::asset, "scene/terrain_lowpoly/terrain.glb", View::fit},
     Scene{"cornell", Source::asset, "scene/cornell_babylon/cornellBox.glb", View::first, 8},
-    Scene{"room", Source::sample, "room", View::first, 8},
+    Scene{"room", Source::sample, "room", View::first, 16},
     Scene{"demo", Source::sample, "scene", View::first, 2},
 };
 
