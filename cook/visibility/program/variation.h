@@ -15,7 +15,8 @@ namespace hearth::visibility
 
 /// Return for each mesh the mean square difference of ambient occlusion between points that are an edge of a
 /// level's triangles apart, without the noise of rays: what the level cannot hold. None for meshes that are
-/// not baked, or move. The same for any number of threads.
+/// not baked, that move, or whose finest level is planned: more rays add no vertices. The same for any number
+/// of threads.
 /// source  gives the points, on the levels of its plan
 /// world   its occluders, finished
 /// plan    levels whose edges count, of each mesh
