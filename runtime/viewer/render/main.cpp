@@ -88,7 +88,7 @@ void warnAboutShadows(const ShadowCounts& counts, const std::string& name)
 }
 
 /// Times that the first frame gathers indirect light; later frames have its result as their history.
-constexpr uint32_t kStillGathers = 8;
+constexpr uint32_t kStillGathers = 6;
 
 /// Draws the requested frames, and writes the requested files.
 class FrameRecorder
