@@ -299,7 +299,7 @@ private:
             statistics.unseen += of_level.unseen;
             moments.push_back(std::move(fit.moments));
         }
-        encode(levels, moments, normals);
+        encode(levels, moments, normals, sampled);
         statistics.fit_seconds = secondsSince(start);
         if (settings_.estimate_error)
             statistics.ao_error = estimateNoise(levels[sampled], samples, seen.moments);
@@ -307,12 +307,14 @@ private:
 
     /// Encode the moments of all levels. Clusters that several cuts draw have equal codes in all of them.
     void encode(std::span<const LevelArrays> levels, std::span<const std::vector<Moments>> moments,
-                const SourceNormals& normals)
+                const SourceNormals& normals, size_t sampled)
     {
+        const std::vector<std::vector<uint8_t>> is_interpolated = findInterpolated(levels, sampled);
         std::vector<uint32_t> finer_codes;
         for (size_t l = 0; l < levels.size(); ++l)
         {
-            std::vector<uint32_t> codes = encodeLevel(levels[l], moments[l], normals, finer_codes);
+            std::vector<uint32_t> codes =
+                encodeLevel(levels[l], moments[l], normals, is_interpolated[l], finer_codes);
             for (size_t i = 0; i < levels[l].parts.size(); ++i)
             {
                 const std::span<const LevelArrays::Part> parts = levels[l].parts;
@@ -324,10 +326,27 @@ private:
         }
     }
 
+    /// Return for each vertex of each level 1, if its moments are interpolated from the sampled level: about
+    /// its own normal, as it is stored. Those of others are about the source's normal.
+    static std::vector<std::vector<uint8_t>> findInterpolated(std::span<const LevelArrays> levels,
+                                                              size_t sampled)
+    {
+        std::vector<std::vector<uint8_t>> interpolated;
+        for (size_t l = 0; l < levels.size(); ++l)
+            interpolated.emplace_back(levels[l].positions.size(), l < sampled ? 1 : 0);
+        for (size_t l = sampled; l > 0; --l)
+            for (size_t v = 0; v < interpolated[l].size(); ++v)
+                if (const uint32_t finer = levels[l].finer_vertex[v]; finer != kInvalidIndex)
+                    interpolated[l - 1][finer] = interpolated[l][v];
+        return interpolated;
+    }
+
     /// Encode the moments of a level's vertices. Vertices with the moments of another one have its code.
-    /// finer_codes  of the next finer level
+    /// is_interpolated  of findInterpolated
+    /// finer_codes      of the next finer level
     static std::vector<uint32_t> encodeLevel(const LevelArrays& level, std::span<const Moments> moments,
                                              const SourceNormals& normals,
+                                             std::span<const uint8_t> is_interpolated,
                                              std::span<const uint32_t> finer_codes)
     {
         std::vector<uint32_t> codes(level.positions.size());
@@ -341,7 +360,7 @@ private:
                 return;
             }
             const Float3 normal = level.normals[v];
-            const Float3 exact = normals.find(level.positions[v], normal);
+            const Float3 exact = is_interpolated[v] != 0 ? normal : normals.find(level.positions[v], normal);
             codes[v] = encodeVisibility(moments[v].m0, turnWithNormal(moments[v].m1, exact, normal), normal);
         };
         tbb::parallel_for(size_t{0}, codes.size(), encodeVertex);
