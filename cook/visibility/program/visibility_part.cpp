@@ -32,7 +32,7 @@ using namespace formats;
 namespace
 {
 
-// Rays that compare the instances of all meshes, a 64th of those of the default quality.
+// Rays that compare the instances of all meshes, a thirtieth of those of the default quality.
 constexpr double kInstanceRays = 0x1p18;
 
 // Share of the rays on whose levels instances are compared and variation is measured.
