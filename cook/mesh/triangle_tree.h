@@ -25,7 +25,7 @@ inline double boxDistance2(Double3 point, const Box3& box)
     return x * x + y * y + z * z;
 }
 
-/// Return no more than that, in floats, which are faster: of a point that floats hold.
+/// Return a lower bound of the squared distance, in floats, which are faster than doubles.
 inline double boxDistance2(Float3 point, const Box3& box)
 {
     const float x = std::max(std::max(box.min.x - point.x, point.x - box.max.x), 0.0f);

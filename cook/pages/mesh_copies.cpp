@@ -14,11 +14,6 @@ using namespace formats;
 namespace
 {
 
-uint64_t alignedSize(uint64_t size)
-{
-    return (size + kChunkAlignment - 1) / kChunkAlignment * kChunkAlignment;
-}
-
 /// Tables of meshes, which copies are appended to.
 struct MeshTables
 {
@@ -93,7 +88,7 @@ void appendCopy(uint32_t of_mesh, MeshTables& tables)
                                    moveClusters(page.clusters);
                                    page.parents = appendRange(tables.page_parents, page.parents, movePage);
                                    page.offset = tables.page_bytes;
-                                   tables.page_bytes += alignedSize(page.stored_size);
+                                   tables.page_bytes += alignChunk(page.stored_size);
                                });
     for (uint32_t page = 0; page < mesh.pages.count; ++page)
         tables.page_sources.push_back(mesh.pages.first + page);
@@ -118,7 +113,7 @@ Result<MeshTables> makeTables(const PackView& part, std::span<const uint32_t> me
                       .page_parents = copyTable(part.pageParents()),
                       .authored_levels = copyTable(part.authoredLevels()),
                       .page_sources = {},
-                      .page_bytes = alignedSize(part.pageBytes().size())};
+                      .page_bytes = alignChunk(part.pageBytes().size())};
     for (const uint32_t mesh : meshes)
     {
         appendCopy(mesh, tables);
@@ -137,7 +132,7 @@ Status writePages(ContainerWriter& writer, const PackView& part, const MeshTable
     const auto append = [&](std::span<const std::byte> bytes) -> Status
     {
         HEARTH_TRY(writer.append(bytes));
-        return writer.append(std::span(kZeros).first(alignedSize(bytes.size()) - bytes.size()));
+        return writer.append(std::span(kZeros).first(alignChunk(bytes.size()) - bytes.size()));
     };
     HEARTH_TRY(append(part.pageBytes()));
     for (const uint32_t source : tables.page_sources)
@@ -157,7 +152,7 @@ uint64_t countCopyBytes(const PackView& part, uint32_t mesh)
                      record.groups.count * sizeof(GroupRecord) +
                      record.clusters.count * sizeof(ClusterRecord) + record.pages.count * sizeof(PageRecord);
     for (const PageRecord& page : recordsInRange(part.pages(), record.pages))
-        bytes += alignedSize(page.stored_size) + page.parents.count * sizeof(uint32_t);
+        bytes += alignChunk(page.stored_size) + page.parents.count * sizeof(uint32_t);
     return bytes;
 }
 

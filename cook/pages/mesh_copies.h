@@ -5,7 +5,6 @@
 #include "formats/pack/pack_view.h"
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <string>
 

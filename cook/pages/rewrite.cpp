@@ -168,7 +168,7 @@ Status writePages(ContainerWriter& writer, const PackView& view, const Visibilit
                 page.hash = hashBytes(padded);
             }
             page.offset = writer.chunkSize();
-            padded.resize((padded.size() + kChunkAlignment - 1) / kChunkAlignment * kChunkAlignment);
+            padded.resize(alignChunk(padded.size()));
             HEARTH_TRY(writer.append(padded));
         }
     }

@@ -174,7 +174,7 @@ Status ContainerReader::checkStructure()
     for (const ChunkEntry& entry : table_)
     {
         const std::string where = chunkName(entry.type, entry.index);
-        at = (at + kChunkAlignment - 1) / kChunkAlignment * kChunkAlignment;
+        at = alignChunk(at);
         if (entry.offset != at || entry.stored_size > header_.table_offset - at || entry.element_size == 0 ||
             entry.size % entry.element_size != 0 ||
             entry.size > kMaxChunkSize * (entry.codec == 0 ? 16 : 1) ||
@@ -185,7 +185,7 @@ Status ContainerReader::checkStructure()
             return fail(Issue::container_table, "sizes and codec do not agree", where);
         at += entry.stored_size;
     }
-    at = (at + kChunkAlignment - 1) / kChunkAlignment * kChunkAlignment;
+    at = alignChunk(at);
     if (at != header_.table_offset)
         return fail(Issue::container_table, "there are bytes that belong to no chunk");
 

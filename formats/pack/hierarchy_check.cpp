@@ -272,7 +272,7 @@ Status checkPageBytes(const PackView& view, BulkData bulk)
     for (size_t i = 0; i < view.pages().size(); ++i)
     {
         const PageRecord& page = view.pages()[i];
-        const size_t start = (end + kChunkAlignment - 1) / kChunkAlignment * kChunkAlignment;
+        const size_t start = alignChunk(end);
         if (page.offset != start)
             return makeError(view, Issue::meaning_order, "page", i,
                              "offset " + std::to_string(page.offset) + ", expected " + std::to_string(start));

@@ -29,6 +29,12 @@ inline constexpr uint32_t kVersionMinor = 0;
 inline constexpr uint32_t kEndianMark = 0x01020304;
 inline constexpr uint64_t kChunkAlignment = 64;
 
+/// Return the first position at or behind `position` where a chunk or a page can begin.
+constexpr uint64_t alignChunk(uint64_t position)
+{
+    return (position + kChunkAlignment - 1) / kChunkAlignment * kChunkAlignment;
+}
+
 /// Maximum size of a table in decoded bytes: indices and sums of ranges fit 32 bits.
 inline constexpr uint64_t kMaxTableBytes = uint64_t{1} << 32;
 /// Decoded bytes that the compressed tables of a file may have together, whatever they hold: equal records

@@ -116,11 +116,6 @@ bool advanceOffset(uint32_t& offset, uint64_t count)
     return true;
 }
 
-uint64_t alignedPageBytes(const PackView& clusters_part)
-{
-    return (clusters_part.pageBytes().size() + kChunkAlignment - 1) / kChunkAlignment * kChunkAlignment;
-}
-
 /// Compute the offsets of the source after `source`. Return false if a table grows past 32-bit indices.
 bool advanceOffsets(const Source& source, TableOffsets& next)
 {
@@ -129,7 +124,7 @@ bool advanceOffsets(const Source& source, TableOffsets& next)
     const PackView& deformed = source.skinning_part;
     next = source.offsets;
     next.strings = source.offsets.mesh_strings;
-    next.page_bytes += alignedPageBytes(meshes);
+    next.page_bytes += alignChunk(meshes.pageBytes().size());
     return advanceOffset(next.strings, meshes.strings().size()) && advanceOffset(next.assets, 1) &&
            advanceOffset(next.nodes, scene.nodes().size()) &&
            advanceOffset(next.cameras, scene.cameras().size()) &&
@@ -319,13 +314,17 @@ std::vector<ExtrasRecord> collectExtras(const Source& source)
     const std::vector<uint32_t> originals =
         findOriginalMeshes(source.import_part, source.instance_meshes, source.clusters_part.meshes().size());
     for (uint32_t mesh = 0; mesh < originals.size(); ++mesh)
+    {
+        if (originals[mesh] == mesh)
+            continue;
         for (ExtrasRecord record : own)
-            if (originals[mesh] != mesh && static_cast<ExtrasOwner>(record.owner) == ExtrasOwner::mesh &&
+            if (static_cast<ExtrasOwner>(record.owner) == ExtrasOwner::mesh &&
                 record.index == originals[mesh])
             {
                 record.index = mesh;
                 extras.push_back(record);
             }
+    }
     return extras;
 }
 
@@ -435,8 +434,7 @@ Status writePages(ContainerWriter& writer, std::span<const Source> sources)
         const std::span<const std::byte> pages = source.clusters_part.pageBytes();
         for (size_t at = 0; at < pages.size(); at += kCopyBytes)
             HEARTH_TRY(writer.append(pages.subspan(at, std::min(kCopyBytes, pages.size() - at))));
-        HEARTH_TRY(
-            writer.append(std::span(kZeros).first(alignedPageBytes(source.clusters_part) - pages.size())));
+        HEARTH_TRY(writer.append(std::span(kZeros).first(alignChunk(pages.size()) - pages.size())));
     }
     return writer.endChunk();
 }

@@ -123,8 +123,7 @@ private:
             PageRecord& page = hierarchy_.pages[stored_pages_++];
             page.offset = hierarchy_.page_bytes.size();
             hierarchy_.page_bytes.insert(hierarchy_.page_bytes.end(), bytes.begin(), bytes.end());
-            hierarchy_.page_bytes.resize((hierarchy_.page_bytes.size() + kChunkAlignment - 1) /
-                                         kChunkAlignment * kChunkAlignment);
+            hierarchy_.page_bytes.resize(alignChunk(hierarchy_.page_bytes.size()));
         }
         const size_t next =
             end < hierarchy_.pages.size() ? hierarchy_.pages[end].clusters.first : hierarchy_.clusters.size();

@@ -42,7 +42,8 @@ std::vector<MeshSampling> planMeshes(const PackView& scene, const PackView& part
     return planSampling(triangles, settings, originals, weights);
 }
 
-/// Return for each mesh of a neighbour the level that it is sampled on in its own bake.
+/// Return for each mesh of a neighbour the level that it is sampled on in its own bake, but for weights and
+/// copies, which take rays to be known.
 std::vector<uint32_t> planNeighbourLevels(const PackView& scene, const PackView& part,
                                           const SamplingSettings& settings)
 {

@@ -68,12 +68,7 @@ std::vector<uint32_t> findComparedMeshes(const BakedSource& source, uint64_t max
 /// Return how much larger an instance's surface is than its mesh's, apart from shear.
 double computeAreaScale(const Affine3& world_from_mesh)
 {
-    const Affine3d transform = widened(world_from_mesh);
-    const auto& m = transform.m;
-    const double determinant = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
-                               m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-                               m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
-    return std::pow(std::abs(determinant), 2.0 / 3);
+    return std::pow(std::abs(double{determinant(world_from_mesh)}), 2.0 / 3);
 }
 
 /// Instance, and its surroundings as points of its mesh see them.

@@ -100,7 +100,8 @@ Result<std::vector<std::optional<double>>> measureVariation(const BakedSource& s
         const MeshRecord& record = source.part.meshes()[mesh];
         const std::span<const MeshInstance> instances = source.instances[mesh];
         variation.emplace_back();
-        if (plan[mesh].level == 0 || !isBaked(source.scene, source.part, mesh) || isDeformed(record) || instances.empty())
+        if (plan[mesh].level == 0 || !isBaked(source.scene, source.part, mesh) || isDeformed(record) ||
+            instances.empty())
             continue;
         HEARTH_ASSIGN_OR_RETURN(const MeshPages pages,
                                 MeshPages::readLevel(source.part, mesh, source.plan[mesh].level));

@@ -418,8 +418,7 @@ private:
 struct Preparation
 {
     MeshCopies copies;
-    std::vector<double>
-        weights; ///< of planSampling; empty: all rays that are asked for are within the budget
+    std::vector<double> weights; ///< of planSampling; empty: the budget holds all rays that are asked for
 };
 
 /// Return whether a mesh gets fewer rays than it asks for.

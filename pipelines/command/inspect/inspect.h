@@ -91,7 +91,7 @@ struct MetaSummary
     std::vector<ClipSummary> clips;         ///< in the order of the animations
     std::vector<MessageSummary> messages;
     std::vector<std::string> dropped;
-    std::string no_bricks;               ///< why the cook made none; empty: it was told not to, or made some
+    std::string no_bricks;               ///< why the cook made none; empty: switched off, or it made some
     std::vector<MessageSummary> skipped; ///< errors of sources that the pack lacks
 };
 
