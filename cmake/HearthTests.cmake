@@ -40,13 +40,24 @@ function(hearth_test name)
 
   list(TRANSFORM ARG_SOURCES REPLACE ".*/" "" OUTPUT_VARIABLE files)
   list(JOIN files "," files)
-  add_test(NAME ${name} COMMAND ${ARG_LAUNCHER} $<TARGET_FILE:${program}> --sources=${files})
+  set(command ${ARG_LAUNCHER} $<TARGET_FILE:${program}> --sources=${files})
+  add_test(NAME ${name} COMMAND ${command})
+  set(hearth_command_of_${name} "${command}" PARENT_SCOPE)
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 600)
   endif()
   # a test cooks its own inputs, and does not use the user's cache
   set_tests_properties(${name} PROPERTIES
     ENVIRONMENT "HEARTH_CACHE=off" LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT} COST "${ARG_COST}")
+endfunction()
+
+# hearth_test_variant(NAME OF TEST ENVIRONMENT VARIABLE=VALUE ... [LABELS ...] [COST SECONDS]): a ctest entry that runs
+# an entry of the same folder once more, in another environment.
+function(hearth_test_variant name)
+  cmake_parse_arguments(ARG "" "OF;COST" "ENVIRONMENT;LABELS" ${ARGN})
+  add_test(NAME ${name} COMMAND ${hearth_command_of_${ARG_OF}})
+  set_tests_properties(${name} PROPERTIES
+    ENVIRONMENT "HEARTH_CACHE=off;${ARG_ENVIRONMENT}" LABELS "${ARG_LABELS}" TIMEOUT 600 COST "${ARG_COST}")
 endfunction()
 
 # hearth_test_program(NAME): a GoogleTest program without tests.

@@ -98,10 +98,17 @@ HEARTH_CONSTANT uint kCasterCounterclockwise = 0u;
 HEARTH_CONSTANT uint kCasterClockwise = 1u;
 HEARTH_CONSTANT uint kCasterDoubleSided = 2u;
 
-/// Material depth, shading and debug views.
+/// Value of ShadingPush::material: all materials, but not the sky.
+HEARTH_CONSTANT uint kEverySurface = 0xFFFFFFFFu;
+
+/// Depth of a material's number: exact in the 24 bits of a float's fraction.
+HEARTH_CONSTANT float kMaterialDepthStep = 1.52587890625e-5f;
+
+/// Material marks, shading and debug views.
 struct ShadingPush
 {
-    float depth; ///< at which the area is drawn: material id / 65535
+    float depth;   ///< at which the area is drawn: kMaterialDepthStep for each number
+    uint material; ///< number of the area's material, 0 for the sky; of the stencil, the bit that is marked
     uint debug_view;
     float depth_scale;  ///< metres that the depth view shows as half brightness
     uint sky_occlusion; ///< skyOcclusionBits

@@ -16,7 +16,9 @@ HEARTH_CONSTANT uint kConstantUnlit = 3;         ///< 1: the material is unlit
 HEARTH_CONSTANT uint kConstantDeformed = 4;      ///< source of the vertices of deformed meshes, below
 HEARTH_CONSTANT uint kConstantSkyVisibility = 5; ///< 1: some of the meshes have sky visibility
 HEARTH_CONSTANT uint kConstantLayers = 6;        ///< bits kLayer* (shading.h) of the material
-HEARTH_CONSTANT uint kConstantCount = 7;
+/// 1: shaders compare the numbers of materials; 0: the depth test does.
+HEARTH_CONSTANT uint kConstantComparesMaterial = 7;
+HEARTH_CONSTANT uint kConstantCount = 8;
 
 /// Source of the vertices of deformed meshes.
 HEARTH_CONSTANT uint kDeformedNone = 0; ///< no deformed meshes: rigid scenes and bins pay nothing for them

@@ -3,6 +3,7 @@
 #include "runtime/c/shadows.h"
 
 #include "runtime/frame/lod_curve.h"
+#include "runtime/gpu/frame/frame_text.h"
 #include "runtime/gpu/vulkan/pipelines.h"
 
 #include <algorithm>
@@ -61,8 +62,24 @@ Status check(const hearth_renderer& renderer, const hearth_frame& frame)
         return usage("poses is NULL");
     if (frame.shadow_sphere_count > 0 && frame.shadow_spheres == nullptr)
         return usage("shadow_spheres is NULL");
+    if (frame.occlusion > HEARTH_OCCLUSION_OFF)
+        return usage("occlusion has a value that this version does not know");
     if (frame.constant_sky > 1)
         return usage("constant_sky is neither 0 nor 1");
+    return success();
+}
+
+/// Check a frame of the scene with the targets.
+Status checkFrame(const hearth_scene& scene, const hearth_targets& targets, const hearth_frame* frame)
+{
+    if (targets.renderer != scene.renderer)
+        return usage("scene and targets are of different renderers");
+    HEARTH_TRY(checkStruct("frame", frame));
+    HEARTH_TRY(check(*scene.renderer, *frame));
+    if (frame->debug_view == HEARTH_VIEW_SHADOW_MAPS && scene.scene->shadows == nullptr)
+        return usage("HEARTH_VIEW_SHADOW_MAPS needs a scene with shadows");
+    if (shared::viewNeedsBricks(frame->debug_view) && scene.scene->bricks == nullptr)
+        return usage("HEARTH_VIEW_BRICKS, _BRICK_LIGHTING and _GI need a scene whose pack has bricks");
     return success();
 }
 
@@ -72,14 +89,23 @@ Status checkCall(const hearth_scene& scene, const hearth_targets* targets, VkCom
 {
     if (targets == nullptr || commands == VK_NULL_HANDLE)
         return usage("targets or commands is NULL");
-    if (targets->renderer != scene.renderer)
-        return usage("scene and targets are of different renderers");
-    HEARTH_TRY(checkStruct("frame", frame));
-    HEARTH_TRY(check(*scene.renderer, *frame));
-    if (frame->debug_view == HEARTH_VIEW_SHADOW_MAPS && scene.scene->shadows == nullptr)
-        return usage("HEARTH_VIEW_SHADOW_MAPS needs a scene with shadows");
-    if (shared::viewNeedsBricks(frame->debug_view) && scene.scene->bricks == nullptr)
-        return usage("HEARTH_VIEW_BRICKS, _BRICK_LIGHTING and _GI need a scene whose pack has bricks");
+    return checkFrame(scene, *targets, frame);
+}
+
+/// Check that the targets were created for what the frame asks.
+Status checkTargets(const hearth_scene& scene, const gpu::FrameTargets& targets, const hearth_frame& frame,
+                    bool in_parts)
+{
+    const gpu::TargetOptions& options = targets.options();
+    const bool gathers = scene.scene->bricks != nullptr && frame.constant_sky == 0;
+    if ((frame.cull_flags & HEARTH_CULL_OCCLUSION) != 0 && toOcclusion(frame.occlusion) > options.occlusion)
+        return usage("the targets were created for less occlusion culling than the frame has");
+    if (gathers && !options.gathers_light)
+        return usage("the targets were created for a scene without bricks");
+    const auto area = static_cast<gpu::ShadedArea>(frame.shaded_area);
+    if ((in_parts || gathers || gpu::shadesTiles(*scene.scene, area)) && !options.may_split)
+        return usage("the targets were created for a scene of few materials: frames in parts and with "
+                     "material tiles need HEARTH_TARGETS_SPLIT");
     return success();
 }
 
@@ -119,9 +145,10 @@ Result<shared::FrameView> makeView(const hearth_scene& scene, const gpu::FrameTa
                                 .up = toFloat3(frame.camera.up),
                                 .y_fov_rad = frame.camera.y_fov_rad,
                                 .z_near = frame.camera.z_near};
+    const uint32_t off = frame.occlusion == HEARTH_OCCLUSION_OFF ? uint32_t{HEARTH_CULL_OCCLUSION} : 0;
     shared::FrameView view =
         shared::makeFrameView(camera, targets.extent().width, targets.extent().height, frame.error_pixels,
-                              scene.scene->instance_count, frame.cull_flags);
+                              scene.scene->instance_count, frame.cull_flags & ~off);
     HEARTH_TRY(setCurve(view, frame));
     return view;
 }
@@ -174,6 +201,7 @@ Result<gpu::FrameInput> makeInput(const hearth_scene& scene, const gpu::FrameTar
                                        .ambient_occlusion = frame.ambient_occlusion,
                                        .specular_occlusion = frame.specular_occlusion,
                                        .gi = frame.constant_sky == 0},
+                           .occludes_by_last_frame = frame.occlusion == HEARTH_OCCLUSION_LAST_FRAME,
                            .moves = scene.moves,
                            .poses = scene.poses,
                            .shadow_spheres = scene.shadow_spheres,
@@ -220,6 +248,7 @@ hearth_result recordParts(const char* function, FrameProgress before, FrameProgr
     {
         HEARTH_TRY(checkCall(*scene, targets, commands, frame));
         HEARTH_TRY(checkOwner(*scene, *targets));
+        HEARTH_TRY(checkTargets(*scene, targets->targets, *frame, before != kNothing || after != kNothing));
         HEARTH_TRY(before == kNothing ? beginFrame(*scene, *frame) : checkOrder(*scene, targets, before));
         HEARTH_ASSIGN_OR_RETURN(const gpu::FrameInput input, makeInput(*scene, targets->targets, *frame));
         if (before == kNothing)
@@ -231,16 +260,6 @@ hearth_result recordParts(const char* function, FrameProgress before, FrameProgr
         return success();
     };
     return call(scene->renderer->message(), function, work);
-}
-
-hearth_image_state toC(const gpu::ImageState& state)
-{
-    return {state.layout, state.stages, state.access};
-}
-
-hearth_image_use toC(const gpu::ImageUse& use)
-{
-    return {toC(use.before), toC(use.after)};
 }
 
 } // namespace
@@ -272,17 +291,28 @@ hearth_result hearth_record_materials(hearth_scene* scene, hearth_targets* targe
                        commands, frame);
 }
 
-hearth_result hearth_part_get_info(uint32_t part, hearth_part_info* info)
+hearth_result hearth_describe_passes(const hearth_scene* scene, const hearth_targets* targets,
+                                     const hearth_frame* frame, char* json, size_t size, size_t* needed)
 {
-    return call({}, __func__,
+    if (scene == nullptr || targets == nullptr)
+        return HEARTH_ERROR_USAGE;
+    return call(scene->renderer->message(), __func__,
                 [&]() -> Status
                 {
-                    HEARTH_TRY(checkStruct("info", info));
-                    if (part > HEARTH_PART_MATERIALS)
-                        return usage("part is not one that this version knows");
-                    const gpu::PartImages images = gpu::partImages(static_cast<gpu::FramePart>(part));
-                    info->color = toC(images.color);
-                    info->visibility = toC(images.visibility);
+                    HEARTH_TRY(checkFrame(*scene, *targets, frame));
+                    if (needed == nullptr || (json == nullptr && size > 0))
+                        return usage("needed is NULL, or json is NULL and size is not 0");
+                    const gpu::FrameInput input{
+                        .view = {.flags = frame->cull_flags},
+                        .shading = {.debug_view = frame->debug_view,
+                                    .area = static_cast<gpu::ShadedArea>(frame->shaded_area),
+                                    .gi = frame->constant_sky == 0},
+                        .occludes_by_last_frame = frame->occlusion == HEARTH_OCCLUSION_LAST_FRAME};
+                    const std::string text = gpu::formatFrameJson(
+                        scene->renderer->renderer->describe(*scene->scene, targets->targets, input));
+                    *needed = text.size() + 1;
+                    if (size > 0)
+                        json[text.copy(json, size - 1)] = '\0';
                     return success();
                 });
 }

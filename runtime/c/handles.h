@@ -66,6 +66,13 @@ struct hearth_scene
     std::vector<hearth::gpu::EmissionScale> emissions;     ///< as moves
 };
 
+namespace hearth::c
+{
+
+gpu::OcclusionCulling toOcclusion(uint32_t occlusion); ///< HEARTH_OCCLUSION_*
+
+} // namespace hearth::c
+
 struct hearth_targets
 {
     hearth_renderer* renderer;

@@ -32,7 +32,7 @@
 
 /* Major version << 16 | minor version. A library accepts callers of its major version, up to its minor
  * version. */
-#define HEARTH_API_VERSION 0x00010007u
+#define HEARTH_API_VERSION 0x00010008u
 
 typedef int32_t hearth_result;
 enum
@@ -114,7 +114,9 @@ enum
     HEARTH_MEMORY_DEVICE = 0,  /* fastest for the GPU; not mapped */
     HEARTH_MEMORY_STAGING = 1, /* mapped and coherent, written by the CPU */
     /* mapped and coherent, read by the CPU; cached if the device has such memory */
-    HEARTH_MEMORY_READBACK = 2
+    HEARTH_MEMORY_READBACK = 2,
+    /* 1.8: attachments that never leave the tile; lazily allocated if the device has such memory */
+    HEARTH_MEMORY_TRANSIENT = 3
 };
 
 /* Request for the memory of one buffer or image. */
@@ -147,6 +149,16 @@ typedef struct hearth_memory_hooks
  * cannot be read. Called on the thread of the call that finds it; must not call the library. */
 typedef void (*hearth_message_callback)(void* user, const char* message);
 
+/* How shading finds the pixels of a material (1.8); the rendered frame is the same. */
+enum
+{
+    HEARTH_MATERIALS_DEPTH =
+        0, /* numbers of materials overwrite the depth, and the depth test compares them */
+    /* The shader compares numbers, and a stencil rejects early: the depth stays, which saves
+     * HEARTH_OCCLUSION_LAST_FRAME a pass. */
+    HEARTH_MATERIALS_ID = 1
+};
+
 typedef struct hearth_renderer_description
 {
     uint32_t struct_size;
@@ -158,7 +170,7 @@ typedef struct hearth_renderer_description
     const VkAllocationCallbacks* allocator; /* or NULL */
     VkPipelineCache pipeline_cache;         /* or VK_NULL_HANDLE */
     uint32_t features;                      /* HEARTH_FEATURE_* */
-    uint32_t reserved;                      /* 0 */
+    uint32_t materials;                     /* HEARTH_MATERIALS_* (1.8) */
     /* since 1.1 */
     hearth_memory_hooks memory;      /* or NULLs: the library allocates blocks with vkAllocateMemory */
     hearth_message_callback message; /* or NULL */
@@ -168,7 +180,7 @@ typedef struct hearth_renderer_description
 #define HEARTH_RENDERER_DESCRIPTION_INIT                                                                     \
     {                                                                                                        \
         sizeof(hearth_renderer_description), HEARTH_API_VERSION, NULL, VK_NULL_HANDLE, VK_NULL_HANDLE,       \
-            VK_NULL_HANDLE, NULL, VK_NULL_HANDLE, 0, 0, {NULL, NULL, NULL}, NULL, NULL                       \
+            VK_NULL_HANDLE, NULL, VK_NULL_HANDLE, 0, HEARTH_MATERIALS_DEPTH, {NULL, NULL, NULL}, NULL, NULL  \
     }
 
 /* Create pipelines, which takes seconds on some devices. The objects in the description outlive the renderer.
@@ -347,9 +359,43 @@ HEARTH_API hearth_result hearth_scene_get_shadow_counters(const hearth_scene* sc
  * scene, and a second one would overwrite the image. Recording another scene with them is an error.
  * hearth_record_prefetch, which draws nothing, accepts the targets of any scene. */
 
-/* width, height  pixels, 1 to the limit of the device
- * errors: USAGE, DEVICE_LIMIT, DEVICE_FAILED, OUT_OF_MEMORY. */
-HEARTH_API hearth_result hearth_targets_create(hearth_renderer* renderer, uint32_t width, uint32_t height,
+/* Occlusion culling of frames with HEARTH_CULL_OCCLUSION (1.8). */
+enum
+{
+    HEARTH_OCCLUSION_TWO_PHASE = 0, /* lossless */
+    /* Against the last frame's depth alone, in one render pass: objects that come into view may be missing for
+     * a frame. */
+    HEARTH_OCCLUSION_LAST_FRAME = 1,
+    HEARTH_OCCLUSION_OFF = 2 /* as without HEARTH_CULL_OCCLUSION */
+};
+
+enum
+{
+    HEARTH_TARGETS_KEEP_VISIBILITY = 1, /* the visibility buffer can be copied after a frame */
+    /* frames may be recorded in parts, or with HEARTH_SHADE_TILES, also where the scene does not need it */
+    HEARTH_TARGETS_SPLIT = 2
+};
+
+/* What frames with the targets may ask for (1.8): images that never leave a tile-based GPU's tile need no
+ * memory, and what no frame uses is not created. */
+typedef struct hearth_targets_description
+{
+    uint32_t struct_size;
+    uint32_t width, height;    /* pixels, 1 to the limit of the device */
+    uint32_t occlusion;        /* HEARTH_OCCLUSION_*: the first of them that a frame may have */
+    uint32_t flags;            /* HEARTH_TARGETS_* */
+    uint32_t reserved;         /* 0 */
+    const hearth_scene* scene; /* that they will show, which saves what it does not need; or NULL: any */
+} hearth_targets_description;
+
+#define HEARTH_TARGETS_DESCRIPTION_INIT                                                                      \
+    {                                                                                                        \
+        sizeof(hearth_targets_description), 0, 0, HEARTH_OCCLUSION_TWO_PHASE, 0, 0, NULL                     \
+    }
+
+/* errors: USAGE, DEVICE_LIMIT, DEVICE_FAILED, OUT_OF_MEMORY. */
+HEARTH_API hearth_result hearth_targets_create(hearth_renderer* renderer,
+                                               const hearth_targets_description* description,
                                                hearth_targets** targets);
 
 HEARTH_API hearth_result hearth_targets_destroy(hearth_targets* targets);
@@ -373,11 +419,15 @@ typedef struct hearth_image
 typedef struct hearth_targets_info
 {
     uint32_t struct_size;
-    uint32_t width, height;  /* pixels */
-    uint32_t reserved;       /* 0 */
-    hearth_image color;      /* R8G8B8A8_SRGB */
-    hearth_image visibility; /* R32_UINT: slot of the visible list << 7 | triangle, or 0xFFFFFFFF */
-    uint64_t allocated_bytes;
+    uint32_t width, height; /* pixels */
+    uint32_t reserved;      /* 0 */
+    hearth_image color;     /* R8G8B8A8_SRGB */
+    /* R32_UINT: slot of the visible list << 7 | triangle, or 0xFFFFFFFF. With HEARTH_TARGETS_KEEP_VISIBILITY;
+     * else `image` is VK_NULL_HANDLE. */
+    hearth_image visibility;
+    uint64_t allocated_bytes; /* without transient_bytes */
+    uint64_t
+        transient_bytes; /* of attachments on the tile only, which the device allocates lazily, if ever */
 } hearth_targets_info;
 
 #define HEARTH_IMAGE_INIT                                                                                    \
@@ -389,14 +439,14 @@ typedef struct hearth_targets_info
     }
 #define HEARTH_TARGETS_INFO_INIT                                                                             \
     {                                                                                                        \
-        sizeof(hearth_targets_info), 0, 0, 0, HEARTH_IMAGE_INIT, HEARTH_IMAGE_INIT, 0                        \
+        sizeof(hearth_targets_info), 0, 0, 0, HEARTH_IMAGE_INIT, HEARTH_IMAGE_INIT, 0, 0                     \
     }
 
 HEARTH_API hearth_result hearth_targets_get_info(const hearth_targets* targets, hearth_targets_info* info);
 
 /* ---- Frames ---- */
 
-/* Culling tests; the rendered frame is the same. */
+/* Culling tests; the rendered frame is the same, but for HEARTH_OCCLUSION_LAST_FRAME. */
 enum
 {
     HEARTH_CULL_INSTANCES = 1,
@@ -457,7 +507,8 @@ enum
     HEARTH_SHADE_TILES = 2
 };
 
-/* Timestamps: one at the beginning of a frame and one after each pass. */
+/* Timestamps: one at the beginning of a frame and one after each pass, never within a render pass. Where shading
+ * follows the visibility buffer in one render pass, the pass counts as shading. */
 enum
 {
     HEARTH_TIMESTAMP_BEGIN = 0,
@@ -469,9 +520,8 @@ enum
     HEARTH_TIMESTAMP_LATE_CULL = 5,
     HEARTH_TIMESTAMP_VISIBILITY = 6,
     HEARTH_TIMESTAMP_MATERIAL_TILES = 7, /* includes gathering (GI) */
-    HEARTH_TIMESTAMP_MATERIAL_DEPTH = 8,
-    HEARTH_TIMESTAMP_SHADING = 9,
-    HEARTH_TIMESTAMP_COUNT = 10
+    HEARTH_TIMESTAMP_SHADING = 8,
+    HEARTH_TIMESTAMP_COUNT = 9
 };
 
 /* Perspective camera. The far plane is infinite, depth = z_near / distance along the view. */
@@ -580,13 +630,15 @@ typedef struct hearth_frame
     const hearth_emission_scale* emissions; /* all of this frame; read while recording */
     uint32_t light_count;
     uint32_t emission_count; /* up to 8 */
+    /* since 1.8 */
+    uint32_t occlusion; /* HEARTH_OCCLUSION_*, with HEARTH_CULL_OCCLUSION */
 } hearth_frame;
 
 #define HEARTH_FRAME_INIT                                                                                    \
     {                                                                                                        \
         sizeof(hearth_frame), HEARTH_CULL_EVERYTHING, {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 0.8f, 0.01f}, 1,    \
             NULL, 0, 0, NULL, HEARTH_VIEW_FINAL, 1, HEARTH_SHADE_AUTOMATIC, 0, NULL, VK_NULL_HANDLE, NULL,   \
-            0, HEARTH_AMBIENT_OCCLUSION_EXACT, HEARTH_SPECULAR_OCCLUSION_FIT, 0, NULL, NULL, 0, 0            \
+            0, HEARTH_AMBIENT_OCCLUSION_EXACT, HEARTH_SPECULAR_OCCLUSION_FIT, 0, NULL, NULL, 0, 0, 0         \
     }
 
 /* ---- Tables of a pack (1.6), on any thread ----
@@ -774,7 +826,7 @@ enum
 
 /* Record a frame in parts, in place of hearth_record_frame: all three in this order, with the same targets
  * and frame, in one command buffer or in several of one queue. They synchronize with each other;
- * hearth_part_get_info returns the image states before and after each. In scenes of few materials the parts
+ * hearth_targets_get_part_info returns the image states before and after each. In scenes of few materials the parts
  * cost a tile-based GPU more: hearth_record_frame keeps the visibility buffer in the tile. errors: USAGE. */
 HEARTH_API hearth_result hearth_record_cull(hearth_scene* scene, hearth_targets* targets,
                                             VkCommandBuffer commands, const hearth_frame* frame);
@@ -809,8 +861,17 @@ typedef struct hearth_part_info
         }                                                                                                    \
     }
 
-/* part  HEARTH_PART_*; the same for all renderers. errors: USAGE. */
-HEARTH_API hearth_result hearth_part_get_info(uint32_t part, hearth_part_info* info);
+/* part  HEARTH_PART_*; the same for all frames with the targets. errors: USAGE. */
+HEARTH_API hearth_result hearth_targets_get_part_info(const hearth_targets* targets, uint32_t part,
+                                                      hearth_part_info* info);
+
+/* Describe the passes of a frame as JSON (1.8): what each loads, reads, writes and stores, bytes a pixel with
+ * merged subpasses ("low") and without ("high"), and what tile-based GPUs punish. Records nothing. Writes at
+ * most `size` bytes with the terminating zero; `needed` gets the size of the whole text.
+ * json  or NULL, with size 0. errors: USAGE. */
+HEARTH_API hearth_result hearth_describe_passes(const hearth_scene* scene, const hearth_targets* targets,
+                                                const hearth_frame* frame, char* json, size_t size,
+                                                size_t* needed);
 
 /* Record the page requests of a frame of a scene with a budget, without drawing. Moves nothing. To prefetch a
  * view, record such frames until settled_serial reaches the serial of the first of them. errors: USAGE. */

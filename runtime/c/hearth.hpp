@@ -210,11 +210,11 @@ class Targets : public Handle<hearth_targets, hearth_targets_destroy>
 public:
     using Handle::Handle;
 
-    [[nodiscard]] static hearth_result create(const Renderer& renderer, uint32_t width, uint32_t height,
-                                              Targets& targets)
+    [[nodiscard]] static hearth_result create(const Renderer& renderer,
+                                              const hearth_targets_description& description, Targets& targets)
     {
         hearth_targets* handle = nullptr;
-        const hearth_result result = hearth_targets_create(renderer.get(), width, height, &handle);
+        const hearth_result result = hearth_targets_create(renderer.get(), &description, &handle);
         if (result == HEARTH_OK)
             targets.reset(handle);
         return result;
@@ -223,6 +223,11 @@ public:
     [[nodiscard]] hearth_result getInfo(hearth_targets_info& info) const
     {
         return hearth_targets_get_info(get(), &info);
+    }
+
+    [[nodiscard]] hearth_result getPartInfo(uint32_t part, hearth_part_info& info) const
+    {
+        return hearth_targets_get_part_info(get(), part, &info);
     }
 };
 
@@ -279,6 +284,19 @@ public:
                                                 const hearth_frame& frame)
     {
         return hearth_record_materials(get(), targets.get(), commands, &frame);
+    }
+    /// The passes of a frame as JSON.
+    [[nodiscard]] hearth_result describePasses(const Targets& targets, const hearth_frame& frame,
+                                               std::string& json) const
+    {
+        size_t needed = 0;
+        hearth_result result = hearth_describe_passes(get(), targets.get(), &frame, nullptr, 0, &needed);
+        if (result != HEARTH_OK)
+            return result;
+        json.resize(needed);
+        result = hearth_describe_passes(get(), targets.get(), &frame, json.data(), json.size(), &needed);
+        json.resize(needed - 1); // without the zero
+        return result;
     }
     [[nodiscard]] hearth_result recordPrefetch(Targets& targets, VkCommandBuffer commands,
                                                const hearth_frame& frame)

@@ -41,8 +41,8 @@ Status check(const hearth_renderer_description& description)
     if (description.get_instance_proc_addr == nullptr || description.instance == VK_NULL_HANDLE ||
         description.physical_device == VK_NULL_HANDLE || description.device == VK_NULL_HANDLE)
         return usage("get_instance_proc_addr, instance, physical_device or device is missing");
-    if ((description.features & ~kFeatures) != 0 || description.reserved != 0)
-        return usage("features has bits that this version does not know, or reserved is not 0");
+    if ((description.features & ~kFeatures) != 0 || description.materials > HEARTH_MATERIALS_ID)
+        return usage("features has bits, or materials a value, that this version does not know");
     if ((description.memory.allocate == nullptr) != (description.memory.free == nullptr))
         return usage("memory has one function and not the other");
     return success();
@@ -89,7 +89,10 @@ Result<std::unique_ptr<hearth_renderer>> create(const hearth_renderer_descriptio
 {
     auto made = std::make_unique<hearth_renderer>();
     made->memory = description.memory;
-    HEARTH_ASSIGN_OR_RETURN(made->renderer, gpu::Renderer::create(toDevice(description, made->memory)));
+    HEARTH_ASSIGN_OR_RETURN(
+        made->renderer,
+        gpu::Renderer::create(toDevice(description, made->memory),
+                              {.materials = static_cast<gpu::MaterialTest>(description.materials)}));
     made->shows_overdraw = (description.features & HEARTH_FEATURE_OVERDRAW) != 0;
     if (made->shows_overdraw)
         HEARTH_TRY(made->renderer->prepareOverdraw());

@@ -50,7 +50,6 @@ static_assert(equal(HEARTH_TIMESTAMP_PYRAMID, gpu::kTimestampPyramid));
 static_assert(equal(HEARTH_TIMESTAMP_LATE_CULL, gpu::kTimestampLateCull));
 static_assert(equal(HEARTH_TIMESTAMP_VISIBILITY, gpu::kTimestampVisibility));
 static_assert(equal(HEARTH_TIMESTAMP_MATERIAL_TILES, gpu::kTimestampMaterialTiles));
-static_assert(equal(HEARTH_TIMESTAMP_MATERIAL_DEPTH, gpu::kTimestampMaterialDepth));
 static_assert(equal(HEARTH_TIMESTAMP_SHADING, gpu::kTimestampShading));
 static_assert(equal(HEARTH_TIMESTAMP_COUNT, gpu::kTimestampCount));
 
@@ -61,6 +60,14 @@ constexpr bool equal(int c, gpu::MemoryKind kind)
 static_assert(equal(HEARTH_MEMORY_DEVICE, gpu::MemoryKind::device));
 static_assert(equal(HEARTH_MEMORY_STAGING, gpu::MemoryKind::staging));
 static_assert(equal(HEARTH_MEMORY_READBACK, gpu::MemoryKind::readback));
+static_assert(equal(HEARTH_MEMORY_TRANSIENT, gpu::MemoryKind::transient));
+
+constexpr bool equal(int c, gpu::MaterialTest test)
+{
+    return c == static_cast<int>(test);
+}
+static_assert(equal(HEARTH_MATERIALS_DEPTH, gpu::MaterialTest::depth));
+static_assert(equal(HEARTH_MATERIALS_ID, gpu::MaterialTest::id));
 
 constexpr bool equal(int c, gpu::FramePart part)
 {

@@ -1,26 +1,78 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/c/handles.h"
 
+#include "runtime/gpu/frame/frame_parts.h"
+
 using namespace hearth;
 using namespace hearth::c;
 
 namespace
 {
 
-/// note: must match the dependencies in runtime/gpu/passes/frame_passes.cpp.
-hearth_image makeImage(const gpu::Image& image)
+hearth_image_state toC(const gpu::ImageState& state)
 {
-    return {
-        .image = image.handle.get(),
-        .format = image.format,
-        .before = {VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT},
-        .after = {VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_TRANSFER_BIT,
-                  VK_ACCESS_TRANSFER_READ_BIT}};
+    return {state.layout, state.stages, state.access};
+}
+
+hearth_image_use toC(const gpu::ImageUse& use)
+{
+    return {toC(use.before), toC(use.after)};
+}
+
+/// Return an image of the targets before and after a whole frame.
+hearth_image makeImage(const gpu::Image& image, const gpu::ImageUse& drawn, const gpu::ImageUse& shaded)
+{
+    // a part that does not touch the image has no stages
+    const gpu::ImageUse& first = drawn.before.stages != 0 ? drawn : shaded;
+    return {.image = image.handle.get(),
+            .format = image.format,
+            .before = toC(first.before),
+            .after = toC(shaded.after)};
+}
+
+Status check(const hearth_renderer& renderer, const hearth_targets_description& description)
+{
+    if (description.width == 0 || description.height == 0)
+        return usage("width or height is 0");
+    if (description.occlusion > HEARTH_OCCLUSION_OFF)
+        return usage("occlusion has a value that this version does not know");
+    if ((description.flags & ~uint32_t{HEARTH_TARGETS_KEEP_VISIBILITY | HEARTH_TARGETS_SPLIT}) != 0 ||
+        description.reserved != 0)
+        return usage("flags has bits that this version does not know, or reserved is not 0");
+    if (description.scene != nullptr && description.scene->renderer != &renderer)
+        return usage("the scene is of another renderer");
+    return success();
+}
+
+gpu::TargetOptions toOptions(const hearth_targets_description& description)
+{
+    gpu::TargetOptions options{.occlusion = toOcclusion(description.occlusion),
+                               .keeps_visibility = (description.flags & HEARTH_TARGETS_KEEP_VISIBILITY) != 0};
+    if (description.scene == nullptr)
+        return options;
+    const gpu::Scene& scene = *description.scene->scene;
+    options.gathers_light = scene.bricks != nullptr;
+    options.may_split = options.gathers_light || (description.flags & HEARTH_TARGETS_SPLIT) != 0 ||
+                        gpu::shadesTiles(scene, gpu::ShadedArea::automatic);
+    return options;
 }
 
 } // namespace
 
-hearth_result hearth_targets_create(hearth_renderer* renderer, uint32_t width, uint32_t height,
+gpu::OcclusionCulling hearth::c::toOcclusion(uint32_t occlusion)
+{
+    switch (occlusion)
+    {
+    case HEARTH_OCCLUSION_OFF:
+        return gpu::OcclusionCulling::off;
+    case HEARTH_OCCLUSION_LAST_FRAME:
+        return gpu::OcclusionCulling::last_frame;
+    default:
+        return gpu::OcclusionCulling::two_phase;
+    }
+}
+
+hearth_result hearth_targets_create(hearth_renderer* renderer, const hearth_targets_description* description,
                                     hearth_targets** targets)
 {
     if (renderer == nullptr)
@@ -30,10 +82,12 @@ hearth_result hearth_targets_create(hearth_renderer* renderer, uint32_t width, u
                 {
                     if (targets == nullptr)
                         return usage("targets is NULL");
-                    if (width == 0 || height == 0)
-                        return usage("width or height is 0");
-                    HEARTH_ASSIGN_OR_RETURN(gpu::FrameTargets made,
-                                            renderer->renderer->createTargets({width, height}));
+                    HEARTH_TRY(checkStruct("description", description));
+                    HEARTH_TRY(check(*renderer, *description));
+                    HEARTH_ASSIGN_OR_RETURN(
+                        gpu::FrameTargets made,
+                        renderer->renderer->createTargets({description->width, description->height},
+                                                          toOptions(*description)));
                     *targets = new hearth_targets{renderer, std::move(made)};
                     ++renderer->targets_count;
                     return success();
@@ -56,13 +110,39 @@ hearth_result hearth_targets_get_info(const hearth_targets* targets, hearth_targ
                 [&]() -> Status
                 {
                     HEARTH_TRY(checkStruct("info", info));
+                    const gpu::FrameTargets& t = targets->targets;
+                    const bool keeps = t.options().keeps_visibility;
+                    const gpu::PartImages drawn = partImages(gpu::FramePart::visibility, keeps);
+                    const gpu::PartImages shaded = partImages(gpu::FramePart::materials, keeps);
                     *info = {.struct_size = sizeof(*info),
-                             .width = targets->targets.extent().width,
-                             .height = targets->targets.extent().height,
+                             .width = t.extent().width,
+                             .height = t.extent().height,
                              .reserved = 0,
-                             .color = makeImage(targets->targets.color()),
-                             .visibility = makeImage(targets->targets.visibility()),
-                             .allocated_bytes = targets->targets.allocatedBytes()};
+                             .color = makeImage(t.color(), drawn.color, shaded.color),
+                             .visibility = makeImage(t.visibility(), drawn.visibility, shaded.visibility),
+                             .allocated_bytes = t.allocatedBytes(),
+                             .transient_bytes = t.transientBytes()};
+                    if (!keeps)
+                        info->visibility.image = VK_NULL_HANDLE;
+                    return success();
+                });
+}
+
+hearth_result hearth_targets_get_part_info(const hearth_targets* targets, uint32_t part,
+                                           hearth_part_info* info)
+{
+    if (targets == nullptr)
+        return HEARTH_ERROR_USAGE;
+    return call(targets->renderer->message(), __func__,
+                [&]() -> Status
+                {
+                    HEARTH_TRY(checkStruct("info", info));
+                    if (part > HEARTH_PART_MATERIALS)
+                        return usage("part is not one that this version knows");
+                    const gpu::PartImages images = gpu::partImages(
+                        static_cast<gpu::FramePart>(part), targets->targets.options().keeps_visibility);
+                    info->color = toC(images.color);
+                    info->visibility = toC(images.visibility);
                     return success();
                 });
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/renderer.h"
 
+#include "runtime/gpu/frame/frame_plan.h"
 #include "runtime/gpu/passes/frame_update.h"
 #include "runtime/gpu/vulkan/debug_label.h"
 
@@ -16,10 +17,36 @@ void writeTimestamp(const Device& device, VkCommandBuffer commands, VkQueryPool 
         device.vk.vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, pool, which);
 }
 
+OcclusionCulling occlusionCulling(const FrameInput& input)
+{
+    if ((input.view.flags & shared::kCullOcclusion) == 0)
+        return OcclusionCulling::off;
+    return input.occludes_by_last_frame ? OcclusionCulling::last_frame : OcclusionCulling::two_phase;
+}
+
 /// True if the frame is culled and drawn in two phases.
 bool hasTwoPhases(const FrameInput& input)
 {
-    return (input.view.flags & shared::kCullOcclusion) != 0;
+    return occlusionCulling(input) == OcclusionCulling::two_phase;
+}
+
+/// First or only culling phase of a frame. Without a second one, what the last frame occludes is left out.
+uint32_t firstPhase(const FrameInput& input)
+{
+    return occlusionCulling(input) == OcclusionCulling::off ? shared::kPhaseWhole : shared::kPhaseEarly;
+}
+
+FrameConfiguration configure(const Scene& scene, const FrameTargets& targets, const FrameInput& input,
+                             bool in_parts)
+{
+    return {.occlusion = occlusionCulling(input),
+            .material_tiles = shadesTiles(scene, input.shading.area),
+            .gathers_light = usesGi(scene, input.shading),
+            .in_parts = in_parts,
+            .keeps_visibility = targets.options().keeps_visibility,
+            .shows_overdraw = input.shading.debug_view == shared::kViewOverdraw,
+            .has_shadows = scene.shadows != nullptr,
+            .lights_bricks = scene.bricks != nullptr};
 }
 
 /// Pass the moves and changes of the frame to the shadow cache, before the frame is recorded.
@@ -32,27 +59,44 @@ void trackShadows(const Scene& scene, std::span<const InstanceMove> moves)
 
 } // namespace
 
-Result<std::unique_ptr<Renderer>> Renderer::create(const DeviceDescription& description)
+Result<std::unique_ptr<Renderer>> Renderer::create(const DeviceDescription& description,
+                                                   const RendererOptions& options)
 {
     std::unique_ptr<Renderer> renderer(new Renderer);
     Renderer& r = *renderer;
     HEARTH_ASSIGN_OR_RETURN(r.device_, makeDevice(description));
     HEARTH_ASSIGN_OR_RETURN(r.layouts_, DrawLayouts::create(r.device_));
-    HEARTH_ASSIGN_OR_RETURN(r.passes_, FramePasses::create(r.device_));
+    HEARTH_ASSIGN_OR_RETURN(r.passes_, FramePasses::create(r.device_, options.materials));
     HEARTH_ASSIGN_OR_RETURN(r.cull_, CullPass::create(r.device_, r.layouts_));
     HEARTH_ASSIGN_OR_RETURN(r.page_requests_, PageRequestPass::create(r.device_));
     HEARTH_ASSIGN_OR_RETURN(r.pyramid_, PyramidPass::create(r.device_, r.layouts_));
     HEARTH_ASSIGN_OR_RETURN(r.material_tiles_, MaterialTilesPass::create(r.device_, r.layouts_));
-    const VkRenderPass render_pass = r.passes_.whole.get();
-    HEARTH_ASSIGN_OR_RETURN(r.visibility_, BinPass::createVisibility(r.device_, r.layouts_, render_pass));
-    HEARTH_ASSIGN_OR_RETURN(r.material_depth_, MaterialDepthPass::create(r.device_, r.layouts_, render_pass));
-    HEARTH_ASSIGN_OR_RETURN(r.shading_, ShadingPass::create(r.device_, r.layouts_, render_pass));
+    HEARTH_ASSIGN_OR_RETURN(r.visibility_,
+                            BinPass::createVisibility(r.device_, r.layouts_, r.passes_.anyPass()));
+    HEARTH_ASSIGN_OR_RETURN(r.material_marks_, MaterialMarksPass::create(r.device_, r.layouts_, r.passes_));
+    HEARTH_ASSIGN_OR_RETURN(r.shading_, ShadingPass::create(r.device_, r.layouts_, r.passes_));
     return renderer;
 }
 
-Result<FrameTargets> Renderer::createTargets(VkExtent2D extent) const
+Result<FrameTargets> Renderer::createTargets(VkExtent2D extent, const TargetOptions& options) const
 {
-    return FrameTargets::create(device_, passes_.whole.get(), layouts_, extent);
+    return FrameTargets::create(device_, passes_, layouts_, extent, options);
+}
+
+FrameDescription Renderer::describe(const Scene& scene, const FrameTargets& targets, const FrameInput& input,
+                                    bool in_parts) const
+{
+    FrameConfiguration configuration = configure(scene, targets, input, in_parts);
+    configuration.materials = passes_.materials();
+    return describeFrame(configuration);
+}
+
+const FramePlan& Renderer::plan(const Scene& scene, const FrameTargets& targets, const FrameInput& input,
+                                bool in_parts) const
+{
+    const FrameConfiguration configuration = configure(scene, targets, input, in_parts);
+    HEARTH_ASSERT(targets.allows(configuration));
+    return passes_.plan(configuration);
 }
 
 Result<std::unique_ptr<Scene>> Renderer::upload(const formats::PackView& pack, VkCommandBuffer commands,
@@ -115,7 +159,7 @@ Status Renderer::prepareOverdraw()
 {
     if (!overdraw_)
     {
-        HEARTH_ASSIGN_OR_RETURN(overdraw_, BinPass::createOverdraw(device_, layouts_, passes_.whole.get()));
+        HEARTH_ASSIGN_OR_RETURN(overdraw_, BinPass::createOverdraw(device_, layouts_, passes_.anyPass()));
     }
     return skinning_ ? overdraw_->prepareDeformed(device_) : success();
 }
@@ -124,18 +168,9 @@ void Renderer::record(VkCommandBuffer commands, const Scene& scene, FrameTargets
                       const FrameInput& input) const
 {
     recordCull(commands, scene, targets, input);
-    if (shadesTiles(scene, input.shading.area) || usesGi(scene, input.shading))
-    {
-        recordVisibility(commands, scene, targets, input);
-        recordMaterials(commands, scene, targets, input);
-        return;
-    }
-    recordEarly(commands, scene, targets, input);
-    beginPass(commands, targets, (hasTwoPhases(input) ? passes_.late : passes_.whole).get());
-    drawVisibility(commands, scene, input);
-    writeTimestamp(device_, commands, input.timestamps, kTimestampVisibility);
-    writeTimestamp(device_, commands, input.timestamps, kTimestampMaterialTiles);
-    recordShading(commands, scene, targets, input);
+    PassRecorder passes(device_, commands, plan(scene, targets, input, false), targets);
+    recordVisible(commands, scene, targets, input, passes);
+    recordShaded(commands, scene, targets, input, passes);
 }
 
 void Renderer::recordCull(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
@@ -154,9 +189,8 @@ void Renderer::recordCull(VkCommandBuffer commands, const Scene& scene, const Fr
         recordShadows(commands, scene, targets, view, input.shadow_spheres);
     writeTimestamp(device_, commands, input.timestamps, kTimestampShadows);
     const DebugLabel label(device_, commands, "cull");
-    cull_.record(device_, commands, scene, targets,
-                 hasTwoPhases(input) ? shared::kPhaseEarly : shared::kPhaseWhole);
-    recordSkinning(commands, scene, hasTwoPhases(input) ? shared::kPhaseEarly : shared::kPhaseWhole);
+    cull_.record(device_, commands, scene, targets, firstPhase(input));
+    recordSkinning(commands, scene, firstPhase(input));
     if (scene.stream != nullptr)
         recordRequests(commands, scene);
     writeTimestamp(device_, commands, input.timestamps, kTimestampCull);
@@ -165,31 +199,15 @@ void Renderer::recordCull(VkCommandBuffer commands, const Scene& scene, const Fr
 void Renderer::recordVisibility(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
                                 const FrameInput& input) const
 {
-    recordEarly(commands, scene, targets, input);
-    beginPass(commands, targets,
-              (hasTwoPhases(input) ? passes_.late_visibility : passes_.whole_visibility).get());
-    drawVisibility(commands, scene, input);
-    endAtVisibility(commands);
-    writeTimestamp(device_, commands, input.timestamps, kTimestampVisibility);
+    PassRecorder passes(device_, commands, plan(scene, targets, input, true), targets);
+    recordVisible(commands, scene, targets, input, passes);
 }
 
 void Renderer::recordMaterials(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
                                const FrameInput& input) const
 {
-    if (shadesTiles(scene, input.shading.area))
-    {
-        const DebugLabel label(device_, commands, "material tiles");
-        material_tiles_.record(device_, commands, scene, targets);
-    }
-    if (usesGi(scene, input.shading))
-    {
-        const DebugLabel label(device_, commands, "gather light");
-        for (uint32_t i = 0; i < input.gathers; ++i)
-            gather_->record(device_, commands, scene, targets, input.view, scene.bricks->quick_frames > 0);
-    }
-    writeTimestamp(device_, commands, input.timestamps, kTimestampMaterialTiles);
-    beginPass(commands, targets, passes_.shading.get());
-    recordShading(commands, scene, targets, input);
+    PassRecorder passes(device_, commands, plan(scene, targets, input, true), targets);
+    recordShaded(commands, scene, targets, input, passes);
 }
 
 void Renderer::recordPrefetch(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
@@ -246,104 +264,121 @@ void Renderer::recordRequests(VkCommandBuffer commands, const Scene& scene) cons
     scene.stream->recordFeedback(commands, scene.buffers);
 }
 
-void Renderer::beginPass(VkCommandBuffer commands, const FrameTargets& targets,
-                         VkRenderPass render_pass) const
-{
-    const VkRect2D area{{0, 0}, targets.extent()};
-    VkClearValue clear[2] = {};
-    clear[kVisibility].color.uint32[0] = shared::kVisibilitySky;
-    clear[kDepth].depthStencil.depth = 0; // at infinity
-    VkRenderPassBeginInfo begin{};
-    begin.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
-    begin.renderPass = render_pass;
-    begin.framebuffer = targets.framebuffer();
-    begin.renderArea = area;
-    begin.clearValueCount = 2;
-    begin.pClearValues = clear;
-    device_.vk.vkCmdBeginRenderPass(commands, &begin, VK_SUBPASS_CONTENTS_INLINE);
-    const VkViewport viewport{
-        0, 0, static_cast<float>(area.extent.width), static_cast<float>(area.extent.height), 0, 1};
-    device_.vk.vkCmdSetViewport(commands, 0, 1, &viewport);
-    device_.vk.vkCmdSetScissor(commands, 0, 1, &area);
-}
-
 /// Record the early phase: draw the clusters that the last frame's depth does not occlude, build the pyramid,
 /// then cull the rest against it. Does nothing if the frame has one phase.
 void Renderer::recordEarly(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
-                           const FrameInput& input) const
+                           const FrameInput& input, PassRecorder& passes) const
 {
     const bool has_two_phases = hasTwoPhases(input);
     if (has_two_phases)
     {
         const DebugLabel label(device_, commands, "early visibility");
-        beginPass(commands, targets, passes_.early.get());
+        passes.begin(FrameStep::early_visibility);
         visibility_.record(device_, commands, layouts_, scene, shared::kPhaseEarly);
-        endAtVisibility(commands);
+        passes.end();
     }
     writeTimestamp(device_, commands, input.timestamps, kTimestampEarlyVisibility);
     if (has_two_phases)
     {
-        const DebugLabel label(device_, commands, "pyramid");
-        pyramid_.record(device_, commands, targets);
-        targets.setPyramidView(shared::makeOcclusionView(input.view));
+        passes.begin(FrameStep::early_pyramid);
+        recordPyramid(commands, targets, input);
     }
     writeTimestamp(device_, commands, input.timestamps, kTimestampPyramid);
     if (has_two_phases)
     {
         const DebugLabel label(device_, commands, "late cull");
+        passes.begin(FrameStep::late_cull);
         cull_.record(device_, commands, scene, targets, shared::kPhaseLate);
         recordSkinning(commands, scene, shared::kPhaseLate);
+        passes.end();
     }
     writeTimestamp(device_, commands, input.timestamps, kTimestampLateCull);
 }
 
-/// Record in the first subpass.
-void Renderer::drawVisibility(VkCommandBuffer commands, const Scene& scene, const FrameInput& input) const
+void Renderer::recordPyramid(VkCommandBuffer commands, FrameTargets& targets, const FrameInput& input) const
 {
-    const DebugLabel label(device_, commands, "visibility");
-    visibility_.record(device_, commands, layouts_, scene,
-                       hasTwoPhases(input) ? shared::kPhaseLate : shared::kPhaseWhole);
+    const DebugLabel label(device_, commands, "pyramid");
+    pyramid_.record(device_, commands, targets);
+    targets.setPyramidView(shared::makeOcclusionView(input.view));
 }
 
-/// End the render pass. The other two subpasses exist for compatibility and store nothing.
-void Renderer::endAtVisibility(VkCommandBuffer commands) const
+/// Record up to the visibility buffer. Leaves its render pass open if shading follows there.
+void Renderer::recordVisible(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
+                             const FrameInput& input, PassRecorder& passes) const
 {
-    device_.vk.vkCmdNextSubpass(commands, VK_SUBPASS_CONTENTS_INLINE);
-    device_.vk.vkCmdNextSubpass(commands, VK_SUBPASS_CONTENTS_INLINE);
-    device_.vk.vkCmdEndRenderPass(commands);
-}
-
-/// Draw the clusters of both phases; the late draws are empty if culling had one phase.
-void Renderer::recordOverdraw(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets) const
-{
-    HEARTH_ASSERT(overdraw_);
-    const VkClearAttachment black{VK_IMAGE_ASPECT_COLOR_BIT, 0, {.color = {.float32 = {0, 0, 0, 1}}}};
-    const VkClearRect everywhere{{{0, 0}, targets.extent()}, 0, 1};
-    device_.vk.vkCmdClearAttachments(commands, 1, &black, 1, &everywhere);
-    for (const uint32_t phase : {shared::kPhaseEarly, shared::kPhaseLate})
-        overdraw_->record(device_, commands, layouts_, scene, phase);
-}
-
-/// Record from after the first subpass to the end of the render pass.
-void Renderer::recordShading(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
-                             const FrameInput& input) const
-{
-    device_.vk.vkCmdNextSubpass(commands, VK_SUBPASS_CONTENTS_INLINE);
+    recordEarly(commands, scene, targets, input, passes);
+    const bool is_open = passes.sharesPass(FrameStep::visibility, FrameStep::shading);
+    // no timestamps within a render pass
+    if (is_open)
+        writeTimestamp(device_, commands, input.timestamps, kTimestampVisibility);
+    if (is_open)
+        writeTimestamp(device_, commands, input.timestamps, kTimestampMaterialTiles);
     {
-        const DebugLabel label(device_, commands, "material depth");
-        material_depth_.record(device_, commands, layouts_, scene, targets);
+        const DebugLabel label(device_, commands, "visibility");
+        passes.begin(FrameStep::visibility);
+        visibility_.record(device_, commands, layouts_, scene,
+                           hasTwoPhases(input) ? shared::kPhaseLate : firstPhase(input));
     }
-    writeTimestamp(device_, commands, input.timestamps, kTimestampMaterialDepth);
-    device_.vk.vkCmdNextSubpass(commands, VK_SUBPASS_CONTENTS_INLINE);
+    if (is_open)
+        return;
+    passes.end();
+    if (passes.has(FrameStep::pyramid))
+    {
+        passes.begin(FrameStep::pyramid);
+        recordPyramid(commands, targets, input);
+    }
+    writeTimestamp(device_, commands, input.timestamps, kTimestampVisibility);
+}
+
+/// Record from the visibility buffer to the end of the frame.
+void Renderer::recordShaded(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
+                            const FrameInput& input, PassRecorder& passes) const
+{
+    const bool is_open = passes.sharesPass(FrameStep::visibility, FrameStep::shading);
+    if (passes.has(FrameStep::material_tiles))
+    {
+        const DebugLabel label(device_, commands, "material tiles");
+        passes.begin(FrameStep::material_tiles);
+        material_tiles_.record(device_, commands, scene, targets);
+    }
+    if (passes.has(FrameStep::gather))
+    {
+        const DebugLabel label(device_, commands, "gather light");
+        passes.begin(FrameStep::gather);
+        for (uint32_t i = 0; i < input.gathers; ++i)
+            gather_->record(device_, commands, scene, targets, input.view, scene.bricks->quick_frames > 0);
+    }
+    if (!is_open)
+        writeTimestamp(device_, commands, input.timestamps, kTimestampMaterialTiles);
+    passes.begin(FrameStep::shading);
+    const bool shows_overdraw = input.shading.debug_view == shared::kViewOverdraw;
+    if (!shows_overdraw)
+    {
+        const DebugLabel label(device_, commands, "material marks");
+        material_marks_.record(device_, commands, layouts_, scene, targets);
+    }
     {
         const DebugLabel label(device_, commands, "shading");
-        if (input.shading.debug_view == shared::kViewOverdraw)
-            recordOverdraw(commands, scene, targets);
+        if (shows_overdraw)
+            recordOverdraw(commands, scene);
         else
             shading_.record(device_, commands, layouts_, scene, targets, input.shading);
     }
-    device_.vk.vkCmdEndRenderPass(commands);
+    passes.end();
+    if (is_open && passes.has(FrameStep::pyramid))
+    {
+        passes.begin(FrameStep::pyramid);
+        recordPyramid(commands, targets, input);
+    }
     writeTimestamp(device_, commands, input.timestamps, kTimestampShading);
+}
+
+/// Draw the clusters of both phases; the late draws are empty if culling had one phase.
+void Renderer::recordOverdraw(VkCommandBuffer commands, const Scene& scene) const
+{
+    HEARTH_ASSERT(overdraw_);
+    for (const uint32_t phase : {shared::kPhaseEarly, shared::kPhaseLate})
+        overdraw_->record(device_, commands, layouts_, scene, phase);
 }
 
 } // namespace hearth::gpu

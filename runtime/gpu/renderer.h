@@ -4,14 +4,15 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "runtime/gpu/frame_parts.h"
+#include "runtime/gpu/frame/frame_parts.h"
 #include "runtime/gpu/passes/bin_pass.h"
 #include "runtime/gpu/passes/brick_light_pass.h"
 #include "runtime/gpu/passes/cull_pass.h"
 #include "runtime/gpu/passes/gather_pass.h"
-#include "runtime/gpu/passes/material_depth_pass.h"
+#include "runtime/gpu/passes/material_marks_pass.h"
 #include "runtime/gpu/passes/material_tiles_pass.h"
 #include "runtime/gpu/passes/page_request_pass.h"
+#include "runtime/gpu/passes/pass_recorder.h"
 #include "runtime/gpu/passes/pyramid_pass.h"
 #include "runtime/gpu/passes/shading_pass.h"
 #include "runtime/gpu/passes/shadow_pass.h"
@@ -25,7 +26,9 @@
 namespace hearth::gpu
 {
 
-/// Timestamps of a frame: one at the beginning and one after each pass.
+/// Timestamps of a frame: one at the beginning and one after each pass. None is within a render pass, where
+/// it would say little on tile-based GPUs and may keep subpasses from being merged: if shading follows the
+/// visibility buffer in one render pass, the pass counts as shading.
 enum FrameTimestamp : uint32_t
 {
     kTimestampBegin,
@@ -36,7 +39,6 @@ enum FrameTimestamp : uint32_t
     kTimestampLateCull,
     kTimestampVisibility,
     kTimestampMaterialTiles, ///< includes gathering (GI); no time without both
-    kTimestampMaterialDepth,
     kTimestampShading,
     kTimestampCount,
 };
@@ -45,6 +47,8 @@ struct FrameInput
 {
     shared::FrameView view; ///< from shared::makeFrameView, with the size of the targets
     ShadingSettings shading{};
+    /// With kCullOcclusion: cull against the last frame's depth alone (OcclusionCulling::last_frame).
+    bool occludes_by_last_frame = false;
     std::span<const InstanceMove> moves{}; ///< valid from this frame on; read while recording
     /// Poses of deformed instances, which start at rest. Valid from this frame on; read while recording.
     /// Poses that checkPose rejects are ignored.
@@ -63,17 +67,27 @@ struct FrameInput
     VkQueryPool timestamps = VK_NULL_HANDLE; ///< kTimestampCount queries, reset by the frame; or none
 };
 
+struct RendererOptions
+{
+    MaterialTest materials = MaterialTest::depth;
+};
+
 class Renderer
 {
 public:
     /// The described objects outlive the renderer, which outlives its scenes and targets. errors: device,
     /// device_failed.
-    static Result<std::unique_ptr<Renderer>> create(const DeviceDescription& description);
+    static Result<std::unique_ptr<Renderer>> create(const DeviceDescription& description,
+                                                    const RendererOptions& options = {});
 
     const Device& device() const { return device_; }
 
     /// errors: device_limit, device_failed.
-    Result<FrameTargets> createTargets(VkExtent2D extent) const;
+    Result<FrameTargets> createTargets(VkExtent2D extent, const TargetOptions& options = {}) const;
+
+    /// Return the passes of a frame as `record` records them, or the parts of it.
+    FrameDescription describe(const Scene& scene, const FrameTargets& targets, const FrameInput& input,
+                              bool in_parts = false) const;
 
     /// Upload a scene, see uploadScene. Also creates the pipelines that its materials and shadows need and no
     /// scene before needed.
@@ -84,7 +98,8 @@ public:
     Status prepareOverdraw();
 
     /// Record culling and drawing of one frame, outside a render pass. Clobbers compute and graphics state.
-    /// Afterwards targets.visibility() and targets.color() can be copied from. A frame with occlusion culling
+    /// Afterwards targets.color() can be copied from, and targets.visibility() if it is kept. The frame asks
+    /// for no more than the targets' options allow. A frame with occlusion culling
     /// leaves its depth pyramid to the next frame with these targets, which must be submitted after it. For a
     /// streamed scene the frame is the one that SceneStream::beginFrame began; the stream scales its
     /// threshold.
@@ -116,14 +131,16 @@ private:
                        const shared::FrameView& view, std::span<const ShadowSphere> spheres) const;
     void recordRequests(VkCommandBuffer commands, const Scene& scene) const;
     void recordBrickLight(VkCommandBuffer commands, const Scene& scene, const FrameInput& input) const;
+    const FramePlan& plan(const Scene& scene, const FrameTargets& targets, const FrameInput& input,
+                          bool in_parts) const;
     void recordEarly(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
-                     const FrameInput& input) const;
-    void drawVisibility(VkCommandBuffer commands, const Scene& scene, const FrameInput& input) const;
-    void endAtVisibility(VkCommandBuffer commands) const;
-    void recordShading(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
-                       const FrameInput& input) const;
-    void recordOverdraw(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets) const;
-    void beginPass(VkCommandBuffer commands, const FrameTargets& targets, VkRenderPass render_pass) const;
+                     const FrameInput& input, PassRecorder& passes) const;
+    void recordVisible(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
+                       const FrameInput& input, PassRecorder& passes) const;
+    void recordShaded(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
+                      const FrameInput& input, PassRecorder& passes) const;
+    void recordPyramid(VkCommandBuffer commands, FrameTargets& targets, const FrameInput& input) const;
+    void recordOverdraw(VkCommandBuffer commands, const Scene& scene) const;
 
     Device device_;
     DrawLayouts layouts_;
@@ -138,7 +155,7 @@ private:
     BinPass visibility_;
     std::optional<BinPass> overdraw_;
     MaterialTilesPass material_tiles_;
-    MaterialDepthPass material_depth_;
+    MaterialMarksPass material_marks_;
     ShadingPass shading_;
 };
 

@@ -42,6 +42,7 @@ extern const std::span<const uint32_t> caster_masked_vert;
 extern const std::span<const uint32_t> caster_masked_frag;
 extern const std::span<const uint32_t> fullscreen_vert;
 extern const std::span<const uint32_t> material_depth_frag;
+extern const std::span<const uint32_t> material_stencil_frag;
 extern const std::span<const uint32_t> shaded_area_vert;
 extern const std::span<const uint32_t> shading_frag;
 extern const std::span<const uint32_t> shading_shadowed_frag;

@@ -49,9 +49,18 @@ constexpr std::string_view kDrawHelp =
     "                          automatic (default), which takes tiles in scenes of many materials; the "
     "image\n"
     "                          stays the same\n"
+    "      --materials depth|id\n"
+    "                          how shading finds the pixels of a material: by the depth test, with numbers "
+    "of "
+    "materials\n"
+    "                          in the depth (default), or by number, which keeps the depth; the image stays "
+    "the "
+    "same\n"
     "      --cull TESTS        all (default), none, or some of instances,frustum,cone,occlusion; the "
     "image\n"
-    "                          stays the same\n"
+    "                          stays the same. last-frame: all, but hides what the last frame's depth hides, "
+    "in one\n"
+    "                          pass: what comes into view may be missing for a frame\n"
     "      --budget BYTES      stream the geometry through so much memory, K, M or G behind the number for "
     "KiB, MiB, "
     "GiB\n"
@@ -148,17 +157,26 @@ Status parseSceneCamera(std::string_view text, DrawOptions& options)
 
 Status parseCull(std::string_view text, FrameSettings& settings)
 {
-    settings.cull_flags = text == "all" ? shared::kCullEverything : 0;
-    if (text == "all" || text == "none")
+    settings.occludes_by_last_frame = text == "last-frame";
+    settings.cull_flags = text == "all" || text == "last-frame" ? shared::kCullEverything : 0;
+    if (settings.cull_flags != 0 || text == "none")
         return success();
     for (const std::string_view part : splitText(text, ','))
     {
         const uint32_t* test = findNamed(cullTestNames(), part);
         if (test == nullptr)
-            return usageError("--cull: " + quoted(part) + " is neither all nor none nor one of " +
-                              list(cullTestNames()));
+            return usageError("--cull: " + quoted(part) +
+                              " is neither all nor none nor last-frame nor one of " + list(cullTestNames()));
         settings.cull_flags |= *test;
     }
+    return success();
+}
+
+Status parseMaterialTest(std::string_view text, FrameSettings& settings)
+{
+    gpu::MaterialTest test{};
+    HEARTH_TRY(parseChoice("--materials", materialTestNames(), text, test));
+    settings.material_test = test;
     return success();
 }
 
@@ -252,6 +270,8 @@ void addDrawOptions(CommandLine& command_line, DrawOptions& options)
     command_line.addValue(
         "--shaded-area", [&](std::string_view text)
         { return parseChoice("--shaded-area", shadedAreaNames(), text, settings.shaded_area); });
+    command_line.addValue("--materials",
+                          [&](std::string_view text) { return parseMaterialTest(text, settings); });
     command_line.addValue("--shadows",
                           [&](std::string_view text) { return parseShadows(text, options.shadows); });
     command_line.addValue("--shadow-sphere",

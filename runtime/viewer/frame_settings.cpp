@@ -31,6 +31,13 @@ std::span<const Named<gpu::ShadedArea>> shadedAreaNames()
     return kAreas;
 }
 
+std::span<const Named<gpu::MaterialTest>> materialTestNames()
+{
+    static constexpr Named<gpu::MaterialTest> kTests[] = {{"depth", gpu::MaterialTest::depth},
+                                                          {"id", gpu::MaterialTest::id}};
+    return kTests;
+}
+
 std::span<const Named<uint32_t>> ambientOcclusionNames()
 {
     static constexpr Named<uint32_t> kModes[] = {{"exact", shared::kAmbientOcclusionExact},
@@ -57,6 +64,25 @@ std::span<const Named<uint32_t>> cullTestNames()
     return kTests;
 }
 
+gpu::MaterialTest chooseMaterialTest(const FrameSettings& settings)
+{
+    // the pyramid for the next frame is made of the depth
+    return settings.material_test.value_or(settings.occludes_by_last_frame ? gpu::MaterialTest::id
+                                                                           : gpu::MaterialTest::depth);
+}
+
+gpu::TargetOptions targetOptions(const FrameSettings& settings, const gpu::Scene& scene,
+                                 bool keeps_visibility)
+{
+    const bool gathers = scene.bricks != nullptr;
+    return {.occlusion = (settings.cull_flags & shared::kCullOcclusion) == 0 ? gpu::OcclusionCulling::off
+                         : settings.occludes_by_last_frame ? gpu::OcclusionCulling::last_frame
+                                                           : gpu::OcclusionCulling::two_phase,
+            .keeps_visibility = keeps_visibility,
+            .gathers_light = gathers,
+            .may_split = gathers || gpu::shadesTiles(scene, settings.shaded_area)};
+}
+
 gpu::FrameInput makeFrame(const FrameSettings& settings, const shared::Camera& camera,
                           uint32_t instance_count, VkExtent2D extent)
 {
@@ -70,7 +96,8 @@ gpu::FrameInput makeFrame(const FrameSettings& settings, const shared::Camera& c
                         .area = settings.shaded_area,
                         .ambient_occlusion = settings.ambient_occlusion,
                         .specular_occlusion = settings.specular_occlusion,
-                        .gi = settings.gi}};
+                        .gi = settings.gi},
+            .occludes_by_last_frame = settings.occludes_by_last_frame};
 }
 
 } // namespace hearth::viewer

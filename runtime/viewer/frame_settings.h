@@ -6,6 +6,7 @@
 #include "runtime/frame/lod_curve.h"
 #include "runtime/gpu/renderer.h"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct FrameSettings
     uint32_t view = shared::kViewFinal;     ///< shared::kView*
     gpu::ShadedArea shaded_area = gpu::ShadedArea::automatic;
     uint32_t cull_flags = shared::kCullEverything;
+    bool occludes_by_last_frame = false;                         ///< as gpu::FrameInput
+    std::optional<gpu::MaterialTest> material_test;              ///< none: chooseMaterialTest
     uint32_t ambient_occlusion = shared::kAmbientOcclusionExact; ///< shared::kAmbientOcclusion*
     uint32_t specular_occlusion = shared::kSpecularOcclusionFit; ///< shared::kSpecularOcclusion*
     bool gi = true;                                              ///< GI, for packs with bricks
@@ -35,10 +38,19 @@ struct Named
 /// Return all views, the final one first.
 std::span<const Named<uint32_t>> viewNames();
 std::span<const Named<gpu::ShadedArea>> shadedAreaNames();
+std::span<const Named<gpu::MaterialTest>> materialTestNames();
 std::span<const Named<uint32_t>> ambientOcclusionNames();
 std::span<const Named<uint32_t>> specularOcclusionNames();
 /// Return the culling tests, one per flag.
 std::span<const Named<uint32_t>> cullTestNames();
+
+/// Choose the test of materials: by depth, unless something that follows needs the depth.
+gpu::MaterialTest chooseMaterialTest(const FrameSettings& settings);
+
+/// Return the demands of frames with the settings on their targets.
+/// keeps_visibility  as gpu::TargetOptions
+gpu::TargetOptions targetOptions(const FrameSettings& settings, const gpu::Scene& scene,
+                                 bool keeps_visibility = false);
 
 /// Make the input of a frame of the camera. The depth view shows the distance of the target as middle grey.
 gpu::FrameInput makeFrame(const FrameSettings& settings, const shared::Camera& camera,

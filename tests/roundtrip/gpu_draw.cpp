@@ -73,7 +73,7 @@ DrawnFrame GpuScene::draw(const shared::FrameView& frame, uint32_t debug_view) c
     const gpu::Renderer& renderer = *device_->renderer_;
     viewer::VulkanHost& host = *device_->host_;
     const VkExtent2D extent{static_cast<uint32_t>(frame.width), static_cast<uint32_t>(frame.height)};
-    gpu::FrameTargets targets = must(renderer.createTargets(extent));
+    gpu::FrameTargets targets = must(renderer.createTargets(extent, {.keeps_visibility = true}));
     const gpu::FrameInput input{.view = frame, .shading = {.debug_view = debug_view, .depth_scale = 2}};
     must(host.run(
         [&](VkCommandBuffer commands)

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "runtime/viewer/frame_report.h"
+#include "runtime/viewer/report/frame_report.h"
 #include "tests/reference/pack_geometry.h"
 #include "tests/reference/png_image.h"
 

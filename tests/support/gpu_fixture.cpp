@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/support/gpu_fixture.h"
 
+#include <cstdlib>
 #include <dlfcn.h>
+#include <string_view>
 
 // The layer keeps what it allocated when it is unloaded.
 extern "C" const char* __lsan_default_suppressions();
@@ -21,6 +23,15 @@ void keepDriverLoaded()
 {
     ::dlopen("libvulkan_lvp.so", RTLD_LAZY | RTLD_NODELETE);
     ::dlopen("libVkLayer_khronos_validation.so", RTLD_LAZY | RTLD_NODELETE);
+}
+
+/// Options by which the tests run, HEARTH_TEST_MATERIALS=depth|id.
+gpu::RendererOptions rendererOptions()
+{
+    const char* materials = std::getenv("HEARTH_TEST_MATERIALS");
+    return {.materials = materials != nullptr && std::string_view(materials) == "id"
+                             ? gpu::MaterialTest::id
+                             : gpu::MaterialTest::depth};
 }
 
 std::vector<uint32_t> toWords(const std::vector<std::byte>& bytes)
@@ -60,7 +71,7 @@ void GpuTest::SetUpTestSuite()
         return;
     }
     host_ = std::move(*host);
-    auto renderer = gpu::Renderer::create(host_->description());
+    auto renderer = gpu::Renderer::create(host_->description(), rendererOptions());
     ASSERT_TRUE(renderer.ok()) << formatMessage(renderer.error());
     renderer_ = std::move(*renderer);
 }
@@ -106,7 +117,7 @@ std::unique_ptr<gpu::Scene> GpuTest::upload(const formats::PackView& pack, const
 
 gpu::FrameTargets GpuTest::makeTargets(uint32_t width, uint32_t height)
 {
-    auto targets = renderer().createTargets({width, height});
+    auto targets = renderer().createTargets({width, height}, {.keeps_visibility = true});
     HEARTH_ASSERT(targets.ok());
     return std::move(*targets);
 }

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "runtime/frame/lod_curve.h"
-#include "runtime/viewer/frame_report.h"
+#include "runtime/viewer/report/frame_report.h"
 
 #include <cstring>
 #include <gtest/gtest.h>

@@ -35,6 +35,7 @@ static hearth_camera choose_camera(const hearth_pack* pack, const hearth_scene* 
 static void draw(hearth_device* device, hearth_renderer* renderer, hearth_pack* pack)
 {
     hearth_scene_options options = HEARTH_SCENE_OPTIONS_INIT;
+    hearth_targets_description size = HEARTH_TARGETS_DESCRIPTION_INIT;
     hearth_targets_info images = HEARTH_TARGETS_INFO_INIT;
     hearth_frame frame = HEARTH_FRAME_INIT;
     hearth_scene* scene = NULL;
@@ -45,7 +46,10 @@ static void draw(hearth_device* device, hearth_renderer* renderer, hearth_pack* 
     check(hearth_device_submit(device), hearth_device_last_error(device));
     check(hearth_scene_release_staging(scene), hearth_last_error(renderer));
 
-    check(hearth_targets_create(renderer, WIDTH, HEIGHT, &targets), hearth_last_error(renderer));
+    size.width = WIDTH;
+    size.height = HEIGHT;
+    size.scene = scene;
+    check(hearth_targets_create(renderer, &size, &targets), hearth_last_error(renderer));
     check(hearth_targets_get_info(targets, &images), hearth_last_error(renderer));
     frame.camera = choose_camera(pack, scene);
     check(hearth_device_begin(device, &commands), hearth_device_last_error(device));

@@ -3,7 +3,9 @@
 
 #include "formats/gpu_shared/material_tiles.h"
 #include "formats/gpu_shared/occlusion.h"
+#include "runtime/gpu/frame/frame_plan.h"
 
+#include <set>
 #include <string>
 
 namespace hearth::gpu
@@ -23,10 +25,32 @@ Result<UniqueSampler> createTexelSampler(const Device& device)
     return UniqueSampler(device, sampler);
 }
 
+/// Create an image of one texel, which nobody reads.
+Result<Image> createTexel(MemoryArena& arena, VkFormat format)
+{
+    return arena.createImage({.format = format, .extent = {1, 1}, .usage = VK_IMAGE_USAGE_SAMPLED_BIT});
+}
+
+/// Create a view of the depth without a stencil, to be sampled.
+Result<UniqueImageView> createDepthView(const Device& device, const Image& image)
+{
+    VkImageViewCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
+    info.image = image.handle.get();
+    info.viewType = VK_IMAGE_VIEW_TYPE_2D;
+    info.format = image.format;
+    info.subresourceRange = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, 0, 1};
+    VkImageView view;
+    HEARTH_TRY_VK(device.vk.vkCreateImageView(device.handle, &info, device.allocator, &view),
+                  "create an image view");
+    return UniqueImageView(device, view);
+}
+
 } // namespace
 
-Result<FrameTargets> FrameTargets::create(const Device& device, VkRenderPass render_pass,
-                                          const DrawLayouts& layouts, VkExtent2D extent)
+Result<FrameTargets> FrameTargets::create(const Device& device, const FramePasses& passes,
+                                          const DrawLayouts& layouts, VkExtent2D extent,
+                                          const TargetOptions& options)
 {
     if (extent.width > device.limits.maxFramebufferWidth ||
         extent.height > device.limits.maxFramebufferHeight ||
@@ -34,42 +58,66 @@ Result<FrameTargets> FrameTargets::create(const Device& device, VkRenderPass ren
         return Error{Issue::device_limit, "", "",
                      "the device cannot render " + std::to_string(extent.width) + "x" +
                          std::to_string(extent.height) + " pixels"};
-    FrameTargets t(device, extent);
-    HEARTH_TRY(t.createImages());
-    HEARTH_TRY(t.createFramebuffer(device, render_pass));
+    FrameTargets t(device, extent, options);
+    HEARTH_TRY(t.createImages(device, passes));
+    HEARTH_TRY(t.createFramebuffer(device, passes.anyPass()));
     HEARTH_TRY(t.createPyramid(device));
     HEARTH_TRY(t.createTileLists(device));
     HEARTH_TRY(t.createSets(device, layouts));
     return t;
 }
 
-Status FrameTargets::createImages()
+bool FrameTargets::allows(const FrameConfiguration& c) const
 {
-    constexpr VkImageUsageFlags kColorUsage =
-        VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-    constexpr VkImageUsageFlags kDepthUsage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
-    const auto create = [&](Image& image, FrameAttachment which, VkImageUsageFlags usage) -> Status
+    const bool splits = c.material_tiles || c.gathers_light || c.in_parts;
+    return c.occlusion <= options_.occlusion && (!c.keeps_visibility || options_.keeps_visibility) &&
+           (!c.gathers_light || options_.gathers_light) && (!splits || options_.may_split);
+}
+
+/// Create the attachments. Those that no allowed frame loads or stores exist on the tile only.
+Status FrameTargets::createImages(const Device& device, const FramePasses& passes)
+{
+    std::set<FrameResource> leave_tile;
+    for (const FrameConfiguration& c : allConfigurations(passes.materials()))
+        if (allows(c))
+            for (const Pass& pass : passes.plan(c).description.passes)
+                for (const AttachmentUse& use : pass.attachments)
+                    if (use.store || use.load == LoadOperation::load)
+                        leave_tile.insert(use.resource);
+    const auto create = [&](Image& image, FrameResource resource, VkFormat format, VkImageUsageFlags usage,
+                            VkImageUsageFlags usage_in_memory, VkImageAspectFlags aspect) -> Status
     {
-        const bool depth = (usage & kDepthUsage) != 0;
+        const bool on_tile = !leave_tile.contains(resource);
         HEARTH_ASSIGN_OR_RETURN(
-            image, arena_.createImage({.format = kAttachmentFormats[which],
-                                       .extent = extent_,
-                                       .usage = usage,
-                                       .aspect = VkImageAspectFlags(depth ? VK_IMAGE_ASPECT_DEPTH_BIT
-                                                                          : VK_IMAGE_ASPECT_COLOR_BIT)}));
+            image, arena_.createImage(
+                       {.format = format,
+                        .extent = extent_,
+                        .usage = usage | (on_tile ? VkImageUsageFlags{VK_IMAGE_USAGE_TRANSIENT_ATTACHMENT_BIT}
+                                                  : usage_in_memory),
+                        .aspect = aspect,
+                        .kind = on_tile ? MemoryKind::transient : MemoryKind::device}));
         return success();
     };
-    HEARTH_TRY(create(visibility_, kVisibility,
-                      kColorUsage | VK_IMAGE_USAGE_INPUT_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT));
-    HEARTH_TRY(create(depth_, kDepth, kDepthUsage | VK_IMAGE_USAGE_SAMPLED_BIT));
-    HEARTH_TRY(create(material_depth_, kMaterialDepth, kDepthUsage));
-    return create(color_, kColor, kColorUsage);
+    HEARTH_TRY(create(visibility_, FrameResource::visibility, kVisibilityFormat,
+                      VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_INPUT_ATTACHMENT_BIT,
+                      VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+                      VK_IMAGE_ASPECT_COLOR_BIT));
+    const bool has_stencil = passes.materials() == MaterialTest::id;
+    HEARTH_TRY(create(depth_, FrameResource::depth, depthFormat(passes.materials()),
+                      VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, VK_IMAGE_USAGE_SAMPLED_BIT,
+                      VK_IMAGE_ASPECT_DEPTH_BIT | (has_stencil ? VK_IMAGE_ASPECT_STENCIL_BIT : 0)));
+    if (leave_tile.contains(FrameResource::depth))
+    {
+        HEARTH_ASSIGN_OR_RETURN(sampled_depth_, createDepthView(device, depth_));
+    }
+    return create(color_, FrameResource::color, kColorFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
+                  VK_IMAGE_USAGE_TRANSFER_SRC_BIT, VK_IMAGE_ASPECT_COLOR_BIT);
 }
 
 Status FrameTargets::createFramebuffer(const Device& device, VkRenderPass render_pass)
 {
     const VkImageView views[kAttachmentCount] = {visibility_.view.get(), depth_.view.get(),
-                                                 material_depth_.view.get(), color_.view.get()};
+                                                 color_.view.get()};
     VkFramebufferCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
     info.renderPass = render_pass;
@@ -127,22 +175,37 @@ Status FrameTargets::createTileLists(const Device& device)
 Status FrameTargets::createSets(const Device& device, const DrawLayouts& layouts)
 {
     HEARTH_ASSIGN_OR_RETURN(texel_sampler_, createTexelSampler(device));
-    HEARTH_ASSIGN_OR_RETURN(gather_, GatherTargets::create(device, layouts, arena_, extent_,
-                                                           visibility_.view.get(), texel_sampler_.get()));
+    if (options_.gathers_light)
+    {
+        HEARTH_ASSIGN_OR_RETURN(gather_, GatherTargets::create(device, layouts, arena_, extent_,
+                                                               visibility_.view.get(), texel_sampler_.get()));
+    }
     const DescriptorPoolSizes sizes{.uniforms = 1, .storages = 4, .textures = 3, .inputs = 1};
     HEARTH_ASSIGN_OR_RETURN(pool_, createDescriptorPool(device, 3, sizes));
     HEARTH_ASSIGN_OR_RETURN(set_, allocateSet(device, pool_.get(), layouts.attachments.get()));
-    DescriptorWriter(set_)
-        .input(shared::kAttachmentVisibility, visibility_.view.get())
-        .storage(shared::kAttachmentTileLists, tile_lists_)
-        .texture(shared::kAttachmentGi, gather_->texels().view.get(), texel_sampler_.get())
-        .write(device);
+    DescriptorWriter attachments(set_);
+    attachments.input(shared::kAttachmentVisibility, visibility_.view.get())
+        .storage(shared::kAttachmentTileLists, tile_lists_);
+    if (!gather_)
+    {
+        HEARTH_ASSIGN_OR_RETURN(no_light_, createTexel(arena_, GatherTargets::kFormat));
+    }
+    attachments.texture(shared::kAttachmentGi, (gather_ ? gather_->texels() : no_light_).view.get(),
+                        texel_sampler_.get());
+    attachments.write(device);
     HEARTH_ASSIGN_OR_RETURN(occlusion_set_, allocateSet(device, pool_.get(), layouts.occlusion.get()));
-    DescriptorWriter(occlusion_set_)
-        .uniform(shared::kOcclusionViews, occlusion_views_)
-        .storage(shared::kOcclusionPyramid, pyramid_)
-        .texture(shared::kOcclusionDepth, depth_.view.get(), texel_sampler_.get())
-        .write(device);
+    DescriptorWriter occlusion(occlusion_set_);
+    occlusion.uniform(shared::kOcclusionViews, occlusion_views_).storage(shared::kOcclusionPyramid, pyramid_);
+    const bool has_depth = sampled_depth_.get() != VK_NULL_HANDLE;
+    if (!has_depth)
+    {
+        HEARTH_ASSIGN_OR_RETURN(no_depth_, createTexel(arena_, VK_FORMAT_R32_SFLOAT));
+    }
+    occlusion.texture(shared::kOcclusionDepth, has_depth ? sampled_depth_.get() : no_depth_.view.get(),
+                      texel_sampler_.get());
+    occlusion.write(device);
+    if (!options_.may_split)
+        return success();
     HEARTH_ASSIGN_OR_RETURN(tile_set_, allocateSet(device, pool_.get(), layouts.tiles.get()));
     DescriptorWriter(tile_set_)
         .texture(shared::kTilesVisibility, visibility_.view.get(), texel_sampler_.get())

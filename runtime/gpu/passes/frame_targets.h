@@ -4,7 +4,7 @@
 #pragma once
 
 #include "formats/gpu_shared/records.h"
-#include "runtime/gpu/passes/frame_passes.h"
+#include "runtime/gpu/frame/frame_passes.h"
 #include "runtime/gpu/passes/gather_targets.h"
 #include "runtime/gpu/scene/draw_layouts.h"
 
@@ -13,26 +13,44 @@
 namespace hearth::gpu
 {
 
-/// Render targets of one camera. After a frame, `visibility` and `color` are in
-/// VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, visible to transfers. Before a frame their content and layout do not
-/// matter.
+/// Demands of the frames that are drawn with targets: images that never leave the tile need no memory, and
+/// what no frame uses is not created.
+struct TargetOptions
+{
+    /// The most that a frame asks for: off < last_frame < two_phase.
+    OcclusionCulling occlusion = OcclusionCulling::two_phase;
+    bool keeps_visibility = false; ///< the visibility buffer can be copied after a frame
+    bool gathers_light = true;     ///< frames of scenes with bricks gather indirect light
+    /// Frames may be split between visibility and shading: material tiles, gathered light, parts.
+    bool may_split = true;
+};
+
+/// Render targets of one camera. After a frame `color` is in VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, visible to
+/// transfers; so is `visibility` if it is kept. Before a frame their content and layout do not matter.
 ///
 /// The pyramid is a guess: whatever it holds, the rendered frame is the same. The better the guess, the less
 /// is drawn.
 class FrameTargets
 {
 public:
-    /// width and height: 1 to the device's limits. `render_pass`: one of FramePasses.
-    /// errors: device_limit, device_failed.
-    static Result<FrameTargets> create(const Device& device, VkRenderPass render_pass,
-                                       const DrawLayouts& layouts, VkExtent2D extent);
+    /// width and height: 1 to the device's limits. errors: device_limit, device_failed.
+    static Result<FrameTargets> create(const Device& device, const FramePasses& passes,
+                                       const DrawLayouts& layouts, VkExtent2D extent,
+                                       const TargetOptions& options);
 
     VkExtent2D extent() const { return extent_; }
+    const TargetOptions& options() const { return options_; }
+    /// True if a frame of the configuration uses nothing that the options exclude.
+    bool allows(const FrameConfiguration& configuration) const;
     const Image& visibility() const { return visibility_; }
+    const Image& depth() const { return depth_; }
     const Image& color() const { return color_; }
     VkFramebuffer framebuffer() const { return framebuffer_.get(); }
     VkDescriptorSet attachments() const { return set_; }
     VkDeviceSize allocatedBytes() const { return arena_.allocatedBytes(); }
+    /// Bytes of attachments that exist on the tile only, where the device has lazily allocated memory;
+    /// allocatedBytes leaves them out.
+    VkDeviceSize transientBytes() const { return arena_.transientBytes(); }
 
     const Buffer& pyramid() const { return pyramid_; } ///< floats; layout in formats/gpu_shared/occlusion.h
     const Buffer& occlusionViews() const { return occlusion_views_; }
@@ -44,7 +62,7 @@ public:
     const Buffer& tileLists() const { return tile_lists_; }
     VkDescriptorSet tileSet() const { return tile_set_; }
 
-    /// Gathered light (GI); only for scenes with bricks.
+    /// Gathered light (GI); with TargetOptions::gathers_light.
     GatherTargets& gather() { return *gather_; }
     const GatherTargets& gather() const { return *gather_; }
 
@@ -55,19 +73,26 @@ public:
     void setPyramidView(const shared::OcclusionView& view) { pyramid_view_ = view; }
 
 private:
-    FrameTargets(const Device& device, VkExtent2D extent) : extent_(extent), arena_(device) {}
-    Status createImages();
+    // blocks of one resource each: few resources, and none of their memory is to spare
+    FrameTargets(const Device& device, VkExtent2D extent, const TargetOptions& options)
+        : extent_(extent), options_(options), arena_(device, 0)
+    {
+    }
+    Status createImages(const Device& device, const FramePasses& passes);
     Status createFramebuffer(const Device& device, VkRenderPass render_pass);
     Status createPyramid(const Device& device);
     Status createTileLists(const Device& device);
     Status createSets(const Device& device, const DrawLayouts& layouts);
 
     VkExtent2D extent_;
+    TargetOptions options_;
     MemoryArena arena_;
     Image visibility_;
     Image depth_;
-    Image material_depth_;
+    UniqueImageView sampled_depth_; ///< without a stencil; empty if the depth never leaves the tile
     Image color_;
+    // texels in place of images that no frame reads: some drivers look at all descriptors of a set
+    Image no_depth_, no_light_;
     UniqueFramebuffer framebuffer_;
     Buffer pyramid_;
     Buffer occlusion_views_; ///< two OcclusionView
@@ -79,7 +104,7 @@ private:
     VkDescriptorSet occlusion_set_ = VK_NULL_HANDLE;
     VkDescriptorSet tile_set_ = VK_NULL_HANDLE;
     shared::OcclusionView pyramid_view_{};
-    std::optional<GatherTargets> gather_; ///< set after creation
+    std::optional<GatherTargets> gather_; ///< with TargetOptions::gathers_light
 };
 
 } // namespace hearth::gpu

@@ -28,7 +28,7 @@ Result<GatherTargets> GatherTargets::create(const Device& device, const DrawLayo
                                MemoryKind::device));
     }
     HEARTH_ASSIGN_OR_RETURN(
-        t.texels_, arena.createImage({.format = VK_FORMAT_R32G32B32A32_UINT,
+        t.texels_, arena.createImage({.format = kFormat,
                                       .extent = {2 * t.tiles_.width, t.tiles_.height},
                                       .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT}));
 

@@ -14,6 +14,8 @@ namespace hearth::gpu
 class GatherTargets
 {
 public:
+    static constexpr VkFormat kFormat = VK_FORMAT_R32G32B32A32_UINT; ///< of texels()
+
     /// arena       outlives the targets
     /// visibility  image of FrameTargets
     /// sampler     nearest

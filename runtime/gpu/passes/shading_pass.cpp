@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/passes/shading_pass.h"
 
+#include "runtime/gpu/passes/material_marks_pass.h"
 #include "runtime/shaders/shaders.h"
 
 #include <algorithm>
@@ -11,41 +12,13 @@ namespace hearth::gpu
 namespace
 {
 
-GraphicsDescription describe(std::span<const uint32_t> fragment, VkPipelineLayout layout,
-                             VkRenderPass render_pass)
+/// Return the push constants of the area of a material; only materials need the sky occlusion.
+shared::ShadingPush shadingPush(const ShadingSettings& view, uint32_t material, uint32_t sky_occlusion = 0)
 {
-    return {.vertex = shaders::shaded_area_vert,
-            .fragment = fragment,
-            .layout = layout,
-            .render_pass = render_pass,
-            .subpass = kSubpassShading,
-            .depth_compare = VK_COMPARE_OP_EQUAL,
-            .depth_write = false,
-            .color = true};
-}
-
-/// Return the constants of a variant; with `resolves_only` those that reconstructing a surface needs, for
-/// scenes of any size.
-DrawConstants drawConstants(const ShadingVariant& variant, bool resolves_only)
-{
-    DrawConstants constants{};
-    constants[shared::kConstantUsedSlices] = resolves_only ? shared::kPoolSlices : variant.used_slices;
-    constants[shared::kConstantDeformed] =
-        variant.deformed != 0 ? shared::kDeformedPreSkinned : shared::kDeformedNone;
-    if (resolves_only)
-        return constants;
-    constants[shared::kConstantTextures] = variant.textures;
-    constants[shared::kConstantUvSets] = variant.uv_sets;
-    constants[shared::kConstantUnlit] = variant.unlit;
-    constants[shared::kConstantSkyVisibility] = variant.sky_visibility;
-    constants[shared::kConstantLayers] = variant.layers;
-    return constants;
-}
-
-/// Return the push constants of an area drawn at `depth`; only materials need the sky occlusion.
-shared::ShadingPush shadingPush(const ShadingSettings& view, float depth = 0, uint32_t sky_occlusion = 0)
-{
-    return {.depth = depth,
+    // views of all surfaces are drawn at the depth of the sky
+    const uint32_t level = material == shared::kEverySurface ? 0 : material;
+    return {.depth = static_cast<float>(level) * shared::kMaterialDepthStep,
+            .material = material,
             .debug_view = view.debug_view,
             .depth_scale = view.depth_scale,
             .sky_occlusion = sky_occlusion};
@@ -68,17 +41,72 @@ uint32_t skyOcclusion(const Scene& scene, const ShadingSettings& view)
 
 } // namespace
 
+/// Describe a pipeline that shades the pixels of one material.
+GraphicsDescription ShadingPass::describe(std::span<const uint32_t> fragment, VkPipelineLayout layout) const
+{
+    const bool by_depth = material_test_ == MaterialTest::depth;
+    return {.vertex = shaders::shaded_area_vert,
+            .fragment = fragment,
+            .layout = layout,
+            .render_pass = render_pass_,
+            .subpass = kSubpassShading,
+            .depth_compare = by_depth ? VK_COMPARE_OP_EQUAL : VK_COMPARE_OP_ALWAYS,
+            .depth_write = false,
+            .color = true,
+            .stencil = by_depth ? Stencil::none : Stencil::test};
+}
+
+/// Describe a pipeline that shows all surfaces in one triangle at the depth of the sky, which it leaves out.
+GraphicsDescription ShadingPass::describeSurfaceView(std::span<const uint32_t> fragment,
+                                                     VkPipelineLayout layout) const
+{
+    GraphicsDescription description = describe(fragment, layout);
+    description.vertex = shaders::fullscreen_vert;
+    description.stencil = Stencil::none; // the shader leaves out the sky
+    if (material_test_ == MaterialTest::depth)
+        description.depth_compare = VK_COMPARE_OP_LESS;
+    return description;
+}
+
+/// Return the constants of a variant; with `resolves_only` those that reconstructing a surface needs, for
+/// scenes of any size.
+DrawConstants ShadingPass::drawConstants(const ShadingVariant& variant, bool resolves_only) const
+{
+    DrawConstants constants = view_constants_;
+    constants[shared::kConstantUsedSlices] = resolves_only ? shared::kPoolSlices : variant.used_slices;
+    constants[shared::kConstantDeformed] =
+        variant.deformed != 0 ? shared::kDeformedPreSkinned : shared::kDeformedNone;
+    if (resolves_only)
+        return constants;
+    constants[shared::kConstantTextures] = variant.textures;
+    constants[shared::kConstantUvSets] = variant.uv_sets;
+    constants[shared::kConstantUnlit] = variant.unlit;
+    constants[shared::kConstantSkyVisibility] = variant.sky_visibility;
+    constants[shared::kConstantLayers] = variant.layers;
+    return constants;
+}
+
+/// Set the stencil of the pixels that the next draw shades.
+void ShadingPass::setStencil(const Device& device, VkCommandBuffer commands, uint32_t material) const
+{
+    if (material_test_ == MaterialTest::id)
+        device.vk.vkCmdSetStencilReference(commands, VK_STENCIL_FACE_FRONT_AND_BACK,
+                                           material & ((1u << kStencilBits) - 1));
+}
+
 Result<ShadingPass> ShadingPass::create(const Device& device, const DrawLayouts& layouts,
-                                        VkRenderPass render_pass)
+                                        const FramePasses& passes)
 {
     ShadingPass pass;
-    pass.render_pass_ = render_pass;
-    HEARTH_ASSIGN_OR_RETURN(
-        pass.sky_,
-        createGraphicsPipeline(device, describe(shaders::sky_frag, layouts.shading.get(), render_pass)));
-    GraphicsDescription clusters = describe(shaders::view_clusters_frag, layouts.clusters.get(), render_pass);
-    clusters.vertex = shaders::fullscreen_vert;
-    clusters.depth_compare = VK_COMPARE_OP_LESS; // drawn at depth 0, which is the depth of the sky
+    pass.render_pass_ = passes.anyPass();
+    pass.material_test_ = passes.materials();
+    pass.view_constants_[shared::kConstantComparesMaterial] = pass.material_test_ == MaterialTest::id ? 1 : 0;
+    GraphicsDescription sky = pass.describe(shaders::sky_frag, layouts.shading.get());
+    sky.constants = pass.view_constants_;
+    HEARTH_ASSIGN_OR_RETURN(pass.sky_, createGraphicsPipeline(device, sky));
+    GraphicsDescription clusters =
+        pass.describeSurfaceView(shaders::view_clusters_frag, layouts.clusters.get());
+    clusters.constants = pass.view_constants_;
     HEARTH_ASSIGN_OR_RETURN(pass.cluster_views_, createGraphicsPipeline(device, clusters));
     return pass;
 }
@@ -90,11 +118,8 @@ Result<ShadingPipelines> ShadingPass::prepare(const Device& device, const DrawLa
     if (variant.shadows != 0 && shadow_maps.get() == VK_NULL_HANDLE)
     {
         const DrawConstants constants = drawConstants(variant, true);
-        GraphicsDescription maps =
-            describe(shaders::view_shadow_maps_frag, layouts.shading.get(), render_pass_);
-        maps.vertex = shaders::fullscreen_vert;
+        GraphicsDescription maps = describeSurfaceView(shaders::view_shadow_maps_frag, layouts.shading.get());
         maps.constants = constants;
-        maps.depth_compare = VK_COMPARE_OP_LESS; // as clusters
         HEARTH_ASSIGN_OR_RETURN(shadow_maps, createGraphicsPipeline(device, maps));
     }
     if (variant.bricks != 0)
@@ -106,7 +131,7 @@ Result<ShadingPipelines> ShadingPass::prepare(const Device& device, const DrawLa
         const DrawConstants constants = drawConstants(variant, false);
         GraphicsDescription description =
             describe(variant.shadows != 0 ? shaders::shading_shadowed_frag : shaders::shading_frag,
-                     layouts.shading.get(), render_pass_);
+                     layouts.shading.get());
         description.constants = constants;
         HEARTH_ASSIGN_OR_RETURN(pipelines.final_pipeline, createGraphicsPipeline(device, description));
         if (variant.bricks != 0)
@@ -129,8 +154,7 @@ Status ShadingPass::prepareBrickViews(const Device& device, const DrawLayouts& l
     if (brick_views_.get() == VK_NULL_HANDLE)
     {
         GraphicsDescription bricks =
-            describe(shaders::view_bricks_frag, layouts.brick_views.get(), render_pass_);
-        bricks.vertex = shaders::fullscreen_vert;
+            describeSurfaceView(shaders::view_bricks_frag, layouts.brick_views.get());
         bricks.depth_compare = VK_COMPARE_OP_ALWAYS;
         HEARTH_ASSIGN_OR_RETURN(brick_views_, createGraphicsPipeline(device, bricks));
     }
@@ -138,10 +162,8 @@ Status ShadingPass::prepareBrickViews(const Device& device, const DrawLayouts& l
     if (gathered.get() == VK_NULL_HANDLE)
     {
         const DrawConstants constants = drawConstants(variant, true);
-        GraphicsDescription light = describe(shaders::view_gi_frag, layouts.shading.get(), render_pass_);
-        light.vertex = shaders::fullscreen_vert;
+        GraphicsDescription light = describeSurfaceView(shaders::view_gi_frag, layouts.shading.get());
         light.constants = constants;
-        light.depth_compare = VK_COMPARE_OP_LESS; // as clusters
         HEARTH_ASSIGN_OR_RETURN(gathered, createGraphicsPipeline(device, light));
     }
     return success();
@@ -180,9 +202,10 @@ void ShadingPass::recordSky(const Device& device, VkCommandBuffer commands, cons
                                       &scene.draw_set, 0, nullptr);
     device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout,
                                       shared::kSetAttachments, 1, &attachments, 0, nullptr);
-    const shared::ShadingPush push = shadingPush(view);
+    const shared::ShadingPush push = shadingPush(view, 0);
     device.vk.vkCmdPushConstants(commands, layout, kShadingPushStages, 0, sizeof(push), &push);
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, sky_.get());
+    setStencil(device, commands, 0);
     if (shadesTiles(scene, view.area))
         device.vk.vkCmdDrawIndirect(commands, scene.buffers.tile_draws.handle.get(), 0, 1,
                                     sizeof(VkDrawIndirectCommand));
@@ -196,7 +219,7 @@ void ShadingPass::recordClusterView(const Device& device, VkCommandBuffer comman
 {
     const VkPipelineLayout layout = layouts.clusters.get();
     const VkDescriptorSet sets[] = {scene.cluster_view_set, targets.attachments()};
-    const shared::ShadingPush push = shadingPush(view);
+    const shared::ShadingPush push = shadingPush(view, shared::kEverySurface);
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, cluster_views_.get());
     device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, shared::kSetTables,
                                       2, sets, 0, nullptr);
@@ -210,7 +233,7 @@ void ShadingPass::recordShadowMapView(const Device& device, VkCommandBuffer comm
                                       const ShadingSettings& view) const
 {
     HEARTH_ASSERT(scene.shadows != nullptr);
-    const shared::ShadingPush push = shadingPush(view);
+    const shared::ShadingPush push = shadingPush(view, shared::kEverySurface);
     device.vk.vkCmdPushConstants(commands, layouts.shading.get(), kShadingPushStages, 0, sizeof(push), &push);
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
                                 shadow_map_views_[showsDeformed(scene) ? 1 : 0].get());
@@ -223,7 +246,7 @@ void ShadingPass::recordBrickView(const Device& device, VkCommandBuffer commands
 {
     HEARTH_ASSERT(scene.bricks != nullptr);
     const VkPipelineLayout layout = layouts.brick_views.get();
-    const shared::ShadingPush push = shadingPush(view);
+    const shared::ShadingPush push = shadingPush(view, shared::kEverySurface);
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, brick_views_.get());
     device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, shared::kSetBricks,
                                       1, &scene.bricks->set, 0, nullptr);
@@ -236,7 +259,7 @@ void ShadingPass::recordGiView(const Device& device, VkCommandBuffer commands, c
                                const Scene& scene, const ShadingSettings& view) const
 {
     HEARTH_ASSERT(scene.bricks != nullptr);
-    const shared::ShadingPush push = shadingPush(view);
+    const shared::ShadingPush push = shadingPush(view, shared::kEverySurface);
     device.vk.vkCmdPushConstants(commands, layouts.shading.get(), kShadingPushStages, 0, sizeof(push), &push);
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
                                 gi_views_[showsDeformed(scene) ? 1 : 0].get());
@@ -261,8 +284,8 @@ void ShadingPass::recordMaterials(const Device& device, VkCommandBuffer commands
                                     : usesGi(scene, view) ? material.pipelines.final_gi_pipeline
                                                           : material.pipelines.final_pipeline);
         const uint32_t number = row + 1; // 0 is the sky
-        const shared::ShadingPush push =
-            shadingPush(view, static_cast<float>(number) / 65535.0f, sky_occlusion);
+        const shared::ShadingPush push = shadingPush(view, number, sky_occlusion);
+        setStencil(device, commands, number);
         device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout,
                                           shared::kSetMaterial, 1, &material.set, 0, nullptr);
         device.vk.vkCmdPushConstants(commands, layout, kShadingPushStages, 0, sizeof(push), &push);

@@ -1,5 +1,5 @@
-// Shades the frame: the sky, then each visible material in the pixels whose material depth equals its own.
-// Third subpass.
+// Shades the frame: the sky, then each visible material in its own pixels, which the depth test or the
+// stencil finds. Second subpass, after the material marks.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -55,7 +55,7 @@ class ShadingPass
 {
 public:
     static Result<ShadingPass> create(const Device& device, const DrawLayouts& layouts,
-                                      VkRenderPass render_pass);
+                                      const FramePasses& passes);
 
     /// Return the pipelines of a material; creates each variant once and caches it. Call before frames are
     /// recorded.
@@ -88,7 +88,15 @@ private:
     void recordMaterials(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
                          const Scene& scene, const ShadingSettings& view) const;
 
+    GraphicsDescription describe(std::span<const uint32_t> fragment, VkPipelineLayout layout) const;
+    GraphicsDescription describeSurfaceView(std::span<const uint32_t> fragment,
+                                            VkPipelineLayout layout) const;
+    DrawConstants drawConstants(const ShadingVariant& variant, bool resolves_only) const;
+    void setStencil(const Device& device, VkCommandBuffer commands, uint32_t material) const;
+
     VkRenderPass render_pass_ = VK_NULL_HANDLE;
+    MaterialTest material_test_ = MaterialTest::depth;
+    DrawConstants view_constants_{}; ///< of pipelines that reconstruct no surface
     UniquePipeline sky_;
     UniquePipeline cluster_views_;
     UniquePipeline shadow_map_views_[2]; ///< set once a scene has shadows: [1] for deformed meshes

@@ -37,6 +37,8 @@
     X(vkCmdPushConstants)                                                                                    \
     X(vkCmdResetQueryPool)                                                                                   \
     X(vkCmdSetScissor)                                                                                       \
+    X(vkCmdSetStencilReference)                                                                              \
+    X(vkCmdSetStencilWriteMask)                                                                              \
     X(vkCmdSetViewport)                                                                                      \
     X(vkCmdUpdateBuffer)                                                                                     \
     X(vkCmdWriteTimestamp)                                                                                   \

@@ -28,6 +28,11 @@ std::optional<uint32_t> chooseType(const VkPhysicalDeviceMemoryProperties& memor
 {
     VkMemoryPropertyFlags best = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
     VkMemoryPropertyFlags enough = 0;
+    if (kind == MemoryKind::transient)
+    {
+        best = VK_MEMORY_PROPERTY_LAZILY_ALLOCATED_BIT;
+        enough = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+    }
     if (kind == MemoryKind::staging)
         best = enough = kMapped;
     if (kind == MemoryKind::readback)
@@ -37,6 +42,11 @@ std::optional<uint32_t> chooseType(const VkPhysicalDeviceMemoryProperties& memor
     }
     const auto type = findType(memory, allowed, best);
     return type ? type : findType(memory, allowed, enough);
+}
+
+bool isMapped(MemoryKind kind)
+{
+    return kind == MemoryKind::staging || kind == MemoryKind::readback;
 }
 
 VkDeviceSize alignUp(VkDeviceSize value, VkDeviceSize alignment)
@@ -52,7 +62,7 @@ Result<MemoryAllocation> MemoryArena::allocateHooked(const MemoryRequest& reques
     MemoryAllocation piece;
     HEARTH_TRY_VK(hooks.allocate(hooks.user, request, piece), "allocate device memory");
     hooked_.emplace_back(hooks, piece, request.needs.size);
-    if (request.kind != MemoryKind::device && piece.mapped == nullptr)
+    if (isMapped(request.kind) && piece.mapped == nullptr)
         return vulkanError(VK_ERROR_MEMORY_MAP_FAILED, "map device memory");
     return piece;
 }
@@ -68,7 +78,7 @@ Result<MemoryArena::Block> MemoryArena::allocateBlock(const MemoryRequest& reque
     HEARTH_TRY_VK(device_->vk.vkAllocateMemory(device_->handle, &info, device_->allocator, &memory),
                   "allocate device memory");
     block.memory = UniqueMemory(*device_, memory);
-    if (request.kind != MemoryKind::device)
+    if (isMapped(request.kind))
     {
         void* mapped = nullptr;
         HEARTH_TRY_VK(device_->vk.vkMapMemory(device_->handle, memory, 0, VK_WHOLE_SIZE, 0, &mapped),
@@ -80,17 +90,19 @@ Result<MemoryArena::Block> MemoryArena::allocateBlock(const MemoryRequest& reque
 
 Result<MemoryAllocation> MemoryArena::allocate(const MemoryRequest& request)
 {
-    if (device_->memory_hooks.allocate != nullptr)
-        return allocateHooked(request);
     const VkMemoryRequirements& needs = request.needs;
     const auto type = chooseType(device_->memory, needs.memoryTypeBits, request.kind);
+    if (type &&
+        (device_->memory.memoryTypes[*type].propertyFlags & VK_MEMORY_PROPERTY_LAZILY_ALLOCATED_BIT) != 0)
+        transient_bytes_ += needs.size;
+    if (device_->memory_hooks.allocate != nullptr)
+        return allocateHooked(request);
     if (!type)
         return vulkanError(VK_ERROR_OUT_OF_DEVICE_MEMORY, "find a fitting memory type");
 
     Block* block = nullptr;
     for (Block& b : blocks_)
-        if (b.type == *type && b.images == request.image &&
-            (b.mapped != nullptr) == (request.kind != MemoryKind::device) &&
+        if (b.type == *type && b.images == request.image && (b.mapped != nullptr) == isMapped(request.kind) &&
             alignUp(b.used, needs.alignment) + needs.size <= b.size)
             block = &b;
     if (block == nullptr)
@@ -154,7 +166,8 @@ Result<Image> MemoryArena::createImage(const ImageDescription& description)
 
     VkMemoryRequirements needs;
     device_->vk.vkGetImageMemoryRequirements(device_->handle, handle, &needs);
-    HEARTH_ASSIGN_OR_RETURN(const MemoryAllocation piece, allocate({needs, MemoryKind::device, true}));
+    image.bytes = needs.size;
+    HEARTH_ASSIGN_OR_RETURN(const MemoryAllocation piece, allocate({needs, description.kind, true}));
     HEARTH_TRY_VK(device_->vk.vkBindImageMemory(device_->handle, handle, piece.memory, piece.offset),
                   "bind an image's memory");
 
@@ -178,7 +191,7 @@ VkDeviceSize MemoryArena::allocatedBytes() const
         bytes += block.size;
     for (const HookAllocation& memory : hooked_)
         bytes += memory.size();
-    return bytes;
+    return bytes - std::min(bytes, transient_bytes_);
 }
 
 } // namespace hearth::gpu

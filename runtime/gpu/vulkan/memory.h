@@ -25,6 +25,7 @@ struct Image
     VkFormat format = VK_FORMAT_UNDEFINED;
     VkExtent2D extent{};
     uint32_t mip_count = 1;
+    VkDeviceSize bytes = 0; ///< that the device needs for it
 };
 
 struct ImageDescription
@@ -34,7 +35,8 @@ struct ImageDescription
     uint32_t mip_count = 1;
     VkImageUsageFlags usage;
     VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT;
-    uint32_t array_layers = 0; ///< 0: not an array
+    uint32_t array_layers = 0;            ///< 0: not an array
+    MemoryKind kind = MemoryKind::device; ///< or transient, with usage TRANSIENT_ATTACHMENT
 };
 
 /// Allocation from MemoryHooks, freed on destruction.
@@ -88,7 +90,10 @@ public:
     /// Create a 2D image, or an array, with a view of all mips and layers. errors: device_failed.
     Result<Image> createImage(const ImageDescription& description);
 
+    /// Bytes allocated, without those that the device allocates lazily.
     VkDeviceSize allocatedBytes() const;
+    /// Bytes of memory that the device allocates lazily, if ever.
+    VkDeviceSize transientBytes() const { return transient_bytes_; }
 
 private:
     struct Block
@@ -108,6 +113,7 @@ private:
     VkDeviceSize block_bytes_;
     std::vector<Block> blocks_;
     std::vector<HookAllocation> hooked_;
+    VkDeviceSize transient_bytes_ = 0;
 };
 
 } // namespace hearth::gpu

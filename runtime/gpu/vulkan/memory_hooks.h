@@ -14,6 +14,8 @@ enum class MemoryKind
     device,   ///< fastest for the GPU; not mapped
     staging,  ///< mapped and coherent, written by the CPU
     readback, ///< mapped and coherent, read by the CPU; cached where there is such memory
+    /// Attachments that never leave the tile: lazily allocated where there is such memory, else as `device`.
+    transient,
 };
 
 /// Request for the memory of one buffer or image.

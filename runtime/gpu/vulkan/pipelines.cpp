@@ -37,6 +37,20 @@ private:
     VkSpecializationInfo info_{};
 };
 
+void setStencil(Stencil stencil, VkPipelineDepthStencilStateCreateInfo& state)
+{
+    if (stencil == Stencil::none)
+        return;
+    state.stencilTestEnable = VK_TRUE;
+    VkStencilOpState& front = state.front;
+    front.failOp = front.depthFailOp = VK_STENCIL_OP_KEEP;
+    front.passOp = stencil == Stencil::mark ? VK_STENCIL_OP_REPLACE : VK_STENCIL_OP_KEEP;
+    front.compareOp = stencil == Stencil::mark ? VK_COMPARE_OP_ALWAYS : VK_COMPARE_OP_EQUAL;
+    front.compareMask = 0xFF;
+    front.reference = 0xFF;
+    state.back = front;
+}
+
 VkPipelineShaderStageCreateInfo stageInfo(VkShaderStageFlagBits stage, VkShaderModule module,
                                           const VkSpecializationInfo* constants)
 {
@@ -132,24 +146,31 @@ Result<UniquePipeline> createGraphicsPipeline(const Device& device, const Graphi
     multisample.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
     VkPipelineDepthStencilStateCreateInfo depth{};
     depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
-    depth.depthTestEnable = VK_TRUE;
+    // a test that always passes and writes nothing would still load the depth on some tilers
+    const bool uses_depth = description.depth_write || description.depth_compare != VK_COMPARE_OP_ALWAYS;
+    depth.depthTestEnable = uses_depth ? VK_TRUE : VK_FALSE;
     depth.depthWriteEnable = description.depth_write ? VK_TRUE : VK_FALSE;
     depth.depthCompareOp = description.depth_compare;
+    setStencil(description.stencil, depth);
     VkPipelineColorBlendAttachmentState blend{};
     blend.blendEnable = description.add ? VK_TRUE : VK_FALSE;
     blend.srcColorBlendFactor = blend.dstColorBlendFactor = VK_BLEND_FACTOR_ONE;
     blend.srcAlphaBlendFactor = blend.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
-    blend.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT | VK_COLOR_COMPONENT_B_BIT |
-                           VK_COLOR_COMPONENT_A_BIT;
+    if (description.color_write)
+        blend.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
+                               VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
     VkPipelineColorBlendStateCreateInfo color{};
     color.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
     color.attachmentCount = description.color ? 1 : 0;
     color.pAttachments = &blend;
-    const VkDynamicState dynamic_states[] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+    std::vector<VkDynamicState> dynamic_states = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+    if (description.stencil != Stencil::none)
+        dynamic_states.push_back(description.stencil == Stencil::mark ? VK_DYNAMIC_STATE_STENCIL_WRITE_MASK
+                                                                      : VK_DYNAMIC_STATE_STENCIL_REFERENCE);
     VkPipelineDynamicStateCreateInfo dynamic{};
     dynamic.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO;
-    dynamic.dynamicStateCount = 2;
-    dynamic.pDynamicStates = dynamic_states;
+    dynamic.dynamicStateCount = static_cast<uint32_t>(dynamic_states.size());
+    dynamic.pDynamicStates = dynamic_states.data();
 
     VkGraphicsPipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;

@@ -55,6 +55,14 @@ Result<ComputePipeline> createComputePipeline(const Device& device, std::span<co
                                               std::span<const NumberedSet> sets, uint32_t push_bytes = 0,
                                               std::span<const uint32_t> constants = {});
 
+/// Use of the stencil by a pipeline.
+enum class Stencil : uint8_t
+{
+    none,
+    mark, ///< sets the bits of the dynamic write mask
+    test, ///< draws where the stencil is the dynamic reference
+};
+
 struct GraphicsDescription
 {
     std::span<const uint32_t> vertex;
@@ -66,8 +74,10 @@ struct GraphicsDescription
     VkFrontFace front_face = VK_FRONT_FACE_COUNTER_CLOCKWISE;
     VkCompareOp depth_compare;
     bool depth_write;
-    bool color;
-    bool add = false;                      ///< blend additively into the colour target
+    bool color; ///< the subpass has a colour target
+    bool color_write = true;
+    bool add = false; ///< blend additively into the colour target
+    Stencil stencil = Stencil::none;
     std::span<const uint32_t> constants{}; ///< value of specialization constant i, for both stages
 };
 /// Create a graphics pipeline: triangles without vertex buffers; dynamic viewport and scissor; at most one

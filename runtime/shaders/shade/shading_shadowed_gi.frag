@@ -9,6 +9,7 @@
 #include "runtime/shaders/scene/surface_point.glsl"
 #include "runtime/shaders/scene/resolve.glsl"
 #include "runtime/shaders/scene/visibility_input.glsl"
+#include "runtime/shaders/scene/material_test.glsl"
 #include "runtime/shaders/shade/shadow.glsl"
 #include "runtime/shaders/shade/lighting.glsl"
 #include "runtime/shaders/shade/surrounding_bricks.glsl"
@@ -18,6 +19,9 @@ layout(location = 0) out vec4 out_color;
 
 void main()
 {
-    Surface s = resolveSurface(subpassLoad(visibility).x, gl_FragCoord.xy);
+    uint id = subpassLoad(visibility).x;
+    if (isForeign(id))
+        discard;
+    Surface s = resolveSurface(id, gl_FragCoord.xy);
     out_color = vec4(displayColor(surfacePoint(s), surfaceUvs(s)), 1.0);
 }

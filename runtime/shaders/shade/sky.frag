@@ -3,21 +3,25 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "formats/gpu_shared/bindings.h"
-#include "formats/gpu_shared/push_constants.h"
+#include "runtime/shaders/scene/shading_push.glsl"
 #include "formats/gpu_shared/records.h"
 #include "formats/gpu_shared/shading.h"
+#include "formats/gpu_shared/specialization.h"
+#include "runtime/shaders/scene/visibility_input.glsl"
 #include "runtime/shaders/shade/tonemap.glsl"
 
 layout(set = kSetScene, binding = kSceneFrame, std140) uniform Frame { FrameView view; };
 layout(set = kSetScene, binding = kSceneLighting, std140) readonly buffer LightingBlock { Lighting lighting; };
 #include "runtime/shaders/shade/sky.glsl"
 
-layout(push_constant) uniform Push { ShadingPush push; };
+layout(constant_id = kConstantComparesMaterial) const bool kComparesMaterial = false;
 layout(early_fragment_tests) in;
 layout(location = 0) out vec4 out_color;
 
 void main()
 {
+    if (kComparesMaterial && subpassLoad(visibility).x != kVisibilitySky)
+        discard;
     vec2 ndc = gl_FragCoord.xy * 2.0 / vec2(view.width, view.height) - 1.0;
     // the rows are orthogonal, so this is the direction with clip coordinates (ndc, 1)
     vec3 x = view.clip_x.xyz;

@@ -7,14 +7,13 @@
 #include "formats/gpu_shared/instance_visibility.h"
 #include "formats/gpu_shared/light_cone.h"
 #include "formats/gpu_shared/occluder_light.h"
-#include "formats/gpu_shared/push_constants.h"
+#include "runtime/shaders/scene/shading_push.glsl"
 #include "formats/gpu_shared/specular_occlusion.h"
 
 // 16 x 16 texels (aperture, roughness); squares for the nodes of beta below each other; white in scenes
 // without a table
 layout(set = kSetScene, binding = kSceneSpecularTable) uniform sampler2D specular_table;
 
-layout(push_constant) uniform Push { ShadingPush push; };
 
 // Visibility cone of a point, and its angles to the normals.
 struct SkyView

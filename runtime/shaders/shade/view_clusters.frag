@@ -5,8 +5,9 @@
 #extension GL_GOOGLE_include_directive : require
 #include "formats/gpu_shared/bindings.h"
 #include "formats/gpu_shared/decisions.h"
-#include "formats/gpu_shared/push_constants.h"
+#include "runtime/shaders/scene/shading_push.glsl"
 #include "formats/gpu_shared/shading.h"
+#include "formats/gpu_shared/specialization.h"
 #include "runtime/shaders/shade/tonemap.glsl"
 
 layout(set = kSetTables, binding = kTableFrame, std140) uniform Frame { FrameView view; };
@@ -17,7 +18,7 @@ layout(set = kSetTables, binding = kTableGroups, std430) readonly buffer Groups 
 layout(input_attachment_index = kInputVisibility, set = kSetClusterAttachments, binding = kAttachmentVisibility)
     uniform usubpassInput visibility;
 
-layout(push_constant) uniform Push { ShadingPush push; };
+layout(constant_id = kConstantComparesMaterial) const bool kComparesMaterial = false;
 
 layout(early_fragment_tests) in;
 layout(location = 0) out vec4 out_color;
@@ -49,7 +50,10 @@ vec3 coneColor(Cluster cluster)
 
 void main()
 {
-    VisibleCluster slot = visible[subpassLoad(visibility).x >> kTriangleBits];
+    uint id = subpassLoad(visibility).x;
+    if (kComparesMaterial && id == kVisibilitySky)
+        discard;
+    VisibleCluster slot = visible[id >> kTriangleBits];
     Cluster cluster = clusters[slot.cluster];
     vec3 color = push.debug_view == kViewCones ? coneColor(cluster)
                                           : errorColor(errorRatio(instances[slot.instance], cluster));

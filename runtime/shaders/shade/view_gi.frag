@@ -11,6 +11,7 @@
 #include "runtime/shaders/scene/surface_point.glsl"
 #include "runtime/shaders/scene/resolve.glsl"
 #include "runtime/shaders/scene/visibility_input.glsl"
+#include "runtime/shaders/scene/material_test.glsl"
 #include "runtime/shaders/shade/tonemap.glsl"
 #include "runtime/shaders/gi/sample_gi.glsl"
 
@@ -19,7 +20,10 @@ layout(location = 0) out vec4 out_color;
 
 void main()
 {
-    Surface s = resolveSurface(subpassLoad(visibility).x, gl_FragCoord.xy);
+    uint id = subpassLoad(visibility).x;
+    if (isForeign(id))
+        discard;
+    Surface s = resolveSurface(id, gl_FragCoord.xy);
     vec3 normal = smoothNormal(s) * (s.front ? 1.0 : -1.0);
     out_color = vec4(toneMap(sampleGi(gl_FragCoord.xy, s.position, normal, 1.0).diffuse), 1.0);
 }

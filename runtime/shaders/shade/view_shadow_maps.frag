@@ -10,6 +10,7 @@
 #include "runtime/shaders/scene/surface_point.glsl"
 #include "runtime/shaders/scene/resolve.glsl"
 #include "runtime/shaders/scene/visibility_input.glsl"
+#include "runtime/shaders/scene/material_test.glsl"
 #include "runtime/shaders/scene/light_block.glsl"
 #include "runtime/shaders/shade/shadow.glsl"
 
@@ -26,7 +27,10 @@ vec3 mapColor(uint map)
 
 void main()
 {
-    Surface s = resolveSurface(subpassLoad(visibility).x, gl_FragCoord.xy);
+    uint id = subpassLoad(visibility).x;
+    if (isForeign(id))
+        discard;
+    Surface s = resolveSurface(id, gl_FragCoord.xy);
     vec3 normal = geometricNormal(s);
     normal = s.front ? normal : -normal;
     vec3 color = vec3(0.3);

@@ -11,6 +11,7 @@
 #include "runtime/shaders/scene/resolve.glsl"
 #include "runtime/shaders/scene/light_block.glsl"
 #include "runtime/shaders/scene/visibility_input.glsl"
+#include "runtime/shaders/scene/material_test.glsl"
 #include "runtime/shaders/shade/tonemap.glsl"
 #include "runtime/shaders/shade/sky_occlusion.glsl"
 
@@ -69,7 +70,10 @@ vec3 skyVisibilityColor(Surface s)
 
 void main()
 {
-    Surface s = resolveSurface(subpassLoad(visibility).x, gl_FragCoord.xy);
+    uint id = subpassLoad(visibility).x;
+    if (isForeign(id))
+        discard;
+    Surface s = resolveSurface(id, gl_FragCoord.xy);
     // dimmed by the angle to the eye, so that the shape is visible
     float facing = 0.35 + 0.65 * abs(dot(geometricNormal(s), normalizeOr(s.position, vec3(0.0))));
     vec3 color;

@@ -1,13 +1,15 @@
 // hearth-render: draws a pack into a PNG file.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/base/program.h"
+#include "runtime/gpu/frame/frame_text.h"
 #include "runtime/gpu/passes/cull_statistics_pass.h"
 #include "runtime/pack/pack.h"
 #include "runtime/viewer/animation.h"
 #include "runtime/viewer/camera_path.h"
 #include "runtime/viewer/contact_sheet.h"
 #include "runtime/viewer/file_output.h"
-#include "runtime/viewer/frame_report.h"
+#include "runtime/viewer/report/frame_report.h"
+#include "runtime/viewer/report/memory_report.h"
 #include "runtime/viewer/page_reading.h"
 #include "runtime/viewer/pyramid_start.h"
 #include "runtime/viewer/render/options.h"
@@ -451,6 +453,24 @@ Status drawSheet(const RenderOptions& options, const OutputCameras& images, cons
     return success();
 }
 
+/// Print what the frames of the options consist of.
+void printPasses(const RenderOptions& options, const gpu::Renderer& renderer, const gpu::Scene& scene,
+                 const gpu::FrameTargets& targets, const shared::Camera& camera)
+{
+    const gpu::FrameInput frame = makeFrame(options.settings, camera, scene.instance_count, targets.extent());
+    const gpu::FrameDescription description = renderer.describe(scene, targets, frame);
+    const MemoryCounts memory = countMemory(scene, targets);
+    const auto [width, height] = targets.extent();
+    if (options.passes == PassesFormat::json)
+        std::printf("%s", gpu::formatFrameJson(description, "\"width\":" + std::to_string(width) +
+                                                                ",\"height\":" + std::to_string(height) +
+                                                                ",\"memory\":" + formatMemoryJson(memory))
+                              .c_str());
+    else
+        std::printf("%s\n%ux%u\n%s", gpu::formatFrameText(description).c_str(), width, height,
+                    formatMemoryText(memory).c_str());
+}
+
 Status drawPack(const RenderOptions& options, const formats::PackView& pack, VulkanHost& host)
 {
     HEARTH_TRY(checkPack(options, pack));
@@ -458,8 +478,9 @@ Status drawPack(const RenderOptions& options, const formats::PackView& pack, Vul
     animation.goTo(0);
     HEARTH_ASSIGN_OR_RETURN(const std::optional<Sheet> sheet, chooseSheet(options, pack));
     HEARTH_ASSIGN_OR_RETURN(OutputCameras images, chooseImages(options, pack, animation.player(), sheet));
-    HEARTH_ASSIGN_OR_RETURN(const std::unique_ptr<gpu::Renderer> renderer,
-                            gpu::Renderer::create(host.description()));
+    HEARTH_ASSIGN_OR_RETURN(
+        const std::unique_ptr<gpu::Renderer> renderer,
+        gpu::Renderer::create(host.description(), {.materials = chooseMaterialTest(options.settings)}));
     if (options.settings.view == shared::kViewOverdraw)
         HEARTH_TRY(renderer->prepareOverdraw());
     std::unique_ptr<gpu::Scene> scene;
@@ -476,7 +497,13 @@ Status drawPack(const RenderOptions& options, const formats::PackView& pack, Vul
     HEARTH_ASSIGN_OR_RETURN(
         gpu::FrameTargets targets,
         renderer->createTargets({(sheet ? sheet->layout.cell_width : options.width) * scale,
-                                 (sheet ? sheet->layout.cell_height : options.height) * scale}));
+                                 (sheet ? sheet->layout.cell_height : options.height) * scale},
+                                targetOptions(options.settings, *scene, !options.visibility.empty())));
+    if (options.passes != PassesFormat::none)
+    {
+        printPasses(options, *renderer, *scene, targets, images.cameras.front());
+        return success();
+    }
     HEARTH_ASSIGN_OR_RETURN(const VkQueryPool timestamps, host.createTimestamps(gpu::kTimestampCount));
     FrameRecorder run(options, frameSettings(options, sheet.has_value()), pack, animation,
                       images.stage ? &*images.stage : nullptr, host, *renderer, *scene, targets, timestamps);

@@ -72,6 +72,14 @@ Status parseSheet(std::string_view text, RenderOptions& options)
     return success();
 }
 
+Status parsePasses(std::string_view text, RenderOptions& options)
+{
+    if (text != "text" && text != "json")
+        return usageError("--passes: " + quoted(text) + " is neither text nor json");
+    options.passes = text == "text" ? PassesFormat::text : PassesFormat::json;
+    return success();
+}
+
 Status parseSamples(std::string_view text, RenderOptions& options)
 {
     const auto number = parseNumber<uint32_t>(text);
@@ -128,6 +136,10 @@ std::string renderHelp()
            "      --hzb START         the depths that occlusion culling starts a frame with: previous "
            "(default), none,\n"
            "                          or noise:SEED; the image stays the same\n"
+           "      --passes text|json  print the passes of a frame, what each loads and stores, bytes a "
+           "pixel, "
+           "warnings\n"
+           "                          and memory, and draw nothing\n"
            "      --name-device       print which device would draw, and draw nothing; needs no pack\n"
            "\n"
            "With --budget an image waits for all that it wants, those of a camera path do not.\n"
@@ -160,6 +172,7 @@ Result<RenderOptions> parseRenderOptions(std::span<const char* const> arguments)
                           [&](std::string_view text) { return parseFrames(text, options.frames); });
     command_line.addText("--dump-visibility", options.visibility);
     command_line.addValue("--hzb", [&](std::string_view text) { return parsePyramid(text, options); });
+    command_line.addValue("--passes", [&](std::string_view text) { return parsePasses(text, options); });
     command_line.addSwitch("--name-device", options.print_device_name);
     HEARTH_TRY(command_line.parse(arguments, options.pack));
     if (options.help || options.print_device_name)
@@ -171,7 +184,7 @@ Result<RenderOptions> parseRenderOptions(std::span<const char* const> arguments)
     if (!options.visibility.empty())
         options.samples = 1;
     HEARTH_TRY(checkDrawOptions(options));
-    if (options.output.empty())
+    if (options.output.empty() && options.passes == PassesFormat::none)
         return usageError("no output is named (-o IMAGE.png)");
     if (!options.animation.clip && (options.animation.blended || options.animation.step_seconds != 0))
         return usageError("--blend and --time-step need --animation");

@@ -24,9 +24,18 @@ enum class SheetChoice
     off,
 };
 
+/// Form in which the passes of a frame are printed.
+enum class PassesFormat
+{
+    none, ///< an image is drawn instead
+    text,
+    json,
+};
+
 struct RenderOptions : DrawOptions
 {
     std::string output;
+    PassesFormat passes = PassesFormat::none;
     std::string camera_path;      ///< file; empty: one image
     std::vector<uint32_t> meshes; ///< an image of each mesh alone; none: the scene
     /// Each image is drawn in each of these; none: in the view of the settings.

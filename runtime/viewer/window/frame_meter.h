@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "runtime/viewer/frame_report.h"
+#include "runtime/viewer/report/frame_report.h"
 #include "runtime/viewer/window/frame_ring.h"
 #include "runtime/viewer/window/loaded_scene.h"
 

@@ -48,9 +48,9 @@ void showCount(const char* name, uint64_t count)
 
 void showTimes(const FrameStatistics& figures)
 {
-    constexpr const char* kPasses[] = {"frame",          "shadows",   "cull",       "early visibility",
-                                       "pyramid",        "late cull", "visibility", "material tiles",
-                                       "material depth", "shading"};
+    constexpr const char* kPasses[] = {"frame",   "shadows",   "cull",       "early visibility",
+                                       "pyramid", "late cull", "visibility", "material tiles",
+                                       "shading"};
     static_assert(std::size(kPasses) == gpu::kTimestampCount);
     if (!ImGui::CollapsingHeader("Times on the device"))
         return;
@@ -270,6 +270,7 @@ void Panel::buildCulling(ViewSettings& settings, const PanelData& facts)
         ImGui::SameLine();
     }
     ImGui::NewLine();
+    ImGui::Checkbox("Hide by the last frame's depth only", &settings.frame.occludes_by_last_frame);
     const FrameStatistics& figures = facts.figures;
     showCount("clusters drawn", figures.counters.drawn_clusters);
     showCount("of these early", figures.counters.early_clusters);

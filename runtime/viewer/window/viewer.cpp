@@ -128,7 +128,9 @@ Status Viewer::open(const ViewOptions& options)
     HEARTH_ASSIGN_OR_RETURN(
         host_, VulkanHost::create(
                    {.device_name = options.device, .validate = options.validate, .window = &host_window}));
-    HEARTH_ASSIGN_OR_RETURN(renderer_, gpu::Renderer::create(host_->description()));
+    HEARTH_ASSIGN_OR_RETURN(
+        renderer_,
+        gpu::Renderer::create(host_->description(), {.materials = chooseMaterialTest(settings_.frame)}));
     HEARTH_TRY(renderer_->prepareOverdraw());
     HEARTH_ASSIGN_OR_RETURN(vk_, loadWindowTable(host_->description()));
     const gpu::Device& device = renderer_->device();
@@ -285,7 +287,8 @@ Status Viewer::resize()
     targets_.reset();
     if (extent.width == 0)
         return success();
-    HEARTH_ASSIGN_OR_RETURN(targets_, renderer_->createTargets(extent));
+    HEARTH_ASSIGN_OR_RETURN(
+        targets_, renderer_->createTargets(extent, {.gathers_light = scene_->scene().bricks != nullptr}));
     return success();
 }
 

@@ -175,7 +175,10 @@ void draw(const std::string& path, const Device& device, const Readback& readbac
     checkCall(scene.releaseStaging());
 
     hearth::Targets targets;
-    checkCall(hearth::Targets::create(renderer, kSize, kSize, targets));
+    hearth_targets_description size = HEARTH_TARGETS_DESCRIPTION_INIT;
+    size.width = size.height = kSize;
+    size.scene = scene.get();
+    checkCall(hearth::Targets::create(renderer, size, targets));
     hearth_targets_info images = HEARTH_TARGETS_INFO_INIT;
     checkCall(targets.getInfo(images));
 

@@ -478,7 +478,11 @@ hearth_result c_caller_draw(c_caller* caller, hearth_renderer* renderer, hearth_
 {
     hearth_targets* targets = NULL;
     hearth_scene* scene = NULL;
-    hearth_result result = hearth_targets_create(renderer, image->width, image->height, &targets);
+    hearth_targets_description description = HEARTH_TARGETS_DESCRIPTION_INIT;
+    description.width = image->width;
+    description.height = image->height;
+    description.flags = HEARTH_TARGETS_KEEP_VISIBILITY;
+    hearth_result result = hearth_targets_create(renderer, &description, &targets);
     if (result == HEARTH_OK)
         result = upload(caller, renderer, pack, image, &scene);
     if (result == HEARTH_OK)

@@ -25,6 +25,16 @@ void fillScene(TestScene& scene)
 
 } // namespace
 
+hearth_result createTargets(hearth_renderer* renderer, uint32_t width, uint32_t height,
+                            hearth_targets** targets)
+{
+    hearth_targets_description description = HEARTH_TARGETS_DESCRIPTION_INIT;
+    description.width = width;
+    description.height = height;
+    description.flags = HEARTH_TARGETS_KEEP_VISIBILITY;
+    return hearth_targets_create(renderer, &description, targets);
+}
+
 hearth_frame makeFrame()
 {
     hearth_frame frame = HEARTH_FRAME_INIT;

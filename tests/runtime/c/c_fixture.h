@@ -26,6 +26,10 @@ inline constexpr shared::Camera kCamera{
     .position = {4, 2, 5}, .target = {0, 0, 0}, .y_fov_rad = 0.9f, .z_near = 0.05f};
 hearth_frame makeFrame();
 
+/// Create targets for any scene, whose visibility buffer is kept.
+hearth_result createTargets(hearth_renderer* renderer, uint32_t width, uint32_t height,
+                            hearth_targets** targets);
+
 /// Reads pages, each on a thread of its own.
 struct Reader
 {

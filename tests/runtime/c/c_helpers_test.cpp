@@ -52,7 +52,7 @@ TEST_F(CHelpersTest, drawsAndReadsTheImageOfTheRenderer)
     hearth_scene* scene = nullptr;
     hearth_targets* targets = nullptr;
     VkCommandBuffer commands = VK_NULL_HANDLE;
-    ASSERT_EQ(hearth_targets_create(renderer_, kWidth, kHeight, &targets), HEARTH_OK);
+    ASSERT_EQ(createTargets(renderer_, kWidth, kHeight, &targets), HEARTH_OK);
     ASSERT_EQ(hearth_targets_get_info(targets, &images), HEARTH_OK);
     ASSERT_EQ(hearth_device_begin(device_, &commands), HEARTH_OK);
     ASSERT_EQ(hearth_scene_upload(renderer_, pack_, commands, &options, &scene), HEARTH_OK);

@@ -1,7 +1,7 @@
 // Tests the additions of hearth.h 1.1: frames in parts, the caller's memory, messages; and compatibility with
 // callers of 1.0.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "runtime/gpu/frame_parts.h"
+#include "runtime/gpu/frame/frame_parts.h"
 #include "tests/runtime/c/c_fixture.h"
 
 #include <cstddef>
@@ -42,8 +42,8 @@ TEST_F(CApiTest, partsComeInOrderWithTheSameTargets)
     const hearth_scene_options options = HEARTH_SCENE_OPTIONS_INIT;
     hearth_targets *targets = nullptr, *others = nullptr;
     hearth_scene* scene = nullptr;
-    ASSERT_EQ(hearth_targets_create(renderer_, 16, 16, &targets), HEARTH_OK);
-    ASSERT_EQ(hearth_targets_create(renderer_, 16, 16, &others), HEARTH_OK);
+    ASSERT_EQ(createTargets(renderer_, 16, 16, &targets), HEARTH_OK);
+    ASSERT_EQ(createTargets(renderer_, 16, 16, &others), HEARTH_OK);
     ASSERT_EQ(hearth_scene_upload(renderer_, pack_, c_caller_begin(caller_), &options, &scene), HEARTH_OK);
     ASSERT_EQ(c_caller_submit(caller_), VK_SUCCESS);
     const VkCommandBuffer commands = c_caller_begin(caller_);
@@ -63,20 +63,23 @@ TEST_F(CApiTest, partsComeInOrderWithTheSameTargets)
 
 TEST_F(CApiTest, partsSayWhatTheyDoWithTheImages)
 {
+    hearth_targets* targets = nullptr;
+    ASSERT_EQ(createTargets(renderer_, 16, 16, &targets), HEARTH_OK);
     for (uint32_t part = HEARTH_PART_CULL; part <= HEARTH_PART_MATERIALS; ++part)
     {
         hearth_part_info info = HEARTH_PART_INFO_INIT;
-        ASSERT_EQ(hearth_part_get_info(part, &info), HEARTH_OK);
-        const gpu::PartImages images = gpu::partImages(static_cast<gpu::FramePart>(part));
+        ASSERT_EQ(hearth_targets_get_part_info(targets, part, &info), HEARTH_OK);
+        const gpu::PartImages images = gpu::partImages(static_cast<gpu::FramePart>(part), true);
         test::expectEqual(info.color.before, images.color.before);
         test::expectEqual(info.color.after, images.color.after);
         test::expectEqual(info.visibility.before, images.visibility.before);
         test::expectEqual(info.visibility.after, images.visibility.after);
     }
     hearth_part_info info = HEARTH_PART_INFO_INIT;
-    EXPECT_EQ(hearth_part_get_info(3, &info), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_targets_get_part_info(targets, 3, &info), HEARTH_ERROR_USAGE);
     info.struct_size = 0;
-    EXPECT_EQ(hearth_part_get_info(0, &info), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_targets_get_part_info(targets, 0, &info), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_targets_destroy(targets), HEARTH_OK);
 }
 
 TEST_F(CApiTest, memoryComesFromTheCallerAndGoesBack)

@@ -72,7 +72,7 @@ TEST_F(CPoseTest, posesThatCannotBeAreRefused)
     open(test.pack(), test.bytes());
     TestPose good = test.randomPose(test.deformedInstances()[0], random);
     hearth_targets* targets = nullptr;
-    ASSERT_EQ(hearth_targets_create(renderer_, 16, 16, &targets), HEARTH_OK);
+    ASSERT_EQ(createTargets(renderer_, 16, 16, &targets), HEARTH_OK);
     hearth_scene* scene = nullptr;
     const hearth_scene_options options = HEARTH_SCENE_OPTIONS_INIT;
     const VkCommandBuffer commands = c_caller_begin(caller_);

@@ -29,7 +29,7 @@ protected:
     void SetUp() override
     {
         CApiTest::SetUp();
-        ASSERT_EQ(hearth_targets_create(renderer_, 16, 16, &targets_), HEARTH_OK);
+        ASSERT_EQ(createTargets(renderer_, 16, 16, &targets_), HEARTH_OK);
     }
 
     void TearDown() override
@@ -183,9 +183,9 @@ TEST_F(CApiTest, nullArgumentsAreRefused)
     EXPECT_EQ(hearth_renderer_create(nullptr, &renderer, message_, sizeof(message_)), HEARTH_ERROR_USAGE);
     EXPECT_THAT(message_, HasSubstr("description is NULL"));
     EXPECT_EQ(hearth_renderer_create(&description, nullptr, nullptr, 0), HEARTH_ERROR_USAGE);
-    EXPECT_EQ(hearth_targets_create(nullptr, 1, 1, &targets), HEARTH_ERROR_USAGE);
-    EXPECT_EQ(hearth_targets_create(renderer_, 1, 1, nullptr), HEARTH_ERROR_USAGE);
-    EXPECT_EQ(hearth_targets_create(renderer_, 1, 0, &targets), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(createTargets(nullptr, 1, 1, &targets), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(createTargets(renderer_, 1, 1, nullptr), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(createTargets(renderer_, 1, 0, &targets), HEARTH_ERROR_USAGE);
     EXPECT_THAT(hearth_last_error(renderer_), HasSubstr("width or height is 0"));
     EXPECT_EQ(hearth_targets_get_info(nullptr, nullptr), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_scene_upload(renderer_, nullptr, nullptr, nullptr, &scene), HEARTH_ERROR_USAGE);
@@ -200,7 +200,8 @@ TEST_F(CApiTest, nullArgumentsAreRefused)
     EXPECT_EQ(hearth_record_cull(nullptr, nullptr, nullptr, nullptr), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_record_visibility(nullptr, nullptr, nullptr, nullptr), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_record_materials(nullptr, nullptr, nullptr, nullptr), HEARTH_ERROR_USAGE);
-    EXPECT_EQ(hearth_part_get_info(HEARTH_PART_CULL, nullptr), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_targets_get_part_info(nullptr, HEARTH_PART_CULL, nullptr), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_describe_passes(nullptr, nullptr, nullptr, nullptr, 0, nullptr), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_record_counters(nullptr, nullptr, VK_NULL_HANDLE, 0), HEARTH_ERROR_USAGE);
     EXPECT_STREQ(hearth_last_error(nullptr), "");
     EXPECT_EQ(hearth_pack_close(nullptr), HEARTH_OK);
@@ -227,7 +228,7 @@ TEST_F(CApiTest, otherVersionsAreRefused)
         description.api_version = version;
         EXPECT_EQ(hearth_renderer_create(&description, &renderer, message_, sizeof(message_)),
                   HEARTH_ERROR_USAGE);
-        EXPECT_THAT(message_, HasSubstr("the library is 1.7"));
+        EXPECT_THAT(message_, HasSubstr("the library is 1.8"));
     }
     description = c_caller_description(caller_);
     description.features = 1u << 31;
@@ -392,7 +393,7 @@ TEST_F(CFrameRulesTest, whatIsUsedCannotBeDestroyed)
                           "targets are alive [E1000] hint: destroy them before "
                           "the renderer"));
     hearth_targets* targets = nullptr;
-    EXPECT_EQ(hearth_targets_create(renderer_, 1u << 20, 16, &targets), HEARTH_ERROR_DEVICE_LIMIT);
+    EXPECT_EQ(createTargets(renderer_, 1u << 20, 16, &targets), HEARTH_ERROR_DEVICE_LIMIT);
     EXPECT_THAT(hearth_last_error(renderer_), HasSubstr("1048576x16"));
     EXPECT_EQ(targets, nullptr);
     EXPECT_EQ(record(makeFrame()), "") << "the renderer is as it was";

@@ -30,7 +30,7 @@ TEST_F(CWrapperTest, messagesAreStrings)
     hearth_renderer_description description = c_caller_description(caller_);
     description.api_version = 0;
     EXPECT_EQ(Renderer::create(description, renderer, &message), HEARTH_ERROR_USAGE);
-    EXPECT_THAT(message, testing::HasSubstr("the library is 1.7"));
+    EXPECT_THAT(message, testing::HasSubstr("the library is 1.8"));
 }
 
 TEST_F(CWrapperTest, handlesMove)
@@ -55,7 +55,11 @@ TEST_F(CWrapperTest, drawsAndDestroysInOrder)
     Renderer renderer;
     ASSERT_EQ(Renderer::create(c_caller_description(caller_), renderer), HEARTH_OK);
     Targets targets;
-    ASSERT_EQ(Targets::create(renderer, 64, 48, targets), HEARTH_OK);
+    hearth_targets_description size = HEARTH_TARGETS_DESCRIPTION_INIT;
+    size.width = 64;
+    size.height = 48;
+    size.flags = HEARTH_TARGETS_KEEP_VISIBILITY;
+    ASSERT_EQ(Targets::create(renderer, size, targets), HEARTH_OK);
     hearth_targets_info images = HEARTH_TARGETS_INFO_INIT;
     EXPECT_EQ(targets.getInfo(images), HEARTH_OK);
     EXPECT_EQ(images.color.format, VK_FORMAT_R8G8B8A8_SRGB);

@@ -264,8 +264,9 @@ protected:
                 return success();
             }));
         scene->staging.reset();
-        HEARTH_ASSIGN_OR_RETURN(gpu::FrameTargets targets,
-                                renderer.createTargets({shown.width, shown.height}));
+        HEARTH_ASSIGN_OR_RETURN(
+            gpu::FrameTargets targets,
+            renderer.createTargets({shown.width, shown.height}, {.keeps_visibility = true}));
         const shared::Camera camera{.position = {2, 2, 6}, .target = {}};
         for (uint64_t frame = 1; frame <= 3; ++frame)
         {
@@ -371,7 +372,7 @@ TEST_F(CallerTest, itsDebuggerSeesThePassesInOrder)
     labelled.debug_labels = true;
     (void)drawOnce(labelled, {}, {.area = gpu::ShadedArea::tiles});
     const std::vector<std::string> frame{"cull",       "early visibility", "pyramid",        "late cull",
-                                         "visibility", "material tiles",   "material depth", "shading"};
+                                         "visibility", "material tiles",   "material marks", "shading"};
     ASSERT_EQ(spy.labels.size(), 3 * frame.size());
     for (size_t i = 0; i < spy.labels.size(); ++i)
         EXPECT_EQ(spy.labels[i], frame[i % frame.size()]);
@@ -380,7 +381,7 @@ TEST_F(CallerTest, itsDebuggerSeesThePassesInOrder)
     spy.labels.clear();
     (void)drawOnce(labelled, {}, {.flags = shared::kCullFrustum, .area = gpu::ShadedArea::wholeFrame});
     spy.labels.resize(4);
-    EXPECT_EQ(spy.labels, (std::vector<std::string>{"cull", "visibility", "material depth", "shading"}));
+    EXPECT_EQ(spy.labels, (std::vector<std::string>{"cull", "visibility", "material marks", "shading"}));
 }
 
 TEST_F(CallerTest, itIsToldThatItsDeviceHasNoTexturesOfSixteenBits)

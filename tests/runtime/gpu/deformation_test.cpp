@@ -338,7 +338,7 @@ TEST_F(DeformationTest, overdrawMayBePreparedBeforeTheScene)
     const DrawOptions options{.width = 96, .height = 72, .debug_view = kViewOverdraw};
     const Camera camera{.position = {0, 0, 8}, .target = {}};
     std::unique_ptr<gpu::Scene> scene;
-    auto targets = early.createTargets({options.width, options.height});
+    auto targets = early.createTargets({options.width, options.height}, {.keeps_visibility = true});
     ASSERT_TRUE(targets.ok());
     const auto run = [&](const auto& record) { ASSERT_TRUE(host().run(record).ok()); };
     run(

@@ -382,7 +382,7 @@ void drawAlone(const formats::PackView& pack, std::vector<std::vector<std::byte>
             return success();
         });
     ASSERT_TRUE(uploaded.ok()) << formatMessage(uploaded.error());
-    auto targets = (*renderer)->createTargets({96, 72});
+    auto targets = (*renderer)->createTargets({96, 72}, {.keeps_visibility = true});
     ASSERT_TRUE(targets.ok());
     for (const Float3 eye : {Float3{6, 4, 6}, {-2, 7, 1}, {9, 1, -3}})
     {

@@ -67,7 +67,7 @@ gpu::UniqueRenderPass createForwardPass(const gpu::Device& device)
     const VkAttachmentDescription attachments[] = {
         attachment(gpu::kColorFormat, VK_ATTACHMENT_LOAD_OP_CLEAR, VK_IMAGE_LAYOUT_UNDEFINED,
                    VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL),
-        attachment(gpu::kAttachmentFormats[gpu::kDepth], VK_ATTACHMENT_LOAD_OP_CLEAR,
+        attachment(gpu::depthFormat(gpu::MaterialTest::depth), VK_ATTACHMENT_LOAD_OP_CLEAR,
                    VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL)};
     const VkAttachmentReference color{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
     const VkAttachmentReference depth{1, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
@@ -217,7 +217,7 @@ std::vector<uint32_t> ForwardRenderer::draw(const gpu::Scene& scene, VkExtent2D 
         arena.createImage({.format = gpu::kColorFormat,
                            .extent = extent,
                            .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT}));
-    const gpu::Image depth = take(arena.createImage({.format = gpu::kAttachmentFormats[gpu::kDepth],
+    const gpu::Image depth = take(arena.createImage({.format = gpu::depthFormat(gpu::MaterialTest::depth),
                                                      .extent = extent,
                                                      .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
                                                      .aspect = VK_IMAGE_ASPECT_DEPTH_BIT}));

@@ -72,8 +72,8 @@ protected:
     /// states that the parts report.
     void copyVisibility(const gpu::FrameTargets& targets)
     {
-        const gpu::ImageState drawn = partImages(FramePart::visibility).visibility.after;
-        const gpu::ImageState wanted = partImages(FramePart::materials).visibility.before;
+        const gpu::ImageState drawn = partImages(FramePart::visibility, true).visibility.after;
+        const gpu::ImageState wanted = partImages(FramePart::materials, true).visibility.before;
         const gpu::ImageState copied{VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_TRANSFER_BIT,
                                      VK_ACCESS_TRANSFER_READ_BIT};
         run([&](VkCommandBuffer commands) { transition(commands, targets.visibility(), drawn, copied); });

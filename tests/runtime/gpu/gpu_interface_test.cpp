@@ -38,10 +38,14 @@ std::vector<uint32_t> readWords(const char* path)
 /// The specialization constants by their names in GLSL.
 std::map<std::string, uint32_t> constantIds()
 {
-    return {{"kUsedSlices", shared::kConstantUsedSlices}, {"kTextures", shared::kConstantTextures},
-            {"kUvSets", shared::kConstantUvSets},         {"kUnlit", shared::kConstantUnlit},
-            {"kDeformed", shared::kConstantDeformed},     {"kSkyVisibility", shared::kConstantSkyVisibility},
-            {"kLayers", shared::kConstantLayers}};
+    return {{"kUsedSlices", shared::kConstantUsedSlices},
+            {"kTextures", shared::kConstantTextures},
+            {"kUvSets", shared::kConstantUvSets},
+            {"kUnlit", shared::kConstantUnlit},
+            {"kDeformed", shared::kConstantDeformed},
+            {"kSkyVisibility", shared::kConstantSkyVisibility},
+            {"kLayers", shared::kConstantLayers},
+            {"kComparesMaterial", shared::kConstantComparesMaterial}};
 }
 
 /// Not a GpuTest: that creates pipelines, and a driver may crash where a shader and a layout differ.

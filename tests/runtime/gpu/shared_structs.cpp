@@ -82,7 +82,7 @@ std::vector<SharedStruct> pushStructs()
         HEARTH_STRUCT(PyramidPush, width, height),
         HEARTH_STRUCT(TilesPush, width, height, draw_count),
         HEARTH_STRUCT(BinPush, bin, light_row, map_index, facing),
-        HEARTH_STRUCT(ShadingPush, depth, debug_view, depth_scale, sky_occlusion),
+        HEARTH_STRUCT(ShadingPush, depth, material, debug_view, depth_scale, sky_occlusion),
     };
 }
 

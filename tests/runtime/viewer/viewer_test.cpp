@@ -3,7 +3,7 @@
 #include "formats/gpu_shared/shading.h"
 #include "runtime/viewer/camera_fit.h"
 #include "runtime/viewer/camera_path.h"
-#include "runtime/viewer/cull_report.h"
+#include "runtime/viewer/report/cull_report.h"
 #include "runtime/viewer/file_output.h"
 #include "runtime/viewer/render/options.h"
 #include "runtime/viewer/sample_sum.h"

@@ -32,7 +32,8 @@ struct ImageUse
     /// The part waits for such uses by itself; other uses need a barrier of the caller. Layout UNDEFINED: the
     /// content is lost.
     ImageState before;
-    ImageState after; ///< visible to these accesses; others need a barrier of the caller
+    /// Visible to these accesses; others need a barrier of the caller. Layout UNDEFINED: the content is lost.
+    ImageState after;
 };
 
 struct PartImages
@@ -40,27 +41,8 @@ struct PartImages
     ImageUse visibility, color;
 };
 
-/// Return the image states of a part.
-constexpr PartImages partImages(FramePart part)
-{
-    constexpr VkPipelineStageFlags kReaders =
-        VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
-    constexpr VkAccessFlags kReads = VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_SHADER_READ_BIT;
-    constexpr ImageState kLost{VK_IMAGE_LAYOUT_UNDEFINED, kReaders, kReads};
-    constexpr ImageState kToSample{VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-                                   VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT};
-    constexpr ImageState kToCopy{VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_TRANSFER_BIT,
-                                 VK_ACCESS_TRANSFER_READ_BIT};
-    switch (part)
-    {
-    case FramePart::cull:
-        break;
-    case FramePart::visibility:
-        return {.visibility = {kLost, kToSample}, .color = {}};
-    case FramePart::materials:
-        return {.visibility = {kToSample, kToCopy}, .color = {kLost, kToCopy}};
-    }
-    return {};
-}
+/// Return the image states of a part, from the table of the frame: the same for all scenes and settings.
+/// keeps_visibility  as TargetOptions
+PartImages partImages(FramePart part, bool keeps_visibility);
 
 } // namespace hearth::gpu

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "runtime/viewer/cull_report.h"
+#include "runtime/viewer/report/cull_report.h"
 
 #include <array>
 

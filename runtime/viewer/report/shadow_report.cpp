@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "runtime/viewer/shadow_report.h"
+#include "runtime/viewer/report/shadow_report.h"
 
 #include <cstring>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "runtime/viewer/stream_report.h"
+#include "runtime/viewer/report/stream_report.h"
 
 #include <cstdio>
 #include <cstring>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "runtime/viewer/frame_report.h"
+#include "runtime/viewer/report/frame_report.h"
 
 #include "formats/gpu_shared/material_tiles.h"
 
@@ -217,7 +217,6 @@ std::string formatReport(const FrameReport& report, const formats::PackView& pac
             ",\"late_cull\":" + number(report.milliseconds[gpu::kTimestampLateCull]) +
             ",\"visibility\":" + number(report.milliseconds[gpu::kTimestampVisibility]) +
             ",\"material_tiles\":" + number(report.milliseconds[gpu::kTimestampMaterialTiles]) +
-            ",\"material_depth\":" + number(report.milliseconds[gpu::kTimestampMaterialDepth]) +
             ",\"shading\":" + number(report.milliseconds[gpu::kTimestampShading]) + "}");
     return text + "}\n";
 }

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "runtime/viewer/contact_sheet.h"
-#include "runtime/viewer/cull_report.h"
-#include "runtime/viewer/shadow_report.h"
-#include "runtime/viewer/stream_report.h"
+#include "runtime/viewer/report/cull_report.h"
+#include "runtime/viewer/report/shadow_report.h"
+#include "runtime/viewer/report/stream_report.h"
 #include "runtime/viewer/vulkan_host.h"
 
 #include <array>

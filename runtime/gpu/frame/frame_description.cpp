@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/frame/frame_description.h"
+
+#include "formats/base/assert.h"
+
+#include <iterator>
+#include <string>
+
+namespace hearth::gpu
+{
+
+namespace
+{
+
+// a pyramid is 1/4 + 1/16 + ... of the pixels; two texels of 16 bytes and 112 bytes of points per 64 pixels,
+// twice; 64 words per 4096 pixels
+constexpr ResourceFacts kResources[] = {
+    {"visibility", ResourceKind::attachment, 4},   {"depth", ResourceKind::attachment, 4},
+    {"color", ResourceKind::attachment, 4},        {"pyramid", ResourceKind::image, 4.0f / 3},
+    {"gathered light", ResourceKind::image, 0.5f}, {"gather points", ResourceKind::buffer, 1.75f},
+    {"tile lists", ResourceKind::buffer, 0.0625f}, {"shadow map", ResourceKind::shadow_map, 4},
+};
+static_assert(std::size(kResources) == static_cast<size_t>(FrameResource::count));
+
+constexpr const char* kSteps[] = {
+    "update",    "light bricks", "shadow maps",    "cull",         "early visibility", "early pyramid",
+    "late cull", "visibility",   "material tiles", "gather light", "shading",          "pyramid",
+};
+static_assert(std::size(kSteps) == static_cast<size_t>(FrameStep::count));
+
+struct AccessFacts
+{
+    VkPipelineStageFlags stages;
+    VkAccessFlags flags;
+    VkImageLayout layout;
+    bool writes;
+};
+
+constexpr VkPipelineStageFlags kDepthStages =
+    VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT;
+
+constexpr AccessFacts accessFacts(Access access)
+{
+    switch (access)
+    {
+    case Access::color_write:
+        return {VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
+                VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT,
+                VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, true};
+    case Access::depth_write:
+    case Access::depth_keep: // load and store operations count as writes
+        return {kDepthStages,
+                VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
+                VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL, true};
+    case Access::input:
+        return {VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_ACCESS_INPUT_ATTACHMENT_READ_BIT,
+                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, false};
+    case Access::sampled:
+        return {VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT,
+                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, false};
+    case Access::compute_read:
+        return {VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT, VK_IMAGE_LAYOUT_UNDEFINED,
+                false};
+    case Access::compute_write:
+        return {VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT,
+                VK_IMAGE_LAYOUT_UNDEFINED, true};
+    case Access::vertex_read:
+        return {VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT,
+                VK_ACCESS_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_SHADER_READ_BIT, VK_IMAGE_LAYOUT_UNDEFINED,
+                false};
+    case Access::fragment_read:
+        return {VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT,
+                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, false};
+    }
+    return {};
+}
+
+} // namespace
+
+const ResourceFacts& resourceFacts(FrameResource resource)
+{
+    return kResources[static_cast<size_t>(resource)];
+}
+
+const char* stepName(FrameStep step)
+{
+    return kSteps[static_cast<size_t>(step)];
+}
+
+VkPipelineStageFlags accessStages(Access access)
+{
+    return accessFacts(access).stages;
+}
+
+VkAccessFlags accessFlags(Access access)
+{
+    return accessFacts(access).flags;
+}
+
+bool isWrite(Access access)
+{
+    return accessFacts(access).writes;
+}
+
+VkImageLayout accessLayout(Access access)
+{
+    return accessFacts(access).layout;
+}
+
+std::string passName(const Pass& pass)
+{
+    std::string name;
+    for (const FrameStep step : pass.steps)
+        name += (name.empty() ? "" : " + ") + std::string(stepName(step));
+    return name;
+}
+
+} // namespace hearth::gpu

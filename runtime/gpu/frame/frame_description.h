@@ -1,0 +1,225 @@
+// The frame as data: its passes in order, and what each of them loads, reads, writes and stores. This table
+// makes the render passes, the barriers between passes and the image states that callers get; the lint
+// (frame_lint.h) checks it.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "runtime/gpu/vulkan/device_table.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace hearth::gpu
+{
+
+/// Images, and buffers whose size follows the image's, that pass from one step of a frame to another.
+enum class FrameResource : uint8_t
+{
+    visibility,     ///< visible triangle of each pixel; attachment
+    depth,          ///< attachment
+    color,          ///< the shaded frame; attachment
+    pyramid,        ///< depth pyramid of occlusion culling
+    gathered_light, ///< indirect light of tiles of 8 x 8 pixels, as shading reads it
+    gather_points,  ///< buffers of the same tiles
+    tile_lists,     ///< buffers: tiles of 64 x 64 pixels of each material
+    shadow_map,     ///< a layer; its texels are not the frame's pixels
+    count,
+};
+
+/// Unit of a resource's size.
+enum class ResourceKind : uint8_t
+{
+    attachment, ///< image of the frame's size that is drawn to
+    image,      ///< image, or buffer used as one, that compute passes write
+    buffer,
+    shadow_map, ///< image of another size
+};
+
+struct ResourceFacts
+{
+    const char* name;
+    ResourceKind kind;
+    float bytes_per_pixel; ///< of the frame; of a shadow map, of its texel
+};
+const ResourceFacts& resourceFacts(FrameResource resource);
+
+/// Work of a frame that is recorded in one piece, in recording order.
+enum class FrameStep : uint8_t
+{
+    update,
+    brick_light,
+    shadow_maps,
+    cull,
+    early_visibility,
+    early_pyramid, ///< of the early phase
+    late_cull,
+    visibility,
+    material_tiles,
+    gather,
+    shading,
+    pyramid, ///< for the next frame
+    count,
+};
+const char* stepName(FrameStep step);
+
+/// Use of a resource by a step.
+enum class Access : uint8_t
+{
+    color_write,
+    depth_write, ///< tested and written
+    depth_keep,  ///< bound, neither tested nor written: a tiler merges subpasses only if they share the depth
+    input,       ///< input attachment: the pixel's own value
+    sampled,     ///< by a compute shader
+    compute_read,  ///< as storage
+    compute_write, ///< as storage
+    vertex_read,   ///< by indirect draws and vertex shaders
+    fragment_read, ///< sampled or as storage
+};
+VkPipelineStageFlags accessStages(Access access);
+VkAccessFlags accessFlags(Access access);
+bool isWrite(Access access);
+/// Layout in which an image has to be for an access; UNDEFINED for buffers.
+VkImageLayout accessLayout(Access access);
+
+/// Fate of the content that a resource has before an access.
+enum class Content : uint8_t
+{
+    begin,     ///< cleared first
+    overwrite, ///< every pixel is written
+    keep,      ///< read, or added to
+};
+
+struct ResourceUse
+{
+    FrameResource resource;
+    Access access;
+    Content content = Content::keep;
+    float share = 1; ///< texels read or written, of all
+};
+
+enum class LoadOperation : uint8_t
+{
+    none, ///< content undefined
+    clear,
+    load,
+};
+
+/// An attachment of a render pass.
+struct AttachmentUse
+{
+    FrameResource resource;
+    LoadOperation load = LoadOperation::none;
+    bool store = false;
+    const char* reader = nullptr; ///< step that needs what is stored, or kCaller; null if it is not stored
+    VkImageLayout initial_layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    VkImageLayout final_layout = VK_IMAGE_LAYOUT_UNDEFINED;
+};
+inline constexpr const char* kCaller = "the caller";
+
+/// Geometry that covers the frame where a step draws no clusters.
+enum class Cover : uint8_t
+{
+    none,
+    triangle, ///< one, larger than the frame
+    tiles,    ///< quads of 64 x 64 pixels, or one triangle
+    quad,     ///< two triangles with a common diagonal
+};
+
+/// Facts of a step's draws that a tile-based GPU punishes.
+struct DrawFacts
+{
+    Cover cover = Cover::none;
+    bool clears_by_command = false;
+    bool discards = false;              ///< opaque geometry
+    bool writes_fragment_depth = false; ///< opaque geometry
+};
+
+struct Subpass
+{
+    FrameStep step;
+    bool is_empty = false; ///< there so that render passes are compatible; nothing is drawn
+    std::vector<ResourceUse> attachments{};
+    DrawFacts draws{};
+};
+
+enum class PassKind : uint8_t
+{
+    transfer,
+    compute,
+    render,
+};
+
+/// Way in which the CPU hands over what a pass uploads.
+enum class HostWrite : uint8_t
+{
+    none,
+    command_buffer, ///< vkCmdUpdateBuffer: the driver keeps a copy
+    ring,           ///< a part of a mapped buffer that no frame in flight reads
+    in_place,       ///< mapped memory that an earlier frame may still read
+};
+
+/// Memory dependency on everything earlier that touched what a pass touches.
+struct PassBarrier
+{
+    VkPipelineStageFlags from = 0;
+    VkAccessFlags written = 0;
+    VkPipelineStageFlags to = 0;
+    VkAccessFlags accessed = 0;
+};
+
+struct Pass
+{
+    PassKind kind = PassKind::compute;
+    std::vector<FrameStep> steps{};           ///< one, or one for each subpass that draws
+    std::vector<AttachmentUse> attachments{}; ///< render passes only
+    std::vector<Subpass> subpasses{};         ///< render passes only
+    std::vector<ResourceUse> uses{};          ///< all but attachments
+    HostWrite host_write = HostWrite::none;
+    bool by_region = true; ///< dependencies between subpasses are between pixels
+    PassBarrier barrier{}; ///< before the pass
+};
+
+/// Return the name of a pass: its steps, joined by " + ".
+std::string passName(const Pass& pass);
+
+/// Occlusion culling of a frame.
+enum class OcclusionCulling : uint8_t
+{
+    off,
+    last_frame, ///< against the last frame's depth: objects that come into view may be missing for a frame
+    two_phase,  ///< lossless
+};
+
+/// Way in which shading finds the pixels of a material.
+enum class MaterialTest : uint8_t
+{
+    depth, ///< material numbers overwrite the depth, and the depth test compares them
+    id,    ///< the shader compares numbers, and the depth stays; a stencil of their low bits rejects early
+};
+
+/// Everything that decides which passes a frame has.
+struct FrameConfiguration
+{
+    OcclusionCulling occlusion = OcclusionCulling::two_phase;
+    MaterialTest materials = MaterialTest::depth;
+    bool material_tiles = false;
+    bool gathers_light = false;
+    bool in_parts = false;         ///< the caller may put work between visibility and shading
+    bool keeps_visibility = false; ///< the caller reads the visibility buffer after the frame
+    bool shows_overdraw = false;
+    // no influence on the passes from the early visibility on
+    bool has_shadows = false;
+    bool lights_bricks = false;
+};
+
+struct FrameDescription
+{
+    FrameConfiguration configuration;
+    std::vector<Pass> passes;
+    /// Attachments that never leave the tile: their memory need not exist.
+    std::vector<FrameResource> transient;
+};
+
+} // namespace hearth::gpu

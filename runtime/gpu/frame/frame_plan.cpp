@@ -1,0 +1,432 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/frame/frame_plan.h"
+
+#include "formats/base/assert.h"
+
+#include <algorithm>
+#include <array>
+
+namespace hearth::gpu
+{
+
+namespace
+{
+
+using Resource = FrameResource;
+
+constexpr size_t kResourceCount = static_cast<size_t>(Resource::count);
+
+/// Pixels of a gather tile that are looked at: one, and eight in every other tile.
+constexpr float kGatheredShare = 0.5f * (1 + 8) / 64;
+
+/// A step before it is part of a pass.
+struct Step
+{
+    FrameStep step;
+    PassKind kind;
+    std::vector<ResourceUse> attachments{};
+    std::vector<ResourceUse> uses{};
+    DrawFacts draws{};
+    HostWrite host_write = HostWrite::none;
+};
+
+/// Draw clusters into the visibility buffer; `content` of what is there before.
+Step visibilityStep(FrameStep step, Content content)
+{
+    return {.step = step,
+            .kind = PassKind::render,
+            .attachments = {{Resource::visibility, Access::color_write, content},
+                            {Resource::depth, Access::depth_write, content}}};
+}
+
+Step pyramidStep(FrameStep step)
+{
+    return {.step = step,
+            .kind = PassKind::compute,
+            .uses = {{Resource::depth, Access::sampled},
+                     {Resource::pyramid, Access::compute_write, Content::overwrite}}};
+}
+
+Step shadingStep(const FrameConfiguration& c)
+{
+    const bool by_depth = c.materials == MaterialTest::depth;
+    Step step{.step = FrameStep::shading,
+              .kind = PassKind::render,
+              .attachments = {{Resource::visibility, Access::input},
+                              {Resource::depth, by_depth ? Access::depth_write : Access::depth_keep,
+                               by_depth ? Content::overwrite : Content::keep},
+                              {Resource::color, Access::color_write,
+                               c.shows_overdraw ? Content::begin : Content::overwrite}},
+              .draws = {.cover = c.material_tiles ? Cover::tiles : Cover::triangle,
+                        .discards = !by_depth,
+                        .writes_fragment_depth = by_depth}};
+    if (c.material_tiles)
+        step.uses.push_back({Resource::tile_lists, Access::vertex_read});
+    if (c.gathers_light)
+        step.uses.push_back({Resource::gathered_light, Access::fragment_read});
+    if (c.has_shadows)
+        step.uses.push_back({Resource::shadow_map, Access::fragment_read, Content::keep, 0});
+    return step;
+}
+
+/// True if shading cannot follow the visibility buffer in one render pass.
+bool splitsAtVisibility(const FrameConfiguration& c)
+{
+    // the pyramid needs the scene's depth, which the numbers of materials overwrite
+    const bool loses_depth =
+        c.occlusion == OcclusionCulling::last_frame && c.materials == MaterialTest::depth;
+    return c.material_tiles || c.gathers_light || c.in_parts || loses_depth;
+}
+
+std::vector<Step> listSteps(const FrameConfiguration& c)
+{
+    const bool two_phases = c.occlusion == OcclusionCulling::two_phase;
+    std::vector<Step> steps;
+    steps.push_back(
+        {.step = FrameStep::update, .kind = PassKind::transfer, .host_write = HostWrite::command_buffer});
+    if (c.lights_bricks)
+        steps.push_back({.step = FrameStep::brick_light, .kind = PassKind::compute});
+    if (c.has_shadows)
+        steps.push_back({.step = FrameStep::shadow_maps,
+                         .kind = PassKind::render,
+                         .attachments = {{Resource::shadow_map, Access::depth_write, Content::begin}}});
+
+    // culling reads texels of the pyramid by cluster, not by pixel
+    Step cull{.step = FrameStep::cull, .kind = PassKind::compute};
+    if (c.occlusion != OcclusionCulling::off)
+        cull.uses.push_back({Resource::pyramid, Access::compute_read, Content::keep, 0});
+    steps.push_back(cull);
+    if (two_phases)
+    {
+        steps.push_back(visibilityStep(FrameStep::early_visibility, Content::begin));
+        steps.push_back(pyramidStep(FrameStep::early_pyramid));
+        steps.push_back({.step = FrameStep::late_cull, .kind = PassKind::compute, .uses = cull.uses});
+    }
+    steps.push_back(visibilityStep(FrameStep::visibility, two_phases ? Content::keep : Content::begin));
+    const bool split = splitsAtVisibility(c);
+    if (split && c.occlusion == OcclusionCulling::last_frame)
+        steps.push_back(pyramidStep(FrameStep::pyramid));
+    if (c.material_tiles)
+        steps.push_back({.step = FrameStep::material_tiles,
+                         .kind = PassKind::compute,
+                         .uses = {{Resource::visibility, Access::sampled},
+                                  {Resource::tile_lists, Access::compute_write, Content::overwrite}}});
+    if (c.gathers_light)
+        steps.push_back({.step = FrameStep::gather,
+                         .kind = PassKind::compute,
+                         .uses = {{Resource::visibility, Access::sampled, Content::keep, kGatheredShare},
+                                  {Resource::gather_points, Access::compute_write, Content::keep},
+                                  {Resource::gathered_light, Access::compute_write, Content::overwrite}}});
+    steps.push_back(shadingStep(c));
+    if (!split && c.occlusion == OcclusionCulling::last_frame)
+        steps.push_back(pyramidStep(FrameStep::pyramid));
+    return steps;
+}
+
+Subpass makeSubpass(const Step& step)
+{
+    return {.step = step.step, .attachments = step.attachments, .draws = step.draws};
+}
+
+/// Return the subpass of a step that is drawn elsewhere: all render passes of the frame have the same two.
+Subpass makeEmptySubpass(const Step& step)
+{
+    return {.step = step.step, .is_empty = true, .attachments = step.attachments};
+}
+
+bool drawsVisibility(FrameStep step)
+{
+    return step == FrameStep::early_visibility || step == FrameStep::visibility;
+}
+
+/// Join steps into passes: shading shares the render pass of the visibility buffer if nothing lies between.
+std::vector<Pass> joinSteps(const FrameConfiguration& c, const std::vector<Step>& steps)
+{
+    std::vector<Pass> passes;
+    for (const Step& step : steps)
+    {
+        const bool continues = step.step == FrameStep::shading && !passes.empty() &&
+                               passes.back().steps.back() == FrameStep::visibility && !splitsAtVisibility(c);
+        if (continues)
+        {
+            Pass& pass = passes.back();
+            pass.steps.push_back(step.step);
+            pass.subpasses.back() = makeSubpass(step);
+            pass.uses.insert(pass.uses.end(), step.uses.begin(), step.uses.end());
+            continue;
+        }
+        Pass pass{.kind = step.kind, .steps = {step.step}, .uses = step.uses, .host_write = step.host_write};
+        if (drawsVisibility(step.step))
+            pass.subpasses = {makeSubpass(step), makeEmptySubpass(shadingStep(c))};
+        else if (step.step == FrameStep::shading)
+            pass.subpasses = {makeEmptySubpass(visibilityStep(FrameStep::visibility, Content::keep)),
+                              makeSubpass(step)};
+        else if (step.kind == PassKind::render)
+            pass.subpasses = {makeSubpass(step)};
+        passes.push_back(std::move(pass));
+    }
+    return passes;
+}
+
+/// First use of a resource by a pass; null if it has none.
+const ResourceUse* firstUse(const Pass& pass, Resource resource)
+{
+    const auto find = [&](const std::vector<ResourceUse>& uses) -> const ResourceUse*
+    {
+        const auto found = std::find_if(uses.begin(), uses.end(),
+                                        [&](const ResourceUse& use) { return use.resource == resource; });
+        return found == uses.end() ? nullptr : &*found;
+    };
+    for (const Subpass& subpass : pass.subpasses)
+        if (!subpass.is_empty)
+            if (const ResourceUse* use = find(subpass.attachments))
+                return use;
+    return find(pass.uses);
+}
+
+/// The depth that is merely bound needs no content.
+bool needsContent(const ResourceUse& use)
+{
+    return use.content == Content::keep && use.access != Access::depth_keep;
+}
+
+/// Pass after `from` that needs the content of a resource before another pass replaces it.
+const Pass* findReader(std::span<const Pass> passes, size_t from, Resource resource)
+{
+    for (size_t i = from + 1; i < passes.size(); ++i)
+        if (const ResourceUse* use = firstUse(passes[i], resource))
+        {
+            if (needsContent(*use))
+                return &passes[i];
+            if (use->access != Access::depth_keep)
+                return nullptr;
+        }
+    return nullptr;
+}
+
+bool isHandedOut(const FrameConfiguration& c, Resource resource)
+{
+    return resource == Resource::color || (resource == Resource::visibility && c.keeps_visibility);
+}
+
+/// Return the attachment in the layout of its last use in a pass.
+VkImageLayout lastLayout(const Pass& pass, Resource resource)
+{
+    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    for (const Subpass& subpass : pass.subpasses)
+        for (const ResourceUse& use : subpass.attachments)
+            if (use.resource == resource)
+                layout = accessLayout(use.access);
+    return layout;
+}
+
+/// Derive load and store operations and layouts of a render pass. `stored` has the layout of each attachment
+/// that an earlier pass has stored.
+void setAttachments(const FrameConfiguration& c, std::span<Pass> passes, size_t number,
+                    std::array<VkImageLayout, kResourceCount>& stored)
+{
+    Pass& pass = passes[number];
+    for (const Resource resource :
+         {Resource::visibility, Resource::depth, Resource::color, Resource::shadow_map})
+    {
+        VkImageLayout& before = stored[static_cast<size_t>(resource)];
+        const VkImageLayout own = lastLayout(pass, resource);
+        if (own == VK_IMAGE_LAYOUT_UNDEFINED)
+            continue;
+        AttachmentUse attachment{.resource = resource, .final_layout = own};
+        const ResourceUse* first = firstUse(pass, resource);
+        const Pass* reader = findReader(passes, number, resource);
+        // the layout of an image that was stored stands for its content
+        const bool passes_through =
+            first == nullptr && before != VK_IMAGE_LAYOUT_UNDEFINED && reader != nullptr;
+        HEARTH_ASSERT(!passes_through); // an empty subpass would load and store what it does not use
+        if (first != nullptr && first->content == Content::begin)
+            attachment.load = LoadOperation::clear;
+        else if (first != nullptr && needsContent(*first))
+        {
+            HEARTH_ASSERT(before != VK_IMAGE_LAYOUT_UNDEFINED);
+            attachment.load = LoadOperation::load;
+            attachment.initial_layout = before;
+        }
+        const bool has_content = first != nullptr;
+        if (has_content && reader != nullptr)
+        {
+            attachment.store = true;
+            attachment.reader = stepName(reader->steps.front());
+            const Access access = firstUse(*reader, resource)->access;
+            attachment.final_layout = accessLayout(access);
+        }
+        else if (has_content && isHandedOut(c, resource))
+        {
+            attachment.store = true;
+            attachment.reader = kCaller;
+            attachment.final_layout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
+        }
+        else if (resource == Resource::shadow_map)
+        {
+            attachment.store = true;
+            attachment.reader = stepName(FrameStep::shading);
+            attachment.final_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+        }
+        before = attachment.store ? attachment.final_layout : VK_IMAGE_LAYOUT_UNDEFINED;
+        pass.attachments.push_back(attachment);
+    }
+}
+
+/// Add the attachments that both subpasses share and the pass does not use: nothing loads or stores them.
+struct Touch
+{
+    VkPipelineStageFlags stages = 0;
+    VkAccessFlags written = 0; ///< 0: read only
+
+    void add(Access access)
+    {
+        stages |= accessStages(access);
+        if (isWrite(access))
+            written |= accessFlags(access);
+    }
+};
+
+/// Everything that any frame may do with a resource: frames before may have had other configurations.
+Touch touchByEarlierFrames(MaterialTest materials, Resource resource)
+{
+    Touch touch;
+    for (FrameConfiguration c : allConfigurations(materials))
+    {
+        c.has_shadows = true;
+        for (const Step& step : listSteps(c))
+            for (const auto* uses : {&step.attachments, &step.uses})
+                for (const ResourceUse& use : *uses)
+                    if (use.resource == resource)
+                        touch.add(use.access);
+    }
+    if (resource == Resource::color || resource == Resource::visibility)
+        touch.stages |= kCallerStages;
+    return touch;
+}
+
+/// Uses of a resource by a pass, of empty subpasses too: their attachments change their layout.
+std::vector<Access> listAccesses(const Pass& pass, Resource resource)
+{
+    std::vector<Access> accesses;
+    const auto add = [&](const std::vector<ResourceUse>& uses)
+    {
+        for (const ResourceUse& use : uses)
+            if (use.resource == resource)
+                accesses.push_back(use.access);
+    };
+    for (const Subpass& subpass : pass.subpasses)
+        add(subpass.attachments);
+    add(pass.uses);
+    return accesses;
+}
+
+/// Return what the passes before did with a resource since it was last written, and that write.
+Touch touchBefore(const FrameConfiguration& c, std::span<const Pass> passes, size_t number, Resource resource)
+{
+    Touch touch;
+    if (c.in_parts && resource == Resource::visibility) // the caller may have read it between two parts
+        touch.stages |= kCallerStages;
+    for (size_t i = number; i-- > 0;)
+    {
+        for (const Access access : listAccesses(passes[i], resource))
+            touch.add(access);
+        if (touch.written != 0)
+            return touch;
+    }
+    const Touch earlier = touchByEarlierFrames(c.materials, resource);
+    touch.stages |= earlier.stages;
+    touch.written |= earlier.written;
+    return touch;
+}
+
+/// Derive the barrier before a pass: writes wait for all uses since the last write, reads for that write.
+void setBarrier(const FrameConfiguration& c, std::span<Pass> passes, size_t number)
+{
+    Pass& pass = passes[number];
+    for (size_t i = 0; i < kResourceCount; ++i)
+    {
+        const auto resource = static_cast<Resource>(i);
+        Touch own;
+        VkAccessFlags accessed = 0;
+        for (const Access access : listAccesses(pass, resource))
+        {
+            own.add(access);
+            accessed |= accessFlags(access);
+        }
+        if (own.stages == 0)
+            continue;
+        const Touch before = touchBefore(c, passes, number, resource);
+        pass.barrier.from |= before.stages;
+        pass.barrier.written |= before.written;
+        pass.barrier.to |= own.stages;
+        pass.barrier.accessed |= accessed;
+    }
+}
+
+/// List the attachments that no pass loads or stores.
+std::vector<Resource> findTransient(std::span<const Pass> passes)
+{
+    std::vector<Resource> transient;
+    for (const Resource resource : {Resource::visibility, Resource::depth, Resource::color})
+    {
+        bool leaves_tile = false;
+        for (const Pass& pass : passes)
+            for (const AttachmentUse& use : pass.attachments)
+                leaves_tile = leaves_tile ||
+                              (use.resource == resource && (use.store || use.load == LoadOperation::load));
+        if (!leaves_tile)
+            transient.push_back(resource);
+    }
+    return transient;
+}
+
+} // namespace
+
+FrameDescription describeFrame(const FrameConfiguration& configuration)
+{
+    FrameDescription frame;
+    frame.configuration = configuration;
+    frame.passes = joinSteps(configuration, listSteps(configuration));
+    std::array<VkImageLayout, kResourceCount> stored{};
+    for (size_t i = 0; i < frame.passes.size(); ++i)
+    {
+        setAttachments(configuration, frame.passes, i, stored);
+        setBarrier(configuration, frame.passes, i);
+    }
+    frame.transient = findTransient(frame.passes);
+    return frame;
+}
+
+std::vector<FrameConfiguration> allConfigurations(MaterialTest materials)
+{
+    std::vector<FrameConfiguration> all;
+    for (const OcclusionCulling occlusion :
+         {OcclusionCulling::off, OcclusionCulling::last_frame, OcclusionCulling::two_phase})
+        for (uint32_t bits = 0; bits < 32; ++bits)
+            all.push_back({.occlusion = occlusion,
+                           .materials = materials,
+                           .material_tiles = (bits & 1) != 0,
+                           .gathers_light = (bits & 2) != 0,
+                           .in_parts = (bits & 4) != 0,
+                           .keeps_visibility = (bits & 8) != 0,
+                           .shows_overdraw = (bits & 16) != 0});
+    return all;
+}
+
+uint32_t configurationIndex(const FrameConfiguration& c)
+{
+    const auto bit = [](bool set, uint32_t number) { return (set ? 1u : 0u) << number; };
+    return 32 * static_cast<uint32_t>(c.occlusion) + bit(c.material_tiles, 0) + bit(c.gathers_light, 1) +
+           bit(c.in_parts, 2) + bit(c.keeps_visibility, 3) + bit(c.shows_overdraw, 4);
+}
+
+const Pass* findPass(const FrameDescription& frame, FrameStep step)
+{
+    for (const Pass& pass : frame.passes)
+        if (std::find(pass.steps.begin(), pass.steps.end(), step) != pass.steps.end())
+            return &pass;
+    return nullptr;
+}
+
+} // namespace hearth::gpu

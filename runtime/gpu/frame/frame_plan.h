@@ -1,0 +1,28 @@
+// Makes the table of a frame: lists its steps, joins neighbouring draws into render passes, and derives what
+// has to be loaded, stored and waited for from who uses what.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "runtime/gpu/frame/frame_description.h"
+
+namespace hearth::gpu
+{
+
+/// Describe a frame. An attachment is stored only if a later pass or the caller needs it, and loaded only if
+/// an earlier pass of the frame has stored it.
+FrameDescription describeFrame(const FrameConfiguration& configuration);
+
+/// Return all configurations with a material test; scenes have neither shadows nor bricks.
+std::vector<FrameConfiguration> allConfigurations(MaterialTest materials);
+/// Position in the list of all configurations, whatever the scene has.
+uint32_t configurationIndex(const FrameConfiguration& configuration);
+
+/// Uses of an image by the caller that a frame waits for.
+inline constexpr VkPipelineStageFlags kCallerStages =
+    VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
+inline constexpr VkAccessFlags kCallerReads = VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_SHADER_READ_BIT;
+
+/// Return the pass that has a step, or null.
+const Pass* findPass(const FrameDescription& frame, FrameStep step);
+
+} // namespace hearth::gpu

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/passes/material_marks_pass.h"
+
+#include "runtime/shaders/shaders.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace hearth::gpu
+{
+
+Result<MaterialMarksPass> MaterialMarksPass::create(const Device& device, const DrawLayouts& layouts,
+                                                    const FramePasses& passes)
+{
+    MaterialMarksPass pass;
+    pass.materials_ = passes.materials();
+    const bool by_depth = pass.materials_ == MaterialTest::depth;
+    HEARTH_ASSIGN_OR_RETURN(
+        pass.pipeline_,
+        createGraphicsPipeline(
+            device, {.vertex = shaders::fullscreen_vert,
+                     .fragment = by_depth ? shaders::material_depth_frag : shaders::material_stencil_frag,
+                     .layout = layouts.shading.get(),
+                     .render_pass = passes.anyPass(),
+                     .subpass = kSubpassShading,
+                     .depth_compare = VK_COMPARE_OP_ALWAYS,
+                     .depth_write = by_depth,
+                     .color = true,
+                     .color_write = false,
+                     .stencil = by_depth ? Stencil::none : Stencil::mark}));
+    return pass;
+}
+
+void MaterialMarksPass::record(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
+                               const Scene& scene, const FrameTargets& targets) const
+{
+    const VkPipelineLayout layout = layouts.shading.get();
+    const VkDescriptorSet attachments = targets.attachments();
+    device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_.get());
+    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, shared::kSetScene, 1,
+                                      &scene.draw_set, 0, nullptr);
+    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout,
+                                      shared::kSetAttachments, 1, &attachments, 0, nullptr);
+    // one draw for the depth; one for each bit that the stencil needs
+    const auto largest = static_cast<uint32_t>(scene.materials.size());
+    const uint32_t draws = materials_ == MaterialTest::depth
+                               ? 1
+                               : std::min(kStencilBits, static_cast<uint32_t>(std::bit_width(largest)));
+    for (uint32_t bit = 0; bit < draws; ++bit)
+    {
+        shared::ShadingPush push{};
+        push.material = bit;
+        if (materials_ == MaterialTest::id)
+            device.vk.vkCmdSetStencilWriteMask(commands, VK_STENCIL_FACE_FRONT_AND_BACK, 1u << bit);
+        device.vk.vkCmdPushConstants(commands, layout, kShadingPushStages, 0, sizeof(push), &push);
+        device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
+    }
+}
+
+} // namespace hearth::gpu

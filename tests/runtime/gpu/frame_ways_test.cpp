@@ -1,0 +1,170 @@
+// Tests that the ways through a frame draw the same image, and what a frame shows that culls against the last
+// one's depth alone.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/gpu_shared/debug_views.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/shapes.h"
+#include "tests/support/test_scene.h"
+
+#include <random>
+
+namespace hearth::test
+{
+
+namespace
+{
+
+using gpu::MaterialTest;
+using gpu::ShadedArea;
+
+/// Rocks of many materials, some of them with holes.
+void fillRocks(TestScene& test, uint32_t materials, uint32_t spare)
+{
+    std::mt19937 random(7);
+    for (uint32_t i = 0; i < materials; ++i)
+    {
+        formats::MaterialRecord material = plainMaterial();
+        material.base_color = {uniform(random, 0, 1), uniform(random, 0, 1), uniform(random, 0, 1),
+                               i % 4 == 3 ? 0.5f : 1.0f};
+        if (i % 4 == 3)
+            material.alpha_mode = static_cast<uint32_t>(formats::AlphaMode::blend);
+        const uint32_t mesh =
+            test.addMesh(withMaterial(shapes::rock(8, 0.2f, i + 1), test.addMaterial(material)));
+        test.addInstance(mesh, randomAffine(random, 3));
+        // numbers beyond the stencil's bits
+        for (uint32_t j = 0; j < spare; ++j)
+            test.addMaterial(plainMaterial());
+    }
+}
+
+class FrameWaysTest : public GpuTest
+{
+protected:
+    /// Draw two frames by a renderer of its own, and return the second one.
+    Image drawBy(const gpu::RendererOptions& options, const formats::PackView& pack, const DrawOptions& shown,
+                 bool last_frame = false)
+    {
+        auto renderer = gpu::Renderer::create(host().description(), options);
+        HEARTH_ASSERT(renderer.ok());
+        const gpu::Renderer& r = **renderer;
+        HEARTH_ASSERT((*renderer)->prepareOverdraw().ok());
+        std::unique_ptr<gpu::Scene> scene;
+        run(
+            [&](VkCommandBuffer commands)
+            {
+                auto uploaded = (*renderer)->upload(pack, commands, {.shadows = {.max_maps = 4}});
+                HEARTH_ASSERT(uploaded.ok());
+                scene = std::move(*uploaded);
+            });
+        scene->staging.reset();
+        auto targets = r.createTargets({shown.width, shown.height}, {.keeps_visibility = true});
+        HEARTH_ASSERT(targets.ok());
+        for (int frame = 0; frame < 2; ++frame)
+            run(
+                [&](VkCommandBuffer commands)
+                {
+                    r.record(commands, *scene, *targets,
+                             {.view = makeView(*scene, kCamera, shown),
+                              .shading = {.debug_view = shown.debug_view, .area = shown.area},
+                              .occludes_by_last_frame = last_frame});
+                });
+        return readImage(*scene, *targets);
+    }
+
+    void run(const std::function<void(VkCommandBuffer)>& record)
+    {
+        HEARTH_ASSERT(host()
+                          .run(
+                              [&](VkCommandBuffer commands)
+                              {
+                                  record(commands);
+                                  return success();
+                              })
+                          .ok());
+    }
+
+    static constexpr shared::Camera kCamera{.position = {4, 2, 7}, .target = {}};
+};
+
+} // namespace
+
+TEST_F(FrameWaysTest, materialsByIdAreMaterialsByDepth)
+{
+    for (const uint32_t spare : {0u, 40u})
+    {
+        TestScene test;
+        fillRocks(test, 12, spare);
+        const formats::PackView pack = test.build();
+        for (const ShadedArea area : {ShadedArea::wholeFrame, ShadedArea::tiles})
+        {
+            const DrawOptions shown{.area = area};
+            const Image depth = drawBy({.materials = MaterialTest::depth}, pack, shown);
+            const Image id = drawBy({.materials = MaterialTest::id}, pack, shown);
+            EXPECT_EQ(id.color, depth.color) << spare;
+            EXPECT_EQ(id.visibility, depth.visibility);
+        }
+    }
+}
+
+TEST_F(FrameWaysTest, everyDebugViewIsTheSame)
+{
+    TestScene test;
+    fillRocks(test, 6, 0);
+    const formats::PackView pack = test.build();
+    for (const shared::DebugView& view : shared::kDebugViews)
+    {
+        if (shared::viewNeedsBricks(view.number))
+            continue;
+        const DrawOptions shown{.debug_view = view.number};
+        EXPECT_EQ(drawBy({.materials = MaterialTest::id}, pack, shown).color,
+                  drawBy({.materials = MaterialTest::depth}, pack, shown).color)
+            << view.name;
+    }
+}
+
+TEST_F(FrameWaysTest, atRestTheLastFramesDepthIsEnough)
+{
+    TestScene test;
+    fillRocks(test, 12, 0);
+    const formats::PackView pack = test.build();
+    const Image whole = drawBy({}, pack, {});
+    for (const MaterialTest materials : {MaterialTest::depth, MaterialTest::id})
+    {
+        const Image image = drawBy({.materials = materials}, pack, {}, true);
+        EXPECT_EQ(image.color, whole.color);
+        EXPECT_LT(image.list.counters.drawn_clusters,
+                  drawBy({}, pack, {.flags = shared::kCullFrustum}).list.counters.drawn_clusters);
+    }
+}
+
+TEST_F(FrameWaysTest, targetsForFewDemandsDrawTheSame)
+{
+    TestScene test;
+    fillRocks(test, 3, 0);
+    const formats::PackView pack = test.build();
+    const auto scene = upload(pack);
+    const Image expected = draw(*scene, kCamera, {});
+    for (const auto occlusion : {gpu::OcclusionCulling::off, gpu::OcclusionCulling::last_frame})
+    {
+        auto targets = renderer().createTargets(
+            {160, 120},
+            {.occlusion = occlusion, .keeps_visibility = false, .gathers_light = false, .may_split = false});
+        ASSERT_TRUE(targets.ok());
+        const bool off = occlusion == gpu::OcclusionCulling::off;
+        gpu::FrameInput input{.view =
+                                  makeView(*scene, kCamera,
+                                           {.flags = off ? shared::kCullEverything & ~shared::kCullOcclusion
+                                                         : shared::kCullEverything}),
+                              .occludes_by_last_frame = !off};
+        EXPECT_EQ(targets->allows({.occlusion = gpu::OcclusionCulling::two_phase}), false);
+        // the depth of material numbers needs a second pass for the pyramid
+        if (!targets->allows({.occlusion = occlusion}))
+            continue;
+        run([&](VkCommandBuffer commands) { renderer().record(commands, *scene, *targets, input); });
+        auto color = host().read(renderer().device(), targets->color(), 4);
+        ASSERT_TRUE(color.ok());
+        EXPECT_EQ(std::memcmp(color->data(), expected.color.data(), color->size()), 0);
+    }
+}
+
+} // namespace hearth::test
