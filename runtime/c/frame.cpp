@@ -291,6 +291,22 @@ hearth_result hearth_record_materials(hearth_scene* scene, hearth_targets* targe
                        commands, frame);
 }
 
+hearth_result hearth_record_missing(hearth_scene* scene, hearth_targets* targets, VkCommandBuffer commands)
+{
+    if (scene == nullptr)
+        return HEARTH_ERROR_USAGE;
+    return call(scene->renderer->message(), __func__,
+                [&]() -> Status
+                {
+                    if (targets == nullptr || commands == VK_NULL_HANDLE)
+                        return usage("targets or commands is NULL");
+                    if (targets->scene.lock() != scene->scene || scene->parts_recorded != kNothing)
+                        return usage("no whole frame of the scene has been recorded with the targets");
+                    scene->renderer->renderer->recordMissing(commands, *scene->scene, targets->targets);
+                    return success();
+                });
+}
+
 hearth_result hearth_describe_passes(const hearth_scene* scene, const hearth_targets* targets,
                                      const hearth_frame* frame, char* json, size_t size, size_t* needed)
 {

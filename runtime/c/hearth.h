@@ -873,6 +873,12 @@ HEARTH_API hearth_result hearth_describe_passes(const hearth_scene* scene, const
                                                 const hearth_frame* frame, char* json, size_t size,
                                                 size_t* needed);
 
+/* Record a count of what a frame with HEARTH_OCCLUSION_LAST_FRAME left out (1.8), after it and before the scene's
+ * next frame: of the counters, drawn_clusters - early_clusters are clusters that the last frame's depth hid and
+ * this one's does not. errors: USAGE. */
+HEARTH_API hearth_result hearth_record_missing(hearth_scene* scene, hearth_targets* targets,
+                                               VkCommandBuffer commands);
+
 /* Record the page requests of a frame of a scene with a budget, without drawing. Moves nothing. To prefetch a
  * view, record such frames until settled_serial reaches the serial of the first of them. errors: USAGE. */
 HEARTH_API hearth_result hearth_record_prefetch(hearth_scene* scene, hearth_targets* targets,

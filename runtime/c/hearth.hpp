@@ -298,6 +298,10 @@ public:
         json.resize(needed - 1); // without the zero
         return result;
     }
+    [[nodiscard]] hearth_result recordMissing(Targets& targets, VkCommandBuffer commands)
+    {
+        return hearth_record_missing(get(), targets.get(), commands);
+    }
     [[nodiscard]] hearth_result recordPrefetch(Targets& targets, VkCommandBuffer commands,
                                                const hearth_frame& frame)
     {

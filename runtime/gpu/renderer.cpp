@@ -4,6 +4,7 @@
 #include "runtime/gpu/frame/frame_plan.h"
 #include "runtime/gpu/passes/frame_update.h"
 #include "runtime/gpu/vulkan/debug_label.h"
+#include "runtime/gpu/vulkan/pipelines.h"
 
 namespace hearth::gpu
 {
@@ -208,6 +209,17 @@ void Renderer::recordMaterials(VkCommandBuffer commands, const Scene& scene, Fra
 {
     PassRecorder passes(device_, commands, plan(scene, targets, input, true), targets);
     recordShaded(commands, scene, targets, input, passes);
+}
+
+void Renderer::recordMissing(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets) const
+{
+    const DebugLabel label(device_, commands, "missing clusters");
+    // the frame's draws and shading have read the list that grows here
+    barrier(device_, commands,
+            VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
+                VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+            0, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0);
+    cull_.record(device_, commands, scene, targets, shared::kPhaseLate);
 }
 
 void Renderer::recordPrefetch(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,

@@ -117,6 +117,11 @@ public:
     void recordMaterials(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
                          const FrameInput& input) const;
 
+    /// Record a count of what a frame with occludes_by_last_frame left out, after it and before the scene's
+    /// next frame: clusters that the last frame's depth hid and this one's does not. They follow in the
+    /// visible list from FrameCounters::early_clusters on. Clobbers compute state.
+    void recordMissing(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets) const;
+
     /// Record page requests for a view without drawing. For a streamed scene, in place of record. Clobbers
     /// compute state, and leaves the depth pyramid as it is.
     void recordPrefetch(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,

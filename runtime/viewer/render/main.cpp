@@ -8,11 +8,11 @@
 #include "runtime/viewer/camera_path.h"
 #include "runtime/viewer/contact_sheet.h"
 #include "runtime/viewer/file_output.h"
-#include "runtime/viewer/report/frame_report.h"
-#include "runtime/viewer/report/memory_report.h"
 #include "runtime/viewer/page_reading.h"
 #include "runtime/viewer/pyramid_start.h"
 #include "runtime/viewer/render/options.h"
+#include "runtime/viewer/report/frame_report.h"
+#include "runtime/viewer/report/memory_report.h"
 #include "runtime/viewer/sample_sum.h"
 #include "runtime/viewer/stage.h"
 
@@ -87,6 +87,14 @@ void warnAboutShadows(const ShadowCounts& counts, const std::string& name)
     warn(counts.maps.dropped_maps, " shadow maps are more than there is room for (--shadows maps=N)");
     warn(counts.maps.unshadowed_lights, " lights cast no shadow: they are more than there are maps for");
     warn(counts.dropped_clusters, " clusters are more than the visible list holds and cast no shadow");
+}
+
+void warnAboutMissing(uint64_t clusters, const std::string& name)
+{
+    if (clusters > 0)
+        printError({Issue::degraded, name, "",
+                    std::to_string(clusters) +
+                        " clusters come into view and are drawn a frame late (--cull last-frame)"});
 }
 
 /// Times that the first frame gathers indirect light; later frames have its result as their history.
@@ -188,6 +196,8 @@ public:
         warnAboutLimits(scene_, list, pack_.name());
         if (!options_.stats.empty())
             HEARTH_TRY(count(list));
+        if (settings_.occludes_by_last_frame)
+            HEARTH_TRY(countMissing());
         if (scene_.stream != nullptr)
         {
             HEARTH_ASSIGN_OR_RETURN(const StreamCounts counts,
@@ -230,6 +240,7 @@ public:
             .scene_bytes = scene_.arena.allocatedBytes() +
                            (scene_.stream == nullptr ? 0 : scene_.stream->allocatedBytes()),
             .target_bytes = targets_.allocatedBytes(),
+            .memory = countMemory(scene_, targets_),
             .dropped_lights = scene_.dropped_lights,
             .frames = frames_,
             .streaming = streaming_,
@@ -292,6 +303,23 @@ private:
                            .drawn_triangles = drawn,
                            .shaded_area = shaded_area,
                            .culling = makeCullReport(statistics, list.counters, early, drawn)});
+        return success();
+    }
+
+    /// Count what the last frame left out because the frame before hid it.
+    Status countMissing()
+    {
+        HEARTH_TRY(host_.run(
+            [&](VkCommandBuffer commands)
+            {
+                renderer_.recordMissing(commands, scene_, targets_);
+                return success();
+            }));
+        HEARTH_ASSIGN_OR_RETURN(const VisibleList list, readVisibleList(host_, renderer_, scene_));
+        const uint64_t missing = list.slots.size() - list.counters.early_clusters;
+        warnAboutMissing(missing, pack_.name());
+        if (!frames_.empty())
+            frames_.back().missing_clusters = missing;
         return success();
     }
 

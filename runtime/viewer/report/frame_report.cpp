@@ -39,11 +39,12 @@ std::string quotedJson(std::string_view text)
     return result + "\"";
 }
 
-std::array<std::pair<const char*, uint64_t>, 5> namedCounts(const FrameCounts& counts)
+std::array<std::pair<const char*, uint64_t>, 6> namedCounts(const FrameCounts& counts)
 {
     return {{{"drawn_clusters", counts.drawn_clusters},
              {"early_clusters", counts.early_clusters},
              {"dropped_clusters", counts.dropped_clusters},
+             {"missing_clusters", counts.missing_clusters},
              {"drawn_triangles", counts.drawn_triangles},
              {"shaded_area_pixels", counts.shaded_area}}};
 }
@@ -191,6 +192,7 @@ std::string formatReport(const FrameReport& report, const formats::PackView& pac
     add("dropped_lights", std::to_string(report.dropped_lights));
     add("scene_bytes", std::to_string(report.scene_bytes));
     add("target_bytes", std::to_string(report.target_bytes));
+    add("memory", formatMemoryJson(report.memory));
     if (report.frames.size() > 1)
         add("frames", formatFrames(report.frames));
     if (!report.streaming.empty())

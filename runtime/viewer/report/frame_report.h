@@ -4,6 +4,7 @@
 
 #include "runtime/viewer/contact_sheet.h"
 #include "runtime/viewer/report/cull_report.h"
+#include "runtime/viewer/report/memory_report.h"
 #include "runtime/viewer/report/shadow_report.h"
 #include "runtime/viewer/report/stream_report.h"
 #include "runtime/viewer/vulkan_host.h"
@@ -50,7 +51,8 @@ BrickCounts countBricks(const gpu::Scene& scene, const gpu::FrameTargets& target
 struct FrameCounts
 {
     uint64_t drawn_clusters = 0, early_clusters = 0, dropped_clusters = 0, drawn_triangles = 0;
-    uint64_t shaded_area = 0; ///< as readShadedArea
+    uint64_t missing_clusters = 0; ///< hidden by the last frame's depth, and not by this one's
+    uint64_t shaded_area = 0;      ///< as readShadedArea
     CullReport culling;
 };
 
@@ -61,6 +63,7 @@ struct FrameReport
     std::optional<Sheet> sheet;
     float error_pixels = 0;
     uint64_t scene_bytes = 0, target_bytes = 0;
+    MemoryCounts memory;
     uint32_t dropped_lights = 0;
     std::vector<FrameCounts> frames;        ///< at least one
     std::vector<StreamCounts> streaming;    ///< per frame; empty if all geometry is resident

@@ -201,6 +201,7 @@ TEST_F(CApiTest, nullArgumentsAreRefused)
     EXPECT_EQ(hearth_record_visibility(nullptr, nullptr, nullptr, nullptr), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_record_materials(nullptr, nullptr, nullptr, nullptr), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_targets_get_part_info(nullptr, HEARTH_PART_CULL, nullptr), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_record_missing(nullptr, nullptr, nullptr), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_describe_passes(nullptr, nullptr, nullptr, nullptr, 0, nullptr), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_record_counters(nullptr, nullptr, VK_NULL_HANDLE, 0), HEARTH_ERROR_USAGE);
     EXPECT_STREQ(hearth_last_error(nullptr), "");

@@ -68,6 +68,10 @@ protected:
         uploadBricks(recorded, {});
         uploadBricks(recorded, {.max_maps = 4});
         ASSERT_TRUE(recorded.prepareOverdraw().ok());
+        // the stencil is the other test's
+        const auto by_id = gpu::Renderer::create(recordPipelines(host_->description()),
+                                                 {.materials = gpu::MaterialTest::id});
+        ASSERT_TRUE(by_id.ok());
         both_ = {{}, recordedPipelines(), sharedStructs(), constantIds()};
         for (const ListedShader& shader : listedShaders())
             both_.shaders.push_back({shader.name,

@@ -6,7 +6,9 @@
 #include "tests/support/shapes.h"
 #include "tests/support/test_scene.h"
 
+#include <cmath>
 #include <random>
+#include <set>
 
 namespace hearth::test
 {
@@ -135,6 +137,50 @@ TEST_F(FrameWaysTest, atRestTheLastFramesDepthIsEnough)
         EXPECT_LT(image.list.counters.drawn_clusters,
                   drawBy({}, pack, {.flags = shared::kCullFrustum}).list.counters.drawn_clusters);
     }
+}
+
+TEST_F(FrameWaysTest, whatTheLastFramesDepthHidesIsCounted)
+{
+    TestScene test;
+    fillRocks(test, 40, 0);
+    const formats::PackView pack = test.build();
+    const auto scene = upload(pack), whole = upload(pack);
+    gpu::FrameTargets targets = makeTargets(160, 120), whole_targets = makeTargets(160, 120);
+    size_t wrong_pixels = 0, missing = 0;
+    for (int frame = 0; frame < 12; ++frame)
+    {
+        const float angle = 0.12f * static_cast<float>(frame);
+        const shared::Camera camera{.position = {6 * std::sin(angle), 1, 6 * std::cos(angle)}, .target = {}};
+        const Image expected = draw(*whole, whole_targets, camera, {});
+        run(
+            [&](VkCommandBuffer commands)
+            {
+                renderer().record(commands, *scene, targets,
+                                  {.view = makeView(*scene, camera, {}), .occludes_by_last_frame = true});
+            });
+        const Image image = readImage(*scene, targets);
+        run([&](VkCommandBuffer commands) { renderer().recordMissing(commands, *scene, targets); });
+        auto list = viewer::readVisibleList(host(), renderer(), *scene);
+        ASSERT_TRUE(list.ok());
+        std::set<std::pair<uint32_t, uint32_t>> left_out;
+        for (size_t slot = list->counters.early_clusters; slot < list->slots.size(); ++slot)
+            left_out.emplace(list->slots[slot].instance, list->slots[slot].cluster);
+        missing += left_out.size();
+        // every pixel that lacks something lacks a counted cluster
+        const auto shown = image.seen(), should = expected.seen();
+        for (size_t pixel = 0; pixel < shown.size(); ++pixel)
+            if (shown[pixel] != should[pixel])
+            {
+                ++wrong_pixels;
+                EXPECT_TRUE(left_out.contains({should[pixel][0], should[pixel][1]})) << frame;
+            }
+        if (left_out.empty())
+        {
+            EXPECT_EQ(image.color, expected.color);
+        }
+    }
+    EXPECT_GT(missing, 10u);
+    EXPECT_GT(wrong_pixels, 0u) << "a camera that moves finds something";
 }
 
 TEST_F(FrameWaysTest, targetsForFewDemandsDrawTheSame)
