@@ -60,7 +60,8 @@ protected:
         auto host = viewer::VulkanHost::create({.device_name = "", .validate = false});
         ASSERT_TRUE(host.ok()) << formatMessage(host.error());
         host_ = std::move(*host);
-        auto created = gpu::Renderer::create(recordPipelines(host_->description()));
+        const gpu::DeviceDescription recording = recordPipelines(host_->description());
+        auto created = gpu::Renderer::create(recording);
         ASSERT_TRUE(created.ok());
         gpu::Renderer& recorded = **created;
         uploadRocks(recorded);
@@ -69,8 +70,7 @@ protected:
         uploadBricks(recorded, {.max_maps = 4});
         ASSERT_TRUE(recorded.prepareOverdraw().ok());
         // the stencil is the other test's
-        const auto by_id = gpu::Renderer::create(recordPipelines(host_->description()),
-                                                 {.materials = gpu::MaterialTest::id});
+        const auto by_id = gpu::Renderer::create(recording, {.materials = gpu::MaterialTest::id});
         ASSERT_TRUE(by_id.ok());
         both_ = {{}, recordedPipelines(), sharedStructs(), constantIds()};
         for (const ListedShader& shader : listedShaders())
