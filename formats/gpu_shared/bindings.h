@@ -77,6 +77,13 @@ HEARTH_CONSTANT uint kTablePageRequests = 19;
 HEARTH_CONSTANT uint kTableDeformation = 20;
 HEARTH_CONSTANT uint kTableStatistics = 21;
 
+/// Set of word copies: they have no other.
+HEARTH_CONSTANT uint kSetWordCopy = 0;
+
+HEARTH_CONSTANT uint kWordCopyRegions = 0;
+HEARTH_CONSTANT uint kWordCopySource = 1;
+HEARTH_CONSTANT uint kWordCopyTarget = 2;
+
 /// Set of the pyramid passes: the set of the occlusion test is their only one.
 HEARTH_CONSTANT uint kSetPyramid = 0;
 

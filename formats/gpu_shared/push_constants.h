@@ -50,6 +50,11 @@ struct EmitDrawsPush
     uint phase;
 };
 
+struct WordCopyPush
+{
+    uint first_region;
+};
+
 struct PageRequestPush
 {
     uint first_item;

@@ -259,6 +259,17 @@ HEARTH_CONSTANT uint kInstanceMoved = 0x80000000u;
 /// wrong side of its triangles, so their corners are taken in reverse order.
 HEARTH_CONSTANT uint kInstanceHandednessChanged = 0x40000000u;
 
+/// Copy of words from one buffer to another, by a workgroup.
+struct CopyRegion
+{
+    uint source; ///< words from the front of the buffer, here and below
+    uint target;
+    uint words; ///< at most kMaxCopyWords
+    uint reserved;
+};
+HEARTH_CONSTANT uint kMaxCopyWords = 1024;
+HEARTH_CONSTANT uint kGroupCopyWords = 256; ///< threads of a workgroup
+
 /// Culling phase. A frame without the occlusion test has the phase kPhaseWhole; with it, the early and late
 /// phases follow each other.
 HEARTH_CONSTANT uint kPhaseWhole = 0;

@@ -366,7 +366,7 @@ hearth_result hearth_record_counters(hearth_scene* scene, VkCommandBuffer comman
                         return usage("commands or destination is NULL");
                     const gpu::Device& device = scene->renderer->renderer->device();
                     const VkBufferCopy region{0, offset, sizeof(hearth_frame_counters)};
-                    device.vk.vkCmdCopyBuffer(commands, scene->scene->buffers.counters.handle.get(),
+                    device.vk.vkCmdCopyBuffer(commands, scene->scene->frame().main.counters.handle.get(),
                                               destination, 1, &region);
                     gpu::barrier(device, commands, VK_PIPELINE_STAGE_TRANSFER_BIT,
                                  VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT,

@@ -116,7 +116,10 @@ enum
     /* mapped and coherent, read by the CPU; cached if the device has such memory */
     HEARTH_MEMORY_READBACK = 2,
     /* 1.8: attachments that never leave the tile; lazily allocated if the device has such memory */
-    HEARTH_MEMORY_TRANSIENT = 3
+    HEARTH_MEMORY_TRANSIENT = 3,
+    /* 1.8: mapped and coherent, written by the CPU and read by the GPU in place; device-local if such memory is
+     * visible to the CPU */
+    HEARTH_MEMORY_UPLOAD = 4
 };
 
 /* Request for the memory of one buffer or image. */
@@ -250,7 +253,8 @@ typedef struct hearth_scene_options
     void* read_user;
     /* Reads in flight, 1 to 1024; up to 128 KiB of staging memory each, outside of the budget. */
     uint32_t max_loads;
-    /* Frames recorded while earlier ones run, 1 to 16; page requests of further frames are ignored. */
+    /* Frames recorded before an earlier one has completed, 1 to 4, of any scene: everything that a frame changes
+     * exists once for each. Record a frame once all but this many, less one, of those before have completed. */
     uint32_t frames_in_flight;
     hearth_shadow_options shadows;
     /* since 1.2: bytes for the vertices of deformed clusters, which are skinned once per frame; clusters that

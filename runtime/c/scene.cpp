@@ -13,7 +13,6 @@ namespace
 {
 
 constexpr uint32_t kMaxLoads = 1024;
-constexpr uint32_t kMaxFramesInFlight = 16;
 
 using HearthReadBytes = std::array<unsigned char, sizeof(pack::ReadDone)>;
 static_assert(sizeof(pack::ReadDone) <= sizeof(hearth_page_read));
@@ -37,27 +36,27 @@ Status check(const hearth_scene_options* options)
     HEARTH_TRY(checkStruct("options", options));
     if (options->max_visible_clusters < 1 || options->max_visible_clusters > shared::kMaxSlots)
         return usage("max_visible_clusters is not from 1 to " + std::to_string(shared::kMaxSlots));
+    if (options->frames_in_flight < 1 || options->frames_in_flight > gpu::kMaxFramesInFlight)
+        return usage("frames_in_flight is not from 1 to " + std::to_string(gpu::kMaxFramesInFlight));
     if (options->geometry_budget == 0)
         return success();
     if (options->read == nullptr)
         return usage("geometry_budget needs a read callback");
     if (options->max_loads < 1 || options->max_loads > kMaxLoads)
         return usage("max_loads is not from 1 to " + std::to_string(kMaxLoads));
-    if (options->frames_in_flight < 1 || options->frames_in_flight > kMaxFramesInFlight)
-        return usage("frames_in_flight is not from 1 to " + std::to_string(kMaxFramesInFlight));
     return success();
 }
 
 Result<gpu::SceneOptions> toOptions(const hearth_scene_options& options)
 {
     gpu::SceneOptions result{.max_visible_clusters = options.max_visible_clusters,
+                             .frames_in_flight = options.frames_in_flight,
                              .geometry_budget = options.geometry_budget};
     if (options.geometry_budget > 0)
         result.stream = {.read = [read = options.read, user = options.read_user](
                                      uint32_t page, std::span<std::byte> destination, pack::ReadDone done)
                          { read(user, page, destination.data(), destination.size(), toC(done)); },
-                         .max_loads = options.max_loads,
-                         .frames_in_flight = options.frames_in_flight};
+                         .max_loads = options.max_loads};
     result.deformation.scratch_bytes = options.skinning_bytes;
     HEARTH_ASSIGN_OR_RETURN(result.shadows, shadowOptions(options.shadows));
     return result;

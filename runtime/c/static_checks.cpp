@@ -61,6 +61,7 @@ static_assert(equal(HEARTH_MEMORY_DEVICE, gpu::MemoryKind::device));
 static_assert(equal(HEARTH_MEMORY_STAGING, gpu::MemoryKind::staging));
 static_assert(equal(HEARTH_MEMORY_READBACK, gpu::MemoryKind::readback));
 static_assert(equal(HEARTH_MEMORY_TRANSIENT, gpu::MemoryKind::transient));
+static_assert(equal(HEARTH_MEMORY_UPLOAD, gpu::MemoryKind::upload));
 
 constexpr bool equal(int c, gpu::MaterialTest test)
 {

@@ -6,6 +6,9 @@
 #include "runtime/gpu/vulkan/debug_label.h"
 #include "runtime/gpu/vulkan/pipelines.h"
 
+#include <algorithm>
+#include <cstring>
+
 namespace hearth::gpu
 {
 
@@ -69,6 +72,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const DeviceDescription& desc
     HEARTH_ASSIGN_OR_RETURN(r.layouts_, DrawLayouts::create(r.device_));
     HEARTH_ASSIGN_OR_RETURN(r.passes_, FramePasses::create(r.device_, options.materials));
     HEARTH_ASSIGN_OR_RETURN(r.cull_, CullPass::create(r.device_, r.layouts_));
+    HEARTH_ASSIGN_OR_RETURN(r.copy_words_, WordCopyPass::create(r.device_));
     HEARTH_ASSIGN_OR_RETURN(r.page_requests_, PageRequestPass::create(r.device_));
     HEARTH_ASSIGN_OR_RETURN(r.pyramid_, PyramidPass::create(r.device_, r.layouts_));
     HEARTH_ASSIGN_OR_RETURN(r.material_tiles_, MaterialTilesPass::create(r.device_, r.layouts_));
@@ -108,12 +112,13 @@ Result<std::unique_ptr<Scene>> Renderer::upload(const formats::PackView& pack, V
     if (scene->deformation != nullptr)
     {
         HEARTH_TRY(prepareDeformed());
-        HEARTH_TRY(skinning_->createSet(device_, *scene));
+        HEARTH_TRY(skinning_->createSets(device_, *scene));
     }
     HEARTH_TRY(cull_.createSets(device_, *scene));
-    HEARTH_TRY(material_tiles_.createSet(device_, *scene));
+    HEARTH_TRY(material_tiles_.createSets(device_, *scene));
+    HEARTH_TRY(copy_words_.createSets(device_, *scene));
     if (scene->stream != nullptr)
-        HEARTH_TRY(page_requests_.createSet(device_, *scene));
+        HEARTH_TRY(page_requests_.createSets(device_, *scene));
     if (options.shadows.max_maps > 0)
     {
         if (!shadows_)
@@ -174,7 +179,7 @@ void Renderer::record(VkCommandBuffer commands, const Scene& scene, FrameTargets
     recordShaded(commands, scene, targets, input, passes);
 }
 
-void Renderer::recordCull(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
+void Renderer::recordCull(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
                           const FrameInput& input) const
 {
     HEARTH_ASSERT(input.view.instance_count == scene.instance_count);
@@ -183,14 +188,15 @@ void Renderer::recordCull(VkCommandBuffer commands, const Scene& scene, const Fr
     writeTimestamp(device_, commands, input.timestamps, kTimestampBegin);
     const shared::FrameView view = scene.stream == nullptr ? input.view : scene.stream->scaled(input.view);
     trackShadows(scene, input.moves);
-    recordFrameUpdate(device_, commands, scene, targets, view, {input.moves, input.poses, input.lights});
+    WordCopies copies = recordFrameUpdate(device_, commands, scene, targets, copy_words_, view,
+                                          {input.moves, input.poses, input.lights});
     if (scene.bricks != nullptr)
-        recordBrickLight(commands, scene, input);
+        recordBrickLight(commands, scene, copies, input);
     if (scene.shadows != nullptr)
         recordShadows(commands, scene, targets, view, input.shadow_spheres);
     writeTimestamp(device_, commands, input.timestamps, kTimestampShadows);
     const DebugLabel label(device_, commands, "cull");
-    cull_.record(device_, commands, scene, targets, firstPhase(input));
+    cull_.record(device_, commands, scene, scene.frame().main, targets.occlusionSet(), firstPhase(input));
     recordSkinning(commands, scene, firstPhase(input));
     if (scene.stream != nullptr)
         recordRequests(commands, scene);
@@ -219,45 +225,59 @@ void Renderer::recordMissing(VkCommandBuffer commands, const Scene& scene, const
             VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
                 VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
             0, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0);
-    cull_.record(device_, commands, scene, targets, shared::kPhaseLate);
+    cull_.record(device_, commands, scene, scene.frame().main, targets.occlusionSet(), shared::kPhaseLate);
 }
 
-void Renderer::recordPrefetch(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
+void Renderer::recordPrefetch(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
                               const shared::FrameView& view, std::span<const InstanceMove> moves,
                               std::span<const InstancePose> poses) const
 {
     HEARTH_ASSERT(scene.stream != nullptr && view.instance_count == scene.instance_count);
     trackShadows(scene, moves);
-    recordFrameUpdate(device_, commands, scene, targets, scene.stream->scaled(view), {moves, poses});
-    cull_.record(device_, commands, scene, targets, shared::kPhaseWhole);
+    recordFrameUpdate(device_, commands, scene, targets, copy_words_, scene.stream->scaled(view),
+                      {moves, poses});
+    cull_.record(device_, commands, scene, scene.frame().main, targets.occlusionSet(), shared::kPhaseWhole);
     recordRequests(commands, scene);
 }
 
-/// Draw each shadow map that is stale as a view of its own, culled in the work buffers of the frame;
-/// afterwards the buffers have the frame's own view again.
+/// Draw the shadow maps that are stale: find the casters of as many as there are views, then draw these.
 void Renderer::recordShadows(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
                              const shared::FrameView& view, std::span<const ShadowSphere> spheres) const
 {
     const DebugLabel label(device_, commands, "shadows");
     const std::span<const ShadowCache::LayerUpdate> stale = scene.shadows->planFrame(view, spheres);
-    shadows_->recordBlock(device_, commands, scene);
-    for (const ShadowCache::LayerUpdate& map : stale)
+    const SceneFrame& frame = scene.frame();
+    const shared::ShadowBlock& block = scene.shadows->plan().block;
+    std::memcpy(frame.shadow_block.mapped, &block, sizeof(block));
+    for (size_t first = 0; first < stale.size(); first += frame.casters.size())
     {
-        recordViewChange(device_, commands, scene, targets, map.casters);
-        cull_.record(device_, commands, scene, targets, shared::kPhaseWhole);
-        shadows_->recordMap(device_, commands, layouts_, scene, map);
+        const auto maps = stale.subspan(first, std::min(frame.casters.size(), stale.size() - first));
+        for (size_t i = 0; i < maps.size(); ++i)
+        {
+            if (first == 0)
+                writeView(frame.casters[i], maps[i].casters);
+            else
+                recordViewChange(device_, commands, frame.casters[i], maps[i].casters);
+            cull_.record(device_, commands, scene, frame.casters[i], targets.occlusionSet(),
+                         shared::kPhaseWhole);
+        }
+        for (size_t i = 0; i < maps.size(); ++i)
+            shadows_->recordMap(device_, commands, layouts_, scene, frame.casters[i], maps[i]);
     }
-    if (!stale.empty())
-        recordViewChange(device_, commands, scene, targets, view);
 }
 
 /// Update a share of the brick faces, if the frame shows their light.
-void Renderer::recordBrickLight(VkCommandBuffer commands, const Scene& scene, const FrameInput& input) const
+void Renderer::recordBrickLight(VkCommandBuffer commands, const Scene& scene, WordCopies& copies,
+                                const FrameInput& input) const
 {
-    if (!input.shading.gi && !shared::viewNeedsBricks(input.shading.debug_view))
-        return;
-    const DebugLabel label(device_, commands, "light bricks");
-    brick_light_->record(device_, commands, scene, !input.lights.empty(), input.emission);
+    const bool is_shown = shared::viewNeedsBricks(input.shading.debug_view);
+    if (input.shading.gi || is_shown)
+    {
+        const DebugLabel label(device_, commands, "light bricks");
+        brick_light_->record(device_, commands, scene, copy_words_, copies, !input.lights.empty(),
+                             input.emission);
+    }
+    scene.bricks->is_shown = is_shown;
 }
 
 /// Record after each culling phase of the frame.
@@ -273,7 +293,6 @@ void Renderer::recordSkinning(VkCommandBuffer commands, const Scene& scene, uint
 void Renderer::recordRequests(VkCommandBuffer commands, const Scene& scene) const
 {
     page_requests_.record(device_, commands, scene);
-    scene.stream->recordFeedback(commands, scene.buffers);
 }
 
 /// Record the early phase: draw the clusters that the last frame's depth does not occlude, build the pyramid,
@@ -286,7 +305,7 @@ void Renderer::recordEarly(VkCommandBuffer commands, const Scene& scene, FrameTa
     {
         const DebugLabel label(device_, commands, "early visibility");
         passes.begin(FrameStep::early_visibility);
-        visibility_.record(device_, commands, layouts_, scene, shared::kPhaseEarly);
+        visibility_.record(device_, commands, layouts_, scene, scene.frame().main, shared::kPhaseEarly);
         passes.end();
     }
     writeTimestamp(device_, commands, input.timestamps, kTimestampEarlyVisibility);
@@ -300,7 +319,8 @@ void Renderer::recordEarly(VkCommandBuffer commands, const Scene& scene, FrameTa
     {
         const DebugLabel label(device_, commands, "late cull");
         passes.begin(FrameStep::late_cull);
-        cull_.record(device_, commands, scene, targets, shared::kPhaseLate);
+        cull_.record(device_, commands, scene, scene.frame().main, targets.occlusionSet(),
+                     shared::kPhaseLate);
         recordSkinning(commands, scene, shared::kPhaseLate);
         passes.end();
     }
@@ -328,7 +348,7 @@ void Renderer::recordVisible(VkCommandBuffer commands, const Scene& scene, Frame
     {
         const DebugLabel label(device_, commands, "visibility");
         passes.begin(FrameStep::visibility);
-        visibility_.record(device_, commands, layouts_, scene,
+        visibility_.record(device_, commands, layouts_, scene, scene.frame().main,
                            hasTwoPhases(input) ? shared::kPhaseLate : firstPhase(input));
     }
     if (is_open)
@@ -390,7 +410,7 @@ void Renderer::recordOverdraw(VkCommandBuffer commands, const Scene& scene) cons
 {
     HEARTH_ASSERT(overdraw_);
     for (const uint32_t phase : {shared::kPhaseEarly, shared::kPhaseLate})
-        overdraw_->record(device_, commands, layouts_, scene, phase);
+        overdraw_->record(device_, commands, layouts_, scene, scene.frame().main, phase);
 }
 
 } // namespace hearth::gpu

@@ -17,6 +17,7 @@
 #include "runtime/gpu/passes/shading_pass.h"
 #include "runtime/gpu/passes/shadow_pass.h"
 #include "runtime/gpu/passes/skinning_pass.h"
+#include "runtime/gpu/passes/word_copy_pass.h"
 #include "runtime/gpu/scene/instance_motion.h"
 #include "runtime/gpu/scene/light_change.h"
 
@@ -110,7 +111,7 @@ public:
     /// the same arguments, each outside a render pass. partImages (frame_parts.h) returns the image states
     /// before and after each part. With few materials `record` draws in one render pass, these functions draw
     /// in two: on a tile-based GPU the visibility buffer leaves the tile once more.
-    void recordCull(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
+    void recordCull(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
                     const FrameInput& input) const;
     void recordVisibility(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
                           const FrameInput& input) const;
@@ -124,7 +125,7 @@ public:
 
     /// Record page requests for a view without drawing. For a streamed scene, in place of record. Clobbers
     /// compute state, and leaves the depth pyramid as it is.
-    void recordPrefetch(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
+    void recordPrefetch(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
                         const shared::FrameView& view, std::span<const InstanceMove> moves = {},
                         std::span<const InstancePose> poses = {}) const;
 
@@ -135,7 +136,8 @@ private:
     void recordShadows(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
                        const shared::FrameView& view, std::span<const ShadowSphere> spheres) const;
     void recordRequests(VkCommandBuffer commands, const Scene& scene) const;
-    void recordBrickLight(VkCommandBuffer commands, const Scene& scene, const FrameInput& input) const;
+    void recordBrickLight(VkCommandBuffer commands, const Scene& scene, WordCopies& copies,
+                          const FrameInput& input) const;
     const FramePlan& plan(const Scene& scene, const FrameTargets& targets, const FrameInput& input,
                           bool in_parts) const;
     void recordEarly(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
@@ -151,6 +153,7 @@ private:
     DrawLayouts layouts_;
     FramePasses passes_;
     CullPass cull_;
+    WordCopyPass copy_words_;
     PageRequestPass page_requests_;
     PyramidPass pyramid_;
     std::optional<ShadowPass> shadows_;         ///< set once a scene has shadows

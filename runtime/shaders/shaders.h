@@ -23,6 +23,7 @@ extern const std::span<const uint32_t> plan_skinning_comp;
 extern const std::span<const uint32_t> skin_vertices_comp;
 extern const std::span<const uint32_t> pyramid_tiles_comp;
 extern const std::span<const uint32_t> pyramid_top_comp;
+extern const std::span<const uint32_t> copy_words_comp;
 extern const std::span<const uint32_t> light_faces_comp;
 extern const std::span<const uint32_t> gather_points_comp;
 extern const std::span<const uint32_t> gather_rays_comp;

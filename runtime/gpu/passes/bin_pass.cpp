@@ -104,13 +104,13 @@ Status BinPass::createPipelines(const Device& device, uint32_t deformed, Variant
 }
 
 void BinPass::record(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
-                     const Scene& scene, uint32_t phase, shared::BinPush push) const
+                     const Scene& scene, const SceneView& view, uint32_t phase, shared::BinPush push) const
 {
     const VkPipelineLayout layout = layouts.visibility.get();
     device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, shared::kSetScene, 1,
-                                      &scene.draw_set, 0, nullptr);
+                                      &view.draw_set, 0, nullptr);
     device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, shared::kSetBins, 1,
-                                      &scene.bins_set, 0, nullptr);
+                                      &view.bins_set, 0, nullptr);
     const size_t slices = scene.used_slices == 1 ? 0 : 1;
     const auto bin_count = static_cast<uint32_t>(scene.bins.size());
     for (uint32_t i = 0; i < bin_count; ++i)
@@ -132,8 +132,8 @@ void BinPass::record(const Device& device, VkCommandBuffer commands, const DrawL
                                                         : shared::kCasterCounterclockwise;
         push.bin = phase == shared::kPhaseLate ? bin_count + i : i;
         device.vk.vkCmdPushConstants(commands, layout, kBinPushStages, 0, sizeof(push), &push);
-        device.vk.vkCmdDrawIndirect(commands, scene.buffers.bin_draws.handle.get(),
-                                    push.bin * sizeof(shared::BinDraw), 1, sizeof(shared::BinDraw));
+        device.vk.vkCmdDrawIndirect(commands, view.bin_draws.handle.get(), push.bin * sizeof(shared::BinDraw),
+                                    1, sizeof(shared::BinDraw));
     }
 }
 

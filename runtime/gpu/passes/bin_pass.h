@@ -27,10 +27,11 @@ public:
     Status prepareDeformed(const Device& device);
 
     /// Record inside the subpass, with viewport and scissor set. Clobbers the graphics state.
+    /// view   culled view of the scene's frame
     /// phase  culling phase whose clusters are drawn
     /// push   the bin is set for each draw
     void record(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
-                const Scene& scene, uint32_t phase, shared::BinPush push = {}) const;
+                const Scene& scene, const SceneView& view, uint32_t phase, shared::BinPush push = {}) const;
 
 private:
     /// One pipeline per Facing.

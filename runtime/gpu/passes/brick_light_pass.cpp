@@ -13,8 +13,7 @@ namespace hearth::gpu
 namespace
 {
 
-constexpr VkPipelineStageFlags kReaders =
-    VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
+constexpr VkPipelineStageFlags kLightStage = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
 
 shared::BrickView makeView(const SceneBricks& bricks, std::span<const EmissionScale> emission)
 {
@@ -60,7 +59,8 @@ Result<BrickLightPass> BrickLightPass::create(const Device& device, const DrawLa
 }
 
 void BrickLightPass::record(const Device& device, VkCommandBuffer commands, const Scene& scene,
-                            bool lights_change, std::span<const EmissionScale> emission) const
+                            const WordCopyPass& copy_words, WordCopies& copies, bool lights_change,
+                            std::span<const EmissionScale> emission) const
 {
     SceneBricks& bricks = *scene.bricks;
     bricks.share = nextBrickShare(bricks, bricks.frame++);
@@ -70,17 +70,17 @@ void BrickLightPass::record(const Device& device, VkCommandBuffer commands, cons
     else if (bricks.quick_frames > 0)
         --bricks.quick_frames;
     bricks.last_view = view;
-    // the last frame may still gather
-    barrier(device, commands, kReaders | VK_PIPELINE_STAGE_TRANSFER_BIT,
-            VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT,
-            VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_TRANSFER_READ_BIT);
-    device.vk.vkCmdUpdateBuffer(commands, bricks.view.handle.get(), 0, sizeof(view), &view);
-    barrier(device, commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, kReaders,
-            VK_ACCESS_UNIFORM_READ_BIT | VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
+    const SceneFrame& frame = scene.frame();
+    std::memcpy(frame.brick_view.mapped, &view, sizeof(view));
     if (bricks.share.face_count == 0)
         return;
 
-    const VkDescriptorSet sets[] = {bricks.set, bricks.fresh_set};
+    // the last frame gathers, and perhaps shows the light
+    const VkPipelineStageFlags shown =
+        bricks.is_shown ? VkPipelineStageFlags{VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT} : 0;
+    barrier(device, commands, kLightStage | shown, VK_ACCESS_SHADER_WRITE_BIT, kLightStage,
+            VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
+    const VkDescriptorSet sets[] = {frame.brick_set, bricks.fresh_set};
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, faces_.pipeline.get());
     device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, faces_.layout.get(),
                                       shared::kSetBricks, 2, sets, 0, nullptr);
@@ -89,13 +89,14 @@ void BrickLightPass::record(const Device& device, VkCommandBuffer commands, cons
                             (groups + shared::kMaxDispatchX - 1) / shared::kMaxDispatchX, 1);
     // all threads have read the old values: a frame sees the light of the frame before, whatever the order of
     // threads
-    barrier(device, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-            VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
-    const VkBufferCopy region{0, sizeof(shared::BrickLight) * bricks.share.first_face,
-                              sizeof(shared::BrickLight) * bricks.share.face_count};
-    device.vk.vkCmdCopyBuffer(commands, bricks.fresh.handle.get(), bricks.lighting.handle.get(), 1, &region);
-    barrier(device, commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
-            kReaders | VK_PIPELINE_STAGE_TRANSFER_BIT,
+    barrier(device, commands, kLightStage, VK_ACCESS_SHADER_WRITE_BIT, kLightStage,
+            VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
+    constexpr uint32_t kFaceWords = sizeof(shared::BrickLight) / sizeof(uint32_t);
+    copies.begin();
+    copies.add(0, kFaceWords * bricks.share.first_face, kFaceWords * bricks.share.face_count);
+    copy_words.record(device, commands, frame.brick_copy_set, copies.range());
+    barrier(device, commands, kLightStage, VK_ACCESS_SHADER_WRITE_BIT,
+            kLightStage | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
             VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT);
 }
 

@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "runtime/gpu/passes/word_copy_pass.h"
 #include "runtime/gpu/scene/scene.h"
 
 namespace hearth::gpu
@@ -22,10 +23,12 @@ public:
 
     /// Record outside a render pass. Results are visible to later compute and fragment shaders and transfers.
     ///
+    /// copies  of the frame
     /// lights_change  the lights of this frame differ from the last frame's
     /// emission  all scales of this frame: the first shared::kMaxEmissionBoxes count; of overlapping boxes
     ///           the last one
-    void record(const Device& device, VkCommandBuffer commands, const Scene& scene, bool lights_change,
+    void record(const Device& device, VkCommandBuffer commands, const Scene& scene,
+                const WordCopyPass& copy_words, WordCopies& copies, bool lights_change,
                 std::span<const EmissionScale> emission) const;
 
 private:

@@ -97,26 +97,40 @@ Status CullPass::prepareDeformed(const Device& device, const DrawLayouts& layout
 
 Status CullPass::createSets(const Device& device, Scene& scene) const
 {
-    CullSets& sets = scene.cull_sets;
-    HEARTH_ASSIGN_OR_RETURN(sets.instances, createTableSet(device, scene, instances_, kInstanceTables));
-    HEARTH_ASSIGN_OR_RETURN(sets.clusters, createTableSet(device, scene, clusters_, kClusterTables));
+    for (uint32_t number = 0; number < scene.frames.size(); ++number)
+    {
+        SceneFrame& frame = scene.frames[number];
+        HEARTH_TRY(createViewSets(device, scene, number, frame.main));
+        for (SceneView& view : frame.casters)
+            HEARTH_TRY(createViewSets(device, scene, number, view));
+    }
+    return success();
+}
+
+Status CullPass::createViewSets(const Device& device, const Scene& scene, uint32_t frame,
+                                SceneView& view) const
+{
+    const TableView from{scene, frame, view};
+    CullSets& sets = view.cull_sets;
+    HEARTH_ASSIGN_OR_RETURN(sets.instances, createTableSet(device, from, instances_, kInstanceTables));
+    HEARTH_ASSIGN_OR_RETURN(sets.clusters, createTableSet(device, from, clusters_, kClusterTables));
     if (scene.deformation != nullptr)
     {
-        HEARTH_ASSIGN_OR_RETURN(scene.deformation->cull_set,
-                                createTableSet(device, scene, *deformed_clusters_, kDeformedClusterTables));
+        HEARTH_ASSIGN_OR_RETURN(sets.deformed_clusters,
+                                createTableSet(device, from, *deformed_clusters_, kDeformedClusterTables));
     }
-    HEARTH_ASSIGN_OR_RETURN(sets.scan_blocks, createTableSet(device, scene, scan_blocks_, kScanBlockTables));
-    HEARTH_ASSIGN_OR_RETURN(sets.scan_totals, createTableSet(device, scene, scan_totals_, kScanTotalTables));
+    HEARTH_ASSIGN_OR_RETURN(sets.scan_blocks, createTableSet(device, from, scan_blocks_, kScanBlockTables));
+    HEARTH_ASSIGN_OR_RETURN(sets.scan_totals, createTableSet(device, from, scan_totals_, kScanTotalTables));
     HEARTH_ASSIGN_OR_RETURN(sets.emit_visible,
-                            createTableSet(device, scene, emit_visible_, kEmitVisibleTables));
-    HEARTH_ASSIGN_OR_RETURN(sets.emit_draws, createTableSet(device, scene, emit_draws_, kEmitDrawTables));
+                            createTableSet(device, from, emit_visible_, kEmitVisibleTables));
+    HEARTH_ASSIGN_OR_RETURN(sets.emit_draws, createTableSet(device, from, emit_draws_, kEmitDrawTables));
     return success();
 }
 
 void CullPass::record(const Device& device, VkCommandBuffer commands, const Scene& scene,
-                      const FrameTargets& targets, uint32_t phase) const
+                      const SceneView& view, VkDescriptorSet occlusion, uint32_t phase) const
 {
-    const CullSets& sets = scene.cull_sets;
+    const CullSets& sets = view.cull_sets;
     const uint32_t items = scene.item_count;
     const uint32_t blocks = blockCount(scene);
     const auto bins = static_cast<uint32_t>(scene.bins.size());
@@ -125,15 +139,15 @@ void CullPass::record(const Device& device, VkCommandBuffer commands, const Scen
     if (phase == shared::kPhaseLate)
         barrier(device, commands, VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT,
                 0, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0);
-    dispatch(device, commands, instances_, {sets.instances, targets.occlusionSet()},
+    dispatch(device, commands, instances_, {sets.instances, occlusion},
              divideRoundUp(scene.instance_count, shared::kGroupInstances), shared::PhasePush{phase});
     computeBarrier(device, commands);
     const uint32_t rigid = rigidItems(scene);
-    dispatch(device, commands, clusters_, {sets.clusters, targets.occlusionSet()}, rigid,
+    dispatch(device, commands, clusters_, {sets.clusters, occlusion}, rigid,
              shared::CullPush{0, rigid, phase});
     if (scene.deformation != nullptr)
-        dispatch(device, commands, *deformed_clusters_, {scene.deformation->cull_set, targets.occlusionSet()},
-                 items - rigid, shared::CullPush{rigid, items - rigid, phase});
+        dispatch(device, commands, *deformed_clusters_, {sets.deformed_clusters, occlusion}, items - rigid,
+                 shared::CullPush{rigid, items - rigid, phase});
     computeBarrier(device, commands);
     dispatch(device, commands, scan_blocks_, {sets.scan_blocks}, blocks, shared::ScanBlocksPush{items});
     computeBarrier(device, commands);
@@ -144,10 +158,13 @@ void CullPass::record(const Device& device, VkCommandBuffer commands, const Scen
              shared::EmitVisiblePush{items, scene.slot_capacity});
     dispatch(device, commands, emit_draws_, {sets.emit_draws}, divideRoundUp(bins, shared::kGroupBins),
              shared::EmitDrawsPush{bins, items, blocks, scene.slot_capacity, phase});
+    // the next view is culled in the same work buffers
     barrier(device, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-            VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
-                VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-            VK_ACCESS_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT);
+            VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT |
+                VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
+                VK_PIPELINE_STAGE_TRANSFER_BIT,
+            VK_ACCESS_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT |
+                VK_ACCESS_TRANSFER_READ_BIT);
 }
 
 } // namespace hearth::gpu

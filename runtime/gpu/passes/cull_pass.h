@@ -20,17 +20,20 @@ public:
     /// Create the pipelines for scenes with deformed meshes; call once.
     Status prepareDeformed(const Device& device, const DrawLayouts& layouts);
 
-    /// Allocate the descriptor sets of this pass for a scene.
+    /// Allocate the descriptor sets of this pass for the views of a scene.
     Status createSets(const Device& device, Scene& scene) const;
 
     /// Record one culling phase: kPhaseWhole; or kPhaseEarly, then, after its clusters are drawn and the
     /// pyramid is built, kPhaseLate, which appends to the visible list and adds draws. Outside a render pass.
-    /// Results are visible to later indirect draws, vertex and fragment shaders, and transfers. Clobbers the
-    /// compute state.
-    void record(const Device& device, VkCommandBuffer commands, const Scene& scene,
-                const FrameTargets& targets, uint32_t phase) const;
+    /// Results are visible to later indirect draws, all shaders, and transfers. Clobbers the compute state.
+    ///
+    /// view  of the scene's frame; its constants are written, and its draws of materials are zero
+    void record(const Device& device, VkCommandBuffer commands, const Scene& scene, const SceneView& view,
+                VkDescriptorSet occlusion, uint32_t phase) const;
 
 private:
+    Status createViewSets(const Device& device, const Scene& scene, uint32_t frame, SceneView& view) const;
+
     ComputePipeline instances_;
     ComputePipeline clusters_;
     std::optional<ComputePipeline> deformed_clusters_; ///< set once a scene has deformed meshes

@@ -31,7 +31,9 @@ Result<CullStatisticsPass> CullStatisticsPass::create(const Device& device, cons
                                                                            VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                                                            VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                                                        MemoryKind::device));
-    HEARTH_ASSIGN_OR_RETURN(pass.pool_, createDescriptorPool(device, 2, {.uniforms = 2, .storages = 16}));
+    HEARTH_ASSIGN_OR_RETURN(pass.pool_, createDescriptorPool(device, 2 * kMaxFramesInFlight,
+                                                             {.uniforms = 2 * kMaxFramesInFlight,
+                                                              .storages = 16 * kMaxFramesInFlight}));
     HEARTH_ASSIGN_OR_RETURN(pass.rigid_, pass.createPipeline(device, scene, shaders::cull_statistics_comp,
                                                              kRigidStatisticsTables));
     if (scene.deformation != nullptr)
@@ -50,10 +52,14 @@ CullStatisticsPass::createPipeline(const Device& device, const Scene& scene, std
     StatisticsPipeline counting;
     HEARTH_ASSIGN_OR_RETURN(counting.pipeline,
                             createTablePipeline(device, shader, tables, sizeof(shared::CullStatisticsPush)));
-    HEARTH_ASSIGN_OR_RETURN(counting.set,
-                            allocateSet(device, pool_.get(), counting.pipeline.set_layout.get()));
-    writeTables(device, scene, counting.set, tables);
-    DescriptorWriter(counting.set).storage(shared::kTableStatistics, statistics_).write(device);
+    for (uint32_t number = 0; number < scene.frames.size(); ++number)
+    {
+        HEARTH_ASSIGN_OR_RETURN(const VkDescriptorSet set,
+                                allocateSet(device, pool_.get(), counting.pipeline.set_layout.get()));
+        writeTables(device, mainView(scene, number), set, tables);
+        DescriptorWriter(set).storage(shared::kTableStatistics, statistics_).write(device);
+        counting.sets.push_back(set);
+    }
     return counting;
 }
 
@@ -73,7 +79,8 @@ void CullStatisticsPass::record(const Device& device, VkCommandBuffer commands, 
         device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
                                     counting.pipeline.pipeline.get());
         device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout,
-                                          shared::kSetTables, 1, &counting.set, 0, nullptr);
+                                          shared::kSetTables, 1, &counting.sets[scene.tables->frame], 0,
+                                          nullptr);
         device.vk.vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(push), &push);
         const uint32_t groups =
             std::max(push.item_count,

@@ -33,7 +33,7 @@ private:
     struct StatisticsPipeline
     {
         ComputePipeline pipeline;
-        VkDescriptorSet set = VK_NULL_HANDLE;
+        std::vector<VkDescriptorSet> sets; ///< for each frame in flight
     };
     Result<StatisticsPipeline> createPipeline(const Device& device, const Scene& scene,
                                               std::span<const uint32_t> shader,

@@ -5,6 +5,7 @@
 #include "formats/gpu_shared/occlusion.h"
 #include "runtime/gpu/frame/frame_plan.h"
 
+#include <cstring>
 #include <set>
 #include <string>
 
@@ -133,6 +134,13 @@ Status FrameTargets::createFramebuffer(const Device& device, VkRenderPass render
     return success();
 }
 
+void FrameTargets::beginFrame(const shared::FrameView& view)
+{
+    current_ = (current_ + 1) % kMaxFramesInFlight;
+    const shared::OcclusionView views[] = {pyramid_view_, shared::makeOcclusionView(view)};
+    std::memcpy(occlusion_[current_].views.mapped, views, sizeof(views));
+}
+
 Status FrameTargets::createPyramid(const Device& device)
 {
     const auto [width, height] = extent_;
@@ -146,10 +154,12 @@ Status FrameTargets::createPyramid(const Device& device)
                                                               VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                                               VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                                           MemoryKind::device));
-    HEARTH_ASSIGN_OR_RETURN(occlusion_views_, arena_.createBuffer(2 * sizeof(shared::OcclusionView),
-                                                                  VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
-                                                                      VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                                                  MemoryKind::device));
+    for (OcclusionViews& occlusion : occlusion_)
+    {
+        HEARTH_ASSIGN_OR_RETURN(occlusion.views,
+                                arena_.createBuffer(2 * sizeof(shared::OcclusionView),
+                                                    VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, MemoryKind::upload));
+    }
     return success();
 }
 
@@ -180,8 +190,11 @@ Status FrameTargets::createSets(const Device& device, const DrawLayouts& layouts
         HEARTH_ASSIGN_OR_RETURN(gather_, GatherTargets::create(device, layouts, arena_, extent_,
                                                                visibility_.view.get(), texel_sampler_.get()));
     }
-    const DescriptorPoolSizes sizes{.uniforms = 1, .storages = 4, .textures = 3, .inputs = 1};
-    HEARTH_ASSIGN_OR_RETURN(pool_, createDescriptorPool(device, 3, sizes));
+    const DescriptorPoolSizes sizes{.uniforms = kMaxFramesInFlight,
+                                    .storages = 3 + kMaxFramesInFlight,
+                                    .textures = 2 + kMaxFramesInFlight,
+                                    .inputs = 1};
+    HEARTH_ASSIGN_OR_RETURN(pool_, createDescriptorPool(device, 2 + kMaxFramesInFlight, sizes));
     HEARTH_ASSIGN_OR_RETURN(set_, allocateSet(device, pool_.get(), layouts.attachments.get()));
     DescriptorWriter attachments(set_);
     attachments.input(shared::kAttachmentVisibility, visibility_.view.get())
@@ -193,17 +206,21 @@ Status FrameTargets::createSets(const Device& device, const DrawLayouts& layouts
     attachments.texture(shared::kAttachmentGi, (gather_ ? gather_->texels() : no_light_).view.get(),
                         texel_sampler_.get());
     attachments.write(device);
-    HEARTH_ASSIGN_OR_RETURN(occlusion_set_, allocateSet(device, pool_.get(), layouts.occlusion.get()));
-    DescriptorWriter occlusion(occlusion_set_);
-    occlusion.uniform(shared::kOcclusionViews, occlusion_views_).storage(shared::kOcclusionPyramid, pyramid_);
     const bool has_depth = sampled_depth_.get() != VK_NULL_HANDLE;
     if (!has_depth)
     {
         HEARTH_ASSIGN_OR_RETURN(no_depth_, createTexel(arena_, VK_FORMAT_R32_SFLOAT));
     }
-    occlusion.texture(shared::kOcclusionDepth, has_depth ? sampled_depth_.get() : no_depth_.view.get(),
-                      texel_sampler_.get());
-    occlusion.write(device);
+    for (OcclusionViews& occlusion : occlusion_)
+    {
+        HEARTH_ASSIGN_OR_RETURN(occlusion.set, allocateSet(device, pool_.get(), layouts.occlusion.get()));
+        DescriptorWriter(occlusion.set)
+            .uniform(shared::kOcclusionViews, occlusion.views)
+            .storage(shared::kOcclusionPyramid, pyramid_)
+            .texture(shared::kOcclusionDepth, has_depth ? sampled_depth_.get() : no_depth_.view.get(),
+                     texel_sampler_.get())
+            .write(device);
+    }
     if (!options_.may_split)
         return success();
     HEARTH_ASSIGN_OR_RETURN(tile_set_, allocateSet(device, pool_.get(), layouts.tiles.get()));

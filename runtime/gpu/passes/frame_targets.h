@@ -7,6 +7,7 @@
 #include "runtime/gpu/frame/frame_passes.h"
 #include "runtime/gpu/passes/gather_targets.h"
 #include "runtime/gpu/scene/draw_layouts.h"
+#include "runtime/gpu/scene/scene_frames.h"
 
 #include <optional>
 
@@ -53,8 +54,10 @@ public:
     VkDeviceSize transientBytes() const { return arena_.transientBytes(); }
 
     const Buffer& pyramid() const { return pyramid_; } ///< floats; layout in formats/gpu_shared/occlusion.h
-    const Buffer& occlusionViews() const { return occlusion_views_; }
-    VkDescriptorSet occlusionSet() const { return occlusion_set_; }
+    /// Set of the frame that was begun last.
+    VkDescriptorSet occlusionSet() const { return occlusion_[current_].set; }
+    /// Begin a frame that draws this view: its culling tests boxes in this one and in pyramidView().
+    void beginFrame(const shared::FrameView& view);
 
     /// kMaterialsPerTile words per tile, rows of tiles from top to bottom.
     const Buffer& tileMaterials() const { return tile_materials_; }
@@ -95,13 +98,19 @@ private:
     Image no_depth_, no_light_;
     UniqueFramebuffer framebuffer_;
     Buffer pyramid_;
-    Buffer occlusion_views_; ///< two OcclusionView
     Buffer tile_materials_;
     Buffer tile_lists_;
     UniqueSampler texel_sampler_;
     UniqueDescriptorPool pool_;
     VkDescriptorSet set_ = VK_NULL_HANDLE;
-    VkDescriptorSet occlusion_set_ = VK_NULL_HANDLE;
+    /// Views of a frame's occlusion tests, for each frame in flight.
+    struct OcclusionViews
+    {
+        Buffer views; ///< two OcclusionView; mapped
+        VkDescriptorSet set = VK_NULL_HANDLE;
+    };
+    OcclusionViews occlusion_[kMaxFramesInFlight];
+    uint32_t current_ = 0;
     VkDescriptorSet tile_set_ = VK_NULL_HANDLE;
     shared::OcclusionView pyramid_view_{};
     std::optional<GatherTargets> gather_; ///< with TargetOptions::gathers_light

@@ -1,63 +1,97 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/passes/frame_update.h"
 
+#include <cstring>
+
 namespace hearth::gpu
 {
 
 namespace
 {
 
-/// Wait for everything that still reads the constants and counters of the view before.
-void barrierBeforeUpdates(const Device& device, VkCommandBuffer commands)
+void clear(const Buffer& buffer)
 {
-    barrier(device, commands,
-            VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT |
-                VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
-                VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
-            VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_SHADER_WRITE_BIT,
-            VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
-            VK_ACCESS_TRANSFER_WRITE_BIT | VK_ACCESS_SHADER_WRITE_BIT);
+    std::memset(buffer.mapped, 0, static_cast<size_t>(buffer.size));
 }
 
-void barrierAfterUpdates(const Device& device, VkCommandBuffer commands)
+/// Take the next of the scene's frames in flight, and bring its tables up to date.
+const SceneFrame& beginSceneFrame(const Scene& scene)
 {
-    barrier(device, commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
-            VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
-                VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
-            VK_ACCESS_UNIFORM_READ_BIT | VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
+    SceneTables& tables = *scene.tables;
+    tables.frame = (tables.frame + 1) % static_cast<uint32_t>(scene.frames.size());
+    for (MirroredTable* table : {&tables.lighting, &tables.instances, &tables.inverses, &tables.bounds})
+        table->update(tables.frame);
+    if (scene.deformation != nullptr)
+        scene.deformation->table.update(tables.frame);
+    const SceneFrame& frame = scene.frame();
+    clear(frame.tile_draws);
+    return frame;
 }
 
-void writeView(const Device& device, VkCommandBuffer commands, const Scene& scene,
-               const FrameTargets& targets, const shared::FrameView& view)
+/// Wait for the compute shaders of earlier frames, which share the work buffers, the groups and the pyramid.
+void recordWait(const Device& device, VkCommandBuffer commands)
 {
-    device.vk.vkCmdUpdateBuffer(commands, scene.buffers.frame.handle.get(), 0, sizeof(view), &view);
-    const shared::OcclusionView views[] = {targets.pyramidView(), shared::makeOcclusionView(view)};
-    device.vk.vkCmdUpdateBuffer(commands, targets.occlusionViews().handle.get(), 0, sizeof(views), views);
-    device.vk.vkCmdFillBuffer(commands, scene.buffers.material_draws.handle.get(), 0, VK_WHOLE_SIZE, 0);
+    barrier(device, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+            VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
+}
+
+/// Record the copies of streamed pages and of the flags of their groups.
+void recordStream(const Device& device, VkCommandBuffer commands, const Scene& scene,
+                  const WordCopyPass& copy_words, WordCopies& copies)
+{
+    const SceneFrame& frame = scene.frame();
+    const SceneStream::Copies ranges = scene.stream->takeChanges(scene.buffers, scene.tables->frame, copies);
+    bool changes = false;
+    for (size_t i = 0; i < ranges.size(); ++i)
+    {
+        copy_words.record(device, commands, frame.stream_copy_sets[i], ranges[i]);
+        changes = changes || ranges[i].count > 0;
+    }
+    if (changes)
+        barrier(device, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
+                VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
+                    VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
+                VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
 }
 
 } // namespace
 
-void recordFrameUpdate(const Device& device, VkCommandBuffer commands, const Scene& scene,
-                       const FrameTargets& targets, const shared::FrameView& view,
-                       const FrameChanges& changes)
+WordCopies recordFrameUpdate(const Device& device, VkCommandBuffer commands, const Scene& scene,
+                             FrameTargets& targets, const WordCopyPass& copy_words,
+                             const shared::FrameView& view, const FrameChanges& changes)
 {
-    barrierBeforeUpdates(device, commands);
-    writeView(device, commands, scene, targets, view);
-    recordMoves(device, commands, scene, changes.moves);
-    recordPoses(device, commands, scene, changes.poses);
-    recordLights(device, commands, scene, changes.lights);
+    takeMoves(scene, changes.moves);
+    takePoses(scene, changes.poses);
+    takeLights(scene, changes.lights);
+    const SceneFrame& frame = beginSceneFrame(scene);
+    writeView(frame.main, view);
+    targets.beginFrame(view);
+    recordWait(device, commands);
+    WordCopies copies(frame.copy_regions);
     if (scene.stream != nullptr)
-        scene.stream->recordChanges(commands, scene.buffers);
-    barrierAfterUpdates(device, commands);
+        recordStream(device, commands, scene, copy_words, copies);
+    return copies;
 }
 
-void recordViewChange(const Device& device, VkCommandBuffer commands, const Scene& scene,
-                      const FrameTargets& targets, const shared::FrameView& view)
+void recordViewChange(const Device& device, VkCommandBuffer commands, const SceneView& target,
+                      const shared::FrameView& view)
 {
-    barrierBeforeUpdates(device, commands);
-    writeView(device, commands, scene, targets, view);
-    barrierAfterUpdates(device, commands);
+    constexpr VkPipelineStageFlags kReaders = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT |
+                                              VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
+                                              VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
+    barrier(device, commands, kReaders | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+            VK_ACCESS_SHADER_WRITE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+            VK_ACCESS_TRANSFER_WRITE_BIT);
+    device.vk.vkCmdUpdateBuffer(commands, target.frame.handle.get(), 0, sizeof(view), &view);
+    device.vk.vkCmdFillBuffer(commands, target.material_draws.handle.get(), 0, VK_WHOLE_SIZE, 0);
+    barrier(device, commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, kReaders,
+            VK_ACCESS_UNIFORM_READ_BIT | VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
+}
+
+void writeView(const SceneView& target, const shared::FrameView& view)
+{
+    std::memcpy(target.frame.mapped, &view, sizeof(view));
+    clear(target.material_draws);
 }
 
 } // namespace hearth::gpu

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "runtime/gpu/passes/frame_targets.h"
+#include "runtime/gpu/passes/word_copy_pass.h"
 #include "runtime/gpu/scene/instance_motion.h"
 #include "runtime/gpu/scene/light_change.h"
 #include "runtime/gpu/scene/scene.h"
@@ -21,14 +22,19 @@ struct FrameChanges
     std::span<const LightChange> lights{};
 };
 
-/// Record the update of a frame. Outside a render pass; waits for earlier frames of the scene on the same
-/// queue.
-void recordFrameUpdate(const Device& device, VkCommandBuffer commands, const Scene& scene,
-                       const FrameTargets& targets, const shared::FrameView& view,
-                       const FrameChanges& changes);
+/// Begin a frame of a scene with targets: takes the oldest of the scene's frames in flight, which has
+/// completed, and writes what the frame changes. Records copies of streamed pages, outside a render pass,
+/// and a barrier: compute shaders wait for those of earlier frames, and for nothing else of them. Returns
+/// the frame's copies, for more of them.
+WordCopies recordFrameUpdate(const Device& device, VkCommandBuffer commands, const Scene& scene,
+                             FrameTargets& targets, const WordCopyPass& copy_words,
+                             const shared::FrameView& view, const FrameChanges& changes);
 
-/// Switch the same frame to another view: other constants, and cleared counters. After recordFrameUpdate.
-void recordViewChange(const Device& device, VkCommandBuffer commands, const Scene& scene,
-                      const FrameTargets& targets, const shared::FrameView& view);
+/// Write the constants of a view of the frame, before it is culled.
+void writeView(const SceneView& target, const shared::FrameView& view);
+
+/// Record another view in place of one that has been drawn in the same frame: waits for its draws.
+void recordViewChange(const Device& device, VkCommandBuffer commands, const SceneView& target,
+                      const shared::FrameView& view);
 
 } // namespace hearth::gpu

@@ -73,10 +73,10 @@ void GatherPass::record(const Device& device, VkCommandBuffer commands, const Sc
                 VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_READ_BIT);
     };
     bind(device, commands, points_[scene.used_slices == 1 ? 0 : 1][scene.deformation != nullptr ? 1 : 0],
-         shared::kSetScene, {scene.draw_set, gather.pointSet()});
+         shared::kSetScene, {scene.frame().main.draw_set, gather.pointSet()});
     device.vk.vkCmdDispatch(commands, groups_x, groups_y, 1);
     wait();
-    bind(device, commands, rays_, shared::kSetBricks, {scene.bricks->set, gather.gatherSet()});
+    bind(device, commands, rays_, shared::kSetBricks, {scene.frame().brick_set, gather.gatherSet()});
     device.vk.vkCmdDispatch(commands, (tiles_x + shared::kGatherGroupPoints - 1) / shared::kGatherGroupPoints,
                             tiles_y, 1);
     wait();

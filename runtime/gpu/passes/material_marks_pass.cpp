@@ -38,7 +38,7 @@ void MaterialMarksPass::record(const Device& device, VkCommandBuffer commands, c
     const VkDescriptorSet attachments = targets.attachments();
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_.get());
     device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, shared::kSetScene, 1,
-                                      &scene.draw_set, 0, nullptr);
+                                      &scene.frame().main.draw_set, 0, nullptr);
     device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout,
                                       shared::kSetAttachments, 1, &attachments, 0, nullptr);
     // one draw for the depth; one for each bit that the stencil needs

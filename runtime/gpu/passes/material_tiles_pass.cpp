@@ -34,9 +34,13 @@ Result<MaterialTilesPass> MaterialTilesPass::create(const Device& device, const 
     return pass;
 }
 
-Status MaterialTilesPass::createSet(const Device& device, Scene& scene) const
+Status MaterialTilesPass::createSets(const Device& device, Scene& scene) const
 {
-    HEARTH_ASSIGN_OR_RETURN(scene.tile_set, createTableSet(device, scene, materials_, kTileTables));
+    for (uint32_t number = 0; number < scene.frames.size(); ++number)
+    {
+        HEARTH_ASSIGN_OR_RETURN(scene.frames[number].tile_set,
+                                createTableSet(device, mainView(scene, number), materials_, kTileTables));
+    }
     return success();
 }
 
@@ -47,7 +51,7 @@ void MaterialTilesPass::record(const Device& device, VkCommandBuffer commands, c
     const shared::TilesPush push{width, height, static_cast<uint32_t>(scene.materials.size()) + 1};
     const auto dispatch = [&](const ComputePipeline& pipeline, uint32_t x, uint32_t y)
     {
-        const VkDescriptorSet sets[] = {scene.tile_set, targets.tileSet()};
+        const VkDescriptorSet sets[] = {scene.frame().tile_set, targets.tileSet()};
         device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.pipeline.get());
         device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout.get(),
                                           shared::kSetTables, 2, sets, 0, nullptr);
@@ -60,10 +64,6 @@ void MaterialTilesPass::record(const Device& device, VkCommandBuffer commands, c
         barrier(device, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                 VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
     };
-    // the culling pass has waited for the last frame, which may have read the buffer that is cleared here
-    device.vk.vkCmdFillBuffer(commands, scene.buffers.tile_draws.handle.get(), 0, VK_WHOLE_SIZE, 0);
-    barrier(device, commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
-            VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
     dispatch(materials_, shared::materialTiles(width), shared::materialTiles(height));
     wait();
     dispatch(offsets_, 1, 1);

@@ -14,12 +14,12 @@ class MaterialTilesPass
 public:
     static Result<MaterialTilesPass> create(const Device& device, const DrawLayouts& layouts);
 
-    /// Allocate the descriptor set of this pass for a scene.
-    Status createSet(const Device& device, Scene& scene) const;
+    /// Allocate the descriptor sets of this pass for a scene.
+    Status createSets(const Device& device, Scene& scene) const;
 
-    /// Record outside a render pass, after a render pass that ends at the visibility buffer. Writes
-    /// scene.buffers.tile_draws and targets.tileLists(), visible to later indirect draws, vertex shaders and
-    /// transfers. Clobbers the compute state.
+    /// Record outside a render pass, after a render pass that ends at the visibility buffer. Writes the
+    /// draws of tiles of the scene's frame and targets.tileLists(), visible to later indirect draws, vertex
+    /// shaders and transfers. Clobbers the compute state.
     void record(const Device& device, VkCommandBuffer commands, const Scene& scene,
                 const FrameTargets& targets) const;
 

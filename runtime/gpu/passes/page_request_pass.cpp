@@ -41,13 +41,19 @@ Status PageRequestPass::prepareDeformed(const Device& device)
     return success();
 }
 
-Status PageRequestPass::createSet(const Device& device, Scene& scene) const
+Status PageRequestPass::createSets(const Device& device, Scene& scene) const
 {
-    HEARTH_ASSIGN_OR_RETURN(scene.page_request_set, createTableSet(device, scene, pipeline_, kRequestTables));
-    if (scene.deformation != nullptr)
+    for (uint32_t number = 0; number < scene.frames.size(); ++number)
     {
-        HEARTH_ASSIGN_OR_RETURN(scene.deformation->page_request_set,
-                                createTableSet(device, scene, *deformed_, kDeformedRequestTables));
+        SceneFrame& frame = scene.frames[number];
+        HEARTH_ASSIGN_OR_RETURN(frame.page_request_set,
+                                createTableSet(device, mainView(scene, number), pipeline_, kRequestTables));
+        if (scene.deformation != nullptr)
+        {
+            HEARTH_ASSIGN_OR_RETURN(
+                frame.deformed_page_request_set,
+                createTableSet(device, mainView(scene, number), *deformed_, kDeformedRequestTables));
+        }
     }
     return success();
 }
@@ -69,13 +75,12 @@ void PageRequestPass::record(const Device& device, VkCommandBuffer commands, con
     };
     const uint32_t items = scene.group_item_count;
     const uint32_t rigid = scene.deformation == nullptr ? items : scene.deformation->rigid_group_items;
-    ask(pipeline_, scene.page_request_set, {0, rigid});
+    ask(pipeline_, scene.frame().page_request_set, {0, rigid});
     if (scene.deformation != nullptr)
-        ask(*deformed_, scene.deformation->page_request_set, {rigid, items - rigid});
-    // the late culling phase overwrites the states that this pass has read
+        ask(*deformed_, scene.frame().deformed_page_request_set, {rigid, items - rigid});
+    // the late culling phase overwrites the states that this pass has read; the host reads the requests
     barrier(device, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-            VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
-            VK_ACCESS_TRANSFER_READ_BIT);
+            VK_PIPELINE_STAGE_HOST_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_HOST_READ_BIT);
 }
 
 } // namespace hearth::gpu

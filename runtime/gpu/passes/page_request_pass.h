@@ -18,7 +18,7 @@ public:
     Status prepareDeformed(const Device& device);
 
     /// Allocate the descriptor set of this pass for a streamed scene.
-    Status createSet(const Device& device, Scene& scene) const;
+    Status createSets(const Device& device, Scene& scene) const;
 
     /// Record between the first culling phase of the frame and the second. Fills SceneBuffers::page_requests,
     /// which has been cleared; visible to later transfers. Clobbers the compute state.

@@ -199,7 +199,7 @@ void ShadingPass::recordSky(const Device& device, VkCommandBuffer commands, cons
     const VkPipelineLayout layout = layouts.shading.get();
     const VkDescriptorSet attachments = targets.attachments();
     device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, shared::kSetScene, 1,
-                                      &scene.draw_set, 0, nullptr);
+                                      &scene.frame().main.draw_set, 0, nullptr);
     device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout,
                                       shared::kSetAttachments, 1, &attachments, 0, nullptr);
     const shared::ShadingPush push = shadingPush(view, 0);
@@ -207,7 +207,7 @@ void ShadingPass::recordSky(const Device& device, VkCommandBuffer commands, cons
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, sky_.get());
     setStencil(device, commands, 0);
     if (shadesTiles(scene, view.area))
-        device.vk.vkCmdDrawIndirect(commands, scene.buffers.tile_draws.handle.get(), 0, 1,
+        device.vk.vkCmdDrawIndirect(commands, scene.frame().tile_draws.handle.get(), 0, 1,
                                     sizeof(VkDrawIndirectCommand));
     else
         device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
@@ -218,7 +218,7 @@ void ShadingPass::recordClusterView(const Device& device, VkCommandBuffer comman
                                     const FrameTargets& targets, const ShadingSettings& view) const
 {
     const VkPipelineLayout layout = layouts.clusters.get();
-    const VkDescriptorSet sets[] = {scene.cluster_view_set, targets.attachments()};
+    const VkDescriptorSet sets[] = {scene.frame().cluster_view_set, targets.attachments()};
     const shared::ShadingPush push = shadingPush(view, shared::kEverySurface);
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, cluster_views_.get());
     device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, shared::kSetTables,
@@ -249,7 +249,7 @@ void ShadingPass::recordBrickView(const Device& device, VkCommandBuffer commands
     const shared::ShadingPush push = shadingPush(view, shared::kEverySurface);
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, brick_views_.get());
     device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, shared::kSetBricks,
-                                      1, &scene.bricks->set, 0, nullptr);
+                                      1, &scene.frame().brick_set, 0, nullptr);
     device.vk.vkCmdPushConstants(commands, layout, kShadingPushStages, 0, sizeof(push), &push);
     device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
 }
@@ -272,7 +272,7 @@ void ShadingPass::recordMaterials(const Device& device, VkCommandBuffer commands
 {
     const VkPipelineLayout layout = layouts.shading.get();
     const VkBuffer draws =
-        (shadesTiles(scene, view.area) ? scene.buffers.tile_draws : scene.buffers.material_draws)
+        (shadesTiles(scene, view.area) ? scene.frame().tile_draws : scene.frame().main.material_draws)
             .handle.get();
     const uint32_t sky_occlusion = skyOcclusion(scene, view);
     for (uint32_t row = 0; row < scene.materials.size(); ++row)

@@ -130,33 +130,35 @@ Status ShadowPass::createMaps(const Device& device, const formats::PackView& pac
             scene.shadows->pose(deformed.instances[i], poses[i]);
     }
     makeSampleable(device, commands, shadows.image());
-    DescriptorWriter(scene.draw_set)
-        .uniform(shared::kSceneShadows, shadows.block())
-        .texture(shared::kSceneShadowMaps, shadows.image().view.get(), shadows.sampler())
-        .write(device);
+    const auto write = [&](const SceneFrame& frame, const SceneView& view)
+    {
+        DescriptorWriter(view.draw_set)
+            .uniform(shared::kSceneShadows, frame.shadow_block)
+            .texture(shared::kSceneShadowMaps, shadows.image().view.get(), shadows.sampler())
+            .write(device);
+    };
+    for (const SceneFrame& frame : scene.frames)
+    {
+        write(frame, frame.main);
+        for (const SceneView& view : frame.casters)
+            write(frame, view);
+    }
     return success();
 }
 
-void ShadowPass::recordBlock(const Device& device, VkCommandBuffer commands, const Scene& scene) const
-{
-    const shared::ShadowBlock& block = scene.shadows->plan().block;
-    constexpr VkPipelineStageFlags kDrawing =
-        VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
-    barrier(device, commands, kDrawing, 0, VK_PIPELINE_STAGE_TRANSFER_BIT, 0);
-    device.vk.vkCmdUpdateBuffer(commands, scene.shadows->block().handle.get(), 0, sizeof(block), &block);
-    barrier(device, commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, kDrawing,
-            VK_ACCESS_UNIFORM_READ_BIT);
-}
-
 void ShadowPass::recordMap(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
-                           const Scene& scene, const ShadowCache::LayerUpdate& map) const
+                           const Scene& scene, const SceneView& view,
+                           const ShadowCache::LayerUpdate& map) const
 {
     const SceneShadows& shadows = *scene.shadows;
     const shared::ShadowMap& target = shadows.plan().block.maps[map.map];
+    // an earlier frame may have counted the same layer
+    barrier(device, commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+            VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT);
     const VkBufferCopy counters{0, map.layer * VkDeviceSize{sizeof(shared::FrameCounters)},
                                 sizeof(shared::FrameCounters)};
-    device.vk.vkCmdCopyBuffer(commands, scene.buffers.counters.handle.get(), shadows.casters().handle.get(),
-                              1, &counters);
+    device.vk.vkCmdCopyBuffer(commands, view.counters.handle.get(), shadows.casters().handle.get(), 1,
+                              &counters);
 
     const auto side = static_cast<uint32_t>(target.size);
     const VkRect2D area{{0, 0}, {side, side}};
@@ -177,7 +179,7 @@ void ShadowPass::recordMap(const Device& device, VkCommandBuffer commands, const
     shared::BinPush push{};
     push.light_row = shadows.plan().row_of[map.map];
     push.map_index = map.map;
-    casters_.record(device, commands, layouts, scene, shared::kPhaseWhole, push);
+    casters_.record(device, commands, layouts, scene, view, shared::kPhaseWhole, push);
     device.vk.vkCmdEndRenderPass(commands);
 }
 

@@ -22,13 +22,10 @@ public:
     Status createMaps(const Device& device, const formats::PackView& pack, const ShadowOptions& options,
                       VkCommandBuffer commands, Scene& scene) const;
 
-    /// Record the update of the shadow block for shaders. Outside a render pass, before the maps are drawn.
-    void recordBlock(const Device& device, VkCommandBuffer commands, const Scene& scene) const;
-
-    /// Record a layer, after the culling pass has found its casters. Outside a render pass. Results are
-    /// visible to later fragment shaders and transfers. Clobbers the graphics state.
+    /// Record a layer, after the culling pass has found its casters in a view. Outside a render pass. Results
+    /// are visible to later fragment shaders and transfers. Clobbers the graphics state.
     void recordMap(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
-                   const Scene& scene, const ShadowCache::LayerUpdate& map) const;
+                   const Scene& scene, const SceneView& view, const ShadowCache::LayerUpdate& map) const;
 
 private:
     UniqueRenderPass clear_pass_;

@@ -34,9 +34,13 @@ Result<SkinningPass> SkinningPass::create(const Device& device, const DrawLayout
     return pass;
 }
 
-Status SkinningPass::createSet(const Device& device, Scene& scene) const
+Status SkinningPass::createSets(const Device& device, Scene& scene) const
 {
-    HEARTH_ASSIGN_OR_RETURN(scene.deformation->plan_set, createTableSet(device, scene, plan_, kPlanTables));
+    for (uint32_t number = 0; number < scene.frames.size(); ++number)
+    {
+        HEARTH_ASSIGN_OR_RETURN(scene.frames[number].skinning_set,
+                                createTableSet(device, mainView(scene, number), plan_, kPlanTables));
+    }
     return success();
 }
 
@@ -56,17 +60,17 @@ void SkinningPass::record(const Device& device, VkCommandBuffer commands, const 
         device.vk.vkCmdPushConstants(commands, pipeline.layout.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                      sizeof(push), &push);
     };
-    // waits for the culling pass, which writes the lists, and for the draws of the phase before, which read
-    // the old offsets
+    // waits for the culling pass, which writes the lists, and for the draws of this frame so far, which read
+    // the old offsets: those of the phase before, and of shadow casters
     barrier(device, commands, kCompute | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
             kCompute, VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
-    bind(plan_, deformation.plan_set, shared::SkinningPlanPush{bins, deformation.first_bin, phase});
+    bind(plan_, scene.frame().skinning_set, shared::SkinningPlanPush{bins, deformation.first_bin, phase});
     device.vk.vkCmdDispatch(commands, 1, 1, 1);
     barrier(device, commands, kCompute, VK_ACCESS_SHADER_WRITE_BIT,
             kCompute | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
             VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
-    bind(skin_[scene.used_slices == 1 ? 0 : 1], scene.draw_set, shared::PhasePush{phase});
-    device.vk.vkCmdDispatchIndirect(commands, deformation.buffer.handle.get(),
+    bind(skin_[scene.used_slices == 1 ? 0 : 1], scene.frame().main.draw_set, shared::PhasePush{phase});
+    device.vk.vkCmdDispatchIndirect(commands, deformation.table.copy(scene.tables->frame).handle.get(),
                                     offsetof(shared::DeformationHeader, groups_x));
     // page requests read other parts of the buffer
     barrier(device, commands, kCompute, VK_ACCESS_SHADER_WRITE_BIT,

@@ -13,8 +13,8 @@ class SkinningPass
 public:
     static Result<SkinningPass> create(const Device& device, const DrawLayouts& layouts);
 
-    /// Allocate the descriptor set of this pass for a scene with deformed meshes.
-    Status createSet(const Device& device, Scene& scene) const;
+    /// Allocate the descriptor sets of this pass for a scene with deformed meshes.
+    Status createSets(const Device& device, Scene& scene) const;
 
     /// Record after CullPass::record of the same phase. Outside a render pass. Results are visible to later
     /// vertex and fragment shaders. Clobbers the compute state.

@@ -48,18 +48,12 @@ Result<InstanceMove> moveInstance(const Scene& scene, uint32_t instance, const A
     return move;
 }
 
-void recordMoves(const Device& device, VkCommandBuffer commands, const Scene& scene,
-                 std::span<const InstanceMove> moves)
+void takeMoves(const Scene& scene, std::span<const InstanceMove> moves)
 {
-    const auto write = [&](const Buffer& table, uint32_t row, const auto& record)
-    {
-        device.vk.vkCmdUpdateBuffer(commands, table.handle.get(), row * VkDeviceSize{sizeof(record)},
-                                    sizeof(record), &record);
-    };
     for (const InstanceMove& move : moves)
     {
-        write(scene.buffers.instances, move.instance, move.record);
-        write(scene.buffers.inverses, move.instance, move.inverse);
+        scene.tables->instances.writeRow(move.instance, move.record);
+        scene.tables->inverses.writeRow(move.instance, move.inverse);
     }
 }
 

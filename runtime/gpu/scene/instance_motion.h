@@ -21,9 +21,7 @@ struct InstanceMove
 /// errors: usage.
 Result<InstanceMove> moveInstance(const Scene& scene, uint32_t instance, const Affine3& world_from_object);
 
-/// Record two small copies per move. The caller puts barriers around: after all reads of the tables, and
-/// before the reads that need the new transforms.
-void recordMoves(const Device& device, VkCommandBuffer commands, const Scene& scene,
-                 std::span<const InstanceMove> moves);
+/// Write moves to the tables.
+void takeMoves(const Scene& scene, std::span<const InstanceMove> moves);
 
 } // namespace hearth::gpu

@@ -47,21 +47,20 @@ Result<LightChange> changeLight(const Scene& scene, uint32_t light, const format
     return change;
 }
 
-void recordLights(const Device& device, VkCommandBuffer commands, const Scene& scene,
-                  std::span<const LightChange> lights)
+void takeLights(const Scene& scene, std::span<const LightChange> lights)
 {
     for (const LightChange& change : lights)
     {
-        const VkDeviceSize row = offsetof(shared::Lighting, lights) + change.light * sizeof(shared::Light);
-        device.vk.vkCmdUpdateBuffer(commands, scene.buffers.lighting.handle.get(), row, sizeof(change.record),
-                                    &change.record);
+        scene.tables->lighting.write(offsetof(shared::Lighting, lights) +
+                                         change.light * sizeof(shared::Light),
+                                     std::as_bytes(std::span(&change.record, 1)));
         if (scene.shadows != nullptr)
             scene.shadows->change(change.light, change.record);
         if (scene.surroundings != nullptr)
             scene.surroundings->change(change.light, change.record);
     }
     if (scene.surroundings != nullptr)
-        scene.surroundings->record(device, commands, scene.buffers.lighting);
+        scene.surroundings->update(scene.tables->lighting);
 }
 
 } // namespace hearth::gpu

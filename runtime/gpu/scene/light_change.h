@@ -21,9 +21,7 @@ struct LightChange
 /// light that its shade gives back, until it is where it was. errors: usage.
 Result<LightChange> changeLight(const Scene& scene, uint32_t light, const formats::LightRecord& record);
 
-/// Record one small copy per change. The caller puts barriers around: after all reads of the table, and
-/// before the reads that need the new lights.
-void recordLights(const Device& device, VkCommandBuffer commands, const Scene& scene,
-                  std::span<const LightChange> lights);
+/// Write changes to the table of lights, to shadows and to what the lights' surroundings give back.
+void takeLights(const Scene& scene, std::span<const LightChange> lights);
 
 } // namespace hearth::gpu

@@ -7,10 +7,12 @@
 #include "runtime/gpu/scene/draw_layouts.h"
 #include "runtime/gpu/scene/scene_bricks.h"
 #include "runtime/gpu/scene/scene_deformation.h"
+#include "runtime/gpu/scene/scene_frames.h"
 #include "runtime/gpu/scene/scene_layout.h"
 #include "runtime/gpu/scene/scene_stream.h"
 #include "runtime/gpu/scene/scene_surroundings.h"
 #include "runtime/gpu/scene/shadow_plan.h"
+#include "runtime/gpu/vulkan/mirrored_table.h"
 #include "runtime/gpu/vulkan/uploader.h"
 
 #include <algorithm>
@@ -27,6 +29,11 @@ struct SceneOptions
     /// them in FrameCounters::dropped_clusters. 4 Mi slots are half a gigatriangle, far above one per pixel.
     uint32_t max_visible_clusters = 1u << 22;
 
+    /// Frames that are recorded before an earlier one has completed, 1 to kMaxFramesInFlight: everything that
+    /// a frame changes exists once for each. A frame may be recorded once all but this many, less one, of the
+    /// frames before it have completed.
+    uint32_t frames_in_flight = 2;
+
     /// Bytes of geometry on the device; `stream` loads pages on demand (runtime/gpu/README.md, "Streaming").
     /// 0: all geometry is resident, at most 512 MiB.
     uint64_t geometry_budget = 0;
@@ -41,23 +48,24 @@ struct SceneOptions
 
 class SceneShadows;
 
-/// Buffers of a scene; the element types are in formats/gpu_shared.
+/// Buffers of a scene that all frames share; the element types are in formats/gpu_shared.
 struct SceneBuffers
 {
     // constant
-    Buffer lighting, materials, instances, inverses, bounds, items, order, clusters, bins, group_items;
+    Buffer materials, items, order, clusters, bins, group_items;
     // constant except for streaming
-    Buffer groups, cluster_draws;
+    Buffer groups;
+    Buffer cluster_draws; ///< mapped: rows of a page change while no frame draws it
     std::array<Buffer, shared::kPoolSlices> pool;
-    // rewritten by every frame
-    Buffer frame, states, results, totals, counters, visible, bin_draws, material_draws, tile_draws,
-        page_requests;
+    // rewritten by every culling phase, and read by compute shaders only
+    Buffer states, results, totals;
 };
 
-/// One descriptor set per pipeline of the culling pass.
-struct CullSets
+/// Tables that a game changes from frame to frame.
+struct SceneTables
 {
-    VkDescriptorSet instances, clusters, scan_blocks, scan_totals, emit_visible, emit_draws;
+    MirroredTable lighting, instances, inverses, bounds;
+    uint32_t frame = 0; ///< of Scene::frames: the one that is recorded, or was last
 };
 
 /// Specialization of a material's shading pipeline: a scene has few different ones.
@@ -92,7 +100,7 @@ struct SceneMaterial
     ShadingPipelines pipelines;
 };
 
-/// Scene on the device. Its frames must not overlap on the GPU: submit them to one queue.
+/// Scene on the device. Submit its frames to one queue, in the order in which they were recorded.
 struct Scene
 {
     explicit Scene(const Device& device);
@@ -101,17 +109,14 @@ struct Scene
     MemoryArena arena;
     std::unique_ptr<Uploader> staging; ///< reset() after the upload commands have run
     SceneBuffers buffers;
+    std::unique_ptr<SceneTables> tables;
+    std::vector<SceneFrame> frames; ///< one for each frame in flight
+    const SceneFrame& frame() const { return frames[tables->frame]; }
     /// Per image of the pack, empty if no material uses it; then one white texel.
     std::vector<Image> images;
     std::vector<UniqueSampler> samplers;
     UniqueDescriptorPool pool;
-    VkDescriptorSet draw_set = VK_NULL_HANDLE;
-    VkDescriptorSet bins_set = VK_NULL_HANDLE;
-    VkDescriptorSet cluster_view_set = VK_NULL_HANDLE;
     std::vector<SceneMaterial> materials; ///< rows of the material table
-    CullSets cull_sets{};
-    VkDescriptorSet tile_set = VK_NULL_HANDLE;         ///< material-tiles pass
-    VkDescriptorSet page_request_set = VK_NULL_HANDLE; ///< streamed scenes only
 
     std::unique_ptr<SceneStream> stream;             ///< streamed scenes only
     std::unique_ptr<SceneDeformation> deformation;   ///< scenes with deformed meshes only
@@ -142,6 +147,18 @@ inline bool hasSkyVisibility(const Scene& scene)
                        [](const SceneMaterial& m) { return m.variant.sky_visibility != 0; });
 }
 
+/// Call function(view) for each view of each frame.
+template <typename Function>
+void forEachView(Scene& scene, const Function& function)
+{
+    for (SceneFrame& frame : scene.frames)
+    {
+        function(frame.main);
+        for (SceneView& view : frame.casters)
+            function(view);
+    }
+}
+
 /// Number of work items of rigid instances, which come first.
 inline uint32_t rigidItems(const Scene& scene)
 {
@@ -168,7 +185,7 @@ Status uploadMaterials(const Device& device, const DrawLayouts& layouts, const f
                        Uploader& uploader, Scene& scene);
 
 /// Upload the tables that shading samples: specular reflectance, the sky, and specular occlusion of packs
-/// that have it. Needs scene.draw_set.
+/// that have it. Needs the draw sets.
 Status uploadShadingTables(const Device& device, const formats::PackView& pack, Uploader& uploader,
                            Scene& scene);
 

@@ -80,6 +80,13 @@ std::vector<shared::BrickLight> readLight(const formats::PackView& pack)
     return light;
 }
 
+/// Frames that light all faces once: at most one per brick.
+uint32_t findPeriod(const formats::PackView& pack, const BrickOptions& options)
+{
+    return std::clamp(pack.brickGrid()[0].face_count / std::max(1u, options.faces_per_frame), 1u,
+                      std::max(1u, static_cast<uint32_t>(pack.bricks().size())));
+}
+
 uint32_t maxFacesPerFrame(const SceneBricks& bricks)
 {
     uint32_t most = 0;
@@ -108,13 +115,8 @@ Status createBuffers(const Device& device, const formats::PackView& pack, Upload
     HEARTH_TRY(upload(b.opacity, opacity));
     HEARTH_TRY(upload(b.surfaces, readSurfaces(pack)));
     HEARTH_TRY(upload(b.lighting, std::as_bytes(std::span(light)), VK_BUFFER_USAGE_TRANSFER_SRC_BIT));
-    HEARTH_ASSIGN_OR_RETURN(b.fresh,
-                            createTable(device, pack, sizeof(shared::BrickLight) * maxFacesPerFrame(b),
-                                        VK_BUFFER_USAGE_TRANSFER_SRC_BIT, scene));
-    HEARTH_ASSIGN_OR_RETURN(b.view, scene.arena.createBuffer(sizeof(shared::BrickView),
-                                                             VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
-                                                                 VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                                             MemoryKind::device));
+    HEARTH_ASSIGN_OR_RETURN(
+        b.fresh, createTable(device, pack, sizeof(shared::BrickLight) * maxFacesPerFrame(b), 0, scene));
     return success();
 }
 
@@ -129,6 +131,16 @@ BrickShare nextBrickShare(const SceneBricks& bricks, uint32_t frame)
             bricks.first_faces[end] - bricks.first_faces[first]};
 }
 
+uint64_t maxFreshLightWords(const formats::PackView& pack, const BrickOptions& options)
+{
+    if (pack.brickGrid().empty())
+        return 0;
+    SceneBricks bricks;
+    bricks.first_faces = readFirstFaces(pack);
+    bricks.period = findPeriod(pack, options);
+    return uint64_t{maxFacesPerFrame(bricks)} * (sizeof(shared::BrickLight) / sizeof(uint32_t));
+}
+
 Status uploadBricks(const Device& device, const DrawLayouts& layouts, const formats::PackView& pack,
                     const BrickOptions& options, Uploader& uploader, Scene& scene)
 {
@@ -139,23 +151,24 @@ Status uploadBricks(const Device& device, const DrawLayouts& layouts, const form
     b.grid = pack.brickGrid()[0];
     b.rays = options.rays;
     b.first_faces = readFirstFaces(pack);
-    // the period is at most one frame per brick
-    const auto brick_count = static_cast<uint32_t>(pack.bricks().size());
-    b.period =
-        std::clamp(b.grid.face_count / std::max(1u, options.faces_per_frame), 1u, std::max(1u, brick_count));
+    b.period = findPeriod(pack, options);
     HEARTH_TRY(createBuffers(device, pack, uploader, scene));
 
-    HEARTH_ASSIGN_OR_RETURN(b.set, allocateSet(device, scene.pool.get(), layouts.bricks.get()));
-    DescriptorWriter(b.set)
-        .uniform(shared::kBricksFrame, scene.buffers.frame)
-        .uniform(shared::kBricksView, b.view)
-        .storage(shared::kBricksGroups, b.groups)
-        .storage(shared::kBricksBricks, b.bricks)
-        .storage(shared::kBricksOpacity, b.opacity)
-        .storage(shared::kBricksSurfaces, b.surfaces)
-        .storage(shared::kBricksLight, b.lighting)
-        .storage(shared::kBricksLighting, scene.buffers.lighting)
-        .write(device);
+    for (uint32_t number = 0; number < scene.frames.size(); ++number)
+    {
+        SceneFrame& frame = scene.frames[number];
+        HEARTH_ASSIGN_OR_RETURN(frame.brick_set, allocateSet(device, scene.pool.get(), layouts.bricks.get()));
+        DescriptorWriter(frame.brick_set)
+            .uniform(shared::kBricksFrame, frame.main.frame)
+            .uniform(shared::kBricksView, frame.brick_view)
+            .storage(shared::kBricksGroups, b.groups)
+            .storage(shared::kBricksBricks, b.bricks)
+            .storage(shared::kBricksOpacity, b.opacity)
+            .storage(shared::kBricksSurfaces, b.surfaces)
+            .storage(shared::kBricksLight, b.lighting)
+            .storage(shared::kBricksLighting, scene.tables->lighting.copy(number))
+            .write(device);
+    }
     HEARTH_ASSIGN_OR_RETURN(b.fresh_set, allocateSet(device, scene.pool.get(), layouts.fresh_light.get()));
     DescriptorWriter(b.fresh_set)
         .storage(shared::kFreshLightFaces, b.fresh)

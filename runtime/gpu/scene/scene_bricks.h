@@ -36,12 +36,10 @@ struct BrickShare
 struct SceneBricks
 {
     formats::BrickGridRecord grid;
-    Buffer view; ///< shared::BrickView of the last frame
     Buffer groups, bricks, places, opacity;
     Buffer surfaces; ///< of the faces: albedo, then emission, then normals
     Buffer lighting; ///< shared::BrickLight per face, read by lighting and gathering
     Buffer fresh;    ///< new light of one frame's faces, before the copy
-    VkDescriptorSet set = VK_NULL_HANDLE;
     VkDescriptorSet fresh_set = VK_NULL_HANDLE;
 
     std::vector<uint32_t> first_faces; ///< per brick, and the end of the last one
@@ -51,10 +49,14 @@ struct SceneBricks
     BrickShare share{};                ///< of the last frame
     shared::BrickView last_view{};     ///< of the last frame
     uint32_t quick_frames = 0;         ///< number of further frames that follow a light change quickly
+    bool is_shown = false;             ///< the last frame's fragments read the light: a view of bricks
 };
 
 /// Return the bricks that a frame lights.
 BrickShare nextBrickShare(const SceneBricks& bricks, uint32_t frame);
+
+/// Largest number of words of light that a frame copies.
+uint64_t maxFreshLightWords(const formats::PackView& pack, const BrickOptions& options);
 
 /// Create scene.bricks if the pack has bricks. Needs scene.pool, and the buffers of frames and lights.
 /// errors: device_limit, device_failed, and the errors of reading chunks.

@@ -28,26 +28,6 @@ bool fits(const DeformedInstance& instance, const InstancePose& pose)
            pose.morph_weights.size() == instance.target_count;
 }
 
-/// Record an update in pieces: vkCmdUpdateBuffer takes 64 KiB at once.
-void recordUpdate(const Device& device, VkCommandBuffer commands, const Buffer& buffer, VkDeviceSize offset,
-                  std::span<const std::byte> bytes)
-{
-    constexpr size_t kMaxBytes = 65536;
-    for (size_t done = 0; done < bytes.size(); done += kMaxBytes)
-    {
-        const auto part = bytes.subspan(done, std::min(kMaxBytes, bytes.size() - done));
-        device.vk.vkCmdUpdateBuffer(commands, buffer.handle.get(), offset + done, part.size(), part.data());
-    }
-}
-
-template <typename Record>
-void recordRow(const Device& device, VkCommandBuffer commands, const Buffer& table, uint32_t row,
-               const Record& record)
-{
-    recordUpdate(device, commands, table, row * VkDeviceSize{sizeof(record)},
-                 std::as_bytes(std::span(&record, 1)));
-}
-
 } // namespace
 
 Status checkPose(const Scene& scene, const InstancePose& pose)
@@ -68,8 +48,7 @@ Status checkPose(const Scene& scene, const InstancePose& pose)
     return success();
 }
 
-void recordPoses(const Device& device, VkCommandBuffer commands, const Scene& scene,
-                 std::span<const InstancePose> poses)
+void takePoses(const Scene& scene, std::span<const InstancePose> poses)
 {
     if (scene.deformation == nullptr)
         return;
@@ -80,10 +59,9 @@ void recordPoses(const Device& device, VkCommandBuffer commands, const Scene& sc
         PoseRows& rows = deformation.rows;
         if (instance == nullptr || !fits(*instance, pose) || !poseInstance(*instance, pose, rows))
             continue;
-        recordRow(device, commands, scene.buffers.instances, pose.instance, rows.record);
-        recordRow(device, commands, scene.buffers.bounds, rows.record.mesh, rows.bounds);
-        recordUpdate(device, commands, deformation.buffer, instance->pose_row * VkDeviceSize{16},
-                     std::as_bytes(std::span(rows.words)));
+        scene.tables->instances.writeRow(pose.instance, rows.record);
+        scene.tables->bounds.writeRow(rows.record.mesh, rows.bounds);
+        deformation.table.write(instance->pose_row * VkDeviceSize{16}, std::as_bytes(std::span(rows.words)));
         if (scene.shadows != nullptr)
             scene.shadows->pose(*instance, rows);
     }

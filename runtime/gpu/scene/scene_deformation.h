@@ -4,7 +4,7 @@
 #pragma once
 
 #include "runtime/gpu/scene/deformation_layout.h"
-#include "runtime/gpu/vulkan/memory.h"
+#include "runtime/gpu/vulkan/mirrored_table.h"
 
 #include <span>
 
@@ -27,22 +27,17 @@ struct SceneDeformation
     uint32_t first_bin = 0;   ///< first bin of deformed instances; they are the last bins of the scene
     uint32_t rigid_items = 0; ///< first items of the work list
     uint32_t rigid_group_items = 0;
-    /// Slice shared::kDeformationSlice of the geometry pool; starts with a shared::DeformationHeader.
-    Buffer buffer;
-    PoseRows rows;                             ///< of the pose that is being recorded
-    VkDescriptorSet plan_set = VK_NULL_HANDLE; ///< skinning pass
-    VkDescriptorSet cull_set = VK_NULL_HANDLE; ///< culling pass over deformed clusters
-    VkDescriptorSet page_request_set = VK_NULL_HANDLE;
+    /// Slice shared::kDeformationSlice of the geometry pool; starts with a shared::DeformationHeader. The
+    /// scratch is behind the table.
+    MirroredTable table;
+    PoseRows rows; ///< of the pose that is being taken
 };
 
 /// Check a pose: palette and weights must have the lengths of the instance's mesh and be finite. errors:
 /// usage.
 Status checkPose(const Scene& scene, const InstancePose& pose);
 
-/// Record three copies per pose, and one more for every 64 KiB of its palette. Ignores poses that checkPose
-/// rejects: the instance stays as it is. The caller puts barriers around: after all reads of the tables, and
-/// before the reads that need the new poses.
-void recordPoses(const Device& device, VkCommandBuffer commands, const Scene& scene,
-                 std::span<const InstancePose> poses);
+/// Write poses to the tables. Ignores poses that checkPose rejects: the instance stays as it is.
+void takePoses(const Scene& scene, std::span<const InstancePose> poses);
 
 } // namespace hearth::gpu

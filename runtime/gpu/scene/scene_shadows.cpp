@@ -60,10 +60,6 @@ Result<std::unique_ptr<SceneShadows>> SceneShadows::create(const Device& device,
         HEARTH_TRY(s.createLayer(device, render_pass, s.layers_[layer], layer));
     HEARTH_ASSIGN_OR_RETURN(s.sampler_, createCompareSampler(device));
     HEARTH_ASSIGN_OR_RETURN(
-        s.block_, s.arena_.createBuffer(sizeof(shared::ShadowBlock),
-                                        VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                        MemoryKind::device));
-    HEARTH_ASSIGN_OR_RETURN(
         s.casters_, s.arena_.createBuffer(s.layerCount() * sizeof(shared::FrameCounters),
                                           VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                                           MemoryKind::device));

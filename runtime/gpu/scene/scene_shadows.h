@@ -55,7 +55,6 @@ public:
     /// Invalidate the cache: the next frame draws all its maps.
     void forget() { cache_.forget(); }
 
-    const Buffer& block() const { return block_; } ///< shared::ShadowBlock
     /// shared::FrameCounters per layer: the clusters drawn, and the clusters dropped for lack of slots in the
     /// visible list.
     const Buffer& casters() const { return casters_; }
@@ -91,7 +90,6 @@ private:
     MemoryArena arena_;
     Image image_;
     UniqueSampler sampler_;
-    Buffer block_;
     Buffer casters_;
     std::vector<Layer> layers_;
 };

@@ -3,12 +3,11 @@
 
 #include "formats/gpu_shared/decisions.h"
 #include "runtime/gpu/scene/scene.h"
-#include "runtime/gpu/vulkan/pipelines.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstddef>
+#include <cstring>
 #include <limits>
 
 namespace hearth::gpu
@@ -25,37 +24,15 @@ float priorityFromRequest(uint32_t request)
     return std::bit_cast<float>(kOne + std::min(request, kMaxBits - kOne));
 }
 
-/// Slice and offset of a pool address.
-struct PoolAddress
-{
-    uint32_t slice;
-    VkDeviceSize offset_bytes;
-};
-
-PoolAddress splitAddress(uint32_t address)
-{
-    return {address >> shared::kPoolSliceAddressBits,
-            VkDeviceSize{address & ((1u << shared::kPoolSliceAddressBits) - 1)} * 4};
-}
-
 } // namespace
 
-Result<SceneStream::Memory> SceneStream::createMemory(const Device& device, const formats::PackView& pack,
-                                                      const PoolLayout& pool, const StreamOptions& options)
+Result<SceneStream::Memory> SceneStream::createMemory(const Device& device, const PoolLayout& pool,
+                                                      const StreamOptions& options)
 {
-    Memory memory{.arena = MemoryArena(device, 0), .staging = {}, .feedback = {}};
-    HEARTH_ASSIGN_OR_RETURN(memory.staging,
-                            memory.arena.createBuffer(VkDeviceSize{2} * options.max_loads * pool.slot_bytes,
-                                                      VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryKind::staging));
-    for (uint32_t frame = 0; frame < options.frames_in_flight; ++frame)
-    {
-        RequestReadback feedback;
-        HEARTH_ASSIGN_OR_RETURN(feedback.requests,
-                                memory.arena.createBuffer(pack.pages().size() * sizeof(uint32_t),
-                                                          VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                                          MemoryKind::readback));
-        memory.feedback.push_back(std::move(feedback));
-    }
+    Memory memory{.arena = MemoryArena(device, 0), .staging = {}};
+    HEARTH_ASSIGN_OR_RETURN(
+        memory.staging, memory.arena.createBuffer(VkDeviceSize{2} * options.max_loads * pool.slot_bytes,
+                                                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, MemoryKind::staging));
     return memory;
 }
 
@@ -63,8 +40,8 @@ Result<std::unique_ptr<SceneStream>> SceneStream::create(const Device& device, c
                                                          const pack::PageGraph& graph, const PoolLayout& pool,
                                                          const StreamOptions& options)
 {
-    HEARTH_ASSERT(options.read != nullptr && options.max_loads >= 1 && options.frames_in_flight >= 1);
-    HEARTH_ASSIGN_OR_RETURN(Memory memory, createMemory(device, pack, pool, options));
+    HEARTH_ASSERT(options.read != nullptr && options.max_loads >= 1);
+    HEARTH_ASSIGN_OR_RETURN(Memory memory, createMemory(device, pool, options));
     const auto slot_count = static_cast<uint32_t>(pool.slot_addresses.size());
     const uint64_t budget_bytes = graph.pinnedBytes() + uint64_t{slot_count} * pool.slot_bytes;
     const std::span<std::byte> staging(memory.staging.mapped,
@@ -96,7 +73,7 @@ void SceneStream::beginFrame(uint64_t serial, uint64_t completed_serial)
 void SceneStream::readRequests(uint64_t completed_serial)
 {
     uint64_t last = 0;
-    for (RequestReadback& feedback : memory_.feedback)
+    for (RequestReadback& feedback : feedback_)
         if (feedback.serial != 0 && feedback.serial <= completed_serial)
         {
             takeRequests(feedback);
@@ -109,7 +86,7 @@ void SceneStream::readRequests(uint64_t completed_serial)
 
 void SceneStream::takeRequests(const RequestReadback& feedback)
 {
-    const auto* requests = reinterpret_cast<const uint32_t*>(feedback.requests.mapped);
+    const auto* requests = reinterpret_cast<const uint32_t*>(feedback.requests->mapped);
     for (uint32_t page = 0; page < pack_.pages().size(); ++page)
         if (requests[page] != 0)
             pages_.request(page, priorityFromRequest(requests[page]));
@@ -123,65 +100,66 @@ shared::FrameView SceneStream::scaled(const shared::FrameView& view) const
     return result;
 }
 
-void SceneStream::recordChanges(VkCommandBuffer commands, const SceneBuffers& buffers)
+void SceneStream::setFrames(std::span<const SceneFrame> frames)
+{
+    for (const SceneFrame& frame : frames)
+        feedback_.push_back({&frame.page_requests, 0});
+}
+
+uint32_t SceneStream::maxCopyRegions() const
+{
+    const auto pages = static_cast<uint32_t>(memory_.staging.size / slot_bytes_);
+    return pages * WordCopies::countRegions(slot_bytes_ / 4) + static_cast<uint32_t>(pack_.groups().size());
+}
+
+SceneStream::Copies SceneStream::takeChanges(const SceneBuffers& buffers, uint32_t number, WordCopies& copies)
 {
     HEARTH_ASSERT(!recorded_);
     recorded_ = true;
+    Copies ranges;
+    for (uint32_t slice = 0; slice < shared::kPoolSlices; ++slice)
+        ranges[slice] = listUploads(slice, copies);
     for (const pack::PageUpload& upload : changes_.uploads)
-        recordUpload(commands, buffers, upload);
+        writeDraws(buffers, upload);
+    copies.begin();
+    constexpr size_t kAbsentWord = offsetof(shared::Group, absent) / sizeof(uint32_t);
     for (const auto& [group, resident] : changes_.groups)
+        copies.addFlag(!resident, static_cast<uint32_t>(group * (sizeof(shared::Group) / sizeof(uint32_t)) +
+                                                        kAbsentWord));
+    ranges.back() = copies.range();
+
+    RequestReadback& feedback = feedback_[number];
+    std::memset(feedback.requests->mapped, 0, static_cast<size_t>(feedback.requests->size));
+    feedback.serial = serial_;
+    return ranges;
+}
+
+/// List the copies of pages whose slots lie in a slice of the pool.
+CopyRange SceneStream::listUploads(uint32_t slice, WordCopies& copies) const
+{
+    copies.begin();
+    for (const pack::PageUpload& upload : changes_.uploads)
     {
-        const uint32_t absent = resident ? 0 : 1;
-        device_.vk.vkCmdUpdateBuffer(commands, buffers.groups.handle.get(),
-                                     group * VkDeviceSize{sizeof(shared::Group)} +
-                                         offsetof(shared::Group, absent),
-                                     sizeof(absent), &absent);
+        const uint32_t address = slot_addresses_[upload.slot];
+        if (address >> shared::kPoolSliceAddressBits == slice)
+            copies.add(upload.staging_slot * (slot_bytes_ / 4),
+                       address & ((1u << shared::kPoolSliceAddressBits) - 1),
+                       (pack_.pages()[upload.page].size + 3) / 4);
     }
-    device_.vk.vkCmdFillBuffer(commands, buffers.page_requests.handle.get(), 0, VK_WHOLE_SIZE, 0);
+    return copies.range();
 }
 
-void SceneStream::recordUpload(VkCommandBuffer commands, const SceneBuffers& buffers,
-                               const pack::PageUpload& upload) const
+/// Write the rows of a page's clusters, which no frame in flight draws.
+void SceneStream::writeDraws(const SceneBuffers& buffers, const pack::PageUpload& upload) const
 {
-    const uint32_t address = slot_addresses_[upload.slot];
-    const auto [slice, offset_bytes] = splitAddress(address);
-    const VkBufferCopy region{upload.staging_slot * VkDeviceSize{slot_bytes_}, offset_bytes,
-                              pack_.pages()[upload.page].size};
-    device_.vk.vkCmdCopyBuffer(commands, memory_.staging.handle.get(), buffers.pool[slice].handle.get(), 1,
-                               &region);
-    recordDraws(commands, buffers, upload.page, address);
-}
-
-/// The rows of the page's clusters are adjacent, but one command takes only so many bytes.
-void SceneStream::recordDraws(VkCommandBuffer commands, const SceneBuffers& buffers, uint32_t page,
-                              uint32_t page_address) const
-{
-    std::array<shared::ClusterDraw, 128> rows;
-    const formats::Range clusters = pack_.pages()[page].clusters;
-    for (uint32_t done = 0; done < clusters.count; done += static_cast<uint32_t>(rows.size()))
+    const formats::Range clusters = pack_.pages()[upload.page].clusters;
+    for (uint32_t i = 0; i < clusters.count; ++i)
     {
-        const uint32_t first = clusters.first + done;
-        const uint32_t count = std::min(clusters.count - done, static_cast<uint32_t>(rows.size()));
-        for (uint32_t i = 0; i < count; ++i)
-            rows[i] = makeClusterDraw(pack_, first + i, page_address);
-        device_.vk.vkCmdUpdateBuffer(commands, buffers.cluster_draws.handle.get(),
-                                     first * VkDeviceSize{sizeof(shared::ClusterDraw)},
-                                     count * VkDeviceSize{sizeof(shared::ClusterDraw)}, rows.data());
+        const shared::ClusterDraw row =
+            makeClusterDraw(pack_, clusters.first + i, slot_addresses_[upload.slot]);
+        std::memcpy(buffers.cluster_draws.mapped + size_t{clusters.first + i} * sizeof(row), &row,
+                    sizeof(row));
     }
-}
-
-void SceneStream::recordFeedback(VkCommandBuffer commands, const SceneBuffers& buffers)
-{
-    const auto free = std::find_if(memory_.feedback.begin(), memory_.feedback.end(),
-                                   [](const RequestReadback& feedback) { return feedback.serial == 0; });
-    if (free == memory_.feedback.end())
-        return;
-    free->serial = serial_;
-    const VkBufferCopy region{0, 0, free->requests.size};
-    device_.vk.vkCmdCopyBuffer(commands, buffers.page_requests.handle.get(), free->requests.handle.get(), 1,
-                               &region);
-    barrier(device_, commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
-            VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
 }
 
 } // namespace hearth::gpu

@@ -4,9 +4,11 @@
 #pragma once
 
 #include "runtime/gpu/scene/pool_layout.h"
+#include "runtime/gpu/scene/word_copies.h"
 #include "runtime/gpu/vulkan/memory.h"
 #include "runtime/pack/page_stream.h"
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -14,6 +16,7 @@ namespace hearth::gpu
 {
 
 struct SceneBuffers;
+struct SceneFrame;
 
 struct StreamOptions
 {
@@ -23,10 +26,6 @@ struct StreamOptions
 
     /// Reads in flight, >= 1. Twice as many slots of staging memory are allocated, outside of the budget.
     uint32_t max_loads = 32;
-
-    /// Frames that may be recorded while an earlier one still runs, >= 1: one request buffer of a word per
-    /// page each. The requests of further frames are ignored.
-    uint32_t frames_in_flight = 3;
 };
 
 /// Stream of one scene on one queue. For each frame: beginFrame, then Renderer::record, which calls the rest.
@@ -41,6 +40,9 @@ public:
     static Result<std::unique_ptr<SceneStream>> create(const Device& device, const formats::PackView& pack,
                                                        const pack::PageGraph& graph, const PoolLayout& pool,
                                                        const StreamOptions& options);
+
+    /// Set the frames of the scene, whose requests are read once they have completed.
+    void setFrames(std::span<const SceneFrame> frames);
 
     /// Begin frame `serial`: takes the pages that were read, handles the requests of completed frames, starts
     /// reads. The frame must then be recorded and submitted before the next begins.
@@ -68,18 +70,26 @@ public:
     const pack::PageStream& pages() const { return pages_; }
     VkDeviceSize allocatedBytes() const { return memory_.arena.allocatedBytes(); }
 
-    /// Record copies of pages into the pool and changes of the tables; clears the requests. The caller puts
-    /// barriers around: after all reads of them, and before the reads that need the changes.
-    void recordChanges(VkCommandBuffer commands, const SceneBuffers& buffers);
+    /// Decoded pages on their way into the pool.
+    const Buffer& staging() const { return memory_.staging; }
 
-    /// Record a copy of the requests, visible to transfers, to the buffer that a later beginFrame reads.
-    void recordFeedback(VkCommandBuffer commands, const SceneBuffers& buffers);
+    /// Largest number of regions of a frame's changes.
+    uint32_t maxCopyRegions() const;
+
+    /// Copies of a frame: into each slice of the pool from staging(), and into the groups.
+    using Copies = std::array<CopyRange, shared::kPoolSlices + 1>;
+
+    /// Take the changes of the frame that was begun: writes the rows of the pages' clusters, lists the
+    /// copies, and clears the frame's requests.
+    /// number  of the frame, of those of setFrames
+    Copies takeChanges(const SceneBuffers& buffers, uint32_t number, WordCopies& copies);
 
 private:
+    /// Page requests of a frame of the scene.
     struct RequestReadback
     {
-        Buffer requests;     ///< one word per page
-        uint64_t serial = 0; ///< of the frame that writes it; 0: read, or none
+        const Buffer* requests; ///< mapped, one word per page
+        uint64_t serial = 0;    ///< of the frame that writes it; 0: read, or none
     };
 
     /// Memory shared by reads and the device.
@@ -87,7 +97,6 @@ private:
     {
         MemoryArena arena;
         Buffer staging;
-        std::vector<RequestReadback> feedback;
     };
 
     SceneStream(const Device& device, const formats::PackView& pack, const PoolLayout& pool, Memory memory,
@@ -100,20 +109,19 @@ private:
           pages_(std::move(pages))
     {
     }
-    static Result<Memory> createMemory(const Device& device, const formats::PackView& pack,
-                                       const PoolLayout& pool, const StreamOptions& options);
+    static Result<Memory> createMemory(const Device& device, const PoolLayout& pool,
+                                       const StreamOptions& options);
     void readRequests(uint64_t completed_serial);
     void takeRequests(const RequestReadback& feedback);
-    void recordUpload(VkCommandBuffer commands, const SceneBuffers& buffers,
-                      const pack::PageUpload& upload) const;
-    void recordDraws(VkCommandBuffer commands, const SceneBuffers& buffers, uint32_t page,
-                     uint32_t page_address) const;
+    CopyRange listUploads(uint32_t slice, WordCopies& copies) const;
+    void writeDraws(const SceneBuffers& buffers, const pack::PageUpload& upload) const;
 
     const Device& device_;
     const formats::PackView& pack_;
     std::vector<uint32_t> slot_addresses_;
     uint32_t slot_bytes_;
     Memory memory_;
+    std::vector<RequestReadback> feedback_;
     pack::PageStream pages_;
     pack::StreamChanges changes_{};
     uint64_t serial_ = 0;

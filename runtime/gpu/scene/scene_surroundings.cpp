@@ -2,7 +2,6 @@
 #include "runtime/gpu/scene/scene_surroundings.h"
 
 #include "formats/gpu_shared/record_values.h"
-#include "runtime/gpu/vulkan/device.h"
 
 #include <algorithm>
 #include <cstring>
@@ -12,9 +11,6 @@ namespace hearth::gpu
 
 namespace
 {
-
-/// Most bytes that vkCmdUpdateBuffer takes.
-constexpr size_t kMaxUpdateBytes = 65536;
 
 SceneSurroundings::Row packRow(const formats::SurroundingsRecord& record)
 {
@@ -71,16 +67,13 @@ void SceneSurroundings::change(uint32_t light, const shared::Light& record)
     changed_ = changed_ || record.type == shared::kLightDirectional;
 }
 
-void SceneSurroundings::record(const Device& device, VkCommandBuffer commands, const Buffer& lighting)
+void SceneSurroundings::update(MirroredTable& lighting)
 {
     if (!changed_)
         return;
     changed_ = false;
     const std::vector<shared::OccluderLight> lights = makeOccluderLights();
-    const std::span<const std::byte> bytes = std::as_bytes(std::span(lights));
-    for (size_t at = 0; at < bytes.size(); at += kMaxUpdateBytes)
-        device.vk.vkCmdUpdateBuffer(commands, lighting.handle.get(), sizeof(shared::Lighting) + at,
-                                    std::min(kMaxUpdateBytes, bytes.size() - at), bytes.data() + at);
+    lighting.write(sizeof(shared::Lighting), std::as_bytes(std::span(lights)));
 }
 
 } // namespace hearth::gpu

@@ -4,7 +4,7 @@
 
 #include "formats/pack/pack_view.h"
 #include "formats/scene/radiance_transfer.h"
-#include "runtime/gpu/vulkan/memory.h"
+#include "runtime/gpu/vulkan/mirrored_table.h"
 
 #include <array>
 #include <vector>
@@ -30,11 +30,11 @@ public:
     /// Return all rows under the present lights.
     std::vector<Row> makeRows() const;
 
-    /// Take the new state of a light; the next record() has it.
+    /// Take the new state of a light; the next update() has it.
     void change(uint32_t light, const shared::Light& record);
 
-    /// Record copies of the rows that depend on the lights, if a directional light has changed.
-    void record(const Device& device, VkCommandBuffer commands, const Buffer& lighting);
+    /// Write the rows that depend on the lights, if a directional light has changed.
+    void update(MirroredTable& lighting);
 
 private:
     std::vector<shared::OccluderLight> makeOccluderLights() const;

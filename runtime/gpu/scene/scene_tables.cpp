@@ -8,15 +8,17 @@ namespace
 {
 
 /// Return the buffer of a table, or nullptr if it is none of the scene's.
-const Buffer* tableBuffer(const Scene& scene, uint32_t table)
+const Buffer* tableBuffer(const TableView& from, uint32_t table)
 {
-    const SceneBuffers& b = scene.buffers;
+    const SceneBuffers& b = from.scene.buffers;
+    const SceneTables& changing = *from.scene.tables;
+    const SceneFrame& frame = from.scene.frames[from.frame];
     switch (table)
     {
     case shared::kTableFrame:
-        return &b.frame;
+        return &from.view.frame;
     case shared::kTableInstances:
-        return &b.instances;
+        return &changing.instances.copy(from.frame);
     case shared::kTableStates:
         return &b.states;
     case shared::kTableItems:
@@ -30,32 +32,32 @@ const Buffer* tableBuffer(const Scene& scene, uint32_t table)
     case shared::kTableResults:
         return &b.results;
     case shared::kTableBounds:
-        return &b.bounds;
+        return &changing.bounds.copy(from.frame);
     case shared::kTableInverses:
-        return &b.inverses;
+        return &changing.inverses.copy(from.frame);
     case shared::kTableTotals:
         return &b.totals;
     case shared::kTableCounters:
-        return &b.counters;
+        return &from.view.counters;
     case shared::kTableDraws:
         return &b.cluster_draws;
     case shared::kTableVisible:
-        return &b.visible;
+        return &from.view.visible;
     case shared::kTableBins:
         return &b.bins;
     case shared::kTableBinDraws:
-        return &b.bin_draws;
+        return &from.view.bin_draws;
     case shared::kTableMaterialDraws:
-        return &b.material_draws;
+        return &from.view.material_draws;
     case shared::kTableTileDraws:
-        return &b.tile_draws;
+        return &frame.tile_draws;
     case shared::kTableGroupItems:
         return &b.group_items;
     case shared::kTablePageRequests:
-        return &b.page_requests;
+        return &frame.page_requests;
     case shared::kTableDeformation:
-        HEARTH_ASSERT(scene.deformation != nullptr);
-        return &scene.deformation->buffer;
+        HEARTH_ASSERT(from.scene.deformation != nullptr);
+        return &from.scene.deformation->table.copy(from.frame);
     default:
         return nullptr;
     }
@@ -86,13 +88,13 @@ Result<ComputePipeline> createTablePipeline(const Device& device, std::span<cons
     return pipeline;
 }
 
-void writeTables(const Device& device, const Scene& scene, VkDescriptorSet set,
+void writeTables(const Device& device, const TableView& from, VkDescriptorSet set,
                  std::span<const uint32_t> tables)
 {
     DescriptorWriter writer(set);
     for (const uint32_t table : tables)
     {
-        const Buffer* buffer = tableBuffer(scene, table);
+        const Buffer* buffer = tableBuffer(from, table);
         if (buffer == nullptr)
             HEARTH_ASSERT(table == shared::kTableStatistics);
         else if (table == shared::kTableFrame)
@@ -103,12 +105,12 @@ void writeTables(const Device& device, const Scene& scene, VkDescriptorSet set,
     writer.write(device);
 }
 
-Result<VkDescriptorSet> createTableSet(const Device& device, const Scene& scene,
+Result<VkDescriptorSet> createTableSet(const Device& device, const TableView& from,
                                        const ComputePipeline& pipeline, std::span<const uint32_t> tables)
 {
     HEARTH_ASSIGN_OR_RETURN(const VkDescriptorSet set,
-                            allocateSet(device, scene.pool.get(), pipeline.set_layout.get()));
-    writeTables(device, scene, set, tables);
+                            allocateSet(device, from.scene.pool.get(), pipeline.set_layout.get()));
+    writeTables(device, from, set, tables);
     return set;
 }
 

@@ -21,12 +21,24 @@ Result<ComputePipeline> createTablePipeline(const Device& device, std::span<cons
                                             std::span<const uint32_t> tables, uint32_t push_bytes,
                                             std::optional<NumberedSet> other = std::nullopt);
 
+/// View of a frame in flight, whose tables a set has.
+struct TableView
+{
+    const Scene& scene;
+    uint32_t frame; ///< of Scene::frames
+    const SceneView& view;
+};
+inline TableView mainView(const Scene& scene, uint32_t frame)
+{
+    return {scene, frame, scene.frames[frame].main};
+}
+
 /// Write the tables to a set. shared::kTableStatistics is no table of the scene and is left to its pass.
-void writeTables(const Device& device, const Scene& scene, VkDescriptorSet set,
+void writeTables(const Device& device, const TableView& from, VkDescriptorSet set,
                  std::span<const uint32_t> tables);
 
 /// Allocate a set with the layout of a pipeline from the scene's pool, and write the tables to it.
-Result<VkDescriptorSet> createTableSet(const Device& device, const Scene& scene,
+Result<VkDescriptorSet> createTableSet(const Device& device, const TableView& from,
                                        const ComputePipeline& pipeline, std::span<const uint32_t> tables);
 
 } // namespace hearth::gpu

@@ -27,93 +27,159 @@ public:
     }
 
     void make(Buffer& target, const char* what, uint64_t count, uint64_t element_size,
-              VkBufferUsageFlags usage)
+              VkBufferUsageFlags usage, MemoryKind kind = MemoryKind::device)
     {
-        if (!status_.ok())
+        if (!fits(what, count * element_size, usage))
             return;
-        const bool uniform = (usage & VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT) != 0;
-        const uint64_t limit = uniform ? ~uint64_t{0} : device_.limits.maxStorageBufferRange;
-        if (count * element_size > limit)
-        {
-            status_ = Error{Issue::device_limit, pack_.name(), "",
-                            std::string("the ") + what + " take " + std::to_string(count * element_size) +
-                                " bytes, the device binds " + std::to_string(limit)};
-            return;
-        }
-        auto buffer = scene_.arena.createBuffer(count * element_size, usage, MemoryKind::device);
+        auto buffer = scene_.arena.createBuffer(count * element_size, usage, kind);
         if (buffer.ok())
             target = std::move(*buffer);
         else
             status_ = buffer.error();
+        if (buffer.ok() && kind == MemoryKind::upload)
+            std::memset(target.mapped, 0, static_cast<size_t>(target.size));
+    }
+
+    /// Make a table with a copy for each frame in flight.
+    void makeMirrored(MirroredTable& target, const char* what, uint64_t bytes, uint64_t spare,
+                      VkBufferUsageFlags usage)
+    {
+        if (!fits(what, bytes + spare, usage))
+            return;
+        auto table = MirroredTable::create(scene_.arena, static_cast<uint32_t>(scene_.frames.size()), bytes,
+                                           spare, usage);
+        if (table.ok())
+            target = std::move(*table);
+        else
+            status_ = table.error();
     }
 
     Status take() { return std::move(status_); }
 
 private:
+    bool fits(const char* what, uint64_t bytes, VkBufferUsageFlags usage)
+    {
+        if (!status_.ok())
+            return false;
+        const bool uniform = (usage & VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT) != 0;
+        const uint64_t limit = uniform ? ~uint64_t{0} : device_.limits.maxStorageBufferRange;
+        if (bytes > limit)
+            status_ = Error{Issue::device_limit, pack_.name(), "",
+                            std::string("the ") + what + " take " + std::to_string(bytes) +
+                                " bytes, the device binds " + std::to_string(limit)};
+        return status_.ok();
+    }
+
     const Device& device_;
     const formats::PackView& pack_;
     Scene& scene_;
     Status status_ = success();
 };
 
-/// Words of the deformation buffer, with the scratch.
-uint64_t deformationWords(const DeformationLayout& layout)
+/// Words of the scratch behind the deformation table.
+uint64_t scratchWords(const DeformationLayout& layout)
 {
     shared::DeformationHeader header;
     std::memcpy(&header, layout.words.data(), sizeof(header));
-    return layout.words.size() + uint64_t{header.block_count} * header.block_words;
+    return uint64_t{header.block_count} * header.block_words;
+}
+
+// tests and tools copy the work buffers out
+constexpr VkBufferUsageFlags kWorkUsage =
+    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
+constexpr VkBufferUsageFlags kIndirectUsage = kWorkUsage | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
+
+void createView(const Scene& scene, const SceneLayout& layout, BufferFactory& f, SceneView& view)
+{
+    f.make(view.frame, "frame constants", 1, sizeof(shared::FrameView),
+           VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::upload);
+    f.make(view.counters, "counters", 1, sizeof(shared::FrameCounters), kWorkUsage);
+    f.make(view.visible, "visible clusters", scene.slot_capacity, sizeof(shared::VisibleCluster), kWorkUsage);
+    f.make(view.bin_draws, "bin draws", 2 * layout.bins.size(), sizeof(shared::BinDraw), kIndirectUsage);
+    f.make(view.material_draws, "material draws", uint64_t{layout.material_rows} + 1,
+           sizeof(VkDrawIndirectCommand), kIndirectUsage | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+           MemoryKind::upload);
+}
+
+/// Number of shadow maps that are culled side by side: as many as a few megabytes of visible lists hold.
+uint32_t countCasterViews(const Scene& scene, const ShadowOptions& shadows)
+{
+    constexpr uint64_t kMaxBytes = uint64_t{16} << 20;
+    constexpr uint64_t kMaxViews = 8;
+    const uint64_t list_bytes = uint64_t{scene.slot_capacity} * sizeof(shared::VisibleCluster);
+    const uint64_t views = kMaxBytes / std::max<uint64_t>(list_bytes * scene.frames.size(), 1);
+    return static_cast<uint32_t>(
+        std::min<uint64_t>(shadows.max_maps, std::clamp<uint64_t>(views, 1, kMaxViews)));
+}
+
+void createFrame(const formats::PackView& pack, const SceneLayout& layout, const SceneOptions& options,
+                 const Scene& scene, BufferFactory& f, SceneFrame& frame)
+{
+    createView(scene, layout, f, frame.main);
+    frame.casters.resize(countCasterViews(scene, options.shadows));
+    for (SceneView& view : frame.casters)
+        createView(scene, layout, f, view);
+    f.make(frame.tile_draws, "material draws", uint64_t{layout.material_rows} + 1, sizeof(shared::TileDraw),
+           kIndirectUsage, MemoryKind::upload);
+    uint64_t regions = 1 + WordCopies::countRegions(maxFreshLightWords(pack, options.bricks));
+    if (scene.stream != nullptr)
+    {
+        f.make(frame.page_requests, "page requests", pack.pages().size(), sizeof(uint32_t), kWorkUsage,
+               MemoryKind::readback);
+        regions += scene.stream->maxCopyRegions();
+    }
+    f.make(frame.copy_regions, "changes", regions, sizeof(shared::CopyRegion),
+           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, MemoryKind::upload);
+    f.make(frame.shadow_block, "shadows", 1, sizeof(shared::ShadowBlock), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+           MemoryKind::upload);
+    f.make(frame.brick_view, "brick constants", 1, sizeof(shared::BrickView),
+           VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, MemoryKind::upload);
 }
 
 Status createBuffers(const Device& device, const formats::PackView& pack, const SceneLayout& layout,
-                     Scene& scene)
+                     const SceneOptions& options, Scene& scene)
 {
-    constexpr VkBufferUsageFlags kUniform =
-        VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     constexpr VkBufferUsageFlags kTable =
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-    // tests and tools copy the work buffers out
-    constexpr VkBufferUsageFlags kWork =
-        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
-    constexpr VkBufferUsageFlags kIndirect =
-        kWork | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
-
     SceneBuffers& b = scene.buffers;
+    SceneTables& t = *scene.tables;
     BufferFactory f(device, pack, scene);
-    f.make(b.frame, "frame constants", 1, sizeof(shared::FrameView), kUniform);
-    f.make(b.lighting, "lights",
-           sizeof(shared::Lighting) + SceneSurroundings::countRows(pack) * sizeof(SceneSurroundings::Row), 1,
-           kTable);
-    f.make(b.instances, "instances", pack.instances().size(), sizeof(shared::Instance), kTable);
-    f.make(b.inverses, "instances", pack.instances().size(), sizeof(shared::InstanceInverse), kTable);
-    f.make(b.bounds, "mesh bounds", layout.bounds.size(), sizeof(shared::MeshBounds), kTable);
+    f.makeMirrored(t.lighting, "lights",
+                   sizeof(shared::Lighting) +
+                       SceneSurroundings::countRows(pack) * sizeof(SceneSurroundings::Row),
+                   0, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    f.makeMirrored(t.instances, "instances", pack.instances().size() * sizeof(shared::Instance), 0,
+                   VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    f.makeMirrored(t.inverses, "instances", pack.instances().size() * sizeof(shared::InstanceInverse), 0,
+                   VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    f.makeMirrored(t.bounds, "mesh bounds", layout.bounds.size() * sizeof(shared::MeshBounds), 0,
+                   VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     f.make(b.items, "work items", layout.items.size(), sizeof(shared::WorkItem), kTable);
     f.make(b.order, "cluster numbers", layout.order.size(), sizeof(uint32_t), kTable);
     f.make(b.clusters, "clusters", pack.clusters().size(), sizeof(shared::Cluster), kTable);
     f.make(b.groups, "groups", pack.groups().size(), sizeof(shared::Group), kTable);
-    f.make(b.cluster_draws, "clusters", pack.clusters().size(), sizeof(shared::ClusterDraw), kTable);
+    f.make(b.cluster_draws, "clusters", pack.clusters().size(), sizeof(shared::ClusterDraw),
+           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, MemoryKind::upload);
     f.make(b.bins, "bins", layout.bins.size(), sizeof(shared::Bin), kTable);
     for (uint32_t slice = 0; slice < shared::kPoolSlices; ++slice)
         f.make(b.pool[slice], "geometry", layout.pool.slice_words[slice], sizeof(uint32_t), kTable);
-    f.make(b.states, "instance states", pack.instances().size(), sizeof(shared::InstanceState), kWork);
-    f.make(b.results, "work results", layout.items.size(), sizeof(shared::WorkResult), kWork);
-    f.make(b.totals, "scan totals", uint64_t{blockCount(scene)} + 1, sizeof(uint32_t), kWork);
-    f.make(b.counters, "counters", 1, sizeof(shared::FrameCounters), kWork);
-    f.make(b.visible, "visible clusters", scene.slot_capacity, sizeof(shared::VisibleCluster), kWork);
-    f.make(b.bin_draws, "bin draws", 2 * layout.bins.size(), sizeof(shared::BinDraw), kIndirect);
-    f.make(b.material_draws, "material draws", uint64_t{layout.material_rows} + 1,
-           sizeof(VkDrawIndirectCommand), kIndirect);
-    f.make(b.tile_draws, "material draws", uint64_t{layout.material_rows} + 1, sizeof(shared::TileDraw),
-           kIndirect);
+    f.make(b.states, "instance states", pack.instances().size(), sizeof(shared::InstanceState), kWorkUsage);
+    f.make(b.results, "work results", layout.items.size(), sizeof(shared::WorkResult), kWorkUsage);
+    f.make(b.totals, "scan totals", uint64_t{blockCount(scene)} + 1, sizeof(uint32_t), kWorkUsage);
     if (scene.deformation != nullptr)
-        f.make(scene.deformation->buffer, "poses of deformed meshes", deformationWords(layout.deformation),
-               sizeof(uint32_t), kIndirect);
+        f.makeMirrored(scene.deformation->table, "poses of deformed meshes",
+                       layout.deformation.words.size() * sizeof(uint32_t),
+                       scratchWords(layout.deformation) * sizeof(uint32_t), kIndirectUsage);
     if (scene.stream != nullptr)
-    {
         f.make(b.group_items, "group items", scene.group_item_count, sizeof(shared::GroupItem), kTable);
-        f.make(b.page_requests, "page requests", pack.pages().size(), sizeof(uint32_t),
-               kWork | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
-    }
-    return f.take();
+    for (SceneFrame& frame : scene.frames)
+        createFrame(pack, layout, options, scene, f, frame);
+    HEARTH_TRY(f.take());
+    for (const SceneFrame& frame : scene.frames)
+        prepareCopyRegions(frame.copy_regions);
+    if (scene.stream != nullptr)
+        scene.stream->setFrames(scene.frames);
+    return success();
 }
 
 /// Groups of the pack; groups of pages without a place are absent.
@@ -135,20 +201,23 @@ Status uploadTables(const formats::PackView& pack, const SceneLayout& layout, Up
                     Scene& scene)
 {
     const SceneBuffers& b = scene.buffers;
-    HEARTH_TRY(uploader.uploadRecords(b.instances, layout.instances));
-    HEARTH_TRY(uploader.uploadRecords(b.inverses, layout.inverses));
-    HEARTH_TRY(uploader.uploadRecords(b.bounds, layout.bounds));
+    SceneTables& tables = *scene.tables;
+    tables.instances.fill(std::as_bytes(std::span(layout.instances)));
+    tables.inverses.fill(std::as_bytes(std::span(layout.inverses)));
+    tables.bounds.fill(std::as_bytes(std::span(layout.bounds)));
     HEARTH_TRY(uploader.uploadRecords(b.items, layout.items));
     HEARTH_TRY(uploader.uploadRecords(b.order, layout.order));
     HEARTH_TRY(uploader.uploadRecords(b.clusters, pack.clusters()));
     HEARTH_TRY(uploader.uploadRecords(b.groups, makeGroups(pack, layout.pool)));
-    HEARTH_TRY(uploader.uploadRecords(b.cluster_draws, layout.draws));
+    if (!layout.draws.empty())
+        std::memcpy(b.cluster_draws.mapped, layout.draws.data(),
+                    layout.draws.size() * sizeof(layout.draws[0]));
     std::vector<shared::Bin> bins;
     for (const SceneBin& bin : layout.bins)
         bins.push_back(bin.items);
     HEARTH_TRY(uploader.uploadRecords(b.bins, bins));
     if (scene.deformation != nullptr)
-        HEARTH_TRY(uploader.uploadRecords(scene.deformation->buffer, layout.deformation.words));
+        scene.deformation->table.fill(std::as_bytes(std::span(layout.deformation.words)));
 
     shared::Lighting lighting = makeLighting(pack);
     lighting.surroundings_row = SceneSurroundings::firstInstanceRow(pack);
@@ -162,11 +231,11 @@ Status uploadTables(const formats::PackView& pack, const SceneLayout& layout, Up
         scene.surroundings = std::make_unique<SceneSurroundings>(pack, lighting);
         rows = scene.surroundings->makeRows();
     }
-    HEARTH_ASSIGN_OR_RETURN(const std::span<std::byte> staged,
-                            uploader.stage(b.lighting, sizeof(lighting) + rows.size() * sizeof(rows[0])));
-    std::memcpy(staged.data(), &lighting, sizeof(lighting));
+    std::vector<std::byte> lit(sizeof(lighting) + rows.size() * sizeof(rows[0]));
+    std::memcpy(lit.data(), &lighting, sizeof(lighting));
     if (!rows.empty())
-        std::memcpy(staged.data() + sizeof(lighting), rows.data(), rows.size() * sizeof(rows[0]));
+        std::memcpy(lit.data() + sizeof(lighting), rows.data(), rows.size() * sizeof(rows[0]));
+    tables.lighting.fill(lit);
     return success();
 }
 
@@ -194,33 +263,50 @@ Status uploadGeometry(const formats::PackView& pack, const SceneLayout& layout, 
     return success();
 }
 
-Status createSets(const Device& device, const DrawLayouts& layouts, Scene& scene, uint32_t material_rows)
+/// Create the sets of a view that no pass has for itself.
+Status createViewSets(const Device& device, const DrawLayouts& layouts, const Scene& scene, uint32_t number,
+                      SceneView& view)
 {
-    // three sets for drawing (one with the shadow maps), six of the culling pass, one each for material tiles
-    // and page requests; three more with deformed meshes, two with bricks
-    const DescriptorPoolSizes sizes{.uniforms = 20 + 2 * material_rows,
-                                    .storages = 104,
-                                    .textures = material_rows * shared::kTextureCount + 4};
-    HEARTH_ASSIGN_OR_RETURN(scene.pool, createDescriptorPool(device, 16 + material_rows, sizes));
-    HEARTH_ASSIGN_OR_RETURN(scene.draw_set, allocateSet(device, scene.pool.get(), layouts.scene.get()));
-    const SceneBuffers& b = scene.buffers;
-    DescriptorWriter writer(scene.draw_set);
-    writer.uniform(shared::kSceneFrame, b.frame)
-        .storage(shared::kSceneInstances, b.instances)
-        .storage(shared::kSceneVisible, b.visible)
-        .storage(shared::kSceneDraws, b.cluster_draws)
-        .storage(shared::kSceneLighting, b.lighting);
+    HEARTH_ASSIGN_OR_RETURN(view.draw_set, allocateSet(device, scene.pool.get(), layouts.scene.get()));
+    const SceneTables& t = *scene.tables;
+    DescriptorWriter writer(view.draw_set);
+    writer.uniform(shared::kSceneFrame, view.frame)
+        .storage(shared::kSceneInstances, t.instances.copy(number))
+        .storage(shared::kSceneVisible, view.visible)
+        .storage(shared::kSceneDraws, scene.buffers.cluster_draws)
+        .storage(shared::kSceneLighting, t.lighting.copy(number));
     for (uint32_t slice = 0; slice < shared::kPoolSlices; ++slice)
         writer.storage(shared::kScenePool + slice,
                        scene.deformation != nullptr && slice == shared::kDeformationSlice
-                           ? scene.deformation->buffer
-                           : b.pool[slice]);
+                           ? scene.deformation->table.copy(number)
+                           : scene.buffers.pool[slice]);
     writer.write(device);
-    HEARTH_ASSIGN_OR_RETURN(scene.bins_set, allocateSet(device, scene.pool.get(), layouts.bins.get()));
-    DescriptorWriter(scene.bins_set).storage(shared::kBinsDraws, b.bin_draws).write(device);
-    HEARTH_ASSIGN_OR_RETURN(scene.cluster_view_set,
-                            allocateSet(device, scene.pool.get(), layouts.cluster_view.get()));
-    writeTables(device, scene, scene.cluster_view_set, kClusterViewTables);
+    HEARTH_ASSIGN_OR_RETURN(view.bins_set, allocateSet(device, scene.pool.get(), layouts.bins.get()));
+    DescriptorWriter(view.bins_set).storage(shared::kBinsDraws, view.bin_draws).write(device);
+    return success();
+}
+
+Status createSets(const Device& device, const DrawLayouts& layouts, Scene& scene, uint32_t material_rows)
+{
+    // a view has sets for drawing and bins, and seven of the culling pass; a frame one each for cluster
+    // views, tiles, page requests of both kinds, skinning and bricks, and six for copies; bricks one more
+    const auto frames = static_cast<uint32_t>(scene.frames.size());
+    const uint32_t views = frames * (1 + static_cast<uint32_t>(scene.frames.front().casters.size()));
+    const DescriptorPoolSizes sizes{.uniforms = 6 * views + 8 * frames + 2 * material_rows,
+                                    .storages = 56 * views + 64 * frames + 2,
+                                    .textures = material_rows * shared::kTextureCount + 4 * views};
+    HEARTH_ASSIGN_OR_RETURN(scene.pool,
+                            createDescriptorPool(device, 9 * views + 12 * frames + 1 + material_rows, sizes));
+    for (uint32_t number = 0; number < frames; ++number)
+    {
+        SceneFrame& frame = scene.frames[number];
+        HEARTH_TRY(createViewSets(device, layouts, scene, number, frame.main));
+        for (SceneView& view : frame.casters)
+            HEARTH_TRY(createViewSets(device, layouts, scene, number, view));
+        HEARTH_ASSIGN_OR_RETURN(frame.cluster_view_set,
+                                allocateSet(device, scene.pool.get(), layouts.cluster_view.get()));
+        writeTables(device, mainView(scene, number), frame.cluster_view_set, kClusterViewTables);
+    }
     return success();
 }
 
@@ -266,13 +352,19 @@ void storeDeformation(const formats::PackView& pack, DeformationLayout layout, S
 
 /// Bind placeholders. In scenes without shadows or table no shader reads their bindings, but lavapipe (Mesa
 /// 22.3) reads the descriptors, so they must be valid.
-void fillSpareBindings(const Device& device, const Scene& scene)
+void fillSpareBindings(const Device& device, Scene& scene)
 {
-    DescriptorWriter(scene.draw_set)
-        .uniform(shared::kSceneShadows, scene.buffers.frame)
-        .texture(shared::kSceneShadowMaps, scene.images.back().view.get(), scene.samplers.front().get())
-        .texture(shared::kSceneSpecularTable, scene.images.back().view.get(), scene.samplers.front().get())
-        .write(device);
+    forEachView(scene,
+                [&](const SceneView& view)
+                {
+                    DescriptorWriter(view.draw_set)
+                        .uniform(shared::kSceneShadows, view.frame)
+                        .texture(shared::kSceneShadowMaps, scene.images.back().view.get(),
+                                 scene.samplers.front().get())
+                        .texture(shared::kSceneSpecularTable, scene.images.back().view.get(),
+                                 scene.samplers.front().get())
+                        .write(device);
+                });
 }
 
 } // namespace
@@ -284,7 +376,10 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
                                            const formats::PackView& pack, VkCommandBuffer commands,
                                            const SceneOptions& options)
 {
+    HEARTH_ASSERT(options.frames_in_flight >= 1 && options.frames_in_flight <= kMaxFramesInFlight);
     auto scene = std::make_unique<Scene>(device);
+    scene->tables = std::make_unique<SceneTables>();
+    scene->frames.resize(options.frames_in_flight);
     PoolLayout pool;
     if (options.geometry_budget > 0)
     {
@@ -311,7 +406,7 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
 
     if (!layout.deformation.words.empty())
         scene->deformation = makeDeformation(device, options.deformation, layout, group_items.rigid_items);
-    HEARTH_TRY(createBuffers(device, pack, layout, *scene));
+    HEARTH_TRY(createBuffers(device, pack, layout, options, *scene));
     HEARTH_TRY(createSets(device, layouts, *scene, layout.material_rows));
     HEARTH_TRY(uploadTables(pack, layout, *scene->staging, *scene));
     HEARTH_TRY(scene->staging->uploadRecords(scene->buffers.group_items, group_items.items));

@@ -42,9 +42,13 @@ Status uploadSpecularTable(const Device& device, const formats::PackView& pack, 
             {.format = VK_FORMAT_R8_UNORM, .extent = {kNodes, kNodes * kNodes}, .usage = kTableUsage}));
     HEARTH_TRY(uploader.upload(scene.specular_table, std::as_bytes(std::span(table.values)), 1));
     scene.specular_spacing = table.spacing;
-    DescriptorWriter(scene.draw_set)
-        .texture(shared::kSceneSpecularTable, scene.specular_table.view.get(), sampler)
-        .write(device);
+    forEachView(scene,
+                [&](const SceneView& view)
+                {
+                    DescriptorWriter(view.draw_set)
+                        .texture(shared::kSceneSpecularTable, scene.specular_table.view.get(), sampler)
+                        .write(device);
+                });
     return success();
 }
 
@@ -69,10 +73,14 @@ Status uploadShadingTables(const Device& device, const formats::PackView& pack, 
                                                                       .usage = kTableUsage}));
     HEARTH_TRY(
         uploader.upload(scene.sky_table, std::as_bytes(std::span(shared::skyTable())), sizeof(uint32_t)));
-    DescriptorWriter(scene.draw_set)
-        .texture(shared::kSceneReflectance, scene.reflectance_table.view.get(), sampler)
-        .texture(shared::kSceneSkyTable, scene.sky_table.view.get(), sampler)
-        .write(device);
+    forEachView(scene,
+                [&](const SceneView& view)
+                {
+                    DescriptorWriter(view.draw_set)
+                        .texture(shared::kSceneReflectance, scene.reflectance_table.view.get(), sampler)
+                        .texture(shared::kSceneSkyTable, scene.sky_table.view.get(), sampler)
+                        .write(device);
+                });
     return uploadSpecularTable(device, pack, sampler, uploader, scene);
 }
 

@@ -35,6 +35,11 @@ std::optional<uint32_t> chooseType(const VkPhysicalDeviceMemoryProperties& memor
     }
     if (kind == MemoryKind::staging)
         best = enough = kMapped;
+    if (kind == MemoryKind::upload)
+    {
+        best = kMapped | VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+        enough = kMapped;
+    }
     if (kind == MemoryKind::readback)
     {
         best = kMapped | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
@@ -46,7 +51,7 @@ std::optional<uint32_t> chooseType(const VkPhysicalDeviceMemoryProperties& memor
 
 bool isMapped(MemoryKind kind)
 {
-    return kind == MemoryKind::staging || kind == MemoryKind::readback;
+    return kind == MemoryKind::staging || kind == MemoryKind::readback || kind == MemoryKind::upload;
 }
 
 VkDeviceSize alignUp(VkDeviceSize value, VkDeviceSize alignment)

@@ -15,7 +15,7 @@ struct Buffer
 {
     UniqueBuffer handle;
     VkDeviceSize size = 0;
-    std::byte* mapped = nullptr; ///< staging and readback memory only
+    std::byte* mapped = nullptr; ///< of mapped kinds of memory
 };
 
 struct Image

@@ -16,6 +16,9 @@ enum class MemoryKind
     readback, ///< mapped and coherent, read by the CPU; cached where there is such memory
     /// Attachments that never leave the tile: lazily allocated where there is such memory, else as `device`.
     transient,
+    /// Mapped and coherent, written by the CPU and read by the GPU in place: device-local where such memory
+    /// is visible to the CPU.
+    upload,
 };
 
 /// Request for the memory of one buffer or image.

@@ -372,7 +372,8 @@ gpu::SceneOptions sceneOptions(const RenderOptions& options, const formats::Pack
 {
     gpu::SceneOptions scene;
     scene.geometry_budget = options.geometry_budget;
-    scene.stream = {.read = pageReader(pack), .frames_in_flight = 1};
+    scene.stream = {.read = pageReader(pack)};
+    scene.frames_in_flight = 1;
     scene.shadows = fitShadows(options.shadows, pack, cameras);
     return scene;
 }

@@ -85,13 +85,13 @@ Result<VisibleList> readVisibleList(VulkanHost& host, const gpu::Renderer& rende
 {
     VisibleList list;
     HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> counters,
-                            host.read(renderer.device(), scene.buffers.counters));
+                            host.read(renderer.device(), scene.frame().main.counters));
     std::memcpy(&list.counters, counters.data(), sizeof(list.counters));
     list.slots.resize(list.counters.drawn_clusters - list.counters.dropped_clusters);
     if (list.slots.empty())
         return list;
     HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> slots,
-                            host.read(renderer.device(), scene.buffers.visible));
+                            host.read(renderer.device(), scene.frame().main.visible));
     HEARTH_ASSERT(slots.size() >= list.slots.size() * sizeof(shared::VisibleCluster));
     std::memcpy(list.slots.data(), slots.data(), list.slots.size() * sizeof(shared::VisibleCluster));
     return list;
@@ -103,7 +103,7 @@ Result<uint64_t> readShadedArea(VulkanHost& host, const gpu::Renderer& renderer,
     const bool tiles = gpu::shadesTiles(scene, area);
     HEARTH_ASSIGN_OR_RETURN(
         const std::vector<std::byte> bytes,
-        host.read(renderer.device(), tiles ? scene.buffers.tile_draws : scene.buffers.material_draws));
+        host.read(renderer.device(), tiles ? scene.frame().tile_draws : scene.frame().main.material_draws));
     std::vector<shared::TileDraw> draws(scene.materials.size() + 1);
     HEARTH_ASSERT(bytes.size() >= draws.size() * sizeof(shared::TileDraw));
     std::memcpy(draws.data(), bytes.data(), draws.size() * sizeof(shared::TileDraw));
@@ -120,7 +120,7 @@ Result<SkinningCounts> readSkinning(VulkanHost& host, const gpu::Renderer& rende
 {
     HEARTH_ASSERT(scene.deformation != nullptr);
     HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes,
-                            host.read(renderer.device(), scene.deformation->buffer));
+                            host.read(renderer.device(), scene.deformation->table.copy(scene.tables->frame)));
     shared::DeformationHeader header;
     HEARTH_ASSERT(bytes.size() >= sizeof(header));
     std::memcpy(&header, bytes.data(), sizeof(header));
@@ -138,8 +138,8 @@ BrickCounts countBricks(const gpu::Scene& scene, const gpu::FrameTargets& target
                        .period = bricks.period,
                        .rays = bricks.rays,
                        .tiles = targets.gather().tiles().width * targets.gather().tiles().height};
-    for (const gpu::Buffer* buffer : {&bricks.view, &bricks.groups, &bricks.bricks, &bricks.places,
-                                      &bricks.opacity, &bricks.surfaces, &bricks.lighting, &bricks.fresh})
+    for (const gpu::Buffer* buffer : {&bricks.groups, &bricks.bricks, &bricks.places, &bricks.opacity,
+                                      &bricks.surfaces, &bricks.lighting, &bricks.fresh})
         counts.bytes += buffer->size;
     return counts;
 }

@@ -40,7 +40,7 @@ Result<StreamCounts> countStreaming(VulkanHost& host, const gpu::Renderer& rende
 {
     const pack::PageStream& pages = scene.stream->pages();
     HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes,
-                            host.read(renderer.device(), scene.buffers.page_requests));
+                            host.read(renderer.device(), scene.frame().page_requests));
     std::vector<uint32_t> requests(pages.residency().graph().pageCount());
     if (!requests.empty())
         std::memcpy(requests.data(), bytes.data(), requests.size() * sizeof(uint32_t));

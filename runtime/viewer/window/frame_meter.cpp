@@ -51,7 +51,7 @@ void FrameMeter::record(VkCommandBuffer commands, const LoadedScene& scene, uint
     };
     gpu::barrier(device_, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
                  VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT);
-    copy(scene.scene().buffers.counters, slot.counters);
+    copy(scene.scene().frame().main.counters, slot.counters);
     if (count_culling)
     {
         scene.statistics().record(device_, commands, scene.scene());

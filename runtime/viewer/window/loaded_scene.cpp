@@ -14,13 +14,14 @@ Result<std::unique_ptr<LoadedScene>> LoadedScene::load(VulkanHost& host, gpu::Re
 {
     std::unique_ptr<LoadedScene> loaded(new LoadedScene);
     loaded->geometry_budget_ = geometry_budget;
-    gpu::SceneOptions options{.geometry_budget = geometry_budget, .shadows = shadows};
+    gpu::SceneOptions options{
+        .frames_in_flight = kFramesInFlight, .geometry_budget = geometry_budget, .shadows = shadows};
     if (geometry_budget > 0)
     {
         loaded->loader_ =
             std::make_unique<PageLoader>([&pack](uint32_t page, std::span<std::byte> destination)
                                          { return readPage(pack, page, destination); });
-        options.stream = {.read = loaded->loader_->reader(), .frames_in_flight = kFramesInFlight};
+        options.stream = {.read = loaded->loader_->reader()};
     }
     HEARTH_TRY(host.run(
         [&](VkCommandBuffer commands) -> Status

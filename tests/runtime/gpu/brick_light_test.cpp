@@ -173,7 +173,7 @@ TEST_F(BrickLightTest, marchesLikeTheCpuToTheBit)
                             uploader.emplace(device, commands);
                             HEARTH_TRY(uploader->uploadRecords(ray_buffer, rays));
                             uploader->finish();
-                            const VkDescriptorSet sets[] = {scene_->bricks->set, set};
+                            const VkDescriptorSet sets[] = {scene_->frame().brick_set, set};
                             device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE,
                                                         pipeline.pipeline.get());
                             device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE,

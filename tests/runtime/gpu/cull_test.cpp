@@ -66,8 +66,9 @@ protected:
         EXPECT_TRUE(sameBits(read<InstanceState>(scene.buffers.states, twin.states.size()), twin.states));
         EXPECT_TRUE(sameBits(read<WorkResult>(scene.buffers.results, twin.results.size()), twin.results));
         EXPECT_TRUE(sameBits(read<uint32_t>(scene.buffers.totals, twin.totals.size()), twin.totals));
-        EXPECT_TRUE(sameBits(read<BinDraw>(scene.buffers.bin_draws, twin.bin_draws.size()), twin.bin_draws));
-        EXPECT_TRUE(sameBits(read<uint32_t>(scene.buffers.material_draws, twin.material_draws.size()),
+        EXPECT_TRUE(
+            sameBits(read<BinDraw>(scene.frame().main.bin_draws, twin.bin_draws.size()), twin.bin_draws));
+        EXPECT_TRUE(sameBits(read<uint32_t>(scene.frame().main.material_draws, twin.material_draws.size()),
                              twin.material_draws));
         EXPECT_TRUE(sameBits(image.list.slots, twin.visible));
         EXPECT_EQ(image.list.counters.early_clusters, twin.early_clusters);

@@ -20,7 +20,7 @@ class DeformationTest : public GpuTest
 protected:
     DeformationHeader readHeader(const gpu::Scene& scene)
     {
-        return read<DeformationHeader>(scene.deformation->buffer, 1)[0];
+        return read<DeformationHeader>(scene.deformation->table.copy(scene.tables->frame), 1)[0];
     }
 };
 
@@ -170,7 +170,7 @@ TEST_F(DeformationTest, skinnedVerticesAreWhereGltfSays)
         const Image image =
             draw(*scene, randomCamera(random, 3), {.error_pixels = 0.25f, .flags = 0, .poses = views});
         const DeformationHeader header = readHeader(*scene);
-        const auto words = read<float>(scene->deformation->buffer,
+        const auto words = read<float>(scene->deformation->table.copy(scene->tables->frame),
                                        header.scratch_word + size_t{header.block_words} * header.block_count);
         for (uint32_t slot = header.early_first; slot < header.early_end; ++slot)
         {

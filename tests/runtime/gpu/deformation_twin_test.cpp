@@ -61,7 +61,8 @@ protected:
     {
         EXPECT_TRUE(sameBits(read<InstanceState>(scene.buffers.states, twin.states.size()), twin.states));
         EXPECT_TRUE(sameBits(read<WorkResult>(scene.buffers.results, twin.results.size()), twin.results));
-        EXPECT_TRUE(sameBits(read<BinDraw>(scene.buffers.bin_draws, twin.bin_draws.size()), twin.bin_draws));
+        EXPECT_TRUE(
+            sameBits(read<BinDraw>(scene.frame().main.bin_draws, twin.bin_draws.size()), twin.bin_draws));
         EXPECT_TRUE(sameBits(image.list.slots, twin.visible));
         EXPECT_EQ(image.list.counters.early_clusters, twin.early_clusters);
         EXPECT_TRUE(sameBits(std::vector{count(scene)}, std::vector{twin.statistics}));
@@ -121,7 +122,7 @@ TEST_F(DeformationTwinTest, aStreamedSceneAsksAsItsTwinAndEndsAsTheWholeImage)
     for (const formats::PageRecord& page : test.pack().pages())
         bytes += 2 * page.size;
     const auto streamed =
-        upload(test.pack(), {.geometry_budget = bytes, .stream = {.read = reader, .frames_in_flight = 1}});
+        upload(test.pack(), {.frames_in_flight = 1, .geometry_budget = bytes, .stream = {.read = reader}});
     uint64_t serial = 0;
     size_t requested = 0;
     for (int view = 0; view < 6; ++view)
@@ -139,7 +140,7 @@ TEST_F(DeformationTwinTest, aStreamedSceneAsksAsItsTwinAndEndsAsTheWholeImage)
             ++serial;
             image = draw(*streamed, camera, options);
         }
-        const auto requests = read<uint32_t>(streamed->buffers.page_requests, test.pack().pages().size());
+        const auto requests = read<uint32_t>(streamed->frame().page_requests, test.pack().pages().size());
         EXPECT_EQ(requests, makeRequestTwin(test.pack(), *layout, makeView(*streamed, camera, options)));
         for (const uint32_t request : requests)
             requested += request != 0 ? 1u : 0u;

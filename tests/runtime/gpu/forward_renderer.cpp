@@ -200,13 +200,14 @@ void ForwardRenderer::drawMaterial(VkCommandBuffer commands, const gpu::Scene& s
                                    uint32_t bin, VkPipeline pipeline) const
 {
     const VkPipelineLayout layout = forward_layout_.get();
-    const VkDescriptorSet sets[] = {scene.draw_set, scene.materials[row].set, scene.bins_set};
+    const VkDescriptorSet sets[] = {scene.frame().main.draw_set, scene.materials[row].set,
+                                    scene.frame().main.bins_set};
     const ForwardPush push{bin, row + 1};
     device_.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
     device_.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, shared::kSetScene,
                                        3, sets, 0, nullptr);
     device_.vk.vkCmdPushConstants(commands, layout, gpu::kShadingPushStages, 0, sizeof(push), &push);
-    device_.vk.vkCmdDrawIndirect(commands, scene.buffers.bin_draws.handle.get(),
+    device_.vk.vkCmdDrawIndirect(commands, scene.frame().main.bin_draws.handle.get(),
                                  bin * sizeof(shared::BinDraw), 1, sizeof(shared::BinDraw));
 }
 
@@ -267,7 +268,8 @@ std::vector<std::array<float, 4>> ForwardRenderer::uvDerivatives(const gpu::Scen
         [&](VkCommandBuffer commands)
         {
             begin(commands, derivatives_pass_.get(), framebuffer.get(), extent);
-            const VkDescriptorSet sets[] = {scene.draw_set, scene.materials[0].set, targets.attachments()};
+            const VkDescriptorSet sets[] = {scene.frame().main.draw_set, scene.materials[0].set,
+                                            targets.attachments()};
             const shared::ShadingPush push{};
             device_.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.get());
             device_.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout,

@@ -125,7 +125,7 @@ protected:
         const Image image = draw(scene, targets, camera, options);
         const TileTwin twin = makeTileTwin(image, layout);
         EXPECT_EQ(read<uint32_t>(targets.tileMaterials(), twin.tile_materials.size()), twin.tile_materials);
-        EXPECT_EQ((read<std::array<uint32_t, 4>>(scene.buffers.tile_draws, twin.draws.size())), twin.draws);
+        EXPECT_EQ((read<std::array<uint32_t, 4>>(scene.frame().tile_draws, twin.draws.size())), twin.draws);
         std::vector<uint32_t> lists =
             read<uint32_t>(targets.tileLists(), kFirstTileEntry + twin.lists.size());
         lists.erase(lists.begin(), lists.begin() + kFirstTileEntry);

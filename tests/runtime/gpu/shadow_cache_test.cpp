@@ -171,7 +171,7 @@ TEST_F(ShadowCacheTest, keptMapsAreFreshOnesWhilePagesComeAndGo)
         gpu::SceneOptions options;
         options.geometry_budget = 2400 << 10;
         options.stream.max_loads = 1;
-        options.stream.frames_in_flight = 1;
+        options.frames_in_flight = 1;
         options.stream.read = [&pack](uint32_t page, std::span<std::byte> destination, pack::ReadDone done)
         { done(pack.decodePage(page, destination).ok()); };
         options.shadows = smallMaps(moving_layers);

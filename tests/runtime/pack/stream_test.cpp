@@ -135,10 +135,9 @@ protected:
     void stream(uint64_t budget_bytes, uint32_t max_loads = 32)
     {
         disk_->forget(); // reads of another scene
-        streamed_ = upload(
-            *pack_,
-            {.geometry_budget = budget_bytes,
-             .stream = {.read = disk_->reader(random_), .max_loads = max_loads, .frames_in_flight = 3}});
+        streamed_ = upload(*pack_, {.frames_in_flight = 3,
+                                    .geometry_budget = budget_bytes,
+                                    .stream = {.read = disk_->reader(random_), .max_loads = max_loads}});
         uint64_t pool_bytes = 0;
         for (const gpu::Buffer& slice : streamed_->buffers.pool)
             pool_bytes += slice.size;
@@ -351,7 +350,7 @@ TEST_F(StreamTest, requestsEqualTheirTwinBitForBit)
                                   .flags = flags,
                                   .lod_curve = curve};
         frame(camera, options);
-        const auto requests = read<uint32_t>(streamed_->buffers.page_requests, pack_->pages().size());
+        const auto requests = read<uint32_t>(streamed_->frame().page_requests, pack_->pages().size());
         const auto twin = makeRequestTwin(*pack_, layout_, makeView(*streamed_, camera, scaled(options)));
         EXPECT_EQ(requests, twin);
         for (uint32_t page = 0; page < requests.size(); ++page)

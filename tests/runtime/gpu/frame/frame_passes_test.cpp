@@ -1,5 +1,5 @@
-// Tests the table of a frame: a simulation of tiles and memory judges what it loads and stores, the lint finds
-// planted errors of each rule, and bytes a pixel stay within their limits.
+// Tests the table of a frame: a simulation of tiles and memory judges what it loads and stores, the lint
+// finds planted errors of each rule, and bytes a pixel stay within their limits.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/frame/frame_lint.h"
 #include "runtime/gpu/frame/frame_plan.h"
@@ -37,8 +37,8 @@ std::string nameConfiguration(const FrameConfiguration& c)
     return formatFrameJson(describeFrame(c)).substr(0, 250);
 }
 
-/// Runs a frame on symbols: a version for each content that a resource ever has. A tile begins with nothing and
-/// gets what is loaded, memory gets what is stored; a step that reads must find the last version.
+/// Runs a frame on symbols: a version for each content that a resource ever has. A tile begins with nothing
+/// and gets what is loaded, memory gets what is stored; a step that reads must find the last version.
 class Simulation
 {
 public:
