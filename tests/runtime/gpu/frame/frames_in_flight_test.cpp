@@ -1,6 +1,7 @@
 // Tests that frames which overlap show what frames one by one show, and that the geometry of a frame waits
 // for no shading of the frame before.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "tests/runtime/gpu/brick_scene.h"
 #include "tests/runtime/gpu/deformed_scene.h"
 #include "tests/runtime/gpu/frame/stage_spy.h"
 #include "tests/support/gpu_fixture.h"
@@ -225,6 +226,16 @@ protected:
     }
 };
 
+void addSun(TestScene& test)
+{
+    formats::LightRecord sun{};
+    sun.type = static_cast<uint32_t>(formats::LightType::directional);
+    sun.color = {1, 1, 1};
+    sun.intensity = 2;
+    sun.world_from_light = Affine3{};
+    test.addLight(sun);
+}
+
 /// Rocks of two materials under a sun, the pack's only light.
 formats::PackView buildRocks(TestScene& test)
 {
@@ -237,12 +248,7 @@ formats::PackView buildRocks(TestScene& test)
         const uint32_t mesh = test.addMesh(withMaterial(shapes::rock(8, 0.2f, i + 1), materials[i % 2]));
         test.addInstance(mesh, randomAffine(random, 3));
     }
-    formats::LightRecord sun{};
-    sun.type = static_cast<uint32_t>(formats::LightType::directional);
-    sun.color = {1, 1, 1};
-    sun.intensity = 2;
-    sun.world_from_light = Affine3{};
-    test.addLight(sun);
+    addSun(test);
     return test.build();
 }
 
@@ -312,7 +318,8 @@ TEST_F(FramesInFlightTest, charactersInMotion)
 TEST_F(FramesInFlightTest, streamedScenesConverge)
 {
     TestScene test;
-    const uint32_t mesh = test.addMesh(withMaterial(shapes::rock(60, 0.2f, 1), test.addMaterial(plainMaterial())));
+    const uint32_t mesh =
+        test.addMesh(withMaterial(shapes::rock(60, 0.2f, 1), test.addMaterial(plainMaterial())));
     for (int i = 0; i < 4; ++i)
         test.addInstance(mesh, translated({static_cast<float>(i) * 2 - 3, 0, 0}));
     const formats::PackView pack = test.build();
@@ -331,6 +338,30 @@ TEST_F(FramesInFlightTest, streamedScenesConverge)
         EXPECT_EQ(images.back(), resident.back()) << in_flight;
     }
     recordTogether(pack, {.geometry_budget = 8 << 20, .stream = {.read = reader}}, make);
+}
+
+TEST_F(FramesInFlightTest, bricksUnderALightThatChanges)
+{
+    TestScene test;
+    test.addInstance(test.addMesh(withMaterial(shapes::rock(20, 0.2f, 1), test.addMaterial(plainMaterial()))),
+                     translated({2, 2, 2}));
+    addSun(test);
+    setBricks(test, brickModel({8, 8, 8}, makeShell({8, 8, 8}),
+                               [](std::array<uint32_t, 3>, uint32_t) { return FaceLook{}; }));
+    const formats::PackView pack = test.build();
+    std::vector<gpu::LightChange> lights;
+    gpu::EmissionScale scale{.box = {{-1, -1, -1}, {9, 9, 9}}, .factor = 1};
+    expectSame(pack, {.bricks = {.faces_per_frame = 64}},
+               [&](const gpu::Scene& scene, uint32_t number)
+               {
+                   formats::LightRecord record = pack.lights()[0];
+                   record.intensity = 1.0f + static_cast<float>(number);
+                   lights.assign(1, *gpu::changeLight(scene, 0, record));
+                   gpu::FrameInput input = makeInput(scene, number);
+                   input.lights = lights;
+                   input.emission = {&scale, 1};
+                   return input;
+               });
 }
 
 TEST_F(FramesInFlightTest, geometryWaitsForNoShading)
