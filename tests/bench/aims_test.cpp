@@ -79,7 +79,7 @@ Json makeStatistics(const RuntimeInputs& inputs)
     Json statistics = Json::parse(R"({"schema": "hearth.frame/1", "device": "none", "width": 8, "height": 8,
         "error_pixels": 1, "shaded_area_pixels": 64, "target_bytes": 1, "source_triangles": 1, "scene_bytes": 1,
         "milliseconds": {"cull": 0, "pyramid": 0, "late_cull": 0, "early_visibility": 0, "visibility": 0,
-                         "material_tiles": 0, "material_depth": 0, "shading": 0, "frame": 0},
+                         "material_tiles": 0, "shading": 0, "frame": 0},
         "streaming": {"budget_bytes": 1, "bytes_streamed": 1, "bytes_resident": 1, "pages_resident": 1,
                       "bytes_in_use": 1, "error_scale": 1}})")
                           .value();

@@ -44,9 +44,9 @@ constexpr Stage kStages[] = {
     {"material classify",
      0.92,
      3.42,
-     "material tiles, material depth",
-     {"material_tiles", "material_depth", nullptr}},
-    {"material shading", 0.87, 7.31, "shading", {"shading", nullptr, nullptr}},
+     "material tiles",
+     {"material_tiles", nullptr, nullptr}},
+    {"material shading", 0.87, 7.31, "marks of materials, shading", {"shading", nullptr, nullptr}},
 };
 
 struct Arguments
