@@ -60,6 +60,7 @@ Result<Device> makeDevice(const DeviceDescription& description)
                          std::string(properties.deviceName) + " cannot render to " + required.name};
     }
     device.vk.vkGetPhysicalDeviceMemoryProperties(description.physical_device, &device.memory);
+    device.identity = {properties.vendorID, properties.deviceName};
     device.limits = properties.limits;
     device.handle = description.device;
     device.allocator = description.allocator;

@@ -5,6 +5,7 @@
 #include "formats/base/result.h"
 #include "runtime/gpu/vulkan/memory_hooks.h"
 
+#include <string>
 #include <utility>
 
 namespace hearth::gpu
@@ -37,6 +38,13 @@ struct DeviceDescription
     MessageHook message_hook{};
 };
 
+/// Maker and name of a device.
+struct DeviceIdentity
+{
+    uint32_t vendor = 0; ///< of the PCI, or of Khronos
+    std::string name;
+};
+
 /// Device of the renderer. Everything else holds a reference to it, so it must not move once it is used.
 struct Device
 {
@@ -49,6 +57,7 @@ struct Device
     bool sampler_anisotropy = false;
     /// Textures may have R16G16B16A16_UNORM, which Vulkan does not require.
     bool samples_unorm16 = false;
+    DeviceIdentity identity{};
     VkPhysicalDeviceLimits limits{};
     VkPhysicalDeviceMemoryProperties memory{};
 };

@@ -61,17 +61,21 @@ protected:
         ASSERT_TRUE(host.ok()) << formatMessage(host.error());
         host_ = std::move(*host);
         const gpu::DeviceDescription recording = recordPipelines(host_->description());
-        auto created = gpu::Renderer::create(recording);
-        ASSERT_TRUE(created.ok());
-        gpu::Renderer& recorded = **created;
-        uploadRocks(recorded);
-        uploadDeformed(recorded);
-        uploadBricks(recorded, {});
-        uploadBricks(recorded, {.max_maps = 4});
-        ASSERT_TRUE(recorded.prepareOverdraw().ok());
-        // the stencil is the other test's
-        const auto by_id = gpu::Renderer::create(recording, {.materials = gpu::MaterialTest::id});
-        ASSERT_TRUE(by_id.ok());
+        for (const gpu::FrameWay way : gpu::kFrameWays)
+        {
+            auto created = gpu::Renderer::create(recording, {.way = way});
+            ASSERT_TRUE(created.ok());
+            gpu::Renderer& recorded = **created;
+            uploadRocks(recorded);
+            uploadDeformed(recorded);
+            uploadBricks(recorded, {});
+            uploadBricks(recorded, {.max_maps = 4});
+            ASSERT_TRUE(recorded.prepareOverdraw().ok());
+            // the stencil is the other test's
+            const auto by_id =
+                gpu::Renderer::create(recording, {.way = way, .materials = gpu::MaterialTest::id});
+            ASSERT_TRUE(by_id.ok());
+        }
         both_ = {{}, recordedPipelines(), sharedStructs(), constantIds()};
         for (const ListedShader& shader : listedShaders())
             both_.shaders.push_back({shader.name,
