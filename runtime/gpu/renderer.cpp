@@ -20,6 +20,11 @@ void writeTimestamp(const Device& device, VkCommandBuffer commands, VkQueryPool 
         device.vk.vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, pool, which);
 }
 
+constexpr RequiredFormat kStencilFormat = {depthFormat(MaterialTest::id),
+                                           VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT |
+                                               VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT,
+                                           "D32_SFLOAT_S8_UINT", "depth with a stencil of materials"};
+
 OcclusionCulling occlusionCulling(const FrameInput& input)
 {
     if ((input.view.flags & shared::kCullOcclusion) == 0)
@@ -67,7 +72,10 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const DeviceDescription& desc
 {
     std::unique_ptr<Renderer> renderer(new Renderer);
     Renderer& r = *renderer;
-    HEARTH_ASSIGN_OR_RETURN(r.device_, makeDevice(description));
+    const bool has_stencil = options.materials == MaterialTest::id;
+    HEARTH_ASSIGN_OR_RETURN(r.device_,
+                            makeDevice(description, has_stencil ? std::span(&kStencilFormat, 1)
+                                                                : std::span<const RequiredFormat>()));
     const FrameWay way = options.way.value_or(chooseFrameWay(r.device_.identity));
     HEARTH_ASSIGN_OR_RETURN(r.layouts_, DrawLayouts::create(r.device_, visibilityDescriptor(way)));
     HEARTH_ASSIGN_OR_RETURN(r.passes_, FramePasses::create(r.device_, way, options.materials));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "formats/base/result.h"
+#include "runtime/gpu/vulkan/device_limits.h"
 #include "runtime/gpu/vulkan/memory_hooks.h"
 
 #include <string>
@@ -62,8 +63,9 @@ struct Device
     VkPhysicalDeviceMemoryProperties memory{};
 };
 
-/// errors: device if an entry point or a required format is missing.
-Result<Device> makeDevice(const DeviceDescription& description);
+/// errors: device if an entry point, a limit or a format is missing: requiredLimits(), requiredFormats().
+Result<Device> makeDevice(const DeviceDescription& description,
+                          std::span<const RequiredFormat> more_formats = {});
 
 /// Warn the caller that something is degraded. Allocates only if the caller has set a hook.
 void warn(const Device& device, const std::string& name, const std::string& where, const std::string& what);
