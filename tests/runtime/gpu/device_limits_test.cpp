@@ -33,7 +33,7 @@ std::unique_ptr<viewer::VulkanHost> createHost(const std::string& profile)
 }
 
 /// Create a pipeline layout of a set with so many storage buffers.
-VkResult createLayoutOf(const viewer::VulkanHost& host, uint32_t storage_buffers)
+VkResult createPipelineLayout(const viewer::VulkanHost& host, uint32_t storage_buffers)
 {
     const gpu::DeviceDescription description = host.description();
     gpu::DeviceTable vk;
@@ -87,8 +87,8 @@ TEST(DeviceLimits, theLayerShowsThem)
 TEST(DeviceLimits, theLayerRefusesMore)
 {
     const auto host = createHost("videocore6");
-    EXPECT_EQ(createLayoutOf(*host, 12), VK_SUCCESS);
-    EXPECT_EQ(createLayoutOf(*host, 13), VK_ERROR_VALIDATION_FAILED_EXT);
+    EXPECT_EQ(createPipelineLayout(*host, 12), VK_SUCCESS);
+    EXPECT_EQ(createPipelineLayout(*host, 13), VK_ERROR_VALIDATION_FAILED_EXT);
 }
 
 TEST(DeviceLimits, theMinimumOfVulkanGetsOneClearError)

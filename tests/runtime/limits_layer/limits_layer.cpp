@@ -1,5 +1,5 @@
-// Vulkan layer that shows the limits, features and formats of another device, HEARTH_TEST_LIMITS=PROFILE.json,
-// and refuses what that device would refuse: calls fail, with a message on stderr.
+// Vulkan layer that shows the limits, features and formats of another device (HEARTH_TEST_LIMITS=PROFILE) and
+// refuses what that device would refuse: calls fail, with a message on stderr.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/runtime/limits_layer/device_profile.h"
 
