@@ -1,46 +1,85 @@
 # Compiles GLSL to SPIR-V 1.3 (Vulkan 1.1) at build time, checks it with spirv-val, and embeds it as words.
-# Reproducible: no path and no debug information is included. FILE.spv in the build folder still has the names
+# Reproducible: no path and no debug information is included. NAME.spv in the build folder still has the names
 # of the source, for tests.
 
-# hearth_shader_library(NAME HEADER ... SHADERS ...): a static library with the words of the shaders, whose
-# paths are relative to the current folder. HEADER declares a span for each, named after its file, in
-# namespace hearth::shaders.
+# hearth_shader_library(NAME HEADER ... SHADERS ... [VARIED ... VARIANTS ...]): a static library with the words
+# of the shaders, whose paths are relative to the current folder. HEADER declares a span for each, named after
+# its file, in namespace hearth::shaders. VARIED shaders are compiled once more for each name of VARIANTS, with
+# the macro HEARTH_NAME: HEADER declares an array of spans for each, without macro first.
 function(hearth_shader_library name)
-  cmake_parse_arguments(ARG "" "HEADER" "SHADERS" ${ARGN})
+  cmake_parse_arguments(ARG "" "HEADER" "SHADERS;VARIED;VARIANTS" ${ARGN})
   find_package(Vulkan REQUIRED COMPONENTS glslc)
   find_program(HEARTH_SPIRV_VAL spirv-val REQUIRED)
   find_program(HEARTH_SPIRV_OPT spirv-opt REQUIRED)
   set(embedded "// Generated.\n#include \"${ARG_HEADER}\"\n\nnamespace hearth::shaders\n{\n")
   set(words_files)
-  foreach(shader ${ARG_SHADERS})
+  set(listed) # entries "variable,expression,file" of hearth_shader_list
+  foreach(shader ${ARG_SHADERS} ${ARG_VARIED})
+    set(spans)
+    set(variants "")
+    if(shader IN_LIST ARG_VARIED)
+      set(variants ${ARG_VARIANTS})
+    endif()
     cmake_path(GET shader FILENAME file)
-    set(words ${CMAKE_CURRENT_BINARY_DIR}/${file}.inc)
-    add_custom_command(
-      OUTPUT ${words}
-      COMMAND ${Vulkan_GLSLC_EXECUTABLE} -Werror -O -g --target-env=vulkan1.1 -I ${PROJECT_SOURCE_DIR} -MD -MF ${words}.d
-        -MT ${words} ${CMAKE_CURRENT_SOURCE_DIR}/${shader} -o ${words}.spv
-      COMMAND ${HEARTH_SPIRV_VAL} --target-env vulkan1.1 ${words}.spv
-      COMMAND ${HEARTH_SPIRV_OPT} --strip-debug --compact-ids ${words}.spv -o ${words}.stripped
-      COMMAND ${CMAKE_COMMAND} -D INPUT=${words}.stripped -D OUTPUT=${words} -P ${PROJECT_SOURCE_DIR}/cmake/embed_words.cmake
-      DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${shader} ${PROJECT_SOURCE_DIR}/cmake/embed_words.cmake
-      DEPFILE ${words}.d
-      COMMENT "Compiling ${shader}"
-      VERBATIM)
-    list(APPEND words_files ${words})
-    string(REPLACE "." "_" variable ${file})
-    string(APPEND embedded "static constexpr uint32_t ${variable}_words[] = {\n#include \"${file}.inc\"\n};\n"
-                           "const std::span<const uint32_t> ${variable}(${variable}_words);\n\n")
+    string(REPLACE "." "_" shader_variable ${file})
+    foreach(variant "" ${variants})
+      hearth_compile_shader(${shader} "${variant}" variable words)
+      list(APPEND words_files ${words})
+      string(APPEND embedded "static constexpr uint32_t ${variable}_words[] = {\n#include \"${words}\"\n};\n")
+      list(LENGTH spans number)
+      list(APPEND spans "std::span<const uint32_t>(${variable}_words)")
+      set(expression shaders::${shader_variable})
+      if(variants)
+        string(APPEND expression "[${number}]")
+      endif()
+      list(APPEND listed "${variable},${expression},${words}.spv")
+    endforeach()
+    if(variants)
+      list(JOIN spans ", " spans)
+      string(APPEND embedded "const VariedShader ${shader_variable}{${spans}};\n\n")
+    else()
+      string(APPEND embedded "const std::span<const uint32_t> ${shader_variable} = ${spans};\n\n")
+    endif()
   endforeach()
   string(APPEND embedded "} // namespace hearth::shaders\n")
   file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/embedded.cpp CONTENT "${embedded}" @ONLY)
 
+  list(TRANSFORM words_files PREPEND ${CMAKE_CURRENT_BINARY_DIR}/)
   hearth_library(${name} SOURCES ${CMAKE_CURRENT_BINARY_DIR}/embedded.cpp ${words_files} NO_EXCEPTIONS)
   target_include_directories(${name} PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
-  set_target_properties(${name} PROPERTIES HEARTH_SHADERS "${ARG_SHADERS}" HEARTH_SHADER_HEADER ${ARG_HEADER})
+  set_target_properties(${name} PROPERTIES HEARTH_SHADERS "${listed}" HEARTH_SHADER_HEADER ${ARG_HEADER})
+endfunction()
+
+# hearth_compile_shader(SHADER VARIANT VARIABLE WORDS): compiles a shader, for a variant unless that is empty.
+# VARIABLE gets its name in C++, WORDS the name of its file in the build folder.
+function(hearth_compile_shader shader variant variable words)
+  cmake_path(GET shader FILENAME file)
+  set(macro)
+  if(variant)
+    cmake_path(GET file STEM stem)
+    cmake_path(GET file EXTENSION extension)
+    set(file ${stem}_${variant}${extension})
+    string(TOUPPER "-DHEARTH_${variant}" macro)
+  endif()
+  set(output ${CMAKE_CURRENT_BINARY_DIR}/${file}.inc)
+  add_custom_command(
+    OUTPUT ${output}
+    COMMAND ${Vulkan_GLSLC_EXECUTABLE} -Werror -O -g --target-env=vulkan1.1 -I ${PROJECT_SOURCE_DIR} ${macro} -MD -MF ${output}.d
+      -MT ${output} ${CMAKE_CURRENT_SOURCE_DIR}/${shader} -o ${output}.spv
+    COMMAND ${HEARTH_SPIRV_VAL} --target-env vulkan1.1 ${output}.spv
+    COMMAND ${HEARTH_SPIRV_OPT} --strip-debug --compact-ids ${output}.spv -o ${output}.stripped
+    COMMAND ${CMAKE_COMMAND} -D INPUT=${output}.stripped -D OUTPUT=${output} -P ${PROJECT_SOURCE_DIR}/cmake/embed_words.cmake
+    DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${shader} ${PROJECT_SOURCE_DIR}/cmake/embed_words.cmake
+    DEPFILE ${output}.d
+    COMMENT "Compiling ${file}"
+    VERBATIM)
+  string(REPLACE "." "_" name ${file})
+  set(${variable} ${name} PARENT_SCOPE)
+  set(${words} ${file}.inc PARENT_SCOPE)
 endfunction()
 
 # hearth_shader_list(NAME OF LIBRARY SOURCE_HEADER HEADER): a static library that lists the shaders of a shader
-# library for tests; HEADER declares it.
+# library for tests, variants included; HEADER declares it.
 function(hearth_shader_list name)
   cmake_parse_arguments(ARG "" "OF;SOURCE_HEADER" "" ${ARGN})
   get_target_property(shaders ${ARG_OF} HEARTH_SHADERS)
@@ -49,9 +88,8 @@ function(hearth_shader_list name)
   set(source "// Generated.\n#include \"${ARG_SOURCE_HEADER}\"\n\n#include \"${header}\"\n\nnamespace hearth::test\n{\n\n")
   string(APPEND source "std::span<const ListedShader> listedShaders()\n{\n    static const ListedShader list[] = {\n")
   foreach(shader ${shaders})
-    cmake_path(GET shader FILENAME file)
-    string(REPLACE "." "_" variable ${file})
-    string(APPEND source "        {\"${variable}\", shaders::${variable}, \"${folder}/${file}.inc.spv\"},\n")
+    string(REGEX MATCH "^(.*),(.*),(.*)$" unused ${shader})
+    string(APPEND source "        {\"${CMAKE_MATCH_1}\", ${CMAKE_MATCH_2}, \"${folder}/${CMAKE_MATCH_3}\"},\n")
   endforeach()
   string(APPEND source "    };\n    return list;\n}\n\n} // namespace hearth::test\n")
   file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp CONTENT "${source}" @ONLY)

@@ -51,11 +51,18 @@ function(hearth_test name)
     ENVIRONMENT "HEARTH_CACHE=off" LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT} COST "${ARG_COST}")
 endfunction()
 
-# hearth_test_variant(NAME OF TEST ENVIRONMENT VARIABLE=VALUE ... [LABELS ...] [COST SECONDS]): a ctest entry that runs
-# an entry of the same folder once more, in another environment.
+# hearth_test_variant(NAME OF TEST ENVIRONMENT VARIABLE=VALUE ... [SOURCES ...] [LABELS ...] [COST SECONDS]): a ctest
+# entry that runs an entry of the same folder once more, in another environment.
+#   SOURCES  files whose tests run, without their folders; otherwise those of the entry
 function(hearth_test_variant name)
-  cmake_parse_arguments(ARG "" "OF;COST" "ENVIRONMENT;LABELS" ${ARGN})
-  add_test(NAME ${name} COMMAND ${hearth_command_of_${ARG_OF}})
+  cmake_parse_arguments(ARG "" "OF;COST" "ENVIRONMENT;SOURCES;LABELS" ${ARGN})
+  set(command ${hearth_command_of_${ARG_OF}})
+  if(ARG_SOURCES)
+    list(FILTER command EXCLUDE REGEX "^--sources=")
+    list(JOIN ARG_SOURCES "," files)
+    list(APPEND command --sources=${files})
+  endif()
+  add_test(NAME ${name} COMMAND ${command})
   set_tests_properties(${name} PROPERTIES
     ENVIRONMENT "HEARTH_CACHE=off;${ARG_ENVIRONMENT}" LABELS "${ARG_LABELS}" TIMEOUT 600 COST "${ARG_COST}")
 endfunction()

@@ -20,7 +20,7 @@ HEARTH_CONSTANT uint kNoTileMaterial = 0xFFFFFFFFu;
 
 /// Materials that one round of the tile pass collects as bits in shared memory, one word a thread. Only
 /// scenes with more materials need a second round.
-HEARTH_CONSTANT uint kTileRoundMaterials = 8192;
+HEARTH_CONSTANT uint kTileRoundMaterials = 4096;
 
 /// First used entry of the tile lists. Entries are x | y << 16, in tiles. Entry 0 is reserved: it means the
 /// whole frame.

@@ -268,7 +268,7 @@ struct CopyRegion
     uint reserved;
 };
 HEARTH_CONSTANT uint kMaxCopyWords = 1024;
-HEARTH_CONSTANT uint kGroupCopyWords = 256; ///< threads of a workgroup
+HEARTH_CONSTANT uint kGroupCopyWords = 128; ///< threads of a workgroup
 
 /// Culling phase. A frame without the occlusion test has the phase kPhaseWhole; with it, the early and late
 /// phases follow each other.

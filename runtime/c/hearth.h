@@ -162,6 +162,16 @@ enum
     HEARTH_MATERIALS_ID = 1
 };
 
+/* Way through a frame (1.8); the rendered frame is the same. */
+enum
+{
+    /* MERGED, unless public reports say that the device fails at subpasses or gains nothing by them */
+    HEARTH_FRAME_AUTOMATIC = 0,
+    HEARTH_FRAME_MERGED =
+        1, /* render passes of two subpasses: the visibility buffer need not leave the tile */
+    HEARTH_FRAME_SEPARATE = 2 /* a render pass for the visibility buffer, one for shading, which samples it */
+};
+
 typedef struct hearth_renderer_description
 {
     uint32_t struct_size;
@@ -178,12 +188,16 @@ typedef struct hearth_renderer_description
     hearth_memory_hooks memory;      /* or NULLs: the library allocates blocks with vkAllocateMemory */
     hearth_message_callback message; /* or NULL */
     void* message_user;
+    /* since 1.8 */
+    uint32_t frame_way; /* HEARTH_FRAME_* */
+    uint32_t reserved;  /* 0 */
 } hearth_renderer_description;
 
 #define HEARTH_RENDERER_DESCRIPTION_INIT                                                                     \
     {                                                                                                        \
         sizeof(hearth_renderer_description), HEARTH_API_VERSION, NULL, VK_NULL_HANDLE, VK_NULL_HANDLE,       \
-            VK_NULL_HANDLE, NULL, VK_NULL_HANDLE, 0, HEARTH_MATERIALS_DEPTH, {NULL, NULL, NULL}, NULL, NULL  \
+            VK_NULL_HANDLE, NULL, VK_NULL_HANDLE, 0, HEARTH_MATERIALS_DEPTH, {NULL, NULL, NULL}, NULL, NULL, \
+            HEARTH_FRAME_AUTOMATIC, 0                                                                        \
     }
 
 /* Create pipelines, which takes seconds on some devices. The objects in the description outlive the renderer.

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/c/handles.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <iterator>
+#include <optional>
 
 using namespace hearth;
 using namespace hearth::c;
@@ -13,8 +16,9 @@ namespace
 constexpr uint32_t kFeatures =
     HEARTH_FEATURE_SAMPLER_ANISOTROPY | HEARTH_FEATURE_OVERDRAW | HEARTH_FEATURE_DEBUG_LABELS;
 
-/// Size of the description in version 1.0.
-constexpr size_t kDescriptionBytes10 = offsetof(hearth_renderer_description, memory);
+/// Sizes of the description in versions 1.0, and 1.1 to 1.7.
+constexpr size_t kOldDescriptionBytes[] = {offsetof(hearth_renderer_description, memory),
+                                           offsetof(hearth_renderer_description, frame_way)};
 
 bool supportsVersion(uint32_t version)
 {
@@ -24,7 +28,10 @@ bool supportsVersion(uint32_t version)
 /// Return the description of a caller of any version, with defaults for missing members.
 Result<hearth_renderer_description> completeDescription(const hearth_renderer_description* caller_description)
 {
-    if (caller_description == nullptr || caller_description->struct_size != kDescriptionBytes10)
+    const bool is_old = caller_description != nullptr &&
+                        std::find(std::begin(kOldDescriptionBytes), std::end(kOldDescriptionBytes),
+                                  caller_description->struct_size) != std::end(kOldDescriptionBytes);
+    if (!is_old)
         HEARTH_TRY(checkStruct("description", caller_description));
     hearth_renderer_description description = HEARTH_RENDERER_DESCRIPTION_INIT;
     std::memcpy(&description, caller_description, caller_description->struct_size);
@@ -41,8 +48,9 @@ Status check(const hearth_renderer_description& description)
     if (description.get_instance_proc_addr == nullptr || description.instance == VK_NULL_HANDLE ||
         description.physical_device == VK_NULL_HANDLE || description.device == VK_NULL_HANDLE)
         return usage("get_instance_proc_addr, instance, physical_device or device is missing");
-    if ((description.features & ~kFeatures) != 0 || description.materials > HEARTH_MATERIALS_ID)
-        return usage("features has bits, or materials a value, that this version does not know");
+    if ((description.features & ~kFeatures) != 0 || description.materials > HEARTH_MATERIALS_ID ||
+        description.frame_way > HEARTH_FRAME_SEPARATE)
+        return usage("features has bits, or materials or frame_way a value, that this version does not know");
     if ((description.memory.allocate == nullptr) != (description.memory.free == nullptr))
         return usage("memory has one function and not the other");
     return success();
@@ -85,6 +93,19 @@ gpu::DeviceDescription toDevice(const hearth_renderer_description& description, 
     return device;
 }
 
+std::optional<gpu::FrameWay> toFrameWay(uint32_t way)
+{
+    switch (way)
+    {
+    case HEARTH_FRAME_MERGED:
+        return gpu::FrameWay::merged;
+    case HEARTH_FRAME_SEPARATE:
+        return gpu::FrameWay::separate;
+    default:
+        return std::nullopt;
+    }
+}
+
 Result<std::unique_ptr<hearth_renderer>> create(const hearth_renderer_description& description)
 {
     auto made = std::make_unique<hearth_renderer>();
@@ -92,7 +113,8 @@ Result<std::unique_ptr<hearth_renderer>> create(const hearth_renderer_descriptio
     HEARTH_ASSIGN_OR_RETURN(
         made->renderer,
         gpu::Renderer::create(toDevice(description, made->memory),
-                              {.materials = static_cast<gpu::MaterialTest>(description.materials)}));
+                              {.way = toFrameWay(description.frame_way),
+                               .materials = static_cast<gpu::MaterialTest>(description.materials)}));
     made->shows_overdraw = (description.features & HEARTH_FEATURE_OVERDRAW) != 0;
     if (made->shows_overdraw)
         HEARTH_TRY(made->renderer->prepareOverdraw());

@@ -2,7 +2,9 @@
 #include "runtime/gpu/renderer.h"
 
 #include "runtime/gpu/frame/frame_plan.h"
+#include "runtime/gpu/frame/frame_way.h"
 #include "runtime/gpu/passes/frame_update.h"
+#include "runtime/gpu/passes/visibility_reading.h"
 #include "runtime/gpu/vulkan/debug_label.h"
 #include "runtime/gpu/vulkan/pipelines.h"
 
@@ -20,6 +22,11 @@ void writeTimestamp(const Device& device, VkCommandBuffer commands, VkQueryPool 
     if (pool != VK_NULL_HANDLE)
         device.vk.vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, pool, which);
 }
+
+constexpr RequiredFormat kStencilFormat = {depthFormat(MaterialTest::id),
+                                           VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT |
+                                               VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT,
+                                           "D32_SFLOAT_S8_UINT", "depth with a stencil of materials"};
 
 OcclusionCulling occlusionCulling(const FrameInput& input)
 {
@@ -68,16 +75,20 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const DeviceDescription& desc
 {
     std::unique_ptr<Renderer> renderer(new Renderer);
     Renderer& r = *renderer;
-    HEARTH_ASSIGN_OR_RETURN(r.device_, makeDevice(description));
-    HEARTH_ASSIGN_OR_RETURN(r.layouts_, DrawLayouts::create(r.device_));
-    HEARTH_ASSIGN_OR_RETURN(r.passes_, FramePasses::create(r.device_, options.materials));
+    const bool has_stencil = options.materials == MaterialTest::id;
+    HEARTH_ASSIGN_OR_RETURN(r.device_,
+                            makeDevice(description, has_stencil ? std::span(&kStencilFormat, 1)
+                                                                : std::span<const RequiredFormat>()));
+    const FrameWay way = options.way.value_or(chooseFrameWay(r.device_.identity));
+    HEARTH_ASSIGN_OR_RETURN(r.layouts_, DrawLayouts::create(r.device_, visibilityDescriptor(way)));
+    HEARTH_ASSIGN_OR_RETURN(r.passes_, FramePasses::create(r.device_, way, options.materials));
     HEARTH_ASSIGN_OR_RETURN(r.cull_, CullPass::create(r.device_, r.layouts_));
     HEARTH_ASSIGN_OR_RETURN(r.copy_words_, WordCopyPass::create(r.device_));
     HEARTH_ASSIGN_OR_RETURN(r.page_requests_, PageRequestPass::create(r.device_));
     HEARTH_ASSIGN_OR_RETURN(r.pyramid_, PyramidPass::create(r.device_, r.layouts_));
     HEARTH_ASSIGN_OR_RETURN(r.material_tiles_, MaterialTilesPass::create(r.device_, r.layouts_));
     HEARTH_ASSIGN_OR_RETURN(r.visibility_,
-                            BinPass::createVisibility(r.device_, r.layouts_, r.passes_.anyPass()));
+                            BinPass::createVisibility(r.device_, r.layouts_, r.passes_.visibilityPlace()));
     HEARTH_ASSIGN_OR_RETURN(r.material_marks_, MaterialMarksPass::create(r.device_, r.layouts_, r.passes_));
     HEARTH_ASSIGN_OR_RETURN(r.shading_, ShadingPass::create(r.device_, r.layouts_, r.passes_));
     return renderer;
@@ -92,6 +103,7 @@ FrameDescription Renderer::describe(const Scene& scene, const FrameTargets& targ
                                     bool in_parts) const
 {
     FrameConfiguration configuration = configure(scene, targets, input, in_parts);
+    configuration.way = passes_.way();
     configuration.materials = passes_.materials();
     return describeFrame(configuration);
 }
@@ -165,7 +177,8 @@ Status Renderer::prepareOverdraw()
 {
     if (!overdraw_)
     {
-        HEARTH_ASSIGN_OR_RETURN(overdraw_, BinPass::createOverdraw(device_, layouts_, passes_.anyPass()));
+        HEARTH_ASSIGN_OR_RETURN(overdraw_,
+                                BinPass::createOverdraw(device_, layouts_, passes_.shadingPlace()));
     }
     return skinning_ ? overdraw_->prepareDeformed(device_) : success();
 }

@@ -70,6 +70,7 @@ struct FrameInput
 
 struct RendererOptions
 {
+    std::optional<FrameWay> way{}; ///< none: chooseFrameWay
     MaterialTest materials = MaterialTest::depth;
 };
 
@@ -85,6 +86,8 @@ public:
 
     /// errors: device_limit, device_failed.
     Result<FrameTargets> createTargets(VkExtent2D extent, const TargetOptions& options = {}) const;
+
+    FrameWay way() const { return passes_.way(); }
 
     /// Return the passes of a frame as `record` records them, or the parts of it.
     FrameDescription describe(const Scene& scene, const FrameTargets& targets, const FrameInput& input,

@@ -2,11 +2,21 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 
 namespace hearth::shaders
 {
+
+/// Compilations of a shader that reads the visibility buffer, by macro.
+enum Variant : uint32_t
+{
+    kReadsInput,   ///< none
+    kReadsSampled, ///< HEARTH_SAMPLED
+    kVariantCount,
+};
+using VariedShader = std::array<std::span<const uint32_t>, kVariantCount>;
 
 extern const std::span<const uint32_t> cull_instances_comp;
 extern const std::span<const uint32_t> cull_clusters_comp;
@@ -42,18 +52,18 @@ extern const std::span<const uint32_t> caster_frag;
 extern const std::span<const uint32_t> caster_masked_vert;
 extern const std::span<const uint32_t> caster_masked_frag;
 extern const std::span<const uint32_t> fullscreen_vert;
-extern const std::span<const uint32_t> material_depth_frag;
-extern const std::span<const uint32_t> material_stencil_frag;
 extern const std::span<const uint32_t> shaded_area_vert;
-extern const std::span<const uint32_t> shading_frag;
-extern const std::span<const uint32_t> shading_shadowed_frag;
-extern const std::span<const uint32_t> shading_gi_frag;
-extern const std::span<const uint32_t> shading_shadowed_gi_frag;
-extern const std::span<const uint32_t> view_surface_frag;
-extern const std::span<const uint32_t> view_clusters_frag;
-extern const std::span<const uint32_t> view_shadow_maps_frag;
 extern const std::span<const uint32_t> view_bricks_frag;
-extern const std::span<const uint32_t> view_gi_frag;
-extern const std::span<const uint32_t> sky_frag;
+extern const VariedShader material_depth_frag;
+extern const VariedShader material_stencil_frag;
+extern const VariedShader shading_frag;
+extern const VariedShader shading_shadowed_frag;
+extern const VariedShader shading_gi_frag;
+extern const VariedShader shading_shadowed_gi_frag;
+extern const VariedShader view_surface_frag;
+extern const VariedShader view_clusters_frag;
+extern const VariedShader view_shadow_maps_frag;
+extern const VariedShader view_gi_frag;
+extern const VariedShader sky_frag;
 
 } // namespace hearth::shaders

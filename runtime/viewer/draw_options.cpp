@@ -56,6 +56,12 @@ constexpr std::string_view kDrawHelp =
     "                          in the depth (default), or by number, which keeps the depth; the image stays "
     "the "
     "same\n"
+    "      --frame WAY         render passes of a frame: merged (subpasses), separate (for drivers that fail "
+    "at "
+    "subpasses\n"
+    "                          or do not merge them), or automatic (default), which takes what is known to "
+    "work on\n"
+    "                          the device; the image stays the same\n"
     "      --cull TESTS        all (default), none, or some of instances,frustum,cone,occlusion; the "
     "image\n"
     "                          stays the same. last-frame: all, but hides what the last frame's depth hides, "
@@ -180,6 +186,11 @@ Status parseMaterialTest(std::string_view text, FrameSettings& settings)
     return success();
 }
 
+Status parseFrameWay(std::string_view text, FrameSettings& settings)
+{
+    return parseChoice("--frame", frameWayNames(), text, settings.way);
+}
+
 Status parseGi(std::string_view text, FrameSettings& settings)
 {
     if (text != "on" && text != "off")
@@ -272,6 +283,7 @@ void addDrawOptions(CommandLine& command_line, DrawOptions& options)
         { return parseChoice("--shaded-area", shadedAreaNames(), text, settings.shaded_area); });
     command_line.addValue("--materials",
                           [&](std::string_view text) { return parseMaterialTest(text, settings); });
+    command_line.addValue("--frame", [&](std::string_view text) { return parseFrameWay(text, settings); });
     command_line.addValue("--shadows",
                           [&](std::string_view text) { return parseShadows(text, options.shadows); });
     command_line.addValue("--shadow-sphere",

@@ -31,6 +31,13 @@ std::span<const Named<gpu::ShadedArea>> shadedAreaNames()
     return kAreas;
 }
 
+std::span<const Named<std::optional<gpu::FrameWay>>> frameWayNames()
+{
+    static constexpr Named<std::optional<gpu::FrameWay>> kWays[] = {
+        {"automatic", {}}, {"merged", gpu::FrameWay::merged}, {"separate", gpu::FrameWay::separate}};
+    return kWays;
+}
+
 std::span<const Named<gpu::MaterialTest>> materialTestNames()
 {
     static constexpr Named<gpu::MaterialTest> kTests[] = {{"depth", gpu::MaterialTest::depth},
@@ -64,11 +71,12 @@ std::span<const Named<uint32_t>> cullTestNames()
     return kTests;
 }
 
-gpu::MaterialTest chooseMaterialTest(const FrameSettings& settings)
+gpu::RendererOptions rendererOptions(const FrameSettings& settings)
 {
     // the pyramid for the next frame is made of the depth
-    return settings.material_test.value_or(settings.occludes_by_last_frame ? gpu::MaterialTest::id
-                                                                           : gpu::MaterialTest::depth);
+    return {.way = settings.way,
+            .materials = settings.material_test.value_or(
+                settings.occludes_by_last_frame ? gpu::MaterialTest::id : gpu::MaterialTest::depth)};
 }
 
 gpu::TargetOptions targetOptions(const FrameSettings& settings, const gpu::Scene& scene,

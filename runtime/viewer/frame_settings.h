@@ -21,7 +21,8 @@ struct FrameSettings
     gpu::ShadedArea shaded_area = gpu::ShadedArea::automatic;
     uint32_t cull_flags = shared::kCullEverything;
     bool occludes_by_last_frame = false;                         ///< as gpu::FrameInput
-    std::optional<gpu::MaterialTest> material_test;              ///< none: chooseMaterialTest
+    std::optional<gpu::FrameWay> way;                            ///< as gpu::RendererOptions
+    std::optional<gpu::MaterialTest> material_test;              ///< none: rendererOptions chooses
     uint32_t ambient_occlusion = shared::kAmbientOcclusionExact; ///< shared::kAmbientOcclusion*
     uint32_t specular_occlusion = shared::kSpecularOcclusionFit; ///< shared::kSpecularOcclusion*
     bool gi = true;                                              ///< GI, for packs with bricks
@@ -38,14 +39,17 @@ struct Named
 /// Return all views, the final one first.
 std::span<const Named<uint32_t>> viewNames();
 std::span<const Named<gpu::ShadedArea>> shadedAreaNames();
+/// Return the ways through a frame, the automatic choice first.
+std::span<const Named<std::optional<gpu::FrameWay>>> frameWayNames();
 std::span<const Named<gpu::MaterialTest>> materialTestNames();
 std::span<const Named<uint32_t>> ambientOcclusionNames();
 std::span<const Named<uint32_t>> specularOcclusionNames();
 /// Return the culling tests, one per flag.
 std::span<const Named<uint32_t>> cullTestNames();
 
-/// Choose the test of materials: by depth, unless something that follows needs the depth.
-gpu::MaterialTest chooseMaterialTest(const FrameSettings& settings);
+/// Return the options of a renderer for the settings. Materials are found by depth, unless something that
+/// follows needs the depth.
+gpu::RendererOptions rendererOptions(const FrameSettings& settings);
 
 /// Return the demands of frames with the settings on their targets.
 /// keeps_visibility  as gpu::TargetOptions

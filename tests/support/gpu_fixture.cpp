@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/support/gpu_fixture.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <dlfcn.h>
 #include <string_view>
@@ -25,13 +26,23 @@ void keepDriverLoaded()
     ::dlopen("libVkLayer_khronos_validation.so", RTLD_LAZY | RTLD_NODELETE);
 }
 
-/// Options by which the tests run, HEARTH_TEST_MATERIALS=depth|id.
+/// Value of an option by which the tests run: its index among the names, 0 if it is not set.
+size_t testOption(const char* variable, std::initializer_list<std::string_view> names)
+{
+    const char* value = std::getenv(variable);
+    if (value == nullptr)
+        return 0;
+    const auto found = std::find(names.begin(), names.end(), std::string_view(value));
+    HEARTH_ASSERT(found != names.end());
+    return static_cast<size_t>(found - names.begin());
+}
+
+/// Options by which the tests run, HEARTH_TEST_MATERIALS=depth|id and HEARTH_TEST_FRAME=merged|separate.
 gpu::RendererOptions rendererOptions()
 {
-    const char* materials = std::getenv("HEARTH_TEST_MATERIALS");
-    return {.materials = materials != nullptr && std::string_view(materials) == "id"
-                             ? gpu::MaterialTest::id
-                             : gpu::MaterialTest::depth};
+    return {.way = static_cast<gpu::FrameWay>(testOption("HEARTH_TEST_FRAME", {"merged", "separate"})),
+            .materials =
+                static_cast<gpu::MaterialTest>(testOption("HEARTH_TEST_MATERIALS", {"depth", "id"}))};
 }
 
 std::vector<uint32_t> toWords(const std::vector<std::byte>& bytes)

@@ -169,6 +169,14 @@ struct PassBarrier
     VkAccessFlags accessed = 0;
 };
 
+/// Change of an image's layout after a pass.
+struct LayoutChange
+{
+    FrameResource resource;
+    VkImageLayout from = VK_IMAGE_LAYOUT_UNDEFINED;
+    VkImageLayout to = VK_IMAGE_LAYOUT_UNDEFINED;
+};
+
 struct Pass
 {
     PassKind kind = PassKind::compute;
@@ -179,6 +187,8 @@ struct Pass
     HostWrite host_write = HostWrite::none;
     bool by_region = true; ///< dependencies between subpasses are between pixels
     PassBarrier barrier{}; ///< before the pass
+    /// Images that the pass reads and the caller gets after it, visible to transfers.
+    std::vector<LayoutChange> handed_out{};
 };
 
 /// Return the name of a pass: its steps, joined by " + ".
@@ -192,6 +202,18 @@ enum class OcclusionCulling : uint8_t
     two_phase,  ///< lossless
 };
 
+/// Way through a frame: its render passes. The image is the same.
+enum class FrameWay : uint8_t
+{
+    /// Render passes of two subpasses: shading reads the pixel's own value of the visibility buffer, which
+    /// need not leave the tile.
+    merged,
+    /// A render pass for each step that draws: shading samples the visibility buffer. For drivers that fail
+    /// at subpasses or do not merge them.
+    separate,
+};
+inline constexpr FrameWay kFrameWays[] = {FrameWay::merged, FrameWay::separate};
+
 /// Way in which shading finds the pixels of a material.
 enum class MaterialTest : uint8_t
 {
@@ -202,6 +224,7 @@ enum class MaterialTest : uint8_t
 /// Everything that decides which passes a frame has.
 struct FrameConfiguration
 {
+    FrameWay way = FrameWay::merged;
     OcclusionCulling occlusion = OcclusionCulling::two_phase;
     MaterialTest materials = MaterialTest::depth;
     bool material_tiles = false;

@@ -116,6 +116,11 @@ private:
                     warn(LintRule::spill, "loads the " + name + ", which left the tile");
             }
         }
+        if (pass_->kind == PassKind::render)
+            for (const ResourceUse& use : pass_->uses)
+                if (resourceFacts(use.resource).kind == ResourceKind::attachment)
+                    warn(LintRule::spill, std::string("samples the ") + resourceFacts(use.resource).name +
+                                              ", which left the tile");
         // content that a later pass reads is lost if this pass neither keeps nor stores it again
         for (const AttachmentUse& use : pass_->attachments)
         {

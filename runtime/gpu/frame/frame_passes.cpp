@@ -4,7 +4,7 @@
 #include "formats/gpu_shared/bindings.h"
 #include "runtime/gpu/frame/frame_plan.h"
 
-#include <array>
+#include <algorithm>
 
 namespace hearth::gpu
 {
@@ -12,18 +12,27 @@ namespace hearth::gpu
 namespace
 {
 
-FrameAttachment attachmentNumber(FrameResource resource)
+VkFormat attachmentFormat(FrameResource resource, MaterialTest materials)
 {
     switch (resource)
     {
     case FrameResource::visibility:
-        return kVisibility;
+        return kVisibilityFormat;
     case FrameResource::depth:
-        return kDepth;
+        return depthFormat(materials);
     default:
         HEARTH_ASSERT(resource == FrameResource::color);
-        return kColor;
+        return kColorFormat;
     }
+}
+
+/// Return the number of an attachment of the pass.
+uint32_t attachmentNumber(const Pass& pass, FrameResource resource)
+{
+    const auto found = std::find_if(pass.attachments.begin(), pass.attachments.end(),
+                                    [&](const AttachmentUse& use) { return use.resource == resource; });
+    HEARTH_ASSERT(found != pass.attachments.end());
+    return static_cast<uint32_t>(found - pass.attachments.begin());
 }
 
 VkAttachmentLoadOp toVulkan(LoadOperation load)
@@ -40,28 +49,24 @@ VkAttachmentLoadOp toVulkan(LoadOperation load)
     return VK_ATTACHMENT_LOAD_OP_DONT_CARE;
 }
 
-std::array<VkAttachmentDescription, kAttachmentCount> makeAttachments(const Pass& pass,
-                                                                      MaterialTest materials)
+std::vector<VkAttachmentDescription> makeAttachments(const Pass& pass, MaterialTest materials)
 {
-    HEARTH_ASSERT(pass.attachments.size() == kAttachmentCount);
-    std::array<VkAttachmentDescription, kAttachmentCount> attachments{};
+    std::vector<VkAttachmentDescription> attachments;
     for (const AttachmentUse& use : pass.attachments)
     {
-        const FrameAttachment number = attachmentNumber(use.resource);
-        VkAttachmentDescription& attachment = attachments[number];
-        attachment.format = number == kVisibility ? kVisibilityFormat
-                            : number == kDepth    ? depthFormat(materials)
-                                                  : kColorFormat;
+        VkAttachmentDescription attachment{};
+        attachment.format = attachmentFormat(use.resource, materials);
         attachment.samples = VK_SAMPLE_COUNT_1_BIT;
         attachment.loadOp = toVulkan(use.load);
         attachment.storeOp = use.store ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_DONT_CARE;
         attachment.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
         attachment.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
         // shading marks materials in a stencil that nothing before has written
-        if (number == kDepth && materials == MaterialTest::id)
+        if (use.resource == FrameResource::depth && materials == MaterialTest::id)
             attachment.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
         attachment.initialLayout = use.initial_layout;
         attachment.finalLayout = use.final_layout;
+        attachments.push_back(attachment);
     }
     return attachments;
 }
@@ -73,12 +78,12 @@ struct SubpassReferences
     VkAttachmentReference depth{VK_ATTACHMENT_UNUSED, VK_IMAGE_LAYOUT_UNDEFINED};
 };
 
-SubpassReferences makeReferences(const Subpass& subpass)
+SubpassReferences makeReferences(const Pass& pass, const Subpass& subpass)
 {
     SubpassReferences references;
     for (const ResourceUse& use : subpass.attachments)
     {
-        const VkAttachmentReference reference{attachmentNumber(use.resource), accessLayout(use.access)};
+        const VkAttachmentReference reference{attachmentNumber(pass, use.resource), accessLayout(use.access)};
         if (use.access == Access::color_write)
             references.colors.push_back(reference);
         else if (use.access == Access::input)
@@ -138,14 +143,13 @@ std::vector<VkSubpassDependency> makeDependencies(const Pass& pass)
 
 Result<UniqueRenderPass> createRenderPass(const Device& device, const Pass& pass, MaterialTest materials)
 {
-    HEARTH_ASSERT(pass.subpasses.size() == kSubpassCount);
     static_assert(shared::kInputVisibility == 0);
     const auto attachments = makeAttachments(pass, materials);
-    SubpassReferences references[kSubpassCount];
-    VkSubpassDescription subpasses[kSubpassCount] = {};
-    for (uint32_t i = 0; i < kSubpassCount; ++i)
+    std::vector<SubpassReferences> references(pass.subpasses.size());
+    std::vector<VkSubpassDescription> subpasses(pass.subpasses.size());
+    for (size_t i = 0; i < subpasses.size(); ++i)
     {
-        references[i] = makeReferences(pass.subpasses[i]);
+        references[i] = makeReferences(pass, pass.subpasses[i]);
         subpasses[i].inputAttachmentCount = static_cast<uint32_t>(references[i].inputs.size());
         subpasses[i].pInputAttachments = references[i].inputs.data();
         subpasses[i].colorAttachmentCount = static_cast<uint32_t>(references[i].colors.size());
@@ -156,10 +160,10 @@ Result<UniqueRenderPass> createRenderPass(const Device& device, const Pass& pass
 
     VkRenderPassCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO;
-    info.attachmentCount = kAttachmentCount;
+    info.attachmentCount = static_cast<uint32_t>(attachments.size());
     info.pAttachments = attachments.data();
-    info.subpassCount = kSubpassCount;
-    info.pSubpasses = subpasses;
+    info.subpassCount = static_cast<uint32_t>(subpasses.size());
+    info.pSubpasses = subpasses.data();
     info.dependencyCount = static_cast<uint32_t>(dependencies.size());
     info.pDependencies = dependencies.data();
     VkRenderPass handle;
@@ -170,35 +174,48 @@ Result<UniqueRenderPass> createRenderPass(const Device& device, const Pass& pass
 
 } // namespace
 
-Result<VkRenderPass> FramePasses::findOrCreate(const Device& device, const Pass& pass)
+Result<PlannedPass> FramePasses::findOrCreate(const Device& device, const Pass& pass)
 {
     Key key;
+    std::vector<FrameResource> attachments;
     for (const AttachmentUse& use : pass.attachments)
+    {
         key.insert(key.end(),
                    {static_cast<uint32_t>(use.resource), static_cast<uint32_t>(use.load), use.store ? 1u : 0u,
                     static_cast<uint32_t>(use.initial_layout), static_cast<uint32_t>(use.final_layout)});
-    const auto found = passes_.find(key);
-    if (found != passes_.end())
-        return found->second.get();
-    HEARTH_ASSIGN_OR_RETURN(UniqueRenderPass created, createRenderPass(device, pass, materials_));
-    return passes_.emplace(std::move(key), std::move(created)).first->second.get();
+        attachments.push_back(use.resource);
+    }
+    if (const auto found = passes_.find(key); found != passes_.end())
+        return PlannedPass{found->second.handle.get(), found->second.family};
+    CreatedPass created;
+    HEARTH_ASSIGN_OR_RETURN(created.handle, createRenderPass(device, pass, materials_));
+    const VkRenderPass handle = created.handle.get();
+    const auto family = std::find_if(families_.begin(), families_.end(),
+                                     [&](const PassFamily& f) { return f.attachments == attachments; });
+    created.family = static_cast<uint32_t>(family - families_.begin());
+    if (family == families_.end())
+        families_.push_back({std::move(attachments), handle});
+    const PlannedPass planned{handle, created.family};
+    passes_.emplace(std::move(key), std::move(created));
+    return planned;
 }
 
-Result<FramePasses> FramePasses::create(const Device& device, MaterialTest materials)
+Result<FramePasses> FramePasses::create(const Device& device, FrameWay way, MaterialTest materials)
 {
     FramePasses passes;
+    passes.way_ = way;
     passes.materials_ = materials;
-    for (const FrameConfiguration& configuration : allConfigurations(materials))
+    for (const FrameConfiguration& configuration : allConfigurations(way, materials))
     {
         FramePlan plan{describeFrame(configuration), {}};
         for (const Pass& pass : plan.description.passes)
         {
-            VkRenderPass handle = VK_NULL_HANDLE;
+            PlannedPass planned;
             if (pass.kind == PassKind::render)
             {
-                HEARTH_ASSIGN_OR_RETURN(handle, passes.findOrCreate(device, pass));
+                HEARTH_ASSIGN_OR_RETURN(planned, passes.findOrCreate(device, pass));
             }
-            plan.render_passes.push_back(handle);
+            plan.render_passes.push_back(planned);
         }
         HEARTH_ASSERT(configurationIndex(configuration) == passes.plans_.size());
         passes.plans_.push_back(std::move(plan));
@@ -209,6 +226,21 @@ Result<FramePasses> FramePasses::create(const Device& device, MaterialTest mater
 const FramePlan& FramePasses::plan(const FrameConfiguration& configuration) const
 {
     return plans_[configurationIndex(configuration)];
+}
+
+/// Any plan will do: passes of a family have the same subpasses.
+DrawPlace FramePasses::findPlace(FrameStep step) const
+{
+    const FramePlan& plan = plans_.front();
+    for (size_t number = 0; number < plan.render_passes.size(); ++number)
+    {
+        const std::vector<Subpass>& subpasses = plan.description.passes[number].subpasses;
+        for (uint32_t i = 0; i < subpasses.size(); ++i)
+            if (subpasses[i].step == step)
+                return {plan.render_passes[number].render_pass, i};
+    }
+    HEARTH_ASSERT(false);
+    return {};
 }
 
 } // namespace hearth::gpu

@@ -1,6 +1,7 @@
-// Render passes made from the table of a frame: each has the same two subpasses, the visibility buffer and
-// shading, so that all share pipelines and framebuffers. A pass that only fills the visibility buffer, or
-// only shades, leaves its other subpass empty.
+// Render passes made from the table of a frame. Those of a family have the same attachments and subpasses, so
+// that they share pipelines and framebuffers: all passes of FrameWay::merged, where a pass that only fills
+// the visibility buffer, or only shades, leaves its other subpass empty; with FrameWay::separate those that
+// fill the visibility buffer, and those that shade.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -12,22 +13,6 @@
 namespace hearth::gpu
 {
 
-enum SubpassNumber : uint32_t
-{
-    kSubpassVisibility = 0,
-    kSubpassShading = 1,
-    kSubpassCount,
-};
-
-/// Attachments of a framebuffer, in this order.
-enum FrameAttachment : uint32_t
-{
-    kVisibility,
-    kDepth,
-    kColor,
-    kAttachmentCount,
-};
-
 inline constexpr VkFormat kVisibilityFormat = VK_FORMAT_R32_UINT;
 inline constexpr VkFormat kColorFormat = VK_FORMAT_R8G8B8A8_SRGB;
 /// Depth and, with MaterialTest::id, a stencil of the low bits of material numbers.
@@ -36,11 +21,32 @@ constexpr VkFormat depthFormat(MaterialTest materials)
     return materials == MaterialTest::id ? VK_FORMAT_D32_SFLOAT_S8_UINT : VK_FORMAT_D32_SFLOAT;
 }
 
+/// A render pass of a plan.
+struct PlannedPass
+{
+    VkRenderPass render_pass = VK_NULL_HANDLE; ///< null: another pass, or of a shadow map
+    uint32_t family = 0;
+};
+
 /// A frame, and its render passes.
 struct FramePlan
 {
     FrameDescription description;
-    std::vector<VkRenderPass> render_passes; ///< [pass]; null for other passes, and for shadow maps
+    std::vector<PlannedPass> render_passes; ///< [pass]
+};
+
+/// Compatible render passes.
+struct PassFamily
+{
+    std::vector<FrameResource> attachments; ///< of framebuffers, in this order
+    VkRenderPass any_pass = VK_NULL_HANDLE;
+};
+
+/// Place of a pipeline's draws.
+struct DrawPlace
+{
+    VkRenderPass render_pass;
+    uint32_t subpass;
 };
 
 /// Plans of all configurations, made before any frame is recorded.
@@ -48,22 +54,34 @@ class FramePasses
 {
 public:
     /// errors: device_failed.
-    static Result<FramePasses> create(const Device& device, MaterialTest materials);
+    static Result<FramePasses> create(const Device& device, FrameWay way, MaterialTest materials);
 
+    FrameWay way() const { return way_; }
     MaterialTest materials() const { return materials_; }
-    /// Plan of a configuration; its test of materials and the scene's features do not matter.
+    /// Plan of a configuration; its way, its test of materials and the scene's features do not matter.
     const FramePlan& plan(const FrameConfiguration& configuration) const;
-    /// A pass for pipelines and framebuffers, which fit all passes of all plans.
-    VkRenderPass anyPass() const { return passes_.begin()->second.get(); }
+    std::span<const PassFamily> families() const { return families_; }
+    /// Return the place of pipelines that draw into the visibility buffer.
+    DrawPlace visibilityPlace() const { return findPlace(FrameStep::visibility); }
+    /// Return the place of pipelines that draw into the shaded frame.
+    DrawPlace shadingPlace() const { return findPlace(FrameStep::shading); }
 
 private:
-    /// Load and store operations and layouts of the three attachments.
+    /// Load and store operations and layouts of the attachments.
     using Key = std::vector<uint32_t>;
-    Result<VkRenderPass> findOrCreate(const Device& device, const Pass& pass);
+    Result<PlannedPass> findOrCreate(const Device& device, const Pass& pass);
+    DrawPlace findPlace(FrameStep step) const;
 
+    FrameWay way_ = FrameWay::merged;
     MaterialTest materials_ = MaterialTest::depth;
     std::vector<FramePlan> plans_; ///< configurationIndex
-    std::map<Key, UniqueRenderPass> passes_;
+    std::vector<PassFamily> families_;
+    struct CreatedPass
+    {
+        UniqueRenderPass handle;
+        uint32_t family = 0;
+    };
+    std::map<Key, CreatedPass> passes_;
 };
 
 } // namespace hearth::gpu

@@ -52,14 +52,17 @@ Step shadingStep(const FrameConfiguration& c)
     const bool by_depth = c.materials == MaterialTest::depth;
     Step step{.step = FrameStep::shading,
               .kind = PassKind::render,
-              .attachments = {{Resource::visibility, Access::input},
-                              {Resource::depth, by_depth ? Access::depth_write : Access::depth_keep,
+              .attachments = {{Resource::depth, by_depth ? Access::depth_write : Access::depth_keep,
                                by_depth ? Content::overwrite : Content::keep},
                               {Resource::color, Access::color_write,
                                c.shows_overdraw ? Content::begin : Content::overwrite}},
               .draws = {.cover = c.material_tiles ? Cover::tiles : Cover::triangle,
                         .discards = !by_depth,
                         .writes_fragment_depth = by_depth}};
+    if (c.way == FrameWay::merged)
+        step.attachments.push_back({Resource::visibility, Access::input});
+    else
+        step.uses.push_back({Resource::visibility, Access::fragment_read});
     if (c.material_tiles)
         step.uses.push_back({Resource::tile_lists, Access::vertex_read});
     if (c.gathers_light)
@@ -75,7 +78,7 @@ bool splitsAtVisibility(const FrameConfiguration& c)
     // the pyramid needs the scene's depth, which the numbers of materials overwrite
     const bool loses_depth =
         c.occlusion == OcclusionCulling::last_frame && c.materials == MaterialTest::depth;
-    return c.material_tiles || c.gathers_light || c.in_parts || loses_depth;
+    return c.way == FrameWay::separate || c.material_tiles || c.gathers_light || c.in_parts || loses_depth;
 }
 
 std::vector<Step> listSteps(const FrameConfiguration& c)
@@ -128,7 +131,7 @@ Subpass makeSubpass(const Step& step)
     return {.step = step.step, .attachments = step.attachments, .draws = step.draws};
 }
 
-/// Return the subpass of a step that is drawn elsewhere: all render passes of the frame have the same two.
+/// Return the subpass of a step that is drawn elsewhere: all merged render passes have the same two.
 Subpass makeEmptySubpass(const Step& step)
 {
     return {.step = step.step, .is_empty = true, .attachments = step.attachments};
@@ -156,9 +159,10 @@ std::vector<Pass> joinSteps(const FrameConfiguration& c, const std::vector<Step>
             continue;
         }
         Pass pass{.kind = step.kind, .steps = {step.step}, .uses = step.uses, .host_write = step.host_write};
-        if (drawsVisibility(step.step))
+        const bool is_merged = c.way == FrameWay::merged;
+        if (is_merged && drawsVisibility(step.step))
             pass.subpasses = {makeSubpass(step), makeEmptySubpass(shadingStep(c))};
-        else if (step.step == FrameStep::shading)
+        else if (is_merged && step.step == FrameStep::shading)
             pass.subpasses = {makeEmptySubpass(visibilityStep(FrameStep::visibility, Content::keep)),
                               makeSubpass(step)};
         else if (step.kind == PassKind::render)
@@ -273,7 +277,21 @@ void setAttachments(const FrameConfiguration& c, std::span<Pass> passes, size_t 
     }
 }
 
-/// Add the attachments that both subpasses share and the pass does not use: nothing loads or stores them.
+/// Hand out what the caller needs and no render pass can: an image that the frame reads last.
+void setHandedOut(const FrameConfiguration& c, std::span<Pass> passes,
+                  const std::array<VkImageLayout, kResourceCount>& stored)
+{
+    const VkImageLayout layout = stored[static_cast<size_t>(Resource::visibility)];
+    if (!isHandedOut(c, Resource::visibility) || layout == VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL)
+        return;
+    const auto last =
+        std::find_if(passes.rbegin(), passes.rend(),
+                     [](const Pass& pass) { return firstUse(pass, Resource::visibility) != nullptr; });
+    HEARTH_ASSERT(last != passes.rend() && layout != VK_IMAGE_LAYOUT_UNDEFINED);
+    last->handed_out.push_back({Resource::visibility, layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL});
+}
+
+/// Uses of a resource.
 struct Touch
 {
     VkPipelineStageFlags stages = 0;
@@ -288,10 +306,10 @@ struct Touch
 };
 
 /// Everything that any frame may do with a resource: frames before may have had other configurations.
-Touch touchByEarlierFrames(MaterialTest materials, Resource resource)
+Touch touchByEarlierFrames(FrameWay way, MaterialTest materials, Resource resource)
 {
     Touch touch;
-    for (FrameConfiguration c : allConfigurations(materials))
+    for (FrameConfiguration c : allConfigurations(way, materials))
     {
         c.has_shadows = true;
         for (const Step& step : listSteps(c))
@@ -334,7 +352,7 @@ Touch touchBefore(const FrameConfiguration& c, std::span<const Pass> passes, siz
         if (touch.written != 0)
             return touch;
     }
-    const Touch earlier = touchByEarlierFrames(c.materials, resource);
+    const Touch earlier = touchByEarlierFrames(c.way, c.materials, resource);
     touch.stages |= earlier.stages;
     touch.written |= earlier.written;
     return touch;
@@ -394,17 +412,19 @@ FrameDescription describeFrame(const FrameConfiguration& configuration)
         setAttachments(configuration, frame.passes, i, stored);
         setBarrier(configuration, frame.passes, i);
     }
+    setHandedOut(configuration, frame.passes, stored);
     frame.transient = findTransient(frame.passes);
     return frame;
 }
 
-std::vector<FrameConfiguration> allConfigurations(MaterialTest materials)
+std::vector<FrameConfiguration> allConfigurations(FrameWay way, MaterialTest materials)
 {
     std::vector<FrameConfiguration> all;
     for (const OcclusionCulling occlusion :
          {OcclusionCulling::off, OcclusionCulling::last_frame, OcclusionCulling::two_phase})
         for (uint32_t bits = 0; bits < 32; ++bits)
-            all.push_back({.occlusion = occlusion,
+            all.push_back({.way = way,
+                           .occlusion = occlusion,
                            .materials = materials,
                            .material_tiles = (bits & 1) != 0,
                            .gathers_light = (bits & 2) != 0,

@@ -12,8 +12,8 @@ namespace hearth::gpu
 /// an earlier pass of the frame has stored it.
 FrameDescription describeFrame(const FrameConfiguration& configuration);
 
-/// Return all configurations with a material test; scenes have neither shadows nor bricks.
-std::vector<FrameConfiguration> allConfigurations(MaterialTest materials);
+/// Return all configurations of a way with a material test; scenes have neither shadows nor bricks.
+std::vector<FrameConfiguration> allConfigurations(FrameWay way, MaterialTest materials);
 /// Position in the list of all configurations, whatever the scene has.
 uint32_t configurationIndex(const FrameConfiguration& configuration);
 

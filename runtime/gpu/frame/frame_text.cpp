@@ -12,6 +12,7 @@ namespace hearth::gpu
 namespace
 {
 
+constexpr const char* kWayNames[] = {"merged", "separate"};
 constexpr const char* kOcclusionNames[] = {"off", "last-frame", "two-phase"};
 constexpr const char* kMaterialTestNames[] = {"depth", "id"};
 constexpr const char* kLoadNames[] = {"none", "clear", "load"};
@@ -123,7 +124,8 @@ std::string jsonFinding(const LintFinding& finding)
 std::string jsonConfiguration(const FrameConfiguration& c)
 {
     const auto boolean = [](bool value) { return value ? "true" : "false"; };
-    return std::string("{\"occlusion\":") + quoted(enumName(kOcclusionNames, c.occlusion)) +
+    return std::string("{\"way\":") + quoted(enumName(kWayNames, c.way)) +
+           ",\"occlusion\":" + quoted(enumName(kOcclusionNames, c.occlusion)) +
            ",\"materials\":" + quoted(enumName(kMaterialTestNames, c.materials)) +
            ",\"material_tiles\":" + boolean(c.material_tiles) +
            ",\"gathers_light\":" + boolean(c.gathers_light) + ",\"in_parts\":" + boolean(c.in_parts) +

@@ -8,14 +8,14 @@ namespace hearth::gpu
 {
 
 Result<BinPass> BinPass::createVisibility(const Device& device, const DrawLayouts& layouts,
-                                          VkRenderPass render_pass)
+                                          const DrawPlace& place)
 {
     BinPass pass;
     pass.description_ = {.vertex = shaders::visibility_vert,
                          .fragment = shaders::visibility_frag,
                          .layout = layouts.visibility.get(),
-                         .render_pass = render_pass,
-                         .subpass = kSubpassVisibility,
+                         .render_pass = place.render_pass,
+                         .subpass = place.subpass,
                          .depth_compare =
                              VK_COMPARE_OP_GREATER, // reversed depth: 1 at the near plane, 0 at infinity
                          .depth_write = true,
@@ -26,14 +26,14 @@ Result<BinPass> BinPass::createVisibility(const Device& device, const DrawLayout
 }
 
 Result<BinPass> BinPass::createOverdraw(const Device& device, const DrawLayouts& layouts,
-                                        VkRenderPass render_pass)
+                                        const DrawPlace& place)
 {
     BinPass pass;
     pass.description_ = {.vertex = shaders::visibility_vert,
                          .fragment = shaders::overdraw_frag,
                          .layout = layouts.visibility.get(),
-                         .render_pass = render_pass,
-                         .subpass = kSubpassShading,
+                         .render_pass = place.render_pass,
+                         .subpass = place.subpass,
                          .depth_compare = VK_COMPARE_OP_ALWAYS,
                          .depth_write = false,
                          .color = true,

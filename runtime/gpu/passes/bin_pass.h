@@ -1,9 +1,9 @@
-// Draws the visible clusters, one indirect draw per bin. Draws into the visibility buffer in the first
-// subpass of the frame. For the overdraw view draws once more in the last subpass, where every fragment is
-// added to the image. Draws shadow casters into a shadow map.
+// Draws the visible clusters, one indirect draw per bin: into the visibility buffer; for the overdraw view
+// once more into the shaded frame, where every fragment is added to the image; shadow casters into a map.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "runtime/gpu/frame/frame_passes.h"
 #include "runtime/gpu/scene/scene.h"
 
 #include <optional>
@@ -15,9 +15,9 @@ class BinPass
 {
 public:
     static Result<BinPass> createVisibility(const Device& device, const DrawLayouts& layouts,
-                                            VkRenderPass render_pass);
+                                            const DrawPlace& place);
     static Result<BinPass> createOverdraw(const Device& device, const DrawLayouts& layouts,
-                                          VkRenderPass render_pass);
+                                          const DrawPlace& place);
 
     static Result<BinPass> createCasters(const Device& device, const DrawLayouts& layouts,
                                          VkRenderPass render_pass);

@@ -61,10 +61,10 @@ Result<FrameTargets> FrameTargets::create(const Device& device, const FramePasse
                          std::to_string(extent.height) + " pixels"};
     FrameTargets t(device, extent, options);
     HEARTH_TRY(t.createImages(device, passes));
-    HEARTH_TRY(t.createFramebuffer(device, passes.anyPass()));
+    HEARTH_TRY(t.createFramebuffers(device, passes));
     HEARTH_TRY(t.createPyramid(device));
     HEARTH_TRY(t.createTileLists(device));
-    HEARTH_TRY(t.createSets(device, layouts));
+    HEARTH_TRY(t.createSets(device, layouts, passes.way()));
     return t;
 }
 
@@ -79,7 +79,7 @@ bool FrameTargets::allows(const FrameConfiguration& c) const
 Status FrameTargets::createImages(const Device& device, const FramePasses& passes)
 {
     std::set<FrameResource> leave_tile;
-    for (const FrameConfiguration& c : allConfigurations(passes.materials()))
+    for (const FrameConfiguration& c : allConfigurations(passes.way(), passes.materials()))
         if (allows(c))
             for (const Pass& pass : passes.plan(c).description.passes)
                 for (const AttachmentUse& use : pass.attachments)
@@ -99,8 +99,10 @@ Status FrameTargets::createImages(const Device& device, const FramePasses& passe
                         .kind = on_tile ? MemoryKind::transient : MemoryKind::device}));
         return success();
     };
+    const bool is_input = passes.way() == FrameWay::merged;
     HEARTH_TRY(create(visibility_, FrameResource::visibility, kVisibilityFormat,
-                      VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_INPUT_ATTACHMENT_BIT,
+                      VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
+                          (is_input ? VkImageUsageFlags{VK_IMAGE_USAGE_INPUT_ATTACHMENT_BIT} : 0),
                       VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
                       VK_IMAGE_ASPECT_COLOR_BIT));
     const bool has_stencil = passes.materials() == MaterialTest::id;
@@ -115,22 +117,34 @@ Status FrameTargets::createImages(const Device& device, const FramePasses& passe
                   VK_IMAGE_USAGE_TRANSFER_SRC_BIT, VK_IMAGE_ASPECT_COLOR_BIT);
 }
 
-Status FrameTargets::createFramebuffer(const Device& device, VkRenderPass render_pass)
+VkImageView FrameTargets::attachmentView(FrameResource resource) const
 {
-    const VkImageView views[kAttachmentCount] = {visibility_.view.get(), depth_.view.get(),
-                                                 color_.view.get()};
-    VkFramebufferCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
-    info.renderPass = render_pass;
-    info.attachmentCount = kAttachmentCount;
-    info.pAttachments = views;
-    info.width = extent_.width;
-    info.height = extent_.height;
-    info.layers = 1;
-    VkFramebuffer framebuffer;
-    HEARTH_TRY_VK(device.vk.vkCreateFramebuffer(device.handle, &info, device.allocator, &framebuffer),
-                  "create a framebuffer");
-    framebuffer_ = UniqueFramebuffer(device, framebuffer);
+    return (resource == FrameResource::visibility ? visibility_
+            : resource == FrameResource::depth    ? depth_
+                                                  : color_)
+        .view.get();
+}
+
+Status FrameTargets::createFramebuffers(const Device& device, const FramePasses& passes)
+{
+    for (const PassFamily& family : passes.families())
+    {
+        std::vector<VkImageView> views;
+        for (const FrameResource resource : family.attachments)
+            views.push_back(attachmentView(resource));
+        VkFramebufferCreateInfo info{};
+        info.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
+        info.renderPass = family.any_pass;
+        info.attachmentCount = static_cast<uint32_t>(views.size());
+        info.pAttachments = views.data();
+        info.width = extent_.width;
+        info.height = extent_.height;
+        info.layers = 1;
+        VkFramebuffer framebuffer;
+        HEARTH_TRY_VK(device.vk.vkCreateFramebuffer(device.handle, &info, device.allocator, &framebuffer),
+                      "create a framebuffer");
+        framebuffers_.emplace_back(device, framebuffer);
+    }
     return success();
 }
 
@@ -182,7 +196,7 @@ Status FrameTargets::createTileLists(const Device& device)
     return success();
 }
 
-Status FrameTargets::createSets(const Device& device, const DrawLayouts& layouts)
+Status FrameTargets::createSets(const Device& device, const DrawLayouts& layouts, FrameWay way)
 {
     HEARTH_ASSIGN_OR_RETURN(texel_sampler_, createTexelSampler(device));
     if (options_.gathers_light)
@@ -192,13 +206,16 @@ Status FrameTargets::createSets(const Device& device, const DrawLayouts& layouts
     }
     const DescriptorPoolSizes sizes{.uniforms = kMaxFramesInFlight,
                                     .storages = 3 + kMaxFramesInFlight,
-                                    .textures = 2 + kMaxFramesInFlight,
+                                    .textures = 3 + kMaxFramesInFlight,
                                     .inputs = 1};
     HEARTH_ASSIGN_OR_RETURN(pool_, createDescriptorPool(device, 2 + kMaxFramesInFlight, sizes));
     HEARTH_ASSIGN_OR_RETURN(set_, allocateSet(device, pool_.get(), layouts.attachments.get()));
     DescriptorWriter attachments(set_);
-    attachments.input(shared::kAttachmentVisibility, visibility_.view.get())
-        .storage(shared::kAttachmentTileLists, tile_lists_);
+    if (way == FrameWay::merged)
+        attachments.input(shared::kAttachmentVisibility, visibility_.view.get());
+    else
+        attachments.texture(shared::kAttachmentVisibility, visibility_.view.get(), texel_sampler_.get());
+    attachments.storage(shared::kAttachmentTileLists, tile_lists_);
     if (!gather_)
     {
         HEARTH_ASSIGN_OR_RETURN(no_light_, createTexel(arena_, GatherTargets::kFormat));

@@ -46,7 +46,8 @@ public:
     const Image& visibility() const { return visibility_; }
     const Image& depth() const { return depth_; }
     const Image& color() const { return color_; }
-    VkFramebuffer framebuffer() const { return framebuffer_.get(); }
+    /// Framebuffer of a PassFamily.
+    VkFramebuffer framebuffer(uint32_t family) const { return framebuffers_[family].get(); }
     VkDescriptorSet attachments() const { return set_; }
     VkDeviceSize allocatedBytes() const { return arena_.allocatedBytes(); }
     /// Bytes of attachments that exist on the tile only, where the device has lazily allocated memory;
@@ -82,10 +83,11 @@ private:
     {
     }
     Status createImages(const Device& device, const FramePasses& passes);
-    Status createFramebuffer(const Device& device, VkRenderPass render_pass);
+    Status createFramebuffers(const Device& device, const FramePasses& passes);
+    VkImageView attachmentView(FrameResource resource) const;
     Status createPyramid(const Device& device);
     Status createTileLists(const Device& device);
-    Status createSets(const Device& device, const DrawLayouts& layouts);
+    Status createSets(const Device& device, const DrawLayouts& layouts, FrameWay way);
 
     VkExtent2D extent_;
     TargetOptions options_;
@@ -96,7 +98,7 @@ private:
     Image color_;
     // texels in place of images that no frame reads: some drivers look at all descriptors of a set
     Image no_depth_, no_light_;
-    UniqueFramebuffer framebuffer_;
+    std::vector<UniqueFramebuffer> framebuffers_; ///< [family]
     Buffer pyramid_;
     Buffer tile_materials_;
     Buffer tile_lists_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/passes/material_marks_pass.h"
 
-#include "runtime/shaders/shaders.h"
+#include "runtime/gpu/passes/visibility_reading.h"
 
 #include <algorithm>
 #include <bit>
@@ -15,19 +15,21 @@ Result<MaterialMarksPass> MaterialMarksPass::create(const Device& device, const 
     MaterialMarksPass pass;
     pass.materials_ = passes.materials();
     const bool by_depth = pass.materials_ == MaterialTest::depth;
+    const DrawPlace place = passes.shadingPlace();
+    const shaders::Variant reading = shaderVariant(passes.way());
     HEARTH_ASSIGN_OR_RETURN(
         pass.pipeline_,
-        createGraphicsPipeline(
-            device, {.vertex = shaders::fullscreen_vert,
-                     .fragment = by_depth ? shaders::material_depth_frag : shaders::material_stencil_frag,
-                     .layout = layouts.shading.get(),
-                     .render_pass = passes.anyPass(),
-                     .subpass = kSubpassShading,
-                     .depth_compare = VK_COMPARE_OP_ALWAYS,
-                     .depth_write = by_depth,
-                     .color = true,
-                     .color_write = false,
-                     .stencil = by_depth ? Stencil::none : Stencil::mark}));
+        createGraphicsPipeline(device, {.vertex = shaders::fullscreen_vert,
+                                        .fragment = (by_depth ? shaders::material_depth_frag
+                                                              : shaders::material_stencil_frag)[reading],
+                                        .layout = layouts.shading.get(),
+                                        .render_pass = place.render_pass,
+                                        .subpass = place.subpass,
+                                        .depth_compare = VK_COMPARE_OP_ALWAYS,
+                                        .depth_write = by_depth,
+                                        .color = true,
+                                        .color_write = false,
+                                        .stencil = by_depth ? Stencil::none : Stencil::mark}));
     return pass;
 }
 

@@ -1,5 +1,5 @@
 // Marks which material each pixel has, so that a fixed-function test limits the draw of a material to its
-// pixels: in the depth, or in a stencil where the depth has to stay. Begins the shading subpass.
+// pixels: in the depth, or in a stencil where the depth has to stay. Begins FrameStep::shading.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -19,7 +19,7 @@ public:
     static Result<MaterialMarksPass> create(const Device& device, const DrawLayouts& layouts,
                                             const FramePasses& passes);
 
-    /// Record inside subpass kSubpassShading, with viewport and scissor set. Clobbers the graphics state.
+    /// Record in FrameStep::shading, with viewport and scissor set. Clobbers the graphics state.
     void record(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
                 const Scene& scene, const FrameTargets& targets) const;
 

@@ -37,6 +37,7 @@ public:
 private:
     void beginPass(size_t number);
     void nextSubpass();
+    void handOut(const LayoutChange& change);
 
     const Device& device_;
     VkCommandBuffer commands_;

@@ -2,7 +2,7 @@
 #include "runtime/gpu/passes/shading_pass.h"
 
 #include "runtime/gpu/passes/material_marks_pass.h"
-#include "runtime/shaders/shaders.h"
+#include "runtime/gpu/passes/visibility_reading.h"
 
 #include <algorithm>
 
@@ -48,8 +48,8 @@ GraphicsDescription ShadingPass::describe(std::span<const uint32_t> fragment, Vk
     return {.vertex = shaders::shaded_area_vert,
             .fragment = fragment,
             .layout = layout,
-            .render_pass = render_pass_,
-            .subpass = kSubpassShading,
+            .render_pass = place_.render_pass,
+            .subpass = place_.subpass,
             .depth_compare = by_depth ? VK_COMPARE_OP_EQUAL : VK_COMPARE_OP_ALWAYS,
             .depth_write = false,
             .color = true,
@@ -98,14 +98,16 @@ Result<ShadingPass> ShadingPass::create(const Device& device, const DrawLayouts&
                                         const FramePasses& passes)
 {
     ShadingPass pass;
-    pass.render_pass_ = passes.anyPass();
+    pass.place_ = passes.shadingPlace();
+    pass.way_ = passes.way();
+    const shaders::Variant reading = shaderVariant(pass.way_);
     pass.material_test_ = passes.materials();
     pass.view_constants_[shared::kConstantComparesMaterial] = pass.material_test_ == MaterialTest::id ? 1 : 0;
-    GraphicsDescription sky = pass.describe(shaders::sky_frag, layouts.shading.get());
+    GraphicsDescription sky = pass.describe(shaders::sky_frag[reading], layouts.shading.get());
     sky.constants = pass.view_constants_;
     HEARTH_ASSIGN_OR_RETURN(pass.sky_, createGraphicsPipeline(device, sky));
     GraphicsDescription clusters =
-        pass.describeSurfaceView(shaders::view_clusters_frag, layouts.clusters.get());
+        pass.describeSurfaceView(shaders::view_clusters_frag[reading], layouts.clusters.get());
     clusters.constants = pass.view_constants_;
     HEARTH_ASSIGN_OR_RETURN(pass.cluster_views_, createGraphicsPipeline(device, clusters));
     return pass;
@@ -118,7 +120,8 @@ Result<ShadingPipelines> ShadingPass::prepare(const Device& device, const DrawLa
     if (variant.shadows != 0 && shadow_maps.get() == VK_NULL_HANDLE)
     {
         const DrawConstants constants = drawConstants(variant, true);
-        GraphicsDescription maps = describeSurfaceView(shaders::view_shadow_maps_frag, layouts.shading.get());
+        GraphicsDescription maps =
+            describeSurfaceView(shaders::view_shadow_maps_frag[shaderVariant(way_)], layouts.shading.get());
         maps.constants = constants;
         HEARTH_ASSIGN_OR_RETURN(shadow_maps, createGraphicsPipeline(device, maps));
     }
@@ -130,17 +133,18 @@ Result<ShadingPipelines> ShadingPass::prepare(const Device& device, const DrawLa
     {
         const DrawConstants constants = drawConstants(variant, false);
         GraphicsDescription description =
-            describe(variant.shadows != 0 ? shaders::shading_shadowed_frag : shaders::shading_frag,
+            describe((variant.shadows != 0 ? shaders::shading_shadowed_frag
+                                           : shaders::shading_frag)[shaderVariant(way_)],
                      layouts.shading.get());
         description.constants = constants;
         HEARTH_ASSIGN_OR_RETURN(pipelines.final_pipeline, createGraphicsPipeline(device, description));
         if (variant.bricks != 0)
         {
-            description.fragment =
-                variant.shadows != 0 ? shaders::shading_shadowed_gi_frag : shaders::shading_gi_frag;
+            description.fragment = (variant.shadows != 0 ? shaders::shading_shadowed_gi_frag
+                                                         : shaders::shading_gi_frag)[shaderVariant(way_)];
             HEARTH_ASSIGN_OR_RETURN(pipelines.final_gi_pipeline, createGraphicsPipeline(device, description));
         }
-        description.fragment = shaders::view_surface_frag;
+        description.fragment = shaders::view_surface_frag[shaderVariant(way_)];
         HEARTH_ASSIGN_OR_RETURN(pipelines.debug_view_pipeline, createGraphicsPipeline(device, description));
     }
     return ShadingPipelines{pipelines.final_pipeline.get(), pipelines.final_gi_pipeline.get(),
@@ -162,7 +166,8 @@ Status ShadingPass::prepareBrickViews(const Device& device, const DrawLayouts& l
     if (gathered.get() == VK_NULL_HANDLE)
     {
         const DrawConstants constants = drawConstants(variant, true);
-        GraphicsDescription light = describeSurfaceView(shaders::view_gi_frag, layouts.shading.get());
+        GraphicsDescription light =
+            describeSurfaceView(shaders::view_gi_frag[shaderVariant(way_)], layouts.shading.get());
         light.constants = constants;
         HEARTH_ASSIGN_OR_RETURN(gathered, createGraphicsPipeline(device, light));
     }

@@ -1,5 +1,5 @@
 // Shades the frame: the sky, then each visible material in its own pixels, which the depth test or the
-// stencil finds. Second subpass, after the material marks.
+// stencil finds. Follows the material marks.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -62,7 +62,7 @@ public:
     Result<ShadingPipelines> prepare(const Device& device, const DrawLayouts& layouts,
                                      const ShadingVariant& variant);
 
-    /// Record inside subpass kSubpassShading, with viewport and scissor set. Clobbers the graphics state.
+    /// Record in FrameStep::shading, with viewport and scissor set. Clobbers the graphics state.
     void record(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
                 const Scene& scene, const FrameTargets& targets, const ShadingSettings& view) const;
 
@@ -94,7 +94,8 @@ private:
     DrawConstants drawConstants(const ShadingVariant& variant, bool resolves_only) const;
     void setStencil(const Device& device, VkCommandBuffer commands, uint32_t material) const;
 
-    VkRenderPass render_pass_ = VK_NULL_HANDLE;
+    DrawPlace place_{};
+    FrameWay way_ = FrameWay::merged;
     MaterialTest material_test_ = MaterialTest::depth;
     DrawConstants view_constants_{}; ///< of pipelines that reconstruct no surface
     UniquePipeline sky_;

@@ -55,10 +55,10 @@ Status DrawLayouts::createSceneSets(const Device& device)
     return success();
 }
 
-Status DrawLayouts::createFrameSets(const Device& device)
+Status DrawLayouts::createFrameSets(const Device& device, VkDescriptorType visibility_type)
 {
     const SetBinding attachment_bindings[] = {
-        {shared::kAttachmentVisibility, VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT, kFragmentStage},
+        {shared::kAttachmentVisibility, visibility_type, kFragmentStage},
         storageBinding(shared::kAttachmentTileLists, kVertexStage),
         textureBinding(shared::kAttachmentGi, kFragmentStage)};
     HEARTH_ASSIGN_OR_RETURN(attachments, createSetLayout(device, attachment_bindings));
@@ -123,11 +123,11 @@ Status DrawLayouts::createPipelineLayouts(const Device& device)
     return success();
 }
 
-Result<DrawLayouts> DrawLayouts::create(const Device& device)
+Result<DrawLayouts> DrawLayouts::create(const Device& device, VkDescriptorType visibility)
 {
     DrawLayouts layouts;
     HEARTH_TRY(layouts.createSceneSets(device));
-    HEARTH_TRY(layouts.createFrameSets(device));
+    HEARTH_TRY(layouts.createFrameSets(device, visibility));
     HEARTH_TRY(layouts.createBrickSets(device));
     HEARTH_TRY(layouts.createPipelineLayouts(device));
     return layouts;

@@ -44,11 +44,12 @@ struct DrawLayouts
     UniquePipelineLayout clusters;    ///< cluster_view, attachments: debug views of clusters
     UniquePipelineLayout brick_views; ///< bricks: debug views of bricks
 
-    static Result<DrawLayouts> create(const Device& device);
+    /// visibility  type of kAttachmentVisibility: an input attachment, or an image with its sampler
+    static Result<DrawLayouts> create(const Device& device, VkDescriptorType visibility);
 
 private:
     Status createSceneSets(const Device& device);
-    Status createFrameSets(const Device& device);
+    Status createFrameSets(const Device& device, VkDescriptorType visibility_type);
     Status createBrickSets(const Device& device);
     Status createPipelineLayouts(const Device& device);
 };

@@ -9,22 +9,6 @@ namespace hearth::gpu
 namespace
 {
 
-struct RequiredFormat
-{
-    VkFormat format;
-    VkFormatFeatureFlags features;
-    const char* name;
-};
-
-constexpr RequiredFormat kRequiredFormats[] = {
-    {VK_FORMAT_R32_UINT, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT, "R32_UINT"},
-    {VK_FORMAT_R8G8B8A8_SRGB,
-     VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT,
-     "R8G8B8A8_SRGB"},
-    {VK_FORMAT_D32_SFLOAT, VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT, "D32_SFLOAT"},
-    {VK_FORMAT_D16_UNORM, VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT, "D16_UNORM"},
-};
-
 /// True if textures of the format can be uploaded and filtered.
 bool canSample(const DeviceTable& vk, VkPhysicalDevice physical_device, VkFormat format)
 {
@@ -37,7 +21,7 @@ bool canSample(const DeviceTable& vk, VkPhysicalDevice physical_device, VkFormat
 
 } // namespace
 
-Result<Device> makeDevice(const DeviceDescription& description)
+Result<Device> makeDevice(const DeviceDescription& description, std::span<const RequiredFormat> more_formats)
 {
     Device device;
     const char* missing =
@@ -51,15 +35,12 @@ Result<Device> makeDevice(const DeviceDescription& description)
     device.vk.vkGetPhysicalDeviceProperties(description.physical_device, &properties);
     if (properties.apiVersion < VK_API_VERSION_1_1)
         return Error{Issue::device, "", "", std::string(properties.deviceName) + " has no Vulkan 1.1"};
-    for (const RequiredFormat& required : kRequiredFormats)
-    {
-        VkFormatProperties format;
-        device.vk.vkGetPhysicalDeviceFormatProperties(description.physical_device, required.format, &format);
-        if ((format.optimalTilingFeatures & required.features) != required.features)
-            return Error{Issue::device, "", "",
-                         std::string(properties.deviceName) + " cannot render to " + required.name};
-    }
+    HEARTH_TRY(checkLimits(properties));
+    for (const std::span<const RequiredFormat> formats : {requiredFormats(), more_formats})
+        for (const RequiredFormat& required : formats)
+            HEARTH_TRY(checkFormat(device.vk, description.physical_device, properties, required));
     device.vk.vkGetPhysicalDeviceMemoryProperties(description.physical_device, &device.memory);
+    device.identity = {properties.vendorID, properties.deviceName};
     device.limits = properties.limits;
     device.handle = description.device;
     device.allocator = description.allocator;

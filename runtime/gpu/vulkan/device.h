@@ -3,8 +3,10 @@
 #pragma once
 
 #include "formats/base/result.h"
+#include "runtime/gpu/vulkan/device_limits.h"
 #include "runtime/gpu/vulkan/memory_hooks.h"
 
+#include <string>
 #include <utility>
 
 namespace hearth::gpu
@@ -37,6 +39,13 @@ struct DeviceDescription
     MessageHook message_hook{};
 };
 
+/// Maker and name of a device.
+struct DeviceIdentity
+{
+    uint32_t vendor = 0; ///< of the PCI, or of Khronos
+    std::string name;
+};
+
 /// Device of the renderer. Everything else holds a reference to it, so it must not move once it is used.
 struct Device
 {
@@ -49,12 +58,14 @@ struct Device
     bool sampler_anisotropy = false;
     /// Textures may have R16G16B16A16_UNORM, which Vulkan does not require.
     bool samples_unorm16 = false;
+    DeviceIdentity identity{};
     VkPhysicalDeviceLimits limits{};
     VkPhysicalDeviceMemoryProperties memory{};
 };
 
-/// errors: device if an entry point or a required format is missing.
-Result<Device> makeDevice(const DeviceDescription& description);
+/// errors: device if an entry point, a limit or a format is missing: requiredLimits(), requiredFormats().
+Result<Device> makeDevice(const DeviceDescription& description,
+                          std::span<const RequiredFormat> more_formats = {});
 
 /// Warn the caller that something is degraded. Allocates only if the caller has set a hook.
 void warn(const Device& device, const std::string& name, const std::string& where, const std::string& what);

@@ -6,13 +6,15 @@
 #include "formats/gpu_shared/occlusion.h"
 #include "formats/gpu_shared/push_constants.h"
 
-layout(local_size_x = kPyramidTilePixels / 2u, local_size_y = kPyramidTilePixels / 2u) in;
+const uint kSide = kPyramidTilePixels / 2u; // of a tile in level 1
+// half as many rows: 128 threads, the largest workgroup that every device has
+layout(local_size_x = kSide, local_size_y = kSide / 2u) in;
 
 layout(set = kSetPyramid, binding = kOcclusionPyramid, std430) writeonly buffer Pyramid { float pyramid[]; };
 layout(set = kSetPyramid, binding = kOcclusionDepth) uniform sampler2D depth_buffer;
 layout(push_constant) uniform Push { PyramidPush push; };
 
-shared float tile[kPyramidTilePixels / 2u][kPyramidTilePixels / 2u];
+shared float tile[kSide][kSide];
 
 // Depth of a pixel. Pixels beyond the edge are clamped to the edge; they lie in the same texel.
 float depthAt(uvec2 pixel)
@@ -27,20 +29,29 @@ void write(uint level, uvec2 texel, float farthest)
         pyramid[pyramidOffset(push.width, push.height, level) + texel.y * size.x + texel.x] = farthest;
 }
 
+// Computes a texel of level 1.
+void reducePixels(uvec2 local)
+{
+    uvec2 texel = gl_WorkGroupID.xy * kSide + local;
+    uvec2 pixel = texel * 2u;
+    float farthest = min(min(depthAt(pixel), depthAt(pixel + uvec2(1u, 0u))),
+                         min(depthAt(pixel + uvec2(0u, 1u)), depthAt(pixel + uvec2(1u, 1u))));
+    write(1u, texel, farthest);
+    tile[local.y][local.x] = farthest;
+}
+
 void main()
 {
     uvec2 local = gl_LocalInvocationID.xy;
-    uvec2 pixel = gl_GlobalInvocationID.xy * 2u;
-    float farthest = min(min(depthAt(pixel), depthAt(pixel + uvec2(1u, 0u))),
-                         min(depthAt(pixel + uvec2(0u, 1u)), depthAt(pixel + uvec2(1u, 1u))));
-    write(1u, gl_GlobalInvocationID.xy, farthest);
+    reducePixels(local);
+    reducePixels(local + uvec2(0u, kSide / 2u));
     uint last = min(pyramidLevels(push.width, push.height), kPyramidTileLevels);
     for (uint level = 2u; level <= last; ++level)
     {
         uint side = kPyramidTilePixels >> level;
-        tile[local.y][local.x] = farthest;
-        barrier();
         bool in_tile = local.x < side && local.y < side;
+        float farthest = 0.0;
+        barrier();
         if (in_tile)
         {
             uvec2 at = local * 2u;
@@ -49,5 +60,7 @@ void main()
             write(level, gl_WorkGroupID.xy * side + local, farthest);
         }
         barrier();
+        if (in_tile)
+            tile[local.y][local.x] = farthest;
     }
 }

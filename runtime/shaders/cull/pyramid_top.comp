@@ -6,7 +6,8 @@
 #include "formats/gpu_shared/occlusion.h"
 #include "formats/gpu_shared/push_constants.h"
 
-layout(local_size_x = 256) in;
+const uint kThreads = 128u; // the largest workgroup that every device has
+layout(local_size_x = kThreads) in;
 
 layout(set = kSetPyramid, binding = kOcclusionPyramid, std430) coherent buffer Pyramid { float pyramid[]; };
 layout(push_constant) uniform Push { PyramidPush push; };
@@ -20,7 +21,7 @@ void main()
         uvec2 size_below = uvec2(pyramidSize(push.width, level - 1u), pyramidSize(push.height, level - 1u));
         uint offset = pyramidOffset(push.width, push.height, level);
         uvec2 size = uvec2(pyramidSize(push.width, level), pyramidSize(push.height, level));
-        for (uint i = gl_LocalInvocationIndex; i < size.x * size.y; i += 256u)
+        for (uint i = gl_LocalInvocationIndex; i < size.x * size.y; i += kThreads)
         {
             uvec2 low = uvec2(i % size.x, i / size.x) * 2u;
             uvec2 high = min(low + 1u, size_below - 1u);

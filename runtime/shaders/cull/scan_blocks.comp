@@ -8,13 +8,13 @@
 #include "formats/gpu_shared/records.h"
 #include "runtime/shaders/cull/scan.glsl"
 
-layout(local_size_x = 256) in;
+layout(local_size_x = kScanThreads) in;
 
 layout(set = kSetTables, binding = kTableResults, std430) buffer Results { WorkResult results[]; };
 layout(set = kSetTables, binding = kTableTotals, std430) writeonly buffer Totals { uint totals[]; };
 layout(push_constant) uniform Push { ScanBlocksPush push; };
 
-const uint kItemsPerThread = kScanBlockItems / 256u;
+const uint kItemsPerThread = kScanBlockItems / kScanThreads;
 
 void main()
 {
@@ -29,7 +29,7 @@ void main()
         sum += counts[i];
     }
     uint total;
-    uint offset = exclusiveScan256(sum, total);
+    uint offset = exclusiveScan(sum, total);
     for (uint i = 0u; i < kItemsPerThread; ++i)
     {
         if (first + i < push.item_count)

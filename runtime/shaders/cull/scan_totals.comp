@@ -8,7 +8,7 @@
 #include "formats/gpu_shared/records.h"
 #include "runtime/shaders/cull/scan.glsl"
 
-layout(local_size_x = 256) in;
+layout(local_size_x = kScanThreads) in;
 
 layout(set = kSetTables, binding = kTableTotals, std430) buffer Totals { uint totals[]; };
 layout(set = kSetTables, binding = kTableCounters, std430) buffer Counters { FrameCounters counters; };
@@ -18,12 +18,12 @@ void main()
 {
     uint early = push.phase == kPhaseLate ? counters.drawn_clusters : 0u;
     uint sum = early;
-    for (uint first = 0u; first < push.block_count; first += 256u)
+    for (uint first = 0u; first < push.block_count; first += kScanThreads)
     {
         uint i = first + gl_LocalInvocationIndex;
         uint value = i < push.block_count ? totals[i] : 0u;
         uint total;
-        uint offset = exclusiveScan256(value, total);
+        uint offset = exclusiveScan(value, total);
         if (i < push.block_count)
             totals[i] = sum + offset;
         sum += total;

@@ -10,7 +10,7 @@
 
 void main()
 {
-    uint id = subpassLoad(visibility).x;
+    uint id = loadVisibility();
     uint material = id == kVisibilitySky ? 0u : cluster_draws[visible[id >> kTriangleBits].cluster].material;
     gl_FragDepth = float(material) * kMaterialDepthStep;
 }

@@ -11,7 +11,7 @@
 
 void main()
 {
-    uint id = subpassLoad(visibility).x;
+    uint id = loadVisibility();
     uint material = id == kVisibilitySky ? 0u : cluster_draws[visible[id >> kTriangleBits].cluster].material;
     if ((material >> push.material & 1u) == 0u)
         discard;

@@ -7,7 +7,7 @@
 #include "runtime/shaders/draw/tiles.glsl"
 #include "runtime/shaders/cull/scan.glsl"
 
-layout(local_size_x = 256) in;
+layout(local_size_x = kScanThreads) in;
 
 layout(set = kSetTables, binding = kTableTileDraws, std430) readonly buffer TileDraws { TileDraw tile_draws[]; };
 layout(set = kSetTiles, binding = kTilesMaterials, std430) readonly buffer TileMaterials { uint tile_materials[]; };
@@ -34,12 +34,12 @@ void main()
     uint entry = draw.first_vertex / kTileVertices;
     uint end = entry + draw.instance_count;
     uint row = materialTiles(push.width);
-    for (uint first = 0u; entry < end; first += 256u)
+    for (uint first = 0u; entry < end; first += kScanThreads)
     {
         uint tile = first + gl_LocalInvocationIndex;
         bool has = tile < row * materialTiles(push.height) && tileHas(tile, material);
         uint total;
-        uint rank = exclusiveScan256(has ? 1u : 0u, total);
+        uint rank = exclusiveScan(has ? 1u : 0u, total);
         if (has)
             tile_lists[entry + rank] = (tile % row) | (tile / row) << 16;
         entry += total;

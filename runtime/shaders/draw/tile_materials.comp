@@ -8,7 +8,7 @@
 #include "runtime/shaders/draw/tiles.glsl"
 #include "runtime/shaders/cull/scan.glsl"
 
-layout(local_size_x = 256) in;
+layout(local_size_x = kScanThreads) in;
 
 layout(set = kSetTables, binding = kTableVisible, std430) readonly buffer Visible { VisibleCluster visible[]; };
 layout(set = kSetTables, binding = kTableDraws, std430) readonly buffer Draws { ClusterDraw cluster_draws[]; };
@@ -16,7 +16,7 @@ layout(set = kSetTables, binding = kTableTileDraws, std430) buffer TileDraws { T
 layout(set = kSetTiles, binding = kTilesVisibility) uniform usampler2D visibility;
 layout(set = kSetTiles, binding = kTilesMaterials, std430) writeonly buffer TileMaterials { uint tile_materials[]; };
 
-const uint kPixelsPerThread = kMaterialTilePixels * kMaterialTilePixels / 256u;
+const uint kPixelsPerThread = kMaterialTilePixels * kMaterialTilePixels / kScanThreads;
 
 shared uint visible_bits[kTileRoundMaterials / 32u]; // bit m: material first_material + m is visible
 
@@ -53,7 +53,7 @@ void main()
     uint materials[kPixelsPerThread];
     for (uint i = 0u; i < kPixelsPerThread; ++i)
     {
-        uint pixel = i * 256u + lane;
+        uint pixel = i * kScanThreads + lane;
         materials[i] = materialAt(origin + uvec2(pixel % kMaterialTilePixels, pixel / kMaterialTilePixels));
     }
 
@@ -72,7 +72,7 @@ void main()
         barrier();
         uint word = visible_bits[lane];
         uint total;
-        uint rank = exclusiveScan256(uint(bitCount(word)), total);
+        uint rank = exclusiveScan(uint(bitCount(word)), total);
         appendMaterials(word, first + lane * 32u, tile, found + rank);
         found += total;
     }

@@ -19,7 +19,7 @@ layout(location = 0) out vec4 out_color;
 
 void main()
 {
-    uint id = subpassLoad(visibility).x;
+    uint id = loadVisibility();
     if (isForeign(id))
         discard;
     Surface s = resolveSurface(id, gl_FragCoord.xy);

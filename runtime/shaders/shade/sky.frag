@@ -20,7 +20,7 @@ layout(location = 0) out vec4 out_color;
 
 void main()
 {
-    if (kComparesMaterial && subpassLoad(visibility).x != kVisibilitySky)
+    if (kComparesMaterial && loadVisibility() != kVisibilitySky)
         discard;
     vec2 ndc = gl_FragCoord.xy * 2.0 / vec2(view.width, view.height) - 1.0;
     // the rows are orthogonal, so this is the direction with clip coordinates (ndc, 1)

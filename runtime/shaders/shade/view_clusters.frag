@@ -15,8 +15,8 @@ layout(set = kSetTables, binding = kTableInstances, std430) readonly buffer Inst
 layout(set = kSetTables, binding = kTableVisible, std430) readonly buffer Visible { VisibleCluster visible[]; };
 layout(set = kSetTables, binding = kTableClusters, std430) readonly buffer Clusters { Cluster clusters[]; };
 layout(set = kSetTables, binding = kTableGroups, std430) readonly buffer Groups { Group groups[]; };
-layout(input_attachment_index = kInputVisibility, set = kSetClusterAttachments, binding = kAttachmentVisibility)
-    uniform usubpassInput visibility;
+#define HEARTH_VISIBILITY_SET kSetClusterAttachments
+#include "runtime/shaders/scene/visibility_input.glsl"
 
 layout(constant_id = kConstantComparesMaterial) const bool kComparesMaterial = false;
 
@@ -50,7 +50,7 @@ vec3 coneColor(Cluster cluster)
 
 void main()
 {
-    uint id = subpassLoad(visibility).x;
+    uint id = loadVisibility();
     if (kComparesMaterial && id == kVisibilitySky)
         discard;
     VisibleCluster slot = visible[id >> kTriangleBits];

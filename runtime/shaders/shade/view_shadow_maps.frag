@@ -27,7 +27,7 @@ vec3 mapColor(uint map)
 
 void main()
 {
-    uint id = subpassLoad(visibility).x;
+    uint id = loadVisibility();
     if (isForeign(id))
         discard;
     Surface s = resolveSurface(id, gl_FragCoord.xy);

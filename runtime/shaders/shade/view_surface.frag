@@ -70,7 +70,7 @@ vec3 skyVisibilityColor(Surface s)
 
 void main()
 {
-    uint id = subpassLoad(visibility).x;
+    uint id = loadVisibility();
     if (isForeign(id))
         discard;
     Surface s = resolveSurface(id, gl_FragCoord.xy);

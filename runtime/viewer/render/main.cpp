@@ -507,9 +507,8 @@ Status drawPack(const RenderOptions& options, const formats::PackView& pack, Vul
     animation.goTo(0);
     HEARTH_ASSIGN_OR_RETURN(const std::optional<Sheet> sheet, chooseSheet(options, pack));
     HEARTH_ASSIGN_OR_RETURN(OutputCameras images, chooseImages(options, pack, animation.player(), sheet));
-    HEARTH_ASSIGN_OR_RETURN(
-        const std::unique_ptr<gpu::Renderer> renderer,
-        gpu::Renderer::create(host.description(), {.materials = chooseMaterialTest(options.settings)}));
+    HEARTH_ASSIGN_OR_RETURN(const std::unique_ptr<gpu::Renderer> renderer,
+                            gpu::Renderer::create(host.description(), rendererOptions(options.settings)));
     if (options.settings.view == shared::kViewOverdraw)
         HEARTH_TRY(renderer->prepareOverdraw());
     std::unique_ptr<gpu::Scene> scene;

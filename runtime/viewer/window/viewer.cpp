@@ -128,9 +128,8 @@ Status Viewer::open(const ViewOptions& options)
     HEARTH_ASSIGN_OR_RETURN(
         host_, VulkanHost::create(
                    {.device_name = options.device, .validate = options.validate, .window = &host_window}));
-    HEARTH_ASSIGN_OR_RETURN(
-        renderer_,
-        gpu::Renderer::create(host_->description(), {.materials = chooseMaterialTest(settings_.frame)}));
+    HEARTH_ASSIGN_OR_RETURN(renderer_,
+                            gpu::Renderer::create(host_->description(), rendererOptions(settings_.frame)));
     HEARTH_TRY(renderer_->prepareOverdraw());
     HEARTH_ASSIGN_OR_RETURN(vk_, loadWindowTable(host_->description()));
     const gpu::Device& device = renderer_->device();

@@ -117,6 +117,27 @@ TEST_F(CApiTest, messagesTellWhatIsDegraded)
     EXPECT_THAT(messages[0], testing::HasSubstr("page " + std::to_string(reader.bad_page)));
 }
 
+TEST_F(CApiTest, descriptionsOfVersionOneOneAreTaken)
+{
+    hearth_renderer_description description = c_caller_description(caller_);
+    description.api_version = 0x00010001u;
+    description.struct_size = offsetof(hearth_renderer_description, frame_way);
+    description.frame_way = 77; // refused if it were read
+    recreateRenderer(description);
+    expectEqual(drawInC(makeFrame()), drawInCpp({}));
+}
+
+TEST_F(CApiTest, everyWayThroughAFrameDrawsTheSame)
+{
+    hearth_renderer_description description = c_caller_description(caller_);
+    for (const uint32_t way : {HEARTH_FRAME_AUTOMATIC, HEARTH_FRAME_MERGED, HEARTH_FRAME_SEPARATE})
+    {
+        description.frame_way = way;
+        recreateRenderer(description);
+        expectEqual(drawInC(makeFrame()), drawInCpp({}));
+    }
+}
+
 TEST_F(CApiTest, descriptionsOfVersionOneZeroAreTaken)
 {
     hearth_renderer_description description = c_caller_description(caller_);

@@ -235,6 +235,9 @@ TEST_F(CApiTest, otherVersionsAreRefused)
     description.features = 1u << 31;
     EXPECT_EQ(hearth_renderer_create(&description, &renderer, nullptr, 0), HEARTH_ERROR_USAGE);
     description = c_caller_description(caller_);
+    description.frame_way = 3;
+    EXPECT_EQ(hearth_renderer_create(&description, &renderer, nullptr, 0), HEARTH_ERROR_USAGE);
+    description = c_caller_description(caller_);
     description.device = VK_NULL_HANDLE;
     EXPECT_EQ(hearth_renderer_create(&description, &renderer, nullptr, 0), HEARTH_ERROR_USAGE);
     EXPECT_EQ(renderer, nullptr);

@@ -144,7 +144,7 @@ gpu::UniquePipelineLayout createForwardLayout(const gpu::Device& device, const g
 ForwardRenderer::ForwardRenderer(viewer::VulkanHost& host, const gpu::Device& device)
     : host_(host),
       device_(device),
-      layouts_(take(gpu::DrawLayouts::create(device))),
+      layouts_(take(gpu::DrawLayouts::create(device, VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT))),
       forward_layout_(createForwardLayout(device, layouts_)),
       forward_pass_(createForwardPass(device)),
       derivatives_pass_(createDerivativesPass(device))

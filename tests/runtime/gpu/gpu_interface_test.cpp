@@ -9,6 +9,7 @@
 #include "tests/runtime/shaders/shader_list.h"
 #include "tests/support/shapes.h"
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 #include <gmock/gmock.h>
@@ -61,17 +62,21 @@ protected:
         ASSERT_TRUE(host.ok()) << formatMessage(host.error());
         host_ = std::move(*host);
         const gpu::DeviceDescription recording = recordPipelines(host_->description());
-        auto created = gpu::Renderer::create(recording);
-        ASSERT_TRUE(created.ok());
-        gpu::Renderer& recorded = **created;
-        uploadRocks(recorded);
-        uploadDeformed(recorded);
-        uploadBricks(recorded, {});
-        uploadBricks(recorded, {.max_maps = 4});
-        ASSERT_TRUE(recorded.prepareOverdraw().ok());
-        // the stencil is the other test's
-        const auto by_id = gpu::Renderer::create(recording, {.materials = gpu::MaterialTest::id});
-        ASSERT_TRUE(by_id.ok());
+        for (const gpu::FrameWay way : gpu::kFrameWays)
+        {
+            auto created = gpu::Renderer::create(recording, {.way = way});
+            ASSERT_TRUE(created.ok());
+            gpu::Renderer& recorded = **created;
+            uploadRocks(recorded);
+            uploadDeformed(recorded);
+            uploadBricks(recorded, {});
+            uploadBricks(recorded, {.max_maps = 4});
+            ASSERT_TRUE(recorded.prepareOverdraw().ok());
+            // the stencil is the other test's
+            const auto by_id =
+                gpu::Renderer::create(recording, {.way = way, .materials = gpu::MaterialTest::id});
+            ASSERT_TRUE(by_id.ok());
+        }
         both_ = {{}, recordedPipelines(), sharedStructs(), constantIds()};
         for (const ListedShader& shader : listedShaders())
             both_.shaders.push_back({shader.name,
@@ -137,6 +142,56 @@ protected:
 
 GpuInterface GpuInterfaceTest::both_;
 
+constexpr VkShaderStageFlags kAnyStage = ~VkShaderStageFlags{0};
+
+/// Count the descriptors of a pipeline in a stage, or in all, by the names of the limits.
+template <typename Use>
+void countDescriptors(const RecordedPipeline& pipeline, VkShaderStageFlags stage, const Use& use)
+{
+    uint64_t storages = 0, uniforms = 0, textures = 0, images = 0, inputs = 0;
+    for (const RecordedSet& set : pipeline.sets)
+        for (const VkDescriptorSetLayoutBinding& binding : set)
+            if ((binding.stageFlags & stage) != 0)
+                (binding.descriptorType == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER           ? storages
+                 : binding.descriptorType == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER         ? uniforms
+                 : binding.descriptorType == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER ? textures
+                 : binding.descriptorType == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE          ? images
+                                                                                       : inputs) +=
+                    binding.descriptorCount;
+    if (stage == kAnyStage)
+    {
+        use("maxDescriptorSetStorageBuffers", storages);
+        use("maxDescriptorSetUniformBuffers", uniforms);
+        use("maxDescriptorSetSamplers", textures);
+        use("maxDescriptorSetSampledImages", textures);
+        return;
+    }
+    use("maxPerStageDescriptorStorageBuffers", storages);
+    use("maxPerStageDescriptorUniformBuffers", uniforms);
+    use("maxPerStageDescriptorSamplers", textures);
+    use("maxPerStageDescriptorSampledImages", textures);
+    use("maxPerStageDescriptorStorageImages", images);
+    use("maxPerStageDescriptorInputAttachments", inputs);
+    const uint64_t colors = stage == VK_SHADER_STAGE_FRAGMENT_BIT ? 1 : 0;
+    use("maxPerStageResources", storages + uniforms + textures + images + inputs + colors);
+}
+
+/// Return the uniform blocks of a shader: blocks are in the order of the buffers among the resources.
+std::vector<ReflectedStruct> uniformBlocks(const ShaderReflection& reflection)
+{
+    std::vector<ReflectedStruct> uniforms;
+    size_t block = 0;
+    for (const ReflectedResource& resource : reflection.resources)
+    {
+        if (resource.type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER)
+            uniforms.push_back(reflection.blocks.at(block));
+        if (resource.type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER ||
+            resource.type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER)
+            ++block;
+    }
+    return uniforms;
+}
+
 } // namespace
 
 TEST_F(GpuInterfaceTest, shadersAndCppAgree)
@@ -145,6 +200,38 @@ TEST_F(GpuInterfaceTest, shadersAndCppAgree)
         ADD_FAILURE() << difference;
     EXPECT_GT(both_.shaders.size(), 40u);
     EXPECT_GT(both_.pipelines.size(), both_.shaders.size());
+}
+
+TEST_F(GpuInterfaceTest, theRequiredLimitsAreThoseOfThePipelines)
+{
+    std::map<std::string, uint64_t> used;
+    const auto use = [&](const std::string& name, uint64_t value)
+    { used[name] = std::max(used[name], value); };
+    for (const RecordedPipeline& pipeline : both_.pipelines)
+    {
+        use("maxBoundDescriptorSets", pipeline.sets.size());
+        for (const VkPushConstantRange& range : pipeline.push)
+            use("maxPushConstantsSize", range.offset + range.size);
+        for (const VkShaderStageFlags stage : {VkShaderStageFlags{VK_SHADER_STAGE_VERTEX_BIT},
+                                               VkShaderStageFlags{VK_SHADER_STAGE_FRAGMENT_BIT},
+                                               VkShaderStageFlags{VK_SHADER_STAGE_COMPUTE_BIT}, kAnyStage})
+            countDescriptors(pipeline, stage, use);
+    }
+    for (const InterfaceShader& shader : both_.shaders)
+    {
+        const std::array<uint32_t, 3>& size = shader.reflection.workgroup;
+        use("maxComputeWorkGroupInvocations", uint64_t{size[0]} * size[1] * size[2]);
+        use("maxComputeWorkGroupSize[0]", size[0]);
+        use("maxComputeWorkGroupSize[1]", size[1]);
+        use("maxComputeSharedMemorySize", shader.reflection.shared_bytes);
+        EXPECT_LE(size[2], 1u);
+        for (const ReflectedStruct& block : uniformBlocks(shader.reflection))
+            use("maxUniformBufferRange", block.size);
+    }
+    use("maxStorageBufferRange", uint64_t{4} << shared::kPoolSliceAddressBits);
+    for (const gpu::RequiredLimit& limit : gpu::requiredLimits())
+        EXPECT_EQ(limit.needed, used[limit.name]) << limit.name;
+    EXPECT_EQ(used.size(), gpu::requiredLimits().size());
 }
 
 TEST_F(GpuInterfaceTest, findsADescriptorOfAnotherTypeOrStage)

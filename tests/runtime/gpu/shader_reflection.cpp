@@ -4,6 +4,7 @@
 #include "formats/base/assert.h"
 
 #include <algorithm>
+#include <map>
 #include <spirv_cross/spirv_cross_c.h>
 #include <utility>
 
@@ -54,6 +55,10 @@ public:
         for (const spvc_reflected_resource& block : list(resources, SPVC_RESOURCE_TYPE_PUSH_CONSTANT))
             result_.push = describe(block.base_type_id);
         addConstants();
+        if (spvc_compiler_get_execution_model(compiler_) == SpvExecutionModelGLCompute)
+            for (unsigned i = 0; i < 3; ++i)
+                result_.workgroup[i] = spvc_compiler_get_execution_mode_argument_by_index(
+                    compiler_, SpvExecutionModeLocalSize, i);
         return std::move(result_);
     }
 
@@ -142,11 +147,57 @@ private:
     ShaderReflection result_;
 };
 
+/// Sum the sizes of a module's workgroup variables, of scalars of four bytes without padding.
+uint32_t countSharedBytes(std::span<const uint32_t> words)
+{
+    std::map<uint32_t, uint32_t> type_bytes, constants, pointed;
+    uint32_t sum = 0;
+    constexpr size_t kHeaderWords = 5;
+    for (size_t i = kHeaderWords; i < words.size(); i += words[i] >> 16)
+    {
+        const std::span<const uint32_t> op = words.subspan(i, words[i] >> 16);
+        switch (op[0] & 0xFFFFu)
+        {
+        case SpvOpTypeBool:
+        case SpvOpTypeInt:
+        case SpvOpTypeFloat:
+            type_bytes[op[1]] = 4;
+            break;
+        case SpvOpTypeVector:
+        case SpvOpTypeMatrix:
+            type_bytes[op[1]] = type_bytes[op[2]] * op[3];
+            break;
+        case SpvOpTypeArray:
+            type_bytes[op[1]] = type_bytes[op[2]] * constants.at(op[3]);
+            break;
+        case SpvOpTypeStruct:
+            for (const uint32_t member : op.subspan(2))
+                type_bytes[op[1]] += type_bytes[member];
+            break;
+        case SpvOpConstant:
+            constants[op[2]] = op[3];
+            break;
+        case SpvOpTypePointer:
+            pointed[op[1]] = op[3];
+            break;
+        case SpvOpVariable:
+            if (op[3] == SpvStorageClassWorkgroup)
+                sum += type_bytes.at(pointed.at(op[1]));
+            break;
+        default:
+            break;
+        }
+    }
+    return sum;
+}
+
 } // namespace
 
 ShaderReflection reflectShader(std::span<const uint32_t> words)
 {
-    return Reflector(words).reflect();
+    ShaderReflection reflection = Reflector(words).reflect();
+    reflection.shared_bytes = countSharedBytes(words);
+    return reflection;
 }
 
 } // namespace hearth::test

@@ -4,6 +4,7 @@
 
 #include "runtime/gpu/vulkan/device_table.h"
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -48,6 +49,8 @@ struct ShaderReflection
     std::vector<ReflectedStruct> blocks;      ///< uniform blocks and storage buffers
     std::vector<ReflectedStruct> structs;     ///< structs inside blocks, each once
     std::vector<ReflectedConstant> constants;
+    std::array<uint32_t, 3> workgroup{}; ///< threads; zeros: no compute shader
+    uint32_t shared_bytes = 0;           ///< memory of a workgroup
 };
 
 /// Reflect a module. Names are empty if it has been stripped.

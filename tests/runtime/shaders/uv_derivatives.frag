@@ -15,7 +15,7 @@ layout(location = 0) out vec4 out_derivatives;
 
 void main()
 {
-    uint id = subpassLoad(visibility).x;
+    uint id = loadVisibility();
     out_derivatives = vec4(0.0);
     if (id == kVisibilitySky)
         return;

@@ -4,6 +4,7 @@
 #include "runtime/gpu/frame/frame_lint.h"
 #include "runtime/gpu/frame/frame_plan.h"
 #include "runtime/gpu/frame/frame_text.h"
+#include "runtime/gpu/frame/frame_way.h"
 
 #include <functional>
 #include <gtest/gtest.h>
@@ -22,13 +23,14 @@ using namespace gpu;
 std::vector<FrameConfiguration> everyConfiguration()
 {
     std::vector<FrameConfiguration> all;
-    for (const MaterialTest materials : {MaterialTest::depth, MaterialTest::id})
-        for (FrameConfiguration c : allConfigurations(materials))
-            for (const bool rich : {false, true})
-            {
-                c.has_shadows = c.lights_bricks = rich;
-                all.push_back(c);
-            }
+    for (const FrameWay way : kFrameWays)
+        for (const MaterialTest materials : {MaterialTest::depth, MaterialTest::id})
+            for (FrameConfiguration c : allConfigurations(way, materials))
+                for (const bool rich : {false, true})
+                {
+                    c.has_shadows = c.lights_bricks = rich;
+                    all.push_back(c);
+                }
     return all;
 }
 
@@ -135,6 +137,7 @@ const AllowedWarning kAllowed[] = {
      "compute passes cannot run within a render pass: tiles, gathered light, parts; or a pyramid of the "
      "depth "
      "that material numbers overwrite"},
+    {LintRule::spill, "shading", "samples the visibility", "separate passes, which the device needs"},
     {LintRule::bubble, "early pyramid", "depth", "two phases: the late one culls against this frame's depth"},
     {LintRule::bubble, "pyramid", "depth", "the next frame culls against it; nothing of this frame waits"},
     {LintRule::bubble, "material tiles", "visibility",
@@ -244,6 +247,60 @@ TEST(FramePasses, haveFewBytesAPixel)
         EXPECT_LE(gather.high, base.high + 10);
         EXPECT_LE(all.low, base.low + 22);
         EXPECT_LE(all.high, base.high + 22);
+    }
+}
+
+TEST(FramePasses, separateTakeTheBytesOfUnmergedSubpasses)
+{
+    for (const MaterialTest materials : {MaterialTest::depth, MaterialTest::id})
+        for (FrameConfiguration c : allConfigurations(FrameWay::separate, materials))
+        {
+            const FrameDescription frame = describeFrame(c);
+            const Traffic separate = measureTraffic(frame);
+            c.way = FrameWay::merged;
+            const FrameDescription merged_frame = describeFrame(c);
+            // a subpass that reads the visibility buffer of an earlier pass stores it again for the caller
+            const bool is_split =
+                findPass(merged_frame, FrameStep::visibility) != findPass(merged_frame, FrameStep::shading);
+            const double stored_again = c.keeps_visibility && is_split ? 4 : 0;
+            const Traffic merged = measureTraffic(merged_frame);
+            EXPECT_DOUBLE_EQ(separate.low, separate.high) << nameConfiguration(c);
+            EXPECT_DOUBLE_EQ(separate.high, merged.high - stored_again) << nameConfiguration(c);
+            EXPECT_DOUBLE_EQ(separate.buffers, merged.buffers);
+            for (const Pass& pass : frame.passes)
+                EXPECT_EQ(pass.subpasses.size(), pass.kind == PassKind::render ? 1u : 0u);
+        }
+}
+
+TEST(FramePasses, partsLeaveTheSameImageStatesOnEveryWay)
+{
+    const auto layouts = [](const Pass& pass)
+    {
+        // before and after; of an image that the pass samples and hands out, too
+        std::pair<VkImageLayout, VkImageLayout> found{};
+        for (const AttachmentUse& use : pass.attachments)
+            if (use.resource == FrameResource::visibility)
+                found = {use.initial_layout, use.final_layout};
+        for (const LayoutChange& change : pass.handed_out)
+            found = {change.from, change.to};
+        return found;
+    };
+    for (const MaterialTest materials : {MaterialTest::depth, MaterialTest::id})
+    {
+        FrameConfiguration c{.materials = materials, .in_parts = true, .keeps_visibility = true};
+        const FrameDescription merged = describeFrame(c);
+        c.way = FrameWay::separate;
+        const FrameDescription separate = describeFrame(c);
+        for (const FrameStep step : {FrameStep::visibility, FrameStep::shading})
+        {
+            const Pass *one = findPass(merged, step), *other = findPass(separate, step);
+            EXPECT_EQ(layouts(*one), layouts(*other)) << stepName(step);
+            EXPECT_NE(layouts(*one).second, VK_IMAGE_LAYOUT_UNDEFINED);
+        }
+        // shading waits for what the caller does between the parts
+        const PassBarrier& wait = findPass(separate, FrameStep::shading)->barrier;
+        EXPECT_EQ(wait.from & kCallerStages, kCallerStages);
+        EXPECT_NE(wait.to & VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, 0u);
     }
 }
 
@@ -380,6 +437,22 @@ TEST(FrameLint, findsAPlantedErrorOfEachRule)
         error.plant(frame);
         EXPECT_GT(countFindings(frame, error.rule), before) << ruleName(error.rule);
     }
+}
+
+TEST(FrameWays, areChosenByWhatIsKnownOfADevice)
+{
+    constexpr uint32_t kApple = 0x106B, kArm = 0x13B5, kQualcomm = 0x5143;
+    EXPECT_EQ(chooseFrameWay({kArm, "Mali-G52"}), FrameWay::separate);
+    EXPECT_EQ(chooseFrameWay({kArm, "Mali-G76 MC4"}), FrameWay::separate);
+    EXPECT_EQ(chooseFrameWay({kArm, "Mali-G77"}), FrameWay::separate);
+    EXPECT_EQ(chooseFrameWay({kArm, "Mali-G720-Immortalis MC12"}), FrameWay::merged)
+        << "another than the G72";
+    EXPECT_EQ(chooseFrameWay({kArm, "Mali-G78"}), FrameWay::merged);
+    EXPECT_EQ(chooseFrameWay({kQualcomm, "Adreno (TM) 740"}), FrameWay::separate);
+    EXPECT_EQ(chooseFrameWay({kQualcomm, "Turnip Adreno (TM) 740"}), FrameWay::merged) << "another driver";
+    EXPECT_EQ(chooseFrameWay({kApple, "Apple M1"}), FrameWay::separate);
+    EXPECT_EQ(chooseFrameWay({kQualcomm, "Mali-G52"}), FrameWay::merged) << "another maker";
+    EXPECT_EQ(chooseFrameWay({}), FrameWay::merged);
 }
 
 TEST(FrameText, saysWhatCrossesTheBus)

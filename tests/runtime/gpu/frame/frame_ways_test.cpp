@@ -7,6 +7,8 @@
 #include "tests/support/test_scene.h"
 
 #include <cmath>
+#include <map>
+#include <optional>
 #include <random>
 #include <set>
 
@@ -16,6 +18,7 @@ namespace hearth::test
 namespace
 {
 
+using gpu::FrameWay;
 using gpu::MaterialTest;
 using gpu::ShadedArea;
 
@@ -42,19 +45,22 @@ void fillRocks(TestScene& test, uint32_t materials, uint32_t spare)
 class FrameWaysTest : public GpuTest
 {
 protected:
-    /// Draw two frames by a renderer of its own, and return the second one.
-    Image drawBy(const gpu::RendererOptions& options, const formats::PackView& pack, const DrawOptions& shown,
-                 bool last_frame = false)
+    static void TearDownTestSuite()
     {
-        auto renderer = gpu::Renderer::create(host().description(), options);
-        HEARTH_ASSERT(renderer.ok());
-        const gpu::Renderer& r = **renderer;
-        HEARTH_ASSERT((*renderer)->prepareOverdraw().ok());
+        renderers_.clear();
+        GpuTest::TearDownTestSuite();
+    }
+
+    /// Draw two frames by the renderer of the options, and return the second one.
+    Image drawBy(const gpu::RendererOptions& options, const formats::PackView& pack, const DrawOptions& shown,
+                 bool last_frame = false, bool in_parts = false)
+    {
+        gpu::Renderer& r = findRenderer(options);
         std::unique_ptr<gpu::Scene> scene;
         run(
             [&](VkCommandBuffer commands)
             {
-                auto uploaded = (*renderer)->upload(pack, commands, {.shadows = {.max_maps = 4}});
+                auto uploaded = r.upload(pack, commands, {.shadows = {.max_maps = 4}});
                 HEARTH_ASSERT(uploaded.ok());
                 scene = std::move(*uploaded);
             });
@@ -65,10 +71,15 @@ protected:
             run(
                 [&](VkCommandBuffer commands)
                 {
-                    r.record(commands, *scene, *targets,
-                             {.view = makeView(*scene, kCamera, shown),
-                              .shading = {.debug_view = shown.debug_view, .area = shown.area},
-                              .occludes_by_last_frame = last_frame});
+                    const gpu::FrameInput input{
+                        .view = makeView(*scene, kCamera, shown),
+                        .shading = {.debug_view = shown.debug_view, .area = shown.area},
+                        .occludes_by_last_frame = last_frame};
+                    if (!in_parts)
+                        return r.record(commands, *scene, *targets, input);
+                    r.recordCull(commands, *scene, *targets, input);
+                    r.recordVisibility(commands, *scene, *targets, input);
+                    r.recordMaterials(commands, *scene, *targets, input);
                 });
         return readImage(*scene, *targets);
     }
@@ -85,10 +96,53 @@ protected:
                           .ok());
     }
 
+    static gpu::Renderer& findRenderer(const gpu::RendererOptions& options)
+    {
+        auto& renderer = renderers_[{options.way, options.materials}];
+        if (renderer == nullptr)
+        {
+            auto created = gpu::Renderer::create(host().description(), options);
+            HEARTH_ASSERT(created.ok() && (*created)->prepareOverdraw().ok());
+            renderer = std::move(*created);
+        }
+        return *renderer;
+    }
+
     static constexpr shared::Camera kCamera{.position = {4, 2, 7}, .target = {}};
+
+private:
+    static std::map<std::pair<std::optional<FrameWay>, MaterialTest>, std::unique_ptr<gpu::Renderer>>
+        renderers_;
 };
 
+std::map<std::pair<std::optional<FrameWay>, MaterialTest>, std::unique_ptr<gpu::Renderer>>
+    FrameWaysTest::renderers_;
+
 } // namespace
+
+TEST_F(FrameWaysTest, separatePassesDrawTheSameImage)
+{
+    TestScene test;
+    fillRocks(test, 12, 40);
+    const formats::PackView pack = test.build();
+    const Image expected = drawBy({.way = FrameWay::merged}, pack, {});
+    EXPECT_GT(std::set<uint32_t>(expected.color.begin(), expected.color.end()).size(), 100u);
+    constexpr uint32_t kNoOcclusion = shared::kCullEverything & ~shared::kCullOcclusion;
+    for (const MaterialTest materials : {MaterialTest::depth, MaterialTest::id})
+        for (const ShadedArea area : {ShadedArea::wholeFrame, ShadedArea::tiles})
+        {
+            const gpu::RendererOptions options{.way = FrameWay::separate, .materials = materials};
+            const Image images[] = {drawBy(options, pack, {.area = area}),
+                                    drawBy(options, pack, {.flags = kNoOcclusion, .area = area}),
+                                    drawBy(options, pack, {.area = area}, true),
+                                    drawBy(options, pack, {.area = area}, false, true),
+                                    drawBy(options, pack, {.area = area}, true, true)};
+            for (const Image& image : images)
+                EXPECT_EQ(image.color, expected.color);
+            EXPECT_EQ(images[0].visibility, expected.visibility);
+            EXPECT_EQ(images[3].visibility, expected.visibility);
+        }
+}
 
 TEST_F(FrameWaysTest, materialsByIdAreMaterialsByDepth)
 {
@@ -118,9 +172,12 @@ TEST_F(FrameWaysTest, everyDebugViewIsTheSame)
         if (shared::viewNeedsBricks(view.number))
             continue;
         const DrawOptions shown{.debug_view = view.number};
-        EXPECT_EQ(drawBy({.materials = MaterialTest::id}, pack, shown).color,
-                  drawBy({.materials = MaterialTest::depth}, pack, shown).color)
-            << view.name;
+        const Image expected = drawBy({.materials = MaterialTest::depth}, pack, shown);
+        EXPECT_EQ(drawBy({.materials = MaterialTest::id}, pack, shown).color, expected.color) << view.name;
+        for (const MaterialTest materials : {MaterialTest::depth, MaterialTest::id})
+            EXPECT_EQ(drawBy({.way = FrameWay::separate, .materials = materials}, pack, shown).color,
+                      expected.color)
+                << view.name;
     }
 }
 
