@@ -240,6 +240,17 @@ TEST_F(FrameWaysTest, whatTheLastFramesDepthHidesIsCounted)
     EXPECT_GT(wrong_pixels, 0u) << "a camera that moves finds something";
 }
 
+TEST_F(FrameWaysTest, imagesOfAFrameAreSmall)
+{
+    // at 1280 x 720, where the device allocates nothing lazily
+    auto targets = renderer().createTargets({1280, 720}, {});
+    ASSERT_TRUE(targets.ok());
+    const VkDeviceSize images = targets->visibility().bytes + targets->depth().bytes +
+                                targets->color().bytes + targets->pyramid().size;
+    EXPECT_LE(images, VkDeviceSize{16} << 20);
+    EXPECT_LE(targets->allocatedBytes(), VkDeviceSize{18} << 20) << "with lists of tiles and gathered light";
+}
+
 TEST_F(FrameWaysTest, targetsForFewDemandsDrawTheSame)
 {
     TestScene test;
