@@ -16,7 +16,7 @@ struct SurfacePoint
     float error;    // metres, bounds the distance of the triangle to the source
     vec3 tangent;   // unit, world axes; only where the material or its clear coat has a normal map
     vec3 bitangent;
-    vec3 color;     // vertex colour
+    mediump vec3 color; // vertex colour
     bool front;     // the front side is visible
     VisibilityMoments sky; // sky visibility: world axes, towards the visible side
     uint instance;
@@ -52,7 +52,7 @@ bool usesUvSet(uint set)
 }
 
 // Visibility of an unoccluded sky on the side of the normal.
-VisibilityMoments openSky(vec3 normal) { return VisibilityMoments(2.0 * kVisibilityPi, normal * kVisibilityPi); }
+VisibilityMoments openSky(mediump vec3 normal) { return VisibilityMoments(2.0 * kVisibilityPi, normal * kVisibilityPi); }
 
 // Return `v` normalized, or `fallback` if v is too short to have a direction.
 vec3 normalizeOr(vec3 v, vec3 fallback)
@@ -80,9 +80,13 @@ vec4 sampleSurface(SurfaceUvs uvs, uint slot, sampler2D image)
 }
 
 // Perceptual roughness. Below 0.045 the highlight of a punctual light is smaller than half floats resolve.
-float clampRoughness(float roughness) { return clamp(roughness, 0.045, 1.0); }
+mediump float clampRoughness(mediump float roughness) { return clamp(roughness, 0.045, 1.0); }
 
-float surfaceRoughness(vec4 metallic_roughness) { return clampRoughness(material.roughness * metallic_roughness.g); }
+mediump float surfaceRoughness(mediump vec4 metallic_roughness)
+{
+    mediump float factor = material.roughness;
+    return clampRoughness(factor * metallic_roughness.g);
+}
 
 // Cosine between normal and eye, clamped as the BRDF needs it.
 float clampedCosine(vec3 normal, vec3 to_eye) { return clamp(abs(dot(normal, to_eye)), 1e-4, 1.0); }
