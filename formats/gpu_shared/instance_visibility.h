@@ -14,20 +14,20 @@ HEARTH_SHARED_BEGIN
 
 /// Return the moments of V (f.w + dot(f.xyz, w)), where V has the given moments.
 /// normal  of the surface; m1, normal and factor are in world axes
-HEARTH_FUNCTION VisibilityMoments changedVisibility(HEARTH_IN(VisibilityMoments) moments, Half3 normal,
-                                                    Half4 factor)
+HEARTH_FUNCTION VisibilityMoments changedVisibility(HEARTH_IN(VisibilityMoments) moments, Float3 normal,
+                                                    Float4 factor)
 {
-    Half3 slope = Float3(factor.x, factor.y, factor.z);
+    Float3 slope = Float3(factor.x, factor.y, factor.z);
     VisibilityMoments changed;
     changed.m0 = moments.m0 * factor.w + dot(moments.m1, slope);
     changed.m1 = moments.m1 * factor.w;
     if (dot(slope, slope) == 0.0f)
         return changed;
     VisibilityCone cone = visibilityCone(moments.m0, moments.m1, normal);
-    Half c = cone.cos_aperture;
-    Half all = 2.0f * kVisibilityPi * cone.scale * (1.0f - c);
-    Half along = all * (1.0f + c + c * c) * (1.0f / 3.0f);
-    Half across = 0.5f * (all - along);
+    float c = cone.cos_aperture;
+    float all = 2.0f * kVisibilityPi * cone.scale * (1.0f - c);
+    float along = all * (1.0f + c + c * c) * (1.0f / 3.0f);
+    float across = 0.5f * (all - along);
     changed.m1 = changed.m1 + slope * across + cone.axis * ((along - across) * dot(cone.axis, slope));
     return changed;
 }

@@ -17,7 +17,7 @@ HEARTH_SHARED_BEGIN
 HEARTH_CONSTANT uint kSpecularNodes = 16;
 
 /// Roughness of the table's first node; a smaller roughness is clamped to it. The last node is 1.
-HEARTH_CONSTANT Half kMinSpecularRoughness = 0.089f;
+HEARTH_CONSTANT float kMinSpecularRoughness = 0.089f;
 
 /// Spacing of nodes on the axis of beta, the angle between reflection vector and cone axis.
 HEARTH_CONSTANT uint kSpecularSpacingCosine = 0;   ///< uniform in cos(beta)

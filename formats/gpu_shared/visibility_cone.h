@@ -11,7 +11,7 @@
 
 HEARTH_SHARED_BEGIN
 
-HEARTH_CONSTANT Half kVisibilityPi = 3.14159265f;
+HEARTH_CONSTANT float kVisibilityPi = 3.14159265f;
 
 /// Moments of visibility. With V(w) in [0, 1] the visibility in direction w: m0 = int V dw, in [0, 2 pi], and
 /// m1 = int V w dw, of length at most m0 (1 - m0 / (4 pi)). Both are linear in V: they may be averaged and
@@ -19,18 +19,18 @@ HEARTH_CONSTANT Half kVisibilityPi = 3.14159265f;
 /// m1) / pi, without a cone.
 struct VisibilityMoments
 {
-    Half m0;
-    Half3 m1;
+    float m0;
+    Float3 m1;
 };
 
 /// Cone of visible directions. Light from directions within `aperture` of the axis is multiplied by `scale`,
 /// other light is occluded.
 struct VisibilityCone
 {
-    Half3 axis;        ///< unit
-    Half cos_aperture; ///< [0, 1]
-    Half aperture;     ///< half-angle, radians, [0, pi / 2]
-    Half scale;        ///< [0, 1]
+    Half3 axis;         ///< unit
+    float cos_aperture; ///< [0, 1]; full, because narrow cones have a cosine next to 1
+    Half aperture;      ///< half-angle, radians, [0, pi / 2]
+    Half scale;         ///< [0, 1]
 };
 
 // Code of a vertex. The length x = min(|m1| / pi, 1) follows from the first three numbers:
@@ -44,15 +44,15 @@ struct VisibilityCone
 
 /// Decode rho where |m1| / pi is x.
 /// place  code of rho scaled to [0, 1]
-HEARTH_FUNCTION Half visibilityRatio(Half x, Half place)
+HEARTH_FUNCTION float visibilityRatio(float x, float place)
 {
-    Half least = 0.5f * x;
-    Half greatest = 0.5f + 0.5f * sqrt(1.0f - x);
+    float least = 0.5f * x;
+    float greatest = 0.5f + 0.5f * sqrt(1.0f - x);
     return least + (greatest - least) * place;
 }
 
 /// Return x of a code: |m1| / pi, at most 1.
-HEARTH_FUNCTION Half visibilityLength(Half3 m1_over_pi)
+HEARTH_FUNCTION float visibilityLength(Float3 m1_over_pi)
 {
     return min(sqrt(dot(m1_over_pi, m1_over_pi)), 1.0f);
 }
@@ -61,13 +61,10 @@ HEARTH_FUNCTION Half visibilityLength(Half3 m1_over_pi)
 /// normal.
 HEARTH_FUNCTION VisibilityMoments decodeVisibilityInFrame(uint code)
 {
-    Half first = float(int(code << 8) >> 24);
-    Half second = float(int(code) >> 24);
-    Half along = float((code & 255u) << 1 | (code >> 8 & 1u));
-    Half place = float(code >> 9 & 127u);
-    Half3 p = Float3(first / 254.0f, second / 254.0f, along / 511.0f);
-    Half x = visibilityLength(p);
-    Half ratio = visibilityRatio(x, place / 127.0f);
+    Float3 p = Float3(float(int(code << 8) >> 24) / 254.0f, float(int(code) >> 24) / 254.0f,
+                      float((code & 255u) << 1 | (code >> 8 & 1u)) / 511.0f);
+    float x = visibilityLength(p);
+    float ratio = visibilityRatio(x, float(code >> 9 & 127u) / 127.0f);
     VisibilityMoments moments;
     moments.m0 = x > 0.0f ? kVisibilityPi * (x / ratio) : 0.0f;
     moments.m1 = p * kVisibilityPi;
@@ -80,21 +77,18 @@ HEARTH_FUNCTION VisibilityMoments decodeVisibility(uint code, Float3 normal)
 {
     VisibilityMoments moments = decodeVisibilityInFrame(code);
     NormalFrame frame = makeNormalFrame(normal);
-    Half3 first = frame.first;
-    Half3 second = frame.second;
-    Half3 third = normal;
-    moments.m1 = first * moments.m1.x + second * moments.m1.y + third * moments.m1.z;
+    moments.m1 = frame.first * moments.m1.x + frame.second * moments.m1.y + normal * moments.m1.z;
     return moments;
 }
 
 /// Return the nearest moments along the same direction that a visibility in [0, 1] on a hemisphere can have:
 /// noise and fits overshoot.
-HEARTH_FUNCTION VisibilityMoments feasibleVisibility(Half m0, Half3 m1)
+HEARTH_FUNCTION VisibilityMoments feasibleVisibility(float m0, Float3 m1)
 {
     VisibilityMoments moments;
     moments.m0 = max(min(m0, 2.0f * kVisibilityPi), 0.0f);
-    Half most = moments.m0 * (1.0f - moments.m0 / (4.0f * kVisibilityPi));
-    Half size = sqrt(dot(m1, m1));
+    float most = moments.m0 * (1.0f - moments.m0 / (4.0f * kVisibilityPi));
+    float size = sqrt(dot(m1, m1));
     moments.m1 = size > most ? m1 * (most / size) : m1;
     return moments;
 }
@@ -102,10 +96,10 @@ HEARTH_FUNCTION VisibilityMoments feasibleVisibility(Half m0, Half3 m1)
 /// Return the cone with these moments. Where it would be wider than a hemisphere, as below an overhang,
 /// return the hemisphere that keeps m1, and with it the ambient occlusion. Infeasible moments are made
 /// feasible first. Without any light, axis = normal and scale = 0.
-HEARTH_FUNCTION VisibilityCone visibilityCone(Half m0, Half3 m1, Half3 normal)
+HEARTH_FUNCTION VisibilityCone visibilityCone(float m0, Float3 m1, Float3 normal)
 {
     VisibilityMoments moments = feasibleVisibility(m0, m1);
-    Half size = sqrt(dot(moments.m1, moments.m1));
+    float size = sqrt(dot(moments.m1, moments.m1));
     VisibilityCone cone;
     cone.axis = normal;
     cone.cos_aperture = 0.0f;
@@ -113,7 +107,7 @@ HEARTH_FUNCTION VisibilityCone visibilityCone(Half m0, Half3 m1, Half3 normal)
     // below this the quotients are numerically meaningless
     if (size > 1e-12f && moments.m0 > 1e-12f)
     {
-        Half ratio = min(size / moments.m0, 1.0f);
+        float ratio = min(size / moments.m0, 1.0f);
         cone.axis = moments.m1 * (1.0f / size);
         cone.cos_aperture = max(2.0f * ratio - 1.0f, 0.0f);
         cone.scale = ratio > 0.5f ? moments.m0 / (4.0f * kVisibilityPi * max(1.0f - ratio, 1e-12f))

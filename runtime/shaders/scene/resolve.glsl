@@ -105,11 +105,8 @@ SurfaceUvs surfaceUvs(Surface s)
 
 mediump vec3 surfaceColor(Surface s)
 {
-    mediump vec3 weights = s.weights;
-    mediump vec3 a = vertexColor(s.draw, s.vertices[0]).rgb;
-    mediump vec3 b = vertexColor(s.draw, s.vertices[1]).rgb;
-    mediump vec3 c = vertexColor(s.draw, s.vertices[2]).rgb;
-    return a * weights.x + b * weights.y + c * weights.z;
+    return vertexColor(s.draw, s.vertices[0]).rgb * s.weights.x + vertexColor(s.draw, s.vertices[1]).rgb * s.weights.y +
+           vertexColor(s.draw, s.vertices[2]).rgb * s.weights.z;
 }
 
 vec3 worldVector(Instance instance, vec3 v)
@@ -207,15 +204,12 @@ VisibilityMoments surfaceSky(Surface s, vec3 normal)
     if (!kSkyVisibility || (s.draw.vertex_layout & kVertexVisibility) == 0u)
         return sky;
     sky = VisibilityMoments(0.0, vec3(0.0));
-    mediump vec3 weights = s.weights;
     for (uint i = 0u; i < 3u; ++i)
     {
         vec3 at_vertex = vertexNormal(s.draw, s.vertices[i]);
         VisibilityMoments moments = decodeVisibility(vertexVisibility(s.draw, s.vertices[i]), at_vertex);
-        if (isDeformed(s))
-            moments.m1 = posedMoment(s, i, at_vertex, moments.m1);
-        sky.m0 += moments.m0 * weights[i];
-        sky.m1 += moments.m1 * weights[i];
+        sky.m0 += moments.m0 * s.weights[i];
+        sky.m1 += (isDeformed(s) ? posedMoment(s, i, at_vertex, moments.m1) : moments.m1) * s.weights[i];
     }
     if (!isDeformed(s))
         // transforms like a normal, so that what is open stays open; the length is a share of light, not a

@@ -80,13 +80,9 @@ vec4 sampleSurface(SurfaceUvs uvs, uint slot, sampler2D image)
 }
 
 // Perceptual roughness. Below 0.045 the highlight of a punctual light is smaller than half floats resolve.
-mediump float clampRoughness(mediump float roughness) { return clamp(roughness, 0.045, 1.0); }
+float clampRoughness(float roughness) { return clamp(roughness, 0.045, 1.0); }
 
-mediump float surfaceRoughness(mediump vec4 metallic_roughness)
-{
-    mediump float factor = material.roughness;
-    return clampRoughness(factor * metallic_roughness.g);
-}
+float surfaceRoughness(vec4 metallic_roughness) { return clampRoughness(material.roughness * metallic_roughness.g); }
 
 // Cosine between normal and eye, clamped as the BRDF needs it.
 float clampedCosine(vec3 normal, vec3 to_eye) { return clamp(abs(dot(normal, to_eye)), 1e-4, 1.0); }

@@ -6,13 +6,13 @@
 #include "formats/gpu_shared/bindings.h"
 #include "formats/gpu_shared/reflectance.h"
 
-const mediump float kPi = 3.14159265358979;
+const float kPi = 3.14159265358979;
 
 struct Shading
 {
     SurfaceAlbedo albedo;
     LobeTotal lobe;
-    mediump float roughness; // perceptual
+    float roughness; // perceptual
     vec3 normal;
     vec3 to_eye;
     float n_dot_v;

@@ -21,7 +21,7 @@ struct Layers
     mediump float sheen_roughness; // perceptual
     SheenTotal sheen;
     vec3 coat_normal; // unit, towards the visible side
-    mediump float coat_roughness; // perceptual
+    float coat_roughness; // perceptual
     float coat_n_dot_v;
     LobeTotal coat_lobe;
     mediump float clearcoat; // strength
@@ -73,10 +73,9 @@ Layers surfaceLayers(SurfacePoint point, SurfaceUvs uvs, Shading s)
             normal = mappedNormal(point, sampleLayer(uvs, kTextureClearcoatNormal, clearcoat_normal_texture),
                                   material_layers.clearcoat_normal_scale);
         mediump float strength = material_layers.clearcoat;
-        mediump float roughness = material_layers.clearcoat_roughness;
         layers.clearcoat = strength * coat.r;
         layers.coat_normal = point.front ? normal : -normal;
-        layers.coat_roughness = clampRoughness(roughness * coat.g);
+        layers.coat_roughness = clampRoughness(material_layers.clearcoat_roughness * coat.g);
         layers.coat_n_dot_v = clampedCosine(layers.coat_normal, s.to_eye);
         layers.coat_lobe = lobeTotal(layers.coat_roughness, layers.coat_n_dot_v);
         layers.coat_albedo = layers.clearcoat * lobeAlbedo(vec3(kDielectricF0), 1.0, layers.coat_lobe).x;

@@ -52,7 +52,7 @@ vec3 surroundingLight(SurfacePoint point, Shading shading, Layers layers, medium
 vec3 lit(SurfacePoint point, SurfaceUvs uvs, mediump vec3 base)
 {
     vec3 normal = shadingNormal(point, uvs);
-    mediump vec4 metallic_roughness = sampleSurface(uvs, kTextureMetallicRoughness, metallic_roughness_texture);
+    vec4 metallic_roughness = sampleSurface(uvs, kTextureMetallicRoughness, metallic_roughness_texture);
     mediump float metallic_factor = material.metallic;
     mediump float metallic = clamp(metallic_factor * metallic_roughness.b, 0.0, 1.0);
     Shading shading;

@@ -23,10 +23,10 @@ using testing::Not;
 /// reconstructs the surface, finds light and shadow, and is the distribution of microfacets.
 const std::map<std::string, double>& relaxedShares()
 {
-    static const std::map<std::string, double> shares = {{"shading_frag", 39},
-                                                         {"shading_shadowed_frag", 35},
-                                                         {"shading_gi_frag", 23},
-                                                         {"shading_shadowed_gi_frag", 20}};
+    static const std::map<std::string, double> shares = {{"shading_frag", 29},
+                                                         {"shading_shadowed_frag", 27},
+                                                         {"shading_gi_frag", 15},
+                                                         {"shading_shadowed_gi_frag", 13}};
     return shares;
 }
 
